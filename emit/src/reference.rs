@@ -2,10 +2,10 @@
 
 use std::ops::Range;
 
-use shadowstep::exact_flow::ExactFlow;
-use shadowstep::potential::HessianProduct;
 use shadowstep::problems::problem;
-use shadowstep::run::States;
+use shadowstep::shadow::exact_flow::ExactFlow;
+use shadowstep::shadow::run::States;
+use shadowstep::systems::potential::HessianProduct;
 use shadowstep::tables::TableScheme;
 use shadowstep::{Motion, Potential, Rational, StepSize, Stepper, UnitMasses};
 

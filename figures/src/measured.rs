@@ -4,9 +4,9 @@ use std::cell::Cell;
 use std::time::{Duration, Instant};
 
 use serde::{Deserialize, Serialize};
-use shadowstep::exact_flow::ExactFlow;
 use shadowstep::number::{AnyLimbs, LimbCount, Number, Real};
-use shadowstep::run::{Finding, RunError, ShadowRun, States, Trajectory};
+use shadowstep::shadow::exact_flow::ExactFlow;
+use shadowstep::shadow::run::{Finding, RunError, ShadowRun, States, Trajectory};
 use shadowstep::shadow::{BuildEstimator, Estimate, Estimator, EstimatorSettings};
 use shadowstep::{Integrator as _, Rational, StepSize};
 use shadowstep_scenes::propagator::{Propagator, motion, stepper};

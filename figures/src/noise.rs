@@ -5,7 +5,7 @@ use std::collections::VecDeque;
 
 use serde::{Deserialize, Serialize};
 use shadowstep::problems::Kepler;
-use shadowstep::run::{States, Trajectory};
+use shadowstep::shadow::run::{States, Trajectory};
 use shadowstep::shadow::{Bilinear, BuildEstimator, Estimator};
 use shadowstep::tables::shipped;
 use shadowstep::{Increments, Motion, Stepper, UnitMasses};
@@ -57,7 +57,8 @@ pub(crate) fn blocks(
     let stepper = Stepper::new(scheme, "1/20").expect("h is not 0");
     let start = Motion::new(Kepler, UnitMasses, vec![0.4, 0.0], vec![0.0, 2.0]).expect("the dimensions agree");
     let mut estimator = Bilinear::new(8).build(stepper.step_size(), 2, &()).expect("k = 8 is valid");
-    let failed = |error: shadowstep::run::RunError| Error::run(error.to_string(), "this calculation has no options");
+    let failed =
+        |error: shadowstep::shadow::run::RunError| Error::run(error.to_string(), "this calculation has no options");
     let trajectory = Trajectory::new(stepper.with(start), steps, estimator.states() / 2).map_err(failed)?;
     // asking costs as much as a step
     let continues = |n: i64| n % 1024 != 0 || continues(n as f64 / steps as f64);

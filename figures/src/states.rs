@@ -2,7 +2,7 @@
 
 use shadowstep::OwnedIncrements;
 use shadowstep::number::AnyLimbs;
-use shadowstep::run::{RunError, States, TrajectoryState};
+use shadowstep::shadow::run::{RunError, States, TrajectoryState};
 
 /// The states of a trajectory, kept for several estimators.
 #[derive(Debug)]

@@ -32,7 +32,7 @@ pub(crate) fn ensemble<'py>(
     });
     let outcomes = outcomes?.map_err(failed)?;
     let all = PyDict::new(py);
-    let numbers = |number: fn(&shadowstep::ensemble::Outcome) -> f64| {
+    let numbers = |number: fn(&shadowstep::shadow::ensemble::Outcome) -> f64| {
         PyArray1::from_vec(py, outcomes.iter().map(number).collect())
     };
     all.set_item("q", PyArray1::from_vec(py, outcomes.iter().flat_map(|outcome| outcome.q.clone()).collect()))?;

@@ -3,9 +3,9 @@
 use numpy::PyArray1;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
-use shadowstep::integrator::{VectorIntegrator, at_output};
-use shadowstep::run::RunError;
 use shadowstep::shadow::Report;
+use shadowstep::shadow::run::RunError;
+use shadowstep::steps::integrator::{VectorIntegrator, at_output};
 use shadowstep_scenes::Error;
 use shadowstep_scenes::computation::{Monitoring, RunNumber as _};
 use shadowstep_scenes::start::{Begin, SceneIntegrator, Steps};

@@ -14,7 +14,7 @@ use numpy::{PyArray1, PyReadonlyArray1};
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use shadowstep::Potential;
-use shadowstep::potential::from_fn;
+use shadowstep::systems::potential::from_fn;
 use shadowstep_scenes::OwnPotential;
 
 /// A function that computes forces.

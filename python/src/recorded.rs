@@ -4,11 +4,11 @@ use numpy::{PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2, PyUntypedArrayMe
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use shadowstep::StepSize;
-use shadowstep::recorded::{
+use shadowstep::shadow::recorded::{
     Derivatives, Diagnosis, Log, Logged, Recorded, RecordedError, Repeated, Unwrapping, Window, integer_momenta,
     integer_momenta_with_gradients,
 };
-use shadowstep::run::{ShadowRun, States};
+use shadowstep::shadow::run::{ShadowRun, States};
 use shadowstep::shadow::{Bilinear, Estimator};
 use shadowstep_scenes::Error;
 use shadowstep_scenes::arithmetic::Arithmetic;
@@ -135,7 +135,7 @@ pub(crate) fn unwrapped(
 /// Follows a trajectory that another program computes.
 #[pyclass(module = "shadowstep._shadowstep")]
 pub(crate) struct Observer {
-    observer: shadowstep::recorded::Observer,
+    observer: shadowstep::shadow::recorded::Observer,
     h: StepSize,
     unwrapping: Option<Unwrapping>,
 }
@@ -158,7 +158,7 @@ impl Observer {
         };
         let begin = || -> Result<_, RecordedError> {
             let unwrapping = cell.map(Unwrapping::new).transpose()?.map(|unwrapping| unwrapping.along(periodic));
-            Ok((shadowstep::recorded::Observer::with_window(&h, &masses, window)?, unwrapping))
+            Ok((shadowstep::shadow::recorded::Observer::with_window(&h, &masses, window)?, unwrapping))
         };
         let (observer, unwrapping) = begin().map_err(|error| refused(py, &error))?;
         Ok(Observer { observer, h, unwrapping })
@@ -204,7 +204,7 @@ impl Observer {
     /// n, H̄, its error and H of all states that have an estimate.
     fn values(&self) -> (Vec<i64>, [Vec<f64>; 3]) {
         let values = self.observer.values();
-        let of = |number: fn(&shadowstep::recorded::Value) -> f64| values.iter().map(number).collect();
+        let of = |number: fn(&shadowstep::shadow::recorded::Value) -> f64| values.iter().map(number).collect();
         (values.iter().map(|value| value.n).collect(), [of(|v| v.modified), of(|v| v.error), of(|v| v.energy)])
     }
 

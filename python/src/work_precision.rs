@@ -10,7 +10,7 @@ use shadowstep_scenes::arithmetic::Arithmetic;
 use shadowstep_scenes::library::NamedScheme;
 use shadowstep_scenes::{Error, System};
 use shadowstep_symbolic::decimal::to_text;
-use shadowstep_work_precision::advise::{Advice, Choice, AdviceRequest};
+use shadowstep_work_precision::advise::{Advice, AdviceRequest, Choice};
 use shadowstep_work_precision::of::Of;
 use shadowstep_work_precision::problem::Problem;
 use shadowstep_work_precision::run::{Measurement, PositionError};

@@ -6,11 +6,11 @@ mod timing;
 
 use std::hint::black_box;
 
-use shadowstep::instructions::Instructions;
-use shadowstep::kinetic::Quadratic;
-use shadowstep::pairs::{Ends, PairPotential, Pairs};
+use shadowstep::number::instructions::Instructions;
 use shadowstep::problems::{CubicSpring, HenonHeiles, Kepler, LennardJones};
 use shadowstep::shadow::{Bilinear, ShadowEnergy};
+use shadowstep::systems::kinetic::Quadratic;
+use shadowstep::systems::pairs::{Ends, PairPotential, Pairs};
 use shadowstep::{
     Coordinates, Kinetic, Motion, Potential, Scheme, Stepper, UnitMasses, ValidFor, potential, splitting_scheme,
 };

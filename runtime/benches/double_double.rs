@@ -4,9 +4,9 @@ mod timing;
 
 use std::hint::black_box;
 
-use shadowstep::kinetic::Quadratic;
 use shadowstep::number::{DoubleDouble, Float, Precision};
 use shadowstep::problems::{HenonHeiles, Kepler};
+use shadowstep::systems::kinetic::Quadratic;
 use shadowstep::{
     Motion, Number, Potential, Scheme, Stepper, UnitMasses, ValidFor, exact, potential, splitting_scheme,
 };

@@ -8,12 +8,12 @@ mod timing;
 
 use std::hint::black_box;
 
-use shadowstep::formula::FormulaPotential;
-use shadowstep::instructions::Instructions;
-use shadowstep::kinetic::{Kinetic, Quadratic};
 use shadowstep::number::Lanes;
-use shadowstep::potential::Vectorised;
+use shadowstep::number::instructions::Instructions;
 use shadowstep::problems::{HenonHeiles, Kepler, Pendulum};
+use shadowstep::systems::formula::FormulaPotential;
+use shadowstep::systems::kinetic::{Kinetic, Quadratic};
+use shadowstep::systems::potential::Vectorised;
 use shadowstep::{
     DiagonalMasses, FullMasses, Motion, Number, Potential, Scheme, Stepper, UnitMasses, ValidFor, splitting_scheme,
 };

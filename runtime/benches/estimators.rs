@@ -15,7 +15,7 @@ use rug::{Float, Integer};
 use shadowstep::number::counting::Counting;
 use shadowstep::number::{Limbs, Precision, Real};
 use shadowstep::problems::Kepler;
-use shadowstep::run::{States, Trajectory, TrajectoryState};
+use shadowstep::shadow::run::{States, Trajectory, TrajectoryState};
 use shadowstep::shadow::{Bilinear, BuildEstimator, Central, Estimator, EstimatorSettings, StoppingRule};
 use shadowstep::tables::shipped;
 use shadowstep::{Increments, Motion, Number, Rational, StepSize, Stepper, UnitMasses, exact};

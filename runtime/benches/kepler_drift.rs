@@ -6,8 +6,8 @@ use std::f64::consts::TAU;
 use std::hint::black_box;
 
 use shadowstep::Number;
-use shadowstep::kepler_drift::KeplerDrift;
 use shadowstep::number::{DoubleDouble, Fused, Lanes, Limbs};
+use shadowstep::systems::kepler_drift::KeplerDrift;
 
 use timing::{Contestant, compare};
 

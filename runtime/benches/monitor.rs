@@ -6,9 +6,9 @@ mod timing;
 
 use std::hint::black_box;
 
-use shadowstep::pairs::{PairPotential, Pairs};
 use shadowstep::problems::LennardJones;
 use shadowstep::shadow::{Bilinear, BilinearEstimator, ShadowEnergy};
+use shadowstep::systems::pairs::{PairPotential, Pairs};
 use shadowstep::{Motion, Stepper, UnitMasses, potential, splitting_scheme};
 
 use timing::{Contestant, compare};

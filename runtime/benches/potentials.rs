@@ -9,10 +9,10 @@ mod timing;
 use std::hint::black_box;
 
 use rug::Float;
-use shadowstep::kinetic::Quadratic;
 use shadowstep::number::Precision;
-use shadowstep::pairs::Pairs;
 use shadowstep::problems::{Gravity, HenonHeiles, Kepler, Pendulum, problem};
+use shadowstep::systems::kinetic::Quadratic;
+use shadowstep::systems::pairs::Pairs;
 use shadowstep::{DiagonalMasses, Kinetic, Motion, Potential, Real, Stepper, UnitMasses, exact, splitting_scheme};
 
 use by_hand::{BODIES, ByHand, HenonHeilesStar, KeplerOrbit, PendulumBob, Planets};

@@ -7,11 +7,11 @@ mod timing;
 use std::hint::black_box;
 
 use rug::Float;
-use shadowstep::formula::FormulaPotential;
-use shadowstep::kinetic::Quadratic;
 use shadowstep::number::{Number, Precision};
 use shadowstep::problems::Kepler;
 use shadowstep::shadow::{BuildEstimator, Central, Estimator, StoppingRule};
+use shadowstep::systems::formula::FormulaPotential;
+use shadowstep::systems::kinetic::Quadratic;
 use shadowstep::{Motion, Potential, Scheme, Stepper, UnitMasses, ValidFor, exact, splitting_scheme, tables};
 
 use timing::{Contestant, compare, head, measure};

@@ -6,10 +6,10 @@ mod timing;
 
 use std::hint::black_box;
 
-use shadowstep::kinetic::Quadratic;
-use shadowstep::pairs::Pairs;
 use shadowstep::problems::{Gravity, HenonHeiles, Kepler, LennardJones, problem};
-use shadowstep::summation::Summation;
+use shadowstep::systems::kinetic::Quadratic;
+use shadowstep::systems::pairs::Pairs;
+use shadowstep::systems::summation::Summation;
 use shadowstep::{
     Coordinates, DiagonalMasses, Kinetic, Motion, Potential, Scheme, Stepper, UnitMasses, ValidFor, splitting_scheme,
 };

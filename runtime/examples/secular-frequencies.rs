@@ -11,11 +11,11 @@
 use std::error::Error;
 
 use shadowstep::number::{Limbs, Number, Real};
-use shadowstep::run::ShadowRun;
 use shadowstep::shadow::Bilinear;
+use shadowstep::shadow::run::ShadowRun;
+use shadowstep::systems::wisdom_holman::secular::{Frequency, eccentricities, main_frequency};
+use shadowstep::systems::wisdom_holman::{Bodies, Jacobi, WisdomHolman};
 use shadowstep::tables::{self, First, Source, TableScheme};
-use shadowstep::wisdom_holman::secular::{Frequency, eccentricities, main_frequency};
-use shadowstep::wisdom_holman::{Bodies, Jacobi, WisdomHolman};
 use shadowstep::{Integrator as _, Rational, Stepper, exact};
 
 type Planets<N> = WisdomHolman<N, Jacobi<N, 3>, 3>;

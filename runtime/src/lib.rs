@@ -24,7 +24,7 @@
 //! energy oscillates; the *modified* energy, which the scheme conserves almost exactly, does not:
 //!
 //! ```
-//! use shadowstep::{Motion, Stepper, UnitMasses, problems::Kepler, run::energy_drift, shadow::Central, tables};
+//! use shadowstep::{Motion, Stepper, UnitMasses, problems::Kepler, shadow::run::energy_drift, shadow::Central, tables};
 //! use shadowstep::number::{Limbs, Number, Real};
 //!
 //! let number = |text| Limbs::<7>::from_rational(&shadowstep::exact(text).unwrap(), &()); // 134 digits
@@ -40,7 +40,7 @@
 //! not quadratic needs a scheme whose order holds for every T(p); with another one this does not compile:
 //!
 //! ```
-//! use shadowstep::{Motion, Stepper, kinetic, potential, run::energy_drift, shadow::Central, splitting_scheme};
+//! use shadowstep::{Motion, Stepper, kinetic, potential, shadow::run::energy_drift, shadow::Central, splitting_scheme};
 //!
 //! #[splitting_scheme("yoshida4.toml")]
 //! pub struct Yoshida4;
@@ -78,75 +78,44 @@
 // generated code refers to `::shadowstep`, in this crate too
 extern crate self as shadowstep;
 
-mod coordinates;
-pub mod displaced;
-pub mod ensemble;
-pub mod exact_flow;
-pub mod formula;
-mod gradient_kicks;
-mod increments;
-pub mod instructions;
-pub mod integrator;
-mod interpreter;
-pub mod kepler_drift;
-mod kept;
-pub mod kinetic;
-pub mod linear_part;
-pub mod many_parts;
-mod maps;
-mod matrix;
-pub mod motion;
 pub mod number;
-pub mod pairs;
-mod partial_sums;
-pub mod potential;
-pub mod potential_check;
-pub mod problems;
-mod processor;
-pub mod recorded;
-pub mod run;
-pub mod scheme;
-mod scheme_maps;
 pub mod shadow;
-mod state;
-pub mod step_size;
-pub mod stepper;
-pub mod summation;
-pub mod system;
-pub mod tables;
-pub mod transformed_time;
-mod weights;
-pub mod wisdom_holman;
+pub mod steps;
+pub mod systems;
 
 #[doc(inline)]
-pub use coordinates::Coordinates;
-#[doc(inline)]
-pub use increments::{Carried, Increments, OwnedIncrements};
-#[doc(inline)]
-pub use integrator::Integrator;
-#[doc(inline)]
-pub use kinetic::{DiagonalMasses, FullMasses, Kinetic, UnitMasses};
-#[doc(inline)]
-pub use motion::{Motion, MotionError};
-#[doc(inline)]
 pub use number::{Number, Real};
-#[doc(inline)]
-pub use potential::Potential;
-#[doc(inline)]
-pub use potential_check::check_potential;
-#[doc(inline)]
-pub use scheme::{Scheme, SchemeProperties, ValidFor};
 #[doc(inline)]
 pub use shadowstep_macros::{kinetic, potential, splitting_scheme};
 #[doc(inline)]
 pub use shadowstep_symbolic::{Rational, exact};
 #[doc(inline)]
-pub use state::{State, VectorState};
+pub use steps::integrator::Integrator;
 #[doc(inline)]
-pub use step_size::{StepSize, StepSizeError};
+pub use steps::scheme::{Scheme, SchemeProperties, ValidFor};
 #[doc(inline)]
-pub use stepper::Stepper;
+pub use steps::step_size::{StepSize, StepSizeError};
 #[doc(inline)]
-pub use summation::Remainders;
+pub use steps::stepper::Stepper;
 #[doc(inline)]
-pub use system::System;
+pub use steps::tables;
+#[doc(inline)]
+pub use systems::coordinates::Coordinates;
+#[doc(inline)]
+pub use systems::increments::{Carried, Increments, OwnedIncrements};
+#[doc(inline)]
+pub use systems::kinetic::{DiagonalMasses, FullMasses, Kinetic, UnitMasses};
+#[doc(inline)]
+pub use systems::motion::{Motion, MotionError};
+#[doc(inline)]
+pub use systems::potential::Potential;
+#[doc(inline)]
+pub use systems::potential_check::check_potential;
+#[doc(inline)]
+pub use systems::problems;
+#[doc(inline)]
+pub use systems::state::{State, VectorState};
+#[doc(inline)]
+pub use systems::summation::Remainders;
+#[doc(inline)]
+pub use systems::system::System;

@@ -2,17 +2,21 @@
 //! wrappers.
 
 mod correctly_rounded;
+#[doc(hidden)]
 pub mod counting;
 mod double;
 mod double_double;
 mod epsilon;
 mod fused;
 mod high_precision;
+#[doc(hidden)]
+pub mod instructions;
 mod lanes;
 mod limb_access;
 mod limbs;
 #[cfg(feature = "mpfr")]
 mod multiprecision;
+pub(crate) mod partial_sums;
 mod precision;
 pub(crate) mod value;
 
@@ -105,7 +109,7 @@ pub trait Number: Clone + fmt::Debug {
     fn register(&mut self) -> Self::Register<'_>;
 
     /// Does some work, of numbers in lanes in the widest vector instructions that the processor has: of the whole loop, as all
-    /// that is not inlined into it is not compiled for them. See [`instructions`](crate::instructions).
+    /// that is not inlined into it is not compiled for them. See [`instructions`](crate::number::instructions).
     #[inline(always)]
     fn in_widest_instructions<R>(work: impl FnOnce() -> R) -> R {
         work()

@@ -11,12 +11,12 @@ use std::sync::atomic::{AtomicU64, Ordering::Relaxed};
 
 use gmp_mpfr_sys::gmp;
 use rug::Float;
-use shadowstep::formula::{FormulaKinetic, FormulaPair, FormulaPotential};
-use shadowstep::kepler_drift::KeplerDrift;
 use shadowstep::number::{Number, Precision};
-use shadowstep::pairs::{Ends, Pairs, Separation};
 use shadowstep::problems::{HenonHeiles, Kepler};
 use shadowstep::shadow::{Bilinear, BuildEstimator, Central, Estimator, SelectionRule, ShadowEnergy, StoppingRule};
+use shadowstep::systems::formula::{FormulaKinetic, FormulaPair, FormulaPotential};
+use shadowstep::systems::kepler_drift::KeplerDrift;
+use shadowstep::systems::pairs::{Ends, Pairs, Separation};
 use shadowstep::tables::{TableScheme, shipped, shipped_names};
 use shadowstep::{
     DiagonalMasses, FullMasses, Kinetic, Motion, Potential, Scheme, Stepper, UnitMasses, ValidFor, exact, kinetic,

@@ -2,12 +2,12 @@
 
 use std::num::NonZero;
 
-use shadowstep::ensemble::{Block, Ensemble, EnsembleError, Outcome};
-use shadowstep::instructions::Instructions;
-use shadowstep::kinetic::{Kinetic, Quadratic};
 use shadowstep::number::Lanes;
+use shadowstep::number::instructions::Instructions;
 use shadowstep::problems::Kepler;
+use shadowstep::shadow::ensemble::{Block, Ensemble, EnsembleError, Outcome};
 use shadowstep::shadow::{BuildEstimator, Estimator, FixedBilinear};
+use shadowstep::systems::kinetic::{Kinetic, Quadratic};
 use shadowstep::{DiagonalMasses, FullMasses, Motion, MotionError, Stepper, UnitMasses, potential, splitting_scheme};
 
 #[splitting_scheme("yoshida4.toml")]

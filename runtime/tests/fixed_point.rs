@@ -5,7 +5,7 @@ use rug::integer::Order;
 use rug::{Float, Integer};
 use shadowstep::number::{Limbs, Precision, Real};
 use shadowstep::problems::{PROBLEMS, Problem};
-use shadowstep::run::{States, Trajectory, TrajectoryState};
+use shadowstep::shadow::run::{States, Trajectory, TrajectoryState};
 use shadowstep::shadow::{
     Bilinear, BuildEstimator, Central, Estimator, EstimatorSettings, SelectionRule, StoppingRule,
 };

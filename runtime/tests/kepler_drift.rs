@@ -3,9 +3,9 @@
 use rand_pcg::Pcg64Mcg;
 use rand_pcg::rand_core::{RngCore, SeedableRng};
 use shadowstep::exact;
-use shadowstep::kepler_drift::{KeplerDrift, KeplerDriftError};
 use shadowstep::number::counting::Counting;
 use shadowstep::number::{AnyLimbs, DoubleDouble, Fused, Lanes, LimbCount, Limbs, Number, Real};
+use shadowstep::systems::kepler_drift::{KeplerDrift, KeplerDriftError};
 use std::f64::consts::{PI, TAU};
 
 /// As many digits as the reference cases have, and some more.

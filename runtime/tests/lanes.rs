@@ -3,8 +3,8 @@
 use std::array::from_fn;
 use std::slice::from_mut;
 
-use shadowstep::instructions::Instructions;
 use shadowstep::number::Lanes;
+use shadowstep::number::instructions::Instructions;
 use shadowstep::problems::{HenonHeiles, Kepler, PROBLEMS, Problem};
 use shadowstep::shadow::{BuildEstimator, Estimate, Estimator, FixedBilinear, FixedCentral};
 use shadowstep::tables::{self, TableScheme};

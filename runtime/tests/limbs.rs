@@ -3,7 +3,7 @@
 use rug::Float;
 use shadowstep::number::{Limbs, Precision};
 use shadowstep::problems::{PROBLEMS, Setup, problem};
-use shadowstep::run::energy_drift;
+use shadowstep::shadow::run::energy_drift;
 use shadowstep::shadow::{Bilinear, Central, StoppingRule};
 use shadowstep::{Number, Rational, Real, Stepper, tables};
 use shadowstep_schemes::shipped_names;

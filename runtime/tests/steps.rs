@@ -4,10 +4,10 @@ use std::cell::Cell;
 use std::rc::Rc;
 use std::slice;
 
-use shadowstep::kinetic::{Kinetic, Quadratic};
 use shadowstep::number::{DoubleDouble, Limbs, Number};
-use shadowstep::potential::FewCoordinates;
 use shadowstep::problems::{HenonHeiles, Kepler};
+use shadowstep::systems::kinetic::{Kinetic, Quadratic};
+use shadowstep::systems::potential::FewCoordinates;
 use shadowstep::tables::{TableScheme, shipped};
 use shadowstep::{Carried, DiagonalMasses, Motion, Potential, Rational, Stepper, System, UnitMasses, potential};
 
@@ -132,7 +132,7 @@ impl<N: Number, P: Potential<N>> Potential<N> for Watched<P> {
     fn gradient(&self, q: &[N], gradient: &mut [N], scratch: &mut [N]) {
         self.potential.gradient(q, gradient, scratch);
     }
-    fn hessian(&self) -> Option<&dyn potential::HessianProduct<N>> {
+    fn hessian(&self) -> Option<&dyn shadowstep::systems::potential::HessianProduct<N>> {
         self.potential.hessian()
     }
     fn advance_few(&mut self, steps: &mut FewCoordinates<'_, N>, scratch: &mut [N]) {

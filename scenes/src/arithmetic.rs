@@ -97,7 +97,7 @@ impl Arithmetic {
     /// Double precision.
     pub const DOUBLE: Self = Arithmetic::plain(Numbers::Double);
 
-    /// Double precision with [compensated sums](shadowstep::summation::Compensated).
+    /// Double precision with [compensated sums](shadowstep::systems::summation::Compensated).
     pub const COMPENSATED: Self = Arithmetic { numbers: Numbers::Double, compensated: true };
 
     /// Sums of two doubles.

@@ -30,7 +30,7 @@ mod record;
 
 use shadowstep::Rational;
 use shadowstep::number::CorrectlyRounded;
-use shadowstep::run::EnergyDrift;
+use shadowstep::shadow::run::EnergyDrift;
 use shadowstep::shadow::{EstimatorSettings, SelectionRule, StoppingRule};
 use shadowstep_symbolic::decimal::to_text;
 

@@ -4,9 +4,9 @@ use std::mem::take;
 use std::ops::ControlFlow::{self, Break, Continue};
 use std::time::{Duration, Instant};
 
-use shadowstep::integrator::{VectorIntegrator, at_output};
-use shadowstep::run::RunError;
 use shadowstep::shadow::Estimate;
+use shadowstep::shadow::run::RunError;
+use shadowstep::steps::integrator::{VectorIntegrator, at_output};
 use shadowstep::{Carried, MotionError};
 
 use crate::computation::RunNumber;

@@ -1,7 +1,7 @@
 //! Ensembles: a scene with a section \[ensemble\], whose columns have a number for each trajectory.
 //!
 //! All numbers of the scene can contain the names of the columns, as they contain parameters. The trajectories are computed on all cores, those of
-//! T(p) and U(q) in lanes ([`shadowstep::ensemble`]): each has the bits that it has alone, but for exp, log, sin and cos.
+//! T(p) and U(q) in lanes ([`shadowstep::shadow::ensemble`]): each has the bits that it has alone, but for exp, log, sin and cos.
 //!
 //! ```
 //! use shadowstep::tables::Source;
@@ -37,8 +37,8 @@ mod settings;
 
 use std::io::Write;
 
-use shadowstep::ensemble::{self, Block, EnsembleError, Outcome};
 use shadowstep::number::Lanes;
+use shadowstep::shadow::ensemble::{self, Block, EnsembleError, Outcome};
 use shadowstep::tables::{Faults, Source};
 use shadowstep::{Rational, Scheme, Stepper};
 use shadowstep_schemes::document::document;

@@ -2,9 +2,9 @@
 
 use std::ops::ControlFlow;
 
-use shadowstep::integrator::VectorIntegrator;
-use shadowstep::run::RunError;
+use shadowstep::shadow::run::RunError;
 use shadowstep::shadow::{Estimate, EstimatorSettings};
+use shadowstep::steps::integrator::VectorIntegrator;
 
 use crate::computation::RunNumber;
 use crate::error::Error;

@@ -2,9 +2,9 @@
 
 use std::ops::ControlFlow::{self, Break, Continue};
 
-use shadowstep::integrator::VectorIntegrator;
-use shadowstep::run::{RunError, ShadowRun, States as _, Trajectory};
+use shadowstep::shadow::run::{RunError, ShadowRun, States as _, Trajectory};
 use shadowstep::shadow::{Estimate, EstimatorSettings};
+use shadowstep::steps::integrator::VectorIntegrator;
 use shadowstep::{Carried, Real};
 
 use crate::error::Error;

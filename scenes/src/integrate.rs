@@ -25,10 +25,10 @@
 use std::ops::ControlFlow;
 use std::time::{Duration, Instant};
 
-use shadowstep::integrator::{VectorIntegrator, at_output};
 use shadowstep::number::Number;
-use shadowstep::run::{NotFinite, Quantity, RunError};
+use shadowstep::shadow::run::{NotFinite, Quantity, RunError};
 use shadowstep::shadow::{Estimate, EstimatorSettings};
+use shadowstep::steps::integrator::{VectorIntegrator, at_output};
 use shadowstep::tables::{AtRunTime, TableScheme};
 
 use crate::computation::RunNumber;

@@ -1,10 +1,10 @@
 //! Several systems of one form, whose numbers differ → one system of lanes.
 
-use shadowstep::formula::FormulaPair;
-use shadowstep::kinetic::{General, Quadratic};
 use shadowstep::number::{Lanes, Number};
 use shadowstep::problems::Setup;
-use shadowstep::summation::Compensated;
+use shadowstep::systems::formula::FormulaPair;
+use shadowstep::systems::kinetic::{General, Quadratic};
+use shadowstep::systems::summation::Compensated;
 use shadowstep::{DiagonalMasses, Kinetic, Motion, Potential, Rational, UnitMasses};
 use shadowstep_symbolic::Exact;
 

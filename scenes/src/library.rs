@@ -7,7 +7,7 @@ use std::sync::{Mutex, PoisonError};
 use sha2::{Digest, Sha256};
 use shadowstep::problems::Problem;
 use shadowstep::tables::{self, AtRunTime, Faults, Proved, Source, TableScheme, shipped_names};
-use shadowstep::{Rational, Scheme, exact_flow};
+use shadowstep::{Rational, Scheme, shadow::exact_flow};
 use shadowstep_analysis::best_for_every_kinetic;
 use shadowstep_schemes::document::{LARGEST_TABLE, read_text};
 use shadowstep_schemes::{First, Map, shipped, shipped_hint};

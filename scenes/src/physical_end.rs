@@ -3,10 +3,10 @@
 use std::ops::ControlFlow::{self, Break, Continue};
 
 use num_traits::Signed;
-use shadowstep::integrator::VectorIntegrator;
-use shadowstep::run::RunError;
 use shadowstep::shadow::Estimate;
-use shadowstep::transformed_time::step_to_time;
+use shadowstep::shadow::run::RunError;
+use shadowstep::steps::integrator::VectorIntegrator;
+use shadowstep::steps::step_to_time;
 use shadowstep::{Rational, Real};
 
 use crate::computation::{Computation, RunNumber};

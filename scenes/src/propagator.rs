@@ -1,9 +1,9 @@
 //! What advances a state in time: a scheme, or the exact flow.
 
-use shadowstep::exact_flow::{self, ExactFlow, ExactFlowError};
 use shadowstep::number::Number;
 use shadowstep::problems::{Problem, ProblemMotion, Setup};
-use shadowstep::run::ShadowRun;
+use shadowstep::shadow::exact_flow::{self, ExactFlow, ExactFlowError};
+use shadowstep::shadow::run::ShadowRun;
 use shadowstep::shadow::{Estimator, EstimatorSettings};
 use shadowstep::tables::TableScheme;
 use shadowstep::{StepSize, Stepper};

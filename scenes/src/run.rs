@@ -1,9 +1,9 @@
 //! One run: a scheme, or the exact flow, and a step size.
 
 use shadowstep::Rational;
-use shadowstep::exact_flow::ExactFlowError;
-use shadowstep::run::{NotFinite, Quantity, RunError};
 use shadowstep::shadow::EstimatorSettings;
+use shadowstep::shadow::exact_flow::ExactFlowError;
+use shadowstep::shadow::run::{NotFinite, Quantity, RunError};
 
 use crate::error::Error;
 use crate::readable::shortened;

@@ -3,14 +3,14 @@
 use std::ops::ControlFlow;
 
 use shadowstep::StepSize;
-use shadowstep::integrator::VectorIntegrator;
 #[cfg(feature = "mpfr")]
 use shadowstep::number::Float;
 use shadowstep::number::{AnyLimbs, DoubleDouble};
-use shadowstep::run::RunError;
+use shadowstep::shadow::run::RunError;
 use shadowstep::shadow::{
     Bilinear, BuildEstimator, Estimator, EstimatorError, EstimatorSettings, Monitor, Report, Sample,
 };
+use shadowstep::steps::integrator::VectorIntegrator;
 
 use crate::error::Error;
 use crate::follow::{Follower, follow};

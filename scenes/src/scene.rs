@@ -44,7 +44,7 @@ pub struct Scene {
     pub system: System,
     /// The scheme.
     pub scheme: NamedScheme,
-    /// Whether gradient kicks are by displaced forces: see [`shadowstep::displaced`].
+    /// Whether gradient kicks are by displaced forces: see [`shadowstep::systems::displaced`].
     pub displaced: bool,
     /// The step size h.
     pub h: Rational,

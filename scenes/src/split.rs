@@ -26,7 +26,7 @@ pub use wisdom_holman::{CanonicalCoordinates, Planets};
 
 use serde_json::Value;
 use shadowstep::number::CorrectlyRounded;
-use shadowstep::transformed_time::TimeTransformation;
+use shadowstep::systems::transformed_time::TimeTransformation;
 use shadowstep::{MotionError, Number};
 
 use crate::scene::{EnergyAt, InitialValueProblem};

@@ -1,10 +1,10 @@
 //! The steps of a run: a system at its first state with its stepper.
 
-use shadowstep::displaced::Displacements;
-use shadowstep::integrator::VectorIntegrator;
-use shadowstep::kinetic::General;
 use shadowstep::number::CorrectlyRounded;
-use shadowstep::summation::Compensated;
+use shadowstep::steps::integrator::VectorIntegrator;
+use shadowstep::systems::displaced::Displacements;
+use shadowstep::systems::kinetic::General;
+use shadowstep::systems::summation::Compensated;
 use shadowstep::tables::{AtRunTime, TableScheme};
 use shadowstep::{Number, Rational, Scheme, Stepper, System, ValidFor};
 
@@ -17,7 +17,7 @@ pub struct Steps<'a> {
     pub h: &'a Rational,
     /// Whether q and p are sums with remainders.
     pub compensated: bool,
-    /// Whether gradient kicks are by displaced forces, which the scheme must allow: see [`shadowstep::displaced`].
+    /// Whether gradient kicks are by displaced forces, which the scheme must allow: see [`shadowstep::systems::displaced`].
     pub displaced: bool,
     /// At which state they begin.
     pub begin: Begin,
@@ -34,7 +34,7 @@ pub enum Begin {
 
 /// A system with its stepper, whatever the kind of split and the scheme: what follows a run is compiled once for each number type.
 ///
-/// For a processed scheme the system is at a state of its kernel: see [`at_output`](shadowstep::integrator::at_output).
+/// For a processed scheme the system is at a state of its kernel: see [`at_output`](shadowstep::steps::integrator::at_output).
 pub type SceneIntegrator<N> = Box<VectorIntegrator<'static, N>>;
 
 /// The class of the system was known when the scheme was read.

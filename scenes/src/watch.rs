@@ -6,9 +6,9 @@ mod energy;
 
 use std::mem::take;
 
-use shadowstep::integrator::{VectorIntegrator, at_output};
-use shadowstep::run::RunError;
+use shadowstep::shadow::run::RunError;
 use shadowstep::shadow::{Criterion, KINETIC_LIMIT, Missing, Report, Verdict};
+use shadowstep::steps::integrator::{VectorIntegrator, at_output};
 use shadowstep::{Carried, Integrator as _, Real};
 
 use self::approaches::Approaches;

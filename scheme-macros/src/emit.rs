@@ -29,9 +29,11 @@ pub(crate) fn scheme(item: &ItemStruct, proved: &Proved, files: &[PathBuf]) -> T
     let (forward, back) = (maps.function("forward", &weights), maps.inverse(&weights));
     let processor = processor(proved);
     let classes = match &proved.proof.many_parts {
-        Some(_) => vec![quote!(many_parts::ManyParts)],
-        None if proved.holds_for_every_kinetic() => vec![quote!(kinetic::Quadratic), quote!(kinetic::General)],
-        None => vec![quote!(kinetic::Quadratic)],
+        Some(_) => vec![quote!(systems::many_parts::ManyParts)],
+        None if proved.holds_for_every_kinetic() => {
+            vec![quote!(systems::kinetic::Quadratic), quote!(systems::kinetic::General)]
+        }
+        None => vec![quote!(systems::kinetic::Quadratic)],
     };
     quote! {
         #(#attrs)*
@@ -48,11 +50,11 @@ pub(crate) fn scheme(item: &ItemStruct, proved: &Proved, files: &[PathBuf]) -> T
                 #summary
             }
 
-            fn exact_weights(&self) -> ::shadowstep::scheme::Weights<::std::vec::Vec<::shadowstep::Rational>> {
+            fn exact_weights(&self) -> ::shadowstep::steps::scheme::Weights<::std::vec::Vec<::shadowstep::Rational>> {
                 #exact
             }
 
-            fn sequence(&self) -> ::shadowstep::scheme::Sequence<'_> {
+            fn sequence(&self) -> ::shadowstep::steps::scheme::Sequence<'_> {
                 #sequence
             }
 
@@ -79,23 +81,23 @@ pub(crate) fn refused(item: &ItemStruct, table: &LitStr, message: &str, files: &
         #watched
 
         impl ::shadowstep::Scheme for #ident {
-            type Weights<N: ::shadowstep::Number> = ::shadowstep::scheme::Weights<[N; 0]>;
+            type Weights<N: ::shadowstep::Number> = ::shadowstep::steps::scheme::Weights<[N; 0]>;
             fn summary(&self) -> ::shadowstep::SchemeProperties<'_> {
                 ::core::unreachable!()
             }
-            fn exact_weights(&self) -> ::shadowstep::scheme::Weights<::std::vec::Vec<::shadowstep::Rational>> {
+            fn exact_weights(&self) -> ::shadowstep::steps::scheme::Weights<::std::vec::Vec<::shadowstep::Rational>> {
                 ::core::unreachable!()
             }
-            fn sequence(&self) -> ::shadowstep::scheme::Sequence<'_> {
+            fn sequence(&self) -> ::shadowstep::steps::scheme::Sequence<'_> {
                 ::core::unreachable!()
             }
-            fn forward<F: ::shadowstep::scheme::Flows>(&self, _: &Self::Weights<F::Number>, _: &mut F) {}
-            fn back<F: ::shadowstep::scheme::Flows>(&self, _: &Self::Weights<F::Number>, _: &mut F) {}
+            fn forward<F: ::shadowstep::steps::scheme::Flows>(&self, _: &Self::Weights<F::Number>, _: &mut F) {}
+            fn back<F: ::shadowstep::steps::scheme::Flows>(&self, _: &Self::Weights<F::Number>, _: &mut F) {}
         }
 
-        impl ::shadowstep::ValidFor<::shadowstep::kinetic::Quadratic> for #ident {}
-        impl ::shadowstep::ValidFor<::shadowstep::kinetic::General> for #ident {}
-        impl ::shadowstep::ValidFor<::shadowstep::many_parts::ManyParts> for #ident {}
+        impl ::shadowstep::ValidFor<::shadowstep::systems::kinetic::Quadratic> for #ident {}
+        impl ::shadowstep::ValidFor<::shadowstep::systems::kinetic::General> for #ident {}
+        impl ::shadowstep::ValidFor<::shadowstep::systems::many_parts::ManyParts> for #ident {}
     }
 }
 
@@ -139,9 +141,9 @@ fn processor(proved: &Proved) -> Option<TokenStream> {
     let maps: Vec<_> = maps.collect();
     let weights = weights.into_iter().map(to_text);
     Some(quote! {
-        fn processor(&self) -> ::std::vec::Vec<(::shadowstep::scheme::MapKind, ::shadowstep::Rational)> {
-            use ::shadowstep::scheme::MapKind;
-            ::shadowstep::scheme::exact_maps(&[#(#maps),*], &[#(#weights),*])
+        fn processor(&self) -> ::std::vec::Vec<(::shadowstep::steps::scheme::MapKind, ::shadowstep::Rational)> {
+            use ::shadowstep::steps::scheme::MapKind;
+            ::shadowstep::steps::scheme::exact_maps(&[#(#maps),*], &[#(#weights),*])
         }
     })
 }
@@ -162,7 +164,7 @@ impl<'a> Weights<'a> {
     /// The type of the weights of a step.
     fn in_arrays(&self) -> TokenStream {
         let counts = self.kinds.iter().map(|(_, weights)| Literal::usize_unsuffixed(weights.len()));
-        quote! { ::shadowstep::scheme::Weights<#([N; #counts]),*> }
+        quote! { ::shadowstep::steps::scheme::Weights<#([N; #counts]),*> }
     }
 
     /// The exact weights.
@@ -171,7 +173,7 @@ impl<'a> Weights<'a> {
             let texts = weights.iter().map(to_text);
             quote! { #field: &[#(#texts),*] }
         });
-        quote! { ::shadowstep::scheme::exact_weights(::shadowstep::scheme::Weights { #(#fields),* }) }
+        quote! { ::shadowstep::steps::scheme::exact_weights(::shadowstep::steps::scheme::Weights { #(#fields),* }) }
     }
 
     /// Gives each weight its name.
@@ -183,7 +185,7 @@ impl<'a> Weights<'a> {
             let names = (1..=weights.len()).map(|number| format_ident!("{name}_{number}"));
             quote! { #field: [#(#names),*] }
         });
-        quote! { let ::shadowstep::scheme::Weights { #(#fields,)* .. } = weights; }
+        quote! { let ::shadowstep::steps::scheme::Weights { #(#fields,)* .. } = weights; }
     }
 }
 
@@ -192,8 +194,8 @@ fn sequence(plan: &StepPlan) -> TokenStream {
     let places = plan.maps.iter().map(|(_, place)| Literal::usize_unsuffixed(*place));
     let middle = plan.middle.iter().map(|place| Literal::usize_unsuffixed(*place));
     quote! {
-        use ::shadowstep::scheme::MapKind;
-        ::shadowstep::scheme::Sequence { maps: &[#((MapKind::#kinds, #places)),*], middle_parts: &[#(#middle),*] }
+        use ::shadowstep::steps::scheme::MapKind;
+        ::shadowstep::steps::scheme::Sequence { maps: &[#((MapKind::#kinds, #places)),*], middle_parts: &[#(#middle),*] }
     }
 }
 
@@ -220,7 +222,7 @@ impl Maps {
         }
         quote! {
             #[inline(always)]
-            fn back<F: ::shadowstep::scheme::Flows>(&self, weights: &Self::Weights<F::Number>, flows: &mut F) {
+            fn back<F: ::shadowstep::steps::scheme::Flows>(&self, weights: &Self::Weights<F::Number>, flows: &mut F) {
                 self.forward(weights, flows);
             }
         }
@@ -236,7 +238,7 @@ impl Maps {
             let middle = self.middle.get(index).map(|place| {
                 let weight = format_ident!("middle_part_{}", place + 1);
                 let order = if kind == MapKind::Drift { quote!(Descending) } else { quote!(Ascending) };
-                quote! { flows.middle_parts(#weight, ::shadowstep::scheme::PartOrder::#order); }
+                quote! { flows.middle_parts(#weight, ::shadowstep::steps::scheme::PartOrder::#order); }
             });
             quote! { flows.#map(#weight); #middle }
         });
@@ -247,7 +249,7 @@ impl Maps {
         };
         quote! {
             #inline
-            fn #name<F: ::shadowstep::scheme::Flows>(&self, weights: &Self::Weights<F::Number>, flows: &mut F) {
+            fn #name<F: ::shadowstep::steps::scheme::Flows>(&self, weights: &Self::Weights<F::Number>, flows: &mut F) {
                 #weights
                 #(#statements)*
             }

@@ -46,7 +46,7 @@ pub(crate) fn emit(definition: &Definition) -> syn::Result<TokenStream> {
 
         #[allow(unused_variables, clippy::all)]
         impl<N: ::shadowstep::Number> ::shadowstep::Kinetic<N> for #this {
-            type Class = ::shadowstep::kinetic::#class;
+            type Class = ::shadowstep::systems::kinetic::#class;
             fn dimension(&self) -> ::core::option::Option<usize> { ::core::option::Option::Some(#dimension) }
             fn scratch(&self) -> usize { #scratch_size }
             #prepare

@@ -43,7 +43,7 @@ use locate::Locator;
 /// ```
 ///
 /// With `parts = 3` the steps are for H = H_1 + … + H_n of three parts and more, whatever their number
-/// (`shadowstep::many_parts`).
+/// (`shadowstep::systems::many_parts`).
 ///
 /// The table is looked for beside the source file, then in the crate's root, then among the shipped ones. Its claims
 /// are proved; a claim that does not hold is a compile error that names the condition which fails. The struct gets
@@ -91,10 +91,10 @@ fn prove(arguments: &Arguments, locator: &Locator) -> Result<Proved, String> {
 ///
 /// A `pair` formula is the energy of two bodies i < j, in r2, the square of their distance, or on a line in d = q_j − q_i;
 /// properties of bodies such as masses are called `m_i` and `m_j`, and the struct has the values of all bodies as `m`.
-/// `shadowstep::pairs::Pairs` sums it over all pairs, or over the neighbours in a chain.
+/// `shadowstep::systems::pairs::Pairs` sums it over all pairs, or over the neighbours in a chain.
 ///
 /// ```
-/// use shadowstep::{Motion, UnitMasses, pairs::{Ends, Pairs}, potential};
+/// use shadowstep::{Motion, UnitMasses, systems::pairs::{Ends, Pairs}, potential};
 ///
 /// potential! {
 ///     /// Toda's spring.

@@ -51,14 +51,14 @@ pub(crate) fn emit(definition: &Definition) -> syn::Result<TokenStream> {
     Ok(quote! {
         #structure
 
-        impl #generics ::shadowstep::pairs::Pair for #this {
-            fn separation(&self) -> ::shadowstep::pairs::Separation { ::shadowstep::pairs::Separation::#kind }
-            fn summand(&self) -> ::shadowstep::pairs::Summand { ::shadowstep::pairs::Summand::#given }
+        impl #generics ::shadowstep::systems::pairs::Pair for #this {
+            fn separation(&self) -> ::shadowstep::systems::pairs::Separation { ::shadowstep::systems::pairs::Separation::#kind }
+            fn summand(&self) -> ::shadowstep::systems::pairs::Summand { ::shadowstep::systems::pairs::Summand::#given }
             fn properties(&self) -> ::std::vec::Vec<usize> { ::std::vec![#(self.#properties.len()),*] }
         }
 
         #[allow(unused_variables, clippy::all)]
-        impl<N: ::shadowstep::Number> ::shadowstep::pairs::PairPotential<N> for #this {
+        impl<N: ::shadowstep::Number> ::shadowstep::systems::pairs::PairPotential<N> for #this {
             fn scratch(&self) -> usize { #scratch_size }
             #prepare
             fn energy(&self, #i: usize, #j: usize, #x: &N, #energy: &mut N, #scratch: &mut [N]) {
@@ -117,7 +117,7 @@ pub(crate) fn emit(definition: &Definition) -> syn::Result<TokenStream> {
                 #property_blocks
                 #summands_body
             }
-            fn curved(&self) -> ::core::option::Option<&dyn ::shadowstep::pairs::PairCurvature<N>> {
+            fn curved(&self) -> ::core::option::Option<&dyn ::shadowstep::systems::pairs::PairCurvature<N>> {
                 ::core::option::Option::Some(self)
             }
         }
@@ -137,7 +137,7 @@ fn curvature(definition: &Definition, this: &TokenStream, programs: &PotentialPr
     let scratch_size = size(methods.scratch());
     quote! {
         #[allow(unused_variables, clippy::all)]
-        impl<N: ::shadowstep::Number> ::shadowstep::pairs::PairCurvature<N> for #this {
+        impl<N: ::shadowstep::Number> ::shadowstep::systems::pairs::PairCurvature<N> for #this {
             fn curvature_scratch(&self) -> usize { #scratch_size }
             #prepare
             fn curvature(
@@ -269,7 +269,7 @@ fn documentation(definition: &Definition, separation: Separation, programs: &Pot
         String::new(),
         definition.equation(),
         String::new(),
-        " The energy of a pair of bodies i < j; `shadowstep::pairs::Pairs` sums it over all pairs, or over neighbours."
+        " The energy of a pair of bodies i < j; `shadowstep::systems::pairs::Pairs` sums it over all pairs, or over neighbours."
             .to_owned(),
         String::new(),
         format!(" - A pair's {slope} costs {}.", programs.gradient.cost()),

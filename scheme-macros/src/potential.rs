@@ -66,7 +66,7 @@ pub(crate) fn emit(definition: &Definition) -> syn::Result<TokenStream> {
                 #components
                 #rate_body
             }
-            fn hessian(&self) -> ::core::option::Option<&dyn ::shadowstep::potential::HessianProduct<N>> {
+            fn hessian(&self) -> ::core::option::Option<&dyn ::shadowstep::systems::potential::HessianProduct<N>> {
                 ::core::option::Option::Some(self)
             }
         }
@@ -96,7 +96,7 @@ fn hessian_product(definition: &Definition, this: &TokenStream, programs: &Poten
     let scratch_size = size(methods.scratch());
     quote! {
         #[allow(unused_variables, clippy::all)]
-        impl<N: ::shadowstep::Number> ::shadowstep::potential::HessianProduct<N> for #this {
+        impl<N: ::shadowstep::Number> ::shadowstep::systems::potential::HessianProduct<N> for #this {
             fn hessian_scratch(&self) -> usize { #scratch_size }
             #prepare
             fn hessian_product(&self, #q: &[N], #v: &[N], #product: &mut [N], #scratch: &mut [N]) {

@@ -1,7 +1,7 @@
 //! How fast the states of a linear system grow.
 
-use shadowstep::kinetic::Quadratic;
 use shadowstep::number::CorrectlyRounded;
+use shadowstep::systems::kinetic::Quadratic;
 use shadowstep::tables::TableScheme;
 use shadowstep::{Number, Rational, Real, Stepper, System};
 

@@ -1,9 +1,9 @@
 //! A run of a scheme with a monitor: what it says, and when.
 
 use serde::{Deserialize, Serialize};
-use shadowstep::integrator::{VectorIntegrator, VectorSystem};
 use shadowstep::problems::{ProblemMotion, Setup, problem};
 use shadowstep::shadow::Verdict;
+use shadowstep::steps::integrator::{VectorIntegrator, VectorSystem};
 use shadowstep::{Rational, Stepper};
 use shadowstep_scenes::computation::RunNumber;
 use shadowstep_scenes::library::NamedScheme;

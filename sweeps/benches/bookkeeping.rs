@@ -9,7 +9,7 @@ use std::hint::black_box;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::Instant;
 
-use shadowstep::run::Trajectory;
+use shadowstep::shadow::run::Trajectory;
 use shadowstep::tables::Source;
 use shadowstep_scenes::Scene;
 use shadowstep_sweeps::{Collected, Manifest, SweepPlan, TableFormat, collect, compute};

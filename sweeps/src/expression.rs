@@ -2,8 +2,8 @@
 
 use std::cmp::Ordering;
 
-use shadowstep::formula::{FormulaError, FormulaPotential};
 use shadowstep::number::{Lanes, Number};
+use shadowstep::systems::formula::{FormulaError, FormulaPotential};
 use shadowstep::{Potential, Rational};
 use shadowstep_scenes::computation::RunNumber;
 use shadowstep_scenes::lanes::LANES;

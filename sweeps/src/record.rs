@@ -4,9 +4,9 @@ use std::ops::ControlFlow::{self, Break, Continue};
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use serde::{Deserialize, Serialize};
-use shadowstep::integrator::{VectorIntegrator, at_output};
-use shadowstep::run::{DriftRecorder, EnergyDrift, Finding, RunError};
 use shadowstep::shadow::Estimate;
+use shadowstep::shadow::run::{DriftRecorder, EnergyDrift, Finding, RunError};
+use shadowstep::steps::integrator::{VectorIntegrator, at_output};
 use shadowstep::{Carried, Real};
 use shadowstep_scenes::computation::{Computation, RunNumber};
 use shadowstep_scenes::follow::Follower;

@@ -5,9 +5,9 @@
 
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use shadowstep::integrator::VectorIntegrator;
 use shadowstep::number::counting::{Counting, count};
 use shadowstep::number::{Lanes, Number, Real};
+use shadowstep::steps::integrator::VectorIntegrator;
 use shadowstep::{Carried, Scheme as _, System};
 use shadowstep_scenes::Scene;
 use shadowstep_scenes::lanes::{LANES, SystemInLanes};

@@ -10,11 +10,11 @@ use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use rug::Float;
-use shadowstep::kinetic::Quadratic;
 use shadowstep::number::Number;
 use shadowstep::problems::{HenonHeiles, Kepler};
-use shadowstep::run::ShadowRun;
 use shadowstep::shadow::Bilinear;
+use shadowstep::shadow::run::ShadowRun;
+use shadowstep::systems::kinetic::Quadratic;
 use shadowstep::{
     Kinetic, Motion, Potential, Rational, Scheme, Stepper, System, UnitMasses, ValidFor, splitting_scheme,
 };

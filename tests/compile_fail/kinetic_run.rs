@@ -1,6 +1,6 @@
 //! A run by a table that was not checked for a T that is not quadratic.
 
-use shadowstep::run::energy_drift;
+use shadowstep::shadow::run::energy_drift;
 use shadowstep::shadow::Central;
 use shadowstep::{Motion, Stepper, kinetic, potential, tables};
 

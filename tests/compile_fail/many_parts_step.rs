@@ -1,6 +1,6 @@
 //! A scheme for two parts and a system of three.
 
-use shadowstep::many_parts::{SystemOfParts, parts};
+use shadowstep::systems::many_parts::{SystemOfParts, parts};
 use shadowstep::{Stepper, splitting_scheme};
 
 #[splitting_scheme("yoshida4.toml")]

@@ -1,7 +1,7 @@
 //! Weights of one's own move no system: only a stepper has its flows.
 
 use shadowstep::problems::Pendulum;
-use shadowstep::scheme::Weights;
+use shadowstep::steps::scheme::Weights;
 use shadowstep::{Motion, Scheme, UnitMasses, splitting_scheme};
 
 #[splitting_scheme("stormer-verlet.toml")]

@@ -1,8 +1,8 @@
 //! Systems with kinetic energies that are not quadratic, as one type: the problem is chosen at run time.
 
 use rug::Float;
-use shadowstep::kinetic::General;
 use shadowstep::problems::HenonHeiles;
+use shadowstep::systems::kinetic::General;
 use shadowstep::{Kinetic, Motion, Number, Potential, kinetic, potential};
 
 use crate::{numbers, rational};

@@ -3,8 +3,8 @@
 //! A matrix is made of scenes, schemes and steps. The thresholds of the verdicts were chosen with the [calibration](Matrix::calibration)
 //! matrix only; the [held-out](Matrix::held_out) one has other scenes, schemes and steps.
 
-use shadowstep::kinetic::Quadratic;
 use shadowstep::problems::{ProblemMotion, problem};
+use shadowstep::systems::kinetic::Quadratic;
 use shadowstep::tables::{TableScheme, shipped};
 use shadowstep::{Kinetic, Motion, Potential, Scheme, Stepper, UnitMasses};
 

@@ -9,7 +9,7 @@ use std::sync::LazyLock;
 
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
-use shadowstep::formula::FormulaPotential;
+use shadowstep::systems::formula::FormulaPotential;
 use shadowstep::tables::Source;
 use shadowstep_scenes::{FileOptions, Observer, Outcome, Scene};
 use shadowstep_sweeps::SweepPlan;

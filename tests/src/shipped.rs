@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::sync::{Mutex, PoisonError};
 
-use shadowstep::kinetic::{General, Quadratic};
+use shadowstep::systems::kinetic::{General, Quadratic};
 use shadowstep::tables::{self, TableScheme};
 use shadowstep::{Rational, Scheme, SchemeProperties, ValidFor, splitting_scheme};
 use shadowstep_schemes::First;

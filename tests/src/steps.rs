@@ -2,8 +2,8 @@
 
 use std::marker::PhantomData;
 
-use shadowstep::kinetic::Quadratic;
-use shadowstep::scheme::{Flows, PartOrder, WeightLists, Weights};
+use shadowstep::steps::scheme::{Flows, PartOrder, WeightLists, Weights};
+use shadowstep::systems::kinetic::Quadratic;
 use shadowstep::{Carried, Number, Rational, Scheme, Stepper, System, ValidFor};
 
 /// The maps of a step, of flows of any type.

@@ -1,8 +1,8 @@
 //! Systems on which every scheme is checked, as one type: problem and masses are chosen at run time.
 
-use shadowstep::kinetic::Quadratic;
-use shadowstep::potential::HessianProduct;
 use shadowstep::problems::{HenonHeiles, Kepler, Pendulum, Scattering};
+use shadowstep::systems::kinetic::Quadratic;
+use shadowstep::systems::potential::HessianProduct;
 use shadowstep::{DiagonalMasses, FullMasses, Kinetic, Motion, Number, Potential, Real, UnitMasses};
 
 use crate::{numbers, rational};

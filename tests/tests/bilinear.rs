@@ -7,7 +7,7 @@ use num_bigint::BigInt;
 use num_traits::Zero;
 use rug::Float;
 use shadowstep::problems::{HarmonicOscillator, HenonHeiles, Kepler, Pendulum};
-use shadowstep::run::{ShadowRun, energy_drift};
+use shadowstep::shadow::run::{ShadowRun, energy_drift};
 use shadowstep::shadow::weights::{bilinear, central};
 use shadowstep::shadow::{Bilinear, BuildEstimator, Central, Estimator};
 use shadowstep::tables::TableScheme;

@@ -1,15 +1,17 @@
 //! Protects gradient kicks by displaced forces: the formula, the rate of β, steps there and back, what is not symplectic, and refusals.
 
 use rug::Float;
-use shadowstep::displaced::DisplacementError;
 use shadowstep::number::{Limbs, Number, Real};
-use shadowstep::potential::from_fn;
 use shadowstep::problems::{HenonHeiles, Pendulum};
-use shadowstep::run::energy_drift;
 use shadowstep::shadow::Bilinear;
+use shadowstep::shadow::run::energy_drift;
+use shadowstep::steps::DisplacementError;
+use shadowstep::systems::potential::from_fn;
+use shadowstep::systems::wisdom_holman::{Bodies, Jacobi, PlanetaryCoordinates, WisdomHolman};
 use shadowstep::tables::{self, Source, TableScheme};
-use shadowstep::wisdom_holman::{Bodies, Jacobi, PlanetaryCoordinates, WisdomHolman};
-use shadowstep::{Carried, DiagonalMasses, Motion, Stepper, System, UnitMasses, ValidFor, linear_part::LinearPart};
+use shadowstep::{
+    Carried, DiagonalMasses, Motion, Stepper, System, UnitMasses, ValidFor, systems::linear_part::LinearPart,
+};
 use shadowstep_tests::{
     Bits, log10_distance, log10_largest_distance, numbers, precision, rational, same_bits, stepper,
 };

@@ -3,7 +3,7 @@
 use std::iter::repeat_n;
 
 use shadowstep::problems::Kepler;
-use shadowstep::run::{ShadowRun, States, Trajectory};
+use shadowstep::shadow::run::{ShadowRun, States, Trajectory};
 use shadowstep::shadow::{Bilinear, BuildEstimator, Central, Estimator, StoppingRule};
 use shadowstep::{Increments, Motion, Real, UnitMasses};
 use shadowstep_tests::{precision, stepper};

@@ -3,10 +3,10 @@
 
 use rug::Float;
 use rug::float::Constant;
-use shadowstep::exact_flow::{self, ExactFlow, ExactFlowError, has_exact_flow};
 use shadowstep::number::CorrectlyRounded;
-use shadowstep::problems::{PROBLEMS, Problem, Setup, problem};
-use shadowstep::run::{ShadowRun, States};
+use shadowstep::problems::{PROBLEMS, Problem, Setup, SolutionError, problem};
+use shadowstep::shadow::exact_flow::{self, ExactFlow, ExactFlowError, has_exact_flow};
+use shadowstep::shadow::run::{ShadowRun, States};
 use shadowstep::shadow::weights::central;
 use shadowstep::shadow::{Bilinear, BuildEstimator, Central, StoppingRule};
 use shadowstep::{Kinetic, Number, Real};
@@ -375,6 +375,6 @@ fn what_has_no_exact_flow_is_refused() {
 fn too_many_digits_are_refused() {
     let (setup, h) = (setup("pendulum", &[("p", "2")]), step_size("1"));
     let new = |steps| ExactFlow::<f64>::new(&setup, &h, steps, 0, &()).err();
-    assert!(matches!(new(10_000), Some(ExactFlowError::TooSensitive { .. })));
+    assert!(matches!(new(10_000), Some(ExactFlowError::Solution(SolutionError::TooSensitive { .. }))));
     assert_eq!(new(2_000), None);
 }

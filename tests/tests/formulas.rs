@@ -1,8 +1,8 @@
 //! Protects potentials from formulas: compiled and read at run time they have the same bits; a wrong text has its place.
 
 use rug::Float;
-use shadowstep::formula::FormulaPotential;
 use shadowstep::problems::{HarmonicOscillator, HenonHeiles, Kepler, Pendulum, Scattering};
+use shadowstep::systems::formula::FormulaPotential;
 use shadowstep::{Number, Potential, potential};
 use shadowstep_tests::{Bits, numbers, potential_values, precision};
 

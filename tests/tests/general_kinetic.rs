@@ -6,11 +6,11 @@
 use std::array;
 
 use rug::Float;
-use shadowstep::formula::FormulaKinetic;
-use shadowstep::kinetic::{General, Quadratic};
 use shadowstep::number::counting::{Counting, Operations, count};
-use shadowstep::run::{EnergyDrift, ShadowRun, energy_drift};
 use shadowstep::shadow::Central;
+use shadowstep::shadow::run::{EnergyDrift, ShadowRun, energy_drift};
+use shadowstep::systems::formula::FormulaKinetic;
+use shadowstep::systems::kinetic::{General, Quadratic};
 use shadowstep::tables::{QuadraticOnly, Source, TableScheme, read, shipped};
 use shadowstep::{
     Carried, DiagonalMasses, Kinetic, Motion, Number, Potential, Rational, Scheme, Stepper, System, UnitMasses,

@@ -3,10 +3,10 @@
 
 use num_traits::{One, Signed};
 use rug::Float;
-use shadowstep::kinetic::Quadratic;
 use shadowstep::number::counting::{Counting, Operations, count};
-use shadowstep::potential::HessianProduct;
 use shadowstep::problems::{HenonHeiles, Kepler};
+use shadowstep::systems::kinetic::Quadratic;
+use shadowstep::systems::potential::HessianProduct;
 use shadowstep::{Motion, Number, Potential, Rational, Real, Scheme, Stepper, UnitMasses, ValidFor};
 use shadowstep_schemes::scheme::Held;
 use shadowstep_tests::shipped::{all, for_each};

@@ -1,12 +1,13 @@
 //! Protects force-gradient kicks: their sign and factor, the refusal of wrong ones, Hessian–vector products, β.
 
 use rug::Float;
-use shadowstep::formula::{FormulaPair, FormulaPotential};
-use shadowstep::pairs::{Ends, Pairs, Separation};
-use shadowstep::potential::{HessianProduct, from_fn};
 use shadowstep::problems::{Kepler, PROBLEMS};
-use shadowstep::run::{RunError, energy_drift};
+use shadowstep::shadow::run::{RunError, energy_drift};
 use shadowstep::shadow::{Bilinear, ShadowEnergy, Verdict};
+use shadowstep::steps::MismatchError;
+use shadowstep::systems::formula::{FormulaPair, FormulaPotential};
+use shadowstep::systems::pairs::{Ends, Pairs, Separation};
+use shadowstep::systems::potential::{HessianProduct, from_fn};
 use shadowstep::tables::shipped;
 use shadowstep::{Motion, Number, Potential, Real, Stepper, System, UnitMasses, potential};
 use shadowstep_tests::refusals::{assert_refused, judge};
@@ -270,7 +271,7 @@ fn a_potential_without_second_derivatives_says_so() {
     assert!(!motion.has_gradient_kicks());
     let stepper = Stepper::new(shipped("chin-4a").unwrap(), "1/20").unwrap();
     // runs and the monitor refuse it, a step alone panics
-    let expected = RunError::NoGradientKicks { scheme: "chin-4a".to_owned() };
+    let expected = RunError::Mismatch(MismatchError::NoGradientKicks { scheme: "chin-4a".to_owned() });
     let drift = energy_drift(stepper.with(motion.clone()), 10, &Bilinear::new(2)).unwrap_err();
     let monitor = ShadowEnergy::new(stepper.clone(), &mut motion.clone(), &Bilinear::with_error(8)).unwrap_err();
     assert_eq!([&drift, &monitor], [&expected; 2]);

@@ -1,12 +1,12 @@
 //! Protects gradient kicks of systems with flows of their own: their force and rate of β, steps there and back, the modified energy.
 
 use rug::Float;
-use shadowstep::linear_part::LinearPart;
 use shadowstep::number::{CorrectlyRounded, Limbs, Number, Real};
 use shadowstep::problems::HenonHeiles;
-use shadowstep::run::energy_drift;
 use shadowstep::shadow::Bilinear;
-use shadowstep::wisdom_holman::{Bodies, Jacobi, PlanetaryCoordinates, WisdomHolman};
+use shadowstep::shadow::run::energy_drift;
+use shadowstep::systems::linear_part::LinearPart;
+use shadowstep::systems::wisdom_holman::{Bodies, Jacobi, PlanetaryCoordinates, WisdomHolman};
 use shadowstep::{Carried, Rational, Stepper, System};
 use shadowstep_tests::{
     Bits, log10_distance, log10_largest_distance, numbers, precision, rational, same_bits, stepper,
@@ -171,7 +171,10 @@ fn the_modified_energy_converges() {
 fn heliocentric_coordinates_have_none() {
     let bodies = Bodies::new(rational("1"), vec![Rational::from_integer(1.into()); 2]).expect("they are bodies");
     let state = (&[0.0, 0.0, 1.0, 0.0][..], &[0.0, 0.0, 0.0, 1.0][..]);
-    let system =
-        WisdomHolman::<f64, shadowstep::wisdom_holman::DemocraticHeliocentric<f64, 2>, 2>::new(&bodies, state, &());
+    let system = WisdomHolman::<f64, shadowstep::systems::wisdom_holman::DemocraticHeliocentric<f64, 2>, 2>::new(
+        &bodies,
+        state,
+        &(),
+    );
     assert!(!system.expect("a state of two bodies").has_gradient_kicks());
 }

@@ -2,10 +2,10 @@
 //! say the same on every run.
 
 use rug::Float;
-use shadowstep::kinetic::Quadratic;
 use shadowstep::problems::{HarmonicOscillator, HenonHeiles, Kepler, Pendulum};
-use shadowstep::run::{EnergyDrift, Quantity, RunError, ShadowRun, energy_drift};
+use shadowstep::shadow::run::{EnergyDrift, Quantity, RunError, ShadowRun, energy_drift};
 use shadowstep::shadow::{Central, SelectionRule, ShadowEnergy, StoppingRule};
+use shadowstep::systems::kinetic::Quadratic;
 use shadowstep::{Carried, Kinetic, Motion, MotionError, Potential, Real, System, UnitMasses};
 use shadowstep_tests::{Bits, log10_largest_distance, numbers, precision, stepper};
 

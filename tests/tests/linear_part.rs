@@ -3,12 +3,12 @@
 //! Yardsticks: cos and sin of one oscillator; the same system with T(p) and U(q), extrapolated from leapfrog steps.
 
 use rug::Float;
-use shadowstep::kinetic::Quadratic;
-use shadowstep::linear_part::LinearPart;
 use shadowstep::number::{Limbs, Number};
 use shadowstep::problems::{HarmonicOscillator, HenonHeiles, StiffFput};
-use shadowstep::run::energy_drift;
+use shadowstep::shadow::run::energy_drift;
 use shadowstep::shadow::{Bilinear, Criterion, ShadowEnergy, Verdict};
+use shadowstep::systems::kinetic::Quadratic;
+use shadowstep::systems::linear_part::LinearPart;
 use shadowstep::{Motion, Rational, System, UnitMasses};
 use shadowstep_tests::reference::Separable;
 use shadowstep_tests::shipped::all;

@@ -3,11 +3,11 @@
 //! Yardstick: Gragg's extrapolated midpoint rule on the equations of motion of the formulas, which does not depend on the split.
 
 use rug::Float;
-use shadowstep::formula::FormulaPotential;
-use shadowstep::many_parts::{FlowState, FormulaPart, ManyParts, Part, SystemOfParts, parts};
 use shadowstep::number::{CorrectlyRounded, Number};
-use shadowstep::run::energy_drift;
+use shadowstep::shadow::run::energy_drift;
 use shadowstep::shadow::{Bilinear, ShadowEnergy, Verdict};
+use shadowstep::systems::formula::FormulaPotential;
+use shadowstep::systems::many_parts::{FlowState, FormulaPart, ManyParts, Part, SystemOfParts, parts};
 use shadowstep::tables::{TableScheme, shipped};
 use shadowstep::{Carried, Potential, Rational, Scheme, State, Stepper, System, splitting_scheme};
 use shadowstep_tests::steps::Steps;

@@ -2,11 +2,11 @@
 //! steps, the bits of the merged maps one by one, in all lanes and vector instructions.
 
 use proptest::prelude::*;
-use shadowstep::instructions::Instructions;
-use shadowstep::kinetic::Quadratic;
 use shadowstep::number::counting::{Counting, Operations, count};
+use shadowstep::number::instructions::Instructions;
 use shadowstep::number::{Float, Fused, Lanes, Limbs, Number, Real};
 use shadowstep::problems::HenonHeiles;
+use shadowstep::systems::kinetic::Quadratic;
 use shadowstep::{Carried, Motion, Rational, Scheme, Stepper, System, UnitMasses, ValidFor, splitting_scheme, tables};
 use shadowstep_schemes::First;
 use shadowstep_tests::shipped::{Visitor, for_each};

@@ -2,11 +2,11 @@
 //! rules of the paper where they can be read in more than one way.
 
 use rug::Float;
-use shadowstep::kinetic::{DiagonalMasses, FullMasses, Quadratic};
 use shadowstep::problems::{HarmonicOscillator, HenonHeiles, Kepler, Pendulum};
-use shadowstep::run::{EnergyDrift, ShadowRun, States, Trajectory, energy_drift};
+use shadowstep::shadow::run::{EnergyDrift, ShadowRun, States, Trajectory, energy_drift};
 use shadowstep::shadow::weights::central;
 use shadowstep::shadow::{BuildEstimator, Central, Estimator, SelectionRule, StoppingRule};
+use shadowstep::systems::kinetic::{DiagonalMasses, FullMasses, Quadratic};
 use shadowstep::{
     Increments, Kinetic, Motion, Number, Potential, Rational, Real, Scheme, Stepper, System, UnitMasses, ValidFor,
 };

@@ -11,12 +11,12 @@ mod words;
 
 use rug::Float;
 use shadowstep::number::counting::{Counting, count};
-use shadowstep::pairs::Pairs;
 use shadowstep::problems::{Gravity, HarmonicOscillator, HenonHeiles, Kepler, Pendulum, ProblemMotion, problem};
-use shadowstep::run::{Quantity, RunError, ShadowRun};
+use shadowstep::shadow::run::{Quantity, RunError, ShadowRun};
 use shadowstep::shadow::{
     Bilinear, BuildEstimator, Central, Criterion, Missing, Report, ShadowEnergy, StoppingRule, Trend, Verdict,
 };
+use shadowstep::systems::pairs::Pairs;
 use shadowstep::tables::{TableScheme, shipped};
 use shadowstep::{DiagonalMasses, Motion, Potential, Real, Stepper, UnitMasses, kinetic, potential};
 use shadowstep_tests::{Bits, log10_distance, number, numbers, precision, same_bits, stepper};

@@ -5,10 +5,10 @@
 //! β grows by qA_q + pA_p − 2A = 2A, as A is of degree 4; along the flow of B by qB_q − 2B = B.
 
 use rug::Float;
-use shadowstep::kinetic::General;
-use shadowstep::run::{ShadowRun, energy_drift};
+use shadowstep::shadow::run::{ShadowRun, energy_drift};
 use shadowstep::shadow::{Bilinear, BuildEstimator, Central, Criterion, ShadowEnergy, Verdict};
-use shadowstep::summation::{Half, Plain};
+use shadowstep::systems::kinetic::General;
+use shadowstep::systems::summation::{Half, Plain};
 use shadowstep::{Carried, Integrator as _, Number, OwnedIncrements, Real, State, Stepper, System, splitting_scheme};
 use shadowstep_tests::shipped::all_for_every_kinetic;
 use shadowstep_tests::{Bits, log10_distance, log10_largest_distance, precision, rational, same_bits};

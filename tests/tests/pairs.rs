@@ -1,10 +1,10 @@
 //! Protects sums over pairs of bodies: they are what the same formula in coordinates is, whatever interacts with what.
 
 use rug::Float;
-use shadowstep::formula::{FormulaPair, FormulaPotential};
 use shadowstep::number::counting::{Counting, Operations, count};
-use shadowstep::pairs::{Ends, Pair, Pairs, Separation, Summand};
 use shadowstep::problems::Gravity;
+use shadowstep::systems::formula::{FormulaPair, FormulaPotential};
+use shadowstep::systems::pairs::{Ends, Pair, Pairs, Separation, Summand};
 use shadowstep::{Potential, Real, potential};
 use shadowstep_tests::{Bits, log10_distance, numbers, potential_values, precision};
 

@@ -1,9 +1,9 @@
 //! Protects the permanent change of the modified energy: nothing on the exact flow, the same by every estimator on schemes.
 
 use rug::Float;
-use shadowstep::exact_flow::ExactFlow;
 use shadowstep::problems::{Setup, problem};
-use shadowstep::run::{EnergyDrift, Finding, PermanentChange, ShadowRun, energy_drift};
+use shadowstep::shadow::exact_flow::ExactFlow;
+use shadowstep::shadow::run::{EnergyDrift, Finding, PermanentChange, ShadowRun, energy_drift};
 use shadowstep::shadow::{Bilinear, BuildEstimator, Central, SelectionRule, StoppingRule};
 use shadowstep::{Number, Rational, Real};
 use shadowstep_tests::{precision, step_size, stepper};

@@ -2,9 +2,9 @@
 //! read through the post-map.
 
 use rug::Float;
-use shadowstep::integrator::at_output;
 use shadowstep::number::Real;
 use shadowstep::problems::Kepler;
+use shadowstep::steps::integrator::at_output;
 use shadowstep::tables::{TableScheme, shipped};
 use shadowstep::{Carried, Integrator as _, Motion, Scheme, Stepper, UnitMasses, splitting_scheme};
 use shadowstep_schemes::{MapKind, Source, read, shipped as shipped_source, shipped_names, shipped_proved};

@@ -5,8 +5,8 @@ mod causes;
 mod input;
 mod values;
 
-use shadowstep::recorded::{Log, Recorded};
-use shadowstep::run::{ShadowRun, States};
+use shadowstep::shadow::recorded::{Log, Recorded};
+use shadowstep::shadow::run::{ShadowRun, States};
 use shadowstep::shadow::{Bilinear, Estimator};
 use shadowstep::{Motion, Potential, StepSize, UnitMasses};
 use shadowstep_tests::lennard_jones::{Cutoff, Fluid};

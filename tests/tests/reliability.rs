@@ -3,10 +3,10 @@
 
 use rug::Float;
 use shadowstep::Number;
-use shadowstep::exact_flow::ExactFlow;
 use shadowstep::number::CorrectlyRounded;
 use shadowstep::problems::problem;
-use shadowstep::run::ShadowRun;
+use shadowstep::shadow::exact_flow::ExactFlow;
+use shadowstep::shadow::run::ShadowRun;
 use shadowstep::shadow::{Bilinear, BuildEstimator, Central, Estimate, SelectionRule, StoppingRule};
 use shadowstep_tests::{precision, rational, step_size};
 

@@ -3,13 +3,13 @@
 
 use num_traits::{One, Signed, Zero};
 use rug::Float;
-use shadowstep::kinetic::MassError;
 use shadowstep::number::counting::Counting;
-use shadowstep::potential::from_fn;
 use shadowstep::problems::{HenonHeiles, Kepler, Pendulum};
-use shadowstep::run::energy_drift;
-use shadowstep::scheme::Weights;
+use shadowstep::shadow::run::energy_drift;
 use shadowstep::shadow::{Bilinear, Central};
+use shadowstep::steps::scheme::Weights;
+use shadowstep::systems::kinetic::MassError;
+use shadowstep::systems::potential::from_fn;
 use shadowstep::{
     DiagonalMasses, FullMasses, Motion, MotionError, Potential, Rational, Real, Scheme, StepSize, StepSizeError,
     Stepper, UnitMasses, splitting_scheme,

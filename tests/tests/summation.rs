@@ -2,14 +2,14 @@
 
 use num_traits::Signed;
 use rug::Float;
-use shadowstep::kinetic::Quadratic;
-use shadowstep::linear_part::LinearPart;
-use shadowstep::many_parts::{SystemOfParts, parts};
 use shadowstep::number::{CorrectlyRounded, DoubleDouble, Number};
 use shadowstep::problems::{HenonHeiles, Kepler};
-use shadowstep::run::{ShadowRun, States, Trajectory, energy_drift};
+use shadowstep::shadow::run::{ShadowRun, States, Trajectory, energy_drift};
 use shadowstep::shadow::{Bilinear, ShadowEnergy, Verdict};
-use shadowstep::summation::RangeError;
+use shadowstep::systems::kinetic::Quadratic;
+use shadowstep::systems::linear_part::LinearPart;
+use shadowstep::systems::many_parts::{SystemOfParts, parts};
+use shadowstep::systems::summation::RangeError;
 use shadowstep::{
     Carried, Integrator as _, Motion, Rational, Real, Remainders, Scheme, Stepper, System, UnitMasses, ValidFor, exact,
     tables,

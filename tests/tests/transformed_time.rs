@@ -4,13 +4,14 @@
 //! Yardsticks: the ellipse and the period of Kepler's orbits; the extrapolation of leapfrog steps of H′ with derivatives written here.
 
 use rug::Float;
-use shadowstep::kinetic::General;
 use shadowstep::number::{Limbs, Number, Real};
 use shadowstep::problems::{Kepler, problem};
-use shadowstep::run::energy_drift;
 use shadowstep::shadow::Bilinear;
+use shadowstep::shadow::run::energy_drift;
+use shadowstep::steps::step_to_time;
+use shadowstep::systems::kinetic::General;
+use shadowstep::systems::transformed_time::{TimeTransformation, TransformedKinetic, TransformedPotential};
 use shadowstep::tables::{Source, TableScheme};
-use shadowstep::transformed_time::{TimeTransformation, TransformedKinetic, TransformedPotential, step_to_time};
 use shadowstep::{DiagonalMasses, Integrator as _, Motion, Potential, Rational, Stepper, System, UnitMasses};
 use shadowstep_scenes::Scene;
 use shadowstep_schemes::First;

@@ -4,12 +4,12 @@
 //! energies of both.
 
 use rug::Float;
-use shadowstep::kinetic::General;
 use shadowstep::number::{Limbs, Number, Precision, Real};
-use shadowstep::run::energy_drift;
+use shadowstep::shadow::run::energy_drift;
 use shadowstep::shadow::{Bilinear, ShadowEnergy};
+use shadowstep::systems::kinetic::General;
+use shadowstep::systems::wisdom_holman::{Bodies, DemocraticHeliocentric, Jacobi, PlanetaryCoordinates, WisdomHolman};
 use shadowstep::tables::{self, TableScheme};
-use shadowstep::wisdom_holman::{Bodies, DemocraticHeliocentric, Jacobi, PlanetaryCoordinates, WisdomHolman};
 use shadowstep::{Rational, Scheme, Stepper, System, ValidFor};
 use shadowstep_schemes::{First, shipped_names, shipped_proved};
 use shadowstep_tests::reference::Separable;

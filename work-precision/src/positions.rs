@@ -1,6 +1,6 @@
 //! Positions at the times at which errors are taken: the ends of equal parts of a run.
 
-use shadowstep::integrator::{VectorIntegrator, at_output};
+use shadowstep::steps::integrator::{VectorIntegrator, at_output};
 use shadowstep::{Carried, Integrator as _, Real};
 
 /// The positions of a run at its samples; fewer where they are not finite.

@@ -5,9 +5,9 @@ use std::time::Duration;
 
 use num_traits::ToPrimitive;
 use serde::{Deserialize, Serialize};
-use shadowstep::exact_flow::ExactFlow;
 use shadowstep::problems::Setup;
-use shadowstep::run::States;
+use shadowstep::shadow::exact_flow::ExactFlow;
+use shadowstep::shadow::run::States;
 use shadowstep::{Real, StepSize};
 use shadowstep_scenes::Error;
 use shadowstep_scenes::arithmetic::Arithmetic;

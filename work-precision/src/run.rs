@@ -2,8 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 use shadowstep::Real;
-use shadowstep::integrator::{VectorIntegrator, at_output};
 use shadowstep::shadow::Verdict;
+use shadowstep::steps::integrator::{VectorIntegrator, at_output};
 use shadowstep_scenes::computation::RunNumber;
 
 use crate::reference::Reference;

@@ -6,7 +6,7 @@ use std::time::Duration;
 use num_traits::ToPrimitive;
 use serde::{Deserialize, Serialize};
 use shadowstep::Scheme;
-use shadowstep::scheme::MapKind;
+use shadowstep::steps::scheme::MapKind;
 use shadowstep_analysis::stability::Stability;
 use shadowstep_scenes::Error;
 use shadowstep_scenes::computation::{Computation, RunNumber};

@@ -1,7 +1,7 @@
 //! The results of `drift` as a table of at most 80 columns, with the verdicts under it.
 
 use num_traits::Zero;
-use shadowstep::run::Finding;
+use shadowstep::shadow::run::Finding;
 use shadowstep_scenes::Summary;
 use shadowstep_scenes::drift::{NOT_SEEN, Permanent, Record};
 use shadowstep_scenes::readable::{shortened, wrapped_to};

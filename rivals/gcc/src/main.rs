@@ -7,11 +7,11 @@ mod timing;
 
 use std::hint::black_box;
 
-use shadowstep::kinetic::Quadratic;
+use shadowstep::systems::kinetic::Quadratic;
 use shadowstep::number::{Fused, Number, Real};
-use shadowstep::pairs::Pairs;
+use shadowstep::systems::pairs::Pairs;
 use shadowstep::problems::{Gravity, HenonHeiles, Kepler, Pendulum};
-use shadowstep::scheme::MapKind;
+use shadowstep::steps::scheme::MapKind;
 use shadowstep::{
     DiagonalMasses, Kinetic, Motion, Potential, Scheme, Stepper, System, UnitMasses, ValidFor, exact, splitting_scheme,
 };

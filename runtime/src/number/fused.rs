@@ -6,7 +6,7 @@ use std::ops::{Deref, DerefMut};
 use super::double::scaled;
 use super::{Number, Real};
 use crate::Rational;
-use crate::instructions;
+use crate::number::instructions;
 
 /// An `f64` whose sums with a product, such as [`add_product`](Number::add_product), round once, as [`f64::mul_add`] does.
 ///
@@ -215,9 +215,9 @@ impl Real for Fused {
 mod tests {
     use super::super::tests::{functions, operations, products};
     use super::*;
-    use crate::instructions::Instructions;
-    use crate::problems::HenonHeiles;
-    use crate::tables::shipped;
+    use crate::number::instructions::Instructions;
+    use crate::steps::tables::shipped;
+    use crate::systems::problems::HenonHeiles;
     use crate::{Motion, Stepper, UnitMasses};
 
     #[test]

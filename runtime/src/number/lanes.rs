@@ -4,7 +4,7 @@ mod functions;
 
 use super::Number;
 use super::double::scaled;
-use crate::{Rational, instructions};
+use crate::{Rational, number::instructions};
 use functions::{cos_each, exp_each, log_each, sin_cos_each, sin_each};
 use std::array::from_fn;
 use std::ops::{Deref, DerefMut};
@@ -12,7 +12,7 @@ use std::ops::{Deref, DerefMut};
 /// W numbers of a kind, `f64`, on which every operation works at once: W trajectories of one system, one a lane.
 ///
 /// Steps, potentials, kinetic energies, sums and the estimators of a fixed order work on lanes as on any [`Number`]. The
-/// compiler makes vector operations of them, the widest that a function may use: see [`instructions`](crate::instructions).
+/// compiler makes vector operations of them, the widest that a function may use: see [`instructions`](crate::number::instructions).
 ///
 /// **Bits.** A lane has the bits that `f64` has in its place, for arithmetic and roots and for tan, sinh, cosh, tanh, arctan, arcsin and arccos, which are the
 /// platform's. exp, log, sin and cos are functions of vectors of this crate: they have the same bits on every processor, but not always the bits of
@@ -266,7 +266,7 @@ impl<const W: usize> Number for Lanes<W> {
 mod tests {
     use super::super::tests::{functions, operations, products};
     use super::*;
-    use crate::instructions::Instructions;
+    use crate::number::instructions::Instructions;
     use proptest::prelude::*;
 
     /// The bits, of which a NaN has one kind only.

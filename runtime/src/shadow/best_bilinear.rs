@@ -3,10 +3,10 @@
 use std::cmp::max;
 
 use crate::Rational;
-use crate::increments::Increments;
 use crate::number::Real;
 use crate::shadow::estimator::{Estimate, Estimator};
 use crate::shadow::form::{Form, Products};
+use crate::systems::increments::Increments;
 
 /// E_k with the best k of each state.
 #[derive(Clone, Debug)]

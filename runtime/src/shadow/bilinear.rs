@@ -6,7 +6,6 @@ use num_traits::Signed;
 use shadowstep_symbolic::decimal::to_significant;
 
 use crate::Rational;
-use crate::increments::Increments;
 use crate::number::{Number, Real};
 use crate::shadow::best_bilinear::BestOrder;
 use crate::shadow::estimator::{BuildEstimator, Estimate, Estimator, EstimatorError};
@@ -14,7 +13,8 @@ use crate::shadow::family::Family;
 use crate::shadow::form::{Form, Products};
 use crate::shadow::lagged::LaggedEstimator;
 use crate::shadow::options::EstimatorOptions;
-use crate::step_size::StepSize;
+use crate::steps::step_size::StepSize;
+use crate::systems::increments::Increments;
 
 /// The bilinear estimator E_k of order 2k from the newest k + 1 states, 1 ≤ k ≤ 256.
 ///
@@ -28,7 +28,7 @@ use crate::step_size::StepSize;
 /// see [Errors](crate::shadow#errors). For k = 1 there is no E_{k−1}, and no estimate.
 ///
 /// ```
-/// use shadowstep::{Motion, Stepper, UnitMasses, problems::Kepler, run::energy_drift, shadow::Bilinear, tables::shipped};
+/// use shadowstep::{Motion, Stepper, UnitMasses, problems::Kepler, shadow::run::energy_drift, shadow::Bilinear, tables::shipped};
 ///
 /// let start = Motion::new(Kepler, UnitMasses, [0.4, 0.0], [0.0, 2.0])?; // eccentricity 0.6
 /// let verlet = Stepper::new(shipped("stormer-verlet").unwrap(), "1/40")?;
@@ -56,7 +56,7 @@ use crate::step_size::StepSize;
 /// K = 64 takes some 2 900 products of numbers a state, a fourth of what 128 takes.
 ///
 /// ```
-/// use shadowstep::{Motion, Stepper, UnitMasses, exact, problems::Kepler, run::ShadowRun, tables::shipped};
+/// use shadowstep::{Motion, Stepper, UnitMasses, exact, problems::Kepler, shadow::run::ShadowRun, tables::shipped};
 /// use shadowstep::shadow::Bilinear;
 ///
 /// let start = Motion::new(Kepler, UnitMasses, [0.4, 0.0], [0.0, 2.0])?; // eccentricity 0.6

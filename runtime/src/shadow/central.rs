@@ -3,7 +3,6 @@
 use num_traits::Zero;
 
 use crate::Rational;
-use crate::increments::Increments;
 use crate::number::{Number, Real};
 use crate::shadow::differences::AllOrders;
 use crate::shadow::differences::{SelectionRule, StoppingRule};
@@ -13,7 +12,8 @@ use crate::shadow::family::Family;
 use crate::shadow::options::{EstimatorOptions, HIGHEST_ORDER};
 use crate::shadow::weights::central;
 use crate::shadow::window::Window;
-use crate::step_size::StepSize;
+use crate::steps::step_size::StepSize;
+use crate::systems::increments::Increments;
 
 /// Central differences (Moan & Niesen): T_{m,m} = ½(−qᵀD_m p + pᵀD_m q − D_m β).
 ///
@@ -22,7 +22,7 @@ use crate::step_size::StepSize;
 /// [Errors](crate::shadow#errors). For m = 1 there is no term before the last, and no estimate.
 ///
 /// ```
-/// use shadowstep::{Motion, Stepper, UnitMasses, problems::Kepler, run::ShadowRun, tables::shipped};
+/// use shadowstep::{Motion, Stepper, UnitMasses, problems::Kepler, shadow::run::ShadowRun, tables::shipped};
 /// use shadowstep::shadow::{Central, SelectionRule, StoppingRule};
 ///
 /// let start = Motion::new(Kepler, UnitMasses, [0.4, 0.0], [0.0, 2.0])?; // eccentricity 0.6

@@ -1,7 +1,7 @@
 //! The table of backward differences, by the operations of the numbers.
 
-use crate::increments::Increments;
 use crate::number::Number;
+use crate::systems::increments::Increments;
 
 /// ∇^r of (q, p, β) at the newest state, r = 0..2M−1, and at the one before.
 #[derive(Clone, Debug)]

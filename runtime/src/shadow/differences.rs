@@ -6,13 +6,13 @@
 //! has not ended before.
 
 use crate::Rational;
-use crate::increments::Increments;
 use crate::number::Real;
 use crate::shadow::difference_table::DifferenceTable;
 use crate::shadow::error_estimate::{ErrorEstimate, Point};
 use crate::shadow::estimator::{Estimate, Estimator};
 use crate::shadow::fixed::FixedTable;
 use crate::shadow::weights::stirling;
+use crate::systems::increments::Increments;
 
 /// Where the search for the best m ends.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -2,9 +2,9 @@
 
 use thiserror::Error;
 
-use crate::increments::Increments;
 use crate::number::Number;
-use crate::step_size::StepSize;
+use crate::steps::step_size::StepSize;
+use crate::systems::increments::Increments;
 
 /// Settings of an estimator, from which it is built for a step size, a dimension and a number type.
 pub trait BuildEstimator<N: Number> {

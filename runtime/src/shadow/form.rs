@@ -3,13 +3,13 @@
 use num_bigint::BigInt;
 
 use crate::Rational;
-use crate::increments::Increments;
 use crate::number::{LimbAccess, Number};
 use crate::shadow::error_estimate::{ErrorEstimate, Point, around};
 use crate::shadow::estimator::Estimate;
 use crate::shadow::fixed::{IntegerWeights, OfLag, Rows, Sums};
 use crate::shadow::weights::BilinearWeights;
 use crate::shadow::window::Window;
+use crate::systems::increments::Increments;
 
 /// The newest states, and the products of each with the states before it.
 #[derive(Clone, Debug)]

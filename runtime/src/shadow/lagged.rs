@@ -12,11 +12,11 @@ mod long;
 mod products;
 
 use crate::Rational;
-use crate::increments::Increments;
-use crate::instructions::copy;
 use crate::number::Number;
+use crate::number::instructions::copy;
 use crate::shadow::error_estimate::{ErrorEstimate, Point, around};
 use crate::shadow::estimator::Estimate;
+use crate::systems::increments::Increments;
 use form::LaggedForm;
 use products::LaggedProducts;
 
@@ -156,11 +156,11 @@ impl<N: Number> LaggedEstimator<N> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::increments::OwnedIncrements;
     use crate::number::Limbs;
     use crate::shadow::form::{Form, Products};
     use crate::shadow::weights::bilinear;
-    use crate::{Stepper, exact, problems, tables::shipped};
+    use crate::systems::increments::OwnedIncrements;
+    use crate::{Stepper, exact, steps::tables::shipped, systems::problems};
 
     /// Numbers between −1/2 and 1/2 that look random.
     fn noise(seed: u64) -> impl FnMut() -> f64 {

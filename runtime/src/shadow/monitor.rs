@@ -47,13 +47,13 @@ use self::rate::RateCheck;
 use self::recent::Recent;
 use self::schedule::Schedule;
 use self::statistics::Statistics;
-use crate::increments::{Carried, Increments};
-use crate::integrator::Integrator;
 use crate::number::Real;
-use crate::run::{Quantity, RunError, TrajectoryState, check_energy, check_value};
 use crate::shadow::estimator::{BuildEstimator, Estimator};
-use crate::step_size::StepSize;
-use crate::system::System;
+use crate::shadow::run::{Quantity, RunError, TrajectoryState, check_energy, check_value};
+use crate::steps::integrator::Integrator;
+use crate::steps::step_size::StepSize;
+use crate::systems::increments::{Carried, Increments};
+use crate::systems::system::System;
 
 /// Follows the modified energy H̄ of the states that an [integrator](crate::Integrator) makes: [`ShadowEnergy`] without a stepper.
 ///

@@ -8,7 +8,7 @@ use crate::shadow::central::Central;
 use crate::shadow::estimator::{BuildEstimator, Estimator, EstimatorError};
 use crate::shadow::family::Family;
 use crate::shadow::options::{EstimatorOptions, OptionConflict};
-use crate::step_size::StepSize;
+use crate::steps::step_size::StepSize;
 
 /// Defines [`EstimatorSettings`] with one variant for each family of estimators.
 macro_rules! estimators {

@@ -1,7 +1,7 @@
 //! The newest states of a trajectory, and the products of the newest one with those before it.
 
-use crate::increments::{Increments, OwnedIncrements};
 use crate::number::Number;
+use crate::systems::increments::{Increments, OwnedIncrements};
 
 /// The newest states, as many as an estimator needs.
 #[derive(Clone, Debug)]

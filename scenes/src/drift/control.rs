@@ -9,10 +9,10 @@ use std::time::Duration;
 
 use shadowstep::Rational;
 use shadowstep::StepSize;
-use shadowstep::exact_flow::ExactFlow;
 use shadowstep::number::CorrectlyRounded;
 use shadowstep::problems::Setup;
-use shadowstep::run::States;
+use shadowstep::shadow::exact_flow::ExactFlow;
+use shadowstep::shadow::run::States;
 
 use super::follower::Follower;
 use super::measure::measure;

@@ -1,7 +1,7 @@
 //! The drift of one run.
 
 use shadowstep::StepSize;
-use shadowstep::run::{DriftRecorder, EnergyDrift};
+use shadowstep::shadow::run::{DriftRecorder, EnergyDrift};
 
 use crate::computation::RunNumber;
 use crate::error::Error;

@@ -2,7 +2,7 @@
 
 use serde::{Serialize, Serializer};
 use shadowstep::number::Real;
-use shadowstep::run::{EnergyDrift, Finding};
+use shadowstep::shadow::run::{EnergyDrift, Finding};
 
 use crate::arithmetic::DigitsLabel;
 use crate::summary::{EnergySummary, Summary};

@@ -4,9 +4,9 @@ use std::num::NonZero;
 use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
 use std::thread;
 
-use shadowstep::ensemble::Outcome;
-use shadowstep::integrator::{VectorIntegrator, at_output};
+use shadowstep::shadow::ensemble::Outcome;
 use shadowstep::shadow::{BuildEstimator, Estimator, FixedBilinear};
+use shadowstep::steps::integrator::{VectorIntegrator, at_output};
 use shadowstep::{Carried, Integrator as _, VectorState};
 
 use super::settings::Observed;

@@ -2,7 +2,7 @@
 
 use std::io::Write;
 
-use shadowstep::ensemble::Outcome;
+use shadowstep::shadow::ensemble::Outcome;
 use shadowstep_symbolic::decimal::to_text;
 
 use super::columns::Columns;

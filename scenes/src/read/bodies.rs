@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use shadowstep::Rational;
-use shadowstep::pairs::Separation;
+use shadowstep::systems::pairs::Separation;
 use shadowstep_symbolic::Exact;
 use toml::de::DeValue;
 

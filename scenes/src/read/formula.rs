@@ -1,6 +1,6 @@
 //! A custom potential, with its coordinates and momenta.
 
-use shadowstep::formula::FormulaPotential;
+use shadowstep::systems::formula::FormulaPotential;
 use shadowstep_symbolic::Exact;
 
 use super::given::Given;

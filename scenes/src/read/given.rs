@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use num_traits::One;
 use shadowstep::Rational;
-use shadowstep::pairs::Ends;
+use shadowstep::systems::pairs::Ends;
 use shadowstep_symbolic::Exact;
 use toml::de::DeValue;
 

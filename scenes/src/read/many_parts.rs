@@ -1,6 +1,6 @@
 //! `parts = ["…", "…", "…"]`: H as a sum of parts by their formulas.
 
-use shadowstep::many_parts::{PartError, PartFormula};
+use shadowstep::systems::many_parts::{PartError, PartFormula};
 use shadowstep_schemes::document::{Text, Value};
 use shadowstep_symbolic::Exact;
 

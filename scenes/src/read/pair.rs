@@ -1,6 +1,6 @@
 //! Bodies and the energy of each pair of them.
 
-use shadowstep::pairs::{Ends, Separation};
+use shadowstep::systems::pairs::{Ends, Separation};
 use shadowstep_symbolic::{Exact, Expression, ExpressionKind, is_symmetric, parse};
 
 use super::bodies::{Bodies, refuse_reserved};

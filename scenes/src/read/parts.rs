@@ -1,6 +1,6 @@
 //! How H is split: the words of the key `parts`, one for each kind of split that needs no more than its name.
 
-use shadowstep::wisdom_holman::Bodies;
+use shadowstep::systems::wisdom_holman::Bodies;
 use shadowstep_schemes::document::{Section, Value};
 use toml::de::DeValue;
 

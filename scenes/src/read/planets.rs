@@ -4,8 +4,8 @@ use std::ops::Range;
 
 use num_traits::{One, Zero};
 use shadowstep::Rational;
-use shadowstep::pairs::Separation;
-use shadowstep::wisdom_holman::Bodies;
+use shadowstep::systems::pairs::Separation;
+use shadowstep::systems::wisdom_holman::Bodies;
 use shadowstep_symbolic::Exact;
 use toml::de::{DeTable, DeValue};
 

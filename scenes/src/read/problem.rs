@@ -1,6 +1,6 @@
 //! [problem]: the system, given in one of five ways, each with its file.
 
-use shadowstep::pairs::Separation;
+use shadowstep::systems::pairs::Separation;
 
 use super::given::Given;
 use super::pair::PairFormula;

@@ -1,7 +1,7 @@
 //! A shipped problem, with its own or other parameters and initial state.
 
 use shadowstep::problems::{self, ProblemError, Setup};
-use shadowstep::wisdom_holman::Bodies;
+use shadowstep::systems::wisdom_holman::Bodies;
 use shadowstep_symbolic::{evaluate, nearest, parse};
 
 use super::given::Given;

@@ -1,6 +1,6 @@
 //! [time]: how the fictitious time of the steps runs.
 
-use shadowstep::transformed_time::TimeTransformation;
+use shadowstep::systems::transformed_time::TimeTransformation;
 use toml::de::DeTable;
 
 use super::reader::Reader;

@@ -5,7 +5,7 @@ use std::path::Path;
 use serde::{Serialize, Serializer};
 use serde_json::{Value, json};
 use sha2::{Digest, Sha256};
-use shadowstep::pairs::Ends;
+use shadowstep::systems::pairs::Ends;
 use shadowstep_schemes::Source;
 use shadowstep_schemes::table::{Table, Weights};
 use shadowstep_symbolic::Exact;

@@ -3,9 +3,9 @@
 use std::fmt;
 
 use shadowstep::Rational;
-use shadowstep::formula::{FormulaError, FormulaKinetic, FormulaPair, FormulaPotential};
-use shadowstep::many_parts::{PartError, PartFormula};
-use shadowstep::pairs::Separation;
+use shadowstep::systems::formula::{FormulaError, FormulaKinetic, FormulaPair, FormulaPotential};
+use shadowstep::systems::many_parts::{PartError, PartFormula};
+use shadowstep::systems::pairs::Separation;
 use shadowstep_symbolic::Exact;
 
 use crate::scene::parameters::{borrowed, rounded};

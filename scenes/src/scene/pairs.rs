@@ -1,7 +1,7 @@
 //! The energy of pairs of bodies by its formula.
 
-use shadowstep::formula::FormulaPair;
-use shadowstep::pairs::{Ends, Pairs};
+use shadowstep::systems::formula::FormulaPair;
+use shadowstep::systems::pairs::{Ends, Pairs};
 use shadowstep::{Number, Potential};
 use shadowstep_symbolic::Exact;
 

@@ -1,8 +1,8 @@
 //! What moves: a shipped problem or a formula's potential, its kinetic energy and its state at t = 0.
 
-use shadowstep::formula::{FormulaKinetic, FormulaPotential};
-use shadowstep::kinetic::{General, Quadratic};
 use shadowstep::problems::Setup;
+use shadowstep::systems::formula::{FormulaKinetic, FormulaPotential};
+use shadowstep::systems::kinetic::{General, Quadratic};
 use shadowstep::{DiagonalMasses, Kinetic, Motion, Number, Potential, Rational, UnitMasses};
 use shadowstep_symbolic::Exact;
 use shadowstep_symbolic::decimal::to_text;

@@ -5,7 +5,7 @@ use std::ops::Deref;
 use num_traits::Zero;
 use serde_json::Value;
 use shadowstep::problems::Setup;
-use shadowstep::transformed_time::TimeTransformation;
+use shadowstep::systems::transformed_time::TimeTransformation;
 use shadowstep_symbolic::Exact;
 
 use crate::error::Error;

@@ -1,8 +1,8 @@
 //! H as a sum of parts by their formulas.
 
 use serde_json::{Value, json};
-use shadowstep::many_parts::{Part, PartFormula, SystemOfParts};
 use shadowstep::number::CorrectlyRounded;
+use shadowstep::systems::many_parts::{Part, PartFormula, SystemOfParts};
 use shadowstep::{MotionError, System as _};
 
 use super::{Class, Needs, Split, State};

@@ -2,8 +2,8 @@
 
 use num_traits::Signed;
 use serde_json::{Value, json};
-use shadowstep::linear_part::LinearPart;
 use shadowstep::number::{AnyLimbs, CorrectlyRounded, LimbCount};
+use shadowstep::systems::linear_part::LinearPart;
 use shadowstep::{MotionError, Number, Potential, Rational, exact};
 use shadowstep_symbolic::decimal::from_text;
 

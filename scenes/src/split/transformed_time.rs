@@ -2,7 +2,7 @@
 
 use serde_json::{Value, json};
 use shadowstep::number::CorrectlyRounded;
-use shadowstep::transformed_time::{TimeTransformation, TransformedKinetic, TransformedPotential};
+use shadowstep::systems::transformed_time::{TimeTransformation, TransformedKinetic, TransformedPotential};
 use shadowstep::{Kinetic, Motion, MotionError, Number, Potential, Real};
 
 use super::{Class, Needs, ShownCoordinates, Split, State};

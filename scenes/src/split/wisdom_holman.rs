@@ -2,7 +2,7 @@
 
 use serde_json::{Value, json};
 use shadowstep::number::CorrectlyRounded;
-use shadowstep::wisdom_holman::{Bodies, DemocraticHeliocentric, Jacobi, PlanetaryCoordinates, WisdomHolman};
+use shadowstep::systems::wisdom_holman::{Bodies, DemocraticHeliocentric, Jacobi, PlanetaryCoordinates, WisdomHolman};
 use shadowstep::{MotionError, Number, Scheme, System as _, ValidFor};
 
 use super::{Class, Needs, ShownCoordinates, Split, State};

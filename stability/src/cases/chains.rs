@@ -3,8 +3,8 @@
 use std::time::Instant;
 
 use serde::{Deserialize, Serialize};
-use shadowstep::pairs::{Ends, Pairs};
 use shadowstep::problems::CubicSpring;
+use shadowstep::systems::pairs::{Ends, Pairs};
 use shadowstep::{Motion, Potential, Rational, Scheme, Stepper, UnitMasses};
 use shadowstep_scenes::Error;
 use shadowstep_scenes::computation::RunNumber;

@@ -1,7 +1,7 @@
 //! Rotated, translated and moving frames, other units, masses over twelve orders.
 
 use serde::{Deserialize, Serialize};
-use shadowstep::formula::FormulaPotential;
+use shadowstep::systems::formula::FormulaPotential;
 use shadowstep::{DiagonalMasses, Motion, Rational, Scheme, Stepper};
 use shadowstep_scenes::Error;
 use shadowstep_scenes::computation::RunNumber;

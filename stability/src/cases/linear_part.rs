@@ -4,9 +4,9 @@ use std::f64::consts::{PI, TAU};
 
 use num_traits::FromPrimitive;
 use serde::{Deserialize, Serialize};
-use shadowstep::formula::FormulaPotential;
-use shadowstep::linear_part::LinearPart;
 use shadowstep::number::CorrectlyRounded;
+use shadowstep::systems::formula::FormulaPotential;
+use shadowstep::systems::linear_part::LinearPart;
 use shadowstep::tables::TableScheme;
 use shadowstep::{Number, Rational, Stepper};
 use shadowstep_scenes::Error;

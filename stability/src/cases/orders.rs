@@ -1,11 +1,11 @@
 //! The proved orders, seen in the errors of nonlinear problems at 100 digits.
 
 use serde::{Deserialize, Serialize};
-use shadowstep::formula::FormulaPotential;
-use shadowstep::kepler_drift::KeplerDrift;
-use shadowstep::many_parts::{SystemOfParts, parts};
 use shadowstep::number::CorrectlyRounded;
 use shadowstep::problems::Kepler;
+use shadowstep::systems::formula::FormulaPotential;
+use shadowstep::systems::kepler_drift::KeplerDrift;
+use shadowstep::systems::many_parts::{SystemOfParts, parts};
 use shadowstep::tables::TableScheme;
 use shadowstep::{Motion, Rational, Stepper, System, UnitMasses, exact};
 use shadowstep_scenes::Error;

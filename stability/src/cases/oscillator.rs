@@ -2,9 +2,9 @@
 
 use num_traits::{One, Zero};
 use serde::{Deserialize, Serialize};
-use shadowstep::kinetic::Quadratic;
 use shadowstep::number::CorrectlyRounded;
 use shadowstep::problems::HarmonicOscillator;
+use shadowstep::systems::kinetic::Quadratic;
 use shadowstep::tables::TableScheme;
 use shadowstep::{Motion, Number, Rational, Stepper, System, UnitMasses, exact};
 use shadowstep_analysis::stability::Stability;

@@ -1,10 +1,10 @@
 //! Runs of processed schemes that are read at every step.
 
 use serde::{Deserialize, Serialize};
-use shadowstep::kinetic::Quadratic;
 use shadowstep::problems::Kepler;
+use shadowstep::systems::kinetic::Quadratic;
+use shadowstep::systems::wisdom_holman::{Jacobi, WisdomHolman};
 use shadowstep::tables::TableScheme;
-use shadowstep::wisdom_holman::{Jacobi, WisdomHolman};
 use shadowstep::{Motion, Rational, Scheme, Stepper, System, UnitMasses};
 use shadowstep_scenes::Error;
 use shadowstep_scenes::computation::RunNumber;

@@ -4,8 +4,8 @@ use std::f64::consts::TAU;
 
 use num_traits::FromPrimitive;
 use serde::{Deserialize, Serialize};
-use shadowstep::formula::FormulaPotential;
 use shadowstep::shadow::{Bilinear, ShadowEnergy, Verdict as RunResult};
+use shadowstep::systems::formula::FormulaPotential;
 use shadowstep::{Motion, Rational, Scheme, Stepper, UnitMasses};
 use shadowstep_scenes::Error;
 use shadowstep_scenes::computation::RunNumber;

@@ -187,7 +187,7 @@ fn start(part: f64) -> ([f64; 2], [f64; 2]) {
 }
 
 /// The modified energy with the least estimated error of the next period, and that error.
-fn modified_energy<N: CorrectlyRounded, M: System<Number = N, Class = shadowstep::kinetic::Quadratic>>(
+fn modified_energy<N: CorrectlyRounded, M: System<Number = N, Class = shadowstep::systems::kinetic::Quadratic>>(
     stepper: &Stepper<TableScheme, N>,
     system: &mut M,
 ) -> (N, f64) {

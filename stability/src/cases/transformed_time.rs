@@ -5,12 +5,12 @@ use std::path::Path;
 
 use num_traits::FromPrimitive;
 use serde::{Deserialize, Serialize};
-use shadowstep::kinetic::General;
 use shadowstep::number::CorrectlyRounded;
 use shadowstep::problems::Kepler;
 use shadowstep::shadow::{Bilinear, ShadowEnergy, Verdict as RunResult};
+use shadowstep::systems::kinetic::General;
+use shadowstep::systems::transformed_time::{TimeTransformation, TransformedKinetic, TransformedPotential};
 use shadowstep::tables::{First, TableScheme};
-use shadowstep::transformed_time::{TimeTransformation, TransformedKinetic, TransformedPotential};
 use shadowstep::{Motion, Number, Rational, Stepper, UnitMasses};
 use shadowstep_scenes::Error;
 use shadowstep_scenes::computation::RunNumber;

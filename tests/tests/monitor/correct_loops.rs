@@ -1,7 +1,7 @@
 //! Loops that are correct, of motions whose H hardly varies beside H − H̄: circles, and short arcs.
 
 use super::*;
-use shadowstep::potential::from_fn;
+use shadowstep::systems::potential::from_fn;
 use shadowstep::{System, ValidFor};
 
 potential! { struct Space; U(x, y, z) = -1/sqrt(x^2 + y^2 + z^2) }

@@ -1,8 +1,8 @@
 //! Findings about forces: not smooth, not the gradient of the energy, a rate that is not qᵀU_q − 2U.
 
 use super::*;
-use shadowstep::potential::from_fn;
 use shadowstep::shadow::Rough;
+use shadowstep::systems::potential::from_fn;
 use shadowstep_tests::lennard_jones::{Cutoff, Fluid};
 
 /// 27 particles, 1200 steps, with a window in 20.

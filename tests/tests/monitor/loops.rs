@@ -1,6 +1,7 @@
 //! Loops whose steps are not made by the monitor's stepper.
 
 use super::*;
+use shadowstep::steps::MismatchError;
 
 /// Eccentricity 0.6.
 fn comet<N: Real>(context: &N::Context) -> Start<N, Kepler> {
@@ -147,8 +148,14 @@ fn other_systems_are_refused() {
     let stepper = stepper("stormer-verlet", "1/20", &precision(30));
     let settings = Bilinear::with_error(8);
     let mut precise = comet::<Float>(&precision(60));
-    assert_eq!(ShadowEnergy::new(stepper.clone(), &mut precise, &settings).map(drop), Err(RunError::Precision));
-    assert_eq!(ShadowRun::new(stepper.with(precise), 10, &settings).map(drop), Err(RunError::Precision));
+    assert_eq!(
+        ShadowEnergy::new(stepper.clone(), &mut precise, &settings).map(drop),
+        Err(RunError::Mismatch(MismatchError::Precision))
+    );
+    assert_eq!(
+        ShadowRun::new(stepper.with(precise), 10, &settings).map(drop),
+        Err(RunError::Mismatch(MismatchError::Precision))
+    );
     assert!(ShadowRun::new(stepper.with(comet::<Float>(&precision(30))), 10, &settings).is_ok());
 
     let stepper = shadowstep_tests::stepper("stormer-verlet", "1/20", &());

@@ -1,7 +1,7 @@
 //! What moves the energy of a fluid of 27 particles: faults that other programs have, each made here. It is found from all states, and from windows of
 //! nine with gaps between them.
 
-use shadowstep::recorded::{Cause, Derivatives, Diagnosis, Logged as State, Observer, Window};
+use shadowstep::shadow::recorded::{Cause, Derivatives, Diagnosis, Logged as State, Observer, Window};
 
 use super::*;
 

@@ -1,6 +1,6 @@
 //! Logs that cannot be used.
 
-use shadowstep::recorded::{RecordedError, Unwrapping, integer_momenta};
+use shadowstep::shadow::recorded::{RecordedError, Unwrapping, integer_momenta};
 
 use super::*;
 

@@ -1,7 +1,7 @@
 //! Values of H̄.
 
-use shadowstep::recorded::{Repeated, Unwrapping, integer_momenta, integer_momenta_with_gradients};
-use shadowstep::run::Trajectory;
+use shadowstep::shadow::recorded::{Repeated, Unwrapping, integer_momenta, integer_momenta_with_gradients};
+use shadowstep::shadow::run::Trajectory;
 
 use super::*;
 
@@ -35,7 +35,7 @@ fn of_our_own_trajectory_they_are_those_of_the_run() {
 #[test]
 fn of_an_oscillator_they_are_what_theory_says() {
     let (omega, mass) = (1.7_f64, 2.5_f64);
-    let spring = shadowstep::potential::from_fn(1, |q, gradient| {
+    let spring = shadowstep::systems::potential::from_fn(1, |q, gradient| {
         gradient[0] = mass * omega * omega * q[0];
         mass * omega * omega * q[0] * q[0] / 2.0
     });

@@ -9,10 +9,11 @@ use cpu_time::ThreadTime;
 use num_traits::ToPrimitive as _;
 use shadowstep::number::{Limbs, Number, Real};
 use shadowstep::problems::{Kepler, problem};
-use shadowstep::transformed_time::{TimeTransformation, TransformedKinetic, TransformedPotential, step_to_time};
+use shadowstep::steps::step_to_time;
+use shadowstep::systems::transformed_time::{TimeTransformation, TransformedKinetic, TransformedPotential};
 use shadowstep::{
     Coordinates, DiagonalMasses, Kinetic, Motion, Potential, Rational, Scheme, Stepper, System, ValidFor, exact,
-    kinetic::General, pairs::Pairs, potential,
+    systems::kinetic::General, systems::pairs::Pairs, potential,
 };
 
 potential! {

@@ -1,14 +1,15 @@
 //! The integrations that are measured: generated steps of a generated potential.
 
 use shadowstep::number::{Float, Fused, Lanes, Number, Real, Precision};
-use shadowstep::pairs::{Ends, Pairs};
+use shadowstep::systems::pairs::{Ends, Pairs};
 use shadowstep::problems::{CubicSpring, Gravity, HenonHeiles, Kepler, LennardJones};
-use shadowstep::transformed_time::{TimeTransformation, TransformedKinetic, TransformedPotential, step_to_time};
-use shadowstep::wisdom_holman::{Bodies, Jacobi, WisdomHolman};
+use shadowstep::steps::step_to_time;
+use shadowstep::systems::transformed_time::{TimeTransformation, TransformedKinetic, TransformedPotential};
+use shadowstep::systems::wisdom_holman::{Bodies, Jacobi, WisdomHolman};
 use shadowstep::{
     DiagonalMasses, Integrator as _, Kinetic, Motion, Potential, Rational, Scheme, Stepper, System, UnitMasses,
     ValidFor, exact,
-    kinetic::{General, Quadratic},
+    systems::kinetic::{General, Quadratic},
 };
 
 use crate::initial::Initial;

@@ -1,9 +1,9 @@
 //! Reference solutions at 40 digits.
 
-use shadowstep::exact_flow::{ExactFlow, has_exact_flow};
+use shadowstep::shadow::exact_flow::{ExactFlow, has_exact_flow};
 use shadowstep::number::{Float, Real, Precision};
-use shadowstep::run::States as _;
-use shadowstep::step_size::StepSize;
+use shadowstep::shadow::run::States as _;
+use shadowstep::steps::step_size::StepSize;
 use shadowstep::{Stepper, tables};
 
 use crate::integrate::step_size;

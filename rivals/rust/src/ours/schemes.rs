@@ -1,6 +1,6 @@
 //! The schemes that take part, compiled from their tables.
 
-use shadowstep::kinetic::{General, Quadratic};
+use shadowstep::systems::kinetic::{General, Quadratic};
 use shadowstep::{Scheme, ValidFor};
 
 /// What is done with a scheme once its type is known.

@@ -4,8 +4,8 @@ use std::array::from_fn;
 
 use super::machine::Machine;
 use super::product::from_halves;
-use crate::instructions;
 use crate::number::Lanes;
+use crate::number::instructions;
 
 /// Operations on each lane.
 macro_rules! operators {

@@ -17,7 +17,7 @@ use super::super::tests::{functions, operations, products};
 use super::DoubleDouble;
 use super::nearest::nearest;
 use crate::Rational;
-use crate::instructions::Instructions;
+use crate::number::instructions::Instructions;
 use crate::number::{Lanes, Number, Real};
 
 fn rational(text: &str) -> Rational {

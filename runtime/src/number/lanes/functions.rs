@@ -4,7 +4,7 @@
 //! freely granted, provided that this notice is preserved), with every case of an argument computed and the right one selected. No operation
 //! is fused: the bits are the same on all processors.
 
-use crate::instructions;
+use crate::number::instructions;
 
 /// x + 2⁵²·1.5 has the integer that is nearest to x in its last bits.
 const ROUNDS: f64 = 1.5 / f64::EPSILON;
@@ -235,7 +235,7 @@ fn cos_of_reduced([r, rest]: [f64; 2]) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::instructions::Instructions;
+    use crate::number::instructions::Instructions;
 
     /// Numbers that look random: the same in every run.
     struct Random(u64);

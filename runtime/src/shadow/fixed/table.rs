@@ -9,8 +9,8 @@
 use super::{
     MOST_OF_ROW, NOT_FINITE, Offset, ZERO, by_limbs, move_row, moved, read_number, sign, write_magnitude, write_number,
 };
-use crate::increments::Increments;
 use crate::number::{LimbAccess, Number, Parts};
+use crate::systems::increments::Increments;
 
 /// The offset of q and p, which are about 1 in most units; and the offset of their products and of β.
 const OFFSET: Offset = 16;

@@ -1,7 +1,7 @@
 //! The products of a long state with what the newest steps added: sums over coordinates in vectors of the processor.
 
-use crate::instructions;
 use crate::number::Number;
+use crate::number::instructions;
 
 /// Coordinates are added up in this number of sums that do not wait for one another, on all machines.
 const LANES: usize = 8;

@@ -1,7 +1,7 @@
 //! The coordinate that turns fastest, each by itself, however little of the energy it has.
 
 use super::turning::{STATES, Sums, Turning, assign_second_difference, turning};
-use crate::instructions;
+use crate::number::instructions;
 use crate::number::{Real, epsilon};
 
 /// This number of coordinates of a long state is computed at once.

@@ -1,7 +1,7 @@
 //! Whether the rate is qᵀU_q − 2U: H from the gradient and the rate against H itself.
 
 use crate::number::{Real, epsilon};
-use crate::system::System;
+use crate::systems::system::System;
 
 /// Both are rounded; a difference of this number of last places of |H| + T is not round-off.
 const LARGEST_ROUNDING: i32 = 1_000_000_000;

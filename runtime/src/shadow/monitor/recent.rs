@@ -7,13 +7,13 @@ use super::roughness::{Rough, Roughness};
 use super::schedule::Schedule;
 use super::turning::{STATES, Sums, Turning, assign_second_difference, turning};
 use crate::Rational;
-use crate::instructions::{self, copy};
+use crate::number::instructions::{self, copy};
+use crate::number::partial_sums::PartialSums;
 use crate::number::{Real, epsilon};
-use crate::partial_sums::PartialSums;
 use crate::shadow::estimator::EstimatorError;
 use crate::shadow::expected_round_off::{add_squares_of_increments, kick_factor};
-use crate::step_size::StepSize;
-use crate::system::System;
+use crate::steps::step_size::StepSize;
+use crate::systems::system::System;
 
 /// The states that are kept, with second differences.
 const KEPT: usize = 3;
@@ -358,9 +358,9 @@ fn differ<N: Real>(
 #[cfg(test)]
 mod tests {
     use super::ALL_WINDOWS;
-    use crate::problems::Kepler;
     use crate::shadow::{Bilinear, BilinearEstimator, ShadowEnergy};
-    use crate::tables::{TableScheme, shipped};
+    use crate::steps::tables::{TableScheme, shipped};
+    use crate::systems::problems::Kepler;
     use crate::{Motion, Stepper, UnitMasses};
 
     type Monitor = ShadowEnergy<TableScheme, f64, BilinearEstimator<f64>>;

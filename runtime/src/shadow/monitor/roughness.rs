@@ -5,11 +5,11 @@
 //! second one of them, as if the step were 2h.
 
 use super::arithmetic::{integer, quotient, root};
-use crate::increments::{Increments, OwnedIncrements};
 use crate::number::Real;
 use crate::shadow::bilinear::{Bilinear, BilinearEstimator};
 use crate::shadow::estimator::{BuildEstimator, Estimator, EstimatorError};
-use crate::step_size::StepSize;
+use crate::steps::step_size::StepSize;
+use crate::systems::increments::{Increments, OwnedIncrements};
 
 /// The largest k; windows of 17 states and more have it.
 const LARGEST_K: usize = 8;
@@ -224,9 +224,9 @@ impl<N: Real> LastTerms<N> {
 
 #[cfg(test)]
 mod tests {
-    use crate::potential::from_fn;
     use crate::shadow::{Bilinear, Rough, ShadowEnergy};
-    use crate::{Motion, Stepper, UnitMasses, tables::shipped};
+    use crate::systems::potential::from_fn;
+    use crate::{Motion, Stepper, UnitMasses, steps::tables::shipped};
 
     /// An oscillator of frequency 1 with the energy c q^m in addition for q > 0.
     fn watch(m: i32, c: f64, scheme: &str, h: f64, k: u32) -> Option<Rough> {

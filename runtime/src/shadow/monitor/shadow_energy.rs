@@ -3,13 +3,13 @@
 use std::ops::Deref;
 
 use super::{Monitor, Sample};
-use crate::increments::Carried;
 use crate::number::Real;
-use crate::run::RunError;
-use crate::scheme::{Scheme, ValidFor};
 use crate::shadow::estimator::{BuildEstimator, Estimator};
-use crate::stepper::Stepper;
-use crate::system::System;
+use crate::shadow::run::RunError;
+use crate::steps::scheme::{Scheme, ValidFor};
+use crate::steps::stepper::Stepper;
+use crate::systems::increments::Carried;
+use crate::systems::system::System;
 
 /// Follows the modified energy H̄ of the trajectory that a loop computes.
 ///

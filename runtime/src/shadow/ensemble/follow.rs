@@ -1,0 +1,152 @@
+//! A few systems of lanes from their beginning to their end, and what is seen of each lane.
+
+use crate::number::{Lanes, Number};
+use crate::shadow::{BuildEstimator, Estimator, FixedBilinear};
+use crate::steps::scheme::{Scheme, ValidFor};
+use crate::steps::stepper::Stepper;
+use crate::systems::system::System;
+
+type EstimatorOf<const W: usize> = <FixedBilinear as BuildEstimator<Lanes<W>>>::Estimator;
+
+/// What became of a trajectory.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Outcome {
+    /// Positions at the end; for a processed scheme the trajectory's, not the kernel's, as in all results.
+    pub q: Vec<f64>,
+    /// Momenta at the end.
+    pub p: Vec<f64>,
+    /// The largest |H − H₀|/|H₀| that was seen, H₀ at the beginning: finite ones only.
+    pub energy_error: f64,
+    /// max − min of the modified energy; `None` where it was not asked for, or no k + 1 states were finite.
+    pub modified_drift: Option<f64>,
+    /// The first step after which the state or the energy was found to be infinite or NaN. Other trajectories do not notice.
+    pub not_finite: Option<u64>,
+}
+
+/// At most this number of steps is made at once, as the caller may want to end them.
+const AT_ONCE: u64 = 128;
+
+/// The outcomes of all lanes of the systems after `steps` steps, merged or not, whose energy is looked at every `every` steps; `None` where
+/// `continues` returns false.
+pub(super) fn follow<const W: usize, S, M>(
+    stepper: &Stepper<S, Lanes<W>>,
+    mut systems: Vec<M>,
+    (steps, every, merged): (u64, u64, bool),
+    estimator: Option<&EstimatorOf<W>>,
+    continues: impl Fn() -> bool,
+) -> Option<Vec<Outcome>>
+where
+    S: Scheme + ValidFor<M::Class>,
+    M: System<Number = Lanes<W>>,
+{
+    let mut seen: Vec<Seen<W>> = systems.iter_mut().map(Seen::new).collect();
+    systems.iter_mut().for_each(|system| stepper.preprocess(system));
+    let window = estimator.map_or(0, |estimator| estimator.states() as u64 - 1);
+    let mut n = 0;
+    // up to here each state goes to the estimator
+    let mut window_end = 0;
+    while n < steps {
+        if n % every == 0 {
+            if n >= window_end {
+                seen.iter_mut().zip(&systems).for_each(|(seen, system)| seen.begin_window(estimator, system));
+            }
+            window_end = n + window;
+        }
+        let next = steps.min(n - n % every + every);
+        if n < window_end {
+            stepper.step_each_augmented(&mut systems);
+            seen.iter_mut().zip(&systems).for_each(|(seen, system)| seen.push(system));
+            n += 1;
+        } else {
+            let count = (next - n).min(AT_ONCE);
+            match merged {
+                true => stepper.merged_steps(&mut systems, count),
+                false => stepper.steps(&mut systems, count),
+            }
+            n += count;
+        }
+        if n % AT_ONCE == 0 && !continues() {
+            return None;
+        }
+        if n == next {
+            for (seen, system) in seen.iter_mut().zip(&mut systems) {
+                stepper.at_output(system, |system| seen.look(system, n));
+            }
+        }
+    }
+    systems.iter_mut().for_each(|system| stepper.postprocess(system));
+    let outcomes = seen.iter().zip(&systems).flat_map(|(seen, system)| (0..W).map(|lane| seen.outcome(system, lane)));
+    Some(outcomes.collect())
+}
+
+/// What is seen of a system.
+struct Seen<const W: usize> {
+    initial: Lanes<W>,
+    largest_error: Lanes<W>,
+    not_finite: [Option<u64>; W],
+    estimator: Option<EstimatorOf<W>>,
+    /// The least and the largest modified energy; NaN before the first one.
+    modified: [Lanes<W>; 2],
+}
+
+impl<const W: usize> Seen<W> {
+    fn new<M: System<Number = Lanes<W>>>(system: &mut M) -> Self {
+        let mut seen = Seen {
+            initial: system.energy(),
+            largest_error: Lanes::all(0.0),
+            not_finite: [None; W],
+            estimator: None,
+            modified: [Lanes::all(f64::NAN); 2],
+        };
+        seen.look(system, 0);
+        seen
+    }
+
+    /// Looks at the state after n steps.
+    fn look<M: System<Number = Lanes<W>>>(&mut self, system: &mut M, n: u64) {
+        let energy = system.energy();
+        for (lane, not_finite) in self.not_finite.iter_mut().enumerate() {
+            let is_finite = |x: &Lanes<W>| x.0[lane].is_finite();
+            if not_finite.is_none() && !(is_finite(&energy) && system.q().iter().chain(system.p()).all(is_finite)) {
+                *not_finite = Some(n);
+            }
+        }
+        let mut error = energy;
+        error.subtract(&self.initial);
+        error.make_absolute();
+        for ((largest, error), not_finite) in self.largest_error.0.iter_mut().zip(error.0).zip(self.not_finite) {
+            *largest = if not_finite.is_none() { largest.max(error) } else { *largest };
+        }
+    }
+
+    /// A window of states for the modified energy begins at the present one.
+    fn begin_window<M: System<Number = Lanes<W>>>(&mut self, estimator: Option<&EstimatorOf<W>>, system: &M) {
+        self.estimator = estimator.cloned();
+        self.push(system);
+    }
+
+    fn push<M: System<Number = Lanes<W>>>(&mut self, system: &M) {
+        let Some(estimator) = &mut self.estimator else { return };
+        let Some(estimate) = estimator.push(system.q(), system.p(), system.state().increments()) else { return };
+        let [least, most] = &mut self.modified;
+        for ((least, most), value) in least.0.iter_mut().zip(&mut most.0).zip(estimate.value.0) {
+            if value.is_finite() {
+                // `min` and `max` ignore NaN
+                *least = least.min(value);
+                *most = most.max(value);
+            }
+        }
+    }
+
+    fn outcome<M: System<Number = Lanes<W>>>(&self, system: &M, lane: usize) -> Outcome {
+        let of_lane = |x: &[Lanes<W>]| x.iter().map(|x| x.0[lane]).collect();
+        let drift = self.modified[1].0[lane] - self.modified[0].0[lane];
+        Outcome {
+            q: of_lane(system.q()),
+            p: of_lane(system.p()),
+            energy_error: self.largest_error.0[lane] / self.initial.0[lane].abs(),
+            modified_drift: Some(drift).filter(|drift| drift.is_finite()),
+            not_finite: self.not_finite[lane],
+        }
+    }
+}

@@ -1,0 +1,166 @@
+//! The increments of velocity Verlet from one logged state to the next.
+
+use super::error::RecordedError;
+use super::log::{Derivatives, Logged};
+use super::misfit::{Differences, Misfit};
+use crate::number::Number;
+use crate::shadow::run::{RunError, TrajectoryState};
+use crate::steps::step_size::StepSize;
+use crate::systems::increments::{Increments, OwnedIncrements};
+
+/// What steps of velocity Verlet added to q, p and β, from logged states and gradients:
+///
+/// $$\Delta q = h M^{-1} \left( p_n - \tfrac h2 U_q(q_n) \right), \quad
+/// \Delta p = -\tfrac h2 \left( U_q(q_n) + U_q(q_{n+1}) \right), \quad
+/// \Delta\beta = \tfrac h2 \left( r_n + r_{n+1} \right), \quad r = q^{\mathsf T} U_q - 2U.$$
+///
+/// q is counted from the first state: a constant displacement of q is a canonical transformation, and changes H̄ by nothing but round-off. Where
+/// rates are logged and no gradients, Δq and Δp are differences of states, and q is as logged, as the rate belongs to it.
+#[derive(Clone, Debug)]
+pub(super) struct VerletSteps {
+    h: f64,
+    half: f64,
+    masses: Vec<f64>,
+    /// The q of the first state, where gradients are logged.
+    origin: Vec<f64>,
+    has_gradients: Option<bool>,
+    n: i64,
+    /// Whether the next state follows the newest by a step, and whether that followed the one before.
+    follows: [bool; 2],
+    q: Vec<f64>,
+    p: Vec<f64>,
+    gradient: Vec<f64>,
+    rate: f64,
+    increments: OwnedIncrements<f64>,
+    misfits: [Misfit; 2],
+}
+
+impl VerletSteps {
+    /// Steps of size h of coordinates with these masses.
+    ///
+    /// # Errors
+    /// A mass that is not positive and finite; no masses.
+    pub(super) fn new(h: &StepSize, masses: &[f64]) -> Result<Self, RecordedError> {
+        if masses.is_empty() {
+            return Err(RecordedError::NoCoordinates);
+        }
+        if let Some(coordinate) = masses.iter().position(|mass| !(mass.is_finite() && *mass > 0.0)) {
+            return Err(RecordedError::Mass { coordinate, mass: masses[coordinate] });
+        }
+        let dimension = masses.len();
+        let h = f64::from_rational(h.exact(), &());
+        let zeros = || vec![0.0; dimension];
+        Ok(VerletSteps {
+            h,
+            half: h / 2.0,
+            masses: masses.to_vec(),
+            origin: zeros(),
+            has_gradients: None,
+            n: -1,
+            follows: [false; 2],
+            q: zeros(),
+            p: zeros(),
+            gradient: zeros(),
+            rate: 0.0,
+            increments: OwnedIncrements::zero(dimension, &()),
+            misfits: [Misfit::new(dimension), Misfit::new(dimension)],
+        })
+    }
+
+    pub(super) fn h(&self) -> f64 {
+        self.h
+    }
+
+    /// The next state is the state n, which does not follow the newest by a step.
+    pub(super) fn begin(&mut self, n: i64) -> Result<(), RecordedError> {
+        if n <= self.n {
+            return Err(RecordedError::Backwards { n, newest: self.n });
+        }
+        self.n = n - 1;
+        self.follows[0] = false;
+        self.misfits.iter_mut().for_each(Misfit::begin);
+        Ok(())
+    }
+
+    /// Refuses a state that is not one of this log.
+    pub(super) fn check(&self, logged: &Logged<'_>) -> Result<(), RecordedError> {
+        let (n, dimension) = (self.n + 1, self.masses.len());
+        let (gradient, found) = match logged.derivatives {
+            Derivatives::Gradient(gradient) => (Some(gradient), "a gradient"),
+            Derivatives::Rate(_) => (None, "a rate"),
+        };
+        for (name, numbers) in [("q", Some(logged.q)), ("p", Some(logged.p)), ("the gradient", gradient)] {
+            if let Some(found) = numbers.map(<[f64]>::len).filter(|found| *found != dimension) {
+                return Err(RecordedError::Dimension { name, n, found, dimension });
+            }
+        }
+        match self.has_gradients {
+            Some(had) if had != gradient.is_some() => Err(RecordedError::Mixed { n, found }),
+            _ => Ok(()),
+        }
+    }
+
+    /// Takes the next state, which is of this log.
+    ///
+    /// # Errors
+    /// A number that is not finite.
+    pub(super) fn push(&mut self, logged: &Logged<'_>) -> Result<(), RunError> {
+        self.n += 1;
+        self.follows = [true, self.follows[0]];
+        match logged.derivatives {
+            Derivatives::Gradient(gradient) => self.push_with_gradient(logged, gradient),
+            Derivatives::Rate(rate) => self.push_with_rate(logged, rate),
+        }
+        self.state().check()
+    }
+
+    fn push_with_gradient(&mut self, logged: &Logged<'_>, gradient: &[f64]) {
+        if self.has_gradients.replace(true).is_none() {
+            self.origin.copy_from_slice(logged.q);
+        }
+        let VerletSteps { half, n, rate, increments: OwnedIncrements { q: dq, p: dp, beta }, .. } = self;
+        let [of_q, of_p] = &mut self.misfits;
+        let rate_before = std::mem::replace(rate, -2.0 * logged.energy);
+        for i in 0..self.masses.len() {
+            let (q, p, gradient) = (logged.q[i] - self.origin[i], logged.p[i], gradient[i]);
+            *rate += q * gradient;
+            dq[i] = self.h * ((self.p[i] - *half * self.gradient[i]) / self.masses[i]);
+            dp[i] = -*half * self.gradient[i] - *half * gradient;
+            if self.follows[1] {
+                of_q.add((*n, i), [self.q[i], q], dq[i], logged.q[i]);
+                of_p.add((*n, i), [self.p[i], p], dp[i], p);
+            }
+            (self.q[i], self.p[i], self.gradient[i]) = (q, p, gradient);
+        }
+        *beta = *half * rate_before + *half * *rate;
+        if self.follows[1] {
+            of_q.end();
+            of_p.end();
+        }
+    }
+
+    fn push_with_rate(&mut self, logged: &Logged<'_>, rate: f64) {
+        self.has_gradients = Some(false);
+        let OwnedIncrements { q: dq, p: dp, beta } = &mut self.increments;
+        for (own, logged, added) in [(&mut self.q, logged.q, dq), (&mut self.p, logged.p, dp)] {
+            for ((own, logged), added) in own.iter_mut().zip(logged).zip(added) {
+                *added = logged - *own;
+                *own = *logged;
+            }
+        }
+        *beta = self.half * self.rate + self.half * rate;
+        self.rate = rate;
+    }
+
+    /// The newest state, with what the step to it added if it follows the one before.
+    pub(super) fn state(&self) -> TrajectoryState<'_, f64> {
+        let increments = if self.follows[1] { self.increments.view() } else { Increments::of_beta(&0.0) };
+        TrajectoryState { n: self.n, q: &self.q, p: &self.p, increments }
+    }
+
+    /// By how much logged q and p differ from the steps; `None` before the first step, and where no gradients are logged.
+    pub(super) fn differences(&self) -> Option<[Differences; 2]> {
+        let [of_q, of_p] = &self.misfits;
+        Some([of_q.found()?, of_p.found()?])
+    }
+}

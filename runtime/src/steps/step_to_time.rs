@@ -1,0 +1,98 @@
+//! The last step of a run in transformed time: to a given physical time.
+
+use crate::number::{Number, Real};
+use crate::steps::integrator::Integrator;
+
+/// More iterations than any number type needs: bisections alone find double precision in 60.
+const MOST_ITERATIONS: u32 = 400;
+
+/// Makes one step after which the physical time, the last coordinate, is `until` to the last digits, and returns its size as a part of h.
+/// The step of the integrator itself must not end before `until`; it is made by [`Integrator::part_of_step`].
+///
+/// The size is found by the secant method, within a bracket that shrinks in each iteration, with a trial step in each. `None` if the time
+/// is `until` already, or if a trial step is not finite; the system is then as it was.
+pub fn step_to_time<I>(integrator: &mut I, until: &I::Number) -> Option<I::Number>
+where
+    I: Integrator<Number: Real> + ?Sized,
+{
+    let context = integrator.state().context();
+    let zero = <I::Number as Number>::zero(&context);
+    let start = (integrator.state().q().to_vec(), integrator.state().p().to_vec());
+    let mut search = Search { start, until, best: None };
+    let mut low = (zero.clone(), search.missed(integrator));
+    if low.1 == zero {
+        return None;
+    }
+    let one = <I::Number as Number>::from_rational(&num_traits::One::one(), &context);
+    let missed = search.after(integrator, &one)?;
+    let mut high = (one, missed);
+    let mut latest = [low.clone(), high.clone()];
+    for _ in 0..MOST_ITERATIONS {
+        let part = next_part(&latest, [&low, &high]);
+        if high.1 == zero || part == low.0 || part == high.0 {
+            break;
+        }
+        let missed = search.after(integrator, &part)?;
+        let point = (part, missed);
+        let [_, newest] = latest;
+        latest = [newest, point.clone()];
+        let is_low = point.1 != zero && point.1.is_below_zero() == low.1.is_below_zero();
+        *(if is_low { &mut low } else { &mut high }) = point;
+    }
+    let (part, _) = search.best.clone()?;
+    search.after(integrator, &part)?;
+    Some(part)
+}
+
+/// A part of h with the time that its step misses.
+type Point<N> = (N, N);
+
+/// The secant through the two latest points, or the middle of the bracket where that is outside.
+fn next_part<N: Real>(latest: &[Point<N>; 2], [low, high]: [&Point<N>; 2]) -> N {
+    let [(a, missed_a), (b, missed_b)] = latest;
+    let (mut part, mut slope, mut change) = (b.clone(), missed_b.clone(), b.clone());
+    slope.subtract(missed_a);
+    change.subtract(a);
+    change.multiply(missed_b);
+    change.divide(&slope);
+    part.subtract(&change);
+    if !(low.0 < part && part < high.0) {
+        part.assign_sum(&low.0, &high.0);
+        part.divide_integer(2);
+    }
+    part
+}
+
+struct Search<'a, N: Real> {
+    start: (Vec<N>, Vec<N>),
+    until: &'a N,
+    /// The part that misses least, and by how much.
+    best: Option<Point<N>>,
+}
+
+impl<N: Real> Search<'_, N> {
+    /// t − until of the present state.
+    fn missed<I: Integrator<Number = N> + ?Sized>(&self, integrator: &I) -> N {
+        let mut missed = integrator.state().q().last().expect("a system has a coordinate").clone();
+        missed.subtract(self.until);
+        missed
+    }
+
+    /// t − until after a step of this part of h from the start; `None` if it is not finite.
+    fn after<I: Integrator<Number = N> + ?Sized>(&mut self, integrator: &mut I, part: &N) -> Option<N> {
+        let begin = |integrator: &mut I| integrator.system().state_mut().set(&self.start.0, &self.start.1);
+        begin(integrator);
+        integrator.part_of_step(part);
+        let missed = self.missed(integrator);
+        if !missed.is_finite() {
+            begin(integrator);
+            return None;
+        }
+        let mut distance = missed.clone();
+        distance.make_absolute();
+        if self.best.as_ref().is_none_or(|(_, best)| distance < *best) {
+            self.best = Some((part.clone(), distance));
+        }
+        Some(missed)
+    }
+}

@@ -1,0 +1,39 @@
+//! Hamiltonian systems, their states, and the exact flows of their parts.
+//!
+//! | file | what it is |
+//! | --- | --- |
+//! | [`system`], `state`, `increments`, `coordinates` | a system, its state q and p with the remainders of their sums, and the increments of a step |
+//! | `maps`, [`summation`] | the maps that a scheme composes; how increments are added: plainly, compensated, in fixed point |
+//! | [`potential`](mod@potential), [`pairs`], [`kinetic`](mod@kinetic), [`formula`] | U(q) and T(p), from code or from text |
+//! | [`potential_check`] | derivatives that are compared with differences |
+//! | [`motion`] | H = T(p) + U(q) |
+//! | `gradient_kicks`, [`displaced`] | kicks by the force and its derivative, or by displaced forces |
+//! | [`linear_part`] | oscillations solved exactly: H = A + B with a quadratic form as A |
+//! | [`many_parts`] | H = H_1 + … + H_n of parts whose flows have formulas |
+//! | [`kepler_drift`], [`wisdom_holman`] | the exact flow of Kepler's problem; planets: H = A + B with Kepler orbits as A |
+//! | [`transformed_time`] | H′ with steps that become short in close encounters |
+//! | [`problems`] | the shipped problems, some with their exact solution |
+
+pub(crate) mod coordinates;
+pub mod displaced;
+pub mod formula;
+pub(crate) mod gradient_kicks;
+pub(crate) mod increments;
+pub(crate) mod interpreter;
+pub mod kepler_drift;
+pub(crate) mod kept;
+pub mod kinetic;
+pub mod linear_part;
+pub mod many_parts;
+pub(crate) mod maps;
+pub(crate) mod matrix;
+pub mod motion;
+pub mod pairs;
+pub mod potential;
+pub mod potential_check;
+pub mod problems;
+pub(crate) mod state;
+pub mod summation;
+pub mod system;
+pub mod transformed_time;
+pub mod wisdom_holman;

@@ -1,0 +1,181 @@
+//! The energy of a pair of bodies from a formula read at run time.
+
+use shadowstep_symbolic::{Graph, Separation, Summand, parse};
+
+use super::newest::{Derived, Role, Text, derived};
+use super::{FormulaError, refuse_repeated};
+use std::slice::from_ref;
+use std::sync::{Arc, OnceLock};
+
+use crate::Rational;
+use crate::number::Number;
+use crate::systems::interpreter::Interpreter;
+use crate::systems::pairs::{Pair, PairCurvature, PairPotential};
+
+/// The energy of a pair of bodies whose operations are carried out one by one from a list: the twin of a `pair` formula
+/// in [`crate::potential!`], with the same bits.
+///
+/// ```
+/// use shadowstep::{Potential, systems::formula::FormulaPair, systems::pairs::{Pairs, Separation}};
+///
+/// let gravity = "-g * m_i * m_j / sqrt(r2)";
+/// let (masses, g) = (("m", vec![4.0, 2.0]), ("g", 1.0));
+/// let pair = FormulaPair::new(gravity, Separation::SquaredDistance, &[masses], &[g]).unwrap();
+/// let gravity = Pairs::<_, 2>::all(2, pair).unwrap();
+/// assert_eq!(Potential::<f64>::dimension(&gravity), 4);
+/// ```
+#[derive(Clone, Debug)]
+pub struct FormulaPair<N> {
+    separation: Separation,
+    /// The values of each property for all bodies.
+    properties: Vec<Vec<N>>,
+    /// The properties in the order in which the formula has them: of i, then of j.
+    interpreter: Interpreter<N>,
+    parameters: Vec<N>,
+    derived: Arc<Derived>,
+    /// The interpreter of the second derivatives, made when gradient kicks need them.
+    second: OnceLock<Interpreter<N>>,
+}
+
+impl<N: Number> FormulaPair<N> {
+    /// The energy of a formula in `r2` or `d`, in which the property `m` of the bodies i < j is called `m_i` and `m_j`;
+    /// with the values of each property for all bodies, and the values of parameters.
+    ///
+    /// # Errors
+    /// A text that is not a valid formula, unknown or repeated names, functions that are not smooth.
+    pub fn new(
+        formula: &str,
+        separation: Separation,
+        properties: &[(&str, Vec<N>)],
+        parameters: &[(&str, N)],
+    ) -> Result<Self, FormulaError> {
+        let of = |body: &'static str| properties.iter().map(move |(name, _)| format!("{name}_{body}"));
+        let text = Text {
+            formula: formula.to_owned(),
+            variables: of("i").chain(of("j")).collect(),
+            parameters: parameters.iter().map(|(name, _)| (*name).to_owned()).collect(),
+            role: Role::Pair(separation),
+        };
+        let derived = derived::<FormulaError>(text, |Text { formula, variables, parameters, .. }| {
+            let expression = parse(formula)?;
+            refuse_repeated([separation.name().to_owned()].iter().chain(variables).chain(parameters))?;
+            let mut graph = Graph::new();
+            let energy = graph.build_pair(&expression, separation.name(), variables, parameters);
+            let node = energy.map_err(FormulaError::Meaning)?;
+            let programs = graph.pair(node, separation);
+            Ok(Derived { programs, quadratic: false, graph, node, second: OnceLock::new() })
+        })?;
+        let properties = properties.iter().map(|(_, values)| values.clone()).collect();
+        let parameters = parameters.iter().map(|(_, value)| value.clone()).collect();
+        Ok(FormulaPair::of(derived, separation, properties, parameters))
+    }
+
+    fn of(derived: Arc<Derived>, separation: Separation, properties: Vec<Vec<N>>, parameters: Vec<N>) -> Self {
+        let interpreter = Interpreter::new(&derived.programs, parameters.clone(), 2 * properties.len());
+        FormulaPair { separation, properties, interpreter, parameters, derived, second: OnceLock::new() }
+    }
+
+    /// The same formula in other numbers, with the values of its properties and parameters in their order.
+    ///
+    /// # Panics
+    /// If there are not values for each property and parameter.
+    pub fn in_numbers<M: Number>(&self, properties: Vec<Vec<M>>, parameters: Vec<M>) -> FormulaPair<M> {
+        assert_eq!(properties.len(), self.properties.len(), "each property has values");
+        assert_eq!(parameters.len(), self.parameters.len(), "each parameter has a value");
+        FormulaPair::of(Arc::clone(&self.derived), self.separation, properties, parameters)
+    }
+
+    /// The numbers in the formula.
+    pub fn numbers(&self) -> Vec<&Rational> {
+        self.derived.numbers()
+    }
+
+    /// Puts the properties of i and j where the programs find them.
+    fn place_properties(&self, i: usize, j: usize, scratch: &mut [N]) {
+        self.place(i, j, self.interpreter.properties(scratch));
+    }
+
+    fn place(&self, i: usize, j: usize, places: &mut [N]) {
+        let of = |body: usize| self.properties.iter().map(move |values| &values[body]);
+        for (place, property) in places.iter_mut().zip(of(i).chain(of(j))) {
+            place.assign(property);
+        }
+    }
+
+    fn second(&self) -> &Interpreter<N> {
+        self.second.get_or_init(|| {
+            let second = self.derived.second(|graph, node| graph.pair_curvature(node, self.separation));
+            Interpreter::new(second, self.parameters.clone(), 2 * self.properties.len())
+        })
+    }
+}
+
+impl<N> Pair for FormulaPair<N> {
+    fn separation(&self) -> Separation {
+        self.separation
+    }
+
+    fn summand(&self) -> Summand {
+        self.derived.programs.summand
+    }
+
+    fn properties(&self) -> Vec<usize> {
+        self.properties.iter().map(Vec::len).collect()
+    }
+}
+
+impl<N: Number> PairPotential<N> for FormulaPair<N> {
+    fn scratch(&self) -> usize {
+        self.interpreter.registers()
+    }
+
+    fn prepare(&self, scratch: &mut [N], context: &N::Context) {
+        self.interpreter.prepare(scratch, context);
+    }
+
+    fn energy(&self, i: usize, j: usize, x: &N, energy: &mut N, scratch: &mut [N]) {
+        self.place_properties(i, j, scratch);
+        std::mem::swap(energy, self.interpreter.energy(from_ref(x), scratch));
+    }
+
+    fn slope(&self, i: usize, j: usize, x: &N, slope: &mut N, scratch: &mut [N]) {
+        self.place_properties(i, j, scratch);
+        std::mem::swap(slope, &mut self.interpreter.gradient(from_ref(x), scratch)[0]);
+    }
+
+    fn slope_and_summand(&self, i: usize, j: usize, x: &N, slope: &mut N, summand: &mut N, scratch: &mut [N]) {
+        self.place_properties(i, j, scratch);
+        let outputs = self.interpreter.gradient_and_rate(from_ref(x), scratch);
+        std::mem::swap(slope, &mut outputs[0]);
+        std::mem::swap(summand, &mut outputs[1]);
+    }
+
+    fn curved(&self) -> Option<&dyn PairCurvature<N>> {
+        Some(self)
+    }
+}
+
+impl<N: Number> PairCurvature<N> for FormulaPair<N> {
+    fn curvature_scratch(&self) -> usize {
+        self.second().registers()
+    }
+
+    fn prepare_curvature(&self, scratch: &mut [N], context: &N::Context) {
+        self.second().prepare(scratch, context);
+    }
+
+    fn curvature(&self, i: usize, j: usize, x: &N, slope: &mut N, curvature: &mut N, scratch: &mut [N]) {
+        let second = self.second();
+        self.place(i, j, second.properties(scratch));
+        let outputs = second.gradient(from_ref(x), scratch);
+        std::mem::swap(slope, &mut outputs[0]);
+        std::mem::swap(curvature, &mut outputs[1]);
+    }
+
+    fn curvature_and_rate(&self, i: usize, j: usize, x: &N, results: [&mut N; 3], scratch: &mut [N]) {
+        let second = self.second();
+        self.place(i, j, second.properties(scratch));
+        let outputs = second.gradient_and_rate(from_ref(x), scratch);
+        results.into_iter().zip(outputs).for_each(|(result, output)| std::mem::swap(result, output));
+    }
+}

@@ -1,0 +1,150 @@
+//! The exact flow of A = ½pᵀM⁻¹p + ½qᵀKq over the times of a step's drifts.
+//!
+//! With W = M⁻¹K, C = cos(t√W) and S = sin(t√W)/√W, both series in W, the flow is q ← C q + S M⁻¹p, p ← Cᵀ p − K S q. Increments need C − 1, which is
+//! computed without cancellation: by its series for a small t, and then by doubling t.
+
+use shadowstep_symbolic::decimal::from_text;
+
+use crate::Rational;
+use crate::number::{AnyLimbs, CorrectlyRounded, LimbCount, Number, Real};
+use crate::systems::matrix::{MOST_KEPT, MOST_TERMS, Matrix, add, add_to_diagonal, precision, product, round, scale};
+
+/// The flows over the times that have occurred: a scheme has a few.
+#[derive(Clone, Debug)]
+pub(super) struct Rotations<N> {
+    masses: Vec<Rational>,
+    stiffness: Matrix<Rational>,
+    known: Vec<(N, Flow<N>)>,
+    to_q: Vec<N>,
+    to_p: Vec<N>,
+}
+
+/// The flow over a time t.
+#[derive(Clone, Debug)]
+struct Flow<N> {
+    /// C − 1
+    versine: Matrix<N>,
+    /// S M⁻¹
+    of_p: Matrix<N>,
+    /// −K S
+    of_q: Matrix<N>,
+}
+
+impl<N: CorrectlyRounded> Rotations<N> {
+    pub(super) fn new(masses: &[Rational], stiffness: &[Vec<Rational>], context: &N::Context) -> Self {
+        let zeros = || vec![N::zero(context); masses.len()];
+        Rotations {
+            masses: masses.to_vec(),
+            stiffness: stiffness.to_vec(),
+            known: Vec::new(),
+            to_q: zeros(),
+            to_p: zeros(),
+        }
+    }
+
+    /// What the flow over a time adds to q and p.
+    pub(super) fn increments(&mut self, time: &N, q: &[N], p: &[N]) -> (&[N], &[N]) {
+        let known = self.known.iter().position(|(known, _)| known == time);
+        let index = known.unwrap_or_else(|| {
+            if self.known.len() == MOST_KEPT {
+                self.known.clear();
+            }
+            self.known.push((time.clone(), Flow::new(&self.masses, &self.stiffness, time)));
+            self.known.len() - 1
+        });
+        let Flow { versine, of_p, of_q } = &self.known[index].1;
+        for (i, to_q) in self.to_q.iter_mut().enumerate() {
+            to_q.assign_zero();
+            versine[i].iter().zip(q).for_each(|(c, q)| to_q.add_product(c, q));
+            of_p[i].iter().zip(p).for_each(|(s, p)| to_q.add_product(s, p));
+        }
+        for (i, to_p) in self.to_p.iter_mut().enumerate() {
+            to_p.assign_zero();
+            // the transpose of C − 1
+            versine.iter().zip(p).for_each(|(row, p)| to_p.add_product(&row[i], p));
+            of_q[i].iter().zip(q).for_each(|(s, q)| to_p.add_product(s, q));
+        }
+        (&self.to_q, &self.to_p)
+    }
+}
+
+impl<N: CorrectlyRounded> Flow<N> {
+    /// The flow, computed in more digits and rounded once.
+    fn new(masses: &[Rational], stiffness: &Matrix<Rational>, time: &N) -> Self {
+        let count = precision::<N>(&time.context()).expect("it was checked with the system");
+        let number = |value: &Rational| AnyLimbs::from_rational(value, &count);
+        // the decimal reads back to the same number, thus differs by less than its rounding
+        let Ok(exact) = from_text(&time.to_text()) else { return Flow::of_no_time(time, masses.len()) };
+        let zero = N::zero(&time.context());
+        let time = &number(&exact);
+        let of_row = |(row, mass): (&Vec<Rational>, &Rational)| row.iter().map(|k| number(&(k / mass))).collect();
+        let frequencies: Matrix<AnyLimbs> = stiffness.iter().zip(masses).map(of_row).collect();
+        let doublings = doublings(&frequencies, time);
+        let mut small = *time;
+        (0..doublings).for_each(|_| small.divide_integer(2));
+        let (mut versine, mut sine) = series(&frequencies, &small, count);
+        for _ in 0..doublings {
+            // cos 2x − 1 = 2 (cos x − 1)(cos x + 1), sin 2x = 2 sin x cos x
+            let [mut cosine, mut plus_two] = [versine.clone(), versine.clone()];
+            add_to_diagonal(&mut cosine, 1, count);
+            add_to_diagonal(&mut plus_two, 2, count);
+            versine = product(&versine, &plus_two, count);
+            sine = product(&sine, &cosine, count);
+            [&mut versine, &mut sine].into_iter().for_each(|matrix| scale(matrix, 2));
+        }
+        let stiffness: Matrix<AnyLimbs> = stiffness.iter().map(|row| row.iter().map(number).collect()).collect();
+        let mut of_q = product(&stiffness, &sine, count);
+        scale(&mut of_q, -1);
+        for row in &mut sine {
+            row.iter_mut().zip(masses).for_each(|(s, mass)| s.divide(&number(mass)));
+        }
+        let rounded = |matrix: &Matrix<AnyLimbs>| round(matrix, &zero);
+        Flow { versine: rounded(&versine), of_p: rounded(&sine), of_q: rounded(&of_q) }
+    }
+
+    /// Of a time that is infinite or NaN: so are all coordinates after it.
+    fn of_no_time(time: &N, dimension: usize) -> Self {
+        let matrix = vec![vec![time.clone(); dimension]; dimension];
+        Flow { versine: matrix.clone(), of_p: matrix.clone(), of_q: matrix }
+    }
+}
+
+/// How often t is halved, so that t²|W| is below 1/16 in a norm.
+fn doublings(frequencies: &Matrix<AnyLimbs>, time: &AnyLimbs) -> u32 {
+    let norm = frequencies.iter().map(|row| row.iter().map(|w| w.to_f64().abs()).sum::<f64>()).fold(0.0, f64::max);
+    let size = time.to_f64().abs() * norm.sqrt();
+    if size.is_finite() { (size.max(0.25) * 4.0).log2().ceil() as u32 } else { 0 }
+}
+
+/// C − 1 = Σ (−t²W)ᵏ/(2k)! and S = t Σ (−t²W)ᵏ/(2k + 1)!
+fn series(frequencies: &Matrix<AnyLimbs>, time: &AnyLimbs, count: LimbCount) -> (Matrix<AnyLimbs>, Matrix<AnyLimbs>) {
+    let zero = AnyLimbs::zero(count);
+    let dimension = frequencies.len();
+    let mut squared = *time;
+    squared.multiply(time);
+    squared.negate();
+    let mut argument = frequencies.clone();
+    argument.iter_mut().flatten().for_each(|w| w.multiply(&squared));
+    let mut versine = vec![vec![zero; dimension]; dimension];
+    let mut sine = versine.clone();
+    let mut term = versine.clone();
+    add_to_diagonal(&mut sine, 1, count);
+    add_to_diagonal(&mut term, 1, count);
+    let mut k = 0;
+    loop {
+        // a term is less than 1/16 of the one before
+        term = product(&term, &argument, count);
+        term.iter_mut().flatten().for_each(|x| x.divide_integer((2 * k + 1) * (2 * k + 2)));
+        add(&mut versine, &term);
+        let mut of_sine = term.clone();
+        of_sine.iter_mut().flatten().for_each(|x| x.divide_integer(2 * k + 3));
+        add(&mut sine, &of_sine);
+        k += 1;
+        let largest = term.iter().flatten().map(AnyLimbs::log10_abs).fold(f64::NEG_INFINITY, f64::max);
+        if largest < -f64::from(count.bits()) * std::f64::consts::LOG10_2 || k > MOST_TERMS {
+            break;
+        }
+    }
+    sine.iter_mut().flatten().for_each(|s| s.multiply(time));
+    (versine, sine)
+}

@@ -1,0 +1,159 @@
+//! Hamiltonians of three parts and more: H = H_1 + H_2 + … + H_n, each with a flow that has a formula.
+//!
+//! A step is the composition of the basic map φ_n ∘ … ∘ φ_2 ∘ φ_1 and its adjoint that a scheme for two parts is (R. I. McLachlan, SIAM J. Sci. Comput.
+//! 16 (1995) 151): H_1 flows where the scheme has kicks, H_n where it has drifts, and the others between them. The order for n parts is that for every A + B;
+//! [`for_many_parts`](crate::steps::tables::TableScheme::for_many_parts) and `#[splitting_scheme("…", parts = 3)]` prove it by the words on three letters.
+//!
+//! The flows, found from the formula of each part, exactly; β grows by ∫(qᵀA_q + pᵀA_p − 2A) dt:
+//!
+//! | part A | flow over t | increment of β |
+//! | --- | --- | --- |
+//! | a function of variables none of which is the momentum of another: T(p), U(q), x p_y | partners change by ±t A_x | t (xᵀA_x − 2A) |
+//! | a quadratic form ½xᵀSx in x = (q, p), at most 64 coordinates | e^{tJS}, once for each t | 0 |
+//! | f(I), I = ½(a q² + 2b q p + c p²) > 0 of one pair | a rotation by f′(I) √(ac − b²) t | t (2I f′ − 2f) |
+//! | f(q p) of one pair | q e^{t f′}, p e^{−t f′} | t (2q p f′ − 2f) |
+//! | p²/(2m) − κ/r | [Kepler's](crate::systems::kepler_drift) | 3κ ∫dt/r |
+//! | sums of these in different coordinates | all of them | the sum |
+//!
+//! ```
+//! use shadowstep::systems::many_parts::{SystemOfParts, parts};
+//! use shadowstep::{Stepper, System, exact, tables};
+//!
+//! // a charged particle in a magnetic field and a potential
+//! let formulas = ["(px^2 + py^2)/2", "b*(x*py - y*px)/2 + b^2*(x^2 + y^2)/8", "cos(x) + cos(y)"];
+//! let field = [("b", exact("1/2")?)];
+//! let parts = parts::<f64>(&formulas, (&["x", "y"], &["px", "py"]), &field, &())?;
+//! let mut system = SystemOfParts::new(parts, &[0.3, 0.1], &[0.5, -0.2])?;
+//! let before = system.energy();
+//! let stepper = Stepper::new(tables::shipped("yoshida4").unwrap().for_many_parts()?, "1/20")?;
+//! for _ in 0..1000 {
+//!     stepper.step(&mut system);
+//! }
+//! assert!((system.energy() - before).abs() < 1e-5);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+mod action;
+mod commuting;
+mod formula;
+mod kepler;
+mod part;
+mod quadratic;
+
+pub use formula::{FormulaPart, PartError, PartFormula, parts};
+pub use part::{FlowState, Part};
+
+use crate::number::Number;
+use crate::systems::increments::Carried;
+use crate::systems::maps::PartOrder;
+use crate::systems::motion::MotionError;
+use crate::systems::state::{State, VectorState};
+use crate::systems::summation::Compensated;
+use crate::systems::system::System;
+
+/// The class of H = H_1 + … + H_n. Schemes for two parts do not advance its systems.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ManyParts {}
+
+/// A system of parts whose flows are known, at a state.
+pub struct SystemOfParts<N> {
+    parts: Vec<Box<dyn Part<N>>>,
+    state: VectorState<N>,
+    /// The part that flowed last, if the state has not been changed otherwise.
+    last: Option<usize>,
+    of_part: N,
+}
+
+impl<N: Number> SystemOfParts<N> {
+    /// The system at q, p.
+    ///
+    /// # Errors
+    /// No coordinates, or not as many momenta.
+    ///
+    /// # Panics
+    /// For fewer than two parts.
+    pub fn new(parts: Vec<Box<dyn Part<N>>>, q: &[N], p: &[N]) -> Result<Self, MotionError> {
+        assert!(parts.len() >= 2, "H has two parts at least");
+        let coordinates = q.len();
+        let Some(first) = q.first() else { return Err(MotionError::NoCoordinates) };
+        if p.len() != coordinates {
+            return Err(MotionError::Momenta { coordinates, momenta: p.len() });
+        }
+        let context = first.context();
+        Ok(SystemOfParts {
+            parts,
+            state: State::new(q.to_vec(), p.to_vec(), &context).compensated_if(false),
+            last: None,
+            of_part: N::zero(&context),
+        })
+    }
+
+    /// The same system with [compensated sums](crate::systems::summation::Compensated) if `compensated` is true, else with plain ones: the round-off of a flow is ε times the increment, in place of ε times the
+    /// coordinate.
+    #[must_use]
+    pub fn compensated_if(mut self, compensated: bool) -> Self {
+        self.state = self.state.compensated_if(compensated);
+        self
+    }
+
+    /// The flow of a part.
+    fn flow(&mut self, index: usize, time: &N, carried: Carried) {
+        let continues = self.last == Some(index);
+        if index == 0 && !continues {
+            self.state.count_evaluation();
+        }
+        self.parts[index].flow(time, &mut FlowState::new(&mut self.state, carried), continues);
+        self.last = Some(index);
+    }
+}
+
+impl<N: Number> System for SystemOfParts<N> {
+    type Number = N;
+    type Class = ManyParts;
+    type Coordinates = Vec<N>;
+    type Summation = Option<Compensated<N, Vec<N>>>;
+
+    fn state(&self) -> &VectorState<N> {
+        &self.state
+    }
+
+    fn state_mut(&mut self) -> &mut VectorState<N> {
+        self.last = None;
+        &mut self.state
+    }
+
+    fn clear_increments(&mut self) {
+        self.state.clear_increments();
+    }
+
+    fn kick(&mut self, weight: &N, carried: Carried) {
+        self.flow(0, weight, carried);
+    }
+
+    fn drift(&mut self, weight: &N, carried: Carried) {
+        self.flow(self.parts.len() - 1, weight, carried);
+    }
+
+    fn middle_parts(&mut self, weight: &N, order: PartOrder, carried: Carried) {
+        let middle = 1..self.parts.len() - 1;
+        match order {
+            PartOrder::Ascending => middle.for_each(|index| self.flow(index, weight, carried)),
+            PartOrder::Descending => middle.rev().for_each(|index| self.flow(index, weight, carried)),
+        }
+    }
+
+    /// `kinetic` ← √ΣH_i², the root of the sum of the squares of the parts.
+    fn assign_energies(&mut self, at: Option<(&[N], &[N])>, energy: &mut N, kinetic: &mut N) {
+        let (q, p) = at.unwrap_or((&self.state.q, &self.state.p));
+        energy.assign_zero();
+        kinetic.assign_zero();
+        for part in &mut self.parts {
+            self.of_part.assign_zero();
+            part.add_energy(q, p, &mut self.of_part);
+            energy.add(&self.of_part);
+            kinetic.add_product(&self.of_part, &self.of_part);
+        }
+        self.of_part.assign_sqrt(kinetic);
+        kinetic.assign(&self.of_part);
+    }
+}

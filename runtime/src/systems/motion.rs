@@ -1,0 +1,308 @@
+//! The system of a potential and a kinetic energy, with its state.
+
+mod gradient_kick_state;
+mod hamiltonian;
+mod steps;
+mod turns;
+
+use thiserror::Error;
+
+use crate::number::Number;
+use crate::systems::coordinates::Coordinates;
+use crate::systems::displaced::Displacements;
+use crate::systems::increments::Increments;
+use crate::systems::kept::KeptForce;
+use crate::systems::kinetic::{Kinetic, MassError};
+use crate::systems::potential::Potential;
+use crate::systems::state::State;
+use crate::systems::summation::{Compensated, FixedPoint, Plain, RangeError, Summation};
+
+use gradient_kick_state::GradientKickState;
+use hamiltonian::{Evaluated, Hamiltonian};
+
+/// A system H = T(p) + U(q) and its state.
+///
+/// The gradient of the last kick is kept as long as q stays, so that the next step's first kick costs no evaluation.
+///
+/// `S` is [how increments are added](crate::systems::summation) to q and p: plainly, [compensated](Motion::compensated) or in
+/// [fixed point](Motion::fixed_point).
+#[derive(Clone, Debug)]
+pub struct Motion<N, V, P, K, S = Plain> {
+    hamiltonian: Hamiltonian<N, P, K>,
+    at: Evaluated<N, V, S>,
+}
+
+impl<N, V, P, K> Motion<N, V, P, K>
+where
+    N: Number,
+    V: Coordinates<N>,
+    P: Potential<N>,
+    K: Kinetic<N>,
+{
+    /// The system at q, p.
+    ///
+    /// # Errors
+    /// q, p, the potential and the kinetic energy that do not have the same dimension, at least 1; numbers of q and p of different
+    /// precision.
+    pub fn new(potential: P, kinetic: K, q: V, p: V) -> Result<Self, MotionError> {
+        let context = check(&potential, &kinetic, q.as_ref(), p.as_ref())?;
+        let hamiltonian = Hamiltonian::new(potential, kinetic, &context);
+        let (gradient, rate) = (p.clone(), N::zero(&context));
+        let at = Evaluated { state: State::new(q, p, &context), gradient, rate, kept: KeptForce::Nothing };
+        Ok(Motion { hamiltonian, at })
+    }
+
+    /// The same system with compensated sums: the round-off of a kick or drift is ε times the increment, in place of ε times the
+    /// coordinate, so that it is smaller by a factor like h. See [`Compensated`]; `docs/round-off.md` has what it gains and costs.
+    ///
+    /// ```
+    /// use shadowstep::{Motion, Stepper, UnitMasses, potential, tables::shipped};
+    ///
+    /// potential! { #[derive(Clone)] pub struct Spring; U(q) = q^2/2 }
+    ///
+    /// let stepper = Stepper::new(shipped("stormer-verlet").unwrap(), "1/1024")?;
+    /// let mut plain = Motion::new(Spring, UnitMasses, [0.6], [0.8])?;
+    /// let mut compensated = plain.clone().compensated();
+    /// // of an oscillator the scheme conserves this exactly, but for round-off
+    /// let modified = |q: &[f64], p: &[f64]| (p[0] * p[0] + (1.0 - 0.25 / 1048576.0) * q[0] * q[0]) / 2.0;
+    /// let before = modified(plain.q(), plain.p());
+    /// for _ in 0..1_000_000 {
+    ///     stepper.step(&mut plain);
+    ///     stepper.step(&mut compensated);
+    /// }
+    /// let [plain, compensated] = [modified(plain.q(), plain.p()), modified(compensated.q(), compensated.p())];
+    /// assert!((plain - before).abs() > 1e-15 && (compensated - before).abs() < 3e-16);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    #[must_use]
+    pub fn compensated(self) -> Motion<N, V, P, K, Compensated<N, V>> {
+        self.with(State::compensated)
+    }
+
+    /// The same system with compensated sums if `compensated` is true: for a choice at run time.
+    #[must_use]
+    pub fn compensated_if(self, compensated: bool) -> Motion<N, V, P, K, Option<Compensated<N, V>>> {
+        self.with(|state| state.compensated_if(compensated))
+    }
+
+    /// The same system with gradient kicks by displaced forces, of the stepper that computed these: see [`Displacements`]. They take a force in place of a
+    /// Hessian–vector product, which the potential then need not have, and are not exactly symplectic.
+    ///
+    /// ```
+    /// use shadowstep::{Motion, Stepper, UnitMasses, systems::potential::from_fn, tables::shipped};
+    ///
+    /// let stepper = Stepper::new(shipped("chin-4a").unwrap(), "1/20")?;
+    /// let pendulum = from_fn(1, |q, gradient| {
+    ///     gradient[0] = q[0].sin();
+    ///     -q[0].cos()
+    /// });
+    /// let mut motion = Motion::new(pendulum, UnitMasses, [0.0], [1.5])?.displaced(stepper.displacements()?);
+    /// let start = motion.energy();
+    /// (0..1000).for_each(|_| stepper.step(&mut motion));
+    /// assert!((motion.energy() - start).abs() < 1e-7);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    #[must_use]
+    pub fn displaced(mut self, displacements: Displacements<N>) -> Self {
+        let curved = GradientKickState::displaced(displacements, self.q().len(), &self.context());
+        self.hamiltonian.curved = Some(Box::new(curved));
+        self
+    }
+
+    /// The same system with the same state whose sums are other ones.
+    fn with<S>(self, with_sums: impl FnOnce(State<N, V>) -> State<N, V, S>) -> Motion<N, V, P, K, S> {
+        let Motion { hamiltonian, at: Evaluated { state, gradient, rate, kept } } = self;
+        Motion { hamiltonian, at: Evaluated { state: with_sums(state), gradient, rate, kept } }
+    }
+}
+
+impl<V, P, K> Motion<f64, V, P, K>
+where
+    V: Coordinates<f64>,
+    P: Potential<f64>,
+    K: Kinetic<f64>,
+{
+    /// The same system in fixed point: [`Stepper::step_back`](crate::Stepper::step_back) undoes a step to the last bit. See [`FixedPoint`].
+    ///
+    /// The ranges are the largest |q_i| and |p_i| that a run may reach; a coordinate that leaves its range by a factor of 2 becomes NaN. The
+    /// state is rounded to 2⁻⁶² of the ranges.
+    ///
+    /// ```
+    /// use shadowstep::{Motion, Stepper, UnitMasses, problems::Kepler, tables::shipped};
+    ///
+    /// let stepper = Stepper::new(shipped("yoshida4").unwrap(), "1/20")?;
+    /// let mut motion = Motion::new(Kepler, UnitMasses, [0.4, 0.0], [0.0, 2.0])?.fixed_point(&[4.0; 2], &[8.0; 2])?;
+    /// (0..1000).for_each(|_| stepper.step(&mut motion));
+    /// assert!((motion.q()[0] - 0.4).abs() > 0.1);
+    /// (0..1000).for_each(|_| stepper.step_back(&mut motion));
+    /// assert_eq!((motion.q(), motion.p()), ([0.4, 0.0].as_slice(), [0.0, 2.0].as_slice()));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// Ranges that are not as many as coordinates, not positive or of an extreme size, or that the state exceeds.
+    pub fn fixed_point(
+        self,
+        q_ranges: &[f64],
+        p_ranges: &[f64],
+    ) -> Result<Motion<f64, V, P, K, FixedPoint<V>>, RangeError> {
+        let sums = FixedPoint::of((&self.at.state.q, &self.at.state.p), (q_ranges, p_ranges))?;
+        let mut motion = self.with(|state| state.with_sums(sums));
+        motion.at.state.settle();
+        Ok(motion)
+    }
+}
+
+impl<N, V, P, K, S> Motion<N, V, P, K, S>
+where
+    N: Number,
+    V: Coordinates<N>,
+    P: Potential<N>,
+    K: Kinetic<N>,
+    S: Summation<N>,
+{
+    /// The state.
+    pub fn state(&self) -> &State<N, V, S> {
+        &self.at.state
+    }
+
+    /// Positions.
+    pub fn q(&self) -> &[N] {
+        self.at.state.q()
+    }
+
+    /// Momenta.
+    pub fn p(&self) -> &[N] {
+        self.at.state.p()
+    }
+
+    /// What the last augmented step added to β.
+    pub fn beta(&self) -> &N {
+        &self.at.state.increments.beta
+    }
+
+    /// What the last augmented step added to q, p and β.
+    #[inline]
+    pub fn increments(&self) -> Increments<'_, N> {
+        self.at.state.increments()
+    }
+
+    /// Positions, to be changed; the kept gradient and remainders of sums are dropped.
+    pub fn q_mut(&mut self) -> &mut [N] {
+        self.at.kept = KeptForce::Nothing;
+        self.at.state.q_mut()
+    }
+
+    /// Momenta, to be changed; remainders of sums are dropped.
+    pub fn p_mut(&mut self) -> &mut [N] {
+        self.at.state.p_mut()
+    }
+
+    /// The potential.
+    pub fn potential(&self) -> &P {
+        &self.hamiltonian.potential
+    }
+
+    /// The number of evaluations of the gradient U_q, those at displaced positions included; those of T_p in drifts are not counted.
+    pub fn evaluations(&self) -> u64 {
+        self.at.state.evaluations
+    }
+
+    /// The number of Hessian–vector products U_qq M⁻¹U_q computed for gradient kicks.
+    pub fn hessian_products(&self) -> u64 {
+        let products = self.hamiltonian.curved.as_ref().filter(|curved| !curved.kicks.is_displaced());
+        products.map_or(0, |curved| curved.kicks.evaluations)
+    }
+
+    /// The context of the numbers.
+    pub fn context(&self) -> N::Context {
+        self.at.state.context()
+    }
+
+    /// H = T(p) + U(q) at the present state; NaN where squares of distances overflow, a coordinate above 3.8e153 in `f64`:
+    /// there a potential such as −1/r would be 0.
+    pub fn energy(&mut self) -> N {
+        let [mut energy, mut kinetic_energy] = [self.beta().clone(), self.beta().clone()];
+        let state = &self.at.state;
+        self.hamiltonian.assign_energies((state.q(), state.p()), &mut energy, &mut kinetic_energy);
+        energy
+    }
+
+    /// H = T(p) + U(q) at another state of the same system.
+    pub fn energy_at(&mut self, q: &[N], p: &[N]) -> N {
+        let [mut energy, mut kinetic_energy] = [self.beta().clone(), self.beta().clone()];
+        self.hamiltonian.assign_energies((q, p), &mut energy, &mut kinetic_energy);
+        energy
+    }
+
+    /// Whether every q, p and β is a finite number.
+    pub fn is_finite(&self) -> bool {
+        self.at.state.is_finite()
+    }
+}
+
+/// Checks that dimensions and precisions agree; returns the context of the numbers.
+fn check<N: Number, P: Potential<N>, K: Kinetic<N>>(
+    potential: &P,
+    kinetic: &K,
+    q: &[N],
+    p: &[N],
+) -> Result<N::Context, MotionError> {
+    let coordinates = q.len();
+    let differs = |other: usize| other != coordinates;
+    let momenta = kinetic.dimension().unwrap_or(coordinates);
+    match () {
+        () if coordinates == 0 => Err(MotionError::NoCoordinates),
+        () if differs(p.len()) => Err(MotionError::Momenta { coordinates, momenta: p.len() }),
+        () if differs(potential.dimension()) => {
+            Err(MotionError::Potential { coordinates, dimension: potential.dimension() })
+        }
+        () if differs(momenta) => Err(MotionError::Kinetic { coordinates, dimension: momenta }),
+        () => {
+            let context = q[0].context();
+            let alike = q.iter().chain(p).all(|x| x.context() == context);
+            if alike { Ok(context) } else { Err(MotionError::Precision) }
+        }
+    }
+}
+
+/// A state, a potential and a kinetic energy that do not fit together.
+#[derive(Clone, Debug, PartialEq, Eq, Error)]
+pub enum MotionError {
+    /// q is empty.
+    #[error("a motion needs at least one coordinate")]
+    NoCoordinates,
+    /// q and p have different dimensions.
+    #[error("q has {coordinates} coordinates, but p has {momenta}")]
+    Momenta {
+        /// The dimension of q.
+        coordinates: usize,
+        /// The dimension of p.
+        momenta: usize,
+    },
+    /// The potential has another dimension.
+    #[error("q has {coordinates} coordinates, but the potential is a function of {dimension}")]
+    Potential {
+        /// The dimension of q.
+        coordinates: usize,
+        /// The dimension of the potential.
+        dimension: usize,
+    },
+    /// The kinetic energy has another dimension.
+    #[error("p has {coordinates} components, but the kinetic energy is a function of {dimension}")]
+    Kinetic {
+        /// The dimension of q and p.
+        coordinates: usize,
+        /// The dimension of the kinetic energy.
+        dimension: usize,
+    },
+    /// The numbers have different precisions.
+    #[error("the numbers of q and p must have the same precision")]
+    Precision,
+    /// The numbers have more digits than the flow of a linear part is computed to.
+    #[error("a linear part needs numbers of at most 288 digits")]
+    Digits,
+    /// A mass is not valid.
+    #[error(transparent)]
+    Masses(#[from] MassError),
+}

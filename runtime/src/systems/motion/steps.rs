@@ -1,0 +1,107 @@
+//! The flows and steps of a motion.
+
+use super::hamiltonian::Evaluated;
+use super::{Motion, turns};
+use crate::number::Number;
+use crate::number::partial_sums::add_sum;
+use crate::systems::coordinates::Coordinates;
+use crate::systems::increments::Carried;
+use crate::systems::kept::KeptForce;
+use crate::systems::kinetic::Kinetic;
+use crate::systems::maps::MapSequence;
+use crate::systems::potential::Potential;
+use crate::systems::state::State;
+use crate::systems::summation::Summation;
+use crate::systems::system::{Carrying, System};
+
+impl<N, V, P, K, S> System for Motion<N, V, P, K, S>
+where
+    N: Number,
+    V: Coordinates<N>,
+    P: Potential<N>,
+    K: Kinetic<N>,
+    S: Summation<N>,
+{
+    type Number = N;
+    type Class = K::Class;
+    type Coordinates = V;
+    type Summation = S;
+
+    #[inline(always)]
+    fn state(&self) -> &State<N, V, S> {
+        &self.at.state
+    }
+
+    fn state_mut(&mut self) -> &mut State<N, V, S> {
+        self.at.kept = KeptForce::Nothing;
+        &mut self.at.state
+    }
+
+    #[inline]
+    fn clear_increments(&mut self) {
+        self.at.state.clear_increments();
+    }
+
+    #[inline(always)]
+    fn kick(&mut self, weight: &N, carried: Carried) {
+        self.hamiltonian.kick(&mut self.at, weight, carried);
+    }
+
+    #[inline(always)]
+    fn drift(&mut self, weight: &N, carried: Carried) {
+        self.hamiltonian.drift(&mut self.at, weight, carried);
+    }
+
+    fn has_gradient_kicks(&self) -> bool {
+        let is_displaced = self.hamiltonian.curved.as_ref().is_some_and(|curved| curved.kicks.is_displaced());
+        is_displaced || self.hamiltonian.potential.hessian().is_some()
+    }
+
+    #[inline(always)]
+    fn gradient_kick(&mut self, weight: &N, carried: Carried) {
+        self.hamiltonian.gradient_kick(&mut self.at, weight, carried);
+    }
+
+    fn advance(motions: &mut [Self], maps: &impl MapSequence<N>, count: u64, carried: Carried) {
+        // two functions: in one of both the compiler would no longer inline the gradient, which has to be compiled for these instructions
+        if carried == Carried::Nothing {
+            N::in_widest_instructions(
+                #[inline(always)]
+                || match motions {
+                    // registers hold the state
+                    [Motion { hamiltonian, at }] => hamiltonian.advance(at, maps, count),
+                    many => turns::advance(many, maps, count),
+                },
+            );
+        } else {
+            N::in_widest_instructions(
+                #[inline(always)]
+                || {
+                    for motion in motions {
+                        motion.clear_increments();
+                        maps.each(0..count, count, &mut Carrying { system: motion, carried: Carried::Increments });
+                    }
+                },
+            );
+        }
+    }
+
+    /// Where the gradient and the rate are kept, U = ½(qᵀU_q − rate) costs no evaluation.
+    #[inline]
+    fn assign_energies(&mut self, at: Option<(&[N], &[N])>, energy: &mut N, kinetic_energy: &mut N) {
+        let Motion { hamiltonian, at: Evaluated { state, gradient, rate, kept } } = self;
+        let (q, p) = at.unwrap_or((state.q(), state.p()));
+        if at.is_some() || *kept != KeptForce::GradientAndRate {
+            return hamiltonian.assign_energies((q, p), energy, kinetic_energy);
+        }
+        energy.assign_zero();
+        add_sum(energy, [q, gradient.as_ref()], |[q, u], energy| energy.add_product(q, u));
+        energy.subtract(rate);
+        energy.divide_integer(2);
+        hamiltonian.add_kinetic_energy((q, p), energy, kinetic_energy);
+    }
+
+    fn energy(&mut self) -> N {
+        Motion::energy(self)
+    }
+}

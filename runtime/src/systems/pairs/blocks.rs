@@ -1,0 +1,283 @@
+//! The sum over all pairs for numbers of a few bytes: of each body with a block of others at once, in vectors of the processor.
+//!
+//! What a body gets from its blocks, and the summands of pairs, are added up in a sum for each place in a block: sums that do not wait for one another, and that are the
+//! same whatever the vectors.
+
+use super::pair::{BLOCK, PairPotential};
+use crate::number::Number;
+use crate::number::instructions;
+use shadowstep_symbolic::Separation;
+
+/// How many numbers of scratch space blocks take: coordinates and gradient by axes.
+pub(super) const fn scratch(bodies: usize, dimensions: usize) -> usize {
+    2 * bodies * dimensions
+}
+
+/// Room for the results of a block.
+struct Room<N, const D: usize> {
+    difference: [[N; BLOCK]; D],
+    squared: [N; BLOCK],
+    slope: [N; BLOCK],
+    summand: [N; BLOCK],
+}
+
+impl<N: Number, const D: usize> Room<N, D> {
+    #[inline(always)]
+    fn new(context: &N::Context) -> Self {
+        let zeros = || std::array::from_fn(|_| N::zero(context));
+        Room { difference: std::array::from_fn(|_| zeros()), squared: zeros(), slope: zeros(), summand: zeros() }
+    }
+
+    /// The forces and summands with this number of the first bodies become 0.
+    #[inline(always)]
+    fn clear(&mut self, count: usize) {
+        for l in 0..BLOCK {
+            if l < count {
+                self.difference.iter_mut().for_each(|of_axis| of_axis[l].assign_zero());
+                self.summand[l].assign_zero();
+            }
+        }
+    }
+}
+
+/// A body's own gradient: a sum for each axis and place in a block.
+pub(super) type Places<N, const D: usize> = [[N; BLOCK]; D];
+
+/// The sum of the sums of places, which is put into the first one.
+#[inline(always)]
+pub(super) fn sum_of_places<N: Number>(places: &mut [N; BLOCK]) -> &N {
+    for half in [BLOCK / 2, BLOCK / 4, BLOCK / 8] {
+        for l in 0..half {
+            let (sums, others) = places.split_at_mut(half);
+            sums[l].add(&others[l]);
+        }
+    }
+    &places[0]
+}
+
+/// A sum over all pairs of bodies in D dimensions.
+pub(super) struct Blocks<'a, P, const D: usize> {
+    pub(super) pair: &'a P,
+    pub(super) bodies: usize,
+}
+
+impl<P, const D: usize> Blocks<'_, P, D> {
+    /// gradient ← U_q, and the sum of the summands of pairs where it is wanted; `axes` is the scratch space of blocks, `pair` the scratch space of the pair.
+    pub(super) fn sum<N: Number>(
+        &self,
+        (q, gradient): (&[N], &mut [N]),
+        total: Option<&mut N>,
+        axes: &mut [N],
+        pair: &mut [N],
+    ) where
+        P: PairPotential<N>,
+    {
+        let (q_axes, g_axes) = axes.split_at_mut(self.bodies * D);
+        transpose(q, D, q_axes);
+        g_axes.iter_mut().for_each(N::assign_zero);
+        instructions::widest(
+            #[inline(always)]
+            || match total {
+                Some(total) => {
+                    total.assign_zero();
+                    self.add_blocks::<N, true, true>(q_axes, g_axes, total, pair);
+                }
+                None => {
+                    let mut none = N::zero(&q[0].context());
+                    self.add_blocks::<N, true, false>(q_axes, g_axes, &mut none, pair);
+                }
+            },
+        );
+        transpose(g_axes, self.bodies, gradient);
+    }
+
+    /// energy ← U
+    pub(super) fn energy<N: Number>(&self, q: &[N], energy: &mut N, axes: &mut [N], pair: &mut [N])
+    where
+        P: PairPotential<N>,
+    {
+        let (q_axes, others) = axes.split_at_mut(self.bodies * D);
+        transpose(q, D, q_axes);
+        energy.assign_zero();
+        instructions::widest(
+            #[inline(always)]
+            || self.add_blocks::<N, false, true>(q_axes, others, energy, pair),
+        );
+    }
+
+    /// Adds the forces to the gradient, and the summands of pairs to their sum; without forces, the energies to the sum.
+    #[inline(always)]
+    fn add_blocks<N: Number, const FORCES: bool, const SUM: bool>(
+        &self,
+        q: &[N],
+        gradient: &mut [N],
+        total: &mut N,
+        pair: &mut [N],
+    ) where
+        P: PairPotential<N>,
+    {
+        let bodies = self.bodies;
+        let mut room = Room::<N, D>::new(&q[0].context());
+        let zeros = || -> [N; BLOCK] { std::array::from_fn(|_| N::zero(&q[0].context())) };
+        let mut sums_of_places = zeros();
+        for i in 0..bodies {
+            let q_i: [N; D] = std::array::from_fn(|axis| q[axis * bodies + i].clone());
+            let mut own: Places<N, D> = std::array::from_fn(|_| zeros());
+            let mut j = i + 1;
+            while j + BLOCK <= bodies {
+                self.forces::<N, FORCES, SUM>((i, j), q, &q_i, &mut room, pair);
+                self.add_block::<N, FORCES, SUM>(j, &room, gradient, (&mut own, &mut sums_of_places));
+                j += BLOCK;
+            }
+            if j < bodies && i + BLOCK < bodies {
+                // the last bodies are in a block with some that had their turn
+                let first = bodies - BLOCK;
+                self.forces::<N, FORCES, SUM>((i, first), q, &q_i, &mut room, pair);
+                room.clear(j - first);
+                self.add_block::<N, FORCES, SUM>(first, &room, gradient, (&mut own, &mut sums_of_places));
+                j = bodies;
+            }
+            if FORCES {
+                for (axis, own) in own.iter_mut().enumerate() {
+                    gradient[axis * bodies + i].add(sum_of_places(own));
+                }
+            }
+            for j in j..bodies {
+                self.add_one::<N, FORCES, SUM>((i, j), (q, gradient), total, pair);
+            }
+        }
+        sums_of_places.iter().for_each(|of_place| total.add(of_place));
+    }
+
+    /// Adds the forces and summands of a block of bodies from j on with a body, whose own sums are `own`.
+    #[inline(always)]
+    fn add_block<N: Number, const FORCES: bool, const SUM: bool>(
+        &self,
+        j: usize,
+        room: &Room<N, D>,
+        gradient: &mut [N],
+        (own, sums_of_places): (&mut Places<N, D>, &mut [N; BLOCK]),
+    ) {
+        if FORCES {
+            for (axis, forces) in room.difference.iter().enumerate() {
+                let of_axis: &mut [N; BLOCK] =
+                    gradient[axis * self.bodies + j..].first_chunk_mut().expect("the block is within the bodies");
+                of_axis.iter_mut().zip(forces).for_each(|(own, force)| own.add(force));
+                own[axis].iter_mut().zip(forces).for_each(|(own, force)| own.subtract(force));
+            }
+        }
+        if SUM {
+            sums_of_places.iter_mut().zip(&room.summand).for_each(|(own, summand)| own.add(summand));
+        }
+    }
+
+    /// The forces of the body i at q_i with a block of bodies from j on, in place of their differences, and their summands; without forces,
+    /// their energies.
+    #[inline(always)]
+    fn forces<N: Number, const FORCES: bool, const SUM: bool>(
+        &self,
+        (i, j): (usize, usize),
+        q: &[N],
+        q_i: &[N; D],
+        Room { difference, squared, slope, summand }: &mut Room<N, D>,
+        pair: &mut [N],
+    ) where
+        P: PairPotential<N>,
+    {
+        for axis in 0..D {
+            let q_j = block(q, axis * self.bodies + j);
+            for l in 0..BLOCK {
+                difference[axis][l].assign_difference(&q_j[l], &q_i[axis]);
+            }
+        }
+        let x = match self.pair.separation() {
+            Separation::Difference => &difference[0],
+            Separation::SquaredDistance => {
+                for l in 0..BLOCK {
+                    squared[l].assign_square(&difference[0][l]);
+                }
+                for of_axis in &difference[1..] {
+                    for l in 0..BLOCK {
+                        squared[l].add_product(&of_axis[l], &of_axis[l]);
+                    }
+                }
+                &*squared
+            }
+        };
+        match (FORCES, SUM) {
+            (true, true) => self.pair.slopes_and_summands(i, j, x, slope, summand, pair),
+            (true, false) => self.pair.slopes(i, j, x, slope, pair),
+            (false, _) => return self.pair.energies(i, j, x, summand, pair),
+        }
+        for of_axis in difference.iter_mut() {
+            for l in 0..BLOCK {
+                match self.pair.separation() {
+                    Separation::Difference => of_axis[l].assign(&slope[l]),
+                    Separation::SquaredDistance => of_axis[l].multiply(&slope[l]),
+                }
+            }
+        }
+    }
+
+    /// Adds one pair in the same way.
+    #[inline(always)]
+    fn add_one<N: Number, const FORCES: bool, const SUM: bool>(
+        &self,
+        (i, j): (usize, usize),
+        (q, gradient): (&[N], &mut [N]),
+        total: &mut N,
+        pair: &mut [N],
+    ) where
+        P: PairPotential<N>,
+    {
+        let bodies = self.bodies;
+        let context = q[0].context();
+        let [mut x, mut slope, mut summand] = [(); 3].map(|()| N::zero(&context));
+        let mut difference: [N; D] = std::array::from_fn(|_| N::zero(&context));
+        for axis in 0..D {
+            difference[axis].assign_difference(&q[axis * bodies + j], &q[axis * bodies + i]);
+        }
+        match self.pair.separation() {
+            Separation::Difference => x.assign(&difference[0]),
+            Separation::SquaredDistance => {
+                x.assign_square(&difference[0]);
+                difference[1..].iter().for_each(|of_axis| x.add_product(of_axis, of_axis));
+            }
+        }
+        match (FORCES, SUM) {
+            (true, true) => self.pair.slope_and_summand(i, j, &x, &mut slope, &mut summand, pair),
+            (true, false) => self.pair.slope(i, j, &x, &mut slope, pair),
+            (false, _) => self.pair.energy(i, j, &x, &mut summand, pair),
+        }
+        if SUM {
+            total.add(&summand);
+        }
+        if !FORCES {
+            return;
+        }
+        for axis in 0..D {
+            let force = &mut difference[axis];
+            match self.pair.separation() {
+                Separation::Difference => force.assign(&slope),
+                Separation::SquaredDistance => force.multiply(&slope),
+            }
+            gradient[axis * bodies + j].add(force);
+            gradient[axis * bodies + i].subtract(force);
+        }
+    }
+}
+
+#[inline(always)]
+fn block<N>(numbers: &[N], first: usize) -> &[N; BLOCK] {
+    numbers[first..].first_chunk().expect("the block is within the bodies")
+}
+
+/// Rows of this length become columns.
+fn transpose<N: Number>(from: &[N], length: usize, to: &mut [N]) {
+    let rows = from.len() / length;
+    for (r, row) in from.chunks_exact(length).enumerate() {
+        for (c, x) in row.iter().enumerate() {
+            to[c * rows + r].assign(x);
+        }
+    }
+}

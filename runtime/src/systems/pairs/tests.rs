@@ -1,0 +1,205 @@
+//! Sums in blocks against sums of one pair after the other.
+
+use super::{Ends, Pair, Pairs, Summand, Which};
+use crate::Potential;
+use crate::number::Lanes;
+use crate::number::counting::Counting;
+use crate::number::instructions::Instructions;
+use crate::systems::pairs::PairPotential;
+use crate::systems::problems::{CubicSpring, Gravity, LennardJones, TodaSpring};
+
+crate::potential! {
+    /// Its rate is computed from its energy.
+    struct Softened { s }
+    pair U(r2; m_i, m_j) = -m_i * m_j / sqrt(r2 + s^2)
+}
+
+/// Bodies with some disorder, in `dimensions` dimensions.
+fn places(bodies: usize, dimensions: usize) -> Vec<f64> {
+    // apart from one another and from 0
+    let place = |c: usize| (c / dimensions % 7) as f64 + 0.3 * (c as f64).sin() + 2.0 * (c % dimensions) as f64 + 0.4;
+    (0..bodies * dimensions).map(place).collect()
+}
+
+/// The gradient, that which comes with the rate, and the rate with the energy.
+fn evaluated<N: crate::Number, P: PairPotential<N>, const D: usize>(
+    pairs: &Pairs<P, D>,
+    q: &[N],
+) -> (Vec<N>, Vec<N>, [N; 2]) {
+    let context = q[0].context();
+    let zeros = |count| vec![N::zero(&context); count];
+    let mut scratch = zeros(Potential::<N>::scratch(pairs));
+    pairs.prepare(&mut scratch, &context);
+    let (mut plain, mut with_rate) = (zeros(q.len()), zeros(q.len()));
+    let [mut rate, mut energy] = [N::zero(&context), N::zero(&context)];
+    pairs.gradient(q, &mut plain, &mut scratch);
+    pairs.gradient_and_rate(q, &mut with_rate, &mut rate, &mut scratch);
+    pairs.energy(q, &mut energy, &mut scratch);
+    (plain, with_rate, [rate, energy])
+}
+
+/// Numbers that count their operations take one pair after the other.
+fn agree<P, Q, const D: usize>(pairs: &Pairs<P, D>, one_by_one: &Pairs<Q, D>)
+where
+    P: PairPotential<f64>,
+    Q: PairPotential<Counting<f64>>,
+{
+    let q = places(pairs.bodies(), D);
+    let counting: Vec<_> = q.iter().copied().map(Counting).collect();
+    let expected = evaluated(one_by_one, &counting);
+    let bits = |numbers: &[f64]| numbers.iter().map(|x| x.to_bits()).collect::<Vec<_>>();
+    let gradient: Vec<f64> = expected.0.iter().map(|x| x.0).collect();
+    for instructions in Instructions::available() {
+        let found = instructions.only(|| evaluated(pairs, &q));
+        let what = format!("{} bodies, {instructions:?}, {:?}", pairs.bodies(), pairs.which);
+        assert!(found.0.iter().all(|x| x.is_finite()) && (q.len() == 1 || found.0.iter().any(|x| *x != 0.0)), "{what}");
+        assert_eq!(bits(&found.0), bits(&found.1), "{what}");
+        if pairs.which == Which::All && pairs.is_in_blocks() {
+            // these are added up in another order: up to 40 forces a body, each rounded to 1e-16
+            let size = gradient.iter().fold(0.0, |size, x| x.abs().max(size));
+            let off = found.0.iter().zip(&gradient).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+            assert!(off <= 1e-14 * size, "{what}: {off:e} of {size:e}");
+        } else {
+            assert_eq!(bits(&found.0), bits(&gradient), "{what}");
+        }
+        // and so are the rates and energies of all blocks
+        for (found, expected) in found.2.into_iter().zip(&expected.2) {
+            let off = (found - expected.0).abs();
+            assert!(off <= 1e-13 * expected.0.abs(), "{what}: {off:e}");
+        }
+    }
+}
+
+#[test]
+fn blocks_have_the_sums_of_pairs_one_by_one() {
+    for bodies in [2, 3, 4, 5, 6, 7, 8, 15, 16, 17, 23, 24, 25, 40] {
+        let m: Vec<f64> = (0..bodies).map(|i| 1.0 + i as f64 / 8.0).collect();
+        let counting = m.iter().copied().map(Counting).collect();
+        agree(
+            &Pairs::<_, 3>::all(bodies, Gravity { g: 0.7, m: m.clone() }).unwrap(),
+            &Pairs::<_, 3>::all(bodies, Gravity { g: Counting(0.7), m: counting }).unwrap(),
+        );
+        let counting = m.iter().copied().map(Counting).collect();
+        agree(
+            &Pairs::<_, 3>::all(bodies, Softened { s: 0.2, m }).unwrap(),
+            &Pairs::<_, 3>::all(bodies, Softened { s: Counting(0.2), m: counting }).unwrap(),
+        );
+        agree(
+            &Pairs::<_, 2>::all(bodies, LennardJones { epsilon: 1.5, sigma: 0.4 }).unwrap(),
+            &Pairs::<_, 2>::all(bodies, LennardJones { epsilon: Counting(1.5), sigma: Counting(0.4) }).unwrap(),
+        );
+    }
+}
+
+#[test]
+fn chains_in_blocks_have_the_bits_of_springs_one_by_one() {
+    for bodies in [1, 2, 8, 15, 16, 17, 24, 25, 40] {
+        for ends in [Ends::Free, Ends::Fixed, Ends::Periodic] {
+            agree(
+                &Pairs::<_, 1>::neighbours(bodies, CubicSpring { alpha: 0.25 }, ends).unwrap(),
+                &Pairs::<_, 1>::neighbours(bodies, CubicSpring { alpha: Counting(0.25) }, ends).unwrap(),
+            );
+            agree(
+                &Pairs::<_, 1>::neighbours(bodies, TodaSpring, ends).unwrap(),
+                &Pairs::<_, 1>::neighbours(bodies, TodaSpring, ends).unwrap(),
+            );
+            if ends != Ends::Periodic {
+                agree(
+                    &Pairs::<_, 1>::neighbours(bodies, LennardJones { epsilon: 1.5, sigma: 0.4 }, ends).unwrap(),
+                    &Pairs::<_, 1>::neighbours(
+                        bodies,
+                        LennardJones { epsilon: Counting(1.5), sigma: Counting(0.4) },
+                        ends,
+                    )
+                    .unwrap(),
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn sums_do_not_depend_on_the_vectors() {
+    let pairs = Pairs::<_, 3>::all(37, LennardJones { epsilon: 1.5, sigma: 0.4 }).unwrap();
+    let bits =
+        |(gradient, _, sums): (Vec<f64>, _, [f64; 2])| gradient.into_iter().chain(sums).map(f64::to_bits).collect();
+    let sums: Vec<Vec<u64>> =
+        Instructions::available().map(|i| i.only(|| bits(evaluated(&pairs, &places(37, 3))))).collect();
+    assert!(sums.iter().all(|of_vectors| *of_vectors == sums[0]), "{sums:?}");
+}
+
+/// The rate that is computed from energies is that of the pairs one by one, 2r²u' − 2u.
+#[test]
+fn rates_are_those_of_pairs_one_by_one() {
+    for bodies in [2, 5, 17, 40] {
+        let m: Vec<f64> = (0..bodies).map(|i| 1.0 + i as f64 / 8.0).collect();
+        let pairs = Pairs::<_, 3>::all(bodies, Softened { s: 0.2, m: m.clone() }).unwrap();
+        assert_eq!(pairs.pair().summand(), Summand::Energy);
+        let q = places(bodies, 3);
+        let expected: f64 = (0..bodies)
+            .flat_map(|i| (i + 1..bodies).map(move |j| (i, j)))
+            .map(|(i, j)| {
+                let r2: f64 = (0..3).map(|axis| (q[3 * j + axis] - q[3 * i + axis]).powi(2)).sum();
+                let t = r2 + 0.2_f64.powi(2);
+                m[i] * m[j] * (r2 / t + 2.0) / t.sqrt()
+            })
+            .sum();
+        let off = evaluated(&pairs, &q).2[0] - expected;
+        // positions are up to ten times as large as differences; each of a few sums is rounded to 1e-16
+        assert!(off.abs() <= 1e-14 * expected, "{bodies} bodies: {off:e} of {expected}");
+    }
+}
+
+/// Sums over chosen pairs of planets add up their rates.
+#[test]
+fn gravity_has_rates() {
+    assert_eq!(Gravity { g: 1.0, m: vec![1.0, 2.0] }.summand(), Summand::Rate);
+}
+
+/// Blocks are for all pairs.
+#[test]
+fn chains_have_no_blocks() {
+    let pair = || LennardJones { epsilon: 1.0, sigma: 1.0 };
+    let chain = Pairs::<_, 1>::neighbours(40, pair(), Ends::Free).unwrap();
+    let all = Pairs::<_, 1>::all(40, pair()).unwrap();
+    let [chain, all] = [&chain, &all].map(Potential::<f64>::scratch);
+    assert_eq!(all - chain, 80);
+}
+
+/// Numbers in lanes take one pair after the other, too, but add up in the order of blocks.
+#[test]
+fn lanes_have_the_bits_of_f64() {
+    fn compare<P, Q, const D: usize>(pairs: &Pairs<P, D>, in_lanes: &Pairs<Q, D>)
+    where
+        P: PairPotential<f64>,
+        Q: PairPotential<Lanes<4>>,
+    {
+        let q = places(pairs.bodies(), D);
+        let lanes: Vec<_> = q.iter().copied().map(Lanes::all).collect();
+        let (one, all) = (evaluated(pairs, &q), evaluated(in_lanes, &lanes));
+        assert_eq!(one.1, all.1.iter().map(|x| x.0[3]).collect::<Vec<_>>());
+        assert_eq!(one.2, all.2.map(|x| x.0[3]), "{} bodies, {:?}", pairs.bodies(), pairs.which);
+    }
+    for bodies in [15, 16, 17, 24, 25, 39] {
+        let all = |sigma: f64| Pairs::<_, 3>::all(bodies, LennardJones { epsilon: 1.5, sigma }).unwrap();
+        let sigma = Lanes::all(0.4);
+        compare(&all(0.4), &Pairs::all(bodies, LennardJones { epsilon: Lanes::all(1.5), sigma }).unwrap());
+        let m: Vec<f64> = (0..bodies).map(|i| 1.0 + i as f64 / 8.0).collect();
+        let in_lanes = m.iter().copied().map(Lanes::all).collect();
+        compare(
+            &Pairs::<_, 2>::all(bodies, Gravity { g: 0.7, m: m.clone() }).unwrap(),
+            &Pairs::<_, 2>::all(bodies, Gravity { g: Lanes::all(0.7), m: in_lanes }).unwrap(),
+        );
+        let in_lanes = m.iter().copied().map(Lanes::all).collect();
+        compare(
+            &Pairs::<_, 3>::all(bodies, Softened { s: 0.2, m }).unwrap(),
+            &Pairs::<_, 3>::all(bodies, Softened { s: Lanes::all(0.2), m: in_lanes }).unwrap(),
+        );
+        for ends in [Ends::Free, Ends::Fixed, Ends::Periodic] {
+            compare(
+                &Pairs::<_, 1>::neighbours(bodies, CubicSpring { alpha: 0.25 }, ends).unwrap(),
+                &Pairs::<_, 1>::neighbours(bodies, CubicSpring { alpha: Lanes::all(0.25) }, ends).unwrap(),
+            );
+        }
+    }
+}

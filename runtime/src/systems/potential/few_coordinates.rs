@@ -1,0 +1,89 @@
+//! Steps of a few coordinates, held in registers, for a potential behind a `dyn`.
+
+use std::array;
+use std::mem::{needs_drop, size_of};
+
+use crate::number::Number;
+use crate::systems::kept::KeptForce;
+use crate::systems::kinetic::InverseMasses;
+use crate::systems::maps::MapKind;
+use crate::systems::summation::{Plain, Summation};
+
+/// Steps of H = ½pᵀM⁻¹p + U(q) with at most three coordinates and a diagonal M, for [`Potential::advance_few`](super::Potential::advance_few).
+///
+/// A step in which the potential and the masses are each behind a `dyn` passes q, p and U_q through memory between its maps. Here one call
+/// makes many steps, compiled for the type of the potential, so that these stay in registers. The bits are the same as with the maps one by one.
+#[derive(Debug)]
+pub struct FewCoordinates<'a, N> {
+    /// q, p and U_q.
+    pub(crate) state: [&'a mut [N]; 3],
+    pub(crate) inverse_masses: InverseMasses<'a, N>,
+    /// What is kept at q before the first map and after the last.
+    pub(crate) kept: KeptForce,
+    /// Evaluations of the gradient.
+    pub(crate) evaluations: u64,
+    pub(crate) maps: [Repeated<N>; 3],
+}
+
+/// Kicks and drifts with their weights, and how often they are made.
+pub(crate) type Repeated<N> = (Vec<(MapKind, N)>, u64);
+
+/// More coordinates are not held in registers.
+const MOST: usize = 3;
+
+impl<N: Number> FewCoordinates<'_, N> {
+    /// Whether registers hold such numbers: of others these steps are not even compiled.
+    const FIT: bool = size_of::<N>() <= 16 && !needs_drop::<N>();
+
+    /// Whether this makes the steps of a system of this dimension.
+    pub(crate) fn can_hold(dimension: usize) -> bool {
+        Self::FIT && (1..=MOST).contains(&dimension)
+    }
+
+    /// Makes the steps of a potential of this dimension; `evaluate` computes the gradient.
+    ///
+    /// # Panics
+    /// If there are more than three.
+    #[inline(always)]
+    pub fn advance(&mut self, dimension: usize, evaluate: impl FnMut(&[N], &mut [N])) {
+        if const { Self::FIT } {
+            match dimension {
+                1 => self.advance_in_arrays::<1>(evaluate),
+                2 => self.advance_in_arrays::<2>(evaluate),
+                3 => self.advance_in_arrays::<3>(evaluate),
+                more => unreachable!("{more} coordinates are more than {MOST}"),
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn advance_in_arrays<const D: usize>(&mut self, mut evaluate: impl FnMut(&[N], &mut [N])) {
+        let FewCoordinates { state, inverse_masses, kept, evaluations, maps } = self;
+        let copy = |from: &[N]| -> [N; D] { array::from_fn(|i| from[i].clone()) };
+        let [mut q, mut p, mut gradient] = [copy(state[0]), copy(state[1]), copy(state[2])];
+        let mut velocity = p[0].clone();
+        let (mut has_gradient, mut evaluated) = (*kept != KeptForce::Nothing, 0);
+        for (maps, times) in maps {
+            for _ in 0..*times {
+                for (kind, weight) in &*maps {
+                    if *kind == MapKind::Drift {
+                        inverse_masses.drift(weight, &p, &mut q, &mut velocity);
+                        has_gradient = false;
+                        continue;
+                    }
+                    if !has_gradient {
+                        evaluate(&q, &mut gradient);
+                        has_gradient = true;
+                        evaluated += 1;
+                    }
+                    Plain.kick(weight, &gradient, &mut p);
+                }
+            }
+        }
+        *kept = if has_gradient { KeptForce::Gradient } else { KeptForce::Nothing };
+        *evaluations += evaluated;
+        for (into, from) in state.iter_mut().zip([&q, &p, &gradient]) {
+            into.clone_from_slice(from);
+        }
+    }
+}

@@ -1,0 +1,298 @@
+//! Planetary systems H = A + B with A solved exactly: Kepler orbits about the central body, and the interactions of the planets.
+//!
+//! Schemes for H = A + εB, such as the SABA and ABAH families, gain their factor ε only where A is the larger part *and* its flow is exact
+//! (Wisdom & Holman, Astron. J. 102 (1991) 1528; Laskar & Robutel, Celest. Mech. 80 (2001) 39). Here a drift moves the centre of mass and
+//! each planet on its Kepler orbit, A = P₀²/2M + Σ (P_i²/2m_i′ − κ_i/|Q_i|), and a kick is by the rest of the forces.
+//!
+//! Along an exact flow of A the modified energy's β grows by ∫(qᵀA_q + pᵀA_p − 2A) dt (Moan & Niesen, eq. 2). A quadratic form adds
+//! nothing; of p²/2m − κ/r the integrand is 3κ/r, and ∫dt/r is the universal anomaly s, which the [Kepler drift](crate::systems::kepler_drift)
+//! has found anyway: **β += 3κ s**. B is homogeneous of degree −1, so that a kick adds −3B times its weight.
+//!
+//! In Jacobi coordinates B depends on Q only, and of A only T = Σ P²/2m′ does not commute with it. So `[B,[A,B]]` is `[B,[T,B]]`, and a gradient kick
+//! is the flow of −½B_QᵀM′⁻¹B_Q as for H = T + U. With v = M′⁻¹B_Q its rate of β is −vᵀ∂(−3B)/∂Q = 3vᵀB_Q.
+
+mod bodies;
+mod heliocentric;
+mod interactions;
+mod jacobi;
+mod orbits;
+pub mod secular;
+
+pub use bodies::{Bodies, BodiesError};
+pub use heliocentric::DemocraticHeliocentric;
+pub use jacobi::Jacobi;
+pub use orbits::Orbits;
+
+use crate::number::Number;
+use crate::systems::displaced::Displacements;
+use crate::systems::gradient_kicks::{Curvature, GradientKicks, Place};
+use crate::systems::increments::Carried;
+use crate::systems::kept::KeptForce;
+use crate::systems::state::{State, VectorState};
+use crate::systems::summation::{Compensated, Half};
+use crate::systems::system::System;
+
+/// Canonical coordinates in which a planetary system is a sum of Kepler orbits and interactions.
+///
+/// Q₀ is the centre of mass and P₀ the total momentum; Q_i and P_i, i ≥ 1, are those of the planets. All is linear in the inertial
+/// positions and momenta.
+pub trait PlanetaryCoordinates<N: Number, const D: usize> {
+    /// [`Quadratic`](crate::systems::kinetic::Quadratic) where the kick depends on Q only, else [`General`](crate::systems::kinetic::General).
+    type Class;
+
+    /// Whether the kick depends on Q only, so that `[B,[A,B]]` has a flow of its own: gradient kicks.
+    const HAS_GRADIENT_KICKS: bool;
+
+    /// The coordinates for bodies of these masses.
+    fn new(bodies: &Bodies, context: &N::Context) -> Self;
+
+    /// The Kepler orbits of A.
+    fn orbits(&self) -> &Orbits<N>;
+
+    /// canonical ← the coordinates of an inertial state; each is positions and momenta, body after body.
+    fn assign_from_inertial(&mut self, inertial: (&[N], &[N]), canonical: (&mut [N], &mut [N]));
+
+    /// inertial ← the state with these coordinates.
+    fn assign_inertial(&mut self, canonical: (&[N], &[N]), inertial: (&mut [N], &mut [N]));
+
+    /// gradient ← ∂B/∂Q and, if asked for, rate ← QᵀB_Q − 2B = −3B, of the part of B that depends on Q.
+    fn gradient_and_rate(&mut self, q: &[N], gradient: &mut [N], rate: Option<&mut N>);
+
+    /// product ← B_QQ v, of the part of B that depends on Q.
+    fn hessian_product(&mut self, q: &[N], v: &[N], product: &mut [N]);
+
+    /// The velocity with which the part of B that depends on P moves all planets; there is none by default.
+    fn jump(&mut self, p: &[N]) -> Option<&[N; D]> {
+        let _ = p;
+        None
+    }
+
+    /// energy ← B
+    fn assign_interaction_energy(&mut self, canonical: (&[N], &[N]), energy: &mut N);
+}
+
+/// A planetary system in D dimensions with its state, in coordinates `C`: [`Jacobi`] or [`DemocraticHeliocentric`].
+///
+/// The first body is the central one. Positions and momenta of the [`System`] are the canonical coordinates Q and P;
+/// [`inertial`](WisdomHolman::inertial) converts them.
+///
+/// ```
+/// use shadowstep::systems::wisdom_holman::{Bodies, Jacobi, WisdomHolman};
+/// use shadowstep::{Stepper, System, exact, tables};
+///
+/// // two planets of a thousandth of the central mass, with G = 1
+/// let masses = ["1", "1/1000", "1/1000"].map(|mass| exact(mass).unwrap());
+/// let bodies = Bodies::new(exact("1").unwrap(), masses.to_vec())?;
+/// let (q, p) = ([0.0, 0.0, 1.0, 0.0, 0.0, 1.8], [0.0, -0.001, 0.0, 0.001, -0.00074, 0.0]);
+/// let mut planets = WisdomHolman::<_, Jacobi<_, 2>, 2>::new(&bodies, (&q, &p), &())?;
+///
+/// let before = planets.energy();
+/// let stepper = Stepper::new(tables::shipped("saba4").unwrap(), "1/4")?;
+/// for _ in 0..1000 {
+///     stepper.step(&mut planets);
+/// }
+/// assert!((planets.energy() / before - 1.0).abs() < 1e-6);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct WisdomHolman<N: Number, C, const D: usize> {
+    coordinates: C,
+    state: VectorState<N>,
+    /// ∂B/∂Q
+    gradient: Vec<N>,
+    /// −3B
+    rate: N,
+    kept: KeptForce,
+    /// Once there was a gradient kick; what it keeps belongs to the Q of the last evaluation.
+    gradient_kicks: Option<Box<GradientKicks<N>>>,
+    orbits: orbits::Advance<N, D>,
+}
+
+impl<N: Number, C: PlanetaryCoordinates<N, D>, const D: usize> WisdomHolman<N, C, D> {
+    /// The system at inertial positions and momenta, body after body.
+    ///
+    /// # Errors
+    /// A state of another number of bodies.
+    pub fn new(bodies: &Bodies, (q, p): (&[N], &[N]), context: &N::Context) -> Result<Self, BodiesError> {
+        let dimension = bodies.count() * D;
+        for found in [q.len(), p.len()] {
+            if found != dimension {
+                return Err(BodiesError::State { found, bodies: bodies.count(), dimensions: D });
+            }
+        }
+        let zeros = || vec![N::zero(context); dimension];
+        let mut system = WisdomHolman {
+            coordinates: C::new(bodies, context),
+            state: State::new(zeros(), zeros(), context).compensated_if(false),
+            gradient: zeros(),
+            rate: N::zero(context),
+            kept: KeptForce::Nothing,
+            gradient_kicks: None,
+            orbits: orbits::Advance::new(context),
+        };
+        system.set_inertial(q, p);
+        Ok(system)
+    }
+
+    /// The same system with [compensated sums](crate::systems::summation::Compensated): the round-off of a kick or drift is ε times the increment, in place of ε
+    /// times the coordinate.
+    #[must_use]
+    pub fn compensated(mut self) -> Self {
+        self.state = self.state.compensated_if(true);
+        self
+    }
+
+    /// The same system with gradient kicks by displaced forces, of the stepper that computed these: see [`Displacements`].
+    #[must_use]
+    pub fn displaced(mut self, displacements: Displacements<N>) -> Self {
+        let (dimension, context) = (self.state.q.len(), self.state.context());
+        self.gradient_kicks = Some(Box::new(GradientKicks::new(dimension, Some(displacements), &context)));
+        self
+    }
+
+    /// The inertial positions and momenta.
+    pub fn inertial(&mut self) -> (Vec<N>, Vec<N>) {
+        let (mut q, mut p) = (self.state.q.clone(), self.state.p.clone());
+        self.coordinates.assign_inertial((&self.state.q, &self.state.p), (&mut q, &mut p));
+        (q, p)
+    }
+
+    /// Sets the inertial positions and momenta.
+    pub fn set_inertial(&mut self, q: &[N], p: &[N]) {
+        let WisdomHolman { coordinates, state, .. } = self;
+        coordinates.assign_from_inertial((q, p), (&mut state.q, &mut state.p));
+        // the remainders of what was there before
+        state.q_mut();
+        state.p_mut();
+        self.kept = KeptForce::Nothing;
+    }
+
+    /// The coordinates, which convert states.
+    pub fn coordinates(&self) -> &C {
+        &self.coordinates
+    }
+
+    /// Evaluates the gradient at the present Q, unless it is known.
+    fn evaluate(&mut self, with_rate: bool) {
+        if self.kept.suffices(with_rate) {
+            return;
+        }
+        let rate = with_rate.then_some(&mut self.rate);
+        self.coordinates.gradient_and_rate(&self.state.q, &mut self.gradient, rate);
+        self.kept = if with_rate { KeptForce::GradientAndRate } else { KeptForce::Gradient };
+        self.state.count_evaluation();
+        if let Some(kicks) = &mut self.gradient_kicks {
+            kicks.kept = KeptForce::Nothing;
+        }
+    }
+
+    /// The velocity with which the part of B that depends on P moves all planets.
+    fn jump(&mut self, weight: &N, carried: Carried) {
+        let WisdomHolman { coordinates, state, kept, .. } = self;
+        let Some(velocity) = coordinates.jump(&state.p) else { return };
+        for index in D..state.q.len() {
+            state.change(Half::Positions, index, carried, |q| q.add_product(weight, &velocity[index % D]));
+        }
+        *kept = KeptForce::Nothing;
+    }
+}
+
+/// The second derivatives of B.
+struct Interacting<'a, C, const D: usize>(&'a mut C);
+
+impl<N: Number, C: PlanetaryCoordinates<N, D>, const D: usize> Curvature<N> for Interacting<'_, C, D> {
+    fn assign_velocity(&mut self, gradient: &[N], velocity: &mut [N]) {
+        // B does not depend on the centre of mass
+        let (centre, planets) = velocity.split_at_mut(D);
+        centre.iter_mut().for_each(N::assign_zero);
+        let orbits = &self.0.orbits().planets;
+        for ((velocity, gradient), orbit) in planets.chunks_mut(D).zip(gradient[D..].chunks(D)).zip(orbits) {
+            velocity.iter_mut().zip(gradient).for_each(|(v, gradient)| v.assign_quotient(gradient, &orbit.mass));
+        }
+    }
+
+    fn hessian_product(&mut self, at: Place<'_, N>, v: &[N], product: &mut [N], rate: Option<&mut N>) {
+        self.0.hessian_product(at.q, v, product);
+        let Some(rate) = rate else { return };
+        // QᵀB_Q − 2B = −3B
+        rate.assign_zero();
+        v.iter().zip(at.gradient).for_each(|(v, gradient)| rate.add_product(v, gradient));
+        rate.multiply_integer(-3);
+    }
+
+    fn gradient(&mut self, q: &[N], gradient: &mut [N], rate: Option<&mut N>) {
+        self.0.gradient_and_rate(q, gradient, rate);
+    }
+}
+
+impl<N: Number, C: PlanetaryCoordinates<N, D>, const D: usize> System for WisdomHolman<N, C, D> {
+    type Number = N;
+    type Class = C::Class;
+    type Coordinates = Vec<N>;
+    type Summation = Option<Compensated<N, Vec<N>>>;
+
+    fn state(&self) -> &VectorState<N> {
+        &self.state
+    }
+
+    fn state_mut(&mut self) -> &mut VectorState<N> {
+        self.kept = KeptForce::Nothing;
+        &mut self.state
+    }
+
+    fn clear_increments(&mut self) {
+        self.state.clear_increments();
+    }
+
+    /// The jump and the kick by the gradient at the place where it ends: the two commute.
+    fn kick(&mut self, weight: &N, carried: Carried) {
+        let augmented = carried == Carried::Increments;
+        self.jump(weight, carried);
+        self.evaluate(augmented);
+        match augmented {
+            true => self.state.kick_augmented(weight, &self.gradient, &self.rate),
+            false => self.state.kick(weight, &self.gradient),
+        }
+    }
+
+    fn drift(&mut self, weight: &N, carried: Carried) {
+        let WisdomHolman { coordinates, state, orbits, .. } = self;
+        orbits.advance(coordinates.orbits(), weight, state, carried);
+        self.kept = KeptForce::Nothing;
+    }
+
+    fn has_gradient_kicks(&self) -> bool {
+        C::HAS_GRADIENT_KICKS
+    }
+
+    /// The gradient kick p ← p + weight·B_QQ M′⁻¹B_Q.
+    fn gradient_kick(&mut self, weight: &N, carried: Carried) {
+        assert!(
+            C::HAS_GRADIENT_KICKS,
+            "B depends on P in these coordinates: there are gradient kicks in Jacobi coordinates only"
+        );
+        let augmented = carried == Carried::Increments;
+        self.evaluate(augmented);
+        let WisdomHolman { coordinates, state, gradient, rate, gradient_kicks, .. } = self;
+        let kicks =
+            gradient_kicks.get_or_insert_with(|| Box::new(GradientKicks::new(state.q.len(), None, &weight.context())));
+        let before = kicks.evaluations;
+        let place = Place { q: &state.q, gradient, rate };
+        kicks.evaluate(&mut Interacting::<C, D>(coordinates), place, weight, augmented);
+        if kicks.is_displaced() {
+            state.evaluations += kicks.evaluations - before;
+        }
+        match augmented {
+            true => state.kick_augmented(weight, &kicks.force, &kicks.rate),
+            false => state.kick(weight, &kicks.force),
+        }
+    }
+
+    /// H is the same as in inertial coordinates; `kinetic` is T.
+    fn assign_energies(&mut self, at: Option<(&[N], &[N])>, energy: &mut N, kinetic: &mut N) {
+        let WisdomHolman { coordinates, state, orbits, .. } = self;
+        let at = at.unwrap_or((&state.q, &state.p));
+        coordinates.assign_interaction_energy(at, energy);
+        orbits.add_energies(coordinates.orbits(), at, energy, kinetic);
+    }
+}

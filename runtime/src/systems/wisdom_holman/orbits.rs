@@ -1,0 +1,124 @@
+//! A: the free motion of the centre of mass, and a Kepler orbit for each planet.
+
+use crate::Rational;
+use crate::number::Number;
+use crate::systems::increments::Carried;
+use crate::systems::kepler_drift::KeplerDrift;
+use crate::systems::state::VectorState;
+use crate::systems::summation::Half;
+
+/// The masses and attractions of A = P₀²/2M + Σ (P_i²/2m_i′ − κ_i/|Q_i|).
+#[derive(Clone, Debug)]
+pub struct Orbits<N> {
+    /// M
+    pub total_mass: N,
+    /// For each planet.
+    pub planets: Vec<Orbit<N>>,
+}
+
+/// A Kepler orbit with H = P²/2m − κ/|Q|.
+#[derive(Clone, Debug)]
+pub struct Orbit<N> {
+    /// m
+    pub mass: N,
+    /// κ
+    pub attraction: N,
+    /// μ = κ/m
+    pub parameter: N,
+}
+
+impl<N: Number> Orbit<N> {
+    /// Each number is rounded once.
+    pub(super) fn new(mass: &Rational, attraction: &Rational, context: &N::Context) -> Self {
+        let number = |value: &Rational| N::from_rational(value, context);
+        Orbit { mass: number(mass), attraction: number(attraction), parameter: number(&(attraction / mass)) }
+    }
+}
+
+/// Advances the orbits; has the scratch space for it.
+#[derive(Clone, Debug)]
+pub(super) struct Advance<N: Number, const D: usize> {
+    kepler: KeplerDrift<N>,
+    place: [N; D],
+    velocity: [N; D],
+    /// What a drift adds.
+    to_q: [N; D],
+    to_v: [N; D],
+    square: N,
+    scratch: N,
+}
+
+impl<N: Number, const D: usize> Advance<N, D> {
+    pub(super) fn new(context: &N::Context) -> Self {
+        let zeros = || std::array::from_fn(|_| N::zero(context));
+        Advance {
+            kepler: KeplerDrift::new(context),
+            place: zeros(),
+            velocity: zeros(),
+            to_q: zeros(),
+            to_v: zeros(),
+            square: N::zero(context),
+            scratch: N::zero(context),
+        }
+    }
+
+    /// The flow of A for a time.
+    pub(super) fn advance(&mut self, orbits: &Orbits<N>, time: &N, state: &mut VectorState<N>, carried: Carried) {
+        for axis in 0..D {
+            self.scratch.assign_quotient(&state.p()[axis], &orbits.total_mass);
+            state.change(Half::Positions, axis, carried, |q| q.add_product(time, &self.scratch));
+        }
+        for (planet, orbit) in (1..).zip(&orbits.planets) {
+            let first = planet * D;
+            self.find_increments(orbit, time, (&state.q()[first..first + D], &state.p()[first..first + D]));
+            for (axis, part) in self.to_q.iter().enumerate() {
+                state.change(Half::Positions, first + axis, carried, |q| q.add(part));
+            }
+            for (axis, part) in self.to_v.iter().enumerate() {
+                state.change(Half::Momenta, first + axis, carried, |p| p.add_product(&orbit.mass, part));
+            }
+            if carried == Carried::Increments {
+                // 3κ s
+                self.scratch.multiply(&orbit.attraction);
+                self.scratch.multiply_integer(3);
+                state.increments.beta.add(&self.scratch);
+            }
+        }
+    }
+
+    /// What the drift adds to a planet's position and velocity, and its universal anomaly in the scratch number.
+    ///
+    /// The velocity is the true quotient of momentum and mass: a product with 1/m, rounded, would let the energy drift.
+    fn find_increments(&mut self, orbit: &Orbit<N>, time: &N, (q, p): (&[N], &[N])) {
+        let Advance { kepler, place, velocity, to_q, to_v, scratch, .. } = self;
+        place.iter_mut().zip(q).for_each(|(place, q)| place.assign(q));
+        velocity.iter_mut().zip(p).for_each(|(v, p)| v.assign_quotient(p, &orbit.mass));
+        to_q.iter_mut().chain(&mut *to_v).for_each(N::assign_zero);
+        scratch.assign(kepler.advance_augmented(&orbit.parameter, time, place, velocity, to_q, to_v));
+    }
+
+    /// energy ← energy + A, and kinetic ← T
+    pub(super) fn add_energies(&mut self, orbits: &Orbits<N>, (q, p): (&[N], &[N]), energy: &mut N, kinetic: &mut N) {
+        let Advance { square, scratch, .. } = self;
+        let masses = std::iter::once(&orbits.total_mass).chain(orbits.planets.iter().map(|orbit| &orbit.mass));
+        kinetic.assign_zero();
+        for (mass, p) in masses.zip(p.as_chunks::<D>().0) {
+            assign_square_sum(square, p);
+            scratch.assign_quotient(square, mass);
+            kinetic.add(scratch);
+        }
+        kinetic.divide_integer(2);
+        energy.add(kinetic);
+        for (orbit, q) in orbits.planets.iter().zip(&q.as_chunks::<D>().0[1..]) {
+            assign_square_sum(square, q);
+            scratch.assign_reciprocal_sqrt(square);
+            energy.subtract_product(&orbit.attraction, scratch);
+        }
+    }
+}
+
+/// sum ← Σ x²
+fn assign_square_sum<N: Number>(sum: &mut N, values: &[N]) {
+    sum.assign_zero();
+    values.iter().for_each(|x| sum.add_product(x, x));
+}
