@@ -54,7 +54,7 @@ use unknowns::Model;
 use write::Written;
 
 /// The largest number of digits that can be requested: as many as a table may claim.
-pub const MOST_DIGITS: u32 = DIGITS;
+pub const MOST_POLISHED_DIGITS: u32 = DIGITS;
 
 /// The most decimals that are solved for: the work grows with their square.
 const MOST_DECIMALS: usize = 200;
@@ -65,7 +65,7 @@ const NEARLY_SINGULAR: f64 = 1e12;
 /// What is requested.
 #[derive(Clone, Copy, Debug)]
 pub struct Request<'a> {
-    /// Digits to which the conditions shall hold, from 1 to [`MOST_DIGITS`]; `None` for as many as can be.
+    /// Digits to which the conditions shall hold, from 1 to [`MOST_POLISHED_DIGITS`]; `None` for as many as can be.
     pub digits: Option<u32>,
     /// Decimals that stay as printed, beside those that the table calls free: names of constants, or places such as
     /// `kick[2]`, `drift[3]`, `gamma[1]`.
@@ -115,7 +115,7 @@ pub fn polish(source: &Source, library: Library<'_>, wanted: &Request<'_>) -> Re
     let problem = Problem { model: &model, equations: &equations };
     let printed_digits = model.unknowns.iter().map(|u| u.decimal.significant).max().unwrap_or(1);
     let residual_printed = problem.residual(&model.printed(), printed_digits);
-    let most_digits = wanted.digits.unwrap_or(MOST_DIGITS);
+    let most_digits = wanted.digits.unwrap_or(MOST_POLISHED_DIGITS);
     let solution = problem.solve(&held, most_digits).map_err(|failure| {
         let (message, hint) = refusal::unsolved(&problem, &failure, residual_printed, &held);
         NotPolished::Unsolved { message, hint: refusal::reason(&scheme, &model).unwrap_or(hint) }

@@ -37,3 +37,5 @@ pub mod summation;
 pub mod system;
 pub mod transformed_time;
 pub mod wisdom_holman;
+
+pub use matrix::QUADRATIC_FLOW_DIGITS;

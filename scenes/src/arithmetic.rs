@@ -14,13 +14,10 @@ use crate::readable;
 pub const GUARD_DIGITS: u32 = 20;
 
 /// Irrational values are not computed to more digits.
-pub const MOST_VALUE_DIGITS: u32 = shadowstep_symbolic::MOST_DIGITS;
+pub const MOST_VALUE_DIGITS: u32 = shadowstep_symbolic::MOST_EVALUATED_DIGITS;
 
 /// The most digits of a run.
 pub const MOST_DIGITS: u32 = 100_000;
-
-/// The most digits of a run with a flow that is computed in more digits and rounded: of a linear part, or of a quadratic form.
-pub(crate) const LONGEST_EXACT_FLOW: u32 = 288;
 
 /// The default digits of a run.
 pub const DEFAULT_DIGITS: u32 = 120;

@@ -17,11 +17,11 @@ use crate::observer::Observer;
 use crate::physical_end::last_step;
 use crate::results::{Checkpoint, ModifiedEnergy, Row, Rows, SavedState};
 use crate::run::Run;
+use crate::scene::split::ShownCoordinates;
 use crate::scene::{CheckpointInterval, EnergyAt, Scene};
 use crate::snapshots::{Snapshot, Snapshots};
-use crate::split::ShownCoordinates;
 use crate::start::Begin;
-use crate::summary::Summary;
+use crate::watch::summary::Summary;
 use crate::watch::{Energies, Watch};
 
 /// How a run ended.

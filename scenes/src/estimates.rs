@@ -13,7 +13,7 @@ use crate::propagator::{Propagator, exact_flow};
 use crate::run::Run;
 use crate::scene::System;
 use crate::start::{Begin, Steps};
-use crate::summary::{EnergySummary, Summary};
+use crate::watch::summary::{EnergySummary, Summary};
 use crate::watch::{Energies, Watch};
 
 /// A run whose modified energies are estimated.

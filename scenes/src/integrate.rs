@@ -36,8 +36,8 @@ use crate::error::Error;
 use crate::follow::Follower;
 use crate::observer::Observer;
 use crate::run::Run;
+use crate::scene::split::ShownCoordinates;
 use crate::scene::{self, EnergyAt};
-use crate::split::ShownCoordinates;
 use crate::start::{Begin, Steps};
 
 /// A run whose states are kept.

@@ -86,7 +86,7 @@
 //! | `split` | how H is split into parts: each kind of split has its file |
 //! | [`estimates`], [`start`] | the modified energies along such a run; a system at a state with its stepper |
 //! | `frequency`, [`stability`] | the fastest oscillation at the start, and the stability limit of the scheme |
-//! | [`watch`], `summary` | what a run shows: the error of H, the modified energy, close encounters, the verdict |
+//! | [`watch`] | what a run shows: the error of H, the modified energy, close encounters, the verdict |
 //! | [`readable`], `error`, `refusal` | numbers and texts for people; what can go wrong |
 
 pub mod arithmetic;
@@ -111,7 +111,6 @@ pub mod lock;
 mod note;
 mod observer;
 mod physical_end;
-pub mod plot;
 pub mod propagator;
 mod read;
 pub mod readable;
@@ -123,11 +122,9 @@ mod scene;
 pub mod scheme_record;
 mod shipped;
 mod snapshots;
-mod split;
 pub mod stability;
 pub mod start;
 pub mod steps;
-mod summary;
 mod template;
 mod temporary;
 pub mod watch;
@@ -142,17 +139,18 @@ pub use observer::Observer;
 pub use read::source;
 pub use refusal::{NoGradientKicks, NoProcessor, Refusal};
 pub use results::{FileOptions, elementary_functions, hexadecimal};
+pub use scene::plot;
+pub use scene::split::{
+    CanonicalCoordinates, Class, Formulas, KineticAndPotential, Linear, Needs, Planets, ShownCoordinates,
+    TransformedTime,
+};
 pub use scene::{
     CheckpointInterval, EnergyAt, Format, Formula, InitialValueProblem, KineticEnergy, Outputs, OwnPotential,
     PairEnergy, Parts, PotentialEnergy, Scene, SceneNumber, System, SystemIn,
 };
 pub use shipped::{ENCOUNTER_SCENES, MANY_PARTS_SCENES, PLANETARY_SCENES, SCHEME_SCENES, ShippedScene, shipped_scene};
-pub use split::{
-    CanonicalCoordinates, Class, Formulas, KineticAndPotential, Linear, Needs, Planets, ShownCoordinates,
-    TransformedTime,
-};
-pub use summary::{EnergySummary, ModifiedEnergySummary, Summary};
 pub use template::template;
 pub use temporary::{Temporary, remove_temporary_files};
+pub use watch::summary::{EnergySummary, ModifiedEnergySummary, Summary};
 pub use watch::{Approach, Encounter, Interactions};
 pub use whole_file::WholeFile;

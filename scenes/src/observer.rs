@@ -1,7 +1,7 @@
 //! How a caller watches a run and stops it.
 
 use crate::note::Note;
-use crate::summary::Summary;
+use crate::watch::summary::Summary;
 
 /// Watches a run. `()` watches nothing and never stops it.
 pub trait Observer {

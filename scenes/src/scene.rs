@@ -7,7 +7,9 @@ mod output;
 mod own;
 mod pairs;
 mod parameters;
+pub mod plot;
 mod problem;
+pub(crate) mod split;
 mod system;
 
 pub(crate) use format::COLUMNS;

@@ -3,6 +3,7 @@
 pub(crate) mod approaches;
 pub(crate) mod encounters;
 mod energy;
+pub(crate) mod summary;
 
 use std::mem::take;
 
@@ -19,7 +20,7 @@ use self::energy::EnergyError;
 use crate::run::Run;
 use crate::run_number::{Monitoring, RunNumber};
 use crate::scene;
-use crate::summary::{EnergySummary, ModifiedEnergySummary, Summary};
+use crate::watch::summary::{EnergySummary, ModifiedEnergySummary, Summary};
 
 /// The monitor's estimator is E_16 with its error: 17 states a window.
 const MONITOR_ORDER: u32 = 16;

@@ -26,7 +26,7 @@ use crate::text::error::{SemanticError, SemanticFault};
 use crate::text::syntax::Expression;
 
 /// Irrational values are not computed to more digits: they would take long and exceed the largest size of numbers.
-pub const MOST_DIGITS: u32 = 5000;
+pub const MOST_EVALUATED_DIGITS: u32 = 5000;
 
 /// Digits beyond those asked for in the first attempt.
 const GUARD_DIGITS: u32 = 20;
@@ -70,7 +70,7 @@ pub fn evaluate_within(
     digits: u32,
     budget: &Budget,
 ) -> Result<Exact, SemanticError> {
-    let digits = digits.clamp(1, MOST_DIGITS);
+    let digits = digits.clamp(1, MOST_EVALUATED_DIGITS);
     for attempt in 0..ATTEMPTS {
         let last = attempt + 1 == ATTEMPTS;
         let attempt = Attempt { digits: (digits + GUARD_DIGITS) << attempt, last };

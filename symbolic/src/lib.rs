@@ -79,7 +79,7 @@ mod text;
 
 use std::collections::BTreeMap;
 
-pub use evaluation::{MOST_DIGITS, budget::Budget, evaluate, evaluate_within, value::Exact};
+pub use evaluation::{MOST_EVALUATED_DIGITS, budget::Budget, evaluate, evaluate_within, value::Exact};
 pub use graph::flow::{ExplicitFlow, NoFlow};
 pub use graph::pair::{Separation, is_symmetric};
 pub use graph::{Form, Graph, Node};

@@ -1,16 +1,17 @@
-//! Protects the structure of the workspace: no files of a crate import each other in a circle, so that a file can be read,
-//! tested and moved with only what it imports.
+//! Protects the structure of the workspace: no files of a crate import each other in a circle, nor do modules of a folder, so that a file or a
+//! module can be read, tested and moved with only what it imports.
 
 mod circles;
 mod imports;
 mod made_up;
 mod source;
 
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use self::circles::{circles, show};
-use self::imports::imports;
+use self::imports::{Imports, between_modules, imports};
 use self::source::Crate;
 
 #[test]
@@ -28,6 +29,26 @@ fn no_files_import_each_other_in_a_circle() {
          or into the file that uses them:\n{}",
         shown.join("")
     );
+}
+
+#[test]
+fn no_modules_import_each_other_in_a_circle() {
+    let (folder, roots) = workspace();
+    let mut shown = Vec::new();
+    for root in roots.iter().map(|(_, root)| root) {
+        let imports = imports(&Crate::read(root));
+        for inner in folders(&imports) {
+            let imports = between_modules(&imports, &inner);
+            shown.extend(circles(&imports).iter().map(|circle| show(circle, &imports, &folder)));
+        }
+    }
+    assert!(shown.is_empty(), "modules import each other in a circle:\n{}", shown.join(""));
+}
+
+/// The folders of the files of a crate.
+fn folders(imports: &Imports) -> BTreeSet<PathBuf> {
+    let files = imports.keys().flat_map(|(from, to)| [from, to]);
+    files.filter_map(|file| file.parent()).map(Path::to_path_buf).collect()
 }
 
 /// The workspace's folder, and of every crate in it (libraries, programs, tests, benchmarks) the package and the root file.

@@ -26,7 +26,7 @@ const SCHEME: &str = "sofroniou-spaletta10-35";
 /// Digits beyond those of the schemes' runs.
 const MORE_DIGITS: u32 = 12;
 /// The digits of the reference, which its scheme's weights must have.
-const MOST_DIGITS: u32 = 240;
+const MOST_REFERENCE_DIGITS: u32 = 240;
 /// Halving the step of a scheme of order 10 divides its error by 1024; where it divides the differences by this and more, the scheme shows
 /// its order, and the error is less than the last difference by this factor.
 const GAIN: f64 = 256.0;
@@ -197,9 +197,9 @@ fn of_scheme(
     continues: &dyn Fn() -> bool,
 ) -> Result<Reference, Error> {
     let digits = problem.arithmetic.digits() + MORE_DIGITS;
-    if digits > MOST_DIGITS {
-        let most = MOST_DIGITS - MORE_DIGITS;
-        let message = format!("a reference is computed to {MOST_DIGITS} digits at most, for runs of {most}");
+    if digits > MOST_REFERENCE_DIGITS {
+        let most = MOST_REFERENCE_DIGITS - MORE_DIGITS;
+        let message = format!("a reference is computed to {MOST_REFERENCE_DIGITS} digits at most, for runs of {most}");
         return Err(Error::usage(
             message,
             format!("use --digits {most} or less, or a problem whose exact flow is known"),

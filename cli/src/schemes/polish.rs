@@ -33,7 +33,7 @@ pub(crate) struct Arguments {
     #[arg(value_name = "FILE")]
     file: String,
     /// Decimal digits to which the conditions shall hold [default: as many as can be, at most 300]
-    #[arg(long, value_name = "DIGITS", value_parser = |text: &str| whole(text, 1..=polish::MOST_DIGITS))]
+    #[arg(long, value_name = "DIGITS", value_parser = |text: &str| whole(text, 1..=polish::MOST_POLISHED_DIGITS))]
     digits: Option<u32>,
     /// Decimals that stay as printed: constants, or places such as kick[2], drift[3], gamma[1]
     #[arg(long, value_name = "NAME", num_args = 1.., value_delimiter = ',')]

@@ -67,7 +67,7 @@ impl<N: CorrectlyRounded, P: Potential<N>> LinearPart<N, P> {
     ///
     /// # Errors
     /// q, p, the masses, K and the potential that do not have the same dimension, at least 1; masses that are not positive; numbers of more than
-    /// 288 digits.
+    /// [`QUADRATIC_FLOW_DIGITS`](crate::systems::QUADRATIC_FLOW_DIGITS).
     pub fn new(
         potential: P,
         masses: &[Rational],

@@ -12,6 +12,9 @@ pub(crate) const MOST_KEPT: usize = 256;
 /// With terms that fall by 16 and more, fewer make the digits of 17 limbs.
 pub(crate) const MOST_TERMS: i32 = 300;
 
+/// The flow of a quadratic form is computed for numbers of at most this number of digits.
+pub const QUADRATIC_FLOW_DIGITS: u32 = 288;
+
 /// Bits beyond the bits of the run: doubling t k times may lose 2k of them.
 const GUARD_BITS: u32 = 128;
 
@@ -54,4 +57,16 @@ pub(crate) fn scale(a: &mut Matrix<AnyLimbs>, by: i32) {
 pub(crate) fn add_to_diagonal(a: &mut Matrix<AnyLimbs>, number: u32, count: LimbCount) {
     let by = AnyLimbs::from_rational(&Rational::from_integer(number.into()), &count);
     a.iter_mut().enumerate().for_each(|(i, row)| row[i].add(&by));
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::number::Precision;
+
+    #[test]
+    fn most_digits_are_those_of_the_longest_limbs() {
+        let fits = |digits| LimbCount::of_bits(Precision::digits(digits).unwrap().in_bits() + GUARD_BITS).is_some();
+        assert!(fits(QUADRATIC_FLOW_DIGITS) && !fits(QUADRATIC_FLOW_DIGITS + 1));
+    }
 }

@@ -7,12 +7,15 @@ mod turns;
 
 use thiserror::Error;
 
-use crate::number::Number;
+use shadowstep_symbolic::{Error as FormulaError, exact};
+
+use crate::number::{AnyLimbs, LimbCount, Number, Precision};
 use crate::systems::coordinates::Coordinates;
 use crate::systems::displaced::Displacements;
 use crate::systems::increments::Increments;
 use crate::systems::kept::KeptForce;
 use crate::systems::kinetic::{Kinetic, MassError};
+use crate::systems::matrix::QUADRATIC_FLOW_DIGITS;
 use crate::systems::potential::Potential;
 use crate::systems::state::State;
 use crate::systems::summation::{Compensated, FixedPoint, Plain, RangeError, Summation};
@@ -113,6 +116,46 @@ where
     fn with<S>(self, with_sums: impl FnOnce(State<N, V>) -> State<N, V, S>) -> Motion<N, V, P, K, S> {
         let Motion { hamiltonian, at: Evaluated { state, gradient, rate, kept } } = self;
         Motion { hamiltonian, at: Evaluated { state: with_sums(state), gradient, rate, kept } }
+    }
+}
+
+impl<P, K, const D: usize> Motion<AnyLimbs, [AnyLimbs; D], P, K>
+where
+    P: Potential<AnyLimbs>,
+    K: Kinetic<AnyLimbs>,
+{
+    /// The system at exact initial values, in numbers of at least this many decimal digits. A value is a formula without names, such as `2/5`, `0.4` or
+    /// `sqrt(3)/2`; it is rounded once.
+    ///
+    /// ```
+    /// use shadowstep::{Motion, Stepper, UnitMasses, problems::Kepler, tables::shipped};
+    ///
+    /// let mut motion = Motion::exact(Kepler, UnitMasses, ["2/5", "0"], ["0", "2"], 120)?;
+    /// let stepper = Stepper::with_context(shipped("yoshida4").unwrap(), "1/20", &motion.context())?;
+    /// let start = motion.energy();
+    /// (0..100).for_each(|_| stepper.step(&mut motion));
+    /// (0..100).for_each(|_| stepper.step_back(&mut motion));
+    /// let error = motion.energy() - &start;
+    /// assert!(error.abs() < &start.abs().times_power_of_two(-390)); // 120 digits are 400 bits
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// Values that are not exact numbers; more digits than 17 limbs hold, 327; as [`Motion::new`].
+    pub fn exact(potential: P, kinetic: K, q: [&str; D], p: [&str; D], digits: u32) -> Result<Self, MotionError> {
+        let precision = Precision::digits(digits).ok();
+        let context = precision.and_then(|precision| LimbCount::of_bits(precision.in_bits()));
+        let context = context.ok_or(MotionError::NumberOfDigits { digits })?;
+        let number = |name: &str, index: usize, text: &str| match exact(text) {
+            Ok(value) => Ok(AnyLimbs::from_rational(&value, &context)),
+            Err(error) => Err(MotionError::Value { name: format!("{name}{}", index + 1), error }),
+        };
+        let numbers = |name: &str, texts: [&str; D]| -> Result<[AnyLimbs; D], MotionError> {
+            let found: Vec<_> =
+                texts.iter().enumerate().map(|(i, text)| number(name, i, text)).collect::<Result<_, _>>()?;
+            Ok(found.try_into().expect("there are D of them"))
+        };
+        Motion::new(potential, kinetic, numbers("q", q)?, numbers("p", p)?)
     }
 }
 
@@ -300,8 +343,22 @@ pub enum MotionError {
     #[error("the numbers of q and p must have the same precision")]
     Precision,
     /// The numbers have more digits than the flow of a linear part is computed to.
-    #[error("a linear part needs numbers of at most 288 digits")]
+    #[error("a linear part needs numbers of at most {QUADRATIC_FLOW_DIGITS} digits")]
     Digits,
+    /// An initial value is not an exact number.
+    #[error("{name}: {error}")]
+    Value {
+        /// Such as q1, counted from 1.
+        name: String,
+        /// What is wrong with it.
+        error: FormulaError,
+    },
+    /// There are no numbers of so many digits.
+    #[error("the initial values cannot be rounded to {digits} digits: give a number from 1 to {most}", most = Precision::of_bits(LimbCount::MOST.bits()).in_digits())]
+    NumberOfDigits {
+        /// The digits that were asked for.
+        digits: u32,
+    },
     /// A mass is not valid.
     #[error(transparent)]
     Masses(#[from] MassError),

@@ -5,7 +5,7 @@ use shadowstep::number::Real;
 use shadowstep::shadow::run::{EnergyDrift, Finding};
 
 use crate::arithmetic::DigitsLabel;
-use crate::summary::{EnergySummary, Summary};
+use crate::watch::summary::{EnergySummary, Summary};
 
 /// The result of a run in JSON; numbers of high precision are texts.
 #[derive(Clone, Debug, Serialize)]

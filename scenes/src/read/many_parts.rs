@@ -1,5 +1,6 @@
 //! `parts = ["…", "…", "…"]`: H as a sum of parts by their formulas.
 
+use shadowstep::systems::QUADRATIC_FLOW_DIGITS;
 use shadowstep::systems::many_parts::{PartError, PartFormula};
 use shadowstep_schemes::document::{Text, Value};
 use shadowstep_symbolic::Exact;
@@ -8,9 +9,8 @@ use super::formula::names;
 use super::given::Given;
 use super::numbers::Numbers;
 use super::reader::Reader;
-use crate::arithmetic::LONGEST_EXACT_FLOW;
+use crate::scene::split::Formulas;
 use crate::scene::{Formula, InitialValueProblem, KineticEnergy, Parts, PotentialEnergy, System};
-use crate::split::Formulas;
 
 /// What a part may be.
 const KNOWN: &str = "a part is a function of variables none of which is the momentum of another, such as T(p), U(q) or x*py, a quadratic \
@@ -64,9 +64,9 @@ fn part(
     parameters: &[(String, Exact)],
 ) -> Option<Formula<PartFormula>> {
     match Formula::part(&text.value, names, parameters) {
-        Ok(part) if part.meaning().has_quadratic_form() && reader.arithmetic.digits() > LONGEST_EXACT_FLOW => {
+        Ok(part) if part.meaning().has_quadratic_form() && reader.arithmetic.digits() > QUADRATIC_FLOW_DIGITS => {
             let message = PartError::Digits.to_string();
-            reader.toml.wrong(&text.at, message, format!("write digits = {LONGEST_EXACT_FLOW}, or less"))
+            reader.toml.wrong(&text.at, message, format!("write digits = {QUADRATIC_FLOW_DIGITS}, or less"))
         }
         Ok(part) => {
             reader.refuse_numbers(text, &part.meaning().numbers());

@@ -8,8 +8,8 @@ use super::given::Given;
 use super::reader::Reader;
 use crate::arithmetic::Arithmetic;
 use crate::refusal::Refusal;
+use crate::scene::split::{CanonicalCoordinates, KineticAndPotential, LINEAR, Linear, Planets};
 use crate::scene::{InitialValueProblem, Parts, System};
-use crate::split::{CanonicalCoordinates, KineticAndPotential, LINEAR, Linear, Planets};
 
 /// The parts of a problem, or why it has none of this kind; with the bodies that attract each other and their dimensions, if it is a problem of these.
 pub(super) type Split = fn(&InitialValueProblem, Arithmetic, Option<(Bodies, usize)>) -> Result<Parts, Refusal>;

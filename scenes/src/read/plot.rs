@@ -5,7 +5,7 @@ use std::path::Path;
 use toml::de::DeValue;
 
 use super::reader::Reader;
-use crate::plot::{Content, Picture, PictureError, Plot};
+use crate::scene::plot::{Content, Picture, PictureError, Plot};
 use crate::scene::{Outputs, System};
 use shadowstep_schemes::document::{self, Placed, Section, Text};
 

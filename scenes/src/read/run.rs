@@ -15,7 +15,7 @@ use crate::library::{LibraryError, NamedScheme, Schemes};
 use crate::note::Note;
 use crate::refusal::Refusal;
 use crate::scene::System;
-use crate::split::{Class, Needs};
+use crate::scene::split::{Class, Needs};
 use crate::steps::{self, MOST_STEPS, WrongValue};
 use shadowstep_schemes::document::{Section, Text};
 

@@ -5,8 +5,8 @@ use toml::de::DeTable;
 
 use super::reader::Reader;
 use crate::refusal::Refusal;
+use crate::scene::split::TransformedTime;
 use crate::scene::{Parts, System};
-use crate::split::TransformedTime;
 use shadowstep_schemes::document::Section;
 
 /// The name of the section.

@@ -11,7 +11,7 @@ use crate::results::metadata::Metadata;
 use crate::results::resumable::beside;
 use crate::results::target::{METADATA, Target};
 use crate::scene::{COLUMNS, Format};
-use crate::summary::Summary;
+use crate::watch::summary::Summary;
 use crate::whole_file::WholeFile;
 
 /// A state of the run: what is written at its n. Numbers are texts that give the same numbers when they are read.

@@ -9,7 +9,7 @@ use shadowstep::problems::{ProblemMotion, Setup};
 
 use super::problem::EnergyAt;
 use super::system::{Parts, System, ask};
-use crate::split::{ShownCoordinates, Split as _, State};
+use crate::scene::split::{ShownCoordinates, Split as _, State};
 use crate::start::{SceneIntegrator, Steps};
 
 /// A number type in which systems are computed.

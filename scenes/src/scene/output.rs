@@ -6,8 +6,8 @@ use std::time::Duration;
 
 use shadowstep::shadow::EstimatorSettings;
 
-use crate::plot::Plot;
 use crate::scene::format::Format;
+use crate::scene::plot::Plot;
 
 /// What is to be written, and where. Periods are in steps: something is written at each n that is a multiple of its own.
 #[derive(Clone, Debug)]

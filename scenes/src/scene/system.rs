@@ -11,7 +11,7 @@ use shadowstep_symbolic::Exact;
 use crate::error::Error;
 use crate::scene::own::OwnPotential;
 use crate::scene::problem::{InitialValueProblem, KineticEnergy, PotentialEnergy};
-use crate::split::{Class, Formulas, KineticAndPotential, Linear, Needs, Planets, Split, TransformedTime};
+use crate::scene::split::{Class, Formulas, KineticAndPotential, Linear, Needs, Planets, Split, TransformedTime};
 
 /// A problem and how its H is split for the steps.
 #[derive(Debug)]

@@ -4,7 +4,7 @@ use serde::Serialize;
 use shadowstep::Real;
 
 use crate::scene::System;
-use crate::split::{OfPlanets, Planets, ShownCoordinates};
+use crate::scene::split::{OfPlanets, Planets, ShownCoordinates};
 
 /// The closest approach of two planets.
 #[derive(Clone, Debug, PartialEq, Serialize)]

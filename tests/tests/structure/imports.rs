@@ -50,6 +50,26 @@ pub(crate) fn imports(source: &Crate) -> Imports {
     found
 }
 
+/// The imports between the modules of one folder, each with the files below it: `b` and `b/c.rs` are the module `b`.
+///
+/// The root file of a crate re-exports what is below it, and is left out.
+pub(crate) fn between_modules(imports: &Imports, folder: &Path) -> Imports {
+    let module = |file: &Path| {
+        let below = file.strip_prefix(folder).ok()?;
+        let name = PathBuf::from(below.components().next()?.as_os_str()).with_extension("");
+        (!["lib", "main"].contains(&name.to_str()?)).then(|| folder.join(name))
+    };
+    let mut found = Imports::new();
+    for ((from, to), names) in imports {
+        if let (Some(from), Some(to)) = (module(from), module(to))
+            && from != to
+        {
+            found.entry((from, to)).or_default().extend(names.iter().cloned());
+        }
+    }
+    found
+}
+
 /// The modules and names that are being looked up, so that imports in a circle come to an end.
 type Seen = Vec<(usize, String)>;
 

@@ -3,7 +3,7 @@
 use std::fs;
 
 use super::circles::{circles, show};
-use super::imports::imports;
+use super::imports::{between_modules, imports};
 use super::source::Crate;
 
 /// The circles of a crate with these files under src, as they are shown.
@@ -141,4 +141,23 @@ fn a_face_parents_and_tests_make_no_circle() {
         ("c/tests.rs", "use crate::c::inner::f;"),
     ]);
     assert_eq!(found, NONE);
+}
+
+#[test]
+fn modules_are_compared_with_all_their_files() {
+    let folder = tempfile::tempdir().unwrap();
+    let write = |name: &str, text: &str| {
+        let file = folder.path().join(name);
+        fs::create_dir_all(file.parent().unwrap()).unwrap();
+        fs::write(file, text).unwrap();
+    };
+    write("lib.rs", "mod a; mod b; pub use a::A;");
+    write("a.rs", "mod inner; pub struct A;");
+    write("a/inner.rs", "use crate::b::B; struct Inner(B);");
+    write("b.rs", "use crate::a::A; pub struct B; fn f(_: A) {}");
+    let imports = imports(&Crate::read(&folder.path().join("lib.rs")));
+    assert!(circles(&imports).is_empty());
+    let between = between_modules(&imports, folder.path());
+    let shown: Vec<_> = circles(&between).iter().map(|circle| show(circle, &between, folder.path())).collect();
+    assert_eq!(shown, ["2 files import each other: a, b\n  a imports from b: B\n  b imports from a: A\n"]);
 }

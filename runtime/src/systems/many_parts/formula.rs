@@ -13,6 +13,7 @@ use super::quadratic::Quadratic;
 use crate::Rational;
 use crate::number::{CorrectlyRounded, Number};
 use crate::systems::formula::{FormulaError, refuse_repeated};
+use crate::systems::matrix::QUADRATIC_FLOW_DIGITS;
 
 /// A text that is no part of H with a known flow.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
@@ -24,7 +25,7 @@ pub enum PartError {
     #[error("the flow of this part has no formula: it couples {0}")]
     NoFlow(String),
     /// The numbers have more digits than the flow of a quadratic form is computed to.
-    #[error("the flow of a quadratic form is computed to at most 288 digits")]
+    #[error("the flow of a quadratic form is computed to at most {QUADRATIC_FLOW_DIGITS} digits")]
     Digits,
 }
 
@@ -87,7 +88,7 @@ impl PartFormula {
         Ok(FormulaPart { flows })
     }
 
-    /// Whether one of its flows is that of a quadratic form, which is computed to at most 288 digits.
+    /// Whether one of its flows is that of a quadratic form, which is computed to at most [`QUADRATIC_FLOW_DIGITS`].
     pub fn has_quadratic_form(&self) -> bool {
         self.flows.iter().any(|flow| matches!(flow, ExplicitFlow::Quadratic { .. }))
     }

@@ -3,12 +3,13 @@
 use num_traits::Signed;
 use serde_json::{Value, json};
 use shadowstep::number::{AnyLimbs, CorrectlyRounded, LimbCount};
+use shadowstep::systems::QUADRATIC_FLOW_DIGITS;
 use shadowstep::systems::linear_part::LinearPart;
 use shadowstep::{MotionError, Number, Potential, Rational, exact};
 use shadowstep_symbolic::decimal::from_text;
 
 use super::{Class, Needs, Split, State};
-use crate::arithmetic::{Arithmetic, LONGEST_EXACT_FLOW};
+use crate::arithmetic::Arithmetic;
 use crate::refusal::Refusal;
 use crate::scene::{InitialValueProblem, KineticEnergy};
 use crate::start::{SceneIntegrator, Steps};
@@ -69,8 +70,8 @@ impl Linear {
             () if matches!(problem.kinetic, KineticEnergy::Formula(_)) => {
                 return refuse("a linear part requires T by masses, not by a formula".to_owned());
             }
-            () if arithmetic.digits() > LONGEST_EXACT_FLOW => {
-                return refuse(format!("a linear part is computed to {LONGEST_EXACT_FLOW} digits"));
+            () if arithmetic.digits() > QUADRATIC_FLOW_DIGITS => {
+                return refuse(format!("a linear part is computed to {QUADRATIC_FLOW_DIGITS} digits"));
             }
             () => {}
         }
