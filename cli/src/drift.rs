@@ -155,7 +155,7 @@ impl Follower for DriftProgress<'_> {
     }
 
     fn begins_control(&mut self, run: Run<'_>) {
-        self.progress.restart(format!("on the exact flow, step {}", shortened(run.h, 20)));
+        self.progress.restart(format!("on the exact flow, step {}", shortened(run.h.exact(), 20)));
         self.hint = "the run itself is complete";
     }
 

@@ -86,7 +86,7 @@ impl PosedProblem {
         };
         let until = match (&arguments.until, &scene) {
             (Some(text), _) => quantity::number("--until", text)?,
-            (None, Some(scene)) => &scene.h * Rational::from_integer(scene.steps().into()),
+            (None, Some(scene)) => scene.h.exact() * Rational::from_integer(scene.steps().into()),
             (None, None) => return Err(Error::usage("--until is missing", "give the end of the runs: --until 100")),
         };
         if until == Rational::from_integer(0.into()) {

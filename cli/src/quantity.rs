@@ -3,10 +3,11 @@
 use std::collections::BTreeMap;
 use std::ops::RangeInclusive;
 
-use shadowstep::Rational;
 use shadowstep::problems::ProblemError;
-use shadowstep_scenes::Error;
+use shadowstep::{Rational, StepSize};
 use shadowstep_scenes::arithmetic::NUMBER_EXAMPLES;
+use shadowstep_scenes::{Error, steps};
+use shadowstep_symbolic::decimal::to_text;
 use shadowstep_symbolic::{Budget, evaluate_within, parse};
 
 /// Digits of irrational numbers in flags.
@@ -22,6 +23,21 @@ pub(crate) fn number(flag: &str, text: &str) -> Result<Rational, Error> {
     exact(text).map_err(|error| {
         let place = character(text, error.range().start);
         Error::usage(format!("{flag} `{text}`, character {place}: {error}"), NUMBER_EXAMPLES)
+    })
+}
+
+/// The step size of a flag.
+pub(crate) fn step_size(flag: &str, text: &str) -> Result<StepSize, Error> {
+    StepSize::try_from(number(flag, text)?)
+        .map_err(|zero| Error::usage(format!("{flag} {text}: {zero}"), "write a step size such as 1/10"))
+}
+
+/// How many steps of size h, with its text, end at or before the time of --until.
+pub(crate) fn steps(h: (&StepSize, &str), until: &Rational) -> Result<u64, Error> {
+    let end = to_text(until);
+    steps::count(h, (until, &end)).map_err(|none| match none.is_of_time() {
+        true => Error::usage(format!("--until {end}: {none}"), "write a time such as --until 100"),
+        false => Error::usage(none.to_string(), none.hint()),
     })
 }
 

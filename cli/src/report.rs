@@ -41,9 +41,13 @@ pub(crate) fn negative_answer(message: impl Display, hint: impl Display) -> Stat
     Status::NegativeAnswer
 }
 
+/// Options that the libraries name in messages, such as `force`: here they are flags.
+const FLAGS: [(&str, &str); 3] = [("`restart`", "--restart"), ("`force`", "--force"), ("`control`", "--control")];
+
 /// A message behind its word, with the word of its hint, both in colours.
 fn message(word: &str, style: Style, text: impl Display) -> String {
-    let text = text.to_string().replace("\n  hint: ", &format!("\n  {} ", styled("hint:", HINT)));
+    let text = FLAGS.iter().fold(text.to_string(), |text, (name, flag)| text.replace(name, flag));
+    let text = text.replace("\n  hint: ", &format!("\n  {} ", styled("hint:", HINT)));
     format!("{} {text}", styled(word, style))
 }
 

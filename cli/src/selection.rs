@@ -1,7 +1,7 @@
 //! Arguments → problem, schemes and steps: the runs to make.
 
-use shadowstep::Rational;
 use shadowstep::shadow::{EstimatorOptions, EstimatorSettings, check_accuracy};
+use shadowstep::{Rational, StepSize};
 use shadowstep_scenes::Note;
 use shadowstep_scenes::drift::DriftRequest;
 use shadowstep_symbolic::decimal::to_text;
@@ -16,7 +16,6 @@ use shadowstep_scenes::estimator::{ACCURACY_HINT, conflict, order_setting};
 use shadowstep_scenes::propagator::Propagator;
 use shadowstep_scenes::run::{OrderSetting, Run};
 use shadowstep_scenes::stability::unstable;
-use shadowstep_scenes::steps;
 
 /// Everything that is to be run.
 #[derive(Debug)]
@@ -26,7 +25,7 @@ pub(crate) struct Selection {
     pub(crate) arithmetic: Arithmetic,
     pub(crate) estimator: EstimatorSettings,
     propagators: Vec<Propagator>,
-    steps: Vec<(Rational, u64)>,
+    steps: Vec<(StepSize, u64)>,
 }
 
 impl Selection {
@@ -41,7 +40,7 @@ impl Selection {
         let words = each_once(&arguments.schemes, |word| word.clone(), "scheme");
         let propagators =
             words.iter().map(|word| Propagator::of_system(word, &problem.system)).collect::<Result<_, _>>()?;
-        steps = each_once(&steps, |(h, _)| to_text(h), "step");
+        steps = each_once(&steps, |(h, _)| to_text(h.exact()), "step");
         let selection = Selection { problem, until, arithmetic, estimator, propagators, steps };
         for scheme in selection.propagators.iter().filter_map(Propagator::scheme) {
             let note = arithmetic.suits(scheme).map_err(|error| {
@@ -95,12 +94,12 @@ impl Selection {
     fn note_instability(&self) {
         let Some(frequency) = self.problem.system.fastest_frequency() else { return };
         for scheme in self.propagators.iter().filter_map(Propagator::scheme) {
-            self.steps.iter().filter_map(|(h, _)| unstable(frequency, scheme, h)).for_each(report::note);
+            self.steps.iter().filter_map(|(h, _)| unstable(frequency, scheme, h.exact())).for_each(report::note);
         }
     }
 
     fn note_ends(&self) {
-        self.steps.iter().filter_map(|(h, count)| Note::of_end(h, *count, &self.until)).for_each(report::note);
+        self.steps.iter().filter_map(|(h, count)| Note::of_end(h.exact(), *count, &self.until)).for_each(report::note);
     }
 }
 
@@ -180,8 +179,8 @@ fn each_once<T: Clone>(list: &[T], name: impl Fn(&T) -> String, what: &str) -> V
 }
 
 /// A step size h, and how many steps end at or before `until`.
-fn step(text: &str, until: &Rational) -> Result<(Rational, u64), Error> {
-    let h = quantity::number("--step", text)?;
-    let count = steps::count((&h, text), (until, &to_text(until)), "--");
-    count.map(|count| (h, count)).map_err(|none| Error::usage(none.message, none.hint))
+fn step(text: &str, until: &Rational) -> Result<(StepSize, u64), Error> {
+    let h = quantity::step_size("--step", text)?;
+    let count = quantity::steps((&h, text), until)?;
+    Ok((h, count))
 }

@@ -127,7 +127,7 @@ impl Computation for TraceRun<'_, '_> {
         let (settings, between) = (selection.estimator.clone().with_errors(true), selection.estimator.is_between());
         let system = &selection.problem.system;
         let (mut energy_of, mut shown) = (system.energy::<N>(context), system.shown::<N>(context));
-        let name = several.then(|| RunName { scheme: run.propagator.to_owned(), step: to_text(run.h) });
+        let name = several.then(|| RunName { scheme: run.propagator.to_owned(), step: to_text(run.h.exact()) });
         let (compensated, summarised) = (selection.arithmetic.is_compensated(), !arguments.run.no_summary);
         let estimates = Estimates { system, propagator, run, compensated, settings: &settings, summarised };
         let with_states = plots.as_ref().is_some_and(|plots| plots.needs_states());

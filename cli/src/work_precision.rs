@@ -158,13 +158,13 @@ fn range(arguments: &Arguments, until: &Rational) -> Result<StepRange, Error> {
         return Ok(StepRange::Automatic { seconds: arguments.seconds, target: None });
     }
     let count = |text: &String| {
-        let h = quantity::number("--steps", text)?;
-        let end = to_text(until);
-        let count = shadowstep_scenes::steps::count((&h, text), (until, &end), "--");
-        let count = count.map_err(|error| Error::usage(error.message, error.hint))?;
-        if &(&h * Rational::from_integer(count.into())) != until {
-            let message =
-                format!("--until {end} is not a multiple of the step {text}, so that runs would end at other times");
+        let h = quantity::step_size("--steps", text)?;
+        let count = quantity::steps((&h, text), until)?;
+        if &(h.exact() * Rational::from_integer(count.into())) != until {
+            let message = format!(
+                "--until {} is not a multiple of the step {text}, so that runs would end at other times",
+                to_text(until)
+            );
             return Err(Error::usage(message, "use steps that divide the time"));
         }
         Ok(count)

@@ -8,7 +8,7 @@ use shadowstep::number::{AnyLimbs, LimbCount, Number, Real};
 use shadowstep::shadow::exact_flow::ExactFlow;
 use shadowstep::shadow::run::{Finding, RunError, ShadowRun, States, Trajectory};
 use shadowstep::shadow::{BuildEstimator, Estimate, Estimator, EstimatorSettings};
-use shadowstep::{Integrator as _, Rational, StepSize};
+use shadowstep::{Integrator as _, Rational};
 use shadowstep_scenes::propagator::{Propagator, motion, stepper};
 use shadowstep_scenes::run::Run as Steps;
 
@@ -90,7 +90,7 @@ impl Measure<'_> {
         self.with_estimates(settings, &mut |mut estimates| {
             let mut all = Energies::default();
             while let Some((n, estimate)) = estimates.advance()? {
-                all.include(time_of_value(&h, n, settings), &estimate);
+                all.include(time_of_value(h.exact(), n, settings), &estimate);
             }
             Ok(all)
         })
@@ -106,7 +106,7 @@ impl Measure<'_> {
     }
 
     pub(crate) fn escape(&self) -> Result<Escape, Error> {
-        let h = f64::from_rational(&self.run.h(), &());
+        let h = f64::from_rational(self.run.h().exact(), &());
         let mut escape = Escape::default();
         let mut n = 0_u32;
         self.states(|q, p| {
@@ -150,17 +150,13 @@ impl Measure<'_> {
         self.with_states(reach, &mut |states| Recorded::of(states, reach))
     }
 
-    fn step_size(&self) -> StepSize {
-        StepSize::try_from(&self.run.h()).expect("figures have nonzero step sizes")
-    }
-
     /// Gives the estimates along the run to `measure`.
     fn with_estimates<T>(
         &self,
         settings: &EstimatorSettings,
         measure: &mut dyn FnMut(Estimates<'_>) -> Result<T, RunError>,
     ) -> Result<T, Error> {
-        let (h, context) = (self.step_size(), self.run.limbs());
+        let (h, context) = (self.run.h(), self.run.limbs());
         let estimator = BuildEstimator::<AnyLimbs>::build(settings, &h, self.run.dimension(), &context);
         let mut estimator = Some(estimator.expect("figures have valid orders"));
         let reach = (estimator.as_ref().map_or(1, |estimator| estimator.states()) - 1) / 2;
@@ -187,7 +183,7 @@ impl Measure<'_> {
         }
         let propagator = Propagator::read(run.propagator, &setup)?;
         let Some(scheme) = propagator.scheme() else {
-            let states = ExactFlow::<AnyLimbs>::new(&setup, &self.step_size(), run.steps(), reach, &limbs);
+            let states = ExactFlow::<AnyLimbs>::new(&setup, &self.run.h(), run.steps(), reach, &limbs);
             let states = states.map_err(|error| steps.not_followed(&error))?;
             return measure(&mut Watched { states, continues: watch(-(reach as i64)) }).map_err(failed);
         };

@@ -3,7 +3,7 @@
 use serde::{Serialize, Serializer};
 use shadowstep::number::{LimbCount, Precision};
 use shadowstep::problems::{Problem, Setup};
-use shadowstep::{Rational, exact};
+use shadowstep::{StepSize, exact};
 use shadowstep_scenes::arithmetic::GUARD_DIGITS;
 pub(crate) use shadowstep_scenes::library::EXACT_FLOW;
 
@@ -62,13 +62,13 @@ impl Run {
     }
 
     /// The step size.
-    pub(crate) fn h(&self) -> Rational {
-        exact(&self.step).expect("figures have exact step sizes")
+    pub(crate) fn h(&self) -> StepSize {
+        StepSize::try_from(self.step.as_str()).expect("figures have exact, nonzero step sizes")
     }
 
     /// The number of steps.
     pub(crate) fn steps(&self) -> u64 {
-        let steps = (exact(self.until).expect("figures have exact times") / self.h()).floor();
+        let steps = (exact(self.until).expect("figures have exact times") / self.h().exact()).floor();
         u64::try_from(steps.to_integer()).expect("figures run forward in time")
     }
 

@@ -1,6 +1,7 @@
 //! A problem: the sections of a scene that describe a system, or a function that computes its forces.
 
 use pyo3::prelude::*;
+use shadowstep::StepSize;
 use shadowstep::problems::PROBLEMS;
 use shadowstep::tables::Source;
 use shadowstep_scenes::arithmetic::{Arithmetic, DigitsError, MOST_DIGITS};
@@ -121,6 +122,11 @@ pub(crate) fn problem_names() -> Vec<&'static str> {
 
 fn exact(py: Python<'_>, text: &str) -> PyResult<Exact> {
     number(py, text).map(|value| Exact { value, rounded: false })
+}
+
+/// A step size, exactly.
+pub(crate) fn step_size(py: Python<'_>, h: &str) -> PyResult<StepSize> {
+    StepSize::try_from(number(py, h)?).map_err(|error| usage(py, error.to_string(), "write a step size such as 1/10"))
 }
 
 /// An exact number.

@@ -3,8 +3,8 @@
 use numpy::PyArray1;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
-use shadowstep::Rational;
 use shadowstep::shadow::EstimatorSettings;
+use shadowstep::{Rational, StepSize};
 use shadowstep_scenes::arithmetic::Arithmetic;
 use shadowstep_scenes::computation::{Computation, RunNumber};
 use shadowstep_scenes::integrate::{Integration, Samples};
@@ -16,7 +16,7 @@ use shadowstep_scenes::{Error, Note, Observer, System, estimator, steps};
 
 use crate::errors::{exception, usage};
 use crate::estimator::Options;
-use crate::given::{Given, arithmetic, number};
+use crate::given::{Given, arithmetic, number, step_size};
 use crate::scheme::Table;
 use crate::waiting::waiting;
 
@@ -58,7 +58,7 @@ pub(crate) fn integrate<'py>(
 
 /// The steps of a run.
 pub(crate) struct Times {
-    pub(crate) h: Rational,
+    pub(crate) h: StepSize,
     pub(crate) steps: u64,
     note: Option<Note>,
 }
@@ -66,11 +66,11 @@ pub(crate) struct Times {
 impl Times {
     /// Of two values one is given: the number of steps, or the time at which they end.
     pub(crate) fn of(py: Python<'_>, h: &str, count: Option<u64>, until: Option<&str>) -> PyResult<Self> {
-        let size = number(py, h)?;
+        let size = step_size(py, h)?;
         match (count, until) {
             (Some(count), None) => {
                 // the same checks, by the time at which they end
-                let until = &size * Rational::from_integer(count.into());
+                let until = size.exact() * Rational::from_integer(count.into());
                 Times::until(py, (size, h), (until, &format!("{count} h")))
             }
             (None, Some(text)) => Times::until(py, (size, h), (number(py, text)?, text)),
@@ -78,10 +78,13 @@ impl Times {
         }
     }
 
-    fn until(py: Python<'_>, (h, step): (Rational, &str), (until, end): (Rational, &str)) -> PyResult<Self> {
-        let steps = steps::count((&h, step), (&until, end), "");
-        let steps = steps.map_err(|error| usage(py, error.message, error.hint))?;
-        Ok(Times { note: Note::of_end(&h, steps, &until), h, steps })
+    fn until(py: Python<'_>, (h, step): (StepSize, &str), (until, end): (Rational, &str)) -> PyResult<Self> {
+        let steps = steps::count((&h, step), (&until, end));
+        let steps = steps.map_err(|error| match error.is_of_time() {
+            true => usage(py, format!("until {end}: {error}"), error.hint()),
+            false => usage(py, error.to_string(), error.hint()),
+        })?;
+        Ok(Times { note: Note::of_end(h.exact(), steps, &until), h, steps })
     }
 }
 
@@ -124,7 +127,7 @@ impl SystemWithScheme {
             true => Integrated::Texts(arithmetic.compute(InTexts { integration, observer })?),
         };
         let frequency = system.fastest_frequency();
-        let unstable = frequency.and_then(|frequency| unstable(frequency, &self.scheme, &times.h));
+        let unstable = frequency.and_then(|frequency| unstable(frequency, &self.scheme, times.h.exact()));
         Ok((found, self.note.iter().cloned().chain(unstable).collect()))
     }
 }

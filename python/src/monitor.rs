@@ -11,7 +11,7 @@ use shadowstep_scenes::computation::{Monitoring, RunNumber as _};
 use shadowstep_scenes::start::{Begin, SceneIntegrator, Steps};
 
 use crate::errors::exception;
-use crate::given::{Given, arithmetic, number};
+use crate::given::{Given, arithmetic, step_size};
 use crate::integrate::SystemWithScheme;
 use crate::scheme::Table;
 
@@ -38,15 +38,12 @@ impl Monitor {
         digits: &str,
     ) -> PyResult<Self> {
         let arithmetic = arithmetic(py, digits, false)?;
-        let h = number(py, h)?;
+        let h = step_size(py, h)?;
         let given = problem.get();
         let failed = |error| exception(py, error);
         if arithmetic.is_longer_than_double() {
             let message = "a monitor for loops computes in double precision";
             return Err(failed(Error::usage(message, "give digits = \"double\" or \"compensated\"")));
-        }
-        if h == shadowstep::Rational::from_integer(0.into()) {
-            return Err(failed(Error::usage("the step size must be nonzero", "write a step size such as 1/10")));
         }
         let posed = SystemWithScheme::of(given, &scheme.0, arithmetic).map_err(failed)?;
         let compensated = arithmetic.is_compensated();

@@ -15,7 +15,7 @@ use shadowstep_scenes::arithmetic::Arithmetic;
 use shadowstep_scenes::start::{Begin, SceneIntegrator, Steps};
 
 use crate::errors::{exception, usage};
-use crate::given::{Given, number};
+use crate::given::{Given, step_size};
 use crate::integrate::SystemWithScheme;
 use crate::scheme::Table;
 
@@ -66,7 +66,7 @@ pub(crate) fn energies_of_states(
     let failed = |error| exception(py, error);
     let posed = SystemWithScheme::of(problem, &scheme.0, Arithmetic::DOUBLE).map_err(failed)?;
     let begin = Begin::InitialState;
-    let steps = Steps { scheme: &posed.scheme.scheme, h: h.exact(), compensated: false, displaced: false, begin };
+    let steps = Steps { scheme: &posed.scheme.scheme, h: &h, compensated: false, displaced: false, begin };
     let integrator = posed.system.integrator(steps, posed.system.start::<f64>(&()), &());
     let integrator = integrator.map_err(|error| failed(Error::usage(error.to_string(), "check the problem")))?;
     let found = again(integrator, &rows(&q)?, &rows(&p)?, k);
@@ -245,10 +245,6 @@ fn dictionary<'py>(py: Python<'py>, found: &Diagnosis) -> PyResult<Bound<'py, Py
     }
     all.set_item("jumps", found.jumps.iter().map(|jump| (jump.n, jump.energy)).collect::<Vec<_>>())?;
     Ok(all)
-}
-
-fn step_size(py: Python<'_>, h: &str) -> PyResult<StepSize> {
-    StepSize::try_from(number(py, h)?).map_err(|error| usage(py, error.to_string(), "write a step size such as 1/10"))
 }
 
 fn refused(py: Python<'_>, error: &RecordedError) -> PyErr {

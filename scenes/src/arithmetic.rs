@@ -88,7 +88,7 @@ impl Numbers {
 }
 
 /// What helps where a number overflows or underflows in double precision.
-pub const ANY_SIZE: &str = "write digits = 16 in [run] for numbers of any size";
+pub(crate) const ANY_SIZE: &str = "write digits = 16 in [run] for numbers of any size";
 
 impl Arithmetic {
     /// Double precision.
@@ -155,7 +155,7 @@ impl Arithmetic {
     ///
     /// # Errors
     /// More digits than MPFR has; always without the feature `mpfr`.
-    pub fn with_mpfr(digits: u32) -> Result<Self, DigitsError> {
+    pub(crate) fn with_mpfr(digits: u32) -> Result<Self, DigitsError> {
         let precision = Precision::digits(digits)?;
         #[cfg(feature = "mpfr")]
         return Ok(Arithmetic::plain(Numbers::Digits(digits, Digits::Mpfr(precision))));
@@ -190,7 +190,7 @@ impl Arithmetic {
     }
 
     /// The exact text of a value that is given to the run, or the digits of an irrational one.
-    pub fn text(self, exact: &Exact) -> String {
+    pub(crate) fn text(self, exact: &Exact) -> String {
         match exact.rounded {
             true => to_significant(&exact.value, self.value_digits() as usize),
             false => to_text(&exact.value),

@@ -51,12 +51,12 @@ impl Arithmetic {
     }
 
     /// Whether a value neither overflows nor becomes 0.
-    pub fn holds(self, value: &Rational) -> bool {
+    pub(crate) fn holds(self, value: &Rational) -> bool {
         self.compute(Holds(value))
     }
 
     /// Whether r² of two points in space with such coordinates is finite.
-    pub fn has_square_of(self, value: &Rational) -> bool {
+    pub(crate) fn has_square_of(self, value: &Rational) -> bool {
         self.compute(HasSquare(value))
     }
 

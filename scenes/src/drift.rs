@@ -138,7 +138,7 @@ fn record<N: CorrectlyRounded>(
         problem: request.problem.to_owned(),
         parameters: request.values(),
         scheme: run.propagator.to_owned(),
-        step: to_text(run.h),
+        step: to_text(run.h.exact()),
         until: to_text(request.until),
         end: to_text(&run.time_of_last()),
         digits: request.arithmetic.label(),

@@ -95,11 +95,11 @@ pub(crate) fn run<N: RunNumber>(
 
 /// Dimensions that do not agree, such as those of the state in a checkpoint.
 fn inconsistent(error: &MotionError) -> Error {
-    Error::usage(error.to_string(), "begin again with --restart")
+    Error::usage(error.to_string(), "begin again with `restart`")
 }
 
 fn unreadable(n: i64) -> Error {
-    Error::usage(format!("the state n = {n} of the checkpoint cannot be read"), "begin again with --restart")
+    Error::usage(format!("the state n = {n} of the checkpoint cannot be read"), "begin again with `restart`")
 }
 
 /// Where a state takes longer than this, each has its checkpoint: a program that is asked to end may not wait for the next one.

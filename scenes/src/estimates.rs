@@ -34,7 +34,7 @@ pub struct Estimates<'a> {
 }
 
 /// Takes each estimate with its n.
-pub type Take<'a, N> = &'a mut dyn FnMut(i64, &Estimate<'_, N>) -> Result<(), Error>;
+pub(crate) type Take<'a, N> = &'a mut dyn FnMut(i64, &Estimate<'_, N>) -> Result<(), Error>;
 
 /// What is known at the end of a run.
 #[derive(Clone, Debug)]

@@ -42,7 +42,7 @@ impl Scene {
     /// Whether the steps are beyond the stability limit, if a summary is wanted.
     fn instability(&self, observer: &dyn Observer) -> Option<Note> {
         let frequency = observer.summarises().then(|| self.system.fastest_frequency()).flatten()?;
-        unstable(frequency, &self.scheme, &self.h)
+        unstable(frequency, &self.scheme, self.h.exact())
     }
 
     fn run(
@@ -56,7 +56,7 @@ impl Scene {
             Some(checkpoint) => observer.note(&Note::Resumed { n: checkpoint.n, steps: self.steps() }),
             None => {
                 let plain = self.until.as_ref().filter(|_| self.physical_end().is_none());
-                let early = plain.and_then(|until| Note::of_end(&self.h, self.steps(), until));
+                let early = plain.and_then(|until| Note::of_end(self.h.exact(), self.steps(), until));
                 early.iter().chain(self.instability(observer).iter()).for_each(|note| observer.note(note));
                 rows.head(&Metadata::of(self))?;
             }
@@ -307,7 +307,7 @@ mod tests {
             assert_eq!(stopped, Outcome::Stopped { n: 12 });
             forge(&folder.path().join("out.csv.checkpoint"), change);
             let error = scene.run_to_file(FileOptions::default(), &mut ()).unwrap_err().to_string();
-            assert!(error.contains(message) && error.contains("--restart"), "{message}: {error}");
+            assert!(error.contains(message) && error.contains("`restart`"), "{message}: {error}");
         }
     }
 

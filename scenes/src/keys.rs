@@ -25,7 +25,7 @@ pub struct Key {
 }
 
 /// All sections, in the order of the explanation.
-pub const SECTIONS: [Section; 11] = [
+pub(crate) const SECTIONS: [Section; 11] = [
     section(
         "problem",
         "[problem]",
@@ -55,7 +55,7 @@ pub const SECTIONS: [Section; 11] = [
 ];
 
 /// All keys, section by section.
-pub const KEYS: [Key; 60] = [
+pub(crate) const KEYS: [Key; 60] = [
     key(
         "problem",
         "name",
@@ -415,7 +415,7 @@ pub const KEYS: [Key; 60] = [
 ];
 
 /// Trajectories of one scene.
-pub const ENSEMBLE: Section = section(
+pub(crate) const ENSEMBLE: Section = section(
     "ensemble",
     "[ensemble]",
     "Makes many trajectories of the scene, which differ in initial values and parameters. `shadowstep run` computes them in vectors of the \
@@ -424,7 +424,7 @@ pub const ENSEMBLE: Section = section(
 );
 
 /// The keys of \[ensemble\].
-pub const ENSEMBLE_KEYS: [Key; 2] = [
+pub(crate) const ENSEMBLE_KEYS: [Key; 2] = [
     key(
         "ensemble",
         "columns",
@@ -465,7 +465,7 @@ pub fn of(section: &str) -> impl Iterator<Item = &'static Key> + Clone {
 }
 
 /// A key of a section.
-pub fn find(section: &str, name: &str) -> Option<&'static Key> {
+pub(crate) fn find(section: &str, name: &str) -> Option<&'static Key> {
     of(section).find(|key| key.name == name)
 }
 

@@ -283,7 +283,7 @@ fn unknown(word: &str) -> LibraryError {
         let known: Vec<_> = exact_flow::problems().map(Problem::name).collect();
         return not_found(
             "exact-flow is not a scheme, but the solution itself, on which an estimator shows its own error",
-            format!("`shadowstep drift` and `trace` take it as --scheme, for {}", known.join(", ")),
+            format!("`shadowstep drift` and `trace` take it in place of a scheme, for {}", known.join(", ")),
         );
     }
     let near = shipped_hint(word);

@@ -46,7 +46,7 @@ impl Computation for Counting<'_> {
         let Counting { scene, until } = self;
         let Ok(mut integrator) = scene.integrator::<N>(context) else { return 0 };
         let until = N::from_rational(until, context);
-        let mut count = StepsTo { until, forward: scene.h.is_positive(), steps: 0 };
+        let mut count = StepsTo { until, forward: scene.h.exact().is_positive(), steps: 0 };
         // a step whose state is not finite counts, so that the run finds it
         let _ = N::follow(&mut *integrator, (None, MOST_STEPS), None, &mut count);
         count.steps

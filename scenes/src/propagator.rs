@@ -1,12 +1,12 @@
 //! What advances a state in time: a scheme, or the exact flow.
 
+use shadowstep::Stepper;
 use shadowstep::number::Number;
 use shadowstep::problems::{Problem, ProblemMotion, Setup};
 use shadowstep::shadow::exact_flow::{self, ExactFlow, ExactFlowError};
 use shadowstep::shadow::run::ShadowRun;
 use shadowstep::shadow::{Estimator, EstimatorSettings};
 use shadowstep::tables::TableScheme;
-use shadowstep::{StepSize, Stepper};
 
 use crate::error::Error;
 use crate::library::{self, EXACT_FLOW, NamedScheme, Schemes};
@@ -35,7 +35,7 @@ impl Propagator {
         exact_flow::has_exact_flow(setup).map_err(|error| {
             let hint = match error {
                 ExactFlowError::NoSolution { .. } => "use a scheme, or one of these problems",
-                _ => "choose another initial state with --set",
+                _ => "choose another initial state",
             };
             Error::usage(error.to_string(), hint)
         })?;
@@ -104,11 +104,10 @@ pub(crate) fn exact_flow<N: RunNumber>(
     settings: &EstimatorSettings,
     context: &N::Context,
 ) -> Result<AlongExactFlow<N>, Error> {
-    let h = StepSize::try_from(run.h).expect("runs have a nonzero step size");
     let estimates = || {
-        let estimator = N::estimator(settings, &h, setup.values.positions().len(), context)?;
+        let estimator = N::estimator(settings, run.h, setup.values.positions().len(), context)?;
         let reach = (estimator.states() - 1) / 2;
-        Ok(ShadowRun::of(ExactFlow::new(setup, &h, run.steps, reach, context)?, estimator, &h))
+        Ok(ShadowRun::of(ExactFlow::new(setup, run.h, run.steps, reach, context)?, estimator, run.h))
     };
     estimates().map_err(|error: ExactFlowError| run.not_followed(&error))
 }

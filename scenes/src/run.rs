@@ -1,9 +1,9 @@
 //! One run: a scheme, or the exact flow, and a step size.
 
-use shadowstep::Rational;
 use shadowstep::shadow::EstimatorSettings;
 use shadowstep::shadow::exact_flow::ExactFlowError;
 use shadowstep::shadow::run::{NotFinite, Quantity, RunError};
+use shadowstep::{Rational, StepSize};
 
 use crate::error::Error;
 use crate::readable::shortened;
@@ -16,7 +16,7 @@ pub struct Run<'a> {
     /// The name of a scheme, or exact-flow.
     pub propagator: &'a str,
     /// The step size.
-    pub h: &'a Rational,
+    pub h: &'a StepSize,
     /// The number of steps.
     pub steps: u64,
     /// The option that sets the order of the estimator, if there is one.
@@ -35,23 +35,23 @@ pub struct OrderSetting {
 impl Run<'_> {
     /// t = n h
     pub fn time(&self, n: i64) -> Rational {
-        self.h * Rational::from_integer(n.into())
+        self.h.exact() * Rational::from_integer(n.into())
     }
 
     /// The time of the last state.
-    pub fn time_of_last(&self) -> Rational {
-        self.h * Rational::from_integer(self.steps.into())
+    pub(crate) fn time_of_last(&self) -> Rational {
+        self.h.exact() * Rational::from_integer(self.steps.into())
     }
 
     /// The time of the n-th value of an estimator: n h, or for one whose values belong to the middle between two states
     /// (n + 1/2) h.
     pub fn time_of_value(&self, n: i64, estimator: &EstimatorSettings) -> Rational {
-        if estimator.is_between() { self.h * Rational::new((2 * n + 1).into(), 2.into()) } else { self.time(n) }
+        if estimator.is_between() { self.h.exact() * Rational::new((2 * n + 1).into(), 2.into()) } else { self.time(n) }
     }
 
     /// Which run it is, in messages.
     pub fn name(&self) -> String {
-        format!("{}, step {}", self.propagator, shortened(self.h, 20))
+        format!("{}, step {}", self.propagator, shortened(self.h.exact(), 20))
     }
 
     /// The run stopped; coordinates and momenta are numbered.

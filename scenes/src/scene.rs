@@ -26,7 +26,7 @@ pub use system::{Parts, System};
 use std::sync::OnceLock;
 
 use shadowstep::tables::Source;
-use shadowstep::{MotionError, Rational};
+use shadowstep::{MotionError, Rational, StepSize};
 
 use crate::arithmetic::Arithmetic;
 use crate::estimator::order_setting;
@@ -49,7 +49,7 @@ pub struct Scene {
     /// Whether gradient kicks are by displaced forces: see [`shadowstep::systems::displaced`].
     pub displaced: bool,
     /// The step size h.
-    pub h: Rational,
+    pub h: StepSize,
     /// The time at which the run ends, at the latest; `None` where time is transformed and the number of steps is given.
     pub until: Option<Rational>,
     /// The number of steps, where it is known.

@@ -6,7 +6,7 @@ use shadowstep::systems::displaced::Displacements;
 use shadowstep::systems::kinetic::General;
 use shadowstep::systems::summation::Compensated;
 use shadowstep::tables::{AtRunTime, TableScheme};
-use shadowstep::{Number, Rational, Scheme, Stepper, System, ValidFor};
+use shadowstep::{Number, Scheme, StepSize, Stepper, System, ValidFor};
 
 /// The steps that are made.
 #[derive(Clone, Copy, Debug)]
@@ -14,7 +14,7 @@ pub struct Steps<'a> {
     /// The scheme.
     pub scheme: &'a TableScheme<AtRunTime>,
     /// The step size.
-    pub h: &'a Rational,
+    pub h: &'a StepSize,
     /// Whether q and p are sums with remainders.
     pub compensated: bool,
     /// Whether gradient kicks are by displaced forces, which the scheme must allow: see [`shadowstep::systems::displaced`].
@@ -72,6 +72,6 @@ impl Steps<'_> {
     }
 }
 
-fn stepper<S: Scheme, N: Number>(scheme: S, h: &Rational, context: &N::Context) -> Stepper<S, N> {
+fn stepper<S: Scheme, N: Number>(scheme: S, h: &StepSize, context: &N::Context) -> Stepper<S, N> {
     Stepper::with_context(scheme, h, context).expect("the step size was read as nonzero")
 }

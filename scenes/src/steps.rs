@@ -1,79 +1,97 @@
 //! The number of steps of a run.
 
 use num_traits::{Signed, ToPrimitive, Zero};
-use shadowstep::Rational;
+use shadowstep::{Rational, StepSize};
 use shadowstep_symbolic::decimal::to_significant;
 use thiserror::Error;
 
 /// The most steps of a run: more would take years.
-pub const MOST_STEPS: u64 = 10_000_000_000;
+pub(crate) const MOST_STEPS: u64 = 10_000_000_000;
 
 /// A step size and an end of the run that give no valid number of steps.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
-#[error("{message}\n  hint: {hint}")]
-pub struct StepsError {
-    /// What is wrong, one sentence.
-    pub message: String,
+pub enum StepsError {
+    /// The run ends where it begins.
+    #[error("the time must be nonzero")]
+    NoTime,
+    /// The step size and the time have different signs.
+    #[error("steps of {h} never reach the time {until}: the signs differ")]
+    NeverReached {
+        /// The step size.
+        h: String,
+        /// The time.
+        until: String,
+    },
+    /// The run ends within the first step.
+    #[error("a step of {h} is longer than the run until {until}")]
+    LongerThanRun {
+        /// The step size.
+        h: String,
+        /// The time.
+        until: String,
+    },
+    /// More than [`MOST_STEPS`].
+    #[error("steps of {h} until {until} are {count} steps")]
+    TooMany {
+        /// The step size.
+        h: String,
+        /// The time.
+        until: String,
+        /// The number of steps, to 3 digits.
+        count: String,
+    },
+}
+
+impl StepsError {
     /// What would be right.
-    pub hint: String,
-    /// Which of the two is wrong.
-    pub wrong: WrongValue,
+    pub fn hint(&self) -> &'static str {
+        match self {
+            StepsError::NoTime => "write a time such as 100",
+            StepsError::NeverReached { .. } => {
+                "use positive values for both, or negative values for both to go back in time"
+            }
+            StepsError::LongerThanRun { .. } => "use a smaller step size",
+            StepsError::TooMany { .. } => "the limit is 1e10 steps: use a larger step size or a shorter time",
+        }
+    }
+
+    /// Whether the time is wrong, and not the step size.
+    pub fn is_of_time(&self) -> bool {
+        *self == StepsError::NoTime
+    }
 }
 
-/// The value that is wrong.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum WrongValue {
-    /// The step size.
-    Step,
-    /// The time at which the run ends.
-    Until,
-}
-
-/// The number of steps of size h that end at or before `until`, both with their texts. Messages write `dashes` before the
-/// names `step` and `until`: `--` for flags.
+/// The number of steps of size h that end at or before `until`, both with their texts for messages.
 ///
 /// ```
-/// use shadowstep::exact;
+/// use shadowstep::{StepSize, exact};
 /// use shadowstep_scenes::steps::count;
 ///
-/// let (h, until) = (exact("1/10").unwrap(), exact("1.25").unwrap());
-/// assert_eq!(count((&h, "1/10"), (&until, "1.25"), "").unwrap(), 12);
+/// let (h, until) = (StepSize::try_from("1/10").unwrap(), exact("1.25").unwrap());
+/// assert_eq!(count((&h, "1/10"), (&until, "1.25")).unwrap(), 12);
 /// ```
 ///
 /// # Errors
-/// A step or time of 0, different signs, a step longer than the run, more than [`MOST_STEPS`].
-pub fn count((h, step): (&Rational, &str), (until, end): (&Rational, &str), dashes: &str) -> Result<u64, StepsError> {
-    let refuse = |wrong, message: String, hint: &str| Err(StepsError { message, hint: hint.to_owned(), wrong });
-    if h.is_zero() {
-        return refuse(
-            WrongValue::Step,
-            format!("{dashes}step {step}: the step size must be nonzero"),
-            "write a step size such as 1/10",
-        );
-    }
+/// A time of 0, different signs, a step longer than the run, more than [`MOST_STEPS`].
+pub fn count((h, step): (&StepSize, &str), (until, end): (&Rational, &str)) -> Result<u64, StepsError> {
     if until.is_zero() {
-        let hint = format!("write a time such as {dashes}until 100");
-        return refuse(WrongValue::Until, format!("{dashes}until {end}: the time must be nonzero"), &hint);
+        return Err(StepsError::NoTime);
     }
-    let count = (until / h).floor();
-    if count.is_negative() {
-        let message = format!("steps of {step} never reach {dashes}until {end}: the signs differ");
-        return refuse(
-            WrongValue::Step,
-            message,
-            "use positive values for both, or negative values for both to go back in time",
-        );
-    }
+    let texts = || (step.to_owned(), end.to_owned());
+    let count = (until / h.exact()).floor();
     match count.to_u64() {
+        _ if count.is_negative() => {
+            let (h, until) = texts();
+            Err(StepsError::NeverReached { h, until })
+        }
         Some(0) => {
-            let message = format!("{dashes}step {step} is longer than the run until {end}");
-            refuse(WrongValue::Step, message, "use a smaller step size")
+            let (h, until) = texts();
+            Err(StepsError::LongerThanRun { h, until })
         }
         Some(steps) if steps <= MOST_STEPS => Ok(steps),
-        _ => refuse(
-            WrongValue::Step,
-            format!("steps of {step} until {end} are {} steps", to_significant(&count, 3)),
-            "the limit is 1e10 steps: use a larger step size or a shorter time",
-        ),
+        _ => {
+            let (h, until) = texts();
+            Err(StepsError::TooMany { h, until, count: to_significant(&count, 3) })
+        }
     }
 }

@@ -95,7 +95,7 @@ impl<N: RunNumber> Watch<N> {
 
     /// Follows the planets of a system that has some, too; in transformed time H is H'.
     #[must_use]
-    pub fn of_system(mut self, system: &scene::System) -> Self {
+    pub(crate) fn of_system(mut self, system: &scene::System) -> Self {
         self.transformed = system.transformed_time().is_some();
         if let Some(observed) = &mut self.observed {
             observed.approaches = Approaches::of(system);
@@ -150,7 +150,7 @@ impl<N: RunNumber> Watch<N> {
     }
 
     /// Takes H of a state that the run has computed.
-    pub fn include_energy(&mut self, n: i64, energy: &N) {
+    pub(crate) fn include_energy(&mut self, n: i64, energy: &N) {
         self.energy.include(n, energy);
     }
 
@@ -192,7 +192,7 @@ impl<N: RunNumber> Watch<N> {
         });
         Some(Summary {
             run: run.name(),
-            h: run.h.clone(),
+            h: run.h.exact().clone(),
             transformed,
             from,
             to: n,

@@ -92,7 +92,7 @@ impl WholeFile {
 const AGAIN: &str = "run the command again";
 
 fn exists(file: &str) -> Error {
-    Error::usage(format!("{file} already exists"), "use another name, move the file, or replace it with --force")
+    Error::usage(format!("{file} already exists"), "use another name, move the file, or replace it with `force`")
 }
 
 /// Why the file of a flag or key cannot be written.

@@ -117,7 +117,7 @@ impl Stages {
     }
 
     /// The stages of a step γ_1 h, a step γ_2 h, ….
-    pub fn repeated(&self, gamma: &[Rational]) -> Stages {
+    pub(crate) fn repeated(&self, gamma: &[Rational]) -> Stages {
         let scaled = |weights: &[Rational], power: u32| {
             gamma.iter().flat_map(|g| weights.iter().map(move |w| g.pow(power as i32) * w)).collect()
         };
@@ -130,21 +130,21 @@ impl Stages {
 }
 
 /// Maps in the opposite order, in the order of [`Stages::maps`]: kicks before the gradient kicks with which they commute.
-pub fn reversed(maps: &[Map]) -> Vec<Map> {
+pub(crate) fn reversed(maps: &[Map]) -> Vec<Map> {
     let mut reversed = Vec::new();
     maps.iter().rev().for_each(|map| append(&mut reversed, map.kind, &map.weight));
     reversed
 }
 
 /// Maps one after the other, neighbours of one kind merged.
-pub fn joined<'a>(maps: impl IntoIterator<Item = &'a Map>) -> Vec<Map> {
+pub(crate) fn joined<'a>(maps: impl IntoIterator<Item = &'a Map>) -> Vec<Map> {
     let mut joined = Vec::new();
     maps.into_iter().for_each(|map| append(&mut joined, map.kind, &map.weight));
     joined
 }
 
 /// The maps that undo these.
-pub fn inverse(maps: &[Map]) -> Vec<Map> {
+pub(crate) fn inverse(maps: &[Map]) -> Vec<Map> {
     maps.iter().rev().map(|map| Map { kind: map.kind, weight: -&map.weight }).collect()
 }
 

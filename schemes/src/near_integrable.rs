@@ -10,11 +10,10 @@
 
 use std::fmt;
 
-use crate::arithmetic::Arithmetic;
 use crate::claims::{HIGHEST_LINEAR_ORDER, HIGHEST_NEAR_INTEGRABLE_ORDER, NearIntegrable};
 use crate::document::Placed;
-use crate::map::{Map, MapKind};
-use crate::order::{Condition, Word, lyndon_words, weighed, word_conditions};
+use crate::map::MapKind;
+use crate::order::{Word, lyndon_words};
 
 /// The words that belong to a power of ε.
 #[derive(Clone, Copy, Debug)]
@@ -34,7 +33,7 @@ impl Power {
     }
 
     /// The highest order that can be claimed and proved.
-    pub fn highest_order(self) -> u32 {
+    pub(crate) fn highest_order(self) -> u32 {
         if self.is_linear() { HIGHEST_LINEAR_ORDER } else { HIGHEST_NEAR_INTEGRABLE_ORDER }
     }
 }
@@ -82,11 +81,6 @@ fn words_with_one(perturbation: MapKind, longest: usize) -> Vec<Word> {
         word
     };
     std::iter::once(vec![dominant]).chain((1..=longest).map(word)).collect()
-}
-
-/// The conditions of a power of ε, up to an order, and their values for a sequence of maps.
-pub fn conditions<A: Arithmetic>(maps: &[Map], power: Power, order: u32, arithmetic: &A) -> Vec<(Condition, A::Value)> {
-    word_conditions(&words(power, order), &weighed(maps, arithmetic), arithmetic)
 }
 
 #[cfg(test)]

@@ -16,8 +16,8 @@
 use shadowstep_symbolic::Rational;
 
 use crate::arithmetic::Arithmetic;
-use crate::map::{Map, MapKind};
-use crate::order::{Condition, Functional, weighed};
+use crate::map::MapKind;
+use crate::order::{Condition, Functional};
 
 /// A tree whose root is a kick: its children are drifts, each given by the kick below it.
 struct KickTree {
@@ -26,11 +26,6 @@ struct KickTree {
     size: u32,
     /// γ(t)
     density: u64,
-}
-
-/// The conditions of orders 1..=`order` for quadratic T and their values for a sequence of maps.
-pub fn conditions<A: Arithmetic>(maps: &[Map], order: u32, arithmetic: &A) -> Vec<(Condition, A::Value)> {
-    tree_conditions(&weighed(maps, arithmetic), order, arithmetic)
 }
 
 /// The same for maps whose weights are values already.
@@ -209,7 +204,8 @@ mod tests {
         let a = [rational(1, 3), rational(-2, 5), rational(7, 11), rational(3, 2)];
         let b = [rational(5, 7), rational(1, 9), rational(-3, 4), rational(2, 13)];
         let stages = crate::map::Stages { kick: a.to_vec(), gradient_kick: Vec::new(), drift: b.to_vec() };
-        let values = conditions(&stages.maps(), 4, &ExactArithmetic);
+        let maps = crate::order::weighed(&stages.maps(), &ExactArithmetic);
+        let values = tree_conditions(&maps, 4, &ExactArithmetic);
         let value = |name: &str| {
             &values.iter().find(|(c, _)| c.functional == Functional::Named(format!("the tree {name}"))).unwrap().1
         };

@@ -58,7 +58,8 @@ struct Prefix {
 pub type Word = Vec<MapKind>;
 
 /// The conditions of orders 1..=`order` for every T(p) and their values for a sequence of maps.
-pub fn conditions<A: Arithmetic>(maps: &[Map], order: u32, arithmetic: &A) -> Vec<(Condition, A::Value)> {
+#[cfg(test)]
+pub(crate) fn conditions<A: Arithmetic>(maps: &[Map], order: u32, arithmetic: &A) -> Vec<(Condition, A::Value)> {
     word_conditions(&lyndon_words(order as usize), &weighed(maps, arithmetic), arithmetic)
 }
 

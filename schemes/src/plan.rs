@@ -86,11 +86,6 @@ impl StepPlan {
         runs.iter().filter(|run| needing(run)).count() - usize::from(kept)
     }
 
-    /// All distinct weights: of kicks, drifts, middle parts, gradient kicks.
-    pub fn weights(&self) -> impl Iterator<Item = &Rational> {
-        self.kicks.iter().chain(&self.drifts).chain(&self.middle_weights).chain(&self.gradient_kicks)
-    }
-
     /// The evaluations of a step, Hessian–vector products counted like gradients. It is the degree in (hω)² of the harmonic
     /// oscillator's trace.
     pub fn degree(&self) -> usize {

@@ -50,7 +50,7 @@ pub struct ExactProcessor {
 
 impl ExactProcessor {
     /// The maps of χ in the order in which they act.
-    pub fn pre(&self) -> Vec<Map> {
+    pub(crate) fn pre(&self) -> Vec<Map> {
         inverse(&self.post)
     }
 

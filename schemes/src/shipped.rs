@@ -73,7 +73,7 @@ static NAMES: LazyLock<BTreeMap<String, usize>> = LazyLock::new(|| {
 
 impl Source {
     /// Whether it is a shipped table. Its base is a shipped table too, whatever files of that name there may be.
-    pub fn is_shipped(&self) -> bool {
+    pub(crate) fn is_shipped(&self) -> bool {
         self.path.starts_with(FOLDER)
     }
 }

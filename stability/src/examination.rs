@@ -26,7 +26,7 @@ impl CaseEntry {
     }
 
     /// What theory predicts.
-    pub fn theory(&self) -> &'static str {
+    pub(crate) fn theory(&self) -> &'static str {
         self.0.theory
     }
 }

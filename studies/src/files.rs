@@ -33,7 +33,7 @@ pub fn refuse_foreign(folder: &Path, written: impl IntoIterator<Item = String>) 
     let foreign = written.into_iter().find_map(|written| names.iter().find(|name| is_written(name, &written)));
     foreign.map_or(Ok(()), |name| {
         let message = format!("{} exists, without results of this program beside it", folder.join(name).display());
-        Err(Error::usage(message, "give another folder, or replace its files with --force"))
+        Err(Error::usage(message, "give another folder, or replace its files with `force`"))
     })
 }
 

@@ -53,12 +53,12 @@ impl Axes {
     }
 
     /// The axes in the order of the text.
-    pub fn all(&self) -> &[Axis] {
+    pub(crate) fn all(&self) -> &[Axis] {
         &self.axes
     }
 
     /// The axis of a name.
-    pub fn find(&self, name: &str) -> Option<&Axis> {
+    pub(crate) fn find(&self, name: &str) -> Option<&Axis> {
         self.axes.iter().find(|axis| axis.name == name)
     }
 
@@ -80,7 +80,7 @@ impl Axes {
     }
 
     /// The names with their values in a run.
-    pub fn values(&self, run: u64) -> Vec<(String, Meaning)> {
+    pub(crate) fn values(&self, run: u64) -> Vec<(String, Meaning)> {
         let numbers = self.numbers(run);
         self.axes.iter().zip(numbers).map(|(axis, number)| (axis.name.clone(), axis.value(number))).collect()
     }

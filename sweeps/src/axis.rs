@@ -51,7 +51,7 @@ impl Axis {
     }
 
     /// How many values it has.
-    pub fn count(&self) -> u64 {
+    pub(crate) fn count(&self) -> u64 {
         match &self.values {
             Values::List { values, .. } => values.len() as u64,
             Values::Range(range) => range.count(),
@@ -73,7 +73,7 @@ impl Axis {
     }
 
     /// Whether its values are numbers.
-    pub fn is_numeric(&self) -> bool {
+    pub(crate) fn is_numeric(&self) -> bool {
         match &self.values {
             Values::List { is_numeric, .. } => *is_numeric,
             Values::Range(_) | Values::Draws(_) => true,
@@ -91,12 +91,12 @@ impl Axis {
     }
 
     /// Whether its values are random: they have no order.
-    pub fn is_random(&self) -> bool {
+    pub(crate) fn is_random(&self) -> bool {
         matches!(self.values, Values::Draws(_))
     }
 
     /// Whether equal distances mean equal ratios.
-    pub fn is_logarithmic(&self) -> bool {
+    pub(crate) fn is_logarithmic(&self) -> bool {
         matches!(&self.values, Values::Range(range) if range.is_logarithmic())
     }
 }

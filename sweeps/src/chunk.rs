@@ -61,7 +61,7 @@ pub(crate) enum Unusable {
 
 impl Chunk {
     /// The runs of the chunk, out of this number: the chunks have equally many, give or take one.
-    pub fn runs(self, runs: u64) -> Range<u64> {
+    pub(crate) fn runs(self, runs: u64) -> Range<u64> {
         let bound = |chunk: u64| (u128::from(chunk) * u128::from(runs) / u128::from(self.of)) as u64;
         bound(self.number - 1)..bound(self.number)
     }

@@ -1,7 +1,7 @@
 //! What schemes are compared on: a system, an interval of time, a number type.
 
 use num_traits::Signed;
-use shadowstep::{Number, Rational};
+use shadowstep::{Number, Rational, StepSize};
 use shadowstep_scenes::arithmetic::Arithmetic;
 use shadowstep_scenes::computation::RunNumber;
 use shadowstep_scenes::library::{NamedScheme, fingerprint};
@@ -41,7 +41,8 @@ impl Problem<'_> {
         steps: u64,
         context: &N::Context,
     ) -> Result<SceneIntegrator<N>, Error> {
-        let (h, compensated) = (self.step_size(steps), self.arithmetic.is_compensated());
+        let h = StepSize::try_from(self.step_size(steps)).expect("the run has a nonzero length");
+        let compensated = self.arithmetic.is_compensated();
         let (displaced, begin) = (false, Begin::InitialState);
         let steps = Steps { scheme: &named.scheme, h: &h, compensated, displaced, begin };
         Ok(self.system.integrator(steps, self.system.start(context), context)?)

@@ -14,7 +14,7 @@ pub struct Size {
 
 impl Size {
     /// 0
-    pub const ZERO: Size = Size { log10: f64::NEG_INFINITY };
+    pub(crate) const ZERO: Size = Size { log10: f64::NEG_INFINITY };
 
     /// Larger than all others: of what is not finite.
     pub(crate) const INFINITE: Size = Size { log10: f64::MAX };

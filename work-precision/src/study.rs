@@ -142,7 +142,7 @@ impl Study<'_> {
     }
 
     /// The decades of an error that some scheme reaches, from the largest one.
-    pub fn decades(&self, of: Of) -> impl Iterator<Item = Size> {
+    pub(crate) fn decades(&self, of: Of) -> impl Iterator<Item = Size> {
         let errors = self.schemes.iter().flat_map(|studied| &studied.series.runs).filter_map(|run| of.error(run));
         let logs = errors.map(Size::log10).filter(|log10| log10.is_finite());
         let (least, most) =

@@ -44,7 +44,7 @@ fn row(run: Run<'_>, record: &Record) -> Row {
         seconds += &format!(" + {:.3}", control.seconds);
     }
     [
-        shortened(run.h, 12),
+        shortened(run.h.exact(), 12),
         error.unwrap_or_default(),
         rounded(&record.drift, DIGITS),
         control,

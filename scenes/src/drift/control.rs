@@ -8,7 +8,6 @@ use std::collections::BTreeMap;
 use std::time::Duration;
 
 use shadowstep::Rational;
-use shadowstep::StepSize;
 use shadowstep::number::CorrectlyRounded;
 use shadowstep::problems::Setup;
 use shadowstep::shadow::exact_flow::ExactFlow;
@@ -84,7 +83,8 @@ impl Controls {
         let Some(setup) = setup.filter(|_| self.wanted != Wanted::Never) else { return KnownControl::Nothing };
         let limit = (self.wanted == Wanted::IfFast).then(|| seconds.max(SHORT));
         // a slower scheme may allow what a faster one did not
-        if let Some(known) = self.known.get(estimates.run.h).filter(|known| !matches!(known, KnownControl::LeftOut(_)))
+        if let Some(known) =
+            self.known.get(estimates.run.h.exact()).filter(|known| !matches!(known, KnownControl::LeftOut(_)))
         {
             return known.clone();
         }
@@ -94,7 +94,7 @@ impl Controls {
             Some(expected) if limit.is_some_and(|limit| expected > limit) => left_out(expected, seconds),
             _ => control::<N>(estimates, context, limit, seconds, follower),
         };
-        self.known.insert(run.h.clone(), found.clone());
+        self.known.insert(run.h.exact().clone(), found.clone());
         found
     }
 }
@@ -103,8 +103,7 @@ impl Controls {
 /// the flow cannot be followed, which the control reports.
 fn expected<N: CorrectlyRounded>(setup: &Setup, run: Run<'_>, context: &N::Context) -> Option<Duration> {
     const SAMPLE: u32 = 3;
-    let h = StepSize::try_from(run.h).ok()?;
-    let mut flow = ExactFlow::<N>::new(setup, &h, run.steps, 0, context).ok()?;
+    let mut flow = ExactFlow::<N>::new(setup, run.h, run.steps, 0, context).ok()?;
     flow.advance().ok()?;
     let begin = CpuTime::begin();
     for _ in 0..SAMPLE {
@@ -128,7 +127,7 @@ fn control<N: RunNumber>(
         if limit.is_some_and(|limit| begin.elapsed() > 2 * limit) {
             let all = begin.elapsed().mul_f64(steps / (n as f64).max(1.0));
             expected = Some(all.max(begin.elapsed()));
-            return Err(Error::run("the control takes too long", "use --control"));
+            return Err(Error::run("the control takes too long", "require the control"));
         }
         follower.reaches(estimates.run, n)
     });
@@ -148,5 +147,5 @@ fn control<N: RunNumber>(
 fn left_out(expected: Duration, seconds: Duration) -> KnownControl {
     let times = (expected.as_secs_f64() / seconds.as_secs_f64()).max(1.0);
     let times = if times < 9.5 { format!("{times:.1}") } else { format!("{times:.0}") };
-    KnownControl::LeftOut(format!("it would take about {times} times as long as the run; --control makes it"))
+    KnownControl::LeftOut(format!("it would take about {times} times as long as the run; `control` makes it"))
 }

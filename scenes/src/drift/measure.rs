@@ -1,6 +1,5 @@
 //! The drift of one run.
 
-use shadowstep::StepSize;
 use shadowstep::shadow::run::{DriftRecorder, EnergyDrift};
 
 use crate::computation::RunNumber;
@@ -14,7 +13,7 @@ pub(super) fn measure<N: RunNumber>(
     mut progress: impl FnMut(i64) -> Result<(), Error>,
 ) -> Result<(EnergyDrift<N>, Finished), Error> {
     let run = estimates.run;
-    let drift = DriftRecorder::new(StepSize::try_from(run.h).expect("runs have a nonzero step size"));
+    let drift = DriftRecorder::new(run.h.clone());
     let mut drift = drift.compensated_if(estimates.compensated);
     let finished = estimates.take::<N>(context, &mut |n, estimate| {
         drift.include(n, estimate);

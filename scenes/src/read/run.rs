@@ -4,7 +4,7 @@ use std::ops::Range;
 use std::path::Path;
 
 use num_traits::{Signed, Zero};
-use shadowstep::{Rational, Stepper};
+use shadowstep::{Rational, StepSize, Stepper};
 use shadowstep_schemes::First;
 use shadowstep_symbolic::decimal::to_text;
 use toml::de::DeValue;
@@ -16,7 +16,7 @@ use crate::note::Note;
 use crate::refusal::Refusal;
 use crate::scene::System;
 use crate::scene::split::{Class, Needs};
-use crate::steps::{self, MOST_STEPS, WrongValue};
+use crate::steps::{self, MOST_STEPS};
 use shadowstep_schemes::document::{Section, Text};
 
 /// The number type, to whose digits all values of the scene are computed.
@@ -40,7 +40,7 @@ pub(super) struct Steps {
     pub(super) scheme: NamedScheme,
     /// As in [`Scene`](crate::scene::Scene).
     pub(super) displaced: bool,
-    pub(super) h: Rational,
+    pub(super) h: StepSize,
     /// As in [`Scene`](crate::scene::Scene).
     pub(super) until: Option<Rational>,
     /// `None` where only the steps themselves have their times.
@@ -142,7 +142,7 @@ fn displaced_forces(reader: &mut Reader<'_>, at: &Range<usize>, wanted: bool, na
 }
 
 /// h, the end and the number of steps.
-type Times = (Rational, Option<Rational>, Option<u64>);
+type Times = (StepSize, Option<Rational>, Option<u64>);
 
 /// h, the end and the number of steps; in transformed time h is a fictitious time and the end a physical one.
 fn times(reader: &mut Reader<'_>, run: &Section<'_, '_>, transformed: bool) -> Option<Times> {
@@ -164,24 +164,30 @@ fn times(reader: &mut Reader<'_>, run: &Section<'_, '_>, transformed: bool) -> O
         return reader.toml.wrong(at, "until and steps are both given", "keep one of the two");
     }
     let (step, h) = step?;
+    let h = match StepSize::try_from(h) {
+        Ok(h) => h,
+        Err(zero) => {
+            return reader.toml.wrong(
+                &step.at,
+                format!("step {}: {zero}", step.value),
+                "write a step size such as 1/10",
+            );
+        }
+    };
     if let Some((_, steps)) = steps {
         let steps = steps?;
-        // of these, only a step size of 0 is an error
-        return match steps::count((&h, &step.value), (&h, &step.value), "") {
-            Err(none) => reader.toml.wrong(&step.at, none.message, none.hint),
-            Ok(_) if transformed => Some((h, None, Some(steps))),
-            Ok(_) => Some((h.clone(), Some(h * Rational::from_integer(steps.into())), Some(steps))),
-        };
+        let until = (!transformed).then(|| h.exact() * Rational::from_integer(steps.into()));
+        return Some((h, until, Some(steps)));
     }
     let (end, until) = until?;
     // the sign of the end, and that of h
-    let compared = if transformed && !until.is_zero() { &h.abs() * until.signum() } else { until.clone() };
-    match steps::count((&h, &step.value), (&compared, &to_text(&until)), "") {
+    let compared = if transformed && !until.is_zero() { h.exact().abs() * until.signum() } else { until.clone() };
+    match steps::count((&h, &step.value), (&compared, &to_text(&until))) {
         Ok(_) if transformed => Some((h, Some(until), None)),
         Ok(count) => Some((h, Some(until), Some(count))),
-        Err(none) => {
-            let at = if none.wrong == WrongValue::Step { &step.at } else { &end.at };
-            reader.toml.wrong(at, none.message, none.hint)
+        Err(none) if none.is_of_time() => {
+            reader.toml.wrong(&end.at, format!("until {}: {none}", end.value), none.hint())
         }
+        Err(none) => reader.toml.wrong(&step.at, none.to_string(), none.hint()),
     }
 }

@@ -46,7 +46,7 @@ impl Metadata {
         // the same digits may be MPFR's, with other last places
         all.extend(scene.arithmetic.limbs().map(|limbs| ("limbs", json!(limbs))));
         all.extend(system(&scene.system, scene.arithmetic));
-        all.push(("step", json!(to_text(&scene.h))));
+        all.push(("step", json!(to_text(scene.h.exact()))));
         all.extend(scene.until.iter().map(|until| ("until", json!(to_text(until)))));
         all.push(("steps", json!(scene.steps())));
         all.extend(

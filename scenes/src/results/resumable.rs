@@ -156,7 +156,7 @@ impl Resumable {
     }
 
     fn refused(&self, file: &Path, why: &str) -> Error {
-        let hint = "discard it and begin again with --restart, or restore what it was made with";
+        let hint = "discard it and begin again with `restart`, or restore what it was made with";
         Error::usage(format!("{} {why}, so the run cannot be resumed from it", file.display()), hint)
     }
 
@@ -303,7 +303,7 @@ fn remove_new_checkpoint(path: &Path) -> Result<(), Error> {
 
 fn not_own(partial: &Path) -> Error {
     let message = format!("{} already exists and is not from this program", partial.display());
-    Error::usage(message, "move it, give this scene another file, or replace it with --force")
+    Error::usage(message, "move it, give this scene another file, or replace it with `force`")
 }
 
 fn remove(path: &Path) -> Result<(), Error> {

@@ -109,7 +109,7 @@ impl<'a> Target<'a> {
         match origin(path, scene) {
             Origin::Other if !options.force && !path.is_dir() => {
                 let message = format!("{} already exists and is not from this unchanged scene", path.display());
-                let hint = "use another name, move the file, or replace it with --force";
+                let hint = "use another name, move the file, or replace it with `force`";
                 return Err(at_place(Error::usage(message, hint)));
             }
             Origin::Same if !options.restart && !Resumable::is_begun_again(path) => return Ok(None),

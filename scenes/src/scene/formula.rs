@@ -49,7 +49,11 @@ impl Formula<FormulaKinetic<f64>> {
     ///
     /// # Errors
     /// A text that is not a valid formula of these.
-    pub fn kinetic(text: &str, momenta: &[String], parameters: &[(String, Exact)]) -> Result<Self, FormulaError> {
+    pub(crate) fn kinetic(
+        text: &str,
+        momenta: &[String],
+        parameters: &[(String, Exact)],
+    ) -> Result<Self, FormulaError> {
         let meaning = FormulaKinetic::new(text, &borrowed(momenta), &rounded(parameters, &()))?;
         Ok(Formula { text: text.to_owned(), meaning })
     }
@@ -60,7 +64,7 @@ impl Formula<FormulaPair<f64>> {
     ///
     /// # Errors
     /// A text that is not a valid formula of these.
-    pub fn pair(
+    pub(crate) fn pair(
         text: &str,
         separation: Separation,
         properties: &[(String, Vec<Exact>)],
@@ -79,7 +83,7 @@ impl Formula<PartFormula> {
     ///
     /// # Errors
     /// A text that is not a valid formula of these, or whose flow is not known.
-    pub fn part(
+    pub(crate) fn part(
         text: &str,
         (coordinates, momenta): (&[String], &[String]),
         parameters: &[(String, Exact)],

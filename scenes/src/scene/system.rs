@@ -52,7 +52,7 @@ macro_rules! ask {
 
 impl Parts {
     /// The section and the key of a scene that ask for them.
-    pub fn key(&self) -> (&'static str, &'static str) {
+    pub(crate) fn key(&self) -> (&'static str, &'static str) {
         ask!(self, split => split.key())
     }
 

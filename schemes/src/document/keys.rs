@@ -39,7 +39,7 @@ impl Keys {
     }
 
     /// The key of this name.
-    pub fn find(&self, name: &str) -> Option<&Key> {
+    pub(crate) fn find(&self, name: &str) -> Option<&Key> {
         self.keys.iter().find(|key| key.name == name)
     }
 

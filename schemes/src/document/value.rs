@@ -49,7 +49,7 @@ impl Text {
     }
 
     /// The text with its place inside the quotes.
-    pub fn inside_quotes(self) -> Placed<String> {
+    pub(crate) fn inside_quotes(self) -> Placed<String> {
         let at = self.place(&(0..self.value.len()));
         Placed { value: self.value, at }
     }

@@ -35,7 +35,7 @@ impl Missing {
     }
 
     /// Whether every chunk is there.
-    pub fn is_empty(&self) -> bool {
+    pub(crate) fn is_empty(&self) -> bool {
         self.chunks.is_empty()
     }
 

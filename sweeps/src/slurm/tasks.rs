@@ -20,7 +20,8 @@ pub struct TaskList(BTreeSet<u64>);
 
 impl TaskList {
     /// The tasks 1 … count.
-    pub fn all(count: u64) -> Self {
+    #[cfg(test)]
+    pub(crate) fn all(count: u64) -> Self {
         (1..=count).collect()
     }
 
@@ -40,12 +41,13 @@ impl TaskList {
     }
 
     /// Whether a task is one of these.
-    pub fn contains(&self, task: u64) -> bool {
+    #[cfg(test)]
+    pub(crate) fn contains(&self, task: u64) -> bool {
         self.0.contains(&task)
     }
 
     /// The tasks of this list that `other` lacks.
-    pub fn without(&self, other: &TaskList) -> TaskList {
+    pub(crate) fn without(&self, other: &TaskList) -> TaskList {
         TaskList(self.0.difference(&other.0).copied().collect())
     }
 }
