@@ -44,10 +44,14 @@ pub(crate) fn negative_answer(message: impl Display, hint: impl Display) -> Stat
 /// Options that the libraries name in messages, such as `force`: here they are flags.
 const FLAGS: [(&str, &str); 3] = [("`restart`", "--restart"), ("`force`", "--force"), ("`control`", "--control")];
 
+/// A message of the libraries, in which options are flags.
+pub(crate) fn with_flags(text: &str) -> String {
+    FLAGS.iter().fold(text.to_owned(), |text, (name, flag)| text.replace(name, flag))
+}
+
 /// A message behind its word, with the word of its hint, both in colours.
 fn message(word: &str, style: Style, text: impl Display) -> String {
-    let text = FLAGS.iter().fold(text.to_string(), |text, (name, flag)| text.replace(name, flag));
-    let text = text.replace("\n  hint: ", &format!("\n  {} ", styled("hint:", HINT)));
+    let text = with_flags(&text.to_string()).replace("\n  hint: ", &format!("\n  {} ", styled("hint:", HINT)));
     format!("{} {text}", styled(word, style))
 }
 

@@ -6,7 +6,7 @@ use shadowstep::systems::formula::FormulaPair;
 use shadowstep::systems::kinetic::{General, Quadratic};
 use shadowstep::systems::summation::Compensated;
 use shadowstep::{DiagonalMasses, Kinetic, Motion, Potential, Rational, UnitMasses};
-use shadowstep_symbolic::Exact;
+use shadowstep_symbolic::{Exact, parse};
 
 use crate::scene::{ClassifiedKinetic, KineticEnergy, PairEnergy, PotentialEnergy, System};
 use crate::start::{SceneIntegrator, Steps};
@@ -80,6 +80,27 @@ impl System {
         let names = systems[0].parameters.iter().enumerate();
         names.map(|(i, (name, _))| (name.as_str(), lanes_of(|lane| &systems[lane].parameters[i].1))).collect()
     }
+}
+
+impl System {
+    /// Whether T or U, as formulas of q and p, have functions such as exp and sin; true where they are not given as such.
+    pub fn has_functions(&self) -> bool {
+        let kinetic = match &self.kinetic {
+            KineticEnergy::Masses(_) => false,
+            KineticEnergy::Formula(formula) => formula_has_functions(formula.text()),
+        };
+        let potential = match &self.potential {
+            PotentialEnergy::Shipped(setup) => setup.problem.has_functions(),
+            PotentialEnergy::Formula(formula) => formula_has_functions(formula.text()),
+            PotentialEnergy::Pairs(pairs) => formula_has_functions(pairs.formula.text()),
+            PotentialEnergy::Own(_) | PotentialEnergy::OfParts => true,
+        };
+        kinetic || potential
+    }
+}
+
+fn formula_has_functions(text: &str) -> bool {
+    parse(text).is_ok_and(|formula| formula.has_functions())
 }
 
 /// Whether two systems differ in numbers only.

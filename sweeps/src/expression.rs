@@ -23,6 +23,7 @@ pub(crate) struct Expression {
     text: Text,
     has_time: bool,
     has_energy: bool,
+    has_functions: bool,
 }
 
 /// One expression is less or greater than another.
@@ -49,7 +50,13 @@ impl Expression {
     fn with(formula: String, text: Text) -> Expression {
         let syntax = parse(&formula).ok();
         let has = |name| syntax.as_ref().is_some_and(|syntax| mentions(syntax, name));
-        Expression { has_time: has(TIME), has_energy: has(ENERGY), formula, text }
+        let has_functions = syntax.as_ref().is_some_and(Syntax::has_functions);
+        Expression { has_time: has(TIME), has_energy: has(ENERGY), has_functions, formula, text }
+    }
+
+    /// Whether it has functions such as exp and sin.
+    pub(crate) fn has_functions(&self) -> bool {
+        self.has_functions
     }
 
     /// Checks it for a system; a fault has its place.

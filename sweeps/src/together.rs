@@ -5,16 +5,15 @@
 
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use shadowstep::number::counting::{Counting, count};
 use shadowstep::number::{Lanes, Number, Real};
 use shadowstep::steps::integrator::VectorIntegrator;
-use shadowstep::{Carried, Scheme as _, System};
+use shadowstep::{Scheme as _, System};
 use shadowstep_scenes::Scene;
 use shadowstep_scenes::lanes::{LANES, SystemInLanes};
 use shadowstep_scenes::start::{Begin, Steps};
 use shadowstep_symbolic::decimal::to_text;
 
-use crate::expression::{Evaluator, Test};
+use crate::expression::{Evaluator, Expression, Test};
 use crate::keep::Keep;
 use crate::record::Values;
 use crate::values::{Need, RunValue};
@@ -40,7 +39,7 @@ pub(crate) fn suits(scene: &Scene, keep: &Keep) -> bool {
         && scene.scheme.scheme.processor().is_empty()
         && !scene.displaced
         && scene.steps() <= MOST_STEPS
-        && !has_elementary_functions(scene, keep)
+        && !has_functions(scene, keep)
 }
 
 /// Whether two runs can be computed together, as far as their numbers and steps are concerned.
@@ -76,22 +75,11 @@ fn steps(scene: &Scene) -> Steps<'_> {
     }
 }
 
-/// Counted in a step, an energy and all formulas.
-fn has_elementary_functions(scene: &Scene, keep: &Keep) -> bool {
-    let start = scene.system.start(&());
-    let (_, operations) = count(|| {
-        let integrator = scene.system.integrator::<Counting<f64>>(steps(scene), start, &());
-        let mut integrator = integrator.expect("the dimensions were read with the system");
-        integrator.step(Carried::Nothing);
-        let system = integrator.system();
-        system.energy();
-        let conditions = keep.first_time.iter().map(|(_, condition)| condition.difference());
-        for expression in conditions.chain(keep.at_end.iter().map(|(_, end)| end)) {
-            let evaluator = Evaluator::new(expression, &scene.system, &());
-            evaluator.expect(CHECKED).value(system, || scene.as_run().time(1));
-        }
-    });
-    operations.elementary > 0
+/// Of the system and of all formulas that are kept.
+fn has_functions(scene: &Scene, keep: &Keep) -> bool {
+    let conditions = keep.first_time.iter().map(|(_, condition)| condition.difference());
+    let mut kept = conditions.chain(keep.at_end.iter().map(|(_, end)| end));
+    scene.system.has_functions() || kept.any(Expression::has_functions)
 }
 
 /// Follows a run in each lane.

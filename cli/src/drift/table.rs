@@ -10,6 +10,7 @@ use shadowstep_symbolic::decimal::from_text;
 
 use crate::colour::{heading, of_verdict, styled};
 use crate::readable::{rounded, table};
+use crate::report::with_flags;
 use crate::selection::Selection;
 
 /// Significant digits of energies.
@@ -77,7 +78,7 @@ fn is_zero(text: &str) -> bool {
 
 /// The meanings of the marks in a table, if there are any.
 fn marks(rows: &[Row], left_out: Option<&String>) -> String {
-    let left_out = left_out.map(|why| format!("left out: the estimate on the exact flow; {why}"));
+    let left_out = left_out.map(|why| format!("left out: the estimate on the exact flow; {}", with_flags(why)));
     let meanings = [
         (ABSOLUTE, 1, "abs.: H(0) is 0, so the error of H is given as it is"),
         (LEFT_OUT, CONTROL, left_out.as_deref().unwrap_or_default()),

@@ -78,6 +78,11 @@ macro_rules! registry {
                 match self { $(Problem::$Name => <$module::Entry as Definition>::EXACT_FLOW,)+ }
             }
 
+            /// Whether U has functions such as exp and sin, which in [lanes](crate::number::Lanes) are not those of the platform.
+            pub const fn has_functions(self) -> bool {
+                match self { $(Problem::$Name => <$module::Entry as Definition>::HAS_FUNCTIONS,)+ }
+            }
+
             const fn gravity(self) -> Option<usize> {
                 match self { $(Problem::$Name => <$module::Entry as Definition>::GRAVITY,)+ }
             }

@@ -3,7 +3,6 @@
 use shadowstep::MotionError;
 #[cfg(feature = "mpfr")]
 use shadowstep::number::Float;
-use shadowstep::number::counting::Counting;
 use shadowstep::number::{AnyLimbs, CorrectlyRounded, DoubleDouble};
 use shadowstep::problems::{ProblemMotion, Setup};
 
@@ -130,6 +129,6 @@ macro_rules! scene_numbers {
     )*};
 }
 
-scene_numbers!(f64, DoubleDouble, AnyLimbs, Counting<f64>);
+scene_numbers!(f64, DoubleDouble, AnyLimbs);
 #[cfg(feature = "mpfr")]
 scene_numbers!(Float);

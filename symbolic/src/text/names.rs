@@ -3,13 +3,24 @@
 use crate::number::function::Function;
 use crate::text::error::SemanticFault;
 use crate::text::near_names::hint;
-use crate::text::syntax::Expression;
+use crate::text::syntax::{Expression, ExpressionKind};
 
 /// The name of π, unless a coordinate or parameter has that name.
 pub(crate) const PI: &str = "pi";
 
 /// The names of functions that are powers.
 const ROOTS: [(&str, u32); 2] = [("sqrt", 2), ("cbrt", 3)];
+
+impl Expression {
+    /// Whether it calls a function that is not a root: exp, sin and the like.
+    pub fn has_functions(&self) -> bool {
+        let mut found = false;
+        self.visit(&mut |part| {
+            found |= matches!(&part.kind, ExpressionKind::Call { function, .. } if ROOTS.iter().all(|(root, _)| root != function));
+        });
+        found
+    }
+}
 
 /// The names of functions with a kink or a jump.
 pub(crate) const NOT_SMOOTH: [&str; 10] = ["abs", "sign", "sgn", "min", "max", "floor", "ceil", "round", "mod", "step"];

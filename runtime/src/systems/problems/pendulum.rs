@@ -34,6 +34,8 @@ impl Definition for Entry {
 
     const EXACT_FLOW: Option<Solver> = Some(Solver::of::<exact_flow::AdditionTheorems>());
 
+    const HAS_FUNCTIONS: bool = true;
+
     fn potential<N: Number + 'static>(_: &dyn Fn(&str) -> N) -> Box<dyn Potential<N>> {
         Box::new(Vectorised(Pendulum))
     }

@@ -31,6 +31,8 @@ impl Definition for Entry {
         source: "Toda, Journal of the Physical Society of Japan 22 (1967) 431: integrable, with solitons; the wave is our choice",
     };
 
+    const HAS_FUNCTIONS: bool = true;
+
     fn potential<N: Number + 'static>(_: &dyn Fn(&str) -> N) -> Box<dyn Potential<N>> {
         Box::new(Pairs::<_, 1>::neighbours(BODIES, TodaSpring, Ends::Periodic).expect("the pairs fit"))
     }
