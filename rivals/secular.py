@@ -17,7 +17,7 @@ VELOCITIES = [[0, 0, 0], [0.00565429, -0.00412490, -0.00190589], [0.00168318, 0.
 G, YEAR = 2.95912208286e-4, 365.25
 # corrector and kernel
 MAPS = {"whfast": (0, "default"), "whfast-17": (17, "default"), "whckm": (17, "modifiedkick"), "whckl": (17, "lazy")}
-# a mean over a thousand years is one of so many states
+# a mean over a thousand years is one of that number of states
 STATES = 64
 
 

@@ -23,7 +23,7 @@ class ShadowMonitor:
     dyn
         The dynamics: a `VelocityVerlet` of these atoms without constraints. The monitor attaches itself.
     every
-        A window of successive states in so many steps; at ``window`` and below, all states.
+        The number of steps from a window of successive states to the next; at ``window`` and below, all states.
     window
         17 states, or 9, which tell less of small faults.
 

@@ -69,7 +69,7 @@ def ensemble(
     parameters
         Values of some parameters, each of shape (n,).
     every
-        H is looked at in so many steps; by default at the end only.
+        The number of steps after which H is looked at; by default at the end only.
     order
         The k of E_k for the modified energy, which is estimated wherever H is looked at; by default there is none.
     digits

@@ -93,7 +93,7 @@ class Monitor:
     order
         The k of the estimator E_k, which needs k + 1 states.
     every
-        A window in so many steps.
+        The number of steps from a window to the next.
     digits
         ``"double"`` or ``"compensated"``.
 

@@ -27,7 +27,7 @@ class ShadowReporter:
         An `openmm.app.Simulation` with a `VerletIntegrator`; no constraints, virtual sites, thermostats, barostats or `CMMotionRemover`. Append the
         reporter to its ``reporters``.
     every
-        A window of successive states in so many steps; at ``window`` and below, all states.
+        The number of steps from a window of successive states to the next; at ``window`` and below, all states.
     window
         17 states, or 9, which tell less of small faults.
     """

@@ -36,7 +36,7 @@ class Measurement:
     energy_error: float | None
     """The largest |H(t) − H(0)|, as a part of |H(0)| unless that is 0; None if it is not finite."""
     permanent_bound: float | None
-    """A permanent change of the modified energy above this is excluded, likewise."""
+    """A permanent change of the modified energy above this is excluded."""
     verdict: str
     """The monitor's verdict on the step size."""
     failed: float | None

@@ -1,4 +1,4 @@
-//! Protects plain language: the phrases that the page of language forbids are in no comment and on no page.
+//! Protects plain language: the phrases that the page of language forbids are in no comment, on no page and in no Python file.
 
 use std::path::{Path, PathBuf};
 use std::{fs, io};
@@ -44,6 +44,9 @@ fn faults(text: &str, is_rust: bool, forbidden: &[Forbidden]) -> Vec<String> {
     faults.collect()
 }
 
+/// Of Rust the comments are compared, of the others everything.
+const ENDINGS: [&str; 4] = ["rs", "md", "py", "ipynb"];
+
 /// All files below a folder with one of these endings, without build folders and hidden ones.
 fn files(folder: &Path, into: &mut Vec<PathBuf>) -> io::Result<()> {
     for entry in fs::read_dir(folder)? {
@@ -53,7 +56,7 @@ fn files(folder: &Path, into: &mut Vec<PathBuf>) -> io::Result<()> {
             if !name.starts_with('.') && !["target", "corpus", "node_modules"].contains(&name.as_str()) {
                 files(&path, into)?;
             }
-        } else if path.extension().is_some_and(|ending| ending == "rs" || ending == "md") {
+        } else if path.extension().is_some_and(|ending| ENDINGS.iter().any(|known| ending == *known)) {
             into.push(path);
         }
     }

@@ -20,7 +20,7 @@ COSTS = {"evaluations": "evaluations of the gradient", "seconds": "time of the s
 ERRORS = {"position_error": "error of the position at the end", "energy_error": "largest error of $H$"}
 
 
-# So many curves can be told apart.
+# The number of curves that can be told apart.
 MOST_CURVES = 12
 
 

@@ -82,7 +82,7 @@ def post(q, p, h, gradient, velocity=unit_masses):
 ‹end›
 @partial(jax.jit, static_argnames=("steps", "gradient", "velocity"))
 def integrate(q, p, h, steps, gradient, velocity=unit_masses):
-    """q and p after so many steps of size h."""
+    """q and p after this number of steps of size h."""
 ‹if processed›
     q, p = pre(q, p, h, gradient, velocity)
 ‹end›

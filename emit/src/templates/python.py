@@ -80,7 +80,7 @@ def post(q, p, h, ‹parameters›):
 
 ‹end›
 def integrate(q, p, h, steps, ‹parameters›):
-    """q and p after so many steps of size h."""
+    """q and p after this number of steps of size h."""
     q, p = np.asarray(q, dtype=float), np.asarray(p, dtype=float)
 ‹if processed›
     q, p = pre(q, p, h, ‹arguments›)

@@ -353,7 +353,7 @@ pub enum MotionError {
         /// What is wrong with it.
         error: FormulaError,
     },
-    /// There are no numbers of so many digits.
+    /// There are no numbers of this number of digits.
     #[error("the initial values cannot be rounded to {digits} digits: give a number from 1 to {most}", most = Precision::of_bits(LimbCount::MOST.bits()).in_digits())]
     NumberOfDigits {
         /// The digits that were asked for.
