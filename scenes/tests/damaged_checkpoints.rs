@@ -70,7 +70,7 @@ impl Stopped {
             Ok(_) => assert!(fs::read(self.path("out.csv")).unwrap() == self.whole, "{what}: other bytes"),
             Err(error) => {
                 let error = error.to_string();
-                assert!(error.contains("--restart") || error.contains("--force"), "{what}: {error}");
+                assert!(error.contains("`restart`") || error.contains("`force`"), "{what}: {error}");
                 assert!(!self.path("out.csv").exists(), "{what}");
                 return true;
             }

@@ -185,7 +185,10 @@ impl<'a> Weights<'a> {
             let names = (1..=weights.len()).map(|number| format_ident!("{name}_{number}"));
             quote! { #field: [#(#names),*] }
         });
-        quote! { let ::shadowstep::steps::scheme::Weights { #(#fields,)* .. } = weights; }
+        quote! {
+            use ::shadowstep::steps::scheme::Weights;
+            let Weights { #(#fields,)* .. } = weights;
+        }
     }
 }
 

@@ -68,10 +68,10 @@ const WRONG: &[(&str, &str, &str, &str)] = &[
     ("q = [1, 0]", "q = [0x10, 0]", "7:6: this value is of the wrong kind", "decimal digits"),
     ("p = [0, 1]", "p = [0, 1]\nv = [0, 1]", "9:5: p and v are both given", "keep one of the two"),
     ("step = \"1/20\"", "step = 0", "11:8: step 0: the step size must be nonzero", "such as 1/10"),
-    ("step = \"1/20\"", "step = -0.05", "11:8: steps of -0.05 never reach until 2", "positive values for both"),
-    ("step = \"1/20\"", "step = 3", "11:8: step 3 is longer than the run until 2", "a smaller step size"),
+    ("step = \"1/20\"", "step = -0.05", "11:8: steps of -0.05 never reach the time 2", "positive values for both"),
+    ("step = \"1/20\"", "step = 3", "11:8: a step of 3 is longer than the run until 2", "a smaller step size"),
     ("step = \"1/20\"", "step = 1e-20", "11:8: steps of 1e-20 until 2 are 2e20 steps", "the limit is 1e10"),
-    ("until = 2", "until = 0", "12:9: until 0: the time must be nonzero", "until 100"),
+    ("until = 2", "until = 0", "12:9: until 0: the time must be nonzero", "such as 100"),
     ("until = 2", "until = 2\nsteps = 40", "13:9: until and steps are both given", "keep one of the two"),
     ("until = 2", "steps = 0", "12:9: 0 is out of range", "from 1 to"),
     (
