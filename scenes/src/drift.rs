@@ -1,7 +1,7 @@
 //! The drift of the modified energy of a run, beside the error of H; and on the exact flow the drift that is the estimator's own.
 //!
 //! ```
-//! use shadowstep::exact;
+//! use shadowstep::{StepSize, exact};
 //! use shadowstep::shadow::Bilinear;
 //! use shadowstep::tables::Source;
 //! use shadowstep_scenes::System;
@@ -12,7 +12,7 @@
 //!
 //! let text = "[problem]\nname = \"kepler\"".to_owned();
 //! let (system, _) = System::read(&Source { path: "kepler".to_owned(), text }, Arithmetic::DOUBLE)?;
-//! let (h, until) = (exact("1/20").unwrap(), exact("50").unwrap());
+//! let (h, until) = (StepSize::try_from("1/20").unwrap(), exact("50").unwrap());
 //! let estimator = Bilinear::new(8).into();
 //! let (arithmetic, summarised) = (Arithmetic::DOUBLE, true);
 //! let request = DriftRequest { problem: "kepler", system: &system, until: &until, arithmetic, estimator: &estimator, summarised };

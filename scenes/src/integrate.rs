@@ -1,7 +1,7 @@
 //! A run into memory: states at equal intervals of steps, with their energies and modified energies.
 //!
 //! ```
-//! use shadowstep::exact;
+//! use shadowstep::StepSize;
 //! use shadowstep::tables::Source;
 //! use shadowstep_scenes::arithmetic::Arithmetic;
 //! use shadowstep_scenes::integrate::Integration;
@@ -12,7 +12,7 @@
 //! let text = "[problem]\nname = \"kepler\"".to_owned();
 //! let (system, _) = System::read(&Source { path: "kepler".to_owned(), text }, Arithmetic::DOUBLE)?;
 //! let scheme = for_system(library::scheme("yoshida4")?, &system)?;
-//! let h = exact("1/20").unwrap();
+//! let h = StepSize::try_from("1/20").unwrap();
 //! let run = Run { propagator: &scheme.name, h: &h, steps: 1000, order: None };
 //! let integration =
 //!     Integration { system: &system, scheme: &scheme.scheme, run, compensated: false, every: 100, estimator: None };

@@ -241,10 +241,11 @@ impl Maps {
             let middle = self.middle.get(index).map(|place| {
                 let weight = format_ident!("middle_part_{}", place + 1);
                 let order = if kind == MapKind::Drift { quote!(Descending) } else { quote!(Ascending) };
-                quote! { flows.middle_parts(#weight, ::shadowstep::steps::scheme::PartOrder::#order); }
+                quote! { flows.middle_parts(#weight, PartOrder::#order); }
             });
             quote! { flows.#map(#weight); #middle }
         });
+        let import = (!self.middle.is_empty()).then(|| quote! { use ::shadowstep::steps::scheme::PartOrder; });
         // inlined into a loop, a short step can hold its state in registers
         let inline = match self.are_few() {
             true => quote! { #[inline(always)] },
@@ -253,6 +254,7 @@ impl Maps {
         quote! {
             #inline
             fn #name<F: ::shadowstep::steps::scheme::Flows>(&self, weights: &Self::Weights<F::Number>, flows: &mut F) {
+                #import
                 #weights
                 #(#statements)*
             }
