@@ -11,7 +11,7 @@ use shadowstep_studies::Continues;
 use shadowstep_studies::verdict::Verdict as Agreement;
 
 /// The monitor's estimator is E_8 with its error: 9 states a window.
-const MONITOR_ORDER: u32 = 8;
+pub(crate) const MONITOR_ORDER: u32 = 8;
 /// The verdict is asked for again when the number of steps has grown by this part.
 const REPORTS: u64 = 50;
 /// Whether to continue is asked so often at most.

@@ -4,7 +4,8 @@ use std::f64::consts::TAU;
 
 use num_traits::FromPrimitive;
 use serde::{Deserialize, Serialize};
-use shadowstep::shadow::{Bilinear, ShadowEnergy, Verdict as RunResult};
+use shadowstep::shadow::Verdict as MonitorVerdict;
+use shadowstep::steps::integrator::VectorIntegrator;
 use shadowstep::systems::formula::FormulaPotential;
 use shadowstep::{Motion, Rational, Scheme, Stepper, UnitMasses};
 use shadowstep_scenes::Error;
@@ -18,6 +19,7 @@ use shadowstep_studies::verdict::Verdict;
 use crate::case::Case;
 use crate::linear_step::LinearStep;
 use crate::suite::{Examined, Suite};
+use crate::watched::MONITOR_ORDER;
 
 /// The case.
 pub(super) struct Resonances;
@@ -188,14 +190,15 @@ fn vary<N: RunNumber>(scheme: &NamedScheme, (h, cubic): (f64, bool), steps: u64,
     let formula = if cubic { CUBIC } else { QUARTIC };
     let potential = FormulaPotential::<N>::new(formula, &["q"], &[]).expect("it is a formula");
     let start = (vec![number(AMPLITUDE.0, AMPLITUDE.1)], vec![number(0, 1)]);
-    let mut motion = Motion::new(potential, UnitMasses, start.0, start.1).expect("one coordinate");
+    let motion = Motion::new(potential, UnitMasses, start.0, start.1).expect("one coordinate");
     let stepper = Stepper::with_context(scheme.quadratic(), &h, context).expect("it is positive");
-    let monitor = ShadowEnergy::new(stepper, &mut motion, &Bilinear::with_error(8)).expect("it is finite");
-    let mut monitor = monitor.every((steps / 256).max(1));
+    let integrator: &mut VectorIntegrator<'_, N> = &mut stepper.with(motion.compensated_if(false));
+    let mut monitor = N::monitor(integrator, MONITOR_ORDER, (steps / 256).max(1)).expect("it is finite");
     let (mut least, mut largest) = (f64::INFINITY, 0.0_f64);
     for _ in 0..steps {
-        let finite = monitor.step(&mut motion).is_ok();
-        let invariant = step.invariant(motion.q()[0].to_f64(), motion.p()[0].to_f64());
+        let finite = monitor.step(integrator).is_ok();
+        let state = integrator.state();
+        let invariant = step.invariant(state.q()[0].to_f64(), state.p()[0].to_f64());
         (least, largest) = (least.min(invariant), largest.max(invariant));
         if !finite || largest > LEFT * least || invariant.is_nan() || least < 0.0 {
             largest = largest.max(LEFT * least.abs());
@@ -208,6 +211,6 @@ fn vary<N: RunNumber>(scheme: &NamedScheme, (h, cubic): (f64, bool), steps: u64,
         ratio: Some(ratio),
         verdict: said.to_string(),
         fine: said.is_fine(),
-        resonance: matches!(said, RunResult::NearResonance { .. }),
+        resonance: matches!(said, MonitorVerdict::NearResonance { .. }),
     }
 }

@@ -4,11 +4,10 @@ use std::f64::consts::TAU;
 
 use num_traits::FromPrimitive;
 use serde::{Deserialize, Serialize};
-use shadowstep::number::CorrectlyRounded;
 use shadowstep::problems::Kepler;
-use shadowstep::shadow::{Bilinear, ShadowEnergy};
+use shadowstep::systems::summation::Compensated;
 use shadowstep::tables::TableScheme;
-use shadowstep::{Motion, Rational, Scheme, Stepper, System, UnitMasses};
+use shadowstep::{Motion, Rational, Scheme, Stepper, UnitMasses};
 use shadowstep_scenes::Error;
 use shadowstep_scenes::arithmetic::Arithmetic;
 use shadowstep_scenes::computation::RunNumber;
@@ -111,9 +110,9 @@ impl Case for RoundOff {
         let stepper = Stepper::with_context(scheme.clone(), &h, context).expect("it is positive");
         let (q, p) = start(f64::from(trial.phase) / f64::from(PHASES));
         let number = |x: f64| N::from_rational(&Rational::from_f64(x).expect("it is finite"), context);
-        let motion = Motion::new(Kepler, UnitMasses, q.map(number), p.map(number)).expect("two coordinates");
-        let mut motion = motion.compensated_if(trial.sums == Sums::Compensated);
-        let (initial, mut error) = modified_energy(&stepper, &mut motion);
+        let motion = Motion::new(Kepler, UnitMasses, q.map(number).to_vec(), p.map(number).to_vec());
+        let motion = motion.expect("two coordinates").compensated_if(trial.sums == Sums::Compensated);
+        let (initial, mut error, mut motion) = modified_energy(&stepper, motion);
         let (mut n, mut changes) = (0, Vec::new());
         for steps in &trial.steps {
             while n < *steps {
@@ -125,7 +124,7 @@ impl Case for RoundOff {
                 }
             }
             // of a copy: the estimate's steps are not counted
-            let (mut value, own_error) = modified_energy(&stepper, &mut motion.clone());
+            let (mut value, own_error, _) = modified_energy(&stepper, motion.clone());
             value.subtract(&initial);
             error = error.max(own_error);
             changes.push(value.to_f64() / ENERGY);
@@ -186,23 +185,23 @@ fn start(part: f64) -> ([f64; 2], [f64; 2]) {
     ([cos - ECCENTRICITY, minor * sin], [-sin / distance, minor * cos / distance])
 }
 
-/// The modified energy with the least estimated error of the next period, and that error.
-fn modified_energy<N: CorrectlyRounded, M: System<Number = N, Class = shadowstep::systems::kinetic::Quadratic>>(
-    stepper: &Stepper<TableScheme, N>,
-    system: &mut M,
-) -> (N, f64) {
-    let monitor = ShadowEnergy::new(stepper.clone(), system, &Bilinear::with_error(ORDER));
-    let mut monitor = monitor.expect("the orbit is finite");
+type Orbit<N> = Motion<N, Vec<N>, Kepler, UnitMasses, Option<Compensated<N, Vec<N>>>>;
+
+/// The modified energy with the least estimated error of the next period, that error, and the orbit after the period.
+fn modified_energy<N: RunNumber>(stepper: &Stepper<TableScheme, N>, orbit: Orbit<N>) -> (N, f64, Orbit<N>) {
+    let mut integrator = stepper.with(orbit);
+    let mut monitor = N::monitor(&mut integrator, ORDER, 1).expect("the orbit is finite");
     let mut best: Option<(N, f64)> = None;
     let period = (TAU / <f64 as shadowstep::Number>::from_rational(stepper.h(), &())).ceil() as u64;
     for _ in 0..period {
-        let Some(sample) = monitor.step(system).expect("the orbit is finite") else { continue };
+        let Some(sample) = monitor.step(&mut integrator).expect("the orbit is finite") else { continue };
         let error = sample.error.map_or(f64::INFINITY, |error| error.to_f64());
         if best.as_ref().is_none_or(|(_, least)| error < *least) {
             best = Some((sample.modified.clone(), error));
         }
     }
-    best.expect("a period has windows")
+    let (modified, error) = best.expect("a period has windows");
+    (modified, error, integrator.into_system())
 }
 
 /// The growth of the changes of all phases of a scheme.

@@ -7,7 +7,8 @@ use num_traits::FromPrimitive;
 use serde::{Deserialize, Serialize};
 use shadowstep::number::CorrectlyRounded;
 use shadowstep::problems::Kepler;
-use shadowstep::shadow::{Bilinear, ShadowEnergy, Verdict as RunResult};
+use shadowstep::shadow::Verdict as MonitorVerdict;
+use shadowstep::steps::integrator::VectorIntegrator;
 use shadowstep::systems::kinetic::General;
 use shadowstep::systems::transformed_time::{TimeTransformation, TransformedKinetic, TransformedPotential};
 use shadowstep::tables::{First, TableScheme};
@@ -23,6 +24,7 @@ use shadowstep_studies::verdict::Verdict;
 
 use crate::case::Case;
 use crate::suite::{Examined, Suite};
+use crate::watched::MONITOR_ORDER;
 
 /// The case.
 pub(super) struct TransformedTime;
@@ -189,16 +191,16 @@ fn followed<N: RunNumber>(
     let time = TimeTransformation::Logarithmic;
     let (potential, kinetic) = (TransformedPotential::new(time, Kepler), TransformedKinetic::new(time, UnitMasses));
     let (q, p) = ellipse.pericentre();
-    let mut motion = Motion::new(potential, kinetic, q, p).expect("three coordinates");
+    let motion = Motion::new(potential, kinetic, q.to_vec(), p.to_vec()).expect("three coordinates");
     let h = <f64 as Number>::from_rational(stepper.h(), &());
     let steps = (f64::from(trial.periods) * TAU / h) as u64;
-    let monitor = ShadowEnergy::new(stepper.clone(), &mut motion, &Bilinear::with_error(8)).expect("it is finite");
-    let mut monitor = monitor.every((steps / 256).max(1));
+    let integrator: &mut VectorIntegrator<'_, N> = &mut stepper.with(motion.compensated_if(false));
+    let mut monitor = N::monitor(integrator, MONITOR_ORDER, (steps / 256).max(1)).expect("it is finite");
     let unit = 2_f64.powi(-(<N as CorrectlyRounded>::precision(context).in_bits() as i32));
     let mut worst = [0.0_f64; 4];
     for n in 1..=steps {
-        let finite = monitor.step(&mut motion).is_ok();
-        let found = ellipse.deviations(n, motion.q(), motion.p());
+        let finite = monitor.step(integrator).is_ok();
+        let found = ellipse.deviations(n, integrator.state().q(), integrator.state().p());
         let leapfrogs = n as f64 * gammas.len() as f64;
         let (wander, phase) = (unit * leapfrogs.sqrt(), unit * leapfrogs.powf(1.5));
         let allowed = [wander, wander / ellipse.angular_momentum.to_f64(), phase, phase];
@@ -213,7 +215,7 @@ fn followed<N: RunNumber>(
     let verdict = monitor.report().verdict;
     let [energy, angular_momentum, position, time] = worst;
     let period = h / ellipse.turn.to_f64() - 1.0;
-    let too_large = matches!(verdict, RunResult::TooLarge(_) | RunResult::NearResonance { .. });
+    let too_large = matches!(verdict, MonitorVerdict::TooLarge(_) | MonitorVerdict::NearResonance { .. });
     Orbit { steps, energy, angular_momentum, position, time, period, too_large, verdict: verdict.to_string() }
 }
 
