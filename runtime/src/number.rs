@@ -109,7 +109,7 @@ pub trait Number: Clone + fmt::Debug {
     fn register(&mut self) -> Self::Register<'_>;
 
     /// Does some work, of numbers in lanes in the widest vector instructions that the processor has: of the whole loop, as all
-    /// that is not inlined into it is not compiled for them. See [`instructions`](crate::number::instructions).
+    /// that is not inlined into it is not compiled for them. See [`instructions`].
     #[inline(always)]
     fn in_widest_instructions<R>(work: impl FnOnce() -> R) -> R {
         work()

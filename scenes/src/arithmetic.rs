@@ -155,7 +155,7 @@ impl Arithmetic {
     ///
     /// # Errors
     /// More digits than MPFR has; always without the feature `mpfr`.
-    pub(crate) fn with_mpfr(digits: u32) -> Result<Self, DigitsError> {
+    pub fn with_mpfr(digits: u32) -> Result<Self, DigitsError> {
         let precision = Precision::digits(digits)?;
         #[cfg(feature = "mpfr")]
         return Ok(Arithmetic::plain(Numbers::Digits(digits, Digits::Mpfr(precision))));

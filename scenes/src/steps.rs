@@ -6,7 +6,7 @@ use shadowstep_symbolic::decimal::to_significant;
 use thiserror::Error;
 
 /// The most steps of a run: more would take years.
-pub(crate) const MOST_STEPS: u64 = 10_000_000_000;
+pub const MOST_STEPS: u64 = 10_000_000_000;
 
 /// A step size and an end of the run that give no valid number of steps.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]

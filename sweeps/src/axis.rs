@@ -51,7 +51,7 @@ impl Axis {
     }
 
     /// How many values it has.
-    pub(crate) fn count(&self) -> u64 {
+    pub fn count(&self) -> u64 {
         match &self.values {
             Values::List { values, .. } => values.len() as u64,
             Values::Range(range) => range.count(),
