@@ -7,7 +7,8 @@
 //! | `blocks` | the most accurate estimates and the means of the parts of a run, in fixed memory |
 //! | `change`, `trend` | what these show: a permanent change and its uncertainty; constant, random walk or line |
 //! | `statistics` | extremes and sums over the windows |
-//! | `recent` | round-off, turning and consistency, from the newest states of a window |
+//! | `recent` | the newest states of a window |
+//! | `kicks`, `turning_sums`, `consistency` | round-off, turning and consistency, from these states |
 //! | `turning` | the angle of a step, from differences of momenta |
 //! | `fastest` | the coordinate that turns fastest, each by itself |
 //! | `rate` | whether the rate is qᵀU_q − 2U |
@@ -18,19 +19,23 @@
 mod arithmetic;
 mod blocks;
 mod change;
+mod consistency;
 mod energies;
 mod estimated;
 mod fastest;
+mod kicks;
 mod rate;
 mod recent;
 mod report;
 mod roughness;
 mod schedule;
 mod shadow_energy;
+mod state_view;
 mod statistics;
 mod text;
 mod trend;
 mod turning;
+mod turning_sums;
 mod verdict;
 
 pub use report::Report;
