@@ -4,6 +4,7 @@
 use num_traits::{One, Zero};
 use rug::Float;
 use shadowstep::number::Precision;
+use shadowstep::number::counting::{Counting, count};
 use shadowstep::problems::{PROBLEMS, ProblemMotion, Setup, problem};
 use shadowstep::{Number, Potential, Rational, Real, Stepper, splitting_scheme};
 use shadowstep_tests::{log10_distance, number, precision};
@@ -33,6 +34,20 @@ fn follow(mut motion: ProblemMotion<f64>, h: &str, steps: u32, mut look: impl Fn
     for _ in 0..steps {
         stepper.step(&mut motion);
         look(motion.q(), motion.p());
+    }
+}
+
+/// Runs of problems without functions are computed together in lanes.
+#[test]
+fn problems_with_functions_are_those_that_count_some() {
+    for problem in PROBLEMS {
+        let mut motion = motion::<Counting<f64>>(problem.name(), &());
+        let stepper = Stepper::<_, Counting<f64>>::new(Yoshida4, "1/1000").unwrap();
+        let (_, operations) = count(|| {
+            stepper.step(&mut motion);
+            motion.energy()
+        });
+        assert_eq!(problem.has_functions(), operations.elementary > 0, "{}", problem.name());
     }
 }
 

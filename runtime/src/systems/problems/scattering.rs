@@ -32,6 +32,8 @@ impl Definition for Entry {
         source: "after Benettin & Giorgilli, J. Stat. Phys. 74 (1994) 569, quoted in Moan & Niesen, section 5",
     };
 
+    const HAS_FUNCTIONS: bool = true;
+
     fn potential<N: Number + 'static>(_: &dyn Fn(&str) -> N) -> Box<dyn Potential<N>> {
         Box::new(Vectorised(Scattering))
     }
