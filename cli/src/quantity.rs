@@ -36,7 +36,7 @@ pub(crate) fn step_size(flag: &str, text: &str) -> Result<StepSize, Error> {
 pub(crate) fn steps(h: (&StepSize, &str), until: &Rational) -> Result<u64, Error> {
     let end = to_text(until);
     steps::count(h, (until, &end)).map_err(|none| match none.is_of_time() {
-        true => Error::usage(format!("--until {end}: {none}"), "write a time such as --until 100"),
+        true => Error::usage(format!("--{none}"), "write a time such as --until 100"),
         false => Error::usage(none.to_string(), none.hint()),
     })
 }

@@ -80,10 +80,7 @@ impl Times {
 
     fn until(py: Python<'_>, (h, step): (StepSize, &str), (until, end): (Rational, &str)) -> PyResult<Self> {
         let steps = steps::count((&h, step), (&until, end));
-        let steps = steps.map_err(|error| match error.is_of_time() {
-            true => usage(py, format!("until {end}: {error}"), error.hint()),
-            false => usage(py, error.to_string(), error.hint()),
-        })?;
+        let steps = steps.map_err(|error| usage(py, error.to_string(), error.hint()))?;
         Ok(Times { note: Note::of_end(h.exact(), steps, &until), h, steps })
     }
 }

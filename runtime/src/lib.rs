@@ -77,32 +77,23 @@ pub use shadowstep_macros::{kinetic, potential, splitting_scheme};
 #[doc(inline)]
 pub use shadowstep_symbolic::{Rational, exact};
 #[doc(inline)]
-pub use steps::integrator::Integrator;
+pub use steps::{
+    integrator::Integrator,
+    scheme::{Scheme, SchemeProperties, ValidFor},
+    step_size::{StepSize, StepSizeError},
+    stepper::Stepper,
+    tables,
+};
 #[doc(inline)]
-pub use steps::scheme::{Scheme, SchemeProperties, ValidFor};
-#[doc(inline)]
-pub use steps::step_size::{StepSize, StepSizeError};
-#[doc(inline)]
-pub use steps::stepper::Stepper;
-#[doc(inline)]
-pub use steps::tables;
-#[doc(inline)]
-pub use systems::coordinates::Coordinates;
-#[doc(inline)]
-pub use systems::increments::{Carried, Increments, OwnedIncrements};
-#[doc(inline)]
-pub use systems::kinetic::{DiagonalMasses, FullMasses, Kinetic, UnitMasses};
-#[doc(inline)]
-pub use systems::motion::{Motion, MotionError};
-#[doc(inline)]
-pub use systems::potential::Potential;
-#[doc(inline)]
-pub use systems::potential_check::check_potential;
-#[doc(inline)]
-pub use systems::problems;
-#[doc(inline)]
-pub use systems::state::{State, VectorState};
-#[doc(inline)]
-pub use systems::summation::Remainders;
-#[doc(inline)]
-pub use systems::system::System;
+pub use systems::{
+    coordinates::Coordinates,
+    increments::{Carried, Increments, OwnedIncrements},
+    kinetic::{DiagonalMasses, FullMasses, Kinetic, UnitMasses},
+    motion::{Motion, MotionError},
+    potential::Potential,
+    potential_check::check_potential,
+    problems,
+    state::{State, VectorState},
+    summation::Remainders,
+    system::System,
+};

@@ -12,8 +12,11 @@ pub const MOST_STEPS: u64 = 10_000_000_000;
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 pub enum StepsError {
     /// The run ends where it begins.
-    #[error("the time must be nonzero")]
-    NoTime,
+    #[error("until {until}: the time must be nonzero")]
+    NoTime {
+        /// The time.
+        until: String,
+    },
     /// The step size and the time have different signs.
     #[error("steps of {h} never reach the time {until}: the signs differ")]
     NeverReached {
@@ -46,7 +49,7 @@ impl StepsError {
     /// What would be right.
     pub fn hint(&self) -> &'static str {
         match self {
-            StepsError::NoTime => "write a time such as 100",
+            StepsError::NoTime { .. } => "write a time such as 100",
             StepsError::NeverReached { .. } => {
                 "use positive values for both, or negative values for both to go back in time"
             }
@@ -57,7 +60,7 @@ impl StepsError {
 
     /// Whether the time is wrong, and not the step size.
     pub fn is_of_time(&self) -> bool {
-        *self == StepsError::NoTime
+        matches!(self, StepsError::NoTime { .. })
     }
 }
 
@@ -75,23 +78,17 @@ impl StepsError {
 /// A time of 0, different signs, a step longer than the run, more than [`MOST_STEPS`].
 pub fn count((h, step): (&StepSize, &str), (until, end): (&Rational, &str)) -> Result<u64, StepsError> {
     if until.is_zero() {
-        return Err(StepsError::NoTime);
+        return Err(StepsError::NoTime { until: end.to_owned() });
     }
-    let texts = || (step.to_owned(), end.to_owned());
     let count = (until / h.exact()).floor();
-    match count.to_u64() {
-        _ if count.is_negative() => {
-            let (h, until) = texts();
-            Err(StepsError::NeverReached { h, until })
-        }
-        Some(0) => {
-            let (h, until) = texts();
-            Err(StepsError::LongerThanRun { h, until })
-        }
-        Some(steps) if steps <= MOST_STEPS => Ok(steps),
-        _ => {
-            let (h, until) = texts();
-            Err(StepsError::TooMany { h, until, count: to_significant(&count, 3) })
-        }
+    let steps = count.to_u64();
+    if let Some(steps @ 1..=MOST_STEPS) = steps {
+        return Ok(steps);
     }
+    let (h, until) = (step.to_owned(), end.to_owned());
+    Err(match steps {
+        _ if count.is_negative() => StepsError::NeverReached { h, until },
+        Some(0) => StepsError::LongerThanRun { h, until },
+        _ => StepsError::TooMany { h, until, count: to_significant(&count, 3) },
+    })
 }

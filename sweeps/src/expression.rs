@@ -50,7 +50,7 @@ impl Expression {
     fn with(formula: String, text: Text) -> Expression {
         let syntax = parse(&formula).ok();
         let has = |name| syntax.as_ref().is_some_and(|syntax| mentions(syntax, name));
-        let has_functions = syntax.as_ref().is_some_and(Syntax::has_functions);
+        let has_functions = syntax.as_ref().is_none_or(Syntax::has_functions);
         Expression { has_time: has(TIME), has_energy: has(ENERGY), has_functions, formula, text }
     }
 

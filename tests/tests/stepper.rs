@@ -366,3 +366,14 @@ fn a_closure_of_another_dimension_is_refused() {
     let error = Motion::new(closure(), UnitMasses, [0.1], [0.2]).map(drop).unwrap_err();
     assert_eq!(error, MotionError::Potential { coordinates: 1, dimension: 2 });
 }
+
+#[test]
+fn initial_values_that_are_not_exact_numbers_are_refused() {
+    let refusal =
+        |x: &str, digits| Motion::exact(Kepler, UnitMasses, ["0", x], ["0", "2"], digits).err().map(|e| e.to_string());
+    assert_eq!((refusal("1/3", 1), refusal("sqrt(2)", 327)), (None, None));
+    let most = |digits| format!("the initial values cannot be rounded to {digits} digits: give a number from 1 to 327");
+    assert_eq!((refusal("1", 0), refusal("1", 328)), (Some(most(0)), Some(most(328))));
+    assert_eq!(refusal("1/0", 50).unwrap(), "q2: division by zero");
+    assert_eq!(refusal("x", 50).unwrap(), "q2: unknown name `x`; the only known name is `pi`");
+}

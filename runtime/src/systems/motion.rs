@@ -107,8 +107,8 @@ where
     /// ```
     #[must_use]
     pub fn displaced(mut self, displacements: Displacements<N>) -> Self {
-        let curved = GradientKickState::displaced(displacements, self.q().len(), &self.context());
-        self.hamiltonian.curved = Some(Box::new(curved));
+        let gradient_kicks = GradientKickState::displaced(displacements, self.q().len(), &self.context());
+        self.hamiltonian.gradient_kicks = Some(Box::new(gradient_kicks));
         self
     }
 
@@ -254,8 +254,9 @@ where
 
     /// The number of Hessian–vector products U_qq M⁻¹U_q computed for gradient kicks.
     pub fn hessian_products(&self) -> u64 {
-        let products = self.hamiltonian.curved.as_ref().filter(|curved| !curved.kicks.is_displaced());
-        products.map_or(0, |curved| curved.kicks.evaluations)
+        let products =
+            self.hamiltonian.gradient_kicks.as_ref().filter(|gradient_kicks| !gradient_kicks.kicks.is_displaced());
+        products.map_or(0, |gradient_kicks| gradient_kicks.kicks.evaluations)
     }
 
     /// The context of the numbers.
@@ -354,7 +355,7 @@ pub enum MotionError {
         /// What is wrong with it.
         error: FormulaError,
     },
-    /// There are no numbers of this number of digits.
+    /// More digits than 17 limbs hold, or none.
     #[error("the initial values cannot be rounded to {digits} digits: give a number from 1 to {most}", most = Precision::of_bits(LimbCount::MOST.bits()).in_digits())]
     NumberOfDigits {
         /// The digits that were asked for.

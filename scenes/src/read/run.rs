@@ -185,9 +185,9 @@ fn times(reader: &mut Reader<'_>, run: &Section<'_, '_>, transformed: bool) -> O
     match steps::count((&h, &step.value), (&compared, &to_text(&until))) {
         Ok(_) if transformed => Some((h, Some(until), None)),
         Ok(count) => Some((h, Some(until), Some(count))),
-        Err(none) if none.is_of_time() => {
-            reader.toml.wrong(&end.at, format!("until {}: {none}", end.value), none.hint())
+        Err(none) => {
+            let at = if none.is_of_time() { &end.at } else { &step.at };
+            reader.toml.wrong(at, none.to_string(), none.hint())
         }
-        Err(none) => reader.toml.wrong(&step.at, none.to_string(), none.hint()),
     }
 }

@@ -39,6 +39,7 @@ pub(super) struct Recent<N> {
     kicks: Kicks<N>,
     turning: TurningSums<N>,
     roughness: Roughness<N>,
+    /// An intermediate result.
     angle: N,
 }
 

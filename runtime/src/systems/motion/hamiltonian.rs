@@ -33,7 +33,7 @@ pub(super) struct Hamiltonian<N, P, K> {
     /// The kinetic energy's, with what it keeps there.
     pub(super) kinetic_scratch: Vec<N>,
     /// Of gradient kicks, once there was one; what it keeps belongs to the q of the last evaluation of the gradient.
-    pub(super) curved: Option<Box<GradientKickState<N>>>,
+    pub(super) gradient_kicks: Option<Box<GradientKickState<N>>>,
 }
 
 /// Flows are compiled for the instructions of the caller.
@@ -43,7 +43,7 @@ impl<N: Number, P: Potential<N>, K: Kinetic<N>> Hamiltonian<N, P, K> {
         potential.prepare(&mut scratch, context);
         let mut kinetic_scratch = vec![N::zero(context); kinetic.scratch()];
         kinetic.prepare(&mut kinetic_scratch, context);
-        Hamiltonian { potential, kinetic, scratch, kinetic_scratch, curved: None }
+        Hamiltonian { potential, kinetic, scratch, kinetic_scratch, gradient_kicks: None }
     }
 
     /// Evaluates the gradient at the present q, with the rate where that is wanted.
@@ -63,8 +63,8 @@ impl<N: Number, P: Potential<N>, K: Kinetic<N>> Hamiltonian<N, P, K> {
             KeptForce::Gradient
         };
         at.state.count_evaluation();
-        if let Some(curved) = &mut self.curved {
-            curved.kicks.kept = KeptForce::Nothing;
+        if let Some(gradient_kicks) = &mut self.gradient_kicks {
+            gradient_kicks.kicks.kept = KeptForce::Nothing;
         }
     }
 
@@ -98,12 +98,14 @@ impl<N: Number, P: Potential<N>, K: Kinetic<N>> Hamiltonian<N, P, K> {
     ) {
         let with_rate = carried != Carried::Nothing;
         at.state.settle();
-        let is_displaced = self.curved.as_ref().is_some_and(|curved| curved.kicks.is_displaced());
+        let is_displaced =
+            self.gradient_kicks.as_ref().is_some_and(|gradient_kicks| gradient_kicks.kicks.is_displaced());
         if at.kept == KeptForce::Nothing || is_displaced && !at.kept.suffices(with_rate) {
             self.evaluate(at, with_rate);
         }
-        let Hamiltonian { potential, kinetic, scratch, kinetic_scratch, curved } = self;
-        let kicks = curved.get_or_insert_with(|| Box::new(GradientKickState::new(potential, &weight.context())));
+        let Hamiltonian { potential, kinetic, scratch, kinetic_scratch, gradient_kicks } = self;
+        let kicks =
+            gradient_kicks.get_or_insert_with(|| Box::new(GradientKickState::new(potential, &weight.context())));
         let place = Place { q: at.state.q.as_ref(), gradient: at.gradient.as_ref(), rate: &at.rate };
         let before = kicks.kicks.evaluations;
         kicks.evaluate(Parts { potential, kinetic, scratch, kinetic_scratch }, place, weight, with_rate);
@@ -192,7 +194,7 @@ impl<N: Number, P: Potential<N>, K: Kinetic<N>> Hamiltonian<N, P, K> {
         let Evaluated { state: State { q, p, sums, evaluations, .. }, gradient, kept, .. } = at;
         let [q, p, gradient] = [q, p, gradient].map(V::as_mut);
         let is_worth_it = P::is_boxed() && count >= FEW && FewCoordinates::<N>::can_hold(q.len());
-        if !is_worth_it || !sums.is_plain() || self.curved.is_some() {
+        if !is_worth_it || !sums.is_plain() || self.gradient_kicks.is_some() {
             return false;
         }
         let Some(inverse_masses) = self.kinetic.inverse_masses() else { return false };

@@ -53,7 +53,8 @@ where
     }
 
     fn has_gradient_kicks(&self) -> bool {
-        let is_displaced = self.hamiltonian.curved.as_ref().is_some_and(|curved| curved.kicks.is_displaced());
+        let is_displaced =
+            self.hamiltonian.gradient_kicks.as_ref().is_some_and(|gradient_kicks| gradient_kicks.kicks.is_displaced());
         is_displaced || self.hamiltonian.potential.hessian().is_some()
     }
 
