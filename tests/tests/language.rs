@@ -1,4 +1,4 @@
-//! Protects plain language: the phrases that the page of language forbids are in no comment, on no page and in no Python file.
+//! Protects plain language: the phrases that the page of language forbids are in no comment, on no page, in no Python file and in no template.
 
 use std::path::{Path, PathBuf};
 use std::{fs, io};
@@ -44,8 +44,8 @@ fn faults(text: &str, is_rust: bool, forbidden: &[Forbidden]) -> Vec<String> {
     faults.collect()
 }
 
-/// Of Rust the comments are compared, of the others everything.
-const ENDINGS: [&str; 4] = ["rs", "md", "py", "ipynb"];
+/// Of Rust the comments are compared, of the others everything; `jl` to `tex` are the templates of emitted code.
+const ENDINGS: [&str; 8] = ["rs", "md", "py", "ipynb", "jl", "h", "F90", "tex"];
 
 /// All files below a folder with one of these endings, without build folders and hidden ones.
 fn files(folder: &Path, into: &mut Vec<PathBuf>) -> io::Result<()> {

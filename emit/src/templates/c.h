@@ -107,7 +107,7 @@ static inline void SCHEME_step(const SCHEME_system *s, double h, double *q, doub
     ‹step›
 }
 
-// So many steps of size h.
+// This number of steps of size h.
 static inline void SCHEME_integrate(const SCHEME_system *s, double h, long steps, double *q, double *p, double *work)
 {
 ‹if processed›

@@ -112,7 +112,7 @@ contains
   end subroutine
 
 ‹end›
-  ! So many steps of size h.
+  ! This number of steps of size h.
   subroutine integrate(q, p, h, steps, ‹functions›, velocity)
     real(dp), intent(inout) :: q(:), p(:)
     real(dp), intent(in) :: h

@@ -69,7 +69,7 @@ function post(q, p, h, ‹functions›, velocity = identity)
 end
 
 ‹end›
-"q and p after so many steps of size h."
+"q and p after this number of steps of size h."
 function integrate(q, p, h, steps, ‹functions›, velocity = identity)
 ‹if processed›
     q, p = pre(q, p, h, ‹functions›, velocity)
