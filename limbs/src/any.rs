@@ -8,7 +8,8 @@ use std::ops::{AddAssign, DivAssign, MulAssign, Neg, SubAssign};
 /// A number of 2 to 17 limbs; the number of limbs is chosen when it is made.
 ///
 /// It has the bits of [`Limbs`] of as many limbs, whose operations this chooses at run time. A program that offers any number of digits
-/// compiles what it computes for this one type; the operations are compiled in this crate.
+/// compiles what it computes for this one type. With the feature `precompiled` the operations are compiled in this crate; without it, in each
+/// crate that uses them.
 ///
 /// ```
 /// use shadowstep_limbs::{AnyLimbs, LimbCount};
@@ -113,24 +114,30 @@ fn different_sizes() -> ! {
 macro_rules! methods {
     (changes { $($change:ident($($a:ident),*);)+ } gives { $($give:ident($($n:ident)?);)+ } is { $($is:ident -> $result:ty;)+ }) => {
         $(
-            #[doc = concat!("See [`Limbs::", stringify!($change), "`].")]
-            pub fn $change(&mut self, $($a: &AnyLimbs),*) {
-                same_size!(x = &mut self.0 $(, $a = &$a.0)* => x.$change($($a),*))
+            precompiled! {
+                #[doc = concat!("See [`Limbs::", stringify!($change), "`].")]
+                pub fn $change(&mut self, $($a: &AnyLimbs),*) {
+                    same_size!(x = &mut self.0 $(, $a = &$a.0)* => x.$change($($a),*))
+                }
             }
         )+
         $(
-            #[doc = concat!("See [`Limbs::", stringify!($give), "`].")]
-            #[must_use]
-            pub fn $give(&self $(, $n: i32)?) -> AnyLimbs {
-                let mut result = *self;
-                same_size!(result = &mut result.0, x = &self.0 => *result = x.$give($($n)?));
-                result
+            precompiled! {
+                #[doc = concat!("See [`Limbs::", stringify!($give), "`].")]
+                #[must_use]
+                pub fn $give(&self $(, $n: i32)?) -> AnyLimbs {
+                    let mut result = *self;
+                    same_size!(result = &mut result.0, x = &self.0 => *result = x.$give($($n)?));
+                    result
+                }
             }
         )+
         $(
-            #[doc = concat!("See [`Limbs::", stringify!($is), "`].")]
-            pub fn $is(&self) -> $result {
-                same_size!(x = &self.0 => x.$is())
+            precompiled! {
+                #[doc = concat!("See [`Limbs::", stringify!($is), "`].")]
+                pub fn $is(&self) -> $result {
+                    same_size!(x = &self.0 => x.$is())
+                }
             }
         )+
     };
@@ -183,51 +190,53 @@ impl AnyLimbs {
         }
     }
 
-    /// See [`Limbs::root`].
-    #[must_use]
-    pub fn root(&self, n: u32) -> AnyLimbs {
-        let mut root = *self;
-        same_size!(root = &mut root.0, x = &self.0 => *root = x.root(n));
-        root
-    }
-
-    /// See [`Limbs::sin_cos`].
-    #[must_use]
-    pub fn sin_cos(&self) -> (AnyLimbs, AnyLimbs) {
-        let (mut sin, mut cos) = (*self, *self);
-        same_size!(sin = &mut sin.0, cos = &mut cos.0, x = &self.0 => (*sin, *cos) = x.sin_cos());
-        (sin, cos)
-    }
-
-    /// See [`Limbs::mantissa`].
-    pub fn mantissa(&self) -> &[u64] {
-        same_size!(x = &self.0 => x.mantissa())
-    }
-
-    /// The nearest number with this number of limbs.
-    #[must_use]
-    pub fn resized(&self, count: LimbCount) -> AnyLimbs {
-        match self.exponent() {
-            Some(exponent) => {
-                let exponent = i64::from(exponent) - i64::from(self.count().bits());
-                AnyLimbs::from_magnitude(self.is_sign_negative(), self.mantissa(), exponent, false, count)
-            }
-            None => AnyLimbs::from_f64(self.to_f64(), count),
+    precompiled! {
+        /// See [`Limbs::root`].
+        #[must_use]
+        pub fn root(&self, n: u32) -> AnyLimbs {
+            let mut root = *self;
+            same_size!(root = &mut root.0, x = &self.0 => *root = x.root(n));
+            root
         }
-    }
 
-    /// See [`Limbs::from_magnitude`].
-    pub fn from_magnitude(negative: bool, magnitude: &[u64], exponent: i64, more: bool, count: LimbCount) -> AnyLimbs {
-        let mut x = AnyLimbs::zero(count);
-        same_size!(x = &mut x.0 => *x = Limbs::from_magnitude(negative, magnitude, exponent, more));
-        x
-    }
+        /// See [`Limbs::sin_cos`].
+        #[must_use]
+        pub fn sin_cos(&self) -> (AnyLimbs, AnyLimbs) {
+            let (mut sin, mut cos) = (*self, *self);
+            same_size!(sin = &mut sin.0, cos = &mut cos.0, x = &self.0 => (*sin, *cos) = x.sin_cos());
+            (sin, cos)
+        }
 
-    /// The number nearest to an `f64`, which is that number.
-    pub fn from_f64(value: f64, count: LimbCount) -> AnyLimbs {
-        let mut x = AnyLimbs::zero(count);
-        same_size!(x = &mut x.0 => *x = Limbs::from(value));
-        x
+        /// See [`Limbs::mantissa`].
+        pub fn mantissa(&self) -> &[u64] {
+            same_size!(x = &self.0 => x.mantissa())
+        }
+
+        /// The nearest number with this number of limbs.
+        #[must_use]
+        pub fn resized(&self, count: LimbCount) -> AnyLimbs {
+            match self.exponent() {
+                Some(exponent) => {
+                    let exponent = i64::from(exponent) - i64::from(self.count().bits());
+                    AnyLimbs::from_magnitude(self.is_sign_negative(), self.mantissa(), exponent, false, count)
+                }
+                None => AnyLimbs::from_f64(self.to_f64(), count),
+            }
+        }
+
+        /// See [`Limbs::from_magnitude`].
+        pub fn from_magnitude(negative: bool, magnitude: &[u64], exponent: i64, more: bool, count: LimbCount) -> AnyLimbs {
+            let mut x = AnyLimbs::zero(count);
+            same_size!(x = &mut x.0 => *x = Limbs::from_magnitude(negative, magnitude, exponent, more));
+            x
+        }
+
+        /// The number nearest to an `f64`, which is that number.
+        pub fn from_f64(value: f64, count: LimbCount) -> AnyLimbs {
+            let mut x = AnyLimbs::zero(count);
+            same_size!(x = &mut x.0 => *x = Limbs::from(value));
+            x
+        }
     }
 }
 
@@ -235,8 +244,10 @@ impl AnyLimbs {
 macro_rules! operators {
     ($($Operator:ident, $operator:ident;)+) => {$(
         impl $Operator<&AnyLimbs> for AnyLimbs {
-            fn $operator(&mut self, a: &AnyLimbs) {
-                same_size!(x = &mut self.0, a = &a.0 => x.$operator(a))
+            precompiled! {
+                fn $operator(&mut self, a: &AnyLimbs) {
+                    same_size!(x = &mut self.0, a = &a.0 => x.$operator(a))
+                }
             }
         }
     )+};
@@ -252,33 +263,43 @@ operators! {
 impl Neg for AnyLimbs {
     type Output = AnyLimbs;
 
-    fn neg(mut self) -> AnyLimbs {
-        same_size!(x = &mut self.0 => *x = -*x);
-        self
+    precompiled! {
+        fn neg(mut self) -> AnyLimbs {
+            same_size!(x = &mut self.0 => *x = -*x);
+            self
+        }
     }
 }
 
 impl PartialEq for AnyLimbs {
-    fn eq(&self, b: &AnyLimbs) -> bool {
-        same_size!(a = &self.0, b = &b.0 => a == b)
+    precompiled! {
+        fn eq(&self, b: &AnyLimbs) -> bool {
+            same_size!(a = &self.0, b = &b.0 => a == b)
+        }
     }
 }
 
 impl PartialOrd for AnyLimbs {
-    fn partial_cmp(&self, b: &AnyLimbs) -> Option<Ordering> {
-        same_size!(a = &self.0, b = &b.0 => a.partial_cmp(b))
+    precompiled! {
+        fn partial_cmp(&self, b: &AnyLimbs) -> Option<Ordering> {
+            same_size!(a = &self.0, b = &b.0 => a.partial_cmp(b))
+        }
     }
 }
 
 impl fmt::Debug for AnyLimbs {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        same_size!(x = &self.0 => fmt::Debug::fmt(x, f))
+    precompiled! {
+        fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+            same_size!(x = &self.0 => fmt::Debug::fmt(x, f))
+        }
     }
 }
 
 impl fmt::Display for AnyLimbs {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        same_size!(x = &self.0 => fmt::Display::fmt(x, f))
+    precompiled! {
+        fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+            same_size!(x = &self.0 => fmt::Display::fmt(x, f))
+        }
     }
 }
 

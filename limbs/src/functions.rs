@@ -12,7 +12,7 @@ mod trigonometric;
 
 use crate::Limbs;
 
-/// The functions of numbers of a width; compiled in this crate, and only for some widths.
+/// The functions of numbers of a width, and only of some widths.
 trait Functions: Sized {
     fn exp(&self) -> Self;
     fn log(&self) -> Self;
@@ -30,7 +30,7 @@ trait Functions: Sized {
 macro_rules! compiled {
     ($($width:literal)*) => {$(
         #[rustfmt::skip]
-        impl Functions for Limbs<$width> {
+        impl Functions for Limbs<$width> { precompiled! {
             fn exp(&self) -> Self { exponential::exp(self) }
             fn log(&self) -> Self { logarithm::log(self) }
             fn sin_cos(&self) -> (Self, Self) { trigonometric::sin_cos(self) }
@@ -42,7 +42,7 @@ macro_rules! compiled {
             fn asin(&self) -> Self { angle::asin(self) }
             fn acos(&self) -> Self { angle::acos(self) }
             fn root(&self, n: u32) -> Self { logarithm::root(self, n) }
-        }
+        } }
     )*};
 }
 

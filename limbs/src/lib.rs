@@ -14,6 +14,9 @@
 //!
 //! [`AnyLimbs`] has as many limbs as are chosen at run time.
 //!
+//! With the feature `precompiled`, [`AnyLimbs`] and the elementary functions are compiled in this crate, once for all crates of a program;
+//! without it, in each crate that uses them, and not at all where none does.
+//!
 //! Elementary functions are there for up to 16 limbs ([`exp`](Limbs::exp) and those after it), and decimal text that reads back
 //! ([`to_text`](Limbs::to_text)).  Arithmetic never allocates; functions do so for their tables, at first use, and for sines of
 //! arguments above 2^2112.
@@ -31,6 +34,14 @@
 //! there are no denormal numbers.
 
 #![forbid(unsafe_code)]
+
+/// Functions that are compiled in this crate with the feature `precompiled`, and else in each crate that uses them.
+macro_rules! precompiled {
+    ($($function:item)*) => {$(
+        #[cfg_attr(not(feature = "precompiled"), inline)]
+        $function
+    )*};
+}
 
 mod any;
 mod convert;

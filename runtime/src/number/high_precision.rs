@@ -15,6 +15,7 @@ pub trait HighPrecision: Real + 'static {
     /// # Panics
     /// The type has no such numbers.
     #[must_use]
+    #[inline]
     fn at_bits(&self, bits: u32) -> Self;
 
     /// This finite number as an integer times a power of 2; `None` of infinities and NaN.

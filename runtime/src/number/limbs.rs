@@ -1,5 +1,7 @@
 //! Numbers of limbs as a [`Number`]: [`Limbs`], whose number of limbs is part of the type, and [`AnyLimbs`], for which it is chosen at run
 //! time.
+//!
+//! All functions are `inline`, so that only the crates that use these numbers compile them: most programs compute in `f64`.
 
 use super::{LimbAccess, Number, Parts, Real};
 use crate::Rational;
@@ -27,10 +29,12 @@ impl<const L: usize> Nearest for Limbs<L> {
 }
 
 impl Nearest for AnyLimbs {
+    #[inline]
     fn nearest(negative: bool, magnitude: &[u64], exponent: i64, more: bool, count: &LimbCount) -> Self {
         AnyLimbs::from_magnitude(negative, magnitude, exponent, more, *count)
     }
 
+    #[inline]
     fn exact(x: f64, count: &LimbCount) -> Self {
         AnyLimbs::from_f64(x, *count)
     }
@@ -69,6 +73,7 @@ macro_rules! number_of_limbs {
                 self
             }
 
+            #[inline]
             fn from_rational(value: &Rational, context: &Self::Context) -> Self {
                 let bits = 64 * <$Limbs as Number>::zero(context).mantissa().len() as u32;
                 let (quotient, exponent, is_exact) = quotient(value, bits);
@@ -110,62 +115,77 @@ macro_rules! number_of_limbs {
                 self.set_square(a);
             }
 
+            #[inline]
             fn assign_sqrt(&mut self, a: &Self) {
                 *self = a.sqrt();
             }
 
+            #[inline]
             fn assign_reciprocal_sqrt(&mut self, a: &Self) {
                 *self = a.reciprocal_sqrt();
             }
 
+            #[inline]
             fn assign_root(&mut self, a: &Self, n: u32) {
                 *self = a.root(n);
             }
 
+            #[inline]
             fn assign_exp(&mut self, a: &Self) {
                 *self = a.exp();
             }
 
+            #[inline]
             fn assign_sin(&mut self, a: &Self) {
                 *self = a.sin();
             }
 
+            #[inline]
             fn assign_cos(&mut self, a: &Self) {
                 *self = a.cos();
             }
 
+            #[inline]
             fn assign_log(&mut self, a: &Self) {
                 *self = a.log();
             }
 
+            #[inline]
             fn assign_tan(&mut self, a: &Self) {
                 *self = a.tan();
             }
 
+            #[inline]
             fn assign_sinh(&mut self, a: &Self) {
                 *self = a.sinh();
             }
 
+            #[inline]
             fn assign_cosh(&mut self, a: &Self) {
                 *self = a.cosh();
             }
 
+            #[inline]
             fn assign_tanh(&mut self, a: &Self) {
                 *self = a.tanh();
             }
 
+            #[inline]
             fn assign_atan(&mut self, a: &Self) {
                 *self = a.atan();
             }
 
+            #[inline]
             fn assign_asin(&mut self, a: &Self) {
                 *self = a.asin();
             }
 
+            #[inline]
             fn assign_acos(&mut self, a: &Self) {
                 *self = a.acos();
             }
 
+            #[inline]
             fn assign_sin_cos(sin: &mut Self, cos: &mut Self, a: &Self) {
                 (*sin, *cos) = a.sin_cos();
             }
@@ -220,34 +240,40 @@ macro_rules! number_of_limbs {
                 *self = self.abs();
             }
 
+            #[inline]
             fn make_at_least(&mut self, a: &Self) {
                 if *self < *a {
                     *self = *a;
                 }
             }
 
+            #[inline]
             fn make_at_most(&mut self, a: &Self) {
                 if *self > *a {
                     *self = *a;
                 }
             }
 
+            #[inline]
             fn make_nan_where_square_overflows(&mut self, a: &Self) {
                 if <$Limbs>::is_finite(self) && !a.has_finite_square() {
                     self.set_nan();
                 }
             }
 
+            #[inline]
             fn lane(&self, _: usize) -> (f64, i64) {
                 let (significand, exponent) = self.to_f64_exponent();
                 (significand, exponent.into())
             }
 
+            #[inline]
             fn set_lane(&mut self, _: usize, m: f64, n: i64) {
                 let n = n.clamp(i32::MIN.into(), i32::MAX.into()) as i32;
                 *self = <$Limbs as Nearest>::exact(m, &self.context()).times_power_of_two(n);
             }
 
+            #[inline]
             fn assign_lane(&mut self, _: usize, a: &Self) {
                 *self = *a;
             }
@@ -259,23 +285,28 @@ macro_rules! number_of_limbs {
         }
 
         impl<$($L)*> Real for $Limbs {
+            #[inline]
             fn is_below_zero(&self) -> bool {
                 <$Limbs>::is_below_zero(self)
             }
 
+            #[inline]
             fn has_finite_square(&self) -> bool {
                 <$Limbs>::has_finite_square(self)
             }
 
+            #[inline]
             fn to_f64(&self) -> f64 {
                 <$Limbs>::to_f64(self)
             }
 
+            #[inline]
             fn log10_abs(&self) -> f64 {
                 let (significand, exponent) = self.to_f64_exponent();
                 significand.abs().log10() + f64::from(exponent) * LOG10_2
             }
 
+            #[inline]
             fn to_text(&self) -> String {
                 <$Limbs>::to_text(self)
             }
@@ -286,20 +317,24 @@ macro_rules! number_of_limbs {
 number_of_limbs! { [const L: usize] Limbs<L> {
     type Context = ();
 
+    #[inline]
     fn zero((): &()) -> Limbs<L> {
         Limbs::ZERO
     }
 
+    #[inline]
     fn context(&self) {}
 } }
 
 number_of_limbs! { [] AnyLimbs {
     type Context = LimbCount;
 
+    #[inline]
     fn zero(count: &LimbCount) -> AnyLimbs {
         AnyLimbs::zero(*count)
     }
 
+    #[inline]
     fn context(&self) -> LimbCount {
         self.count()
     }

@@ -127,6 +127,7 @@ impl<N: CorrectlyRounded, E: Estimator<N>> ShadowRun<ExactFlow<N>, E> {
 }
 
 /// The problems whose exact flow is known.
+#[inline]
 pub fn problems() -> impl Iterator<Item = Problem> {
     PROBLEMS.iter().copied().filter(|problem| problem.exact_flow().is_some())
 }
@@ -135,11 +136,13 @@ pub fn problems() -> impl Iterator<Item = Problem> {
 ///
 /// # Errors
 /// A problem that is not among [`problems`]; an initial state that its solution does not cover.
+#[inline]
 pub fn has_exact_flow(setup: &Setup) -> Result<(), ExactFlowError> {
     solver(setup).map(|_| ())
 }
 
 /// The solver of a problem, if it covers the initial state.
+#[inline]
 fn solver(setup: &Setup) -> Result<Solver, ExactFlowError> {
     let solver = setup.problem.exact_flow().ok_or_else(|| {
         let known: Vec<_> = problems().map(Problem::name).collect();

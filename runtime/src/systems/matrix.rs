@@ -34,6 +34,7 @@ pub(crate) fn round<N: CorrectlyRounded>(matrix: &Matrix<AnyLimbs>, zero: &N) ->
 }
 
 /// a b
+#[inline]
 pub(crate) fn product(a: &Matrix<AnyLimbs>, b: &Matrix<AnyLimbs>, count: LimbCount) -> Matrix<AnyLimbs> {
     let entry = |row: &[AnyLimbs], column: usize| {
         let mut sum = AnyLimbs::zero(count);
@@ -44,16 +45,19 @@ pub(crate) fn product(a: &Matrix<AnyLimbs>, b: &Matrix<AnyLimbs>, count: LimbCou
 }
 
 /// a ← a + b
+#[inline]
 pub(crate) fn add(a: &mut Matrix<AnyLimbs>, b: &Matrix<AnyLimbs>) {
     a.iter_mut().flatten().zip(b.iter().flatten()).for_each(|(a, b)| a.add(b));
 }
 
 /// a ← a n
+#[inline]
 pub(crate) fn scale(a: &mut Matrix<AnyLimbs>, by: i32) {
     a.iter_mut().flatten().for_each(|x| x.multiply_integer(by));
 }
 
 /// a ← a + n
+#[inline]
 pub(crate) fn add_to_diagonal(a: &mut Matrix<AnyLimbs>, number: u32, count: LimbCount) {
     let by = AnyLimbs::from_rational(&Rational::from_integer(number.into()), &count);
     a.iter_mut().enumerate().for_each(|(i, row)| row[i].add(&by));

@@ -74,6 +74,7 @@ macro_rules! registry {
             }
 
             /// How its exact flow is computed, where a solution is known.
+            #[inline]
             pub(crate) const fn exact_flow(self) -> Option<Solver> {
                 match self { $(Problem::$Name => <$module::Entry as Definition>::EXACT_FLOW,)+ }
             }

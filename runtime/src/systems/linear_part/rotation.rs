@@ -110,6 +110,7 @@ impl<N: CorrectlyRounded> Flow<N> {
 }
 
 /// How often t is halved, so that t²|W| is below 1/16 in a norm.
+#[inline]
 fn doublings(frequencies: &Matrix<AnyLimbs>, time: &AnyLimbs) -> u32 {
     let norm = frequencies.iter().map(|row| row.iter().map(|w| w.to_f64().abs()).sum::<f64>()).fold(0.0, f64::max);
     let size = time.to_f64().abs() * norm.sqrt();
@@ -117,6 +118,7 @@ fn doublings(frequencies: &Matrix<AnyLimbs>, time: &AnyLimbs) -> u32 {
 }
 
 /// C − 1 = Σ (−t²W)ᵏ/(2k)! and S = t Σ (−t²W)ᵏ/(2k + 1)!
+#[inline]
 fn series(frequencies: &Matrix<AnyLimbs>, time: &AnyLimbs, count: LimbCount) -> (Matrix<AnyLimbs>, Matrix<AnyLimbs>) {
     let zero = AnyLimbs::zero(count);
     let dimension = frequencies.len();
