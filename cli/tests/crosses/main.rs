@@ -8,6 +8,7 @@ mod page;
 #[path = "../../../tests/src/pages.rs"]
 pub mod pages;
 mod rows;
+#[path = "../faults/shim.rs"]
 mod shim;
 
 use rayon::prelude::*;

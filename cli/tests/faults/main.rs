@@ -7,6 +7,7 @@
 
 mod commands;
 mod random;
+mod shim;
 mod work;
 
 use std::fs;

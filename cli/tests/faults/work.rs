@@ -2,14 +2,15 @@
 
 use std::collections::BTreeMap;
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::process::{Command, Output, Stdio};
-use std::sync::{Mutex, OnceLock, PoisonError};
+use std::sync::{Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
 use tempfile::TempDir;
 
 use crate::commands::Disturbed;
+use crate::shim::shim;
 
 /// The contents of files by their names.
 pub(crate) type Files = BTreeMap<String, String>;
@@ -141,19 +142,4 @@ impl Undisturbed {
         assert!(output.status.success(), "{}: {}", command.name, message(&output));
         Undisturbed { files: work.files(), time, calls: fs::read_to_string(path).unwrap().parse().unwrap() }
     }
-}
-
-/// The compiled shim.
-fn shim() -> &'static Path {
-    static SHIM: OnceLock<(TempDir, PathBuf)> = OnceLock::new();
-    let (_, path) = SHIM.get_or_init(|| {
-        let folder = TempDir::new().unwrap();
-        let path = folder.path().join("shim.so");
-        let source = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/faults/shim.c");
-        let compiled =
-            Command::new("cc").args(["-shared", "-fPIC", "-O1", "-o"]).arg(&path).args([source, "-ldl"]).status();
-        assert!(compiled.unwrap().success());
-        (folder, path)
-    });
-    path
 }

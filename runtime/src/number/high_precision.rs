@@ -15,7 +15,6 @@ pub trait HighPrecision: Real + 'static {
     /// # Panics
     /// The type has no such numbers.
     #[must_use]
-    #[inline]
     fn at_bits(&self, bits: u32) -> Self;
 
     /// This finite number as an integer times a power of 2; `None` of infinities and NaN.
@@ -42,6 +41,7 @@ impl HighPrecision for AnyLimbs {
         self.count().bits()
     }
 
+    #[inline]
     fn at_bits(&self, bits: u32) -> Self {
         self.resized(Self::context_of(bits).expect("at most 17 limbs"))
     }
