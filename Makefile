@@ -16,15 +16,12 @@ format:
 lint:
 	cargo clippy --workspace --features mpfr --all-targets --locked -- -D warnings
 
-# All tests and doc tests; then what is different without GMP and MPFR: the messages of the command line, and the exact flow, which computes with other
-# numbers. The rest of the library, scenes and command line without them is compiled and linted. One test reads the licences of all dependencies, also of those that other
-# systems need.
+# All tests and doc tests. What is without GMP and MPFR is linted here, and tested as the Python package. One test reads the licences of all
+# dependencies, also of those that other systems need.
 check:
 	cargo fetch --locked
 	cargo test --workspace --features mpfr --locked
 	cargo clippy -p shadowstep -p shadowstep-scenes -p shadowstep-cli --all-targets --locked -- -D warnings
-	cargo test -p shadowstep-cli --test command_line --locked digits
-	cargo test -p shadowstep --lib --locked exact_flow
 
 # The library and scenes compile for WebAssembly; skipped without that target of rustc.
 wasm:

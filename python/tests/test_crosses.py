@@ -1,5 +1,7 @@
 """Every function that takes a scene, with the rows of cli/tests/crosses: each cell works, or is refused by one sentence. docs/what-works-with-what.md has the cells of the program."""
 
+import subprocess
+import sys
 import warnings
 from fractions import Fraction
 from pathlib import Path
@@ -153,6 +155,16 @@ def has_mpfr():
     except InputError:
         return False
     return True
+
+
+@pytest.mark.skipif(has_mpfr(), reason="this package has MPFR")
+@pytest.mark.parametrize("more, digits", [("--digits 308", 308), ("--digits 20 --mpfr", 20)])
+def test_the_command_line_without_mpfr_says_so(more, digits):
+    words = "drift kepler --scheme stormer-verlet --step 1/20 --until 2 --order 8 --no-summary".split()
+    done = subprocess.run([sys.executable, "-m", "shadowstep", *words, *more.split()], capture_output=True, text=True)
+    assert done.returncode == 2
+    assert done.stderr.startswith(f"error: {digits} digits need MPFR, which this program was built without")
+    shadowstep.command(*words, "--digits", "307")  # as many as limbs have
 
 
 CELLS = [(system, "double", function) for system in SYSTEMS for function in FUNCTIONS]

@@ -5,6 +5,7 @@
 )]
 
 mod checkpoints;
+#[cfg(feature = "mpfr")]
 mod digits;
 mod drift;
 mod emit;
