@@ -1,4 +1,6 @@
 //! Matrices of exact flows: computed in more digits than a run has, and rounded once.
+//!
+//! Functions are `inline`: a program without such flows compiles no numbers of limbs.
 
 use crate::Rational;
 use crate::number::{AnyLimbs, CorrectlyRounded, LimbCount, Number};
