@@ -16,12 +16,13 @@ format:
 lint:
 	cargo clippy --workspace --features mpfr --all-targets --locked -- -D warnings
 
-# All tests and doc tests. What is without GMP and MPFR is linted here, and tested as the Python package. One test reads the licences of all
+# All tests and doc tests. What is without GMP and MPFR is linted here, and tested as the Python package; so is the library without its features. One test reads the licences of all
 # dependencies, also of those that other systems need.
 check:
 	cargo fetch --locked
 	cargo test --workspace --features mpfr --locked
 	cargo clippy -p shadowstep -p shadowstep-scenes -p shadowstep-cli --all-targets --locked -- -D warnings
+	cargo clippy -p shadowstep --locked -- -D warnings
 
 # The library and scenes compile for WebAssembly; skipped without that target of rustc.
 wasm:

@@ -18,9 +18,10 @@ use crate::error::LeadingError;
 use crate::sampling::SamplingError;
 use crate::stability::Stability;
 use crate::trace::PhaseError;
+use shadowstep_schemes::MapKind;
 use shadowstep_schemes::Proved;
 use shadowstep_schemes::claims::Kinetic;
-use shadowstep_schemes::map::{Map, MapKind};
+use shadowstep_schemes::map::Map;
 
 /// How good a scheme is.
 #[derive(Clone, Debug, PartialEq)]

@@ -22,8 +22,8 @@ use num_traits::{One, Zero};
 use shadowstep_symbolic::Rational;
 
 use crate::prime::{PRIME, add_multiple, power};
+use shadowstep_schemes::MapKind;
 use shadowstep_schemes::claims::Kinetic;
-use shadowstep_schemes::map::MapKind;
 use shadowstep_schemes::order::{Word, letter};
 
 /// The bracket [x_1,[x_2,[…,[x_{n−1},x_n]…]]] of the Lie derivatives K of the kick and D of the drift.

@@ -11,10 +11,11 @@ use num_bigint::BigInt;
 use shadowstep_symbolic::{Fraction, Rational};
 
 use crate::bracket::{Bracket, coordinates};
+use shadowstep_schemes::MapKind;
 use shadowstep_schemes::Proved;
 use shadowstep_schemes::arithmetic::FixedPoint;
 use shadowstep_schemes::claims::Kinetic;
-use shadowstep_schemes::map::{Map, MapKind};
+use shadowstep_schemes::map::Map;
 use shadowstep_schemes::order::{Word, lyndon_words, prefix_coefficients};
 
 /// Digits behind the point of the words' coefficients. They are about 1e-8 or larger before the coefficients of the exact flow

@@ -4,7 +4,8 @@
 
 use std::f64::consts::TAU;
 
-use shadowstep_schemes::map::{Map, MapKind};
+use shadowstep_schemes::MapKind;
+use shadowstep_schemes::map::Map;
 use shadowstep_symbolic::Rational;
 
 /// The step that some maps make for H = (p² + ω²q²)/2, with weights in f64.

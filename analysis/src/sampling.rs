@@ -10,8 +10,8 @@
 //! unit of time costs as much. For independent oscillators with frequencies ω, hω stands for h.
 
 use num_traits::ToPrimitive;
+use shadowstep_schemes::MapKind;
 use shadowstep_schemes::Proved;
-use shadowstep_schemes::map::MapKind;
 
 use crate::stability::Stability;
 

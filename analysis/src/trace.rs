@@ -12,8 +12,9 @@ use num_traits::{FromPrimitive, One, Signed, ToPrimitive, Zero};
 use shadowstep_symbolic::{Fraction, Rational};
 
 use crate::prime::{PRIME, Residues, residue};
+use shadowstep_schemes::MapKind;
 use shadowstep_schemes::arithmetic::{Arithmetic, Fixed, FixedPoint, Sensitivity};
-use shadowstep_schemes::map::{Map, MapKind};
+use shadowstep_schemes::map::Map;
 use shadowstep_schemes::scheme::Held;
 
 /// Terms of the trace beyond the order that are computed first for the error of the phase.

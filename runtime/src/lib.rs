@@ -24,10 +24,13 @@
 //! energy oscillates; the *modified* energy, which the scheme conserves almost exactly, does not:
 //!
 //! ```
-//! use shadowstep::{Motion, Real, Stepper, UnitMasses, problems::Kepler, shadow::Central, shadow::run::energy_drift, tables};
+//! use shadowstep::{Motion, Real, Stepper, UnitMasses, problems::Kepler, shadow::Central, shadow::run::energy_drift, splitting_scheme};
+//!
+//! #[splitting_scheme("stormer-verlet.toml")]
+//! pub struct StormerVerlet;
 //!
 //! let motion = Motion::exact(Kepler, UnitMasses, ["2/5", "0"], ["0", "2"], 120)?; // 120 digits
-//! let verlet = Stepper::with_context(tables::shipped("stormer-verlet").unwrap(), "1/40", &motion.context())?;
+//! let verlet = Stepper::with_context(StormerVerlet, "1/40", &motion.context())?;
 //! let found = energy_drift(verlet.with(motion), 400, &Central::fixed(20))?;
 //! assert!(found.drift.to_f64() < 1e-9); // the energy itself changes by 1e-3
 //! # Ok::<(), Box<dyn std::error::Error>>(())
@@ -50,6 +53,19 @@
 //! assert!(found.drift < 1e-8); // the energy itself changes by 8e-7
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
+//!
+//! # Features
+//!
+//! | feature | what it adds |
+//! | --- | --- |
+//! | `tables` | schemes read from tables while the program runs, and the shipped ones by name: `tables` |
+//! | `formulas` | potentials, kinetic energies and parts read as formulas while the program runs: `systems::formula`, `systems::many_parts::parts` |
+//! | `mpfr` | MPFR's numbers of any precision |
+//! | `serde` | settings of estimators in JSON and similar formats |
+//!
+//! None is on by default, and the macros need none.
+//!
+//! # Rooms
 //!
 //! The library is five rooms; each uses only what stands before it:
 //!
@@ -76,13 +92,15 @@ pub use number::{Number, Real};
 pub use shadowstep_macros::{kinetic, potential, splitting_scheme};
 #[doc(inline)]
 pub use shadowstep_symbolic::{Rational, exact};
+#[cfg(feature = "tables")]
+#[doc(inline)]
+pub use steps::tables;
 #[doc(inline)]
 pub use steps::{
     integrator::Integrator,
     scheme::{Scheme, SchemeProperties, ValidFor},
     step_size::{StepSize, StepSizeError},
     stepper::Stepper,
-    tables,
 };
 #[doc(inline)]
 pub use systems::{

@@ -2,6 +2,7 @@
 //! wrappers.
 
 mod correctly_rounded;
+#[cfg(feature = "formulas")]
 #[doc(hidden)]
 pub mod counting;
 mod double;

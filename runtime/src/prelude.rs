@@ -19,6 +19,7 @@ pub use crate::shadow::{Bilinear, Central, ShadowEnergy, Verdict};
 pub use crate::steps::integrator::Integrator;
 pub use crate::steps::step_size::StepSize;
 pub use crate::steps::stepper::Stepper;
+#[cfg(feature = "tables")]
 pub use crate::steps::tables::shipped;
 pub use crate::systems::kinetic::{DiagonalMasses, FullMasses, UnitMasses};
 pub use crate::systems::motion::Motion;

@@ -18,6 +18,7 @@ pub(crate) mod scheme_maps;
 pub mod step_size;
 pub(crate) mod step_to_time;
 pub mod stepper;
+#[cfg(feature = "tables")]
 pub mod tables;
 pub(crate) mod weights;
 

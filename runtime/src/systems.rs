@@ -16,9 +16,11 @@
 
 pub(crate) mod coordinates;
 pub mod displaced;
+#[cfg(feature = "formulas")]
 pub mod formula;
 pub(crate) mod gradient_kicks;
 pub(crate) mod increments;
+#[cfg(feature = "formulas")]
 pub(crate) mod interpreter;
 pub mod kepler_drift;
 pub(crate) mod kept;

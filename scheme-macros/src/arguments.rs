@@ -2,7 +2,7 @@
 
 use shadowstep_schemes::First;
 use syn::parse::{Parse, ParseStream};
-use syn::{Fields, Ident, ItemStruct, LitInt, LitStr, Token};
+use syn::{Data, DataStruct, DeriveInput, Fields, Ident, LitInt, LitStr, Token};
 
 /// The arguments that may follow the table.
 const KNOWN: &str = "`first = \"kick\"`, `first = \"drift\"` and `parts = 3`";
@@ -64,16 +64,17 @@ fn many_parts(value: &LitInt) -> syn::Result<bool> {
 }
 
 /// A struct without fields and parameters.
-pub(crate) struct UnitStruct(pub(crate) ItemStruct);
+pub(crate) struct UnitStruct(pub(crate) DeriveInput);
 
 impl Parse for UnitStruct {
     fn parse(input: ParseStream<'_>) -> syn::Result<UnitStruct> {
         let wrong = "splitting_scheme stands above a unit struct: `pub struct Yoshida4;`";
-        let item: ItemStruct = input.fork().parse().map_err(|_| input.error(wrong))?;
-        if !matches!(item.fields, Fields::Unit) || !item.generics.params.is_empty() {
+        let item: DeriveInput = input.fork().parse().map_err(|_| input.error(wrong))?;
+        let is_unit = matches!(item.data, Data::Struct(DataStruct { fields: Fields::Unit, .. }));
+        if !is_unit || !item.generics.params.is_empty() {
             return Err(syn::Error::new_spanned(&item, wrong));
         }
-        input.parse::<ItemStruct>()?;
+        input.parse::<DeriveInput>()?;
         Ok(UnitStruct(item))
     }
 }

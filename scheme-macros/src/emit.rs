@@ -8,14 +8,14 @@ use shadowstep_schemes::claims::HIGHEST_ORDER;
 use shadowstep_schemes::proof::Order;
 use shadowstep_schemes::{Kinetic, Map, MapKind, Proved, StepPlan, to_text};
 use shadowstep_symbolic::Rational;
-use syn::{Ident, ItemStruct, LitStr};
+use syn::{DeriveInput, Ident, LitStr};
 
 /// The most kicks and drifts of a step that is inlined wherever it is called: 7 are those of Yoshida's scheme of order 4.
 const MOST_INLINED: usize = 8;
 
 /// The struct with its documentation and its steps.
-pub(crate) fn scheme(item: &ItemStruct, proved: &Proved, files: &[PathBuf]) -> TokenStream {
-    let ItemStruct { attrs, vis, ident, .. } = item;
+pub(crate) fn scheme(item: &DeriveInput, proved: &Proved, files: &[PathBuf]) -> TokenStream {
+    let DeriveInput { attrs, vis, ident, .. } = item;
     let plan = &proved.plan;
     let docs = documentation(proved);
     let watched = watch(files);
@@ -69,8 +69,8 @@ pub(crate) fn scheme(item: &ItemStruct, proved: &Proved, files: &[PathBuf]) -> T
 }
 
 /// The struct with a body that compiles, and the faults as one compile error.
-pub(crate) fn refused(item: &ItemStruct, table: &LitStr, message: &str, files: &[PathBuf]) -> TokenStream {
-    let ItemStruct { attrs, vis, ident, .. } = item;
+pub(crate) fn refused(item: &DeriveInput, table: &LitStr, message: &str, files: &[PathBuf]) -> TokenStream {
+    let DeriveInput { attrs, vis, ident, .. } = item;
     let error = syn::Error::new(table.span(), message).into_compile_error();
     let watched = watch(files);
     quote! {

@@ -1,7 +1,7 @@
 //! What a table may claim of its scheme.
 
 use crate::document::Placed;
-use crate::map::MapKind;
+use crate::map_kind::MapKind;
 
 /// The highest order that can be claimed and proved.
 pub const HIGHEST_ORDER: u32 = 10;

@@ -7,7 +7,8 @@ use shadowstep_symbolic::{Fraction, Ratio, Rational};
 
 use crate::arithmetic::{Arithmetic, Fixed, FixedPoint, Sensitive, Sensitivity};
 use crate::claims::Kinetic;
-use crate::map::{Map, MapKind};
+use crate::map::Map;
+use crate::map_kind::MapKind;
 use crate::near_integrable::{self, Power};
 use crate::nystrom::tree_conditions;
 use crate::order::{Condition, lyndon_words, weighed, word_conditions};

@@ -11,7 +11,8 @@ use num_traits::Zero;
 use shadowstep_symbolic::Rational;
 use thiserror::Error;
 
-use crate::map::{Map, MapKind};
+use crate::map::Map;
+use crate::map_kind::MapKind;
 use crate::pipeline::Proved;
 use crate::plan::StepPlan;
 use crate::proof::{Order, order_of_parts};

@@ -1,66 +1,9 @@
-//! Kicks, drifts and force-gradient kicks: the maps that a step is made of, and the stages of a table.
-
-use std::fmt;
+//! The maps that a step is made of with their weights, and the stages of a table.
 
 use num_traits::Zero;
 use shadowstep_symbolic::Rational;
 
-/// Which map a step begins with.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum First {
-    /// p −= h a_1 U_q(q) comes first.
-    Kick,
-    /// q += h b_1 M⁻¹p comes first.
-    Drift,
-}
-
-/// A kick, a drift or a force-gradient kick.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub enum MapKind {
-    /// p −= h w U_q(q)
-    Kick,
-    /// q += h w M⁻¹p
-    Drift,
-    /// p += h³ w ∇(U_qᵀM⁻¹U_q) = 2h³ w U_qq M⁻¹U_q, for quadratic T only.
-    ///
-    /// It is `exp(h³ w [K,[D,K]])` of the Lie derivatives K of the kick and D of the drift, in a product in which the map that acts first
-    /// stands first. It commutes with kicks, and is not a letter of words: its exponent is a sum of them.
-    GradientKick,
-}
-
-impl MapKind {
-    /// The other one of kick and drift; a gradient kick remains one.
-    pub fn other(self) -> MapKind {
-        match self {
-            MapKind::Kick => MapKind::Drift,
-            MapKind::Drift => MapKind::Kick,
-            MapKind::GradientKick => MapKind::GradientKick,
-        }
-    }
-
-    /// The power of h that its weight is multiplied by.
-    pub fn power(self) -> u32 {
-        match self {
-            MapKind::Kick | MapKind::Drift => 1,
-            MapKind::GradientKick => 3,
-        }
-    }
-
-    /// Whether maps of both kinds commute.
-    pub(crate) fn commutes_with(self, other: MapKind) -> bool {
-        (self == MapKind::Drift) == (other == MapKind::Drift)
-    }
-}
-
-impl fmt::Display for MapKind {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            MapKind::Kick => "kick",
-            MapKind::Drift => "drift",
-            MapKind::GradientKick => "gradient kick",
-        })
-    }
-}
+use crate::map_kind::MapKind;
 
 /// One map of a step with its weight.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -146,6 +89,13 @@ pub(crate) fn joined<'a>(maps: impl IntoIterator<Item = &'a Map>) -> Vec<Map> {
 /// The maps that undo these.
 pub(crate) fn inverse(maps: &[Map]) -> Vec<Map> {
     maps.iter().rev().map(|map| Map { kind: map.kind, weight: -&map.weight }).collect()
+}
+
+impl MapKind {
+    /// Whether maps of both kinds commute.
+    pub(crate) fn commutes_with(self, other: MapKind) -> bool {
+        (self == MapKind::Drift) == (other == MapKind::Drift)
+    }
 }
 
 /// Adds a map after others; of those since the last drift, which commute with it, one of its kind takes it in.

@@ -12,7 +12,7 @@ use std::fmt;
 
 use crate::claims::{HIGHEST_LINEAR_ORDER, HIGHEST_NEAR_INTEGRABLE_ORDER, NearIntegrable};
 use crate::document::Placed;
-use crate::map::MapKind;
+use crate::map_kind::MapKind;
 use crate::order::{Word, lyndon_words};
 
 /// The words that belong to a power of ε.

@@ -16,7 +16,7 @@
 use shadowstep_symbolic::Rational;
 
 use crate::arithmetic::Arithmetic;
-use crate::map::MapKind;
+use crate::map_kind::MapKind;
 use crate::order::{Condition, Functional};
 
 /// A tree whose root is a kick: its children are drifts, each given by the kick below it.

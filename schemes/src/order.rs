@@ -14,7 +14,8 @@ use std::fmt;
 use shadowstep_symbolic::Rational;
 
 use crate::arithmetic::Arithmetic;
-use crate::map::{Map, MapKind};
+use crate::map::Map;
+use crate::map_kind::MapKind;
 
 /// An order condition: what a scheme's value must be equal to.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -5,7 +5,7 @@ use toml::de::{DeTable, DeValue};
 
 use crate::claims::{HIGHEST_LINEAR_ORDER, HIGHEST_NEAR_INTEGRABLE_ORDER, HIGHEST_ORDER, Kinetic, NearIntegrable};
 use crate::document::{Fault, Key, Keys, Placed, Reader, Section, Source, Text, Value, document};
-use crate::map::MapKind;
+use crate::map_kind::MapKind;
 use crate::spelling::spelling;
 use crate::table::{Cell, MOST_STAGES, Processor, Table, Weights};
 

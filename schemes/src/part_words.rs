@@ -8,7 +8,7 @@ use std::collections::HashMap;
 use shadowstep_symbolic::Rational;
 
 use crate::arithmetic::Arithmetic;
-use crate::map::MapKind;
+use crate::map_kind::MapKind;
 use crate::order::{Condition, Functional, divided_powers};
 
 /// A map of a step of n parts.

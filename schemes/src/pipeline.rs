@@ -5,7 +5,7 @@ use std::sync::OnceLock;
 use crate::document::{Fault, Faults, Source};
 use crate::exact;
 use crate::library::Library;
-use crate::map::First;
+use crate::map_kind::First;
 use crate::plan::StepPlan;
 use crate::proof::{Finding, Order, Proof, findings, prove};
 use crate::scheme::ExactScheme;

@@ -2,7 +2,7 @@
 
 use shadowstep_symbolic::Rational;
 
-use crate::map::MapKind;
+use crate::map_kind::MapKind;
 
 use crate::scheme::ExactScheme;
 

@@ -13,7 +13,7 @@ use shadowstep_symbolic::{Budget, Exact, Expression, ExpressionKind, Rational, e
 
 use crate::decimal::PrintedDecimal;
 use crate::document::Source;
-use crate::map::MapKind;
+use crate::map_kind::MapKind;
 use crate::scheme::{ExactScheme, Held};
 use crate::table::{Cell, Table, Weights};
 

@@ -2,7 +2,8 @@
 
 use num_traits::Zero;
 
-use crate::map::{First, Map, MapKind, Stages, inverse, joined, reversed};
+use crate::map::{Map, Stages, inverse, joined, reversed};
+use crate::map_kind::{First, MapKind};
 use crate::table::Table;
 
 /// How far the weights of a table are to be trusted.

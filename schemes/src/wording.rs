@@ -10,7 +10,7 @@ use crate::claims::Kinetic;
 use crate::conditions::Family;
 use crate::digits::digits_of;
 use crate::document::{Fault, Placed};
-use crate::map::MapKind;
+use crate::map_kind::MapKind;
 use crate::order::Condition;
 use crate::proof::{Finding, Of, Order, Proof};
 use crate::rounding::{Off, Unexplained};

@@ -4,7 +4,7 @@ use num_traits::{One, Zero};
 use shadowstep::Rational;
 use shadowstep::number::{Limbs, Number};
 use shadowstep::tables::TableScheme;
-use shadowstep_schemes::map::MapKind;
+use shadowstep_schemes::MapKind;
 
 /// 115 digits.
 type Digits = Limbs<6>;

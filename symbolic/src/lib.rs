@@ -58,39 +58,51 @@
 //! | `evaluation/value` | exact or enclosed values |
 //! | `evaluation/domain` | the domains of roots, quotients and functions |
 //! | `evaluation/evaluator` | one computation with a given number of digits |
-//! | `graph` | **syntax tree → formulas without repetitions** |
+//! | `separation` | the variable in formulas of pairs of bodies |
+//! | `graph` | **syntax tree → formulas without repetitions**, with the feature `graph` |
 //! | `graph/simplify` | construction of simplified nodes |
 //! | `graph/build` | syntax tree → nodes |
 //! | `graph/pair` | formulas of a pair of bodies |
 //! | `graph/degree`, `graph/derivative`, `graph/rate`, `graph/quadratic` | homogeneity, ∂/∂q, qᵀU_q − 2U, quadratic forms |
 //! | `graph/expand`, `graph/substitute` | sums multiplied out; formulas with parts replaced |
 //! | `graph/flow` | Hamiltonians whose flow has a formula |
-//! | `program` | **formulas → straight-line programs** |
+//! | `program` | **formulas → straight-line programs**, with the feature `graph` |
 //! | `program/instruction`, `program/operations` | one operation in place, numbers of operations |
 //! | `program/lower/…` | nodes → operations, with common parts shared → places and instructions |
 //! | `program/factor` | the search for a form of the formulas with fewer operations |
 //! | `program/potential` | the programs of a potential |
 
 mod evaluation;
+#[cfg(feature = "graph")]
 mod graph;
 mod number;
+#[cfg(feature = "graph")]
 mod program;
+mod separation;
 mod text;
 
 use std::collections::BTreeMap;
 
 pub use evaluation::{MOST_EVALUATED_DIGITS, budget::Budget, evaluate, evaluate_within, value::Exact};
+#[cfg(feature = "graph")]
 pub use graph::flow::{ExplicitFlow, NoFlow};
-pub use graph::pair::{Separation, is_symmetric};
+#[cfg(feature = "graph")]
+pub use graph::pair::is_symmetric;
+#[cfg(feature = "graph")]
 pub use graph::{Form, Graph, Node};
 pub use number::fraction::Fraction;
 pub use number::function::Function;
 pub use number::ratio::Ratio;
 pub use number::rational::Rational;
+#[cfg(feature = "graph")]
 pub use program::Program;
+#[cfg(feature = "graph")]
 pub use program::instruction::{Instruction, Place};
+#[cfg(feature = "graph")]
 pub use program::operations::Operations;
-pub use program::potential::{PotentialPrograms, Summand};
+#[cfg(feature = "graph")]
+pub use program::potential::PotentialPrograms;
+pub use separation::{Separation, Summand};
 pub use text::decimal;
 pub use text::error::{Error, SemanticError, SemanticFault, SyntaxError};
 pub use text::near_names::{nearest, nearest_few, suggestion};

@@ -1,7 +1,7 @@
 //! Protects the schemes for sampling: the properties for which their authors chose the free weights.
 
 use shadowstep_analysis::Analysis;
-use shadowstep_schemes::map::MapKind;
+use shadowstep_schemes::MapKind;
 use shadowstep_schemes::{First, Proved, Source, read, read_first, shipped, shipped_proved, to_significant};
 use shadowstep_tests::rational;
 

@@ -6,8 +6,9 @@ use shadowstep_symbolic::Rational;
 
 use crate::polish::unknowns::Model;
 use shadowstep_schemes::ExactScheme;
+use shadowstep_schemes::MapKind;
 use shadowstep_schemes::claims::Kinetic;
-use shadowstep_schemes::map::{Map, MapKind};
+use shadowstep_schemes::map::Map;
 use shadowstep_schemes::proof::{Proof, prove};
 use shadowstep_schemes::scheme::Held;
 use shadowstep_schemes::table::Table;

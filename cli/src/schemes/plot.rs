@@ -6,7 +6,7 @@ use shadowstep_analysis::oscillator::Oscillator;
 use shadowstep_analysis::stability::Stability;
 use shadowstep_analysis::trace::PhaseError;
 use shadowstep_scenes::Error;
-use shadowstep_schemes::map::MapKind;
+use shadowstep_schemes::MapKind;
 use shadowstep_schemes::{Proved, Rational};
 use shadowstep_studies::chart::{Axis, Chart, Curve, Mark, log10_of, stacked};
 

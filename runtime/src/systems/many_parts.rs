@@ -33,13 +33,19 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+#[cfg(feature = "formulas")]
 mod action;
+#[cfg(feature = "formulas")]
 mod commuting;
+#[cfg(feature = "formulas")]
 mod formula;
+#[cfg(feature = "formulas")]
 mod kepler;
 mod part;
+#[cfg(feature = "formulas")]
 mod quadratic;
 
+#[cfg(feature = "formulas")]
 pub use formula::{FormulaPart, PartError, PartFormula, parts};
 pub use part::{FlowState, Part};
 

@@ -1,31 +1,10 @@
-//! Formulas of a pair of bodies: their variable, and whether they are symmetric.
+//! Formulas of a pair of bodies: the degree of their variable, and whether they are symmetric.
 
 use crate::graph::Graph;
+use crate::separation::Separation;
 use crate::text::syntax::Expression;
 
-/// The variable in the formula of a pair of bodies i < j.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub enum Separation {
-    /// d = q_j − q_i, on a line
-    Difference,
-    /// r² = |q_j − q_i|², in any dimension
-    SquaredDistance,
-}
-
 impl Separation {
-    /// Its name in formulas: `d`, `r2`.
-    pub fn name(self) -> &'static str {
-        match self {
-            Separation::Difference => "d",
-            Separation::SquaredDistance => "r2",
-        }
-    }
-
-    /// The separation of this name.
-    pub fn named(name: &str) -> Option<Self> {
-        [Separation::Difference, Separation::SquaredDistance].into_iter().find(|separation| separation.name() == name)
-    }
-
     /// Its degree in the coordinates of the bodies.
     pub(crate) fn degree(self) -> u32 {
         match self {

@@ -2,7 +2,9 @@
 
 use num_bigint::BigInt;
 use num_integer::Integer;
-use num_traits::{One, Signed, ToPrimitive, Zero};
+use num_traits::Signed;
+#[cfg(feature = "graph")]
+use num_traits::{One, ToPrimitive, Zero};
 
 use crate::number::rational::Rational;
 
@@ -28,6 +30,7 @@ pub(crate) fn perfect_root(value: &Rational, order: u32) -> Option<Rational> {
 }
 
 /// value^exponent, if that is a rational of reasonable size.
+#[cfg(feature = "graph")]
 pub(crate) fn exact_power(value: &Rational, exponent: &Rational) -> Option<Rational> {
     if value.is_zero() && exponent.is_negative() {
         return None;

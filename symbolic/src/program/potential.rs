@@ -2,19 +2,10 @@
 
 use num_traits::One;
 
-use crate::graph::pair::Separation;
 use crate::graph::{Derivation, Graph, Node};
 use crate::number::rational::Rational;
 use crate::program::Program;
-
-/// What is added up over the pairs of bodies to find the rate qᵀU_q − 2U of their sum.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub enum Summand {
-    /// A pair's own rate, d u'(d) − 2u or 2r²u'(r²) − 2u: the sum of these is the rate.
-    Rate,
-    /// A pair's energy u: the rate is qᵀU_q − 2 Σ u. Its round-off grows with q, as it does for other products with q in estimates.
-    Energy,
-}
+use crate::separation::{Separation, Summand};
 
 /// The programs of a potential U(q).
 #[derive(Debug, Clone, PartialEq, Eq)]
