@@ -16,12 +16,11 @@ format:
 lint:
 	cargo clippy --workspace --features mpfr --all-targets --locked -- -D warnings
 
-# All tests and doc tests. What is without GMP and MPFR is linted here, and tested as the Python package; so is the library without its features. One test reads the licences of all
-# dependencies, also of those that other systems need.
+# All tests and doc tests, and the library without its features. What is without GMP and MPFR is compiled, without warnings, and tested as the Python
+# package. One test reads the licences of all dependencies, also of those that other systems need.
 check:
 	cargo fetch --locked
 	cargo test --workspace --features mpfr --locked
-	cargo clippy -p shadowstep -p shadowstep-scenes -p shadowstep-cli --all-targets --locked -- -D warnings
 	cargo clippy -p shadowstep --locked -- -D warnings
 
 # The library and scenes compile for WebAssembly; skipped without that target of rustc.
@@ -54,7 +53,7 @@ $(WHEEL)/tools/bin/maturin:
 # A new virtual environment with a wheel that is built in little time, and with what tests, notebooks and the book need.
 python-environment: $(WHEEL)/tools/bin/maturin
 	rm -rf $(WHEEL)/wheels $(WHEEL)/test
-	$(WHEEL)/tools/bin/maturin build --profile wheel --locked --compatibility linux --manifest-path python/Cargo.toml --out $(WHEEL)/wheels
+	RUSTFLAGS="$$RUSTFLAGS -D warnings" $(WHEEL)/tools/bin/maturin build --profile wheel --locked --compatibility linux --manifest-path python/Cargo.toml --out $(WHEEL)/wheels
 	$(PYTHON) -m venv $(WHEEL)/test
 	$(WHEEL)/test/bin/pip install --quiet "$$(echo $(WHEEL)/wheels/*.whl)[$(or $(EXTRAS),test)]"
 

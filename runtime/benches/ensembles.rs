@@ -77,7 +77,7 @@ fn state<const D: usize>(start: [f64; 2], trajectory: usize) -> [f64; D] {
 }
 
 type Alone<P, const D: usize> = Motion<f64, [f64; D], <P as In>::Numbers<f64>, UnitMasses>;
-type Together<P, const D: usize, const W: usize> =
+type InLanes<P, const D: usize, const W: usize> =
     Motion<Lanes<W>, [Lanes<W>; D], <P as In>::Numbers<Lanes<W>>, UnitMasses>;
 
 fn alone<P: In, const D: usize>(start: &Start<P>) -> Vec<Alone<P, D>> {
@@ -85,7 +85,7 @@ fn alone<P: In, const D: usize>(start: &Start<P>) -> Vec<Alone<P, D>> {
     (0..TRAJECTORIES).map(|t| motion(t).expect("the dimensions agree")).collect()
 }
 
-fn together<P, const D: usize, const W: usize>(start: &Start<P>) -> Vec<Together<P, D, W>>
+fn together<P, const D: usize, const W: usize>(start: &Start<P>) -> Vec<InLanes<P, D, W>>
 where
     P: In,
 {
@@ -225,7 +225,7 @@ where
 
 /// Potentials behind a `dyn`, masses that differ, augmented steps.
 fn measure_parts() {
-    type Boxed = Box<dyn Potential<Lanes<8>>>;
+    type DynPotential = Box<dyn Potential<Lanes<8>>>;
     fn plain<P: Potential<Lanes<8>>, K: Kinetic<Lanes<8>, Class = Quadratic>>(
         stepper: &Stepper<Yoshida4, Lanes<8>>,
         motions: &mut [OfParts<P, K>],
@@ -241,8 +241,8 @@ fn measure_parts() {
         let each: [_; 8] = std::array::from_fn(|_| FullMasses::from_inverse(&rows, &()).unwrap());
         FullMasses::of_each(&each.each_ref()).unwrap()
     }
-    let boxed: fn() -> Boxed = || Box::new(Kepler);
-    let widest: fn() -> Boxed = || Box::new(Vectorised(Kepler));
+    let boxed: fn() -> DynPotential = || Box::new(Kepler);
+    let widest: fn() -> DynPotential = || Box::new(Vectorised(Kepler));
     let kepler: fn() -> Kepler = || Kepler;
     let contestants = vec![
         kepler_of("the potential's type is known", kepler, || UnitMasses, plain),

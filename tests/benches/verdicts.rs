@@ -37,7 +37,7 @@ enum Truth {
 
 /// What a monitor reports.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-enum Said {
+enum Conclusion {
     Fine,
     RoundOff,
     Undecided,
@@ -47,16 +47,16 @@ enum Said {
     TooLarge,
 }
 
-impl From<Verdict> for Said {
+impl From<Verdict> for Conclusion {
     fn from(verdict: Verdict) -> Self {
         match verdict {
-            Verdict::Fine => Said::Fine,
-            Verdict::RoundOff => Said::RoundOff,
-            Verdict::Undecided(_) => Said::Undecided,
-            Verdict::NotSmooth => Said::NotSmooth,
-            Verdict::NotConserved => Said::NotConserved,
-            Verdict::Drifts | Verdict::Inconsistent | Verdict::NotTheGradient => Said::Forces,
-            Verdict::TooLarge(_) | Verdict::NearResonance { .. } => Said::TooLarge,
+            Verdict::Fine => Conclusion::Fine,
+            Verdict::RoundOff => Conclusion::RoundOff,
+            Verdict::Undecided(_) => Conclusion::Undecided,
+            Verdict::NotSmooth => Conclusion::NotSmooth,
+            Verdict::NotConserved => Conclusion::NotConserved,
+            Verdict::Drifts | Verdict::Inconsistent | Verdict::NotTheGradient => Conclusion::Forces,
+            Verdict::TooLarge(_) | Verdict::NearResonance { .. } => Conclusion::TooLarge,
         }
     }
 }
@@ -137,7 +137,7 @@ struct Outcome {
     name: String,
     smooth: bool,
     truth: Truth,
-    said: Vec<Said>,
+    conclusions: Vec<Conclusion>,
     verdicts: Vec<Verdict>,
     /// Whether the verdict of k = 8 is undecided, and whether as many windows as it asks for decide.
     advice: Option<bool>,
@@ -152,8 +152,8 @@ fn outcome(case: Case<'_>) -> Outcome {
     });
     let verdicts: Vec<Verdict> = reports.iter().map(|report| report.verdict).collect();
     let name = format!("{}, {}, {}", case.scene.name, case.scheme, case.part);
-    let said = verdicts.iter().map(|&verdict| verdict.into()).collect();
-    Outcome { name, smooth: case.scene.smooth, truth, said, verdicts, advice }
+    let conclusions = verdicts.iter().map(|&verdict| verdict.into()).collect();
+    Outcome { name, smooth: case.scene.smooth, truth, conclusions, verdicts, advice }
 }
 
 fn outcomes(matrix: fn() -> Matrix, filter: &[String]) -> Vec<Outcome> {
@@ -181,18 +181,18 @@ fn outcomes(matrix: fn() -> Matrix, filter: &[String]) -> Vec<Outcome> {
 
 /// Truths in rows, verdicts in columns.
 fn table<'a>(outcomes: impl Iterator<Item = &'a Outcome>) -> String {
-    const COLUMNS: [Said; 7] = [
-        Said::Fine,
-        Said::RoundOff,
-        Said::Undecided,
-        Said::NotSmooth,
-        Said::Forces,
-        Said::NotConserved,
-        Said::TooLarge,
+    const COLUMNS: [Conclusion; 7] = [
+        Conclusion::Fine,
+        Conclusion::RoundOff,
+        Conclusion::Undecided,
+        Conclusion::NotSmooth,
+        Conclusion::Forces,
+        Conclusion::NotConserved,
+        Conclusion::TooLarge,
     ];
-    let mut counts: BTreeMap<(Truth, Said), usize> = BTreeMap::new();
+    let mut counts: BTreeMap<(Truth, Conclusion), usize> = BTreeMap::new();
     for outcome in outcomes {
-        outcome.said.iter().for_each(|&said| *counts.entry((outcome.truth, said)).or_default() += 1);
+        outcome.conclusions.iter().for_each(|&conclusion| *counts.entry((outcome.truth, conclusion)).or_default() += 1);
     }
     let mut text =
         "| the error of H | fine | round-off | undecided | not smooth | other forces | not conserved | too large |\n"
@@ -205,7 +205,7 @@ fn table<'a>(outcomes: impl Iterator<Item = &'a Outcome>) -> String {
         (Truth::Grows, "grows"),
         (Truth::RoundOff, "is round-off"),
     ] {
-        let cells = COLUMNS.map(|said| counts.get(&(truth, said)).copied().unwrap_or(0).to_string());
+        let cells = COLUMNS.map(|conclusion| counts.get(&(truth, conclusion)).copied().unwrap_or(0).to_string());
         writeln!(text, "| {name} | {} |", cells.join(" | ")).expect("strings take all text");
     }
     text
@@ -214,12 +214,12 @@ fn table<'a>(outcomes: impl Iterator<Item = &'a Outcome>) -> String {
 /// Cases in which a verdict is false, or two verdicts contradict each other.
 fn faults(outcomes: &[Outcome]) -> Vec<String> {
     let is_false = |outcome: &Outcome| {
-        let has = |said| outcome.said.contains(&said);
-        let grows = has(Said::TooLarge) || has(Said::NotConserved);
-        let too_large = grows || has(Said::Forces) || (outcome.smooth && has(Said::NotSmooth));
+        let has = |conclusion| outcome.conclusions.contains(&conclusion);
+        let grows = has(Conclusion::TooLarge) || has(Conclusion::NotConserved);
+        let too_large = grows || has(Conclusion::Forces) || (outcome.smooth && has(Conclusion::NotSmooth));
         let false_alarm = too_large && matches!(outcome.truth, Truth::Bounded | Truth::RoundOff);
-        let missed = has(Said::Fine) && outcome.truth == Truth::Grows;
-        false_alarm || missed || (has(Said::Fine) && too_large)
+        let missed = has(Conclusion::Fine) && outcome.truth == Truth::Grows;
+        false_alarm || missed || (has(Conclusion::Fine) && too_large)
     };
     let mut faults: Vec<String> = outcomes
         .iter()

@@ -7,7 +7,7 @@
 //! | `blocks` | the most accurate estimates and the means of the parts of a run, in fixed memory |
 //! | `change`, `trend` | what these show: a permanent change and its uncertainty; constant, random walk or line |
 //! | `statistics` | extremes and sums over the windows |
-//! | `recent` | the newest states of a window |
+//! | `newest_states` | the newest states of a window |
 //! | `kicks`, `turning_sums`, `consistency` | round-off, turning and consistency, from these states |
 //! | `turning` | the angle of a step, from differences of momenta |
 //! | `fastest` | the coordinate that turns fastest, each by itself |
@@ -24,8 +24,8 @@ mod energies;
 mod estimated;
 mod fastest;
 mod kicks;
+mod newest_states;
 mod rate;
-mod recent;
 mod report;
 mod roughness;
 mod schedule;
@@ -48,8 +48,8 @@ use self::blocks::Blocks;
 use self::energies::Energies;
 use self::estimated::Estimated;
 use self::fastest::Fastest;
+use self::newest_states::NewestStates;
 use self::rate::RateCheck;
-use self::recent::Recent;
 use self::schedule::Schedule;
 use self::statistics::Statistics;
 use crate::number::Real;
@@ -75,7 +75,7 @@ pub struct Monitor<N: Real, E> {
     newest: Newest<N>,
     statistics: Statistics<N>,
     blocks: Blocks<N>,
-    recent: Recent<N>,
+    newest_states: NewestStates<N>,
     fastest: Fastest<N>,
     /// In place of the unknown increment of β of the first state of a window.
     unknown: N,
@@ -147,7 +147,8 @@ impl<N: Real, E: Estimator<N>> Monitor<N, E> {
             statistics: Statistics::new(&energy),
             blocks: Blocks::new(&energy),
             newest: Newest { n: 0, modified: Estimated::zero(&context), has_error: false, order: 0, energy, kinetic },
-            recent: Recent::new(states, h, dimension, &context)?.with_most_stages(stages.unwrap_or(u64::MAX)),
+            newest_states: NewestStates::new(states, h, dimension, &context)?
+                .with_most_stages(stages.unwrap_or(u64::MAX)),
             fastest: Fastest::new(dimension, &context),
             unknown: N::zero(&context),
             method: N::zero(&context),
@@ -263,7 +264,7 @@ impl<N: Real, E: Estimator<N>> Monitor<N, E> {
         let increments = if begins { Increments::of_beta(&self.unknown) } else { system.state().increments() };
         let (q, p) = (system.q(), system.p());
         TrajectoryState { n: number(self.n), q, p, increments }.check()?;
-        self.recent.push(system, !begins && self.n > 0);
+        self.newest_states.push(system, !begins && self.n > 0);
         let states = self.schedule.states();
         let estimate = self.estimator.push(q, p, increments);
         // the first states of a window complete estimates with the last ones of another, which are not valid
@@ -294,7 +295,7 @@ impl<N: Real, E: Estimator<N>> Monitor<N, E> {
         check_value(energy, Quantity::Energy, number(*n))?;
         check_value(&modified.value, Quantity::ModifiedEnergy, number(*n))?;
         check_value(&modified.error, Quantity::ModifiedEnergyError, number(*n))?;
-        self.recent.end(&self.schedule, kinetic, &mut self.fastest);
+        self.newest_states.end(&self.schedule, kinetic, &mut self.fastest);
         let best = self.blocks.push(energy, modified);
         self.method.assign_difference(energy, &best.value);
         self.statistics.add(energy, kinetic, &self.method, modified);

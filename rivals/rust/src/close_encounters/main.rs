@@ -82,13 +82,13 @@ trait Case {
     fn sweep<S: Scheme + Clone + ValidFor<General>>(&self, name: &str, scheme: S);
 }
 
-struct Posed<'a, F> {
+struct EncounterCase<'a, F> {
     encounter: &'a Encounter,
     reference: Vec<f64>,
     system: F,
 }
 
-impl<F, M> Case for Posed<'_, F>
+impl<F, M> Case for EncounterCase<'_, F>
 where
     F: Fn() -> M,
     M: System<Number = f64, Class = General> + Clone,
@@ -222,10 +222,10 @@ fn main() {
             reference(&encounter, "1/128").iter().take(q.len() - 1).map(Real::to_f64).collect();
         if q.len() == 3 {
             let system = motion((array::<3>(&q), array::<3>(&p)), (Kepler, shadowstep::UnitMasses));
-            sweep(&Posed { encounter: &encounter, reference, system: || system.clone() });
+            sweep(&EncounterCase { encounter: &encounter, reference, system: || system.clone() });
         } else {
             let system = motion((array::<7>(&q), array::<7>(&p)), gravity::<f64>(&masses));
-            sweep(&Posed { encounter: &encounter, reference, system: || system.clone() });
+            sweep(&EncounterCase { encounter: &encounter, reference, system: || system.clone() });
         }
     }
 }

@@ -122,12 +122,12 @@ impl<N: Real, E: Estimator<N>> Monitor<N, E> {
         accurate.iter().for_each(|accurate| values.include(&accurate.value));
         let known = |error: N| self.newest.has_error.then_some(error);
         let range = values.width();
-        let kick = root(&self.recent.mean_square_kick());
+        let kick = root(&self.newest_states.mean_square_kick());
         let mut round_off: N = root(&integer(self.n, &context));
         round_off.multiply(&kick);
         let mut time: N = integer(self.n, &context);
         time.multiply(&N::from_rational(&self.h.exact().abs(), &context));
-        let turning = self.recent.turning();
+        let turning = self.newest_states.turning();
         let trend_ratio = trend_ratio(&accurate, &range);
         let mut report = Report {
             steps: self.n,
@@ -145,7 +145,7 @@ impl<N: Real, E: Estimator<N>> Monitor<N, E> {
             moved: statistics.moved(),
             permanent_bound: None,
             permanent_change: None,
-            rough: self.recent.rough(),
+            rough: self.newest_states.rough(),
             advice: None,
             resolution: known(largest_error(accurate.iter().copied(), &context)),
             worst_error: known(largest_error(all, &context)),
@@ -155,7 +155,7 @@ impl<N: Real, E: Estimator<N>> Monitor<N, E> {
             fastest_coordinate: self.fastest.found().map(|(i, turning)| (i, turning.steps())),
             lost_coordinate: self.lost(turning),
             irregular: turning.map(|turning| turning.irregular),
-            mismatches: self.recent.mismatches(),
+            mismatches: self.newest_states.mismatches(),
             wrong_rates: self.rate.wrong,
             not_finite: self.not_finite,
             verdict: Verdict::Undecided(Missing::Windows),
@@ -175,12 +175,12 @@ impl<N: Real, E: Estimator<N>> Monitor<N, E> {
         let evidence = Evidence {
             straight: trend_ratio.is_some_and(TrendRatio::is_straight),
             turning,
-            moves: self.recent.moves(),
+            moves: self.newest_states.moves(),
             energy_change,
             modified_change,
-            action: self.recent.action(self.h.exact()),
+            action: self.newest_states.action(self.h.exact()),
             distance: self.statistics.distance_of_error(),
-            last_term: quotient(&self.recent.last_term(), &self.statistics.error_rms()).to_f64(),
+            last_term: quotient(&self.newest_states.last_term(), &self.statistics.error_rms()).to_f64(),
             error_rms: report.part(&self.statistics.error_rms()),
             ..report.evidence()
         };

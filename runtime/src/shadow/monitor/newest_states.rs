@@ -22,7 +22,7 @@ const ALL_WINDOWS: u64 = 256;
 
 /// The newest states of a window, and what follows from them over all windows.
 #[derive(Clone, Debug)]
-pub(super) struct Recent<N> {
+pub(super) struct NewestStates<N> {
     /// For each in turn q, p, and δ²p of it and the two states before it.
     states: Vec<N>,
     /// The place of the newest.
@@ -43,14 +43,14 @@ pub(super) struct Recent<N> {
     angle: N,
 }
 
-impl<N: Real> Recent<N> {
+impl<N: Real> NewestStates<N> {
     pub(super) fn new(
         states: usize,
         h: &StepSize,
         dimension: usize,
         context: &N::Context,
     ) -> Result<Self, EstimatorError> {
-        Ok(Recent {
+        Ok(NewestStates {
             states: vec![N::zero(context); STATES_KEPT * 3 * dimension],
             newest: 0,
             skipped: 0,
@@ -201,12 +201,12 @@ mod tests {
             for _ in 0..20_000 {
                 monitor.step(&mut motion).unwrap();
             }
-            let recent = &monitor.recent;
-            let expected = ALL_WINDOWS + (recent.ended - ALL_WINDOWS) / one_in;
-            assert!(recent.windows.abs_diff(expected) <= expected / 20, "{every}: {} {expected}", recent.windows);
+            let newest = &monitor.newest_states;
+            let expected = ALL_WINDOWS + (newest.ended - ALL_WINDOWS) / one_in;
+            assert!(newest.windows.abs_diff(expected) <= expected / 20, "{every}: {} {expected}", newest.windows);
             // θ is 0.1 but for O(h³), and the action 1 but for O(θ²)
-            assert!((recent.turning().unwrap().angle - 0.1).abs() < 1e-3, "{every}: {:?}", recent.turning());
-            let action = recent.action(monitor.stepper().h());
+            assert!((newest.turning().unwrap().angle - 0.1).abs() < 1e-3, "{every}: {:?}", newest.turning());
+            let action = newest.action(monitor.stepper().h());
             assert!((action - 1.0).abs() < 0.01, "{every}: {action}");
         }
     }
@@ -224,9 +224,9 @@ mod tests {
                 }
             }
             assert!(
-                is_changed && monitor.recent.mismatches() == 1,
+                is_changed && monitor.newest_states.mismatches() == 1,
                 "{every}, {changed}: {}",
-                monitor.recent.mismatches()
+                monitor.newest_states.mismatches()
             );
         }
     }
@@ -241,11 +241,11 @@ mod tests {
             for _ in 0..4000 {
                 monitor.step(&mut motion).unwrap();
                 // where round-off makes θ² negative there is none
-                let Some(turning) = monitor.recent.turning() else { continue };
+                let Some(turning) = monitor.newest_states.turning() else { continue };
                 let off = (turning.angle.powi(2) - h * h).abs();
                 assert!(off <= turning.round_off + 3.0 * h.powi(4), "h = {h:e}: θ² is off by {off:e}, {turning:?}");
             }
-            let round_off = monitor.recent.turning().map(|turning| turning.round_off);
+            let round_off = monitor.newest_states.turning().map(|turning| turning.round_off);
             let hides = round_off.is_none_or(|round_off| round_off > h * h);
             assert!(if h <= 5e-5 { hides } else { h == 1e-4 || !hides }, "h = {h:e}: {round_off:?}");
         }
