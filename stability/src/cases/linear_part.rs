@@ -308,8 +308,8 @@ mod tests {
     fn the_matrix_is_that_of_a_step() {
         for name in ["stormer-verlet", "abah864"] {
             let scheme = scheme(name).unwrap();
-            let steps = steps_of(&scheme, &step_size(2.3), Begin::Step);
-            let mut run = start_in(Arithmetic::DOUBLE, &system(), steps);
+            let h = step_size(2.3);
+            let mut run = start_in(Arithmetic::DOUBLE, &system(), steps_of(&scheme, &h, Begin::Step));
             let before = [run.q(0), run.q(1), run.p(0), run.p(1)];
             run.step();
             let matrix = Matrix::of_step(&scheme.quadratic(), 2.3);
