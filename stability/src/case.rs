@@ -5,7 +5,6 @@ use serde::{Serialize, Serializer};
 use serde_json::{Value, json};
 use shadowstep_scenes::Error;
 use shadowstep_scenes::arithmetic::{Arithmetic, Numbers};
-use shadowstep_scenes::computation::{Computation, RunNumber};
 use shadowstep_studies::finding::Finding;
 use shadowstep_studies::{Calculation, Continues};
 
@@ -38,11 +37,11 @@ pub(crate) trait Case {
     /// The time that a trial takes in double precision, in seconds, to a factor of a few.
     fn seconds(suite: &Suite, trial: &Self::Trial) -> f64;
 
-    /// Makes a trial. One that is asked not to continue ends at once, with any result, which is dropped.
-    fn measure<N: RunNumber>(
+    /// Makes a trial in a number type. One that is asked not to continue ends at once, with any result, which is dropped.
+    fn measure(
         suite: &Suite,
         trial: &Self::Trial,
-        context: &N::Context,
+        arithmetic: Arithmetic,
         continues: Continues<'_>,
     ) -> Result<Self::Measured, Error>;
 
@@ -81,7 +80,7 @@ fn trials<C: Case>(suite: &Suite) -> Vec<Trial<'_>> {
         key: json!({ "case": C::NAME, "revision": C::REVISION, "digits": arithmetic.label(), "trial": trial }),
         seconds: C::seconds(suite, &trial) * arithmetic_cost(arithmetic),
         measure: Box::new(move |continues| {
-            let measured = arithmetic.compute(Measure::<C> { suite, trial: &trial, continues })?;
+            let measured = C::measure(suite, &trial, arithmetic, continues)?;
             Ok(serde_json::to_value(measured)?)
         }),
     };
@@ -101,21 +100,6 @@ fn arithmetic_cost(arithmetic: Arithmetic) -> f64 {
         Numbers::Double => 1.0,
         Numbers::DoubleDouble => 6.0,
         Numbers::Digits(digits, _) => 30.0 + f64::from(digits).powf(1.5) / 20.0,
-    }
-}
-
-/// Dispatches on the number type.
-struct Measure<'a, C: Case> {
-    suite: &'a Suite,
-    trial: &'a C::Trial,
-    continues: Continues<'a>,
-}
-
-impl<C: Case> Computation for Measure<'_, C> {
-    type Output = Result<C::Measured, Error>;
-
-    fn compute<N: RunNumber>(self, context: &N::Context) -> Self::Output {
-        C::measure::<N>(self.suite, self.trial, context, self.continues)
     }
 }
 

@@ -23,6 +23,7 @@
 //! | [`Suite`], [`files`] | what is examined; the page, the charts and the table that are written |
 //! | `cases` | the list of all cases, and one file for each |
 //! | `case` | what a case is |
+//! | `systems`, `integrator` | systems of cases; a system with its stepper as scenes make it, in a number type or in one that is hidden |
 //! | `linear_step`, `growth` | a step of the oscillator as a matrix; how fast a linear system grows |
 //! | `watched`, `long_run`, `scene_run` | a run with a monitor; long runs of shipped problems; a run of a scene with its summary |
 
@@ -31,10 +32,12 @@ mod cases;
 mod examination;
 pub mod files;
 mod growth;
+mod integrator;
 mod linear_step;
 mod long_run;
 mod scene_run;
 mod suite;
+mod systems;
 mod watched;
 
 pub use examination::{CaseEntry, entries, examine, names};

@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 use shadowstep::{Number, Rational, Scheme};
 use shadowstep_scenes::Error;
 use shadowstep_scenes::arithmetic::Arithmetic;
-use shadowstep_scenes::computation::RunNumber;
+use shadowstep_scenes::start::Begin;
 use shadowstep_studies::Continues;
 use shadowstep_studies::chart::{Axis, Chart, Curve};
 use shadowstep_studies::finding::Finding;
@@ -12,8 +12,10 @@ use shadowstep_studies::verdict::Verdict;
 use shadowstep_symbolic::decimal::to_text;
 
 use crate::case::Case;
+use crate::integrator::{AnyIntegrator, start_in, step_size, steps_of};
 use crate::suite::{Examined, Suite};
-use crate::watched::{Next, Watched, setup, watched};
+use crate::systems::shipped;
+use crate::watched::{Next, Watched, watched};
 
 /// A run of a scheme on a shipped problem.
 #[derive(Serialize)]
@@ -66,45 +68,37 @@ impl LongRun {
         schemes.iter().map(run).collect()
     }
 
-    fn make<N: RunNumber>(
-        &self,
-        suite: &Suite,
-        context: &N::Context,
-        continues: Continues<'_>,
-    ) -> Result<LongRunResult, Error> {
-        let h = shadowstep::exact(&self.h).expect("it is exact");
-        let mut motion = N::motion(&setup(self.problem, &[]), context).expect("masses are positive");
-        let initial = motion.energy().to_f64();
-        let size = |q: &[N]| {
-            let origin = |i: usize| q[..self.about].get(i % self.about.max(1)).map_or(0.0, N::to_f64);
-            q.iter().enumerate().map(|(i, x)| (x.to_f64() - origin(i)).abs()).fold(0.0, f64::max)
+    fn make(&self, suite: &Suite, arithmetic: Arithmetic, continues: Continues<'_>) -> LongRunResult {
+        let h = step_size(&*self.h);
+        let run = &mut *start_in(
+            arithmetic,
+            &shipped(self.problem, &[]),
+            steps_of(suite.scheme(&self.scheme), &h, Begin::Step),
+        );
+        let initial = run.energy();
+        let size = |run: &dyn AnyIntegrator| {
+            let origin = |i: usize| if self.about > 0 { run.q(i % self.about) } else { 0.0 };
+            (0..run.dimension()).map(|i| (run.q(i) - origin(i)).abs()).fold(0.0, f64::max)
         };
-        let begin = size(motion.q());
+        let begin = size(run);
         let (every, steps) = ((self.steps / ENERGIES).max(1), self.steps);
         let (mut farthest, mut energy_errors) = (1.0_f64, [0.0_f64; 4]);
-        let duration = <f64 as Number>::from_rational(&h, &()) * steps as f64;
+        let duration = <f64 as Number>::from_rational(h.exact(), &()) * steps as f64;
         let mut envelope: Vec<_> = (1..=PARTS).map(|i| (duration * i as f64 / PARTS as f64, 0.0_f64)).collect();
-        let watched = watched(
-            (suite.scheme(&self.scheme), &h),
-            (steps / WINDOWS).max(1),
-            motion,
-            steps,
-            continues,
-            |n, motion| {
-                if n % every == 0 {
-                    let error = (motion.energy().to_f64() - initial).abs() / initial.abs();
-                    let fourth = (4 * (n - 1) / steps) as usize;
-                    // JSON has no infinity
-                    energy_errors[fourth] = energy_errors[fourth].max(error).min(f64::MAX);
-                    let part = &mut envelope[((PARTS as u64 * (n - 1)) / steps) as usize].1;
-                    *part = part.max(error).min(f64::MAX);
-                    farthest = farthest.max(size(motion.q()) / begin).min(f64::MAX);
-                }
-                Next::Continue
-            },
-        );
+        let watched = watched(run, (steps / WINDOWS).max(1), steps, continues, &mut |n, run| {
+            if n % every == 0 {
+                let error = (run.energy() - initial).abs() / initial.abs();
+                let fourth = (4 * (n - 1) / steps) as usize;
+                // JSON has no infinity
+                energy_errors[fourth] = energy_errors[fourth].max(error).min(f64::MAX);
+                let part = &mut envelope[((PARTS as u64 * (n - 1)) / steps) as usize].1;
+                *part = part.max(error).min(f64::MAX);
+                farthest = farthest.max(size(run) / begin).min(f64::MAX);
+            }
+            Next::Continue
+        });
         envelope.retain(|(_, error)| *error > 0.0);
-        Ok(LongRunResult { watched, energy_errors, envelope, farthest })
+        LongRunResult { watched, energy_errors, envelope, farthest }
     }
 }
 
@@ -151,13 +145,13 @@ impl<C: LongCase> Case for C {
         run.steps as f64 * suite.scheme(&run.scheme).scheme.summary().evaluations as f64 * C::EVALUATION
     }
 
-    fn measure<N: RunNumber>(
+    fn measure(
         suite: &Suite,
         run: &LongRun,
-        context: &N::Context,
+        arithmetic: Arithmetic,
         continues: Continues<'_>,
     ) -> Result<LongRunResult, Error> {
-        run.make::<N>(suite, context, continues)
+        Ok(run.make(suite, arithmetic, continues))
     }
 
     fn judge(suite: &Suite, measured: &[(LongRun, LongRunResult)]) -> Finding {

@@ -1,14 +1,11 @@
 //! A run of a scheme with a monitor: what it says, and when.
 
 use serde::{Deserialize, Serialize};
-use shadowstep::problems::{ProblemMotion, Setup, problem};
 use shadowstep::shadow::Verdict;
-use shadowstep::steps::integrator::{VectorIntegrator, VectorSystem};
-use shadowstep::{Rational, Stepper};
-use shadowstep_scenes::computation::RunNumber;
-use shadowstep_scenes::library::NamedScheme;
 use shadowstep_studies::Continues;
 use shadowstep_studies::verdict::Verdict as Agreement;
+
+use crate::integrator::AnyIntegrator;
 
 /// The monitor's estimator is E_8 with its error: 9 states a window.
 pub(crate) const MONITOR_ORDER: u32 = 8;
@@ -59,30 +56,19 @@ fn is_alarm(verdict: Verdict) -> bool {
     matches!(verdict, Verdict::TooLarge(_) | Verdict::NotConserved | Verdict::NearResonance { .. })
 }
 
-/// A problem with some of its values set.
-pub(crate) fn setup(name: &str, set: &[(&str, String)]) -> Setup {
-    let set: Vec<_> = set.iter().map(|(name, value)| ((*name).to_owned(), value.clone())).collect();
-    problem(name).and_then(|problem| problem.setup(&set, 140)).expect("cases use valid problems")
-}
-
-/// Makes `steps` steps of size h, with a window of the monitor every `every` steps; `each` gets every state with its number from 1 on.
-pub(crate) fn watched<N: RunNumber>(
-    (scheme, h): (&NamedScheme, &Rational),
+/// Makes `steps` steps, with a window of the monitor every `every` steps; `each` gets every state with its number from 1 on.
+pub(crate) fn watched(
+    run: &mut dyn AnyIntegrator,
     every: u64,
-    motion: ProblemMotion<N>,
     steps: u64,
     continues: Continues<'_>,
-    mut each: impl FnMut(u64, &mut VectorSystem<'_, N>) -> Next,
+    each: &mut dyn FnMut(u64, &mut dyn AnyIntegrator) -> Next,
 ) -> Watched {
-    let context = motion.state().context();
-    let stepper = Stepper::with_context(scheme.quadratic(), h, &context).expect("cases use nonzero steps");
-    let mut integrator = stepper.with(motion.compensated_if(false));
-    let integrator: &mut VectorIntegrator<'_, N> = &mut integrator;
-    let mut monitor = N::monitor(integrator, MONITOR_ORDER, every).expect("initial states are finite");
+    run.watch(MONITOR_ORDER, every);
     let (mut finite, mut alarm, mut alarmed, mut next_report) = (true, None, None, 0);
     for n in 1..=steps {
-        let ended = match monitor.step(integrator) {
-            Ok(sample) => sample.is_some(),
+        let ended = match run.watched_step() {
+            Ok(ended) => ended,
             Err(_) => {
                 finite = false;
                 alarm = alarm.or(Some(n));
@@ -91,25 +77,25 @@ pub(crate) fn watched<N: RunNumber>(
         };
         if ended && alarm.is_none() && n >= next_report {
             next_report = n + n / REPORTS;
-            let verdict = monitor.report().verdict;
+            let verdict = run.said().verdict;
             if is_alarm(verdict) {
                 (alarm, alarmed) = (Some(n), Some(verdict.to_string()));
             }
         }
         let asks = n % (steps / QUESTIONS).max(1) == 0;
-        if each(n, integrator.system()) == Next::End || (asks && !continues(n as f64 / steps as f64)) {
+        if each(n, run) == Next::End || (asks && !continues(n as f64 / steps as f64)) {
             break;
         }
     }
-    let report = monitor.report();
-    let energy_error = report.energy_error.to_f64() / report.kinetic.to_f64();
+    let said = run.said();
+    let energy_error = said.energy_error / said.kinetic;
     Watched {
-        steps: monitor.n(),
+        steps: said.steps,
         finite,
         energy_error: energy_error.is_finite().then_some(energy_error),
-        verdict: report.verdict.to_string(),
-        fine: report.verdict.is_fine(),
-        undecided: matches!(report.verdict, Verdict::Undecided(_)),
+        verdict: said.verdict.to_string(),
+        fine: said.verdict.is_fine(),
+        undecided: matches!(said.verdict, Verdict::Undecided(_)),
         alarm,
         alarmed,
     }

@@ -1,10 +1,12 @@
 //! Systems in the number types of scenes. They are compiled in this crate, once for each, and not again in every crate that uses them.
 
-use shadowstep::MotionError;
 #[cfg(feature = "mpfr")]
 use shadowstep::number::Float;
 use shadowstep::number::{AnyLimbs, CorrectlyRounded, DoubleDouble};
-use shadowstep::problems::{ProblemMotion, Setup};
+use shadowstep::problems::{CubicSpring, ProblemMotion, Setup};
+use shadowstep::systems::kinetic::Quadratic;
+use shadowstep::systems::pairs::{Ends, Pairs};
+use shadowstep::{Kinetic, Motion, MotionError, Potential, Rational, UnitMasses};
 
 use super::problem::EnergyAt;
 use super::system::{Parts, System, ask};
@@ -21,6 +23,20 @@ pub trait SceneNumber: CorrectlyRounded + 'static {
     /// # Errors
     /// As [`Setup::motion`].
     fn motion(setup: &Setup, context: &Self::Context) -> Result<ProblemMotion<Self>, MotionError>;
+
+    /// The chain of the problem fput-alpha, of as many bodies as the state has, with its stepper.
+    ///
+    /// # Errors
+    /// No bodies, or not as many momenta.
+    ///
+    /// # Panics
+    /// As [`System::integrator`].
+    fn springs(
+        alpha: &Rational,
+        steps: Steps<'_>,
+        state: State<Self>,
+        context: &Self::Context,
+    ) -> Result<SceneIntegrator<Self>, MotionError>;
 }
 
 /// What a system gives in numbers N.
@@ -112,6 +128,24 @@ impl<N: SceneNumber> SystemIn<N> for System {
     }
 }
 
+fn springs<N: SceneNumber>(
+    alpha: &Rational,
+    steps: Steps<'_>,
+    (q, p): State<N>,
+    context: &N::Context,
+) -> Result<SceneIntegrator<N>, MotionError> {
+    if q.is_empty() {
+        return Err(MotionError::NoCoordinates);
+    }
+    let spring = CubicSpring { alpha: N::from_rational(alpha, context) };
+    let chain = Pairs::<_, 1>::neighbours(q.len(), spring, Ends::Fixed).expect("the pairs fit");
+    // in the types of shipped problems, which are compiled anyway
+    let potential: Box<dyn Potential<N>> = Box::new(chain);
+    let kinetic: Box<dyn Kinetic<N, Class = Quadratic>> = Box::new(UnitMasses);
+    let motion = Motion::new(potential, kinetic, q, p)?.compensated_if(steps.compensated);
+    Ok(steps.integrator(steps.quadratic(), motion, context))
+}
+
 // not inlined: callers in other crates would compile what is called, and the methods of a `dyn`, once more
 macro_rules! scene_numbers {
     ($($number:ty),*) => {$(
@@ -124,6 +158,16 @@ macro_rules! scene_numbers {
             #[inline(never)]
             fn motion(setup: &Setup, context: &Self::Context) -> Result<ProblemMotion<Self>, MotionError> {
                 setup.motion(context)
+            }
+
+            #[inline(never)]
+            fn springs(
+                alpha: &Rational,
+                steps: Steps<'_>,
+                state: State<Self>,
+                context: &Self::Context,
+            ) -> Result<SceneIntegrator<Self>, MotionError> {
+                springs(alpha, steps, state, context)
             }
         }
     )*};

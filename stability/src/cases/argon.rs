@@ -2,14 +2,13 @@
 
 use shadowstep::{Rational, Scheme};
 use shadowstep_analysis::stability::Stability;
-use shadowstep_scenes::System;
 use shadowstep_studies::chart::{Axis, Chart, Curve};
 use shadowstep_studies::finding::Finding;
 use shadowstep_studies::verdict::Verdict;
 
 use crate::long_run::{LongCase, LongRun, LongRunResult};
 use crate::suite::{Examined, Suite};
-use crate::watched::setup;
+use crate::systems::shipped;
 
 /// The case.
 pub(super) struct Argon;
@@ -49,8 +48,7 @@ impl LongCase for Argon {
     }
 
     fn judge(suite: &Suite, measured: &[(LongRun, LongRunResult)]) -> Finding {
-        let omega =
-            System::of_setup(setup("argon-crystal", &[])).fastest_frequency().map_or(f64::NAN, |found| found.omega);
+        let omega = shipped("argon-crystal", &[]).fastest_frequency().map_or(f64::NAN, |found| found.omega);
         let (mut finding, mut curves) = (Finding::default(), Vec::new());
         for all in measured.chunk_by(|(one, _), (other, _)| one.scheme == other.scheme) {
             let named = suite.scheme(&all[0].0.scheme);

@@ -5,15 +5,19 @@ use std::time::Instant;
 use serde::{Deserialize, Serialize};
 use shadowstep::problems::CubicSpring;
 use shadowstep::systems::pairs::{Ends, Pairs};
-use shadowstep::{Motion, Potential, Rational, Scheme, Stepper, UnitMasses};
+use shadowstep::{Carried, Potential, Rational, Scheme};
 use shadowstep_scenes::Error;
-use shadowstep_scenes::computation::RunNumber;
+use shadowstep_scenes::arithmetic::Arithmetic;
+use shadowstep_scenes::computation::{Computation, RunNumber};
+use shadowstep_scenes::library::NamedScheme;
+use shadowstep_scenes::start::Begin;
 use shadowstep_studies::Continues;
 use shadowstep_studies::chart::{Axis, Chart, Curve};
 use shadowstep_studies::finding::Finding;
 use shadowstep_studies::verdict::Verdict;
 
 use crate::case::Case;
+use crate::integrator::{step_size, steps_of};
 use crate::suite::{Examined, Suite};
 
 /// The case.
@@ -63,37 +67,9 @@ impl Case for Chains {
         (WORK * REPEATS) as f64 * 20e-9
     }
 
-    fn measure<N: RunNumber>(
-        suite: &Suite,
-        trial: &Trial,
-        context: &N::Context,
-        continues: Continues<'_>,
-    ) -> Result<Cost, Error> {
-        let scheme = &suite.scheme(&trial.scheme).quadratic();
-        let evaluations = scheme.summary().evaluations;
-        let number = |numerator: i64, denominator: i64| {
-            N::from_rational(&Rational::new(numerator.into(), denominator.into()), context)
-        };
-        let spring = CubicSpring { alpha: number(1, 4) };
-        let potential = Pairs::<_, 1>::neighbours(trial.bodies, spring, Ends::Fixed).expect("the pairs fit");
-        let numbers = 3.0 + potential.scratch() as f64 / trial.bodies as f64;
-        let q = (0..trial.bodies).map(|i| number((i % 7) as i64 - 3, 100)).collect();
-        let p = vec![number(0, 1); trial.bodies];
-        let mut motion: Motion<N, Vec<N>, _, _> = Motion::new(potential, UnitMasses, q, p).expect("as many as bodies");
-        let h = Rational::new(evaluations.into(), 20.into());
-        let stepper = Stepper::with_context(scheme.clone(), &h, context).expect("it is positive");
-        let steps = (WORK / trial.bodies / evaluations).max(1);
-        let mut nanoseconds = f64::INFINITY;
-        for i in 0..REPEATS {
-            if !continues(i as f64 / REPEATS as f64) {
-                break;
-            }
-            let begin = Instant::now();
-            (0..steps).for_each(|_| stepper.step(&mut motion));
-            let evaluated = (steps * evaluations * trial.bodies) as f64;
-            nanoseconds = nanoseconds.min(begin.elapsed().as_nanos() as f64 / evaluated);
-        }
-        Ok(Cost { nanoseconds: nanoseconds.min(f64::MAX), numbers, finite: motion.is_finite() })
+    fn measure(suite: &Suite, trial: &Trial, arithmetic: Arithmetic, continues: Continues<'_>) -> Result<Cost, Error> {
+        let scheme = suite.scheme(&trial.scheme);
+        Ok(arithmetic.compute(Repeat { scheme, bodies: trial.bodies, continues }))
     }
 
     fn judge(suite: &Suite, measured: &[(Trial, Cost)]) -> Finding {
@@ -121,5 +97,43 @@ impl Case for Chains {
             "The least of 7 repeats; other work on the machine adds to it.",
         );
         finding
+    }
+}
+
+/// Steps of a chain, repeated.
+struct Repeat<'a> {
+    scheme: &'a NamedScheme,
+    bodies: usize,
+    continues: Continues<'a>,
+}
+
+impl Computation for Repeat<'_> {
+    type Output = Cost;
+
+    fn compute<N: RunNumber>(self, context: &N::Context) -> Cost {
+        let Repeat { scheme, bodies, continues } = self;
+        let evaluations = scheme.scheme.summary().evaluations;
+        let ratio = |numerator: i64, denominator: i64| Rational::new(numerator.into(), denominator.into());
+        let number = |numerator: i64, denominator: i64| N::from_rational(&ratio(numerator, denominator), context);
+        let spring = CubicSpring { alpha: number(1, 4) };
+        let potential = Pairs::<_, 1>::neighbours(bodies, spring, Ends::Fixed).expect("the pairs fit");
+        let numbers = 3.0 + potential.scratch() as f64 / bodies as f64;
+        let q = (0..bodies).map(|i| number((i % 7) as i64 - 3, 100)).collect();
+        let p = vec![number(0, 1); bodies];
+        let h = step_size(ratio(evaluations as i64, 20));
+        let chain = N::springs(&ratio(1, 4), steps_of(scheme, &h, Begin::Step), (q, p), context);
+        let mut chain = chain.expect("as many as bodies");
+        let steps = (WORK / bodies / evaluations).max(1);
+        let mut nanoseconds = f64::INFINITY;
+        for i in 0..REPEATS {
+            if !continues(i as f64 / REPEATS as f64) {
+                break;
+            }
+            let begin = Instant::now();
+            (0..steps).for_each(|_| chain.step(Carried::Nothing));
+            let evaluated = (steps * evaluations * bodies) as f64;
+            nanoseconds = nanoseconds.min(begin.elapsed().as_nanos() as f64 / evaluated);
+        }
+        Cost { nanoseconds: nanoseconds.min(f64::MAX), numbers, finite: chain.state().is_finite() }
     }
 }

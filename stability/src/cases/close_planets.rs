@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use serde::Serialize;
 use shadowstep::Scheme;
 use shadowstep_scenes::Error;
-use shadowstep_scenes::computation::RunNumber;
+use shadowstep_scenes::arithmetic::Arithmetic;
 use shadowstep_studies::Continues;
 use shadowstep_studies::chart::{Axis, Chart, Curve, Mark};
 use shadowstep_studies::finding::Finding;
@@ -69,10 +69,10 @@ impl Case for ClosePlanets {
         f64::from(trial.periods) * KICKS * 500e-9
     }
 
-    fn measure<N: RunNumber>(
+    fn measure(
         suite: &Suite,
         trial: &Trial,
-        _: &N::Context,
+        arithmetic: Arithmetic,
         continues: Continues<'_>,
     ) -> Result<RunResult, Error> {
         let named = suite.scheme(&trial.scheme);
@@ -88,7 +88,7 @@ impl Case for ClosePlanets {
              [run]\nscheme = \"{}\"\nstep = {h}\nsteps = {steps}\ndigits = {}\n[output]\nenergy = {{ every = 1000 }}\n",
             (1.0 + radius) / (1.0 - radius),
             named.name,
-            digits(suite.arithmetic)
+            digits(arithmetic)
         );
         run_scene(text, continues)
     }

@@ -3,18 +3,20 @@
 use std::f64::consts::PI;
 
 use serde::{Deserialize, Serialize};
-use shadowstep::number::CorrectlyRounded;
 use shadowstep::{Rational, Scheme};
 use shadowstep_scenes::Error;
-use shadowstep_scenes::computation::RunNumber;
+use shadowstep_scenes::arithmetic::Arithmetic;
+use shadowstep_scenes::start::Begin;
 use shadowstep_studies::Continues;
 use shadowstep_studies::chart::{Axis, Chart, Curve};
 use shadowstep_studies::finding::Finding;
 use shadowstep_studies::verdict::Verdict;
 
 use crate::case::Case;
+use crate::integrator::{AnyIntegrator, start_in, step_size, steps_of};
 use crate::suite::{Examined, OF_ORDERS_2_TO_8, Suite};
-use crate::watched::{Next, Watched, setup, watched};
+use crate::systems::shipped;
+use crate::watched::{Next, Watched, watched};
 
 /// The case.
 pub(super) struct Fput;
@@ -63,23 +65,24 @@ impl Case for Fput {
         f64::from(trial.until) * STEPS_A_UNIT as f64 * 500e-9
     }
 
-    fn measure<N: RunNumber>(
+    fn measure(
         suite: &Suite,
         trial: &Trial,
-        context: &N::Context,
+        arithmetic: Arithmetic,
         continues: Continues<'_>,
     ) -> Result<Recurrence, Error> {
         let scheme = suite.scheme(&trial.scheme);
         let evaluations = scheme.scheme.summary().evaluations;
         let h = Rational::new(evaluations.into(), STEPS_A_UNIT.into());
         let steps = u64::from(trial.until) * STEPS_A_UNIT as u64 / evaluations as u64;
-        let motion = N::motion(&setup("fput-alpha", &[]), context).expect("masses are 1");
-        let initial = energy_of_first_mode(motion.q(), motion.p());
+        let h = step_size(&h);
+        let run = &mut *start_in(arithmetic, &shipped("fput-alpha", &[]), steps_of(scheme, &h, Begin::Step));
+        let initial = energy_of_first_mode(run);
         let time = |n: u64| n as f64 * evaluations as f64 / STEPS_A_UNIT as f64;
         let mut first_mode = vec![(0.0, 1.0)];
-        let watched = watched((scheme, &h), (steps / 256).max(1), motion, steps, continues, |n, motion| {
+        let watched = watched(run, (steps / 256).max(1), steps, continues, &mut |n, run| {
             if n % (steps / SAMPLES) == 0 {
-                first_mode.push((time(n), energy_of_first_mode(motion.q(), motion.p()) / initial));
+                first_mode.push((time(n), energy_of_first_mode(run) / initial));
             }
             Next::Continue
         });
@@ -115,12 +118,12 @@ impl Case for Fput {
 }
 
 /// ½(P² + ω²Q²) of the first mode, with Q = √(2/33) Σ q_i sin(πi/33) and ω = 2 sin(π/66).
-fn energy_of_first_mode<N: CorrectlyRounded>(q: &[N], p: &[N]) -> f64 {
+fn energy_of_first_mode(run: &dyn AnyIntegrator) -> f64 {
     let walls = (BODIES + 1) as f64;
-    let along = |values: &[N]| -> f64 {
-        let products = values.iter().zip(1..).map(|(value, i)| value.to_f64() * (PI * f64::from(i) / walls).sin());
+    let along = |value: &dyn Fn(usize) -> f64| -> f64 {
+        let products = (0..run.dimension()).map(|i| value(i) * (PI * (i + 1) as f64 / walls).sin());
         (2.0 / walls).sqrt() * products.sum::<f64>()
     };
     let omega = 2.0 * (PI / (2.0 * walls)).sin();
-    (along(p).powi(2) + (omega * along(q)).powi(2)) / 2.0
+    (along(&|i| run.p(i)).powi(2) + (omega * along(&|i| run.q(i))).powi(2)) / 2.0
 }

@@ -1,17 +1,19 @@
 //! Rotated, translated and moving frames, other units, masses over twelve orders.
 
 use serde::{Deserialize, Serialize};
-use shadowstep::systems::formula::FormulaPotential;
-use shadowstep::{DiagonalMasses, Motion, Rational, Scheme, Stepper};
-use shadowstep_scenes::Error;
-use shadowstep_scenes::computation::RunNumber;
+use shadowstep::Scheme;
+use shadowstep_scenes::arithmetic::Arithmetic;
+use shadowstep_scenes::start::Begin;
+use shadowstep_scenes::{Error, KineticEnergy};
 use shadowstep_studies::Continues;
 use shadowstep_studies::chart::{Axis, Chart, Curve};
 use shadowstep_studies::finding::Finding;
 use shadowstep_studies::verdict::Verdict;
 
 use crate::case::Case;
+use crate::integrator::{start_in, step_size, steps_of};
 use crate::suite::{Examined, Suite};
+use crate::systems::{known_values, of_formula, rational};
 
 /// The case.
 pub(super) struct Frames;
@@ -94,46 +96,26 @@ impl Case for Frames {
         trial.steps as f64 * suite.scheme(&trial.scheme).scheme.summary().evaluations as f64 * 300e-9
     }
 
-    fn measure<N: RunNumber>(
-        suite: &Suite,
-        trial: &Trial,
-        context: &N::Context,
-        _: Continues<'_>,
-    ) -> Result<Measured, Error> {
-        let scheme = &suite.scheme(&trial.scheme).quadratic();
+    fn measure(suite: &Suite, trial: &Trial, arithmetic: Arithmetic, _: Continues<'_>) -> Result<Measured, Error> {
+        let scheme = suite.scheme(&trial.scheme);
         let (mass, length) = (trial.frame.mass(), trial.frame.length());
         // a = 1, G = 1: the period is 2π/√(m₁ + m₂)
         let total = 1.0 + mass;
         let time = (length * length * length / total).sqrt();
-        let h = scheme.summary().evaluations as f64 / STEPS_A_UNIT as f64 * time;
-        let number = |value: f64| N::from_rational(&Rational::from_float(value).expect("it is finite"), context);
-        let parameters: Vec<(&str, N)> = vec![("m", number(mass))];
-        let parameters: Vec<(String, N)> =
-            parameters.into_iter().map(|(name, value)| (name.to_owned(), value)).collect();
-        let borrowed: Vec<(&str, N)> = parameters.iter().map(|(name, value)| (name.as_str(), value.clone())).collect();
-        let names = ["x1", "y1", "x2", "y2"];
-        let potential = FormulaPotential::<N>::new(FORMULA, &names, &borrowed).expect("it is a formula");
-        let masses = [1.0, 1.0, mass, mass].map(|mass| Rational::from_float(mass).expect("it is finite"));
-        let kinetic = DiagonalMasses::new(&masses, context).expect("masses are positive");
+        let h = scheme.scheme.summary().evaluations as f64 / STEPS_A_UNIT as f64 * time;
         let (q, p) = trial.frame.start(length, total);
-        let motion = Motion::new(potential, kinetic, q.map(number).to_vec(), p.map(number).to_vec());
-        let mut motion = motion.expect("four coordinates");
-        let stepper = Stepper::with_context(scheme.clone(), h, context).expect("it is positive");
-        let initial = motion.energy();
+        let state = (q.map(rational).to_vec(), p.map(rational).to_vec());
+        let mut system = of_formula(FORMULA, &[("m", rational(mass))], &["x1", "y1", "x2", "y2"], state);
+        system.problem.kinetic = KineticEnergy::Masses(Some(known_values([1.0, 1.0, mass, mass].map(rational))));
+        let mut run = start_in(arithmetic, &system, steps_of(scheme, &step_size(h), Begin::Step));
         // of an ellipse with a = 1
         let internal = mass / (2.0 * length);
         let mut energy_error = 0.0_f64;
         for _ in 0..trial.steps {
-            stepper.step(&mut motion);
-            let mut difference = motion.energy();
-            difference.subtract(&initial);
-            energy_error = energy_error.max((difference.to_f64() / internal).abs());
+            run.step();
+            energy_error = energy_error.max((run.energy_change() / internal).abs());
         }
-        let difference = |i: usize| {
-            let mut difference = motion.q()[i + 2].clone();
-            difference.subtract(&motion.q()[i]);
-            difference.to_f64() / length
-        };
+        let difference = |i: usize| run.separation(i + 2, i) / length;
         let relative = trial.frame.turned_back([difference(0), difference(1)]);
         Ok(Measured { energy_error, relative })
     }

@@ -3,15 +3,18 @@
 use serde::{Deserialize, Serialize};
 use shadowstep::{Number, Rational, Scheme};
 use shadowstep_scenes::Error;
-use shadowstep_scenes::computation::RunNumber;
+use shadowstep_scenes::arithmetic::Arithmetic;
+use shadowstep_scenes::start::Begin;
 use shadowstep_studies::Continues;
 use shadowstep_studies::chart::{Axis, Chart, Curve};
 use shadowstep_studies::finding::Finding;
 use shadowstep_studies::verdict::Verdict;
 
 use crate::case::Case;
+use crate::integrator::{start_in, step_size, steps_of};
 use crate::suite::{Examined, OF_ORDERS_2_TO_8, Suite};
-use crate::watched::{Next, Watched, setup, watched};
+use crate::systems::{rational, shipped};
+use crate::watched::{Next, Watched, watched};
 
 /// The case.
 pub(super) struct HenonHeiles;
@@ -98,33 +101,34 @@ impl Case for HenonHeiles {
         2.0 * trial.steps as f64 * suite.scheme(&trial.scheme).scheme.summary().evaluations as f64 * 40e-9
     }
 
-    fn measure<N: RunNumber>(
+    fn measure(
         suite: &Suite,
         trial: &Trial,
-        context: &N::Context,
+        arithmetic: Arithmetic,
         continues: Continues<'_>,
     ) -> Result<Measured, Error> {
         let scheme = suite.scheme(&trial.scheme);
         let h = Rational::new(scheme.scheme.summary().evaluations.into(), STEPS_A_UNIT.into());
-        let setup = setup("henon-heiles", &trial.kind.start());
-        let [mut motion, mut near] = [(), ()].map(|()| N::motion(&setup, context).expect("masses are 1"));
-        let stepper = shadowstep::Stepper::with_context(scheme.quadratic(), &h, context).expect("it is positive");
-        let moved = N::from_rational(&Rational::from_float(NEAR).expect("it is finite"), context);
-        near.q_mut()[0].add(&moved);
-        let initial = motion.energy().to_f64();
         let length = <f64 as Number>::from_rational(&h, &());
+        let h = step_size(&h);
+        let system = shipped("henon-heiles", &trial.kind.start());
+        let mut beside = shipped("henon-heiles", &trial.kind.start());
+        beside.problem.q[0].value += rational(NEAR);
+        let [mut run, mut near] =
+            [&system, &beside].map(|system| start_in(arithmetic, system, steps_of(scheme, &h, Begin::Step)));
+        let initial = run.energy();
         let (mut energy_errors, mut growth, mut growing, mut escaped) = ([0.0_f64; 2], 0.0_f64, Vec::new(), None);
-        let watched = watched((scheme, &h), (trial.steps / 256).max(1), motion, trial.steps, continues, |n, motion| {
-            let [x, y] = [motion.q()[0].to_f64(), motion.q()[1].to_f64()];
+        let watched = watched(&mut *run, (trial.steps / 256).max(1), trial.steps, continues, &mut |n, run| {
+            let [x, y] = [run.q(0), run.q(1)];
             if x.hypot(y) > OUTSIDE {
                 escaped = Some(n);
                 return Next::End;
             }
-            let error = ((motion.energy().to_f64() - initial) / initial).abs();
+            let error = ((run.energy() - initial) / initial).abs();
             let half = usize::from(2 * n > trial.steps);
             energy_errors[half] = energy_errors[half].max(error);
-            stepper.step(&mut near);
-            let distance = (near.q()[0].to_f64() - x).hypot(near.q()[1].to_f64() - y);
+            near.step();
+            let distance = (near.q(0) - x).hypot(near.q(1) - y);
             growth = growth.max((distance / NEAR).max(1.0).log10().min(12.0));
             if n * SAMPLES % trial.steps < SAMPLES {
                 growing.push((n as f64 * length, growth));

@@ -9,7 +9,8 @@ use rand_pcg::rand_core::{RngCore, SeedableRng};
 use serde::{Deserialize, Serialize};
 use shadowstep::{Rational, Scheme};
 use shadowstep_scenes::Error;
-use shadowstep_scenes::computation::RunNumber;
+use shadowstep_scenes::arithmetic::Arithmetic;
+use shadowstep_scenes::start::Begin;
 use shadowstep_studies::Continues;
 use shadowstep_studies::chart::{Axis, Chart, Curve, Marker};
 use shadowstep_studies::finding::Finding;
@@ -17,8 +18,10 @@ use shadowstep_studies::verdict::Verdict;
 use shadowstep_symbolic::decimal::to_text;
 
 use crate::case::Case;
+use crate::integrator::{start_in, step_size, steps_of};
 use crate::suite::Suite;
-use crate::watched::{Next, Watched, setup, watched};
+use crate::systems::shipped;
+use crate::watched::{Next, Watched, watched};
 
 /// The case.
 pub(super) struct Kepler;
@@ -99,24 +102,18 @@ impl Case for Kepler {
         trial.steps as f64 * suite.scheme(&trial.scheme).scheme.summary().evaluations as f64 * 30e-9
     }
 
-    fn measure<N: RunNumber>(
-        suite: &Suite,
-        trial: &Trial,
-        context: &N::Context,
-        continues: Continues<'_>,
-    ) -> Result<Orbit, Error> {
-        let h = shadowstep::exact(&trial.h).expect("it is exact");
+    fn measure(suite: &Suite, trial: &Trial, arithmetic: Arithmetic, continues: Continues<'_>) -> Result<Orbit, Error> {
+        let h = step_size(&*trial.h);
         let apocentre = [
             ("eccentricity", trial.eccentricity.clone()),
             ("x", "1 + eccentricity".to_owned()),
             ("py", "sqrt((1 - eccentricity)/(1 + eccentricity))".to_owned()),
         ];
-        let setup = setup("kepler", &apocentre);
-        let motion = N::motion(&setup, context).expect("masses are 1");
+        let steps = steps_of(suite.scheme(&trial.scheme), &h, Begin::Step);
+        let run = &mut *start_in(arithmetic, &shipped("kepler", &apocentre), steps);
         let mut apocentres = Apocentres::new(trial.steps);
-        let watched = watched((suite.scheme(&trial.scheme), &h), EVERY, motion, trial.steps, continues, |n, motion| {
-            let [q, p] = [motion.q(), motion.p()].map(|v| [v[0].to_f64(), v[1].to_f64()]);
-            apocentres.include(n, q, p);
+        let watched = watched(run, EVERY, trial.steps, continues, &mut |n, run| {
+            apocentres.include(n, [run.q(0), run.q(1)], [run.p(0), run.p(1)]);
             Next::Continue
         });
         Ok(Orbit { watched, lost: apocentres.lost, changes: apocentres.changes })

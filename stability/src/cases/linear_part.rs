@@ -2,15 +2,12 @@
 
 use std::f64::consts::{PI, TAU};
 
-use num_traits::FromPrimitive;
 use serde::{Deserialize, Serialize};
-use shadowstep::number::CorrectlyRounded;
-use shadowstep::systems::formula::FormulaPotential;
-use shadowstep::systems::linear_part::LinearPart;
+use shadowstep::Number;
 use shadowstep::tables::TableScheme;
-use shadowstep::{Number, Rational, Stepper};
-use shadowstep_scenes::Error;
-use shadowstep_scenes::computation::RunNumber;
+use shadowstep_scenes::arithmetic::Arithmetic;
+use shadowstep_scenes::start::Begin;
+use shadowstep_scenes::{Error, Linear, Parts, System};
 use shadowstep_schemes::MapKind;
 use shadowstep_studies::Continues;
 use shadowstep_studies::chart::{Axis, Chart, Curve};
@@ -18,8 +15,10 @@ use shadowstep_studies::finding::Finding;
 use shadowstep_studies::verdict::Verdict;
 
 use crate::case::Case;
-use crate::growth::{TOLERANCE, growth, size, steps_to_see};
+use crate::growth::{TOLERANCE, growth, steps_to_see};
+use crate::integrator::{start_in, step_size, steps_of};
 use crate::suite::{Examined, Suite};
+use crate::systems::{of_formula, rational};
 
 /// The case.
 pub(super) struct LinearPartCase;
@@ -129,27 +128,20 @@ impl Case for LinearPartCase {
         trial.steps as f64 * suite.scheme(&trial.scheme).scheme.proved().plan.evaluations as f64 * 60e-9
     }
 
-    fn measure<N: RunNumber>(
-        suite: &Suite,
-        trial: &Trial,
-        context: &N::Context,
-        _: Continues<'_>,
-    ) -> Result<StepsResult, Error> {
-        let scheme = &suite.scheme(&trial.scheme).quadratic();
-        let predicted = Matrix::of_step(scheme, trial.h).growth();
-        let h = rational(trial.h);
-        let stepper = Stepper::with_context(scheme.clone(), &h, context).expect("it is positive");
-        let mut system = system::<N>(context);
+    fn measure(suite: &Suite, trial: &Trial, arithmetic: Arithmetic, _: Continues<'_>) -> Result<StepsResult, Error> {
+        let scheme = suite.scheme(&trial.scheme);
+        let predicted = Matrix::of_step(&scheme.quadratic(), trial.h).growth();
+        let mut run = start_in(arithmetic, &system(), steps_of(scheme, &step_size(trial.h), Begin::Step));
         if predicted > 0.0 {
             let count = steps_to_see(predicted);
             let too_slow = 2 * count > trial.steps;
-            let found = if too_slow { 0.0 } else { growth(&stepper, &mut system, (predicted, count)) };
+            let found = if too_slow { 0.0 } else { growth(&mut *run, (predicted, count)) };
             return Ok(StepsResult { predicted, found, too_slow });
         }
         let mut half = || {
             (0..trial.steps / 20).fold(0.0, |largest: f64, _| {
-                stepper.step(&mut system);
-                largest.max(size(&system))
+                run.step();
+                largest.max(run.size())
             })
         };
         let (first, second) = (half(), half());
@@ -202,24 +194,15 @@ impl StepsResult {
     }
 }
 
-fn rational(x: f64) -> Rational {
-    Rational::from_f64(x).expect("it is finite")
-}
-
 /// The two oscillators at q = (1, 1/2), p = 0, with B in the kicks.
-fn system<N: CorrectlyRounded>(context: &N::Context) -> LinearPart<N, FormulaPotential<N>> {
-    let number = |x: f64| N::from_rational(&rational(x), context);
+fn system() -> System {
     let [first, second] = OMEGAS.map(|omega| &rational(omega) * rational(omega));
-    let squares = [&first, &second].map(|square| N::from_rational(square, context));
-    let [a, b] = squares;
-    let parameters = [("a", a), ("b", b), ("delta", number(DELTA))];
-    let formula = "(a*x^2 + b*y^2 + delta*(x + y)^2)/2";
-    let potential = FormulaPotential::new(formula, &["x", "y"], &parameters).expect("it is a formula");
+    let parameters = [("a", first.clone()), ("b", second.clone()), ("delta", rational(DELTA))];
+    let state = ([1.0, 0.5].map(rational).to_vec(), [0.0, 0.0].map(rational).to_vec());
+    let mut system = of_formula("(a*x^2 + b*y^2 + delta*(x + y)^2)/2", &parameters, &["x", "y"], state);
     let zero = rational(0.0);
-    let stiffness = [vec![first, zero.clone()], vec![zero, second]];
-    let masses = [rational(1.0), rational(1.0)];
-    let (q, p) = ([number(1.0), number(0.5)], [number(0.0), number(0.0)]);
-    LinearPart::new(potential, &masses, &stiffness, &q, &p).expect("two coordinates")
+    system.parts = Parts::Linear(Linear::new(vec![vec![first, zero.clone()], vec![zero, second]]));
+    system
 }
 
 /// The step size near a resonance at which states grow fastest; at one without growth, the resonance itself.
@@ -319,19 +302,19 @@ impl Matrix {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use shadowstep::System;
     use shadowstep_scenes::library::scheme;
 
     #[test]
     fn the_matrix_is_that_of_a_step() {
         for name in ["stormer-verlet", "abah864"] {
-            let scheme = scheme(name).unwrap().quadratic();
-            let mut system = system::<f64>(&());
-            let before: Vec<_> = system.q().iter().chain(system.p()).copied().collect();
-            Stepper::new(scheme.clone(), 2.3).unwrap().step(&mut system);
-            let matrix = Matrix::of_step(&scheme, 2.3);
+            let scheme = scheme(name).unwrap();
+            let h = step_size(2.3);
+            let mut run = start_in(Arithmetic::DOUBLE, &system(), steps_of(&scheme, &h, Begin::Step));
+            let before = [run.q(0), run.q(1), run.p(0), run.p(1)];
+            run.step();
+            let matrix = Matrix::of_step(&scheme.quadratic(), 2.3);
             let after = matrix.0.map(|row| row.iter().zip(&before).map(|(a, x)| a * x).sum::<f64>());
-            for (found, expected) in system.q().iter().chain(system.p()).zip(after) {
+            for (found, expected) in [run.q(0), run.q(1), run.p(0), run.p(1)].into_iter().zip(after) {
                 assert!((found - expected).abs() < 1e-14, "{name}: {found} {expected}");
             }
         }

@@ -1,16 +1,15 @@
 //! The proved orders, seen in the errors of nonlinear problems at 100 digits.
 
 use serde::{Deserialize, Serialize};
-use shadowstep::number::CorrectlyRounded;
-use shadowstep::problems::Kepler;
-use shadowstep::systems::formula::FormulaPotential;
+use shadowstep::number::{AnyLimbs, LimbCount};
+use shadowstep::steps::integrator::at_output;
 use shadowstep::systems::kepler_drift::KeplerDrift;
-use shadowstep::systems::many_parts::{SystemOfParts, parts};
 use shadowstep::tables::TableScheme;
-use shadowstep::{Motion, Rational, Stepper, System, UnitMasses, exact};
-use shadowstep_scenes::Error;
-use shadowstep_scenes::arithmetic::Arithmetic;
-use shadowstep_scenes::computation::RunNumber;
+use shadowstep::{Number, Rational, Real, StepSize, exact};
+use shadowstep_scenes::arithmetic::{Arithmetic, Digits, Numbers};
+use shadowstep_scenes::library::NamedScheme;
+use shadowstep_scenes::start::Begin;
+use shadowstep_scenes::{Error, Formulas, Parts, PotentialEnergy, System};
 use shadowstep_schemes::MapKind;
 use shadowstep_schemes::proof::Order;
 use shadowstep_studies::Continues;
@@ -19,7 +18,9 @@ use shadowstep_studies::finding::Finding;
 use shadowstep_studies::verdict::Verdict;
 
 use crate::case::Case;
+use crate::integrator::{start, step_size, steps_of};
 use crate::suite::{Examined, Suite};
+use crate::systems::{known_values, names, of_formula, rationals, shipped};
 
 /// The case.
 pub(super) struct Orders;
@@ -96,20 +97,21 @@ impl Case for Orders {
         2_f64.powi(trial.halvings[2] + 1) * evaluations as f64 * 30e-9
     }
 
-    fn measure<N: RunNumber>(
-        suite: &Suite,
-        trial: &Trial,
-        context: &N::Context,
-        _: Continues<'_>,
-    ) -> Result<Errors, Error> {
-        let scheme = &suite.scheme(&trial.scheme).quadratic();
+    fn measure(suite: &Suite, trial: &Trial, arithmetic: Arithmetic, _: Continues<'_>) -> Result<Errors, Error> {
+        // one number type has the digits, and no other is compiled
+        let Numbers::Digits(_, Digits::Limbs(limbs)) = arithmetic.numbers() else {
+            unreachable!("the digits are those of limbs")
+        };
+        let scheme = suite.scheme(&trial.scheme);
         Ok(Errors(trial.halvings.map(|halvings| {
-            let h = Rational::new(1.into(), (1_i64 << halvings).into());
-            let stepper = Stepper::with_context(scheme.clone(), &h, context).expect("it is positive");
+            let h = &step_size(Rational::new(1.into(), (1_i64 << halvings).into()));
             match trial.of {
-                Of::Epsilon => energy_error::<N>(&stepper, 1 << halvings, context),
-                Of::ThreeParts => distance_in_parts::<N>(scheme, (&h, 1 << halvings), context),
-                of => distance::<N>(&stepper, 1 << halvings, of == Of::Processed, context),
+                Of::Epsilon => energy_error((scheme, h), 1 << halvings, limbs),
+                Of::ThreeParts => {
+                    distance(&in_parts(), (&for_many_parts(scheme), h), 1 << halvings, Begin::Step, limbs)
+                }
+                Of::Processed => distance(&orbit(), (scheme, h), 1 << halvings, Begin::InitialState, limbs),
+                Of::Steps => distance(&orbit(), (scheme, h), 1 << halvings, Begin::Step, limbs),
             }
         })))
     }
@@ -184,79 +186,87 @@ fn of_epsilon(scheme: &TableScheme) -> Option<&Order> {
     orders.first().filter(|_| drifts_dominate)
 }
 
-fn numbers<N: CorrectlyRounded, const D: usize>(texts: [&str; D], context: &N::Context) -> [N; D] {
-    texts.map(|text| N::from_rational(&exact(text).expect("it is a number"), context))
-}
-
 /// An orbit of Kepler's problem with e = 0.2 or so.
 const Q: [&str; 2] = ["1", "1/5"];
 const P: [&str; 2] = ["-1/10", "9/10"];
 
-/// log₁₀ of the distance from the exact position at t = 1.
-fn distance<N: RunNumber>(stepper: &Stepper<TableScheme, N>, steps: u64, processed: bool, context: &N::Context) -> f64 {
-    let (q, p) = (numbers::<N, 2>(Q, context), numbers::<N, 2>(P, context));
-    let mut motion = Motion::new(Kepler, UnitMasses, q, p).expect("two coordinates");
-    if processed {
-        stepper.preprocess(&mut motion);
-    }
-    (0..steps).for_each(|_| stepper.step(&mut motion));
-    if processed {
-        stepper.postprocess(&mut motion);
-    }
-    off_the_orbit(motion.q(), context)
+/// Kepler's problem on this orbit.
+fn orbit() -> System {
+    let mut system = shipped("kepler", &[]);
+    [system.problem.q, system.problem.p] = [Q, P].map(|texts| known_values(rationals(texts)));
+    system
 }
 
-/// The same with Kepler's H as a sum of three parts.
-fn distance_in_parts<N: RunNumber>(scheme: &TableScheme, (h, steps): (&Rational, u64), context: &N::Context) -> f64 {
+/// The same with H as a sum of three parts.
+fn in_parts() -> System {
     let formulas = ["px^2/2 + x*py/3", "py^2/2 - x*py/3", "-1/sqrt(x^2 + y^2)"];
-    let parts = parts::<N>(&formulas, (&["x", "y"], &["px", "py"]), &[], context).expect("their flows have formulas");
-    let mut system = SystemOfParts::new(parts, &numbers(Q, context), &numbers(P, context)).expect("two coordinates");
-    let scheme = scheme.clone().for_many_parts().expect("it was when the trial was made");
-    let stepper = Stepper::with_context(scheme, h, context).expect("it is positive");
-    (0..steps).for_each(|_| stepper.step(&mut system));
-    off_the_orbit(system.q(), context)
+    let (coordinates, momenta) = (names(&["x", "y"]), names(&["px", "py"]));
+    let parts = Formulas::new(&formulas, (&coordinates, &momenta), &[]).expect("their flows have formulas");
+    let mut system = orbit();
+    system.problem.potential = PotentialEnergy::OfParts;
+    system.parts = Parts::Formulas(parts);
+    system
 }
 
-/// log₁₀ of the distance of q from the exact position at t = 1.
-fn off_the_orbit<N: RunNumber>(q: &[N], context: &N::Context) -> f64 {
-    let (mut exact, mut v) = (numbers::<N, 2>(Q, context), numbers::<N, 2>(P, context));
-    let [one] = numbers::<N, 1>(["1"], context);
-    KeplerDrift::new(context).advance(&one, &one, &mut exact, &mut v);
-    let difference = |(found, exact): (&N, &N)| {
-        let mut difference = found.clone();
-        difference.subtract(exact);
+fn for_many_parts(named: &NamedScheme) -> NamedScheme {
+    let scheme = named.scheme.clone().for_many_parts().expect("it was when the trial was made");
+    NamedScheme { name: named.name.clone(), scheme: scheme.at_run_time() }
+}
+
+/// log₁₀ of the distance from the exact position at t = 1. Steps that begin with the pre-map of a processed scheme end with its post-map.
+fn distance(
+    system: &System,
+    (scheme, h): (&NamedScheme, &StepSize),
+    steps: u64,
+    begin: Begin,
+    limbs: LimbCount,
+) -> f64 {
+    let mut integrator = start::<AnyLimbs>(system, steps_of(scheme, h, begin), &limbs);
+    integrator.steps(steps);
+    if begin == Begin::InitialState {
+        integrator.postprocess();
+    }
+    let numbers = |texts: [&str; 2]| texts.map(|text| number(text, limbs));
+    let (mut exact, mut v, one) = (numbers(Q), numbers(P), number("1", limbs));
+    KeplerDrift::new(&limbs).advance(&one, &one, &mut exact, &mut v);
+    let difference = |(found, exact): (&AnyLimbs, &AnyLimbs)| {
+        let mut difference = *found;
+        Number::subtract(&mut difference, exact);
         difference.log10_abs()
     };
-    q.iter().zip(&exact).map(difference).fold(f64::NEG_INFINITY, f64::max)
+    integrator.state().q().iter().zip(&exact).map(difference).fold(f64::NEG_INFINITY, f64::max)
 }
 
 /// log₁₀ of the largest |H − H(0)| at t = 1, 2, 3, 4, for H = p²/2 − ε cos q.
-fn energy_error<N: RunNumber>(stepper: &Stepper<TableScheme, N>, steps_a_unit: u64, context: &N::Context) -> f64 {
-    let [epsilon, q, p] = numbers::<N, 3>([EPSILON, "7/10", "13/10"], context);
-    let potential = FormulaPotential::<N>::new("-epsilon*cos(q)", &["q"], &[("epsilon", epsilon)]);
-    let mut motion = Motion::new(potential.expect("it is a formula"), UnitMasses, [q], [p]).expect("one coordinate");
-    let initial = motion.energy();
-    stepper.preprocess(&mut motion);
+fn energy_error((scheme, h): (&NamedScheme, &StepSize), steps_a_unit: u64, limbs: LimbCount) -> f64 {
+    let epsilon = exact(EPSILON).expect("it is a number");
+    let system =
+        of_formula("-epsilon*cos(q)", &[("epsilon", epsilon)], &["q"], (rationals(["7/10"]), rationals(["13/10"])));
+    let begin = |begin: Begin| start::<AnyLimbs>(&system, steps_of(scheme, h, begin), &limbs);
+    let initial = begin(Begin::Step).system().energy();
+    let mut integrator = begin(Begin::InitialState);
     let error = |_| {
-        (0..steps_a_unit).for_each(|_| stepper.step(&mut motion));
-        let mut energy = stepper.at_output(&mut motion, Motion::energy);
-        energy.subtract(&initial);
+        integrator.steps(steps_a_unit);
+        let mut energy = at_output(&mut *integrator, |integrator| integrator.system().energy());
+        Number::subtract(&mut energy, &initial);
         energy.log10_abs()
     };
     (0..4).map(error).fold(f64::NEG_INFINITY, f64::max)
 }
 
+fn number(text: &str, limbs: LimbCount) -> AnyLimbs {
+    AnyLimbs::from_rational(&exact(text).expect("it is a number"), &limbs)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
-    use shadowstep::number::{AnyLimbs, LimbCount};
     use shadowstep_scenes::library::scheme;
 
     fn errors(name: &str, of: Of) -> Errors {
         let suite = Suite::new(vec![scheme(name).unwrap()], Arithmetic::DOUBLE, true);
         let trial = Orders::trials(&suite).into_iter().find(|trial| trial.of == of).unwrap();
-        let six = LimbCount::of_bits(6 * 64).unwrap();
-        Orders::measure::<AnyLimbs>(&suite, &trial, &six, &|_| true).unwrap()
+        Orders::measure(&suite, &trial, Orders::arithmetic(&suite), &|_| true).unwrap()
     }
 
     #[test]

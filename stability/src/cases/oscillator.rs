@@ -1,16 +1,13 @@
 //! The harmonic oscillator from well inside the stability limit to beyond it, and in the gaps.
 
-use num_traits::{One, Zero};
+use num_traits::One;
 use serde::{Deserialize, Serialize};
-use shadowstep::number::CorrectlyRounded;
-use shadowstep::problems::HarmonicOscillator;
-use shadowstep::systems::kinetic::Quadratic;
-use shadowstep::tables::TableScheme;
-use shadowstep::{Motion, Number, Rational, Stepper, System, UnitMasses, exact};
+use shadowstep::{Number, Rational, exact};
 use shadowstep_analysis::stability::Stability;
 use shadowstep_scenes::Error;
-use shadowstep_scenes::computation::RunNumber;
+use shadowstep_scenes::arithmetic::Arithmetic;
 use shadowstep_scenes::library::NamedScheme;
+use shadowstep_scenes::start::Begin;
 use shadowstep_studies::Continues;
 use shadowstep_studies::chart::{Axis, Chart, Curve};
 use shadowstep_studies::finding::Finding;
@@ -18,8 +15,10 @@ use shadowstep_studies::verdict::Verdict;
 
 use crate::case::Case;
 use crate::growth::{TOLERANCE as GROWTH_TOLERANCE, growth, steps_to_see};
+use crate::integrator::{AnyIntegrator, start_in, step_size, steps_of};
 use crate::linear_step::LinearStep;
 use crate::suite::Suite;
+use crate::systems::shipped;
 
 /// The case.
 pub(super) struct Oscillator;
@@ -74,10 +73,10 @@ impl Case for Oscillator {
         trial.steps as f64 * evaluations as f64 * 10e-9 * PARTS.len() as f64
     }
 
-    fn measure<N: RunNumber>(
+    fn measure(
         suite: &Suite,
         trial: &Trial,
-        context: &N::Context,
+        arithmetic: Arithmetic,
         continues: Continues<'_>,
     ) -> Result<Vec<Point>, Error> {
         let scheme = suite.scheme(&trial.scheme);
@@ -87,7 +86,7 @@ impl Case for Oscillator {
             if !continues(i as f64 / sizes.len() as f64) {
                 break;
             }
-            points.push(point::<N>(&scheme.quadratic(), h, trial.steps, context));
+            points.push(point(scheme, h, trial.steps, arithmetic));
         }
         Ok(points)
     }
@@ -132,35 +131,29 @@ fn step_sizes(scheme: &NamedScheme) -> Vec<Rational> {
     sizes
 }
 
-fn point<N: CorrectlyRounded>(scheme: &TableScheme, h: &Rational, steps: u64, context: &N::Context) -> Point {
-    let matrix = LinearStep::of(scheme, h);
-    let stepper = Stepper::with_context(scheme.clone(), h, context).expect("limits are positive");
-    let one = N::from_rational(&Rational::one(), context);
-    let zero = N::from_rational(&Rational::zero(), context);
-    let potential = HarmonicOscillator { omega: one.clone() };
-    let mut motion = Motion::new(potential, UnitMasses, [one], [zero]).expect("one coordinate");
+fn point(scheme: &NamedScheme, h: &Rational, steps: u64, arithmetic: Arithmetic) -> Point {
+    let matrix = LinearStep::of(&scheme.quadratic(), h);
+    // ω = 1, from q = 1 and p = 0
+    let system = shipped("harmonic-oscillator", &[]);
+    let run = &mut *start_in(arithmetic, &system, steps_of(scheme, &step_size(h), Begin::Step));
     let h_omega = <f64 as Number>::from_rational(h, &());
     let predicted = matrix.growth();
     if predicted > 0.0 {
         let count = steps_to_see(predicted);
         let too_slow = 2 * count > steps;
-        let found = if too_slow { 0.0 } else { growth(&stepper, &mut motion, (predicted, count)) };
+        let found = if too_slow { 0.0 } else { growth(run, (predicted, count)) };
         Point { h_omega, predicted, found, too_slow }
     } else {
-        let found = largest(&stepper, &mut motion, steps / 10) / matrix.largest() - 1.0;
+        let found = largest(run, steps / 10) / matrix.largest() - 1.0;
         Point { h_omega, predicted, found, too_slow: false }
     }
 }
 
 /// The largest |q| of a run.
-fn largest<N: CorrectlyRounded, M: System<Number = N, Class = Quadratic>>(
-    stepper: &Stepper<TableScheme, N>,
-    system: &mut M,
-    steps: u64,
-) -> f64 {
+fn largest(run: &mut dyn AnyIntegrator, steps: u64) -> f64 {
     (0..steps).fold(1.0, |largest: f64, _| {
-        stepper.step(system);
-        largest.max(system.q()[0].to_f64().abs())
+        run.step();
+        largest.max(run.q(0).abs())
     })
 }
 
@@ -217,9 +210,9 @@ mod tests {
         // 2 arsinh √((h² − 4)/4)
         let expected = 2.0 * ((2.1_f64 * 2.1 - 4.0) / 4.0).sqrt().asinh();
         assert!((growth("2.1") - expected).abs() < 1e-14);
-        let point = point_of(&verlet.quadratic(), "2.1");
+        let point = point_of(&verlet, "2.1");
         assert!((point.found - expected).abs() < 1e-9, "{} {expected}", point.found);
-        assert!(point_of(&verlet.quadratic(), "1.9").found.abs() < 1e-2);
+        assert!(point_of(&verlet, "1.9").found.abs() < 1e-2);
     }
 
     /// Takahashi and Imada's kicks are by 1 − h²/12 of the force, so that the trace is 2 − h² + h⁴/12, at least −1, and 2 again at h² = 12.
@@ -235,11 +228,11 @@ mod tests {
         assert_eq!(stability.limit, "3.46410161513775458705489268301");
         // cosh λ = 1 − h²/2 + h⁴/24
         let expected = 2.0 * ((3.5_f64.powi(4) / 24.0 - 3.5 * 3.5 / 2.0) / 2.0).sqrt().asinh();
-        let found = point_of(&scheme.quadratic(), "3.5").found;
+        let found = point_of(&scheme, "3.5").found;
         assert!((found - expected).abs() < 1e-9, "{found} {expected}");
     }
 
-    fn point_of(scheme: &TableScheme, h: &str) -> Point {
-        super::point::<f64>(scheme, &exact(h).unwrap(), 10_000, &())
+    fn point_of(scheme: &NamedScheme, h: &str) -> Point {
+        super::point(scheme, &exact(h).unwrap(), 10_000, Arithmetic::DOUBLE)
     }
 }

@@ -3,15 +3,18 @@
 use serde::{Deserialize, Serialize};
 use shadowstep::{Rational, Scheme};
 use shadowstep_scenes::Error;
-use shadowstep_scenes::computation::RunNumber;
+use shadowstep_scenes::arithmetic::Arithmetic;
+use shadowstep_scenes::start::Begin;
 use shadowstep_studies::Continues;
 use shadowstep_studies::chart::{Axis, Chart, Curve};
 use shadowstep_studies::finding::Finding;
 use shadowstep_studies::verdict::Verdict;
 
 use crate::case::Case;
+use crate::integrator::{start_in, step_size, steps_of};
 use crate::suite::{Examined, OF_ORDERS_2_TO_8, Suite};
-use crate::watched::{Next, Watched, setup, watched};
+use crate::systems::shipped;
+use crate::watched::{Next, Watched, watched};
 
 /// The case.
 pub(super) struct Pendulum;
@@ -62,25 +65,18 @@ impl Case for Pendulum {
         trial.steps as f64 * suite.scheme(&trial.scheme).scheme.summary().evaluations as f64 * 60e-9
     }
 
-    fn measure<N: RunNumber>(
-        suite: &Suite,
-        trial: &Trial,
-        context: &N::Context,
-        continues: Continues<'_>,
-    ) -> Result<Moved, Error> {
+    fn measure(suite: &Suite, trial: &Trial, arithmetic: Arithmetic, continues: Continues<'_>) -> Result<Moved, Error> {
         let scheme = suite.scheme(&trial.scheme);
         let evaluations = scheme.scheme.summary().evaluations;
         let h = Rational::new(evaluations.into(), STEPS_A_UNIT.into());
-        let setup = setup("pendulum", &[("p", trial.momentum.to_owned())]);
-        let mut motion = N::motion(&setup, context).expect("masses are 1");
-        let initial = motion.energy();
+        let h = step_size(&h);
+        let system = shipped("pendulum", &[("p", trial.momentum.to_owned())]);
+        let run = &mut *start_in(arithmetic, &system, steps_of(scheme, &h, Begin::Step));
         let (mut back, mut over, mut energy_error) = (false, false, 0.0_f64);
-        let watched = watched((scheme, &h), (trial.steps / 256).max(1), motion, trial.steps, continues, |_, motion| {
-            back |= motion.p()[0].to_f64() < 0.0;
-            over |= motion.q()[0].to_f64().abs() > std::f64::consts::PI;
-            let mut error = motion.energy();
-            error.subtract(&initial);
-            energy_error = energy_error.max(error.to_f64().abs());
+        let watched = watched(run, (trial.steps / 256).max(1), trial.steps, continues, &mut |_, run| {
+            back |= run.p(0) < 0.0;
+            over |= run.q(0).abs() > std::f64::consts::PI;
+            energy_error = energy_error.max(run.energy_change().abs());
             Next::Continue
         });
         Ok(Moved { watched, back, over, energy_error })

@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use serde::Serialize;
 use shadowstep::Scheme;
 use shadowstep_scenes::Error;
-use shadowstep_scenes::computation::RunNumber;
+use shadowstep_scenes::arithmetic::Arithmetic;
 use shadowstep_studies::Continues;
 use shadowstep_studies::chart::{Axis, Chart, Curve, Mark};
 use shadowstep_studies::finding::Finding;
@@ -73,10 +73,10 @@ impl Case for Pericentres {
         trial.steps().1 as f64 * suite.scheme(&trial.scheme).scheme.summary().evaluations as f64 * 500e-9
     }
 
-    fn measure<N: RunNumber>(
+    fn measure(
         suite: &Suite,
         trial: &Trial,
-        _: &N::Context,
+        arithmetic: Arithmetic,
         continues: Continues<'_>,
     ) -> Result<RunResult, Error> {
         let (h, steps) = trial.steps();
@@ -88,7 +88,7 @@ impl Case for Pericentres {
              [run]\nscheme = \"{}\"\nstep = {h:e}\nsteps = {steps}\ndigits = {}\n[output]\nenergy = {{ every = {} }}\n",
             trial.eccentricity,
             suite.scheme(&trial.scheme).name,
-            digits(suite.arithmetic),
+            digits(arithmetic),
             (steps as f64 / ROWS).ceil()
         );
         run_scene(text, continues)

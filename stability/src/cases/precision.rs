@@ -2,11 +2,13 @@
 
 use serde::{Deserialize, Serialize};
 use shadowstep::number::Limbs;
-use shadowstep::{Number, Rational, Real, Stepper};
+use shadowstep::{Number, Rational, Real};
 use shadowstep_scenes::Error;
+use shadowstep_scenes::System;
 use shadowstep_scenes::arithmetic::Arithmetic;
 use shadowstep_scenes::computation::{Computation, RunNumber};
 use shadowstep_scenes::library::NamedScheme;
+use shadowstep_scenes::start::Begin;
 use shadowstep_studies::Continues;
 use shadowstep_studies::chart::{Axis, Chart, Curve};
 use shadowstep_studies::finding::Finding;
@@ -14,8 +16,9 @@ use shadowstep_studies::verdict::Verdict;
 use shadowstep_symbolic::decimal::from_text;
 
 use crate::case::Case;
+use crate::integrator::{start, step_size, steps_of};
 use crate::suite::Suite;
-use crate::watched::setup;
+use crate::systems::setup;
 
 /// The case.
 pub(super) struct Precision;
@@ -38,7 +41,7 @@ pub(super) enum Agreement {
     NotMeasured,
 }
 
-const STEPS: u32 = 20;
+const STEPS: u64 = 20;
 /// Digits that the round-off of 20 steps may cost.
 const LOST: f64 = 3.0;
 /// Double precision, and digits up to the most that irrational values have.
@@ -73,12 +76,7 @@ impl Case for Precision {
         f64::from(trial.digits).powf(1.6) * 1e-6
     }
 
-    fn measure<N: RunNumber>(
-        suite: &Suite,
-        trial: &Trial,
-        _: &N::Context,
-        _: Continues<'_>,
-    ) -> Result<Agreement, Error> {
+    fn measure(suite: &Suite, trial: &Trial, _: Arithmetic, _: Continues<'_>) -> Result<Agreement, Error> {
         let scheme = suite.scheme(&trial.scheme);
         let arithmetics = [trial.digits, 2 * trial.digits].map(Arithmetic::with_digits);
         // without MPFR there are not as many digits
@@ -139,10 +137,11 @@ impl Computation for Run<'_> {
     fn compute<N: RunNumber>(self, context: &N::Context) -> Vec<String> {
         let digits = N::precision(context).in_digits() + 20;
         let setup = setup("kepler", &[]).problem.setup(&[], digits).expect("the defaults are valid");
-        let h = Rational::new(1.into(), 20.into());
-        let stepper = Stepper::with_context(self.scheme.quadratic(), &h, context).expect("it is positive");
-        let mut motion = N::motion(&setup, context).expect("masses are positive");
-        (0..STEPS).for_each(|_| stepper.step(&mut motion));
-        motion.q().iter().chain(motion.p()).map(N::to_text).collect()
+        let h = step_size("1/20");
+        let steps = steps_of(self.scheme, &h, Begin::Step);
+        let mut integrator = start::<N>(&System::of_setup(setup), steps, context);
+        integrator.steps(STEPS);
+        let state = integrator.state();
+        state.q().iter().chain(state.p()).map(N::to_text).collect()
     }
 }

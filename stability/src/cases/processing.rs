@@ -1,21 +1,22 @@
 //! Runs of processed schemes that are read at every step.
 
 use serde::{Deserialize, Serialize};
-use shadowstep::problems::Kepler;
-use shadowstep::systems::kinetic::Quadratic;
-use shadowstep::systems::wisdom_holman::{Jacobi, WisdomHolman};
-use shadowstep::tables::TableScheme;
-use shadowstep::{Motion, Rational, Scheme, Stepper, System, UnitMasses};
-use shadowstep_scenes::Error;
-use shadowstep_scenes::computation::RunNumber;
+use shadowstep::steps::integrator::at_output;
+use shadowstep::{Carried, Rational, Scheme, StepSize};
+use shadowstep_scenes::arithmetic::Arithmetic;
+use shadowstep_scenes::computation::{Computation, RunNumber};
+use shadowstep_scenes::library::NamedScheme;
+use shadowstep_scenes::start::Begin;
+use shadowstep_scenes::{CanonicalCoordinates, Error, Parts, Planets, System};
 use shadowstep_studies::Continues;
 use shadowstep_studies::chart::{Axis, Chart, Curve};
 use shadowstep_studies::finding::Finding;
 use shadowstep_studies::verdict::Verdict;
 
 use crate::case::Case;
+use crate::integrator::{start, step_size, steps_of};
 use crate::suite::{Examined, Suite};
-use crate::watched::setup;
+use crate::systems::{setup, shipped};
 
 /// The case.
 pub(super) struct Processing;
@@ -80,31 +81,23 @@ impl Case for Processing {
         trial.steps as f64 * maps as f64 * map
     }
 
-    fn measure<N: RunNumber>(
+    fn measure(
         suite: &Suite,
         trial: &Trial,
-        context: &N::Context,
+        arithmetic: Arithmetic,
         continues: Continues<'_>,
     ) -> Result<Outputs, Error> {
-        let scheme = &suite.scheme(&trial.scheme).quadratic();
-        let evaluations = scheme.summary().evaluations as i64;
-        let stepper = |h: Rational| Stepper::with_context(scheme.clone(), &h, context).expect("it is positive");
-        Ok(match trial.problem {
+        let scheme = suite.scheme(&trial.scheme);
+        let evaluations = scheme.scheme.summary().evaluations as i64;
+        let (system, h) = match trial.problem {
             Problem::Kepler => {
-                let values = setup("kepler", &[("eccentricity", "3/10".to_owned())]).values;
-                let motion = Motion::new(Kepler, UnitMasses, values.q::<N>(context), values.p::<N>(context));
-                let h = Rational::new(evaluations.into(), 60.into());
-                run(&stepper(h), motion.expect("two coordinates"), trial.steps, continues)
+                let system = shipped("kepler", &[("eccentricity", "3/10".to_owned())]);
+                (system, Rational::new(evaluations.into(), 60.into()))
             }
-            Problem::Planets => {
-                let setup = setup("outer-solar-system", &[]);
-                let (bodies, _) = setup.bodies().expect("they are bodies");
-                let state = (setup.values.q::<N>(context), setup.values.p::<N>(context));
-                let planets = WisdomHolman::<N, Jacobi<N, 3>, 3>::new(&bodies, (&state.0, &state.1), context);
-                let h = Rational::from_integer((200 * evaluations).into());
-                run(&stepper(h), planets.expect("it is a state of all bodies"), trial.steps, continues)
-            }
-        })
+            Problem::Planets => (planets(), Rational::from_integer((200 * evaluations).into())),
+        };
+        let (system, h) = (&system, &step_size(&h));
+        Ok(arithmetic.compute(Run { system, scheme, h, steps: trial.steps, continues }))
     }
 
     fn judge(suite: &Suite, measured: &[(Trial, Outputs)]) -> Finding {
@@ -149,31 +142,48 @@ impl Outputs {
     }
 }
 
+/// The Kepler orbits of the outer planets, and their interactions.
+fn planets() -> System {
+    let setup = setup("outer-solar-system", &[]);
+    let (bodies, dimensions) = setup.bodies().expect("they are bodies");
+    let planets = Planets { coordinates: CanonicalCoordinates::Jacobi, bodies, dimensions };
+    System { parts: Parts::WisdomHolman(planets), ..System::of_setup(setup) }
+}
+
 /// One run that is read at every step, beside one that is not.
-fn run<N, M>(stepper: &Stepper<TableScheme, N>, mut system: M, steps: u64, continues: Continues<'_>) -> Outputs
-where
-    N: RunNumber,
-    M: System<Number = N, Class = Quadratic> + Clone,
-{
-    let initial = system.energy().to_f64();
-    let error = |energy: &N, initial: f64| ((energy.to_f64() - initial) / initial).abs().min(f64::MAX);
-    stepper.preprocess(&mut system);
-    let first_of_kernel = system.energy().to_f64();
-    let mut alone = system.clone();
-    let (mut at_outputs, mut in_kernel) = ([0.0_f64; 4], 0.0_f64);
-    for n in 0..steps {
-        stepper.step(&mut system);
-        let largest = &mut at_outputs[(4 * n / steps) as usize];
-        *largest = largest.max(error(&stepper.at_output(&mut system, M::energy), initial));
-        in_kernel = in_kernel.max(error(&system.energy(), first_of_kernel));
-        if n % 256 == 0 && !continues(n as f64 / steps as f64) {
-            break;
+struct Run<'a> {
+    system: &'a System,
+    scheme: &'a NamedScheme,
+    h: &'a StepSize,
+    steps: u64,
+    continues: Continues<'a>,
+}
+
+impl Computation for Run<'_> {
+    type Output = Outputs;
+
+    fn compute<N: RunNumber>(self, context: &N::Context) -> Outputs {
+        let Run { system, scheme, h, steps, continues } = self;
+        let begin = |begin: Begin| start::<N>(system, steps_of(scheme, h, begin), context);
+        let error = |energy: &N, initial: f64| ((energy.to_f64() - initial) / initial).abs().min(f64::MAX);
+        let initial = begin(Begin::Step).system().energy().to_f64();
+        let [mut run, mut alone] = [(), ()].map(|()| begin(Begin::InitialState));
+        let first_of_kernel = run.system().energy().to_f64();
+        let (mut at_outputs, mut in_kernel) = ([0.0_f64; 4], 0.0_f64);
+        for n in 0..steps {
+            run.step(Carried::Nothing);
+            let largest = &mut at_outputs[(4 * n / steps) as usize];
+            *largest = largest.max(error(&at_output(&mut *run, |run| run.system().energy()), initial));
+            in_kernel = in_kernel.max(error(&run.system().energy(), first_of_kernel));
+            if n % 256 == 0 && !continues(n as f64 / steps as f64) {
+                break;
+            }
         }
+        alone.steps(steps);
+        let same = |a: &[N], b: &[N]| a.iter().zip(b).all(|(a, b)| a == b);
+        let (alone, run) = (alone.state(), run.state());
+        Outputs { same_bits: same(alone.q(), run.q()) && same(alone.p(), run.p()), at_outputs, in_kernel }
     }
-    (0..steps).for_each(|_| stepper.step(&mut alone));
-    let same = |a: &[N], b: &[N]| a.iter().zip(b).all(|(a, b)| a == b);
-    let same_bits = same(alone.q(), system.q()) && same(alone.p(), system.p());
-    Outputs { same_bits, at_outputs, in_kernel }
 }
 
 #[cfg(test)]

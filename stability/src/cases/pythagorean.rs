@@ -3,7 +3,7 @@
 use serde::Serialize;
 use shadowstep::Scheme;
 use shadowstep_scenes::Error;
-use shadowstep_scenes::computation::RunNumber;
+use shadowstep_scenes::arithmetic::Arithmetic;
 use shadowstep_studies::Continues;
 use shadowstep_studies::chart::{Axis, Chart, Curve};
 use shadowstep_studies::finding::Finding;
@@ -51,10 +51,10 @@ impl Case for Pythagorean {
         (UNTIL * trial.inverse) as f64 * 200e-9
     }
 
-    fn measure<N: RunNumber>(
+    fn measure(
         suite: &Suite,
         trial: &Trial,
-        _: &N::Context,
+        arithmetic: Arithmetic,
         continues: Continues<'_>,
     ) -> Result<RunResult, Error> {
         let scheme = suite.scheme(&trial.scheme);
@@ -66,7 +66,7 @@ impl Case for Pythagorean {
             scheme.name,
             trial.inverse,
             UNTIL * trial.inverse / evaluations,
-            digits(suite.arithmetic)
+            digits(arithmetic)
         );
         run_scene(text, continues)
     }

@@ -2,23 +2,23 @@
 
 use std::f64::consts::TAU;
 
-use num_traits::FromPrimitive;
 use serde::{Deserialize, Serialize};
 use shadowstep::shadow::Verdict as MonitorVerdict;
-use shadowstep::steps::integrator::VectorIntegrator;
-use shadowstep::systems::formula::FormulaPotential;
-use shadowstep::{Motion, Rational, Scheme, Stepper, UnitMasses};
+use shadowstep::{Rational, Scheme};
 use shadowstep_scenes::Error;
-use shadowstep_scenes::computation::RunNumber;
+use shadowstep_scenes::arithmetic::Arithmetic;
 use shadowstep_scenes::library::NamedScheme;
+use shadowstep_scenes::start::Begin;
 use shadowstep_studies::Continues;
 use shadowstep_studies::chart::{Axis, Chart, Curve};
 use shadowstep_studies::finding::Finding;
 use shadowstep_studies::verdict::Verdict;
 
 use crate::case::Case;
+use crate::integrator::{self, start_in};
 use crate::linear_step::LinearStep;
 use crate::suite::{Examined, Suite};
+use crate::systems::{of_formula, rational};
 use crate::watched::MONITOR_ORDER;
 
 /// The case.
@@ -89,15 +89,10 @@ impl Case for Resonances {
         trial.steps as f64 * suite.scheme(&trial.scheme).scheme.summary().evaluations as f64 * 200e-9
     }
 
-    fn measure<N: RunNumber>(
-        suite: &Suite,
-        trial: &Trial,
-        context: &N::Context,
-        _: Continues<'_>,
-    ) -> Result<Variation, Error> {
+    fn measure(suite: &Suite, trial: &Trial, arithmetic: Arithmetic, _: Continues<'_>) -> Result<Variation, Error> {
         let scheme = suite.scheme(&trial.scheme);
         Ok(match step_size(scheme, trial.n) {
-            Some(h) => vary::<N>(scheme, (h * (1.0 + trial.off), trial.n == 3), trial.steps, context),
+            Some(h) => vary(scheme, (h * (1.0 + trial.off), trial.n == 3), trial.steps, arithmetic),
             None => Variation { ratio: None, verdict: String::new(), fine: false, resonance: false },
         })
     }
@@ -158,7 +153,7 @@ fn compared(all: &[(Trial, Variation)]) -> (String, Verdict) {
 /// The least h > 0 at which a step of q²/2 turns by 1/n of a turn.
 fn step_size(scheme: &NamedScheme, n: u32) -> Option<f64> {
     let target = (TAU / f64::from(n)).cos();
-    let cosine = |h: f64| LinearStep::of(&scheme.quadratic(), &Rational::from_f64(h).expect("it is finite")).cosine();
+    let cosine = |h: f64| LinearStep::of(&scheme.quadratic(), &rational(h)).cosine();
     // no scheme turns by more than twice its angle, so that this bracket has one crossing
     let (mut low, mut high) = (0.0, None);
     for i in 1..=200 {
@@ -181,24 +176,18 @@ fn step_size(scheme: &NamedScheme, n: u32) -> Option<f64> {
     Some(high)
 }
 
-fn vary<N: RunNumber>(scheme: &NamedScheme, (h, cubic): (f64, bool), steps: u64, context: &N::Context) -> Variation {
-    let h = Rational::from_f64(h).expect("it is finite");
-    let step = LinearStep::of(&scheme.quadratic(), &h);
-    let number = |numerator: i64, denominator: i64| {
-        N::from_rational(&Rational::new(numerator.into(), denominator.into()), context)
-    };
-    let formula = if cubic { CUBIC } else { QUARTIC };
-    let potential = FormulaPotential::<N>::new(formula, &["q"], &[]).expect("it is a formula");
-    let start = (vec![number(AMPLITUDE.0, AMPLITUDE.1)], vec![number(0, 1)]);
-    let motion = Motion::new(potential, UnitMasses, start.0, start.1).expect("one coordinate");
-    let stepper = Stepper::with_context(scheme.quadratic(), &h, context).expect("it is positive");
-    let integrator: &mut VectorIntegrator<'_, N> = &mut stepper.with(motion.compensated_if(false));
-    let mut monitor = N::monitor(integrator, MONITOR_ORDER, (steps / 256).max(1)).expect("it is finite");
+fn vary(scheme: &NamedScheme, (h, cubic): (f64, bool), steps: u64, arithmetic: Arithmetic) -> Variation {
+    let step = LinearStep::of(&scheme.quadratic(), &rational(h));
+    let amplitude = Rational::new(AMPLITUDE.0.into(), AMPLITUDE.1.into());
+    let start = (vec![amplitude], vec![rational(0.0)]);
+    let system = of_formula(if cubic { CUBIC } else { QUARTIC }, &[], &["q"], start);
+    let h = integrator::step_size(h);
+    let mut run = start_in(arithmetic, &system, integrator::steps_of(scheme, &h, Begin::Step));
+    run.watch(MONITOR_ORDER, (steps / 256).max(1));
     let (mut least, mut largest) = (f64::INFINITY, 0.0_f64);
     for _ in 0..steps {
-        let finite = monitor.step(integrator).is_ok();
-        let state = integrator.state();
-        let invariant = step.invariant(state.q()[0].to_f64(), state.p()[0].to_f64());
+        let finite = run.watched_step().is_ok();
+        let invariant = step.invariant(run.q(0), run.p(0));
         (least, largest) = (least.min(invariant), largest.max(invariant));
         if !finite || largest > LEFT * least || invariant.is_nan() || least < 0.0 {
             largest = largest.max(LEFT * least.abs());
@@ -206,7 +195,7 @@ fn vary<N: RunNumber>(scheme: &NamedScheme, (h, cubic): (f64, bool), steps: u64,
         }
     }
     let ratio = if largest >= LEFT * least { LEFT } else { largest / least };
-    let said = monitor.report().verdict;
+    let said = run.said().verdict;
     Variation {
         ratio: Some(ratio),
         verdict: said.to_string(),

@@ -2,19 +2,24 @@
 
 use serde::{Deserialize, Serialize};
 use shadowstep::number::CorrectlyRounded;
-use shadowstep::problems::{Kepler, ProblemMotion};
+use shadowstep::problems::Kepler;
+use shadowstep::steps::integrator::VectorIntegrator;
 use shadowstep::tables::TableScheme;
-use shadowstep::{Motion, Rational, Real, Scheme, StepSize, Stepper, UnitMasses};
+use shadowstep::{Carried, Motion, Rational, Scheme, Stepper, UnitMasses};
 use shadowstep_scenes::Error;
-use shadowstep_scenes::computation::RunNumber;
+use shadowstep_scenes::arithmetic::Arithmetic;
+use shadowstep_scenes::computation::{Computation, RunNumber};
+use shadowstep_scenes::library::NamedScheme;
+use shadowstep_scenes::start::Begin;
 use shadowstep_studies::Continues;
 use shadowstep_studies::chart::{Axis, Chart, Curve};
 use shadowstep_studies::finding::Finding;
 use shadowstep_studies::verdict::Verdict;
 
 use crate::case::Case;
+use crate::integrator::{start, step_size, steps_of};
 use crate::suite::Suite;
-use crate::watched::setup;
+use crate::systems::shipped;
 
 /// The case.
 pub(super) struct Reversal;
@@ -97,44 +102,12 @@ impl Case for Reversal {
         2.2 * trial.longest() as f64 * suite.scheme(&trial.scheme).scheme.summary().evaluations as f64 * 20e-9
     }
 
-    fn measure<N: RunNumber>(
-        suite: &Suite,
-        trial: &Trial,
-        context: &N::Context,
-        continues: Continues<'_>,
-    ) -> Result<Back, Error> {
-        let scheme = &suite.scheme(&trial.scheme).quadratic();
-        if trial.fixed_point {
-            return Ok(in_fixed_point(scheme, trial, continues));
-        }
-        let h = Rational::new(scheme.summary().evaluations.into(), trial.inverse.into());
-        let stepper = |h: Rational| {
-            let h = StepSize::try_from(&h).expect("it is not 0");
-            Stepper::with_context(scheme.clone(), h, context).expect("it is a step size")
-        };
-        let (forth, negative) = (stepper(h.clone()), stepper(-h));
-        let start: ProblemMotion<N> = N::motion(&setup(trial.problem, &[]), context).expect("masses are positive");
-        let state = |motion: &ProblemMotion<N>| [motion.q(), motion.p()].concat();
-        let begin = state(&start);
-        let mut motion = start;
-        steps(&forth, &mut motion, SHORT);
-        let turned = state(&motion);
-        steps(&negative, &mut motion, SHORT);
-        let by_negative = state(&motion);
-        set(&mut motion, &turned);
-        steps_back(&forth, &mut motion, SHORT);
-        let to_negative = distance(&state(&motion), &by_negative);
-
-        let mut to_start = Vec::new();
-        for count in &trial.steps {
-            set(&mut motion, &begin);
-            steps(&forth, &mut motion, *count);
-            if continues(0.5) {
-                steps_back(&forth, &mut motion, *count);
-            }
-            to_start.push(distance(&begin, &state(&motion)));
-        }
-        Ok(Back { to_start, to_negative })
+    fn measure(suite: &Suite, trial: &Trial, arithmetic: Arithmetic, continues: Continues<'_>) -> Result<Back, Error> {
+        let scheme = suite.scheme(&trial.scheme);
+        Ok(match trial.fixed_point {
+            true => in_fixed_point(&scheme.quadratic(), trial, continues),
+            false => arithmetic.compute(Forth { scheme, trial, continues }),
+        })
     }
 
     fn judge(suite: &Suite, measured: &[(Trial, Back)]) -> Finding {
@@ -179,6 +152,56 @@ impl Case for Reversal {
     }
 }
 
+/// Steps forth and back.
+struct Forth<'a> {
+    scheme: &'a NamedScheme,
+    trial: &'a Trial,
+    continues: Continues<'a>,
+}
+
+impl Computation for Forth<'_> {
+    type Output = Back;
+
+    fn compute<N: RunNumber>(self, context: &N::Context) -> Back {
+        let Forth { scheme, trial, continues } = self;
+        let h = Rational::new(scheme.scheme.summary().evaluations.into(), trial.inverse.into());
+        let [h, minus_h] = [h.clone(), -h].map(step_size);
+        let system = shipped(trial.problem, &[]);
+        let [mut forth, mut negative] =
+            [&h, &minus_h].map(|h| start::<N>(&system, steps_of(scheme, h, Begin::Step), context));
+        let begin = state(&*forth);
+        forth.steps(SHORT);
+        set(&mut *negative, &state(&*forth));
+        negative.steps(SHORT);
+        steps_back(&mut *forth, SHORT);
+        let to_negative = distance(&state(&*forth), &state(&*negative));
+
+        let mut to_start = Vec::new();
+        for count in &trial.steps {
+            set(&mut *forth, &begin);
+            forth.steps(*count);
+            if continues(0.5) {
+                steps_back(&mut *forth, *count);
+            }
+            to_start.push(distance(&begin, &state(&*forth)));
+        }
+        Back { to_start, to_negative }
+    }
+}
+
+fn state<N: RunNumber>(integrator: &VectorIntegrator<'_, N>) -> Vec<N> {
+    [integrator.state().q(), integrator.state().p()].concat()
+}
+
+fn set<N: RunNumber>(integrator: &mut VectorIntegrator<'_, N>, state: &[N]) {
+    let (q, p) = state.split_at(state.len() / 2);
+    integrator.system().state_mut().set(q, p);
+}
+
+fn steps_back<N: RunNumber>(integrator: &mut VectorIntegrator<'_, N>, count: u64) {
+    (0..count).for_each(|_| integrator.step_back(Carried::Nothing));
+}
+
 /// Ranges of |q| and |p| that no orbit of Kepler's problem with e = 0.6 leaves.
 const RANGES: [[f64; 2]; 2] = [[4.0; 2], [8.0; 2]];
 
@@ -194,20 +217,6 @@ fn in_fixed_point(scheme: &TableScheme, trial: &Trial, continues: Continues<'_>)
         (0..count).for_each(|_| stepper.step_back(&mut motion));
     }
     Back { to_start: vec![distance(&begin, &[motion.q(), motion.p()].concat())], to_negative: 0.0 }
-}
-
-fn steps<N: Real + 'static>(stepper: &Stepper<TableScheme, N>, motion: &mut ProblemMotion<N>, count: u64) {
-    (0..count).for_each(|_| stepper.step(motion));
-}
-
-fn steps_back<N: Real + 'static>(stepper: &Stepper<TableScheme, N>, motion: &mut ProblemMotion<N>, count: u64) {
-    (0..count).for_each(|_| stepper.step_back(motion));
-}
-
-fn set<N: Real + 'static>(motion: &mut ProblemMotion<N>, state: &[N]) {
-    let (q, p) = state.split_at(state.len() / 2);
-    motion.q_mut().clone_from_slice(q);
-    motion.p_mut().clone_from_slice(p);
 }
 
 fn distance<N: CorrectlyRounded>(one: &[N], other: &[N]) -> f64 {

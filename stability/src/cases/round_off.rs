@@ -2,22 +2,22 @@
 
 use std::f64::consts::TAU;
 
-use num_traits::FromPrimitive;
 use serde::{Deserialize, Serialize};
-use shadowstep::problems::Kepler;
-use shadowstep::systems::summation::Compensated;
-use shadowstep::tables::TableScheme;
-use shadowstep::{Motion, Rational, Scheme, Stepper, UnitMasses};
+use shadowstep::steps::integrator::VectorIntegrator;
+use shadowstep::{Number, Rational, Scheme};
 use shadowstep_scenes::Error;
 use shadowstep_scenes::arithmetic::Arithmetic;
 use shadowstep_scenes::computation::RunNumber;
+use shadowstep_scenes::start::{Begin, Steps};
 use shadowstep_studies::Continues;
 use shadowstep_studies::chart::{Axis, Chart, Curve};
 use shadowstep_studies::finding::Finding;
 use shadowstep_studies::verdict::Verdict;
 
 use crate::case::Case;
+use crate::integrator::{self, step_size, steps_of};
 use crate::suite::{Examined, Suite};
+use crate::systems::{known_values, rational, shipped};
 
 /// The case.
 pub(super) struct RoundOff;
@@ -99,35 +99,33 @@ impl Case for RoundOff {
         *trial.steps.last().expect("there are some") as f64 * evaluations as f64 * 20e-9
     }
 
-    fn measure<N: RunNumber>(
-        suite: &Suite,
-        trial: &Trial,
-        context: &N::Context,
-        continues: Continues<'_>,
-    ) -> Result<Changes, Error> {
-        let scheme = &suite.scheme(&trial.scheme).quadratic();
-        let h = Rational::new(scheme.summary().evaluations.into(), STEPS_A_UNIT.into());
-        let stepper = Stepper::with_context(scheme.clone(), &h, context).expect("it is positive");
+    fn measure(suite: &Suite, trial: &Trial, _: Arithmetic, continues: Continues<'_>) -> Result<Changes, Error> {
+        let scheme = suite.scheme(&trial.scheme);
+        let h = step_size(Rational::new(scheme.scheme.summary().evaluations.into(), STEPS_A_UNIT.into()));
         let (q, p) = start(f64::from(trial.phase) / f64::from(PHASES));
-        let number = |x: f64| N::from_rational(&Rational::from_f64(x).expect("it is finite"), context);
-        let motion = Motion::new(Kepler, UnitMasses, q.map(number).to_vec(), p.map(number).to_vec());
-        let motion = motion.expect("two coordinates").compensated_if(trial.sums == Sums::Compensated);
-        let (initial, mut error, mut motion) = modified_energy(&stepper, motion);
+        let mut system = shipped("kepler", &[]);
+        [system.problem.q, system.problem.p] = [q, p].map(|values| known_values(values.map(rational)));
+        let compensated = trial.sums == Sums::Compensated;
+        let steps = Steps { compensated, ..steps_of(scheme, &h, Begin::Step) };
+        let orbit = &mut *integrator::start::<f64>(&system, steps, &());
+        let (initial, mut error) = modified_energy(orbit);
         let (mut n, mut changes) = (0, Vec::new());
         for steps in &trial.steps {
             while n < *steps {
                 let next = (n + 1_000_000).min(*steps);
-                (n..next).for_each(|_| stepper.step(&mut motion));
+                orbit.steps(next - n);
                 n = next;
                 if !continues(n as f64 / trial.steps[trial.steps.len() - 1] as f64) {
                     return Ok(Changes { changes, error });
                 }
             }
-            // of a copy: the estimate's steps are not counted
-            let (mut value, own_error, _) = modified_energy(&stepper, motion.clone());
-            value.subtract(&initial);
+            // the orbit goes on from here: the estimate's steps are not counted
+            let here = orbit.state().clone();
+            let (value, own_error) = modified_energy(orbit);
+            orbit.system().state_mut().set(here.q(), here.p());
+            orbit.system().state_mut().set_remainders(&here.remainders());
             error = error.max(own_error);
-            changes.push(value.to_f64() / ENERGY);
+            changes.push((value - initial) / ENERGY);
         }
         Ok(Changes { changes, error: error / ENERGY.abs() })
     }
@@ -185,23 +183,19 @@ fn start(part: f64) -> ([f64; 2], [f64; 2]) {
     ([cos - ECCENTRICITY, minor * sin], [-sin / distance, minor * cos / distance])
 }
 
-type Orbit<N> = Motion<N, Vec<N>, Kepler, UnitMasses, Option<Compensated<N, Vec<N>>>>;
-
-/// The modified energy with the least estimated error of the next period, that error, and the orbit after the period.
-fn modified_energy<N: RunNumber>(stepper: &Stepper<TableScheme, N>, orbit: Orbit<N>) -> (N, f64, Orbit<N>) {
-    let mut integrator = stepper.with(orbit);
-    let mut monitor = N::monitor(&mut integrator, ORDER, 1).expect("the orbit is finite");
-    let mut best: Option<(N, f64)> = None;
-    let period = (TAU / <f64 as shadowstep::Number>::from_rational(stepper.h(), &())).ceil() as u64;
+/// The modified energy with the least estimated error of the next period, and that error.
+fn modified_energy(orbit: &mut VectorIntegrator<'_, f64>) -> (f64, f64) {
+    let mut monitor = f64::monitor(orbit, ORDER, 1).expect("the orbit is finite");
+    let mut best: Option<(f64, f64)> = None;
+    let period = (TAU / <f64 as Number>::from_rational(orbit.step_size().exact(), &())).ceil() as u64;
     for _ in 0..period {
-        let Some(sample) = monitor.step(&mut integrator).expect("the orbit is finite") else { continue };
-        let error = sample.error.map_or(f64::INFINITY, |error| error.to_f64());
-        if best.as_ref().is_none_or(|(_, least)| error < *least) {
-            best = Some((sample.modified.clone(), error));
+        let Some(sample) = monitor.step(orbit).expect("the orbit is finite") else { continue };
+        let error = *sample.error.unwrap_or(&f64::INFINITY);
+        if best.is_none_or(|(_, least)| error < least) {
+            best = Some((*sample.modified, error));
         }
     }
-    let (modified, error) = best.expect("a period has windows");
-    (modified, error, integrator.into_system())
+    best.expect("a period has windows")
 }
 
 /// The growth of the changes of all phases of a scheme.

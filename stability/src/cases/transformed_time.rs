@@ -3,19 +3,17 @@
 use std::f64::consts::TAU;
 use std::path::Path;
 
-use num_traits::FromPrimitive;
 use serde::{Deserialize, Serialize};
 use shadowstep::number::CorrectlyRounded;
-use shadowstep::problems::Kepler;
 use shadowstep::shadow::Verdict as MonitorVerdict;
-use shadowstep::steps::integrator::VectorIntegrator;
-use shadowstep::systems::kinetic::General;
-use shadowstep::systems::transformed_time::{TimeTransformation, TransformedKinetic, TransformedPotential};
+use shadowstep::systems::transformed_time::TimeTransformation;
 use shadowstep::tables::{First, TableScheme};
-use shadowstep::{Motion, Number, Rational, Stepper, UnitMasses};
-use shadowstep_scenes::Error;
-use shadowstep_scenes::computation::RunNumber;
+use shadowstep::{Number, Rational, StepSize};
+use shadowstep_scenes::arithmetic::Arithmetic;
+use shadowstep_scenes::computation::{Computation, RunNumber};
 use shadowstep_scenes::library::{NamedScheme, scheme_from};
+use shadowstep_scenes::start::Begin;
+use shadowstep_scenes::{Error, Parts, System};
 use shadowstep_schemes::MapKind;
 use shadowstep_studies::Continues;
 use shadowstep_studies::chart::{Axis, Chart, Curve};
@@ -23,7 +21,9 @@ use shadowstep_studies::finding::Finding;
 use shadowstep_studies::verdict::Verdict;
 
 use crate::case::Case;
+use crate::integrator::{step_size, steps_of};
 use crate::suite::{Examined, Suite};
+use crate::systems::{rational, shipped};
 use crate::watched::MONITOR_ORDER;
 
 /// The case.
@@ -90,17 +90,12 @@ impl Case for TransformedTime {
         f64::from(trial.periods) * TAU / STEP * 80e-9
     }
 
-    fn measure<N: RunNumber>(
-        suite: &Suite,
-        trial: &Trial,
-        context: &N::Context,
-        continues: Continues<'_>,
-    ) -> Result<Orbit, Error> {
+    fn measure(suite: &Suite, trial: &Trial, arithmetic: Arithmetic, continues: Continues<'_>) -> Result<Orbit, Error> {
         let named = suite.scheme(&trial.scheme);
         let gammas = gammas(&named.quadratic()).expect("others are left out");
-        let h = Rational::from_f64(STEP).expect("it is finite") * Rational::from_integer(gammas.len().into());
-        let stepper = Stepper::with_context(drift_first(named)?, &h, context).expect("it is positive");
-        Ok(followed::<N>(&stepper, &gammas, trial, context, continues))
+        let h = step_size(rational(STEP) * Rational::from_integer(gammas.len().into()));
+        let scheme = &drift_first(named)?;
+        Ok(arithmetic.compute(Follow { scheme, h: &h, gammas: &gammas, trial, continues }))
     }
 
     fn judge(suite: &Suite, measured: &[(Trial, Orbit)]) -> Finding {
@@ -151,12 +146,20 @@ fn verdicts(all: &[(Trial, Orbit)]) -> String {
 }
 
 /// The scheme that begins with a drift.
-fn drift_first(named: &NamedScheme) -> Result<TableScheme<General>, Error> {
+fn drift_first(named: &NamedScheme) -> Result<NamedScheme, Error> {
     let named = scheme_from(&named.name, Path::new(""), Some(First::Drift))?;
-    named
-        .quadratic()
-        .for_every_kinetic()
-        .map_err(|error| Error::usage(error.to_string(), "use a composition of the leapfrog"))
+    match named.quadratic().for_every_kinetic() {
+        Ok(_) => Ok(named),
+        Err(error) => Err(Error::usage(error.to_string(), "use a composition of the leapfrog")),
+    }
+}
+
+/// Kepler's problem in logarithmic time.
+fn system() -> System {
+    let mut system = shipped("kepler", &[]);
+    let parts = shadowstep_scenes::TransformedTime::of(TimeTransformation::Logarithmic, &system, true);
+    system.parts = Parts::TransformedTime(parts.expect("U is negative"));
+    system
 }
 
 /// The γ_i of a composition of leapfrogs, which are the kicks of a step that begins with a drift; `None` of another scheme.
@@ -180,43 +183,49 @@ fn gammas(scheme: &TableScheme) -> Option<Vec<Rational>> {
 }
 
 /// Follows an orbit beside its closed form.
-fn followed<N: RunNumber>(
-    stepper: &Stepper<TableScheme<General>, N>,
-    gammas: &[Rational],
-    trial: &Trial,
-    context: &N::Context,
-    continues: Continues<'_>,
-) -> Orbit {
-    let mut ellipse = Ellipse::<N>::new(stepper.h(), gammas, trial.k, context);
-    let time = TimeTransformation::Logarithmic;
-    let (potential, kinetic) = (TransformedPotential::new(time, Kepler), TransformedKinetic::new(time, UnitMasses));
-    let (q, p) = ellipse.pericentre();
-    let motion = Motion::new(potential, kinetic, q.to_vec(), p.to_vec()).expect("three coordinates");
-    let h = <f64 as Number>::from_rational(stepper.h(), &());
-    let steps = (f64::from(trial.periods) * TAU / h) as u64;
-    let integrator: &mut VectorIntegrator<'_, N> = &mut stepper.with(motion.compensated_if(false));
-    let mut monitor = N::monitor(integrator, MONITOR_ORDER, (steps / 256).max(1)).expect("it is finite");
-    let unit = 2_f64.powi(-(<N as CorrectlyRounded>::precision(context).in_bits() as i32));
-    let mut worst = [0.0_f64; 4];
-    for n in 1..=steps {
-        let finite = monitor.step(integrator).is_ok();
-        let found = ellipse.deviations(n, integrator.state().q(), integrator.state().p());
-        let leapfrogs = n as f64 * gammas.len() as f64;
-        let (wander, phase) = (unit * leapfrogs.sqrt(), unit * leapfrogs.powf(1.5));
-        let allowed = [wander, wander / ellipse.angular_momentum.to_f64(), phase, phase];
-        for (worst, (found, allowed)) in worst.iter_mut().zip(found.into_iter().zip(allowed)) {
-            // what is not a number is the worst; JSON has no infinity
-            *worst = if found.is_nan() { f64::MAX } else { worst.max(found / allowed).min(f64::MAX) };
+#[derive(Clone, Copy)]
+struct Follow<'a> {
+    scheme: &'a NamedScheme,
+    h: &'a StepSize,
+    gammas: &'a [Rational],
+    trial: &'a Trial,
+    continues: Continues<'a>,
+}
+
+impl Computation for Follow<'_> {
+    type Output = Orbit;
+
+    fn compute<N: RunNumber>(self, context: &N::Context) -> Orbit {
+        let Follow { scheme, h, gammas, trial, continues } = self;
+        let mut ellipse = Ellipse::<N>::new(h.exact(), gammas, trial.k, context);
+        let (q, p) = ellipse.pericentre();
+        let integrator = system().integrator(steps_of(scheme, h, Begin::Step), (q.to_vec(), p.to_vec()), context);
+        let integrator = &mut *integrator.expect("three coordinates");
+        let h = <f64 as Number>::from_rational(h.exact(), &());
+        let steps = (f64::from(trial.periods) * TAU / h) as u64;
+        let mut monitor = N::monitor(integrator, MONITOR_ORDER, (steps / 256).max(1)).expect("it is finite");
+        let unit = 2_f64.powi(-(<N as CorrectlyRounded>::precision(context).in_bits() as i32));
+        let mut worst = [0.0_f64; 4];
+        for n in 1..=steps {
+            let finite = monitor.step(integrator).is_ok();
+            let found = ellipse.deviations(n, integrator.state().q(), integrator.state().p());
+            let leapfrogs = n as f64 * gammas.len() as f64;
+            let (wander, phase) = (unit * leapfrogs.sqrt(), unit * leapfrogs.powf(1.5));
+            let allowed = [wander, wander / ellipse.angular_momentum.to_f64(), phase, phase];
+            for (worst, (found, allowed)) in worst.iter_mut().zip(found.into_iter().zip(allowed)) {
+                // what is not a number is the worst; JSON has no infinity
+                *worst = if found.is_nan() { f64::MAX } else { worst.max(found / allowed).min(f64::MAX) };
+            }
+            if !finite || (n % 1024 == 0 && !continues(n as f64 / steps as f64)) {
+                break;
+            }
         }
-        if !finite || (n % 1024 == 0 && !continues(n as f64 / steps as f64)) {
-            break;
-        }
+        let verdict = monitor.report().verdict;
+        let [energy, angular_momentum, position, time] = worst;
+        let period = h / ellipse.turn.to_f64() - 1.0;
+        let too_large = matches!(verdict, MonitorVerdict::TooLarge(_) | MonitorVerdict::NearResonance { .. });
+        Orbit { steps, energy, angular_momentum, position, time, period, too_large, verdict: verdict.to_string() }
     }
-    let verdict = monitor.report().verdict;
-    let [energy, angular_momentum, position, time] = worst;
-    let period = h / ellipse.turn.to_f64() - 1.0;
-    let too_large = matches!(verdict, MonitorVerdict::TooLarge(_) | MonitorVerdict::NearResonance { .. });
-    Orbit { steps, energy, angular_momentum, position, time, period, too_large, verdict: verdict.to_string() }
 }
 
 /// The closed form of the steps on an orbit with a = 1 that begins at its pericentre.
@@ -297,7 +306,6 @@ impl<N: CorrectlyRounded> Ellipse<N> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use shadowstep_scenes::arithmetic::Arithmetic;
     use shadowstep_scenes::library::scheme;
 
     #[test]
@@ -314,14 +322,13 @@ mod tests {
     fn the_steps_are_those_of_the_closed_form() {
         let suite = Suite::new(vec![scheme("yoshida4").unwrap()], Arithmetic::DOUBLE, true);
         let trial = TransformedTime::trials(&suite).pop().unwrap();
-        let orbit = TransformedTime::measure::<f64>(&suite, &trial, &(), &|_| true).unwrap();
+        let orbit = TransformedTime::measure(&suite, &trial, Arithmetic::DOUBLE, &|_| true).unwrap();
         assert!(!orbit.too_large && orbit.position < MOST && orbit.time < MOST, "{} {}", orbit.position, orbit.time);
         // another turn is seen
-        let stepper = Stepper::new(drift_first(&suite.schemes_or(&[])[0].scheme).unwrap(), "3/20").unwrap();
-        let wrong =
-            followed::<f64>(&stepper, &gammas(&scheme("suzuki4").unwrap().quadratic()).unwrap(), &trial, &(), &|_| {
-                true
-            });
+        let scheme = &drift_first(&suite.schemes_or(&[])[0].scheme).unwrap();
+        let gammas = &gammas(&self::scheme("suzuki4").unwrap().quadratic()).unwrap();
+        let follow = Follow { scheme, h: &step_size("3/20"), gammas, trial: &trial, continues: &|_| true };
+        let wrong = Arithmetic::DOUBLE.compute(follow);
         assert!(wrong.position > 1e6, "{}", wrong.position);
     }
 }

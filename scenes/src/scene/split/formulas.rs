@@ -2,8 +2,9 @@
 
 use serde_json::{Value, json};
 use shadowstep::number::CorrectlyRounded;
-use shadowstep::systems::many_parts::{Part, PartFormula, SystemOfParts};
+use shadowstep::systems::many_parts::{Part, PartError, PartFormula, SystemOfParts};
 use shadowstep::{MotionError, System as _};
+use shadowstep_symbolic::Exact;
 
 use super::{Class, Needs, Split, State};
 use crate::scene::{EnergyAt, Formula, InitialValueProblem};
@@ -51,6 +52,18 @@ impl Split for Formulas {
 }
 
 impl Formulas {
+    /// Two parts or more, in these coordinates and their momenta, with the values of parameters.
+    ///
+    /// # Errors
+    /// A text that is not a valid formula of these, or whose flow is not known.
+    pub fn new(
+        formulas: &[&str],
+        names: (&[String], &[String]),
+        parameters: &[(String, Exact)],
+    ) -> Result<Self, PartError> {
+        formulas.iter().map(|text| Formula::part(text, names, parameters)).collect::<Result<_, _>>().map(Formulas)
+    }
+
     /// The system of these parts at a state.
     fn system<N: CorrectlyRounded + 'static>(
         &self,

@@ -52,6 +52,11 @@ impl Split for Linear {
 const CHANGE: &str = "remove `parts`, or change that";
 
 impl Linear {
+    /// T(p) + ½qᵀKq with this K, row by row, of a system with as many coordinates, and what is left of U.
+    pub fn new(stiffness: Vec<Vec<Rational>>) -> Self {
+        Linear(stiffness)
+    }
+
     /// The parts of a system in this arithmetic; `of_bodies` if it is one of bodies that attract each other.
     ///
     /// # Errors

@@ -102,7 +102,7 @@ impl TransformedTime {
     ///
     /// # Errors
     /// A system that is split in another way, or whose U is not negative at its initial state.
-    pub(crate) fn of(time: TimeTransformation, problem: &InitialValueProblem, plain: bool) -> Result<Self, Refusal> {
+    pub fn of(time: TimeTransformation, problem: &InitialValueProblem, plain: bool) -> Result<Self, Refusal> {
         if !plain {
             return Err(Refusal::new(
                 "transformed time requires the parts T(p) and U(q): others have no explicit flows in it",
