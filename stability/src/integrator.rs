@@ -92,11 +92,11 @@ pub(crate) trait AnyIntegrator {
     fn watched_step(&mut self) -> Result<bool, RunError>;
 
     /// What the monitor has seen.
-    fn said(&self) -> Said;
+    fn monitor_outcome(&self) -> MonitorOutcome;
 }
 
-/// What a monitor says of a run.
-pub(crate) struct Said {
+/// What a monitor reports of a run.
+pub(crate) struct MonitorOutcome {
     /// The steps that were made.
     pub(crate) steps: u64,
     /// max − min of H
@@ -175,10 +175,10 @@ impl<N: RunNumber> AnyIntegrator for InNumbers<N> {
         monitor.step(&mut *self.integrator).map(|sample| sample.is_some())
     }
 
-    fn said(&self) -> Said {
+    fn monitor_outcome(&self) -> MonitorOutcome {
         let monitor = self.monitor.as_ref().expect(WATCHED);
         let report = monitor.report();
-        Said {
+        MonitorOutcome {
             steps: monitor.n(),
             energy_error: report.energy_error.to_f64(),
             kinetic: report.kinetic.to_f64(),

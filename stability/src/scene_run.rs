@@ -6,7 +6,7 @@ use shadowstep_scenes::arithmetic::{Arithmetic, DigitsLabel};
 use shadowstep_scenes::{Error, Observer, Scene, Summary};
 use shadowstep_studies::Continues;
 
-/// What a run said at its end.
+/// What a run reported at its end.
 #[derive(Serialize, Deserialize)]
 pub(crate) enum RunResult {
     /// It is complete.

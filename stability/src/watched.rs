@@ -14,7 +14,7 @@ const REPORTS: u64 = 50;
 /// Whether to continue is asked so often at most.
 const QUESTIONS: u64 = 64;
 
-/// What a monitor said of a run.
+/// What a monitor reported of a run.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub(crate) struct Watched {
     /// The steps that were made: less than requested if a state was not finite, or the run was ended.
@@ -77,7 +77,7 @@ pub(crate) fn watched(
         };
         if ended && alarm.is_none() && n >= next_report {
             next_report = n + n / REPORTS;
-            let verdict = run.said().verdict;
+            let verdict = run.monitor_outcome().verdict;
             if is_alarm(verdict) {
                 (alarm, alarmed) = (Some(n), Some(verdict.to_string()));
             }
@@ -87,7 +87,7 @@ pub(crate) fn watched(
             break;
         }
     }
-    let said = run.said();
+    let said = run.monitor_outcome();
     let energy_error = said.energy_error / said.kinetic;
     Watched {
         steps: said.steps,

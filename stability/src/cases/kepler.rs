@@ -177,7 +177,7 @@ impl Apocentres {
     }
 }
 
-/// What became of an orbit, and what the monitor said of it.
+/// What became of an orbit, and what the monitor reported of it.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Outcome {
     Kept { alarm: bool },

@@ -40,7 +40,7 @@ pub(super) struct Trial {
 pub(super) struct Variation {
     /// Largest over least value of the invariant of the linear step; `None` if the scheme is unstable before it turns so far.
     ratio: Option<f64>,
-    /// What the monitor said.
+    /// What the monitor reported.
     verdict: String,
     fine: bool,
     resonance: bool,
@@ -195,7 +195,7 @@ fn vary(scheme: &NamedScheme, (h, cubic): (f64, bool), steps: u64, arithmetic: A
         }
     }
     let ratio = if largest >= LEFT * least { LEFT } else { largest / least };
-    let said = run.said().verdict;
+    let said = run.monitor_outcome().verdict;
     Variation {
         ratio: Some(ratio),
         verdict: said.to_string(),

@@ -133,7 +133,7 @@ impl Case for TransformedTime {
     }
 }
 
-/// What the monitor said of how many orbits.
+/// What the monitor reported of how many orbits.
 fn verdicts(all: &[(Trial, Orbit)]) -> String {
     let mut counts: Vec<(&str, usize)> = Vec::new();
     for (_, orbit) in all {
