@@ -12,7 +12,7 @@ use shadowstep_symbolic::decimal::to_text;
 use shadowstep_work_precision::problem::Problem;
 
 use crate::quantity::{self, whole};
-use crate::run_arguments::SystemArguments;
+use crate::run_arguments::{NumberArguments, SystemArguments};
 use crate::system::{Described, is_file};
 
 /// The system, the end of the runs and the number type.
@@ -29,27 +29,8 @@ pub(crate) struct PosedArguments {
     /// MPFR's numbers, also for up to 307 digits, for which numbers of some limbs of 64 bits take less time
     #[arg(long, requires = "digits")]
     mpfr: bool,
-    /// Double precision (f64) instead of the digits of the scene
-    #[arg(long, conflicts_with = "digits")]
-    double: bool,
-    /// Double precision in which positions and momenta are sums with remainders: less round-off in long runs, for up to half more time
-    #[arg(long, conflicts_with_all = ["digits", "double"])]
-    compensated: bool,
-    /// Numbers that are sums of two doubles, about 32 digits, for 4 to 9 times the time of double precision
-    #[arg(long, conflicts_with_all = ["digits", "double", "compensated"])]
-    double_double: bool,
-}
-
-impl PosedArguments {
-    /// The number type that a flag names.
-    fn named(&self) -> Option<Arithmetic> {
-        let flags = [
-            (self.double, Arithmetic::DOUBLE),
-            (self.compensated, Arithmetic::COMPENSATED),
-            (self.double_double, Arithmetic::DOUBLE_DOUBLE),
-        ];
-        flags.into_iter().find_map(|(given, arithmetic)| given.then_some(arithmetic))
-    }
+    #[command(flatten)]
+    numbers: NumberArguments,
 }
 
 /// Whether the scene has a section [run], whose number type is that of the runs.
@@ -68,7 +49,8 @@ pub(crate) struct PosedProblem {
 impl PosedProblem {
     pub(crate) fn read(arguments: &PosedArguments) -> Result<Self, Error> {
         let path = arguments.system.problem().filter(|word| is_file(word));
-        let is_complete = arguments.until.is_some() && (arguments.named().is_some() || arguments.digits.is_some());
+        let named = arguments.numbers.arithmetic();
+        let is_complete = arguments.until.is_some() && (named.is_some() || arguments.digits.is_some());
         let scene = match path.filter(|_| !is_complete) {
             Some(path) if arguments.until.is_none() || has_run(path)? => Some(Scene::open(Path::new(path))?),
             // without [run], a scene is only a system
@@ -81,7 +63,7 @@ impl PosedProblem {
             }
             (None, scene) => {
                 let of_scene = scene.as_ref().map_or(Arithmetic::DOUBLE, |scene| scene.arithmetic);
-                arguments.named().unwrap_or(of_scene)
+                named.unwrap_or(of_scene)
             }
         };
         let until = match (&arguments.until, &scene) {

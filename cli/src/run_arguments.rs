@@ -3,7 +3,7 @@
 use clap::Args;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use shadowstep::shadow::{EstimatorSettings, HIGHEST_ORDER, SelectionRule, StoppingRule};
-use shadowstep_scenes::arithmetic::{DEFAULT_DIGITS, MOST_DIGITS};
+use shadowstep_scenes::arithmetic::{Arithmetic, DEFAULT_DIGITS, MOST_DIGITS};
 
 use crate::output::OutputArguments;
 use crate::quantity::whole;
@@ -30,15 +30,8 @@ pub(crate) struct RunArguments {
     /// MPFR's numbers, also for up to 307 digits, for which numbers of some limbs of 64 bits take less time
     #[arg(long)]
     pub(crate) mpfr: bool,
-    /// Double precision (f64) instead of --digits
-    #[arg(long, conflicts_with_all = ["digits", "mpfr"])]
-    pub(crate) double: bool,
-    /// Double precision in which positions and momenta are sums with remainders: less round-off in long runs, for up to half more time
-    #[arg(long, conflicts_with_all = ["digits", "mpfr", "double"])]
-    pub(crate) compensated: bool,
-    /// Numbers that are sums of two doubles, about 32 digits, for 4 to 9 times the time of double precision
-    #[arg(long, conflicts_with_all = ["digits", "mpfr", "double", "compensated"])]
-    pub(crate) double_double: bool,
+    #[command(flatten)]
+    pub(crate) numbers: NumberArguments,
     /// How the modified energy is estimated
     #[arg(long, value_name = "NAME", default_value = EstimatorSettings::NAMES[0], value_parser = words(EstimatorSettings::NAMES, EstimatorSettings::SUMMARIES))]
     pub(crate) estimator: String,
@@ -68,6 +61,32 @@ pub(crate) struct RunArguments {
     pub(crate) strict: bool,
     #[command(flatten)]
     pub(crate) output: OutputArguments,
+}
+
+/// A number type that has a flag in place of digits.
+#[derive(Debug, Args)]
+pub(crate) struct NumberArguments {
+    /// Double precision (f64) instead of the digits
+    #[arg(long, conflicts_with_all = ["digits", "mpfr"])]
+    double: bool,
+    /// Double precision in which positions and momenta are sums with remainders: less round-off in long runs, for up to half more time
+    #[arg(long, conflicts_with_all = ["digits", "mpfr", "double"])]
+    compensated: bool,
+    /// Numbers that are sums of two doubles, about 32 digits, for 4 to 9 times the time of double precision
+    #[arg(long, conflicts_with_all = ["digits", "mpfr", "double", "compensated"])]
+    double_double: bool,
+}
+
+impl NumberArguments {
+    /// The number type, if there is a flag.
+    pub(crate) fn arithmetic(&self) -> Option<Arithmetic> {
+        let flags = [
+            (self.double, Arithmetic::DOUBLE),
+            (self.compensated, Arithmetic::COMPENSATED),
+            (self.double_double, Arithmetic::DOUBLE_DOUBLE),
+        ];
+        flags.into_iter().find_map(|(given, arithmetic)| given.then_some(arithmetic))
+    }
 }
 
 /// The system: a shipped problem, that of a scene, or a formula.

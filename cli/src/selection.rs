@@ -104,11 +104,9 @@ impl Selection {
 }
 
 fn arithmetic(arguments: &RunArguments) -> Result<Arithmetic, Error> {
-    match (arguments.double, arguments.compensated, arguments.double_double) {
-        (true, ..) => Ok(Arithmetic::DOUBLE),
-        (_, true, _) => Ok(Arithmetic::COMPENSATED),
-        (.., true) => Ok(Arithmetic::DOUBLE_DOUBLE),
-        _ => Arithmetic::of_digits(arguments.digits, arguments.mpfr)
+    match arguments.numbers.arithmetic() {
+        Some(named) => Ok(named),
+        None => Arithmetic::of_digits(arguments.digits, arguments.mpfr)
             .map_err(|error| Error::usage(error.to_string(), "use --digits 120")),
     }
 }

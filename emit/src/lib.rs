@@ -51,9 +51,9 @@ use thiserror::Error;
 
 use step::Step;
 
-/// Makes the enum of all targets, with their names, from one list.
+/// Makes the enum of all targets from one list `Variant: name, function`: the function writes a scheme.
 macro_rules! targets {
-    ($($(#[$doc:meta])* $Name:ident: $name:literal,)+) => {
+    ($($(#[$doc:meta])* $Name:ident: $name:literal, $write:path;)+) => {
         /// What a scheme is emitted to.
         #[derive(Clone, Copy, Debug, PartialEq, Eq)]
         pub enum Target {
@@ -68,29 +68,33 @@ macro_rules! targets {
             pub fn name(self) -> &'static str {
                 match self { $(Target::$Name => $name,)+ }
             }
+
+            fn write(self, step: &Step<'_>) -> String {
+                match self { $(Target::$Name => $write(step),)+ }
+            }
         }
     };
 }
 
 targets! {
     /// A module for NumPy.
-    Python: "python",
+    Python: "python", python::module;
     /// A module for JAX.
-    Jax: "jax",
+    Jax: "jax", jax::module;
     /// A header of C99.
-    C: "c",
+    C: "c", c::header;
     /// A Julia module.
-    Julia: "julia",
+    Julia: "julia", julia::module;
     /// A module of Fortran 2008.
-    Fortran: "fortran",
+    Fortran: "fortran", fortran::module;
     /// A Python function that makes a `CustomIntegrator`.
-    Openmm: "openmm",
+    Openmm: "openmm", openmm::module;
     /// A header with an `ARKodeSPRKTable` for ARKODE's SPRKStep.
-    Sundials: "sundials",
+    Sundials: "sundials", sundials::header;
     /// A header that registers a scheme for `TSBASICSYMPLECTIC`.
-    Petsc: "petsc",
+    Petsc: "petsc", petsc::header;
     /// A table of the coefficients.
-    Latex: "latex",
+    Latex: "latex", latex::table;
 }
 
 impl fmt::Display for Target {
@@ -141,18 +145,7 @@ pub fn emit(scheme: &TableScheme, target: Target) -> Result<String, Refusal> {
         let scheme = proved.scheme.table.name.value.clone();
         return Err(Refusal { scheme, reason, hint: hint.to_owned() });
     }
-    let step = Step::of(scheme);
-    Ok(match target {
-        Target::Python => python::module(&step),
-        Target::Jax => jax::module(&step),
-        Target::C => c::header(&step),
-        Target::Julia => julia::module(&step),
-        Target::Fortran => fortran::module(&step),
-        Target::Openmm => openmm::module(&step),
-        Target::Sundials => sundials::header(&step),
-        Target::Petsc => petsc::header(&step),
-        Target::Latex => latex::table(&step),
-    })
+    Ok(target.write(&Step::of(scheme)))
 }
 
 /// Which feature of a scheme a target does not support, and what would be right.

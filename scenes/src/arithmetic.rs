@@ -66,6 +66,17 @@ pub enum Digits {
     Mpfr(Precision),
 }
 
+/// Calls a macro with the types of these numbers.
+macro_rules! number_types {
+    ($of:ident) => {
+        $of!(f64, shadowstep::number::DoubleDouble, shadowstep::number::AnyLimbs);
+        #[cfg(feature = "mpfr")]
+        $of!(shadowstep::number::Float);
+    };
+}
+
+pub(crate) use number_types;
+
 /// The most digits that numbers of limbs have in a run; references to compare with may have one limb more.
 const MOST_LIMBS: usize = 16;
 
@@ -75,6 +86,15 @@ impl Numbers {
             Numbers::Double => 16,
             Numbers::DoubleDouble => 32,
             Numbers::Digits(digits, _) => digits,
+        }
+    }
+
+    /// How many times the operations of `f64` cost more in it, approximately.
+    pub fn cost(self) -> f64 {
+        match self {
+            Numbers::Double => 1.0,
+            Numbers::DoubleDouble => 6.0,
+            Numbers::Digits(digits, _) => 30.0 + f64::from(digits).powf(1.5) / 20.0,
         }
     }
 

@@ -3,15 +3,13 @@
 use std::ops::ControlFlow;
 
 use shadowstep::StepSize;
-#[cfg(feature = "mpfr")]
-use shadowstep::number::Float;
-use shadowstep::number::{AnyLimbs, DoubleDouble};
 use shadowstep::shadow::run::RunError;
 use shadowstep::shadow::{
     Bilinear, BuildEstimator, Estimator, EstimatorError, EstimatorSettings, Monitor, Report, Sample,
 };
 use shadowstep::steps::integrator::VectorIntegrator;
 
+use crate::arithmetic::number_types;
 use crate::error::Error;
 use crate::follow::{Follower, follow};
 use crate::scene::SceneNumber;
@@ -148,6 +146,4 @@ macro_rules! run_numbers {
     )*};
 }
 
-run_numbers!(f64, DoubleDouble, AnyLimbs);
-#[cfg(feature = "mpfr")]
-run_numbers!(Float);
+number_types!(run_numbers);

@@ -4,7 +4,7 @@ use serde::de::DeserializeOwned;
 use serde::{Serialize, Serializer};
 use serde_json::{Value, json};
 use shadowstep_scenes::Error;
-use shadowstep_scenes::arithmetic::{Arithmetic, Numbers};
+use shadowstep_scenes::arithmetic::Arithmetic;
 use shadowstep_studies::finding::Finding;
 use shadowstep_studies::{Calculation, Continues};
 
@@ -78,7 +78,7 @@ fn trials<C: Case>(suite: &Suite) -> Vec<Trial<'_>> {
     let arithmetic = C::arithmetic(suite);
     let prepare = |trial: C::Trial| Trial {
         key: json!({ "case": C::NAME, "revision": C::REVISION, "digits": arithmetic.label(), "trial": trial }),
-        seconds: C::seconds(suite, &trial) * arithmetic_cost(arithmetic),
+        seconds: C::seconds(suite, &trial) * arithmetic.numbers().cost(),
         measure: Box::new(move |continues| {
             let measured = C::measure(suite, &trial, arithmetic, continues)?;
             Ok(serde_json::to_value(measured)?)
@@ -92,15 +92,6 @@ fn finding<C: Case>(suite: &Suite, results: Vec<Option<Value>>) -> Finding {
     let pairs =
         C::trials(suite).into_iter().zip(results).filter_map(|(trial, result)| Some((trial, measured(result)?)));
     C::judge(suite, &pairs.collect::<Vec<_>>())
-}
-
-/// How many times the operations of `f64` cost more in a number type, approximately.
-fn arithmetic_cost(arithmetic: Arithmetic) -> f64 {
-    match arithmetic.numbers() {
-        Numbers::Double => 1.0,
-        Numbers::DoubleDouble => 6.0,
-        Numbers::Digits(digits, _) => 30.0 + f64::from(digits).powf(1.5) / 20.0,
-    }
 }
 
 /// A computation of a case.

@@ -196,19 +196,12 @@ impl<S: Scheme + ValidFor<M::Class>, M: System> Integrator for WithStepper<'_, S
 
     #[inline]
     fn step(&mut self, carried: Carried) {
-        match carried {
-            Carried::Nothing => self.stepper.step(&mut self.system),
-            Carried::Rate => self.stepper.step_before_augmented(&mut self.system),
-            Carried::Increments => self.stepper.step_augmented(&mut self.system),
-        }
+        self.stepper.step_carrying(&mut self.system, carried);
     }
 
     #[inline]
     fn step_back(&mut self, carried: Carried) {
-        match carried {
-            Carried::Nothing | Carried::Rate => self.stepper.step_back(&mut self.system),
-            Carried::Increments => self.stepper.step_back_augmented(&mut self.system),
-        }
+        self.stepper.step_back_carrying(&mut self.system, carried);
     }
 
     fn steps(&mut self, count: u64) {

@@ -289,6 +289,32 @@ impl<S: Scheme, N: Number> Stepper<S, N> {
         system.clear_increments();
         self.scheme.back(&self.back, &mut Carrying { system, carried: Carried::Increments });
     }
+
+    /// One step that carries this along.
+    #[inline]
+    pub(crate) fn step_carrying<M: System<Number = N>>(&self, system: &mut M, carried: Carried)
+    where
+        S: ValidFor<M::Class>,
+    {
+        // an arm each: what is carried along is then known where the step is compiled
+        match carried {
+            Carried::Nothing => self.step(system),
+            Carried::Rate => self.step_before_augmented(system),
+            Carried::Increments => self.step_augmented(system),
+        }
+    }
+
+    /// The inverse of a step that carries this along.
+    #[inline]
+    pub(crate) fn step_back_carrying<M: System<Number = N>>(&self, system: &mut M, carried: Carried)
+    where
+        S: ValidFor<M::Class>,
+    {
+        match carried.has_increments() {
+            true => self.step_back_augmented(system),
+            false => self.step_back(system),
+        }
+    }
 }
 
 /// h·w of each weight w of a scheme, 2h³·w of those of gradient kicks: an exact product rounded once.

@@ -17,6 +17,20 @@ pub enum Carried {
     Increments,
 }
 
+impl Carried {
+    /// Whether flows add to the increments of q, p and β.
+    #[inline(always)]
+    pub const fn has_increments(self) -> bool {
+        matches!(self, Carried::Increments)
+    }
+
+    /// Whether the rate of β is evaluated with the force.
+    #[inline(always)]
+    pub const fn has_rate(self) -> bool {
+        matches!(self, Carried::Rate | Carried::Increments)
+    }
+}
+
 /// What a step added to q, p and β, borrowed from the system that made it or from a [copy](OwnedIncrements).
 ///
 /// For a number type that does not [keep increments](Number::KEEPS_INCREMENTS), q and p are empty.

@@ -228,9 +228,9 @@ impl<N: CorrectlyRounded, P: Potential<N>> System for LinearPart<N, P> {
 
     fn kick(&mut self, weight: &N, carried: Carried) {
         self.evaluate();
-        match carried {
-            Carried::Increments => self.state.kick_augmented(weight, &self.gradient, &self.rate),
-            Carried::Nothing | Carried::Rate => self.state.kick(weight, &self.gradient),
+        match carried.has_increments() {
+            true => self.state.kick_augmented(weight, &self.gradient, &self.rate),
+            false => self.state.kick(weight, &self.gradient),
         }
     }
 
@@ -258,7 +258,7 @@ impl<N: CorrectlyRounded, P: Potential<N>> System for LinearPart<N, P> {
         let (kicks, hessian_scratch) = &mut **curved;
         let before = kicks.evaluations;
         let rest = &mut RemainingPotential { potential, scratch, stiffness, kinetic, hessian_scratch };
-        let augmented = carried == Carried::Increments;
+        let augmented = carried.has_increments();
         kicks.evaluate(rest, Place { q: &state.q, gradient, rate }, weight, augmented);
         if kicks.is_displaced() {
             state.evaluations += kicks.evaluations - before;

@@ -197,7 +197,7 @@ impl<N: Number, V: Coordinates<N>, S: Summation<N>> State<N, V, S> {
             Half::Momenta => (p.as_mut(), increments.p.as_mut()),
         };
         sums.change(half, index, &mut own[index], &add);
-        if N::KEEPS_INCREMENTS && carried == Carried::Increments {
+        if N::KEEPS_INCREMENTS && carried.has_increments() {
             add(&mut increments[index]);
         }
     }
@@ -205,7 +205,7 @@ impl<N: Number, V: Coordinates<N>, S: Summation<N>> State<N, V, S> {
     /// β ← β + ab, if increments are carried along.
     #[inline]
     pub fn add_to_beta(&mut self, carried: Carried, a: &N, b: &N) {
-        if carried == Carried::Increments {
+        if carried.has_increments() {
             self.increments.beta.add_product(a, b);
         }
     }

@@ -78,7 +78,7 @@ pub trait System {
     where
         Self: Sized,
     {
-        if carried == Carried::Increments {
+        if carried.has_increments() {
             systems.iter_mut().for_each(Self::clear_increments);
         }
         maps.each(0..count, count, &mut Each { systems, carried });

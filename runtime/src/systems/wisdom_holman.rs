@@ -246,7 +246,7 @@ impl<N: Number, C: PlanetaryCoordinates<N, D>, const D: usize> System for Wisdom
 
     /// The jump and the kick by the gradient at the place where it ends: the two commute.
     fn kick(&mut self, weight: &N, carried: Carried) {
-        let augmented = carried == Carried::Increments;
+        let augmented = carried.has_increments();
         self.jump(weight, carried);
         self.evaluate(augmented);
         match augmented {
@@ -271,7 +271,7 @@ impl<N: Number, C: PlanetaryCoordinates<N, D>, const D: usize> System for Wisdom
             C::HAS_GRADIENT_KICKS,
             "B depends on P in these coordinates: there are gradient kicks in Jacobi coordinates only"
         );
-        let augmented = carried == Carried::Increments;
+        let augmented = carried.has_increments();
         self.evaluate(augmented);
         let WisdomHolman { coordinates, state, gradient, rate, gradient_kicks, .. } = self;
         let kicks =

@@ -1,8 +1,6 @@
 //! Systems in the number types of scenes. They are compiled in this crate, once for each, and not again in every crate that uses them.
 
-#[cfg(feature = "mpfr")]
-use shadowstep::number::Float;
-use shadowstep::number::{AnyLimbs, CorrectlyRounded, DoubleDouble};
+use shadowstep::number::CorrectlyRounded;
 use shadowstep::problems::{CubicSpring, ProblemMotion, Setup};
 use shadowstep::systems::kinetic::Quadratic;
 use shadowstep::systems::pairs::{Ends, Pairs};
@@ -10,6 +8,7 @@ use shadowstep::{Kinetic, Motion, MotionError, Potential, Rational, UnitMasses};
 
 use super::problem::EnergyAt;
 use super::system::{Parts, System, ask};
+use crate::arithmetic::number_types;
 use crate::scene::split::{ShownCoordinates, Split as _, State};
 use crate::start::{SceneIntegrator, Steps};
 
@@ -173,6 +172,4 @@ macro_rules! scene_numbers {
     )*};
 }
 
-scene_numbers!(f64, DoubleDouble, AnyLimbs);
-#[cfg(feature = "mpfr")]
-scene_numbers!(Float);
+number_types!(scene_numbers);

@@ -8,7 +8,6 @@ use crate::shadow::estimator::{BuildEstimator, Estimator};
 use crate::shadow::run::RunError;
 use crate::steps::scheme::{Scheme, ValidFor};
 use crate::steps::stepper::Stepper;
-use crate::systems::increments::Carried;
 use crate::systems::system::System;
 
 /// Follows the modified energy H̄ of the trajectory that a loop computes.
@@ -143,12 +142,7 @@ impl<S: Scheme, N: Real, E: Estimator<N>> ShadowEnergy<S, N, E> {
     where
         S: ValidFor<M::Class>,
     {
-        match self.monitor.carried() {
-            Carried::Increments => self.stepper.step_augmented(system),
-            // the gradient at the first state of a window is the first one of an augmented step, too
-            Carried::Rate => self.stepper.step_before_augmented(system),
-            Carried::Nothing => self.stepper.step(system),
-        }
+        self.stepper.step_carrying(system, self.monitor.carried());
         self.monitor.observe(system)
     }
 

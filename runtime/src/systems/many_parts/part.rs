@@ -46,7 +46,7 @@ impl<'a, N: Number> FlowState<'a, N> {
 
     /// Whether β is needed.
     pub fn is_augmented(&self) -> bool {
-        self.carried == Carried::Increments
+        self.carried.has_increments()
     }
 
     /// x ← x + by, of a variable by its index.

@@ -76,14 +76,14 @@ impl<N: Number, P: Potential<N>, K: Kinetic<N>> Hamiltonian<N, P, K> {
         carried: Carried,
     ) {
         at.state.settle();
-        if carried == Carried::Increments {
+        if carried.has_increments() {
             if at.kept != KeptForce::GradientAndRate {
                 self.evaluate(at, true);
             }
             return at.state.kick_augmented(weight, at.gradient.as_ref(), &at.rate);
         }
         if at.kept == KeptForce::Nothing {
-            self.evaluate(at, carried == Carried::Rate);
+            self.evaluate(at, carried.has_rate());
         }
         at.state.kick(weight, at.gradient.as_ref());
     }
@@ -96,7 +96,7 @@ impl<N: Number, P: Potential<N>, K: Kinetic<N>> Hamiltonian<N, P, K> {
         weight: &N,
         carried: Carried,
     ) {
-        let with_rate = carried != Carried::Nothing;
+        let with_rate = carried.has_rate();
         at.state.settle();
         let is_displaced =
             self.gradient_kicks.as_ref().is_some_and(|gradient_kicks| gradient_kicks.kicks.is_displaced());
@@ -113,9 +113,9 @@ impl<N: Number, P: Potential<N>, K: Kinetic<N>> Hamiltonian<N, P, K> {
         if is_displaced {
             at.state.evaluations += kicks.evaluations - before;
         }
-        match carried {
-            Carried::Increments => at.state.kick_augmented(weight, &kicks.force, &kicks.rate),
-            Carried::Nothing | Carried::Rate => at.state.kick(weight, &kicks.force),
+        match carried.has_increments() {
+            true => at.state.kick_augmented(weight, &kicks.force, &kicks.rate),
+            false => at.state.kick(weight, &kicks.force),
         }
     }
 
@@ -127,9 +127,9 @@ impl<N: Number, P: Potential<N>, K: Kinetic<N>> Hamiltonian<N, P, K> {
         carried: Carried,
     ) {
         at.state.settle();
-        match carried {
-            Carried::Increments => at.state.drift_augmented(&self.kinetic, weight, &mut self.kinetic_scratch),
-            Carried::Nothing | Carried::Rate => at.state.drift(&self.kinetic, weight, &mut self.kinetic_scratch),
+        match carried.has_increments() {
+            true => at.state.drift_augmented(&self.kinetic, weight, &mut self.kinetic_scratch),
+            false => at.state.drift(&self.kinetic, weight, &mut self.kinetic_scratch),
         }
         at.kept = KeptForce::Nothing;
     }

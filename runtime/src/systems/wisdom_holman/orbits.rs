@@ -77,7 +77,7 @@ impl<N: Number, const D: usize> Advance<N, D> {
             for (axis, part) in self.to_v.iter().enumerate() {
                 state.change(Half::Momenta, first + axis, carried, |p| p.add_product(&orbit.mass, part));
             }
-            if carried == Carried::Increments {
+            if carried.has_increments() {
                 // 3κ s
                 self.scratch.multiply(&orbit.attraction);
                 self.scratch.multiply_integer(3);
