@@ -4,6 +4,7 @@ use std::f64::consts::{PI, TAU};
 
 use serde::{Deserialize, Serialize};
 use shadowstep::Number;
+use shadowstep::systems::QUADRATIC_FLOW_DIGITS;
 use shadowstep::tables::TableScheme;
 use shadowstep_scenes::arithmetic::Arithmetic;
 use shadowstep_scenes::start::Begin;
@@ -122,6 +123,14 @@ impl Case for LinearPartCase {
             .iter()
             .flat_map(trials)
             .collect()
+    }
+
+    /// Flows of quadratic forms have no more digits.
+    fn arithmetic(suite: &Suite) -> Arithmetic {
+        match suite.arithmetic.digits() > QUADRATIC_FLOW_DIGITS {
+            true => Arithmetic::with_digits(QUADRATIC_FLOW_DIGITS).expect("numbers of limbs have them"),
+            false => suite.arithmetic,
+        }
     }
 
     fn seconds(suite: &Suite, trial: &Trial) -> f64 {
@@ -303,6 +312,15 @@ impl Matrix {
 mod tests {
     use super::*;
     use shadowstep_scenes::library::scheme;
+
+    #[test]
+    fn more_digits_than_flows_of_quadratic_forms_have_are_cut_to_these() {
+        let digits = |digits| {
+            let arithmetic = Arithmetic::with_digits(digits).unwrap();
+            LinearPartCase::arithmetic(&Suite::new(Vec::new(), arithmetic, true)).digits()
+        };
+        assert_eq!([30, 288, 300].map(digits), [30, 288, 288]);
+    }
 
     #[test]
     fn the_matrix_is_that_of_a_step() {
