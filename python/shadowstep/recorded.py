@@ -115,6 +115,8 @@ class Diagnosis:
     """The mean kinetic energy T."""
     energy_error: float
     """max − min of H."""
+    method_error: float
+    """The method's part of it: max − min of H − H̄."""
     change: float
     """The last H̄ less the first one."""
     range: float
@@ -139,6 +141,8 @@ class Diagnosis:
     """By how much q of the states differs from the steps, as a part of them."""
     off_p: float | None
     """The same of p."""
+    reordered: int | None
+    """The first state whose coordinates are those of the step in another order, as where a file is not sorted by atoms."""
     jumps: list[tuple[int, float]]
     """States before which H̄ changes suddenly, and by how much, the largest first."""
 

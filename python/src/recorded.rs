@@ -227,6 +227,7 @@ fn dictionary<'py>(py: Python<'py>, found: &Diagnosis) -> PyResult<Bound<'py, Py
     let numbers = [
         ("kinetic", Some(found.kinetic)),
         ("energy_error", Some(found.energy_error)),
+        ("method_error", Some(found.method_error)),
         ("change", Some(found.change)),
         ("range", Some(found.range)),
         ("moved", Some(found.moved)),
@@ -243,6 +244,7 @@ fn dictionary<'py>(py: Python<'py>, found: &Diagnosis) -> PyResult<Bound<'py, Py
     for (name, number) in numbers {
         all.set_item(name, number)?;
     }
+    all.set_item("reordered", found.reordered)?;
     all.set_item("jumps", found.jumps.iter().map(|jump| (jump.n, jump.energy)).collect::<Vec<_>>())?;
     Ok(all)
 }

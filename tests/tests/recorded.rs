@@ -3,6 +3,7 @@
 
 mod causes;
 mod input;
+mod input_faults;
 mod values;
 
 use shadowstep::shadow::recorded::{Log, Recorded};

@@ -99,6 +99,31 @@ fn noise_is_found_with_its_size() {
     }
 }
 
+/// With large steps the motion is in the differences of the forces, too: such noise may be undecided, and is not the time step or a cutoff.
+#[test]
+fn noise_with_large_steps_is_not_taken_for_something_else() {
+    let mut found_as_noise = 0;
+    for h in [0.004, 0.006] {
+        for part in [0.003, 0.01, 0.03, 0.1] {
+            let (mut smooth, mut noise) = (of(Cutoff::Smooth), noise());
+            let found = with(h, |n, q, gradient| {
+                let energy = smooth(n, q, gradient);
+                let size = part * (gradient.iter().map(|g| g * g).sum::<f64>() / gradient.len() as f64).sqrt();
+                gradient.iter_mut().for_each(|g| *g += size * noise());
+                energy
+            });
+            for found in found {
+                match found.cause {
+                    Cause::Noise { .. } => found_as_noise += 1,
+                    other => assert_eq!(other, Cause::Undecided, "h = {h}, {part}: {found}"),
+                }
+            }
+        }
+    }
+    // with h = 0.004 from 1 in 100 of the forces on
+    assert!(found_as_noise >= 6, "{found_as_noise}");
+}
+
 #[test]
 fn cutoffs_are_found() {
     for truncated in with(0.002, of(Cutoff::Truncated)) {

@@ -5,6 +5,7 @@ use super::forces::{ForceDifferences, Smoothness};
 use super::misfit::Differences;
 use super::value::Value;
 use super::window::Window;
+use crate::shadow::KINETIC_LIMIT;
 
 /// Estimates that a statement needs.
 const LEAST_ESTIMATES: usize = 32;
@@ -13,6 +14,8 @@ const LARGEST_MISFIT: f64 = 1e-3;
 /// and by more than this part of themselves, a few last places of an `f32`, and are not rounded each by itself.
 const SINGLE: f64 = 2.4e-7;
 const ROUNDED: f64 = -0.3;
+/// Numbers that differ by more than this part of themselves are not rounded ones.
+const COARSE: f64 = 1e-2;
 /// H̄ moved if its range is this part of the energy error or more, beyond errors on both sides.
 const MOVED: f64 = 0.1;
 /// H̄ is not known well enough to exclude a change, if its error is this part of the energy error or more.
@@ -21,6 +24,10 @@ const UNKNOWN: f64 = 0.25;
 const ERROR_FACTOR: f64 = 3.0;
 /// H̄ moves by more than the forces' differences explain where the excess is above the first, and by much less below the second.
 const EXCESS: [f64; 2] = [8.0, 0.03];
+/// Noise of the forces makes an excess of 1, and above this; motion that the steps do not resolve makes one below it.
+const NOISE_EXCESS: f64 = 0.1;
+/// Forces that jump, or whose derivatives do, make an excess below this: from it on, noise beside the motion may have their exponent.
+const JUMPS_EXCESS: f64 = 0.7;
 /// H̄ changes at few states only where the isolation is above this.
 const ISOLATED: f64 = 3.0;
 /// The steps do not resolve the motion where differences of smooth forces are this part of the forces or more: both are six steps a turn.
@@ -58,6 +65,8 @@ pub struct Diagnosis {
     pub kinetic: f64,
     /// The energy error: max − min of H.
     pub energy_error: f64,
+    /// The method's part of it: max − min of H − H̄.
+    pub method_error: f64,
     /// H̄ of the first estimate.
     pub first: f64,
     /// The last one less the first.
@@ -82,6 +91,8 @@ pub struct Diagnosis {
     pub jumps: Vec<Jump>,
     /// By how much logged q and p differ from the steps; `None` where no gradients are logged.
     pub differences: Option<[Differences; 2]>,
+    /// The first state whose coordinates are those of the step in another order, as where a file is not sorted by atoms.
+    pub reordered: Option<i64>,
     /// What moves the energy.
     pub cause: Cause,
 }
@@ -91,16 +102,17 @@ pub struct Diagnosis {
 /// | cause | if |
 /// | --- | --- |
 /// | not decided: states | there are fewer than 32 estimates with errors |
-/// | other steps | q or p of the states differ from the steps by more than 1e-3 of their increments, rms; and not as numbers that are stored with few digits |
+/// | other steps | the order of the coordinates changes; or q or p of the states differ from the steps by more than 1e-3 of their increments, rms, and not as numbers that are stored with few digits, which are off by less than 1e-2 of q |
+/// | time step | the method's part of the energy error is 0.4 of the mean kinetic energy or more, as for the [monitor](crate::shadow::ShadowEnergy) |
 /// | nothing | H̄ moved by less than a tenth of the energy error, beyond three times its errors, and is known to a quarter of it |
 /// | digits | else, if it is not known to that, and q differs from the steps as numbers that are stored with few digits |
 /// | jumps | the excess is above 8, the isolation above 3 |
 /// | not the gradient | the excess is above 8, the exponent 2 or more (3 in windows of nine states) |
 /// | energy not smooth | the excess is above 8 |
-/// | noise | the exponent is below 0.5 |
-/// | forces not smooth | the exponent is below 2, and the differences of the forces are below 0.01 of these (0.05 in windows of nine states) |
-/// | time step | the exponent is 2 or more; and the excess is below 0.03, or the differences are 0.01 of the forces or more |
-/// | forces not smooth | the exponent is from 2 to 4 |
+/// | noise | the exponent is below 0.5, and the excess 0.1 or more |
+/// | forces not smooth | the exponent is below 2, the excess below 0.7, and the differences of the forces are below 0.01 of these (0.05 in windows of nine states) |
+/// | time step | the exponent is 2 or more; and the excess is at most 0.03, or it is below 0.1 and the differences are 0.01 of the forces or more (0.05 in windows of nine states) |
+/// | forces not smooth | the exponent is from 2 to 4, the excess below 0.7, and the differences are below that |
 /// | not decided | none of these, or no gradients are logged |
 ///
 /// The excess, the isolation and the exponent are defined at [`Diagnosis`]; `docs/recorded-trajectories.md` has measured values.
@@ -173,11 +185,12 @@ pub(super) struct Evidence<'a> {
     pub(super) changes: &'a Changes,
     pub(super) forces: &'a ForceDifferences,
     pub(super) differences: Option<[Differences; 2]>,
+    pub(super) reordered: Option<i64>,
 }
 
 impl Diagnosis {
     pub(super) fn of(evidence: &Evidence<'_>) -> Diagnosis {
-        let Evidence { window, h, states, values, kinetic, changes, forces, differences } = *evidence;
+        let Evidence { window, h, states, values, kinetic, changes, forces, differences, reordered } = *evidence;
         let largest = |of: &dyn Fn(&Value) -> f64| values.iter().map(of).fold(f64::NEG_INFINITY, f64::max);
         let width = |of: &dyn Fn(&Value) -> f64| largest(of) + largest(&|value| -of(value));
         // the error of seventeen states contains it
@@ -196,6 +209,7 @@ impl Diagnosis {
             estimates: values.len(),
             kinetic,
             energy_error: width(&|value| value.energy),
+            method_error: width(&|value| value.energy - value.modified),
             first: modified(first),
             change: modified(last) - modified(first),
             range: width(&|value| value.modified),
@@ -207,6 +221,7 @@ impl Diagnosis {
             isolation: changes.isolation(),
             jumps: changes.jumps(),
             differences,
+            reordered,
             cause: Cause::Undecided,
         };
         diagnosis.cause = diagnosis.judge(square.sqrt());
@@ -217,8 +232,11 @@ impl Diagnosis {
         if self.estimates < LEAST_ESTIMATES {
             return Cause::Undecided;
         }
-        if self.differences.is_some_and(|differences| differences.iter().any(is_of_other_steps)) {
+        if self.reordered.is_some() || self.differences.is_some_and(is_of_other_steps) {
             return Cause::OtherSteps;
+        }
+        if self.is_too_large_a_step() {
+            return Cause::TimeStep;
         }
         let is_unknown = self.known_to >= UNKNOWN * self.energy_error;
         if self.moved < MOVED * self.energy_error {
@@ -230,6 +248,11 @@ impl Diagnosis {
             };
         }
         self.of_forces(in_a_step)
+    }
+
+    /// Whether the steps are too large whatever the forces are.
+    pub(super) fn is_too_large_a_step(&self) -> bool {
+        self.method_error >= KINETIC_LIMIT * self.kinetic
     }
 
     fn of_forces(&self, in_a_step: f64) -> Cause {
@@ -253,17 +276,21 @@ impl Diagnosis {
         let is_unresolved = differences >= unresolved(self.window) * gradient;
         match exponent {
             _ if excess.is_nan() || exponent.is_nan() => Cause::Undecided,
-            ..NOISE => Cause::Noise { size: differences },
-            ..JUMPS if is_unresolved => Cause::Undecided,
+            ..NOISE if excess >= NOISE_EXCESS => Cause::Noise { size: differences },
+            ..NOISE => Cause::Undecided,
+            ..JUMPS if is_unresolved || excess >= JUMPS_EXCESS => Cause::Undecided,
             ..JUMPS => Cause::ForcesNotSmooth,
-            _ if is_unresolved || excess <= below => Cause::TimeStep,
-            ..KINKS => Cause::ForcesNotSmooth,
+            _ if is_unresolved && excess < NOISE_EXCESS || excess <= below => Cause::TimeStep,
+            _ if is_unresolved => Cause::Undecided,
+            ..KINKS if excess < JUMPS_EXCESS => Cause::ForcesNotSmooth,
             _ => Cause::Undecided,
         }
     }
 }
 
-fn is_of_other_steps(differences: &Differences) -> bool {
-    let Differences { of_increments, of_numbers, correlation, .. } = *differences;
-    of_increments > LARGEST_MISFIT && of_numbers > SINGLE && correlation > ROUNDED
+fn is_of_other_steps([of_q, of_p]: [Differences; 2]) -> bool {
+    let differs = |of: Differences| of.of_increments > LARGEST_MISFIT && of.of_numbers > SINGLE;
+    // momenta may be written with a few digits of the smallest
+    differs(of_q) && (of_q.correlation > ROUNDED || of_q.of_numbers > COARSE)
+        || differs(of_p) && of_p.correlation > ROUNDED
 }

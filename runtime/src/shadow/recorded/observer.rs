@@ -192,6 +192,7 @@ impl Observer {
             changes: &self.changes,
             forces: &self.forces,
             differences: self.steps.differences(),
+            reordered: self.steps.reordered(),
         })
     }
 }

@@ -37,6 +37,11 @@ impl Diagnosis {
                 size / self.smoothness.map_or(f64::NAN, |smoothness| smoothness.gradient)
             ),
             Cause::ForcesNotSmooth => format!("{moved}: the forces are not smooth, as at a cutoff"),
+            Cause::TimeStep if self.is_too_large_a_step() => format!(
+                "the time step is too large: H − H̄, the method's part of the energy error, ranges over {:.2e}, {:.1e} of T",
+                self.method_error,
+                self.method_error / self.kinetic
+            ),
             Cause::TimeStep => format!("{moved}: the forces are smooth, and the time step is too large for them"),
         }
     }
@@ -53,6 +58,11 @@ impl Diagnosis {
     }
 
     fn why_other_steps(&self) -> String {
+        if let Some(n) = self.reordered {
+            return format!(
+                "the order of the coordinates changes, first at the state {n}: sort each state by the numbers of its atoms"
+            );
+        }
         let parts = self.differences.map_or([f64::NAN; 2], |differences| differences.map(|of| of.of_increments));
         let [of_q, of_p] = parts;
         format!(
@@ -80,6 +90,12 @@ impl fmt::Display for Diagnosis {
             "  energy error     {:9.2e}  max − min of H; {:.1e} of T",
             self.energy_error,
             self.energy_error / self.kinetic
+        )?;
+        writeln!(
+            f,
+            "  the method's part{:9.2e}  max − min of H − H̄; {:.1e} of T",
+            self.method_error,
+            self.method_error / self.kinetic
         )?;
         writeln!(
             f,

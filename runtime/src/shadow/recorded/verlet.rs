@@ -33,7 +33,15 @@ pub(super) struct VerletSteps {
     rate: f64,
     increments: OwnedIncrements<f64>,
     misfits: [Misfit; 2],
+    /// The logged q to which the newest step leads.
+    predicted: Vec<f64>,
+    reordered: Option<i64>,
 }
+
+/// Where q is off the step by more than this many times the step, its order may have changed:
+const FAR_OFF: f64 = 10.0;
+/// it has, if q in ascending order differs from the step by less than this part of what it differs as it is.
+const SAME_NUMBERS: f64 = 0.01;
 
 impl VerletSteps {
     /// Steps of size h of coordinates with these masses.
@@ -64,6 +72,8 @@ impl VerletSteps {
             rate: 0.0,
             increments: OwnedIncrements::zero(dimension, &()),
             misfits: [Misfit::new(dimension), Misfit::new(dimension)],
+            predicted: zeros(),
+            reordered: None,
         })
     }
 
@@ -128,6 +138,7 @@ impl VerletSteps {
             dp[i] = -*half * self.gradient[i] - *half * gradient;
             if self.follows[1] {
                 of_q.add((*n, i), [self.q[i], q], dq[i], logged.q[i]);
+                self.predicted[i] = self.origin[i] + (self.q[i] + dq[i]);
                 of_p.add((*n, i), [self.p[i], p], dp[i], p);
             }
             (self.q[i], self.p[i], self.gradient[i]) = (q, p, gradient);
@@ -136,7 +147,25 @@ impl VerletSteps {
         if self.follows[1] {
             of_q.end();
             of_p.end();
+            if self.reordered.is_none() && self.is_reordered(logged.q) {
+                self.reordered = Some(self.n);
+            }
         }
+    }
+
+    /// Whether the newest q, as logged, has the numbers that the step leads to, in another order.
+    fn is_reordered(&self, q: &[f64]) -> bool {
+        let square = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| (a - b) * (a - b)).sum::<f64>();
+        let off = square(q, &self.predicted);
+        if off <= FAR_OFF * FAR_OFF * self.increments.q.iter().map(|added| added * added).sum::<f64>() {
+            return false;
+        }
+        let ascending = |x: &[f64]| {
+            let mut x = x.to_vec();
+            x.sort_by(f64::total_cmp);
+            x
+        };
+        square(&ascending(q), &ascending(&self.predicted)) < SAME_NUMBERS * SAME_NUMBERS * off
     }
 
     fn push_with_rate(&mut self, logged: &Logged<'_>, rate: f64) {
@@ -156,6 +185,11 @@ impl VerletSteps {
     pub(super) fn state(&self) -> TrajectoryState<'_, f64> {
         let increments = if self.follows[1] { self.increments.view() } else { Increments::of_beta(&0.0) };
         TrajectoryState { n: self.n, q: &self.q, p: &self.p, increments }
+    }
+
+    /// The first state whose coordinates are in another order than those of the state before.
+    pub(super) fn reordered(&self) -> Option<i64> {
+        self.reordered
     }
 
     /// By how much logged q and p differ from the steps; `None` before the first step, and where no gradients are logged.
