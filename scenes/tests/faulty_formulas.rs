@@ -87,3 +87,14 @@ fn so_has_a_parameter_with_a_name_of_the_bodies_energy() {
         }
     }
 }
+
+/// A text and a list for each body are for bodies only.
+#[test]
+fn so_has_a_state_of_bodies_beside_a_list_of_parts() {
+    for q in ["\"i\"", "[[1], [0]]"] {
+        let problem = "parts = [\"px^2\", \"cos(x)\"]\ncoordinates = [\"x\"]\nmomenta = [\"px\"]\n";
+        let found = faults(&format!("[problem]\n{problem}[initial]\nq = {q}\np = [0]\n{RUN}"));
+        let is_of_q = |fault: &String| fault.starts_with("6:") && fault.ends_with("this value is of the wrong kind");
+        assert!(!found.is_empty() && found.iter().all(is_of_q), "{q}: {found:?}");
+    }
+}

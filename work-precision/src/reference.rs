@@ -69,10 +69,16 @@ impl Reference {
         time: Duration,
         continues: &dyn Fn() -> bool,
     ) -> Result<Reference, Error> {
-        match with_exact_flow(problem.system) {
+        let reference = match with_exact_flow(problem.system) {
             Some(setup) => of_exact_flow(problem, &setup, samples),
             None => of_scheme(problem, samples, time, continues),
+        }?;
+        if problem.arithmetic.compute(Overflows(&reference)) {
+            let message =
+                format!("there is no reference: its positions overflow in {}", problem.arithmetic.described());
+            return Err(Error::run(message, "use a shorter time"));
         }
+        Ok(reference)
     }
 
     /// The positions of a run in the number type of the problem, with no estimate of their error.
@@ -149,6 +155,18 @@ impl Computation for Texts<'_> {
             return Err(Error::run("the states of a run with half the step are not finite", "use a shorter time"));
         }
         Ok(found.iter().map(|position| position.iter().map(Real::to_text).collect()).collect())
+    }
+}
+
+/// Whether a position overflows in a number type.
+struct Overflows<'a>(&'a Reference);
+
+impl Computation for Overflows<'_> {
+    type Output = bool;
+
+    fn compute<N: RunNumber>(self, context: &N::Context) -> bool {
+        let exact = |text: &String| from_text(text).expect("the program has written it");
+        self.0.positions.iter().flatten().any(|text| !N::from_rational(&exact(text), context).is_finite())
     }
 }
 

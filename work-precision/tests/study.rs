@@ -86,6 +86,23 @@ fn the_error_of_a_reference_is_estimated() {
     }
 }
 
+/// e^t at t = 800 is 1e347, more than a double can be.
+#[test]
+fn a_reference_that_overflows_in_the_numbers_of_the_runs_is_none() {
+    let system = System::from(InitialValueProblem {
+        potential: formula("-x^2/2", &["x"]),
+        parameters: Vec::new(),
+        ..system("harmonic-oscillator").problem
+    });
+    let (until, folder, schemes) = (until(800), tempfile::tempdir().unwrap(), schemes(&["yoshida4"]));
+    let problem = Problem { system: &system, until: &until, arithmetic: Arithmetic::DOUBLE };
+    let range = StepRange::Given(vec![8000, 16_000]);
+    let reference_time = Duration::from_secs(20);
+    let request = Request { problem, schemes: &schemes, range, reference_time, folder: folder.path().to_owned() };
+    let message = request.study(&mut ()).map(drop).unwrap_err().to_string();
+    assert!(message.contains("there is no reference: its positions overflow in double precision"), "{message}");
+}
+
 /// Of Kepler orbits and their interactions no fastest frequency is known: the reference begins with a step a sample, not a step a day.
 #[test]
 fn a_reference_of_planets_begins_with_few_steps() {

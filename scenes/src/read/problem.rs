@@ -25,7 +25,8 @@ pub(super) fn system(
     let [name, potential, pair] = WAYS.map(|way| problem.get(way).and_then(|value| reader.toml.text(value)));
     let pair = pair.and_then(|text| PairFormula::read(reader, text));
     // if none of the keys is given, only that is a fault
-    let given = Given::read(reader, problem, initial, ways.is_empty() || ways.contains(&"pair"));
+    let is_of_parts = problem.get("parts").is_some_and(parts::is_list);
+    let given = Given::read(reader, problem, initial, ways.contains(&"pair") || ways.is_empty() && !is_of_parts);
     let settings = Settings::read(reader, problem);
     if !ways.is_empty() || bodies.is_empty() {
         refuse_keys_of_bodies(reader, &given);
