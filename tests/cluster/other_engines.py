@@ -67,10 +67,14 @@ def kill_all(process):
     """kill -9 of a process and all its descendants, which must not have ended."""
     if process.poll() is not None:
         raise Failed(f"it has ended before it could be killed: {process.communicate()}")
-    for pid in [process.pid, *descendants(process.pid)]:
-        kill(pid)
+
+    def all_have_ended():
+        for pid in descendants():    # each time: a process may start another one after the list was made and before it is killed
+            kill(pid)
+        return reap() or not descendants()
+
+    wait_for("all have ended", all_have_ended, 10)
     process.communicate()
-    wait_for("all have ended", lambda: reap() or not descendants(), 10)
 
 
 def no_parallel(_):
