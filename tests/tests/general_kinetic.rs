@@ -1,7 +1,7 @@
 //! Protects kinetic energies that are not quadratic: the order measured is the one proved for every T(p), the modified
 //! energy is conserved, and a scheme whose order holds for quadratic T only does not get them.
 //!
-//! (What the compiler refuses is in `compile_fail/`.)
+//! (What the compiler refuses is in `scheme-macros/tests/compile_fail/`.)
 
 use std::array;
 
@@ -52,11 +52,12 @@ fn halved(k: u32) -> Rational {
 
 /// McLachlan and Atela's scheme: order 4 for quadratic T, 3 for every T(p).
 #[derive(Clone, Copy)]
-#[splitting_scheme("compile_fail/nystrom.toml")]
+#[splitting_scheme("../../scheme-macros/tests/compile_fail/nystrom.toml")]
 struct Nystrom;
 
 fn nystrom() -> TableScheme {
-    let (path, text) = ("compile_fail/nystrom.toml".into(), include_str!("../compile_fail/nystrom.toml").into());
+    let (path, text) =
+        ("nystrom.toml".into(), include_str!("../../scheme-macros/tests/compile_fail/nystrom.toml").into());
     read(&Source { path, text }, &|_, _| None, None).unwrap()
 }
 

@@ -3,7 +3,6 @@
 mod best_bilinear;
 mod bilinear;
 mod catalogue;
-mod compile_fail;
 mod corpus;
 mod displaced_forces;
 mod documentation;
