@@ -383,10 +383,10 @@ fn round_off_is_not_resolved() {
     let words = "drift --problem kepler --no-control --estimator bilinear --order auto --json";
     for run in [
         "--scheme stormer-verlet,yoshida4 --step 1/40 --until 100 --double",
-        "--scheme stormer-verlet,yoshida4 --step 1/100 --until 100 --double",
-        "--scheme exact-flow --step 1/80 --until 50 --digits 10",
-        "--scheme exact-flow --step 1/80 --until 50 --digits 16",
-        "--scheme exact-flow,stormer-verlet --step 1/80 --until 50 --digits 20",
+        "--scheme stormer-verlet,yoshida4 --step 1/100 --until 50 --double",
+        "--scheme exact-flow --step 1/80 --until 20 --digits 10",
+        "--scheme exact-flow --step 1/80 --until 20 --digits 16",
+        "--scheme exact-flow,stormer-verlet --step 1/80 --until 20 --digits 20",
         "--scheme stormer-verlet --step 1/10 --until 50 --set eccentricity=0",
     ] {
         for record in objects(&quietly(&format!("{words} {run}"))) {
