@@ -100,10 +100,10 @@ class Diagnosis:
     """What moves the energy of a trajectory that another program has computed. Printed, it is some lines with the numbers."""
 
     cause: str
-    """``nothing``, ``time-step``, ``noise``, ``forces-not-smooth``, ``energy-not-smooth``, ``jumps``, ``not-the-gradient``, ``other-steps``, ``digits`` or
-    ``undecided``."""
+    """``nothing``, ``time-step``, ``noise``, ``forces-not-smooth``, ``energy-not-smooth``, ``jumps``, ``not-the-gradient``, ``noisy-energy``, ``other-steps``,
+    ``digits`` or ``undecided``."""
     size: float | None
-    """Of noise, that of the forces; of jumps, that of the energy."""
+    """Of noise of the forces, its size in these; of jumps and of noise of U, that in the energy."""
     reason: str
     """The cause, a sentence with numbers."""
     text: str
@@ -135,6 +135,14 @@ class Diagnosis:
     """How the squares of these grow with the distance of the states: 0 for noise, 1 where U′ jumps, 3 where U″ does, large for smooth forces."""
     excess: float | None
     """What H̄ changes by in a step, squared, beside what noise of the forces would make of it: 1 for noise."""
+    energy_differences: float | None
+    """The root mean square of the differences of U in time: of noise of U, its size."""
+    energy_exponent: float | None
+    """As ``exponent``, of U: 0 for noise of U, 1 where U jumps."""
+    in_a_step: float
+    """What H̄ changes by in a step, rms, if that is independent from step to step."""
+    growth: float
+    """1 if it is; 2 and more where H̄ changes slowly, small where it goes to and fro."""
     isolation: float
     """How far the changes of H̄ are those of few states: 1 for noise."""
     off_q: float | None

@@ -1,10 +1,12 @@
 //! Protects the modified energy of recorded trajectories: of one of ours it equals the run's own, of an oscillator the theoretical
 //! value; and logs that cannot be used are refused.
 
+mod cases;
 mod causes;
 mod input;
 mod input_faults;
 mod values;
+mod verdicts;
 
 use shadowstep::shadow::recorded::{Log, Recorded};
 use shadowstep::shadow::run::{ShadowRun, States};

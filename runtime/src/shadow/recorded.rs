@@ -18,36 +18,42 @@
 //! | `repeated` | states of any scheme, with the steps between them made again |
 //! | `window` | how many states that follow each other an observer needs |
 //! | `observer`, `value` | follows a trajectory, state by state: the modified energy at each |
-//! | `forces` | whether the forces are smooth along it |
+//! | `roughness` | whether the forces and U are smooth along it |
+//! | `work` | what differences of the states from the steps do to the energy |
 //! | `changes` | how the modified energy changes from state to state |
-//! | `diagnosis`, `text` | what moves the energy, with the thresholds; as text |
+//! | `diagnosis` | the numbers that show what moves the energy |
+//! | `cause`, `judge`, `text` | what moves the energy, the thresholds, as text |
 //! | `error` | what a log cannot be used for |
 
+mod cause;
 mod changes;
 mod diagnosis;
 mod error;
-mod forces;
 mod half_steps;
+mod judge;
 mod log;
 mod misfit;
 mod observer;
 mod repeated;
+mod roughness;
 mod source;
 mod text;
 mod unwrap;
 mod value;
 mod verlet;
 mod window;
+mod work;
 
+pub use cause::Cause;
 pub use changes::Jump;
-pub use diagnosis::{Cause, Diagnosis};
+pub use diagnosis::Diagnosis;
 pub use error::RecordedError;
-pub use forces::Smoothness;
 pub use half_steps::{integer_momenta, integer_momenta_with_gradients};
 pub use log::{Derivatives, Log, Logged};
 pub use misfit::{Differences, Largest};
 pub use observer::Observer;
 pub use repeated::Repeated;
+pub use roughness::Smoothness;
 pub use source::Recorded;
 pub use unwrap::Unwrapping;
 pub use value::Value;

@@ -13,6 +13,8 @@ const MEAN: [f64; 9] = {
     }
     mean
 };
+/// [`seen`] by E_7 in a step: Σ C(7, i)⁴/C(14, 7)².
+const SEEN_BY_SEVEN: f64 = 2.0 * (1.0 + 2401.0 + 194_481.0 + 1_500_625.0) / (3432.0 * 3432.0);
 /// From one estimate to the next that has but one state in common with it.
 const LAG: usize = 8;
 /// The standard deviation of a normal distribution as a multiple of the median size.
@@ -24,6 +26,8 @@ const JUMP: f64 = 6.0;
 #[derive(Clone, Debug, Default)]
 pub(super) struct Changes {
     values: Vec<(i64, f64)>,
+    /// Σ of squares of the changes of E_7 in a step, and their number.
+    of_seven: (f64, u64),
 }
 
 /// A sudden change of the modified energy.
@@ -38,6 +42,11 @@ pub struct Jump {
 impl Changes {
     pub(super) fn push(&mut self, n: i64, value: f64) {
         self.values.push((n, value));
+    }
+
+    /// Takes what E_7 changes by from one state to the next, where windows have one E_8.
+    pub(super) fn push_seven(&mut self, change: f64) {
+        self.of_seven = (self.of_seven.0 + change * change, self.of_seven.1 + 1);
     }
 
     /// E(n + lag) − E(n) with the n, of states without a gap between them.
@@ -79,6 +88,19 @@ impl Changes {
             Some(_) => self.after(LAG).for_each(|(_, change)| add(change, LAG as u64)),
         }
         sum / count as f64
+    }
+
+    /// The mean square of what H̄ changes by over eight steps, or from window to window, divided by that over one step, each reduced to one step as if
+    /// what it does in one step and in another were independent: 1 if it is.
+    pub(super) fn growth(&self) -> f64 {
+        let in_one = if self.is_of_single_estimates() {
+            self.of_seven.0 / self.of_seven.1 as f64 / SEEN_BY_SEVEN
+        } else {
+            let (sum, count) =
+                self.after(1).fold((0.0, 0_u64), |(sum, count), (_, change)| (sum + change * change, count + 1));
+            sum / count as f64 / seen(1)
+        };
+        self.square_in_a_step() / in_one
     }
 
     /// The standard deviation of what one estimate has and the next ones, of other states, have not: what does not add up, as errors of stored states do

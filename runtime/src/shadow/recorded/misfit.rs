@@ -5,8 +5,12 @@
 pub(super) struct Misfit {
     /// The differences of the newest step.
     newest: Vec<f64>,
-    /// Whether the step before it has some.
-    follows: bool,
+    /// Their sums over the steps that follow each other, and the number of these.
+    sums: Vec<f64>,
+    follow: u64,
+    /// Σ of squares of the sums, and of the number of steps in each.
+    wandered: f64,
+    steps: u64,
     count: u64,
     squares: f64,
     products: f64,
@@ -31,7 +35,10 @@ impl Misfit {
     pub(super) fn new(dimension: usize) -> Self {
         Misfit {
             newest: vec![0.0; dimension],
-            follows: false,
+            sums: vec![0.0; dimension],
+            follow: 0,
+            wandered: 0.0,
+            steps: 0,
             count: 0,
             squares: 0.0,
             products: 0.0,
@@ -44,7 +51,8 @@ impl Misfit {
 
     /// The next states do not follow those before.
     pub(super) fn begin(&mut self) {
-        self.follows = false;
+        self.follow = 0;
+        self.sums.fill(0.0);
     }
 
     /// Takes a step to the state n.
@@ -63,10 +71,12 @@ impl Misfit {
         self.with_increments += difference * added;
         self.increments += added * added;
         self.numbers += logged * logged;
-        if self.follows {
+        if self.follow > 0 {
             self.products += difference * self.newest[coordinate];
         }
         self.newest[coordinate] = difference;
+        self.sums[coordinate] += difference;
+        self.wandered += self.sums[coordinate] * self.sums[coordinate];
         if self.largest.is_none_or(|largest| difference.abs() > largest.difference.abs()) {
             self.largest = Some(Largest { n, coordinate, difference });
         }
@@ -74,8 +84,10 @@ impl Misfit {
 
     /// Ends a step.
     pub(super) fn end(&mut self) {
-        self.count += self.newest.len() as u64;
-        self.follows = true;
+        let dimension = self.newest.len() as u64;
+        self.count += dimension;
+        self.follow += 1;
+        self.steps += self.follow * dimension;
     }
 
     /// What is known of them, once there was a step.
@@ -86,6 +98,7 @@ impl Misfit {
             of_increments: (self.squares / self.increments).sqrt(),
             of_numbers: (self.squares / self.numbers).sqrt(),
             correlation: self.products / self.squares,
+            wandering: self.wandered / self.steps as f64 / (self.squares / count),
             slope: self.with_increments / self.increments,
             largest: self.largest?,
         })
@@ -103,6 +116,9 @@ pub struct Differences {
     pub of_numbers: f64,
     /// Σ r_n r_{n−1}/Σ r²: −½ if each x is rounded by itself, as where it was stored with few digits.
     pub correlation: f64,
+    /// The mean square of the sums of r over steps that follow each other, divided by that of independent r: small if each x is rounded by itself, 1 if
+    /// the r are independent, large if they are alike.
+    pub wandering: f64,
     /// Σ r Δx/Σ Δx²: by what part the increments are too small, on the average.
     pub slope: f64,
     /// The largest.

@@ -3,8 +3,8 @@
 use super::changes::{Changes, K};
 use super::diagnosis::{Diagnosis, Evidence};
 use super::error::RecordedError;
-use super::forces::ForceDifferences;
 use super::log::{Derivatives, Logged};
+use super::roughness::Roughness;
 use super::value::Value;
 use super::verlet::VerletSteps;
 use super::window::Window;
@@ -55,15 +55,17 @@ pub struct Observer {
     /// E_8
     estimator: BilinearEstimator<f64>,
     error: ErrorOf,
-    forces: ForceDifferences,
+    forces: Roughness,
+    /// Of U.
+    energy: Roughness,
     changes: Changes,
     values: Vec<Value>,
     /// States of the present window.
     pushed: usize,
-    states: u64,
     /// H of the newest states, the state n in place n mod their number.
     energies: [f64; MOST],
-    kinetic: f64,
+    /// T of all states.
+    kinetic: Vec<f64>,
 }
 
 /// The states of the longest window.
@@ -105,13 +107,13 @@ impl Observer {
             steps,
             estimator: Bilinear::new(K).build(h, dimension, &())?,
             error,
-            forces: ForceDifferences::new(window, dimension),
+            forces: Roughness::new(window, dimension),
+            energy: Roughness::new(window, 1),
             changes: Changes::default(),
             values: Vec::new(),
             pushed: 0,
-            states: 0,
             energies: [0.0; MOST],
-            kinetic: 0.0,
+            kinetic: Vec::new(),
         })
     }
 
@@ -122,6 +124,7 @@ impl Observer {
     pub fn begin(&mut self, n: i64) -> Result<(), RecordedError> {
         self.steps.begin(n)?;
         self.forces.begin();
+        self.energy.begin();
         self.pushed = 0;
         Ok(())
     }
@@ -144,10 +147,10 @@ impl Observer {
         if let Derivatives::Gradient(gradient) = logged.derivatives {
             self.forces.push(gradient, logged.p, &self.masses);
         }
+        self.energy.push(&[logged.energy], &[0.0], &[1.0]);
         let kinetic = logged.p.iter().zip(&self.masses).map(|(p, mass)| p * p / mass).sum::<f64>() / 2.0;
         check_value(&(kinetic + logged.energy), Quantity::Energy, n)?;
-        self.kinetic += kinetic;
-        self.states += 1;
+        self.kinetic.push(kinetic);
         let place = |n: i64| n as usize % MOST;
         self.energies[place(n)] = kinetic + logged.energy;
 
@@ -165,7 +168,11 @@ impl Observer {
             }
             ErrorOf::LastTerm(of_seven, before) => {
                 let newest = of_seven.push(state.q, state.p, state.increments).map_or(f64::NAN, |found| *found.value);
-                let mean = (newest + std::mem::replace(before, newest)) / 2.0;
+                let before = std::mem::replace(before, newest);
+                if estimate.is_some() {
+                    self.changes.push_seven(newest - before);
+                }
+                let mean = (newest + before) / 2.0;
                 estimate.map(|estimate| (estimate, (estimate - mean).abs()))
             }
         };
@@ -186,13 +193,15 @@ impl Observer {
         Diagnosis::of(&Evidence {
             window: self.window,
             h: self.h,
-            states: self.states,
             values: &self.values,
-            kinetic: self.kinetic / self.states.max(1) as f64,
+            kinetic: &self.kinetic,
             changes: &self.changes,
             forces: &self.forces,
+            energy: &self.energy,
             differences: self.steps.differences(),
+            work: self.steps.work(),
             reordered: self.steps.reordered(),
         })
+        .judged()
     }
 }

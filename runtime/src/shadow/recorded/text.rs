@@ -2,18 +2,16 @@
 
 use std::fmt;
 
+use super::cause::Cause;
 use super::changes::Jump;
-use super::diagnosis::{Cause, Diagnosis};
-use super::forces::Smoothness;
+use super::diagnosis::Diagnosis;
+use super::judge::LEAST_ESTIMATES;
+use super::roughness::Smoothness;
 
 impl Diagnosis {
     /// The cause with its size, a sentence.
     pub fn reason(&self) -> String {
-        let [part, kinetic] = [self.range / self.energy_error, self.range / self.kinetic];
-        let moved = format!(
-            "the modified energy ranges over {:.2e}, {part:.1e} of the energy error and {kinetic:.1e} of T, in {:.4} of time",
-            self.range, self.time
-        );
+        let moved = self.moved();
         match self.cause {
             Cause::Undecided => self.why_undecided(),
             Cause::OtherSteps => self.why_other_steps(),
@@ -25,6 +23,11 @@ impl Diagnosis {
                 self.known_to,
                 self.differences.map_or(f64::NAN, |[of_q, _]| of_q.of_numbers / 2_f64.sqrt())
             ),
+            Cause::NoisyEnergy { size } => format!(
+                "the modified energy is known to {:.1e} only, as the logged U has errors of {size:.1e} rms that are independent from state to state; the \
+                 states do not show that anything moves the energy",
+                self.known_to
+            ),
             Cause::Jumps { size } => {
                 format!("{moved}: it jumps {}, by {size:.2e} rms. {}", self.where_it_jumps(), LATE)
             }
@@ -34,7 +37,7 @@ impl Diagnosis {
             }
             Cause::Noise { size } => format!(
                 "{moved}: the forces have errors that are independent from step to step, of {size:.2e} rms in each component, {:.1e} of the forces",
-                size / self.smoothness.map_or(f64::NAN, |smoothness| smoothness.gradient)
+                size / self.smoothness.map_or(f64::NAN, |smoothness| smoothness.size)
             ),
             Cause::ForcesNotSmooth => format!("{moved}: the forces are not smooth, as at a cutoff"),
             Cause::TimeStep if self.is_too_large_a_step() => format!(
@@ -47,14 +50,40 @@ impl Diagnosis {
     }
 
     fn why_undecided(&self) -> String {
-        if self.smoothness.is_none() {
-            "not decided: no forces are logged, or windows have too few states".to_owned()
-        } else {
-            format!(
-                "not decided: {} estimates with errors, which are {:.1e}; more states may decide it",
-                self.estimates, self.known_to
-            )
+        if self.estimates < LEAST_ESTIMATES {
+            return format!(
+                "not decided: there are {} estimates, and {LEAST_ESTIMATES} are needed: log more states",
+                self.estimates
+            );
         }
+        let Some(excess) = self.excess else {
+            return "not decided: no forces are logged".to_owned();
+        };
+        let moved = self.moved();
+        let (undecided, next) = if self.has_large_jumps() {
+            (
+                format!("it jumps {}, by as much as the kinetic energy", self.where_it_jumps()),
+                "look at these states: steps that are too large there do that, or a state that is changed",
+            )
+        } else if excess > 1.0 {
+            ("by more than errors of the forces explain: U jumps, or the forces are not −U_q".to_owned(), SMALLER)
+        } else if self.is_independent() {
+            ("independently from step to step: the forces have errors, or are not smooth".to_owned(), SMALLER)
+        } else {
+            (
+                format!("and the estimates have errors of {:.1e}", self.known_to),
+                "more states, or steps of half the size, may decide it",
+            )
+        };
+        format!("not decided: {moved}, {undecided}; {next}")
+    }
+
+    fn moved(&self) -> String {
+        let [part, kinetic] = [self.range / self.energy_error, self.range / self.kinetic];
+        format!(
+            "the modified energy ranges over {:.2e}, {part:.1e} of the energy error and {kinetic:.1e} of T, in {:.4} of time",
+            self.range, self.time
+        )
     }
 
     fn why_other_steps(&self) -> String {
@@ -78,6 +107,9 @@ impl Diagnosis {
         format!("{} times, the most before the states {}", self.jumps.len(), places.join(", "))
     }
 }
+
+/// What tells causes apart that large steps hide.
+const SMALLER: &str = "steps of half the size tell these apart";
 
 /// What makes such jumps.
 const LATE: &str = "A list of neighbours that is renewed too late does that, or a state that is changed";
@@ -103,14 +135,22 @@ impl fmt::Display for Diagnosis {
             self.range, self.moved, self.change
         )?;
         writeln!(f, "  it is known to   {:9.2e}", self.known_to)?;
-        if let Some(Smoothness { gradient, differences, exponent }) = self.smoothness {
-            writeln!(
-                f,
-                "  forces           {gradient:9.2e}  their differences {differences:.2e}, exponent {exponent:.2}"
-            )?;
+        if let Some(Smoothness { size, differences, exponent }) = self.smoothness {
+            writeln!(f, "  forces           {size:9.2e}  their differences {differences:.2e}, exponent {exponent:.2}")?;
         }
         if let Some(excess) = self.excess {
-            writeln!(f, "  excess           {excess:9.2e}  isolation {:.1}", self.isolation)?;
+            writeln!(
+                f,
+                "  excess           {excess:9.2e}  growth {:.1}, isolation {:.1}",
+                self.growth, self.isolation
+            )?;
+        }
+        if let Some(of_energy) = self.energy_smoothness {
+            writeln!(
+                f,
+                "  differences of U {:9.2e}  exponent {:.2}; H̄ changes by {:.2e} in a step",
+                of_energy.differences, of_energy.exponent, self.in_a_step
+            )?;
         }
         if let Some([of_q, of_p]) = self.differences {
             writeln!(
@@ -129,6 +169,7 @@ impl fmt::Display for Cause {
             Cause::OtherSteps => "other steps",
             Cause::Nothing => "nothing moves the energy",
             Cause::Digits => "too few digits",
+            Cause::NoisyEnergy { .. } => "noise of the logged U",
             Cause::Jumps { .. } => "jumps",
             Cause::NotTheGradient => "not the gradient",
             Cause::EnergyNotSmooth { .. } => "the energy is not smooth",

@@ -3,6 +3,7 @@
 use super::error::RecordedError;
 use super::log::{Derivatives, Logged};
 use super::misfit::{Differences, Misfit};
+use super::work::Work;
 use crate::number::Number;
 use crate::shadow::run::{RunError, TrajectoryState};
 use crate::steps::step_size::StepSize;
@@ -33,6 +34,7 @@ pub(super) struct VerletSteps {
     rate: f64,
     increments: OwnedIncrements<f64>,
     misfits: [Misfit; 2],
+    work: Work,
     /// The logged q to which the newest step leads.
     predicted: Vec<f64>,
     reordered: Option<i64>,
@@ -72,6 +74,7 @@ impl VerletSteps {
             rate: 0.0,
             increments: OwnedIncrements::zero(dimension, &()),
             misfits: [Misfit::new(dimension), Misfit::new(dimension)],
+            work: Work::default(),
             predicted: zeros(),
             reordered: None,
         })
@@ -140,6 +143,9 @@ impl VerletSteps {
                 of_q.add((*n, i), [self.q[i], q], dq[i], logged.q[i]);
                 self.predicted[i] = self.origin[i] + (self.q[i] + dq[i]);
                 of_p.add((*n, i), [self.p[i], p], dp[i], p);
+                let [by_q, by_p] = [(q - self.q[i]) - dq[i], (p - self.p[i]) - dp[i]];
+                let mean = [(gradient + self.gradient[i]) / 2.0, (p + self.p[i]) / 2.0 / self.masses[i]];
+                self.work.add([mean[0] * by_q, mean[1] * by_p]);
             }
             (self.q[i], self.p[i], self.gradient[i]) = (q, p, gradient);
         }
@@ -147,6 +153,7 @@ impl VerletSteps {
         if self.follows[1] {
             of_q.end();
             of_p.end();
+            self.work.end();
             if self.reordered.is_none() && self.is_reordered(logged.q) {
                 self.reordered = Some(self.n);
             }
@@ -185,6 +192,11 @@ impl VerletSteps {
     pub(super) fn state(&self) -> TrajectoryState<'_, f64> {
         let increments = if self.follows[1] { self.increments.view() } else { Increments::of_beta(&0.0) };
         TrajectoryState { n: self.n, q: &self.q, p: &self.p, increments }
+    }
+
+    /// What the differences do to the energy.
+    pub(super) fn work(&self) -> &Work {
+        &self.work
     }
 
     /// The first state whose coordinates are in another order than those of the state before.

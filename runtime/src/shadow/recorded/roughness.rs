@@ -1,4 +1,4 @@
-//! Whether logged forces are smooth along the trajectory, from what is left of them where a polynomial in time is taken away.
+//! Whether logged forces, or U, are smooth along the trajectory, from what is left of them where a polynomial in time is taken away.
 
 use super::window::Window;
 
@@ -67,7 +67,7 @@ impl Window {
 /// distance where U' jumps, as twice as many jumps are seen; where U'' jumps it is 2³ times as large. Where the forces are smooth and the steps
 /// resolve the motion, it is 2¹⁶ times as large.
 #[derive(Clone, Debug)]
-pub(super) struct ForceDifferences {
+pub(super) struct Roughness {
     window: Window,
     dimension: usize,
     /// The newest gradients, the gradient at the state n in place n mod their number.
@@ -82,9 +82,9 @@ pub(super) struct ForceDifferences {
     gradients: f64,
 }
 
-impl ForceDifferences {
+impl Roughness {
     pub(super) fn new(window: Window, dimension: usize) -> Self {
-        ForceDifferences {
+        Roughness {
             window,
             dimension,
             ring: vec![0.0; window.states() * dimension],
@@ -141,22 +141,22 @@ impl ForceDifferences {
         let count = self.count as f64;
         let [near, far] = self.squares.map(|sum| sum / count);
         (self.count > 0).then(|| Smoothness {
-            gradient: (self.gradients / count).sqrt(),
+            size: (self.gradients / count).sqrt(),
             differences: near.sqrt(),
             exponent: self.window.exponent((far / near).log2()),
         })
     }
 }
 
-/// How smooth the gradient is along the trajectory.
+/// How smooth U_q, or U, is along the trajectory.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Smoothness {
-    /// The root mean square of U_q.
-    pub gradient: f64,
-    /// The root mean square of its differences in time, which for noise is the size of the noise in a component: of eighth differences, divided by
+    /// The root mean square of a component of U_q, or of U.
+    pub size: f64,
+    /// The root mean square of its differences in time, which for noise is its size in a component: of eighth differences, divided by
     /// √C(16, 8); in windows of nine states, of the coefficients of the orthogonal polynomials of degree 7 and 8.
     pub differences: f64,
-    /// 0 for noise, 1 where U′ jumps, 3 where U″ does, large where the forces are smooth and the steps resolve the motion. It is log₂ of how many times
+    /// 0 for noise, 1 where U′ jumps, 3 where U″ does, large where the forces are smooth and the steps resolve the motion; of U, 1 where U jumps. It is log₂ of how many times
     /// as large the squares of the differences are where the distance of the states is doubled, then 16 at most; in windows of nine states it follows
     /// from the ratio of the squares of the coefficients of degree 5 and 6 to the squares of the coefficients of degree 7 and 8.
     pub exponent: f64,
@@ -188,7 +188,7 @@ mod tests {
     fn the_exponent_of_nine_states_is_that_of_jumps() {
         const PLACES: usize = 20_000;
         for (p, (ratio, exponent)) in EXPONENTS.into_iter().skip(1).enumerate() {
-            let mut forces = ForceDifferences::new(Window::Nine, 1);
+            let mut forces = Roughness::new(Window::Nine, 1);
             for place in 0..PLACES {
                 let at = 8.0 * (place as f64 + 0.5) / PLACES as f64;
                 forces.begin();

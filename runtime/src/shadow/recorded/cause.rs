@@ -1,0 +1,95 @@
+//! What moves the energy of a recorded trajectory.
+
+/// What moves the modified energy. The first that applies is given:
+///
+/// | cause | if |
+/// | --- | --- |
+/// | not decided: states | there are fewer than 32 estimates with errors |
+/// | other steps | the order of the coordinates changes; or q or p of the states differ from the steps by more than 1e-3 of their increments, rms, and not as numbers that are stored with few digits, which are off by less than 1e-2 of q |
+/// | time step | the method's part of the energy error is 0.4 of the median of the kinetic energy or more, as for the [monitor](crate::shadow::ShadowEnergy) |
+/// | nothing | H̄ moved by less than a tenth of the energy error, beyond three times its errors, is known to a tenth of it, and ranges over less than a quarter of it with its errors |
+/// | digits | else, if it moved by less than that, and q or p differs from the steps as numbers that are stored with few digits, by so much that it makes errors of this size |
+/// | noisy energy | else, if it moved by less than that and goes to and fro, the motion is resolved, the exponent of U is below 0.5, and its differences are above 1.5 of what H̄ changes by in a step |
+/// | other steps | else, if the work of the differences of the states from the steps is what H̄ ranges over, within a factor of three |
+/// | not decided: jumps | the isolation is above 3, and the energy error is 0.4 of the kinetic energy or more |
+/// | jumps | the excess is above 8, the isolation above 3 |
+/// | not the gradient | the excess is above 8, and the differences of U are below a quarter of what H̄ changes by in a step |
+/// | energy not smooth | the excess is above 8, the exponent of U below 2, and H̄ does not go to and fro |
+/// | not the gradient | the excess is above 8, and H̄ changes slowly |
+/// | noise | the exponent is below 0.5, and the excess from 0.35 to 8 |
+/// | not the gradient | H̄ changes slowly, and the exponent is 4 or more and the motion resolved, or the exponent is 2 or more and the excess 0.1 or more |
+/// | forces not smooth | the exponent is from 0.5 to 4, the excess from 0.03 to 0.7, and the motion is resolved |
+/// | time step | H̄ moved, the exponent is 2 or more, the excess below 0.1, the motion is not resolved, and what H̄ changes by is neither independent from step to step nor slow |
+/// | not decided | none of these, or no gradients are logged |
+///
+/// The motion is resolved if the differences of the forces are below 0.01 of these (0.05 in windows of nine states). H̄ goes to and fro where the growth is
+/// below 0.7 (0.6), and changes slowly where it is 1.6 or more (3.6) and the isolation below 2; between these it changes independently from step to step.
+///
+/// The excess, the growth, the isolation and the exponents are defined at [`Diagnosis`]; `docs/recorded-trajectories.md` has measured values.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Cause {
+    /// The states are not from velocity Verlet with these masses, gradients and step size: a thermostat, a constraint, another integrator.
+    OtherSteps,
+    /// Nothing that is resolved: H̄ is conserved.
+    Nothing,
+    /// The states are stored with too few digits to know H̄.
+    Digits,
+    /// The logged U has errors that are independent from state to state and do not add up.
+    NoisyEnergy {
+        /// Their root mean square.
+        size: f64,
+    },
+    /// The energy jumps now and then: a list of neighbours that is renewed too late, a state that is changed.
+    Jumps {
+        /// The root mean square of these jumps.
+        size: f64,
+    },
+    /// Smooth forces that are not −U_q of the logged U.
+    NotTheGradient,
+    /// U jumps, all the time: a truncated potential.
+    EnergyNotSmooth {
+        /// What that changes the energy by in a step, rms.
+        size: f64,
+    },
+    /// Errors of the forces that are independent from step to step.
+    Noise {
+        /// Their root mean square for a component.
+        size: f64,
+    },
+    /// The forces, or their derivatives, jump: a cutoff.
+    ForcesNotSmooth,
+    /// The time step: forces are smooth, and the steps do not resolve the motion.
+    TimeStep,
+    /// Not decided by these states.
+    Undecided,
+}
+
+impl Cause {
+    /// Its name in results.
+    pub fn name(self) -> &'static str {
+        match self {
+            Cause::OtherSteps => "other-steps",
+            Cause::Nothing => "nothing",
+            Cause::Digits => "digits",
+            Cause::NoisyEnergy { .. } => "noisy-energy",
+            Cause::Jumps { .. } => "jumps",
+            Cause::NotTheGradient => "not-the-gradient",
+            Cause::EnergyNotSmooth { .. } => "energy-not-smooth",
+            Cause::Noise { .. } => "noise",
+            Cause::ForcesNotSmooth => "forces-not-smooth",
+            Cause::TimeStep => "time-step",
+            Cause::Undecided => "undecided",
+        }
+    }
+
+    /// For noise of the forces, its size in these; for jumps and noise of U, the size in the energy.
+    pub fn size(self) -> Option<f64> {
+        match self {
+            Cause::Jumps { size }
+            | Cause::EnergyNotSmooth { size }
+            | Cause::Noise { size }
+            | Cause::NoisyEnergy { size } => Some(size),
+            _ => None,
+        }
+    }
+}
