@@ -5,6 +5,8 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
+from ase import units
+from ase.constraints import FixAtoms
 from ase.md.verlet import VelocityVerlet
 
 from ._shadowstep import InputError
@@ -19,9 +21,10 @@ class ShadowMonitor:
     Parameters
     ----------
     atoms
-        The atoms, with a calculator that gives energies and forces. Their positions are not wrapped during the run.
+        The atoms, with a calculator that gives energies and forces. Positions that are wrapped into the cell during the run are unwrapped.
     dyn
-        The dynamics: a `VelocityVerlet` of these atoms without constraints. The monitor attaches itself.
+        The dynamics: a `VelocityVerlet` of these atoms, or a subclass that makes the same steps. Atoms that `FixAtoms` holds are parameters of the potential, and left
+        out; other constraints are refused. The monitor attaches itself.
     every
         The number of steps from a window of successive states to the next; at ``window`` and below, all states.
     window
@@ -48,16 +51,22 @@ class ShadowMonitor:
     """
 
     def __init__(self, atoms: Any, dyn: Any, every: int = 1, window: int = 17) -> None:
-        if type(dyn) is not VelocityVerlet:
+        if not isinstance(dyn, VelocityVerlet) or type(dyn).step is not VelocityVerlet.step:
             found = type(dyn).__name__
             raise InputError(f"the modified energy is that of velocity Verlet, and the dynamics are {found}: use ase.md.verlet.VelocityVerlet")
         if dyn.atoms is not atoms:
             raise InputError("the dynamics are those of other atoms")
-        if atoms.constraints:
-            raise InputError("the atoms have constraints, with which the steps are no velocity Verlet: remove them")
+        others = [type(constraint).__name__ for constraint in atoms.constraints if not isinstance(constraint, FixAtoms)]
+        if others:
+            raise InputError(f"the atoms have {', '.join(others)}, with which the steps are no velocity Verlet: remove it; atoms may be held by FixAtoms")
+        self._free = np.setdiff1d(np.arange(len(atoms)), [i for constraint in atoms.constraints for i in constraint.get_indices()])
+        if not len(self._free):
+            raise InputError("all atoms are fixed")
         self._atoms = atoms
         self._dyn = dyn
-        self._observer = Observer(np.repeat(atoms.get_masses(), 3), float(dyn.dt), window=window)
+        cell = atoms.cell.complete() if any(atoms.pbc) else None
+        masses = np.repeat(atoms.get_masses()[self._free], 3)
+        self._observer = Observer(masses, float(dyn.dt), window=window, cell=cell, periodic=atoms.pbc)
         self._every = count(every, "every")
         self._before: int | None = None
         self.newest: Sample | None = None
@@ -73,7 +82,8 @@ class ShadowMonitor:
         self._before = n
         atoms = self._atoms
         energy = atoms.get_potential_energy(force_consistent=_is_force_consistent(atoms.calc))
-        sample = self._observer.observe(atoms.positions, atoms.get_momenta(), energy, atoms.get_forces())
+        q, p, forces = (of[self._free] for of in (atoms.positions, atoms.get_momenta(), atoms.get_forces()))
+        sample = self._observer.observe(q, p, energy, forces)
         self.newest = sample or self.newest
 
     @property
@@ -82,8 +92,8 @@ class ShadowMonitor:
         return self._observer.values
 
     def diagnosis(self) -> Diagnosis:
-        """What moves the energy, as far as the states so far tell; energies are in eV, forces in eV/Å."""
-        return self._observer.diagnosis()
+        """What moves the energy, as far as the states so far tell; energies are in eV, forces in eV/Å, and the text has times in fs."""
+        return self._observer._in_units(("eV", "fs", 1 / units.fs))
 
 
 def _is_force_consistent(calculator: Any) -> bool:

@@ -28,8 +28,16 @@ class Ensemble:
     """Momenta at the end, of shape (n, d)."""
     energy_error: np.ndarray
     """The largest |H − H(0)|/|H(0)| at the states that were looked at, of shape (n,)."""
+    energy_start: np.ndarray
+    """H at the beginning, of shape (n,)."""
+    energy_end: np.ndarray
+    """H at the end, of shape (n,): NaN of a trajectory that is not finite."""
     modified_drift: np.ndarray | None
     """max − min of the modified energy, of shape (n,), if it was asked for."""
+    modified_start: np.ndarray | None
+    """The first estimate of the modified energy, of shape (n,)."""
+    modified_end: np.ndarray | None
+    """The last estimate, of shape (n,): NaN of a trajectory that is not finite."""
     not_finite: np.ndarray
     """The first n at which a state was found not to be finite; −1 for none."""
 
@@ -111,7 +119,9 @@ def ensemble(
         q=found["q"].reshape(rows, -1),
         p=found["p"].reshape(rows, -1),
         energy_error=found["energy_error"],
-        modified_drift=None if order is None else found["modified_drift"],
+        energy_start=found["energy_start"],
+        energy_end=found["energy_end"],
+        **{name: None if order is None else found[name] for name in ("modified_drift", "modified_start", "modified_end")},
         not_finite=found["not_finite"],
     )
 

@@ -24,8 +24,8 @@ class ShadowReporter:
     Parameters
     ----------
     simulation
-        An `openmm.app.Simulation` with a `VerletIntegrator`; no constraints, virtual sites, thermostats, barostats or `CMMotionRemover`. Append the
-        reporter to its ``reporters``.
+        An `openmm.app.Simulation` with a `VerletIntegrator`; no constraints, virtual sites, thermostats, barostats or `CMMotionRemover`
+        (``createSystem(removeCMMotion=False)``). Particles of mass 0 do not move, and are left out. Append the reporter to its ``reporters``.
     every
         The number of steps from a window of successive states to the next; at ``window`` and below, all states.
     window
@@ -41,12 +41,15 @@ class ShadowReporter:
             raise InputError(f"the system has {system.getNumConstraints()} constraints, with which the steps are no leapfrog: make it without")
         others = [type(force).__name__ for force in system.getForces() if type(force).__name__ in _OTHER]
         if others:
-            raise InputError(f"the system has {', '.join(others)}, which changes states between the steps: remove it")
+            how = "createSystem(removeCMMotion=False)" if others == ["CMMotionRemover"] else "remove it"
+            raise InputError(f"the system has {', '.join(others)}, which changes states between the steps: {how}")
         particles = range(system.getNumParticles())
         if any(system.isVirtualSite(i) for i in particles):
             raise InputError("the system has virtual sites, whose positions are no coordinates of their own: make it without")
         masses = np.array([system.getParticleMass(i).value_in_unit(unit.dalton) for i in particles])
-        self._masses = np.repeat(masses, 3)
+        # OpenMM does not move particles of mass 0
+        self._free = masses > 0
+        self._masses = np.repeat(masses[self._free], 3)
         self._observer = Observer(self._masses, integrator.getStepSize().value_in_unit(unit.picosecond), window=window)
         self._every = count(every, "every")
         self._before: int | None = None
@@ -71,6 +74,7 @@ class ShadowReporter:
         v = number(state.getVelocities(asNumpy=True), unit.nanometer / unit.picosecond)
         forces = number(state.getForces(asNumpy=True), unit.kilojoule_per_mole / unit.nanometer)
         energy = state.getPotentialEnergy().value_in_unit(unit.kilojoule_per_mole)
+        q, v, forces = (of[self._free] for of in (q, v, forces))
         sample = self._observer.observe(q, v.ravel() * self._masses, energy, forces, half_step=True)
         self.newest = sample or self.newest
 
@@ -80,5 +84,5 @@ class ShadowReporter:
         return self._observer.values
 
     def diagnosis(self) -> Diagnosis:
-        """What moves the energy, as far as the states so far tell; energies are in kJ/mol, forces in kJ/mol/nm."""
-        return self._observer.diagnosis()
+        """What moves the energy, as far as the states so far tell; energies are in kJ/mol, forces in kJ/mol/nm, and the text has times in ps."""
+        return self._observer._in_units(("kJ/mol", "ps", 1.0))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import warnings
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any, NamedTuple, Union
@@ -62,6 +63,12 @@ def shadow_energy(
     ShadowEnergy
         Values and errors of shape (n,).
 
+    Warns
+    -----
+    UserWarning
+        If logged forces show that the states are not those of velocity Verlet with these masses and this h, as where momenta of leapfrog are not declared, velocities
+        are given for momenta, or positions are wrapped.
+
     Examples
     --------
     >>> import numpy as np, shadowstep
@@ -88,7 +95,9 @@ def shadow_energy(
         rates = derivatives if derivatives.ndim == 1 else None
         if half_steps:
             p = _of_half_steps(len(q), p) if forces is None else _with_forces(step, p, forces)
-        found = _shadowstep.energies_of_log(q, p, energies, forces, rates, _masses(masses, q.shape[1]), step, order_of(k, "k"))
+        found, other_steps = _shadowstep.energies_of_log(q, p, energies, forces, rates, _masses(masses, q.shape[1]), step, order_of(k, "k"))
+        if other_steps is not None:
+            warnings.warn(f"{other_steps}; the modified energy is that of other steps", stacklevel=2)
     values, errors = np.full(len(q), np.nan), np.full(len(q), np.nan)
     n = np.asarray(found[0], dtype=np.int64)
     values[n], errors[n] = found[1], found[2]
@@ -221,7 +230,10 @@ class Observer:
 
     def diagnosis(self) -> Diagnosis:
         """What moves the energy, as far as the states so far tell."""
-        return Diagnosis(**self._observer.diagnosis())
+        return self._in_units(None)
+
+    def _in_units(self, units: tuple[str, str, float] | None) -> Diagnosis:
+        return Diagnosis(**self._observer.diagnosis(units))
 
 
 def diagnose(
@@ -247,7 +259,10 @@ def diagnose(
     >>> shadowstep.diagnose(orbit.q, orbit.p, (U, forces), h=0.101).cause
     'other-steps'
     """
-    q, p, energies, forces = _rows(q), _rows(p), np.asarray(potential[0], dtype=np.float64), _rows(potential[1])
+    energies, forces = (np.asarray(of, dtype=np.float64) for of in potential)
+    if forces.ndim == 1 and np.ndim(q) > 1:
+        raise _shadowstep.InputError("a diagnosis needs forces, in the shape of q; a rate qᵀU_q − 2U does not tell the causes apart")
+    q, p, forces = _rows(q), _rows(p), _rows(forces)
     if not len(q) == len(p) == len(energies) == len(forces):
         lengths = f"{len(q)}, {len(p)}, {len(energies)} and {len(forces)}"
         raise _shadowstep.InputError(f"q, p, U and forces have {lengths} states: give as many of each")

@@ -39,6 +39,12 @@ pub(crate) fn ensemble<'py>(
     all.set_item("p", PyArray1::from_vec(py, outcomes.iter().flat_map(|outcome| outcome.p.clone()).collect()))?;
     all.set_item("energy_error", numbers(|outcome| outcome.energy_error))?;
     all.set_item("modified_drift", numbers(|outcome| outcome.modified_drift.unwrap_or(f64::NAN)))?;
+    all.set_item("energy_start", numbers(|outcome| outcome.energies[0]))?;
+    all.set_item("energy_end", numbers(|outcome| outcome.energies[1]))?;
+    let ends = |outcome: &shadowstep::shadow::ensemble::Outcome| outcome.modified_energies.unwrap_or([f64::NAN; 2]);
+    let modified = outcomes.iter().map(ends);
+    all.set_item("modified_start", PyArray1::from_vec(py, modified.clone().map(|[start, _]| start).collect()))?;
+    all.set_item("modified_end", PyArray1::from_vec(py, modified.map(|[_, end]| end).collect()))?;
     let not_finite =
         outcomes.iter().map(|outcome| outcome.not_finite.map_or(-1, |n| i64::try_from(n).unwrap_or(i64::MAX)));
     all.set_item("not_finite", PyArray1::from_vec(py, not_finite.collect::<Vec<i64>>()))?;

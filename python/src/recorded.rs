@@ -5,7 +5,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use shadowstep::StepSize;
 use shadowstep::shadow::recorded::{
-    Derivatives, Diagnosis, Log, Logged, Recorded, RecordedError, Repeated, Unwrapping, Window, integer_momenta,
+    Derivatives, Diagnosis, Log, Logged, Recorded, RecordedError, Repeated, Units, Unwrapping, Window, integer_momenta,
     integer_momenta_with_gradients,
 };
 use shadowstep::shadow::run::{ShadowRun, States};
@@ -22,7 +22,10 @@ use crate::scheme::Table;
 /// n, H̄ and its error of the states that have one.
 type LogEstimates = (Vec<i64>, Vec<f64>, Vec<f64>);
 
-/// The estimates E_k of a log of velocity Verlet: U with the forces of each state, or with the rate qᵀU_q − 2U.
+/// The name of the unit of energies; that of times and how many of it a time has.
+type UnitsOf = (String, String, f64);
+
+/// The estimates E_k of a log of velocity Verlet: U with the forces of each state, or with the rate qᵀU_q − 2U; and why its states are not those of steps.
 #[pyfunction]
 #[pyo3(signature = (q, p, energies, forces, rates, masses, h, k))]
 #[allow(clippy::too_many_arguments)] // the package's own function has the defaults
@@ -36,7 +39,7 @@ pub(crate) fn energies_of_log(
     masses: Vec<f64>,
     h: &str,
     k: u32,
-) -> PyResult<LogEstimates> {
+) -> PyResult<(LogEstimates, Option<String>)> {
     let h = step_size(py, h)?;
     let (dimension, q, p, energies) = (q.shape()[1], rows(&q)?, rows(&p)?, energies.to_vec()?);
     let gradients = forces.map(|forces| Ok::<_, PyErr>(negative(rows(&forces)?))).transpose()?;
@@ -46,9 +49,12 @@ pub(crate) fn energies_of_log(
             (Some(gradients), _) => Log::with_gradients(dimension, [&q, &p, gradients], &energies)?,
             (None, rates) => Log::with_rates(dimension, [&q, &p], [&energies, rates.as_deref().unwrap_or_default()])?,
         };
-        all(Recorded::new(log, &h, &masses)?.estimates(&h, &Bilinear::with_error(k))?)
+        let mut steps = Recorded::new(log, &h, &masses)?;
+        let estimates = all(steps.clone().estimates(&h, &Bilinear::with_error(k))?)?;
+        while steps.advance()?.is_some() {}
+        Ok((estimates, steps.other_steps()))
     })
-    .map_err(|error| refused(py, &error))
+    .map_err(|error: RecordedError| refused(py, &error))
 }
 
 /// The estimates E_k of states of a scheme, with the steps made again in a problem of ours.
@@ -166,6 +172,9 @@ impl Observer {
 
     /// The next state is the state n, which does not follow the newest by a step.
     fn begin(&mut self, py: Python<'_>, n: i64) -> PyResult<()> {
+        if let Some(unwrapping) = &mut self.unwrapping {
+            unwrapping.begin();
+        }
         self.observer.begin(n).map_err(|error| refused(py, &error))
     }
 
@@ -208,9 +217,10 @@ impl Observer {
         (values.iter().map(|value| value.n).collect(), [of(|v| v.modified), of(|v| v.error), of(|v| v.energy)])
     }
 
-    /// What moves the energy.
-    fn diagnosis<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
-        dictionary(py, &self.observer.diagnosis())
+    /// What moves the energy, with texts in these units.
+    fn diagnosis<'py>(&self, py: Python<'py>, units: Option<UnitsOf>) -> PyResult<Bound<'py, PyDict>> {
+        let units = units.map(|(energy, time, of_time)| Units { energy, time: Some((time, of_time)) });
+        dictionary(py, &self.observer.diagnosis().in_units(units.unwrap_or_default()))
     }
 }
 

@@ -33,6 +33,8 @@ def test_an_ensemble_over_a_parameter_of_a_formula():
         assert found.q[t, 0] == alone.q[-1, 0]
     # the modified energy of the oscillator is conserved; E_4 sees it up to its own error
     assert np.all(found.modified_drift < 1e-3)
+    assert np.allclose(found.energy_start, k / 2) and np.all(np.abs(found.energy_end / found.energy_start - 1) <= found.energy_error)
+    assert np.all(np.abs(found.modified_end - found.modified_start) <= found.modified_drift)
 
 
 def test_wrong_shapes_of_an_ensemble_are_refused():

@@ -71,6 +71,27 @@ def test_what_does_not_fit_is_refused():
         shadow_energy(np.zeros((2, 3)) + [[0.0], [3.0]], np.zeros((2, 3)), (np.zeros(2), np.zeros((2, 3))), h=1, cell=[8, 8, 8])
 
 
+def test_states_of_other_steps_are_warned_of():
+    run = orbit()
+    energies, forces = kepler(run.q)
+    half_steps = run.p - 0.025 * forces
+    wrong = {"undeclared momenta of leapfrog": (half_steps, 0.05, 1.0), "another step size": (run.p, 0.0501, 1.0), "velocities": (run.p, 0.05, 2.0)}
+    for what, (p, h, mass) in wrong.items():
+        with pytest.warns(UserWarning, match="not those of velocity Verlet"):
+            shadow_energy(run.q, p, (energies, forces), h=h, masses=mass)
+        assert diagnose(run.q, p, (energies, forces), h=h, masses=mass).cause == "other-steps", what
+
+
+def test_numbers_that_are_not_finite_have_their_place():
+    q, p, forces = np.zeros((60, 4, 3)), np.zeros((60, 4, 3)), np.zeros((60, 4, 3))
+    forces[50, 3, 1] = np.nan
+    for call in (shadow_energy, diagnose):
+        with pytest.raises(InputError, match="the gradient of state 50 is NaN at coordinate 10: y of particle 3"):
+            call(q, p, (np.zeros(60), forces), h=1)
+    with pytest.raises(InputError, match="a diagnosis needs forces"):
+        diagnose(q, p, (np.zeros(60), np.zeros(60)), h=1)
+
+
 def argon(calculator, temperature=150):
     """108 atoms of a crystal, some of them on their way."""
     build = pytest.importorskip("ase.lattice.cubic")
@@ -144,10 +165,33 @@ def test_ase_windows_and_emt():
     assert np.ptp(monitor.values["modified_energy"]) < 0.01 * np.ptp(monitor.values["energy"])
 
 
+def test_ase_with_fixed_atoms_wrapped_positions_and_units():
+    constraints = pytest.importorskip("ase.constraints")
+    from ase import units
+    from ase.md.verlet import VelocityVerlet
+
+    from shadowstep.ase import ShadowMonitor
+
+    atoms = argon(lennard_jones(smooth=True))
+    atoms.set_constraint(constraints.FixAtoms(range(36)))
+
+    class Wrapped(VelocityVerlet):
+        """The same steps."""
+
+    dyn = Wrapped(atoms, 5 * units.fs)
+    monitor = ShadowMonitor(atoms, dyn)
+    dyn.attach(atoms.wrap, interval=7)
+    dyn.run(120)
+    found = monitor.diagnosis()
+    assert found.cause == "nothing" and found.off_q < 1e-9, str(found)
+    assert np.ptp(monitor.values["modified_energy"]) < 0.01 * np.ptp(monitor.values["energy"])
+    assert " eV, " in found.reason and " in 520.0000 fs" in found.reason, found.reason
+
+
 def test_ase_what_has_no_modified_energy_is_refused():
     langevin = pytest.importorskip("ase.md.langevin")
     from ase import units
-    from ase.constraints import FixAtoms
+    from ase.constraints import FixBondLengths
     from ase.md.verlet import VelocityVerlet
 
     from shadowstep.ase import ShadowMonitor
@@ -155,12 +199,19 @@ def test_ase_what_has_no_modified_energy_is_refused():
     atoms = argon(lennard_jones(smooth=True))
     with pytest.raises(InputError, match="the dynamics are Langevin"):
         ShadowMonitor(atoms, langevin.Langevin(atoms, units.fs, temperature_K=100, friction=0.01))
-    atoms.set_constraint(FixAtoms([0]))
-    with pytest.raises(InputError, match="constraints"):
+
+    class Other(VelocityVerlet):
+        def step(self, forces=None):
+            return super().step(forces)
+
+    with pytest.raises(InputError, match="the dynamics are Other"):
+        ShadowMonitor(atoms, Other(atoms, units.fs))
+    atoms.set_constraint(FixBondLengths([(0, 1)]))
+    with pytest.raises(InputError, match="the atoms have FixBondLengths"):
         ShadowMonitor(atoms, VelocityVerlet(atoms, units.fs))
 
 
-def fluid(platform, integrator=None, femtoseconds=5, others=()):
+def fluid(platform, integrator=None, femtoseconds=5, others=(), fixed=()):
     """108 atoms of argon in OpenMM, with a force that is smooth at the cutoff."""
     openmm = pytest.importorskip("openmm")
     from openmm import app, unit
@@ -176,8 +227,8 @@ def fluid(platform, integrator=None, femtoseconds=5, others=()):
     force.setSwitchingDistance(0.5)
     topology = app.Topology()
     chain = topology.addChain()
-    for mass in atoms.get_masses():
-        system.addParticle(mass)
+    for i, mass in enumerate(atoms.get_masses()):
+        system.addParticle(0 if i in fixed else mass)
         force.addParticle([])
         topology.addAtom("Ar", app.Element.getBySymbol("Ar"), topology.addResidue("Ar", chain))
     for other in (force, *others):
@@ -202,6 +253,17 @@ def test_openmm_in_order(platform):
     assert max(found.off_q, found.off_p) < (1e-9 if platform == "Reference" else 1e-3), str(found)
 
 
+def test_openmm_with_particles_that_do_not_move():
+    from_openmm = pytest.importorskip("shadowstep.openmm")
+    simulation = fluid("Reference", fixed=range(30))
+    reporter = from_openmm.ShadowReporter(simulation)
+    simulation.reporters.append(reporter)
+    simulation.step(200)
+    found = reporter.diagnosis()
+    assert found.cause == "nothing" and max(found.off_q, found.off_p) < 1e-9, str(found)
+    assert "kJ/mol" in found.reason and " ps" in found.reason
+
+
 def test_openmm_windows():
     from_openmm = pytest.importorskip("shadowstep.openmm")
     simulation = fluid("Reference")
@@ -218,7 +280,7 @@ def test_openmm_what_has_no_modified_energy_is_refused():
 
     with pytest.raises(InputError, match="the integrator is LangevinMiddleIntegrator"):
         ShadowReporter(fluid("Reference", openmm.LangevinMiddleIntegrator(100, 1, 0.001)))
-    with pytest.raises(InputError, match="CMMotionRemover"):
+    with pytest.raises(InputError, match=r"CMMotionRemover.*createSystem\(removeCMMotion=False\)"):
         ShadowReporter(fluid("Reference", others=[openmm.CMMotionRemover()]))
 
 

@@ -51,6 +51,7 @@ fn alone(t: usize) -> Outcome {
     let mut motion = Motion::new(well, UnitMasses, [x[t], 0.3], [p[t], 0.1]).unwrap();
     let initial = motion.energy();
     let (mut largest, mut range) = (0.0_f64, [f64::INFINITY, f64::NEG_INFINITY]);
+    let mut modified = Vec::new();
     let mut estimator = None;
     for n in 0..60 {
         if n % 10 == 0 {
@@ -58,6 +59,7 @@ fn alone(t: usize) -> Outcome {
         }
         if let Some(estimate) = estimator.as_mut().unwrap().push(motion.q(), motion.p(), motion.increments()) {
             range = [range[0].min(*estimate.value), range[1].max(*estimate.value)];
+            modified.push(*estimate.value);
         }
         stepper.step_augmented(&mut motion);
         if n % 10 == 9 {
@@ -67,14 +69,17 @@ fn alone(t: usize) -> Outcome {
             let estimate = estimator.as_mut().unwrap().push(motion.q(), motion.p(), motion.increments());
             let value = *estimate.expect("7 states").value;
             range = [range[0].min(value), range[1].max(value)];
+            modified.push(value);
             estimator = Some(FixedBilinear::new(6).build(stepper.step_size(), 2, &()).unwrap());
         }
     }
     Outcome {
         q: motion.q().to_vec(),
         p: motion.p().to_vec(),
+        energies: [initial, motion.energy()],
         energy_error: largest / initial.abs(),
         modified_drift: Some(range[1] - range[0]),
+        modified_energies: Some([modified[0], *modified.last().unwrap()]),
         not_finite: None,
     }
 }
@@ -88,6 +93,8 @@ fn outcomes_are_those_of_each_trajectory_alone() {
         assert_eq!([&found.q, &found.p], [&expected.q, &expected.p], "trajectory {t}");
         assert_eq!(found.energy_error, expected.energy_error, "trajectory {t}");
         assert_eq!(found.modified_drift, expected.modified_drift, "trajectory {t}");
+        assert_eq!(found.energies, expected.energies, "trajectory {t}");
+        assert_eq!(found.modified_energies, expected.modified_energies, "trajectory {t}");
     }
     // of one the six estimates agree to the last bit
     let drifting = found.iter().filter(|found| found.modified_drift > Some(0.0)).count();

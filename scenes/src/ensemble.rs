@@ -25,7 +25,7 @@
 //! let mut rows = Vec::new();
 //! ensemble.run_into(&mut rows)?;
 //! let rows = String::from_utf8(rows).unwrap();
-//! assert_eq!(rows.lines().next(), Some("trajectory,e,x,y,px,py,energy_error,not_finite"));
+//! assert_eq!(rows.lines().next(), Some("trajectory,e,x,y,px,py,energy_error,energy_start,energy_end,not_finite"));
 //! assert!(rows.lines().nth(2).unwrap().starts_with("1,1/3,"));
 //! # Ok::<(), shadowstep_scenes::Error>(())
 //! ```

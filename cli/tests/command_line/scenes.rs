@@ -510,9 +510,14 @@ fn an_ensemble_has_a_row_for_each_trajectory() {
     assert_eq!(run(of_lists.path(), "").code, 0);
     let text = fs::read_to_string(of_lists.path().join("out.csv")).unwrap();
     let table = rows(&text);
-    assert_eq!(table[0].join(","), "trajectory,d,x0,x,y,px,py,energy_error,modified_drift,not_finite");
+    assert_eq!(
+        table[0].join(","),
+        "trajectory,d,x0,x,y,px,py,energy_error,energy_start,energy_end,modified_drift,modified_start,modified_end,not_finite"
+    );
     assert_eq!(table.len(), 4);
-    assert_eq!(table.iter().skip(1).map(|row| row[9].as_str()).collect::<Vec<_>>(), ["", "0", ""]);
+    // lost at the start
+    assert_eq!([&table[2][9], &table[2][11]], ["NaN", ""]);
+    assert_eq!(table.iter().skip(1).map(|row| row[13].as_str()).collect::<Vec<_>>(), ["", "0", ""]);
     // each is the run of its own scene
     for (row, d) in [(1, "0"), (3, "1/3")] {
         let own = ENSEMBLE.replace("1 + d", &format!("1 + {d}")).replace("x0", &table[row][2]);
@@ -524,8 +529,10 @@ fn an_ensemble_has_a_row_for_each_trajectory() {
         let last = fs::read_to_string(own.path().join("out.csv")).unwrap();
         let last = rows(last.lines().last().unwrap()).remove(0);
         assert_eq!(table[row][3..7], last[last.len() - 4..], "{last:?}");
-        let [error, drift]: [f64; 2] = [7, 8].map(|cell| table[row][cell].parse().unwrap());
+        let [error, start, end, drift, first, newest]: [f64; 6] =
+            [7, 8, 9, 10, 11, 12].map(|cell| table[row][cell].parse().unwrap());
         assert!(0.0 < drift && drift < error && error < 1e-2, "{error} {drift}");
+        assert!((end / start - 1.0).abs() <= error && (newest - first).abs() <= drift, "{:?}", table[row]);
     }
     // the same from a file
     let of_file = folder(&format!("{ENSEMBLE}[ensemble]\nfile = \"starts.csv\"\n"));

@@ -22,7 +22,7 @@
 //! | `work` | what differences of the states from the steps do to the energy |
 //! | `changes` | how the modified energy changes from state to state |
 //! | `diagnosis` | the numbers that show what moves the energy |
-//! | `cause`, `judge`, `text` | what moves the energy, the thresholds, as text |
+//! | `cause`, `judge`, `text`, `units` | what moves the energy, the thresholds, as text, in the units of a program |
 //! | `error` | what a log cannot be used for |
 
 mod cause;
@@ -38,6 +38,7 @@ mod repeated;
 mod roughness;
 mod source;
 mod text;
+mod units;
 mod unwrap;
 mod value;
 mod verlet;
@@ -55,6 +56,7 @@ pub use observer::Observer;
 pub use repeated::Repeated;
 pub use roughness::Smoothness;
 pub use source::Recorded;
+pub use units::Units;
 pub use unwrap::Unwrapping;
 pub use value::Value;
 pub use window::Window;

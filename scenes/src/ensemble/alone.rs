@@ -91,6 +91,7 @@ fn follow(
 /// What is seen of a trajectory.
 struct Seen {
     initial: f64,
+    newest: f64,
     largest_error: f64,
     not_finite: Option<u64>,
     /// Without states, and with those of the present window.
@@ -98,17 +99,29 @@ struct Seen {
     window: Option<EstimatorOf>,
     /// The least and the largest modified energy; NaN before the first one.
     modified: [f64; 2],
+    /// The first and the newest.
+    modified_ends: [f64; 2],
 }
 
 impl Seen {
     fn new(initial: f64, estimator: Option<EstimatorOf>) -> Self {
         let not_finite = (!initial.is_finite()).then_some(0);
-        Seen { initial, largest_error: 0.0, not_finite, estimator, window: None, modified: [f64::NAN; 2] }
+        Seen {
+            initial,
+            newest: initial,
+            largest_error: 0.0,
+            not_finite,
+            estimator,
+            window: None,
+            modified: [f64::NAN; 2],
+            modified_ends: [f64::NAN; 2],
+        }
     }
 
     /// Looks at the state after n steps.
     fn look(&mut self, integrator: &mut VectorIntegrator<'_, f64>, n: u64) {
         let energy = integrator.system().energy();
+        self.newest = energy;
         let state = integrator.state();
         let is_finite = energy.is_finite() && state.q().iter().chain(state.p()).all(|x| x.is_finite());
         if self.not_finite.is_none() && !is_finite {
@@ -133,7 +146,11 @@ impl Seen {
     fn push(&mut self, state: &VectorState<f64>) {
         let Some(window) = &mut self.window else { return };
         let Some(estimate) = window.push(state.q(), state.p(), state.increments()) else { return };
+        self.modified_ends[1] = *estimate.value;
         if estimate.value.is_finite() {
+            if self.modified_ends[0].is_nan() {
+                self.modified_ends[0] = *estimate.value;
+            }
             // `min` and `max` ignore NaN
             self.modified = [self.modified[0].min(*estimate.value), self.modified[1].max(*estimate.value)];
         }
@@ -141,11 +158,15 @@ impl Seen {
 
     fn outcome(&self, state: &VectorState<f64>) -> Outcome {
         let drift = self.modified[1] - self.modified[0];
+        let drift = Some(drift).filter(|drift| drift.is_finite());
+        let ends = |[first, last]: [f64; 2]| [first, if self.not_finite.is_none() { last } else { f64::NAN }];
         Outcome {
             q: state.q().to_vec(),
             p: state.p().to_vec(),
+            energies: ends([self.initial, self.newest]),
             energy_error: self.largest_error / self.initial.abs(),
-            modified_drift: Some(drift).filter(|drift| drift.is_finite()),
+            modified_drift: drift,
+            modified_energies: drift.map(|_| ends(self.modified_ends)),
             not_finite: self.not_finite,
         }
     }

@@ -20,14 +20,17 @@ pub(super) fn write(
     let mut csv = csv::Writer::from_writer(writer);
     let state = system.coordinates.iter().chain(&system.momenta);
     let names = columns.names.iter().chain(state).map(String::as_str);
-    let modified_drift = has_modified_energy.then_some("modified_drift");
-    let energies = ["energy_error"].into_iter().chain(modified_drift);
+    let modified = ["modified_drift", "modified_start", "modified_end"].into_iter().filter(|_| has_modified_energy);
+    let energies = ["energy_error", "energy_start", "energy_end"].into_iter().chain(modified);
     csv.write_record(["trajectory"].into_iter().chain(names).chain(energies).chain(["not_finite"]))?;
     for (t, (outcome, values)) in outcomes.iter().zip(&columns.rows).enumerate() {
-        let Outcome { q, p, energy_error, modified_drift, not_finite } = outcome;
+        let Outcome { q, p, energies: [start, end], energy_error, modified_drift, modified_energies, not_finite } =
+            outcome;
         let state = q.iter().chain(p).map(number);
-        let drift = modified_drift.as_ref().map(number).unwrap_or_default();
-        let energies = [number(energy_error)].into_iter().chain(has_modified_energy.then_some(drift));
+        let [first, last] = modified_energies.map_or([None; 2], |ends| ends.map(Some));
+        let modified = [*modified_drift, first, last].map(|x| x.as_ref().map(number).unwrap_or_default());
+        let energies = [energy_error, start, end].map(number).into_iter();
+        let energies = energies.chain(modified.into_iter().filter(|_| has_modified_energy));
         let not_finite = not_finite.map(|n| n.to_string()).unwrap_or_default();
         let row = [t.to_string()].into_iter().chain(values.iter().map(to_text)).chain(state);
         csv.write_record(row.chain(energies).chain([not_finite]))?;

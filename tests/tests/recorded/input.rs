@@ -29,11 +29,15 @@ fn arrays_that_do_not_fit_are_refused() {
 #[test]
 fn numbers_that_are_not_finite_are_named() {
     let h = step_size("1/10");
-    let q = [0.0, 0.0, 0.0, f64::NAN];
-    let log = Log::with_gradients(2, [&q, &[0.0; 4], &[0.0; 4]], &[0.0; 2]).unwrap();
-    let mut states = Recorded::new(log, &h, &[1.0; 2]).unwrap();
-    assert!(states.advance().is_ok());
-    assert!(states.advance().unwrap_err().to_string().starts_with("the run stopped at step 1: q2 = NaN"));
+    let (zeros, mut forces) = ([0.0; 12], [0.0; 12]);
+    forces[10] = f64::NAN;
+    let log = Log::with_gradients(6, [&zeros, &zeros, &forces], &[0.0; 2]).unwrap();
+    assert_eq!(
+        sentence(Recorded::new(log, &h, &[1.0; 6])),
+        "the gradient of state 1 is NaN at coordinate 4: y of particle 1, counted from 0; a log needs finite numbers"
+    );
+    let log = Log::with_rates(1, [&[0.0; 2], &[0.0; 2]], [&[0.0, f64::INFINITY], &[0.0; 2]]).unwrap();
+    assert_eq!(sentence(Recorded::new(log, &h, &[1.0])), "U of state 1 is inf; a log needs finite numbers");
 }
 
 #[test]

@@ -15,10 +15,14 @@ pub struct Outcome {
     pub q: Vec<f64>,
     /// Momenta at the end.
     pub p: Vec<f64>,
+    /// H at the beginning and at the end; NaN at the end of a trajectory that is not finite.
+    pub energies: [f64; 2],
     /// The largest |H − H₀|/|H₀| that was seen, H₀ at the beginning: finite ones only.
     pub energy_error: f64,
     /// max − min of the modified energy; `None` where it was not asked for, or no k + 1 states were finite.
     pub modified_drift: Option<f64>,
+    /// The first estimate of the modified energy and the last one; `None` as before, NaN for the last one of a trajectory that is not finite.
+    pub modified_energies: Option<[f64; 2]>,
     /// The first step after which the state or the energy was found to be infinite or NaN. Other trajectories do not notice.
     pub not_finite: Option<u64>,
 }
@@ -82,21 +86,27 @@ where
 /// What is seen of a system.
 struct Seen<const W: usize> {
     initial: Lanes<W>,
+    newest: Lanes<W>,
     largest_error: Lanes<W>,
     not_finite: [Option<u64>; W],
     estimator: Option<EstimatorOf<W>>,
     /// The least and the largest modified energy; NaN before the first one.
     modified: [Lanes<W>; 2],
+    /// The first and the newest.
+    modified_ends: [Lanes<W>; 2],
 }
 
 impl<const W: usize> Seen<W> {
     fn new<M: System<Number = Lanes<W>>>(system: &mut M) -> Self {
+        let initial = system.energy();
         let mut seen = Seen {
-            initial: system.energy(),
+            initial,
+            newest: initial,
             largest_error: Lanes::all(0.0),
             not_finite: [None; W],
             estimator: None,
             modified: [Lanes::all(f64::NAN); 2],
+            modified_ends: [Lanes::all(f64::NAN); 2],
         };
         seen.look(system, 0);
         seen
@@ -111,6 +121,7 @@ impl<const W: usize> Seen<W> {
                 *not_finite = Some(n);
             }
         }
+        self.newest = energy;
         let mut error = energy;
         error.subtract(&self.initial);
         error.make_absolute();
@@ -128,9 +139,11 @@ impl<const W: usize> Seen<W> {
     fn push<M: System<Number = Lanes<W>>>(&mut self, system: &M) {
         let Some(estimator) = &mut self.estimator else { return };
         let Some(estimate) = estimator.push(system.q(), system.p(), system.state().increments()) else { return };
-        let [least, most] = &mut self.modified;
-        for ((least, most), value) in least.0.iter_mut().zip(&mut most.0).zip(estimate.value.0) {
+        let ([least, most], [first, newest]) = (&mut self.modified, &mut self.modified_ends);
+        newest.0 = estimate.value.0;
+        for (((least, most), first), value) in least.0.iter_mut().zip(&mut most.0).zip(&mut first.0).zip(newest.0) {
             if value.is_finite() {
+                *first = if first.is_nan() { value } else { *first };
                 // `min` and `max` ignore NaN
                 *least = least.min(value);
                 *most = most.max(value);
@@ -141,11 +154,17 @@ impl<const W: usize> Seen<W> {
     fn outcome<M: System<Number = Lanes<W>>>(&self, system: &M, lane: usize) -> Outcome {
         let of_lane = |x: &[Lanes<W>]| x.iter().map(|x| x.0[lane]).collect();
         let drift = self.modified[1].0[lane] - self.modified[0].0[lane];
+        let drift = Some(drift).filter(|drift| drift.is_finite());
+        let ends = |[first, last]: [Lanes<W>; 2]| {
+            [first.0[lane], if self.not_finite[lane].is_none() { last.0[lane] } else { f64::NAN }]
+        };
         Outcome {
             q: of_lane(system.q()),
             p: of_lane(system.p()),
+            energies: ends([self.initial, self.newest]),
             energy_error: self.largest_error.0[lane] / self.initial.0[lane].abs(),
-            modified_drift: Some(drift).filter(|drift| drift.is_finite()),
+            modified_drift: drift,
+            modified_energies: drift.map(|_| ends(self.modified_ends)),
             not_finite: self.not_finite[lane],
         }
     }

@@ -4,6 +4,7 @@ use super::cause::Cause;
 use super::changes::{Changes, Jump, median};
 use super::misfit::Differences;
 use super::roughness::{Roughness, Smoothness};
+use super::units::Units;
 use super::value::Value;
 use super::window::Window;
 use super::work::Work;
@@ -70,6 +71,7 @@ pub struct Diagnosis {
     pub reordered: Option<i64>,
     /// What moves the energy.
     pub cause: Cause,
+    pub(super) units: Units,
 }
 
 /// What a diagnosis is made of.
@@ -131,6 +133,15 @@ impl Diagnosis {
             work_in_a_step: work.in_a_step(),
             reordered,
             cause: Cause::Undecided,
+            units: Units::default(),
         }
+    }
+}
+
+impl Diagnosis {
+    /// The same, with texts in these units.
+    #[must_use]
+    pub fn in_units(self, units: Units) -> Diagnosis {
+        Diagnosis { units, ..self }
     }
 }

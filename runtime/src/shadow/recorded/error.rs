@@ -36,6 +36,20 @@ pub enum RecordedError {
         /// The number of masses.
         dimension: usize,
     },
+    /// A logged number that is not finite.
+    #[error("{name} of state {n} is {value}{}; a log needs finite numbers", place(*.coordinate, *.dimension))]
+    NotFinite {
+        /// q, p, the gradient, U or the rate.
+        name: &'static str,
+        /// n of the state.
+        n: i64,
+        /// Counted from 0; `None` for U and the rate.
+        coordinate: Option<usize>,
+        /// The number of coordinates.
+        dimension: usize,
+        /// The number.
+        value: f64,
+    },
     /// A mass that is not positive and finite.
     #[error("the mass of coordinate {coordinate} is {mass}; it must be positive and finite")]
     Mass {
@@ -110,4 +124,19 @@ pub enum RecordedError {
     /// A number that is not finite.
     #[error(transparent)]
     Run(#[from] RunError),
+}
+
+/// The coordinate, also as one of a particle in space.
+fn place(coordinate: Option<usize>, dimension: usize) -> String {
+    match coordinate {
+        None => String::new(),
+        Some(coordinate) if dimension.is_multiple_of(3) => {
+            format!(
+                " at coordinate {coordinate}: {} of particle {}, counted from 0",
+                ["x", "y", "z"][coordinate % 3],
+                coordinate / 3
+            )
+        }
+        Some(coordinate) => format!(" at coordinate {coordinate}, counted from 0"),
+    }
 }

@@ -1,6 +1,6 @@
 //! The thresholds that tell apart what moves the energy.
 //!
-//! The thresholds were chosen on half of the trajectories of `tests/tests/recorded/verdicts.rs` with other seeds than those of its test.
+//! They were chosen on trajectories like those of `tests/tests/recorded/verdicts.rs`, drawn with other seeds than its tests have.
 
 use super::cause::Cause;
 use super::changes::Jump;
@@ -191,7 +191,8 @@ fn of_energy(found: &Diagnosis) -> Cause {
     }
 }
 
-fn is_of_other_steps([of_q, of_p]: [Differences; 2]) -> bool {
+/// Whether q or p of the states differ from steps, and not as rounded numbers do.
+pub(super) fn is_of_other_steps([of_q, of_p]: [Differences; 2]) -> bool {
     let differs = |of: Differences| of.of_increments > LARGEST_MISFIT && of.of_numbers > SINGLE;
     // momenta may be written with a few digits of the smallest
     differs(of_q) && (!is_rounded(of_q) || of_q.of_numbers > COARSE) || differs(of_p) && !is_rounded(of_p)

@@ -139,7 +139,7 @@ impl Observer {
     /// # Errors
     /// A state of another dimension; a number, or a modified energy, that is not finite; gradients where there were none, or the reverse.
     pub fn observe(&mut self, logged: &Logged<'_>) -> Result<Option<Value>, RecordedError> {
-        self.steps.check(logged)?;
+        self.steps.check(self.steps.next(), logged)?;
         self.steps.push(logged)?;
         self.pushed += 1;
         let state = self.steps.state();

@@ -1,8 +1,10 @@
 //! The states of a log as a source for estimators.
 
 use super::error::RecordedError;
+use super::judge::is_of_other_steps;
 use super::log::Log;
 use super::misfit::Differences;
+use super::text::other_steps;
 use super::verlet::VerletSteps;
 use crate::shadow::run::{RunError, ShadowRun, States, TrajectoryState};
 use crate::shadow::{BuildEstimator, Estimator};
@@ -58,11 +60,11 @@ impl<'a> Recorded<'a> {
     /// The states of a log of steps of size h, of coordinates with these masses.
     ///
     /// # Errors
-    /// Masses that are not one for each coordinate, positive and finite.
+    /// Masses that are not one for each coordinate, positive and finite; a logged number that is not finite.
     pub fn new(log: Log<'a>, h: &StepSize, masses: &[f64]) -> Result<Self, RecordedError> {
         let steps = VerletSteps::new(h, masses)?;
-        if let Some(first) = log.state(0) {
-            steps.check(&first)?;
+        for (n, state) in (0..).map_while(|n| log.state(n)).enumerate() {
+            steps.check(n as i64, &state)?;
         }
         Ok(Recorded { log, next: 0, steps })
     }
@@ -83,6 +85,13 @@ impl<'a> Recorded<'a> {
     /// By how much q and p of the states so far differ from the increments of steps; `None` before the first step, and where no gradients are logged.
     pub fn differences(&self) -> Option<[Differences; 2]> {
         self.steps.differences()
+    }
+
+    /// Why the states so far are not those of velocity Verlet with these masses, gradients and step size, a sentence; `None` if they are, or no gradients are
+    /// logged. The rule is that of [`Cause::OtherSteps`](super::Cause::OtherSteps).
+    pub fn other_steps(&self) -> Option<String> {
+        let (reordered, differences) = (self.steps.reordered(), self.steps.differences());
+        (reordered.is_some() || differences.is_some_and(is_of_other_steps)).then(|| other_steps(reordered, differences))
     }
 }
 

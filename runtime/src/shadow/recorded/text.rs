@@ -6,6 +6,7 @@ use super::cause::Cause;
 use super::changes::Jump;
 use super::diagnosis::Diagnosis;
 use super::judge::LEAST_ESTIMATES;
+use super::misfit::Differences;
 use super::roughness::Smoothness;
 
 impl Diagnosis {
@@ -14,7 +15,7 @@ impl Diagnosis {
         let moved = self.moved();
         match self.cause {
             Cause::Undecided => self.why_undecided(),
-            Cause::OtherSteps => self.why_other_steps(),
+            Cause::OtherSteps => other_steps(self.reordered, self.differences),
             Cause::Nothing => {
                 format!("the modified energy is conserved: it is known to {:.1e}, and {moved}", self.known_to)
             }
@@ -81,22 +82,10 @@ impl Diagnosis {
     fn moved(&self) -> String {
         let [part, kinetic] = [self.range / self.energy_error, self.range / self.kinetic];
         format!(
-            "the modified energy ranges over {:.2e}, {part:.1e} of the energy error and {kinetic:.1e} of T, in {:.4} of time",
-            self.range, self.time
-        )
-    }
-
-    fn why_other_steps(&self) -> String {
-        if let Some(n) = self.reordered {
-            return format!(
-                "the order of the coordinates changes, first at the state {n}: sort each state by the numbers of its atoms"
-            );
-        }
-        let parts = self.differences.map_or([f64::NAN; 2], |differences| differences.map(|of| of.of_increments));
-        let [of_q, of_p] = parts;
-        format!(
-            "the states are not those of velocity Verlet with these masses, forces and step size: the steps differ by {of_q:.1e} (q) and {of_p:.1e} \
-             (p) of themselves, as with a thermostat, a constraint, another integrator or step size, or momenta at half steps"
+            "the modified energy ranges over {:.2e}{}, {part:.1e} of the energy error and {kinetic:.1e} of T, in {}",
+            self.range,
+            self.units.energy(),
+            self.units.time(self.time)
         )
     }
 
@@ -106,6 +95,21 @@ impl Diagnosis {
         let places: Vec<String> = first.iter().map(i64::to_string).collect();
         format!("{} times, the most before the states {}", self.jumps.len(), places.join(", "))
     }
+}
+
+/// Why the states are not those of steps.
+pub(super) fn other_steps(reordered: Option<i64>, differences: Option<[Differences; 2]>) -> String {
+    if let Some(n) = reordered {
+        return format!(
+            "the order of the coordinates changes, first at the state {n}: sort each state by the numbers of its atoms"
+        );
+    }
+    let [of_q, of_p] = differences.map_or([f64::NAN; 2], |differences| differences.map(|of| of.of_increments));
+    format!(
+        "the states are not those of velocity Verlet with these masses, forces and step size: the steps differ by {of_q:.1e} (q) and {of_p:.1e} \
+         (p) of themselves, as with a thermostat, a constraint, another integrator or step size, velocities in place of momenta, wrapped positions, \
+         or momenta at half steps"
+    )
 }
 
 /// What tells causes apart that large steps hide.
@@ -119,8 +123,9 @@ impl fmt::Display for Diagnosis {
         writeln!(f, "{} ({} states, {} estimates)", self.cause, self.states, self.estimates)?;
         writeln!(
             f,
-            "  energy error     {:9.2e}  max − min of H; {:.1e} of T",
+            "  energy error     {:9.2e}{}  max − min of H; {:.1e} of T",
             self.energy_error,
+            self.units.energy(),
             self.energy_error / self.kinetic
         )?;
         writeln!(

@@ -29,6 +29,8 @@ pub struct Unwrapping {
     /// Which of the box vectors are periodic.
     periodic: [bool; 3],
     n: i64,
+    /// Whether the next state is the first, or does not follow the newest.
+    is_first: bool,
     q: Vec<f64>,
 }
 
@@ -39,7 +41,7 @@ impl Unwrapping {
     /// Vectors that span no volume.
     pub fn new(vectors: [[f64; 3]; 3]) -> Result<Self, RecordedError> {
         let inverse = inverse(&vectors).ok_or(RecordedError::Box { vectors })?;
-        Ok(Unwrapping { vectors, inverse, periodic: [true; 3], n: -1, q: Vec::new() })
+        Ok(Unwrapping { vectors, inverse, periodic: [true; 3], n: -1, is_first: true, q: Vec::new() })
     }
 
     /// Periodic along some of the vectors only.
@@ -48,13 +50,18 @@ impl Unwrapping {
         Unwrapping { periodic, ..self }
     }
 
+    /// The next state does not follow the newest: it stays as it is.
+    pub fn begin(&mut self) {
+        self.is_first = true;
+    }
+
     /// The unwrapped positions of the next state; the first one stays as it is.
     ///
     /// # Errors
     /// A particle that moved by more than a quarter of a box vector; other numbers of coordinates than before.
     pub fn next(&mut self, q: &[f64]) -> Result<&[f64], RecordedError> {
         self.n += 1;
-        if self.n == 0 {
+        if std::mem::take(&mut self.is_first) {
             if !q.len().is_multiple_of(3) {
                 return Err(RecordedError::NotInSpace { dimension: q.len() });
             }

@@ -95,22 +95,37 @@ impl VerletSteps {
         Ok(())
     }
 
-    /// Refuses a state that is not one of this log.
-    pub(super) fn check(&self, logged: &Logged<'_>) -> Result<(), RecordedError> {
-        let (n, dimension) = (self.n + 1, self.masses.len());
-        let (gradient, found) = match logged.derivatives {
-            Derivatives::Gradient(gradient) => (Some(gradient), "a gradient"),
-            Derivatives::Rate(_) => (None, "a rate"),
+    /// Refuses a state that cannot be the state n of this log.
+    pub(super) fn check(&self, n: i64, logged: &Logged<'_>) -> Result<(), RecordedError> {
+        let dimension = self.masses.len();
+        let (gradient, rate, found) = match logged.derivatives {
+            Derivatives::Gradient(gradient) => (Some(gradient), None, "a gradient"),
+            Derivatives::Rate(rate) => (None, Some(rate), "a rate"),
         };
         for (name, numbers) in [("q", Some(logged.q)), ("p", Some(logged.p)), ("the gradient", gradient)] {
-            if let Some(found) = numbers.map(<[f64]>::len).filter(|found| *found != dimension) {
-                return Err(RecordedError::Dimension { name, n, found, dimension });
+            let Some(numbers) = numbers else { continue };
+            if numbers.len() != dimension {
+                return Err(RecordedError::Dimension { name, n, found: numbers.len(), dimension });
+            }
+            if let Some(coordinate) = numbers.iter().position(|number| !number.is_finite()) {
+                let (value, coordinate) = (numbers[coordinate], Some(coordinate));
+                return Err(RecordedError::NotFinite { name, n, coordinate, dimension, value });
+            }
+        }
+        for (name, value) in [("U", Some(logged.energy)), ("the rate", rate)] {
+            if let Some(value) = value.filter(|value| !value.is_finite()) {
+                return Err(RecordedError::NotFinite { name, n, coordinate: None, dimension, value });
             }
         }
         match self.has_gradients {
             Some(had) if had != gradient.is_some() => Err(RecordedError::Mixed { n, found }),
             _ => Ok(()),
         }
+    }
+
+    /// n of the next state.
+    pub(super) fn next(&self) -> i64 {
+        self.n + 1
     }
 
     /// Takes the next state, which is of this log.
