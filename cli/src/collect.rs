@@ -4,7 +4,7 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
-use shadowstep_scenes::Error;
+use shadowstep_scenes::{Error, shell_word};
 use shadowstep_sweeps::{Collected, Missing, TableFormat, collect};
 
 use crate::output::Output;
@@ -58,7 +58,10 @@ pub(crate) fn collected(folder: &Path, format: Format, terminal: &mut Terminal) 
             report::note(format_args!("{runs} runs{failures}"));
             Ok(Status::Success)
         }
-        Collected::Incomplete(missing) => {
+        Collected::Incomplete { missing, removed } => {
+            for file in removed {
+                report::note(format_args!("{} is removed: chunks of it are missing now", file.display()));
+            }
             writeln!(output, "{}", missing.list())?;
             output.finish()?;
             Ok(incomplete(folder, &missing))
@@ -72,6 +75,6 @@ fn incomplete(folder: &Path, missing: &Missing) -> Status {
     }
     let (count, list) = (missing.chunks.len(), missing.list());
     let chunks = if count == 1 { "1 chunk is".to_owned() } else { format!("{count} chunks are") };
-    let hint = format!("compute them: `shadowstep sweep FILE --out {}`, or with --chunk", folder.display());
+    let hint = format!("compute them: `shadowstep sweep FILE --out {}`, or with --chunk", shell_word(folder));
     report::negative_answer(format_args!("{chunks} missing or cannot be used: {list}"), hint)
 }

@@ -6,9 +6,9 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 use clap::builder::PossibleValuesParser;
 use serde::Serialize;
-use shadowstep_scenes::Error;
 use shadowstep_scenes::arithmetic::{Arithmetic, MOST_DIGITS};
 use shadowstep_scenes::library::{NamedScheme, scheme};
+use shadowstep_scenes::{Error, shell_word};
 use shadowstep_stability::{CaseEntry, Suite, entries, examine, files, names};
 use shadowstep_studies::finding::Finding;
 use shadowstep_studies::verdict::Verdict;
@@ -107,15 +107,15 @@ fn suite(arguments: &Arguments) -> Result<Suite, Error> {
 /// The command that writes the same files.
 fn command(arguments: &Arguments) -> String {
     let mut words = vec!["shadowstep stability".to_owned()];
-    words.extend(arguments.cases.iter().cloned());
+    words.extend(arguments.cases.iter().map(shell_word));
     if !arguments.schemes.is_empty() {
-        words.push(format!("--schemes {}", arguments.schemes.join(",")));
+        words.push(format!("--schemes {}", shell_word(arguments.schemes.join(","))));
     }
     words.extend(arguments.digits.map(|digits| format!("--digits {digits}")));
     if arguments.quick {
         words.push("--quick".to_owned());
     }
-    words.extend(arguments.out.as_ref().map(|out| format!("--out {}", out.display())));
+    words.extend(arguments.out.as_ref().map(|out| format!("--out {}", shell_word(out))));
     words.join(" ")
 }
 

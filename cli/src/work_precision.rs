@@ -10,7 +10,7 @@ use clap::Args;
 use shadowstep::Rational;
 use shadowstep_scenes::library::{NamedScheme, scheme};
 use shadowstep_scenes::propagator::for_system;
-use shadowstep_scenes::{Error, System};
+use shadowstep_scenes::{Error, System, shell_word};
 use shadowstep_symbolic::decimal::to_text;
 use shadowstep_work_precision::files::{Title, write, written};
 use shadowstep_work_precision::schemes::default_schemes;
@@ -89,8 +89,7 @@ pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
 
 /// The command line as it was given, for the head of the files.
 fn command() -> String {
-    let words = invocation::words().map(|word| if word.contains(' ') { format!("\"{word}\"") } else { word });
-    format!("shadowstep {}", words.collect::<Vec<_>>().join(" "))
+    format!("shadowstep {}", invocation::words().map(shell_word).collect::<Vec<_>>().join(" "))
 }
 
 pub(crate) fn seconds(text: &str) -> Result<f64, String> {

@@ -7,6 +7,7 @@ use crate::figure::Figure;
 use crate::figures::FIGURES;
 use crate::results::Results;
 use crate::{Error, Observer};
+use shadowstep_scenes::shell_word;
 use shadowstep_studies::files::{PAGE, write_charts, write_file, write_page};
 use shadowstep_studies::page::{Report, Section};
 use shadowstep_studies::{Store, named};
@@ -125,7 +126,7 @@ const QUICK: &str = "A quick report: with fewer step sizes, eccentricities and o
 /// `earlier` are the figures that are not requested.
 fn report(request: &Request, sections: Vec<Section>, earlier: &[String]) -> Report {
     let names: String = request.names.iter().map(|name| format!(" {name}")).collect();
-    let command = format!("shadowstep figures{names}{} --out {}", flag(request.quick), request.folder.display());
+    let command = format!("shadowstep figures{names}{} --out {}", flag(request.quick), shell_word(&request.folder));
     let mut report = Report {
         remark: request.quick.then(|| QUICK.to_owned()),
         introduction: INTRODUCTION.map(str::to_owned).to_vec(),

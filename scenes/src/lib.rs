@@ -88,6 +88,7 @@
 //! | `frequency`, [`stability`] | the fastest oscillation at the start, and the stability limit of the scheme |
 //! | [`watch`] | what a run shows: the error of H, the modified energy, close encounters, the verdict |
 //! | [`readable`], `error`, `refusal` | numbers and texts for people; what can go wrong |
+//! | `shell` | words of commands that users copy |
 
 pub mod arithmetic;
 pub mod computation;
@@ -120,6 +121,7 @@ pub mod run;
 mod run_number;
 mod scene;
 pub mod scheme_record;
+mod shell;
 mod shipped;
 mod snapshots;
 pub mod stability;
@@ -148,6 +150,7 @@ pub use scene::{
     CheckpointInterval, EnergyAt, Format, Formula, InitialValueProblem, KineticEnergy, Outputs, OwnPotential,
     PairEnergy, Parts, PotentialEnergy, Scene, SceneNumber, System, SystemIn,
 };
+pub use shell::shell_word;
 pub use shipped::{ENCOUNTER_SCENES, MANY_PARTS_SCENES, PLANETARY_SCENES, SCHEME_SCENES, ShippedScene, shipped_scene};
 pub use template::template;
 pub use temporary::{Temporary, remove_temporary_files};

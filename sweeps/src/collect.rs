@@ -5,12 +5,13 @@ mod missing;
 mod parquet_table;
 mod table;
 
+use std::fs;
+use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 use shadowstep_scenes::family::Meaning;
 use shadowstep_scenes::{Error, WholeFile};
 use shadowstep_studies::{Observer, Progress};
-use std::io::Write;
 
 use crate::axes::Axes;
 use crate::chunk::{self, Unusable};
@@ -47,9 +48,19 @@ pub enum Collected {
         /// What the user should know.
         notes: Vec<String>,
     },
-    /// Chunks are missing or cannot be used; nothing is written.
-    Incomplete(Missing),
+    /// Chunks are missing or cannot be used; nothing is written, and what was collected earlier is removed.
+    Incomplete {
+        /// These chunks.
+        missing: Missing,
+        /// The files that were removed.
+        removed: Vec<PathBuf>,
+    },
 }
+
+const ROWS: &str = "rows.csv";
+const PICTURE: &str = "picture.svg";
+/// The tables, one for each format.
+pub(crate) const TABLES: [&str; 2] = [csv_table::NAME, parquet_table::NAME];
 
 /// Checks all chunks in the folder of a sweep and writes its table and its picture there.
 ///
@@ -62,7 +73,7 @@ pub fn collect(folder: &Path, format: TableFormat, observer: &mut dyn Observer) 
     let (axes, picture) = plan::axes_and_picture(&manifest.source(), &manifest.columns)?;
     let missing = Missing::find(&manifest, folder);
     if !missing.is_empty() {
-        return Ok(Collected::Incomplete(missing));
+        return incomplete(folder, missing);
     }
     let mut tables = Tables::new(&manifest, &axes, picture, folder, format)?;
     let mut functions: Vec<(Option<String>, u64)> = Vec::new();
@@ -81,11 +92,28 @@ pub fn collect(folder: &Path, format: TableFormat, observer: &mut dyn Observer) 
         observer.progress(Progress { done: chunk.number as usize, all: manifest.chunks as usize, fraction });
     }
     if !damaged.is_empty() {
-        return Ok(Collected::Incomplete(damaged));
+        drop(tables);
+        return incomplete(folder, damaged);
     }
     let collected = tables.finish(&functions)?;
     chunk::remove_left(folder);
     Ok(collected)
+}
+
+/// A table of an earlier collection would be taken for that of the chunks that are there now.
+fn incomplete(folder: &Path, missing: Missing) -> Result<Collected, Error> {
+    let mut removed = Vec::new();
+    for path in TABLES.iter().chain(&[ROWS, PICTURE]).map(|name| folder.join(name)) {
+        match fs::remove_file(&path) {
+            Ok(()) => removed.push(path),
+            Err(error) if error.kind() == io::ErrorKind::NotFound => {}
+            Err(error) => {
+                let message = format!("{} is of an earlier collection and cannot be removed: {error}", path.display());
+                return Err(Error::usage(message, "remove it: chunks are missing"));
+            }
+        }
+    }
+    Ok(Collected::Incomplete { missing, removed })
 }
 
 /// All that is written.
@@ -166,7 +194,7 @@ impl<'a> Tables<'a> {
         let mut lines = rows.lines();
         let Some(names) = lines.next() else { return Ok(()) };
         if self.rows.is_none() {
-            let mut file = WholeFile::create(&self.folder.join("rows.csv"), "file")?;
+            let mut file = WholeFile::create(&self.folder.join(ROWS), "file")?;
             writeln!(file, "run,{names}")?;
             self.rows = Some(file);
         }
@@ -184,7 +212,7 @@ impl<'a> Tables<'a> {
         if let Some((picture, cells)) = self.picture {
             match picture.svg(&cells, self.axes, self.columns, &self.title)? {
                 Some(svg) => {
-                    let path = self.folder.join("picture.svg");
+                    let path = self.folder.join(PICTURE);
                     let mut file = WholeFile::create(&path, "file")?;
                     file.write_all(svg.as_bytes())?;
                     file.finish()?;

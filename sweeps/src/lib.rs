@@ -18,7 +18,7 @@
 //! let out = folder.path().join("out");
 //! let manifest = Manifest::begin(&out, &plan, Some(4))?;
 //! compute(&plan, &manifest, &out, [Chunk { number: 3, of: 4 }], &mut ())?;
-//! let Collected::Incomplete(missing) = collect(&out, TableFormat::Csv, &mut ())? else { panic!() };
+//! let Collected::Incomplete { missing, .. } = collect(&out, TableFormat::Csv, &mut ())? else { panic!() };
 //! assert_eq!(missing.list(), "1-2,4");
 //!
 //! compute(&plan, &manifest, &out, manifest.all_chunks(), &mut ())?;

@@ -11,10 +11,20 @@ use tempfile::Builder;
 
 use crate::chunk::{AGAIN, Chunk, Header, MOST_RUNS_OF_CHUNK};
 use crate::keep::Column;
-use crate::plan::{Digests, SweepPlan};
+use crate::plan::{Digests, SweepPlan, hash};
+
+/// The file: a plan and its hash.
+#[derive(Deserialize, Serialize)]
+struct Hashed<M> {
+    #[serde(flatten)]
+    manifest: M,
+    /// Of everything else.
+    #[serde(default)]
+    sha256: String,
+}
 
 /// The name of the file.
-const NAME: &str = "plan.json";
+pub(crate) const NAME: &str = "plan.json";
 
 /// The version of the program, on which the last digits of results may depend.
 pub(crate) const VERSION: &str = env!("CARGO_PKG_VERSION");
@@ -94,10 +104,22 @@ impl Manifest {
             }
             Err(error) => return Err(Error::usage(format!("{} cannot be read: {error}", path.display()), hint)),
         };
-        let manifest = serde_json::from_str::<Manifest>(&text)
+        let found = serde_json::from_str::<Hashed<Manifest>>(&text)
             .ok()
-            .filter(|manifest| manifest.chunks > 0 && manifest.chunks <= manifest.runs);
-        manifest.ok_or_else(|| Error::usage(format!("{} is not the plan of a sweep", path.display()), hint))
+            .filter(|Hashed { manifest, .. }| manifest.chunks > 0 && manifest.chunks <= manifest.runs);
+        let Some(Hashed { manifest, sha256 }) = found else {
+            return Err(Error::usage(format!("{} is not the plan of a sweep", path.display()), hint));
+        };
+        if manifest.hash() != sha256 {
+            let message = format!("{} was changed: its hash differs", path.display());
+            return Err(Error::usage(message, "restore it, or remove it and run the sweep again, which writes it"));
+        }
+        Ok(manifest)
+    }
+
+    /// Of the names of columns and the text, too, which give the table its axes.
+    fn hash(&self) -> String {
+        hash(&serde_json::to_string(self).expect("it consists of texts and numbers"))
     }
 
     /// Whether a folder has one.
@@ -160,7 +182,7 @@ impl Manifest {
         }
         let written = || -> io::Result<()> {
             let mut file = Builder::new().prefix(&format!("{NAME}.new-")).tempfile_in(folder)?;
-            serde_json::to_writer_pretty(&mut file, self)?;
+            serde_json::to_writer_pretty(&mut file, &Hashed { manifest: self, sha256: self.hash() })?;
             file.write_all(b"\n")?;
             crate::chunk::make_readable(file.as_file())?;
             file.as_file().sync_all()?;

@@ -9,10 +9,11 @@
 //! | `script` | the job scripts: their texts and their options |
 //! | `command` | the programs of Slurm, and what they print |
 //! | `jobs` | the numbers of the jobs that were submitted |
-//! | `submission` | what is submitted |
+//! | `submission`, `added` | what is submitted; what it adds to the folder |
 //! | `queue` | the states of tasks, from squeue and sacct |
 //! | `status` | what has become of the tasks and what to do next |
 
+mod added;
 mod command;
 mod jobs;
 mod queue;
@@ -21,6 +22,7 @@ mod status;
 mod submission;
 mod tasks;
 
+pub use added::Added;
 pub use script::{Resources, Scripts, SweepCommand};
 pub use status::Status;
 pub use submission::{Submitted, submit};

@@ -4,8 +4,8 @@ use std::io::Write;
 use std::path::{Path, absolute};
 
 use clap::Args;
-use shadowstep_scenes::Error;
-use shadowstep_sweeps::slurm::{self, Chunks, Resources, Scripts, Submitted, SweepCommand, TaskList};
+use shadowstep_scenes::{Error, shell_word};
+use shadowstep_sweeps::slurm::{self, Added, Chunks, Resources, Scripts, Submitted, SweepCommand, TaskList};
 use shadowstep_sweeps::{Manifest, Missing, SweepPlan};
 
 use crate::invocation;
@@ -56,19 +56,26 @@ impl SlurmArguments {
         if self.status {
             return status(sweep, folder);
         }
-        let manifest = Manifest::begin(folder, &SweepPlan::open(sweep)?, self.chunks.map(u64::from))?;
+        let plan = SweepPlan::open(sweep)?;
+        let added = Added::to(folder);
+        let manifest = Manifest::begin(folder, &plan, self.chunks.map(u64::from))?;
         let missing = missing(&manifest, folder);
         if missing.is_empty() && !self.dry_run {
             report::note(format_args!(
                 "all chunks are complete: collect them with `shadowstep collect {}`",
-                folder.display()
+                shell_word(folder)
             ));
             return Ok(Status::Success);
         }
         let command = command(sweep, folder, manifest.chunks)?;
         let scripts = Scripts::prepare(&command, &self.resources())?;
         let chunks = Chunks { folder, count: manifest.chunks, missing: &missing };
-        let submitted = if self.dry_run { None } else { Some(slurm::submit(chunks, &command, &scripts)?) };
+        let submitted = if self.dry_run {
+            added.keep();
+            None
+        } else {
+            Some(slurm::submit(chunks, &command, &scripts, added)?)
+        };
         let mut output = Output::stdout();
         for script in [&scripts.array, &scripts.collect] {
             writeln!(output, "# {}\n{}", script.path.display(), script.text)?;

@@ -144,7 +144,7 @@ fn without_slurm_the_line_of_gnu_parallel_is_given() {
     let line = refused.err.split("GNU parallel computes the chunks: ").nth(1).unwrap();
     assert!(line.starts_with("seq 5 | RAYON_NUM_THREADS=1 parallel --joblog "), "{line}");
     assert!(line.ends_with(" --chunk {}/5\n"), "{line}");
-    assert!(!site.has("out/array.sbatch") && !site.has("out/slurm-jobs.jsonl"));
+    assert!(!site.has("out"));
 }
 
 #[test]
@@ -163,6 +163,30 @@ fn scripts_are_shown_without_submitting_and_kept_when_edited() {
     assert_eq!(site.sweep("--submit").code, 0);
     assert_eq!(site.read("out/array.sbatch"), edited);
     assert!(site.read("calls").starts_with("--parsable --array=1-2,4-10%3 "), "{}", site.read("calls"));
+}
+
+#[test]
+fn a_refused_submission_leaves_nothing() {
+    let refuses = "echo 'sbatch: error: invalid partition specified: shrot' >&2; exit 1";
+    for (sbatch, flags) in [(refuses, "--partition shrot"), (SBATCH, "--time '"), (SBATCH, "--chunks 11")] {
+        let site = Site::new(&[("sbatch", sbatch)]);
+        assert_ne!(site.sweep(&format!("--submit {flags}")).code, 0, "{flags}");
+        assert!(!site.has("out"), "{flags}");
+        // what was there before stays
+        assert_eq!(site.sweep("--chunk 3/10").code, 0);
+        fs::write(site.path("out/notes.txt"), "mine").unwrap();
+        assert_ne!(site.sweep(&format!("--submit {flags}")).code, 0, "{flags}");
+        let mut names: Vec<_> =
+            fs::read_dir(site.path("out")).unwrap().map(|entry| entry.unwrap().file_name()).collect();
+        names.sort();
+        assert_eq!(names, ["chunks", "notes.txt", "plan.json"], "{flags}");
+        assert!(site.has("out/chunks/00003-of-00010"));
+    }
+    // an array that was submitted needs its script, whatever became of the job that collects
+    let once = "[ -e $SITE/called ] && exit 1; touch $SITE/called; echo 1";
+    let site = Site::new(&[("sbatch", once)]);
+    assert_eq!(site.sweep("--submit").code, 3);
+    assert!(site.has("out/array.sbatch") && site.has("out/slurm-jobs.jsonl") && site.has("out/plan.json"));
 }
 
 #[test]

@@ -8,6 +8,9 @@ use shadowstep_scenes::{Error, WholeFile};
 
 use super::table::{Cell, Head, Table};
 
+/// The name of the file.
+pub(super) const NAME: &str = "results.csv";
+
 pub(super) struct CsvTable {
     writer: Writer<WholeFile>,
     path: PathBuf,
@@ -15,7 +18,7 @@ pub(super) struct CsvTable {
 
 impl CsvTable {
     pub(super) fn new(folder: &Path, head: &Head) -> Result<Self, Error> {
-        let path = folder.join("results.csv");
+        let path = folder.join(NAME);
         let mut file = WholeFile::create(&path, "file")?;
         for (name, value) in &head.lines {
             writeln!(file, "# {name}: {value}")?;

@@ -14,6 +14,9 @@ use shadowstep_scenes::{Error, WholeFile};
 
 use super::table::{Cell, Head, Table, TableColumn};
 
+/// The name of the file.
+pub(super) const NAME: &str = "results.parquet";
+
 /// Rows that are kept in memory until they are written.
 const GROUP: usize = 1 << 16;
 
@@ -26,7 +29,7 @@ pub(super) struct ParquetTable {
 
 impl ParquetTable {
     pub(super) fn new(folder: &Path, head: &Head) -> Result<Self, Error> {
-        let path = folder.join("results.parquet");
+        let path = folder.join(NAME);
         let file = WholeFile::create(&path, "file")?;
         let fields = head.columns.iter().map(field).collect::<Result<Vec<_>, _>>().map_err(failed)?;
         let schema = Type::group_type_builder("results").with_fields(fields).build().map_err(failed)?;

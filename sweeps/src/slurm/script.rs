@@ -5,7 +5,7 @@ use std::fs;
 use std::io::{self, Write as _};
 use std::path::{Path, PathBuf};
 
-use shadowstep_scenes::{Error, not_written};
+use shadowstep_scenes::{Error, not_written, shell_word};
 use tempfile::NamedTempFile;
 
 use crate::chunk::make_readable;
@@ -52,12 +52,13 @@ pub struct Script {
     pub path: PathBuf,
     /// Its text.
     pub text: String,
-    /// Whether the file was written now, and was not there before.
-    pub is_new: bool,
 }
 
+/// The names of the scripts.
+pub(super) const ARRAY: &str = "array.sbatch";
+pub(super) const COLLECT: &str = "collect.sbatch";
 /// The folder of what tasks print.
-const LOGS: &str = "slurm-logs";
+pub(super) const LOGS: &str = "slurm-logs";
 
 impl Scripts {
     /// Reads the scripts of the folder, and writes those that it lacks.
@@ -73,19 +74,10 @@ impl Scripts {
         fs::create_dir_all(&logs).map_err(|error| {
             Error::usage(format!("{} cannot be created: {error}", logs.display()), "give another folder")
         })?;
-        let array = Script::prepare(command, "array.sbatch", &array_text(command, resources))?;
-        let collect = Script::prepare(command, "collect.sbatch", &collect_text(command, resources))?;
+        let array = Script::prepare(command, ARRAY, &array_text(command, resources))?;
+        let collect = Script::prepare(command, COLLECT, &collect_text(command, resources))?;
         array.refuse_contradictions(resources, command.chunks)?;
         Ok(Scripts { array, collect })
-    }
-
-    /// Removes the scripts that were written now: Slurm has refused them.
-    pub(super) fn remove_new(&self) {
-        for script in [&self.array, &self.collect] {
-            if script.is_new {
-                let _ = fs::remove_file(&script.path);
-            }
-        }
     }
 }
 
@@ -94,13 +86,13 @@ impl Script {
         let path = command.folder.join(name);
         match fs::read_to_string(&path) {
             Ok(text) => {
-                let script = Script { path, text, is_new: false };
+                let script = Script { path, text };
                 script.refuse_other_folder(&command.folder)?;
                 Ok(script)
             }
             Err(error) if error.kind() == io::ErrorKind::NotFound => {
                 write(&path, text).map_err(|error| not_written(&path, error, "submit the sweep again"))?;
-                Ok(Script { path, text: text.to_owned(), is_new: true })
+                Ok(Script { path, text: text.to_owned() })
             }
             Err(error) => {
                 Err(Error::usage(format!("{} cannot be read: {error}", path.display()), "mend the file, or remove it"))
@@ -110,7 +102,7 @@ impl Script {
 
     /// A folder that was moved or copied has scripts that write into the old one.
     fn refuse_other_folder(&self, folder: &Path) -> Result<(), Error> {
-        let word = format!(" {} ", quoted(folder));
+        let word = format!(" {} ", shell_word(folder));
         let mut commands = self.text.lines().filter(|line| !line.starts_with('#'));
         if commands.any(|line| format!("{line} ").contains(&word)) {
             return Ok(());
@@ -213,7 +205,7 @@ fn array_text(command: &SweepCommand, resources: &Resources) -> String {
     text += "#SBATCH --requeue\n#SBATCH --open-mode=append\n";
     let _ = writeln!(text, "#SBATCH --output={}", log(folder, "%A_%a.log"));
     text += "\nexport RAYON_NUM_THREADS=\"${SLURM_CPUS_PER_TASK:-1}\"\n";
-    let (program, sweep, folder) = (quoted(program), quoted(sweep), quoted(folder));
+    let (program, sweep, folder) = (shell_word(program), shell_word(sweep), shell_word(folder));
     let _ = writeln!(text, "exec {program} sweep {sweep} --out {folder} --chunk \"$SLURM_ARRAY_TASK_ID/{chunks}\"");
     text
 }
@@ -227,7 +219,7 @@ fn collect_text(command: &SweepCommand, resources: &Resources) -> String {
     options(&mut text, &format!("{name}-collect"), resources);
     text += "#SBATCH --requeue\n#SBATCH --open-mode=append\n";
     let _ = writeln!(text, "#SBATCH --output={}", log(folder, "collect-%j.log"));
-    let _ = writeln!(text, "\nexec {} collect {}", quoted(program), quoted(folder));
+    let _ = writeln!(text, "\nexec {} collect {}", shell_word(program), shell_word(folder));
     text
 }
 
@@ -247,13 +239,6 @@ fn options(text: &mut String, name: &str, resources: &Resources) {
 fn log(folder: &Path, name: &str) -> String {
     let path = format!("{}/{name}", folder.join(LOGS).display().to_string().replace('%', "%%"));
     if path.contains(char::is_whitespace) { format!("\"{path}\"") } else { path }
-}
-
-/// A path as a word of the shell.
-pub(super) fn quoted(path: &Path) -> String {
-    let text = path.display().to_string();
-    let is_plain = |c: char| c.is_alphanumeric() || "/._-+=:,@%".contains(c);
-    if !text.is_empty() && text.chars().all(is_plain) { text } else { format!("'{}'", text.replace('\'', r"'\''")) }
 }
 
 /// A value with a blank or a quote would be read as something else.
@@ -339,7 +324,7 @@ exec '/opt/shadow step/bin/shadowstep' collect '/scratch/100% mine'
     #[test]
     fn options_are_found_in_every_form_before_the_first_command() {
         let text = "#!/bin/sh\n#SBATCH -p short --time 30\n#SBATCH -c4 --array=1-16%8\n#SBATCH --time=40\n\nrun\n#SBATCH --mem=1G\n";
-        let script = Script { path: "array.sbatch".into(), text: text.to_owned(), is_new: false };
+        let script = Script { path: "array.sbatch".into(), text: text.to_owned() };
         assert_eq!(script.option("--partition"), Some((2, "short".to_owned())));
         assert_eq!(script.option("--time"), Some((4, "40".to_owned())));
         assert_eq!(script.option("--cpus-per-task"), Some((3, "4".to_owned())));
@@ -356,13 +341,11 @@ exec '/opt/shadow step/bin/shadowstep' collect '/scratch/100% mine'
         let folder = tempfile::tempdir().unwrap();
         let command = command(folder.path());
         let scripts = Scripts::prepare(&command, &resources()).unwrap();
-        assert!(scripts.array.is_new && scripts.collect.is_new);
         let edited =
             scripts.array.text.replace("#SBATCH --requeue\n", "#SBATCH --requeue\n#SBATCH --account=physics\n");
         fs::write(&scripts.array.path, &edited).unwrap();
         for resources in [resources(), Resources::default()] {
             let scripts = Scripts::prepare(&command, &resources).unwrap();
-            assert!(!scripts.array.is_new && !scripts.collect.is_new);
             assert_eq!(scripts.array.text, edited);
         }
     }

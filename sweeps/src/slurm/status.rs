@@ -3,13 +3,13 @@
 use std::collections::BTreeMap;
 use std::fmt::{self, Write as _};
 
-use shadowstep_scenes::Error;
+use shadowstep_scenes::{Error, shell_word};
 
 use super::Chunks;
 use super::jobs::{self, Job};
 use super::queue::{self, Key, State};
-use super::script::quoted;
 use super::tasks::TaskList;
+use crate::collect::TABLES;
 
 /// The tasks and chunks of a sweep.
 ///
@@ -37,7 +37,7 @@ impl Status {
     pub fn of(chunks: Chunks<'_>, sweep: &std::path::Path) -> Result<Self, Error> {
         let jobs = jobs::read(chunks.folder)?;
         let states = if jobs.is_empty() { BTreeMap::new() } else { queue::states(&jobs)? };
-        let folder = quoted(chunks.folder);
+        let folder = shell_word(chunks.folder);
         Ok(Status {
             tasks: of_tasks(&jobs, &states),
             collect: jobs
@@ -46,9 +46,9 @@ impl Status {
                 .map(|job| (job.job, states.get(&(job.job, None)).cloned())),
             count: chunks.count,
             missing: chunks.missing.clone(),
-            submit: format!("shadowstep sweep {} --out {folder} --submit", quoted(sweep)),
+            submit: format!("shadowstep sweep {} --out {folder} --submit", shell_word(sweep)),
             collects: format!("shadowstep collect {folder}"),
-            has_results: ["results.csv", "results.parquet"].iter().any(|name| chunks.folder.join(name).is_file()),
+            has_results: TABLES.iter().any(|name| chunks.folder.join(name).is_file()),
         })
     }
 

@@ -3,13 +3,14 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use shadowstep_scenes::Error;
+use shadowstep_scenes::{Error, shell_word};
 
 use super::Chunks;
+use super::added::Added;
 use super::command::{Failure, call};
 use super::jobs::{self, Job};
 use super::queue::{self, Key, State};
-use super::script::{Script, Scripts, SweepCommand, quoted};
+use super::script::{Script, Scripts, SweepCommand};
 use super::tasks::TaskList;
 
 /// What was submitted.
@@ -30,31 +31,32 @@ pub enum Submitted {
 
 /// Submits the chunks that are missing and have no task that is pending or running, and a job that collects after them.
 ///
-/// The numbers of the jobs are saved in the folder of the sweep. Scripts that Slurm refuses are removed if they were written now.
+/// The numbers of the jobs are saved in the folder of the sweep. What was added to the folder stays as soon as an array is submitted.
 ///
 /// # Errors
 /// Slurm is not there, or refuses; the numbers of the jobs cannot be read or written.
-pub fn submit(chunks: Chunks<'_>, command: &SweepCommand, scripts: &Scripts) -> Result<Submitted, Error> {
+pub fn submit(chunks: Chunks<'_>, command: &SweepCommand, scripts: &Scripts, added: Added) -> Result<Submitted, Error> {
     let earlier = jobs::read(chunks.folder)?;
     let states = if earlier.is_empty() { BTreeMap::new() } else { queue::states(&earlier)? };
     let active = active(&earlier, &states);
     let tasks = chunks.missing.without(&active);
     if tasks.is_empty() {
+        added.keep();
         return Ok(Submitted::Active(active));
     }
     let mut arguments = Vec::new();
     if tasks.len() as u64 != chunks.count {
         arguments.push(format!("--array={tasks}{}", scripts.array.limit()));
     }
-    let array = sbatch(&arguments, &scripts.array, Some(&tasks)).inspect_err(|_| scripts.remove_new());
-    let array = array.map_err(|failure| refusal(failure, command))?;
+    let array = sbatch(&arguments, &scripts.array, Some(&tasks)).map_err(|failure| refusal(failure, command))?;
+    added.keep();
     jobs::add(chunks.folder, &array)?;
     let before = before(&earlier, &states, &array);
     let collect = sbatch(&[format!("--dependency=afterany:{before}")], &scripts.collect, None);
     let then = format!(
         "the array {} was submitted; run `shadowstep collect {}` when it has ended",
         array.job,
-        quoted(chunks.folder)
+        shell_word(chunks.folder)
     );
     let collect = collect.map_err(|failure| failure.error("sbatch", then))?;
     jobs::add(chunks.folder, &collect)?;
@@ -113,7 +115,7 @@ fn failure_of_array(message: String) -> Error {
 /// The line that computes all chunks with GNU parallel, each with one core.
 fn parallel(command: &SweepCommand) -> String {
     let SweepCommand { program, sweep, folder, chunks } = command;
-    let word = |path: &Path| quoted(path);
+    let word = |path: &Path| shell_word(path);
     let (log, program, sweep, folder) = (word(&folder.join("jobs.log")), word(program), word(sweep), word(folder));
     let quote = if format!("{program}{sweep}{folder}").contains('\'') { " --quote" } else { "" };
     format!(

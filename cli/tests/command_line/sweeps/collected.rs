@@ -26,6 +26,66 @@ fn missing_chunks_are_a_list() {
     assert!(!folder.path().join("out/results.csv").exists());
 }
 
+/// The hint is a command to copy, whatever the name of the folder is.
+#[test]
+fn folders_in_hints_are_words_of_the_shell() {
+    let folder = folder(SWEEP);
+    let mut begins = super::program(folder.path(), "sweep sweep.toml --chunk 1/16 --out");
+    assert!(begins.arg("it's out").status().unwrap().success());
+    let result = super::finished(&super::program(folder.path(), "collect").arg("it's out").output().unwrap());
+    assert!(result.err.contains(r"`shadowstep sweep FILE --out 'it'\''s out'`"), "{}", result.err);
+}
+
+/// A table that does not belong to the chunks that are there would be taken for theirs.
+#[test]
+fn an_earlier_table_does_not_stay_beside_missing_chunks() {
+    let folder = folder(&format!("{SWEEP}[picture]\nvalue = \"steps\"\n"));
+    succeeds(folder.path(), "sweep sweep.toml --out out");
+    succeeds(folder.path(), "collect out --format parquet");
+    let written = ["results.csv", "results.parquet", "rows.csv", "picture.svg"];
+    let are_there = || written.map(|name| folder.path().join("out").join(name).exists());
+    assert_eq!(are_there(), [true; 4]);
+    let chunk = fs::read(folder.path().join(CHUNK_2)).unwrap();
+    for damaged in [None, Some(&chunk[..chunk.len() - 9])] {
+        match damaged {
+            None => fs::remove_file(folder.path().join(CHUNK_2)).unwrap(),
+            Some(damaged) => fs::write(folder.path().join(CHUNK_2), damaged).unwrap(),
+        }
+        let result = run(folder.path(), "collect out");
+        assert_eq!((result.code, result.out.as_str()), (1, "2\n"), "{}", result.err);
+        assert!(
+            result.err.contains("note: out/results.csv is removed: chunks of it are missing now"),
+            "{}",
+            result.err
+        );
+        assert_eq!(are_there(), [false; 4]);
+        fs::write(folder.path().join(CHUNK_2), &chunk).unwrap();
+        succeeds(folder.path(), "collect out");
+    }
+}
+
+/// The axes of the table are those of the plan: its text is not trusted without its hash.
+#[test]
+fn a_changed_plan_is_refused() {
+    let folder = folder(&SWEEP.replace("\"0 … 4/5 in 2 steps\"", "[0, \"2/5\", \"4/5\"]"));
+    succeeds(folder.path(), "sweep sweep.toml --out out");
+    let plan = folder.path().join("out/plan.json");
+    let whole = fs::read_to_string(&plan).unwrap();
+    for (old, new) in [("[0, \\\"2/5", "[\\\"1/2\\\", \\\"2/5"), ("\"energy_error\",", "\"steps\",")] {
+        assert!(whole.contains(old), "{whole}");
+        fs::write(&plan, whole.replacen(old, new, 1)).unwrap();
+        for command in ["collect out", "sweep sweep.toml --out out", "sweep sweep.toml --out out --chunk 2/16"] {
+            let result = run(folder.path(), command);
+            assert_eq!((result.code, result.out.as_str()), (2, ""), "{command}: {}", result.err);
+            assert!(result.err.contains("out/plan.json was changed: its hash differs\n  hint: "), "{}", result.err);
+        }
+    }
+    // without it, the sweep writes it again
+    fs::remove_file(&plan).unwrap();
+    succeeds(folder.path(), "sweep sweep.toml --out out");
+    assert_eq!(fs::read_to_string(&plan).unwrap(), whole);
+}
+
 #[test]
 fn chunks_of_something_else_are_refused_with_the_reason() {
     let scheme = |sweep: &str| sweep.replace("[\"stormer-verlet\", \"ruth3\"]", "[\"mine.toml\", \"ruth3\"]");
