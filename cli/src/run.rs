@@ -6,7 +6,7 @@ use std::time::Instant;
 
 use clap::Args;
 use shadowstep_scenes::ensemble::Ensemble;
-use shadowstep_scenes::{Error, FileOptions, Format, Note, Observer, Outcome, Scene, Summary, WholeFile};
+use shadowstep_scenes::{Error, FileOptions, Format, Note, Observer, Outcome, Scene, Summary};
 
 use crate::interrupt::Interrupt;
 use crate::output::Output;
@@ -49,7 +49,7 @@ pub(crate) struct Arguments {
 pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
     let source = shadowstep_scenes::source(Path::new(&arguments.scene))?;
     if Ensemble::is_in(&source) {
-        return ensemble(&Ensemble::read(source)?, arguments.force);
+        return ensemble(&Ensemble::read(source)?, arguments);
     }
     let scene = Scene::read(source)?;
     scene.notes.iter().for_each(report::note);
@@ -61,9 +61,8 @@ pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
     let begin = Instant::now();
     let progress = Progress::new(scene.output.file.is_some(), scene.as_run().name(), steps);
     let mut terminal = Terminal { progress, interrupt, summarises: !arguments.no_summary, summary: None };
-    let options = FileOptions { restart: arguments.restart, force: arguments.force };
     let outcome = match scene.output.file {
-        Some(_) => scene.run_to_file(options, &mut terminal)?,
+        Some(_) => scene.run_to_file(arguments.options(), &mut terminal)?,
         None => scene.run_into(&mut Output::stdout(), &mut terminal)?,
     };
     let summary = terminal.summary.take();
@@ -86,7 +85,7 @@ pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
             Ok(concluded(&scene, summary.as_ref(), arguments.strict))
         }
         Outcome::AlreadyComplete => {
-            report::note(format_args!("{} is done: its file is complete; --restart runs it again", scene.source.path));
+            is_done(&scene);
             Ok(Status::Success)
         }
         Outcome::Stopped { n } => {
@@ -96,18 +95,27 @@ pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
 }
 
 /// Computes an ensemble: a row for each trajectory, to the file of the scene or to stdout.
-fn ensemble(ensemble: &Ensemble, force: bool) -> Result<Status, Error> {
+fn ensemble(ensemble: &Ensemble, arguments: &Arguments) -> Result<Status, Error> {
     let scene = ensemble.first();
     scene.notes.iter().for_each(report::note);
     let _interrupt = Interrupt::listen(&scene.source.path, "run the scene again");
-    let Some((path, _)) = &scene.output.file else {
-        ensemble.run_into(&mut Output::stdout())?;
-        return Ok(Status::Success);
-    };
-    let mut file = if force { WholeFile::create(path, "file") } else { WholeFile::create_new(path, "file") }?;
-    ensemble.run_into(&mut file)?;
-    file.finish()?;
+    if scene.output.file.is_none() {
+        ensemble.run_into(&mut Output::stdout(), || true)?;
+    } else if ensemble.run_to_file(arguments.options(), || true)? {
+        is_done(scene);
+    }
     Ok(Status::Success)
+}
+
+/// Reports that nothing was computed.
+fn is_done(scene: &Scene) {
+    report::note(format_args!("{} is done: its file is complete; --restart runs it again", scene.source.path));
+}
+
+impl Arguments {
+    fn options(&self) -> FileOptions {
+        FileOptions { restart: self.restart, force: self.force }
+    }
 }
 
 /// What can be done after an interruption.

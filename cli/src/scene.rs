@@ -3,13 +3,12 @@
 use std::io::Write;
 
 use clap::Args;
-use shadowstep::problems::{PROBLEMS, problem};
+use shadowstep::problems::PROBLEMS;
 use shadowstep_scenes::{
-    ENCOUNTER_SCENES, Error, MANY_PARTS_SCENES, PLANETARY_SCENES, SCHEME_SCENES, ShippedScene, shipped_scene,
+    ENCOUNTER_SCENES, Error, MANY_PARTS_SCENES, PLANETARY_SCENES, SCHEME_SCENES, ShippedScene, scene_text,
 };
 
 use crate::output::Output;
-use crate::quantity::problem_error;
 use crate::readable::wrapped;
 use crate::report::Status;
 
@@ -32,10 +31,7 @@ pub(crate) struct Arguments {
 pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
     let text = match &arguments.name {
         _ if arguments.explain => shadowstep_scenes::explain(),
-        Some(name) => match shipped_scene(name) {
-            Some(scene) => scene.text.to_owned(),
-            None => shadowstep_scenes::template(problem(name).map_err(problem_error)?.description()),
-        },
+        Some(name) => scene_text(name)?,
         None => list(),
     };
     let mut output = Output::stdout();

@@ -5,9 +5,9 @@ use std::path::PathBuf;
 use pyo3::prelude::*;
 use shadowstep::tables::Source;
 use shadowstep_scenes::ensemble::Ensemble;
-use shadowstep_scenes::{Error, FileOptions, Note, Observer, Outcome, Scene, Summary, shipped_scene, source, template};
+use shadowstep_scenes::{Error, FileOptions, Note, Observer, Outcome, Scene, Summary, source};
 
-use crate::errors::{exception, usage};
+use crate::errors::exception;
 use crate::waiting::{Watched, waiting};
 
 /// What a run of a scene gives: the rows as CSV or JSON lines, where it has no file; the summary as text and JSON; notes.
@@ -32,19 +32,24 @@ pub(crate) fn run_scene(
 }
 
 fn run(source: Source, restart: bool, watched: &Watched) -> Result<SceneResult, Error> {
+    let options = FileOptions { restart, ..FileOptions::default() };
     let mut rows = Vec::new();
     let text = |rows| Some(String::from_utf8(rows).expect("rows are text"));
     if Ensemble::is_in(&source) {
-        Ensemble::read(source)?.run_into(&mut rows)?;
-        return Ok((text(rows), None, Vec::new()));
+        let ensemble = Ensemble::read(source)?;
+        let continues = || watched.continues();
+        let notes = ensemble.first().notes.iter().map(Note::to_string).collect();
+        if ensemble.first().output.file.is_some() {
+            ensemble.run_to_file(options, continues)?;
+            return Ok((None, None, notes));
+        }
+        ensemble.run_into(&mut rows, continues)?;
+        return Ok((text(rows), None, notes));
     }
     let scene = Scene::read(source)?;
     let mut follower = SceneObserver { watched, notes: scene.notes.clone(), summary: None };
     let outcome = match &scene.output.file {
-        Some(_) => {
-            let options = FileOptions { restart, ..FileOptions::default() };
-            scene.run_to_file(options, &mut follower)?
-        }
+        Some(_) => scene.run_to_file(options, &mut follower)?,
         None => scene.run_into(&mut rows, &mut follower)?,
     };
     if let Outcome::Stopped { n } = outcome {
@@ -86,11 +91,5 @@ impl Observer for SceneObserver<'_> {
 /// The text of a shipped scene, or of a scene of a shipped problem.
 #[pyfunction]
 pub(crate) fn scene_text(py: Python<'_>, name: &str) -> PyResult<String> {
-    if let Some(scene) = shipped_scene(name) {
-        return Ok(scene.text.to_owned());
-    }
-    match shadowstep::problems::problem(name) {
-        Ok(problem) => Ok(template(problem.description())),
-        Err(_) => Err(usage(py, format!("there is no scene `{name}`"), "give the name of a shipped problem or scene")),
-    }
+    shadowstep_scenes::scene_text(name).map_err(|error| exception(py, error))
 }

@@ -67,7 +67,7 @@
 //! | file | what it is |
 //! | --- | --- |
 //! | `scene` | the content of a scene: plain data |
-//! | [`keys`] | every key with its meaning; `explain` lists them, `template` writes scenes with them |
+//! | [`keys`] | every key with its meaning; `explain` lists them, [`scene_text`] writes scenes with them |
 //! | [`family`] | scenes that differ in the values of some names |
 //! | [`ensemble`], [`lanes`] | many trajectories of such a family; their systems as one system of lanes |
 //! | `read` | a scene's text → a scene, or all its faults |
@@ -151,8 +151,7 @@ pub use scene::{
     PairEnergy, Parts, PotentialEnergy, Scene, SceneNumber, System, SystemIn,
 };
 pub use shell::shell_word;
-pub use shipped::{ENCOUNTER_SCENES, MANY_PARTS_SCENES, PLANETARY_SCENES, SCHEME_SCENES, ShippedScene, shipped_scene};
-pub use template::template;
+pub use shipped::{ENCOUNTER_SCENES, MANY_PARTS_SCENES, PLANETARY_SCENES, SCHEME_SCENES, ShippedScene, scene_text};
 pub use temporary::{Temporary, remove_temporary_files};
 pub use watch::summary::{EnergySummary, ModifiedEnergySummary, Summary};
 pub use watch::{Approach, Encounter, Interactions};

@@ -5,6 +5,7 @@ use std::io;
 use std::path::Path;
 
 use same_file::Handle;
+use shadowstep_schemes::document::refuse_special;
 use thiserror::Error;
 
 /// Why a file cannot be locked.
@@ -35,8 +36,9 @@ pub enum LockError {
 /// ```
 ///
 /// # Errors
-/// A file that cannot be opened, or that another process has.
+/// A pipe or a device; a file that cannot be opened, or that another process has.
 pub fn open_locked(path: &Path, options: &OpenOptions) -> Result<File, LockError> {
+    refuse_special(path)?;
     let file = options.open(path)?;
     match file.try_lock() {
         Ok(()) => {}

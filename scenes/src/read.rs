@@ -37,6 +37,7 @@ use crate::library::Schemes;
 use crate::note::Note;
 use crate::read::reader::Reader;
 use crate::scene::{Outputs, Scene, System};
+use crate::shipped::scene_names;
 
 /// The most bytes of a scene, which may have the initial values of many bodies.
 const LARGEST_SCENE: u64 = 16 << 20;
@@ -108,13 +109,21 @@ pub(crate) fn read(source: &Source, document: &DeTable<'_>, names: Names<'_>) ->
 /// A file that cannot be read.
 pub fn source(path: &Path) -> Result<Source, Error> {
     let shown = path.display().to_string();
-    let refuse = |message: String| {
-        Error::usage(message, "give the path of a scene; `shadowstep scene kepler > scene.toml` writes one")
-    };
+    let example = "give the path of a scene; `shadowstep scene kepler > scene.toml` writes one";
+    let refuse = |message: String| Error::usage(message, example);
     match read_text(path, LARGEST_SCENE) {
         Ok(text) if text.trim().is_empty() => Err(refuse(format!("{shown} is empty"))),
         Ok(text) => Ok(Source { path: shown, text }),
-        Err(error) if error.kind() == ErrorKind::NotFound => Err(refuse(format!("there is no file {shown}"))),
+        Err(error) if error.kind() == ErrorKind::NotFound => {
+            let known = match shown.strip_suffix(".toml") {
+                Some(name) => scene_names().find(|known| *known == name),
+                None => nearest(&shown, scene_names()),
+            };
+            let hint = known.map(|name| {
+                format!("`shadowstep scene {name} > {name}.toml` writes a scene, `shadowstep run {name}.toml` runs it")
+            });
+            Err(Error::usage(format!("there is no file {shown}"), hint.unwrap_or_else(|| example.to_owned())))
+        }
         Err(error) if error.kind() == ErrorKind::InvalidData => Err(refuse(format!("{shown} is not a text in UTF-8"))),
         Err(error) => Err(refuse(format!("{shown} cannot be read: {error}"))),
     }

@@ -1,5 +1,11 @@
 //! Shipped scenes: each a file in `scenes/planets/`, `scenes/close-encounters/`, `scenes/many-parts/` or `scenes/schemes/`.
 
+use shadowstep::problems::{PROBLEMS, problem};
+use shadowstep_symbolic::suggestion;
+
+use crate::error::Error;
+use crate::template::template;
+
 /// A shipped scene.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ShippedScene {
@@ -87,12 +93,39 @@ pub const SCHEME_SCENES: [ShippedScene; 3] = [
     },
 ];
 
-/// The shipped scene with this name.
-pub fn shipped_scene(name: &str) -> Option<&'static ShippedScene> {
-    PLANETARY_SCENES
-        .iter()
-        .chain(&ENCOUNTER_SCENES)
-        .chain(&MANY_PARTS_SCENES)
-        .chain(&SCHEME_SCENES)
-        .find(|scene| scene.name.eq_ignore_ascii_case(name))
+fn all() -> impl Iterator<Item = &'static ShippedScene> {
+    PLANETARY_SCENES.iter().chain(&ENCOUNTER_SCENES).chain(&MANY_PARTS_SCENES).chain(&SCHEME_SCENES)
+}
+
+/// The names of all shipped problems and scenes.
+pub(crate) fn scene_names() -> impl Iterator<Item = &'static str> {
+    PROBLEMS.iter().map(|problem| problem.name()).chain(all().map(|scene| scene.name))
+}
+
+/// The text of the shipped scene with this name, or of a scene of the problem with this name.
+///
+/// ```
+/// use shadowstep::tables::Source;
+/// use shadowstep_scenes::{Scene, scene_text};
+///
+/// let text = scene_text("kepler")?;
+/// assert!(Scene::read(Source { path: "scene.toml".to_owned(), text }).is_ok());
+/// let error = scene_text("eight-planet").unwrap_err().to_string();
+/// assert!(error.ends_with("hint: did you mean `eight-planets`?"));
+/// # Ok::<(), shadowstep_scenes::Error>(())
+/// ```
+///
+/// # Errors
+/// An unknown name; the hint has the nearest known one.
+pub fn scene_text(name: &str) -> Result<String, Error> {
+    if let Some(scene) = all().find(|scene| scene.name.eq_ignore_ascii_case(name)) {
+        return Ok(scene.text.to_owned());
+    }
+    match problem(name) {
+        Ok(problem) => Ok(template(problem.description())),
+        Err(_) => {
+            let names: Vec<&str> = scene_names().collect();
+            Err(Error::usage(format!("there is no problem or shipped scene `{name}`"), suggestion(name, &names)))
+        }
+    }
 }

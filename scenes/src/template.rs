@@ -25,16 +25,7 @@ impl Lines {
 }
 
 /// The text of a scene that runs a shipped problem, with the meanings of its keys as comments.
-///
-/// ```
-/// use shadowstep::problems::problem;
-/// use shadowstep::tables::Source;
-/// use shadowstep_scenes::{Scene, template};
-///
-/// let text = template(problem("kepler").unwrap().description());
-/// assert!(Scene::read(Source { path: "scene.toml".to_owned(), text }).is_ok());
-/// ```
-pub fn template(problem: &Description) -> String {
+pub(crate) fn template(problem: &Description) -> String {
     let Description { name, title, hamiltonian, source, .. } = problem;
     let mut lines = Lines(wrapped(&format!("{title}: H = {hamiltonian}"), "# "));
     lines.0 += &wrapped(&format!("Source: {source}"), "# ");

@@ -96,7 +96,7 @@ fn ensemble(trajectories: u32, steps: u32) {
     let begin = cpu_seconds();
     let ensemble = Ensemble::read(Source { path: "scene.toml".to_owned(), text }).expect("the scene is valid");
     let read = cpu_seconds();
-    ensemble.run_into(&mut std::io::sink()).expect("the rows are written");
+    ensemble.run_into(&mut std::io::sink(), || true).expect("the rows are written");
     let of_one = |seconds: f64| 1e6 * seconds / f64::from(trajectories);
     let (read, run) = (of_one(read - begin), of_one(cpu_seconds() - read));
     println!(

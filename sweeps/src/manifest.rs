@@ -7,6 +7,7 @@ use std::path::Path;
 use serde::{Deserialize, Serialize};
 use shadowstep::tables::Source;
 use shadowstep_scenes::{Error, not_written};
+use shadowstep_schemes::document::read_text;
 use tempfile::Builder;
 
 use crate::chunk::{AGAIN, Chunk, Header, MOST_RUNS_OF_CHUNK};
@@ -25,6 +26,9 @@ struct Hashed<M> {
 
 /// The name of the file.
 pub(crate) const NAME: &str = "plan.json";
+
+/// The most bytes of the file.
+const LARGEST: u64 = 1 << 28;
 
 /// The version of the program, on which the last digits of results may depend.
 pub(crate) const VERSION: &str = env!("CARGO_PKG_VERSION");
@@ -97,7 +101,7 @@ impl Manifest {
     pub fn read(folder: &Path) -> Result<Manifest, Error> {
         let path = folder.join(NAME);
         let hint = "give the folder of `shadowstep sweep FILE --out DIR`";
-        let text = match fs::read_to_string(&path) {
+        let text = match read_text(&path, LARGEST) {
             Ok(text) => text,
             Err(error) if error.kind() == io::ErrorKind::NotFound => {
                 return Err(Error::usage(format!("{} has no {NAME}", folder.display()), hint));

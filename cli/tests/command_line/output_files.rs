@@ -157,6 +157,57 @@ fn named_pipes_are_refused() {
     }
 }
 
+/// To open one waits for its other end: the commands would wait for ever.
+#[cfg(unix)]
+#[test]
+fn named_pipes_as_inputs_are_refused() {
+    let folder = folder(&short().replace("stormer-verlet", "pipe.toml"));
+    let path = |name: &str| folder.path().join(name).display().to_string();
+    for name in ["pipe.toml", "plan.json", "results.jsonl", "trace.csv"] {
+        assert!(Command::new("mkfifo").arg(path(name)).status().unwrap().success());
+    }
+    let scene = short().split("[output]").next().unwrap().to_owned();
+    fs::write(path("columns.toml"), format!("{scene}[ensemble]\nfile = \"pipe.toml\"\n")).unwrap();
+    fs::write(path("sweep.toml"), "scene = \"pipe.toml\"\naxes.e = [0, 1]\nkeep.values = [\"steps\"]\n").unwrap();
+    let (pipe, here) = (path("pipe.toml"), folder.path().display());
+    for words in [
+        format!("run {pipe}"),
+        format!("run {}", path("scene.toml")),
+        format!("run {}", path("columns.toml")),
+        format!("sweep {pipe} --out {}", path("out")),
+        format!("sweep {} --out {}", path("sweep.toml"), path("out")),
+        format!("collect {here}"),
+        format!("drift {pipe} --scheme yoshida4 --step 1/10 --until 1"),
+        format!("drift kepler --scheme {pipe} --step 1/10 --until 1"),
+        format!("schemes check {pipe}"),
+        format!("schemes polish {pipe} --digits 30"),
+        format!("emit {pipe} --to c"),
+        format!("figures scattering --quick --out {here}"),
+    ] {
+        let mut child = program().args(words.split(' ')).stderr(Stdio::piped()).spawn().unwrap();
+        wait_until(&words, || child.try_wait().unwrap().is_some());
+        let output = child.wait_with_output().unwrap();
+        let err = String::from_utf8(output.stderr).unwrap();
+        assert!(
+            output.status.code() == Some(2) && err.contains("it is a pipe or a device, not a file"),
+            "{words}: {err}"
+        );
+    }
+    let refused = shadowstep(&format!("{TRACE} --until 1 --output {}", path("trace.csv")));
+    assert!(refused.code == 2 && refused.err.contains("trace.csv is not a file"), "{}", refused.err);
+}
+
+/// What the shell has opened is read: `shadowstep run <(…)`, and a pipe as stdin.
+#[cfg(unix)]
+#[test]
+fn open_descriptors_are_read() {
+    let scene = short().split("[output]").next().unwrap().replace("3000", "3") + "[output]\nenergy = true\n";
+    let mut program = assert_cmd::Command::cargo_bin("shadowstep").unwrap();
+    let output = program.args(["run", "/dev/stdin", "--no-summary"]).write_stdin(scene).output().unwrap();
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    assert_eq!(String::from_utf8(output.stdout).unwrap().lines().last().map(|row| &row[..2]), Some("3,"));
+}
+
 /// Runs the program where files may have this number of blocks of 512 bytes.
 #[cfg(unix)]
 pub(crate) fn with_small_files(blocks: u32, words: &str) -> Output {

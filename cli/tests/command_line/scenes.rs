@@ -498,9 +498,12 @@ modified_energy = { estimator = "bilinear", order = 4, every = 10 }
 file = "out.csv"
 "#;
 
-/// The rows of an ensemble, cell by cell.
+/// The rows of an ensemble, cell by cell, without the head.
 fn rows(text: &str) -> Vec<Vec<String>> {
-    text.lines().map(|line| line.split(',').map(str::to_owned).collect()).collect()
+    text.lines()
+        .filter(|line| !line.starts_with('#'))
+        .map(|line| line.split(',').map(str::to_owned).collect())
+        .collect()
 }
 
 #[test]
@@ -538,9 +541,59 @@ fn an_ensemble_has_a_row_for_each_trajectory() {
     let of_file = folder(&format!("{ENSEMBLE}[ensemble]\nfile = \"starts.csv\"\n"));
     fs::write(of_file.path().join("starts.csv"), "# made by hand\nd, x0\n0, 1\n0.25, 0\n1/3, 1.5\n").unwrap();
     assert_eq!(run(of_file.path(), "").code, 0);
-    assert_eq!(fs::read_to_string(of_file.path().join("out.csv")).unwrap(), text);
-    // a file that is there stays
-    assert!(run(of_file.path(), "").code != 0 && run(of_file.path(), "--force").code == 0);
+    assert_eq!(rows(&fs::read_to_string(of_file.path().join("out.csv")).unwrap()), table);
+}
+
+/// As a complete run that is run again.
+#[test]
+fn a_complete_ensemble_is_done() {
+    let folder = folder(&format!("{ENSEMBLE}[ensemble]\nfile = \"starts.csv\"\n"));
+    let path = |name: &str| folder.path().join(name);
+    let starts = |text: &str| fs::write(path("starts.csv"), text).unwrap();
+    starts("d,x0\n0,1\n1/3,1.5\n");
+    assert_eq!(run(folder.path(), "").code, 0);
+    let whole = fs::read_to_string(path("out.csv")).unwrap();
+    let made = || fs::metadata(path("out.csv")).unwrap().modified().unwrap();
+    let first = made();
+    for flags in ["", "--force"] {
+        let again = run(folder.path(), flags);
+        assert!(again.err.contains("is done: its file is complete; --restart runs it again"), "{}", again.err);
+        assert_eq!((again.code, made()), (0, first));
+    }
+    let restarted = run(folder.path(), "--restart");
+    assert_eq!((restarted.code, restarted.err.as_str()), (0, ""));
+    assert!(made() > first && fs::read_to_string(path("out.csv")).unwrap() == whole);
+    // of other columns, or of somebody else, it is another file
+    for other in ["d,x0\n0,1\n1/3,1.6\n", "d,x0\n0,1\n1/3,1.5\n1,1\n"] {
+        starts(other);
+        for flags in ["", "--restart"] {
+            let refused = run(folder.path(), flags);
+            assert_eq!(refused.code, 2);
+            assert!(refused.err.contains("already exists and is not from this unchanged scene"), "{}", refused.err);
+        }
+    }
+    assert_eq!(fs::read_to_string(path("out.csv")).unwrap(), whole);
+    assert_eq!(run(folder.path(), "--force").code, 0);
+    assert_eq!(rows(&fs::read_to_string(path("out.csv")).unwrap()).len(), 4);
+}
+
+#[test]
+fn names_of_scenes_are_suggested() {
+    let mistyped = shadowstep("scene eight-planet");
+    assert_eq!(mistyped.code, 2);
+    assert!(mistyped.err.contains("`eight-planet`\n  hint: did you mean `eight-planets`?"), "{}", mistyped.err);
+    for (word, name) in
+        [("kepler", "kepler"), ("keppler", "kepler"), ("kepler.toml", "kepler"), ("resonance", "resonance")]
+    {
+        let refused = shadowstep(&format!("run {word}"));
+        let hint = format!(
+            "error: there is no file {word}\n  hint: `shadowstep scene {name} > {name}.toml` writes a scene, \
+             `shadowstep run {name}.toml` runs it\n"
+        );
+        assert_eq!((refused.code, refused.err), (2, hint));
+    }
+    let refused = shadowstep("run mine.toml");
+    assert!(refused.err.contains("hint: give the path of a scene; "), "{}", refused.err);
 }
 
 #[test]

@@ -1,18 +1,21 @@
 //! The section \[ensemble\]: columns in the text, or in a file.
 
-use std::fs;
 use std::ops::Range;
 use std::path::Path;
 
 use shadowstep::tables::{Faults, Source};
 use shadowstep::{Rational, exact};
-use shadowstep_schemes::document::{Fault, Key, Keys, Reader, Section, Text, Value, document};
+use shadowstep_schemes::document::{Fault, Key, Keys, Reader, Section, Text, Value, document, read_text};
 use shadowstep_symbolic::decimal::to_text;
 use toml::de::DeValue;
 
 use crate::error::Error;
 use crate::family::Meaning;
 use crate::keys::{ENSEMBLE, ENSEMBLE_KEYS};
+use crate::results::sha256;
+
+/// The most bytes of a file of columns.
+const LARGEST_FILE: u64 = 1 << 30;
 
 /// Values of some names in each trajectory.
 #[derive(Debug)]
@@ -52,6 +55,13 @@ impl Columns {
     /// How many trajectories there are.
     pub(super) fn trajectories(&self) -> usize {
         self.rows.len()
+    }
+
+    /// A hash of the names and values, which may be in another file than the scene.
+    pub(super) fn sha256(&self) -> String {
+        let row = |row: &Vec<Rational>| row.iter().map(to_text).collect::<Vec<_>>().join(",");
+        let rows: Vec<String> = [self.names.join(",")].into_iter().chain(self.rows.iter().map(row)).collect();
+        sha256(&rows.join("\n"))
     }
 
     /// The names with their values in a trajectory.
@@ -119,7 +129,7 @@ fn column(reader: &mut Reader<'_>, list: &Value<'_>) -> Option<Vec<Rational>> {
 /// A file of CSV with a line of names; its path is relative to the folder of the scene.
 fn of_file(source: &Source, file: &Text) -> Result<Columns, Error> {
     let path = Path::new(&source.path).parent().unwrap_or(Path::new("")).join(&file.value);
-    let text = fs::read_to_string(&path).map_err(|error| {
+    let text = read_text(&path, LARGEST_FILE).map_err(|error| {
         let fault = source.fault(&file.at, format!("{} cannot be read: {error}", path.display()));
         Faults(vec![fault.hint("give a file of CSV with a line of names")])
     })?;

@@ -7,16 +7,21 @@ use shadowstep_symbolic::decimal::to_text;
 
 use super::columns::Columns;
 use crate::error::Error;
-use crate::scene::System;
+use crate::results::Metadata;
+use crate::scene::Scene;
 
-/// A line of names, and a row for each outcome.
+/// The metadata, a line of names, and a row for each outcome.
 pub(super) fn write(
     columns: &Columns,
-    system: &System,
+    scene: &Scene,
     has_modified_energy: bool,
     outcomes: &[Outcome],
     writer: &mut dyn Write,
 ) -> Result<(), Error> {
+    for line in Metadata::of_ensemble(scene, &columns.sha256()).lines() {
+        writeln!(writer, "# {line}")?;
+    }
+    let system = &scene.system;
     let mut csv = csv::Writer::from_writer(writer);
     let state = system.coordinates.iter().chain(&system.momenta);
     let names = columns.names.iter().chain(state).map(String::as_str);

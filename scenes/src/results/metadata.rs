@@ -28,15 +28,7 @@ impl Metadata {
     pub(crate) fn of(scene: &Scene) -> Metadata {
         let proved = scene.scheme.scheme.proved();
         let order = if scene.system.has_general_kinetic() { &proved.proof.general } else { proved.order() };
-        let mut all = vec![
-            ("shadowstep", json!(env!("CARGO_PKG_VERSION"))),
-            ("platform", json!(platform())),
-            ("scene", json!(file_name(&scene.source.path))),
-            ("scene_sha256", json!(sha256(&scene.source.text))),
-            ("scheme", json!(scene.scheme.name)),
-            ("table_sha256", json!(sha256(&proved.scheme.table.source.text))),
-        ];
-        all.extend(bases(&proved.scheme.table).iter().map(|base| ("base_table_sha256", json!(sha256(&base.text)))));
+        let mut all = made_with(scene);
         all.extend([
             ("first", json!(proved.scheme.maps().first().map(|map| map.kind.to_string()))),
             ("scheme_order", json!(order.order)),
@@ -46,12 +38,18 @@ impl Metadata {
         // the same digits may be MPFR's, with other last places
         all.extend(scene.arithmetic.limbs().map(|limbs| ("limbs", json!(limbs))));
         all.extend(system(&scene.system, scene.arithmetic));
-        all.push(("step", json!(to_text(scene.h.exact()))));
-        all.extend(scene.until.iter().map(|until| ("until", json!(to_text(until)))));
-        all.push(("steps", json!(scene.steps())));
+        all.extend(steps(scene));
         all.extend(
             scene.output.modified_energy.iter().map(|(chosen, _)| ("modified_energy_by", json!(chosen.to_string()))),
         );
+        Metadata(all)
+    }
+
+    /// Of an ensemble with columns of this hash, by the scene of one of its trajectories.
+    pub(crate) fn of_ensemble(scene: &Scene, columns_sha256: &str) -> Metadata {
+        let mut all = made_with(scene);
+        all.extend([("columns_sha256", json!(columns_sha256)), ("digits", json!(scene.arithmetic.label()))]);
+        all.extend(steps(scene));
         Metadata(all)
     }
 
@@ -62,6 +60,26 @@ impl Metadata {
             _ => format!("{name}: {value}"),
         })
     }
+}
+
+/// The program, the scene and the tables.
+fn made_with(scene: &Scene) -> Vec<(&'static str, Value)> {
+    let table = &scene.scheme.scheme.proved().scheme.table;
+    let mut all = vec![
+        ("shadowstep", json!(env!("CARGO_PKG_VERSION"))),
+        ("platform", json!(platform())),
+        ("scene", json!(file_name(&scene.source.path))),
+        ("scene_sha256", json!(sha256(&scene.source.text))),
+        ("scheme", json!(scene.scheme.name)),
+        ("table_sha256", json!(sha256(&table.source.text))),
+    ];
+    all.extend(bases(table).iter().map(|base| ("base_table_sha256", json!(sha256(&base.text)))));
+    all
+}
+
+fn steps(scene: &Scene) -> impl Iterator<Item = (&'static str, Value)> {
+    let until = scene.until.iter().map(|until| ("until", json!(to_text(until))));
+    [("step", json!(to_text(scene.h.exact())))].into_iter().chain(until).chain([("steps", json!(scene.steps()))])
 }
 
 fn system(system: &System, arithmetic: Arithmetic) -> Vec<(&'static str, Value)> {

@@ -8,8 +8,9 @@ use shadowstep::shadow::Estimate;
 
 use crate::error::Error;
 use crate::results::metadata::Metadata;
+use crate::results::origin::METADATA;
 use crate::results::resumable::beside;
-use crate::results::target::{METADATA, Target};
+use crate::results::target::Target;
 use crate::scene::{COLUMNS, Format};
 use crate::watch::summary::Summary;
 use crate::whole_file::WholeFile;

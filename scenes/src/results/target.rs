@@ -1,7 +1,6 @@
 //! Where rows go: a writer of the caller, or a file that gets its name when it is complete.
 
-use std::fs::File;
-use std::io::{self, Read, Write};
+use std::io::{self, Write};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
@@ -11,8 +10,9 @@ use crate::error::Error;
 use crate::observer::Observer;
 use crate::results::checkpoint::{Checkpoint, Identity, SavedState};
 use crate::results::options::FileOptions;
-use crate::results::resumable::{CHECKPOINT, LONGEST_HEAD, NEW_CHECKPOINT, Resumable, beside};
-use crate::scene::{Format, Scene};
+use crate::results::origin::{METADATA, Origin};
+use crate::results::resumable::{CHECKPOINT, NEW_CHECKPOINT, Resumable, beside};
+use crate::scene::Scene;
 use crate::whole_file::destination;
 
 pub(crate) enum Target<'a> {
@@ -22,42 +22,9 @@ pub(crate) enum Target<'a> {
     File(Box<Resumable>),
 }
 
-/// The extension of the file with the metadata of JSON lines.
-pub(super) const METADATA: &str = "metadata.json";
-
-/// Whose result a file is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Origin {
-    /// There is no file.
-    None,
-    /// This scene, these tables and this version: a run would write the same bytes again.
-    Same,
-    /// This scene with other tables or another version.
-    SameScene,
-    /// Something else, or a changed scene.
-    Other,
-}
-
-/// Whose result the file of a scene is, by the hashes in its metadata.
-fn origin(path: &Path, scene: &Scene) -> Origin {
-    let metadata = match scene.output.format {
-        Format::Csv => path.to_owned(),
-        Format::JsonLines => beside(path, METADATA),
-    };
-    let is_there = |path: &Path| path.symlink_metadata().is_ok();
-    if !is_there(path) && !is_there(&metadata) {
-        return Origin::None;
-    }
-    let mut head = Vec::new();
-    let read = File::open(&metadata).and_then(|file| file.take(LONGEST_HEAD).read_to_end(&mut head));
-    let has = |text: &String| head.windows(text.len()).any(|part| part == text.as_bytes());
-    let identity = Identity::of(scene);
-    match read {
-        Ok(_) if !has(identity.scene()) => Origin::Other,
-        Ok(_) if identity.others().all(has) && is_there(path) => Origin::Same,
-        Ok(_) => Origin::SameScene,
-        Err(_) => Origin::Other,
-    }
+/// A scene that does not name the file which is to be written.
+pub(crate) fn no_file() -> Error {
+    Error::usage("the scene names no file", "add `file = \"out.csv\"` to [output]")
 }
 
 /// An error about a value of the scene, at its place.
@@ -98,7 +65,7 @@ impl<'a> Target<'a> {
         observer: &mut dyn Observer,
     ) -> Result<Option<(Target<'a>, Option<Checkpoint>)>, Error> {
         let Some((path, place)) = &scene.output.file else {
-            return Err(Error::usage("the scene names no file", "add `file = \"out.csv\"` to [output]"));
+            return Err(no_file());
         };
         let at_place = |error| at(scene, place, error);
         let path = &destination(path).map_err(at_place)?;
@@ -106,17 +73,14 @@ impl<'a> Target<'a> {
         if same_file::is_same_file(path, &scene.source.path).unwrap_or(false) {
             return Err(at_place(Error::usage("the file is the scene itself", "give it another name")));
         }
-        match origin(path, scene) {
-            Origin::Other if !options.force && !path.is_dir() => {
-                let message = format!("{} already exists and is not from this unchanged scene", path.display());
-                let hint = "use another name, move the file, or replace it with `force`";
-                return Err(at_place(Error::usage(message, hint)));
-            }
-            Origin::Same if !options.restart && !Resumable::is_begun_again(path) => return Ok(None),
-            _ => {}
+        let identity = Identity::of(scene);
+        let origin = Origin::of(path, scene.output.format, &[identity.scene()], identity.others());
+        origin.check(path, options).map_err(at_place)?;
+        if origin == Origin::Same && !options.restart && !Resumable::is_begun_again(path) {
+            return Ok(None);
         }
         let saves = scene.output.checkpoint.is_some();
-        let opened = Resumable::open(path, Identity::of(scene), saves, options, observer);
+        let opened = Resumable::open(path, identity, saves, options, observer);
         let (file, checkpoint) = opened.map_err(at_place)?;
         Ok(Some((Target::File(Box::new(file)), checkpoint)))
     }
