@@ -11,7 +11,7 @@ use std::array::from_fn;
 
 use num_bigint::BigInt;
 use proptest::prelude::*;
-use shadowstep_symbolic::decimal::from_text;
+use shadowstep_symbolic::decimal::{from_text, to_significant};
 
 use super::super::tests::{functions, operations, products};
 use super::DoubleDouble;
@@ -59,6 +59,29 @@ proptest! {
         let low = high * f64::EPSILON * ratio * 2f64.powi(-power);
         let x = DoubleDouble::new(high, low);
         prop_assert_eq!(number(&x.to_text()), x);
+    }
+
+    /// The exact number to as many digits, and one digit less does not read back; at the ends of exponents and beside ties, too.
+    #[test]
+    fn text_is_the_shortest(bits: u64, ratio in -0.5..0.5, end in 0..6) {
+        let high = f64::from_bits(bits & !(1 << 63));
+        let high = match end {
+            0 => f64::MIN_POSITIVE * f64::from_bits(bits >> 12 | 1.0f64.to_bits()),
+            1 => f64::from_bits(bits >> 12), // subnormal
+            2 => f64::from_bits(high.to_bits() & 0x7ff0_0000_0000_0000),
+            _ => high,
+        };
+        prop_assume!(high.is_finite() && high != 0.0);
+        let ulp = high - high.next_down();
+        let x = DoubleDouble::new(high, if end == 3 { ulp / 2.0 } else { ulp * ratio });
+        prop_assume!(x.high.is_finite());
+        let text = x.to_text();
+        prop_assert_eq!(number(&text), x);
+        let all = text.split('e').next().unwrap().replace('.', "");
+        let count = all.trim_start_matches('0').trim_end_matches('0').len();
+        let rounded = |digits: usize| to_significant(&exactly(x), digits);
+        prop_assert_eq!(rational(&rounded(count.max(31))), rational(&text));
+        prop_assert!(count <= 31 || number(&rounded(count - 1)) != x, "{}", text);
     }
 
     #[test]
