@@ -89,8 +89,11 @@ impl PosedProblem {
     }
 }
 
-/// Whether the weights of a scheme have the digits of the runs.
-pub(crate) fn check_digits(scheme: &NamedScheme, arithmetic: Arithmetic) -> Result<(), Error> {
-    let suits = arithmetic.suits(scheme);
-    suits.map(drop).map_err(|error| Error::usage(error.to_string(), format!("use --digits {}", error.most)))
+/// The scheme with weights that have the digits of the runs.
+pub(crate) fn fitted(scheme: NamedScheme, arithmetic: Arithmetic) -> Result<NamedScheme, Error> {
+    let fitted = scheme.fitted(arithmetic);
+    fitted.map(|(scheme, _)| scheme).map_err(|error| {
+        let hint = format!("use --digits {}", error.most);
+        Error::usage(error.to_string(), hint)
+    })
 }

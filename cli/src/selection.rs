@@ -13,6 +13,7 @@ use crate::system::Described;
 use shadowstep_scenes::Error;
 use shadowstep_scenes::arithmetic::{Arithmetic, OTHER_SCHEME};
 use shadowstep_scenes::estimator::{ACCURACY_HINT, conflict, order_setting};
+use shadowstep_scenes::library::NamedScheme;
 use shadowstep_scenes::propagator::Propagator;
 use shadowstep_scenes::run::{OrderSetting, Run};
 use shadowstep_scenes::stability::unstable;
@@ -38,16 +39,19 @@ impl Selection {
         refuse_empty("--step", &arguments.steps, "1/10,1/20")?;
         let mut steps: Vec<_> = arguments.steps.iter().map(|text| step(text, &until)).collect::<Result<_, _>>()?;
         let words = each_once(&arguments.schemes, |word| word.clone(), "scheme");
-        let propagators =
+        let propagators: Vec<_> =
             words.iter().map(|word| Propagator::of_system(word, &problem.system)).collect::<Result<_, _>>()?;
         steps = each_once(&steps, |(h, _)| to_text(h.exact()), "step");
-        let selection = Selection { problem, until, arithmetic, estimator, propagators, steps };
-        for scheme in selection.propagators.iter().filter_map(Propagator::scheme) {
-            let note = arithmetic.suits(scheme).map_err(|error| {
+        let fitted = |propagator: Propagator| {
+            let (propagator, note) = propagator.fitted(arithmetic).map_err(|error| {
                 Error::usage(error.to_string(), format!("use --digits {}, or {OTHER_SCHEME}", error.most))
             })?;
-            scheme.note().iter().chain(&note).for_each(report::note);
-        }
+            let of_name = propagator.scheme().and_then(NamedScheme::note);
+            of_name.iter().chain(&note).for_each(report::note);
+            Ok(propagator)
+        };
+        let propagators = propagators.into_iter().map(fitted).collect::<Result<_, Error>>()?;
+        let selection = Selection { problem, until, arithmetic, estimator, propagators, steps };
         selection.note_ends();
         if !arguments.no_summary {
             selection.note_instability();

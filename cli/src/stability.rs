@@ -14,7 +14,7 @@ use shadowstep_studies::finding::Finding;
 use shadowstep_studies::verdict::Verdict;
 
 use crate::output::Output;
-use crate::posed::check_digits;
+use crate::posed::fitted;
 use crate::quantity::whole;
 use crate::readable::wrapped_to;
 use crate::report::{self, Status};
@@ -94,8 +94,7 @@ fn suite(arguments: &Arguments) -> Result<Suite, Error> {
     };
     let mut schemes: Vec<NamedScheme> = Vec::new();
     for word in &arguments.schemes {
-        let named = scheme(word)?;
-        check_digits(&named, arithmetic)?;
+        let named = fitted(scheme(word)?, arithmetic)?;
         named.note().iter().for_each(report::note);
         if !schemes.iter().any(|other| other.name == named.name) {
             schemes.push(named);

@@ -20,7 +20,7 @@ use shadowstep_work_precision::study::Request;
 use crate::colour::on_stdout;
 use crate::invocation;
 use crate::output::Output;
-use crate::posed::{PosedArguments, PosedProblem, check_digits};
+use crate::posed::{PosedArguments, PosedProblem, fitted};
 use crate::quantity;
 use crate::report::{self, Status};
 use crate::terminal::{Terminal, study_in};
@@ -146,9 +146,7 @@ pub(crate) fn schemes(words: &[String], posed: &PosedProblem) -> Result<Vec<Name
 
 /// The scheme with steps for the system, whose weights have the digits of the runs.
 fn valid(scheme: NamedScheme, system: &System, posed: &PosedProblem) -> Result<NamedScheme, Error> {
-    let scheme = for_system(scheme, system)?;
-    check_digits(&scheme, posed.arithmetic)?;
-    Ok(scheme)
+    fitted(for_system(scheme, system)?, posed.arithmetic)
 }
 
 /// The steps: those of the flag, or chosen for each scheme.

@@ -1,13 +1,9 @@
 //! The arithmetic of a run: its number type, the one place that dispatches on number types, and its sums.
 
 use shadowstep::number::{LimbCount, Precision, PrecisionError};
-use shadowstep_schemes::exact::DIGITS as TABLE_DIGITS;
-use shadowstep_schemes::scheme::Held;
 use shadowstep_symbolic::Exact;
 use shadowstep_symbolic::decimal::{to_significant, to_text};
 
-use crate::library::NamedScheme;
-use crate::note::Note;
 use crate::readable;
 
 /// Digits beyond those of the run to which exact values are computed, so that rounding them once more does not show.
@@ -216,22 +212,6 @@ impl Arithmetic {
             false => to_text(&exact.value),
         }
     }
-
-    /// Whether a scheme's weights have the digits of the run; a note where its order holds to fewer digits.
-    ///
-    /// # Errors
-    /// The weights have fewer digits.
-    pub fn suits(self, NamedScheme { name, scheme }: &NamedScheme) -> Result<Option<Note>, TooManyDigits> {
-        let digits = self.digits();
-        let proved = scheme.proved();
-        let closed_forms = proved.scheme.held == Held::Digits(TABLE_DIGITS) && proved.scheme.table.digits.is_none();
-        if closed_forms && digits > TABLE_DIGITS {
-            return Err(TooManyDigits { scheme: name.clone(), most: TABLE_DIGITS, digits });
-        }
-        let order = proved.order();
-        let held = order.digits.filter(|held| !closed_forms && *held < digits);
-        Ok(held.map(|digits| Note::OrderHoldsTo { scheme: name.clone(), order: order.order, digits }))
-    }
 }
 
 /// Digits that numbers cannot have.
@@ -248,13 +228,13 @@ pub enum DigitsError {
     NeedsMpfr(u32),
 }
 
-/// A run with more digits than a scheme's weights have.
+/// A run with more digits than a scheme's weights can have.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("{scheme} has irrational weights, computed to {most} digits; the run has {digits}")]
+#[error("{scheme} has irrational weights, computed to at most {most} digits; the run has {digits}")]
 pub struct TooManyDigits {
     /// The scheme.
     pub scheme: String,
-    /// The digits of its weights.
+    /// The most digits of its weights.
     pub most: u32,
     /// The digits of the run.
     pub digits: u32,

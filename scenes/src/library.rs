@@ -10,10 +10,12 @@ use shadowstep::tables::{self, AtRunTime, Faults, Proved, Source, TableScheme, s
 use shadowstep::{Rational, Scheme, shadow::exact_flow};
 use shadowstep_analysis::best_for_every_kinetic;
 use shadowstep_schemes::document::{LARGEST_TABLE, read_text};
+use shadowstep_schemes::exact::DIGITS as TABLE_DIGITS;
 use shadowstep_schemes::{First, Map, shipped, shipped_hint};
 use shadowstep_symbolic::decimal::to_text;
 use thiserror::Error;
 
+use crate::arithmetic::{Arithmetic, GUARD_DIGITS, MOST_VALUE_DIGITS, TooManyDigits};
 use crate::error::Error;
 use crate::note::Note;
 use crate::refusal::{NoGradientKicks, NoProcessor, Refusal};
@@ -58,6 +60,28 @@ impl NamedScheme {
     /// Its name with a hash of its weights: a table that is changed is another scheme.
     pub fn identity(&self) -> String {
         format!("{} {}", self.name, weights_fingerprint(self.scheme.proved()))
+    }
+
+    /// The same with weights that have the digits of a run; a note where its order holds to fewer digits.
+    ///
+    /// # Errors
+    /// Irrational weights of these digits cannot be computed.
+    pub fn fitted(self, arithmetic: Arithmetic) -> Result<(NamedScheme, Option<Note>), TooManyDigits> {
+        const MOST: u32 = MOST_VALUE_DIGITS - GUARD_DIGITS;
+        let NamedScheme { name, scheme } = self;
+        let digits = arithmetic.digits();
+        let closed_forms = scheme.proved().lacks_digits(u32::MAX);
+        let too_many = || TooManyDigits { scheme: name.clone(), most: MOST, digits };
+        let scheme = match digits {
+            0..=TABLE_DIGITS => scheme,
+            ..=MOST => scheme.to_digits(digits + GUARD_DIGITS).map_err(|_| too_many())?,
+            _ if closed_forms => return Err(too_many()),
+            _ => scheme,
+        };
+        let order = scheme.proved().order();
+        let held = order.digits.filter(|held| !closed_forms && *held < digits);
+        let note = held.map(|digits| Note::OrderHoldsTo { scheme: name.clone(), order: order.order, digits });
+        Ok((NamedScheme { name, scheme }, note))
     }
 
     /// A remark on a table in a file that has the name of a shipped scheme with other weights.
@@ -142,7 +166,12 @@ pub struct Schemes {
     read: Mutex<Vec<(Wanted, NamedScheme)>>,
     /// Those for many parts, by the identities of those for two.
     for_many_parts: Mutex<Vec<(String, NamedScheme)>>,
+    /// Those whose weights have many digits, by these and the identities of those with fewer.
+    fitted: Mutex<Vec<(u32, String, Fitted)>>,
 }
+
+/// A scheme with the digits of a run, and what is to be noted of it.
+type Fitted = (NamedScheme, Option<Note>);
 
 /// A word, the folder for its file, and the map that steps begin with.
 type Wanted = (String, PathBuf, Option<First>);
@@ -161,6 +190,25 @@ impl Schemes {
         let scheme = scheme_from(word, folder, first)?;
         known().push(((word.to_owned(), folder.to_owned(), first), scheme.clone()));
         Ok(scheme)
+    }
+
+    /// As [`NamedScheme::fitted`]; what is proved again is kept.
+    ///
+    /// # Errors
+    /// As [`NamedScheme::fitted`].
+    pub(crate) fn fitted(&self, arithmetic: Arithmetic, named: NamedScheme) -> Result<Fitted, TooManyDigits> {
+        let digits = arithmetic.digits();
+        if !named.scheme.proved().lacks_digits(digits) {
+            return named.fitted(arithmetic);
+        }
+        let known = || self.fitted.lock().unwrap_or_else(PoisonError::into_inner);
+        let identity = named.identity();
+        if let Some((_, _, fitted)) = known().iter().find(|(of, name, _)| *of == digits && *name == identity) {
+            return Ok(fitted.clone());
+        }
+        let fitted = named.fitted(arithmetic)?;
+        known().push((digits, identity, fitted.clone()));
+        Ok(fitted)
     }
 
     /// As [`for_many_parts`].

@@ -8,8 +8,10 @@ use shadowstep::shadow::run::ShadowRun;
 use shadowstep::shadow::{Estimator, EstimatorSettings};
 use shadowstep::tables::TableScheme;
 
+use crate::arithmetic::{Arithmetic, TooManyDigits};
 use crate::error::Error;
 use crate::library::{self, EXACT_FLOW, NamedScheme, Schemes};
+use crate::note::Note;
 use crate::run::Run;
 use crate::run_number::RunNumber;
 use crate::scene::{SceneNumber, System};
@@ -58,6 +60,16 @@ impl Propagator {
             };
         }
         Ok(Propagator::Scheme(Box::new(for_system(library::scheme(word)?, system)?)))
+    }
+
+    /// The same with weights that have the digits of a run, as [`NamedScheme::fitted`].
+    ///
+    /// # Errors
+    /// As [`NamedScheme::fitted`].
+    pub fn fitted(self, arithmetic: Arithmetic) -> Result<(Self, Option<Note>), TooManyDigits> {
+        let Propagator::Scheme(scheme) = self else { return Ok((self, None)) };
+        let (scheme, note) = scheme.fitted(arithmetic)?;
+        Ok((Propagator::Scheme(Box::new(scheme)), note))
     }
 
     /// The name by which it was asked for.

@@ -1,10 +1,11 @@
 //! Plan of a step → Rust code.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote};
 use shadowstep_schemes::claims::HIGHEST_ORDER;
+use shadowstep_schemes::document::Fault;
 use shadowstep_schemes::proof::Order;
 use shadowstep_schemes::{Kinetic, Map, MapKind, Proved, StepPlan, to_text};
 use shadowstep_symbolic::Rational;
@@ -318,7 +319,24 @@ fn documentation(proved: &Proved) -> Vec<String> {
         );
         lines.insert(lines.len() - 1, processed);
     }
+    lines.extend(proved.notes.iter().map(note));
     lines
+}
+
+/// A note on the table, as text of Markdown: a macro cannot warn.
+fn note(note: &Fault) -> String {
+    let file = Path::new(&note.path).file_name().unwrap_or_default().to_string_lossy();
+    let values = note.values.iter().map(|(found, needed)| format!("; found {found}, needed {needed}"));
+    let hint = note.hint.iter().map(|hint| format!(" ({hint})"));
+    let sentence: String = [note.message.clone()].into_iter().chain(values).chain(hint).collect();
+    let mut escaped = String::new();
+    for c in sentence.chars() {
+        if "\\[]*_<>#`".contains(c) {
+            escaped.push('\\');
+        }
+        escaped.push(if c == '\n' { ' ' } else { c });
+    }
+    format!(" - Note: `{file}`, line {}: {escaped}.", note.line)
 }
 
 fn near_integrable(orders: &[Order]) -> String {
@@ -355,7 +373,7 @@ fn order(order: &Order) -> String {
 
 #[cfg(test)]
 mod tests {
-    use shadowstep_schemes::{read, shipped};
+    use shadowstep_schemes::{Source, read, shipped};
 
     #[test]
     fn generated_code_for_many_parts() {
@@ -377,6 +395,18 @@ mod tests {
             let file = syn::parse2(code).expect("generated code is Rust");
             insta::assert_snapshot!(prettyplease::unparse(&file));
         });
+    }
+
+    #[test]
+    fn notes_on_a_table_are_in_the_documentation() {
+        let path = "/home/me/mine.toml".to_owned();
+        let text = shipped("yoshida4").unwrap().text.replace("order = 4", "order = 2");
+        let proved = read(&Source { path, text }, &|base, _| shipped(base)).unwrap();
+        assert_eq!(proved.notes.len(), 1);
+        let notes: Vec<_> = super::documentation(&proved).into_iter().filter(|line| line.contains("Note")).collect();
+        let note =
+            " - Note: `mine.toml`, line 4: order 2 is claimed, order 4 holds for every T(p) (write \\`order = 4\\`).";
+        assert_eq!(notes, [note]);
     }
 
     fn capitalised(word: &str) -> String {

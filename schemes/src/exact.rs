@@ -1,6 +1,6 @@
 //! Cells → exact rationals: constants, dependent weights, compositions.
 //!
-//! A closed form such as `1/(2 - 2^(1/3))` is rounded once, to a rational of [`DIGITS`] digits; whatever is
+//! A closed form such as `1/(2 - 2^(1/3))` is rounded once, to a rational of [`DIGITS`] digits, or of more where a run has more; whatever is
 //! derived from it by `1 - 2*g1` is exact again, so that the weights sum to exactly 1.
 
 use std::collections::BTreeMap;
@@ -21,7 +21,7 @@ use crate::scheme::{ExactProcessor, ExactScheme, Held};
 use crate::shipped::shipped_hint;
 use crate::table::{Cell, MOST_STAGES, Table, Weights};
 
-/// Digits to which an irrational constant is rounded.
+/// Digits to which an irrational constant is rounded, unless more are asked for.
 pub const DIGITS: u32 = 300;
 
 /// The largest weight that is accepted; a larger one is surely a mistake.
@@ -42,14 +42,28 @@ const MOST_NESTED: usize = 20;
 /// Reads a table and evaluates its cells; nothing is proved yet. The faults are in the text and the cells, for
 /// a composition also in its base; without a fault in the cells there is a scheme.
 pub fn scheme(source: &Source, library: Library<'_>) -> (Option<ExactScheme>, Vec<Fault>) {
-    scheme_within(source, library, &[])
+    scheme_to_digits(source, library, DIGITS)
 }
 
-fn scheme_within(source: &Source, library: Library<'_>, above: &[String]) -> (Option<ExactScheme>, Vec<Fault>) {
+/// The same with irrational constants rounded to this number of digits.
+pub(crate) fn scheme_to_digits(
+    source: &Source,
+    library: Library<'_>,
+    digits: u32,
+) -> (Option<ExactScheme>, Vec<Fault>) {
+    scheme_within(source, library, digits, &[])
+}
+
+fn scheme_within(
+    source: &Source,
+    library: Library<'_>,
+    digits: u32,
+    above: &[String],
+) -> (Option<ExactScheme>, Vec<Fault>) {
     let (table, mut faults) = parse::table(source);
     let Some(table) = table else { return (None, faults) };
-    let mut cells =
-        Cells { table: &table, known: BTreeMap::new(), rounded: false, budget: Budget::default(), faults: Vec::new() };
+    let (known, budget) = (BTreeMap::new(), Budget::default());
+    let mut cells = Cells { table: &table, digits, known, rounded: false, budget, faults: Vec::new() };
     cells.constants();
     cells.free();
     let weights = match &table.weights {
@@ -60,11 +74,11 @@ fn scheme_within(source: &Source, library: Library<'_>, above: &[String]) -> (Op
                 gradient_kick: gradient_kick.as_ref().map_or_else(Vec::new, |list| cells.weights(&list.value)),
                 drift: cells.weights(&drift.value),
             };
-            Some((stages, held(&table, cells.rounded), None))
+            Some((stages, cells.held(), None))
         }
         Some(Weights::Composition { base, gamma }) => {
             let gamma = cells.weights(&gamma.value);
-            let (base, base_faults) = base_scheme(&table, base, library, above);
+            let (base, base_faults) = base_scheme(&table, base, library, digits, above);
             cells.faults.extend(base_faults);
             let size = base.as_ref().map_or(0, |base| gamma.len() * base.stages.kick.len());
             if size > MOST_UNMERGED {
@@ -72,7 +86,7 @@ fn scheme_within(source: &Source, library: Library<'_>, above: &[String]) -> (Op
             }
             base.filter(|_| size <= MOST_UNMERGED).map(|base| {
                 let stages = Stages::of(&base.stages.repeated(&gamma).maps());
-                (stages, held(&table, cells.rounded).weaker(base.held), Some(Box::new(base)))
+                (stages, cells.held().weaker(base.held), Some(Box::new(base)))
             })
         }
     };
@@ -113,18 +127,11 @@ fn too_long(table: &Table, stages: usize) -> Fault {
     table.source.fault(&table.name.at, message).hint(format!("at most {MOST_STAGES} are allowed"))
 }
 
-fn held(table: &Table, rounded: bool) -> Held {
-    match &table.digits {
-        Some(digits) => Held::Digits(digits.value),
-        None if rounded => Held::Digits(DIGITS),
-        None => Held::Exactly,
-    }
-}
-
 fn base_scheme(
     table: &Table,
     base: &Placed<String>,
     library: Library<'_>,
+    digits: u32,
     above: &[String],
 ) -> (Option<ExactScheme>, Vec<Fault>) {
     let source = &table.source;
@@ -146,12 +153,14 @@ fn base_scheme(
         let help = "a composition must end at a table with [stages]";
         return fault(format!("this composition is cyclic: {} → {}", chain.join(" → "), found.path), help.into());
     }
-    scheme_within(&found, library, &chain)
+    scheme_within(&found, library, digits, &chain)
 }
 
 /// Evaluates cells in the order of the text, collecting faults.
 struct Cells<'a> {
     table: &'a Table,
+    /// Irrational values are rounded to these.
+    digits: u32,
     known: BTreeMap<String, Exact>,
     rounded: bool,
     budget: Budget,
@@ -159,6 +168,15 @@ struct Cells<'a> {
 }
 
 impl Cells<'_> {
+    /// What is known of the digits of the weights so far.
+    fn held(&self) -> Held {
+        match &self.table.digits {
+            Some(digits) => Held::Digits(digits.value),
+            None if self.rounded => Held::Digits(self.digits),
+            None => Held::Exactly,
+        }
+    }
+
     fn constants(&mut self) {
         for (name, cell) in &self.table.constants {
             // a constant that cannot be read stands as 1, so that the cells that use it have no further faults
@@ -203,8 +221,10 @@ impl Cells<'_> {
                 let help = format!("weights are fractions of a step, at most {LARGEST_WEIGHT}");
                 self.faults.push(self.table.source.fault(&cell.at, message).hint(help));
             }
-            if value.numer().bits().max(value.denom().bits()) > LONGEST_WEIGHT {
-                let message = format!("a weight has more than {} digits", LONGEST_WEIGHT * 3 / 10);
+            // a sum of irrational constants has a few bits more than these
+            let longest = LONGEST_WEIGHT.max(4 * u64::from(self.digits));
+            if value.numer().bits().max(value.denom().bits()) > longest {
+                let message = format!("a weight has more than {} digits", longest * 3 / 10);
                 self.faults.push(self.table.source.fault(&cell.at, message).hint("round it, and write `digits = …`"));
             }
             value
@@ -239,7 +259,7 @@ impl Cells<'_> {
         if post.len() > 2 * MOST_STAGES {
             self.faults.push(too_long(table, post.len() / 2));
         }
-        Some(ExactProcessor { post, held: self::held(table, self.rounded).weaker(held) })
+        Some(ExactProcessor { post, held: self.held().weaker(held) })
     }
 
     fn cell(&mut self, cell: &Cell) -> Option<Exact> {
@@ -255,7 +275,7 @@ impl Cells<'_> {
                 return None;
             }
         };
-        match evaluate_within(&expression, &self.known, DIGITS, &self.budget) {
+        match evaluate_within(&expression, &self.known, self.digits, &self.budget) {
             Ok(value) => Some(value),
             Err(error) => {
                 let at = place(&error.range);

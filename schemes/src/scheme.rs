@@ -4,7 +4,7 @@ use num_traits::Zero;
 
 use crate::map::{Map, Stages, inverse, joined, reversed};
 use crate::map_kind::{First, MapKind};
-use crate::table::Table;
+use crate::table::{Table, Weights};
 
 /// How far the weights of a table are to be trusted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -65,6 +65,14 @@ impl ExactScheme {
     /// The maps of a step in the order in which they act: zero weights left out, neighbours of one kind merged.
     pub fn maps(&self) -> Vec<Map> {
         self.stages.maps()
+    }
+
+    /// The name by which the table of a composition calls its base.
+    pub(crate) fn base_name(&self) -> Option<&str> {
+        match &self.table.weights {
+            Some(Weights::Composition { base, .. }) => Some(&base.value),
+            _ => None,
+        }
     }
 
     /// Whether some of them are gradient kicks, which need a quadratic T.

@@ -3,6 +3,7 @@
 
 use num_traits::{One, Signed, Zero};
 use rug::Float;
+use shadowstep::number::Lanes;
 use shadowstep::number::counting::Counting;
 use shadowstep::problems::{HenonHeiles, Kepler, Pendulum};
 use shadowstep::shadow::run::energy_drift;
@@ -33,6 +34,15 @@ where
 
 // ---------------------------------------------------------------------------------------------------------------
 // Step sizes
+
+#[test]
+fn a_step_size_is_shown_in_a_line() {
+    let shown = |text: &str| format!("{:?}", StepSize::try_from(text).unwrap());
+    assert_eq!(shown("-1/20"), "StepSize(-1/20)");
+    assert_eq!(shown("1/3"), "StepSize(1/3)");
+    assert_eq!(shown("sqrt(2)/20"), "StepSize(≈ 0.07071067811865475244)");
+    assert_eq!(shown("1e-3000"), "StepSize(≈ 1e-3000)");
+}
 
 #[test]
 fn a_text_means_the_value_of_its_formula() {
@@ -200,6 +210,19 @@ fn a_motion_whose_parts_do_not_fit_is_refused() {
     let one = |i: usize| (0..3).map(|j| rational(if i == j { "1" } else { "0" })).collect::<Vec<_>>();
     let masses = FullMasses::<f64>::from_inverse(&[one(0), one(1), one(2)], &()).unwrap();
     assert_eq!(refusal(Kepler, masses, vec![1.0, 0.0], vec![0.0, 1.0], &other), sentence);
+
+    for (q, p, name) in [
+        (vec![1.0, f64::NAN], vec![0.0; 2], "q2"),
+        (vec![1.0, 0.0], vec![f64::INFINITY, f64::NAN], "p1"),
+        (vec![f64::NEG_INFINITY; 2], vec![0.0; 2], "q1"),
+    ] {
+        let error = MotionError::NotFinite { name: name.to_owned() };
+        let sentence = format!("the initial value of {name} is not finite");
+        assert_eq!(refusal(Kepler, UnitMasses, q, p, &error), sentence);
+    }
+    // of trajectories in lanes, the others go on
+    let lanes = || vec![Lanes([1.0, f64::NAN, 1.0, 1.0])];
+    assert!(Motion::new(Pendulum, UnitMasses, lanes(), lanes()).is_ok());
 
     let sentence = "the numbers of q and p must have the same precision";
     let (few, many) = (number("1", 20), number("1", 30));

@@ -18,7 +18,7 @@ const EXAMPLE: &str = "\
 Example:
   shadowstep schemes check mine.toml";
 
-/// Proves what tables claim; exit code 1 if one has faults.
+/// Proves what tables claim; exit code 1 if one has faults, or decimals that rounding does not explain.
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLE)]
 pub(crate) struct Arguments {
@@ -42,6 +42,9 @@ pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
         match tables::read(&source, &library::beside_or_shipped, None) {
             Ok(scheme) => {
                 write!(output, "{}", verdict(path, scheme.proved()))?;
+                if !scheme.proved().has_its_digits {
+                    status = status.max(Status::NegativeAnswer);
+                }
                 NamedScheme { name: path.clone(), scheme: scheme.at_run_time() }.note().iter().for_each(report::note);
             }
             Err(faults) => {
@@ -66,7 +69,8 @@ fn verdict(path: &str, proved: &Proved) -> String {
         orders if orders.is_empty() => orders,
         orders => format!(", {orders} for A + εB"),
     };
-    let mut text = format!("{path}: proved: order {} for {class}{near}, {digits}{symmetric}\n", order.order);
+    let refused = if proved.has_its_digits { "" } else { "; its printed digits are not all those of such a scheme" };
+    let mut text = format!("{path}: proved: order {} for {class}{near}, {digits}{symmetric}{refused}\n", order.order);
     for note in &proved.notes {
         text += &format!("note: {note}\n");
     }

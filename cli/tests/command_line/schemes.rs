@@ -238,6 +238,49 @@ fn other_names_and_near_integrable_orders_are_shown() {
     assert!(listed.iter().any(|scheme| scheme["near_integrable"] == serde_json::json!([4, 2])));
 }
 
+/// With 12 digits the conditions still hold to 11: that order 6 is proved to 11 digits is true, but not that the table has the digits of such a scheme.
+#[test]
+fn a_digit_that_rounding_does_not_explain_is_a_negative_answer() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("kahan-li.toml").display().to_string();
+    let table = |second: &str| {
+        format!(
+            "name = \"mine\"\norder = 6\nkinetic = \"any\"\nsymmetric = true\ndigits = 12\nreference = \"Kahan and Li\"\n[constants]\n\
+             g1 = \"0.392161444007\"\ng2 = \"{second}\"\ng3 = \"-0.706246172558\"\ng4 = \"0.082213596294\"\n\
+             g5 = \"1 - 2*(g1 + g2 + g3 + g4)\"\n\
+             [composition]\nbase = \"stormer-verlet\"\ngamma = [\"g1\", \"g2\", \"g3\", \"g4\", \"g5\", \"g4\", \"g3\", \"g2\", \"g1\"]\n"
+        )
+    };
+    let check = |second: &str| {
+        fs::write(&path, table(second)).unwrap();
+        shadowstep(&format!("schemes check {path}"))
+    };
+    let right = check("0.332599136789");
+    assert_eq!(right.code, 0, "{}{}", right.out, right.err);
+    assert!(right.out.ends_with(": proved: order 6 for every T(p), to 13 digits, symmetric\n"), "{}", right.out);
+    let exchanged = check("0.332599136798");
+    assert_eq!(exchanged.code, 1, "{}", exchanged.out);
+    let verdict = "to 11 digits, symmetric; its printed digits are not all those of such a scheme\nnote: ";
+    assert!(exchanged.out.contains(verdict), "{}", exchanged.out);
+    assert!(exchanged.out.contains("rounding does not explain the digits of `g2`"), "{}", exchanged.out);
+}
+
+/// Weights that are closed forms have as many digits as the run.
+#[cfg(feature = "mpfr")]
+#[test]
+fn algebraic_weights_have_the_digits_of_the_run() {
+    let drift = |digits: &str| {
+        let words = format!(
+            "drift kepler --scheme yoshida4 --step 1/20 --until 1 --order 2 --json --no-summary --digits {digits}"
+        );
+        crate::program::objects(&quietly(&words)).remove(0)
+    };
+    let [few, many] = ["400", "420"].map(drift);
+    let digits =
+        |object: &serde_json::Value| crate::program::text(object, "last").chars().take(390).collect::<String>();
+    assert_eq!(digits(&few), digits(&many));
+}
+
 /// PEFRL is stable to 2.9894 and again from 3.5054; its phase is too slow at first.
 #[test]
 fn stages_stability_and_phase_are_drawn() {

@@ -54,7 +54,7 @@ const COMMANDS: &[&str] = &[
     "drift kepler --scheme yoshida4 --step 5 --until 2",
     "drift kepler --scheme yoshida4 --step 1e-300 --until 2",
     "drift kepler --scheme yoshida4 --step 1/10 --until 2 --digits 0",
-    "drift kepler --scheme yoshida4 --step 1/10 --until 2 --digits 500",
+    "drift kepler --scheme yoshida4 --step 1/10 --until 2 --digits 5000",
     "drift kepler --scheme yoshida4 --step 1/10 --until 2 --double --digits 30",
     "drift kepler --scheme yoshida4 --step 1/10 --until 2 --order 0",
     "drift kepler --scheme yoshida4 --step 1/10 --until 2 --order 4 --stop early",

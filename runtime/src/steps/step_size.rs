@@ -3,7 +3,7 @@
 use std::convert::Infallible;
 
 use num_traits::Zero;
-use shadowstep_symbolic::decimal::to_text;
+use shadowstep_symbolic::decimal::{to_significant, to_text};
 use thiserror::Error;
 
 use crate::{Rational, exact};
@@ -28,8 +28,11 @@ use crate::{Rational, exact};
 /// assert_eq!(StepSize::try_from(0.0).unwrap_err().to_string(), "the step size must be nonzero");
 /// # Ok::<(), shadowstep::StepSizeError>(())
 /// ```
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, PartialEq, Eq)]
 pub struct StepSize(Rational);
+
+/// The longest text that is shown in full.
+const LONGEST: usize = 40;
 
 /// A value that is not a valid step size.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
@@ -59,6 +62,16 @@ impl StepSize {
     /// 2h
     pub(crate) fn doubled(&self) -> StepSize {
         StepSize(&self.0 * Rational::from_integer(2.into()))
+    }
+}
+
+/// The exact value where it is short, else its first digits.
+impl std::fmt::Debug for StepSize {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match to_text(&self.0) {
+            text if text.len() <= LONGEST => write!(f, "StepSize({text})"),
+            _ => write!(f, "StepSize(≈ {})", to_significant(&self.0, 20)),
+        }
     }
 }
 

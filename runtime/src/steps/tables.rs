@@ -164,6 +164,27 @@ impl<Class> TableScheme<Class> {
         TableScheme { proved: self.proved, class: PhantomData }
     }
 
+    /// The same scheme for numbers of this many digits: irrational weights that are closed forms have 300, and are rounded to these, up to 5000, and proved
+    /// again.
+    ///
+    /// ```
+    /// use shadowstep::tables::shipped;
+    ///
+    /// let at_300_digits = shipped("yoshida4").unwrap();
+    /// let at_400_digits = at_300_digits.clone().to_digits(400)?;
+    /// assert_ne!(at_300_digits.plan().kicks, at_400_digits.plan().kicks);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// Closed forms that take too long to be computed to these digits.
+    pub fn to_digits(self, digits: u32) -> Result<Self, Faults> {
+        if !self.proved.lacks_digits(digits) {
+            return Ok(self);
+        }
+        Ok(TableScheme { proved: Arc::new(self.proved.to_digits(digits)?), class: PhantomData })
+    }
+
     /// The exact scheme with its proof.
     pub fn proved(&self) -> &Proved {
         &self.proved

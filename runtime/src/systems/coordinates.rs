@@ -1,7 +1,17 @@
 //! What holds the coordinates of a state.
 
+use crate::number::Number;
+
 /// Holds the coordinates of a state: an array `[N; D]`, or a `Vec<N>` or `Box<[N]>` where the dimension is known at run
 /// time only.
 pub trait Coordinates<N>: AsRef<[N]> + AsMut<[N]> + Clone {}
 
 impl<N, V: AsRef<[N]> + AsMut<[N]> + Clone> Coordinates<N> for V {}
+
+/// The first of the initial values q1, q2, …, p1, p2, … that is infinite or NaN. One of several numbers in lanes may be so: the other trajectories go
+/// on without it.
+pub(crate) fn first_not_finite<N: Number>(q: &[N], p: &[N]) -> Option<String> {
+    let not_finite = |x: &N| N::LANES == 1 && !x.is_finite();
+    let first = |name: &str, values: &[N]| Some(format!("{name}{}", values.iter().position(not_finite)? + 1));
+    first("q", q).or_else(|| first("p", p))
+}

@@ -66,8 +66,8 @@ impl<N: CorrectlyRounded, P: Potential<N>> LinearPart<N, P> {
     /// once.
     ///
     /// # Errors
-    /// q, p, the masses, K and the potential that do not have the same dimension, at least 1; masses that are not positive; numbers of more than
-    /// [`QUADRATIC_FLOW_DIGITS`](crate::systems::QUADRATIC_FLOW_DIGITS).
+    /// q, p, the masses, K and the potential that do not have the same dimension, at least 1; masses that are not positive; an infinite q or p, or
+    /// one that is NaN; numbers of more than [`QUADRATIC_FLOW_DIGITS`](crate::systems::QUADRATIC_FLOW_DIGITS).
     pub fn new(
         potential: P,
         masses: &[Rational],
@@ -90,6 +90,7 @@ impl<N: CorrectlyRounded, P: Potential<N>> LinearPart<N, P> {
         if let Some(dimension) = rows.into_iter().find(|found| *found != coordinates) {
             return Err(MotionError::Kinetic { coordinates, dimension });
         }
+        MotionError::refuse_not_finite(q, p)?;
         let context = q[0].context();
         if precision::<N>(&context).is_none() {
             return Err(MotionError::Digits);

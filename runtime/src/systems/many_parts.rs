@@ -74,7 +74,7 @@ impl<N: Number> SystemOfParts<N> {
     /// The system at q, p.
     ///
     /// # Errors
-    /// No coordinates, or not as many momenta.
+    /// No coordinates, or not as many momenta; an infinite q or p, or one that is NaN.
     ///
     /// # Panics
     /// For fewer than two parts.
@@ -85,6 +85,7 @@ impl<N: Number> SystemOfParts<N> {
         if p.len() != coordinates {
             return Err(MotionError::Momenta { coordinates, momenta: p.len() });
         }
+        MotionError::refuse_not_finite(q, p)?;
         let context = first.context();
         Ok(SystemOfParts {
             parts,

@@ -10,7 +10,7 @@ use thiserror::Error;
 use shadowstep_symbolic::{Error as FormulaError, exact};
 
 use crate::number::{AnyLimbs, LimbCount, Number, Precision};
-use crate::systems::coordinates::Coordinates;
+use crate::systems::coordinates::{Coordinates, first_not_finite};
 use crate::systems::displaced::Displacements;
 use crate::systems::increments::Increments;
 use crate::systems::kept::KeptForce;
@@ -46,7 +46,7 @@ where
     ///
     /// # Errors
     /// q, p, the potential and the kinetic energy that do not have the same dimension, at least 1; numbers of q and p of different
-    /// precision.
+    /// precision; an infinite q or p, or one that is NaN. U is not evaluated: where it is infinite, [`Motion::energy`] shows it, and a run ends with an error.
     pub fn new(potential: P, kinetic: K, q: V, p: V) -> Result<Self, MotionError> {
         let context = check(&potential, &kinetic, q.as_ref(), p.as_ref())?;
         let hamiltonian = Hamiltonian::new(potential, kinetic, &context);
@@ -305,8 +305,11 @@ fn check<N: Number, P: Potential<N>, K: Kinetic<N>>(
         () if differs(momenta) => Err(MotionError::Kinetic { coordinates, dimension: momenta }),
         () => {
             let context = q[0].context();
-            let alike = q.iter().chain(p).all(|x| x.context() == context);
-            if alike { Ok(context) } else { Err(MotionError::Precision) }
+            if q.iter().chain(p).any(|x| x.context() != context) {
+                return Err(MotionError::Precision);
+            }
+            MotionError::refuse_not_finite(q, p)?;
+            Ok(context)
         }
     }
 }
@@ -341,6 +344,12 @@ pub enum MotionError {
         /// The dimension of the kinetic energy.
         dimension: usize,
     },
+    /// An initial value is infinite or NaN.
+    #[error("the initial value of {name} is not finite")]
+    NotFinite {
+        /// Such as q1, counted from 1.
+        name: String,
+    },
     /// The numbers have different precisions.
     #[error("the numbers of q and p must have the same precision")]
     Precision,
@@ -364,4 +373,10 @@ pub enum MotionError {
     /// A mass is not valid.
     #[error(transparent)]
     Masses(#[from] MassError),
+}
+
+impl MotionError {
+    pub(crate) fn refuse_not_finite<N: Number>(q: &[N], p: &[N]) -> Result<(), MotionError> {
+        first_not_finite(q, p).map_or(Ok(()), |name| Err(MotionError::NotFinite { name }))
+    }
 }

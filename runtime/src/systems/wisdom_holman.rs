@@ -24,6 +24,7 @@ pub use jacobi::Jacobi;
 pub use orbits::Orbits;
 
 use crate::number::Number;
+use crate::systems::coordinates::first_not_finite;
 use crate::systems::displaced::Displacements;
 use crate::systems::gradient_kicks::{Curvature, GradientKicks, Place};
 use crate::systems::increments::Carried;
@@ -112,13 +113,16 @@ impl<N: Number, C: PlanetaryCoordinates<N, D>, const D: usize> WisdomHolman<N, C
     /// The system at inertial positions and momenta, body after body.
     ///
     /// # Errors
-    /// A state of another number of bodies.
+    /// A state of another number of bodies; an infinite q or p, or one that is NaN.
     pub fn new(bodies: &Bodies, (q, p): (&[N], &[N]), context: &N::Context) -> Result<Self, BodiesError> {
         let dimension = bodies.count() * D;
         for found in [q.len(), p.len()] {
             if found != dimension {
                 return Err(BodiesError::State { found, bodies: bodies.count(), dimensions: D });
             }
+        }
+        if let Some(name) = first_not_finite(q, p) {
+            return Err(BodiesError::NotFinite { name });
         }
         let zeros = || vec![N::zero(context); dimension];
         let mut system = WisdomHolman {

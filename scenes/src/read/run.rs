@@ -109,8 +109,8 @@ fn scheme(
     if needs.class == Class::ManyParts {
         reader.notes.extend(near_integrable(&named));
     }
-    match reader.arithmetic.suits(&named) {
-        Ok(note) => {
+    match schemes.fitted(reader.arithmetic, named) {
+        Ok((named, note)) => {
             reader.notes.extend(note);
             Some(named)
         }

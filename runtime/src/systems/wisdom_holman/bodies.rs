@@ -77,6 +77,12 @@ pub enum BodiesError {
         /// Its mass.
         found: String,
     },
+    /// An initial value is infinite or NaN.
+    #[error("the initial value of {name} is not finite")]
+    NotFinite {
+        /// Such as q1, counted from 1.
+        name: String,
+    },
     /// A state of another dimension.
     #[error("{bodies} bodies in {dimensions} dimensions have {} coordinates, not {found}", bodies * dimensions)]
     State {
