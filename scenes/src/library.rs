@@ -72,11 +72,12 @@ impl NamedScheme {
         let digits = arithmetic.digits();
         let closed_forms = scheme.proved().lacks_digits(u32::MAX);
         let too_many = || TooManyDigits { scheme: name.clone(), most: MOST, digits };
-        let scheme = match digits {
-            0..=TABLE_DIGITS => scheme,
-            ..=MOST => scheme.to_digits(digits + GUARD_DIGITS).map_err(|_| too_many())?,
-            _ if closed_forms => return Err(too_many()),
-            _ => scheme,
+        let scheme = if (TABLE_DIGITS + 1..=MOST).contains(&digits) {
+            scheme.to_digits(digits + GUARD_DIGITS).map_err(|_| too_many())?
+        } else if closed_forms && digits > MOST {
+            return Err(too_many());
+        } else {
+            scheme
         };
         let order = scheme.proved().order();
         let held = order.digits.filter(|held| !closed_forms && *held < digits);
