@@ -11,6 +11,7 @@ True
 True
 """
 
+from .border import InternalError  # isort: skip, before all that takes functions from the compiled module
 from ._shadowstep import InputError, RunError, __version__
 from .command import command, sweep
 from .drift import drift
@@ -30,6 +31,7 @@ __all__ = [
     "Diagnosis",
     "Ensemble",
     "InputError",
+    "InternalError",
     "Monitor",
     "Observer",
     "Outcome",

@@ -9,13 +9,13 @@ from typing import Any, Union
 from . import _shadowstep
 from .estimator import options
 from .exact import Number, exact
-from .problem import Problem
+from .problem import Problem, problem_of
 from .progress import bar
-from .scheme import Scheme
+from .scheme import Scheme, table_of
 
 
 def drift(
-    problem: Problem,
+    problem: Union[Problem, str],
     scheme: Union[Scheme, str, os.PathLike[str]],
     h: Number,
     until: Number,
@@ -56,8 +56,8 @@ def drift(
     >>> float(found["drift"]) < 1e-4 < float(found["energy_error"]["largest"])
     True
     """
-    exact_flow = scheme == "exact-flow"
-    table = None if exact_flow else (scheme if isinstance(scheme, Scheme) else Scheme(scheme))._table
+    exact_flow = isinstance(scheme, str) and scheme == "exact-flow"
+    problem, table = problem_of(problem), None if exact_flow else table_of(scheme)
     with bar(None, "steps", progress) as reach:
         found = _shadowstep.drift(
             problem._given,

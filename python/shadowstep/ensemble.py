@@ -13,9 +13,9 @@ from . import _shadowstep
 from .document import document
 from .estimator import order_of
 from .exact import Number, count, exact
-from .problem import Problem
+from .problem import Problem, problem_of
 from .progress import bar
-from .scheme import Scheme
+from .scheme import Scheme, table_of
 
 
 @dataclass(frozen=True, repr=False)
@@ -50,7 +50,7 @@ class Ensemble:
 
 
 def ensemble(
-    problem: Problem,
+    problem: Union[Problem, str],
     scheme: Union[Scheme, str, os.PathLike[str]],
     h: Number,
     until: Number | None = None,
@@ -94,6 +94,7 @@ def ensemble(
     >>> bool(found.energy_error[0] < found.energy_error[50] < found.energy_error[99])
     True
     """
+    problem = problem_of(problem)
     columns = _Columns()
     sections = dict(problem.sections)
     sections["problem"] = _with_parameters(sections["problem"], columns, parameters or {})
@@ -102,7 +103,7 @@ def ensemble(
         if values is not None:
             initial[name] = columns.of_states(name, np.asarray(values, dtype=float), problem.dimension)
     sections["initial"] = initial
-    name = scheme.name if isinstance(scheme, Scheme) else os.fspath(scheme)
+    name = table_of(scheme).name
     run: dict[str, Any] = {"scheme": name, "step": exact(h, "h"), "digits": digits}
     steps = None if steps is None else count(steps, "steps")
     run |= {"until": None if until is None else exact(until, "until"), "steps": steps}

@@ -12,9 +12,9 @@ import numpy as np
 from . import _shadowstep
 from .estimator import options
 from .exact import Number, count, exact
-from .problem import Problem
+from .problem import Problem, given_of
 from .progress import bar
-from .scheme import Scheme
+from .scheme import Scheme, table_of
 
 if TYPE_CHECKING:
     import pandas
@@ -99,7 +99,7 @@ class Trajectory:
 
 
 def integrate(
-    problem: Problem,
+    problem: Union[Problem, str],
     scheme: Union[Scheme, str, os.PathLike[str]],
     h: Number,
     until: Number | None = None,
@@ -123,7 +123,7 @@ def integrate(
     Parameters
     ----------
     problem
-        H and the initial state.
+        H and the initial state, or the name of a shipped problem.
     scheme
         A scheme, or the name or path of one.
     h
@@ -164,13 +164,13 @@ def integrate(
     >>> precise.t[-1]
     '0.3'
     """
-    scheme = scheme if isinstance(scheme, Scheme) else Scheme(scheme)
+    given, table = given_of(problem), table_of(scheme)
     steps = None if steps is None else count(steps, "steps")
     chosen = None if estimator is None else options(estimator, order, max_order, stop, rule, accuracy)
     with bar(steps, "steps", progress) as reach:
         found = _shadowstep.integrate(
-            problem._given,
-            scheme._table,
+            given,
+            table,
             exact(h, "h"),
             steps=steps,
             until=None if until is None else exact(until, "until"),

@@ -11,8 +11,8 @@ import numpy as np
 from . import _shadowstep
 from .estimator import order_of
 from .exact import Number, count, exact
-from .problem import Problem
-from .scheme import Scheme
+from .problem import Problem, given_of
+from .scheme import Scheme, table_of
 
 
 class Sample(NamedTuple):
@@ -86,6 +86,9 @@ class Report:
 class Monitor:
     """A system with its steps, whose modified energy is followed from a window of states now and then.
 
+    It computes in a thread of its own: all threads of Python may use it, one after the other, and other threads run meanwhile. After Ctrl-C in `step`, ``n``
+    says how many steps were made.
+
     Parameters
     ----------
     problem, scheme, h
@@ -112,7 +115,7 @@ class Monitor:
 
     def __init__(
         self,
-        problem: Problem,
+        problem: Union[Problem, str],
         scheme: Union[Scheme, str, os.PathLike[str]],
         h: Number,
         *,
@@ -120,9 +123,8 @@ class Monitor:
         every: int = 100,
         digits: str = "double",
     ) -> None:
-        scheme = scheme if isinstance(scheme, Scheme) else Scheme(scheme)
-        self._monitor: Any = _shadowstep.Monitor(
-            problem._given, scheme._table, exact(h, "h"), order=order_of(order), every=count(every, "every"), digits=str(digits)
+        self._monitor: Any = _shadowstep.Monitor.of(
+            given_of(problem), table_of(scheme), exact(h, "h"), order=order_of(order), every=count(every, "every"), digits=str(digits)
         )
 
     def step(self, steps: int = 1) -> None:
@@ -143,7 +145,8 @@ class Monitor:
     @property
     def state(self) -> tuple[np.ndarray, np.ndarray]:
         """q and p of the present state, of shape (d,)."""
-        return self._monitor.state()
+        q, p = self._monitor.state()
+        return q, p
 
     @property
     def energy(self) -> float:

@@ -4,11 +4,15 @@ from __future__ import annotations
 
 import os
 import re
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from copy import deepcopy
+from difflib import get_close_matches
+from numbers import Integral
 from typing import Any, Union
 
 import numpy as np
 
+from . import _shadowstep
 from ._shadowstep import Given, problem_names
 from .document import document
 from .exact import Number, exact
@@ -20,8 +24,8 @@ Forces = Union[int, Callable[[np.ndarray], "tuple[float, np.ndarray]"]]
 class Problem:
     """A system H = T(p) + U(q) with its state at t = 0.
 
-    Numbers may be exact texts such as ``"1/3"``; a float is the decimal that Python prints for it. ``shadowstep run --explain`` describes the
-    keys of [problem], [initial] and [time].
+    Numbers may be exact texts such as ``"1/3"``; a float is the decimal that Python prints for it. ``shadowstep scene --explain`` describes
+    the keys of [problem], [initial] and [time].
 
     Parameters
     ----------
@@ -72,6 +76,7 @@ class Problem:
 
     _given: Given
     _sections: Mapping[str, Any] | None = None
+    _forces: tuple[Any, ...] | None = None
 
     def __init__(
         self,
@@ -89,7 +94,11 @@ class Problem:
     ) -> None:
         self._system = system
         if system is not None and not isinstance(system, str):
-            self._given = _of_forces(system, q, p, v, masses, {"kinetic": kinetic, "pair": pair, "parts": parts, "time": time, **others})
+            if not callable(system) and not isinstance(system, Integral):
+                raise TypeError(f"system must be a name, a formula, a function for the forces or the address of one, not {type(system).__name__}")
+            others = {"kinetic": kinetic, "pair": pair, "parts": parts, "time": time, **others}
+            self._forces = _of_forces(system, q, p, v, masses, others)
+            self._given = Given.of_forces(*self._forces)
             return
         sections = _sections(system, q, p, v, others)
         problem = sections["problem"]
@@ -110,6 +119,25 @@ class Problem:
         problem._system = os.fspath(path)
         problem._given = Given.of_file(path)
         return problem
+
+    def __getstate__(self) -> dict[str, Any]:
+        state = {"_system": self._system, "_sections": self._sections}
+        if self._forces is not None:
+            if isinstance(self._system, Integral):
+                raise TypeError("a problem with the address of a C function belongs to its process: make it again in another one")
+            return {**state, "_forces": self._forces}
+        return {**state, "source": self._given.source}
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        source = state.pop("source", None)
+        self.__dict__.update(state)
+        self._given = Given.of_forces(*self._forces) if self._forces is not None else Given.of_text(*source)
+
+    def __deepcopy__(self, memo: dict[int, Any]) -> Problem:
+        copied = self.__class__.__new__(self.__class__)
+        # what is read never changes, and an address has no copy
+        copied.__dict__.update(self.__dict__, _sections=deepcopy(self._sections, memo))
+        return copied
 
     @property
     def name(self) -> str:
@@ -161,6 +189,24 @@ class Problem:
         return f"Problem({self._system!r}, coordinates {shown})"
 
 
+def given_of(problem: Any) -> Given:
+    """What an argument ``problem`` is: a problem, or the name of a shipped one."""
+    return problem_of(problem)._given
+
+
+def problem_of(problem: Any) -> Problem:
+    """The problem of an argument ``problem``."""
+    if isinstance(problem, Problem):
+        return problem
+    if isinstance(problem, str):
+        if problem in problem_names():
+            return Problem(problem)
+        near = get_close_matches(problem, problem_names(), n=1)
+        right = f"did you mean {near[0]!r}?" if near else "write shadowstep.Problem(…) for a formula or other problems"
+        raise _shadowstep.InputError(f"problem = {problem!r} is not the name of a shipped problem; {right}")
+    raise TypeError(f"problem must be a Problem, or the name of a shipped one such as 'kepler', not {type(problem).__name__}")
+
+
 # keys of [problem] and [initial]; every other keyword is a parameter
 _PROBLEM = ("coordinates", "momenta", "bodies", "dimensions", "neighbours", "units", "elements", "barycentric", "parameters")
 
@@ -189,15 +235,17 @@ def _list(values: Values | None) -> Sequence[Number] | np.ndarray | None:
     return list(values.values()) if isinstance(values, Mapping) else values
 
 
-def _of_forces(forces: Forces, q: Values | None, p: Values | None, v: Values | None, masses: Any, others: Mapping[str, Any]) -> Given:
+def _of_forces(forces: Forces, q: Values | None, p: Values | None, v: Values | None, masses: Any, others: Mapping[str, Any]) -> tuple[Any, ...]:
     given = [name for name, value in others.items() if value is not None]
     if given:
         raise TypeError(f"`{given[0]}` goes with a formula or a shipped problem, not with a function for the forces")
     if q is None or p is None:
         raise TypeError("a function for the forces needs q and p, the state at t = 0" + ("; give p = m v in place of v" if v is not None else ""))
     texts = None if masses is None else _texts(masses, "masses")
-    return Given.of_forces(forces, _texts(q, "q"), _texts(p, "p"), texts)
+    return forces, _texts(q, "q"), _texts(p, "p"), texts
 
 
 def _texts(values: Values, name: str) -> list[str]:
+    if isinstance(values, str) or not isinstance(values, Iterable):
+        raise TypeError(f"{name} must be numbers, such as [1, 0], not {values!r}")
     return [exact(value, name) for value in (values.values() if isinstance(values, Mapping) else values)]

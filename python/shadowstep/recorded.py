@@ -15,7 +15,7 @@ from .estimator import order_of
 from .exact import Number, count, exact
 from .monitor import Sample
 from .problem import Problem
-from .scheme import Scheme
+from .scheme import Scheme, table_of
 
 
 class ShadowEnergy(NamedTuple):
@@ -61,7 +61,8 @@ def shadow_energy(
     Returns
     -------
     ShadowEnergy
-        Values and errors of shape (n,).
+        Values and errors of shape (n,). Both are NaN in the rows at the two ends, about k of each, where an estimate has too few states: take
+        ``numpy.nanmax`` and the like, or leave these rows out.
 
     Warns
     -----
@@ -86,8 +87,7 @@ def shadow_energy(
             raise _shadowstep.InputError(f"the states have {q.shape[1]} coordinates, and the problem has {potential.dimension}")
         if half_steps:
             p = _of_half_steps(len(q), p)
-        table = (scheme if isinstance(scheme, Scheme) else Scheme(scheme))._table
-        found = _shadowstep.energies_of_states(q, p, potential._given, table, step, order_of(k, "k"))
+        found = _shadowstep.energies_of_states(q, p, potential._given, table_of(scheme), step, order_of(k, "k"))
     else:
         energies, derivatives = potential
         energies, derivatives = np.ascontiguousarray(energies, dtype=np.float64), np.asarray(derivatives, dtype=np.float64)
@@ -195,7 +195,7 @@ class Observer:
     def __init__(self, masses: Any, h: Number, *, window: int = 17, cell: Any = None, periodic: Sequence[bool] = (True, True, True)) -> None:
         masses = np.asarray(masses, dtype=np.float64).ravel()
         cell = None if cell is None else _cell(cell).tolist()
-        self._observer = _shadowstep.Observer(masses.tolist(), exact(h, "h"), count(window, "window"), cell, [bool(along) for along in periodic])
+        self._observer = _shadowstep.Observer.of(masses.tolist(), exact(h, "h"), count(window, "window"), cell, [bool(along) for along in periodic])
 
     @property
     def window(self) -> int:

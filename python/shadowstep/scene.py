@@ -61,6 +61,8 @@ def run(scene: Union[str, os.PathLike[str]], *, restart: bool = False, progress:
     >>> outcome.summary["verdict"]
     'the step size is fine'
     """
+    if not isinstance(scene, (str, os.PathLike)):
+        raise TypeError(f"scene must be the path of a scene or its text, not {type(scene).__name__}")
     path = os.fspath(scene)
     text = path if "\n" in path else None
     with bar(None, "steps", progress) as reach:

@@ -46,6 +46,8 @@ class Scheme:
     _table: Table
 
     def __init__(self, table: Union[str, os.PathLike[str]]) -> None:
+        if not isinstance(table, (str, os.PathLike)):
+            raise TypeError(f"table must be the name of a scheme, the path of a table or its text, not {type(table).__name__}")
         text = os.fspath(table)
         self._table = Table.of_text(text, "table") if "\n" in text else Table.of_word(text)
 
@@ -135,10 +137,29 @@ class Scheme:
         """
         return emit(self._table, target)
 
+    def __reduce__(self) -> tuple[Any, ...]:
+        # the text of the table, so that it is the same scheme wherever it is read again
+        return _of_text, (self._table.text, self._table.path, self.name)
+
     def __repr__(self) -> str:
         name, general, quadratic, evaluations = self._table.facts()
         orders = f"order {quadratic}" if general == quadratic else f"order {quadratic} for quadratic T, {general or 'none'} for every T(p)"
         return f"Scheme({name!r}: {orders}, {evaluations} force{'s' if evaluations != 1 else ''} a step)"
+
+
+def _of_text(text: str, path: str, name: str) -> Scheme:
+    scheme = Scheme.__new__(Scheme)
+    scheme._table = Table.of_text(text, path, name)
+    return scheme
+
+
+def table_of(scheme: Any) -> Table:
+    """The table of an argument ``scheme``: a scheme, or the name or path of one."""
+    if isinstance(scheme, Scheme):
+        return scheme._table
+    if not isinstance(scheme, (str, os.PathLike)):
+        raise TypeError(f"scheme must be a Scheme, or the name or path of one such as 'yoshida4', not {type(scheme).__name__}")
+    return Scheme(scheme)._table
 
 
 def schemes() -> list[str]:

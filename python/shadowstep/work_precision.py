@@ -8,13 +8,15 @@ import tempfile
 from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
+from decimal import Decimal
+from numbers import Real
 from typing import Any, Union
 
 from . import _shadowstep
 from .exact import Number, count, exact
-from .problem import Problem
+from .problem import Problem, given_of
 from .progress import bar
-from .scheme import Scheme
+from .scheme import Scheme, table_of
 
 Schemes = Iterable[Union[Scheme, str, "os.PathLike[str]"]]
 
@@ -56,7 +58,7 @@ class Curve:
 
 
 def work_precision(
-    problem: Problem,
+    problem: Union[Problem, str],
     until: Number,
     schemes: Schemes = (),
     *,
@@ -97,7 +99,7 @@ def work_precision(
         raise _shadowstep.InputError(f"steps = {steps}: give numbers of steps such as [100, 200, 400]")
     with _folder(folder) as path, bar(1000, "", progress) as reach:
         found = _shadowstep.work_precision(
-            problem._given, exact(until, "until"), tables, steps=given, digits=str(digits), seconds=seconds, folder=path, progress=reach
+            given_of(problem), exact(until, "until"), tables, steps=given, digits=str(digits), seconds=seconds, folder=path, progress=reach
         )
     return [Curve(**{**curve, "runs": [Measurement(**run) for run in curve["runs"]]}) for curve in json.loads(found)]
 
@@ -121,10 +123,13 @@ class Choice:
     lost_from: float | None
     """The smallest step at which the modified energy was lost."""
 
+    def _cells(self) -> tuple[str, ...]:
+        return self.scheme, self.h, str(self.steps), f"{self.predicted:.2e}", f"{self.evaluations:.0f}", f"{self.seconds:.3g}"
+
 
 @dataclass(frozen=True)
 class Advice:
-    """A scheme and a step size for a tolerance; ``choices`` is empty if no scheme meets it."""
+    """A scheme and a step size for a tolerance; ``choices`` is empty if no scheme meets it. Printed, it is a table of the choices."""
 
     choices: list[Choice]
     """The best first, with up to two alternatives."""
@@ -133,9 +138,18 @@ class Advice:
     least: float | None
     """Where no scheme meets the tolerance: the smallest error that was found."""
 
+    def __str__(self) -> str:
+        if not self.choices:
+            least = "none is known" if self.least is None else f"the smallest one that was found is {self.least:.2e}"
+            return f"no scheme has so small an error: {least}"
+        rows = [["scheme", "h", "steps", "error", "forces", "seconds"], *([*choice._cells()] for choice in self.choices)]
+        widths = [max(len(row[column]) for row in rows) for column in range(len(rows[0]))]
+        lines = ["  ".join(f"{cell:<{width}}" if column == 0 else f"{cell:>{width}}" for column, (cell, width) in enumerate(zip(row, widths))) for row in rows]
+        return "\n".join([*lines, f"verified: a run of {self.choices[0].scheme} over all of the time has the error {self.verified:.2e}"])
+
 
 def advise(
-    problem: Problem,
+    problem: Union[Problem, str],
     until: Number,
     tolerance: float,
     *,
@@ -165,15 +179,17 @@ def advise(
     >>> advice = shadowstep.advise(shadowstep.Problem("pendulum"), 50, 1e-6, seconds=0.2)
     >>> advice.verified <= 1e-6, len(advice.choices) > 0
     (True, True)
+    >>> str(advice).split()[:6]
+    ['scheme', 'h', 'steps', 'error', 'forces', 'seconds']
     """
     tables = _tables(schemes)
     _check_seconds(seconds)
     with _folder(folder) as path, bar(1000, "", progress) as reach:
         found: dict[str, Any] = json.loads(
             _shadowstep.advise(
-                problem._given,
+                given_of(problem),
                 exact(until, "until"),
-                float(tolerance),
+                _real(tolerance, "tolerance"),
                 of=of,
                 cost=cost,
                 schemes=tables,
@@ -187,15 +203,26 @@ def advise(
     return Advice(choices=choices, verified=found.get("verified"), least=found.get("least"))
 
 
+def _real(value: Any, what: str) -> float:
+    if isinstance(value, bool) or not isinstance(value, (Real, Decimal, str)):
+        raise TypeError(f"{what} must be a number, not {type(value).__name__}")
+    try:
+        return float(value)
+    except ValueError:
+        raise ValueError(f"{what} must be a number such as 1e-8, not {value!r}") from None
+
+
 def _check_seconds(seconds: float) -> None:
-    if not 1e-3 <= seconds <= 1e6:
+    if not 1e-3 <= _real(seconds, "seconds") <= 1e6:
         raise _shadowstep.InputError(f"seconds = {seconds}: give a number of seconds from 0.001 to 1000000")
 
 
 def _tables(schemes: Schemes) -> list[Any]:
-    if isinstance(schemes, (str, Scheme)):
+    if isinstance(schemes, (str, os.PathLike, Scheme)):
         schemes = [schemes]
-    return [(scheme if isinstance(scheme, Scheme) else Scheme(scheme))._table for scheme in schemes]
+    if not isinstance(schemes, Iterable):
+        raise TypeError(f"schemes must be schemes or their names, such as ['yoshida4', 'pefrl'], not {type(schemes).__name__}")
+    return [table_of(scheme) for scheme in schemes]
 
 
 @contextmanager

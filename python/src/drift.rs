@@ -32,38 +32,38 @@ pub(crate) fn drift(
     control: bool,
     progress: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<String> {
-    let failed = |error| exception(py, error);
     let arithmetic = arithmetic(py, digits, mpfr)?;
     let times = Times::of(py, h, None, Some(until))?;
     let until = number(py, until)?;
     let estimator = options.settings(py)?;
-    let (system, propagator) = match scheme {
-        Some(table) => {
-            let posed = SystemWithScheme::of(problem, &table.0, arithmetic).map_err(failed)?;
-            (posed.system, Propagator::Scheme(Box::new(posed.scheme)))
-        }
-        None => {
-            let system = problem.system(arithmetic).map_err(failed)?;
-            let propagator = Propagator::of_system(EXACT_FLOW, &system).map_err(failed)?;
-            (system, propagator)
-        }
-    };
-    let order = order_setting(&estimator).map(|(name, value)| OrderSetting { name, value });
-    let run = Run { propagator: propagator.name(), h: &times.h, steps: times.steps, order };
-    let request = DriftRequest {
-        problem: name,
-        system: &system,
-        until: &until,
-        arithmetic,
-        estimator: &estimator,
-        summarised: true,
-    };
-    let found = waiting(py, progress, |watched| -> Result<Record, Error> {
+    let (given, scheme, name) = (problem.clone(), scheme.map(|table| table.0.clone()), name.to_owned());
+    let found = waiting(py, progress, move |watched| -> Result<Record, Error> {
+        let (system, propagator) = match scheme {
+            Some(scheme) => {
+                let posed = SystemWithScheme::of(&given, &scheme, arithmetic)?;
+                (posed.system, Propagator::Scheme(Box::new(posed.scheme)))
+            }
+            None => {
+                let system = given.system(arithmetic)?;
+                let propagator = Propagator::of_system(EXACT_FLOW, &system)?;
+                (system, propagator)
+            }
+        };
+        let order = order_setting(&estimator).map(|(name, value)| OrderSetting { name, value });
+        let run = Run { propagator: propagator.name(), h: &times.h, steps: times.steps, order };
+        let request = DriftRequest {
+            problem: &name,
+            system: &system,
+            until: &until,
+            arithmetic,
+            estimator: &estimator,
+            summarised: true,
+        };
         let mut controls = Controls::new(if control { Wanted::Always } else { Wanted::Never });
         request.run(&propagator, run, &mut controls, &mut DriftProgress(watched))
     });
     problem.raised(py)?;
-    let record = found?.map_err(failed)?;
+    let record = found?.map_err(|error| exception(py, error))?;
     serde_json::to_string(&record).map_err(|error| pyo3::exceptions::PyRuntimeError::new_err(error.to_string()))
 }
 

@@ -5,6 +5,7 @@ use shadowstep_emit::Target;
 
 use crate::errors::usage;
 use crate::scheme::Table;
+use crate::waiting::waiting;
 
 /// The text of a scheme for a target.
 #[pyfunction]
@@ -13,6 +14,7 @@ pub(crate) fn emit(py: Python<'_>, scheme: &Table, target: &str) -> PyResult<Str
         let names: Vec<_> = Target::ALL.iter().map(|target| target.name()).collect();
         usage(py, format!("there is no target `{target}`"), format!("it is one of {}", names.join(", ")))
     })?;
-    shadowstep_emit::emit(&scheme.0.quadratic(), target)
+    let scheme = scheme.0.quadratic();
+    waiting(py, None, move |_| shadowstep_emit::emit(&scheme, target))?
         .map_err(|refusal| usage(py, format!("{} {}", refusal.scheme, refusal.reason), refusal.hint))
 }

@@ -26,7 +26,7 @@ pub(crate) fn ensemble<'py>(
     let rows =
         (0..trajectories).map(|t| names.iter().zip(&columns).map(|(name, column)| cell(name, column, t)).collect());
     let rows = rows.collect::<Result<Vec<Vec<Rational>>, Error>>().map_err(failed)?;
-    let outcomes = waiting(py, progress, |watched| {
+    let outcomes = waiting(py, progress, move |watched| {
         let ensemble = Ensemble::with_columns(Source { path: "ensemble".to_owned(), text }, names, rows)?;
         ensemble.outcomes(|| watched.continues())
     });

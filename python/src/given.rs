@@ -1,5 +1,7 @@
 //! A problem: the sections of a scene that describe a system, or a function that computes its forces.
 
+use std::sync::Arc;
+
 use pyo3::prelude::*;
 use shadowstep::StepSize;
 use shadowstep::problems::PROBLEMS;
@@ -13,7 +15,8 @@ use crate::own_forces::Forces;
 
 /// A problem as it was given; it is read again in the number type of each run, as exact values are computed to the digits of the run.
 #[pyclass(frozen, module = "shadowstep._shadowstep")]
-pub(crate) struct Given(ProblemSource);
+#[derive(Clone)]
+pub(crate) struct Given(Arc<ProblemSource>);
 
 enum ProblemSource {
     Scene(Source),
@@ -25,13 +28,13 @@ impl Given {
     /// From the text of a scene, of which \[problem\], \[initial\], \[\[body\]\] and \[time\] are used.
     #[staticmethod]
     fn of_text(py: Python<'_>, text: String, path: String) -> PyResult<Self> {
-        Given(ProblemSource::Scene(Source { path, text })).checked(py)
+        Given::of(ProblemSource::Scene(Source { path, text }), py)
     }
 
     /// From a scene's file.
     #[staticmethod]
     fn of_file(py: Python<'_>, path: std::path::PathBuf) -> PyResult<Self> {
-        Given(ProblemSource::Scene(source(&path).map_err(|error| exception(py, error))?)).checked(py)
+        Given::of(ProblemSource::Scene(source(&path).map_err(|error| exception(py, error))?), py)
     }
 
     /// With a function for the forces: a number is the address of a C function, anything else is called.
@@ -47,7 +50,16 @@ impl Given {
         let numbers = |texts: Vec<String>| texts.iter().map(|text| exact(py, text)).collect::<PyResult<Vec<_>>>();
         let (q, p, masses) = (numbers(q)?, numbers(p)?, masses.map(numbers).transpose()?);
         let forces = Forces::of(function, q.len())?;
-        Given(ProblemSource::Own { forces, q, p, masses }).checked(py)
+        Given::of(ProblemSource::Own { forces, q, p, masses }, py)
+    }
+
+    /// The text of the scene with its path; `None` with a function for the forces.
+    #[getter]
+    fn source(&self) -> Option<(&str, &str)> {
+        match &*self.0 {
+            ProblemSource::Scene(Source { path, text }) => Some((text, path)),
+            ProblemSource::Own { .. } => None,
+        }
     }
 
     /// The names of q_1, q_2, ….
@@ -90,7 +102,7 @@ impl Given {
 impl Given {
     /// The system in a number type.
     pub(crate) fn system(&self, arithmetic: Arithmetic) -> Result<System, Error> {
-        let system = match &self.0 {
+        let system = match &*self.0 {
             ProblemSource::Scene(source) => System::read(source, arithmetic)?.0,
             ProblemSource::Own { forces, q, p, masses } => {
                 System::of_own_potential(Box::new(forces.clone()), (q.clone(), p.clone()), masses.clone())?
@@ -102,15 +114,16 @@ impl Given {
 
     /// What the function for the forces has raised since it was asked last.
     pub(crate) fn raised(&self, py: Python<'_>) -> PyResult<()> {
-        match &self.0 {
+        match &*self.0 {
             ProblemSource::Own { forces, .. } => forces.raised(py),
             ProblemSource::Scene(_) => Ok(()),
         }
     }
 
-    fn checked(self, py: Python<'_>) -> PyResult<Self> {
-        self.system(Arithmetic::DOUBLE).map_err(|error| exception(py, error))?;
-        Ok(self)
+    fn of(source: ProblemSource, py: Python<'_>) -> PyResult<Self> {
+        let given = Given(Arc::new(source));
+        given.system(Arithmetic::DOUBLE).map_err(|error| exception(py, error))?;
+        Ok(given)
     }
 }
 

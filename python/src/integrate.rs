@@ -40,19 +40,21 @@ pub(crate) fn integrate<'py>(
     let arithmetic = arithmetic(py, digits, mpfr)?;
     let times = Times::of(py, h, steps, until)?;
     let estimator = options.map(|options| options.settings(py)).transpose()?;
-    let failed = |error| exception(py, error);
-    let posed = SystemWithScheme::of(problem, &scheme.0, arithmetic).map_err(failed)?;
-    let found = waiting(py, progress, |watched| {
-        posed.run(&times, every, estimator.as_ref(), arithmetic, &mut watched.observer())
+    let is_between = estimator.as_ref().is_some_and(EstimatorSettings::is_between);
+    let (given, scheme) = (problem.clone(), scheme.0.clone());
+    let found = waiting(py, progress, move |watched| {
+        let posed = SystemWithScheme::of(&given, &scheme, arithmetic)?;
+        let (found, mut notes) = posed.run(&times, every, estimator.as_ref(), arithmetic, &mut watched.observer())?;
+        notes.extend(times.note);
+        Ok((found, notes, posed.system.problem))
     });
     problem.raised(py)?;
-    let (found, mut notes) = found?.map_err(failed)?;
-    notes.extend(times.note);
+    let (found, notes, problem) = found?.map_err(|error| exception(py, error))?;
     let dictionary = found.into_dictionary(py)?;
     dictionary.set_item("notes", PyList::new(py, notes.iter().map(Note::to_string))?)?;
-    dictionary.set_item("coordinates", &posed.system.coordinates)?;
-    dictionary.set_item("momenta", &posed.system.momenta)?;
-    dictionary.set_item("is_between", estimator.is_some_and(|settings| settings.is_between()))?;
+    dictionary.set_item("coordinates", &problem.coordinates)?;
+    dictionary.set_item("momenta", &problem.momenta)?;
+    dictionary.set_item("is_between", is_between)?;
     Ok(dictionary)
 }
 

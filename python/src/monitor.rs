@@ -1,36 +1,60 @@
 //! The monitor of the modified energy, for loops that do something else between steps.
 
+use std::sync::mpsc::{Receiver, Sender, channel};
+use std::sync::{Arc, Mutex, PoisonError};
+use std::time::{Duration, Instant};
+use std::{hint, panic, process};
+
 use numpy::PyArray1;
+use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
+use shadowstep::StepSize;
 use shadowstep::shadow::Report;
 use shadowstep::shadow::run::RunError;
 use shadowstep::steps::integrator::{VectorIntegrator, at_output};
 use shadowstep_scenes::Error;
+use shadowstep_scenes::arithmetic::Arithmetic;
 use shadowstep_scenes::computation::{Monitoring, RunNumber as _};
+use shadowstep_scenes::library::NamedScheme;
 use shadowstep_scenes::start::{Begin, SceneIntegrator, Steps};
 
 use crate::errors::exception;
 use crate::given::{Given, arithmetic, step_size};
 use crate::integrate::SystemWithScheme;
 use crate::scheme::Table;
+use crate::waiting::{Watched, answered, awaited, spawned};
 
-/// A system in double precision with its steps and its monitor.
-#[pyclass(unsendable, module = "shadowstep._shadowstep")]
-pub(crate) struct Monitor {
+/// n, the modified energy, its error and H, all of the middle of a window.
+type Newest = (u64, f64, Option<f64>, f64);
+
+/// A system in double precision with its steps and its monitor, in a thread of its own: what they are made of cannot go from one thread to another.
+struct Followed {
     integrator: SceneIntegrator<f64>,
     monitor: Box<dyn Monitoring<f64>>,
-    newest: Option<(u64, f64, Option<f64>, f64)>,
-    problem: Py<Given>,
+    newest: Option<Newest>,
+}
+
+/// What the thread does next.
+type Task = Box<dyn FnOnce(&mut Followed) + Send>;
+
+/// The monitor of a system, for all threads of Python.
+#[pyclass(frozen, module = "shadowstep._shadowstep")]
+pub(crate) struct Monitor {
+    tasks: Mutex<Sender<Task>>,
+    /// A forked process has no such thread.
+    process: u32,
+    problem: Given,
 }
 
 #[pymethods]
 impl Monitor {
-    #[new]
+    /// At the problem's initial state.
+    #[staticmethod]
     #[pyo3(signature = (problem, scheme, h, *, order, every, digits))]
-    fn new(
+    fn of(
         py: Python<'_>,
-        problem: Py<Given>,
+        problem: &Given,
         scheme: &Table,
         h: &str,
         order: u32,
@@ -39,74 +63,130 @@ impl Monitor {
     ) -> PyResult<Self> {
         let arithmetic = arithmetic(py, digits, false)?;
         let h = step_size(py, h)?;
-        let given = problem.get();
         let failed = |error| exception(py, error);
         if arithmetic.is_longer_than_double() {
             let message = "a monitor for loops computes in double precision";
             return Err(failed(Error::usage(message, "give digits = \"double\" or \"compensated\"")));
         }
-        let posed = SystemWithScheme::of(given, &scheme.0, arithmetic).map_err(failed)?;
-        let compensated = arithmetic.is_compensated();
-        let steps =
-            Steps { scheme: &posed.scheme.scheme, h: &h, compensated, displaced: false, begin: Begin::InitialState };
-        let integrator = posed.system.integrator(steps, posed.system.start::<f64>(&()), &());
-        let mut integrator = integrator.map_err(|error| failed(error.into()))?;
-        let monitor = f64::monitor(&mut *integrator, order, every);
-        given.raised(py)?;
-        let monitor = monitor.map_err(|error| failed(of_run(&error)))?;
-        Ok(Monitor { integrator, monitor, newest: None, problem })
+        let (tasks, next) = channel::<Task>();
+        let (begun, has_begun) = channel();
+        let (given, scheme) = (problem.clone(), scheme.0.clone());
+        spawned(move || match answered(|| Followed::new(&given, &scheme, &h, (order, every), arithmetic)) {
+            Ok(Ok(mut followed)) => {
+                let _ = begun.send(Ok(Ok(())));
+                while let Some(task) = soon(&next).or_else(|| next.recv().ok()) {
+                    task(&mut followed);
+                }
+            }
+            other => drop(begun.send(other.map(|found| found.map(drop)))),
+        })?;
+        let found = awaited(py, None, &Watched::default(), has_begun);
+        problem.raised(py)?;
+        found?.map_err(failed)?;
+        Ok(Monitor { tasks: Mutex::new(tasks), process: process::id(), problem: problem.clone() })
     }
 
     /// A number of steps.
-    fn step(&mut self, py: Python<'_>, count: u64) -> PyResult<()> {
-        const SIGNALS: u64 = 4096;
-        let mut left = count;
-        while left > 0 {
-            let now = left.min(SIGNALS);
-            let found = self.steps(now);
-            self.problem.get().raised(py)?;
-            found.map_err(|error| exception(py, of_run(&error)))?;
-            left -= now;
-            py.check_signals()?;
-        }
-        Ok(())
+    fn step(&self, py: Python<'_>, count: u64) -> PyResult<()> {
+        let found = self.ask(py, move |followed, watched| followed.steps(count, watched));
+        self.problem.raised(py)?;
+        found?.map_err(|error| exception(py, of_run(&error)))
     }
 
     /// The number of the present state.
     #[getter]
-    fn n(&self) -> u64 {
-        self.monitor.n()
+    fn n(&self, py: Python<'_>) -> PyResult<u64> {
+        self.ask(py, |followed, _| followed.monitor.n())
     }
 
     /// q and p of the present state.
-    fn state<'py>(&mut self, py: Python<'py>) -> (Bound<'py, PyArray1<f64>>, Bound<'py, PyArray1<f64>>) {
+    fn state<'py>(&self, py: Python<'py>) -> PyResult<[Bound<'py, PyArray1<f64>>; 2]> {
         let state = |integrator: &mut VectorIntegrator<'_, f64>| {
             (integrator.state().q().to_vec(), integrator.state().p().to_vec())
         };
-        let (q, p) = at_output(&mut *self.integrator, state);
-        (PyArray1::from_vec(py, q), PyArray1::from_vec(py, p))
+        let (q, p) = self.ask(py, move |followed, _| at_output(&mut *followed.integrator, state))?;
+        Ok([q, p].map(|numbers| PyArray1::from_vec(py, numbers)))
     }
 
     /// H of the present state.
-    fn energy(&mut self) -> f64 {
-        at_output(&mut *self.integrator, |integrator| integrator.system().energy())
+    fn energy(&self, py: Python<'_>) -> PyResult<f64> {
+        let energy = |integrator: &mut VectorIntegrator<'_, f64>| integrator.system().energy();
+        let found = self.ask(py, move |followed, _| at_output(&mut *followed.integrator, energy));
+        self.problem.raised(py)?;
+        found
     }
 
-    /// The newest estimate: n, the modified energy, its error and H, all of the middle of its window; `None` before the first.
+    /// The newest estimate; `None` before the first.
     #[getter]
-    fn newest(&self) -> Option<(u64, f64, Option<f64>, f64)> {
-        self.newest
+    fn newest(&self, py: Python<'_>) -> PyResult<Option<Newest>> {
+        self.ask(py, |followed, _| followed.newest)
     }
 
     /// The report on the run so far.
     fn report<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
-        dictionary(py, &self.monitor.report())
+        let report = self.ask(py, |followed, _| followed.monitor.report())?;
+        dictionary(py, &report)
     }
 }
 
 impl Monitor {
-    fn steps(&mut self, count: u64) -> Result<(), RunError> {
-        for _ in 0..count {
+    /// What the thread answers.
+    fn ask<T: Send + 'static>(
+        &self,
+        py: Python<'_>,
+        task: impl FnOnce(&mut Followed, &Watched) -> T + Send + 'static,
+    ) -> PyResult<T> {
+        if process::id() != self.process {
+            let message = "a monitor belongs to the process that made it: make one in the forked process";
+            return Err(PyRuntimeError::new_err(message));
+        }
+        let watched = Arc::<Watched>::default();
+        let (done, is_done) = channel();
+        let of_thread = Arc::clone(&watched);
+        let task = move |followed: &mut Followed| drop(done.send(answered(|| task(followed, &of_thread))));
+        // without its thread there is no answer, which is reported then
+        let _ = self.tasks.lock().unwrap_or_else(PoisonError::into_inner).send(Box::new(task));
+        match soon(&is_done) {
+            Some(Ok(found)) => Ok(found),
+            Some(Err(panic)) => panic::resume_unwind(panic),
+            None => awaited(py, None, &watched, is_done),
+        }
+    }
+}
+
+/// What comes within some microseconds: to fall asleep and to be woken takes longer than a short task.
+fn soon<T>(receiver: &Receiver<T>) -> Option<T> {
+    const PATIENCE: Duration = Duration::from_micros(20);
+    let begun = Instant::now();
+    while begun.elapsed() < PATIENCE {
+        match receiver.try_recv() {
+            Ok(found) => return Some(found),
+            Err(_) => hint::spin_loop(),
+        }
+    }
+    None
+}
+
+impl Followed {
+    fn new(
+        given: &Given,
+        scheme: &NamedScheme,
+        h: &StepSize,
+        (order, every): (u32, u64),
+        arithmetic: Arithmetic,
+    ) -> Result<Self, Error> {
+        let posed = SystemWithScheme::of(given, scheme, arithmetic)?;
+        let compensated = arithmetic.is_compensated();
+        let steps =
+            Steps { scheme: &posed.scheme.scheme, h, compensated, displaced: false, begin: Begin::InitialState };
+        let mut integrator = posed.system.integrator(steps, posed.system.start::<f64>(&()), &())?;
+        let monitor = f64::monitor(&mut *integrator, order, every).map_err(|error| of_run(&error))?;
+        Ok(Followed { integrator, monitor, newest: None })
+    }
+
+    /// Steps until there are as many, or Python asks to end.
+    fn steps(&mut self, count: u64, watched: &Watched) -> Result<(), RunError> {
+        for _ in (0..count).take_while(|_| watched.continues()) {
             if let Some(sample) = self.monitor.step(&mut *self.integrator)? {
                 self.newest = Some((sample.n, *sample.modified, sample.error.copied(), *sample.energy));
             }

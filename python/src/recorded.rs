@@ -18,6 +18,7 @@ use crate::errors::{exception, usage};
 use crate::given::{Given, step_size};
 use crate::integrate::SystemWithScheme;
 use crate::scheme::Table;
+use crate::waiting::waiting;
 
 /// n, H̄ and its error of the states that have one.
 type LogEstimates = (Vec<i64>, Vec<f64>, Vec<f64>);
@@ -44,7 +45,7 @@ pub(crate) fn energies_of_log(
     let (dimension, q, p, energies) = (q.shape()[1], rows(&q)?, rows(&p)?, energies.to_vec()?);
     let gradients = forces.map(|forces| Ok::<_, PyErr>(negative(rows(&forces)?))).transpose()?;
     let rates = rates.map(|rates| rates.to_vec()).transpose()?;
-    py.detach(|| {
+    waiting(py, None, move |_| {
         let log = match (&gradients, &rates) {
             (Some(gradients), _) => Log::with_gradients(dimension, [&q, &p, gradients], &energies)?,
             (None, rates) => Log::with_rates(dimension, [&q, &p], [&energies, rates.as_deref().unwrap_or_default()])?,
@@ -53,7 +54,7 @@ pub(crate) fn energies_of_log(
         let estimates = all(steps.clone().estimates(&h, &Bilinear::with_error(k))?)?;
         while steps.advance()?.is_some() {}
         Ok((estimates, steps.other_steps()))
-    })
+    })?
     .map_err(|error: RecordedError| refused(py, &error))
 }
 
@@ -69,15 +70,17 @@ pub(crate) fn energies_of_states(
     k: u32,
 ) -> PyResult<LogEstimates> {
     let h = step_size(py, h)?;
-    let failed = |error| exception(py, error);
-    let posed = SystemWithScheme::of(problem, &scheme.0, Arithmetic::DOUBLE).map_err(failed)?;
-    let begin = Begin::InitialState;
-    let steps = Steps { scheme: &posed.scheme.scheme, h: &h, compensated: false, displaced: false, begin };
-    let integrator = posed.system.integrator(steps, posed.system.start::<f64>(&()), &());
-    let integrator = integrator.map_err(|error| failed(Error::usage(error.to_string(), "check the problem")))?;
-    let found = again(integrator, &rows(&q)?, &rows(&p)?, k);
+    let (given, scheme, q, p) = (problem.clone(), scheme.0.clone(), rows(&q)?, rows(&p)?);
+    let found = waiting(py, None, move |_| -> Result<_, Error> {
+        let posed = SystemWithScheme::of(&given, &scheme, Arithmetic::DOUBLE)?;
+        let begin = Begin::InitialState;
+        let steps = Steps { scheme: &posed.scheme.scheme, h: &h, compensated: false, displaced: false, begin };
+        let integrator = posed.system.integrator(steps, posed.system.start::<f64>(&()), &());
+        let integrator = integrator.map_err(|error| Error::usage(error.to_string(), "check the problem"))?;
+        Ok(again(integrator, &q, &p, k))
+    });
     problem.raised(py)?;
-    found.map_err(|error| refused(py, &error))
+    found?.map_err(|error| exception(py, error))?.map_err(|error| refused(py, &error))
 }
 
 fn again(mut integrator: SceneIntegrator<f64>, q: &[f64], p: &[f64], k: u32) -> Result<LogEstimates, RecordedError> {
@@ -148,9 +151,9 @@ pub(crate) struct Observer {
 
 #[pymethods]
 impl Observer {
-    #[new]
-    #[pyo3(signature = (masses, h, window, cell, periodic))]
-    fn new(
+    /// Before its first state.
+    #[staticmethod]
+    fn of(
         py: Python<'_>,
         masses: Vec<f64>,
         h: &str,

@@ -28,7 +28,7 @@ pub(crate) fn run_scene(
         Some(text) => Source { path: path.display().to_string(), text },
         None => source(&path).map_err(failed)?,
     };
-    waiting(py, progress, |watched| run(source, restart, watched))?.map_err(failed)
+    waiting(py, progress, move |watched| run(source, restart, watched))?.map_err(failed)
 }
 
 fn run(source: Source, restart: bool, watched: &Watched) -> Result<SceneResult, Error> {

@@ -7,6 +7,7 @@ use shadowstep_scenes::library::{self, NamedScheme};
 use shadowstep_scenes::scheme_record::SchemeRecord;
 
 use crate::errors::of_library;
+use crate::waiting::waiting;
 
 /// A proved scheme.
 #[pyclass(frozen, module = "shadowstep._shadowstep")]
@@ -16,14 +17,24 @@ pub(crate) struct Table(pub(crate) NamedScheme);
 impl Table {
     /// The scheme that a word means: a shipped one, or a table's file.
     #[staticmethod]
-    fn of_word(py: Python<'_>, word: &str) -> PyResult<Self> {
-        library::scheme(word).map(Table).map_err(|error| of_library(py, error))
+    fn of_word(py: Python<'_>, word: String) -> PyResult<Self> {
+        let found = waiting(py, None, move |_| library::scheme(&word))?;
+        found.map(Table).map_err(|error| of_library(py, error))
     }
 
-    /// The scheme of a table's text; `path` names it in messages.
+    /// The scheme of a table's text; `path` names it in messages, and `name`, if there is one, is by which it was asked for.
     #[staticmethod]
-    fn of_text(py: Python<'_>, text: String, path: String) -> PyResult<Self> {
-        library::scheme_of(&Source { path, text }).map(Table).map_err(|error| of_library(py, error))
+    #[pyo3(signature = (text, path, name = None))]
+    fn of_text(py: Python<'_>, text: String, path: String, name: Option<String>) -> PyResult<Self> {
+        let found = waiting(py, None, move |_| library::scheme_of(&Source { path, text }))?;
+        let named = found.map_err(|error| of_library(py, error))?;
+        Ok(Table(NamedScheme { name: name.unwrap_or(named.name), scheme: named.scheme }))
+    }
+
+    /// The path of the table, by which it finds the tables beside it.
+    #[getter]
+    fn path(&self) -> &str {
+        &self.0.scheme.proved().scheme.table.source.path
     }
 
     /// By which it was asked for.
@@ -34,12 +45,12 @@ impl Table {
 
     /// Everything that is known of it, as JSON.
     fn record(&self, py: Python<'_>) -> PyResult<String> {
-        let scheme = &self.0.quadratic();
-        let json = py.detach(|| {
+        let scheme = self.0.quadratic();
+        let json = waiting(py, None, move |_| {
             let analysis = shadowstep_analysis::Analysis::of(scheme.proved());
-            serde_json::to_string(&SchemeRecord::of(scheme, &analysis))
+            serde_json::to_string(&SchemeRecord::of(&scheme, &analysis))
         });
-        json.map_err(|error| pyo3::exceptions::PyRuntimeError::new_err(error.to_string()))
+        json?.map_err(|error| pyo3::exceptions::PyRuntimeError::new_err(error.to_string()))
     }
 
     /// What can be said without an analysis: (name, order for every T(p) or None, order for quadratic T, evaluations a step).

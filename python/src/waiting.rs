@@ -1,10 +1,11 @@
 //! Work without Python's lock, until it is done or Ctrl-C is pressed.
 
+use std::panic::{self, AssertUnwindSafe};
 use std::sync::atomic::{AtomicBool, AtomicI64, Ordering};
-use std::sync::mpsc::{RecvTimeoutError, channel};
-use std::sync::{Mutex, PoisonError};
+use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
+use std::sync::{Arc, Mutex, PoisonError};
 use std::thread;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
@@ -13,6 +14,9 @@ use shadowstep_studies::Progress;
 
 /// Signals are asked for this often.
 const SIGNALS: Duration = Duration::from_millis(40);
+
+/// After Ctrl-C the work has this time to end; then its thread is left to itself.
+const PATIENCE: Duration = Duration::from_millis(150);
 
 /// The stack of the thread that works: unoptimised builds need more than the default.
 const STACK: usize = 16 << 20;
@@ -70,38 +74,66 @@ impl shadowstep_studies::Observer for Watching<'_> {
     }
 }
 
+/// The answer of a thread: what it has found, or its panic.
+pub(crate) type Answer<T> = thread::Result<T>;
+
 /// Does some work in a thread of its own, while Python's other threads run; `progress`, if there is one, is called with the n of the
 /// state that was reached.
 ///
 /// # Errors
-/// `KeyboardInterrupt` after Ctrl-C, or what another handler of signals or `progress` raises.
-pub(crate) fn waiting<T: Send>(
+/// `KeyboardInterrupt` after Ctrl-C, or what another handler of signals or `progress` raises: the work is asked to end, and not waited for where it
+/// does not end soon.
+pub(crate) fn waiting<T: Send + 'static>(
     py: Python<'_>,
     progress: Option<&Bound<'_, PyAny>>,
-    work: impl FnOnce(&Watched) -> T + Send,
+    work: impl FnOnce(&Watched) -> T + Send + 'static,
 ) -> PyResult<T> {
-    let watched = &Watched::default();
-    thread::scope(|scope| {
-        let (done, is_done) = channel();
-        let is_done = Mutex::new(is_done); // one thread waits, but the closures of `detach` are shared
-        let begun = thread::Builder::new().stack_size(STACK).spawn_scoped(scope, move || {
-            let _ = done.send(work(watched));
-        });
-        begun.map_err(|error| PyRuntimeError::new_err(format!("no thread can be started: {error}")))?;
-        let mut raised = Ok(());
-        loop {
-            match py.detach(|| is_done.lock().unwrap_or_else(PoisonError::into_inner).recv_timeout(SIGNALS)) {
-                Ok(found) => return raised.map(|()| found),
-                Err(RecvTimeoutError::Disconnected) => return Err(PyRuntimeError::new_err("a computation panicked")),
-                Err(RecvTimeoutError::Timeout) if raised.is_err() => {}
-                Err(RecvTimeoutError::Timeout) => {
-                    raised = py.check_signals();
-                    if let (Ok(()), Some(progress)) = (&raised, progress) {
-                        raised = progress.call1((watched.n.load(Ordering::Relaxed),)).map(|_| ());
-                    }
-                    watched.stop.store(raised.is_err(), Ordering::Relaxed);
-                }
+    let watched = Arc::<Watched>::default();
+    let (done, is_done) = channel();
+    let of_thread = Arc::clone(&watched);
+    spawned(move || drop(done.send(answered(|| work(&of_thread)))))?;
+    awaited(py, progress, &watched, is_done)
+}
+
+/// A thread for computations.
+pub(crate) fn spawned(work: impl FnOnce() + Send + 'static) -> PyResult<()> {
+    let begun = thread::Builder::new().stack_size(STACK).spawn(work);
+    begun.map(drop).map_err(|error| PyRuntimeError::new_err(format!("no thread can be started: {error}")))
+}
+
+/// What some work answers; a panic goes on in the thread that waits for it.
+pub(crate) fn answered<T>(work: impl FnOnce() -> T) -> Answer<T> {
+    panic::catch_unwind(AssertUnwindSafe(work))
+}
+
+/// Waits for the answer of another thread, as [`waiting`] does.
+pub(crate) fn awaited<T: Send>(
+    py: Python<'_>,
+    progress: Option<&Bound<'_, PyAny>>,
+    watched: &Watched,
+    is_done: Receiver<Answer<T>>,
+) -> PyResult<T> {
+    let is_done = Mutex::new(is_done); // one thread waits, but the closures of `detach` are shared
+    let mut raised: Option<(PyErr, Instant)> = None;
+    loop {
+        match py.detach(|| is_done.lock().unwrap_or_else(PoisonError::into_inner).recv_timeout(SIGNALS)) {
+            Ok(Ok(found)) => return raised.map_or(Ok(found), |(error, _)| Err(error)),
+            Ok(Err(panic)) => panic::resume_unwind(panic),
+            Err(RecvTimeoutError::Disconnected) => {
+                return Err(PyRuntimeError::new_err("the thread of a computation has ended"));
             }
+            Err(RecvTimeoutError::Timeout) => match raised {
+                Some((error, since)) if since.elapsed() > PATIENCE => return Err(error),
+                Some(_) => {}
+                None => {
+                    let mut checked = py.check_signals();
+                    if let (Ok(()), Some(progress)) = (&checked, progress) {
+                        checked = progress.call1((watched.n.load(Ordering::Relaxed),)).map(|_| ());
+                    }
+                    watched.stop.store(checked.is_err(), Ordering::Relaxed);
+                    raised = checked.err().map(|error| (error, Instant::now()));
+                }
+            },
         }
-    })
+    }
 }

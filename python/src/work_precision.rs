@@ -33,25 +33,39 @@ struct Compared {
     schemes: Vec<NamedScheme>,
 }
 
-impl Compared {
-    /// Without schemes, a dozen that are valid for the system.
+/// What is asked for: the problem, the end of the runs, the number type, and the schemes.
+struct Asked {
+    problem: Given,
+    until: Rational,
+    arithmetic: Arithmetic,
+    schemes: Vec<NamedScheme>,
+}
+
+impl Asked {
     fn of(py: Python<'_>, problem: &Given, until: &str, schemes: &[PyRef<'_, Table>], digits: &str) -> PyResult<Self> {
         let (arithmetic, until) = (arithmetic(py, digits, false)?, number(py, until)?);
         if until == Rational::from_integer(0.into()) {
             return Err(usage(py, "until = 0: the runs must have a length", "until = 100"));
         }
-        let failed = |error| exception(py, error);
-        let system = problem.system(arithmetic).map_err(failed)?;
-        let given: Vec<NamedScheme> = match schemes {
-            [] => {
-                let names = default_schemes(system.has_general_kinetic());
-                let read = |name: &str| shadowstep_scenes::library::scheme(name).map_err(Error::from);
-                names.into_iter().map(read).collect::<Result<_, _>>().map_err(failed)?
-            }
-            given => given.iter().map(|table| table.0.clone()).collect(),
+        let schemes = schemes.iter().map(|table| table.0.clone()).collect();
+        Ok(Asked { problem: problem.clone(), until, arithmetic, schemes })
+    }
+}
+
+impl Compared {
+    /// Without schemes, a dozen that are valid for the system.
+    fn of(asked: Asked) -> Result<Self, Error> {
+        let Asked { problem, until, arithmetic, schemes } = asked;
+        let system = problem.system(arithmetic)?;
+        let given: Vec<NamedScheme> = if schemes.is_empty() {
+            let names = default_schemes(system.has_general_kinetic());
+            let read = |name: &str| shadowstep_scenes::library::scheme(name).map_err(Error::from);
+            names.into_iter().map(read).collect::<Result<_, _>>()?
+        } else {
+            schemes
         };
-        let valid = |scheme| SystemWithScheme::of(problem, scheme, arithmetic).map(|posed| posed.scheme);
-        let schemes = given.iter().map(valid).collect::<Result<_, _>>().map_err(failed)?;
+        let valid = |scheme| SystemWithScheme::of(&problem, scheme, arithmetic).map(|posed| posed.scheme);
+        let schemes = given.iter().map(valid).collect::<Result<_, _>>()?;
         Ok(Compared { system, until, arithmetic, schemes })
     }
 
@@ -77,13 +91,14 @@ pub(crate) fn work_precision(
 ) -> PyResult<String> {
     /// The reference may take this multiple of the time of a scheme.
     const REFERENCE: f64 = 10.0;
-    let compared = Compared::of(py, problem, until, &schemes, digits)?;
+    let asked = Asked::of(py, problem, until, &schemes, digits)?;
     let range = match steps {
         Some(steps) => StepRange::Given(steps),
         None => StepRange::Automatic { seconds, target: None },
     };
     let reference_time = Duration::from_secs_f64(REFERENCE * seconds);
-    let found = waiting(py, progress, |watched| {
+    let found = waiting(py, progress, move |watched| {
+        let compared = Compared::of(asked)?;
         let (problem, schemes) = (compared.problem(), &compared.schemes);
         let request = Request { problem, schemes, range, reference_time, folder };
         request.study(&mut watched.observer_of_tasks()).map(|study| of_study(&study))
@@ -154,8 +169,9 @@ pub(crate) fn advise(
     if !(tolerance > 0.0 && tolerance.is_finite()) {
         return Err(usage(py, format!("tolerance = {tolerance}: the tolerance must be positive"), "tolerance = 1e-8"));
     }
-    let compared = Compared::of(py, problem, until, &schemes, digits)?;
-    let found = waiting(py, progress, |watched| {
+    let asked = Asked::of(py, problem, until, &schemes, digits)?;
+    let found = waiting(py, progress, move |watched| {
+        let compared = Compared::of(asked)?;
         let request = AdviceRequest {
             problem: compared.problem(),
             schemes: &compared.schemes,
