@@ -8,7 +8,7 @@ use shadowstep::number::{Limbs, Number, Real};
 use shadowstep_scenes::Error;
 use shadowstep_scenes::readable::wrapped_to;
 use shadowstep_symbolic::decimal::to_text;
-use shadowstep_work_precision::advise::{Advice, AdviceRequest, Choice};
+use shadowstep_work_precision::advise::{Advice, AdviceRequest, Choice, Verified};
 use shadowstep_work_precision::of::Of;
 use shadowstep_work_precision::size::Size;
 use shadowstep_work_precision::study::Cost;
@@ -28,8 +28,8 @@ Examples:
   shadowstep advise outer-solar-system --until 200000 --tolerance 1e-6 --schemes +mine.toml
 
 All schemes are run over a part of the time; errors are extrapolated to all of it by their growth. The best choice is then verified by a run over
-all of the time, whose error is printed beside the prediction; without an exact flow, that of positions is the difference to a run with half the
-step. Exit code 1 if no scheme meets the tolerance.";
+all of the time, whose error is printed beside the prediction: to a tenth, or as `at most`. That of positions is the difference to the exact flow, or to
+runs of a scheme of order 10 whose own error is known from half the step. Exit code 1 if no scheme meets the tolerance.";
 
 /// A scheme and a step size for a tolerance: predicted, and verified by a run.
 #[derive(Debug, Args)]
@@ -169,7 +169,11 @@ fn readable(posed: &PosedProblem, request: &AdviceRequest<'_>, advice: &Advice<'
     text
 }
 
-fn evidence(best: &Choice<'_>, verified: Size, part: f64) -> String {
+fn evidence(best: &Choice<'_>, verified: Verified, part: f64) -> String {
+    let verified = match verified {
+        Verified::Error(error) => error.to_string(),
+        Verified::AtMost(bound) => format!("at most {bound}"),
+    };
     let mut lines = vec![
         ("predicted", format!("{}, from runs {}", best.error, over(part))),
         ("verified", format!("{verified}, by a run over all of the time")),

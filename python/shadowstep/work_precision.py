@@ -134,7 +134,9 @@ class Advice:
     choices: list[Choice]
     """The best first, with up to two alternatives."""
     verified: float | None
-    """The error of a run of the first one over all of the time."""
+    """The error of a run of the first one over all of the time, to a tenth."""
+    at_most: bool
+    """Whether ``verified`` is a bound instead: the reference resolves no more."""
     least: float | None
     """Where no scheme meets the tolerance: the smallest error that was found."""
 
@@ -200,7 +202,7 @@ def advise(
             )
         )
     choices = [Choice(**choice) for choice in found.get("choices", [])]
-    return Advice(choices=choices, verified=found.get("verified"), least=found.get("least"))
+    return Advice(choices=choices, verified=found.get("verified"), at_most=found.get("at_most", False), least=found.get("least"))
 
 
 def _real(value: Any, what: str) -> float:

@@ -10,7 +10,7 @@ use shadowstep_scenes::arithmetic::Arithmetic;
 use shadowstep_scenes::library::NamedScheme;
 use shadowstep_scenes::{Error, System};
 use shadowstep_symbolic::decimal::to_text;
-use shadowstep_work_precision::advise::{Advice, AdviceRequest, Choice};
+use shadowstep_work_precision::advise::{Advice, AdviceRequest, Choice, Verified};
 use shadowstep_work_precision::of::Of;
 use shadowstep_work_precision::problem::Problem;
 use shadowstep_work_precision::run::{Measurement, PositionError};
@@ -191,7 +191,8 @@ fn of_advice(advice: &Advice<'_>) -> Value {
     match advice {
         Advice::Found { choices, verified, part } => {
             let choices: Vec<Value> = choices.iter().map(of_choice).collect();
-            json!({ "found": true, "choices": choices, "verified": number_of(*verified), "part": part })
+            let at_most = matches!(verified, Verified::AtMost(_));
+            json!({ "found": true, "choices": choices, "verified": number_of(verified.size()), "at_most": at_most, "part": part })
         }
         Advice::OutOfReach { least, part, in_time, .. } => json!({
             "found": false,

@@ -8,15 +8,15 @@ use num_traits::ToPrimitive;
 use shadowstep::{Number, Rational, Scheme};
 use shadowstep_scenes::Error;
 use shadowstep_scenes::library::NamedScheme;
-use shadowstep_scenes::propagator::with_exact_flow;
 use shadowstep_studies::{Observer, Store};
 
 use crate::best::cost_of;
 use crate::calculation::{Calculation, Outcome};
 use crate::convenient::convenient_step;
 use crate::of::Of;
-use crate::problem::{Problem, most_samples};
-use crate::run::Measurement;
+use crate::problem::Problem;
+use crate::reference::{Reference, Resolution};
+use crate::run::{Measurement, PositionError};
 use crate::series::{End, StepRange, Target, stable_step};
 use crate::size::Size;
 use crate::study::{Cost, Request, Studied, Study, proved_order};
@@ -85,8 +85,8 @@ pub enum Advice<'a> {
     Found {
         /// The best first.
         choices: Vec<Choice<'a>>,
-        /// The error that a run of the first one had.
-        verified: Size,
+        /// The error that a run of the first one had, from 0 to `until`.
+        verified: Verified,
         /// The part of the time over which runs were made.
         part: f64,
     },
@@ -105,6 +105,40 @@ pub enum Advice<'a> {
     },
 }
 
+/// The error of a run over all of the time.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Verified {
+    /// This, to a tenth: the error of the reference is less than a 20th of it.
+    Error(Size),
+    /// At most this: the reference resolves no more.
+    AtMost(Size),
+}
+
+impl Verified {
+    /// The error, or what it is at most.
+    pub fn size(self) -> Size {
+        match self {
+            Verified::Error(size) | Verified::AtMost(size) => size,
+        }
+    }
+
+    /// Of a position beside a reference with this error; `None` where it is not known, or the run failed.
+    fn of_position(position: PositionError, error: Size) -> Option<Verified> {
+        let ten = |size: Size| 10_f64.powf(size.log10());
+        match position {
+            PositionError::Known(size) if error.log10() <= size.log10() - RESOLVED.log10() => {
+                Some(Verified::Error(size))
+            }
+            PositionError::Known(size) => {
+                Some(Verified::AtMost(size.times_power_of_ten((1.0 + ten(error) / ten(size)).log10())))
+            }
+            // below five times the error, of which one is that of the reference
+            PositionError::Below(size) => Some(Verified::AtMost(size.times_power_of_ten(1.2_f64.log10()))),
+            PositionError::None => None,
+        }
+    }
+}
+
 /// A run over the part of the time takes about this part of the time of a scheme.
 const PART_OF_TIME: f64 = 0.125;
 /// The reference may take this multiple of the time of a scheme.
@@ -119,6 +153,12 @@ const MARGIN: f64 = -0.1;
 const SHOWN: usize = 3;
 /// The step is reduced so often if the verification does not meet the tolerance.
 const ATTEMPTS: usize = 4;
+/// The error of a position is this multiple of that of the reference, where it is said to be known.
+const RESOLVED: f64 = 20.0;
+/// The reference at the end is to have a smaller error than is predicted by this factor: predictions are that accurate.
+const FINER: f64 = 60.0;
+/// It may take this multiple of the time of the run.
+const OF_RUN: f64 = 30.0;
 
 impl<'a> AdviceRequest<'a> {
     /// Studies the schemes over a part of the time that takes seconds, extrapolates to all of it, and verifies the best.
@@ -137,8 +177,9 @@ impl<'a> AdviceRequest<'a> {
         while missed < ATTEMPTS {
             choices.sort_by(|a, b| self.cost_of(a).total_cmp(&self.cost_of(b)));
             let Some(best) = choices.first_mut() else { break };
-            let error = self.verify(best, observer)?;
-            if let Some(verified) = error.filter(|error| *error <= self.tolerance) {
+            let verified = self.verify(best, &study, halvings, observer)?;
+            let error = verified.map(Verified::size);
+            if let Some(verified) = verified.filter(|verified| verified.size() <= self.tolerance) {
                 choices.truncate(SHOWN);
                 return Ok(Advice::Found { choices, verified, part });
             }
@@ -184,7 +225,7 @@ impl<'a> AdviceRequest<'a> {
         Request { problem, schemes: self.schemes, range, reference_time, folder: self.folder.clone() }
     }
 
-    /// The largest convenient step of a scheme that is expected to meet the tolerance.
+    /// The largest step of a scheme that is expected to meet the tolerance.
     fn choice(&self, study: &Study<'_>, studied: &Studied<'_>, halvings: i32) -> Option<Choice<'a>> {
         let whole = |run: &Measurement| {
             let error = self.of.error(run)?;
@@ -217,13 +258,14 @@ impl<'a> AdviceRequest<'a> {
         (1.0..=MOST_EXTRAPOLATED).contains(&more).then_some(steps * more)
     }
 
-    /// The same scheme with a convenient step of at most h, at which its error is known.
+    /// The same scheme with a step of at most h, at which its error is known.
     fn with_step(&self, choice: &Choice<'a>, h: f64) -> Choice<'a> {
         let step = convenient_step(h.min(self.problem.duration()), self.problem.until);
         let size = <f64 as Number>::from_rational(&step, &());
-        let steps = (self.problem.duration() / size * (1.0 + 1e-12)).floor() as u64;
+        let step = if self.problem.is_forward() { step } else { -step };
+        let steps = (self.problem.until / &step).to_integer().to_u64().unwrap_or(u64::MAX);
         let error = choice.error.times_power_of_ten(self.order(choice.scheme) * (size / h).log10());
-        Choice { step: if self.problem.is_forward() { step } else { -step }, steps, error, ..choice.clone() }
+        Choice { step, steps, error, ..choice.clone() }
     }
 
     /// A smaller step, so that an error of this size comes to the tolerance as the order says; at least an eighth smaller.
@@ -235,24 +277,60 @@ impl<'a> AdviceRequest<'a> {
         *choice = self.with_step(&Choice { error: target, ..choice.clone() }, h);
     }
 
-    /// The error of a run over all of the time, which ends with the last whole step; of positions beside the exact flow or, by
-    /// Richardson's rule, beside a run with half the step.
-    fn verify(&self, choice: &Choice<'a>, observer: &mut dyn Observer) -> Result<Option<Size>, Error> {
-        let until = &choice.step * Rational::from_integer(choice.steps.into());
-        let problem = Problem { until: &until, ..self.problem };
-        let samples = most_samples(choice.steps);
-        let is_known = with_exact_flow(problem.system).is_some();
-        let wanted = match is_known {
-            true => Calculation::reference(problem, samples, Duration::ZERO),
-            false => Calculation::halved(problem, choice.scheme, (samples, 2 * choice.steps)),
-        };
+    /// The error of a run over all of the time; of positions beside the reference of the study where that is one over all of the time and
+    /// resolves it, else beside one at the end alone. `None` where the run has no finite states there.
+    fn verify(
+        &self,
+        choice: &Choice<'a>,
+        study: &Study<'_>,
+        halvings: i32,
+        observer: &mut dyn Observer,
+    ) -> Result<Option<Verified>, Error> {
         let mut store = Store::open(&self.folder, observer)?;
-        let Outcome::Reference(reference) = store.compute_one(wanted, observer)? else { return Ok(None) };
-        let wanted = Calculation::series(problem, choice.scheme, &reference, &StepRange::Given(vec![choice.steps]));
-        let Outcome::Series(series) = store.compute_one(wanted, observer)? else { return Ok(None) };
-        let error = series.runs.first().and_then(|run| self.of.error(run));
-        let half = if is_known || self.of != Of::Position { 0.0 } else { (-self.order(choice.scheme)).exp2() };
-        Ok(error.map(|error| error.times_power_of_ten(-(1.0 - half).log10())))
+        if self.of != Of::Position {
+            let run = self.run_beside(&study.reference.of_energies(), choice, &mut store, observer)?;
+            return Ok(run.and_then(|run| self.of.error(&run)).map(Verified::Error));
+        }
+        let beside = |reference: &Reference, store: &mut Store, observer: &mut dyn Observer| {
+            let run = self.run_beside(reference, choice, store, observer)?;
+            let position = run.map_or(PositionError::None, |run| run.position);
+            Ok::<_, Error>(Verified::of_position(position, reference.error()))
+        };
+        let of_study = if halvings == 0 { beside(&study.reference.last(), &mut store, observer)? } else { None };
+        if let Some(Verified::Error(_)) = of_study {
+            return Ok(of_study);
+        }
+        // one that is not found is reported to the observer
+        let found = store.compute(&[self.at_end(choice, study)], observer)?.pop().flatten();
+        let Some(Outcome::Reference(reference)) = found else { return Ok(of_study) };
+        Ok(match (of_study, beside(&reference, &mut store, observer)?) {
+            (Some(a), Some(b)) => Some(if a.size() < b.size() { a } else { b }),
+            (a, b) => a.or(b),
+        })
+    }
+
+    /// The run of a choice.
+    fn run_beside(
+        &self,
+        reference: &Reference,
+        choice: &Choice<'a>,
+        store: &mut Store,
+        observer: &mut dyn Observer,
+    ) -> Result<Option<Measurement>, Error> {
+        let range = StepRange::Given(vec![choice.steps]);
+        let wanted = Calculation::series(self.problem, choice.scheme, reference, &range);
+        let Outcome::Series(series) = store.compute_one(wanted, observer)? else {
+            unreachable!("a series was requested")
+        };
+        Ok(series.runs.into_iter().next())
+    }
+
+    /// A reference at the end that resolves the predicted error.
+    fn at_end(&self, choice: &Choice<'a>, study: &Study<'_>) -> Calculation<'a> {
+        let error = choice.error.times_power_of_ten(-FINER.log10());
+        let seconds = (REFERENCE * self.seconds).max(OF_RUN * choice.seconds());
+        let (steps, size) = (Resolution::beside(choice.evaluations()), Size::of(&study.reference.size()));
+        Calculation::at_end(self.problem, Resolution { error, size, steps, seconds })
     }
 
     fn cost_of(&self, choice: &Choice<'_>) -> f64 {

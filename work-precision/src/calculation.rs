@@ -8,12 +8,13 @@ use shadowstep_scenes::library::NamedScheme;
 use shadowstep_studies::{self as studies, Continues};
 
 use crate::problem::Problem;
-use crate::reference::Reference;
+use crate::reference::{Origin, Reference, Resolution};
 use crate::series::{Series, SeriesOf, StepRange};
+use crate::size::Size;
 use crate::timing::{StepTime, time_of_steps};
 
 /// Outcomes of another revision are computed again; a change of what is computed needs a new one.
-const REVISION: u32 = 4;
+const REVISION: u32 = 5;
 
 /// A calculation with what it needs.
 #[derive(Serialize)]
@@ -35,10 +36,10 @@ pub(crate) struct Calculation<'a> {
 enum Quantity {
     /// The reference, with a limit in seconds.
     Reference { samples: u64, seconds: f64 },
-    /// The same from a run of this scheme with a number of steps, of which the errors of others are estimated by Richardson's rule.
-    Halved { scheme: String, samples: u64, steps: u64 },
-    /// The runs of a scheme, which is identified by its weights.
-    Series { scheme: String, samples: u64, range: StepRange },
+    /// A reference at the end alone.
+    AtEnd(Resolution),
+    /// The runs of a scheme, which is identified by its weights, beside a reference.
+    Series { scheme: String, samples: u64, origin: Origin, error: Size, range: StepRange },
     /// The time of a step of each scheme, with a number of steps to the end.
     Times { schemes: Vec<(String, u64)> },
 }
@@ -57,8 +58,8 @@ impl<'a> Calculation<'a> {
         Calculation::new(problem, quantity, Vec::new(), None)
     }
 
-    pub(crate) fn halved(problem: Problem<'a>, scheme: &'a NamedScheme, (samples, steps): (u64, u64)) -> Self {
-        Calculation::new(problem, Quantity::Halved { scheme: scheme.identity(), samples, steps }, vec![scheme], None)
+    pub(crate) fn at_end(problem: Problem<'a>, resolution: Resolution) -> Self {
+        Calculation::new(problem, Quantity::AtEnd(resolution), Vec::new(), None)
     }
 
     pub(crate) fn series(
@@ -67,8 +68,13 @@ impl<'a> Calculation<'a> {
         reference: &'a Reference,
         range: &StepRange,
     ) -> Self {
-        let quantity =
-            Quantity::Series { scheme: scheme.identity(), samples: reference.samples(), range: range.clone() };
+        let quantity = Quantity::Series {
+            scheme: scheme.identity(),
+            samples: reference.samples(),
+            origin: reference.origin.clone(),
+            error: reference.error(),
+            range: range.clone(),
+        };
         Calculation::new(problem, quantity, vec![scheme], Some(reference))
     }
 
@@ -95,8 +101,8 @@ impl studies::Calculation for Calculation<'_> {
     fn cost(&self) -> f64 {
         match &self.quantity {
             Quantity::Reference { seconds, .. }
+            | Quantity::AtEnd(Resolution { seconds, .. })
             | Quantity::Series { range: StepRange::Automatic { seconds, .. }, .. } => *seconds,
-            Quantity::Halved { steps, .. } => *steps as f64 * 1e-6,
             Quantity::Series { range: StepRange::Given(steps), .. } => steps.iter().sum::<u64>() as f64 * 1e-6,
             Quantity::Times { schemes } => schemes.len() as f64 * 0.1,
         }
@@ -108,8 +114,8 @@ impl studies::Calculation for Calculation<'_> {
                 let time = Duration::from_secs_f64(*seconds);
                 Reference::compute(self.problem, *samples, time, &|| continues(0.5)).map(Outcome::Reference)
             }
-            Quantity::Halved { samples, steps, .. } => {
-                Reference::of_run(self.problem, self.schemes[0], (*samples, *steps)).map(Outcome::Reference)
+            Quantity::AtEnd(resolution) => {
+                Reference::at_end(self.problem, *resolution, &|| continues(0.5)).map(Outcome::Reference)
             }
             Quantity::Series { range, .. } => {
                 let reference = self.reference.expect("a series has one");

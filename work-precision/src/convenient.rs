@@ -1,15 +1,16 @@
 //! Step sizes that are easy to write: 1/20, 1/250, 0.45, 2, 45.
 
-use shadowstep::Rational;
+use num_traits::{Signed, ToPrimitive};
+use shadowstep::{Number, Rational};
 
 /// The digits of convenient numbers: neighbours differ by an eighth at most.
 const DIGITS: [i64; 22] =
     [100, 110, 120, 125, 140, 150, 160, 180, 200, 220, 240, 250, 280, 300, 320, 360, 400, 450, 500, 600, 700, 800];
-/// A step of which the time is a multiple is preferred to one that is larger by this factor at most.
+/// A convenient step is preferred to one that is larger by this factor at most.
 const PREFERENCE: f64 = 1.09;
 
-/// The largest convenient step size that is not larger than h: a number of up to three digits, or 1 divided by a whole one. One of which
-/// the time is a multiple is preferred, if it is about as large.
+/// The largest step size of at most h of which the time is a multiple: a convenient one, which is a number of up to three digits or 1 divided
+/// by a whole one, where such a one is about as large; else the time divided by the fewest steps.
 ///
 /// # Panics
 /// If h is not positive and finite.
@@ -27,9 +28,15 @@ pub(crate) fn convenient_step(h: f64, time: &Rational) -> Rational {
     let fractions = fractions.map(|number| (1.0 / value(number), scaled(number).recip()));
     let mut all: Vec<(f64, Rational)> = decimals.chain(fractions).collect();
     all.sort_by(|a, b| b.0.total_cmp(&a.0));
-    let (largest, step) = all.first().expect("there are smaller ones").clone();
+    let largest = all.first().map_or(h, |(size, _)| *size);
     let near = all.into_iter().take_while(|(size, _)| size * PREFERENCE >= largest);
-    near.map(|(_, step)| step).find(|step| (time / step).is_integer()).unwrap_or(step)
+    near.map(|(_, step)| step).find(|step| (time / step).is_integer()).unwrap_or_else(|| equal_part(time, most))
+}
+
+/// |time| divided by the fewest parts that are not larger than this.
+fn equal_part(time: &Rational, most: f64) -> Rational {
+    let parts = (<f64 as Number>::from_rational(time, &()).abs() / most).ceil().max(1.0);
+    time.abs() / Rational::from_integer(parts.to_u64().unwrap_or(u64::MAX).into())
 }
 
 /// Convenient numbers from a tenth to ten times x and beyond, in their order: digits and a power of ten.
@@ -52,21 +59,27 @@ fn scaled((digits, zeros): (i64, i32)) -> Rational {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use shadowstep::{Number, exact};
+    use shadowstep::exact;
 
     #[test]
-    fn convenient_steps_divide_the_time_or_are_short() {
-        for (h, time, expected) in [(0.0526, "100", "1/20"), (0.72, "100", "7/10"), (47.0, "20000", "45")] {
+    fn steps_divide_the_time_and_are_convenient_where_that_costs_little() {
+        let cases =
+            [(0.0526, "100", "1/20"), (0.72, "100", "100/139"), (52.0, "20000", "50"), (47.0, "20000", "10000/213")];
+        for (h, time, expected) in cases {
             assert_eq!(convenient_step(h, &exact(time).unwrap()), exact(expected).unwrap(), "{h}");
         }
     }
 
     #[test]
-    fn convenient_steps_are_a_little_smaller() {
-        for i in -300..300 {
+    fn steps_are_a_little_smaller_and_end_at_the_time() {
+        let time = exact("-100").unwrap();
+        for i in -300..60 {
             let h = 10_f64.powf(f64::from(i) / 37.0);
-            let step = <f64 as Number>::from_rational(&convenient_step(h, &Rational::from_integer(100.into())), &());
-            assert!(step <= h * (1.0 + 1e-9) && step > 0.8 * h, "{h}: {step}");
+            let exact = convenient_step(h, &time);
+            let step = <f64 as Number>::from_rational(&exact, &());
+            assert!((&time / &exact).is_integer(), "{h}: {exact}");
+            // about 100/h parts: one more of three makes a quarter
+            assert!(step <= h * (1.0 + 1e-9) && step > 0.74 * h, "{h}: {step}");
         }
     }
 }

@@ -23,6 +23,8 @@ use crate::size::Size;
 
 /// Of order 10 for every T(p); its weights have 250 digits.
 const SCHEME: &str = "sofroniou-spaletta10-35";
+/// Its evaluations in a step.
+const EVALUATIONS: f64 = 35.0;
 /// Digits beyond those of the schemes' runs.
 const MORE_DIGITS: u32 = 12;
 /// The digits of the reference, which its scheme's weights must have.
@@ -30,6 +32,11 @@ const MOST_REFERENCE_DIGITS: u32 = 240;
 /// Halving the step of a scheme of order 10 divides its error by 1024; where it divides the differences by this and more, the scheme shows
 /// its order, and the error is less than the last difference by this factor.
 const GAIN: f64 = 256.0;
+
+/// Numbers of the runs resolve an error that is above their last digits by this number of digits.
+const ROUND_OFF_DIGITS: u32 = 4;
+/// A difference that half the step improves by less than this has come to round-off, or the steps are still too large; log₁₀.
+const STALLED: f64 = 0.3;
 
 /// Positions q(i T/samples), i = 1, …, samples, as decimal texts, and their errors.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -58,6 +65,26 @@ pub enum Origin {
     },
 }
 
+/// How well a position at the end is to be known.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub(crate) struct Resolution {
+    /// The error.
+    pub(crate) error: Size,
+    /// The largest coordinate.
+    pub(crate) size: Size,
+    /// The steps of the first run.
+    pub(crate) steps: u64,
+    /// The limit of the time.
+    pub(crate) seconds: f64,
+}
+
+impl Resolution {
+    /// The reference for a run of this number of evaluations begins with as many.
+    pub(crate) fn beside(evaluations: f64) -> u64 {
+        (evaluations / EVALUATIONS).ceil().max(1.0).to_u64().unwrap_or(1)
+    }
+}
+
 impl Reference {
     /// The reference of a problem; `time` limits what a scheme takes for it, and `continues` stops it.
     ///
@@ -71,7 +98,13 @@ impl Reference {
     ) -> Result<Reference, Error> {
         let reference = match with_exact_flow(problem.system) {
             Some(setup) => of_exact_flow(problem, &setup, samples),
-            None => of_scheme(problem, samples, time, continues),
+            None => {
+                let arithmetic = more_digits(problem)?;
+                let target = f64::from(problem.arithmetic.digits() + 2);
+                let enough = |error: f64, size: f64| error <= size - target;
+                let steps = first_steps(problem, samples);
+                of_scheme(problem, arithmetic, Halving { samples, steps, time, gain: true, enough: &enough, continues })
+            }
         }?;
         if problem.arithmetic.compute(Overflows(&reference)) {
             let message =
@@ -81,11 +114,49 @@ impl Reference {
         Ok(reference)
     }
 
-    /// The positions of a run in the number type of the problem, with no estimate of their error.
-    pub(crate) fn of_run(problem: Problem<'_>, named: &NamedScheme, run: (u64, u64)) -> Result<Reference, Error> {
-        let positions = problem.arithmetic.compute(Texts { problem, named, run })?;
-        let origin = Origin::Scheme { name: named.name.clone(), steps: run.1, digits: problem.arithmetic.digits() };
-        Ok(Reference { errors: vec![Size::ZERO; positions.len()], positions, origin })
+    /// The position at the end alone, by the exact flow, or by a scheme with an error of about this size: in the numbers of the runs
+    /// with compensated sums, where their round-off is smaller, else with more digits.
+    ///
+    /// # Errors
+    /// As [`Reference::compute`].
+    pub(crate) fn at_end(
+        problem: Problem<'_>,
+        resolution: Resolution,
+        continues: &dyn Fn() -> bool,
+    ) -> Result<Reference, Error> {
+        let Resolution { error, size, steps, seconds } = resolution;
+        let time = Duration::from_secs_f64(seconds);
+        if let Some(setup) = with_exact_flow(problem.system) {
+            return of_exact_flow(problem, &setup, 1);
+        }
+        let enough = |difference: f64, _: f64| difference <= error.log10();
+        let own = if problem.arithmetic == Arithmetic::DOUBLE { Arithmetic::COMPENSATED } else { problem.arithmetic };
+        let mut found = None;
+        if error.log10() > size.log10() - f64::from(own.digits() - ROUND_OFF_DIGITS) {
+            let request = Halving { samples: 1, steps, time, gain: false, enough: &enough, continues };
+            found = of_scheme(problem, own, request).ok().filter(|found| found.error().is_finite());
+            if let Some(found) = found.as_ref().filter(|found| found.error() <= error) {
+                return Ok(found.clone());
+            }
+        }
+        let request = Halving { samples: 1, steps, time, gain: true, enough: &enough, continues };
+        let precise = more_digits(problem).and_then(|arithmetic| of_scheme(problem, arithmetic, request));
+        match (precise, found) {
+            (Ok(precise), Some(found)) => Ok(if found.error() < precise.error() { found } else { precise }),
+            (precise, found) => found.map_or(precise, Ok),
+        }
+    }
+
+    /// The same at the end alone.
+    pub(crate) fn last(&self) -> Reference {
+        let (positions, errors) = (self.positions.last().cloned(), self.errors.last().copied());
+        let origin = self.origin.clone();
+        Reference { positions: positions.into_iter().collect(), errors: errors.into_iter().collect(), origin }
+    }
+
+    /// The same without knowledge of any position: energies need none.
+    pub(crate) fn of_energies(&self) -> Reference {
+        Reference { errors: vec![Size::INFINITE], ..self.last() }
     }
 
     /// What positions are compared with, in a sentence.
@@ -134,27 +205,6 @@ impl Reference {
             [first, second]
         };
         self.positions.iter().map(parts).collect()
-    }
-}
-
-/// The positions of a run as texts, in any number type.
-struct Texts<'a> {
-    problem: Problem<'a>,
-    named: &'a NamedScheme,
-    /// Samples and steps.
-    run: (u64, u64),
-}
-
-impl Computation for Texts<'_> {
-    type Output = Result<Vec<Vec<String>>, Error>;
-
-    fn compute<N: RunNumber>(self, context: &N::Context) -> Self::Output {
-        let Texts { problem, named, run: (samples, steps) } = self;
-        let found = positions::<N>(problem, named, (steps, samples), context)?;
-        if (found.len() as u64) < samples {
-            return Err(Error::run("the states of a run with half the step are not finite", "use a shorter time"));
-        }
-        Ok(found.iter().map(|position| position.iter().map(Real::to_text).collect()).collect())
     }
 }
 
@@ -208,12 +258,8 @@ impl Computation for ExactTexts<'_> {
     }
 }
 
-fn of_scheme(
-    problem: Problem<'_>,
-    samples: u64,
-    time: Duration,
-    continues: &dyn Fn() -> bool,
-) -> Result<Reference, Error> {
+/// The number type of a reference.
+fn more_digits(problem: Problem<'_>) -> Result<Arithmetic, Error> {
     let digits = problem.arithmetic.digits() + MORE_DIGITS;
     if digits > MOST_REFERENCE_DIGITS {
         let most = MOST_REFERENCE_DIGITS - MORE_DIGITS;
@@ -223,33 +269,45 @@ fn of_scheme(
             format!("use --digits {most} or less, or a problem whose exact flow is known"),
         ));
     }
-    let arithmetic = precise(digits)?;
-    let (target, named) = (f64::from(problem.arithmetic.digits() + 2), for_system(scheme(SCHEME)?, problem.system)?);
-    let problem = Problem { arithmetic, ..problem };
-    arithmetic.compute(ByHalving { problem, named, digits, target, samples, time, continues })
+    precise(digits)
 }
 
-/// Halves the step until the error is below the round-off of the schemes' runs, or the time is over.
+fn of_scheme(problem: Problem<'_>, arithmetic: Arithmetic, request: Halving<'_>) -> Result<Reference, Error> {
+    let named = for_system(scheme(SCHEME)?, problem.system)?;
+    let problem = Problem { arithmetic, ..problem };
+    arithmetic.compute(ByHalving { problem, named, request })
+}
+
+/// How far the step is halved.
+#[derive(Clone, Copy)]
+struct Halving<'a> {
+    samples: u64,
+    /// The steps of the first run.
+    steps: u64,
+    time: Duration,
+    /// Whether an error is smaller than the difference where the scheme shows its order: not where it may be round-off.
+    gain: bool,
+    /// Whether an error is small enough beside the largest coordinate; log₁₀ of both.
+    enough: &'a dyn Fn(f64, f64) -> bool,
+    continues: &'a dyn Fn() -> bool,
+}
+
+/// Halves the step until the error is small enough, or the time is over.
 struct ByHalving<'a> {
     problem: Problem<'a>,
     named: NamedScheme,
-    digits: u32,
-    /// The error is to be below the largest coordinate by this number of digits.
-    target: f64,
-    samples: u64,
-    time: Duration,
-    continues: &'a dyn Fn() -> bool,
+    request: Halving<'a>,
 }
 
 impl Computation for ByHalving<'_> {
     type Output = Result<Reference, Error>;
 
     fn compute<N: RunNumber>(self, context: &N::Context) -> Self::Output {
-        let ByHalving { problem, named, digits, target, samples, time, continues } = self;
+        let ByHalving { problem, named, request } = self;
+        let Halving { samples, mut steps, time, continues, .. } = request;
         let begin = CpuTime::begin();
-        let mut steps = first_steps(problem, samples);
         let (mut last, mut last_difference): (Option<Vec<Vec<N>>>, f64) = (None, f64::INFINITY);
-        let (mut best, mut are_finite): (Option<Reference>, bool) = (None, false);
+        let (mut best, mut are_finite, mut stalled): (Option<Reference>, bool, u32) = (None, false, 0);
         while continues() {
             let found = positions::<N>(problem, &named, (steps, samples), context)?;
             are_finite |= found.len() as u64 == samples;
@@ -257,12 +315,14 @@ impl Computation for ByHalving<'_> {
                 let differences = distances(&before, &found, context);
                 let difference = differences.iter().map(|size| size.log10()).fold(f64::NEG_INFINITY, f64::max);
                 let shows_order = last_difference - difference >= GAIN.log10();
-                let gain = if shows_order { GAIN.log10() } else { 0.0 };
+                let gain = if shows_order && request.gain { GAIN.log10() } else { 0.0 };
                 let errors = differences.iter().map(|size| size.times_power_of_ten(-gain)).collect();
                 let texts = |position: &Vec<N>| position.iter().map(Real::to_text).collect();
-                let origin = Origin::Scheme { name: SCHEME.to_owned(), steps, digits };
+                let origin = Origin::Scheme { name: SCHEME.to_owned(), steps, digits: problem.arithmetic.digits() };
                 best = Some(Reference { positions: found.iter().map(texts).collect(), errors, origin });
-                if difference - gain <= largest(&found) - target {
+                stalled = if last_difference - difference < STALLED { stalled + 1 } else { 0 };
+                // with few digits that is round-off
+                if (request.enough)(difference - gain, largest(&found)) || stalled > 1 && !request.gain {
                     break;
                 }
                 last_difference = difference;
