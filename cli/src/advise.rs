@@ -151,7 +151,8 @@ fn readable(posed: &PosedProblem, request: &AdviceRequest<'_>, advice: &Advice<'
         }
         Advice::Found { choices, verified, part } => {
             let best = &choices[0];
-            let name = format!("{}, step {}", best.scheme.name, to_text(&best.step));
+            let of_time = if request.problem.length.is_some() { " of s" } else { "" };
+            let name = format!("{}, step {}{of_time}", best.scheme.name, to_text(&best.step));
             text += &format!("{}\n", if coloured { heading(&name) } else { name });
             text += &evidence(best, *verified, *part);
             for other in &choices[1..] {

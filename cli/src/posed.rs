@@ -9,6 +9,7 @@ use shadowstep_scenes::library::NamedScheme;
 use shadowstep_scenes::{Error, Scene, source};
 use shadowstep_schemes::document::document;
 use shadowstep_symbolic::decimal::to_text;
+use shadowstep_work_precision::length::length_of;
 use shadowstep_work_precision::problem::Problem;
 
 use crate::quantity::{self, whole};
@@ -20,7 +21,7 @@ use crate::system::{Described, is_file};
 pub(crate) struct PosedArguments {
     #[command(flatten)]
     system: SystemArguments,
-    /// The time at which runs end, exact, such as 100; of a scene with [time], the fictitious time s [default: that of the scene]
+    /// The time at which runs end, exact, such as 100; of a scene with [time] a physical time as well [default: that of the scene]
     #[arg(long, value_name = "T", allow_hyphen_values = true)]
     until: Option<String>,
     /// Decimal digits of all numbers, such as 50 [default: those of the scene, else double precision]
@@ -43,6 +44,8 @@ fn has_run(path: &str) -> Result<bool, Error> {
 pub(crate) struct PosedProblem {
     pub(crate) described: Described,
     pub(crate) until: Rational,
+    /// About the length of the runs in s, where time is transformed.
+    pub(crate) length: Option<Rational>,
     pub(crate) arithmetic: Arithmetic,
 }
 
@@ -68,24 +71,30 @@ impl PosedProblem {
         };
         let until = match (&arguments.until, &scene) {
             (Some(text), _) => quantity::number("--until", text)?,
-            (None, Some(scene)) => scene.h.exact() * Rational::from_integer(scene.steps().into()),
+            (None, Some(Scene { until: Some(until), .. })) => until.clone(),
+            (None, Some(_)) => {
+                let message = "--until is missing: [run] has a number of steps, whose physical time is not known";
+                return Err(Error::usage(message, "give the end of the runs: --until 100"));
+            }
             (None, None) => return Err(Error::usage("--until is missing", "give the end of the runs: --until 100")),
         };
         if until == Rational::from_integer(0.into()) {
             return Err(Error::usage("--until 0: the runs must have a length", "write --until 100"));
         }
-        Ok(PosedProblem { described: Described::read(&arguments.system, arithmetic)?, until, arithmetic })
+        let described = Described::read(&arguments.system, arithmetic)?;
+        let length = length_of(&described.system, &until)?;
+        Ok(PosedProblem { described, until, length, arithmetic })
     }
 
     pub(crate) fn problem(&self) -> Problem<'_> {
-        Problem { system: &self.described.system, until: &self.until, arithmetic: self.arithmetic }
+        let PosedProblem { described, until, length, arithmetic } = self;
+        Problem { system: &described.system, until, arithmetic: *arithmetic, length: length.as_ref() }
     }
 
     /// The problem, the time and the number type in a line.
     pub(crate) fn title(&self) -> String {
-        let PosedProblem { described, until, arithmetic } = self;
-        let time = if described.system.transformed_time().is_some() { "s" } else { "t" };
-        format!("{}, {time} = 0 to {}, {}", described.title, to_text(until), arithmetic.described())
+        let PosedProblem { described, until, arithmetic, .. } = self;
+        format!("{}, t = 0 to {}, {}", described.title, to_text(until), arithmetic.described())
     }
 }
 

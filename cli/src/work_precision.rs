@@ -13,6 +13,7 @@ use shadowstep_scenes::propagator::for_system;
 use shadowstep_scenes::{Error, System, shell_word};
 use shadowstep_symbolic::decimal::to_text;
 use shadowstep_work_precision::files::{Title, write, written};
+use shadowstep_work_precision::length::common_multiple;
 use shadowstep_work_precision::schemes::default_schemes;
 use shadowstep_work_precision::series::StepRange;
 use shadowstep_work_precision::study::Request;
@@ -48,7 +49,7 @@ pub(crate) struct Arguments {
     /// catalogue that are valid for the kinetic energy, `near-integrable` those with orders for A + εB [default: a dozen that are]
     #[arg(long, value_name = "NAME|FILE,…", value_delimiter = ',')]
     schemes: Vec<String>,
-    /// Step sizes, exact, which the end of the runs must be multiples of, such as 1/10,1/20 [default: from the stability limit down to
+    /// Step sizes, exact, which the end of the runs must be multiples of, such as 1/10,1/20; in transformed time any steps of s [default: from the stability limit down to
     /// round-off, at equal numbers of evaluations for all schemes]
     #[arg(long, value_name = "H,…", value_delimiter = ',', allow_hyphen_values = true)]
     steps: Vec<String>,
@@ -68,10 +69,10 @@ const REFERENCE: f64 = 10.0;
 
 /// Makes the runs, and writes charts and data.
 pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
-    let posed = PosedProblem::read(&arguments.posed)?;
-    let problem = posed.problem();
+    let mut posed = PosedProblem::read(&arguments.posed)?;
     let schemes = schemes(&arguments.schemes, &posed)?;
-    let range = range(arguments, &posed.until)?;
+    let range = range(arguments, &mut posed)?;
+    let problem = posed.problem();
     let reference_time = Duration::from_secs_f64(REFERENCE * arguments.seconds);
     let study = |folder: &Path, terminal: &mut Terminal| {
         Request { problem, schemes: &schemes, range, reference_time, folder: folder.to_owned() }.study(terminal)
@@ -150,10 +151,16 @@ fn valid(scheme: NamedScheme, system: &System, posed: &PosedProblem) -> Result<N
 }
 
 /// The steps: those of the flag, or chosen for each scheme.
-fn range(arguments: &Arguments, until: &Rational) -> Result<StepRange, Error> {
+fn range(arguments: &Arguments, posed: &mut PosedProblem) -> Result<StepRange, Error> {
     if arguments.steps.is_empty() {
         return Ok(StepRange::Automatic { seconds: arguments.seconds, target: None });
     }
+    if let Some(length) = &mut posed.length {
+        // the steps to the end are about as many as there are in a length that is a multiple of all
+        let step = |text: &String| Ok(quantity::step_size("--steps", text)?.exact().clone());
+        *length = common_multiple(length, &arguments.steps.iter().map(step).collect::<Result<Vec<_>, Error>>()?);
+    }
+    let until = posed.length.as_ref().unwrap_or(&posed.until);
     let count = |text: &String| {
         let h = quantity::step_size("--steps", text)?;
         let count = quantity::steps((&h, text), until)?;

@@ -84,6 +84,8 @@ def integrate(
     *,
     steps: int | None,
     until: str | None,
+    first: str | None,
+    gradient_kicks: str,
     every: int,
     digits: str,
     mpfr: bool,

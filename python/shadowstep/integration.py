@@ -32,7 +32,7 @@ class Trajectory:
     n: np.ndarray
     """The numbers of the states, of shape (n,)."""
     t: np.ndarray
-    """Their times t = n h, of shape (n,)."""
+    """Their times t = n h, of shape (n,); in transformed time the physical ones."""
     q: np.ndarray
     """Positions, of shape (n, d)."""
     p: np.ndarray
@@ -105,6 +105,8 @@ def integrate(
     until: Number | None = None,
     *,
     steps: int | None = None,
+    first: str | None = None,
+    gradient_kicks: str = "exact",
     every: int = 1,
     digits: Union[int, str] = "double",
     mpfr: bool = False,
@@ -129,7 +131,12 @@ def integrate(
     h
         The step size, exact: ``"1/20"``; a float is the decimal that Python prints. A negative one goes back in time.
     until, steps
-        One of the two: the time at which the run ends at the latest, or the number of steps.
+        One of the two: the time at which the run ends at the latest, or the number of steps. In transformed time h is a step of s and ``until`` a
+        physical time, to which a last step is made.
+    first
+        ``"kick"`` or ``"drift"``: what steps begin with, in place of what the table has.
+    gradient_kicks
+        ``"exact"``, or ``"displaced"``, which needs no second derivatives.
     every
         The states 0, every, 2 every, … and the last one are kept.
     digits
@@ -174,6 +181,8 @@ def integrate(
             exact(h, "h"),
             steps=steps,
             until=None if until is None else exact(until, "until"),
+            first=first,
+            gradient_kicks=gradient_kicks,
             every=count(every, "every"),
             digits=str(digits),
             mpfr=mpfr,

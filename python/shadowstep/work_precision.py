@@ -75,7 +75,7 @@ def work_precision(
     Parameters
     ----------
     until
-        The end of the runs.
+        The end of the runs, a physical time.
     schemes
         By default a dozen that are valid for the problem.
     steps

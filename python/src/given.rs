@@ -166,3 +166,11 @@ pub(crate) fn arithmetic(py: Python<'_>, digits: &str, mpfr: bool) -> PyResult<A
         _ => Err(usage(py, format!("digits = {digits} is not a number type"), hint)),
     }
 }
+
+/// The meaning of a word among those that an option has.
+pub(crate) fn word<T: Copy>(py: Python<'_>, option: &str, word: &str, known: &[(&str, T)]) -> PyResult<T> {
+    known.iter().find(|(name, _)| *name == word).map(|(_, value)| *value).ok_or_else(|| {
+        let names = known.iter().map(|(name, _)| format!("\"{name}\"")).collect::<Vec<_>>().join(", ");
+        usage(py, format!("{option} = \"{word}\" is not known"), format!("it is one of {names}"))
+    })
+}

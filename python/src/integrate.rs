@@ -8,21 +8,22 @@ use shadowstep::{Rational, StepSize};
 use shadowstep_scenes::arithmetic::Arithmetic;
 use shadowstep_scenes::computation::{Computation, RunNumber};
 use shadowstep_scenes::integrate::{Integration, Samples};
-use shadowstep_scenes::library::NamedScheme;
+use shadowstep_scenes::library::{NamedScheme, check_displaced};
 use shadowstep_scenes::propagator::for_system;
 use shadowstep_scenes::run::{OrderSetting, Run};
 use shadowstep_scenes::stability::unstable;
 use shadowstep_scenes::{Error, Note, Observer, System, estimator, steps};
+use shadowstep_schemes::First;
 
-use crate::errors::{exception, usage};
+use crate::errors::{exception, of_library, usage};
 use crate::estimator::Options;
-use crate::given::{Given, arithmetic, number, step_size};
+use crate::given::{Given, arithmetic, number, step_size, word};
 use crate::scheme::Table;
 use crate::waiting::waiting;
 
 /// Makes a run, and gives a dictionary of its states: arrays in double precision, else lists of decimal texts.
 #[pyfunction]
-#[pyo3(signature = (problem, scheme, h, *, steps, until, every, digits, mpfr, options, progress))]
+#[pyo3(signature = (problem, scheme, h, *, steps, until, first, gradient_kicks, every, digits, mpfr, options, progress))]
 #[allow(clippy::too_many_arguments)] // the package's own function has the defaults
 pub(crate) fn integrate<'py>(
     py: Python<'py>,
@@ -31,6 +32,8 @@ pub(crate) fn integrate<'py>(
     h: &str,
     steps: Option<u64>,
     until: Option<&str>,
+    first: Option<&str>,
+    gradient_kicks: &str,
     every: u64,
     digits: &str,
     mpfr: bool,
@@ -38,18 +41,34 @@ pub(crate) fn integrate<'py>(
     progress: Option<&Bound<'py, PyAny>>,
 ) -> PyResult<Bound<'py, PyDict>> {
     let arithmetic = arithmetic(py, digits, mpfr)?;
-    let times = Times::of(py, h, steps, until)?;
     let estimator = options.map(|options| options.settings(py)).transpose()?;
     let is_between = estimator.as_ref().is_some_and(EstimatorSettings::is_between);
-    let (given, scheme) = (problem.clone(), scheme.0.clone());
+    let first = first.map(|given| word(py, "first", given, &[("kick", First::Kick), ("drift", First::Drift)]));
+    let scheme = match first.transpose()? {
+        Some(first) => scheme.0.beginning_with(first).map_err(|error| of_library(py, error))?,
+        None => scheme.0.clone(),
+    };
+    let displaced = word(py, "gradient_kicks", gradient_kicks, &[("exact", false), ("displaced", true)])?;
+    let failed = |error| exception(py, error);
+    let times = match (until, steps) {
+        (Some(until), None) if problem.system(arithmetic).map_err(failed)?.transformed_time().is_some() => {
+            Times::physical(py, h, until)?
+        }
+        _ => Times::of(py, h, steps, until)?,
+    };
+    let given = problem.clone();
     let found = waiting(py, progress, move |watched| {
         let posed = SystemWithScheme::of(&given, &scheme, arithmetic)?;
-        let (found, mut notes) = posed.run(&times, every, estimator.as_ref(), arithmetic, &mut watched.observer())?;
+        if displaced {
+            check_displaced(&posed.scheme)?;
+        }
+        let runs = (&times, displaced);
+        let (found, mut notes) = posed.run(runs, every, estimator.as_ref(), arithmetic, &mut watched.observer())?;
         notes.extend(times.note);
         Ok((found, notes, posed.system.problem))
     });
     problem.raised(py)?;
-    let (found, notes, problem) = found?.map_err(|error| exception(py, error))?;
+    let (found, notes, problem) = found?.map_err(failed)?;
     let dictionary = found.into_dictionary(py)?;
     dictionary.set_item("notes", PyList::new(py, notes.iter().map(Note::to_string))?)?;
     dictionary.set_item("coordinates", &problem.coordinates)?;
@@ -62,6 +81,8 @@ pub(crate) fn integrate<'py>(
 pub(crate) struct Times {
     pub(crate) h: StepSize,
     pub(crate) steps: u64,
+    /// The physical time at which the run ends, where time is transformed.
+    physical_end: Option<Rational>,
     note: Option<Note>,
 }
 
@@ -83,7 +104,15 @@ impl Times {
     fn until(py: Python<'_>, (h, step): (StepSize, &str), (until, end): (Rational, &str)) -> PyResult<Self> {
         let steps = steps::count((&h, step), (&until, end));
         let steps = steps.map_err(|error| usage(py, error.to_string(), error.hint()))?;
-        Ok(Times { note: Note::of_end(h.exact(), steps, &until), h, steps })
+        Ok(Times { note: Note::of_end(h.exact(), steps, &until), h, steps, physical_end: None })
+    }
+
+    /// The end is a physical time, where time is transformed: how many steps there are is found by making them.
+    fn physical(py: Python<'_>, step: &str, end: &str) -> PyResult<Self> {
+        let (h, until) = (step_size(py, step)?, number(py, end)?);
+        let checked = steps::check_physical_end((&h, step), (&until, end));
+        checked.map_err(|error| usage(py, error.to_string(), error.hint()))?;
+        Ok(Times { h, steps: 0, physical_end: Some(until), note: None })
     }
 }
 
@@ -109,7 +138,7 @@ impl SystemWithScheme {
 
     fn run(
         &self,
-        times: &Times,
+        (times, displaced): (&Times, bool),
         every: u64,
         estimator: Option<&EstimatorSettings>,
         arithmetic: Arithmetic,
@@ -120,7 +149,8 @@ impl SystemWithScheme {
         let run = Run { propagator: &self.scheme.name, h: &times.h, steps: times.steps, order };
         let compensated = arithmetic.is_compensated();
         let (system, scheme) = (&self.system, &self.scheme.scheme);
-        let integration = Integration { system, scheme, run, compensated, every, estimator };
+        let until = times.physical_end.as_ref();
+        let integration = Integration { system, scheme, run, compensated, displaced, until, every, estimator };
         let found = match arithmetic.is_longer_than_double() {
             false => Integrated::Doubles(integration.run::<f64>(&(), observer)?),
             true => Integrated::Texts(arithmetic.compute(InTexts { integration, observer })?),

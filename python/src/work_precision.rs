@@ -11,6 +11,7 @@ use shadowstep_scenes::library::NamedScheme;
 use shadowstep_scenes::{Error, System};
 use shadowstep_symbolic::decimal::to_text;
 use shadowstep_work_precision::advise::{Advice, AdviceRequest, Choice, Verified};
+use shadowstep_work_precision::length::length_of;
 use shadowstep_work_precision::of::Of;
 use shadowstep_work_precision::problem::Problem;
 use shadowstep_work_precision::run::{Measurement, PositionError};
@@ -20,7 +21,7 @@ use shadowstep_work_precision::size::Size;
 use shadowstep_work_precision::study::{Cost, Request, Studied, Study};
 
 use crate::errors::{exception, usage};
-use crate::given::{Given, arithmetic, number};
+use crate::given::{Given, arithmetic, number, word};
 use crate::integrate::SystemWithScheme;
 use crate::scheme::Table;
 use crate::waiting::waiting;
@@ -29,6 +30,8 @@ use crate::waiting::waiting;
 struct Compared {
     system: System,
     until: Rational,
+    /// About the length of the runs in s, where time is transformed.
+    length: Option<Rational>,
     arithmetic: Arithmetic,
     schemes: Vec<NamedScheme>,
 }
@@ -66,11 +69,13 @@ impl Compared {
         };
         let valid = |scheme| SystemWithScheme::of(&problem, scheme, arithmetic).map(|posed| posed.scheme);
         let schemes = given.iter().map(valid).collect::<Result<_, _>>()?;
-        Ok(Compared { system, until, arithmetic, schemes })
+        let length = length_of(&system, &until)?;
+        Ok(Compared { system, until, length, arithmetic, schemes })
     }
 
     fn problem(&self) -> Problem<'_> {
-        Problem { system: &self.system, until: &self.until, arithmetic: self.arithmetic }
+        let Compared { system, until, length, arithmetic, .. } = self;
+        Problem { system, until, arithmetic: *arithmetic, length: length.as_ref() }
     }
 }
 
@@ -122,7 +127,7 @@ fn of_study(study: &Study<'_>) -> Value {
 }
 
 fn of_run(study: &Study<'_>, studied: &Studied<'_>, run: &Measurement) -> Value {
-    let h = study.problem.until / Rational::from_integer(run.steps.into());
+    let h = study.problem.step_size(run.steps);
     let (position, below) = match run.position {
         PositionError::Known(size) => (number_of(size), None),
         PositionError::Below(size) => (None, number_of(size)),
@@ -215,12 +220,5 @@ fn of_choice(choice: &Choice<'_>) -> Value {
         "stable_step": choice.stable_step,
         "conserved_up_to": choice.conserved_up_to,
         "lost_from": choice.lost_from,
-    })
-}
-
-fn word<T: Copy>(py: Python<'_>, option: &str, word: &str, known: &[(&str, T)]) -> PyResult<T> {
-    known.iter().find(|(name, _)| *name == word).map(|(_, value)| *value).ok_or_else(|| {
-        let names = known.iter().map(|(name, _)| format!("\"{name}\"")).collect::<Vec<_>>().join(", ");
-        usage(py, format!("{option} = \"{word}\" is not known"), format!("it is one of {names}"))
     })
 }

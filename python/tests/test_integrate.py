@@ -266,6 +266,39 @@ def test_planets_and_transformed_time():
     assert np.allclose(run.energy, -0.5, atol=1e-2)
 
 
+def test_transformed_time_ends_at_a_physical_time():
+    kepler = Problem("kepler", eccentricity="9/10", time={"transform": "logarithmic"})
+    exact = integrate(Problem("kepler", eccentricity="9/10"), "sofroniou-spaletta10-35", h="1/1000", until=20, every=20_000).q[-1]
+    for first, estimator in [(None, None), ("kick", None), ("drift", "bilinear"), ("drift", "central")]:
+        run = integrate(kepler, "sofroniou-spaletta6-13", h="1/20", until=20, first=first, estimator=estimator)
+        assert run.t[-1] == 20 and np.all(np.diff(run.t) > 0) and abs(run.n[-1] - 400) < 40
+        # of order 6 with a twentieth of the eccentric anomaly
+        assert np.allclose(run.q[-1], exact, atol=1e-7), (first, estimator)
+    assert integrate(kepler, "yoshida4", h="-1/20", until=-5).t[-1] == -5
+    # a step of s may be longer than the time
+    assert integrate(kepler, "yoshida4", h="1/2", until="1/10").t.tolist() == [0, 0.1]
+    with pytest.raises(InputError, match="the signs differ"):
+        integrate(kepler, "yoshida4", h="1/20", until=-5)
+    # the study and the advice are for the same time
+    curve = shadowstep.work_precision(kepler, 20, ["sofroniou-spaletta6-13"], steps=[400, 800])[0]
+    assert curve.runs[0].position_error < 1e-7
+    advice = shadowstep.advise(kepler, 20, 1e-6, schemes=["sofroniou-spaletta6-13"])
+    found = integrate(kepler, "sofroniou-spaletta6-13", h=advice.choices[0].h, until=20).q[-1]
+    assert abs(np.linalg.norm(found - exact) / advice.verified - 1) < 0.1
+
+
+def test_steps_begin_with_the_map_that_is_asked_for_and_gradient_kicks_may_be_displaced():
+    pendulum = Problem("pendulum")
+    runs = [integrate(pendulum, "stormer-verlet", h="1/10", until=10, first=first).q[-1, 0] for first in (None, "kick", "drift")]
+    assert runs[0] == runs[1] != runs[2]
+    exact, displaced = (integrate(pendulum, "chin-4a", h="1/10", until=10, gradient_kicks=kicks).q[-1, 0] for kicks in ("exact", "displaced"))
+    assert 0 < abs(exact - displaced) < 1e-4
+    with pytest.raises(InputError, match="gradient_kicks"):
+        integrate(pendulum, "yoshida4", h="1/10", until=10, gradient_kicks="displaced")
+    with pytest.raises(InputError, match="first = \"sideways\""):
+        integrate(pendulum, "yoshida4", h="1/10", until=10, first="sideways")
+
+
 def test_monitor_of_a_loop():
     monitor = shadowstep.Monitor(Problem("kepler"), "stormer-verlet", h="1/20", every=50)
     farthest = 0.0

@@ -15,7 +15,7 @@
 //! let h = StepSize::try_from("1/20").unwrap();
 //! let run = Run { propagator: &scheme.name, h: &h, steps: 1000, order: None };
 //! let integration =
-//!     Integration { system: &system, scheme: &scheme.scheme, run, compensated: false, every: 100, estimator: None };
+//!     Integration { system: &system, scheme: &scheme.scheme, run, compensated: false, displaced: false, until: None, every: 100, estimator: None };
 //! let samples = integration.run::<f64>(&(), &mut ())?;
 //! assert_eq!(samples.n, (0..=10).map(|i| 100 * i).collect::<Vec<_>>());
 //! assert!(samples.energy.iter().all(|energy| (energy + 0.5).abs() < 1e-3));
@@ -25,6 +25,7 @@
 use std::ops::ControlFlow;
 use std::time::{Duration, Instant};
 
+use shadowstep::Rational;
 use shadowstep::number::Number;
 use shadowstep::shadow::run::{NotFinite, Quantity, RunError};
 use shadowstep::shadow::{Estimate, EstimatorSettings};
@@ -35,6 +36,7 @@ use crate::computation::RunNumber;
 use crate::error::Error;
 use crate::follow::Follower;
 use crate::observer::Observer;
+use crate::physical_end::{last_step, steps_to};
 use crate::run::Run;
 use crate::scene::split::ShownCoordinates;
 use crate::scene::{self, EnergyAt};
@@ -51,6 +53,11 @@ pub struct Integration<'a> {
     pub run: Run<'a>,
     /// Whether q and p are sums with remainders.
     pub compensated: bool,
+    /// Whether gradient kicks are by displaced forces, which the scheme must [allow](crate::library::check_displaced).
+    pub displaced: bool,
+    /// The physical time at which the run ends, where time is transformed: after whole steps up to then it makes one of the exact remainder. The number of
+    /// steps of the run is then not used.
+    pub until: Option<&'a Rational>,
     /// The states n = 0, `every`, 2 `every`, … are kept, and the last one.
     pub every: u64,
     /// The estimator of the modified energy, if that is wanted.
@@ -96,11 +103,17 @@ impl Integration<'_> {
     /// # Panics
     /// If the scheme is not valid for the system.
     pub fn run<N: RunNumber>(self, context: &N::Context, observer: &mut dyn Observer) -> Result<Samples<N>, Error> {
-        let Integration { system, scheme, run, compensated, .. } = self;
-        let steps = Steps { scheme, h: run.h, compensated, displaced: false, begin: Begin::InitialState };
-        let mut integrator = system.integrator(steps, system.start(context), context)?;
+        let Integration { system, scheme, compensated, displaced, until, .. } = self;
+        let steps = Steps { scheme, h: self.run.h, compensated, displaced, begin: Begin::InitialState };
+        let at_start = || system.integrator(steps, system.start(context), context);
+        let steps = match until {
+            Some(until) => steps_to(&mut *at_start()?, until, context),
+            None => self.run.steps,
+        };
+        let run = Run { steps, ..self.run };
+        let mut integrator = at_start()?;
         let mut keeper = Keeper {
-            integration: self,
+            integration: Integration { run, ..self },
             context,
             observer,
             shown: system.shown(context),
@@ -122,7 +135,14 @@ impl Integration<'_> {
         let _ = N::follow(&mut *integrator, (None, run.steps), self.estimator, &mut keeper)?;
         // the estimates between two states end before the last one
         if let Some(last) = keeper.last.take() {
-            keeper.keep_state(run.steps, &mut *integrator, last)?;
+            if self.estimator.is_some_and(EstimatorSettings::is_between) {
+                keeper.keep_state(run.steps, &mut *integrator, last.clone())?;
+            }
+            if let Some(until) = until
+                && last_step(&mut *integrator, (&last.0, &last.1), (run, until))?
+            {
+                keeper.keep(run.steps + 1, &mut *integrator)?;
+            }
         }
         keeper.samples.evaluations = integrator.state().evaluations();
         Ok(keeper.samples)
@@ -143,7 +163,7 @@ struct Keeper<'a, N: Number> {
     /// H, where the steps conserve another function.
     energy_of: Option<EnergyAt<N>>,
     samples: Samples<N>,
-    /// The last state, where estimates belong to the middles between states.
+    /// The last state, where estimates belong to the middles between states, or the run ends at a physical time.
     last: Option<(Vec<N>, Vec<N>)>,
     /// The number of steps after which the observer is asked.
     at_once: u64,
@@ -240,8 +260,9 @@ impl<N: RunNumber> Follower<N> for Keeper<'_, N> {
     }
 
     fn state(&mut self, n: i64, integrator: &mut VectorIntegrator<'_, N>) {
-        let Integration { estimator, run, .. } = self.integration;
-        if estimator.is_some_and(EstimatorSettings::is_between) && n.unsigned_abs() == run.steps {
+        let Integration { estimator, run, until, .. } = self.integration;
+        let wanted = estimator.is_some_and(EstimatorSettings::is_between) || until.is_some();
+        if wanted && n.unsigned_abs() == run.steps {
             self.last = Some((integrator.state().q().to_vec(), integrator.state().p().to_vec()));
         }
     }

@@ -7,7 +7,7 @@ use std::sync::{Mutex, PoisonError};
 use sha2::{Digest, Sha256};
 use shadowstep::problems::Problem;
 use shadowstep::tables::{self, AtRunTime, Faults, Proved, Source, TableScheme, shipped_names};
-use shadowstep::{Rational, Scheme, shadow::exact_flow};
+use shadowstep::{Rational, Scheme, Stepper, shadow::exact_flow};
 use shadowstep_analysis::best_for_every_kinetic;
 use shadowstep_schemes::document::{LARGEST_TABLE, read_text};
 use shadowstep_schemes::exact::DIGITS as TABLE_DIGITS;
@@ -83,6 +83,16 @@ impl NamedScheme {
         let held = order.digits.filter(|held| !closed_forms && *held < digits);
         let note = held.map(|digits| Note::OrderHoldsTo { scheme: name.clone(), order: order.order, digits });
         Ok((NamedScheme { name, scheme }, note))
+    }
+
+    /// The same scheme with steps that begin with this map.
+    ///
+    /// # Errors
+    /// A table whose maps cannot be exchanged.
+    pub fn beginning_with(&self, first: First) -> Result<NamedScheme, LibraryError> {
+        let source = &self.scheme.proved().scheme.table.source;
+        let scheme = tables::read(source, &beside_or_shipped, Some(first))?;
+        Ok(NamedScheme { name: self.name.clone(), scheme: scheme.at_run_time() })
     }
 
     /// A remark on a table in a file that has the name of a shipped scheme with other weights.
@@ -239,6 +249,17 @@ pub(crate) fn check_every_kinetic(named: &NamedScheme) -> Result<(), Refusal> {
     let better = best_for_every_kinetic(claimed).expect("there are shipped schemes for every T(p)");
     let (name, order) = (&better.scheme.table.name.value, better.proof.general.order);
     Err(Refusal::new(error.to_string(), format!("use a scheme such as {name}, which has order {order} for every T(p)")))
+}
+
+/// Whether the gradient kicks of a scheme can be made by displaced forces.
+///
+/// # Errors
+/// A scheme without gradient kicks, or whose gradient kicks have no kick beside them.
+pub fn check_displaced(named: &NamedScheme) -> Result<(), Refusal> {
+    // with any step size
+    let stepper = Stepper::<_, f64>::new(named.scheme.clone(), "1").expect("it is not 0");
+    let hint = "leave `gradient_kicks` out, or use a scheme such as chin-4a";
+    stepper.displacements().map(drop).map_err(|error| Refusal::new(error.to_string(), hint))
 }
 
 /// Whether a scheme can advance a system that perhaps has no gradient kicks.

@@ -45,12 +45,21 @@ impl Computation for Counting<'_> {
     fn compute<N: RunNumber>(self, context: &N::Context) -> u64 {
         let Counting { scene, until } = self;
         let Ok(mut integrator) = scene.integrator::<N>(context) else { return 0 };
-        let until = N::from_rational(until, context);
-        let mut count = StepsTo { until, forward: scene.h.exact().is_positive(), steps: 0 };
-        // a step whose state is not finite counts, so that the run finds it
-        let _ = N::follow(&mut *integrator, (None, MOST_STEPS), None, &mut count);
-        count.steps
+        steps_to(&mut *integrator, until, context)
     }
+}
+
+/// How many steps end at or before a physical time; they are made.
+pub(crate) fn steps_to<N: RunNumber>(
+    integrator: &mut VectorIntegrator<'_, N>,
+    until: &Rational,
+    context: &N::Context,
+) -> u64 {
+    let forward = until.is_positive();
+    let mut count = StepsTo { until: N::from_rational(until, context), forward, steps: 0 };
+    // a step whose state is not finite counts, so that the run finds it
+    let _ = N::follow(integrator, (None, MOST_STEPS), None, &mut count);
+    count.steps
 }
 
 /// Counts the steps that end at or before a physical time.

@@ -92,3 +92,12 @@ pub fn count((h, step): (&StepSize, &str), (until, end): (&Rational, &str)) -> R
         _ => StepsError::TooMany { h, until, count: to_significant(&count, 3) },
     })
 }
+
+/// Whether a run with steps of a fictitious time can end at this physical time: the signs must agree, as time grows with s.
+///
+/// # Errors
+/// A time of 0, different signs.
+pub fn check_physical_end((h, step): (&StepSize, &str), (until, end): (&Rational, &str)) -> Result<(), StepsError> {
+    let compared = if until.is_zero() { until.clone() } else { h.exact().abs() * until.signum() };
+    count((h, step), (&compared, end)).map(drop)
+}

@@ -56,7 +56,7 @@ fn main() {
         let source = Source { path: name.to_owned(), text: text.to_owned() };
         let (system, _) = System::read(&source, Arithmetic::DOUBLE).unwrap();
         let until = Rational::from_integer(until.into());
-        let problem = Problem { system: &system, until: &until, arithmetic: Arithmetic::DOUBLE };
+        let problem = Problem { system: &system, until: &until, arithmetic: Arithmetic::DOUBLE, length: None };
         let names = default_schemes(system.has_general_kinetic());
         let schemes = names.map(|name| scheme(name).unwrap());
         let folder = tempfile::tempdir().unwrap();

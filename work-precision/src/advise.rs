@@ -13,6 +13,7 @@ use shadowstep_studies::{Observer, Store};
 use crate::best::cost_of;
 use crate::calculation::{Calculation, Outcome};
 use crate::convenient::convenient_step;
+use crate::length::length_of;
 use crate::of::Of;
 use crate::problem::Problem;
 use crate::reference::{Reference, Resolution};
@@ -168,7 +169,8 @@ impl<'a> AdviceRequest<'a> {
     pub fn run(&self, observer: &mut dyn Observer) -> Result<Advice<'a>, Error> {
         let halvings = self.halvings()?;
         let until = self.problem.until / Rational::from_integer((1_i64 << halvings).into());
-        let problem = Problem { until: &until, ..self.problem };
+        let length = length_of(self.problem.system, &until)?;
+        let problem = Problem { until: &until, length: length.as_ref(), ..self.problem };
         let study = self.request(problem, halvings).study(observer)?;
         let part = 0.5_f64.powi(halvings);
         let mut choices: Vec<Choice<'a>> =
@@ -234,8 +236,8 @@ impl<'a> AdviceRequest<'a> {
         let curve: Vec<(f64, f64)> = studied.series.runs.iter().filter_map(whole).collect();
         let error = self.tolerance.times_power_of_ten(MARGIN);
         let steps = cost_of(&curve, error).or_else(|| self.extrapolated(studied, &curve, error))?;
-        let largest = study.problem.duration() / steps;
-        let size = |run: &Measurement| study.problem.duration() / run.steps as f64;
+        let largest = study.problem.size() / steps;
+        let size = |run: &Measurement| study.problem.size() / run.steps as f64;
         let fine = studied.series.runs.iter().rev().take_while(|run| run.fine).last();
         let lost = studied.series.runs.iter().rev().find(|run| !run.fine && !run.undecided);
         let choice = Choice {
@@ -260,10 +262,12 @@ impl<'a> AdviceRequest<'a> {
 
     /// The same scheme with a step of at most h, at which its error is known.
     fn with_step(&self, choice: &Choice<'a>, h: f64) -> Choice<'a> {
-        let step = convenient_step(h.min(self.problem.duration()), self.problem.until);
+        // where time is transformed, the last step is of another size
+        let time = self.problem.length.is_none().then_some(self.problem.until);
+        let step = convenient_step(h.min(self.problem.size()), time);
         let size = <f64 as Number>::from_rational(&step, &());
         let step = if self.problem.is_forward() { step } else { -step };
-        let steps = (self.problem.until / &step).to_integer().to_u64().unwrap_or(u64::MAX);
+        let steps = (self.problem.size() / size).round().to_u64().unwrap_or(u64::MAX).max(1);
         let error = choice.error.times_power_of_ten(self.order(choice.scheme) * (size / h).log10());
         Choice { step, steps, error, ..choice.clone() }
     }
@@ -318,7 +322,9 @@ impl<'a> AdviceRequest<'a> {
         observer: &mut dyn Observer,
     ) -> Result<Option<Measurement>, Error> {
         let range = StepRange::Given(vec![choice.steps]);
-        let wanted = Calculation::series(self.problem, choice.scheme, reference, &range);
+        let length = self.problem.length.map(|_| &choice.step * Rational::from_integer(choice.steps.into()));
+        let problem = Problem { length: length.as_ref(), ..self.problem };
+        let wanted = Calculation::series(problem, choice.scheme, reference, &range);
         let Outcome::Series(series) = store.compute_one(wanted, observer)? else {
             unreachable!("a series was requested")
         };

@@ -1,6 +1,6 @@
 //! Step sizes that are easy to write: 1/20, 1/250, 0.45, 2, 45.
 
-use num_traits::{Signed, ToPrimitive};
+use num_traits::{One, Signed, ToPrimitive};
 use shadowstep::{Number, Rational};
 
 /// The digits of convenient numbers: neighbours differ by an eighth at most.
@@ -10,11 +10,11 @@ const DIGITS: [i64; 22] =
 const PREFERENCE: f64 = 1.09;
 
 /// The largest step size of at most h of which the time is a multiple: a convenient one, which is a number of up to three digits or 1 divided
-/// by a whole one, where such a one is about as large; else the time divided by the fewest steps.
+/// by a whole one, where such a one is about as large; else the time divided by the fewest steps. Without a time, the largest convenient one.
 ///
 /// # Panics
 /// If h is not positive and finite.
-pub(crate) fn convenient_step(h: f64, time: &Rational) -> Rational {
+pub(crate) fn convenient_step(h: f64, time: Option<&Rational>) -> Rational {
     assert!(h > 0.0 && h.is_finite(), "a step size is positive");
     // a last place off is the same step
     let most = h * (1.0 + 1e-12);
@@ -30,7 +30,9 @@ pub(crate) fn convenient_step(h: f64, time: &Rational) -> Rational {
     all.sort_by(|a, b| b.0.total_cmp(&a.0));
     let largest = all.first().map_or(h, |(size, _)| *size);
     let near = all.into_iter().take_while(|(size, _)| size * PREFERENCE >= largest);
-    near.map(|(_, step)| step).find(|step| (time / step).is_integer()).unwrap_or_else(|| equal_part(time, most))
+    let mut near = near.map(|(_, step)| step);
+    let found = near.find(|step| time.is_none_or(|time| (time / step).is_integer()));
+    found.unwrap_or_else(|| time.map_or_else(Rational::one, |time| equal_part(time, most)))
 }
 
 /// |time| divided by the fewest parts that are not larger than this.
@@ -66,7 +68,7 @@ mod tests {
         let cases =
             [(0.0526, "100", "1/20"), (0.72, "100", "100/139"), (52.0, "20000", "50"), (47.0, "20000", "10000/213")];
         for (h, time, expected) in cases {
-            assert_eq!(convenient_step(h, &exact(time).unwrap()), exact(expected).unwrap(), "{h}");
+            assert_eq!(convenient_step(h, Some(&exact(time).unwrap())), exact(expected).unwrap(), "{h}");
         }
     }
 
@@ -75,7 +77,7 @@ mod tests {
         let time = exact("-100").unwrap();
         for i in -300..60 {
             let h = 10_f64.powf(f64::from(i) / 37.0);
-            let exact = convenient_step(h, &time);
+            let exact = convenient_step(h, Some(&time));
             let step = <f64 as Number>::from_rational(&exact, &());
             assert!((&time / &exact).is_integer(), "{h}: {exact}");
             // about 100/h parts: one more of three makes a quarter

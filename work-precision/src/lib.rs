@@ -5,6 +5,7 @@
 //! | [`study`], `calculation` | the runs of several schemes on a problem; what is computed and saved |
 //! | [`problem`] | a system, an interval of time, a number type |
 //! | [`reference`](mod@reference) | the positions with which those of the schemes are compared, and their own error |
+//! | [`length`] | the length of a run in transformed time |
 //! | `positions` | positions at the times at which errors are taken |
 //! | [`series`] | the runs of a scheme, from its stability limit down to round-off |
 //! | [`run`] | one run: errors of position and energy, the modified energy |
@@ -24,6 +25,7 @@ mod calculation;
 mod charts;
 mod convenient;
 pub mod files;
+pub mod length;
 pub mod of;
 pub mod order;
 mod positions;

@@ -1,6 +1,8 @@
 //! What schemes are compared on: a system, an interval of time, a number type.
 
 use num_traits::Signed;
+use shadowstep::problems::Setup;
+use shadowstep::shadow::exact_flow::has_exact_flow;
 use shadowstep::{Number, Rational, StepSize};
 use shadowstep_scenes::arithmetic::Arithmetic;
 use shadowstep_scenes::computation::RunNumber;
@@ -12,7 +14,7 @@ use shadowstep_symbolic::decimal::to_text;
 /// Errors along a run are taken at this number of times at most.
 pub(crate) const MOST_SAMPLES: u64 = 64;
 
-/// A system from t = 0 to `until` in a number type.
+/// A system from t = 0 to `until` in a number type. Where time is transformed, `until` is a physical time, and steps are in s.
 #[derive(Clone, Copy, Debug)]
 pub struct Problem<'a> {
     /// H and the initial state.
@@ -21,6 +23,8 @@ pub struct Problem<'a> {
     pub until: &'a Rational,
     /// The number type.
     pub arithmetic: Arithmetic,
+    /// About the [length](crate::length::length_of) of the runs in s, where time is transformed: runs of n steps have steps of an nth of it.
+    pub length: Option<&'a Rational>,
 }
 
 impl Problem<'_> {
@@ -29,9 +33,24 @@ impl Problem<'_> {
         <f64 as Number>::from_rational(self.until, &()).abs()
     }
 
+    /// The length of all steps: `until`, or that in s.
+    fn steps_length(&self) -> &Rational {
+        self.length.unwrap_or(self.until)
+    }
+
+    /// The size of the length of all steps.
+    pub(crate) fn size(&self) -> f64 {
+        <f64 as Number>::from_rational(self.steps_length(), &()).abs()
+    }
+
     /// The step size of this number of steps.
-    pub(crate) fn step_size(&self, steps: u64) -> Rational {
-        self.until / Rational::from_integer(steps.into())
+    pub fn step_size(&self, steps: u64) -> Rational {
+        self.steps_length() / Rational::from_integer(steps.into())
+    }
+
+    /// The shipped problem, where its exact flow is known.
+    pub(crate) fn exact_flow(&self) -> Option<Setup> {
+        self.system.setup().filter(|setup| has_exact_flow(setup).is_ok())
     }
 
     /// The system at t = 0 with a scheme that makes this number of steps.
@@ -56,6 +75,7 @@ impl Problem<'_> {
     /// What distinguishes its results from those of all other problems.
     pub(crate) fn fingerprint(&self) -> String {
         let all = format!("{:?} {} {:?}", self.system, to_text(self.until), self.arithmetic.label());
+        let all = self.length.map_or(all.clone(), |length| format!("{all} s {}", to_text(length)));
         fingerprint(&all)
     }
 }

@@ -8,16 +8,17 @@ use serde::{Deserialize, Serialize};
 use shadowstep::problems::Setup;
 use shadowstep::shadow::exact_flow::ExactFlow;
 use shadowstep::shadow::run::States;
-use shadowstep::{Real, StepSize};
+use shadowstep::steps::integrator::VectorIntegrator;
+use shadowstep::{Carried, Rational, Real, StepSize};
 use shadowstep_scenes::Error;
 use shadowstep_scenes::arithmetic::Arithmetic;
 use shadowstep_scenes::computation::{Computation, RunNumber};
 use shadowstep_scenes::cpu_time::CpuTime;
 use shadowstep_scenes::library::{NamedScheme, scheme};
-use shadowstep_scenes::propagator::{for_system, with_exact_flow};
+use shadowstep_scenes::propagator::for_system;
 use shadowstep_symbolic::decimal::from_text;
 
-use crate::positions::{at_samples, square_distance};
+use crate::positions::{Sampler, square_distance};
 use crate::problem::Problem;
 use crate::size::Size;
 
@@ -96,7 +97,7 @@ impl Reference {
         time: Duration,
         continues: &dyn Fn() -> bool,
     ) -> Result<Reference, Error> {
-        let reference = match with_exact_flow(problem.system) {
+        let reference = match problem.exact_flow() {
             Some(setup) => of_exact_flow(problem, &setup, samples),
             None => {
                 let arithmetic = more_digits(problem)?;
@@ -126,7 +127,7 @@ impl Reference {
     ) -> Result<Reference, Error> {
         let Resolution { error, size, steps, seconds } = resolution;
         let time = Duration::from_secs_f64(seconds);
-        if let Some(setup) = with_exact_flow(problem.system) {
+        if let Some(setup) = problem.exact_flow() {
             return of_exact_flow(problem, &setup, 1);
         }
         let enough = |difference: f64, _: f64| difference <= error.log10();
@@ -243,7 +244,8 @@ impl Computation for ExactTexts<'_> {
 
     fn compute<N: RunNumber>(self, context: &N::Context) -> Self::Output {
         let ExactTexts { problem, setup, samples } = self;
-        let h = StepSize::try_from(&problem.step_size(samples)).expect("the run has a nonzero length");
+        let part = problem.until / Rational::from_integer(samples.into());
+        let h = StepSize::try_from(&part).expect("the run has a nonzero length");
         let failed =
             |error: String| Error::run(format!("the exact flow cannot be followed: {error}"), "use a shorter time");
         let mut flow =
@@ -351,6 +353,7 @@ fn first_steps(problem: Problem<'_>, samples: u64) -> u64 {
     samples * per_sample.max(1)
 }
 
+/// The positions of a run at its samples; fewer where they are not finite.
 fn positions<N: RunNumber>(
     problem: Problem<'_>,
     named: &NamedScheme,
@@ -358,7 +361,13 @@ fn positions<N: RunNumber>(
     context: &N::Context,
 ) -> Result<Vec<Vec<N>>, Error> {
     let mut integrator = problem.integrator(named, steps, context)?;
-    Ok(at_samples(&mut *integrator, steps, samples))
+    let mut sampler = Sampler::new(problem, named, (steps, samples), context)?;
+    let mut step = |integrator: &mut VectorIntegrator<'_, N>| {
+        integrator.step(Carried::Nothing);
+        true
+    };
+    let positions = (1..=samples).map_while(|i| sampler.position(i, &mut *integrator, &mut step).ok());
+    Ok(positions.collect())
 }
 
 /// |a − b| of each sample.

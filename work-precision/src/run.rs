@@ -4,8 +4,12 @@ use serde::{Deserialize, Serialize};
 use shadowstep::Real;
 use shadowstep::shadow::Verdict;
 use shadowstep::steps::integrator::{VectorIntegrator, at_output};
+use shadowstep_scenes::Error;
 use shadowstep_scenes::computation::RunNumber;
+use shadowstep_scenes::library::NamedScheme;
 
+use crate::positions::Sampler;
+use crate::problem::Problem;
 use crate::reference::Reference;
 use crate::size::Size;
 
@@ -79,27 +83,44 @@ pub struct Modified {
 
 impl Measurement {
     /// Makes a run of this number of steps, with as many evaluations, and measures it.
+    ///
+    /// # Errors
+    /// A system that cannot be moved.
     pub(crate) fn of<N: RunNumber>(
-        integrator: &mut VectorIntegrator<'_, N>,
+        problem: Problem<'_>,
+        named: &NamedScheme,
         (steps, evaluations): (u64, u64),
         reference: &Reference,
-    ) -> Measurement {
+        context: &N::Context,
+    ) -> Result<Measurement, Error> {
+        let mut integrator = problem.integrator::<N>(named, steps, context)?;
+        let integrator = &mut *integrator;
+        let mut sampler = Sampler::new(problem, named, (steps, reference.samples()), context)?;
         let failed =
             |sample: usize| Measurement::failed(steps, evaluations, sample as f64 / reference.samples() as f64);
         let monitor = N::monitor(integrator, MONITOR_ORDER, (steps / WINDOWS).max(1));
-        let Ok(mut monitor) = monitor else { return failed(0) };
-        let mut energy = EnergyError::new(at_output(integrator, |integrator| integrator.system().energy()));
+        let Ok(mut monitor) = monitor else { return Ok(failed(0)) };
+        let conserved = EnergyError::new(at_output(integrator, |integrator| integrator.system().energy()));
+        // where time is transformed, the steps conserve another function
+        let mut energy_of = problem.system.energy_of_rows::<N>(context);
+        let mut energy_of = |integrator: &mut VectorIntegrator<'_, N>| match &mut energy_of {
+            Some(energy_of) => energy_of(integrator.state().q(), integrator.state().p()),
+            None => at_output(integrator, |integrator| integrator.system().energy()),
+        };
+        let mut energy = EnergyError::new(energy_of(integrator));
         let (mut position, mut largest_position) = (PositionError::None, PositionError::None);
         let mut in_first_half = (PositionError::None, Size::ZERO);
-        for (sample, expected) in reference.in_two_parts::<N>(&integrator.state().context()).iter().enumerate() {
-            for _ in 0..steps / reference.samples() {
+        for (sample, expected) in reference.in_two_parts::<N>(context).iter().enumerate() {
+            let mut step = |integrator: &mut VectorIntegrator<'_, N>| {
                 // what is not finite stays so, and is seen at the sample
                 let _ = monitor.step(integrator);
-                energy.include(&at_output(integrator, |integrator| integrator.system().energy()));
-            }
-            let distance = at_output(integrator, |integrator| distance(integrator.state().q(), expected));
+                energy.include(&energy_of(integrator));
+                true
+            };
+            let Ok(q) = sampler.position(sample as u64 + 1, integrator, &mut step) else { return Ok(failed(sample)) };
+            let distance = distance(&q, expected);
             if !distance.is_finite() || !energy.last.is_finite() {
-                return failed(sample);
+                return Ok(failed(sample));
             }
             position = PositionError::of(distance, reference.error_at(sample));
             largest_position = largest_position.or_larger(position);
@@ -109,11 +130,11 @@ impl Measurement {
         }
         let report = monitor.report();
         let modified = (report.windows > 0).then(|| Modified {
-            drift: energy.relative(&report.range),
-            change: energy.relative(&report.change),
-            bound: report.permanent_bound.as_ref().map(|bound| energy.relative(bound)),
+            drift: conserved.relative(&report.range),
+            change: conserved.relative(&report.change),
+            bound: report.permanent_bound.as_ref().map(|bound| conserved.relative(bound)),
         });
-        Measurement {
+        Ok(Measurement {
             steps,
             evaluations,
             position,
@@ -126,7 +147,7 @@ impl Measurement {
             fine: report.verdict.is_fine(),
             undecided: matches!(report.verdict, Verdict::Undecided(_)),
             failed: None,
-        }
+        })
     }
 }
 

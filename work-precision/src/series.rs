@@ -207,10 +207,9 @@ impl Computation for Run<'_> {
 
     fn compute<N: RunNumber>(self, context: &N::Context) -> Self::Output {
         let SeriesOf { problem, scheme, reference, .. } = self.series_of;
-        let mut integrator = problem.integrator::<N>(scheme, self.steps, context)?;
         let of_output = scheme.scheme.processor().iter().filter(|(kind, _)| *kind == MapKind::Kick).count();
         // with a pre-map at the beginning and a post-map at the end
         let evaluations = self.steps * scheme.scheme.summary().evaluations as u64 + 2 * of_output as u64;
-        Ok(Measurement::of(&mut *integrator, (self.steps, evaluations), reference))
+        Measurement::of::<N>(*problem, scheme, (self.steps, evaluations), reference, context)
     }
 }

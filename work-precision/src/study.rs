@@ -23,6 +23,9 @@ use crate::timing::StepTime;
 /// The coarsest run has this number of steps between samples, so that rounding to samples changes the number of steps little.
 const STEPS_PER_SAMPLE: u64 = 8;
 
+/// The samples of runs in transformed time.
+const SAMPLES_IN_TIME: u64 = 16;
+
 /// Medians of times are at most this multiple of the shortest repeat, on a machine without other load.
 const LARGEST_SPREAD: f64 = 1.3;
 
@@ -106,6 +109,8 @@ impl<'a> Request<'a> {
     /// The number of samples: they are at states of all runs.
     fn samples(&self) -> u64 {
         match &self.range {
+            // at physical times, which no states have
+            _ if self.problem.length.is_some() => SAMPLES_IN_TIME,
             StepRange::Given(steps) => {
                 let common = steps.iter().fold(0, |common: u64, steps| common.gcd(steps)).max(1);
                 most_samples(common)
@@ -172,7 +177,7 @@ impl Studied<'_> {
 
     /// The measured order with the steps at which it holds, of the position or of H.
     pub fn order(&self, problem: Problem<'_>, of: Of) -> Option<MeasuredOrder> {
-        let step = |run: &Measurement| problem.duration() / run.steps as f64;
+        let step = |run: &Measurement| problem.size() / run.steps as f64;
         let points = self.series.runs.iter().filter_map(|run| Some((step(run), of.error(run)?.log10())));
         MeasuredOrder::of(&points.filter(|(_, error)| error.is_finite()).collect::<Vec<_>>())
     }

@@ -52,7 +52,9 @@ impl Computation for Final<'_> {
         let h = StepSize::try_from(h).unwrap();
         let run = Run { propagator: &scheme.name, h: &h, steps, order: None };
         let scheme = &scheme.scheme;
-        let integration = Integration { system, scheme, run, compensated: false, every: steps, estimator: None };
+        let (compensated, displaced, until) = (false, false, None);
+        let integration =
+            Integration { system, scheme, run, compensated, displaced, until, every: steps, estimator: None };
         let samples = integration.run::<N>(context, &mut ()).unwrap();
         samples.q[system.q.len()..].iter().map(|q| exact(&q.to_text()).unwrap()).collect()
     }
@@ -118,7 +120,7 @@ fn drawn(random: &mut Pcg64Mcg) -> Drawn {
 /// Verifies an advice beside the true error of its run; whether it was one, and whether that was known to a tenth.
 fn verify(drawn: &Drawn, seconds: f64) -> Option<bool> {
     let (system, folder) = (system(&drawn.text), tempfile::tempdir().unwrap());
-    let problem = Problem { system: &system, until: &drawn.until, arithmetic: Arithmetic::DOUBLE };
+    let problem = Problem { system: &system, until: &drawn.until, arithmetic: Arithmetic::DOUBLE, length: None };
     let request = request(problem, &drawn.schemes, (drawn.tolerance, seconds), folder.path());
     let Advice::Found { choices, verified, .. } = request.run(&mut ()).unwrap() else { return None };
     let best = &choices[0];

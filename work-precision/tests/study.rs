@@ -3,13 +3,15 @@
 use std::path::Path;
 use std::time::Duration;
 
-use shadowstep::Rational;
+use num_traits::Signed;
 use shadowstep::problems::problem;
 use shadowstep::tables::Source;
+use shadowstep::{Rational, exact};
 use shadowstep_scenes::arithmetic::Arithmetic;
 use shadowstep_scenes::library::{NamedScheme, scheme};
 use shadowstep_scenes::{Formula, InitialValueProblem, PotentialEnergy, System};
 use shadowstep_studies::Observer;
+use shadowstep_work_precision::length::length_of;
 use shadowstep_work_precision::of::Of;
 use shadowstep_work_precision::problem::Problem;
 use shadowstep_work_precision::reference::Origin;
@@ -39,7 +41,8 @@ fn until(t: i64) -> Rational {
 fn schemes_show_their_orders_beside_the_exact_flow() {
     let (system, until, folder) = (system("pendulum"), until(10), tempfile::tempdir().unwrap());
     let schemes = schemes(&["stormer-verlet", "blanes-moan-s6", "blanes-moan-srkn11b"]);
-    let problem = Problem { system: &system, until: &until, arithmetic: Arithmetic::with_digits(30).unwrap() };
+    let problem =
+        Problem { system: &system, until: &until, arithmetic: Arithmetic::with_digits(30).unwrap(), length: None };
     let range = StepRange::Given(vec![100, 200, 400, 800, 1600]);
     let study = study(problem, &schemes, range, folder.path());
     assert_eq!(study.reference.origin, Origin::ExactFlow);
@@ -51,6 +54,29 @@ fn schemes_show_their_orders_beside_the_exact_flow() {
             assert!((found.order - order).abs() < 0.1, "{}, {of:?}: {found:?}", studied.scheme.name);
         }
         assert_eq!(studied.series.runs[0].evaluations, 100 * studied.evaluations_per_step());
+    }
+}
+
+/// Errors are those at the physical time at which a run ends, where the exact flow is known.
+#[test]
+fn runs_in_transformed_time_end_at_a_physical_time() {
+    let text =
+        "problem = { name = 'kepler', parameters = { eccentricity = 0.9 } }\ntime.transform = 'logarithmic'".to_owned();
+    let (system, _) = System::read(&Source { path: "kepler".to_owned(), text }, Arithmetic::DOUBLE).unwrap();
+    for end in [20, -20] {
+        let (until, folder) = (until(end), tempfile::tempdir().unwrap());
+        let length = length_of(&system, &until).unwrap().unwrap();
+        // s is the eccentric anomaly: 3 periods and what is left of 20 after them
+        assert!((length.abs() - exact("20").unwrap()).abs() < exact("1").unwrap(), "{length}");
+        let problem = Problem { system: &system, until: &until, arithmetic: Arithmetic::DOUBLE, length: Some(&length) };
+        let schemes = schemes(&["sofroniou-spaletta6-13", "yoshida4"]);
+        let study = study(problem, &schemes, StepRange::Given(vec![100, 150, 200, 300, 400]), folder.path());
+        assert_eq!(study.reference.origin, Origin::ExactFlow);
+        for (studied, order) in study.schemes.iter().zip([6.0, 4.0]) {
+            let found = studied.order(problem, Of::Position).unwrap();
+            assert!((found.order - order).abs() < 0.3, "{}: {found:?}", studied.scheme.name);
+            assert!(studied.series.runs[4].position.known().unwrap() < Size::power_of_ten(-3.0), "{studied:?}");
+        }
     }
 }
 
@@ -72,7 +98,7 @@ fn the_error_of_a_reference_is_estimated() {
     let schemes = schemes(&["kahan-li8"]);
     let runs = |system| {
         let folder = folder.path().join(format!("{system:p}"));
-        let problem = Problem { system, until: &until, arithmetic: Arithmetic::DOUBLE };
+        let problem = Problem { system, until: &until, arithmetic: Arithmetic::DOUBLE, length: None };
         study(problem, &schemes, StepRange::Given(vec![500, 1000, 2000]), &folder)
     };
     let (exact, estimated) = (runs(&system), runs(&formula));
@@ -95,7 +121,7 @@ fn a_reference_that_overflows_in_the_numbers_of_the_runs_is_none() {
         ..system("harmonic-oscillator").problem
     });
     let (until, folder, schemes) = (until(800), tempfile::tempdir().unwrap(), schemes(&["yoshida4"]));
-    let problem = Problem { system: &system, until: &until, arithmetic: Arithmetic::DOUBLE };
+    let problem = Problem { system: &system, until: &until, arithmetic: Arithmetic::DOUBLE, length: None };
     let range = StepRange::Given(vec![8000, 16_000]);
     let reference_time = Duration::from_secs(20);
     let request = Request { problem, schemes: &schemes, range, reference_time, folder: folder.path().to_owned() };
@@ -110,7 +136,7 @@ fn a_reference_of_planets_begins_with_few_steps() {
     let source = Source { path: "planets".to_owned(), text };
     let (system, _) = System::read(&source, Arithmetic::DOUBLE).unwrap();
     let (until, folder) = (until(20_000), tempfile::tempdir().unwrap());
-    let problem = Problem { system: &system, until: &until, arithmetic: Arithmetic::DOUBLE };
+    let problem = Problem { system: &system, until: &until, arithmetic: Arithmetic::DOUBLE, length: None };
     let schemes = schemes(&["abah864"]);
     let study = study(problem, &schemes, StepRange::Given(vec![25, 50, 100]), folder.path());
     let Origin::Scheme { steps, .. } = study.reference.origin else { panic!("{:?}", study.reference.origin) };
@@ -124,7 +150,7 @@ fn a_reference_of_planets_begins_with_few_steps() {
 fn series_go_from_instability_to_round_off() {
     let (system, until, folder) = (system("harmonic-oscillator"), until(10), tempfile::tempdir().unwrap());
     let schemes = schemes(&["stormer-verlet", "bce-rkn8-17"]);
-    let problem = Problem { system: &system, until: &until, arithmetic: Arithmetic::DOUBLE };
+    let problem = Problem { system: &system, until: &until, arithmetic: Arithmetic::DOUBLE, length: None };
     let study = study(problem, &schemes, StepRange::Automatic { seconds: 5.0, target: None }, folder.path());
     let [verlet, rkn] = &study.schemes[..] else { panic!() };
     for studied in [verlet, rkn] {
@@ -143,7 +169,7 @@ fn series_go_from_instability_to_round_off() {
 fn results_are_kept() {
     let (system, until, folder) = (system("henon-heiles"), until(5), tempfile::tempdir().unwrap());
     let schemes = schemes(&["stormer-verlet", "yoshida4"]);
-    let problem = Problem { system: &system, until: &until, arithmetic: Arithmetic::DOUBLE };
+    let problem = Problem { system: &system, until: &until, arithmetic: Arithmetic::DOUBLE, length: None };
     let again = || study(problem, &schemes, StepRange::Given(vec![50, 100]), folder.path()).csv(&[]).unwrap();
     let (first, bytes) = (again(), std::fs::read(folder.path().join("results.jsonl")).unwrap());
     assert_eq!((again(), std::fs::read(folder.path().join("results.jsonl")).unwrap()), (first.clone(), bytes));
@@ -168,7 +194,8 @@ impl Observer for Stops {
 fn an_interrupted_reference_is_not_kept() {
     let (system, until, folder) = (system("henon-heiles"), until(5), tempfile::tempdir().unwrap());
     let schemes = schemes(&["yoshida4"]);
-    let problem = Problem { system: &system, until: &until, arithmetic: Arithmetic::with_digits(60).unwrap() };
+    let problem =
+        Problem { system: &system, until: &until, arithmetic: Arithmetic::with_digits(60).unwrap(), length: None };
     let (range, reference_time) = (StepRange::Given(vec![50]), Duration::from_secs(20));
     let request = Request { problem, schemes: &schemes, range, reference_time, folder: folder.path().to_owned() };
     let stopped = request.study(&mut Stops { questions: 4 }).unwrap_err();
@@ -190,7 +217,7 @@ fn runs_that_fail_are_kept_as_failed() {
         ..System::of_setup(setup).problem
     });
     let schemes = schemes(&["stormer-verlet"]);
-    let problem = Problem { system: &quartic, until: &until, arithmetic: Arithmetic::DOUBLE };
+    let problem = Problem { system: &quartic, until: &until, arithmetic: Arithmetic::DOUBLE, length: None };
     let study = study(problem, &schemes, StepRange::Given(vec![20, 4000]), folder.path());
     let runs = &study.schemes[0].series.runs;
     assert!(runs[0].failed.is_some() && runs[1].failed.is_none(), "{runs:?}");

@@ -89,3 +89,35 @@ fn schemes_for_near_integrable_systems_are_a_group() {
     assert!(names.contains(&"aba864") && names.contains(&"saba3") && !names.contains(&"pefrl"), "{names:?}");
     assert_eq!(names.last(), Some(&"yoshida4"));
 }
+
+/// A scene of an eccentric orbit in transformed time, with its steps.
+fn transformed(step: &str) -> String {
+    format!(
+        "problem = {{ name = 'kepler', parameters = {{ eccentricity = 0.9 }} }}\ntime.transform = 'logarithmic'\n\
+         run = {{ scheme = 'sofroniou-spaletta6-13', first = 'drift', step = '{step}', until = 20, digits = 'double' }}\n\
+         output = {{ trajectory = true, format = 'jsonl' }}"
+    )
+}
+
+/// Errors are those of the run of a scene, which ends at the physical time.
+#[test]
+fn advice_in_transformed_time_is_for_the_run_of_the_scene() {
+    let folder = TempDir::new().unwrap();
+    let scene = folder.path().join("scene.toml");
+    let written = |text: &str| fs::write(&scene, text).unwrap();
+    written(&transformed("1/10"));
+    let scheme = format!("advise {} --tolerance 1e-7 --schemes sofroniou-spaletta6-13", scene.display());
+    let printed = quietly(&scheme);
+    let after = |word: &str| printed.split(word).nth(1).unwrap().split([' ', ',', '\n']).find(|word| !word.is_empty());
+    let (step, verified): (_, f64) = (after(", step ").unwrap(), after("verified").unwrap().parse().unwrap());
+    assert!(printed.contains("t = 0 to 20") && verified <= 1e-7, "{printed}");
+    let last = |step: &str| {
+        written(&transformed(step).replace(", first = 'drift'", ""));
+        let rows = objects(&quietly(&format!("run {} --no-summary", scene.display())));
+        let row = rows.last().unwrap();
+        [0, 1].map(|i| row["q"][i].as_str().unwrap().parse::<f64>().unwrap())
+    };
+    let ([x, y], [x0, y0]) = (last(step), last("1/200"));
+    let error = (x - x0).hypot(y - y0);
+    assert!((error / verified - 1.0).abs() < 0.1, "{error:e} {printed}");
+}

@@ -3,15 +3,14 @@
 use std::ops::Range;
 use std::path::Path;
 
-use num_traits::{Signed, Zero};
-use shadowstep::{Rational, StepSize, Stepper};
+use shadowstep::{Rational, StepSize};
 use shadowstep_schemes::First;
 use shadowstep_symbolic::decimal::to_text;
 use toml::de::DeValue;
 
 use super::reader::Reader;
 use crate::arithmetic::{Arithmetic, DEFAULT_DIGITS, MOST_DIGITS, OTHER_SCHEME};
-use crate::library::{LibraryError, NamedScheme, Schemes};
+use crate::library::{LibraryError, NamedScheme, Schemes, check_displaced};
 use crate::note::Note;
 use crate::refusal::Refusal;
 use crate::scene::System;
@@ -130,13 +129,8 @@ fn near_integrable(named: &NamedScheme) -> Option<Note> {
 
 /// Whether gradient kicks are by displaced forces, which the scheme must allow.
 fn displaced_forces(reader: &mut Reader<'_>, at: &Range<usize>, wanted: bool, named: &NamedScheme) -> Option<bool> {
-    // with any step size
-    let stepper = Stepper::<_, f64>::new(named.scheme.clone(), "1").expect("it is not 0");
-    match stepper.displacements() {
-        Err(error) if wanted => {
-            let hint = "leave `gradient_kicks` out, or use a scheme such as chin-4a";
-            reader.toml.wrong(at, error.to_string(), hint)
-        }
+    match check_displaced(named) {
+        Err(Refusal { message, hint }) if wanted => reader.toml.wrong(at, message, hint),
         _ => Some(wanted),
     }
 }
@@ -180,11 +174,14 @@ fn times(reader: &mut Reader<'_>, run: &Section<'_, '_>, transformed: bool) -> O
         return Some((h, until, Some(steps)));
     }
     let (end, until) = until?;
-    // the sign of the end, and that of h
-    let compared = if transformed && !until.is_zero() { h.exact().abs() * until.signum() } else { until.clone() };
-    match steps::count((&h, &step.value), (&compared, &to_text(&until))) {
-        Ok(_) if transformed => Some((h, Some(until), None)),
-        Ok(count) => Some((h, Some(until), Some(count))),
+    let (sized, ends) = ((&h, step.value.as_str()), (&until, &*to_text(&until)));
+    let count = if transformed {
+        steps::check_physical_end(sized, ends).map(|()| None)
+    } else {
+        steps::count(sized, ends).map(Some)
+    };
+    match count {
+        Ok(count) => Some((h, Some(until), count)),
         Err(none) => {
             let at = if none.is_of_time() { &end.at } else { &step.at };
             reader.toml.wrong(at, none.to_string(), none.hint())

@@ -81,7 +81,7 @@ impl System {
     }
 
     /// H for rows, where the steps conserve another function.
-    pub(crate) fn energy_of_rows<N: SceneNumber>(&self, context: &N::Context) -> Option<EnergyAt<N>> {
+    pub fn energy_of_rows<N: SceneNumber>(&self, context: &N::Context) -> Option<EnergyAt<N>> {
         self.transformed_time().map(|_| self.energy(context))
     }
 

@@ -137,7 +137,7 @@ impl InitialValueProblem {
     }
 
     /// The shipped problem at this initial state; `None` for another system.
-    pub(crate) fn setup(&self) -> Option<Setup> {
+    pub fn setup(&self) -> Option<Setup> {
         let PotentialEnergy::Shipped(setup) = &self.potential else { return None };
         let names = setup.values.positions().iter().chain(setup.values.momenta()).map(|(name, _)| name.clone());
         let values = self.q.iter().chain(&self.p).map(|exact| to_text(&exact.value));

@@ -1,0 +1,87 @@
+//! The length of a run in the fictitious time s, where time is transformed.
+
+use num_integer::Integer as _;
+use num_traits::{FromPrimitive, One as _, Signed};
+use shadowstep::{Carried, Number, Rational, StepSize};
+use shadowstep_scenes::library::scheme;
+use shadowstep_scenes::propagator::for_system;
+use shadowstep_scenes::start::{Begin, Steps};
+use shadowstep_scenes::{Error, System};
+use shadowstep_symbolic::decimal::{from_text, to_significant};
+
+/// A composition of the leapfrog, for every T(p).
+const SCHEME: &str = "sofroniou-spaletta6-13";
+/// A run of fewer steps says little of the length.
+const FEWEST_STEPS: u64 = 64;
+/// No run makes more steps.
+const MOST_STEPS: u64 = 1 << 24;
+/// The step is halved so often at most.
+const MOST_HALVINGS: u32 = 60;
+/// The lengths with a step and with half of it agree to this part.
+const AGREE: f64 = 0.01;
+
+/// The length in s of a run to the physical time `until`, to about a hundredth, with three digits: which multiple of it a step is says about how many there are.
+/// `None` where time is not transformed.
+///
+/// # Errors
+/// A system that has no states up to this time.
+pub fn length_of(system: &System, until: &Rational) -> Result<Option<Rational>, Error> {
+    if system.transformed_time().is_none() {
+        return Ok(None);
+    }
+    let mut h = until.clone();
+    let mut last = f64::NAN;
+    for _ in 0..MOST_HALVINGS {
+        let found = length_by(system, until, &h)?;
+        if let Some(length) = found.filter(|length| (length / last - 1.0).abs() < AGREE) {
+            let length = Rational::from_f64(length).expect("it is finite");
+            return Ok(from_text(&to_significant(&length, 3)).ok());
+        }
+        last = found.unwrap_or(f64::NAN);
+        h /= Rational::from_integer(2.into());
+    }
+    let message = "there are no steps in the transformed time up to the end of the runs";
+    Err(Error::run(message, "use a shorter time, or remove [time]"))
+}
+
+/// The length by steps of this size, linearly in the last of them; `None` if there are few, or too many, or a state is not finite.
+fn length_by(system: &System, until: &Rational, h: &Rational) -> Result<Option<f64>, Error> {
+    let scheme = for_system(scheme(SCHEME)?, system)?;
+    let size = StepSize::try_from(h.clone()).map_err(|error| Error::usage(error.to_string(), "use a longer time"))?;
+    let begin = Begin::InitialState;
+    let steps = Steps { scheme: &scheme.scheme, h: &size, compensated: false, displaced: false, begin };
+    let mut integrator = system.integrator::<f64>(steps, system.start(&()), &())?;
+    let (end, h) = (<f64 as Number>::from_rational(&until.abs(), &()), <f64 as Number>::from_rational(h, &()));
+    let mut before = 0.0;
+    for made in 0..MOST_STEPS {
+        integrator.step(Carried::Nothing);
+        let t = integrator.state().q().last().map_or(f64::NAN, |t| t.abs());
+        if !t.is_finite() {
+            return Ok(None);
+        }
+        if t >= end {
+            let length = h * (made as f64 + (end - before) / (t - before));
+            return Ok((made >= FEWEST_STEPS).then_some(length));
+        }
+        before = t;
+    }
+    Ok(None)
+}
+
+/// The common multiple of these step sizes that is closest to the length, at least one.
+///
+/// ```
+/// use shadowstep::exact;
+/// use shadowstep_work_precision::length::common_multiple;
+///
+/// let [length, h, g] = ["10.1", "1/4", "1/6"].map(|text| exact(text).unwrap());
+/// assert_eq!(common_multiple(&length, &[h, g]), exact("10").unwrap());
+/// ```
+pub fn common_multiple(length: &Rational, steps: &[Rational]) -> Rational {
+    let least =
+        steps.iter().map(Signed::abs).reduce(|a, b| Rational::new(a.numer().lcm(b.numer()), a.denom().gcd(b.denom())));
+    let least = least.unwrap_or_else(|| length.abs());
+    let half = Rational::new(1.into(), 2.into());
+    let times = (length.abs() / &least + half).floor().max(Rational::one());
+    least * times * length.signum()
+}
