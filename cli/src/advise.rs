@@ -8,7 +8,7 @@ use shadowstep::number::{Limbs, Number, Real};
 use shadowstep_scenes::Error;
 use shadowstep_scenes::readable::wrapped_to;
 use shadowstep_symbolic::decimal::to_text;
-use shadowstep_work_precision::advise::{Advice, AdviceRequest, Choice, Verified};
+use shadowstep_work_precision::advise::{Advice, AdviceRequest, Choice, Unfinished, Verified};
 use shadowstep_work_precision::of::Of;
 use shadowstep_work_precision::size::Size;
 use shadowstep_work_precision::study::Cost;
@@ -27,7 +27,7 @@ Examples:
   shadowstep advise mine.toml --tolerance 1e-10 --of energy --cost time
   shadowstep advise outer-solar-system --until 200000 --tolerance 1e-6 --schemes +mine.toml
 
-All schemes are run over a part of the time; errors are extrapolated to all of it by their growth. The best choice is then verified by a run over
+All schemes are run over a part of the time that --seconds allows; errors are extrapolated to all of it by their growth. The best choice is then verified by a run over
 all of the time, whose error is printed beside the prediction: to a tenth, or as `at most`. That of positions is the difference to the exact flow, or to
 runs of a scheme of order 10 whose own error is known from half the step. Exit code 1 if no scheme meets the tolerance.";
 
@@ -46,11 +46,12 @@ pub(crate) struct Arguments {
     /// What is to be small
     #[arg(long, value_name = "WHAT", default_value = "forces")]
     cost: What,
-    /// The schemes to choose from, as in work-precision [default: a dozen]
+    /// The schemes to choose from, as in work-precision [default: a dozen; beside a dominant part, such as Kepler orbits, those for A + εB and kernels with
+    /// correctors too]
     #[arg(long, value_name = "NAME|FILE,…", value_delimiter = ',')]
     schemes: Vec<String>,
-    /// The time for the runs of a scheme, in seconds
-    #[arg(long, value_name = "SECONDS", default_value = "4", value_parser = seconds)]
+    /// The time of the search on all cores, in seconds; the runs that verify the choice take what they take
+    #[arg(long, value_name = "SECONDS", default_value = "30", value_parser = seconds)]
     seconds: f64,
     /// Keeps the results in a folder, for another tolerance
     #[arg(long, value_name = "DIR")]
@@ -69,7 +70,7 @@ enum Which {
 
 #[derive(Clone, Copy, Debug, ValueEnum)]
 enum What {
-    /// Evaluations of the gradient
+    /// Evaluations of the gradient, Hessian–vector products of gradient kicks, and flows of a dominant part such as Kepler orbits, one as the other
     Forces,
     /// Seconds on this machine
     Time,
@@ -128,18 +129,21 @@ fn readable(posed: &PosedProblem, request: &AdviceRequest<'_>, advice: &Advice<'
     let mut text = wrapped_to(&posed.title(), "", WIDTH);
     text += &wrapped_to(&format!("tolerance {}: {}", request.tolerance, request.of.name()), "", WIDTH);
     match advice {
-        Advice::OutOfReach { least, part, reference, in_time, missed } => {
+        Advice::OutOfReach { least, part, reference, in_time, missed, unfinished } => {
             let runs = over(*part);
             let limit = match in_time {
                 true => format!("in {}", posed.arithmetic.described()),
-                false => format!("in runs of {} s a scheme, which --seconds sets", request.seconds),
+                false => format!("in a search of {} s, which --seconds sets", request.seconds),
             };
             let found = match least {
                 _ if *missed > 0 => format!(
-                    "No advice: {missed} runs over all of the time were expected to meet the tolerance from runs {runs}, and missed it."
+                    "No advice: runs over all of the time, {missed} of them, were expected to meet the tolerance from runs {runs}, and missed it."
                 ),
                 Some((error, name)) => {
                     format!("No scheme meets the tolerance {limit}: the smallest error was {error}, of {name}, {runs}.")
+                }
+                None if *unfinished != Unfinished::default() => {
+                    format!("No advice: no error is known {limit}, {runs}.")
                 }
                 None if request.of == Of::Position => format!(
                     "No advice: the positions of the reference change by {reference} with its step {runs}, as they do where the motion is \
@@ -148,29 +152,38 @@ fn readable(posed: &PosedProblem, request: &AdviceRequest<'_>, advice: &Advice<'
                 None => format!("No advice: no error is known {runs}."),
             };
             text += &wrapped_to(&found, "", WIDTH);
+            text += &not_finished(unfinished, request.seconds);
         }
-        Advice::Found { choices, verified, part } => {
+        Advice::Found { choices, verified, part, unfinished } => {
             let best = &choices[0];
             let of_time = if request.problem.length.is_some() { " of s" } else { "" };
             let name = format!("{}, step {}{of_time}", best.scheme.name, to_text(&best.step));
             text += &format!("{}\n", if coloured { heading(&name) } else { name });
-            text += &evidence(best, *verified, *part);
+            text += &evidence(best, request, *verified, *part);
             for other in &choices[1..] {
                 let Choice { scheme, step, error, .. } = other;
-                let (evaluations, seconds) = (other.evaluations(), other.seconds());
-                let line = format!(
-                    "or {}, step {}: predicted {error}, {evaluations:.0} forces, {seconds:.2e} s",
-                    scheme.name,
-                    to_text(step)
-                );
+                let (work, seconds) = (other.work(request.problem.system).described(), other.seconds());
+                let line =
+                    format!("or {}, step {}: predicted {error}, {work}, {seconds:.2e} s", scheme.name, to_text(step));
                 text += &wrapped_to(&line, "    ", WIDTH);
             }
+            text += &not_finished(unfinished, request.seconds);
         }
     }
     text
 }
 
-fn evidence(best: &Choice<'_>, verified: Verified, part: f64) -> String {
+/// What the search had too little time for.
+fn not_finished(unfinished: &Unfinished<'_>, seconds: f64) -> String {
+    let Unfinished { untried, extrapolated } = unfinished;
+    let line = |what: &str, names: &[&str]| match names {
+        [] => String::new(),
+        names => wrapped_to(&format!("{what} in {seconds} s, which --seconds sets: {}", names.join(", ")), "", WIDTH),
+    };
+    line("not tried", untried) + &line("extrapolated from larger errors, as runs ended", extrapolated)
+}
+
+fn evidence(best: &Choice<'_>, request: &AdviceRequest<'_>, verified: Verified, part: f64) -> String {
     let verified = match verified {
         Verified::Error(error) => error.to_string(),
         Verified::AtMost(bound) => format!("at most {bound}"),
@@ -178,7 +191,7 @@ fn evidence(best: &Choice<'_>, verified: Verified, part: f64) -> String {
     let mut lines = vec![
         ("predicted", format!("{}, from runs {}", best.error, over(part))),
         ("verified", format!("{verified}, by a run over all of the time")),
-        ("cost", format!("{:.0} forces, {:.2e} s", best.evaluations(), best.seconds())),
+        ("cost", format!("{}, {:.2e} s", best.work(request.problem.system).described(), best.seconds())),
     ];
     if let Some(stable) = best.stable_step {
         let part = best.size() / stable;

@@ -14,7 +14,7 @@ use shadowstep_scenes::{Error, System, shell_word};
 use shadowstep_symbolic::decimal::to_text;
 use shadowstep_work_precision::files::{Title, write, written};
 use shadowstep_work_precision::length::common_multiple;
-use shadowstep_work_precision::schemes::default_schemes;
+use shadowstep_work_precision::schemes::Group;
 use shadowstep_work_precision::series::StepRange;
 use shadowstep_work_precision::study::Request;
 
@@ -75,7 +75,16 @@ pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
     let problem = posed.problem();
     let reference_time = Duration::from_secs_f64(REFERENCE * arguments.seconds);
     let study = |folder: &Path, terminal: &mut Terminal| {
-        Request { problem, schemes: &schemes, range, reference_time, folder: folder.to_owned() }.study(terminal)
+        Request {
+            problem,
+            schemes: &schemes,
+            range,
+            reference_time,
+            resolution: None,
+            shortest_repeat: Duration::MAX,
+            folder: folder.to_owned(),
+        }
+        .study(terminal)
     };
     let (study, status) = study_in(Some(&arguments.out), arguments.force, written(), study)?;
     let (title, command) = (posed.title(), command());
@@ -100,47 +109,28 @@ pub(crate) fn seconds(text: &str) -> Result<f64, String> {
     }
 }
 
-/// Words for several shipped schemes.
-const ALL: &str = "all";
-const NEAR_INTEGRABLE: &str = "near-integrable";
-
-/// Whether a shipped table has orders for A + εB, of a processed scheme effective ones.
-fn is_near_integrable(name: &str) -> bool {
-    shadowstep_schemes::shipped_proved(name).is_some_and(|proved| {
-        let effective = proved.proof.effective.iter().flat_map(|effective| &effective.near_integrable);
-        proved.proof.near_integrable.iter().chain(effective).next().is_some()
-    })
-}
-
 /// The schemes, each once, that are valid for the system and have the digits of the runs.
 pub(crate) fn schemes(words: &[String], posed: &PosedProblem) -> Result<Vec<NamedScheme>, Error> {
     let system = &posed.described.system;
-    let (added, mut named): (Vec<&str>, Vec<&str>) =
-        words.iter().map(String::as_str).partition(|word| word.starts_with('+'));
-    let all = named.contains(&ALL);
-    let is_group = |word: &&str| [ALL, NEAR_INTEGRABLE].contains(word);
-    if named.iter().any(is_group) {
-        named.retain(|word| !is_group(word));
-        named.extend(shadowstep::tables::shipped_names().into_iter().filter(|name| all || is_near_integrable(name)));
-    } else if named.is_empty() {
-        named.extend(default_schemes(system.has_general_kinetic()));
-    }
-    named.extend(added.iter().map(|word| &word[1..]));
     let mut found: Vec<NamedScheme> = Vec::new();
-    for word in named {
+    let mut add = |scheme: NamedScheme| {
+        if !found.iter().any(|other| other.name == scheme.name) {
+            scheme.note().iter().for_each(report::note);
+            found.push(scheme);
+        }
+    };
+    if words.iter().all(|word| word.starts_with('+')) {
+        Group::Default.schemes(system, posed.arithmetic)?.into_iter().for_each(&mut add);
+    }
+    for word in words {
+        let word = word.strip_prefix('+').unwrap_or(word);
         if word.trim().is_empty() {
             return Err(Error::usage("--schemes has an empty value", "write --schemes yoshida4,+mine.toml"));
         }
-        let scheme = valid(scheme(word)?, system, posed);
-        if all && scheme.is_err() {
-            continue;
+        match Group::of_word(word) {
+            Some(group) => group.schemes(system, posed.arithmetic)?.into_iter().for_each(&mut add),
+            None => add(valid(scheme(word)?, system, posed)?),
         }
-        let scheme = scheme?;
-        if found.iter().any(|other| other.name == scheme.name) {
-            continue;
-        }
-        scheme.note().iter().for_each(report::note);
-        found.push(scheme);
     }
     Ok(found)
 }

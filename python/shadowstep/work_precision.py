@@ -77,7 +77,7 @@ def work_precision(
     until
         The end of the runs, a physical time.
     schemes
-        By default a dozen that are valid for the problem.
+        By default a dozen that are valid for the problem; ``"all"`` are those of the catalogue, ``"near-integrable"`` those with orders for A + εB.
     steps
         The numbers of steps of the runs; by default equal numbers of evaluations for all schemes.
     seconds
@@ -92,14 +92,14 @@ def work_precision(
     >>> [round(curve.runs[-2].position_error / curve.runs[-1].position_error) for curve in curves]
     [4, 16]
     """
-    tables = _tables(schemes)
+    group, tables = _tables(schemes)
     _check_seconds(seconds)
     given = None if steps is None else sorted(count(number, "steps") for number in steps)
     if given == []:
         raise _shadowstep.InputError(f"steps = {steps}: give numbers of steps such as [100, 200, 400]")
     with _folder(folder) as path, bar(1000, "", progress) as reach:
         found = _shadowstep.work_precision(
-            given_of(problem), exact(until, "until"), tables, steps=given, digits=str(digits), seconds=seconds, folder=path, progress=reach
+            given_of(problem), exact(until, "until"), tables, group, steps=given, digits=str(digits), seconds=seconds, folder=path, progress=reach
         )
     return [Curve(**{**curve, "runs": [Measurement(**run) for run in curve["runs"]]}) for curve in json.loads(found)]
 
@@ -115,6 +115,11 @@ class Choice:
     predicted: float
     """The error that is expected."""
     evaluations: float
+    """Evaluations of the forces."""
+    hessian_products: int
+    """Hessian–vector products, one in each gradient kick."""
+    flows: int
+    """Flows of a dominant part, such as Kepler orbits."""
     seconds: float
     stable_step: float | None
     """The largest stable step for the fastest oscillation at the start."""
@@ -139,6 +144,10 @@ class Advice:
     """Whether ``verified`` is a bound instead: the reference resolves no more."""
     least: float | None
     """Where no scheme meets the tolerance: the smallest error that was found."""
+    untried: list[str]
+    """Schemes that the search had no time for."""
+    extrapolated: list[str]
+    """Schemes whose runs ended, for the time, before the tolerance."""
 
     def __str__(self) -> str:
         if not self.choices:
@@ -159,7 +168,7 @@ def advise(
     cost: str = "forces",
     schemes: Schemes = (),
     digits: Union[int, str] = "double",
-    seconds: float = 4.0,
+    seconds: float = 30.0,
     folder: Union[str, os.PathLike[str], None] = None,
     progress: bool | None = None,
 ) -> Advice:
@@ -173,18 +182,22 @@ def advise(
         Which error: ``"position"`` at the end, ``"energy"``, the largest |H(t) − H(0)|, or ``"permanent"``, the permanent change of the
         modified energy.
     cost
-        What is to be small: ``"forces"`` or ``"time"``.
+        What is to be small: ``"forces"``, with which Hessian–vector products and flows of a dominant part are counted, or ``"time"``.
+    schemes
+        As in `work_precision`. Beside a dominant part, such as Kepler orbits, near-integrable schemes are among the default ones.
+    seconds
+        The time of the search on all cores; the runs that verify the choice take what they take.
 
     Examples
     --------
     >>> import shadowstep
-    >>> advice = shadowstep.advise(shadowstep.Problem("pendulum"), 50, 1e-6, seconds=0.2)
+    >>> advice = shadowstep.advise(shadowstep.Problem("pendulum"), 50, 1e-6, seconds=4)
     >>> advice.verified <= 1e-6, len(advice.choices) > 0
     (True, True)
     >>> str(advice).split()[:6]
     ['scheme', 'h', 'steps', 'error', 'forces', 'seconds']
     """
-    tables = _tables(schemes)
+    group, tables = _tables(schemes)
     _check_seconds(seconds)
     with _folder(folder) as path, bar(1000, "", progress) as reach:
         found: dict[str, Any] = json.loads(
@@ -195,6 +208,7 @@ def advise(
                 of=of,
                 cost=cost,
                 schemes=tables,
+                group=group,
                 digits=str(digits),
                 seconds=seconds,
                 folder=path,
@@ -202,7 +216,14 @@ def advise(
             )
         )
     choices = [Choice(**choice) for choice in found.get("choices", [])]
-    return Advice(choices=choices, verified=found.get("verified"), at_most=found.get("at_most", False), least=found.get("least"))
+    return Advice(
+        choices=choices,
+        verified=found.get("verified"),
+        at_most=found.get("at_most", False),
+        least=found.get("least"),
+        untried=found["untried"],
+        extrapolated=found["extrapolated"],
+    )
 
 
 def _real(value: Any, what: str) -> float:
@@ -219,12 +240,15 @@ def _check_seconds(seconds: float) -> None:
         raise _shadowstep.InputError(f"seconds = {seconds}: give a number of seconds from 0.001 to 1000000")
 
 
-def _tables(schemes: Schemes) -> list[Any]:
+def _tables(schemes: Schemes) -> tuple[str | None, list[Any]]:
+    """The word of a group of schemes, or the schemes."""
+    if isinstance(schemes, str) and schemes in ("all", "near-integrable"):
+        return schemes, []
     if isinstance(schemes, (str, os.PathLike, Scheme)):
         schemes = [schemes]
     if not isinstance(schemes, Iterable):
         raise TypeError(f"schemes must be schemes or their names, such as ['yoshida4', 'pefrl'], not {type(schemes).__name__}")
-    return [table_of(scheme) for scheme in schemes]
+    return None, [table_of(scheme) for scheme in schemes]
 
 
 @contextmanager

@@ -6,16 +6,16 @@ use std::time::Duration;
 use pyo3::prelude::*;
 use serde_json::{Value, json};
 use shadowstep::Rational;
+use shadowstep_scenes::System;
 use shadowstep_scenes::arithmetic::Arithmetic;
 use shadowstep_scenes::library::NamedScheme;
-use shadowstep_scenes::{Error, System};
 use shadowstep_symbolic::decimal::to_text;
 use shadowstep_work_precision::advise::{Advice, AdviceRequest, Choice, Verified};
 use shadowstep_work_precision::length::length_of;
 use shadowstep_work_precision::of::Of;
 use shadowstep_work_precision::problem::Problem;
 use shadowstep_work_precision::run::{Measurement, PositionError};
-use shadowstep_work_precision::schemes::default_schemes;
+use shadowstep_work_precision::schemes::Group;
 use shadowstep_work_precision::series::StepRange;
 use shadowstep_work_precision::size::Size;
 use shadowstep_work_precision::study::{Cost, Request, Studied, Study};
@@ -36,39 +36,44 @@ struct Compared {
     schemes: Vec<NamedScheme>,
 }
 
-/// What is asked for: the problem, the end of the runs, the number type, and the schemes.
+/// What is asked for: the problem, the end of the runs, the number type, and the schemes, or the group that they are of.
 struct Asked {
     problem: Given,
     until: Rational,
     arithmetic: Arithmetic,
     schemes: Vec<NamedScheme>,
+    group: Group,
 }
 
 impl Asked {
-    fn of(py: Python<'_>, problem: &Given, until: &str, schemes: &[PyRef<'_, Table>], digits: &str) -> PyResult<Self> {
+    /// Without schemes, those of the group, or a dozen, that are valid for the system.
+    fn of(
+        py: Python<'_>,
+        problem: &Given,
+        until: &str,
+        (schemes, group): (&[PyRef<'_, Table>], Option<&str>),
+        digits: &str,
+    ) -> PyResult<Self> {
+        let group = group.map(|given| word(py, "schemes", given, &Group::NAMED)).transpose()?;
         let (arithmetic, until) = (arithmetic(py, digits, false)?, number(py, until)?);
         if until == Rational::from_integer(0.into()) {
             return Err(usage(py, "until = 0: the runs must have a length", "until = 100"));
         }
         let schemes = schemes.iter().map(|table| table.0.clone()).collect();
-        Ok(Asked { problem: problem.clone(), until, arithmetic, schemes })
+        let group = group.unwrap_or(Group::Default);
+        Ok(Asked { problem: problem.clone(), until, arithmetic, schemes, group })
     }
 }
 
 impl Compared {
-    /// Without schemes, a dozen that are valid for the system.
     fn of(asked: Asked) -> Result<Self, Error> {
-        let Asked { problem, until, arithmetic, schemes } = asked;
+        let Asked { problem, until, arithmetic, schemes, group } = asked;
         let system = problem.system(arithmetic)?;
-        let given: Vec<NamedScheme> = if schemes.is_empty() {
-            let names = default_schemes(system.has_general_kinetic());
-            let read = |name: &str| shadowstep_scenes::library::scheme(name).map_err(Error::from);
-            names.into_iter().map(read).collect::<Result<_, _>>()?
-        } else {
-            schemes
-        };
         let valid = |scheme| SystemWithScheme::of(&problem, scheme, arithmetic).map(|posed| posed.scheme);
-        let schemes = given.iter().map(valid).collect::<Result<_, _>>()?;
+        let schemes = match &schemes[..] {
+            [] => group.schemes(&system, arithmetic)?,
+            given => given.iter().map(valid).collect::<Result<_, _>>()?,
+        };
         let length = length_of(&system, &until)?;
         Ok(Compared { system, until, length, arithmetic, schemes })
     }
@@ -81,13 +86,14 @@ impl Compared {
 
 /// The errors of several schemes on a problem beside a reference, and their cost, as JSON.
 #[pyfunction]
-#[pyo3(signature = (problem, until, schemes, *, steps, digits, seconds, folder, progress))]
+#[pyo3(signature = (problem, until, schemes, group, *, steps, digits, seconds, folder, progress))]
 #[allow(clippy::too_many_arguments)] // the package's own function has the defaults
 pub(crate) fn work_precision(
     py: Python<'_>,
     problem: &Given,
     until: &str,
     schemes: Vec<PyRef<'_, Table>>,
+    group: Option<&str>,
     steps: Option<Vec<u64>>,
     digits: &str,
     seconds: f64,
@@ -96,7 +102,7 @@ pub(crate) fn work_precision(
 ) -> PyResult<String> {
     /// The reference may take this multiple of the time of a scheme.
     const REFERENCE: f64 = 10.0;
-    let asked = Asked::of(py, problem, until, &schemes, digits)?;
+    let asked = Asked::of(py, problem, until, (&schemes, group), digits)?;
     let range = match steps {
         Some(steps) => StepRange::Given(steps),
         None => StepRange::Automatic { seconds, target: None },
@@ -105,7 +111,15 @@ pub(crate) fn work_precision(
     let found = waiting(py, progress, move |watched| {
         let compared = Compared::of(asked)?;
         let (problem, schemes) = (compared.problem(), &compared.schemes);
-        let request = Request { problem, schemes, range, reference_time, folder };
+        let request = Request {
+            problem,
+            schemes,
+            range,
+            reference_time,
+            resolution: None,
+            shortest_repeat: Duration::MAX,
+            folder,
+        };
         request.study(&mut watched.observer_of_tasks()).map(|study| of_study(&study))
     });
     problem.raised(py)?;
@@ -154,7 +168,7 @@ fn number_of(size: Size) -> Option<f64> {
 
 /// A scheme and a step size for a tolerance, as JSON.
 #[pyfunction]
-#[pyo3(signature = (problem, until, tolerance, *, of, cost, schemes, digits, seconds, folder, progress))]
+#[pyo3(signature = (problem, until, tolerance, *, of, cost, schemes, group, digits, seconds, folder, progress))]
 #[allow(clippy::too_many_arguments)]
 pub(crate) fn advise(
     py: Python<'_>,
@@ -164,6 +178,7 @@ pub(crate) fn advise(
     of: &str,
     cost: &str,
     schemes: Vec<PyRef<'_, Table>>,
+    group: Option<&str>,
     digits: &str,
     seconds: f64,
     folder: PathBuf,
@@ -174,7 +189,7 @@ pub(crate) fn advise(
     if !(tolerance > 0.0 && tolerance.is_finite()) {
         return Err(usage(py, format!("tolerance = {tolerance}: the tolerance must be positive"), "tolerance = 1e-8"));
     }
-    let asked = Asked::of(py, problem, until, &schemes, digits)?;
+    let asked = Asked::of(py, problem, until, (&schemes, group), digits)?;
     let found = waiting(py, progress, move |watched| {
         let compared = Compared::of(asked)?;
         let request = AdviceRequest {
@@ -186,36 +201,42 @@ pub(crate) fn advise(
             seconds,
             folder,
         };
-        request.run(&mut watched.observer_of_tasks()).map(|advice| of_advice(&advice))
+        request.run(&mut watched.observer_of_tasks()).map(|advice| of_advice(&advice, &compared.system))
     });
     problem.raised(py)?;
     Ok(found?.map_err(|error| exception(py, error))?.to_string())
 }
 
-fn of_advice(advice: &Advice<'_>) -> Value {
+fn of_advice(advice: &Advice<'_>, system: &System) -> Value {
     match advice {
-        Advice::Found { choices, verified, part } => {
-            let choices: Vec<Value> = choices.iter().map(of_choice).collect();
+        Advice::Found { choices, verified, part, unfinished } => {
+            let choices: Vec<Value> = choices.iter().map(|choice| of_choice(choice, system)).collect();
             let at_most = matches!(verified, Verified::AtMost(_));
-            json!({ "found": true, "choices": choices, "verified": number_of(verified.size()), "at_most": at_most, "part": part })
+            json!({ "found": true, "choices": choices, "verified": number_of(verified.size()), "at_most": at_most, "part": part,
+                "untried": unfinished.untried, "extrapolated": unfinished.extrapolated })
         }
-        Advice::OutOfReach { least, part, in_time, .. } => json!({
+        Advice::OutOfReach { least, part, in_time, unfinished, .. } => json!({
             "found": false,
             "least": least.map(|(error, _)| number_of(error)),
             "scheme": least.map(|(_, name)| name),
             "part": part,
             "in_time": in_time,
+            "untried": unfinished.untried,
+            "extrapolated": unfinished.extrapolated,
         }),
     }
 }
 
-fn of_choice(choice: &Choice<'_>) -> Value {
+fn of_choice(choice: &Choice<'_>, system: &System) -> Value {
+    let work = choice.work(system);
     json!({
         "scheme": choice.scheme.name,
         "h": to_text(&choice.step),
         "steps": choice.steps,
         "predicted": number_of(choice.error),
         "evaluations": choice.evaluations(),
+        "hessian_products": work.products,
+        "flows": work.flows,
         "seconds": choice.seconds(),
         "stable_step": choice.stable_step,
         "conserved_up_to": choice.conserved_up_to,

@@ -113,7 +113,7 @@ def compared(system, way, folder):
 
 
 def advised(system, way, folder):
-    advice = advise(problem(system, folder), end(system, way), 1e-2, schemes=[scheme(way)], digits=digits(way), seconds=0.05)
+    advice = advise(problem(system, folder), end(system, way), 1e-2, schemes=[scheme(way)], digits=digits(way), seconds=1)
     assert advice.verified <= 1e-2
 
 

@@ -71,8 +71,21 @@ def test_work_precision_measures_the_order():
     assert [curve.order for curve in curves] == [2, 4, 6]
 
 
+def test_advice_beside_a_dominant_part_has_near_integrable_schemes():
+    planets = Problem("outer-solar-system", parts="wisdom-holman")
+    for schemes in [(), "near-integrable"]:
+        advice = shadowstep.advise(planets, 8000, 1e-4, schemes=schemes, seconds=8)
+        best = advice.choices[0]
+        assert advice.verified <= 1e-4 and best.flows > 0, advice
+        assert 0.1 < best.predicted / advice.verified < 100, advice
+    with pytest.raises(InputError, match="near-integrably"):
+        shadowstep.advise(planets, 8000, 1e-4, schemes="near-integrably")
+    nothing = shadowstep.advise(Problem("henon-heiles"), 10**6, 1e-10, of="energy", seconds=0.001)
+    assert not nothing.choices and nothing.untried + nothing.extrapolated
+
+
 def test_advice_meets_its_tolerance():
-    advice = shadowstep.advise(Problem("pendulum"), 40, 1e-7, seconds=0.2, schemes=["yoshida4", "blanes-moan-srkn11b"])
+    advice = shadowstep.advise(Problem("pendulum"), 40, 1e-7, seconds=4, schemes=["yoshida4", "blanes-moan-srkn11b"])
     assert advice.verified <= 1e-7
     best = advice.choices[0]
     run = shadowstep.integrate(Problem("pendulum"), best.scheme, best.h, until=40, every=10**9)

@@ -26,12 +26,17 @@ impl System {
     ///
     /// An eigenvalue that the iterations do not reach is underestimated.
     pub fn fastest_frequency(&self) -> Option<Frequency> {
+        self.fastest_motion().filter(|_| self.parts.is_kinetic_and_potential())
+    }
+
+    /// The same whatever the parts of H are: the frequency of T(p) + U(q). Steps resolve it where they do not solve the fastest motion exactly.
+    pub fn fastest_motion(&self) -> Option<Frequency> {
         let KineticEnergy::Masses(masses) = &self.kinetic else { return None };
-        if !self.parts.is_kinetic_and_potential() {
+        if matches!(self.potential, PotentialEnergy::OfParts) {
             return None;
         }
-        let (q, p) = self.start::<f64>(&());
-        if !self.energy::<f64>(&())(&q, &p).is_finite() {
+        let (q, p) = self.problem.initial::<f64>(&());
+        if !self.problem.plain_energy::<f64>(&())(&q, &p).is_finite() {
             return None;
         }
         let number = |exact: &shadowstep_symbolic::Exact| <f64 as shadowstep::Number>::from_rational(&exact.value, &());

@@ -11,12 +11,12 @@ use shadowstep::Rational;
 use shadowstep::tables::Source;
 use shadowstep_scenes::System;
 use shadowstep_scenes::arithmetic::Arithmetic;
-use shadowstep_scenes::library::{NamedScheme, scheme};
+use shadowstep_scenes::library::NamedScheme;
 use shadowstep_work_precision::advise::{Advice, AdviceRequest, Choice};
 use shadowstep_work_precision::of::Of;
 use shadowstep_work_precision::problem::Problem;
 use shadowstep_work_precision::run::PositionError;
-use shadowstep_work_precision::schemes::default_schemes;
+use shadowstep_work_precision::schemes::Group;
 use shadowstep_work_precision::series::StepRange;
 use shadowstep_work_precision::size::Size;
 use shadowstep_work_precision::study::{Cost, Request, Study};
@@ -57,8 +57,7 @@ fn main() {
         let (system, _) = System::read(&source, Arithmetic::DOUBLE).unwrap();
         let until = Rational::from_integer(until.into());
         let problem = Problem { system: &system, until: &until, arithmetic: Arithmetic::DOUBLE, length: None };
-        let names = default_schemes(system.has_general_kinetic());
-        let schemes = names.map(|name| scheme(name).unwrap());
+        let schemes = Group::Default.schemes(&system, Arithmetic::DOUBLE).unwrap();
         let folder = tempfile::tempdir().unwrap();
         let study = study(problem, &schemes, &folder.path().join("study"));
         for exponent in TOLERANCES {
@@ -70,7 +69,7 @@ fn main() {
                 of: Of::Position,
                 tolerance,
                 cost: Cost::Evaluations,
-                seconds: 4.0,
+                seconds: 48.0,
                 folder,
             };
             let best = study.cheapest(Of::Position, Cost::Evaluations, tolerance).into_iter().next();
@@ -101,7 +100,17 @@ fn main() {
 fn study<'a>(problem: Problem<'a>, schemes: &'a [NamedScheme], folder: &Path) -> Study<'a> {
     let range = StepRange::Automatic { seconds: 4.0, target: None };
     let reference_time = Duration::from_secs(60);
-    Request { problem, schemes, range, reference_time, folder: folder.to_owned() }.study(&mut ()).unwrap()
+    Request {
+        problem,
+        schemes,
+        range,
+        reference_time,
+        resolution: None,
+        shortest_repeat: Duration::MAX,
+        folder: folder.to_owned(),
+    }
+    .study(&mut ())
+    .unwrap()
 }
 
 /// The error of the advised run beside a reference of more digits.
@@ -110,7 +119,15 @@ fn measured(problem: Problem<'_>, choice: &Choice<'_>, folder: &Path) -> Positio
     let problem = Problem { until: &until, ..problem };
     let (schemes, range) = ([choice.scheme.clone()], StepRange::Given(vec![choice.steps]));
     let reference_time = Duration::from_secs(60);
-    let request = Request { problem, schemes: &schemes, range, reference_time, folder: folder.to_owned() };
+    let request = Request {
+        problem,
+        schemes: &schemes,
+        range,
+        reference_time,
+        resolution: None,
+        shortest_repeat: Duration::MAX,
+        folder: folder.to_owned(),
+    };
     request.study(&mut ()).unwrap().schemes[0].series.runs[0].position
 }
 

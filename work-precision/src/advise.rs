@@ -6,11 +6,11 @@ use std::time::Duration;
 
 use num_traits::ToPrimitive;
 use shadowstep::{Number, Rational, Scheme};
-use shadowstep_scenes::Error;
 use shadowstep_scenes::library::NamedScheme;
+use shadowstep_scenes::{Error, System};
 use shadowstep_studies::{Observer, Store};
 
-use crate::best::cost_of;
+use crate::best::{Curve, cost_of};
 use crate::calculation::{Calculation, Outcome};
 use crate::convenient::convenient_step;
 use crate::length::length_of;
@@ -22,6 +22,7 @@ use crate::series::{End, StepRange, Target, stable_step};
 use crate::size::Size;
 use crate::study::{Cost, Request, Studied, Study, proved_order};
 use crate::timing::time_of_steps;
+use crate::work::Work;
 
 /// What is wanted.
 pub struct AdviceRequest<'a> {
@@ -35,7 +36,8 @@ pub struct AdviceRequest<'a> {
     pub tolerance: Size,
     /// What is to be small.
     pub cost: Cost,
-    /// The time for the runs of a scheme, in seconds.
+    /// The time for the search on all cores, in seconds: the reference, the runs of the schemes and the times of their steps. The runs that verify
+    /// a choice take what they take.
     pub seconds: f64,
     /// Outcomes are saved in this folder.
     pub folder: PathBuf,
@@ -60,9 +62,20 @@ pub struct Choice<'a> {
     pub conserved_up_to: Option<f64>,
     /// The smallest step whose verdict was another one than fine or undecided.
     pub lost_from: Option<f64>,
+    /// Numbers of steps and predicted errors, log₁₀.
+    curve: Curve,
+    /// What the steps of the curve divide.
+    length: f64,
+    /// The proved order.
+    order: f64,
 }
 
 impl Choice<'_> {
+    /// What the run costs beside its time.
+    pub fn work(&self, system: &System) -> Work {
+        Work::of_step(self.scheme, system).times(self.steps)
+    }
+
     /// Evaluations of the gradient in the run.
     pub fn evaluations(&self) -> f64 {
         self.steps as f64 * self.scheme.scheme.summary().evaluations as f64
@@ -77,6 +90,34 @@ impl Choice<'_> {
     pub fn size(&self) -> f64 {
         <f64 as Number>::from_rational(&self.step, &()).abs()
     }
+
+    /// The predicted error of steps of this size, log₁₀: between two runs that are powers of each other, beyond them by the order.
+    fn predicted(&self, h: f64) -> f64 {
+        let steps = self.length / h;
+        match self.curve.iter().position(|(known, _)| *known >= steps) {
+            Some(0) => by_order(self.curve[0], self.order, steps),
+            Some(next) => {
+                let ((a, above), (b, below)) = (self.curve[next - 1], self.curve[next]);
+                above + (below - above) * (steps / a).ln() / (b / a).ln()
+            }
+            None => {
+                let last = self.curve.last().copied().unwrap_or((1.0, f64::INFINITY));
+                by_order(last, last_order(&self.curve, self.order), steps)
+            }
+        }
+    }
+
+    /// The largest step that is expected to have at most this error; `None` where no run has it.
+    fn largest_step(&self, error: Size) -> Option<f64> {
+        cost_of(&self.curve, error).map(|steps| self.length / steps)
+    }
+
+    /// With the errors of all its runs multiplied, so that the prediction for its step is the error that was found.
+    fn corrected(&self, found: Size) -> Choice<'_> {
+        let shift = found.log10() - self.predicted(self.size());
+        let curve = self.curve.iter().map(|(steps, error)| (*steps, error + shift)).collect();
+        Choice { curve, ..self.clone() }
+    }
 }
 
 /// The answer.
@@ -90,6 +131,8 @@ pub enum Advice<'a> {
         verified: Verified,
         /// The part of the time over which runs were made.
         part: f64,
+        /// The schemes that the search had too little time for.
+        unfinished: Unfinished<'a>,
     },
     /// No scheme has so small an error in this number type.
     OutOfReach {
@@ -101,9 +144,20 @@ pub enum Advice<'a> {
         reference: Size,
         /// Whether the time was over before round-off was reached.
         in_time: bool,
+        /// The schemes that the search had too little time for.
+        unfinished: Unfinished<'a>,
         /// How many runs over all of the time were expected to meet the tolerance, and missed it.
         missed: usize,
     },
+}
+
+/// The schemes that a search had too little time for.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Unfinished<'a> {
+    /// Those without a run.
+    pub untried: Vec<&'a str>,
+    /// Those whose runs ended before the tolerance or round-off: their errors are extrapolated.
+    pub extrapolated: Vec<&'a str>,
 }
 
 /// The error of a run over all of the time.
@@ -140,20 +194,26 @@ impl Verified {
     }
 }
 
+/// The parts of the time of the search for the reference, for the runs, and for the times of their steps.
+const OF_SEARCH: [f64; 3] = [0.08, 0.7, 0.1];
 /// A run over the part of the time takes about this part of the time of a scheme.
 const PART_OF_TIME: f64 = 0.125;
-/// The reference may take this multiple of the time of a scheme.
-const REFERENCE: f64 = 5.0;
 /// Where the time was over, errors are extrapolated by the proved order to at most this multiple of the steps.
 const MOST_EXTRAPOLATED: f64 = 100.0;
 /// A run with a small error has about this number of evaluations in a turn of the fastest oscillation.
 const EVALUATIONS_PER_TURN: f64 = 400.0;
+/// The highest order by which errors are extrapolated, where the proved one is lower.
+const MOST_ORDER: f64 = 10.0;
+/// Runs over fewer turns say little of the growth of errors.
+const FEWEST_TURNS: f64 = 8.0;
 /// The predicted error is to be this part of the tolerance, log₁₀: predictions are that accurate.
 const MARGIN: f64 = -0.1;
 /// One choice and two alternatives.
 const SHOWN: usize = 3;
 /// The step is reduced so often if the verification does not meet the tolerance.
 const ATTEMPTS: usize = 4;
+/// An error that is smaller than the tolerance by this factor leaves room for a larger step, log₁₀.
+const ROOM: f64 = -0.7;
 /// The error of a position is this multiple of that of the reference, where it is said to be known.
 const RESOLVED: f64 = 20.0;
 /// The reference at the end is to have a smaller error than is predicted by this factor: predictions are that accurate.
@@ -173,19 +233,26 @@ impl<'a> AdviceRequest<'a> {
         let problem = Problem { until: &until, length: length.as_ref(), ..self.problem };
         let study = self.request(problem, halvings).study(observer)?;
         let part = 0.5_f64.powi(halvings);
+        let unfinished = self.unfinished(&study);
         let mut choices: Vec<Choice<'a>> =
             study.schemes.iter().filter_map(|studied| self.choice(&study, studied, halvings)).collect();
         let mut missed = 0;
+        let mut reference = (halvings == 0).then(|| study.reference.last());
         while missed < ATTEMPTS {
             choices.sort_by(|a, b| self.cost_of(a).total_cmp(&self.cost_of(b)));
             let Some(best) = choices.first_mut() else { break };
-            let verified = self.verify(best, &study, halvings, observer)?;
-            let error = verified.map(Verified::size);
-            if let Some(verified) = verified.filter(|verified| verified.size() <= self.tolerance) {
+            let verified = self.verify(best, &mut reference, observer)?;
+            if let Some(mut verified) = verified.filter(|verified| verified.size() <= self.tolerance) {
+                if let Some(larger) = self.with_larger_step(best, verified.size())
+                    && let Some(found) = self.verify(&larger, &mut reference, observer)?
+                    && found.size() <= self.tolerance
+                {
+                    (*best, verified) = (larger, found);
+                }
                 choices.truncate(SHOWN);
-                return Ok(Advice::Found { choices, verified, part });
+                return Ok(Advice::Found { choices, verified, part, unfinished });
             }
-            self.reduce(best, error);
+            *best = self.with_smaller_step(best, verified.map(Verified::size));
             missed += 1;
         }
         let runs = study.schemes.iter().flat_map(|studied| studied.series.runs.iter().map(move |run| (studied, run)));
@@ -195,19 +262,47 @@ impl<'a> AdviceRequest<'a> {
             part,
             reference: study.reference.error(),
             in_time: study.schemes.iter().all(|studied| studied.series.end != End::Time),
+            unfinished,
             missed,
         })
     }
 
-    /// How often the time is halved, so that runs over the part take about a second.
+    fn unfinished(&self, study: &Study<'_>) -> Unfinished<'a> {
+        let ended = |has_runs: bool| {
+            let is = move |studied: &&Studied<'_>| {
+                studied.series.end == End::Time && studied.series.runs.is_empty() != has_runs
+            };
+            study.schemes.iter().filter(is).map(|studied| self.named(studied).name.as_str()).collect()
+        };
+        Unfinished { untried: ended(false), extrapolated: ended(true) }
+    }
+
+    /// The time for the runs of a scheme, in seconds.
+    fn seconds_each(&self) -> f64 {
+        let [_, runs, _] = OF_SEARCH;
+        let threads = rayon::current_num_threads().min(self.schemes.len());
+        runs * self.seconds * threads as f64 / self.schemes.len() as f64
+    }
+
+    /// The shortest repeat of a scheme's steps, of all that are timed.
+    fn shortest_repeat(&self) -> Duration {
+        let [_, _, times] = OF_SEARCH;
+        // repeats, and those that find how many steps are enough
+        Duration::from_secs_f64(times * self.seconds / (16 * self.schemes.len()) as f64)
+    }
+
+    /// How often the time is halved, so that runs over the part take a part of the time of a scheme.
     fn halvings(&self) -> Result<i32, Error> {
-        let Some(frequency) = self.problem.system.fastest_frequency() else { return Ok(0) };
-        let evaluations = EVALUATIONS_PER_TURN * frequency.omega * self.problem.duration() / TAU;
+        let Some(motion) = self.problem.system.fastest_motion().filter(|_| self.problem.length.is_none()) else {
+            return Ok(0);
+        };
+        let evaluations = EVALUATIONS_PER_TURN * motion.omega * self.problem.duration() / TAU;
         let steps = evaluations.to_u64().unwrap_or(u64::MAX).max(1);
         let first = &self.schemes[0];
-        let time = time_of_steps(self.problem, &[(first, steps)])?[0].median;
+        let time = time_of_steps(self.problem, &[(first, steps)], self.shortest_repeat())?[0].median;
         let seconds = time * evaluations / first.scheme.summary().evaluations as f64;
-        Ok((seconds / (PART_OF_TIME * self.seconds)).log2().ceil().clamp(0.0, 40.0) as i32)
+        let most = (evaluations / (EVALUATIONS_PER_TURN * FEWEST_TURNS)).log2().floor();
+        Ok((seconds / (PART_OF_TIME * self.seconds_each())).log2().ceil().min(most).clamp(0.0, 40.0) as i32)
     }
 
     /// Runs until the error over the part is small enough for the whole.
@@ -220,11 +315,16 @@ impl<'a> AdviceRequest<'a> {
             Of::Permanent => growth,
         };
         let error = self.tolerance.times_power_of_ten(MARGIN - growth);
-        let range = StepRange::Automatic { seconds: self.seconds, target: Some(Target { of: self.of, error }) };
-        // energies need no positions of a reference
-        let reference = if self.of == Of::Position { REFERENCE } else { REFERENCE / 50.0 };
+        let range = StepRange::Automatic { seconds: self.seconds_each(), target: Some(Target { of: self.of, error }) };
+        let [reference, _, _] = OF_SEARCH;
         let reference_time = Duration::from_secs_f64(reference * self.seconds);
-        Request { problem, schemes: self.schemes, range, reference_time, folder: self.folder.clone() }
+        // energies need no positions of a reference
+        let resolution = match self.of {
+            Of::Position => Some(error.times_power_of_ten(-FINER.log10())),
+            Of::Energy | Of::Permanent => Some(Size::INFINITE),
+        };
+        let (schemes, folder, shortest_repeat) = (self.schemes, self.folder.clone(), self.shortest_repeat());
+        Request { problem, schemes, range, reference_time, resolution, shortest_repeat, folder }
     }
 
     /// The largest step of a scheme that is expected to meet the tolerance.
@@ -233,11 +333,11 @@ impl<'a> AdviceRequest<'a> {
             let error = self.of.error(run)?;
             Some((run.steps as f64, error.log10() + f64::from(halvings) * self.of.growth(run).log10()))
         };
-        let curve: Vec<(f64, f64)> = studied.series.runs.iter().filter_map(whole).collect();
+        let curve: Curve = studied.series.runs.iter().filter_map(whole).collect();
         let error = self.tolerance.times_power_of_ten(MARGIN);
         let steps = cost_of(&curve, error).or_else(|| self.extrapolated(studied, &curve, error))?;
-        let largest = study.problem.size() / steps;
-        let size = |run: &Measurement| study.problem.size() / run.steps as f64;
+        let length = study.problem.size();
+        let size = |run: &Measurement| length / run.steps as f64;
         let fine = studied.series.runs.iter().rev().take_while(|run| run.fine).last();
         let lost = studied.series.runs.iter().rev().find(|run| !run.fine && !run.undecided);
         let choice = Choice {
@@ -249,18 +349,21 @@ impl<'a> AdviceRequest<'a> {
             stable_step: stable_step(self.problem, studied.scheme),
             conserved_up_to: fine.map(size),
             lost_from: lost.map(size),
+            curve,
+            length,
+            order: self.order(studied.scheme),
         };
-        Some(self.with_step(&choice, largest))
+        Some(self.with_step(&choice, length / steps))
     }
 
-    /// The number of steps for an error that no run had the time for, by Richardson's rule with the proved order.
-    fn extrapolated(&self, studied: &Studied<'_>, curve: &[(f64, f64)], error: Size) -> Option<f64> {
+    /// The number of steps for an error that no run had the time for.
+    fn extrapolated(&self, studied: &Studied<'_>, curve: &Curve, error: Size) -> Option<f64> {
         let (steps, last) = curve.last().filter(|_| studied.series.end == End::Time)?;
-        let more = 10_f64.powf((last - error.log10()) / self.order(studied.scheme));
+        let more = 10_f64.powf((last - error.log10()) / last_order(curve, self.order(studied.scheme)));
         (1.0..=MOST_EXTRAPOLATED).contains(&more).then_some(steps * more)
     }
 
-    /// The same scheme with a step of at most h, at which its error is known.
+    /// The same scheme with a step of at most h.
     fn with_step(&self, choice: &Choice<'a>, h: f64) -> Choice<'a> {
         // where time is transformed, the last step is of another size
         let time = self.problem.length.is_none().then_some(self.problem.until);
@@ -268,31 +371,43 @@ impl<'a> AdviceRequest<'a> {
         let size = <f64 as Number>::from_rational(&step, &());
         let step = if self.problem.is_forward() { step } else { -step };
         let steps = (self.problem.size() / size).round().to_u64().unwrap_or(u64::MAX).max(1);
-        let error = choice.error.times_power_of_ten(self.order(choice.scheme) * (size / h).log10());
+        let error = Size::power_of_ten(choice.predicted(size));
         Choice { step, steps, error, ..choice.clone() }
     }
 
-    /// A smaller step, so that an error of this size comes to the tolerance as the order says; at least an eighth smaller.
-    fn reduce(&self, choice: &mut Choice<'a>, error: Option<Size>) {
-        let error = error.unwrap_or(Size::power_of_ten(0.0)).log10();
+    /// A smaller step for a run that had this error; at least an eighth smaller.
+    fn with_smaller_step(&self, choice: &Choice<'a>, error: Option<Size>) -> Choice<'a> {
+        let error = error.filter(|error| error.is_finite()).unwrap_or(Size::power_of_ten(0.0));
         let target = self.tolerance.times_power_of_ten(2.0 * MARGIN);
-        let factor = 10_f64.powf((target.log10() - error) / self.order(choice.scheme)).min(0.89);
-        let h = choice.size() * factor;
-        *choice = self.with_step(&Choice { error: target, ..choice.clone() }, h);
+        let corrected = choice.corrected(error);
+        let by_order = choice.size() * 10_f64.powf((target.log10() - error.log10()) / choice.order);
+        let h = corrected.largest_step(target).unwrap_or(by_order).min(0.89 * choice.size());
+        self.with_step(&Choice { curve: corrected.curve, ..choice.clone() }, h)
     }
 
-    /// The error of a run over all of the time; of positions beside the reference of the study where that is one over all of the time and
-    /// resolves it, else beside one at the end alone. `None` where the run has no finite states there.
+    /// A larger step, where a run had an error that leaves room for one.
+    fn with_larger_step(&self, choice: &Choice<'a>, error: Size) -> Option<Choice<'a>> {
+        let target = self.tolerance.times_power_of_ten(MARGIN);
+        if error.log10() > self.tolerance.log10() + ROOM {
+            return None;
+        }
+        let corrected = choice.corrected(error);
+        let h = corrected.largest_step(target)?;
+        let larger = self.with_step(&Choice { curve: corrected.curve, ..choice.clone() }, h);
+        (larger.steps < choice.steps).then_some(larger)
+    }
+
+    /// The error of a run over all of the time; of positions beside a reference over all of it, which becomes a better one where it does not resolve the
+    /// error. `None` where the run has no finite states there.
     fn verify(
         &self,
         choice: &Choice<'a>,
-        study: &Study<'_>,
-        halvings: i32,
+        reference: &mut Option<Reference>,
         observer: &mut dyn Observer,
     ) -> Result<Option<Verified>, Error> {
         let mut store = Store::open(&self.folder, observer)?;
         if self.of != Of::Position {
-            let run = self.run_beside(&study.reference.of_energies(), choice, &mut store, observer)?;
+            let run = self.run_beside(&Reference::none(self.problem, 1), choice, &mut store, observer)?;
             return Ok(run.and_then(|run| self.of.error(&run)).map(Verified::Error));
         }
         let beside = |reference: &Reference, store: &mut Store, observer: &mut dyn Observer| {
@@ -300,17 +415,16 @@ impl<'a> AdviceRequest<'a> {
             let position = run.map_or(PositionError::None, |run| run.position);
             Ok::<_, Error>(Verified::of_position(position, reference.error()))
         };
-        let of_study = if halvings == 0 { beside(&study.reference.last(), &mut store, observer)? } else { None };
-        if let Some(Verified::Error(_)) = of_study {
-            return Ok(of_study);
+        let found = reference.as_ref().map(|known| beside(known, &mut store, observer)).transpose()?.flatten();
+        if let Some(Verified::Error(_)) = found {
+            return Ok(found);
         }
         // one that is not found is reported to the observer
-        let found = store.compute(&[self.at_end(choice, study)], observer)?.pop().flatten();
-        let Some(Outcome::Reference(reference)) = found else { return Ok(of_study) };
-        Ok(match (of_study, beside(&reference, &mut store, observer)?) {
-            (Some(a), Some(b)) => Some(if a.size() < b.size() { a } else { b }),
-            (a, b) => a.or(b),
-        })
+        let computed = store.compute(&[self.at_end(choice)], observer)?.pop().flatten();
+        let Some(Outcome::Reference(better)) = computed.filter(|outcome| is_better(outcome, reference.as_ref())) else {
+            return Ok(found);
+        };
+        beside(reference.insert(better), &mut store, observer)
     }
 
     /// The run of a choice.
@@ -332,16 +446,16 @@ impl<'a> AdviceRequest<'a> {
     }
 
     /// A reference at the end that resolves the predicted error.
-    fn at_end(&self, choice: &Choice<'a>, study: &Study<'_>) -> Calculation<'a> {
+    fn at_end(&self, choice: &Choice<'a>) -> Calculation<'a> {
         let error = choice.error.times_power_of_ten(-FINER.log10());
-        let seconds = (REFERENCE * self.seconds).max(OF_RUN * choice.seconds());
-        let (steps, size) = (Resolution::beside(choice.evaluations()), Size::of(&study.reference.size()));
-        Calculation::at_end(self.problem, Resolution { error, size, steps, seconds })
+        let seconds = self.seconds.max(OF_RUN * choice.seconds());
+        let steps = Some(Resolution::beside(choice.evaluations()));
+        Calculation::resolving(self.problem, 1, Resolution { error, steps, seconds })
     }
 
     fn cost_of(&self, choice: &Choice<'_>) -> f64 {
         match self.cost {
-            Cost::Evaluations => choice.evaluations(),
+            Cost::Evaluations => choice.work(self.problem.system).total() as f64,
             Cost::Seconds => choice.seconds(),
         }
     }
@@ -354,4 +468,23 @@ impl<'a> AdviceRequest<'a> {
     fn named(&self, studied: &Studied<'_>) -> &'a NamedScheme {
         self.schemes.iter().find(|scheme| scheme.name == studied.scheme.name).expect("it was studied")
     }
+}
+
+/// log₁₀ of the error with other steps, by an order.
+fn by_order((steps, error): (f64, f64), order: f64, others: f64) -> f64 {
+    error - order * (others / steps).log10()
+}
+
+/// The order of the last two runs, at least the proved one: errors of a dominant part's perturbation fall with a higher one at first.
+fn last_order(curve: &Curve, proved: f64) -> f64 {
+    match curve[..] {
+        [.., (a, above), (b, below)] => ((above - below) / (b / a).log10()).clamp(proved, MOST_ORDER.max(proved)),
+        _ => proved,
+    }
+}
+
+/// Whether this is a reference whose error is smaller.
+fn is_better(outcome: &Outcome, reference: Option<&Reference>) -> bool {
+    let Outcome::Reference(found) = outcome else { return false };
+    reference.is_none_or(|reference| found.error() < reference.error())
 }

@@ -36,12 +36,12 @@ pub(crate) struct Calculation<'a> {
 enum Quantity {
     /// The reference, with a limit in seconds.
     Reference { samples: u64, seconds: f64 },
-    /// A reference at the end alone.
-    AtEnd(Resolution),
+    /// A reference with errors of about a size.
+    Resolving { samples: u64, resolution: Resolution },
     /// The runs of a scheme, which is identified by its weights, beside a reference.
     Series { scheme: String, samples: u64, origin: Origin, error: Size, range: StepRange },
     /// The time of a step of each scheme, with a number of steps to the end.
-    Times { schemes: Vec<(String, u64)> },
+    Times { schemes: Vec<(String, u64)>, shortest: Duration },
 }
 
 /// The result of a calculation.
@@ -58,8 +58,8 @@ impl<'a> Calculation<'a> {
         Calculation::new(problem, quantity, Vec::new(), None)
     }
 
-    pub(crate) fn at_end(problem: Problem<'a>, resolution: Resolution) -> Self {
-        Calculation::new(problem, Quantity::AtEnd(resolution), Vec::new(), None)
+    pub(crate) fn resolving(problem: Problem<'a>, samples: u64, resolution: Resolution) -> Self {
+        Calculation::new(problem, Quantity::Resolving { samples, resolution }, Vec::new(), None)
     }
 
     pub(crate) fn series(
@@ -78,10 +78,10 @@ impl<'a> Calculation<'a> {
         Calculation::new(problem, quantity, vec![scheme], Some(reference))
     }
 
-    pub(crate) fn times(problem: Problem<'a>, schemes: &[(&'a NamedScheme, u64)]) -> Self {
+    pub(crate) fn times(problem: Problem<'a>, schemes: &[(&'a NamedScheme, u64)], shortest: Duration) -> Self {
         let named = schemes.iter().map(|(scheme, steps)| (scheme.identity(), *steps)).collect();
         let schemes = schemes.iter().map(|(scheme, _)| *scheme).collect();
-        Calculation::new(problem, Quantity::Times { schemes: named }, schemes, None)
+        Calculation::new(problem, Quantity::Times { schemes: named, shortest }, schemes, None)
     }
 
     fn new(
@@ -101,10 +101,10 @@ impl studies::Calculation for Calculation<'_> {
     fn cost(&self) -> f64 {
         match &self.quantity {
             Quantity::Reference { seconds, .. }
-            | Quantity::AtEnd(Resolution { seconds, .. })
+            | Quantity::Resolving { resolution: Resolution { seconds, .. }, .. }
             | Quantity::Series { range: StepRange::Automatic { seconds, .. }, .. } => *seconds,
             Quantity::Series { range: StepRange::Given(steps), .. } => steps.iter().sum::<u64>() as f64 * 1e-6,
-            Quantity::Times { schemes } => schemes.len() as f64 * 0.1,
+            Quantity::Times { schemes, .. } => schemes.len() as f64 * 0.1,
         }
     }
 
@@ -114,17 +114,17 @@ impl studies::Calculation for Calculation<'_> {
                 let time = Duration::from_secs_f64(*seconds);
                 Reference::compute(self.problem, *samples, time, &|| continues(0.5)).map(Outcome::Reference)
             }
-            Quantity::AtEnd(resolution) => {
-                Reference::at_end(self.problem, *resolution, &|| continues(0.5)).map(Outcome::Reference)
+            Quantity::Resolving { samples, resolution } => {
+                Reference::resolving(self.problem, *samples, *resolution, &|| continues(0.5)).map(Outcome::Reference)
             }
             Quantity::Series { range, .. } => {
                 let reference = self.reference.expect("a series has one");
                 let series_of = SeriesOf { problem: self.problem, scheme: self.schemes[0], reference, range };
                 series_of.make(continues).map(Outcome::Series)
             }
-            Quantity::Times { schemes } => {
+            Quantity::Times { schemes, shortest } => {
                 let steps = self.schemes.iter().copied().zip(schemes.iter().map(|(_, steps)| *steps));
-                time_of_steps(self.problem, &steps.collect::<Vec<_>>()).map(Outcome::Times)
+                time_of_steps(self.problem, &steps.collect::<Vec<_>>(), *shortest).map(Outcome::Times)
             }
         }
     }

@@ -52,7 +52,8 @@ impl Study<'_> {
             Cost::Seconds => "time of the steps in seconds",
         });
         let y = Axis::log10(of.name());
-        let mut curves: Vec<_> = self.schemes.iter().map(|studied| studied.curve(of, cost)).collect();
+        let mut curves: Vec<_> =
+            self.schemes.iter().map(|studied| studied.curve(of, cost, self.problem.system)).collect();
         let largest = LARGEST + if of == Of::Position { self.reference.size().log10() } else { 0.0 };
         without_lost_runs(&mut curves, largest);
         let shown = shown(&curves);

@@ -10,6 +10,7 @@
 //! | [`series`] | the runs of a scheme, from its stability limit down to round-off |
 //! | [`run`] | one run: errors of position and energy, the modified energy |
 //! | [`timing`] | the time of a step |
+//! | [`work`] | what else a step costs: Hessian–vector products, flows of a dominant part |
 //! | [`of`], [`order`], `best` | which error; the measured order; the scheme that needs the least for an error |
 //! | [`advise`], `convenient` | advice on scheme and step size; step sizes that are easy to write |
 //! | [`schemes`] | the schemes that are compared if none are named |
@@ -39,3 +40,4 @@ pub mod size;
 pub mod study;
 pub mod tables;
 pub mod timing;
+pub mod work;

@@ -17,6 +17,9 @@ pub(crate) struct Sampler<N: Real> {
     in_time: Option<InTime<N>>,
 }
 
+/// A run asks after this number of steps whether it is to continue.
+pub(crate) const ASKED: u64 = 16;
+
 /// Makes a step, and returns whether the run is to continue.
 pub(crate) type Step<'a, N> = &'a mut dyn FnMut(&mut VectorIntegrator<'_, N>) -> bool;
 

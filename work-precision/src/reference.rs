@@ -18,7 +18,7 @@ use shadowstep_scenes::library::{NamedScheme, scheme};
 use shadowstep_scenes::propagator::for_system;
 use shadowstep_symbolic::decimal::from_text;
 
-use crate::positions::{Sampler, square_distance};
+use crate::positions::{ASKED, Ended, Sampler, square_distance};
 use crate::problem::Problem;
 use crate::size::Size;
 
@@ -36,6 +36,8 @@ const GAIN: f64 = 256.0;
 
 /// Numbers of the runs resolve an error that is above their last digits by this number of digits.
 const ROUND_OFF_DIGITS: u32 = 4;
+/// No run goes on beyond this multiple of the time, which the first two may take.
+const LONGEST: u32 = 6;
 /// A difference that half the step improves by less than this has come to round-off, or the steps are still too large; log₁₀.
 const STALLED: f64 = 0.3;
 
@@ -53,6 +55,8 @@ pub struct Reference {
 /// How a reference was computed.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Origin {
+    /// It has none: no position is known.
+    None,
     /// From the exact flow.
     ExactFlow,
     /// By a scheme.
@@ -66,15 +70,13 @@ pub enum Origin {
     },
 }
 
-/// How well a position at the end is to be known.
+/// How well positions are to be known.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub(crate) struct Resolution {
     /// The error.
     pub(crate) error: Size,
-    /// The largest coordinate.
-    pub(crate) size: Size,
-    /// The steps of the first run.
-    pub(crate) steps: u64,
+    /// The steps of the first run, unless they follow from the problem.
+    pub(crate) steps: Option<u64>,
     /// The limit of the time.
     pub(crate) seconds: f64,
 }
@@ -104,48 +106,78 @@ impl Reference {
                 let target = f64::from(problem.arithmetic.digits() + 2);
                 let enough = |error: f64, size: f64| error <= size - target;
                 let steps = first_steps(problem, samples);
-                of_scheme(problem, arithmetic, Halving { samples, steps, time, gain: true, enough: &enough, continues })
+                let request = Halving { samples, steps, time, gain: true, enough: &enough, continues };
+                let found = of_scheme(problem, arithmetic, request).transpose();
+                found.unwrap_or_else(|| {
+                    let seconds = time.as_secs_f64();
+                    let message =
+                        format!("no reference is found in {seconds} s: two runs with different steps take longer");
+                    Err(Error::run(message, "use a shorter time, or more seconds"))
+                })
             }
         }?;
-        if problem.arithmetic.compute(Overflows(&reference)) {
+        reference.finite_in_runs(problem)
+    }
+
+    /// The same, if its positions are finite in the numbers of the runs.
+    fn finite_in_runs(self, problem: Problem<'_>) -> Result<Reference, Error> {
+        if problem.arithmetic.compute(Overflows(&self)) {
             let message =
                 format!("there is no reference: its positions overflow in {}", problem.arithmetic.described());
             return Err(Error::run(message, "use a shorter time"));
         }
-        Ok(reference)
+        Ok(self)
     }
 
-    /// The position at the end alone, by the exact flow, or by a scheme with an error of about this size: in the numbers of the runs
-    /// with compensated sums, where their round-off is smaller, else with more digits.
+    /// Without knowledge of any position: for energies, or where there is no time for it.
+    pub(crate) fn none(problem: Problem<'_>, samples: u64) -> Reference {
+        let origin = vec!["0".to_owned(); problem.system.start::<f64>(&()).0.len()];
+        let count = samples as usize;
+        Reference { positions: vec![origin; count], errors: vec![Size::INFINITE; count], origin: Origin::None }
+    }
+
+    /// The same with errors of about this size: in the numbers of the runs with compensated sums, where their round-off is smaller, else with
+    /// more digits. None is known where there is no time for it.
     ///
     /// # Errors
     /// As [`Reference::compute`].
-    pub(crate) fn at_end(
+    pub(crate) fn resolving(
         problem: Problem<'_>,
+        samples: u64,
         resolution: Resolution,
         continues: &dyn Fn() -> bool,
     ) -> Result<Reference, Error> {
-        let Resolution { error, size, steps, seconds } = resolution;
+        let Resolution { error, steps, seconds } = resolution;
         let time = Duration::from_secs_f64(seconds);
         if let Some(setup) = problem.exact_flow() {
-            return of_exact_flow(problem, &setup, 1);
+            return of_exact_flow(problem, &setup, samples)?.finite_in_runs(problem);
         }
+        let steps = steps.unwrap_or_else(|| first_steps(problem, samples)).next_multiple_of(samples);
         let enough = |difference: f64, _: f64| difference <= error.log10();
+        let request = |gain| Halving { samples, steps, time, gain, enough: &enough, continues };
         let own = if problem.arithmetic == Arithmetic::DOUBLE { Arithmetic::COMPENSATED } else { problem.arithmetic };
+        let size = problem.system.start::<f64>(&()).0.into_iter().fold(f64::MIN_POSITIVE, |size, q| size.max(q.abs()));
         let mut found = None;
-        if error.log10() > size.log10() - f64::from(own.digits() - ROUND_OFF_DIGITS) {
-            let request = Halving { samples: 1, steps, time, gain: false, enough: &enough, continues };
-            found = of_scheme(problem, own, request).ok().filter(|found| found.error().is_finite());
+        if error.log10() > size.log10() - f64::from(own.digits().saturating_sub(ROUND_OFF_DIGITS)) {
+            let of_own = of_scheme(problem, own, request(false)).ok().flatten();
+            found = of_own.filter(|found| found.error().is_finite());
             if let Some(found) = found.as_ref().filter(|found| found.error() <= error) {
                 return Ok(found.clone());
             }
         }
-        let request = Halving { samples: 1, steps, time, gain: true, enough: &enough, continues };
-        let precise = more_digits(problem).and_then(|arithmetic| of_scheme(problem, arithmetic, request));
-        match (precise, found) {
-            (Ok(precise), Some(found)) => Ok(if found.error() < precise.error() { found } else { precise }),
-            (precise, found) => found.map_or(precise, Ok),
-        }
+        let precise = more_digits(problem).and_then(|arithmetic| of_scheme(problem, arithmetic, request(true)));
+        let best = match (precise, found) {
+            (Ok(Some(precise)), Some(found)) => {
+                if found.error() < precise.error() {
+                    found
+                } else {
+                    precise
+                }
+            }
+            (_, Some(found)) => found,
+            (precise, None) => precise?.unwrap_or_else(|| Reference::none(problem, samples)),
+        };
+        best.finite_in_runs(problem)
     }
 
     /// The same at the end alone.
@@ -155,14 +187,10 @@ impl Reference {
         Reference { positions: positions.into_iter().collect(), errors: errors.into_iter().collect(), origin }
     }
 
-    /// The same without knowledge of any position: energies need none.
-    pub(crate) fn of_energies(&self) -> Reference {
-        Reference { errors: vec![Size::INFINITE], ..self.last() }
-    }
-
     /// What positions are compared with, in a sentence.
     pub fn described(&self) -> String {
         match &self.origin {
+            Origin::None => "No positions are compared.".to_owned(),
             Origin::ExactFlow => "Positions are compared with the exact flow.".to_owned(),
             Origin::Scheme { name, steps, digits } => format!(
                 "Positions are compared with those of {name} in {steps} steps with {digits} digits, whose error is about {}.",
@@ -274,7 +302,8 @@ fn more_digits(problem: Problem<'_>) -> Result<Arithmetic, Error> {
     precise(digits)
 }
 
-fn of_scheme(problem: Problem<'_>, arithmetic: Arithmetic, request: Halving<'_>) -> Result<Reference, Error> {
+/// `None` where the time is over before there are two runs.
+fn of_scheme(problem: Problem<'_>, arithmetic: Arithmetic, request: Halving<'_>) -> Result<Option<Reference>, Error> {
     let named = for_system(scheme(SCHEME)?, problem.system)?;
     let problem = Problem { arithmetic, ..problem };
     arithmetic.compute(ByHalving { problem, named, request })
@@ -302,7 +331,7 @@ struct ByHalving<'a> {
 }
 
 impl Computation for ByHalving<'_> {
-    type Output = Result<Reference, Error>;
+    type Output = Result<Option<Reference>, Error>;
 
     fn compute<N: RunNumber>(self, context: &N::Context) -> Self::Output {
         let ByHalving { problem, named, request } = self;
@@ -311,7 +340,8 @@ impl Computation for ByHalving<'_> {
         let (mut last, mut last_difference): (Option<Vec<Vec<N>>>, f64) = (None, f64::INFINITY);
         let (mut best, mut are_finite, mut stalled): (Option<Reference>, bool, u32) = (None, false, 0);
         while continues() {
-            let found = positions::<N>(problem, &named, (steps, samples), context)?;
+            let in_time = || begin.elapsed() < time * LONGEST;
+            let Some(found) = positions::<N>(problem, &named, (steps, samples), &in_time, context)? else { break };
             are_finite |= found.len() as u64 == samples;
             if let Some(before) = last.filter(|before| before.len() == found.len() && found.len() as u64 == samples) {
                 let differences = distances(&before, &found, context);
@@ -336,13 +366,12 @@ impl Computation for ByHalving<'_> {
             last = Some(found);
             steps *= 2;
         }
-        best.ok_or_else(|| match are_finite {
-            true => Error::run(
-                format!("no reference is found in {} s: two runs with different steps take longer", time.as_secs_f64()),
-                "use a shorter time, or more seconds",
-            ),
-            false => Error::run("there is no reference: its states are not finite", "use a shorter time"),
-        })
+        match best {
+            None if !are_finite && begin.elapsed() <= time => {
+                Err(Error::run("there is no reference: its states are not finite", "use a shorter time"))
+            }
+            best => Ok(best),
+        }
     }
 }
 
@@ -353,21 +382,31 @@ fn first_steps(problem: Problem<'_>, samples: u64) -> u64 {
     samples * per_sample.max(1)
 }
 
-/// The positions of a run at its samples; fewer where they are not finite.
+/// The positions of a run at its samples; fewer where they are not finite. `None` if it was not to continue.
 fn positions<N: RunNumber>(
     problem: Problem<'_>,
     named: &NamedScheme,
     (steps, samples): (u64, u64),
+    continues: &dyn Fn() -> bool,
     context: &N::Context,
-) -> Result<Vec<Vec<N>>, Error> {
+) -> Result<Option<Vec<Vec<N>>>, Error> {
     let mut integrator = problem.integrator(named, steps, context)?;
     let mut sampler = Sampler::new(problem, named, (steps, samples), context)?;
+    let mut made = 0_u64;
     let mut step = |integrator: &mut VectorIntegrator<'_, N>| {
         integrator.step(Carried::Nothing);
-        true
+        made += 1;
+        !made.is_multiple_of(ASKED) || continues()
     };
-    let positions = (1..=samples).map_while(|i| sampler.position(i, &mut *integrator, &mut step).ok());
-    Ok(positions.collect())
+    let mut positions = Vec::new();
+    for i in 1..=samples {
+        match sampler.position(i, &mut *integrator, &mut step) {
+            Ok(position) => positions.push(position),
+            Err(Ended::NotFinite) => break,
+            Err(Ended::Stopped) => return Ok(None),
+        }
+    }
+    Ok(Some(positions))
 }
 
 /// |a − b| of each sample.

@@ -8,7 +8,7 @@ use shadowstep_scenes::Error;
 use shadowstep_scenes::computation::RunNumber;
 use shadowstep_scenes::library::NamedScheme;
 
-use crate::positions::Sampler;
+use crate::positions::{ASKED, Ended, Sampler};
 use crate::problem::Problem;
 use crate::reference::Reference;
 use crate::size::Size;
@@ -82,7 +82,7 @@ pub struct Modified {
 }
 
 impl Measurement {
-    /// Makes a run of this number of steps, with as many evaluations, and measures it.
+    /// Makes a run of this number of steps, with as many evaluations, and measures it; `None` if it was not to continue.
     ///
     /// # Errors
     /// A system that cannot be moved.
@@ -91,15 +91,16 @@ impl Measurement {
         named: &NamedScheme,
         (steps, evaluations): (u64, u64),
         reference: &Reference,
+        continues: &dyn Fn() -> bool,
         context: &N::Context,
-    ) -> Result<Measurement, Error> {
+    ) -> Result<Option<Measurement>, Error> {
         let mut integrator = problem.integrator::<N>(named, steps, context)?;
         let integrator = &mut *integrator;
         let mut sampler = Sampler::new(problem, named, (steps, reference.samples()), context)?;
         let failed =
             |sample: usize| Measurement::failed(steps, evaluations, sample as f64 / reference.samples() as f64);
         let monitor = N::monitor(integrator, MONITOR_ORDER, (steps / WINDOWS).max(1));
-        let Ok(mut monitor) = monitor else { return Ok(failed(0)) };
+        let Ok(mut monitor) = monitor else { return Ok(Some(failed(0))) };
         let conserved = EnergyError::new(at_output(integrator, |integrator| integrator.system().energy()));
         // where time is transformed, the steps conserve another function
         let mut energy_of = problem.system.energy_of_rows::<N>(context);
@@ -108,6 +109,7 @@ impl Measurement {
             None => at_output(integrator, |integrator| integrator.system().energy()),
         };
         let mut energy = EnergyError::new(energy_of(integrator));
+        let mut made = 0_u64;
         let (mut position, mut largest_position) = (PositionError::None, PositionError::None);
         let mut in_first_half = (PositionError::None, Size::ZERO);
         for (sample, expected) in reference.in_two_parts::<N>(context).iter().enumerate() {
@@ -115,12 +117,17 @@ impl Measurement {
                 // what is not finite stays so, and is seen at the sample
                 let _ = monitor.step(integrator);
                 energy.include(&energy_of(integrator));
-                true
+                made += 1;
+                !made.is_multiple_of(ASKED) || continues()
             };
-            let Ok(q) = sampler.position(sample as u64 + 1, integrator, &mut step) else { return Ok(failed(sample)) };
+            let q = match sampler.position(sample as u64 + 1, integrator, &mut step) {
+                Ok(q) => q,
+                Err(Ended::Stopped) => return Ok(None),
+                Err(Ended::NotFinite) => return Ok(Some(failed(sample))),
+            };
             let distance = distance(&q, expected);
             if !distance.is_finite() || !energy.last.is_finite() {
-                return Ok(failed(sample));
+                return Ok(Some(failed(sample)));
             }
             position = PositionError::of(distance, reference.error_at(sample));
             largest_position = largest_position.or_larger(position);
@@ -134,7 +141,7 @@ impl Measurement {
             change: conserved.relative(&report.change),
             bound: report.permanent_bound.as_ref().map(|bound| conserved.relative(bound)),
         });
-        Ok(Measurement {
+        Ok(Some(Measurement {
             steps,
             evaluations,
             position,
@@ -147,7 +154,7 @@ impl Measurement {
             fine: report.verdict.is_fine(),
             undecided: matches!(report.verdict, Verdict::Undecided(_)),
             failed: None,
-        })
+        }))
     }
 }
 

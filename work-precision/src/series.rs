@@ -1,6 +1,7 @@
 //! The numbers of steps with which a scheme runs: equal numbers of evaluations for all schemes, from about the stability limit down to
 //! round-off, or to the end of a budget of time.
 
+use std::f64::consts::TAU;
 use std::time::Duration;
 
 use num_traits::ToPrimitive;
@@ -93,7 +94,7 @@ impl SeriesOf<'_> {
                     if !continues(done as f64 / self.range.len() as f64) {
                         break;
                     }
-                    runs.push(self.measure(steps)?);
+                    runs.extend(self.measure(steps, &|| true)?);
                 }
                 Ok(Series { runs, end: End::Complete })
             }
@@ -113,7 +114,10 @@ impl SeriesOf<'_> {
                 break;
             }
             let this = CpuTime::begin();
-            runs.push(self.measure(steps)?);
+            // a run for advice is not completed beyond its time
+            let in_time = || target.is_none() || begin.elapsed().as_secs_f64() <= seconds;
+            let Some(run) = self.measure(steps, &in_time)? else { break };
+            runs.push(run);
             if target.is_some_and(|target| target.is_met(&runs)) {
                 end = End::Complete;
                 break;
@@ -143,14 +147,16 @@ impl SeriesOf<'_> {
         (RUNS_PER_DOUBLING * (steps.max(1.0) * evaluations).log2()).floor().to_i32().unwrap_or(0)
     }
 
-    fn measure(&self, steps: u64) -> Result<Measurement, Error> {
-        self.problem.arithmetic.compute(Run { series_of: self, steps })
+    fn measure(&self, steps: u64, continues: &dyn Fn() -> bool) -> Result<Option<Measurement>, Error> {
+        self.problem.arithmetic.compute(Run { series_of: self, steps, continues })
     }
 }
 
-/// The number of steps of 1.5 times the stability limit of the fastest oscillation.
+/// The number of steps of 1.5 times the stability limit of the fastest oscillation; one in a turn of it where that is solved exactly.
 pub(crate) fn coarsest(problem: Problem<'_>, scheme: &NamedScheme) -> f64 {
-    stable_step(problem, scheme).map_or(1.0, |limit| (problem.duration() / (BEYOND * limit)).max(1.0))
+    let step = stable_step(problem, scheme).map(|limit| BEYOND * limit);
+    let turn = || problem.system.fastest_motion().filter(|_| problem.length.is_none()).map(|motion| TAU / motion.omega);
+    step.or_else(turn).map_or(1.0, |step| (problem.duration() / step).max(1.0))
 }
 
 /// The largest stable step for the fastest oscillation, linearised at the initial state; `None` where nothing oscillates.
@@ -200,16 +206,17 @@ fn is_round_off(runs: &[Measurement]) -> bool {
 struct Run<'a> {
     series_of: &'a SeriesOf<'a>,
     steps: u64,
+    continues: &'a dyn Fn() -> bool,
 }
 
 impl Computation for Run<'_> {
-    type Output = Result<Measurement, Error>;
+    type Output = Result<Option<Measurement>, Error>;
 
     fn compute<N: RunNumber>(self, context: &N::Context) -> Self::Output {
         let SeriesOf { problem, scheme, reference, .. } = self.series_of;
         let of_output = scheme.scheme.processor().iter().filter(|(kind, _)| *kind == MapKind::Kick).count();
         // with a pre-map at the beginning and a post-map at the end
         let evaluations = self.steps * scheme.scheme.summary().evaluations as u64 + 2 * of_output as u64;
-        Measurement::of::<N>(*problem, scheme, (self.steps, evaluations), reference, context)
+        Measurement::of::<N>(*problem, scheme, (self.steps, evaluations), reference, self.continues, context)
     }
 }

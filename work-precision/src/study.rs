@@ -5,8 +5,8 @@ use std::time::Duration;
 
 use num_integer::Integer;
 use shadowstep::Scheme;
-use shadowstep_scenes::Error;
 use shadowstep_scenes::library::NamedScheme;
+use shadowstep_scenes::{Error, System};
 use shadowstep_studies::{Observer, Store};
 
 use crate::best::{Curve, cost_of};
@@ -14,11 +14,12 @@ use crate::calculation::{Calculation, Outcome};
 use crate::of::Of;
 use crate::order::MeasuredOrder;
 use crate::problem::{MOST_SAMPLES, Problem, most_samples};
-use crate::reference::Reference;
+use crate::reference::{Reference, Resolution};
 use crate::run::Measurement;
 use crate::series::{Series, StepRange, coarsest};
 use crate::size::Size;
-use crate::timing::StepTime;
+use crate::timing::{SHORTEST, StepTime};
+use crate::work::Work;
 
 /// The coarsest run has this number of steps between samples, so that rounding to samples changes the number of steps little.
 const STEPS_PER_SAMPLE: u64 = 8;
@@ -39,6 +40,10 @@ pub struct Request<'a> {
     pub range: StepRange,
     /// The limit of the time for the reference.
     pub reference_time: Duration,
+    /// An error of the reference that is small enough; without one it is below the round-off of the runs.
+    pub resolution: Option<Size>,
+    /// The shortest repeat of a scheme's steps that are timed; 4 ms at most.
+    pub shortest_repeat: Duration,
     /// Outcomes are saved in this folder one by one; what it has already is not computed again.
     pub folder: PathBuf,
 }
@@ -68,7 +73,7 @@ pub struct Studied<'a> {
 /// What an error costs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Cost {
-    /// Evaluations of the gradient.
+    /// Evaluations of the gradient, and what costs about as much: see [`Work`].
     Evaluations,
     /// Seconds.
     Seconds,
@@ -83,10 +88,25 @@ impl<'a> Request<'a> {
     pub fn study(&self, observer: &mut dyn Observer) -> Result<Study<'a>, Error> {
         let mut store = Store::open(&self.folder, observer)?;
         let problem = self.problem;
-        let wanted = Calculation::reference(problem, self.samples(), self.reference_time);
+        let wanted = match self.resolution {
+            Some(error) if !error.is_finite() => {
+                return self.beside(Reference::none(problem, self.samples()), store, observer);
+            }
+            Some(error) => {
+                let resolution = Resolution { error, steps: None, seconds: self.reference_time.as_secs_f64() };
+                Calculation::resolving(problem, self.samples(), resolution)
+            }
+            None => Calculation::reference(problem, self.samples(), self.reference_time),
+        };
         let Outcome::Reference(reference) = store.compute_one(wanted, observer)? else {
             unreachable!("a reference was requested")
         };
+        self.beside(reference, store, observer)
+    }
+
+    /// The runs beside a reference, and the times of their steps.
+    fn beside(&self, reference: Reference, mut store: Store, observer: &mut dyn Observer) -> Result<Study<'a>, Error> {
+        let problem = self.problem;
         let series = |scheme| Calculation::series(problem, scheme, &reference, &self.range);
         let found = store.compute(&self.schemes.iter().map(series).collect::<Vec<_>>(), observer)?;
         let all: Vec<(&NamedScheme, Series)> = self
@@ -99,7 +119,8 @@ impl<'a> Request<'a> {
             })
             .collect();
         let timed = all.iter().map(|(scheme, series)| (*scheme, series.runs.last().map_or(1, |run| run.steps)));
-        let wanted = Calculation::times(problem, &timed.collect::<Vec<_>>());
+        let shortest = self.shortest_repeat.min(SHORTEST);
+        let wanted = Calculation::times(problem, &timed.collect::<Vec<_>>(), shortest);
         let Outcome::Times(times) = store.compute_one(wanted, observer)? else { unreachable!("times were requested") };
         let schemes = all.into_iter().zip(times);
         let schemes = schemes.map(|((scheme, series), time)| Studied { scheme, series, time }).collect();
@@ -132,7 +153,8 @@ pub(crate) fn proved_order(scheme: &NamedScheme, problem: Problem<'_>) -> u32 {
 impl Study<'_> {
     /// The schemes that meet an error, with their costs, the cheapest first.
     pub fn cheapest(&self, of: Of, cost: Cost, error: Size) -> Vec<(&Studied<'_>, f64)> {
-        let cost_of = |studied| Some((studied, cost_of(&Studied::curve(studied, of, cost), error)?));
+        let cost_of =
+            |studied| Some((studied, cost_of(&Studied::curve(studied, of, cost, self.problem.system), error)?));
         let mut all: Vec<(&Studied<'_>, f64)> = self.schemes.iter().filter_map(cost_of).collect();
         all.sort_by(|a, b| a.1.total_cmp(&b.1));
         all
@@ -183,9 +205,10 @@ impl Studied<'_> {
     }
 
     /// Costs and log₁₀ of errors, in the order of cost.
-    pub(crate) fn curve(&self, of: Of, cost: Cost) -> Curve {
+    pub(crate) fn curve(&self, of: Of, cost: Cost, system: &System) -> Curve {
+        let Work { products, flows, .. } = Work::of_step(self.scheme, system);
         let cost = |run: &Measurement| match cost {
-            Cost::Evaluations => run.evaluations as f64,
+            Cost::Evaluations => (run.evaluations + run.steps * (products + flows)) as f64,
             Cost::Seconds => self.seconds(run),
         };
         self.series.runs.iter().filter_map(|run| Some((cost(run), of.error(run)?.log10()))).collect()

@@ -12,8 +12,8 @@ use crate::problem::Problem;
 
 /// Repeats of each scheme.
 const REPEATS: usize = 9;
-/// A repeat takes so long at least.
-const SHORTEST: Duration = Duration::from_millis(4);
+/// A repeat takes so long at least, where there is time.
+pub(crate) const SHORTEST: Duration = Duration::from_millis(4);
 
 /// Seconds for a step, without estimates, energies or output.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -26,14 +26,18 @@ pub struct StepTime {
     pub most: f64,
 }
 
-/// The time of a step of each scheme, with a number of steps to the end.
-pub(crate) fn time_of_steps(problem: Problem<'_>, schemes: &[(&NamedScheme, u64)]) -> Result<Vec<StepTime>, Error> {
+/// The time of a step of each scheme, with a number of steps to the end, from repeats that take at least the shortest time.
+pub(crate) fn time_of_steps(
+    problem: Problem<'_>,
+    schemes: &[(&NamedScheme, u64)],
+    shortest: Duration,
+) -> Result<Vec<StepTime>, Error> {
     let steps =
         |(scheme, steps): &(&NamedScheme, u64)| problem.arithmetic.compute(Steps { problem, scheme, steps: *steps });
     let mut repeats: Vec<(Repeat, u32)> = Vec::new();
     for scheme in schemes {
         let mut repeat = steps(scheme)?;
-        let count = enough(&mut repeat);
+        let count = enough(&mut repeat, shortest);
         repeats.push((repeat, count));
     }
     let mut times = vec![Vec::new(); schemes.len()];
@@ -49,9 +53,9 @@ pub(crate) fn time_of_steps(problem: Problem<'_>, schemes: &[(&NamedScheme, u64)
 type Repeat = Box<dyn FnMut(u32) -> Duration>;
 
 /// The number of steps that take long enough to be timed.
-fn enough(repeat: &mut Repeat) -> u32 {
+fn enough(repeat: &mut Repeat, shortest: Duration) -> u32 {
     let mut count = 1;
-    while repeat(count) < SHORTEST && count < 1 << 30 {
+    while repeat(count) < shortest && count < 1 << 30 {
         count *= 2;
     }
     count

@@ -308,7 +308,7 @@ fn work_precision(scene: &Scene, folder: &Path) -> Outcome {
 }
 
 fn advise(scene: &Scene, folder: &Path) -> Outcome {
-    let mut command = of_scene(scene, folder, "advise --tolerance 1e-2 --seconds 0.05");
+    let mut command = of_scene(scene, folder, "advise --tolerance 1e-2 --seconds 1");
     command.arg(format!("--until=8*({})", signed_step(scene)));
     ended(scene, command, |output| {
         let text = String::from_utf8_lossy(&output.stdout);

@@ -89,6 +89,11 @@ pub(crate) trait Split {
         None
     }
 
+    /// Whether one of two parts, the drifts, is much larger than the other: schemes with orders for A + εB have an advantage.
+    fn has_dominant_part(&self) -> bool {
+        false
+    }
+
     /// Whether the parts are T(p) and U(q): the fastest oscillation limits the step size, and lanes have flows.
     fn is_kinetic_and_potential(&self) -> bool {
         false

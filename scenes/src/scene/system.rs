@@ -73,6 +73,11 @@ impl Parts {
         }
     }
 
+    /// Whether one of two parts, the drifts, is much larger than the other.
+    pub fn has_dominant_part(&self) -> bool {
+        ask!(self, split => split.has_dominant_part())
+    }
+
     pub(crate) fn is_kinetic_and_potential(&self) -> bool {
         ask!(self, split => split.is_kinetic_and_potential())
     }

@@ -46,6 +46,10 @@ impl Split for Linear {
         }
         Ok(steps.integrator(steps.quadratic(), system.compensated_if(steps.compensated), context))
     }
+
+    fn has_dominant_part(&self) -> bool {
+        true
+    }
 }
 
 /// What helps where a system has no linear part.

@@ -127,6 +127,10 @@ impl Split for Planets {
             }
         })
     }
+
+    fn has_dominant_part(&self) -> bool {
+        true
+    }
 }
 
 impl Planets {
