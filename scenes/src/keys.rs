@@ -131,8 +131,8 @@ pub(crate) const KEYS: [Key; 60] = [
     key(
         "problem",
         "kinetic",
-        "T(p), a smooth formula in the momenta and parameters, in place of `masses`. If it is not quadratic in p, the \
-         scheme must be valid for every T(p).",
+        "T(p), a smooth formula in the momenta and parameters, in place of `masses`. If its degree in p is above 2, \
+         the scheme must be valid for every T(p).",
         "\"sqrt(1 + px^2 + py^2)\"",
         Some("p_1^2/(2 m_1) + p_2^2/(2 m_2) + …"),
     ),

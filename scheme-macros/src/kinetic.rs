@@ -11,8 +11,10 @@ use crate::program::{numbered, own, size};
 /// T with T_p and pᵀT_p − 2T.
 struct Derived {
     programs: PotentialPrograms,
-    /// T = ½pᵀM⁻¹p with a constant M⁻¹; then pᵀT_p − 2T = 0.
+    /// T = ½pᵀM⁻¹p + bᵀp + c with constants M⁻¹, b and c.
     quadratic: bool,
+    /// b and c are 0; then pᵀT_p − 2T = 0.
+    form: bool,
 }
 
 /// The struct and its implementation.
@@ -30,16 +32,18 @@ pub(crate) fn emit(definition: &Definition) -> syn::Result<TokenStream> {
         names: definition.names(),
         arguments: quote! { let [#(#arguments),*] = #p else { ::core::unreachable!("as many as momenta") }; },
     };
-    let (drift, drift_augmented) = drifts(&methods, arguments.len(), derived.quadratic);
+    let (drift, drift_augmented) = drifts(&methods, arguments.len(), derived.form);
     let prepare = methods.prepare("prepare");
     let energy_body = methods.energy(&energy);
     // behind what the programs use: T_p, and pᵀT_p − 2T where it is not 0
-    let scratch_size = size(methods.scratch() + arguments.len() + usize::from(!derived.quadratic));
+    let scratch_size = size(methods.scratch() + arguments.len() + usize::from(!derived.form));
     let class = if derived.quadratic {
         quote! { Quadratic }
     } else {
         quote! { General }
     };
+    let linear_terms =
+        (derived.quadratic && !derived.form).then(|| quote! { fn has_linear_terms(&self) -> bool { true } });
     let dimension = size(arguments.len());
     Ok(quote! {
         #structure
@@ -68,12 +72,13 @@ pub(crate) fn emit(definition: &Definition) -> syn::Result<TokenStream> {
             fn energy(&self, #p: &[N], #energy: &mut N, #scratch: &mut [N]) {
                 #energy_body
             }
+            #linear_terms
         }
     })
 }
 
 /// The bodies of `drift`, q += w T_p, and of `drift_augmented`, which adds w (pᵀT_p − 2T) to β too.
-fn drifts(methods: &Methods<'_>, dimension: usize, quadratic: bool) -> (TokenStream, TokenStream) {
+fn drifts(methods: &Methods<'_>, dimension: usize, form: bool) -> (TokenStream, TokenStream) {
     let [weight, p, q, beta, rate, scratch, results] =
         ["weight", "p", "q", "beta", "rate", "scratch", "results"].map(own);
     let [velocities, positions] =
@@ -89,7 +94,7 @@ fn drifts(methods: &Methods<'_>, dimension: usize, quadratic: bool) -> (TokenStr
         }
     };
     let plain = drift(&velocities, methods.gradient(&velocities));
-    let augmented = if quadratic {
+    let augmented = if form {
         quote! { ::shadowstep::Kinetic::drift(self, #weight, #p, #q, #scratch); }
     } else {
         let outputs: Vec<_> = velocities.iter().cloned().chain([quote! { #rate }]).collect();
@@ -109,23 +114,27 @@ fn derive(definition: &Definition) -> syn::Result<Derived> {
     }
     let (mut graph, energy) =
         definition.graph_of_arguments("a kinetic energy has at least one momentum: `T(p) = …`")?;
-    let quadratic = graph.is_quadratic(energy, arguments.len());
-    Ok(Derived { programs: graph.potential(energy, arguments.len()), quadratic })
+    let quadratic = graph.is_at_most_quadratic(energy, arguments.len());
+    let form = quadratic && graph.is_quadratic(energy, arguments.len());
+    Ok(Derived { programs: graph.potential(energy, arguments.len()), quadratic, form })
 }
 
 fn documentation(definition: &Definition, derived: &Derived) -> Vec<String> {
-    let Derived { programs, quadratic } = derived;
+    let Derived { programs, quadratic, form } = derived;
     let mut lines = vec![
         String::new(),
         definition.equation(),
         String::new(),
         format!(" - T_p costs {}.", programs.gradient.cost()),
     ];
-    if *quadratic {
+    if *form {
         lines.push(" - T is quadratic: a drift adds nothing to β, and every scheme moves it.".to_owned());
     } else {
         lines.push(format!(" - T_p with pᵀT_p − 2T costs {}.", programs.gradient_and_rate.cost()));
-        lines.push(" - T is not quadratic: schemes whose order holds for every T(p) move it.".to_owned());
+        lines.push(match quadratic {
+            true => " - T is at most quadratic: every scheme moves it.".to_owned(),
+            false => " - T is not quadratic: schemes whose order holds for every T(p) move it.".to_owned(),
+        });
     }
     lines
 }
@@ -133,10 +142,11 @@ fn documentation(definition: &Definition, derived: &Derived) -> Vec<String> {
 #[cfg(test)]
 mod tests {
     /// Each case: a name and what the user writes.
-    const CASES: [(&str, &str); 4] = [
+    const CASES: [(&str, &str); 5] = [
         ("relativistic", "pub struct Relativistic { c } T(p) = sqrt(c^4 + c^2*p^2)"),
         ("quartic", "pub struct Quartic; T(px, py) = (px^4 + py^4)/4 + px^2*py"),
         ("lotka-volterra", "pub struct LotkaVolterra; T(p) = p - exp(p)"),
+        ("linear", "struct Linear; T(px, ps) = px^2/2 + ps"),
         ("coupled", "struct Coupled { m } T(px, py) = (px^2 + px*py + py^2)/(2*m)"),
     ];
 

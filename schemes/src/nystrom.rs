@@ -1,7 +1,7 @@
 //! Order conditions for quadratic T: bicoloured rooted trees in which a drift has at most one child.
 //!
-//! With T = ½pᵀM⁻¹p the elementary differentials of a splitting are the trees whose nodes alternate between kicks
-//! and drifts, and whose drifts, being linear in p, carry at most one kick (Runge–Kutta–Nyström trees: Hairer, Lubich
+//! With T = ½pᵀM⁻¹p + bᵀp + c the elementary differentials of a splitting are the trees whose nodes alternate between kicks
+//! and drifts, and whose drifts, being affine in p, carry at most one kick (Runge–Kutta–Nyström trees: Hairer, Lubich
 //! & Wanner, *Geometric Numerical Integration*, III.2; Calvo & Sanz-Serna 1993). A tree's value is the sum, over
 //! all ways to place its nodes at maps of the step so that each child acts before its parent, of the product of the
 //! weights; the exact flow has 1/γ(t), γ(t) the product of the sizes of all subtrees.

@@ -9,6 +9,7 @@ use shadowstep::tables::Source;
 use shadowstep::{Rational, exact};
 use shadowstep_scenes::arithmetic::Arithmetic;
 use shadowstep_scenes::library::{NamedScheme, scheme};
+use shadowstep_scenes::propagator::for_system;
 use shadowstep_scenes::{Formula, InitialValueProblem, PotentialEnergy, System};
 use shadowstep_studies::Observer;
 use shadowstep_work_precision::length::length_of;
@@ -65,6 +66,37 @@ fn schemes_show_their_orders_beside_the_exact_flow() {
         }
         assert_eq!(studied.series.runs[0].evaluations, 100 * studied.evaluations_per_step());
     }
+}
+
+/// Kinetic energies with linear and constant terms have the orders of Nyström schemes, of gradient kicks too, and their modified energy is
+/// conserved, as β has the terms of T; with a cubic term these schemes are refused.
+#[test]
+fn kinetic_energies_of_degree_two_at_most_have_the_orders_for_quadratic_ones() {
+    let system = |kinetic: &str| {
+        let text = format!(
+            "problem = {{ kinetic = '{kinetic}', momenta = ['px', 'ps'], potential = '-(1 + cos(s)/4)*cos(x)', coordinates = ['x', 's'] }}\n\
+             initial = {{ q = [1, 0], p = ['1/5', 0] }}"
+        );
+        System::read(&Source { path: "time.toml".to_owned(), text }, Arithmetic::DOUBLE).unwrap().0
+    };
+    let (until, arithmetic) = (until(6), Arithmetic::with_digits(30).unwrap());
+    // time as a coordinate, and a drift of x
+    for kinetic in ["px^2/2 + ps", "(px + ps)^2/2 + px/3 + ps^2 - 2"] {
+        let (system, folder) = (system(kinetic), tempfile::tempdir().unwrap());
+        let schemes = schemes(&["blanes-moan-srkn6b", "blanes-moan-srkn11b", "chin-4a"]);
+        let problem = Problem { system: &system, until: &until, arithmetic, length: None };
+        let study = study(problem, &schemes, StepRange::Given(vec![40, 60, 80, 120, 160]), folder.path());
+        for (studied, order) in study.schemes.iter().zip([4.0, 6.0, 4.0]) {
+            let (found, name) = (studied.order(problem, Of::Position).unwrap(), &studied.scheme.name);
+            assert!((found.order - order).abs() < 0.35, "{kinetic}, {name}: {found:?}");
+            assert_eq!(f64::from(studied.proved_order(problem)), order);
+            let last = &studied.series.runs[4];
+            let (error, drift) = (last.energy.log10(), last.modified.unwrap().drift.log10());
+            assert!(drift < error - 1.5, "{kinetic}, {name}: {last:?}");
+        }
+    }
+    let refused = for_system(scheme("blanes-moan-srkn11b").unwrap(), &system("px^2/2 + ps^3")).unwrap_err();
+    assert!(refused.to_string().contains("for quadratic T only"), "{refused}");
 }
 
 /// Errors are those at the physical time at which a run ends, where the exact flow is known.

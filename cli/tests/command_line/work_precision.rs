@@ -124,7 +124,7 @@ fn advice_in_transformed_time_is_for_the_run_of_the_scene() {
 
 #[test]
 fn advice_names_what_it_did_not_try() {
-    let ended = shadowstep("advise henon-heiles --until 1e6 --tolerance 1e-12 --of energy --seconds 0.002");
+    let ended = shadowstep("advise henon-heiles --until 1e6 --tolerance 1e-30 --of energy --seconds 0.002");
     assert_eq!(ended.code, 1, "{} {}", ended.out, ended.err);
     assert!(ended.out.contains("in 0.002 s, which --seconds sets: "), "{}", ended.out);
 }

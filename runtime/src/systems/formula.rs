@@ -129,9 +129,10 @@ fn derive<N>(
         refuse_repeated(variables.iter().chain(parameters))?;
         let mut graph = Graph::new();
         let node = graph.build(&expression, variables, parameters).map_err(FormulaError::Meaning)?;
-        let quadratic = role == Role::Kinetic && graph.is_quadratic(node, variables.len());
+        let quadratic = role == Role::Kinetic && graph.is_at_most_quadratic(node, variables.len());
+        let quadratic_form = quadratic && graph.is_quadratic(node, variables.len());
         let programs = graph.potential(node, variables.len());
-        Ok(Derived { programs, quadratic, graph, node, second: OnceLock::new() })
+        Ok(Derived { programs, quadratic, quadratic_form, graph, node, second: OnceLock::new() })
     })
 }
 

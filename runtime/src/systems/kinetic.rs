@@ -12,7 +12,8 @@ use crate::number::{Lanes, Number, Real, epsilon};
 use num_traits::Signed;
 use shadowstep_symbolic::decimal::{to_significant, to_text};
 
-/// The class of T = ½pᵀM⁻¹p. Every scheme has its order for these ([`crate::ValidFor`]).
+/// The class of T = ½pᵀM⁻¹p + bᵀp + c, at most quadratic in p. Every scheme has its order for these ([`crate::ValidFor`]): each bracket with U takes a
+/// degree, so that [U,[U,[U,T]]] = 0, and the force of gradient kicks has M⁻¹ only.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Quadratic {}
 
@@ -55,7 +56,7 @@ pub enum General {}
 /// }
 /// ```
 pub trait Kinetic<N: Number> {
-    /// [`Quadratic`], if T is a quadratic form in p, else [`General`].
+    /// [`Quadratic`], if T is at most quadratic in p, else [`General`].
     type Class;
 
     /// The dimension, if it is fixed.
@@ -93,6 +94,11 @@ pub trait Kinetic<N: Number> {
     /// M⁻¹ of T = ½pᵀM⁻¹p, if it is diagonal and known; by default it is not.
     fn inverse_masses(&self) -> Option<InverseMasses<'_, N>> {
         None
+    }
+
+    /// Whether T of the class [`Quadratic`] has terms bᵀp, so that T_p(0) = b is not 0: gradient kicks subtract it. By default it has none.
+    fn has_linear_terms(&self) -> bool {
+        false
     }
 }
 
@@ -146,6 +152,10 @@ impl<N: Number, K: Kinetic<N> + ?Sized> Kinetic<N> for Box<K> {
     }
     fn inverse_masses(&self) -> Option<InverseMasses<'_, N>> {
         (**self).inverse_masses()
+    }
+
+    fn has_linear_terms(&self) -> bool {
+        (**self).has_linear_terms()
     }
 }
 

@@ -160,7 +160,7 @@ impl InitialValueProblem {
         }
     }
 
-    /// Whether T is a quadratic form.
+    /// Whether T is at most quadratic in p.
     pub(crate) fn has_quadratic_kinetic(&self) -> bool {
         match &self.kinetic {
             KineticEnergy::Masses(_) => true,

@@ -13,7 +13,7 @@ use crate::systems::kinetic::{General, Kinetic, Quadratic};
 /// A kinetic energy from a formula read at run time: a list of operations, executed without allocation.
 ///
 /// It is taken as a general T(p), which schemes for quadratic T only do not move;
-/// [`into_quadratic`](FormulaKinetic::into_quadratic) turns one that is a quadratic form into a quadratic kinetic energy.
+/// [`into_quadratic`](FormulaKinetic::into_quadratic) turns one that is at most quadratic in p into a quadratic kinetic energy.
 ///
 /// ```
 /// use shadowstep::{Motion, systems::formula::{FormulaKinetic, FormulaPotential}};
@@ -63,7 +63,7 @@ impl<N: Number> FormulaKinetic<N> {
         self.derived.numbers()
     }
 
-    /// Whether it is a quadratic form.
+    /// Whether it is at most quadratic in p.
     pub fn is_quadratic(&self) -> bool {
         self.derived.quadratic
     }
@@ -71,7 +71,7 @@ impl<N: Number> FormulaKinetic<N> {
     /// The same, as one that every scheme moves.
     ///
     /// # Errors
-    /// The formula is not a quadratic form; it is returned.
+    /// The formula is not at most quadratic; it is returned.
     #[expect(clippy::result_large_err, reason = "both are the same value; neither is an error")]
     pub fn into_quadratic(self) -> Result<FormulaKinetic<N, Quadratic>, Self> {
         if !self.is_quadratic() {
@@ -104,7 +104,7 @@ impl<N: Number, Class> Kinetic<N> for FormulaKinetic<N, Class> {
     }
 
     fn drift_augmented(&self, weight: &N, p: &[N], q: &mut [N], beta: &mut N, scratch: &mut [N]) {
-        if self.derived.quadratic {
+        if self.derived.quadratic_form {
             return self.drift(weight, p, q, scratch);
         }
         let outputs = self.interpreter.gradient_and_rate(p, scratch);
@@ -116,5 +116,9 @@ impl<N: Number, Class> Kinetic<N> for FormulaKinetic<N, Class> {
 
     fn energy(&self, p: &[N], energy: &mut N, scratch: &mut [N]) {
         std::mem::swap(energy, self.interpreter.energy(p, scratch));
+    }
+
+    fn has_linear_terms(&self) -> bool {
+        self.derived.quadratic && !self.derived.quadratic_form
     }
 }

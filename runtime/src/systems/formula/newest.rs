@@ -34,8 +34,10 @@ pub(super) enum Role {
 #[derive(Debug)]
 pub(super) struct Derived {
     pub(super) programs: PotentialPrograms,
-    /// Whether it is a kinetic energy that is a quadratic form.
+    /// Whether it is a kinetic energy that is at most quadratic.
     pub(super) quadratic: bool,
+    /// Whether it is one without linear and constant terms: a drift adds nothing to β.
+    pub(super) quadratic_form: bool,
     pub(super) graph: Graph,
     pub(super) node: Node,
     /// The programs of second derivatives, derived when they are asked for.

@@ -63,7 +63,7 @@ impl<N: Number> FormulaPair<N> {
             let energy = graph.build_pair(&expression, separation.name(), variables, parameters);
             let node = energy.map_err(FormulaError::Meaning)?;
             let programs = graph.pair(node, separation);
-            Ok(Derived { programs, quadratic: false, graph, node, second: OnceLock::new() })
+            Ok(Derived { programs, quadratic: false, quadratic_form: false, graph, node, second: OnceLock::new() })
         })?;
         let properties = properties.iter().map(|(_, values)| values.clone()).collect();
         let parameters = parameters.iter().map(|(_, value)| value.clone()).collect();

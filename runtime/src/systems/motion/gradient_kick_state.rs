@@ -10,7 +10,10 @@ use crate::systems::potential::Potential;
 #[derive(Clone, Debug)]
 pub(super) struct GradientKickState<N> {
     pub(super) kicks: GradientKicks<N>,
-    one: N,
+    /// 1 and −1.
+    one: [N; 2],
+    /// 0, where T_p is b.
+    origin: Vec<N>,
     /// The potential's, for Hessian–vector products.
     scratch: Vec<N>,
 }
@@ -43,8 +46,10 @@ impl<N: Number> GradientKickState<N> {
     }
 
     fn with(displacements: Option<Displacements<N>>, dimension: usize, context: &N::Context) -> Self {
-        let one = N::from_rational(&crate::Rational::from_integer(1.into()), context);
-        GradientKickState { kicks: GradientKicks::new(dimension, displacements, context), one, scratch: Vec::new() }
+        let one = [1, -1].map(|one| N::from_rational(&crate::Rational::from_integer(one.into()), context));
+        let (kicks, origin) =
+            (GradientKicks::new(dimension, displacements, context), vec![N::zero(context); dimension]);
+        GradientKickState { kicks, one, origin, scratch: Vec::new() }
     }
 
     /// Computes the force for a gradient kick of this weight, and the rate where it is wanted, unless they are known.
@@ -55,22 +60,27 @@ impl<N: Number> GradientKickState<N> {
         weight: &N,
         with_rate: bool,
     ) {
-        let GradientKickState { kicks, one, scratch } = self;
-        kicks.evaluate(&mut MotionCurvature { parts, one, hessian_scratch: scratch }, at, weight, with_rate);
+        let GradientKickState { kicks, one, origin, scratch } = self;
+        kicks.evaluate(&mut MotionCurvature { parts, one, origin, hessian_scratch: scratch }, at, weight, with_rate);
     }
 }
 
 struct MotionCurvature<'a, N, P, K> {
     parts: Parts<'a, N, P, K>,
-    one: &'a N,
+    one: &'a [N; 2],
+    origin: &'a [N],
     hessian_scratch: &'a mut [N],
 }
 
 impl<N: Number, P: Potential<N>, K: Kinetic<N>> Curvature<N> for MotionCurvature<'_, N, P, K> {
     fn assign_velocity(&mut self, gradient: &[N], velocity: &mut [N]) {
-        // the drift of a quadratic T moves by M⁻¹ times a vector
+        // the drift of a quadratic T moves by M⁻¹ times a vector, and by b
+        let [one, minus] = self.one;
         velocity.iter_mut().for_each(N::assign_zero);
-        self.parts.kinetic.drift(self.one, gradient, velocity, self.parts.kinetic_scratch);
+        self.parts.kinetic.drift(one, gradient, velocity, self.parts.kinetic_scratch);
+        if self.parts.kinetic.has_linear_terms() {
+            self.parts.kinetic.drift(minus, self.origin, velocity, self.parts.kinetic_scratch);
+        }
     }
 
     fn hessian_product(&mut self, at: Place<'_, N>, v: &[N], product: &mut [N], rate: Option<&mut N>) {
