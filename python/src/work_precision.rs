@@ -6,7 +6,7 @@ use std::time::Duration;
 use pyo3::prelude::*;
 use serde_json::{Value, json};
 use shadowstep::Rational;
-use shadowstep_scenes::System;
+use shadowstep_scenes::{Error, System};
 use shadowstep_scenes::arithmetic::Arithmetic;
 use shadowstep_scenes::library::NamedScheme;
 use shadowstep_symbolic::decimal::to_text;
