@@ -30,10 +30,12 @@ pub struct Analysis {
     pub evaluations: usize,
     /// Hessian–vector products a step.
     pub hessian_products: usize,
-    /// The leading error for every T(p).
+    /// The leading error for every T(p); of a processed scheme, as all that follows but the next, that of its kernel.
     pub general: LeadingError,
     /// The leading error for quadratic T.
     pub quadratic: LeadingError,
+    /// The leading errors after processing, for every T(p) and quadratic T; `None` for a scheme that is not processed.
+    pub processed: Option<[LeadingError; 2]>,
     /// Where the harmonic oscillator is stable; `None` for a step of more than [`stability::MOST_MAPS`](crate::stability::MOST_MAPS)
     /// maps that does not repeat a shorter one.
     pub stability: Option<Stability>,
@@ -71,12 +73,22 @@ impl Analysis {
             hessian_products: proved.plan.hessian_products,
             general,
             quadratic,
+            processed: LeadingError::processed(proved),
             sampling: SamplingError::of(proved, stability.as_ref()),
             stability,
             phase: PhaseError::of(&maps, proved.scheme.held, proof.quadratic.order),
             kicks: Sizes::of(&maps, MapKind::Kick),
             drifts: Sizes::of(&maps, MapKind::Drift),
             gradient_kicks: Sizes::of(&maps, MapKind::GradientKick),
+        }
+    }
+
+    /// The leading error for a class of kinetic energies after processing, if there is any.
+    pub fn processed_error(&self, kinetic: Kinetic) -> &LeadingError {
+        match (&self.processed, kinetic) {
+            (Some([general, _]), Kinetic::Any) => general,
+            (Some([_, quadratic]), Kinetic::Quadratic) => quadratic,
+            (None, kinetic) => self.error(kinetic),
         }
     }
 
@@ -92,6 +104,11 @@ impl Analysis {
     /// [`LeadingError::effective`].
     pub fn effective_error(&self, kinetic: Kinetic) -> f64 {
         self.error(kinetic).effective(self.evaluations + self.hessian_products)
+    }
+
+    /// The same after processing, if there is any, without the cost of outputs.
+    pub fn processed_effective_error(&self, kinetic: Kinetic) -> f64 {
+        self.processed_error(kinetic).effective(self.evaluations + self.hessian_products)
     }
 }
 

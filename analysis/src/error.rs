@@ -35,18 +35,31 @@ pub struct LeadingError {
 }
 
 impl LeadingError {
-    /// The leading errors of a scheme for every T(p) and for quadratic T.
+    /// The leading errors of a scheme for every T(p) and for quadratic T; of a processed scheme those of its kernel.
     pub fn of(proved: &Proved) -> [LeadingError; 2] {
-        let (maps, proof) = (proved.scheme.maps(), &proved.proof);
+        LeadingError::of_maps(
+            &proved.scheme.maps(),
+            [Kinetic::Any, Kinetic::Quadratic].map(|of| proved.proof.for_kinetic(of).order),
+        )
+    }
+
+    /// The same of the processed step χ⁻¹ ∘ kernel ∘ χ; `None` for a scheme that is not processed.
+    pub fn processed(proved: &Proved) -> Option<[LeadingError; 2]> {
+        let (maps, effective) = (proved.scheme.processed_maps()?, proved.proof.effective.as_ref()?);
+        Some(LeadingError::of_maps(&maps, [Kinetic::Any, Kinetic::Quadratic].map(|of| effective.for_kinetic(of).order)))
+    }
+
+    /// Of a step of these orders for every T(p) and for quadratic T.
+    fn of_maps(maps: &[Map], orders: [u32; 2]) -> [LeadingError; 2] {
         let arithmetic = FixedPoint::new(DIGITS);
         let unit = arithmetic.unit();
         // not reduced, which would take as long as all the rest
         let value = |units: Rational| resolved(Fraction::new(units.numer().clone(), units.denom() * &unit).to_f64());
         let mut lyndon = (0, Vec::new());
-        [Kinetic::Any, Kinetic::Quadratic].map(|kinetic| {
-            let power = proof.for_kinetic(kinetic).order + 1;
+        [(Kinetic::Any, orders[0]), (Kinetic::Quadratic, orders[1])].map(|(kinetic, order)| {
+            let power = order + 1;
             if lyndon.0 != power {
-                lyndon = (power, logarithm(&maps, power as usize, proof.general.order as usize, &arithmetic));
+                lyndon = (power, logarithm(maps, power as usize, orders[0] as usize, &arithmetic));
             }
             let terms = coordinates(&lyndon.1, kinetic).into_iter().map(|(bracket, units)| (bracket, value(units)));
             LeadingError { power, terms: terms.collect() }

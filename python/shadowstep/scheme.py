@@ -58,12 +58,13 @@ class Scheme:
 
     @property
     def order(self) -> int | None:
-        """The order r that is proved for every T(p), with errors of size h^r. None with gradient kicks, which there are for quadratic T only."""
+        """The order r that is proved for every T(p), with errors of size h^r. None with gradient kicks, which there are for quadratic T only. Of a processed
+        scheme the effective order; those of its kernel are in ``record["kernel"]``."""
         return self._table.facts()[1]
 
     @property
     def order_quadratic(self) -> int:
-        """The order that is proved for T = ½pᵀM⁻¹p."""
+        """The order that is proved for T = ½pᵀM⁻¹p, of a processed scheme the effective one."""
         return self._table.facts()[2]
 
     @property
@@ -94,7 +95,8 @@ class Scheme:
 
     @property
     def effective_error(self) -> float:
-        """The norm of the leading error for quadratic T, at equal cost: (evaluations) times its r-th root, for schemes of equal order r."""
+        """The norm of the leading error for quadratic T, at equal cost: (evaluations) times its r-th root, for schemes of equal order r. Of a processed scheme
+        that after processing."""
         return self.record["effective_error_quadratic"]
 
     @property

@@ -53,11 +53,18 @@ impl Table {
         json?.map_err(|error| pyo3::exceptions::PyRuntimeError::new_err(error.to_string()))
     }
 
-    /// What can be said without an analysis: (name, order for every T(p) or None, order for quadratic T, evaluations a step).
+    /// What can be said without an analysis: (name, order for every T(p) or None, order for quadratic T, evaluations a step); of a processed scheme the
+    /// effective orders.
     fn facts(&self) -> (&str, Option<u32>, u32, usize) {
         let (summary, proved) = (self.0.scheme.summary(), self.0.scheme.proved());
         let general = proved.order_for_every_kinetic().map(|order| order.order);
-        (summary.name, general, summary.order_quadratic, summary.evaluations)
+        match &proved.proof.effective {
+            Some(effective) => {
+                let general = general.map(|_| effective.general.order);
+                (summary.name, general, effective.quadratic.order, summary.evaluations)
+            }
+            None => (summary.name, general, summary.order_quadratic, summary.evaluations),
+        }
     }
 
     /// The text of the table.

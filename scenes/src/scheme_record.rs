@@ -23,14 +23,9 @@ pub struct SchemeRecord {
     name: String,
     aliases: Vec<String>,
     title: Option<String>,
-    /// For every T(p), as the three after it; `None` with gradient kicks, which there are for quadratic T only.
-    order: Option<u32>,
-    order_digits: Option<u32>,
-    fails: Option<Failed>,
-    order_quadratic: u32,
-    order_quadratic_digits: Option<u32>,
-    fails_quadratic: Option<Failed>,
-    near_integrable: Vec<u32>,
+    /// Of a processed scheme the effective ones.
+    #[serde(flatten)]
+    orders: Orders,
     /// The map that moves by A of A + εB.
     dominant: Option<String>,
     free: Vec<String>,
@@ -45,10 +40,6 @@ pub struct SchemeRecord {
     symmetric: bool,
     first: &'static str,
     kinetic: &'static str,
-    effective_error: f64,
-    effective_error_quadratic: f64,
-    leading_error: ErrorRecord,
-    leading_error_quadratic: ErrorRecord,
     /// `None`, like the gaps and the trace, for steps of very many maps.
     stability_limit: Option<String>,
     unstable_gaps: Option<Vec<Gap>>,
@@ -69,18 +60,30 @@ pub struct SchemeRecord {
     notes: Vec<String>,
     /// `None` for a scheme that is not processed.
     processor: Option<Processor>,
+    /// The orders and errors of the kernel of a processed scheme, whose steps are made.
+    kernel: Option<Orders>,
 }
 
-/// The post-map of a processed scheme, and what is proved of the processed step.
+/// Orders and leading errors.
 #[derive(Debug, Serialize)]
-struct Processor {
-    order: u32,
+struct Orders {
+    /// For every T(p), as the three after it; `None` with gradient kicks, which there are for quadratic T only.
+    order: Option<u32>,
     order_digits: Option<u32>,
     fails: Option<Failed>,
     order_quadratic: u32,
     order_quadratic_digits: Option<u32>,
     fails_quadratic: Option<Failed>,
     near_integrable: Vec<u32>,
+    effective_error: f64,
+    effective_error_quadratic: f64,
+    leading_error: ErrorRecord,
+    leading_error_quadratic: ErrorRecord,
+}
+
+/// The post-map of a processed scheme.
+#[derive(Debug, Serialize)]
+struct Processor {
     /// Evaluations of the forces for an output, and for the pre-map.
     evaluations: usize,
     post: Vec<Map>,
@@ -179,18 +182,28 @@ impl SchemeRecord {
             _ => to_text(value),
         };
         let cost = scheme.plan().cost();
-        let general = proved.order_for_every_kinetic();
+        let effective = |kinetic| analysis.processed_effective_error(kinetic);
+        let processed = proof.effective.as_ref().zip(analysis.processed.as_ref()).map(|(proved_effective, errors)| {
+            let general = (!weights.has_gradient_kicks()).then_some(&proved_effective.general);
+            let orders = (general, &proved_effective.quadratic, effective_near_integrable(proof));
+            Orders::of(orders, [&errors[0], &errors[1]], effective, exact)
+        });
+        let of_kernel = || {
+            let orders = (proved.order_for_every_kinetic(), &proof.quadratic, near_integrable(proof));
+            Orders::of(
+                orders,
+                [&analysis.general, &analysis.quadratic],
+                |kinetic| analysis.effective_error(kinetic),
+                exact,
+            )
+        };
+        let is_processed = processed.is_some();
         SchemeRecord {
             name: table.name.value.clone(),
             aliases: aliases(table),
             title: table.title.clone(),
-            order: general.map(|order| order.order),
-            order_digits: general.and_then(|order| order.digits),
-            fails: general.and_then(|order| failed(order, exact)),
-            order_quadratic: proof.quadratic.order,
-            order_quadratic_digits: proof.quadratic.digits,
-            fails_quadratic: failed(&proof.quadratic, exact),
-            near_integrable: near_integrable(proof),
+            orders: processed.unwrap_or_else(of_kernel),
+            kernel: is_processed.then(of_kernel),
             dominant: table.near_integrable.as_ref().map(|claim| claim.dominant.to_string()),
             free: table.free.iter().map(|name| name.value.clone()).collect(),
             digits: digits(weights.held),
@@ -202,10 +215,6 @@ impl SchemeRecord {
             symmetric: proof.symmetric,
             first: first(weights.first()),
             kinetic: kinetic(table.kinetic),
-            effective_error: analysis.effective_error(Kinetic::Any),
-            effective_error_quadratic: analysis.effective_error(Kinetic::Quadratic),
-            leading_error: ErrorRecord::of(&analysis.general),
-            leading_error_quadratic: ErrorRecord::of(&analysis.quadratic),
             trace: trace(weights),
             kick_sizes: Sizes::of(&analysis.kicks),
             drift_sizes: Sizes::of(&analysis.drifts),
@@ -221,25 +230,38 @@ impl SchemeRecord {
             doi: table.doi.clone(),
             table_hash: Sha256::digest(&table.source.text).iter().map(|byte| format!("{byte:02x}")).collect(),
             notes: proved.notes.iter().map(ToString::to_string).collect(),
-            processor: processor(proved, exact),
+            processor: processor(proved),
         }
     }
 }
 
-fn processor(proved: &Proved, text: impl Fn(&Rational) -> String) -> Option<Processor> {
-    let (processor, effective) = (proved.scheme.processor.as_ref()?, proved.proof.effective.as_ref()?);
+impl Orders {
+    fn of(
+        (general, quadratic, near_integrable): (Option<&Order>, &Order, Vec<u32>),
+        [error, error_quadratic]: [&LeadingError; 2],
+        effective: impl Fn(Kinetic) -> f64,
+        text: impl Fn(&Rational) -> String,
+    ) -> Orders {
+        Orders {
+            order: general.map(|order| order.order),
+            order_digits: general.and_then(|order| order.digits),
+            fails: general.and_then(|order| failed(order, &text)),
+            order_quadratic: quadratic.order,
+            order_quadratic_digits: quadratic.digits,
+            fails_quadratic: failed(quadratic, &text),
+            near_integrable,
+            effective_error: effective(Kinetic::Any),
+            effective_error_quadratic: effective(Kinetic::Quadratic),
+            leading_error: ErrorRecord::of(error),
+            leading_error_quadratic: ErrorRecord::of(error_quadratic),
+        }
+    }
+}
+
+fn processor(proved: &Proved) -> Option<Processor> {
+    let processor = proved.scheme.processor.as_ref()?;
     let post = processor.post.iter().map(|map| Map { map: map.kind.to_string(), weight: to_text(&map.weight) });
-    Some(Processor {
-        order: effective.general.order,
-        order_digits: effective.general.digits,
-        fails: failed(&effective.general, &text),
-        order_quadratic: effective.quadratic.order,
-        order_quadratic_digits: effective.quadratic.digits,
-        fails_quadratic: failed(&effective.quadratic, &text),
-        near_integrable: effective_near_integrable(&proved.proof),
-        evaluations: processor.evaluations(),
-        post: post.collect(),
-    })
+    Some(Processor { evaluations: processor.evaluations(), post: post.collect() })
 }
 
 /// The coefficients of the trace polynomial: exact where the weights are, which else are hundreds of digits long; 30

@@ -7,6 +7,7 @@ use num_integer::Integer;
 use shadowstep::Scheme;
 use shadowstep_scenes::library::NamedScheme;
 use shadowstep_scenes::{Error, System};
+use shadowstep_schemes::Kinetic;
 use shadowstep_studies::{Observer, Store};
 
 use crate::best::{Curve, cost_of};
@@ -144,8 +145,12 @@ impl<'a> Request<'a> {
     }
 }
 
-/// The proved order of a scheme for the kinetic energy of a problem.
+/// The proved order of a scheme for the kinetic energy of a problem; of a processed scheme the effective one, as its runs are read through the post-map.
 pub(crate) fn proved_order(scheme: &NamedScheme, problem: Problem<'_>) -> u32 {
+    if let Some(effective) = &scheme.scheme.proved().proof.effective {
+        let kinetic = if problem.system.has_general_kinetic() { Kinetic::Any } else { Kinetic::Quadratic };
+        return effective.for_kinetic(kinetic).order;
+    }
     let summary = scheme.scheme.summary();
     if problem.system.has_general_kinetic() { summary.order } else { summary.order_quadratic }
 }

@@ -14,28 +14,43 @@ const MOST_TERMS: usize = 6;
 pub(crate) fn facts(analysis: &Analysis) -> Vec<(String, String)> {
     let has_gradient_kicks = analysis.hessian_products > 0;
     let (phase, end) = (analysis.phase, 2 * (analysis.evaluations + analysis.hessian_products));
-    let mut facts = vec![
-        (
-            "effective error",
-            match has_gradient_kicks {
-                true => format!(
-                    "{:.4} for quadratic T, a Hessian–vector product counted as a force",
-                    analysis.effective_error(Kinetic::Quadratic)
-                ),
-                false => format!(
+    let errors = |[general, quadratic]: [&LeadingError; 2], effective: &dyn Fn(Kinetic) -> f64| {
+        let both = match has_gradient_kicks {
+            true => format!(
+                "{:.4} for quadratic T, a Hessian–vector product counted as a force",
+                effective(Kinetic::Quadratic)
+            ),
+            false => {
+                format!(
                     "{:.4} for every T(p), {:.4} for quadratic T",
-                    analysis.effective_error(Kinetic::Any),
-                    analysis.effective_error(Kinetic::Quadratic)
-                ),
-            },
-        ),
-        ("leading error", if has_gradient_kicks { String::new() } else { error_text(&analysis.general) }),
-        ("quadratic T", error_text(&analysis.quadratic)),
-        (
-            "where",
-            "K and D are the Lie derivatives of the kick and the drift; words and trees of them likewise".to_owned(),
-        ),
-    ];
+                    effective(Kinetic::Any),
+                    effective(Kinetic::Quadratic)
+                )
+            }
+        };
+        let of_general = if has_gradient_kicks { String::new() } else { error_text(general) };
+        [("effective error", both), ("leading error", of_general), ("quadratic T", error_text(quadratic))]
+    };
+    let mut facts = Vec::new();
+    let of_kernel = match &analysis.processed {
+        Some([general, quadratic]) => {
+            facts.extend(errors([general, quadratic], &|kinetic| analysis.processed_effective_error(kinetic)));
+            facts[0].1 += ", after processing, without outputs";
+            "of the kernel, "
+        }
+        None => "",
+    };
+    let kernel = errors([&analysis.general, &analysis.quadratic], &|kinetic| analysis.effective_error(kinetic));
+    facts.extend(
+        kernel
+            .into_iter()
+            .filter(|(_, fact)| !fact.is_empty())
+            .map(|(what, fact)| (what, format!("{of_kernel}{fact}"))),
+    );
+    facts.push((
+        "where",
+        "K and D are the Lie derivatives of the kick and the drift; words and trees of them likewise".to_owned(),
+    ));
     facts.push(match &analysis.stability {
         Some(stability) => ("oscillator", format!("stable up to hω = {}", stability.limit)),
         None => ("oscillator", format!("not analysed: the step has more than {} maps", stability::MOST_MAPS)),
@@ -45,7 +60,7 @@ pub(crate) fn facts(analysis: &Analysis) -> Vec<(String, String)> {
         None => ("unstable", format!("hω from {} to {end} at least", gap.from)),
     }));
     facts.push(("phase error", format!("{:.4e} (hω)^{}, relative", phase.coefficient, phase.power)));
-    facts.extend(analysis.sampling.map(|error| ("sampling", sampling_text(error))));
+    facts.extend(analysis.sampling.map(|error| ("sampling", format!("{of_kernel}{}", sampling_text(error)))));
     facts.push(("kicks", sizes_text(&analysis.kicks)));
     if has_gradient_kicks {
         facts.push(("gradient kicks", sizes_text(&analysis.gradient_kicks)));

@@ -12,7 +12,7 @@ use crate::schemes::facts::near_integrable_text;
 use shadowstep_scenes::Error;
 use shadowstep_scenes::library::{self, NamedScheme};
 use shadowstep_scenes::readable::digits as in_digits;
-use shadowstep_scenes::scheme_record::near_integrable;
+use shadowstep_scenes::scheme_record::{effective_near_integrable, near_integrable};
 
 const EXAMPLE: &str = "\
 Example:
@@ -70,7 +70,16 @@ fn verdict(path: &str, proved: &Proved) -> String {
         orders => format!(", {orders} for A + εB"),
     };
     let refused = if proved.has_its_digits { "" } else { "; its printed digits are not all those of such a scheme" };
-    let mut text = format!("{path}: proved: order {} for {class}{near}, {digits}{symmetric}{refused}\n", order.order);
+    let effective = proved.proof.effective.as_ref().map_or(String::new(), |effective| {
+        let order = effective.for_kinetic(proved.scheme.table.kinetic);
+        let near = match near_integrable_text(&effective_near_integrable(&proved.proof)) {
+            orders if orders.is_empty() => orders,
+            orders => format!(", {orders} for A + εB"),
+        };
+        let digits = order.digits.map_or_else(|| "exactly".to_owned(), |digits| format!("to {}", in_digits(digits)));
+        format!("effective order {} for {class}{near}, {digits}; of the kernel ", order.order)
+    });
+    let mut text = format!("{path}: proved: {effective}order {} for {class}{near}, {digits}{symmetric}{refused}\n", order.order);
     for note in &proved.notes {
         text += &format!("note: {note}\n");
     }

@@ -26,13 +26,14 @@ const FORCES: Column = number("forces\na step", |record| match record.hessian_pr
     products => format!("{}+{products}", record.evaluations),
 });
 const ERROR: Column =
-    number("eff.\nerror", |record| record.effective_error.map_or_else(none, |error| format!("{error:.4}")));
-const ERROR_QUADRATIC: Column = number("eff.\nerror", |record| format!("{:.4}", record.effective_error_quadratic));
+    number("eff.\nerror", |record| record.orders.effective_error.map_or_else(none, |error| format!("{error:.4}")));
+const ERROR_QUADRATIC: Column =
+    number("eff.\nerror", |record| format!("{:.4}", record.orders.effective_error_quadratic));
 const PER_FORCE: Column = number("stable\na force", |record| {
     record.stability_limit_per_force.map_or_else(|| "–".to_owned(), |limit| format!("{limit:.3}"))
 });
 const SYMMETRIC: Column = text("sym-\nmetric", |record| if record.symmetric { "yes" } else { "no" }.to_owned());
-const ORDER: Column = number("order", |record| record.order.map_or_else(none, |order| order.to_string()));
+const ORDER: Column = number("order", |record| record.orders.order.map_or_else(none, |order| order.to_string()));
 const NAME: Column = text("name", |record| record.name.clone());
 
 /// What a person chooses by, for the kinetic energy that was requested.
@@ -40,7 +41,7 @@ pub(super) fn to_choose_by(kinetic: Option<Kinetic>) -> Vec<Column> {
     let order = match kinetic {
         None => number("order", both_orders),
         Some(Kinetic::Any) => ORDER,
-        Some(Kinetic::Quadratic) => number("order", |record| record.order_quadratic.to_string()),
+        Some(Kinetic::Quadratic) => number("order", |record| record.orders.order_quadratic.to_string()),
     };
     let error = if kinetic == Some(Kinetic::Quadratic) { ERROR_QUADRATIC } else { ERROR };
     vec![order, FORCES, error, PER_FORCE, SYMMETRIC, text("for", meant_for), NAME]
@@ -50,8 +51,8 @@ pub(super) fn to_choose_by(kinetic: Option<Kinetic>) -> Vec<Column> {
 pub(super) fn all() -> Vec<Column> {
     vec![
         ORDER,
-        number("order\nquadratic", |record| record.order_quadratic.to_string()),
-        number("A + εB", |record| near_integrable_text(&record.near_integrable)),
+        number("order\nquadratic", |record| record.orders.order_quadratic.to_string()),
+        number("A + εB", |record| near_integrable_text(&record.orders.near_integrable)),
         number("stages", |record| record.stages.to_string()),
         FORCES,
         number("products per\ndimension", |record| record.products_per_dimension.to_string()),
@@ -80,7 +81,7 @@ pub(super) fn table_of(columns: &[Column], records: &[Record]) -> String {
 pub(super) fn legend(is_wide: bool, kinetic: Option<Kinetic>) -> String {
     let error = "effective error: forces · ‖leading error‖^(1/order), which compares schemes of one order";
     let stable = "stable a force: the stability limit hω of the harmonic oscillator, by the forces of a step; forces 2+1: 2 forces and 1 \
-                  Hessian–vector product of a gradient kick, which is counted as a force; for proc.: the orders of a scheme with its processor";
+                  Hessian–vector product of a gradient kick, which is counted as a force; of processed schemes (proc.) orders and effective errors are those after processing, of their kernels `show` has them";
     if is_wide {
         return format!(
             "{error}; {stable}; products per dimension: what a step takes beside its forces with unit masses, and as many \
@@ -96,7 +97,7 @@ pub(super) fn legend(is_wide: bool, kinetic: Option<Kinetic>) -> String {
 }
 
 fn both_orders(record: &Record) -> String {
-    match (record.order, record.order_quadratic) {
+    match (record.orders.order, record.orders.order_quadratic) {
         (Some(any), quadratic) if any == quadratic => any.to_string(),
         (Some(any), quadratic) => format!("{any} ({quadratic})"),
         (None, quadratic) => format!("({quadratic})"),
@@ -110,11 +111,10 @@ fn none() -> String {
 
 /// What a scheme is for.
 fn meant_for(record: &Record) -> String {
-    if let Some(order) = record.effective_order.or(record.effective_order_quadratic) {
-        let near = near_integrable_text(&record.effective_near_integrable);
-        return if near.is_empty() { format!("proc. {order}") } else { format!("proc.{near}") };
+    if record.kernel.is_some() {
+        return format!("proc.{}", near_integrable_text(&record.orders.near_integrable));
     }
-    match &record.near_integrable[..] {
+    match &record.orders.near_integrable[..] {
         [] if record.moves_any => "every T(p)".to_owned(),
         [] => "quadratic T".to_owned(),
         orders => format!("A+εB {}", near_integrable_text(orders)),

@@ -97,7 +97,7 @@ pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
         let columns = if arguments.wide { columns::all() } else { columns::to_choose_by(kinetic) };
         writeln!(output, "{}", columns::table_of(&columns, &records))?;
         write!(output, "{}", wrapped_to(&columns::legend(arguments.wide, kinetic), "", 80))?;
-        if records.iter().any(|record| !record.near_integrable.is_empty()) {
+        if records.iter().any(|record| !record.orders.near_integrable.is_empty()) {
             write!(output, "{}", wrapped_to(NEAR_INTEGRABLE, "", 80))?;
         }
     }
@@ -127,8 +127,11 @@ fn note_orders(all: &[(&str, TableScheme)], order: u32, arguments: &Arguments) {
 
 fn order_for(scheme: &TableScheme, arguments: &Arguments) -> Option<u32> {
     let proved = scheme.proved();
-    let order = if for_quadratic(arguments) { Some(&proved.proof.quadratic) } else { proved.order_for_every_kinetic() };
-    order.map(|order| order.order)
+    let kinetic = if for_quadratic(arguments) { Kinetic::Quadratic } else { Kinetic::Any };
+    let of_kernel =
+        if for_quadratic(arguments) { Some(&proved.proof.quadratic) } else { proved.order_for_every_kinetic() };
+    let order = of_kernel?;
+    Some(proved.proof.effective.as_ref().map_or(order, |effective| effective.for_kinetic(kinetic)).order)
 }
 
 fn for_quadratic(arguments: &Arguments) -> bool {
@@ -147,13 +150,15 @@ fn sort(records: &mut [Record], arguments: &Arguments) {
         return;
     }
     records.sort_by_key(|record| {
-        let orders = (record.order.unwrap_or(record.order_quadratic), record.order_quadratic);
+        let orders = (record.orders.order.unwrap_or(record.orders.order_quadratic), record.orders.order_quadratic);
         (if quadratic { (orders.1, orders.0) } else { orders }, record.evaluations + record.hessian_products)
     });
     match arguments.sort {
         SortKey::EffectiveError => {
-            let own = |r: &Record| r.effective_error.filter(|_| !quadratic).unwrap_or(r.effective_error_quadratic);
-            let order = |r: &Record| r.order.filter(|_| !quadratic).unwrap_or(r.order_quadratic);
+            let own = |r: &Record| {
+                r.orders.effective_error.filter(|_| !quadratic).unwrap_or(r.orders.effective_error_quadratic)
+            };
+            let order = |r: &Record| r.orders.order.filter(|_| !quadratic).unwrap_or(r.orders.order_quadratic);
             records.sort_by(|a, b| order(a).cmp(&order(b)).then(own(a).total_cmp(&own(b))));
         }
         SortKey::Stability => {

@@ -1,7 +1,7 @@
 //! What the list knows about a scheme.
 
 use serde::Serialize;
-use shadowstep::tables::TableScheme;
+use shadowstep::tables::{Proved, TableScheme};
 use shadowstep_analysis::error::LeadingError;
 use shadowstep_analysis::stability::Stability;
 
@@ -12,14 +12,11 @@ pub(super) struct Record {
     pub(super) name: String,
     pub(super) shipped: bool,
     aliases: Vec<String>,
-    /// For every T(p); `None` with gradient kicks, which there are for quadratic T only.
-    pub(super) order: Option<u32>,
-    pub(super) order_quadratic: u32,
-    pub(super) near_integrable: Vec<u32>,
-    /// The effective orders of a processed scheme, for every T(p), quadratic T and A + εB; the others are those of its kernel.
-    pub(super) effective_order: Option<u32>,
-    pub(super) effective_order_quadratic: Option<u32>,
-    pub(super) effective_near_integrable: Vec<u32>,
+    /// Of a processed scheme the effective ones.
+    #[serde(flatten)]
+    pub(super) orders: Orders,
+    /// Those of the kernel of a processed scheme.
+    pub(super) kernel: Option<Orders>,
     /// Rows of the table of weights, those with a 0 included.
     pub(super) stages: usize,
     pub(super) evaluations: usize,
@@ -29,9 +26,6 @@ pub(super) struct Record {
     pub(super) products_per_dimension: usize,
     /// Products that a step carrying β adds, and as many additions.
     pub(super) products_for_beta: usize,
-    /// For every T(p), as the order.
-    pub(super) effective_error: Option<f64>,
-    pub(super) effective_error_quadratic: f64,
     pub(super) stability_limit: Option<String>,
     pub(super) stability_limit_per_force: Option<f64>,
     pub(super) symmetric: bool,
@@ -43,30 +37,63 @@ pub(super) struct Record {
     title: Option<String>,
 }
 
+/// Orders and effective errors.
+#[derive(Serialize)]
+pub(super) struct Orders {
+    /// For every T(p); `None` with gradient kicks, which there are for quadratic T only.
+    pub(super) order: Option<u32>,
+    pub(super) order_quadratic: u32,
+    pub(super) near_integrable: Vec<u32>,
+    /// For every T(p), as the order.
+    pub(super) effective_error: Option<f64>,
+    pub(super) effective_error_quadratic: f64,
+}
+
+impl Orders {
+    fn of(
+        order: Option<u32>,
+        (order_quadratic, near_integrable): (u32, Vec<u32>),
+        [general, quadratic]: &[LeadingError; 2],
+        proved: &Proved,
+    ) -> Orders {
+        Orders {
+            order,
+            order_quadratic,
+            near_integrable,
+            effective_error: order.map(|_| general.effective(proved.plan.evaluations)),
+            effective_error_quadratic: quadratic.effective(proved.plan.degree()),
+        }
+    }
+}
+
 impl Record {
     pub(super) fn of(name: &str, scheme: &TableScheme, shipped: bool) -> Record {
         let proved = scheme.proved();
         let (cost, evaluations) = (scheme.plan().cost(), proved.plan.evaluations);
         let order = proved.order_for_every_kinetic().map(|order| order.order);
         // not the whole analysis, which takes longer
-        let [general, quadratic] = LeadingError::of(proved);
+        let of_kernel = (proved.proof.quadratic.order, near_integrable(&proved.proof));
+        let of_kernel = Orders::of(order, of_kernel, &LeadingError::of(proved), proved);
+        let effective = proved.proof.effective.as_ref().zip(LeadingError::processed(proved));
+        let effective = effective.map(|(effective, errors)| {
+            let orders = (effective.quadratic.order, effective_near_integrable(&proved.proof));
+            Orders::of(order.map(|_| effective.general.order), orders, &errors, proved)
+        });
+        let (orders, kernel) = match effective {
+            Some(effective) => (effective, Some(of_kernel)),
+            None => (of_kernel, None),
+        };
         let mut record = Record {
             name: name.to_owned(),
             shipped,
             aliases: aliases(&proved.scheme.table),
-            order,
-            order_quadratic: proved.proof.quadratic.order,
-            near_integrable: near_integrable(&proved.proof),
-            effective_order: order.and(proved.proof.effective.as_ref()).map(|effective| effective.general.order),
-            effective_order_quadratic: proved.proof.effective.as_ref().map(|effective| effective.quadratic.order),
-            effective_near_integrable: effective_near_integrable(&proved.proof),
+            orders,
+            kernel,
             stages: proved.scheme.stages.kick.len(),
             evaluations,
             hessian_products: proved.plan.hessian_products,
             products_per_dimension: cost.products_per_dimension,
             products_for_beta: cost.products_for_beta,
-            effective_error: order.map(|_| general.effective(evaluations)),
-            effective_error_quadratic: quadratic.effective(proved.plan.degree()),
             stability_limit: Stability::of_scheme(proved).map(|stability| stability.limit),
             stability_limit_per_force: None,
             symmetric: proved.proof.symmetric,

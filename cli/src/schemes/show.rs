@@ -101,10 +101,17 @@ fn facts(scheme: &TableScheme) -> Vec<(String, String)> {
     let proved = scheme.proved();
     let (proof, table, plan) = (&proved.proof, &proved.scheme.table, scheme.plan());
     let cost = plan.cost();
+    let of_kernel = if proof.effective.is_some() { "of the kernel, " } else { "" };
     let mut facts = vec![
         ("also named".to_owned(), aliases(table).join(", ")),
-        ("every T(p)".to_owned(), proved.order_for_every_kinetic().map_or_else(|| NO_GENERAL.to_owned(), order_text)),
-        ("quadratic T".to_owned(), order_text(&proof.quadratic)),
+        (
+            "every T(p)".to_owned(),
+            format!(
+                "{of_kernel}{}",
+                proved.order_for_every_kinetic().map_or_else(|| NO_GENERAL.to_owned(), order_text)
+            ),
+        ),
+        ("quadratic T".to_owned(), format!("{of_kernel}{}", order_text(&proof.quadratic))),
         ("H = A + εB".to_owned(), near_integrable_fact(proved)),
         ("meant for".to_owned(), meant_for(table.kinetic).to_owned()),
         ("weights".to_owned(), weights_text(digits(proved.scheme.held))),
@@ -152,8 +159,8 @@ fn processor_facts(proved: &Proved) -> Vec<(String, String)> {
         orders => format!("orders {} in the powers of ε", near_integrable_text(&orders)),
     };
     let cost = format!(
-        "{} force evaluations, {} kicks and drifts for an output, and as many once at the beginning; the orders above and \
-         the cost of a step are those of the kernel",
+        "{} force evaluations, {} kicks and drifts for an output, and as many once at the beginning; the cost of \
+         a step is that of the kernel",
         processor.evaluations(),
         processor.post.len()
     );

@@ -110,8 +110,45 @@ fn kernel_and_effective_orders_are_shown_apart() {
     }
     let record = &objects(&quietly("schemes show wisdom-corrector-7 --json"))[0];
     assert_eq!(text(record, "name"), "wisdom-corrector-7");
-    assert_eq!(record["processor"]["near_integrable"], serde_json::json!([8, 2]));
-    assert_eq!(record["order"], 2);
+    assert_eq!(record["near_integrable"], serde_json::json!([8, 2]));
+    assert_eq!((&record["order"], &record["kernel"]["order"]), (&2.into(), &2.into()));
+}
+
+/// The kernel of order 2 has terms of h² that the post-map takes away.
+#[test]
+fn orders_and_errors_of_a_processed_scheme_are_those_after_processing() {
+    let record = &objects(&quietly("schemes show wisdom-kernel-17 --json"))[0];
+    let kernel = &record["kernel"];
+    assert_eq!((&record["order_quadratic"], &kernel["order_quadratic"]), (&4.into(), &2.into()));
+    assert_eq!(
+        (&record["leading_error_quadratic"]["power"], &kernel["leading_error_quadratic"]["power"]),
+        (&5.into(), &3.into())
+    );
+    let shown = quietly("schemes show wisdom-kernel-17");
+    let words = shown.split_whitespace().collect::<Vec<_>>().join(" ");
+    for text in [
+        "after processing",
+        "quadratic T: h^5, norm",
+        "of the kernel, h^3, norm",
+        "of the kernel, order 2",
+        "effective order 4",
+    ] {
+        assert!(words.contains(text), "{text} is missing in\n{shown}");
+    }
+    let listed = objects(&quietly("schemes --json --order 4 --for quadratic"));
+    let found = listed.iter().find(|scheme| scheme["name"] == "wisdom-kernel-17").unwrap();
+    assert_eq!((&found["order_quadratic"], &found["kernel"]["order_quadratic"]), (&4.into(), &2.into()));
+    assert_eq!(found["effective_error_quadratic"], record["effective_error_quadratic"]);
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("kernel.toml");
+    fs::write(&path, shadowstep_schemes::shipped("wisdom-kernel-17").unwrap().text).unwrap();
+    let checked = quietly(&format!("schemes check {}", path.display()));
+    assert!(
+        checked.contains(
+            "proved: effective order 4 for quadratic T, (18,4,3) for A + εB, to 320 digits; of the kernel order 2"
+        ),
+        "{checked}"
+    );
 }
 
 #[test]
