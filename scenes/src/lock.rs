@@ -5,7 +5,7 @@ use std::io;
 use std::path::Path;
 
 use same_file::Handle;
-use shadowstep_schemes::document::refuse_special;
+use shadowstep_schemes::document::refuse_pipe;
 use thiserror::Error;
 
 /// Why a file cannot be locked.
@@ -36,9 +36,9 @@ pub enum LockError {
 /// ```
 ///
 /// # Errors
-/// A pipe or a device; a file that cannot be opened, or that another process has.
+/// A pipe; a file that cannot be opened, or that another process has.
 pub fn open_locked(path: &Path, options: &OpenOptions) -> Result<File, LockError> {
-    refuse_special(path)?;
+    refuse_pipe(path)?;
     let file = options.open(path)?;
     match file.try_lock() {
         Ok(()) => {}

@@ -17,7 +17,7 @@ pub struct ShippedScene {
     pub text: &'static str,
 }
 
-/// All shipped scenes of planetary systems; those of shipped problems are [written](crate::template) as templates.
+/// All shipped scenes of planetary systems; those of shipped problems are [written](scene_text) as templates.
 pub const PLANETARY_SCENES: [ShippedScene; 5] = [
     ShippedScene {
         name: "outer-planets",

@@ -48,7 +48,7 @@ mod reader;
 mod value;
 
 pub use fault::{Fault, Faults, Source};
-pub use file::{LARGEST_TABLE, read_text, refuse_special};
+pub use file::{LARGEST_TABLE, read_text, refuse_pipe};
 pub use keys::{Key, Keys};
 pub use reader::{Reader, Section, document};
 pub use value::{Placed, Text, Value};

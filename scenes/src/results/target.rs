@@ -5,6 +5,7 @@ use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 use shadowstep::tables::Faults;
+use shadowstep_schemes::document::refuse_pipe;
 
 use crate::error::Error;
 use crate::observer::Observer;
@@ -39,22 +40,12 @@ fn at(scene: &Scene, place: &Range<usize>, error: Error) -> Error {
 fn refuse_special(path: &Path) -> Result<(), Error> {
     let is_special = path.metadata().is_ok_and(|found| !found.is_file() && !found.is_dir());
     let others = [METADATA, CHECKPOINT, NEW_CHECKPOINT].map(|ending| beside(path, ending));
-    let special = is_special.then_some(path).or(others.iter().map(PathBuf::as_path).find(|path| is_pipe(path)));
+    let special =
+        is_special.then_some(path).or(others.iter().map(PathBuf::as_path).find(|path| refuse_pipe(path).is_err()));
     special.map_or(Ok(()), |special| {
         let message = format!("{} is not a file", special.display());
         Err(Error::usage(message, "give the name of a file; rows go to stdout where no file is given"))
     })
-}
-
-#[cfg(unix)]
-fn is_pipe(path: &Path) -> bool {
-    use std::os::unix::fs::FileTypeExt;
-    path.metadata().is_ok_and(|found| found.file_type().is_fifo())
-}
-
-#[cfg(not(unix))]
-fn is_pipe(_: &Path) -> bool {
-    false
 }
 
 impl<'a> Target<'a> {
