@@ -95,8 +95,10 @@ impl Group {
     /// # Errors
     /// None is.
     pub fn schemes(self, system: &System, arithmetic: Arithmetic) -> Result<Vec<NamedScheme>, Error> {
-        let valid =
-            |name: &str| for_system(scheme(name).ok()?, system).ok().filter(|named| arithmetic.suits(named).is_ok());
+        let valid = |name: &str| {
+            let fitted = for_system(scheme(name).ok()?, system).ok()?.fitted(arithmetic).ok()?;
+            Some(fitted.0)
+        };
         let found: Vec<_> = self.names(system).into_iter().filter_map(valid).collect();
         match found.is_empty() {
             false => Ok(found),
