@@ -6,12 +6,14 @@ use std::time::Duration;
 
 use num_traits::ToPrimitive;
 use shadowstep::{Number, Rational, Scheme};
+use shadowstep_scenes::Error;
 use shadowstep_scenes::library::NamedScheme;
-use shadowstep_scenes::{Error, System};
 use shadowstep_studies::{Observer, Store};
 
 use crate::best::{Curve, cost_of};
 use crate::calculation::{Calculation, Outcome};
+pub use crate::choice::Choice;
+use crate::choice::last_order;
 use crate::convenient::convenient_step;
 use crate::length::length_of;
 use crate::of::Of;
@@ -22,7 +24,7 @@ use crate::series::{End, StepRange, Target, stable_step};
 use crate::size::Size;
 use crate::study::{Cost, Request, Studied, Study, proved_order};
 use crate::timing::time_of_steps;
-use crate::work::Work;
+pub use crate::verified::Verified;
 
 /// What is wanted.
 pub struct AdviceRequest<'a> {
@@ -41,83 +43,6 @@ pub struct AdviceRequest<'a> {
     pub seconds: f64,
     /// Outcomes are saved in this folder.
     pub folder: PathBuf,
-}
-
-/// A scheme and a step size with what is expected of them.
-#[derive(Clone, Debug)]
-pub struct Choice<'a> {
-    /// The scheme.
-    pub scheme: &'a NamedScheme,
-    /// The exact step size.
-    pub step: Rational,
-    /// The number of steps.
-    pub steps: u64,
-    /// The predicted error at the end.
-    pub error: Size,
-    /// Seconds for a step alone.
-    pub seconds_per_step: f64,
-    /// The largest stable step for the fastest oscillation, linearised at the start; `None` where nothing oscillates.
-    pub stable_step: Option<f64>,
-    /// The largest step of the scheme up to which the monitor's verdict was fine; `None` if it was at no step.
-    pub conserved_up_to: Option<f64>,
-    /// The smallest step whose verdict was another one than fine or undecided.
-    pub lost_from: Option<f64>,
-    /// Numbers of steps and predicted errors, log₁₀.
-    curve: Curve,
-    /// What the steps of the curve divide.
-    length: f64,
-    /// The proved order.
-    order: f64,
-}
-
-impl Choice<'_> {
-    /// What the run costs beside its time.
-    pub fn work(&self, system: &System) -> Work {
-        Work::of_step(self.scheme, system).times(self.steps)
-    }
-
-    /// Evaluations of the gradient in the run.
-    pub fn evaluations(&self) -> f64 {
-        self.steps as f64 * self.scheme.scheme.summary().evaluations as f64
-    }
-
-    /// Seconds of the run, for its steps alone.
-    pub fn seconds(&self) -> f64 {
-        self.steps as f64 * self.seconds_per_step
-    }
-
-    /// |h|
-    pub fn size(&self) -> f64 {
-        <f64 as Number>::from_rational(&self.step, &()).abs()
-    }
-
-    /// The predicted error of steps of this size, log₁₀: between two runs that are powers of each other, beyond them by the order.
-    fn predicted(&self, h: f64) -> f64 {
-        let steps = self.length / h;
-        match self.curve.iter().position(|(known, _)| *known >= steps) {
-            Some(0) => by_order(self.curve[0], self.order, steps),
-            Some(next) => {
-                let ((a, above), (b, below)) = (self.curve[next - 1], self.curve[next]);
-                above + (below - above) * (steps / a).ln() / (b / a).ln()
-            }
-            None => {
-                let last = self.curve.last().copied().unwrap_or((1.0, f64::INFINITY));
-                by_order(last, last_order(&self.curve, self.order), steps)
-            }
-        }
-    }
-
-    /// The largest step that is expected to have at most this error; `None` where no run has it.
-    fn largest_step(&self, error: Size) -> Option<f64> {
-        cost_of(&self.curve, error).map(|steps| self.length / steps)
-    }
-
-    /// With the errors of all its runs multiplied, so that the prediction for its step is the error that was found.
-    fn corrected(&self, found: Size) -> Choice<'_> {
-        let shift = found.log10() - self.predicted(self.size());
-        let curve = self.curve.iter().map(|(steps, error)| (*steps, error + shift)).collect();
-        Choice { curve, ..self.clone() }
-    }
 }
 
 /// The answer.
@@ -160,40 +85,6 @@ pub struct Unfinished<'a> {
     pub extrapolated: Vec<&'a str>,
 }
 
-/// The error of a run over all of the time.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Verified {
-    /// This, to a tenth: the error of the reference is less than a 20th of it.
-    Error(Size),
-    /// At most this: the reference resolves no more.
-    AtMost(Size),
-}
-
-impl Verified {
-    /// The error, or what it is at most.
-    pub fn size(self) -> Size {
-        match self {
-            Verified::Error(size) | Verified::AtMost(size) => size,
-        }
-    }
-
-    /// Of a position beside a reference with this error; `None` where it is not known, or the run failed.
-    fn of_position(position: PositionError, error: Size) -> Option<Verified> {
-        let ten = |size: Size| 10_f64.powf(size.log10());
-        match position {
-            PositionError::Known(size) if error.log10() <= size.log10() - RESOLVED.log10() => {
-                Some(Verified::Error(size))
-            }
-            PositionError::Known(size) => {
-                Some(Verified::AtMost(size.times_power_of_ten((1.0 + ten(error) / ten(size)).log10())))
-            }
-            // below five times the error, of which one is that of the reference
-            PositionError::Below(size) => Some(Verified::AtMost(size.times_power_of_ten(1.2_f64.log10()))),
-            PositionError::None => None,
-        }
-    }
-}
-
 /// The parts of the time of the search for the reference, for the runs, and for the times of their steps.
 const OF_SEARCH: [f64; 3] = [0.08, 0.7, 0.1];
 /// A run over the part of the time takes about this part of the time of a scheme.
@@ -202,8 +93,6 @@ const PART_OF_TIME: f64 = 0.125;
 const MOST_EXTRAPOLATED: f64 = 100.0;
 /// A run with a small error has about this number of evaluations in a turn of the fastest oscillation.
 const EVALUATIONS_PER_TURN: f64 = 400.0;
-/// The highest order by which errors are extrapolated, where the proved one is lower.
-const MOST_ORDER: f64 = 10.0;
 /// Runs over fewer turns say little of the growth of errors.
 const FEWEST_TURNS: f64 = 8.0;
 /// The predicted error is to be this part of the tolerance, log₁₀: predictions are that accurate.
@@ -214,8 +103,6 @@ const SHOWN: usize = 3;
 const ATTEMPTS: usize = 4;
 /// An error that is smaller than the tolerance by this factor leaves room for a larger step, log₁₀.
 const ROOM: f64 = -0.7;
-/// The error of a position is this multiple of that of the reference, where it is said to be known.
-const RESOLVED: f64 = 20.0;
 /// The reference at the end is to have a smaller error than is predicted by this factor: predictions are that accurate.
 const FINER: f64 = 60.0;
 /// It may take this multiple of the time of the run.
@@ -467,19 +354,6 @@ impl<'a> AdviceRequest<'a> {
 
     fn named(&self, studied: &Studied<'_>) -> &'a NamedScheme {
         self.schemes.iter().find(|scheme| scheme.name == studied.scheme.name).expect("it was studied")
-    }
-}
-
-/// log₁₀ of the error with other steps, by an order.
-fn by_order((steps, error): (f64, f64), order: f64, others: f64) -> f64 {
-    error - order * (others / steps).log10()
-}
-
-/// The order of the last two runs, at least the proved one: errors of a dominant part's perturbation fall with a higher one at first.
-fn last_order(curve: &Curve, proved: f64) -> f64 {
-    match curve[..] {
-        [.., (a, above), (b, below)] => ((above - below) / (b / a).log10()).clamp(proved, MOST_ORDER.max(proved)),
-        _ => proved,
     }
 }
 

@@ -12,7 +12,7 @@
 //! | [`timing`] | the time of a step |
 //! | [`work`] | what else a step costs: Hessian–vector products, flows of a dominant part |
 //! | [`of`], [`order`], `best` | which error; the measured order; the scheme that needs the least for an error |
-//! | [`advise`], `convenient` | advice on scheme and step size; step sizes that are easy to write |
+//! | [`advise`], `choice`, `verified`, `convenient` | advice on scheme and step size; what is expected of them; how well an error is known; step sizes that are easy to write |
 //! | [`schemes`] | the schemes that are compared if none are named |
 //! | [`files`] | what is written: data, charts, a page |
 //! | `charts` | work–precision diagrams |
@@ -24,6 +24,7 @@ pub mod advise;
 mod best;
 mod calculation;
 mod charts;
+mod choice;
 mod convenient;
 pub mod files;
 pub mod length;
@@ -40,4 +41,5 @@ pub mod size;
 pub mod study;
 pub mod tables;
 pub mod timing;
+mod verified;
 pub mod work;
