@@ -61,7 +61,7 @@ pub fn reproduce(request: &Request, observer: &mut dyn Observer) -> Result<Repro
     for figure in FIGURES {
         if requested.iter().any(|requested| requested.name == figure.name) {
             sections.push(write_figure(figure, &results, &request.folder)?);
-        } else if let Some(kept) = kept(figure, &store) {
+        } else if let Some(kept) = kept(figure, &store, &request.folder) {
             sections.push(write_figure(figure, &kept, &request.folder)?);
             earlier.push(format!("{}{}", figure.name, flag(kept.quick)));
         }
@@ -70,9 +70,9 @@ pub fn reproduce(request: &Request, observer: &mut dyn Observer) -> Result<Repro
     Ok(Reproduction { report: write_page(&request.folder, &report)?, verdicts: report.verdicts() })
 }
 
-/// The results of a figure that is not requested, if it has some and earlier runs left all of them: of the full grid, or of the
-/// coarse one.
-fn kept(figure: &Figure, store: &Store) -> Option<Results> {
+/// The results of a figure that is not requested, if earlier runs left all of them: of the full grid, or of the coarse one. A figure that
+/// needs none is kept if its charts are there.
+fn kept(figure: &Figure, store: &Store, folder: &Path) -> Option<Results> {
     [false, true].into_iter().find_map(|quick| {
         let mut results = Results::new(quick);
         let mut any = false;
@@ -84,7 +84,7 @@ fn kept(figure: &Figure, store: &Store) -> Option<Results> {
             any = true;
         }
         results.take_used();
-        any.then_some(results)
+        (any || folder.join(format!("{}.svg", figure.name)).exists()).then_some(results)
     })
 }
 

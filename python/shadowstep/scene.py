@@ -59,7 +59,7 @@ def run(scene: Union[str, os.PathLike[str]], *, restart: bool = False, progress:
     >>> list(outcome.columns), outcome.columns["t"].tolist()
     (['n', 't', 'energy', 'x', 'y', 'px', 'py'], [0.0, 2.5, 5.0])
     >>> outcome.summary["verdict"]
-    'the step size is fine'
+    'bounded'
     """
     if not isinstance(scene, (str, os.PathLike)):
         raise TypeError(f"scene must be the path of a scene or its text, not {type(scene).__name__}")

@@ -185,7 +185,7 @@ impl<N: RunNumber> Watch<N> {
         let modified_energy = (report.windows > 0).then(|| ModifiedEnergySummary {
             method: report.method_rms.to_text(),
             round_off: report.round_off.to_text(),
-            permanent_change: report.change.to_text(),
+            permanent_change: report.range.to_text(),
             permanent_bound: report.permanent_bound.as_ref().filter(|_| bounds).map(N::to_text),
             resolution: report.resolution.as_ref().map(N::to_text),
             windows: report.windows,
@@ -203,6 +203,7 @@ impl<N: RunNumber> Watch<N> {
             interactions: approaches.map(Approaches::found),
             fine: verdict.is_fine(),
             verdict: verdict.to_string(),
+            conclusion: if verdict == report.verdict { report.conclusion() } else { verdict.to_string() },
             reason,
         })
     }

@@ -181,7 +181,7 @@ fn verdicts(records: &[(Run<'_>, Record)], coloured: bool) -> String {
     let line = |(run, record): &(Run<'_>, Record)| {
         let summary: &Summary = record.summary.as_ref()?;
         let verdict = match summary.is_fine() && records.len() > 1 {
-            true => summary.verdict().to_owned(),
+            true => summary.conclusion().to_owned(),
             false => summary.verdict_with_reason(),
         };
         let encounters = match summary.encounters() {

@@ -509,3 +509,18 @@ fn a_file_is_replaced_only_by_force() {
     assert_eq!(shadowstep(&format!("{words} --force")).code, 0);
     assert_ne!(read(), text);
 }
+
+/// The first run of the README: the error of H is 7.8 % of it, which is for the user to judge.
+#[test]
+fn a_bounded_error_is_named_with_its_size() {
+    let kepler = "drift --problem kepler --scheme stormer-verlet --double --until 100 --step";
+    let out = shadowstep(&format!("{kepler} 1/10,1/20")).out.replace("\n    ", " ");
+    assert!(out.contains("step 1/10: bounded: the energy error is 8.9 % of T; close encounters"), "{out}");
+    assert!(out.contains("step 1/20: bounded: the energy error is 1.9 % of T; close encounters"), "{out}");
+    assert!(!out.contains("fine"), "{out}");
+    let alone = shadowstep(&format!("{kepler} 1/40")).out.replace("\n    ", " ");
+    assert!(
+        alone.contains("step 1/40: bounded: the energy error is 4.8e-3 of T; in 4000 steps a permanent"),
+        "{alone}"
+    );
+}

@@ -156,6 +156,18 @@ fn a_report_keeps_the_figures_whose_results_are_there() {
     assert_eq!(fs::read_to_string(&store).unwrap(), fewer);
 }
 
+/// The contour needs no results.
+#[test]
+fn a_report_keeps_a_figure_without_results() {
+    let folder = TempDir::new().unwrap();
+    let page = || fs::read_to_string(folder.path().join("report.html")).unwrap();
+    figures(folder.path(), &["scattering"], "2");
+    assert!(!page().contains("The contour"), "it was not asked for");
+    figures(folder.path(), &["contour"], "2");
+    figures(folder.path(), &["scattering"], "2");
+    assert!(page().contains("<h2>Scattering") && page().contains("<h2>The contour"));
+}
+
 #[test]
 fn files_of_another_program_are_replaced_only_by_force() {
     for name in ["report.html", "double-precision.svg", "kepler-step.csv"] {

@@ -62,7 +62,7 @@ fn drifts(results: &Results, finding: &mut Finding, scans: &[Scan]) {
     }
     let chart = finding.chart(
         Chart::new("Störmer–Verlet, Kepler", Axis::linear("eccentricity e"), drift_axis(), curves),
-        "The best m of each state, up to 200. Marks: the first eccentricity with which the body escapes.",
+        "The best m of each state, up to 200. Marks: the first of the computed eccentricities with which the body escapes.",
     );
     let first = scans.iter().filter_map(|scan| Some((scan.n, scan.first()?)));
     chart.marks = first.map(|(n, e)| Mark::at(e, format!("escape, h = 1/{n}"))).collect();
@@ -142,18 +142,31 @@ fn thousandths(e: u32) -> f64 {
 }
 
 fn check_escapes(finding: &mut Finding, scans: &[Scan], coverage: Coverage) {
-    let ranges: Vec<_> = scans.iter().filter_map(|scan| Some((scan.n, scan.range()?))).collect();
-    let list: Vec<_> = ranges.iter().map(|(n, (low, high))| format!("{low:.3} to {high:.3} at h = 1/{n}")).collect();
-    finding.check(
-        "An instability occurs at an eccentricity that depends on the step size.",
-        format!("it begins at e = {}", list.join(", ")),
-        depends_on_step(&scans.iter().map(Scan::range).collect::<Vec<_>>()),
-    );
+    let (found, verdict) = onset(scans, coverage);
+    finding.check("An instability occurs at an eccentricity that depends on the step size.", found, verdict);
     for scan in scans {
         let (Some(verdict), Some(found)) = (scan.is_one_value(coverage), scan.described()) else { continue };
         finding.check(format!("h = 1/{}: it is one critical eccentricity, to within 0.001.", scan.n), found, verdict);
     }
     topology(finding, scans, coverage);
+}
+
+/// Where the instability begins. Between the eccentricities of a coarse scan others may escape, so that it gives an upper bound only.
+fn onset(scans: &[Scan], coverage: Coverage) -> (String, Verdict) {
+    let ranges: Vec<_> = scans.iter().map(Scan::range).collect();
+    let of = |scan: &Scan| {
+        let (low, high) = scan.range()?;
+        Some(match coverage {
+            Coverage::All => format!("{low:.3} to {high:.3} at h = 1/{}", scan.n),
+            Coverage::Some => format!("{:.3} at h = 1/{}", scan.first()?, scan.n),
+        })
+    };
+    let list = scans.iter().filter_map(of).collect::<Vec<_>>().join(", ");
+    let begins = match coverage {
+        Coverage::All => "it begins at e =",
+        Coverage::Some => "it begins no later than at e =",
+    };
+    (format!("{begins} {list}"), coverage.only_all(depends_on_step(&ranges)))
 }
 
 /// Ranges that are apart belong to different eccentricities; those that overlap, or are not known, allow both.
@@ -220,25 +233,43 @@ fn orbits(results: &Results, finding: &mut Finding, scans: &[Scan]) {
     let Some(scan) = scans.iter().find(|scan| scan.n == 10) else { return };
     let bound = |below: u32| scan.found.iter().rev().find(|(e, returns, _)| *e < below && returns.is_none());
     let Some(last) = bound(u32::MAX).map(|(e, ..)| *e) else { return };
-    let mut shown: Vec<(u32, String)> = bound(last - 30).map(|(e, ..)| (*e, "stays".to_owned())).into_iter().collect();
+    let mut shown: Vec<(u32, String)> = bound(last - 30).map(|(e, ..)| (*e, STAYS.to_owned())).into_iter().collect();
     let first = scan.escapes().next().filter(|(e, _)| *e < last);
     shown.extend(first.map(|(e, returns)| (e, format!("escapes at encounter {returns}"))));
-    shown.push((last, "stays".to_owned()));
+    shown.push((last, STAYS.to_owned()));
     shown.extend(scan.escapes().find(|(e, _)| *e > last).map(|(e, _)| (e, "escapes".to_owned())));
     let curve = |(i, (e, label)): (usize, &(u32, String))| {
         let orbit = results.orbit(&of(scan.n, *e));
         let points = orbit.map_or_else(Vec::new, |orbit| orbit.x.into_iter().zip(orbit.y).collect());
+        let label = if label == STAYS { of_bound(&points) } else { label };
         Curve::line(format!("e = {}, {label}", thousandths(*e)), points, i)
     };
     finding.chart(
         Chart::new(
             "The orbits on both sides of the instability, h = 1/10",
-            Axis::linear("q₁").over(-30.0, 10.0),
-            Axis::linear("q₂").over(-16.0, 16.0),
+            Axis::linear("q₁").over(FRAME[0].0, FRAME[0].1),
+            Axis::linear("q₂").over(FRAME[1].0, FRAME[1].1),
             shown.iter().enumerate().map(curve).collect(),
         ),
-        "Störmer–Verlet, t ≤ 100; the states are joined by lines. The exact orbit reaches |q| = 1 + e.",
+        "Störmer–Verlet, t ≤ 100; the states are joined by lines. The exact orbit reaches |q| = 1 + e. An orbit that is bound has a modified \
+         energy below 0, and returns.",
     );
+}
+
+/// The part of the plane in which orbits are drawn.
+const FRAME: [(f64, f64); 2] = [(-30.0, 10.0), (-16.0, 16.0)];
+
+const STAYS: &str = "stays";
+
+/// What an orbit without an escape does: it stays in the frame, or leaves that and returns to it, perhaps after the run.
+fn of_bound(points: &[(f64, f64)]) -> &'static str {
+    let [x, y] = FRAME;
+    let within = |point: &(f64, f64)| (x.0..=x.1).contains(&point.0) && (y.0..=y.1).contains(&point.1);
+    match (points.iter().all(within), points.last().is_some_and(within)) {
+        (true, _) => STAYS,
+        (false, true) => "bound, leaves the frame and returns",
+        (false, false) => "bound, returns after t = 100",
+    }
 }
 
 #[cfg(test)]
@@ -264,6 +295,29 @@ mod tests {
         assert_eq!(several.range(), Some((0.6, 0.64)));
         let never = scan(&[(600, None)]);
         assert_eq!((never.is_one_value(Coverage::All), never.range()), (None, None));
+    }
+
+    /// The full scan of h = 1/5 finds an escape at 0.634 that the coarse one, with a first escape at 0.665, has no value for.
+    #[test]
+    fn a_coarse_scan_bounds_the_onset_from_above_only() {
+        let at = |n: u32, e: u32| Scan { n, found: vec![(e - 5, None, 1.0), (e, Some(0), 9.0)] };
+        let scans = [at(5, 665), at(10, 765)];
+        let (found, verdict) = onset(&scans, Coverage::Some);
+        assert_eq!(found, "it begins no later than at e = 0.665 at h = 1/5, 0.765 at h = 1/10");
+        assert_eq!(verdict, Verdict::NotDecided);
+        let (found, verdict) = onset(&scans, Coverage::All);
+        assert_eq!(found, "it begins at e = 0.660 to 0.665 at h = 1/5, 0.760 to 0.765 at h = 1/10");
+        assert_eq!(verdict, Verdict::Agrees);
+    }
+
+    #[test]
+    fn an_orbit_that_leaves_the_frame_does_not_stay() {
+        assert_eq!(of_bound(&[(0.2, 0.0), (-1.8, 0.1)]), "stays");
+        assert_eq!(of_bound(&[(0.2, 0.0), (-31.0, 0.1)]), "bound, returns after t = 100");
+        assert_eq!(
+            of_bound(&[(0.2, 0.0), (-31.0, 0.1), (0.2, 17.0), (0.2, 0.1)]),
+            "bound, leaves the frame and returns"
+        );
     }
 
     #[test]

@@ -34,6 +34,8 @@ pub struct Summary {
     pub(crate) interactions: Option<Interactions>,
     pub(crate) fine: bool,
     pub(crate) verdict: String,
+    /// The verdict, with the size of a bounded error.
+    pub(crate) conclusion: String,
     pub(crate) reason: String,
 }
 
@@ -42,7 +44,7 @@ pub struct Summary {
 pub struct EnergySummary {
     /// H(0)
     pub initial: String,
-    /// The largest |H(t) − H(0)|.
+    /// The largest |H(t) − H(0)| of [these states](EnergySummary::states).
     pub largest: String,
     /// The same as a part of |H(0)|; `None` if that is 0.
     pub largest_relative: Option<String>,
@@ -63,7 +65,8 @@ pub struct ModifiedEnergySummary {
     pub method: String,
     /// The expected effect of round-off on H̄.
     pub round_off: String,
-    /// The newest accurate H̄ less the first one.
+    /// max − min of H̄ over states with small estimated errors, as [`PermanentChange`](shadowstep::shadow::run::PermanentChange) of all states:
+    /// here of the half of 32 to 64 parts of the run with the smaller errors, one state each.
     pub permanent_change: String,
     /// A permanent change of the energy in the run is excluded above this; `None` where nothing is excluded.
     pub permanent_bound: Option<String>,
@@ -74,7 +77,7 @@ pub struct ModifiedEnergySummary {
 }
 
 impl Summary {
-    /// Whether the verdict is not worse than fine: the step size is fine, or the error is round-off.
+    /// Whether the error is bounded, or round-off: whether it is small enough is not decided here.
     pub fn is_fine(&self) -> bool {
         self.fine
     }
@@ -84,9 +87,14 @@ impl Summary {
         &self.energy
     }
 
-    /// The verdict in a line: `the step size is fine`.
+    /// The verdict without numbers: `bounded`.
     pub fn verdict(&self) -> &str {
         &self.verdict
+    }
+
+    /// The verdict in a line, with the size of an error that is bounded.
+    pub fn conclusion(&self) -> &str {
+        &self.conclusion
     }
 
     /// The reason of the verdict.
@@ -150,11 +158,12 @@ impl Summary {
             None if self.transformed => short(absolute.trim_start_matches('-')),
             None => format!("{} (H(0) is 0)", short(absolute.trim_start_matches('-'))),
         };
-        let largest = format!("at most {} ({})", part(largest_relative, largest), self.time(*at));
+        let (largest, time) = (part(largest_relative, largest), self.time(*at));
         let last = format!("{} at the end", part(last_relative, last));
-        let all = u64::try_from(self.to - self.from + 1).is_ok_and(|all| *states >= all);
-        let sampled = if all { String::new() } else { format!("; at {states} states") };
-        format!("{largest}, {last}{sampled}")
+        match u64::try_from(self.to - self.from + 1).is_ok_and(|all| *states >= all) {
+            true => format!("at most {largest} ({time}), {last}"),
+            false => format!("{largest} ({time}) is the largest of {states} states, {last}"),
+        }
     }
 
     fn modified_energy_text(&self) -> String {

@@ -38,6 +38,23 @@ impl<N: Real> Report<N> {
         }
     }
 
+    /// The energy error and its size, in percent from 1 % on.
+    fn size(&self) -> String {
+        match self.relative_error() {
+            part if part >= 0.01 => format!("the energy error is {:.1} % of T", 100.0 * part),
+            part => format!("the energy error is {part:.1e} of T"),
+        }
+    }
+
+    /// The verdict in a line; a bounded energy error has its size, as the user decides whether that is small enough.
+    pub fn conclusion(&self) -> String {
+        match self.verdict {
+            Verdict::Fine if self.has_no_energy_error() => format!("{}: the energy error is 0", self.verdict),
+            Verdict::Fine => format!("{}: {}", self.verdict, self.size()),
+            verdict => verdict.to_string(),
+        }
+    }
+
     /// The reason for the verdict, a sentence with numbers.
     pub fn reason(&self) -> String {
         let steps = self.steps;
@@ -71,10 +88,10 @@ impl<N: Real> Report<N> {
             ),
             Verdict::NotSmooth => self.why_not_smooth(),
             Verdict::NotConserved => format!(
-                "the energy error is {:.1e} of T, and {moved}, permanently, where round-off makes {}: the error grows with the length of the \
+                "{}, and {moved}, permanently, where round-off makes {}: the error grows with the length of the \
                  run. A smaller step resolves encounters better; forces that are not smooth, or something other than the scheme, have \
                  such effects, too",
-                self.relative_error(),
+                self.size(),
                 self.in_parts(&self.round_off)
             ),
             Verdict::TooLarge(criterion) => self.why_too_large(criterion, &moved),
@@ -82,8 +99,8 @@ impl<N: Real> Report<N> {
                 format!("the energy is the same in all windows of {steps} steps")
             }
             Verdict::Fine => format!(
-                "the energy error is {:.1e} of T; in {steps} steps {}{}{}",
-                self.relative_error(),
+                "{}; in {steps} steps {}{}{}",
+                self.size(),
                 self.permanent(),
                 self.unresolved(),
                 self.light_coordinate()
@@ -132,10 +149,10 @@ impl<N: Real> Report<N> {
                 .steps_per_turn
                 .map_or(String::new(), |steps| format!("the fastest motion turns once in {steps:.0} steps, "));
             return format!(
-                "the energy error is {:.1e} of T, of which in {} steps {} were a permanent change; {turns}and the cause may be the step size, \
+                "{}, of which in {} steps {} were a permanent change; {turns}and the cause may be the step size, \
                  forces that are not smooth, or something other than the scheme that changed the state: a longer run, and windows of 17 \
                  states or more, would tell",
-                self.relative_error(),
+                self.size(),
                 self.steps,
                 self.in_parts(change),
             );
@@ -150,16 +167,16 @@ impl<N: Real> Report<N> {
             .map_or("no change".to_owned(), |bound| format!("a permanent change above {}", self.in_parts(bound)));
         let estimator = order.map_or(String::new(), |order| format!(", or an estimator of order {order}"));
         format!(
-            "the energy error is {:.1e} of T, but {resolved}, and {bound} is excluded: {windows} windows would tell, more often or in a \
+            "{}, but {resolved}, and {bound} is excluded: {windows} windows would tell, more often or in a \
              longer run{estimator}",
-            self.relative_error()
+            self.size()
         )
     }
 
     fn why_not_smooth(&self) -> String {
         format!(
-            "the energy error is {:.1e} of T, most of it from forces that are not smooth; in {} steps {}",
-            self.relative_error(),
+            "{}, most of it from forces that are not smooth; in {} steps {}",
+            self.size(),
             self.steps,
             self.permanent()
         )
@@ -221,8 +238,8 @@ impl<N: Real> Report<N> {
 
 impl<N: Real> fmt::Display for Report<N> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Report { steps, windows, verdict, .. } = self;
-        writeln!(f, "{verdict} ({steps} steps, {windows} windows)")?;
+        let Report { steps, windows, .. } = self;
+        writeln!(f, "{} ({steps} steps, {windows} windows)", self.conclusion())?;
         let part = |energy: &N| match self.part(energy) {
             part if part.is_finite() => format!("{part:.1e} of the energy error"),
             _ if self.has_no_energy_error() => "where the energy error is 0".to_owned(),

@@ -74,7 +74,8 @@ pub enum Verdict {
 }
 
 impl Verdict {
-    /// Whether the step size is small enough: [`Fine`](Verdict::Fine) or [`RoundOff`](Verdict::RoundOff).
+    /// Whether the energy error is bounded, as far as the run shows: [`Fine`](Verdict::Fine) or [`RoundOff`](Verdict::RoundOff). Whether its
+    /// [size](super::Report::relative_error) is small enough is for the user to decide.
     pub fn is_fine(self) -> bool {
         matches!(self, Verdict::Fine | Verdict::RoundOff)
     }
@@ -398,7 +399,7 @@ impl Evidence {
 impl fmt::Display for Verdict {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Verdict::Fine => f.write_str("the step size is fine"),
+            Verdict::Fine => f.write_str("bounded"),
             Verdict::NearResonance { turns, steps } => {
                 write!(f, "the step size is near the resonance {turns}/{steps}")
             }
