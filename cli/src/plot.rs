@@ -32,7 +32,8 @@ use lines::RunOfChart;
 /// What can be drawn, for the help.
 pub(crate) const CHARTS: &str = "\
 Charts:
-  energies              |H - H(0)|, |H̄ - H̄(0)| and the estimated error of H̄ in time; of several runs without the error
+  energies              |H - H(0)|, |H̄ - H̄*| and the estimated error of H̄ in time, H̄* the one with the least error; of several runs
+                        without the error
   orbit=x:y             a coordinate or momentum against another; where there are bodies, with coordinates such as x_sun, y_sun or
                         x1, y1, also x:y for all of them
   distance              of every two bodies in time, or without bodies from the origin

@@ -52,6 +52,10 @@ pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
         return ensemble(&Ensemble::read(source)?, arguments);
     }
     let scene = Scene::read(source)?;
+    if arguments.strict && !scene.output.summary {
+        let message = "--strict needs the verdict of a summary, and [output] of the scene has `summary = false`";
+        return Err(Error::usage(message, "remove that line, or --strict"));
+    }
     scene.notes.iter().for_each(report::note);
     // before signals are handled: counting steps to a physical time makes them
     let steps = scene.steps();

@@ -16,7 +16,7 @@ use shadowstep_scenes::estimator::{ACCURACY_HINT, conflict, order_setting};
 use shadowstep_scenes::library::NamedScheme;
 use shadowstep_scenes::propagator::Propagator;
 use shadowstep_scenes::run::{OrderSetting, Run};
-use shadowstep_scenes::stability::unstable;
+use shadowstep_scenes::stability::{few_kicks, unstable};
 
 /// Everything that is to be run.
 #[derive(Debug)]
@@ -54,7 +54,7 @@ impl Selection {
         let selection = Selection { problem, until, arithmetic, estimator, propagators, steps };
         selection.note_ends();
         if !arguments.no_summary {
-            selection.note_instability();
+            selection.note_large_steps();
         }
         Ok(selection)
     }
@@ -94,11 +94,16 @@ impl Selection {
         DriftRequest { problem: name, system, until, arithmetic: *arithmetic, estimator, summarised }
     }
 
-    /// Notes of runs whose steps are beyond the stability limit of their scheme.
-    fn note_instability(&self) {
-        let Some(frequency) = self.problem.system.fastest_frequency() else { return };
+    /// Notes of runs whose steps are beyond the stability limit of their scheme, or too few for a revolution of a planet.
+    fn note_large_steps(&self) {
+        let system = &self.problem.system;
+        let frequency = system.fastest_frequency();
+        let note = |scheme, h| {
+            let unstable = frequency.and_then(|frequency| unstable(frequency, scheme, h));
+            unstable.or_else(|| few_kicks(system, scheme, h))
+        };
         for scheme in self.propagators.iter().filter_map(Propagator::scheme) {
-            self.steps.iter().filter_map(|(h, _)| unstable(frequency, scheme, h.exact())).for_each(report::note);
+            self.steps.iter().filter_map(|(h, _)| note(scheme, h.exact())).for_each(report::note);
         }
     }
 

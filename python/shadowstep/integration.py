@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import os
 import warnings
 from dataclasses import dataclass, field
@@ -51,6 +52,9 @@ class Trajectory:
     """Its estimated error."""
     order: np.ndarray | None = None
     """The k of E_k or the m of D_m of each estimate."""
+    planets: dict[str, Any] | None = None
+    """Of planets: ``epsilon``, the largest part of a kick beside the force of the Kepler orbit, ``of`` which planet, and the ``closest`` approach
+    of two with their distance in Hill radii, over the states that are kept; None of other systems."""
     is_between: bool = False
     """Whether the modified energies belong to the times t + h/2; the last one is then NaN."""
     notes: list[str] = field(default_factory=list)
@@ -189,6 +193,8 @@ def integrate(
             options=chosen,
             progress=reach,
         )
+    if found["planets"] is not None:
+        found["planets"] = json.loads(found["planets"])
     for note in found["notes"]:
         warnings.warn(note, stacklevel=2)
     for name in ("t", "q", "p", "energy", "modified_energy", "modified_energy_error"):

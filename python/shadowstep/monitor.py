@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import os
 from dataclasses import dataclass
 from typing import Any, NamedTuple, Union
@@ -36,7 +37,7 @@ class Report:
     """``fine``, ``near-resonance``, ``drifts``, ``not-the-gradient``, ``not-smooth``, ``not-conserved``, ``inconsistent``, ``too-large``,
     ``round-off`` or ``undecided``."""
     is_fine: bool
-    """Whether the step size is small enough."""
+    """Whether the energy error is bounded, or round-off; ``energy_error / kinetic`` is its size."""
     reason: str
     """The reason, a sentence with numbers."""
     text: str
@@ -78,6 +79,9 @@ class Report:
     """In how many steps the fastest motion turns once."""
     irregular: float | None
     """0 for one oscillation, 1 for noise."""
+    planets: dict[str, Any] | None
+    """Of planets: ``epsilon``, the largest part of a kick beside the force of the Kepler orbit, ``of`` which planet, and the ``closest`` approach
+    of two with their distance in Hill radii, over all states; None of other systems."""
 
     def __str__(self) -> str:
         return self.text
@@ -161,4 +165,6 @@ class Monitor:
 
     def report(self) -> Report:
         """The report on the run so far."""
-        return Report(**self._monitor.report())
+        found = self._monitor.report()
+        planets = found.pop("planets")
+        return Report(**found, planets=None if planets is None else json.loads(planets))

@@ -3,6 +3,7 @@
 use numpy::PyArray1;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
+use serde_json::json;
 use shadowstep::shadow::EstimatorSettings;
 use shadowstep::{Rational, StepSize};
 use shadowstep_scenes::arithmetic::Arithmetic;
@@ -11,7 +12,7 @@ use shadowstep_scenes::integrate::{Integration, Samples};
 use shadowstep_scenes::library::{NamedScheme, check_displaced};
 use shadowstep_scenes::propagator::for_system;
 use shadowstep_scenes::run::{OrderSetting, Run};
-use shadowstep_scenes::stability::unstable;
+use shadowstep_scenes::stability::{few_kicks, unstable};
 use shadowstep_scenes::{Error, Note, Observer, System, estimator, steps};
 use shadowstep_schemes::First;
 
@@ -157,7 +158,8 @@ impl SystemWithScheme {
         };
         let frequency = system.fastest_frequency();
         let unstable = frequency.and_then(|frequency| unstable(frequency, &self.scheme, times.h.exact()));
-        Ok((found, self.note.iter().cloned().chain(unstable).collect()))
+        let few_kicks = few_kicks(system, &self.scheme, times.h.exact());
+        Ok((found, self.note.iter().cloned().chain(unstable).chain(few_kicks).collect()))
     }
 }
 
@@ -220,5 +222,6 @@ fn dictionary<'py, T: Clone>(
         all.set_item("order", PyArray1::from_vec(py, orders))?;
     }
     all.set_item("force_evaluations", samples.evaluations)?;
+    all.set_item("planets", samples.interactions.as_ref().map(|found| json!(found).to_string()))?;
     Ok(all)
 }

@@ -9,6 +9,7 @@ use numpy::PyArray1;
 use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
+use serde_json::json;
 use shadowstep::StepSize;
 use shadowstep::shadow::Report;
 use shadowstep::shadow::run::RunError;
@@ -18,6 +19,7 @@ use shadowstep_scenes::arithmetic::Arithmetic;
 use shadowstep_scenes::computation::{Monitoring, RunNumber as _};
 use shadowstep_scenes::library::NamedScheme;
 use shadowstep_scenes::start::{Begin, SceneIntegrator, Steps};
+use shadowstep_scenes::watch::{Approaches, Interactions};
 
 use crate::errors::exception;
 use crate::given::{Given, arithmetic, step_size};
@@ -33,6 +35,8 @@ struct Followed {
     integrator: SceneIntegrator<f64>,
     monitor: Box<dyn Monitoring<f64>>,
     newest: Option<Newest>,
+    /// Of planets.
+    approaches: Option<Approaches>,
 }
 
 /// What the thread does next.
@@ -124,8 +128,10 @@ impl Monitor {
 
     /// The report on the run so far.
     fn report<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
-        let report = self.ask(py, |followed, _| followed.monitor.report())?;
-        dictionary(py, &report)
+        let (report, planets) = self.ask(py, |followed, _| {
+            (followed.monitor.report(), followed.approaches.as_ref().map(|approaches| approaches.found().clone()))
+        })?;
+        dictionary(py, &report, planets.as_ref())
     }
 }
 
@@ -181,7 +187,11 @@ impl Followed {
             Steps { scheme: &posed.scheme.scheme, h, compensated, displaced: false, begin: Begin::InitialState };
         let mut integrator = posed.system.integrator(steps, posed.system.start::<f64>(&()), &())?;
         let monitor = f64::monitor(&mut *integrator, order, every).map_err(|error| of_run(&error))?;
-        Ok(Followed { integrator, monitor, newest: None })
+        let mut approaches = Approaches::of(&posed.system);
+        if let Some(approaches) = &mut approaches {
+            approaches.include(0, (integrator.state().q(), integrator.state().p()));
+        }
+        Ok(Followed { integrator, monitor, newest: None, approaches })
     }
 
     /// Steps until there are as many, or Python asks to end.
@@ -189,6 +199,10 @@ impl Followed {
         for _ in (0..count).take_while(|_| watched.continues()) {
             if let Some(sample) = self.monitor.step(&mut *self.integrator)? {
                 self.newest = Some((sample.n, *sample.modified, sample.error.copied(), *sample.energy));
+            }
+            if let Some(approaches) = &mut self.approaches {
+                let n = i64::try_from(self.monitor.n()).unwrap_or(i64::MAX);
+                approaches.include(n, (self.integrator.state().q(), self.integrator.state().p()));
             }
         }
         Ok(())
@@ -199,12 +213,18 @@ fn of_run(error: &RunError) -> Error {
     Error::run(error.to_string(), "try a smaller step size or another initial state")
 }
 
-fn dictionary<'py>(py: Python<'py>, report: &Report<f64>) -> PyResult<Bound<'py, PyDict>> {
+fn dictionary<'py>(
+    py: Python<'py>,
+    report: &Report<f64>,
+    planets: Option<&Interactions>,
+) -> PyResult<Bound<'py, PyDict>> {
     let all = PyDict::new(py);
     all.set_item("verdict", report.verdict.name())?;
     all.set_item("is_fine", report.verdict.is_fine())?;
     all.set_item("reason", report.reason())?;
-    all.set_item("text", report.to_string())?;
+    let line = planets.map(|found| format!("\n  planets: {}", found.text(|n| format!("n = {n}"))));
+    all.set_item("text", format!("{report}{}", line.unwrap_or_default()))?;
+    all.set_item("planets", planets.map(|found| json!(found).to_string()))?;
     all.set_item("steps", report.steps)?;
     all.set_item("windows", report.windows)?;
     let numbers = [

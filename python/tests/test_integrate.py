@@ -299,6 +299,21 @@ def test_steps_begin_with_the_map_that_is_asked_for_and_gradient_kicks_may_be_di
         integrate(pendulum, "yoshida4", h="1/10", until=10, first="sideways")
 
 
+def test_planets_have_their_interactions():
+    planets = Problem("outer-solar-system", parts="wisdom-holman")
+    run = integrate(planets, "stormer-verlet", h=200, steps=300)
+    assert 1e-3 < run.planets["epsilon"] < 1e-2 and run.planets["of"] == "saturn"
+    assert run.planets["closest"]["bodies"] == ["jupiter", "saturn"]
+    monitor = Monitor(planets, "stormer-verlet", h=200, every=10)
+    monitor.step(300)
+    report = monitor.report()
+    assert report.planets == run.planets
+    assert f"planets: interactions at most {run.planets['epsilon']:.1e}"[:-3] in str(report)
+    assert integrate(Problem("kepler"), "stormer-verlet", h=0.1, steps=1).planets is None
+    with pytest.warns(UserWarning, match="jupiter has 1.5 steps of 1 kick in a revolution"):
+        integrate(planets, "stormer-verlet", h=2900, steps=3)
+
+
 def test_monitor_of_a_loop():
     monitor = shadowstep.Monitor(Problem("kepler"), "stormer-verlet", h="1/20", every=50)
     farthest = 0.0

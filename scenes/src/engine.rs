@@ -137,7 +137,7 @@ struct Recorder<'a, 'r, N: RunNumber> {
 impl<N: RunNumber> Recorder<'_, '_, N> {
     /// Follows the run for a summary, if the observer wants one.
     fn watch(&self, integrator: &mut VectorIntegrator<'_, N>) -> Result<Option<Watch<N>>, Error> {
-        if !self.observer.summarises() {
+        if !self.scene.summarises(self.observer) {
             return Ok(None);
         }
         let (q, p) = self.scene.system.start(self.context);
@@ -145,7 +145,7 @@ impl<N: RunNumber> Recorder<'_, '_, N> {
         let first = (self.from.unwrap_or(0), initial);
         let watch = Watch::begin(integrator, self.run, first, Energies::Windows, true);
         let watch = watch.map_err(|error| self.named(&error))?;
-        Ok(Some(watch.of_system(&self.scene.system)))
+        Ok(Some(watch.of_system(&self.scene.system, integrator)))
     }
 
     /// The error of the run, with the scene's names of coordinates and momenta.

@@ -88,7 +88,7 @@ impl Estimates<'_> {
         let (q, p) = system.start(context);
         let initial = integrator.system().energy_at(&q, &p);
         let watch = Watch::begin(integrator, run, (0, initial), Energies::All, summarised);
-        let watch = watch.map_err(|error| self.failed(&error))?.of_system(system);
+        let watch = watch.map_err(|error| self.failed(&error))?.of_system(system, integrator);
         let last = i64::try_from(run.steps).unwrap_or(i64::MAX);
         let mut along = Along { estimates: self, take, watch, last, at_first: 0, at_last: 0 };
         // none ends the run

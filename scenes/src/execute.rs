@@ -9,7 +9,7 @@ use crate::note::Note;
 use crate::observer::Observer;
 use crate::results::{Checkpoint, Columns, FileOptions, Metadata, Rows, Target};
 use crate::scene::Scene;
-use crate::stability::unstable;
+use crate::stability::{few_kicks, unstable};
 
 impl Scene {
     /// Runs the scene and writes its rows to the file that it names, from the last checkpoint if there is one.
@@ -39,10 +39,19 @@ impl Scene {
         serde_json::json!(Metadata::of(self))
     }
 
-    /// Whether the steps are beyond the stability limit, if a summary is wanted.
-    fn instability(&self, observer: &dyn Observer) -> Option<Note> {
-        let frequency = observer.summarises().then(|| self.system.fastest_frequency()).flatten()?;
-        unstable(frequency, &self.scheme, self.h.exact())
+    /// Whether the steps are too large for the motion at the start, if a summary is wanted.
+    fn note_of_steps(&self, observer: &dyn Observer) -> Option<Note> {
+        if !self.summarises(observer) {
+            return None;
+        }
+        let (scheme, h) = (&self.scheme, self.h.exact());
+        let unstable = self.system.fastest_frequency().and_then(|frequency| unstable(frequency, scheme, h));
+        unstable.or_else(|| few_kicks(&self.system, scheme, h))
+    }
+
+    /// Whether a summary is made.
+    pub(crate) fn summarises(&self, observer: &dyn Observer) -> bool {
+        self.output.summary && observer.summarises()
     }
 
     fn run(
@@ -57,7 +66,7 @@ impl Scene {
             None => {
                 let plain = self.until.as_ref().filter(|_| self.physical_end().is_none());
                 let early = plain.and_then(|until| Note::of_end(self.h.exact(), self.steps(), until));
-                early.iter().chain(self.instability(observer).iter()).for_each(|note| observer.note(note));
+                early.iter().chain(self.note_of_steps(observer).iter()).for_each(|note| observer.note(note));
                 rows.head(&Metadata::of(self))?;
             }
         }

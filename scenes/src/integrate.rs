@@ -41,6 +41,7 @@ use crate::run::Run;
 use crate::scene::split::ShownCoordinates;
 use crate::scene::{self, EnergyAt};
 use crate::start::{Begin, Steps};
+use crate::watch::{Approaches, Interactions};
 
 /// A run whose states are kept.
 #[derive(Clone, Copy)]
@@ -81,6 +82,8 @@ pub struct Samples<N> {
     pub modified: Vec<Modified<N>>,
     /// Evaluations of the gradient, those for the states beyond both ends included.
     pub evaluations: u64,
+    /// What the kept states show of the interactions of planets; `None` of other systems.
+    pub interactions: Option<Interactions>,
 }
 
 /// A modified energy.
@@ -126,7 +129,9 @@ impl Integration<'_> {
                 energy: Vec::new(),
                 modified: Vec::new(),
                 evaluations: 0,
+                interactions: None,
             },
+            approaches: Approaches::of(system),
             last: None,
             at_once: 1,
             asked: Instant::now(),
@@ -145,6 +150,7 @@ impl Integration<'_> {
             }
         }
         keeper.samples.evaluations = integrator.state().evaluations();
+        keeper.samples.interactions = keeper.approaches.map(|approaches| approaches.found().clone());
         Ok(keeper.samples)
     }
 
@@ -163,6 +169,8 @@ struct Keeper<'a, N: Number> {
     /// H, where the steps conserve another function.
     energy_of: Option<EnergyAt<N>>,
     samples: Samples<N>,
+    /// Of planets.
+    approaches: Option<Approaches>,
     /// The last state, where estimates belong to the middles between states, or the run ends at a physical time.
     last: Option<(Vec<N>, Vec<N>)>,
     /// The number of steps after which the observer is asked.
@@ -238,6 +246,9 @@ impl<N: RunNumber> Keeper<'_, N> {
             let error = RunError::NotFinite { step: number, value };
             return Err(run.failed_naming(&error, &system.coordinates, &system.momenta));
         }
+        if let Some(approaches) = &mut self.approaches {
+            approaches.include(number, (q, p));
+        }
         let samples = &mut self.samples;
         samples.n.push(number);
         samples.t.push(system.time_of(q).cloned().unwrap_or_else(|| N::from_rational(&run.time(number), self.context)));
@@ -311,6 +322,7 @@ impl<N> Samples<N> {
             modified: self.modified.iter().map(modified).collect(),
             n: self.n,
             evaluations: self.evaluations,
+            interactions: self.interactions,
         }
     }
 }

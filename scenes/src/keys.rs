@@ -55,7 +55,7 @@ pub(crate) const SECTIONS: [Section; 11] = [
 ];
 
 /// All keys, section by section.
-pub(crate) const KEYS: [Key; 60] = [
+pub(crate) const KEYS: [Key; 61] = [
     key(
         "problem",
         "name",
@@ -338,6 +338,14 @@ pub(crate) const KEYS: [Key; 60] = [
     ),
     key(
         "output",
+        "summary",
+        "Whether a summary of the run is made, with its verdict. The monitor's estimates have the digits of the run: with hundreds of digits and more \
+         they may take longer than the steps.",
+        "false",
+        Some("true"),
+    ),
+    key(
+        "output",
         "plot",
         "The file for a chart of the energies; its path is relative to the scene's folder. Or a table, for other charts. Charts \
          are drawn from the rows of `file` when it is complete, and are replaced as `file` is.",
@@ -404,7 +412,7 @@ pub(crate) const KEYS: [Key; 60] = [
     key(
         "output.plot",
         "of",
-        "The charts. \"energies\": |H - H(0)| and |H̄ - H̄(0)|, with the estimated error of H̄, in time; requires `energy` or \
+        "The charts. \"energies\": |H - H(0)| and |H̄ - H̄*|, H̄* the H̄ with the least estimated error, with that error, in time; requires `energy` or \
          `modified_energy`. \"orbit=x:y\": one coordinate or momentum against another; where there are bodies with \
          coordinates such as x1, y1 or x_sun, y_sun, also x:y for all of them. \"distance\": of every two bodies in time, or \
          without bodies from the origin; \"distance=1\" of body 1 from the others; \"distance=1:2\" of two. Orbits and \

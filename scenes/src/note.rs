@@ -9,7 +9,7 @@ use shadowstep_symbolic::decimal::{from_text, to_significant};
 use crate::readable::{digits as digits_of, shortened};
 
 /// Something the user should know; it is not an error.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Note {
     /// The time is not a multiple of the step: the run ends before it.
@@ -56,6 +56,17 @@ pub enum Note {
         omega: String,
         /// Whether U is a quadratic form; else ω is that of the system linearised at its initial state.
         quadratic: bool,
+    },
+    /// A planet has few kicks in a revolution.
+    FewKicks {
+        /// The planet with the shortest period.
+        planet: String,
+        /// The steps of a revolution.
+        steps: String,
+        /// The kicks of a step.
+        kicks: usize,
+        /// How many kicks a revolution should have.
+        least: f64,
     },
     /// Bodies have a property that looks like a mass, and T has masses of 1.
     MassesAreOne {
@@ -138,6 +149,14 @@ impl fmt::Display for Note {
                     f,
                     "{where_}the fastest oscillation has omega = {omega}, and h omega = {h_omega} is beyond the stability limit \
                      {limit}of {scheme}: {how}"
+                )
+            }
+            Note::FewKicks { planet, steps, kicks, least } => {
+                let kicks = if *kicks == 1 { "1 kick".to_owned() } else { format!("{kicks} kicks") };
+                write!(
+                    f,
+                    "{planet} has {steps} steps of {kicks} in a revolution: with fewer than {least} kicks the step size may be in resonance \
+                     with the orbit"
                 )
             }
             Note::MassesAreOne { property } => {

@@ -1,12 +1,13 @@
-//! The step size of a run beside the stability limit of its scheme.
+//! The step size of a run beside the stability limit of its scheme, and beside the revolutions of planets.
 
-use shadowstep::Rational;
+use shadowstep::{Rational, Scheme as _};
 use shadowstep_analysis::oscillator::Oscillator;
 use shadowstep_analysis::stability::Stability;
 
 use crate::frequency::Frequency;
 use crate::library::NamedScheme;
 use crate::note::Note;
+use crate::scene::System;
 
 /// A trace this far above 2 in size is not due to rounding.
 const ROUNDING: f64 = 1e-9;
@@ -23,6 +24,25 @@ pub fn unstable(frequency: Frequency, named: &NamedScheme, h: &Rational) -> Opti
         h_omega: format!("{h_omega:.4}"),
         omega: format!("{:.4}", frequency.omega),
         quadratic: frequency.quadratic,
+    })
+}
+
+/// A revolution of a planet should have this number of kicks: with fewer, resonances of low order between the step size and the orbits are near
+/// (J. Wisdom and M. Holman, Astron. J. 104 (1992) 2022).
+const LEAST_KICKS: f64 = 10.0;
+
+/// A note if a planet has few kicks in a revolution of its Kepler orbit at the start.
+pub fn few_kicks(system: &System, named: &NamedScheme, h: &Rational) -> Option<Note> {
+    let planets = system.parts.planets()?;
+    let (q, p) = system.start::<f64>(&());
+    let (planet, period) = planets.shortest_period(&q, &p)?;
+    let steps = period / <f64 as shadowstep::Number>::from_rational(h, &()).abs();
+    let kicks = named.scheme.summary().evaluations;
+    (steps * (kicks as f64) < LEAST_KICKS).then(|| Note::FewKicks {
+        planet: planets.names(&system.coordinates).swap_remove(planet),
+        steps: format!("{steps:.1}"),
+        kicks,
+        least: LEAST_KICKS,
     })
 }
 

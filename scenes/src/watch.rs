@@ -12,8 +12,7 @@ use shadowstep::shadow::{Criterion, KINETIC_LIMIT, Missing, Report, Verdict};
 use shadowstep::steps::integrator::{VectorIntegrator, at_output};
 use shadowstep::{Carried, Integrator as _, Real};
 
-use self::approaches::Approaches;
-pub use self::approaches::{Approach, Interactions};
+pub use self::approaches::{Approach, Approaches, Interactions};
 pub use self::encounters::Encounter;
 use self::encounters::Encounters;
 use self::energy::EnergyError;
@@ -60,8 +59,6 @@ struct Observed<N: RunNumber> {
     idle: u64,
     encounters: Encounters<N>,
     approaches: Option<Approaches>,
-    /// The states between windows of the monitor.
-    every: u64,
 }
 
 impl<N: RunNumber> Watch<N> {
@@ -87,7 +84,6 @@ impl<N: RunNumber> Watch<N> {
                 monitor,
                 encounters: Encounters::new(integrator.state().p()),
                 approaches: None,
-                every,
             });
         }
         Ok(Watch { energies, energy: EnergyError::new(initial), transformed: false, observed, from, n: from })
@@ -95,10 +91,13 @@ impl<N: RunNumber> Watch<N> {
 
     /// Follows the planets of a system that has some, too; in transformed time H is H'.
     #[must_use]
-    pub(crate) fn of_system(mut self, system: &scene::System) -> Self {
+    pub(crate) fn of_system(mut self, system: &scene::System, integrator: &VectorIntegrator<'_, N>) -> Self {
         self.transformed = system.transformed_time().is_some();
         if let Some(observed) = &mut self.observed {
             observed.approaches = Approaches::of(system);
+            if let Some(approaches) = &mut observed.approaches {
+                approaches.include(self.n, (integrator.state().q(), integrator.state().p()));
+            }
         }
         self
     }
@@ -122,11 +121,11 @@ impl<N: RunNumber> Watch<N> {
             self.energy.include(n, &energy);
             self.energy.include_kinetic(&kinetic);
         }
-        let Some(Observed { monitor, pass, idle, encounters, approaches, every }) = &mut self.observed else { return };
+        let Some(Observed { monitor, pass, idle, encounters, approaches }) = &mut self.observed else { return };
         let (q, p) = (integrator.state().q(), integrator.state().p());
         encounters.include(n, p);
         if let Some(approaches) = approaches {
-            approaches.include(n, (q, p), n.unsigned_abs().is_multiple_of(*every));
+            approaches.include(n, (q, p));
         }
         if *idle > 0 {
             (*idle, *pass) = (*idle - 1, *pass + 1);
@@ -182,15 +181,18 @@ impl<N: RunNumber> Watch<N> {
         // where the energy is lost, the modified energy does not bound it
         let bounds = !matches!(verdict, Verdict::TooLarge(Criterion::EnergyError | Criterion::NotFinite));
         let (encounters, closest) = encounters.found(n);
+        // what was measured is not excluded
+        let bound = report.permanent_bound.as_ref().filter(|_| bounds);
+        let bound = bound.map(|bound| if *bound < report.range { &report.range } else { bound });
         let modified_energy = (report.windows > 0).then(|| ModifiedEnergySummary {
             method: report.method_rms.to_text(),
             round_off: report.round_off.to_text(),
             permanent_change: report.range.to_text(),
-            permanent_bound: report.permanent_bound.as_ref().filter(|_| bounds).map(N::to_text),
+            permanent_bound: bound.map(N::to_text),
             resolution: report.resolution.as_ref().map(N::to_text),
             windows: report.windows,
         });
-        Some(Summary {
+        let mut summary = Summary {
             run: run.name(),
             h: run.h.exact().clone(),
             transformed,
@@ -200,12 +202,25 @@ impl<N: RunNumber> Watch<N> {
             modified_energy,
             encounters,
             closest,
-            interactions: approaches.map(Approaches::found),
+            interactions: approaches.map(|approaches| approaches.found().clone()),
             fine: verdict.is_fine(),
             verdict: verdict.to_string(),
             conclusion: if verdict == report.verdict { report.conclusion() } else { verdict.to_string() },
             reason,
-        })
+        };
+        if changes(&report, verdict) {
+            summary.name_close_planets();
+        }
+        Some(summary)
+    }
+}
+
+/// Whether a cause is to be named: H or the modified energy changes in a way that the scheme does not explain.
+fn changes<N: Real>(report: &Report<N>, verdict: Verdict) -> bool {
+    match verdict {
+        Verdict::Undecided(_) => report.permanent_change.is_some(),
+        Verdict::TooLarge(Criterion::NotFinite) => false,
+        verdict => !verdict.is_fine(),
     }
 }
 

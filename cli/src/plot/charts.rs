@@ -23,7 +23,7 @@ pub(super) fn chart(title: &str, picture: &Picture, runs: &[RunOfChart], number:
 fn energies(title: String, runs: &[(&RunOfChart, &Lines)]) -> Chart {
     let mut curves = Vec::new();
     for (colour, (run, lines)) in runs.iter().enumerate() {
-        let Lines::Energies { energy, modified_energy, estimate } = lines else { continue };
+        let Lines::Energies { energy, modified_energy, estimate, .. } = lines else { continue };
         let name = |text: &str| if runs.len() > 1 { format!("{text}, {}", run.name) } else { text.to_owned() };
         let drawn = match runs.len() {
             1 => vec![
@@ -39,17 +39,18 @@ fn energies(title: String, runs: &[(&RunOfChart, &Lines)]) -> Chart {
         curves.extend(drawn.into_iter().filter(|curve| !curve.points.is_empty()));
     }
     let label = match curves.iter().any(|curve| curve.label.starts_with("error")) {
-        true => "change since t = 0; estimated error",
-        false => "change since t = 0",
+        true => "change; estimated error",
+        false => "change",
     };
     let mut chart = Chart::new(title, Axis::linear("time t"), Axis::log10(label), curves);
-    chart.notes = vec!["|H − H(0)| and |H̄ − H̄(0)| of the modified energy H̄; changes of 0 are left out.".to_owned()];
-    if let [(_, Lines::Energies { estimate, .. })] = runs
-        && let Some((_, error)) = estimate.first()
-    {
-        chart
-            .notes
-            .push(format!("The estimated error of H̄(0) is {}; smaller changes of H̄ are not resolved.", power(*error)));
+    chart.notes = vec![
+        "|H − H(0)|, and |H̄ − H̄*| of the modified energy H̄, H̄* the one with the least estimated error; changes of 0 are left out.".to_owned(),
+    ];
+    if let [(_, Lines::Energies { reference: Some((t, error)), .. })] = runs {
+        let error = power(*error);
+        chart.notes.push(format!(
+            "H̄* is that at t = {t:.6}, with an estimated error of {error}; smaller changes of H̄ are not resolved."
+        ));
     }
     chart
 }

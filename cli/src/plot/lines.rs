@@ -32,23 +32,35 @@ pub(super) enum Lines {
         energy: Vec<(f64, f64)>,
         modified_energy: Vec<(f64, f64)>,
         estimate: Vec<(f64, f64)>,
+        /// The time of the reference of the modified energy, and log₁₀ of its estimated error.
+        reference: Option<(f64, f64)>,
     },
     /// With the number of states of which one is shown.
     Orbits(Vec<(Vec<(f64, f64)>, u64)>),
     Distances(Vec<Vec<(f64, f64)>>),
 }
 
-/// A run that is being followed, and the energies at its beginning.
+/// A run that is being followed, and the energy at its beginning.
 pub(crate) struct RunLines<N> {
     name: String,
     steps: u64,
-    first: [Option<N>; 2],
-    charts: Vec<Followed>,
+    first: Option<N>,
+    reference: Option<Reference<N>>,
+    charts: Vec<Followed<N>>,
+}
+
+/// The modified energy from which changes are measured: that with the smallest estimated error, or the first one where no errors are known. The first
+/// one of a run may be the one that is known worst, as at a pericentre.
+struct Reference<N> {
+    t: f64,
+    value: N,
+    error: Option<N>,
 }
 
 /// The curves of one chart as they are made.
-enum Followed {
-    Energies([InTime; 3]),
+enum Followed<N> {
+    /// |H − H(0)|, the modified energy itself, and its estimated error.
+    Energies(InTime, InTime<N>, InTime),
     Orbits(Vec<(Orbit, Points)>),
     Distances(Vec<(Distance, InTime)>),
 }
@@ -56,7 +68,7 @@ enum Followed {
 impl<N: Real> RunLines<N> {
     pub(super) fn new(name: String, steps: u64, pictures: &[Picture]) -> Self {
         let charts = pictures.iter().map(|picture| match &picture.content {
-            Content::Energies => Followed::Energies(Default::default()),
+            Content::Energies => Followed::Energies(InTime::default(), InTime::default(), InTime::default()),
             Content::Orbit { curves, .. } => {
                 Followed::Orbits(curves.iter().map(|orbit| (orbit.clone(), Points::new())).collect())
             }
@@ -64,24 +76,23 @@ impl<N: Real> RunLines<N> {
                 Followed::Distances(distances.iter().map(|of| (of.clone(), InTime::default())).collect())
             }
         });
-        RunLines { name, steps, first: [None, None], charts: charts.collect() }
+        RunLines { name, steps, first: None, reference: None, charts: charts.collect() }
     }
 
     /// Takes the next values of the run.
     pub(crate) fn take(&mut self, values: &Values<'_, N>) {
         let Values { n, t, energy, modified_energy, estimate, state } = *values;
-        let [first_energy, first_modified] = &mut self.first;
-        let heights = [
-            energy.map(|value| change(first_energy, value)),
-            modified_energy.map(|value| change(first_modified, value)),
-            estimate.map(N::log10_abs),
-        ];
+        let energy = energy.map(|value| (t, change(self.first.get_or_insert_with(|| value.clone()), value)));
+        let modified_energy = modified_energy.filter(|value| value.is_finite());
+        if let Some(value) = modified_energy {
+            self.refer(t, value, estimate);
+        }
         for chart in &mut self.charts {
             match chart {
-                Followed::Energies(lines) => {
-                    for (line, height) in lines.iter_mut().zip(heights) {
-                        height.into_iter().for_each(|height| line.take(n, self.steps, (t, height)));
-                    }
+                Followed::Energies(change, modified, error) => {
+                    energy.into_iter().for_each(|point| change.take(n, self.steps, point));
+                    modified.take_finite(n, self.steps, modified_energy.map(|value| (t, value.clone())));
+                    estimate.into_iter().for_each(|size| error.take(n, self.steps, (t, size.log10_abs())));
                 }
                 Followed::Orbits(orbits) if !state.is_empty() => {
                     orbits.iter_mut().for_each(|(of, points)| points.take((state[of.values[0]], state[of.values[1]])));
@@ -94,11 +105,31 @@ impl<N: Real> RunLines<N> {
         }
     }
 
+    /// Takes a modified energy as the reference, if it is the one with the smallest error so far.
+    fn refer(&mut self, t: f64, value: &N, error: Option<&N>) {
+        let is_better = match (&self.reference, error) {
+            (None, _) => true,
+            (Some(Reference { error: Some(least), .. }), Some(error)) => error < least,
+            (Some(Reference { error: None, .. }), Some(_)) => true,
+            (Some(_), None) => false,
+        };
+        if is_better {
+            self.reference = Some(Reference { t, value: value.clone(), error: error.cloned() });
+        }
+    }
+
     pub(super) fn finish(self) -> RunOfChart {
+        let reference = self.reference.as_ref();
         let lines = self.charts.into_iter().map(|chart| match chart {
-            Followed::Energies(lines) => {
-                let [energy, modified_energy, estimate] = lines.map(InTime::finish);
-                Lines::Energies { energy, modified_energy, estimate }
+            Followed::Energies(energy, modified, estimate) => {
+                let from = |value: &N| reference.map_or(f64::NAN, |reference| change(&reference.value, value));
+                let modified = modified.finish().into_iter().map(|(t, value)| (t, from(&value)));
+                Lines::Energies {
+                    energy: energy.finish(),
+                    modified_energy: modified.filter(|(_, height)| height.is_finite()).collect(),
+                    estimate: estimate.finish(),
+                    reference: reference.and_then(|of| Some((of.t, of.error.as_ref()?.log10_abs()))),
+                }
             }
             Followed::Orbits(orbits) => Lines::Orbits(orbits.into_iter().map(|(_, points)| points.finish()).collect()),
             Followed::Distances(lines) => Lines::Distances(lines.into_iter().map(|(_, line)| line.finish()).collect()),
@@ -107,11 +138,10 @@ impl<N: Real> RunLines<N> {
     }
 }
 
-/// log₁₀ |value − first|, with the digits of the run.
-fn change<N: Real>(first: &mut Option<N>, value: &N) -> f64 {
-    let first = first.get_or_insert_with(|| value.clone());
+/// log₁₀ |value − reference|, with the digits of the run.
+fn change<N: Real>(reference: &N, value: &N) -> f64 {
     let mut change = value.clone();
-    change.subtract(first);
+    change.subtract(reference);
     change.log10_abs()
 }
 
@@ -146,11 +176,31 @@ mod tests {
             run.take(&Values { n, t, energy: Some(energy), modified_energy, estimate: Some(&error), state: &state });
         }
         let lines = run.finish().lines;
-        let Lines::Energies { energy, modified_energy, estimate } = &lines[0] else { panic!("{lines:?}") };
+        let Lines::Energies { energy, modified_energy, estimate, .. } = &lines[0] else { panic!("{lines:?}") };
         let is_near = |points: &[(f64, f64)], height: f64| matches!(points, [(t, found)] if *t == 0.5 && (found - height).abs() < 1e-4);
         assert!(is_near(energy, -45.0) && is_near(modified_energy, -45.0), "{energy:?} {modified_energy:?}");
         assert!(estimate.len() == 3 && estimate.iter().all(|(_, height)| (height + 40.0).abs() < 1e-9));
         assert!(matches!(&lines[1], Lines::Orbits(all) if all[0] == (vec![(0.0, 3.0), (4.0, 3.0), (8.0, 3.0)], 1)));
         assert!(matches!(&lines[2], Lines::Distances(all) if all[0][..2] == [(0.0, 3.0), (0.25, 5.0)]));
+    }
+
+    /// At a pericentre, where most runs begin, the modified energy is known worst.
+    #[test]
+    fn changes_are_measured_from_the_best_known_modified_energy() {
+        let system = System::of_setup(problem("kepler").unwrap().setup(&[], 50).unwrap());
+        let pictures = [Picture::read("energies", &system).unwrap()];
+        let mut run = RunLines::<f64>::new("run".to_owned(), 3, &pictures);
+        for (n, (value, error)) in (0..).zip([(1.5, 0.5), (1.0, 1e-9), (1.01, 0.1), (1.001, 1e-8)]) {
+            let (energy, t) = (None, n as f64);
+            run.take(&Values { n, t, energy, modified_energy: Some(&value), estimate: Some(&error), state: &[] });
+        }
+        let lines = run.finish().lines;
+        let Lines::Energies { modified_energy, reference, .. } = &lines[0] else { panic!("{lines:?}") };
+        let expected = [(0.0, 0.5_f64.log10()), (2.0, -2.0), (3.0, -3.0)];
+        assert_eq!(modified_energy.len(), expected.len(), "{modified_energy:?}");
+        // differences of numbers near 1 are known to 1e-16, and their logarithms to 1e-13
+        let is_near = |one: &(f64, f64), other: &(f64, f64)| one.0 == other.0 && (one.1 - other.1).abs() < 1e-12;
+        assert!(modified_energy.iter().zip(&expected).all(|(one, other)| is_near(one, other)), "{modified_energy:?}");
+        assert!(reference.is_some_and(|reference| is_near(&reference, &(1.0, -9.0))), "{reference:?}");
     }
 }

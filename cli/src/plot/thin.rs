@@ -7,38 +7,50 @@ const COLUMNS: u64 = 4096;
 const MOST_POINTS: usize = 20_000;
 
 /// A value in time. Of each column of time, the first, the lowest, the highest and the last point are kept.
-#[derive(Debug, Default)]
-pub(super) struct InTime {
+#[derive(Debug)]
+pub(super) struct InTime<V = f64> {
     column: u64,
-    within: Vec<(f64, f64)>,
-    points: Vec<(f64, f64)>,
+    within: Vec<(f64, V)>,
+    points: Vec<(f64, V)>,
+}
+
+impl<V> Default for InTime<V> {
+    fn default() -> Self {
+        InTime { column: 0, within: Vec::new(), points: Vec::new() }
+    }
 }
 
 impl InTime {
     /// Takes the point of the n-th step; a value that is not finite is left out.
     pub(super) fn take(&mut self, n: u64, steps: u64, point: (f64, f64)) {
+        self.take_finite(n, steps, Some(point).filter(|(_, value)| value.is_finite()));
+    }
+}
+
+impl<V: PartialOrd + Clone> InTime<V> {
+    /// Takes the point of the n-th step, which has no value that is not finite.
+    pub(super) fn take_finite(&mut self, n: u64, steps: u64, point: Option<(f64, V)>) {
         let column = (u128::from(n) * u128::from(COLUMNS) / u128::from(steps.max(1))) as u64;
         if column != self.column {
             self.close();
             self.column = column;
         }
-        if point.1.is_finite() {
-            self.within.push(point);
-        }
+        self.within.extend(point);
     }
 
     fn close(&mut self) {
-        let by_value = |a: &usize, b: &usize| self.within[*a].1.total_cmp(&self.within[*b].1);
+        let by_value =
+            |a: &usize, b: &usize| self.within[*a].1.partial_cmp(&self.within[*b].1).expect("all values are finite");
         let all = 0..self.within.len();
         let extremes = [all.clone().min_by(by_value), all.clone().max_by(by_value)];
         let mut kept: Vec<usize> = extremes.into_iter().flatten().chain(all.clone().next()).chain(all.last()).collect();
         kept.sort_unstable();
         kept.dedup();
-        self.points.extend(kept.into_iter().map(|number| self.within[number]));
+        self.points.extend(kept.into_iter().map(|number| self.within[number].clone()));
         self.within.clear();
     }
 
-    pub(super) fn finish(mut self) -> Vec<(f64, f64)> {
+    pub(super) fn finish(mut self) -> Vec<(f64, V)> {
         self.close();
         self.points
     }

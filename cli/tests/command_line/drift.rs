@@ -510,6 +510,19 @@ fn a_file_is_replaced_only_by_force() {
     assert_ne!(read(), text);
 }
 
+/// max − min over low-error states, of all states and of the monitor's.
+#[test]
+fn the_permanent_change_is_the_same_in_the_record_and_in_its_summary() {
+    let words = "drift --problem kepler --scheme stormer-verlet --double --until 100 --step 1/10 --json";
+    let record = &objects(&quietly(words))[0];
+    let number = |path: &str| record.pointer(path).unwrap().as_str().unwrap().parse::<f64>().unwrap();
+    let (all, some) = (number("/permanent_change/change"), number("/summary/modified_energy/permanent_change"));
+    // the estimators differ, and their errors are 1e-9 of the change; three digits are printed
+    assert!(all > 7e-7 && (some - all).abs() < 1e-3 * all, "{all} {some}");
+    let bound = number("/summary/modified_energy/permanent_bound");
+    assert!(bound >= some, "what is measured cannot be excluded: {bound} {some}");
+}
+
 /// The first run of the README: the error of H is 7.8 % of it, which is for the user to judge.
 #[test]
 fn a_bounded_error_is_named_with_its_size() {

@@ -12,6 +12,7 @@ mod emit;
 mod figures;
 mod lost_energy;
 mod output_files;
+mod planets;
 mod plot;
 mod polish;
 mod problems;

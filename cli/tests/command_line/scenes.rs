@@ -430,6 +430,40 @@ fn ruin_is_in_the_summary_and_with_strict_in_the_exit_code() {
 }
 
 #[test]
+fn a_scene_may_leave_the_summary_out() {
+    let scene = asking("energy = true\nsummary = false");
+    let without = folder(&scene);
+    let result = summarised(without.path(), "");
+    assert_eq!((result.code, result.err.as_str()), (0, ""));
+    assert_eq!(result.out, printed(&scene));
+    let refused = summarised(without.path(), "--strict");
+    assert_eq!(refused.code, 2);
+    assert!(
+        refused.err.contains("--strict needs the verdict of a summary") && refused.err.contains("remove that line"),
+        "{}",
+        refused.err
+    );
+    let with = summarised(folder(&scene.replace("false", "true")).path(), "");
+    assert!(with.err.contains("\n  verdict  "), "{}", with.err);
+}
+
+/// H is computed at each 100th state and in the monitor's windows, and all states of a short run are known.
+#[test]
+fn an_error_of_some_states_is_not_called_the_largest_of_all() {
+    let kepler = |steps: u32| {
+        let scene = format!(
+            "[problem]\nname = \"kepler\"\n[run]\nscheme = \"stormer-verlet\"\nstep = \"1/20\"\nsteps = {steps}\n\
+             digits = \"double\"\n[output]\nenergy = {{ every = 100 }}\n"
+        );
+        summarised(folder(&scene).path(), "").err.split_whitespace().collect::<Vec<_>>().join(" ")
+    };
+    let (long, short) = (kepler(20_000), kepler(60));
+    assert!(long.contains("error of H 0.0188 of |H(0)| (t = 942.15) is the largest of 258 states,"), "{long}");
+    assert!(!long.contains("at most 0.0188"), "{long}");
+    assert!(short.contains("error of H at most 0.0") && !short.contains("the largest of"), "{short}");
+}
+
+#[test]
 fn a_complete_run_is_not_made_again() {
     let folder = folder(&asking("energy = true\nfile = \"out.csv\"\ncheckpoint = 2"));
     assert_eq!(run(folder.path(), "").code, 0);

@@ -25,6 +25,7 @@ pub(super) fn read(reader: &mut Reader<'_>, output: &Section<'_, '_>, system: Op
     let energy = every(reader, output, "energy", "output.energy");
     let modified_energy = modified_energy(reader, output);
     let trajectory = every(reader, output, "trajectory", "output.trajectory");
+    let summary = output.get("summary").and_then(|value| reader.toml.truth(value)).is_none_or(|truth| truth.value);
     let checkpoint = output.get("checkpoint").map(|value| (value.span(), interval(reader, value)));
     if let (Some((at, _)), None) = (&checkpoint, output.get("file")) {
         reader.toml.fault(at, "a checkpoint requires a file", "add `file = \"out.csv\"`");
@@ -48,7 +49,8 @@ pub(super) fn read(reader: &mut Reader<'_>, output: &Section<'_, '_>, system: Op
     let folder = Path::new(&reader.toml.source.path).parent().unwrap_or(Path::new(""));
     let file = file.map(|name| (folder.join(&name.value), name.at));
     let checkpoint = checkpoint.and_then(|(_, interval)| interval);
-    let mut outputs = Outputs { file, format: format?, energy, modified_energy, trajectory, checkpoint, plot: None };
+    let mut outputs =
+        Outputs { file, format: format?, energy, modified_energy, trajectory, checkpoint, summary, plot: None };
     outputs.plot = plot::read(reader, output, system, &outputs);
     Some(outputs)
 }

@@ -24,6 +24,8 @@ pub struct Outputs {
     pub trajectory: Option<u64>,
     /// How often a checkpoint is made.
     pub checkpoint: Option<CheckpointInterval>,
+    /// Whether a summary of the run is made.
+    pub summary: bool,
     /// Charts of the run, drawn from the rows of the file.
     pub plot: Option<Plot>,
 }

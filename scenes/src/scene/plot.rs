@@ -41,7 +41,7 @@ pub struct Picture {
 /// What a chart shows. States are q_1, …, q_d, p_1, …, p_d; numbers of their values begin at 0.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Content {
-    /// |H − H(0)|, |H̄ − H̄(0)| and the estimated error of H̄, in time.
+    /// |H − H(0)|, |H̄ − H̄*| with the H̄* of the least estimated error, and the estimated error of H̄, in time.
     Energies,
     /// One value of the states against another.
     Orbit {

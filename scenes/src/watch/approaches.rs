@@ -28,8 +28,27 @@ pub struct Interactions {
     pub closest: Option<Approach>,
 }
 
+/// Planets that are nearer, in mutual Hill radii, attract each other more than the central body's tide separates them.
+const CLOSE: f64 = 1.0;
+
+impl Interactions {
+    /// The approach in which H was not a sum of Kepler orbits and small interactions.
+    pub(crate) fn encounter(&self) -> Option<&Approach> {
+        self.closest.as_ref().filter(|closest| closest.hill_radii < CLOSE)
+    }
+
+    /// In a line, with the times of states in words.
+    pub fn text(&self, time: impl Fn(i64) -> String) -> String {
+        let Interactions { epsilon, of, closest } = self;
+        let closest = closest.as_ref().map_or(String::new(), |Approach { n, bodies: [i, j], hill_radii }| {
+            format!("; closest approach {hill_radii:.3} Hill radii, {i} and {j} at {}", time(*n))
+        });
+        format!("interactions at most {epsilon:.1e} of the Kepler force ({of}){closest}")
+    }
+}
+
 /// Follows the planets of a run in double precision.
-pub(super) struct Approaches {
+pub struct Approaches {
     planets: Planets,
     names: Vec<String>,
     masses: Vec<f64>,
@@ -42,11 +61,10 @@ pub(super) struct Approaches {
 
 impl Approaches {
     /// `None` of a system whose parts are T(p) and U(q).
-    pub(super) fn of(system: &System) -> Option<Approaches> {
+    pub fn of(system: &System) -> Option<Approaches> {
         let planets = system.parts.planets()?;
         let masses = planets.bodies.masses().iter().map(|mass| <f64 as shadowstep::Number>::from_rational(mass, &()));
-        let names = system.coordinates.iter().step_by(planets.dimensions);
-        let names: Vec<_> = names.map(|name| name.trim_start_matches('x').trim_start_matches('_').to_owned()).collect();
+        let names = planets.names(&system.coordinates);
         let of = names[1].clone();
         Some(Approaches {
             masses: masses.collect(),
@@ -60,15 +78,13 @@ impl Approaches {
         })
     }
 
-    /// Takes the state n, in the coordinates of the steps; and ε of it if that is asked for.
-    pub(super) fn include<N: Real>(&mut self, n: i64, (q, p): (&[N], &[N]), with_epsilon: bool) {
+    /// Takes the state n, in the coordinates of the steps.
+    pub fn include<N: Real>(&mut self, n: i64, (q, p): (&[N], &[N])) {
         self.q.iter_mut().zip(q).for_each(|(own, q)| *own = q.to_f64());
         self.p.iter_mut().zip(p).for_each(|(own, p)| *own = p.to_f64());
-        if with_epsilon {
-            for (planet, epsilon) in (self.epsilon)(&self.q).into_iter().enumerate() {
-                if epsilon > self.found.epsilon {
-                    (self.found.epsilon, self.found.of) = (epsilon, self.names[planet + 1].clone());
-                }
+        for (planet, epsilon) in (self.epsilon)(&self.q).into_iter().enumerate() {
+            if epsilon > self.found.epsilon {
+                (self.found.epsilon, self.found.of) = (epsilon, self.names[planet + 1].clone());
             }
         }
         let (q, _) = self.shown.of_state(&self.q, &self.p);
@@ -88,7 +104,8 @@ impl Approaches {
         }
     }
 
-    pub(super) fn found(self) -> Interactions {
-        self.found
+    /// What the states so far have shown.
+    pub fn found(&self) -> &Interactions {
+        &self.found
     }
 }

@@ -107,6 +107,22 @@ impl Summary {
         self.modified_energy.as_ref()
     }
 
+    /// Replaces a verdict that is worse than bounded where planets came so close that the splitting is not valid: that is the cause then.
+    pub(crate) fn name_close_planets(&mut self) {
+        let Some(Approach { n, bodies: [i, j], hill_radii }) =
+            self.interactions.as_ref().and_then(Interactions::encounter)
+        else {
+            return;
+        };
+        self.reason = format!(
+            "{i} and {j} came within {hill_radii:.2} Hill radii of each other at {}, where kicks are not small beside the Kepler orbits, as these \
+             parts require: smaller steps do not help; use an integrator whose steps adapt to the encounter, or change to one there",
+            self.time(*n)
+        );
+        self.verdict = "the splitting is not valid in a close encounter".to_owned();
+        self.conclusion.clone_from(&self.verdict);
+    }
+
     /// The verdict with its reason.
     pub fn verdict_with_reason(&self) -> String {
         format!("{}: {}", self.verdict, self.reason)
@@ -134,14 +150,6 @@ impl Summary {
     /// What a run of planets has shown of their interactions.
     pub fn interactions(&self) -> Option<&Interactions> {
         self.interactions.as_ref()
-    }
-
-    fn interactions_text(&self, interactions: &Interactions) -> String {
-        let Interactions { epsilon, of, closest } = interactions;
-        let closest = closest.as_ref().map_or(String::new(), |Approach { n, bodies: [i, j], hill_radii }| {
-            format!("; closest approach {hill_radii:.3} Hill radii, {i} and {j} at {}", self.time(*n))
-        });
-        format!("interactions at most {epsilon:.1e} of the Kepler force ({of}){closest}")
     }
 
     /// The time of the steps with its letter.
@@ -204,7 +212,7 @@ impl fmt::Display for Summary {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let since = if self.from == 0 { String::new() } else { format!(" since n = {}", self.from) };
         write!(f, "{}, {} steps{since}", self.run, self.to - self.from)?;
-        let planets = self.interactions.as_ref().map(|interactions| ("planets", self.interactions_text(interactions)));
+        let planets = self.interactions.as_ref().map(|found| ("planets", found.text(|n| self.time(n))));
         let facts = [
             (if self.transformed { "error of H'" } else { "error of H" }, self.energy_text()),
             ("modified energy", self.modified_energy_text()),

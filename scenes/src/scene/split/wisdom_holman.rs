@@ -1,9 +1,11 @@
 //! The Kepler orbits of planets, and their interactions.
 
+use std::f64::consts::TAU;
+
 use serde_json::{Value, json};
 use shadowstep::number::CorrectlyRounded;
 use shadowstep::systems::wisdom_holman::{Bodies, DemocraticHeliocentric, Jacobi, PlanetaryCoordinates, WisdomHolman};
-use shadowstep::{MotionError, Number, Scheme, System as _, ValidFor};
+use shadowstep::{MotionError, Number, Real, Scheme, System as _, ValidFor};
 
 use super::{Class, Needs, ShownCoordinates, Split, State};
 use crate::refusal::{NoGradientKicks, Refusal};
@@ -151,6 +153,35 @@ impl Planets {
     /// From the coordinates of the steps to inertial ones.
     pub(crate) fn inertial<N: Number + 'static>(&self, context: &N::Context) -> ShownCoordinates<N> {
         in_coordinates!(self, shown_by::<N>(context))
+    }
+
+    /// The names or numbers of the bodies, from those of their coordinates.
+    pub(crate) fn names(&self, coordinates: &[String]) -> Vec<String> {
+        let names = coordinates.iter().step_by(self.dimensions);
+        names.map(|name| name.trim_start_matches('x').trim_start_matches('_').to_owned()).collect()
+    }
+
+    /// The shortest period of the planets' Kepler orbits at a state in the coordinates of the steps, and the planet, counted from 1; `None` where
+    /// no orbit is an ellipse.
+    pub(crate) fn shortest_period(&self, q: &[f64], p: &[f64]) -> Option<(usize, f64)> {
+        in_coordinates!(self, shortest::<f64>((q, p)))
+    }
+
+    fn shortest<N, C, const D: usize>(&self, (q, p): (&[N], &[N])) -> Option<(usize, f64)>
+    where
+        N: Real<Context = ()>,
+        C: PlanetaryCoordinates<N, D>,
+    {
+        let coordinates = C::new(&self.bodies, &());
+        let length = |vector: &[N]| vector.iter().map(|x| x.to_f64().powi(2)).sum::<f64>().sqrt();
+        let states = q.chunks(D).zip(p.chunks(D)).skip(1);
+        let periods = coordinates.orbits().planets.iter().zip(states).map(|(orbit, (q, p))| {
+            let (mass, parameter) = (orbit.mass.to_f64(), orbit.parameter.to_f64());
+            // 1/a = 2/r − v²/μ
+            let inverse = 2.0 / length(q) - (length(p) / mass).powi(2) / parameter;
+            TAU / (parameter * inverse.powi(3)).sqrt()
+        });
+        (1..).zip(periods).filter(|(_, period)| period.is_finite()).min_by(|(_, one), (_, other)| one.total_cmp(other))
     }
 
     /// Computes |B_Q|/|A_Q| of each planet, from Q.
