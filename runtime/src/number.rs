@@ -125,6 +125,13 @@ pub trait Number: Clone + fmt::Debug {
     /// The context that makes more numbers like this one.
     fn context(&self) -> Self::Context;
 
+    /// A context of at most this number of bits whose numbers take those of the given one as operands, and round them; the given one where all
+    /// numbers of a computation need the same context.
+    fn coarser(context: &Self::Context, bits: u32) -> Self::Context {
+        let _ = bits;
+        context.clone()
+    }
+
     /// x ← 0
     fn assign_zero(&mut self);
 

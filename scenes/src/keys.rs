@@ -339,8 +339,7 @@ pub(crate) const KEYS: [Key; 61] = [
     key(
         "output",
         "summary",
-        "Whether a summary of the run is made, with its verdict. The monitor's estimates have the digits of the run: with hundreds of digits and more \
-         they may take longer than the steps.",
+        "Whether a summary of the run is made, with its verdict. With hundreds of digits and more it may take longer than the steps.",
         "false",
         Some("true"),
     ),

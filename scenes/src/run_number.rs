@@ -2,12 +2,12 @@
 
 use std::ops::ControlFlow;
 
-use shadowstep::StepSize;
 use shadowstep::shadow::run::RunError;
 use shadowstep::shadow::{
     Bilinear, BuildEstimator, Estimator, EstimatorError, EstimatorSettings, Monitor, Report, Sample,
 };
 use shadowstep::steps::integrator::VectorIntegrator;
+use shadowstep::{Real, StepSize};
 
 use crate::arithmetic::number_types;
 use crate::error::Error;
@@ -39,7 +39,7 @@ pub trait RunNumber: SceneNumber {
         context: &Self::Context,
     ) -> Result<Box<dyn Estimator<Self>>, EstimatorError>;
 
-    /// A monitor by E_k with its error, with a window every `every` steps.
+    /// A monitor by E_k with its error, with a window every `every` steps. With more digits than its verdict needs, the estimates have fewer.
     ///
     /// # Errors
     /// As [`Monitor::new`].
@@ -48,6 +48,21 @@ pub trait RunNumber: SceneNumber {
         k: u32,
         every: u64,
     ) -> Result<Box<dyn Monitoring<Self>>, RunError>;
+}
+
+/// The most bits of the estimates of a monitor: 327 digits, more than which only MPFR's numbers have. A verdict compares changes of the modified
+/// energy with the error of H, and schemes have none that is as small; the estimated errors include the round-off of the estimates.
+const BITS_OF_VERDICT: u32 = 17 * 64;
+
+/// An estimator for a verdict, which computes in at most [`BITS_OF_VERDICT`].
+struct ForVerdict(Bilinear);
+
+impl<N: Real> BuildEstimator<N> for ForVerdict {
+    type Estimator = <Bilinear as BuildEstimator<N>>::Estimator;
+
+    fn build(&self, h: &StepSize, dimension: usize, context: &N::Context) -> Result<Self::Estimator, EstimatorError> {
+        self.0.build(h, dimension, &N::coarser(context, BITS_OF_VERDICT))
+    }
 }
 
 /// A [`Monitor`] of the states of an integrator.
@@ -140,7 +155,7 @@ macro_rules! run_numbers {
                 k: u32,
                 every: u64,
             ) -> Result<Box<dyn Monitoring<Self>>, RunError> {
-                Ok(Box::new(Monitor::new(integrator, &Bilinear::with_error(k))?.every(every)))
+                Ok(Box::new(Monitor::new(integrator, &ForVerdict(Bilinear::with_error(k)))?.every(every)))
             }
         }
     )*};

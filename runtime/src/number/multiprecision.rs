@@ -31,6 +31,10 @@ impl Number for Float {
         Precision::of_bits(self.prec())
     }
 
+    fn coarser(precision: &Precision, bits: u32) -> Precision {
+        Precision::bits(bits).map_or(*precision, |coarser| coarser.min(*precision))
+    }
+
     fn assign_zero(&mut self) {
         Assign::assign(self, Special::Zero);
     }
@@ -277,6 +281,17 @@ mod tests {
 
     fn integer(n: i128) -> Rational {
         BigInt::from(n).into()
+    }
+
+    /// Numbers of fewer bits take those of more as operands.
+    #[test]
+    fn coarser_numbers_round() {
+        let fine = Precision::digits(1000).unwrap();
+        let coarse = Float::coarser(&fine, 64);
+        assert_eq!((coarse.in_bits(), Float::coarser(&coarse, 1000)), (64, coarse));
+        let (third, mut sum) = (Float::from_rational(&Rational::new(1.into(), 3.into()), &fine), Float::zero(&coarse));
+        sum.add_product(&third, &third);
+        assert_eq!((sum.prec(), sum.to_f64()), (64, 1.0 / 9.0));
     }
 
     proptest! {
