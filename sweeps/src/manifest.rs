@@ -19,7 +19,7 @@ use crate::plan::{Digests, SweepPlan, hash};
 struct Hashed<M> {
     #[serde(flatten)]
     manifest: M,
-    /// Of everything else.
+    /// Of the plan; see [`Manifest::hash`].
     #[serde(default)]
     sha256: String,
 }
@@ -121,9 +121,10 @@ impl Manifest {
         Ok(manifest)
     }
 
-    /// Of the names of columns and the text, too, which give the table its axes.
+    /// Of everything that gives the table its rows and columns; the path is for messages only.
     fn hash(&self) -> String {
-        hash(&serde_json::to_string(self).expect("it consists of texts and numbers"))
+        let manifest = Manifest { path: String::new(), ..self.clone() };
+        hash(&serde_json::to_string(&manifest).expect("it consists of texts and numbers"))
     }
 
     /// Whether a folder has one.
