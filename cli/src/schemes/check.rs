@@ -79,7 +79,8 @@ fn verdict(path: &str, proved: &Proved) -> String {
         let digits = order.digits.map_or_else(|| "exactly".to_owned(), |digits| format!("to {}", in_digits(digits)));
         format!("effective order {} for {class}{near}, {digits}; of the kernel ", order.order)
     });
-    let mut text = format!("{path}: proved: {effective}order {} for {class}{near}, {digits}{symmetric}{refused}\n", order.order);
+    let mut text =
+        format!("{path}: proved: {effective}order {} for {class}{near}, {digits}{symmetric}{refused}\n", order.order);
     for note in &proved.notes {
         text += &format!("note: {note}\n");
     }
