@@ -13,7 +13,7 @@ use num_traits::Signed;
 use shadowstep_symbolic::decimal::{to_significant, to_text};
 
 /// The class of T = ½pᵀM⁻¹p + bᵀp + c, at most quadratic in p. Every scheme has its order for these ([`crate::ValidFor`]): each bracket with U takes a
-/// degree, so that [U,[U,[U,T]]] = 0, and the force of gradient kicks has M⁻¹ only.
+/// degree, so that \[U,\[U,\[U,T\]\]\] = 0, and the force of gradient kicks has M⁻¹ only.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Quadratic {}
 

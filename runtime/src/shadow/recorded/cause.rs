@@ -25,7 +25,7 @@
 /// The motion is resolved if the differences of the forces are below 0.01 of these (0.05 in windows of nine states). H̄ goes to and fro where the growth is
 /// below 0.7 (0.6), and changes slowly where it is 1.6 or more (3.6) and the isolation below 2; between these it changes independently from step to step.
 ///
-/// The excess, the growth, the isolation and the exponents are defined at [`Diagnosis`]; `docs/recorded-trajectories.md` has measured values.
+/// The excess, the growth, the isolation and the exponents are defined at [`Diagnosis`](super::Diagnosis); `docs/recorded-trajectories.md` has measured values.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Cause {
     /// The states are not from velocity Verlet with these masses, gradients and step size: a thermostat, a constraint, another integrator.
