@@ -19,11 +19,11 @@
 /// | noise | the exponent is below 0.5, and the excess from 0.35 to 8 |
 /// | not the gradient | H̄ changes slowly, and the exponent is 4 or more and the motion resolved, or the exponent is 2 or more and the excess 0.1 or more |
 /// | forces not smooth | the exponent is from 0.5 to 4, the excess from 0.03 to 0.7, and the motion is resolved |
-/// | time step | H̄ moved, the exponent is 2 or more, the excess below 0.1, the motion is not resolved, and what H̄ changes by is neither independent from step to step nor slow |
+/// | time step | H̄ moved, the exponent is 2 or more, the excess below 0.1, the motion is not resolved, and what H̄ changes by is not slow, and not independent from step to step unless the differences of the forces are 0.1 of these or more (0.15 in windows of nine states) |
 /// | not decided | none of these, or no gradients are logged |
 ///
 /// The motion is resolved if the differences of the forces are below 0.01 of these (0.05 in windows of nine states). H̄ goes to and fro where the growth is
-/// below 0.7 (0.6), and changes slowly where it is 1.6 or more (3.6) and the isolation below 2; between these it changes independently from step to step.
+/// below 0.7 (0.4), and changes slowly where it is 1.6 or more (3.6) and the isolation below 2; between these it changes independently from step to step.
 ///
 /// The excess, the growth, the isolation and the exponents are defined at [`Diagnosis`](super::Diagnosis); `docs/recorded-trajectories.md` has measured values.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -44,7 +44,7 @@ const ISOLATED: f64 = 3.0;
 /// What H̄ changes by in one step and in another is independent where the growth is between these, which windows of nine states know worse, and
 const fn independent(window: Window) -> [f64; 2] {
     match window {
-        Window::Nine => [0.6, 3.6],
+        Window::Nine => [0.4, 3.6],
         Window::Seventeen => [0.7, 1.6],
     }
 }
@@ -58,6 +58,13 @@ const fn unresolved(window: Window) -> f64 {
     match window {
         Window::Nine => 0.05,
         Window::Seventeen => 0.01,
+    }
+}
+/// They are too large for it where these are this part: about four steps a turn.
+const fn too_large(window: Window) -> f64 {
+    match window {
+        Window::Nine => 0.15,
+        Window::Seventeen => 0.1,
     }
 }
 /// Exponents of numbers that are noise, jump, or have a derivative that jumps, are below these.
@@ -102,6 +109,12 @@ impl Diagnosis {
     /// Whether the steps resolve the motion, as the forces show.
     fn is_resolved(&self) -> bool {
         self.smoothness.is_some_and(|forces| forces.differences < unresolved(self.window) * forces.size)
+    }
+
+    /// Whether what the motion has of the forces between the steps can be what H̄ changes by: it goes to and fro, or is that of few states, or much.
+    fn is_of_motion(&self) -> bool {
+        let is_much = self.smoothness.is_some_and(|forces| forces.differences > too_large(self.window) * forces.size);
+        !self.is_slow() && (is_much || !self.is_independent())
     }
 }
 
@@ -166,9 +179,7 @@ fn of_forces(found: &Diagnosis) -> Cause {
         KINKS.. if found.is_slow() && is_resolved => Cause::NotTheGradient,
         JUMPS.. if found.is_slow() && excess >= MOTION_EXCESS => Cause::NotTheGradient,
         ..KINKS if is_resolved && (LITTLE..JUMPS_EXCESS).contains(&excess) => Cause::ForcesNotSmooth,
-        JUMPS.. if excess < MOTION_EXCESS && !is_resolved && !found.is_independent() && !found.is_slow() => {
-            Cause::TimeStep
-        }
+        JUMPS.. if excess < MOTION_EXCESS && !is_resolved && found.is_of_motion() => Cause::TimeStep,
         _ => Cause::Undecided,
     }
 }
