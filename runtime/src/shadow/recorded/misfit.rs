@@ -63,9 +63,15 @@ impl Misfit {
         self.end();
     }
 
-    /// Takes a coordinate of a step to the state n, with the logged number.
+    /// Takes a coordinate of a step to the state n, with the logged number; gives the difference.
     #[inline]
-    pub(super) fn add(&mut self, (n, coordinate): (i64, usize), [before, after]: [f64; 2], added: f64, logged: f64) {
+    pub(super) fn add(
+        &mut self,
+        (n, coordinate): (i64, usize),
+        [before, after]: [f64; 2],
+        added: f64,
+        logged: f64,
+    ) -> f64 {
         let difference = (after - before) - added;
         self.squares += difference * difference;
         self.with_increments += difference * added;
@@ -80,6 +86,7 @@ impl Misfit {
         if self.largest.is_none_or(|largest| difference.abs() > largest.difference.abs()) {
             self.largest = Some(Largest { n, coordinate, difference });
         }
+        difference
     }
 
     /// Ends a step.

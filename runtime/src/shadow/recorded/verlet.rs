@@ -155,10 +155,9 @@ impl VerletSteps {
             dq[i] = self.h * ((self.p[i] - *half * self.gradient[i]) / self.masses[i]);
             dp[i] = -*half * self.gradient[i] - *half * gradient;
             if self.follows[1] {
-                of_q.add((*n, i), [self.q[i], q], dq[i], logged.q[i]);
+                let by_q = of_q.add((*n, i), [self.q[i], q], dq[i], logged.q[i]);
                 self.predicted[i] = self.origin[i] + (self.q[i] + dq[i]);
-                of_p.add((*n, i), [self.p[i], p], dp[i], p);
-                let [by_q, by_p] = [(q - self.q[i]) - dq[i], (p - self.p[i]) - dp[i]];
+                let by_p = of_p.add((*n, i), [self.p[i], p], dp[i], p);
                 let mean = [(gradient + self.gradient[i]) / 2.0, (p + self.p[i]) / 2.0 / self.masses[i]];
                 self.work.add([mean[0] * by_q, mean[1] * by_p]);
             }
