@@ -263,7 +263,7 @@ pub trait Number: Clone + fmt::Debug {
     /// x ← NaN where x is finite, but not r² of two points in space with such a coordinate a: |a| > 3.8e153 in `f64`.
     fn make_nan_where_square_overflows(&mut self, a: &Self);
 
-    /// The number in a lane as m 2ⁿ, rounded to 53 bits, for decisions that depend on sizes. n is 0 unless the exponents are beyond the range of `f64`.
+    /// The number in a lane as m 2ⁿ, rounded to 53 bits, for decisions that depend on sizes. n is 0 of numbers that are `f64`s.
     fn lane(&self, lane: usize) -> (f64, i64);
 
     /// The number in a lane ← m 2ⁿ

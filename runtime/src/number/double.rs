@@ -27,6 +27,7 @@ impl<N> DerefMut for Copied<N> {
 }
 
 /// x 2ⁿ, with one rounding; with more where it is subnormal.
+#[inline(always)]
 pub(crate) fn scaled(x: f64, n: i64) -> f64 {
     if n == 0 || x == 0.0 {
         return x;
@@ -205,6 +206,7 @@ impl Number for f64 {
         (*self, 0)
     }
 
+    #[inline(always)]
     fn set_lane(&mut self, _: usize, m: f64, n: i64) {
         *self = scaled(m, n);
     }

@@ -2,13 +2,21 @@
 
 mod blocks;
 mod chain;
+mod cutoff;
+mod cutoff_pairs;
+#[cfg(test)]
+mod cutoff_tests;
 mod few;
 mod gravity;
 mod hessian;
+mod neighbours;
 mod pair;
+mod switch;
 #[cfg(test)]
 mod tests;
 
+pub use cutoff::{Cutoff, CutoffError, MOST_DERIVATIVES, Switch};
+pub use cutoff_pairs::CutoffPairs;
 pub use gravity::Gravity;
 pub use pair::{BLOCK, Ends, Pair, PairCurvature, PairPotential};
 pub use shadowstep_symbolic::{Separation, Summand};
@@ -117,6 +125,9 @@ pub enum PairsError {
         /// The dimensions.
         dimensions: usize,
     },
+    /// A formula in d with a cutoff.
+    #[error("a cutoff is for formulas in r2; write the pair's energy in r2")]
+    Cutoff,
     /// A property with too few or too many values.
     #[error("a property has {values} values for {bodies} bodies; give one for each body")]
     Property {

@@ -1,0 +1,441 @@
+//! The sum over the pairs of bodies that are closer than a cutoff.
+
+use shadowstep_symbolic::{Separation, Summand};
+
+use super::cutoff::Cutoff;
+use super::neighbours::{Neighbours, nearest_integer};
+use super::pair::{BLOCK, PairPotential};
+use super::switch::{COEFFICIENTS, Polynomial};
+use super::{Pair, PairsError};
+use crate::Rational;
+use crate::number::instructions;
+use crate::number::partial_sums::add_sum;
+use crate::number::{Number, scaled};
+use crate::systems::potential::Potential;
+
+/// The potential U = Σ φ(r²) over the pairs of bodies in D dimensions that are closer than a [`Cutoff`], of r² = |q_j − q_i|², in a box of the nearest images.
+///
+/// Pairs are found by a list of neighbours, so that the time of an evaluation grows as the number of bodies. What is computed is a function of q to the last
+/// bit, whatever was computed before.
+///
+/// ```
+/// use shadowstep::problems::LennardJones;
+/// use shadowstep::systems::pairs::{Cutoff, CutoffPairs};
+/// use shadowstep::{Motion, Stepper, UnitMasses, exact, tables::shipped};
+///
+/// // a cubic lattice of 216 atoms, each pushed a little
+/// let side = exact("7.2")?;
+/// let cutoff = Cutoff::<3>::at(exact("5/2")?)?.switched(exact("2")?, 3)?.in_box([side.clone(), side.clone(), side])?;
+/// let fluid = CutoffPairs::new(216, LennardJones { epsilon: 1.0, sigma: 1.0 }, cutoff)?;
+/// let q: Vec<f64> = (0..216).flat_map(|i| [i / 36, i / 6 % 6, i % 6].map(|cell| 1.2 * cell as f64)).collect();
+/// let p: Vec<f64> = (0..648).map(|c| (7.0 * c as f64).sin()).collect();
+/// let mut motion = Motion::new(fluid, UnitMasses, q, p)?;
+/// let start = motion.energy();
+/// let stepper = Stepper::new(shipped("stormer-verlet").unwrap(), "1/500")?;
+/// (0..500).for_each(|_| stepper.step(&mut motion));
+/// assert!((motion.energy() - start).abs() < 1e-4 * start.abs());
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct CutoffPairs<P, const D: usize> {
+    pair: P,
+    bodies: usize,
+    /// Whether bodies have no properties.
+    alike: bool,
+    cutoff: Cutoff<D>,
+    sides: Option<[f64; D]>,
+    switch: Option<Polynomial>,
+    neighbours: Neighbours,
+}
+
+impl<P: Pair, const D: usize> CutoffPairs<P, D> {
+    /// Bodies that interact up to a cutoff.
+    ///
+    /// # Errors
+    /// No bodies or more than 2³², no dimensions, properties of more or fewer bodies, a pair's formula in d.
+    pub fn new(bodies: usize, pair: P, cutoff: Cutoff<D>) -> Result<Self, PairsError> {
+        if bodies == 0 || D == 0 {
+            return Err(PairsError::Empty);
+        }
+        if pair.separation() != Separation::SquaredDistance {
+            return Err(PairsError::Cutoff);
+        }
+        let properties = pair.properties();
+        if let Some(&values) = properties.iter().find(|count| **count != bodies) {
+            return Err(PairsError::Property { values, bodies });
+        }
+        let sides = cutoff.sides().map(|sides| sides.each_ref().map(double));
+        let neighbours = Neighbours::new(double(cutoff.radius()));
+        let switch = cutoff.switch().map(|switch| Polynomial { derivatives: switch.derivatives });
+        Ok(CutoffPairs { pair, bodies, alike: properties.is_empty(), cutoff, sides, switch, neighbours })
+    }
+
+    /// How many bodies there are.
+    pub fn bodies(&self) -> usize {
+        self.bodies
+    }
+
+    /// The list of neighbours as it is, to compare.
+    #[cfg(test)]
+    pub(super) fn list_of_neighbours(&self) -> &[f64] {
+        self.neighbours.listed_at()
+    }
+
+    /// Up to where they interact.
+    pub fn cutoff(&self) -> &Cutoff<D> {
+        &self.cutoff
+    }
+}
+
+fn double(exact: &Rational) -> f64 {
+    f64::from_rational(exact, &())
+}
+
+/// What is in the scratch space before that of the pair.
+struct Constants<'a, N, const D: usize> {
+    /// r_c², r_s² and 1/(r_c² − r_s²)
+    squares: &'a [N; 3],
+    /// Of the switch.
+    coefficients: &'a [N; COEFFICIENTS],
+    sides: &'a [N; D],
+}
+
+/// How many numbers these are.
+const fn constants(dimensions: usize) -> usize {
+    3 + COEFFICIENTS + dimensions
+}
+
+/// Pairs of a body with others that are closer than the cutoff: a block, and at most one more.
+struct Near<N, const D: usize, const W: usize> {
+    count: usize,
+    others: [[u32; W]; 2],
+    /// From the other body to the body.
+    difference: [[[N; W]; 2]; D],
+    squared: [[N; W]; 2],
+}
+
+impl<N: Number, const D: usize, const W: usize> Near<N, D, W> {
+    fn new(zero: &N) -> Self {
+        let zeros = || std::array::from_fn(|_| std::array::from_fn(|_| zero.clone()));
+        Near { count: 0, others: [[0; W]; 2], difference: std::array::from_fn(|_| zeros()), squared: zeros() }
+    }
+
+    /// Adds those of some bodies that are closer than the cutoff.
+    #[inline(always)]
+    fn add(
+        &mut self,
+        others: &[u32],
+        at: &[N; D],
+        q: &[[N; D]],
+        constants: &Constants<'_, N, D>,
+        reciprocal_sides: Option<&[f64; D]>,
+    ) {
+        // beyond the last one it is repeated, and not taken
+        let others_of_block: [u32; W] = std::array::from_fn(|l| others[l.min(others.len() - 1)]);
+        let mut difference: [[N; W]; D] =
+            std::array::from_fn(|axis| std::array::from_fn(|l| q[others_of_block[l] as usize][axis].clone()));
+        for (axis, of_axis) in difference.iter_mut().enumerate() {
+            for difference in of_axis {
+                let mut own = at[axis].clone();
+                own.subtract(difference);
+                if let Some(reciprocal_sides) = reciprocal_sides {
+                    subtract_images(&mut own, reciprocal_sides[axis], &constants.sides[axis]);
+                }
+                *difference = own;
+            }
+        }
+        let mut squared = difference[0].clone();
+        for l in 0..W {
+            squared[l].assign_square(&difference[0][l]);
+        }
+        for of_axis in &difference[1..] {
+            for l in 0..W {
+                squared[l].add_product(&of_axis[l], &of_axis[l]);
+            }
+        }
+        let [cutoff, ..] = constants.squares;
+        let is_near: [bool; W] = std::array::from_fn(|l| is_below(&squared[l], cutoff));
+        for l in 0..W {
+            let place = self.count;
+            self.others.as_flattened_mut()[place] = others_of_block[l];
+            for (own, of_axis) in self.difference.iter_mut().zip(&difference) {
+                own.as_flattened_mut()[place].assign(&of_axis[l]);
+            }
+            self.squared.as_flattened_mut()[place].assign(&squared[l]);
+            self.count += usize::from(is_near[l] && l < others.len());
+        }
+    }
+
+    /// Takes a whole block away.
+    #[inline(always)]
+    fn drop_block(&mut self) {
+        self.count -= W;
+        self.others[0] = self.others[1];
+        for of_axis in &mut self.difference {
+            let [first, second] = of_axis;
+            first.iter_mut().zip(second).for_each(|(first, second)| first.assign(second));
+        }
+        let [first, second] = &mut self.squared;
+        first.iter_mut().zip(second).for_each(|(first, second)| first.assign(second));
+    }
+}
+
+/// difference ← that of the nearest images
+#[inline(always)]
+fn subtract_images<N: Number>(difference: &mut N, reciprocal_side: f64, side: &N) {
+    let mut images = difference.clone();
+    for lane in 0..N::LANES {
+        let (m, n) = difference.lane(lane);
+        images.set_lane(lane, nearest_integer(scaled(m, n) * reciprocal_side), 0);
+    }
+    difference.subtract_product(&images, side);
+}
+
+/// Whether a < b in some lane.
+#[inline(always)]
+fn is_below<N: Number>(a: &N, b: &N) -> bool {
+    let mut difference = b.clone();
+    difference.subtract(a);
+    (0..N::LANES).any(|lane| difference.lane(lane).0 > 0.0)
+}
+
+/// A body and its own sums.
+struct Own<N, const D: usize> {
+    body: usize,
+    gradient: [N; D],
+    energy: N,
+}
+
+impl<P, const D: usize> CutoffPairs<P, D> {
+    /// Adds U_q to the gradient and U to the energy, as these are wanted.
+    fn sum<N: Number, const FORCES: bool, const ENERGY: bool>(
+        &self,
+        q: &[N],
+        gradient: &mut [N],
+        energy: &mut N,
+        scratch: &mut [N],
+    ) where
+        P: PairPotential<N>,
+    {
+        if N::IN_VECTORS {
+            instructions::widest(
+                #[inline(always)]
+                || self.sum_in_blocks::<N, BLOCK, FORCES, ENERGY>(q, gradient, energy, scratch),
+            );
+        } else {
+            self.sum_in_blocks::<N, 1, FORCES, ENERGY>(q, gradient, energy, scratch);
+        }
+    }
+
+    /// The same in blocks of W pairs of a body, added one after the other, so that sums do not depend on W.
+    #[inline(always)]
+    fn sum_in_blocks<N: Number, const W: usize, const FORCES: bool, const ENERGY: bool>(
+        &self,
+        q: &[N],
+        gradient: &mut [N],
+        energy: &mut N,
+        scratch: &mut [N],
+    ) where
+        P: PairPotential<N>,
+    {
+        let (constants, pair) = scratch.split_at_mut(constants(D));
+        let (squares, rest) = constants.split_first_chunk().expect("as much as asked for");
+        let (coefficients, sides) = rest.split_first_chunk().expect("as much as asked for");
+        let constants = Constants { squares, coefficients, sides: sides.first_chunk().expect("as much as asked for") };
+        let reciprocal_sides = self.sides.map(|sides| sides.map(|side| 1.0 / side));
+        let (q, _) = q.as_chunks::<D>();
+        let (gradient, _) = gradient.as_chunks_mut::<D>();
+        let zero = N::zero(&squares[0].context());
+        let mut near = Near::<N, D, W>::new(&zero);
+        for body in 0..self.bodies {
+            let mut own = Own { body, gradient: std::array::from_fn(|_| zero.clone()), energy: zero.clone() };
+            for others in self.neighbours.of(body).chunks(W) {
+                near.add(others, &q[body], q, &constants, reciprocal_sides.as_ref());
+                if near.count >= W {
+                    self.add_block::<N, W, FORCES, ENERGY>(&near, W, &constants, (gradient, &mut own), pair);
+                    near.drop_block();
+                }
+            }
+            if near.count > 0 {
+                self.add_block::<N, W, FORCES, ENERGY>(&near, near.count, &constants, (gradient, &mut own), pair);
+                near.count = 0;
+            }
+            if FORCES {
+                gradient[body].iter_mut().zip(&own.gradient).for_each(|(gradient, own)| gradient.add(own));
+            }
+            if ENERGY {
+                energy.add(&own.energy);
+            }
+        }
+    }
+
+    /// Adds the first pairs that are near.
+    #[inline(always)]
+    fn add_block<N: Number, const W: usize, const FORCES: bool, const ENERGY: bool>(
+        &self,
+        near: &Near<N, D, W>,
+        count: usize,
+        constants: &Constants<'_, N, D>,
+        (gradient, own): (&mut [[N; D]], &mut Own<N, D>),
+        pair: &mut [N],
+    ) where
+        P: PairPotential<N>,
+    {
+        let (others, x) = (&near.others[0], &near.squared[0]);
+        let [_, from, reciprocal] = constants.squares;
+        let switch = self.switch.filter(|_| (0..count).any(|l| is_below(from, &x[l])));
+        let (mut slopes, mut energies) = (x.clone(), x.clone());
+        self.evaluate::<N, W>(
+            (FORCES, ENERGY || switch.is_some()),
+            (own.body, others),
+            x,
+            (&mut slopes, &mut energies),
+            pair,
+        );
+        if let Some(polynomial) = switch {
+            let [cutoff, ..] = constants.squares;
+            let (mut t, mut values, mut rises) = (x.clone(), x.clone(), x.clone());
+            for l in 0..W {
+                t[l].assign_difference(cutoff, &x[l]);
+                t[l].multiply(reciprocal);
+            }
+            polynomial.assign(constants.coefficients, &t, &mut values, &mut rises);
+            for l in 0..W {
+                // 2 (S u)′ = S 2u′ − 2S′ u/(r_c² − r_s²)
+                rises[l].multiply(reciprocal);
+                rises[l].multiply_integer(2);
+                slopes[l].multiply(&values[l]);
+                slopes[l].subtract_product(&rises[l], &energies[l]);
+                energies[l].multiply(&values[l]);
+            }
+        }
+        if N::LANES > 1 {
+            clear_far_lanes(x, &constants.squares[0], &mut slopes);
+            clear_far_lanes(x, &constants.squares[0], &mut energies);
+        }
+        if FORCES {
+            let mut forces: [[N; W]; D] = std::array::from_fn(|axis| near.difference[axis][0].clone());
+            for of_axis in &mut forces {
+                for l in 0..W {
+                    of_axis[l].multiply(&slopes[l]);
+                }
+            }
+            for l in 0..count {
+                let other = &mut gradient[others[l] as usize];
+                for axis in 0..D {
+                    own.gradient[axis].add(&forces[axis][l]);
+                    other[axis].subtract(&forces[axis][l]);
+                }
+            }
+        }
+        if ENERGY {
+            energies[..count].iter().for_each(|of_pair| own.energy.add(of_pair));
+        }
+    }
+
+    /// The slopes 2u′(r²) and the energies u(r²) of a body with others, as these are wanted.
+    #[inline(always)]
+    fn evaluate<N: Number, const W: usize>(
+        &self,
+        (forces, energy): (bool, bool),
+        (body, others): (usize, &[u32; W]),
+        x: &[N; W],
+        (slopes, energies): (&mut [N; W], &mut [N; W]),
+        pair: &mut [N],
+    ) where
+        P: PairPotential<N>,
+    {
+        match (forces, energy) {
+            (true, false) if self.alike => self.pair.slopes(0, 0, x, slopes, pair),
+            (true, false) => {
+                for l in 0..W {
+                    self.pair.slope(others[l] as usize, body, &x[l], &mut slopes[l], pair);
+                }
+            }
+            (true, true) if self.alike => self.pair.slopes_and_summands(0, 0, x, slopes, energies, pair),
+            (true, true) => {
+                for l in 0..W {
+                    let (slope, energy) = (&mut slopes[l], &mut energies[l]);
+                    self.pair.slope_and_summand(others[l] as usize, body, &x[l], slope, energy, pair);
+                }
+            }
+            (false, _) if self.alike => return self.pair.energies(0, 0, x, energies, pair),
+            (false, _) => {
+                for l in 0..W {
+                    self.pair.energy(others[l] as usize, body, &x[l], &mut energies[l], pair);
+                }
+                return;
+            }
+        }
+        if energy && self.pair.summand() == Summand::Rate {
+            // 2r²u′ − 2u
+            for l in 0..W {
+                energies[l].negate();
+                energies[l].add_product(&x[l], &slopes[l]);
+                energies[l].divide_integer(2);
+            }
+        }
+    }
+}
+
+/// Numbers ← 0 in the lanes in which bodies are as far as the cutoff.
+fn clear_far_lanes<N: Number, const W: usize>(x: &[N; W], cutoff: &N, numbers: &mut [N; W]) {
+    for (x, number) in x.iter().zip(numbers) {
+        let mut difference = cutoff.clone();
+        difference.subtract(x);
+        for lane in (0..N::LANES).filter(|&lane| difference.lane(lane).0 <= 0.0) {
+            number.set_lane(lane, 0.0, 0);
+        }
+    }
+}
+
+impl<N: Number, P: PairPotential<N>, const D: usize> Potential<N> for CutoffPairs<P, D> {
+    fn dimension(&self) -> usize {
+        self.bodies * D
+    }
+
+    fn scratch(&self) -> usize {
+        constants(D) + self.pair.scratch()
+    }
+
+    fn prepare(&self, scratch: &mut [N], context: &N::Context) {
+        let (own, pair) = scratch.split_at_mut(constants(D));
+        let (squares, rest) = own.split_at_mut(3);
+        let (coefficients, sides) = rest.split_at_mut(COEFFICIENTS);
+        let assign = |places: &mut [N], values: &mut dyn Iterator<Item = Rational>| {
+            places.iter_mut().zip(values).for_each(|(place, value)| *place = N::from_rational(&value, context));
+        };
+        assign(squares, &mut self.cutoff.squares().into_iter());
+        if let Some(polynomial) = self.switch {
+            assign(coefficients, &mut polynomial.coefficients());
+        }
+        if let Some(of_box) = self.cutoff.sides() {
+            assign(sides, &mut of_box.iter().cloned());
+        }
+        self.pair.prepare(pair, context);
+    }
+
+    fn update(&mut self, q: &[N]) {
+        self.neighbours.update::<N, D>(q, self.sides.as_ref());
+    }
+
+    fn energy(&self, q: &[N], energy: &mut N, scratch: &mut [N]) {
+        energy.assign_zero();
+        self.sum::<N, false, true>(q, &mut [], energy, scratch);
+    }
+
+    fn gradient(&self, q: &[N], gradient: &mut [N], scratch: &mut [N]) {
+        gradient.iter_mut().for_each(N::assign_zero);
+        let mut none = N::zero(&q[0].context());
+        self.sum::<N, true, false>(q, gradient, &mut none, scratch);
+    }
+
+    fn gradient_and_rate(&self, q: &[N], gradient: &mut [N], rate: &mut N, scratch: &mut [N]) {
+        gradient.iter_mut().for_each(N::assign_zero);
+        rate.assign_zero();
+        self.sum::<N, true, true>(q, gradient, rate, scratch);
+        // qᵀU_q − 2U of the unwrapped positions, which is not the sum of the pairs' rates, those of the nearest images
+        rate.multiply_integer(-2);
+        add_sum(rate, [q, gradient], |[q, gradient], rate| rate.add_product(q, gradient));
+    }
+}
