@@ -1,9 +1,9 @@
-//! Programs carried out one instruction after the other, on numbers in registers.
+//! Programs carried out one instruction after the other, on numbers in registers, or on blocks of numbers.
 
 use shadowstep_symbolic::{Function, Instruction, Place, PotentialPrograms, Program};
 
 use crate::Rational;
-use crate::number::Number;
+use crate::number::{Number, instructions};
 
 /// The programs of a function with its parameters; nothing is allocated when they run.
 #[derive(Clone, Debug)]
@@ -78,19 +78,53 @@ impl<N: Number> Interpreter<N> {
         for instruction in &self.prepare {
             match instruction {
                 Instruction::AssignRational(slot, value) => registers[slot.index as usize] = exact(value, context),
-                other => execute(other, registers, &[]),
+                other => execute(other, registers.as_chunks_mut::<1>().0, &[]),
             }
         }
     }
 
-    /// The places of properties of bodies, to be filled before each call.
-    pub(crate) fn properties<'r>(&self, registers: &'r mut [N]) -> &'r mut [N] {
+    /// The places of properties of bodies, to be filled before each call; of numbers, or of blocks of them.
+    pub(crate) fn properties<'r, R>(&self, registers: &'r mut [R]) -> &'r mut [R] {
         &mut registers[self.layout.properties..self.layout.outputs]
     }
 
     /// The function at x.
     pub(crate) fn energy<'r>(&self, x: &[N], registers: &'r mut [N]) -> &'r mut N {
         &mut self.compute(&self.energy, x, registers)[0]
+    }
+
+    /// The function of one number at a block of them; the registers are blocks, too.
+    pub(crate) fn energies<'r, const W: usize>(&self, x: &[N; W], registers: &'r mut [[N; W]]) -> &'r mut [N; W] {
+        &mut self.compute_block(&self.energy, x, registers)[0]
+    }
+
+    /// Its derivative there.
+    pub(crate) fn slopes<'r, const W: usize>(&self, x: &[N; W], registers: &'r mut [[N; W]]) -> &'r mut [N; W] {
+        &mut self.compute_block(&self.gradient, x, registers)[0]
+    }
+
+    /// Its derivative there, then the summand.
+    pub(crate) fn slopes_and_summands<'r, const W: usize>(
+        &self,
+        x: &[N; W],
+        registers: &'r mut [[N; W]],
+    ) -> &'r mut [[N; W]] {
+        self.compute_block(&self.gradient_and_rate, x, registers)
+    }
+
+    /// Not inlined: the programs of blocks are compiled once for each kind of instructions.
+    #[inline(never)]
+    fn compute_block<'r, const W: usize>(
+        &self,
+        program: &[Instruction<Slot>],
+        x: &[N; W],
+        registers: &'r mut [[N; W]],
+    ) -> &'r mut [[N; W]] {
+        instructions::widest(
+            #[inline(always)]
+            || execute_all(program, registers, std::slice::from_ref(x)),
+        );
+        &mut registers[self.layout.outputs..]
     }
 
     /// Its gradient at x, and something more; all may be swapped with other numbers.
@@ -104,13 +138,10 @@ impl<N: Number> Interpreter<N> {
     }
 
     fn compute<'r>(&self, program: &[Instruction<Slot>], x: &[N], registers: &'r mut [N]) -> &'r mut [N] {
+        let (blocks, _) = registers.as_chunks_mut::<1>();
         N::in_widest_instructions(
             #[inline(always)]
-            || {
-                for instruction in program {
-                    execute(instruction, registers, x);
-                }
-            },
+            || execute_all(program, blocks, x.as_chunks().0),
         );
         &mut registers[self.layout.outputs..]
     }
@@ -161,7 +192,14 @@ fn exact<N: Number>(value: &Rational, context: &N::Context) -> N {
 }
 
 #[inline(always)]
-fn execute<N: Number>(instruction: &Instruction<Slot>, registers: &mut [N], x: &[N]) {
+fn execute_all<N: Number, const W: usize>(program: &[Instruction<Slot>], registers: &mut [[N; W]], x: &[[N; W]]) {
+    for instruction in program {
+        execute(instruction, registers, x);
+    }
+}
+
+#[inline(always)]
+fn execute<N: Number, const W: usize>(instruction: &Instruction<Slot>, registers: &mut [[N; W]], x: &[[N; W]]) {
     use Instruction as I;
     let (before, rest) = registers.split_at_mut(instruction.target().index as usize);
     let Some((target, after)) = rest.split_first_mut() else { return };
@@ -169,50 +207,62 @@ fn execute<N: Number>(instruction: &Instruction<Slot>, registers: &mut [N], x: &
         return assign_sin_cos(target, cos, a, [before, after], x);
     }
     let of = Operands([before, after, x]);
+    // the same operation on each number of a block
+    macro_rules! each {
+        ($operation:ident $(, $operand:expr)*; $($constant:expr),*) => {
+            for l in 0..W {
+                target[l].$operation($(&of.at($operand)[l],)* $($constant),*)
+            }
+        };
+    }
     match *instruction {
-        I::AssignZero(_) => target.assign_zero(),
-        I::Assign(_, a) => target.assign(of.at(a)),
-        I::AssignSum(_, a, b) => target.assign_sum(of.at(a), of.at(b)),
-        I::AssignDifference(_, a, b) => target.assign_difference(of.at(a), of.at(b)),
-        I::AssignProduct(_, a, b) => target.assign_product(of.at(a), of.at(b)),
-        I::AssignQuotient(_, a, b) => target.assign_quotient(of.at(a), of.at(b)),
-        I::AssignSquare(_, a) => target.assign_square(of.at(a)),
-        I::AssignSqrt(_, a) => target.assign_sqrt(of.at(a)),
-        I::AssignReciprocalSqrt(_, a) => target.assign_reciprocal_sqrt(of.at(a)),
-        I::AssignRoot(_, a, order) => target.assign_root(of.at(a), order),
-        I::AssignFunction(function, _, a) => assign_function(function, target, of.at(a)),
-        I::Add(_, a) => target.add(of.at(a)),
-        I::Subtract(_, a) => target.subtract(of.at(a)),
-        I::Multiply(_, a) => target.multiply(of.at(a)),
-        I::Divide(_, a) => target.divide(of.at(a)),
-        I::AddProduct(_, a, b) => target.add_product(of.at(a), of.at(b)),
-        I::SubtractProduct(_, a, b) => target.subtract_product(of.at(a), of.at(b)),
-        I::AssignSumWithProduct(_, c, t, a, b) => {
-            target.assign_sum_with_product(of.at(c), of.at(t), of.at(a), of.at(b));
+        I::AssignZero(_) => each!(assign_zero;),
+        I::Assign(_, a) => each!(assign, a;),
+        I::AssignSum(_, a, b) => each!(assign_sum, a, b;),
+        I::AssignDifference(_, a, b) => each!(assign_difference, a, b;),
+        I::AssignProduct(_, a, b) => each!(assign_product, a, b;),
+        I::AssignQuotient(_, a, b) => each!(assign_quotient, a, b;),
+        I::AssignSquare(_, a) => each!(assign_square, a;),
+        I::AssignSqrt(_, a) => each!(assign_sqrt, a;),
+        I::AssignReciprocalSqrt(_, a) => each!(assign_reciprocal_sqrt, a;),
+        I::AssignRoot(_, a, order) => each!(assign_root, a; order),
+        I::AssignFunction(function, _, a) => {
+            target.iter_mut().zip(of.at(a)).for_each(|(x, a)| assign_function(function, x, a));
         }
-        I::AssignDifferenceWithProduct(_, c, t, a, b) => {
-            target.assign_difference_with_product(of.at(c), of.at(t), of.at(a), of.at(b));
-        }
-        I::AddToProduct(_, c, a, b) => target.add_to_product(of.at(c), of.at(a), of.at(b)),
-        I::MultiplyInteger(_, n) => target.multiply_integer(n),
-        I::DivideInteger(_, n) => target.divide_integer(n),
-        I::Negate(_) => target.negate(),
+        I::Add(_, a) => each!(add, a;),
+        I::Subtract(_, a) => each!(subtract, a;),
+        I::Multiply(_, a) => each!(multiply, a;),
+        I::Divide(_, a) => each!(divide, a;),
+        I::AddProduct(_, a, b) => each!(add_product, a, b;),
+        I::SubtractProduct(_, a, b) => each!(subtract_product, a, b;),
+        I::AssignSumWithProduct(_, c, t, a, b) => each!(assign_sum_with_product, c, t, a, b;),
+        I::AssignDifferenceWithProduct(_, c, t, a, b) => each!(assign_difference_with_product, c, t, a, b;),
+        I::AddToProduct(_, c, a, b) => each!(add_to_product, c, a, b;),
+        I::MultiplyInteger(_, n) => each!(multiply_integer; n),
+        I::DivideInteger(_, n) => each!(divide_integer; n),
+        I::Negate(_) => each!(negate;),
         I::AssignRational(..) | I::AssignSinCos(..) => unreachable!("done before"),
     }
 }
 
 /// What can be read beside the register that is written, by its side.
-struct Operands<'a, N>([&'a [N]; 3]);
+struct Operands<'a, B>([&'a [B]; 3]);
 
-impl<N> Operands<'_, N> {
+impl<B> Operands<'_, B> {
     #[inline(always)]
-    fn at(&self, slot: Slot) -> &N {
+    fn at(&self, slot: Slot) -> &B {
         &self.0[slot.side as usize][slot.index as usize]
     }
 }
 
 /// The cosine and its argument are on either side of the sine.
-fn assign_sin_cos<N: Number>(sin: &mut N, cos: Slot, a: Slot, [before, after]: [&mut [N]; 2], x: &[N]) {
+fn assign_sin_cos<N: Number, const W: usize>(
+    sin: &mut [N; W],
+    cos: Slot,
+    a: Slot,
+    [before, after]: [&mut [[N; W]]; 2],
+    x: &[[N; W]],
+) {
     let (own, other, others_side) = match cos.side {
         Side::Before => (before, after, Side::After),
         Side::After | Side::Coordinate => (after, before, Side::Before),
@@ -226,7 +276,9 @@ fn assign_sin_cos<N: Number>(sin: &mut N, cos: Slot, a: Slot, [before, after]: [
         _ if index > low.len() => &high[index - low.len() - 1],
         _ => &low[index],
     };
-    N::assign_sin_cos(sin, cos_target, argument);
+    for l in 0..W {
+        N::assign_sin_cos(&mut sin[l], &mut cos_target[l], &argument[l]);
+    }
 }
 
 fn assign_function<N: Number>(function: Function, x: &mut N, a: &N) {

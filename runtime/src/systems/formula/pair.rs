@@ -10,7 +10,7 @@ use std::sync::{Arc, OnceLock};
 use crate::Rational;
 use crate::number::Number;
 use crate::systems::interpreter::Interpreter;
-use crate::systems::pairs::{Pair, PairCurvature, PairPotential};
+use crate::systems::pairs::{BLOCK, Pair, PairCurvature, PairPotential};
 
 /// The energy of a pair of bodies whose operations are carried out one by one from a list: the twin of a `pair` formula
 /// in [`crate::potential!`], with the same bits.
@@ -102,6 +102,20 @@ impl<N: Number> FormulaPair<N> {
         }
     }
 
+    /// The registers of blocks of this length, with the properties of i and of j, j + 1, …; none where blocks have another length.
+    fn block<'s, const W: usize>(&self, i: usize, j: usize, scratch: &'s mut [N]) -> Option<&'s mut [[N; W]]> {
+        if W != BLOCK || !N::IN_VECTORS {
+            return None;
+        }
+        let (blocks, _) = scratch[self.interpreter.registers()..].as_chunks_mut::<W>();
+        let (of_i, of_j) = self.interpreter.properties(blocks).split_at_mut(self.properties.len());
+        for ((of_i, of_j), values) in of_i.iter_mut().zip(of_j).zip(&self.properties) {
+            of_i.fill(values[i].clone());
+            of_j.clone_from_slice(&values[j..j + W]);
+        }
+        Some(blocks)
+    }
+
     fn second(&self) -> &Interpreter<N> {
         self.second.get_or_init(|| {
             let second = self.derived.second(|graph, node| graph.pair_curvature(node, self.separation));
@@ -126,11 +140,16 @@ impl<N> Pair for FormulaPair<N> {
 
 impl<N: Number> PairPotential<N> for FormulaPair<N> {
     fn scratch(&self) -> usize {
-        self.interpreter.registers()
+        let registers = self.interpreter.registers();
+        if N::IN_VECTORS { registers * (1 + BLOCK) } else { registers }
     }
 
     fn prepare(&self, scratch: &mut [N], context: &N::Context) {
-        self.interpreter.prepare(scratch, context);
+        let (registers, blocks) = scratch.split_at_mut(self.interpreter.registers());
+        self.interpreter.prepare(registers, context);
+        for (block, register) in blocks.as_chunks_mut::<BLOCK>().0.iter_mut().zip(registers) {
+            block.fill(register.clone());
+        }
     }
 
     fn energy(&self, i: usize, j: usize, x: &N, energy: &mut N, scratch: &mut [N]) {
@@ -152,6 +171,46 @@ impl<N: Number> PairPotential<N> for FormulaPair<N> {
 
     fn curved(&self) -> Option<&dyn PairCurvature<N>> {
         Some(self)
+    }
+
+    #[inline]
+    fn energies<const W: usize>(&self, i: usize, j: usize, x: &[N; W], energies: &mut [N; W], scratch: &mut [N]) {
+        if let Some(registers) = self.block::<W>(i, j, scratch) {
+            return energies.swap_with_slice(self.interpreter.energies(x, registers));
+        }
+        for l in 0..W {
+            self.energy(i, j + l, &x[l], &mut energies[l], scratch);
+        }
+    }
+
+    #[inline]
+    fn slopes<const W: usize>(&self, i: usize, j: usize, x: &[N; W], slopes: &mut [N; W], scratch: &mut [N]) {
+        if let Some(registers) = self.block::<W>(i, j, scratch) {
+            return slopes.swap_with_slice(self.interpreter.slopes(x, registers));
+        }
+        for l in 0..W {
+            self.slope(i, j + l, &x[l], &mut slopes[l], scratch);
+        }
+    }
+
+    #[inline]
+    fn slopes_and_summands<const W: usize>(
+        &self,
+        i: usize,
+        j: usize,
+        x: &[N; W],
+        slopes: &mut [N; W],
+        summands: &mut [N; W],
+        scratch: &mut [N],
+    ) {
+        if let Some(registers) = self.block::<W>(i, j, scratch) {
+            let outputs = self.interpreter.slopes_and_summands(x, registers);
+            slopes.swap_with_slice(&mut outputs[0]);
+            return summands.swap_with_slice(&mut outputs[1]);
+        }
+        for l in 0..W {
+            self.slope_and_summand(i, j + l, &x[l], &mut slopes[l], &mut summands[l], scratch);
+        }
     }
 }
 
