@@ -4,9 +4,7 @@ use std::io::Write;
 
 use clap::Args;
 use shadowstep::problems::PROBLEMS;
-use shadowstep_scenes::{
-    ENCOUNTER_SCENES, Error, MANY_PARTS_SCENES, PLANETARY_SCENES, SCHEME_SCENES, ShippedScene, scene_text,
-};
+use shadowstep_scenes::{Error, SHIPPED_SCENES, scene_text};
 
 use crate::output::Output;
 use crate::readable::wrapped;
@@ -44,15 +42,12 @@ fn list() -> String {
     let line = |name: &str, title: &str| format!("  {name:<20}  {title}\n");
     let problems = PROBLEMS.iter().map(|problem| problem.description());
     let names: String = problems.map(|problem| line(problem.name, problem.title)).collect();
-    let shipped =
-        |scenes: &[ShippedScene]| scenes.iter().map(|scene| line(scene.name, scene.title)).collect::<String>();
-    let (planets, encounters) = (shipped(&PLANETARY_SCENES), shipped(&ENCOUNTER_SCENES));
-    let (many_parts, schemes) = (shipped(&MANY_PARTS_SCENES), shipped(&SCHEME_SCENES));
+    let shipped = SHIPPED_SCENES.iter().map(|(what, scenes)| {
+        let lines: String = scenes.iter().map(|scene| line(scene.name, scene.title)).collect();
+        format!("of {what}:\n{lines}")
+    });
+    let shipped: String = shipped.collect();
     let how = "`shadowstep scene kepler > scene.toml` writes one, `shadowstep run scene.toml` runs it, and \
                `shadowstep scene --explain` explains all keys.";
-    format!(
-        "There is a scene for each of these problems:\n{names}of planetary systems:\n{planets}of close encounters:\n{encounters}\
-         of three parts:\n{many_parts}and of schemes with gradient kicks or processors:\n{schemes}{}",
-        wrapped(how, "")
-    )
+    format!("There is a scene for each of these problems:\n{names}{shipped}{}", wrapped(how, ""))
 }

@@ -25,11 +25,17 @@ pub struct Key {
 }
 
 /// All sections, in the order of the explanation.
-pub(crate) const SECTIONS: [Section; 11] = [
+pub(crate) const SECTIONS: [Section; 12] = [
     section(
         "problem",
         "[problem]",
         "The system H = T(p) + U(q). U is that of a shipped problem, a formula in the coordinates, or a sum over pairs of bodies.",
+    ),
+    section(
+        "problem.cutoff",
+        "[problem.cutoff]",
+        "A smooth end in place of `cutoff = 2.5`. Between the two distances the energy of a pair is multiplied with a polynomial in r2 that falls \
+         from 1 to 0.",
     ),
     section("problem.units", "[problem.units]", "The table `units`."),
     section(
@@ -55,7 +61,7 @@ pub(crate) const SECTIONS: [Section; 11] = [
 ];
 
 /// All keys, section by section.
-pub(crate) const KEYS: [Key; 61] = [
+pub(crate) const KEYS: [Key; 66] = [
     key(
         "problem",
         "name",
@@ -104,6 +110,22 @@ pub(crate) const KEYS: [Key; 61] = [
          body forms a pair with the first).",
         "\"fixed\"",
         Some("none; all pairs of bodies interact"),
+    ),
+    key(
+        "problem",
+        "cutoff",
+        "For `pair` in r2: bodies interact up to this distance, and a step takes a time that grows as their number. The energy of a \
+         pair jumps there, so that no scheme conserves it, unless a table makes its end smooth.",
+        "{ at = \"5/2\", from = 2, derivatives = 3 }",
+        Some("none; all pairs of bodies interact"),
+    ),
+    key(
+        "problem",
+        "box",
+        "With `cutoff`: the side of a periodic box, or a list of its sides, each at least twice the cutoff. Forces are those of the nearest \
+         images; coordinates are not wrapped.",
+        "[10, 10, 12]",
+        Some("none; open space"),
     ),
     key(
         "problem",
@@ -178,6 +200,15 @@ pub(crate) const KEYS: [Key; 61] = [
         "For [[body]]: moves the centre of mass to the origin, and to rest.",
         "true",
         Some("false"),
+    ),
+    key("problem.cutoff", "at", "The distance at which the energy is 0.", "\"5/2\"", None),
+    key("problem.cutoff", "from", "The distance from which on it falls.", "2", None),
+    key(
+        "problem.cutoff",
+        "derivatives",
+        "How many derivatives of the energy are continuous, 1 to 8. Orders of a scheme above this number and 1 gain nothing in long runs.",
+        "3",
+        None,
     ),
     key("problem.units", "length", "\"AU\", \"km\" or \"m\".", "\"AU\"", None),
     key("problem.units", "time", "\"day\", \"year\" or \"s\".", "\"day\"", None),

@@ -123,7 +123,9 @@ fn have_one_form(a: &System, b: &System) -> bool {
 fn pairs_have_one_form(a: &PairEnergy, b: &PairEnergy) -> bool {
     let names = |pairs: &PairEnergy| pairs.properties.iter().map(|(name, _)| name.clone()).collect::<Vec<_>>();
     let form = |pairs: &PairEnergy| (pairs.dimensions, pairs.bodies, pairs.ends);
-    a.formula.text() == b.formula.text() && form(a) == form(b) && names(a) == names(b)
+    // bodies of several trajectories have other neighbours in each
+    let have_cutoff = a.cutoff.is_some() || b.cutoff.is_some();
+    !have_cutoff && a.formula.text() == b.formula.text() && form(a) == form(b) && names(a) == names(b)
 }
 
 /// An exact number of each system, rounded once.

@@ -151,7 +151,7 @@ pub use scene::{
     PairEnergy, Parts, PotentialEnergy, Scene, SceneNumber, System, SystemIn,
 };
 pub use shell::shell_word;
-pub use shipped::{ENCOUNTER_SCENES, MANY_PARTS_SCENES, PLANETARY_SCENES, SCHEME_SCENES, ShippedScene, scene_text};
+pub use shipped::{SHIPPED_SCENES, ShippedScene, scene_text};
 pub use temporary::{Temporary, remove_temporary_files};
 pub use watch::summary::{EnergySummary, ModifiedEnergySummary, Summary};
 pub use watch::{Approach, Encounter, Interactions};

@@ -78,6 +78,8 @@ pub enum Note {
         /// Its formula.
         formula: String,
     },
+    /// The energy of pairs jumps at their cutoff.
+    AbruptCutoff,
     /// The run is resumed from a checkpoint.
     Resumed {
         /// The last n with a row in the file.
@@ -165,6 +167,11 @@ impl fmt::Display for Note {
             Note::AsymmetricPair { formula } => {
                 write!(f, "{formula} changes if bodies are exchanged; body i is the one with the smaller number")
             }
+            Note::AbruptCutoff => write!(
+                f,
+                "the energy of a pair jumps at the cutoff, so that no scheme conserves it; `cutoff = {{ at = \"5/2\", from = 2, derivatives = 3 }}` \
+                 ends it smoothly"
+            ),
             Note::Resumed { n, steps } => write!(f, "resumed at n = {n} of {steps}"),
             Note::CheckpointWithoutRows { checkpoint } => {
                 write!(f, "{} has no partial file: the run begins again", checkpoint.display())

@@ -1,6 +1,7 @@
 //! The text of a scene → the scene, or all its faults. Each section has its file.
 
 mod bodies;
+mod cutoff;
 mod elements;
 mod formula;
 mod given;

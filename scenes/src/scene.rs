@@ -19,6 +19,7 @@ pub use number::{SceneNumber, SystemIn};
 pub use output::{CheckpointInterval, Outputs};
 pub use own::OwnPotential;
 pub use pairs::PairEnergy;
+pub(crate) use pairs::{PairCutoff, SmoothEnd};
 pub(crate) use problem::ClassifiedKinetic;
 pub use problem::{EnergyAt, InitialValueProblem, KineticEnergy, PotentialEnergy};
 pub use system::{Parts, System};

@@ -1,4 +1,4 @@
-//! Shipped scenes: each a file in `scenes/planets/`, `scenes/close-encounters/`, `scenes/many-parts/` or `scenes/schemes/`.
+//! Shipped scenes: each a file in `scenes/planets/`, `scenes/close-encounters/`, `scenes/many-parts/`, `scenes/schemes/` or `scenes/liquids/`.
 
 use shadowstep::problems::{PROBLEMS, problem};
 use shadowstep_symbolic::suggestion;
@@ -17,8 +17,16 @@ pub struct ShippedScene {
     pub text: &'static str,
 }
 
-/// All shipped scenes of planetary systems; those of shipped problems are [written](scene_text) as templates.
-pub const PLANETARY_SCENES: [ShippedScene; 5] = [
+/// All shipped scenes, by what they are of; those of shipped problems are [written](scene_text) as templates.
+pub const SHIPPED_SCENES: [(&str, &[ShippedScene]); 5] = [
+    ("planetary systems", &PLANETARY),
+    ("close encounters", &ENCOUNTERS),
+    ("three parts", &MANY_PARTS),
+    ("liquids", &LIQUIDS),
+    ("schemes with gradient kicks or processors", &SCHEMES),
+];
+
+pub(crate) const PLANETARY: [ShippedScene; 5] = [
     ShippedScene {
         name: "outer-planets",
         title: "The Sun and the outer planets, on Kepler orbits that interact",
@@ -46,8 +54,7 @@ pub const PLANETARY_SCENES: [ShippedScene; 5] = [
     },
 ];
 
-/// All shipped scenes of close encounters, in transformed time.
-pub const ENCOUNTER_SCENES: [ShippedScene; 2] = [
+pub(crate) const ENCOUNTERS: [ShippedScene; 2] = [
     ShippedScene {
         name: "eccentric-kepler",
         title: "Kepler's problem with e = 0.999, in logarithmic time",
@@ -60,8 +67,7 @@ pub const ENCOUNTER_SCENES: [ShippedScene; 2] = [
     },
 ];
 
-/// All shipped scenes of three parts.
-pub const MANY_PARTS_SCENES: [ShippedScene; 2] = [
+pub(crate) const MANY_PARTS: [ShippedScene; 2] = [
     ShippedScene {
         name: "disordered-chain",
         title: "A wave packet in the disordered nonlinear Schrödinger chain",
@@ -74,8 +80,7 @@ pub const MANY_PARTS_SCENES: [ShippedScene; 2] = [
     },
 ];
 
-/// All shipped scenes of schemes with letters or maps of their own: gradient kicks, processors.
-pub const SCHEME_SCENES: [ShippedScene; 3] = [
+const SCHEMES: [ShippedScene; 3] = [
     ShippedScene {
         name: "argon-gradient",
         title: "Seven argon atoms by force-gradient kicks",
@@ -93,8 +98,14 @@ pub const SCHEME_SCENES: [ShippedScene; 3] = [
     },
 ];
 
+const LIQUIDS: [ShippedScene; 1] = [ShippedScene {
+    name: "argon-liquid",
+    title: "Liquid argon, 864 atoms in a periodic box at 94.4 K",
+    text: include_str!("../liquids/argon-liquid.toml"),
+}];
+
 fn all() -> impl Iterator<Item = &'static ShippedScene> {
-    PLANETARY_SCENES.iter().chain(&ENCOUNTER_SCENES).chain(&MANY_PARTS_SCENES).chain(&SCHEME_SCENES)
+    SHIPPED_SCENES.iter().flat_map(|(_, scenes)| *scenes)
 }
 
 /// The names of all shipped problems and scenes.

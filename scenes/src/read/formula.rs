@@ -14,7 +14,7 @@ use shadowstep_schemes::document::{Placed, Text};
 
 /// The problem with this potential.
 pub(super) fn problem(reader: &mut Reader<'_>, given: &Given, potential: &Text) -> Option<InitialValueProblem> {
-    given.refuse(reader, &["bodies", "dimensions", "neighbours"], |key| {
+    given.refuse(reader, &["bodies", "dimensions", "neighbours", "cutoff", "box"], |key| {
         (format!("{key} requires `pair`"), format!("remove `{key}`, or write `pair` instead of `potential`"))
     });
     let parameters = given.own_parameters(reader);

@@ -9,6 +9,7 @@ use shadowstep_symbolic::Exact;
 use toml::de::DeValue;
 
 use super::bodies::GivenBodies;
+use super::cutoff::{GivenBox, GivenCutoff};
 use super::initial::State;
 use super::names::check_name;
 use super::numbers::Numbers;
@@ -26,6 +27,9 @@ pub(super) struct Given {
     pub(super) bodies: Option<GivenBodies>,
     pub(super) dimensions: Option<usize>,
     pub(super) neighbours: Option<Ends>,
+    pub(super) cutoff: Option<GivenCutoff>,
+    /// Those of the box.
+    pub(super) sides: Option<GivenBox>,
     /// Names and values in the order of the text.
     pub(super) parameters: Vec<(Text, Text)>,
     pub(super) state: State,
@@ -56,6 +60,8 @@ impl Given {
                 .and_then(|value| reader.whole(value, 1..=3))
                 .map(|dimensions| dimensions as usize),
             neighbours: problem.get("neighbours").and_then(|value| reader.word(value, &ends)),
+            cutoff: problem.get("cutoff").and_then(|value| GivenCutoff::read(reader, value)),
+            sides: problem.get("box").and_then(|value| GivenBox::read(reader, value)),
             parameters: parameters(reader, problem),
             state: State::read(reader, initial, of_bodies),
             places: keys::of("problem").filter_map(|key| Some((key.name, problem.get(key.name)?.span()))).collect(),

@@ -18,7 +18,7 @@ const KNOWN: &str = "a part is a function of variables none of which is the mome
 
 /// The system of these parts.
 pub(super) fn system(reader: &mut Reader<'_>, given: &Given, value: &Value<'_>) -> Option<System> {
-    given.refuse(reader, &["bodies", "dimensions", "neighbours"], |key| {
+    given.refuse(reader, &["bodies", "dimensions", "neighbours", "cutoff", "box"], |key| {
         (format!("{key} requires `pair`"), format!("remove `{key}`"))
     });
     given.refuse(reader, &["masses", "kinetic"], |key| {
@@ -83,7 +83,7 @@ fn part(
 #[cfg(test)]
 mod tests {
     use crate::scene::Scene;
-    use crate::shipped::MANY_PARTS_SCENES;
+    use crate::shipped::MANY_PARTS;
     use shadowstep::tables::{Faults, Source};
 
     const RUN: &str = "[run]\nscheme = \"yoshida4\"\nstep = 1\nsteps = 1\ndigits = 30\n[output]\nenergy = true";
@@ -105,7 +105,7 @@ mod tests {
 
     #[test]
     fn the_shipped_scenes_are_of_three_parts() {
-        for shipped in &MANY_PARTS_SCENES {
+        for shipped in &MANY_PARTS {
             let scene = read(shipped.text).unwrap_or_else(|faults| panic!("{}: {faults}", shipped.name));
             let hamiltonian = scene.system.parts.hamiltonian().unwrap_or_else(|| panic!("{}", shipped.name));
             assert_eq!(hamiltonian.split(") + (").count(), 3);

@@ -4,6 +4,7 @@ use shadowstep::systems::pairs::{Ends, Separation};
 use shadowstep_symbolic::{Exact, Expression, ExpressionKind, is_symmetric, parse};
 
 use super::bodies::{Bodies, refuse_reserved};
+use super::cutoff::cutoff;
 use super::given::Given;
 use super::kinetic;
 use super::numbers::Numbers;
@@ -113,6 +114,14 @@ fn pair_energy(
 ) -> Option<PairEnergy> {
     let before = reader.toml.faults.len();
     let ends = ends(reader, given, &bodies);
+    let cutoff = match (pair.separation, given.place("cutoff").or(given.place("box"))) {
+        (Separation::Difference, Some(at)) => reader.toml.wrong(
+            at,
+            "a cutoff requires a formula in `r2`",
+            "write the formula in `r2`, and `dimensions = 1`",
+        ),
+        _ => cutoff(reader, given, dimensions),
+    };
     let formula = match Formula::pair(&pair.text.value, pair.separation, &bodies.properties, parameters) {
         Ok(formula) => formula,
         Err(error) => {
@@ -128,7 +137,7 @@ fn pair_energy(
         reader.notes.push(Note::AsymmetricPair { formula: pair.text.value.clone() });
     }
     let Bodies { count, properties } = bodies;
-    let energy = PairEnergy { formula, dimensions, bodies: count, properties, ends };
+    let energy = PairEnergy { formula, dimensions, bodies: count, properties, ends, cutoff: cutoff?.map(Box::new) };
     (reader.toml.faults.len() == before).then_some(energy)
 }
 

@@ -151,7 +151,7 @@ pub(super) fn system(
 ) -> Option<System> {
     given.refuse(
         reader,
-        &["coordinates", "momenta", "masses", "kinetic", "bodies", "dimensions", "neighbours"],
+        &["coordinates", "momenta", "masses", "kinetic", "bodies", "dimensions", "neighbours", "cutoff", "box"],
         |key| (format!("{key} cannot be set with [[body]]"), format!("remove `{key}`")),
     );
     if let Some(initial) = &given.initial {
@@ -384,7 +384,7 @@ impl Placing {
             Ok(formula) => formula,
             Err(error) => return reader.toml.wrong(at, error.to_string(), "give the parameters other names"),
         };
-        let pairs = PairEnergy { formula, dimensions, bodies: masses.len(), properties, ends: None };
+        let pairs = PairEnergy { formula, dimensions, bodies: masses.len(), properties, ends: None, cutoff: None };
         let problem = InitialValueProblem {
             p: p.collect(),
             q: states.iter().flat_map(|[q, _]| q.iter().cloned().map(exact)).collect(),
@@ -403,7 +403,7 @@ mod tests {
     use shadowstep::tables::{Faults, Source};
 
     use crate::Scene;
-    use crate::shipped::PLANETARY_SCENES;
+    use crate::shipped::PLANETARY;
 
     fn read(text: &str) -> Result<Scene, Vec<String>> {
         let source = Source { path: "scene.toml".to_owned(), text: text.to_owned() };
@@ -512,7 +512,7 @@ mod tests {
 
     #[test]
     fn the_shipped_scenes_are_of_planets() {
-        for shipped in &PLANETARY_SCENES {
+        for shipped in &PLANETARY {
             let scene = read(shipped.text).unwrap();
             assert!(scene.system.parts.planets().is_some(), "{}", shipped.name);
         }

@@ -19,7 +19,7 @@ pub(super) fn problem(
 ) -> Option<(InitialValueProblem, Option<(Bodies, usize)>)> {
     given.refuse(
         reader,
-        &["coordinates", "momenta", "masses", "kinetic", "bodies", "dimensions", "neighbours"],
+        &["coordinates", "momenta", "masses", "kinetic", "bodies", "dimensions", "neighbours", "cutoff", "box"],
         |key| {
             let help = format!("remove `{key}`, or write a `potential` or a `pair` instead of the name");
             (format!("{key} cannot be set for the shipped problem {}", name.value), help)

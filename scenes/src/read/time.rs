@@ -72,12 +72,12 @@ fn transformation(reader: &mut Reader<'_>, section: &Section<'_, '_>) -> Option<
 mod tests {
     use super::*;
     use crate::scene::Scene;
-    use crate::shipped::ENCOUNTER_SCENES;
+    use crate::shipped::ENCOUNTERS;
     use shadowstep::tables::Source;
 
     #[test]
     fn the_shipped_scenes_are_in_transformed_time() {
-        for shipped in &ENCOUNTER_SCENES {
+        for shipped in &ENCOUNTERS {
             let source = Source { path: "test.toml".to_owned(), text: shipped.text.to_owned() };
             let scene = Scene::read(source).unwrap_or_else(|faults| panic!("{}: {faults}", shipped.name));
             assert_eq!(scene.system.transformed_time(), Some(TimeTransformation::Logarithmic), "{}", shipped.name);

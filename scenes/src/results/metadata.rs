@@ -13,7 +13,7 @@ use shadowstep_symbolic::decimal::to_text;
 
 use crate::arithmetic::Arithmetic;
 use crate::library;
-use crate::scene::{KineticEnergy, PairEnergy, PotentialEnergy, Scene, System};
+use crate::scene::{KineticEnergy, PairCutoff, PairEnergy, PotentialEnergy, Scene, SmoothEnd, System};
 
 /// Names and values in the order in which they are written.
 pub(crate) struct Metadata(Vec<(&'static str, Value)>);
@@ -121,7 +121,19 @@ fn pair_energy(pairs: &PairEnergy, texts: impl Fn(&[Exact]) -> Value) -> Vec<(&'
     [("pair", json!(pairs.formula.text())), ("dimensions", json!(pairs.dimensions)), ("bodies", bodies)]
         .into_iter()
         .chain(neighbours.map(|neighbours| ("neighbours", json!(neighbours))))
+        .chain(pairs.cutoff.iter().flat_map(|cutoff| cutoff_of_pairs(cutoff, &texts)))
         .collect()
+}
+
+fn cutoff_of_pairs(cutoff: &PairCutoff, texts: impl Fn(&[Exact]) -> Value) -> Vec<(&'static str, Value)> {
+    let text = |value: &Exact| texts(std::slice::from_ref(value))[0].clone();
+    let at = text(&cutoff.radius);
+    let end = match &cutoff.smooth {
+        Some(SmoothEnd { from, derivatives }) => json!({ "at": at, "from": text(from), "derivatives": derivatives }),
+        None => at,
+    };
+    let sides = cutoff.sides.iter().map(|sides| ("box", texts(sides)));
+    std::iter::once(("cutoff", end)).chain(sides).collect()
 }
 
 /// The hashes of the tables that a scheme is made of: its own, and of a composition those of its bases.

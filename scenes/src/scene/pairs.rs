@@ -1,14 +1,16 @@
 //! The energy of pairs of bodies by its formula.
 
 use shadowstep::systems::formula::FormulaPair;
-use shadowstep::systems::pairs::{Ends, Pairs};
+use shadowstep::systems::pairs::{Cutoff, CutoffError, CutoffPairs, Ends, Pairs};
 use shadowstep::{Number, Potential};
 use shadowstep_symbolic::Exact;
 
 use crate::scene::formula::Formula;
 use crate::scene::parameters::values;
 
-/// U = Σ u over all pairs of bodies, or over those of neighbours in a chain.
+const READ: &str = "the numbers of bodies and properties were read with the scene";
+
+/// U = Σ u over all pairs of bodies, over those closer than a cutoff, or over those of neighbours in a chain.
 #[derive(Debug)]
 pub struct PairEnergy {
     /// u, in the separation, properties and parameters.
@@ -21,6 +23,50 @@ pub struct PairEnergy {
     pub properties: Vec<(String, Vec<Exact>)>,
     /// Those of a chain; none where all pairs interact.
     pub ends: Option<Ends>,
+    /// Where the energy ends; none if all pairs interact, or those of a chain.
+    pub(crate) cutoff: Option<Box<PairCutoff>>,
+}
+
+/// Up to where bodies interact.
+#[derive(Debug)]
+pub(crate) struct PairCutoff {
+    /// The distance.
+    pub radius: Exact,
+    /// How the energy falls to 0; none if it ends abruptly.
+    pub smooth: Option<SmoothEnd>,
+    /// The sides of the box; none in open space.
+    pub sides: Option<Vec<Exact>>,
+}
+
+/// How the energy of a pair falls to 0.
+#[derive(Debug)]
+pub(crate) struct SmoothEnd {
+    /// The distance from which on it falls.
+    pub from: Exact,
+    /// How many derivatives are continuous.
+    pub derivatives: u32,
+}
+
+impl PairCutoff {
+    /// What is wrong with it.
+    pub(crate) fn error(&self, dimensions: usize) -> Option<CutoffError> {
+        match dimensions {
+            1 => self.cutoff::<1>().err(),
+            2 => self.cutoff::<2>().err(),
+            _ => self.cutoff::<3>().err(),
+        }
+    }
+
+    fn cutoff<const D: usize>(&self) -> Result<Cutoff<D>, CutoffError> {
+        let mut cutoff = Cutoff::at(self.radius.value.clone())?;
+        if let Some(SmoothEnd { from, derivatives }) = &self.smooth {
+            cutoff = cutoff.switched(from.value.clone(), *derivatives)?;
+        }
+        match &self.sides {
+            Some(sides) => cutoff.in_box(std::array::from_fn(|axis| sides[axis].value.clone())),
+            None => Ok(cutoff),
+        }
+    }
 }
 
 impl PairEnergy {
@@ -46,10 +92,14 @@ impl PairEnergy {
     }
 
     fn sum<N: Number + 'static, const D: usize>(&self, pair: FormulaPair<N>) -> Box<dyn Potential<N>> {
+        if let Some(cutoff) = &self.cutoff {
+            let cutoff = cutoff.cutoff::<D>().expect("the cutoff was read with the scene");
+            return Box::new(CutoffPairs::new(self.bodies, pair, cutoff).expect(READ));
+        }
         let pairs = match self.ends {
             None => Pairs::<_, D>::all(self.bodies, pair),
             Some(ends) => Pairs::<_, D>::neighbours(self.bodies, pair, ends),
         };
-        Box::new(pairs.expect("the numbers of bodies and properties were read with the scene"))
+        Box::new(pairs.expect(READ))
     }
 }

@@ -1,0 +1,125 @@
+//! Where the energy of pairs ends, and the box that the bodies are in.
+
+use std::ops::Range;
+
+use shadowstep::systems::pairs::{CutoffError, MOST_DERIVATIVES};
+use shadowstep_symbolic::Exact;
+use toml::de::DeValue;
+
+use super::given::Given;
+use super::reader::Reader;
+use crate::note::Note;
+use crate::scene::{PairCutoff, SmoothEnd};
+use shadowstep_schemes::document::{Placed, Section, Text, Value};
+
+/// The value of the key `cutoff`.
+pub(super) struct GivenCutoff {
+    at: Text,
+    /// From where on the energy falls, and with how many derivatives.
+    smooth: Option<(Text, Placed<u64>)>,
+}
+
+/// The value of the key `box`.
+pub(super) enum GivenBox {
+    Side(Text),
+    Sides(Placed<Vec<Text>>),
+}
+
+const CUTOFF: &str = "a distance, or a table: { at = \"5/2\", from = 2, derivatives = 3 }";
+
+impl GivenCutoff {
+    pub(super) fn read(reader: &mut Reader<'_>, value: &Value<'_>) -> Option<GivenCutoff> {
+        let DeValue::Table(table) = value.get_ref() else {
+            return match value.get_ref() {
+                DeValue::Integer(_) | DeValue::Float(_) | DeValue::String(_) => {
+                    Some(GivenCutoff { at: reader.number(value)?, smooth: None })
+                }
+                _ => reader.toml.wrong_kind(value, CUTOFF),
+            };
+        };
+        let section: Section<'_, '_> = reader.table(table, value, "problem.cutoff");
+        let at = reader.toml.required(&section, "at").and_then(|value| reader.number(value));
+        let from = reader.toml.required(&section, "from").and_then(|value| reader.number(value));
+        let derivatives = reader.toml.required(&section, "derivatives").and_then(|value| {
+            let range = 1..=u64::from(MOST_DERIVATIVES);
+            reader.whole(value, range).map(|number| Placed { value: number, at: value.span() })
+        });
+        Some(GivenCutoff { at: at?, smooth: Some((from?, derivatives?)) })
+    }
+}
+
+impl GivenBox {
+    pub(super) fn read(reader: &mut Reader<'_>, value: &Value<'_>) -> Option<GivenBox> {
+        match value.get_ref() {
+            DeValue::Array(_) => reader.numbers(value, "a list of the sides: [10, 10, 12]").map(GivenBox::Sides),
+            _ => reader.number(value).map(GivenBox::Side),
+        }
+    }
+
+    fn at(&self) -> &Range<usize> {
+        match self {
+            GivenBox::Side(text) => &text.at,
+            GivenBox::Sides(list) => &list.at,
+        }
+    }
+
+    fn sides(&self, reader: &mut Reader<'_>, dimensions: usize) -> Option<Vec<Exact>> {
+        match self {
+            GivenBox::Side(text) => Some(vec![reader.evaluate(text)?; dimensions]),
+            GivenBox::Sides(list) => reader.values(list, dimensions, "side of the box"),
+        }
+    }
+}
+
+/// The cutoff of pairs of bodies in space; `Some(None)` if there is none.
+pub(super) fn cutoff(reader: &mut Reader<'_>, given: &Given, dimensions: usize) -> Option<Option<PairCutoff>> {
+    let Some(cutoff) = &given.cutoff else {
+        return match given.place("cutoff").or(given.place("box")) {
+            // it has its own fault
+            Some(_) if given.place("cutoff").is_some() => None,
+            Some(at) => {
+                let help = "add the distance up to which bodies interact, at most half of the box: cutoff = 2.5";
+                reader.toml.wrong(at, "a box requires a cutoff", help)
+            }
+            None => Some(None),
+        };
+    };
+    if let Some(at) = given.place("neighbours") {
+        return reader.toml.wrong(at, "a chain of neighbours has no cutoff", "keep one of the two");
+    }
+    let radius = reader.evaluate(&cutoff.at);
+    let smooth = match &cutoff.smooth {
+        Some((from, derivatives)) => {
+            let from = reader.evaluate(from);
+            Some(from.map(|from| SmoothEnd { from, derivatives: derivatives.value as u32 }))
+        }
+        None => None,
+    };
+    let sides = match (&given.sides, given.place("box")) {
+        (Some(sides), _) => Some(sides.sides(reader, dimensions)),
+        (None, Some(_)) => Some(None),
+        (None, None) => None,
+    };
+    // what is given must have a value
+    let cutoff_of_pairs = PairCutoff {
+        radius: radius?,
+        smooth: smooth.map_or(Some(None), |smooth| smooth.map(Some))?,
+        sides: sides.map_or(Some(None), |sides| sides.map(Some))?,
+    };
+    if let Some(error) = cutoff_of_pairs.error(dimensions) {
+        let (at, help) = match error {
+            CutoffError::Radius => (&cutoff.at.at, "write a positive distance: cutoff = 2.5"),
+            CutoffError::Switch => {
+                let (from, _) = cutoff.smooth.as_ref()?;
+                (&from.at, "write a distance below the cutoff: { at = \"5/2\", from = 2, derivatives = 3 }")
+            }
+            CutoffError::Derivatives => (&cutoff.smooth.as_ref()?.1.at, "write derivatives = 3"),
+            CutoffError::Side { .. } => (given.sides.as_ref()?.at(), "make the box larger, or the cutoff smaller"),
+        };
+        return reader.toml.wrong(at, error.to_string(), help);
+    }
+    if cutoff_of_pairs.smooth.is_none() {
+        reader.notes.push(Note::AbruptCutoff);
+    }
+    Some(Some(cutoff_of_pairs))
+}
