@@ -166,7 +166,7 @@ impl Ensemble {
 
     /// Whether there are steps in lanes.
     fn has_lanes(&self) -> bool {
-        self.first.system.parts.is_kinetic_and_potential() && !self.first.displaced
+        self.first.system.has_lanes() && !self.first.displaced
     }
 
     fn trajectories(&self) -> ensemble::Ensemble {

@@ -35,9 +35,9 @@ const READ: &str = "the system was read with the scene";
 const QUADRATIC: &str = "T is of the class of the first system";
 
 impl SystemInLanes {
-    /// `None` if the systems differ in more than numbers, or are not of T(p) and U(q).
+    /// `None` if the systems differ in more than numbers, or cannot be in lanes.
     pub fn of(systems: &[&System; LANES]) -> Option<Self> {
-        if !systems.iter().all(|system| system.parts.is_kinetic_and_potential()) {
+        if !systems.iter().all(|system| system.has_lanes()) {
             return None;
         }
         systems.iter().all(|system| have_one_form(systems[0], system)).then(|| SystemInLanes {
@@ -83,6 +83,12 @@ impl System {
 }
 
 impl System {
+    /// Whether several trajectories can be computed in lanes: T(p) and U(q), and no cutoff, as bodies have other neighbours in each trajectory.
+    pub(crate) fn has_lanes(&self) -> bool {
+        let has_cutoff = matches!(&self.potential, PotentialEnergy::Pairs(pairs) if pairs.cutoff.is_some());
+        self.parts.is_kinetic_and_potential() && !has_cutoff
+    }
+
     /// Whether T or U, as formulas of q and p, have functions such as exp and sin; true where they are not given as such.
     pub fn has_functions(&self) -> bool {
         let kinetic = match &self.kinetic {
@@ -123,9 +129,7 @@ fn have_one_form(a: &System, b: &System) -> bool {
 fn pairs_have_one_form(a: &PairEnergy, b: &PairEnergy) -> bool {
     let names = |pairs: &PairEnergy| pairs.properties.iter().map(|(name, _)| name.clone()).collect::<Vec<_>>();
     let form = |pairs: &PairEnergy| (pairs.dimensions, pairs.bodies, pairs.ends);
-    // bodies of several trajectories have other neighbours in each
-    let have_cutoff = a.cutoff.is_some() || b.cutoff.is_some();
-    !have_cutoff && a.formula.text() == b.formula.text() && form(a) == form(b) && names(a) == names(b)
+    a.formula.text() == b.formula.text() && form(a) == form(b) && names(a) == names(b)
 }
 
 /// An exact number of each system, rounded once.

@@ -3,6 +3,7 @@
 mod blocks;
 mod chain;
 mod cutoff;
+mod cutoff_hessian;
 mod cutoff_pairs;
 #[cfg(test)]
 mod cutoff_tests;

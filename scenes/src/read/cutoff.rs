@@ -6,7 +6,6 @@ use shadowstep::systems::pairs::{CutoffError, MOST_DERIVATIVES};
 use shadowstep_symbolic::Exact;
 use toml::de::DeValue;
 
-use super::given::Given;
 use super::reader::Reader;
 use crate::note::Note;
 use crate::scene::{PairCutoff, SmoothEnd};
@@ -71,12 +70,17 @@ impl GivenBox {
     }
 }
 
-/// The cutoff of pairs of bodies in space; `Some(None)` if there is none.
-pub(super) fn cutoff(reader: &mut Reader<'_>, given: &Given, dimensions: usize) -> Option<Option<PairCutoff>> {
-    let Some(cutoff) = &given.cutoff else {
-        return match given.place("cutoff").or(given.place("box")) {
+/// The cutoff of pairs of bodies in space, by the places of the values of keys; `Some(None)` if there is none.
+pub(super) fn cutoff<'g>(
+    reader: &mut Reader<'_>,
+    (cutoff, of_box): (Option<&GivenCutoff>, Option<&GivenBox>),
+    place: impl Fn(&str) -> Option<&'g Range<usize>>,
+    dimensions: usize,
+) -> Option<Option<PairCutoff>> {
+    let Some(cutoff) = cutoff else {
+        return match place("cutoff").or(place("box")) {
             // it has its own fault
-            Some(_) if given.place("cutoff").is_some() => None,
+            Some(_) if place("cutoff").is_some() => None,
             Some(at) => {
                 let help = "add the distance up to which bodies interact, at most half of the box: cutoff = 2.5";
                 reader.toml.wrong(at, "a box requires a cutoff", help)
@@ -84,7 +88,7 @@ pub(super) fn cutoff(reader: &mut Reader<'_>, given: &Given, dimensions: usize) 
             None => Some(None),
         };
     };
-    if let Some(at) = given.place("neighbours") {
+    if let Some(at) = place("neighbours") {
         return reader.toml.wrong(at, "a chain of neighbours has no cutoff", "keep one of the two");
     }
     let radius = reader.evaluate(&cutoff.at);
@@ -95,7 +99,7 @@ pub(super) fn cutoff(reader: &mut Reader<'_>, given: &Given, dimensions: usize) 
         }
         None => None,
     };
-    let sides = match (&given.sides, given.place("box")) {
+    let sides = match (of_box, place("box")) {
         (Some(sides), _) => Some(sides.sides(reader, dimensions)),
         (None, Some(_)) => Some(None),
         (None, None) => None,
@@ -114,7 +118,7 @@ pub(super) fn cutoff(reader: &mut Reader<'_>, given: &Given, dimensions: usize) 
                 (&from.at, "write a distance below the cutoff: { at = \"5/2\", from = 2, derivatives = 3 }")
             }
             CutoffError::Derivatives => (&cutoff.smooth.as_ref()?.1.at, "write derivatives = 3"),
-            CutoffError::Side { .. } => (given.sides.as_ref()?.at(), "make the box larger, or the cutoff smaller"),
+            CutoffError::Side { .. } => (of_box?.at(), "make the box larger, or the cutoff smaller"),
         };
         return reader.toml.wrong(at, error.to_string(), help);
     }
@@ -122,4 +126,50 @@ pub(super) fn cutoff(reader: &mut Reader<'_>, given: &Given, dimensions: usize) 
         reader.notes.push(Note::AbruptCutoff);
     }
     Some(Some(cutoff_of_pairs))
+}
+
+#[cfg(test)]
+mod tests {
+    use shadowstep::tables::Source;
+
+    use crate::arithmetic::Arithmetic;
+    use crate::scene::System;
+
+    /// The faults of a system of pairs with these lines in [problem], without their places.
+    fn faults(lines: &str) -> String {
+        let text = format!(
+            "[problem]\npair = \"1/r2^3\"\ndimensions = 2\nbodies = 2\n{lines}\n[initial]\nq = [[0, 0], [1, 0]]\np = [0, 0, 0, 0]\n"
+        );
+        match System::read(&Source { path: "test.toml".to_owned(), text }, Arithmetic::DOUBLE) {
+            Ok(_) => String::new(),
+            Err(faults) => faults.to_string(),
+        }
+    }
+
+    #[test]
+    fn what_cannot_be_is_refused_with_its_place() {
+        for (lines, place, message) in [
+            ("cutoff = 2.5\nbox = 5", "", ""),
+            ("cutoff = { at = 2, from = \"3/2\", derivatives = 8 }\nbox = [4, 5]", "", ""),
+            ("cutoff = 0", "5:10", "the cutoff must be a positive distance"),
+            ("cutoff = { at = 2, from = 2, derivatives = 3 }", "5:27", "must be below the cutoff"),
+            ("cutoff = { at = 2, from = 1, derivatives = 9 }", "5:44", "1 to 8"),
+            ("cutoff = { at = 2, from = 1 }", "5:10", "derivatives"),
+            ("cutoff = { at = 2, form = 1 }", "5:20", "form"),
+            ("cutoff = true", "5:10", "a distance, or a table"),
+            (
+                "cutoff = 2\nbox = [5, 3.9]",
+                "6:7",
+                "at least twice as long as the cutoff along each axis; axis 2 is shorter",
+            ),
+            ("cutoff = 2\nbox = [5, 5, 5]", "6:7", "a number for each side of the box"),
+            ("box = 5", "5:7", "a box requires a cutoff"),
+            ("cutoff = 2\nneighbours = \"free\"", "6:14", "a chain of neighbours has no cutoff"),
+            ("cutoff = \"sqrt(\"", "5:16", "unexpected end"),
+        ] {
+            let found = faults(lines);
+            assert_eq!(found.is_empty(), message.is_empty(), "{lines}: {found}");
+            assert!(found.contains(place) && found.contains(message), "{lines}: {found}");
+        }
+    }
 }

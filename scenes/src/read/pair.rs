@@ -120,7 +120,7 @@ fn pair_energy(
             "a cutoff requires a formula in `r2`",
             "write the formula in `r2`, and `dimensions = 1`",
         ),
-        _ => cutoff(reader, given, dimensions),
+        _ => cutoff(reader, (given.cutoff.as_ref(), given.sides.as_ref()), |key| given.place(key), dimensions),
     };
     let formula = match Formula::pair(&pair.text.value, pair.separation, &bodies.properties, parameters) {
         Ok(formula) => formula,

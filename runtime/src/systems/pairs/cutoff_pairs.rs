@@ -11,7 +11,7 @@ use crate::Rational;
 use crate::number::instructions;
 use crate::number::partial_sums::add_sum;
 use crate::number::{Number, scaled};
-use crate::systems::potential::Potential;
+use crate::systems::potential::{HessianProduct, Potential};
 
 /// The potential U = Σ φ(r²) over the pairs of bodies in D dimensions that are closer than a [`Cutoff`], of r² = |q_j − q_i|², in a box of the nearest images.
 ///
@@ -38,14 +38,14 @@ use crate::systems::potential::Potential;
 /// ```
 #[derive(Clone, Debug)]
 pub struct CutoffPairs<P, const D: usize> {
-    pair: P,
-    bodies: usize,
+    pub(super) pair: P,
+    pub(super) bodies: usize,
     /// Whether bodies have no properties.
     alike: bool,
     cutoff: Cutoff<D>,
     sides: Option<[f64; D]>,
-    switch: Option<Polynomial>,
-    neighbours: Neighbours,
+    pub(super) switch: Option<Polynomial>,
+    pub(super) neighbours: Neighbours,
 }
 
 impl<P: Pair, const D: usize> CutoffPairs<P, D> {
@@ -92,37 +92,49 @@ fn double(exact: &Rational) -> f64 {
 }
 
 /// What is in the scratch space before that of the pair.
-struct Constants<'a, N, const D: usize> {
+pub(super) struct Constants<'a, N, const D: usize> {
     /// r_c², r_s² and 1/(r_c² − r_s²)
-    squares: &'a [N; 3],
+    pub(super) squares: &'a [N; 3],
     /// Of the switch.
-    coefficients: &'a [N; COEFFICIENTS],
+    pub(super) coefficients: &'a [N; COEFFICIENTS],
     sides: &'a [N; D],
 }
 
+impl<'a, N, const D: usize> Constants<'a, N, D> {
+    /// The constants, and the scratch space of the pair.
+    #[inline(always)]
+    pub(super) fn split(scratch: &'a mut [N]) -> (Self, &'a mut [N]) {
+        const ENOUGH: &str = "as much as asked for";
+        let (squares, rest) = scratch.split_first_chunk_mut().expect(ENOUGH);
+        let (coefficients, rest) = rest.split_first_chunk_mut().expect(ENOUGH);
+        let (sides, pair) = rest.split_first_chunk_mut().expect(ENOUGH);
+        (Constants { squares, coefficients, sides }, pair)
+    }
+}
+
 /// How many numbers these are.
-const fn constants(dimensions: usize) -> usize {
+pub(super) const fn constants(dimensions: usize) -> usize {
     3 + COEFFICIENTS + dimensions
 }
 
 /// Pairs of a body with others that are closer than the cutoff: a block, and at most one more.
-struct Near<N, const D: usize, const W: usize> {
-    count: usize,
+pub(super) struct Near<N, const D: usize, const W: usize> {
+    pub(super) count: usize,
     others: [[u32; W]; 2],
     /// From the other body to the body.
-    difference: [[[N; W]; 2]; D],
-    squared: [[N; W]; 2],
+    pub(super) difference: [[[N; W]; 2]; D],
+    pub(super) squared: [[N; W]; 2],
 }
 
 impl<N: Number, const D: usize, const W: usize> Near<N, D, W> {
-    fn new(zero: &N) -> Self {
+    pub(super) fn new(zero: &N) -> Self {
         let zeros = || std::array::from_fn(|_| std::array::from_fn(|_| zero.clone()));
         Near { count: 0, others: [[0; W]; 2], difference: std::array::from_fn(|_| zeros()), squared: zeros() }
     }
 
     /// Adds those of some bodies that are closer than the cutoff.
     #[inline(always)]
-    fn add(
+    pub(super) fn add(
         &mut self,
         others: &[u32],
         at: &[N; D],
@@ -193,7 +205,7 @@ fn subtract_images<N: Number>(difference: &mut N, reciprocal_side: f64, side: &N
 
 /// Whether a < b in some lane.
 #[inline(always)]
-fn is_below<N: Number>(a: &N, b: &N) -> bool {
+pub(super) fn is_below<N: Number>(a: &N, b: &N) -> bool {
     let mut difference = b.clone();
     difference.subtract(a);
     (0..N::LANES).any(|lane| difference.lane(lane).0 > 0.0)
@@ -207,6 +219,32 @@ struct Own<N, const D: usize> {
 }
 
 impl<P, const D: usize> CutoffPairs<P, D> {
+    /// Puts the constants, and what the pair keeps, into the scratch space.
+    pub(super) fn prepare_all<N: Number>(&self, scratch: &mut [N], context: &N::Context)
+    where
+        P: PairPotential<N>,
+    {
+        let (own, pair) = scratch.split_at_mut(constants(D));
+        let (squares, rest) = own.split_at_mut(3);
+        let (coefficients, sides) = rest.split_at_mut(COEFFICIENTS);
+        let assign = |places: &mut [N], values: &mut dyn Iterator<Item = Rational>| {
+            places.iter_mut().zip(values).for_each(|(place, value)| *place = N::from_rational(&value, context));
+        };
+        assign(squares, &mut self.cutoff.squares().into_iter());
+        if let Some(polynomial) = self.switch {
+            assign(coefficients, &mut polynomial.coefficients());
+        }
+        if let Some(of_box) = self.cutoff.sides() {
+            assign(sides, &mut of_box.iter().cloned());
+        }
+        self.pair.prepare(pair, context);
+    }
+
+    /// The reciprocals of the sides of the box.
+    pub(super) fn reciprocal_sides(&self) -> Option<[f64; D]> {
+        self.sides.map(|sides| sides.map(|side| 1.0 / side))
+    }
+
     /// Adds U_q to the gradient and U to the energy, as these are wanted.
     fn sum<N: Number, const FORCES: bool, const ENERGY: bool>(
         &self,
@@ -238,14 +276,11 @@ impl<P, const D: usize> CutoffPairs<P, D> {
     ) where
         P: PairPotential<N>,
     {
-        let (constants, pair) = scratch.split_at_mut(constants(D));
-        let (squares, rest) = constants.split_first_chunk().expect("as much as asked for");
-        let (coefficients, sides) = rest.split_first_chunk().expect("as much as asked for");
-        let constants = Constants { squares, coefficients, sides: sides.first_chunk().expect("as much as asked for") };
-        let reciprocal_sides = self.sides.map(|sides| sides.map(|side| 1.0 / side));
+        let (constants, pair) = Constants::<N, D>::split(scratch);
+        let reciprocal_sides = self.reciprocal_sides();
         let (q, _) = q.as_chunks::<D>();
         let (gradient, _) = gradient.as_chunks_mut::<D>();
-        let zero = N::zero(&squares[0].context());
+        let zero = N::zero(&constants.squares[0].context());
         let mut near = Near::<N, D, W>::new(&zero);
         for body in 0..self.bodies {
             let mut own = Own { body, gradient: std::array::from_fn(|_| zero.clone()), energy: zero.clone() };
@@ -379,7 +414,7 @@ impl<P, const D: usize> CutoffPairs<P, D> {
 }
 
 /// Numbers ← 0 in the lanes in which bodies are as far as the cutoff.
-fn clear_far_lanes<N: Number, const W: usize>(x: &[N; W], cutoff: &N, numbers: &mut [N; W]) {
+pub(super) fn clear_far_lanes<N: Number, const W: usize>(x: &[N; W], cutoff: &N, numbers: &mut [N; W]) {
     for (x, number) in x.iter().zip(numbers) {
         let mut difference = cutoff.clone();
         difference.subtract(x);
@@ -399,20 +434,7 @@ impl<N: Number, P: PairPotential<N>, const D: usize> Potential<N> for CutoffPair
     }
 
     fn prepare(&self, scratch: &mut [N], context: &N::Context) {
-        let (own, pair) = scratch.split_at_mut(constants(D));
-        let (squares, rest) = own.split_at_mut(3);
-        let (coefficients, sides) = rest.split_at_mut(COEFFICIENTS);
-        let assign = |places: &mut [N], values: &mut dyn Iterator<Item = Rational>| {
-            places.iter_mut().zip(values).for_each(|(place, value)| *place = N::from_rational(&value, context));
-        };
-        assign(squares, &mut self.cutoff.squares().into_iter());
-        if let Some(polynomial) = self.switch {
-            assign(coefficients, &mut polynomial.coefficients());
-        }
-        if let Some(of_box) = self.cutoff.sides() {
-            assign(sides, &mut of_box.iter().cloned());
-        }
-        self.pair.prepare(pair, context);
+        self.prepare_all(scratch, context);
     }
 
     fn update(&mut self, q: &[N]) {
@@ -437,5 +459,9 @@ impl<N: Number, P: PairPotential<N>, const D: usize> Potential<N> for CutoffPair
         // qᵀU_q − 2U of the unwrapped positions, which is not the sum of the pairs' rates, those of the nearest images
         rate.multiply_integer(-2);
         add_sum(rate, [q, gradient], |[q, gradient], rate| rate.add_product(q, gradient));
+    }
+
+    fn hessian(&self) -> Option<&dyn HessianProduct<N>> {
+        self.pair.curved().map(|_| self as &dyn HessianProduct<N>)
     }
 }

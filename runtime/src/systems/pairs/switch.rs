@@ -65,6 +65,25 @@ impl Polynomial {
             }
         }
     }
+
+    /// S″(t) = n (2n + 1)!/(n!)² tⁿ⁻¹ (1 − t)ⁿ⁻¹ (1 − 2t); 0 for t > 1 and n > 1.
+    pub(super) fn second_derivative<N: Number>(self, coefficients: &[N; COEFFICIENTS], t: &N) -> N {
+        let [one, ..] = coefficients;
+        let n = self.derivatives as i32;
+        let mut t = t.clone();
+        t.make_at_most(one);
+        let [mut found, mut rest] = [one.clone(), one.clone()];
+        rest.subtract(&t);
+        found.subtract(&t);
+        found.subtract(&t);
+        rest.multiply(&t);
+        for _ in 1..n {
+            found.multiply(&rest);
+        }
+        found.multiply(&coefficients[n as usize + 1]);
+        found.multiply_integer(n);
+        found
+    }
 }
 
 #[cfg(test)]
@@ -102,6 +121,9 @@ mod tests {
                     "n = {derivatives}, t = {t}: {difference} and {}",
                     at(t).1
                 );
+                let difference = (at(t + h).1 - at(t - h).1) / (2.0 * h);
+                let second = polynomial.second_derivative(&coefficients, &t);
+                assert!((difference - second).abs() < 1e-3, "n = {derivatives}, t = {t}: {difference} and {second}");
             }
         }
     }
