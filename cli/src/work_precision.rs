@@ -75,16 +75,7 @@ pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
     let problem = posed.problem();
     let reference_time = Duration::from_secs_f64(REFERENCE * arguments.seconds);
     let study = |folder: &Path, terminal: &mut Terminal| {
-        Request {
-            problem,
-            schemes: &schemes,
-            range,
-            reference_time,
-            resolution: None,
-            shortest_repeat: Duration::MAX,
-            folder: folder.to_owned(),
-        }
-        .study(terminal)
+        Request::new(problem, &schemes, range, reference_time, folder).study(terminal)
     };
     let (study, status) = study_in(Some(&arguments.out), arguments.force, written(), study)?;
     let (title, command) = (posed.title(), command());

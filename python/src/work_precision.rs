@@ -110,16 +110,7 @@ pub(crate) fn work_precision(
     let reference_time = Duration::from_secs_f64(REFERENCE * seconds);
     let found = waiting(py, progress, move |watched| {
         let compared = Compared::of(asked)?;
-        let (problem, schemes) = (compared.problem(), &compared.schemes);
-        let request = Request {
-            problem,
-            schemes,
-            range,
-            reference_time,
-            resolution: None,
-            shortest_repeat: Duration::MAX,
-            folder,
-        };
+        let request = Request::new(compared.problem(), &compared.schemes, range, reference_time, &folder);
         request.study(&mut watched.observer_of_tasks()).map(|study| of_study(&study))
     });
     problem.raised(py)?;

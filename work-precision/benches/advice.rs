@@ -96,21 +96,13 @@ fn main() {
     println!("\n{all} cases; the tolerance is missed in {missed}; the largest ratio of forces is {worst:.2}.");
 }
 
+/// The time for a reference.
+const REFERENCE: Duration = Duration::from_secs(60);
+
 /// All schemes over all of the time, down to round-off.
 fn study<'a>(problem: Problem<'a>, schemes: &'a [NamedScheme], folder: &Path) -> Study<'a> {
     let range = StepRange::Automatic { seconds: 4.0, target: None };
-    let reference_time = Duration::from_secs(60);
-    Request {
-        problem,
-        schemes,
-        range,
-        reference_time,
-        resolution: None,
-        shortest_repeat: Duration::MAX,
-        folder: folder.to_owned(),
-    }
-    .study(&mut ())
-    .unwrap()
+    Request::new(problem, schemes, range, REFERENCE, folder).study(&mut ()).unwrap()
 }
 
 /// The error of the advised run beside a reference of more digits.
@@ -118,16 +110,7 @@ fn measured(problem: Problem<'_>, choice: &Choice<'_>, folder: &Path) -> Positio
     let until = &choice.step * Rational::from_integer(choice.steps.into());
     let problem = Problem { until: &until, ..problem };
     let (schemes, range) = ([choice.scheme.clone()], StepRange::Given(vec![choice.steps]));
-    let reference_time = Duration::from_secs(60);
-    let request = Request {
-        problem,
-        schemes: &schemes,
-        range,
-        reference_time,
-        resolution: None,
-        shortest_repeat: Duration::MAX,
-        folder: folder.to_owned(),
-    };
+    let request = Request::new(problem, &schemes, range, REFERENCE, folder);
     request.study(&mut ()).unwrap().schemes[0].series.runs[0].position
 }
 

@@ -1,6 +1,6 @@
 //! A study: the runs of several schemes on a problem, beside the same reference.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use num_integer::Integer;
@@ -81,6 +81,18 @@ pub enum Cost {
 }
 
 impl<'a> Request<'a> {
+    /// Runs down to round-off beside a reference, for which there is this time.
+    pub fn new(
+        problem: Problem<'a>,
+        schemes: &'a [NamedScheme],
+        range: StepRange,
+        reference_time: Duration,
+        folder: &Path,
+    ) -> Self {
+        let (resolution, shortest_repeat, folder) = (None, Duration::MAX, folder.to_owned());
+        Request { problem, schemes, range, reference_time, resolution, shortest_repeat, folder }
+    }
+
     /// Makes all runs that the folder lacks, on all cores, and then times the steps of all schemes by turns.
     ///
     /// # Errors

@@ -29,18 +29,7 @@ fn schemes(names: &[&str]) -> Vec<NamedScheme> {
 }
 
 fn study<'a>(problem: Problem<'a>, schemes: &'a [NamedScheme], range: StepRange, folder: &Path) -> Study<'a> {
-    let reference_time = Duration::from_secs(20);
-    Request {
-        problem,
-        schemes,
-        range,
-        reference_time,
-        resolution: None,
-        shortest_repeat: Duration::MAX,
-        folder: folder.to_owned(),
-    }
-    .study(&mut ())
-    .unwrap()
+    Request::new(problem, schemes, range, Duration::from_secs(20), folder).study(&mut ()).unwrap()
 }
 
 fn until(t: i64) -> Rational {
@@ -165,16 +154,7 @@ fn a_reference_that_overflows_in_the_numbers_of_the_runs_is_none() {
     let (until, folder, schemes) = (until(800), tempfile::tempdir().unwrap(), schemes(&["yoshida4"]));
     let problem = Problem { system: &system, until: &until, arithmetic: Arithmetic::DOUBLE, length: None };
     let range = StepRange::Given(vec![8000, 16_000]);
-    let reference_time = Duration::from_secs(20);
-    let request = Request {
-        problem,
-        schemes: &schemes,
-        range,
-        reference_time,
-        resolution: None,
-        shortest_repeat: Duration::MAX,
-        folder: folder.path().to_owned(),
-    };
+    let request = Request::new(problem, &schemes, range, Duration::from_secs(20), folder.path());
     let message = request.study(&mut ()).map(drop).unwrap_err().to_string();
     assert!(message.contains("there is no reference: its positions overflow in double precision"), "{message}");
 }
@@ -246,16 +226,7 @@ fn an_interrupted_reference_is_not_kept() {
     let schemes = schemes(&["yoshida4"]);
     let problem =
         Problem { system: &system, until: &until, arithmetic: Arithmetic::with_digits(60).unwrap(), length: None };
-    let (range, reference_time) = (StepRange::Given(vec![50]), Duration::from_secs(20));
-    let request = Request {
-        problem,
-        schemes: &schemes,
-        range,
-        reference_time,
-        resolution: None,
-        shortest_repeat: Duration::MAX,
-        folder: folder.path().to_owned(),
-    };
+    let request = Request::new(problem, &schemes, StepRange::Given(vec![50]), Duration::from_secs(20), folder.path());
     let stopped = request.study(&mut Stops { questions: 4 }).unwrap_err();
     assert!(stopped.to_string().starts_with("interrupted: 0 of 1 calculations are saved"), "{stopped}");
     let saved = std::fs::read_to_string(folder.path().join("results.jsonl")).unwrap();
