@@ -1,7 +1,6 @@
 //! Sums up to a cutoff against sums over all pairs and images.
 
 use super::{BLOCK, Cutoff, CutoffPairs};
-use crate::Rational;
 use crate::number::counting::Counting;
 use crate::number::instructions::Instructions;
 use crate::number::{Lanes, Limbs, Number};
@@ -9,6 +8,7 @@ use crate::systems::pairs::PairPotential;
 use crate::systems::potential::Potential;
 use crate::systems::potential_check::check_potential;
 use crate::systems::problems::LennardJones;
+use crate::{Motion, Rational, Stepper, UnitMasses, tables::shipped};
 
 crate::potential! {
     /// A mixture of charges and spheres.
@@ -276,4 +276,19 @@ fn derivatives_are_those_of_the_energy() {
     let q: Vec<Limbs<4>> = places(bodies, 4, 3, 11).into_iter().map(limbs).collect();
     let check = check_potential(&mut pairs, &[q]).unwrap();
     assert!(check.agrees() && check.hessian.is_some(), "{check}");
+}
+
+/// In fixed point steps back undo steps to the last bit, though other lists are made on the way back.
+#[test]
+fn steps_back_undo_steps() {
+    let (q, p) = (places(BODIES, 8, 3, 12), places(BODIES, 8, 3, 13).iter().map(|x| x.sin()).collect::<Vec<_>>());
+    let (q_ranges, p_ranges) = (vec![128.0; q.len()], vec![64.0; p.len()]);
+    let motion = Motion::new(fluid(true), UnitMasses, q, p).unwrap();
+    let mut motion = motion.fixed_point(&q_ranges, &p_ranges).unwrap();
+    let start = (motion.q().to_vec(), motion.p().to_vec());
+    let stepper = Stepper::new(shipped("stormer-verlet").unwrap(), "1/100").unwrap();
+    (0..40).for_each(|_| stepper.step(&mut motion));
+    assert!(motion.q()[0] != start.0[0]);
+    (0..40).for_each(|_| stepper.step_back(&mut motion));
+    assert!((motion.q(), motion.p()) == (start.0.as_slice(), start.1.as_slice()));
 }
