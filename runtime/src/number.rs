@@ -151,6 +151,7 @@ pub trait Number: Clone + fmt::Debug {
     fn assign_quotient(&mut self, a: &Self, b: &Self);
 
     /// x ← a²
+    #[inline(always)]
     fn assign_square(&mut self, a: &Self) {
         self.assign_product(a, a);
     }
@@ -198,6 +199,7 @@ pub trait Number: Clone + fmt::Debug {
     fn assign_acos(&mut self, a: &Self);
 
     /// sin ← sin a and cos ← cos a, in MPFR for little more than the price of one
+    #[inline]
     fn assign_sin_cos(sin: &mut Self, cos: &mut Self, a: &Self) {
         sin.assign_sin(a);
         cos.assign_cos(a);

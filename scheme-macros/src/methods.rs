@@ -159,7 +159,7 @@ fn scratch_names(program: &Program, kept_before: usize, kept: usize, intermediat
     let scratch = own("scratch");
     // small numbers are copied, so that no intermediate result is stored
     let registers = (!intermediate.is_empty()).then(|| {
-        quote! { let [#(mut #intermediate),*] = [#(#intermediate),*].map(N::register); }
+        quote! { #(let mut #intermediate = N::register(#intermediate);)* }
     });
     (program.kept + count > 0).then(|| {
         quote! {

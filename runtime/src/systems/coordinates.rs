@@ -8,6 +8,27 @@ pub trait Coordinates<N>: AsRef<[N]> + AsMut<[N]> + Clone {}
 
 impl<N, V: AsRef<[N]> + AsMut<[N]> + Clone> Coordinates<N> for V {}
 
+/// `visit` for each coordinate and its partner: a loop of its own, as that over a `zip` of the standard library calls functions that are not inlined
+/// into other codegen units.
+#[inline(always)]
+pub(crate) fn for_each_two<N>(own: &mut [N], other: &[N], mut visit: impl FnMut(&mut N, &N)) {
+    let length = own.len().min(other.len());
+    let (own, other) = (&mut own[..length], &other[..length]);
+    for i in 0..length {
+        visit(&mut own[i], &other[i]);
+    }
+}
+
+/// The same with two partners.
+#[inline(always)]
+pub(crate) fn for_each_three<N>(own: &mut [N], a: &[N], b: &[N], mut visit: impl FnMut(&mut N, &N, &N)) {
+    let length = own.len().min(a.len()).min(b.len());
+    let (own, a, b) = (&mut own[..length], &a[..length], &b[..length]);
+    for i in 0..length {
+        visit(&mut own[i], &a[i], &b[i]);
+    }
+}
+
 /// The first of the initial values q1, q2, …, p1, p2, … that is infinite or NaN. One of several numbers in lanes may be so: the other trajectories go
 /// on without it.
 pub(crate) fn first_not_finite<N: Number>(q: &[N], p: &[N]) -> Option<String> {

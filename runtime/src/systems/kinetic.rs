@@ -9,6 +9,7 @@ use thiserror::Error;
 use crate::Rational;
 use crate::number::partial_sums::add_sum;
 use crate::number::{Lanes, Number, Real, epsilon};
+use crate::systems::coordinates::{for_each_three, for_each_two};
 use num_traits::Signed;
 use shadowstep_symbolic::decimal::{to_significant, to_text};
 
@@ -116,13 +117,11 @@ impl<N: Number> InverseMasses<'_, N> {
     #[inline(always)]
     pub(crate) fn drift(&self, weight: &N, p: &[N], q: &mut [N], velocity: &mut N) {
         match self {
-            InverseMasses::Ones => q.iter_mut().zip(p).for_each(|(q, p)| q.add_product(weight, p)),
-            InverseMasses::Of(inverse) => {
-                for ((q, p), inverse) in q.iter_mut().zip(p).zip(*inverse) {
-                    velocity.assign_product(inverse, p);
-                    q.add_product(weight, velocity);
-                }
-            }
+            InverseMasses::Ones => for_each_two(q, p, |q, p| q.add_product(weight, p)),
+            InverseMasses::Of(inverse) => for_each_three(q, p, inverse, |q, p, inverse| {
+                velocity.assign_product(inverse, p);
+                q.add_product(weight, velocity);
+            }),
         }
     }
 }
@@ -168,9 +167,7 @@ impl<N: Number> Kinetic<N> for UnitMasses {
 
     #[inline(always)]
     fn drift(&self, weight: &N, p: &[N], q: &mut [N], _: &mut [N]) {
-        for (q, p) in q.iter_mut().zip(p) {
-            q.add_product(weight, p);
-        }
+        for_each_two(q, p, |q, p| q.add_product(weight, p));
     }
 
     #[inline(always)]

@@ -16,6 +16,7 @@ pub use compensated::Compensated;
 pub use fixed_point::{FixedPoint, RangeError};
 
 use crate::number::Number;
+use crate::systems::coordinates::for_each_two;
 use crate::systems::kinetic::Kinetic;
 
 /// How increments are added to q and p.
@@ -107,9 +108,7 @@ pub struct Plain;
 impl<N: Number> Summation<N> for Plain {
     #[inline(always)]
     fn kick(&mut self, weight: &N, gradient: &[N], p: &mut [N]) {
-        for (p, gradient) in p.iter_mut().zip(gradient) {
-            p.subtract_product(weight, gradient);
-        }
+        for_each_two(p, gradient, |p, gradient| p.subtract_product(weight, gradient));
     }
 
     #[inline(always)]

@@ -3,9 +3,12 @@
 //! What a body gets from its blocks, and the summands of pairs, are added up in a sum for each place in a block: sums that do not wait for one another, and that are the
 //! same whatever the vectors.
 
+use std::hint::black_box;
+
 use super::pair::{BLOCK, PairPotential};
 use crate::number::Number;
 use crate::number::instructions;
+use crate::systems::coordinates::for_each_two;
 use shadowstep_symbolic::Separation;
 
 /// How many numbers of scratch space blocks take: coordinates and gradient by axes.
@@ -118,11 +121,15 @@ impl<P, const D: usize> Blocks<'_, P, D> {
     {
         let bodies = self.bodies;
         let mut room = Room::<N, D>::new(&q[0].context());
-        let zeros = || -> [N; BLOCK] { std::array::from_fn(|_| N::zero(&q[0].context())) };
-        let mut sums_of_places = zeros();
+        // made once: calls of `from_fn` are not inlined into other codegen units
+        let zeros: Places<N, D> = room.difference.clone();
+        let mut sums_of_places = room.summand.clone();
+        let mut q_i: [N; D] = std::array::from_fn(|_| N::zero(&q[0].context()));
         for i in 0..bodies {
-            let q_i: [N; D] = std::array::from_fn(|axis| q[axis * bodies + i].clone());
-            let mut own: Places<N, D> = std::array::from_fn(|_| zeros());
+            let mut own = zeros.clone();
+            for axis in 0..D {
+                q_i[axis].assign(&q[axis * bodies + i]);
+            }
             let mut j = i + 1;
             while j + BLOCK <= bodies {
                 self.forces::<N, FORCES, SUM>((i, j), q, &q_i, &mut room, pair);
@@ -138,12 +145,14 @@ impl<P, const D: usize> Blocks<'_, P, D> {
                 j = bodies;
             }
             if FORCES {
+                // the sums in memory: stores side by side are what the compiler makes vectors of, in the loop before
+                let mut own = black_box(own);
                 for (axis, own) in own.iter_mut().enumerate() {
                     gradient[axis * bodies + i].add(sum_of_places(own));
                 }
             }
             for j in j..bodies {
-                self.add_one::<N, FORCES, SUM>((i, j), (q, gradient), total, pair);
+                self.add_one::<N, FORCES, SUM>((i, j), &q_i, (q, gradient), total, pair);
             }
         }
         sums_of_places.iter().for_each(|of_place| total.add(of_place));
@@ -162,12 +171,12 @@ impl<P, const D: usize> Blocks<'_, P, D> {
             for (axis, forces) in room.difference.iter().enumerate() {
                 let of_axis: &mut [N; BLOCK] =
                     gradient[axis * self.bodies + j..].first_chunk_mut().expect("the block is within the bodies");
-                of_axis.iter_mut().zip(forces).for_each(|(own, force)| own.add(force));
-                own[axis].iter_mut().zip(forces).for_each(|(own, force)| own.subtract(force));
+                for_each_two(of_axis, forces, N::add);
+                for_each_two(&mut own[axis], forces, N::subtract);
             }
         }
         if SUM {
-            sums_of_places.iter_mut().zip(&room.summand).for_each(|(own, summand)| own.add(summand));
+            for_each_two(sums_of_places, &room.summand, N::add);
         }
     }
 
@@ -224,6 +233,7 @@ impl<P, const D: usize> Blocks<'_, P, D> {
     fn add_one<N: Number, const FORCES: bool, const SUM: bool>(
         &self,
         (i, j): (usize, usize),
+        q_i: &[N; D],
         (q, gradient): (&[N], &mut [N]),
         total: &mut N,
         pair: &mut [N],
@@ -231,11 +241,11 @@ impl<P, const D: usize> Blocks<'_, P, D> {
         P: PairPotential<N>,
     {
         let bodies = self.bodies;
-        let context = q[0].context();
-        let [mut x, mut slope, mut summand] = [(); 3].map(|()| N::zero(&context));
-        let mut difference: [N; D] = std::array::from_fn(|_| N::zero(&context));
+        let zero = N::zero(&q[0].context());
+        let (mut x, mut slope, mut summand) = (zero.clone(), zero.clone(), zero);
+        let mut difference = q_i.clone();
         for axis in 0..D {
-            difference[axis].assign_difference(&q[axis * bodies + j], &q[axis * bodies + i]);
+            difference[axis].assign_difference(&q[axis * bodies + j], &q_i[axis]);
         }
         match self.pair.separation() {
             Separation::Difference => x.assign(&difference[0]),

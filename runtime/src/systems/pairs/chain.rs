@@ -47,8 +47,9 @@ impl<P> Chain<'_, P> {
         P: PairPotential<N>,
     {
         let zero = N::zero(&q[0].context());
-        let zeros = || std::array::from_fn(|_| zero.clone());
-        let mut sums = Sums { carried: zero.clone(), sums_of_places: zeros(), total: zero.clone() };
+        // made once: calls of `from_fn` are not inlined into other codegen units
+        let zeros: [N; BLOCK] = std::array::from_fn(|_| zero.clone());
+        let mut sums = Sums { carried: zero.clone(), sums_of_places: zeros.clone(), total: zero.clone() };
         let last = q.len() - 1;
         let mut slope = zero.clone();
         if self.ends == Ends::Fixed {
@@ -58,7 +59,7 @@ impl<P> Chain<'_, P> {
         }
         let mut first = 0;
         while first + BLOCK <= last {
-            self.block_of_springs::<N, SUM>((q, gradient), first, &mut sums, pair);
+            self.block_of_springs::<N, SUM>((q, gradient), first, &zeros, &mut sums, pair);
             first += BLOCK;
         }
         for i in first..last {
@@ -93,6 +94,7 @@ impl<P> Chain<'_, P> {
         &self,
         (q, gradient): (&[N], &mut [N]),
         first: usize,
+        zeros: &[N; BLOCK],
         Sums { carried, sums_of_places, .. }: &mut Sums<N>,
         pair: &mut [N],
     ) where
@@ -100,10 +102,8 @@ impl<P> Chain<'_, P> {
     {
         let before: &[N; BLOCK] = q[first..].first_chunk().expect("the block is within the bodies");
         let after: &[N; BLOCK] = q[first + 1..].first_chunk().expect("the block is within the bodies");
-        let zero = N::zero(&carried.context());
-        let zeros = || std::array::from_fn(|_| zero.clone());
-        let (mut difference, mut squared, mut slope, mut summand): ([N; BLOCK], [N; BLOCK], [N; BLOCK], [N; BLOCK]) =
-            (zeros(), zeros(), zeros(), zeros());
+        let [mut difference, mut squared, mut slope, mut summand] =
+            [zeros.clone(), zeros.clone(), zeros.clone(), zeros.clone()];
         for l in 0..BLOCK {
             difference[l].assign_difference(&after[l], &before[l]);
         }
@@ -130,13 +130,12 @@ impl<P> Chain<'_, P> {
             }
         }
         let own: &mut [N; BLOCK] = gradient[first..].first_chunk_mut().expect("the block is within the bodies");
-        own[0].assign_difference(carried, &slope[0]);
-        for l in 1..BLOCK {
-            // 0 − 0 where a slope is −0
-            own[l].assign_sum(&zero, &slope[l - 1]);
+        for l in 0..BLOCK {
+            // 0 − 0 where a slope is −0; in the first place, where nothing is carried that is −0, only for the vectors of the compiler
+            own[l].assign_sum(&zeros[0], if l == 0 { carried } else { &slope[l - 1] });
             own[l].subtract(&slope[l]);
         }
-        carried.assign_sum(&zero, &slope[BLOCK - 1]);
+        carried.assign_sum(&zeros[0], &slope[BLOCK - 1]);
     }
 
     /// difference ← the force of a spring, which was its difference; adds its summand.
