@@ -105,7 +105,9 @@ bench: deps
 	  for name in steps double limbs estimators potentials monitor ensembles double_double summation kepler_drift; do \
 	    printf '\n## %s\n\n`cargo bench -p shadowstep --bench %s`\n' "$$name" "$$name"; \
 	    cargo bench -p shadowstep --features mpfr --locked --bench "$$name"; \
-	  done; } > docs/benchmarks.md.new
+	  done; \
+	  printf '\n## In a crate of one'"'"'s own\n\n`cargo run --release` in `rivals/user`\n'; \
+	  cargo run --release --locked --quiet --manifest-path rivals/user/Cargo.toml; } > docs/benchmarks.md.new
 	mv docs/benchmarks.md.new docs/benchmarks.md
 	cat docs/benchmarks.md
 

@@ -26,6 +26,10 @@ struct StormerVerlet;
 #[splitting_scheme("yoshida4.toml")]
 struct Yoshida4;
 
+#[derive(Clone, Copy)]
+#[splitting_scheme("blanes-moan-srkn6b.toml")]
+struct Srkn6b;
+
 unsafe extern "C" {
     fn set_initial(dimension: i32, masses: *const f64, parameters: i32, values: *const f64);
     fn verlet(problem: i32, h: f64, steps: i64, q: *mut f64, p: *mut f64);
@@ -190,8 +194,11 @@ fn main() {
     let pendulum = Setting { problem: 3, q: [1.0], p: [0.0], h: "1/20" };
     against("Kepler, Störmer–Verlet", StormerVerlet, &kepler, Kepler);
     against("Kepler, Yoshida 4", Yoshida4, &kepler, Kepler);
+    against("Kepler, SRKN6b", Srkn6b, &kepler, Kepler);
     against("Hénon–Heiles, Störmer–Verlet", StormerVerlet, &star, HenonHeiles);
     against("Hénon–Heiles, Yoshida 4", Yoshida4, &star, HenonHeiles);
+    against("Hénon–Heiles, SRKN6b", Srkn6b, &star, HenonHeiles);
     planets();
     against("pendulum, Störmer–Verlet", StormerVerlet, &pendulum, Pendulum);
+    against("pendulum, SRKN6b", Srkn6b, &pendulum, Pendulum);
 }
