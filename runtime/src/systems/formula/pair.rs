@@ -102,16 +102,24 @@ impl<N: Number> FormulaPair<N> {
         }
     }
 
-    /// The registers of blocks of this length, with the properties of i and of j, j + 1, …; none where blocks have another length.
-    fn block<'s, const W: usize>(&self, i: usize, j: usize, scratch: &'s mut [N]) -> Option<&'s mut [[N; W]]> {
+    /// The registers of blocks of this length, with the properties of the bodies i and j of each lane; none where blocks have another length.
+    #[inline(always)]
+    fn block<'s, const W: usize>(
+        &self,
+        bodies: impl Fn(usize) -> (usize, usize),
+        scratch: &'s mut [N],
+    ) -> Option<&'s mut [[N; W]]> {
         if W != BLOCK || !N::IN_VECTORS {
             return None;
         }
         let (blocks, _) = scratch[self.interpreter.registers()..].as_chunks_mut::<W>();
         let (of_i, of_j) = self.interpreter.properties(blocks).split_at_mut(self.properties.len());
         for ((of_i, of_j), values) in of_i.iter_mut().zip(of_j).zip(&self.properties) {
-            of_i.fill(values[i].clone());
-            of_j.clone_from_slice(&values[j..j + W]);
+            for l in 0..W {
+                let (i, j) = bodies(l);
+                of_i[l].assign(&values[i]);
+                of_j[l].assign(&values[j]);
+            }
         }
         Some(blocks)
     }
@@ -175,22 +183,12 @@ impl<N: Number> PairPotential<N> for FormulaPair<N> {
 
     #[inline]
     fn energies<const W: usize>(&self, i: usize, j: usize, x: &[N; W], energies: &mut [N; W], scratch: &mut [N]) {
-        if let Some(registers) = self.block::<W>(i, j, scratch) {
-            return energies.swap_with_slice(self.interpreter.energies(x, registers));
-        }
-        for l in 0..W {
-            self.energy(i, j + l, &x[l], &mut energies[l], scratch);
-        }
+        self.energies_between(|l| (i, j + l), x, energies, scratch);
     }
 
     #[inline]
     fn slopes<const W: usize>(&self, i: usize, j: usize, x: &[N; W], slopes: &mut [N; W], scratch: &mut [N]) {
-        if let Some(registers) = self.block::<W>(i, j, scratch) {
-            return slopes.swap_with_slice(self.interpreter.slopes(x, registers));
-        }
-        for l in 0..W {
-            self.slope(i, j + l, &x[l], &mut slopes[l], scratch);
-        }
+        self.slopes_between(|l| (i, j + l), x, slopes, scratch);
     }
 
     #[inline]
@@ -203,13 +201,92 @@ impl<N: Number> PairPotential<N> for FormulaPair<N> {
         summands: &mut [N; W],
         scratch: &mut [N],
     ) {
-        if let Some(registers) = self.block::<W>(i, j, scratch) {
+        self.slopes_and_summands_between(|l| (i, j + l), x, (slopes, summands), scratch);
+    }
+
+    #[inline]
+    fn energies_of<const W: usize>(
+        &self,
+        i: &[u32; W],
+        j: usize,
+        x: &[N; W],
+        energies: &mut [N; W],
+        scratch: &mut [N],
+    ) {
+        self.energies_between(|l| (i[l] as usize, j), x, energies, scratch);
+    }
+
+    #[inline]
+    fn slopes_of<const W: usize>(&self, i: &[u32; W], j: usize, x: &[N; W], slopes: &mut [N; W], scratch: &mut [N]) {
+        self.slopes_between(|l| (i[l] as usize, j), x, slopes, scratch);
+    }
+
+    #[inline]
+    fn slopes_and_summands_of<const W: usize>(
+        &self,
+        i: &[u32; W],
+        j: usize,
+        x: &[N; W],
+        slopes: &mut [N; W],
+        summands: &mut [N; W],
+        scratch: &mut [N],
+    ) {
+        self.slopes_and_summands_between(|l| (i[l] as usize, j), x, (slopes, summands), scratch);
+    }
+}
+
+/// Blocks of pairs, each lane of which has its bodies.
+impl<N: Number> FormulaPair<N> {
+    #[inline(always)]
+    fn energies_between<const W: usize>(
+        &self,
+        bodies: impl Fn(usize) -> (usize, usize),
+        x: &[N; W],
+        energies: &mut [N; W],
+        scratch: &mut [N],
+    ) {
+        if let Some(registers) = self.block::<W>(&bodies, scratch) {
+            return energies.swap_with_slice(self.interpreter.energies(x, registers));
+        }
+        for l in 0..W {
+            let (i, j) = bodies(l);
+            self.energy(i, j, &x[l], &mut energies[l], scratch);
+        }
+    }
+
+    #[inline(always)]
+    fn slopes_between<const W: usize>(
+        &self,
+        bodies: impl Fn(usize) -> (usize, usize),
+        x: &[N; W],
+        slopes: &mut [N; W],
+        scratch: &mut [N],
+    ) {
+        if let Some(registers) = self.block::<W>(&bodies, scratch) {
+            return slopes.swap_with_slice(self.interpreter.slopes(x, registers));
+        }
+        for l in 0..W {
+            let (i, j) = bodies(l);
+            self.slope(i, j, &x[l], &mut slopes[l], scratch);
+        }
+    }
+
+    #[inline(always)]
+    fn slopes_and_summands_between<const W: usize>(
+        &self,
+        bodies: impl Fn(usize) -> (usize, usize),
+        x: &[N; W],
+        (slopes, summands): (&mut [N; W], &mut [N; W]),
+        scratch: &mut [N],
+    ) {
+        if let Some(registers) = self.block::<W>(&bodies, scratch) {
             let outputs = self.interpreter.slopes_and_summands(x, registers);
             slopes.swap_with_slice(&mut outputs[0]);
             return summands.swap_with_slice(&mut outputs[1]);
         }
         for l in 0..W {
-            self.slope_and_summand(i, j + l, &x[l], &mut slopes[l], &mut summands[l], scratch);
+            let (i, j) = bodies(l);
+            self.slope_and_summand(i, j, &x[l], &mut slopes[l], &mut summands[l], scratch);
         }
     }
 }

@@ -382,25 +382,11 @@ impl<P, const D: usize> CutoffPairs<P, D> {
     {
         match (forces, energy) {
             (true, false) if self.alike => self.pair.slopes(0, 0, x, slopes, pair),
-            (true, false) => {
-                for l in 0..W {
-                    self.pair.slope(others[l] as usize, body, &x[l], &mut slopes[l], pair);
-                }
-            }
+            (true, false) => self.pair.slopes_of(others, body, x, slopes, pair),
             (true, true) if self.alike => self.pair.slopes_and_summands(0, 0, x, slopes, energies, pair),
-            (true, true) => {
-                for l in 0..W {
-                    let (slope, energy) = (&mut slopes[l], &mut energies[l]);
-                    self.pair.slope_and_summand(others[l] as usize, body, &x[l], slope, energy, pair);
-                }
-            }
+            (true, true) => self.pair.slopes_and_summands_of(others, body, x, slopes, energies, pair),
             (false, _) if self.alike => return self.pair.energies(0, 0, x, energies, pair),
-            (false, _) => {
-                for l in 0..W {
-                    self.pair.energy(others[l] as usize, body, &x[l], &mut energies[l], pair);
-                }
-                return;
-            }
+            (false, _) => return self.pair.energies_of(others, body, x, energies, pair),
         }
         if energy && self.pair.summand() == Summand::Rate {
             // 2r²u′ − 2u

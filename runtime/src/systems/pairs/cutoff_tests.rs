@@ -4,7 +4,8 @@ use super::{BLOCK, Cutoff, CutoffPairs};
 use crate::number::counting::Counting;
 use crate::number::instructions::Instructions;
 use crate::number::{Lanes, Limbs, Number};
-use crate::systems::pairs::PairPotential;
+use crate::systems::formula::FormulaPair;
+use crate::systems::pairs::{PairPotential, Separation};
 use crate::systems::potential::Potential;
 use crate::systems::potential_check::check_potential;
 use crate::systems::problems::LennardJones;
@@ -291,4 +292,17 @@ fn steps_back_undo_steps() {
     assert!(motion.q()[0] != start.0[0]);
     (0..40).for_each(|_| stepper.step_back(&mut motion));
     assert!((motion.q(), motion.p()) == (start.0.as_slice(), start.1.as_slice()));
+}
+
+/// A formula that is read at run time has the bits of the compiled one, with properties of bodies too.
+#[test]
+fn formulas_have_the_bits_of_compiled_ones() {
+    let a: Vec<f64> = (0..BODIES).map(|i| 1.0 + (i % 3) as f64 / 4.0).collect();
+    let c: Vec<f64> = (0..BODIES).map(|i| if i % 2 == 0 { 1.0 } else { -1.0 }).collect();
+    let cutoff = Cutoff::<3>::at(rational(2, 1)).unwrap().switched(rational(3, 2), 3).unwrap();
+    let (formula, properties) = ("a_i*a_j/r2^4 + c_i*c_j/sqrt(r2)", [("a", a.clone()), ("c", c.clone())]);
+    let read = FormulaPair::new(formula, Separation::SquaredDistance, &properties, &[]).unwrap();
+    let q = places(BODIES, 8, 3, 14);
+    let found = evaluated(&mut CutoffPairs::new(BODIES, read, cutoff.clone()).unwrap(), &q);
+    assert_eq!(found, evaluated(&mut CutoffPairs::new(BODIES, Mixture { a, c }, cutoff).unwrap(), &q));
 }

@@ -72,6 +72,45 @@ pub trait PairPotential<N: Number>: Pair {
             self.slope_and_summand(i, j + l, &x[l], &mut slopes[l], &mut summands[l], scratch);
         }
     }
+
+    /// The energies of bodies i, which need not follow each other, with the body j > i.
+    #[inline(always)]
+    fn energies_of<const W: usize>(
+        &self,
+        i: &[u32; W],
+        j: usize,
+        x: &[N; W],
+        energies: &mut [N; W],
+        scratch: &mut [N],
+    ) {
+        for l in 0..W {
+            self.energy(i[l] as usize, j, &x[l], &mut energies[l], scratch);
+        }
+    }
+
+    /// The slopes in the same way.
+    #[inline(always)]
+    fn slopes_of<const W: usize>(&self, i: &[u32; W], j: usize, x: &[N; W], slopes: &mut [N; W], scratch: &mut [N]) {
+        for l in 0..W {
+            self.slope(i[l] as usize, j, &x[l], &mut slopes[l], scratch);
+        }
+    }
+
+    /// Those slopes, and the summands.
+    #[inline(always)]
+    fn slopes_and_summands_of<const W: usize>(
+        &self,
+        i: &[u32; W],
+        j: usize,
+        x: &[N; W],
+        slopes: &mut [N; W],
+        summands: &mut [N; W],
+        scratch: &mut [N],
+    ) {
+        for l in 0..W {
+            self.slope_and_summand(i[l] as usize, j, &x[l], &mut slopes[l], &mut summands[l], scratch);
+        }
+    }
 }
 
 /// The second derivatives of a pair's energy u. [`crate::potential!`] implements it for a `pair` formula.
