@@ -7,6 +7,7 @@ mod correctly_rounded;
 pub mod counting;
 mod double;
 mod double_double;
+mod doubles;
 mod epsilon;
 mod fused;
 mod high_precision;
@@ -35,6 +36,8 @@ pub use rug::Float;
 pub use double_double::{DoubleDouble, Machine};
 
 pub(crate) use double::scaled;
+#[doc(hidden)]
+pub use doubles::Doubles;
 pub(crate) use epsilon::epsilon;
 pub use fused::Fused;
 pub use lanes::Lanes;
@@ -99,6 +102,10 @@ pub trait Number: Clone + fmt::Debug {
     /// For a number made of 64-bit limbs, with which estimators then compute in fixed point; without it they compute with numbers.
     #[doc(hidden)]
     const LIMBS: Option<LimbAccess<Self>> = None;
+
+    /// For a number that is an `f64`, so that a system computes several of them at once in [`Lanes`], with the same bits.
+    #[doc(hidden)]
+    const DOUBLES: Option<Doubles<Self>> = None;
 
     /// Holds an intermediate result: for a big number, `&mut Self`; for one of a few bytes a copy, which can stay in the
     /// processor's registers.

@@ -2,7 +2,7 @@
 
 use std::ops::{Deref, DerefMut};
 
-use super::{Number, Real};
+use super::{Doubles, Number, Real};
 use crate::Rational;
 use num_traits::ToPrimitive;
 
@@ -44,6 +44,7 @@ impl Number for f64 {
     type Context = ();
     const KEEPS_INCREMENTS: bool = true;
     const IN_VECTORS: bool = true;
+    const DOUBLES: Option<Doubles<f64>> = Some(Doubles { of: |numbers| numbers, numbers: |doubles| doubles });
     type Register<'a> = Copied<f64>;
 
     #[inline]

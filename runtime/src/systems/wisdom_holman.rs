@@ -8,6 +8,8 @@
 //! nothing; of p²/2m − κ/r the integrand is 3κ/r, and ∫dt/r is the universal anomaly s, which the [Kepler drift](crate::systems::kepler_drift)
 //! has found anyway: **β += 3κ s**. B is homogeneous of degree −1, so that a kick adds −3B times its weight.
 //!
+//! In `f64` three planets and more drift together, each in a lane of [`Lanes`](crate::number::Lanes), with the bits that they have one by one.
+//!
 //! In Jacobi coordinates B depends on Q only, and of A only T = Σ P²/2m′ does not commute with it. So `[B,[A,B]]` is `[B,[T,B]]`, and a gradient kick
 //! is the flow of −½B_QᵀM′⁻¹B_Q as for H = T + U. With v = M′⁻¹B_Q its rate of β is −vᵀ∂(−3B)/∂Q = 3vᵀB_Q.
 
@@ -17,6 +19,7 @@ mod interactions;
 mod jacobi;
 mod orbits;
 pub mod secular;
+mod together;
 
 pub use bodies::{Bodies, BodiesError};
 pub use heliocentric::DemocraticHeliocentric;
@@ -125,14 +128,16 @@ impl<N: Number, C: PlanetaryCoordinates<N, D>, const D: usize> WisdomHolman<N, C
             return Err(BodiesError::NotFinite { name });
         }
         let zeros = || vec![N::zero(context); dimension];
+        let coordinates = C::new(bodies, context);
+        let orbits = orbits::Advance::new(coordinates.orbits(), context);
         let mut system = WisdomHolman {
-            coordinates: C::new(bodies, context),
+            coordinates,
             state: State::new(zeros(), zeros(), context).compensated_if(false),
             gradient: zeros(),
             rate: N::zero(context),
             kept: KeptForce::Nothing,
             gradient_kicks: None,
-            orbits: orbits::Advance::new(context),
+            orbits,
         };
         system.set_inertial(q, p);
         Ok(system)

@@ -7,6 +7,8 @@ use crate::systems::kepler_drift::KeplerDrift;
 use crate::systems::state::VectorState;
 use crate::systems::summation::Half;
 
+use super::together::Together;
+
 /// The masses and attractions of A = P₀²/2M + Σ (P_i²/2m_i′ − κ_i/|Q_i|).
 #[derive(Clone, Debug)]
 pub struct Orbits<N> {
@@ -39,6 +41,8 @@ impl<N: Number> Orbit<N> {
 #[derive(Clone, Debug)]
 pub(super) struct Advance<N: Number, const D: usize> {
     kepler: KeplerDrift<N>,
+    /// The first planets, if there are several that lanes compute at once.
+    pub(super) together: Option<Box<Together<D>>>,
     place: [N; D],
     velocity: [N; D],
     /// What a drift adds.
@@ -49,10 +53,11 @@ pub(super) struct Advance<N: Number, const D: usize> {
 }
 
 impl<N: Number, const D: usize> Advance<N, D> {
-    pub(super) fn new(context: &N::Context) -> Self {
+    pub(super) fn new(orbits: &Orbits<N>, context: &N::Context) -> Self {
         let zeros = || std::array::from_fn(|_| N::zero(context));
         Advance {
             kepler: KeplerDrift::new(context),
+            together: N::DOUBLES.and_then(|_| Together::new(&masses_and_parameters(&orbits.planets))),
             place: zeros(),
             velocity: zeros(),
             to_q: zeros(),
@@ -68,7 +73,8 @@ impl<N: Number, const D: usize> Advance<N, D> {
             self.scratch.assign_quotient(&state.p()[axis], &orbits.total_mass);
             state.change(Half::Positions, axis, carried, |q| q.add_product(time, &self.scratch));
         }
-        for (planet, orbit) in (1..).zip(&orbits.planets) {
+        let together = self.advance_together(orbits, time, state, carried);
+        for (planet, orbit) in (1..).zip(&orbits.planets).skip(together) {
             let first = planet * D;
             self.find_increments(orbit, time, (&state.q()[first..first + D], &state.p()[first..first + D]));
             for (axis, part) in self.to_q.iter().enumerate() {
@@ -77,13 +83,32 @@ impl<N: Number, const D: usize> Advance<N, D> {
             for (axis, part) in self.to_v.iter().enumerate() {
                 state.change(Half::Momenta, first + axis, carried, |p| p.add_product(&orbit.mass, part));
             }
-            if carried.has_increments() {
-                // 3κ s
-                self.scratch.multiply(&orbit.attraction);
-                self.scratch.multiply_integer(3);
-                state.increments.beta.add(&self.scratch);
+            add_to_beta(orbit, &mut self.scratch, state, carried);
+        }
+    }
+
+    /// The same of the first planets, with the same bits; how many are computed together is returned.
+    fn advance_together(
+        &mut self,
+        orbits: &Orbits<N>,
+        time: &N,
+        state: &mut VectorState<N>,
+        carried: Carried,
+    ) -> usize {
+        let Advance { together, scratch, .. } = self;
+        let (Some(doubles), Some(together)) = (N::DOUBLES, together) else { return 0 };
+        let [q, p] = [state.q(), state.p()].map(|numbers| &(doubles.of)(numbers)[D..]);
+        together.find_increments(time.lane(0).0, (q, p));
+        for (half, increments) in [(Half::Positions, &together.to_q), (Half::Momenta, &together.to_p)] {
+            for (index, part) in (D..).zip((doubles.numbers)(increments)) {
+                state.change(half, index, carried, |x| x.add(part));
             }
         }
+        for (orbit, s) in orbits.planets.iter().zip((doubles.numbers)(&together.anomalies)) {
+            scratch.assign(s);
+            add_to_beta(orbit, scratch, state, carried);
+        }
+        together.anomalies.len()
     }
 
     /// What the drift adds to a planet's position and velocity, and its universal anomaly in the scratch number.
@@ -114,6 +139,20 @@ impl<N: Number, const D: usize> Advance<N, D> {
             scratch.assign_reciprocal_sqrt(square);
             energy.subtract_product(&orbit.attraction, scratch);
         }
+    }
+}
+
+/// m and μ of each planet, of numbers that are `f64`s.
+fn masses_and_parameters<N: Number>(planets: &[Orbit<N>]) -> Vec<[f64; 2]> {
+    planets.iter().map(|orbit| [&orbit.mass, &orbit.parameter].map(|x| x.lane(0).0)).collect()
+}
+
+/// β ← β + 3κ s, if increments are carried along; s is lost.
+fn add_to_beta<N: Number>(orbit: &Orbit<N>, s: &mut N, state: &mut VectorState<N>, carried: Carried) {
+    if carried.has_increments() {
+        s.multiply(&orbit.attraction);
+        s.multiply_integer(3);
+        state.increments.beta.add(s);
     }
 }
 
