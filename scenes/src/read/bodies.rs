@@ -13,7 +13,7 @@ use super::reader::Reader;
 use shadowstep_schemes::document::{Text, Value};
 
 /// The most bodies: with more, a step takes too long.
-const MOST_BODIES: u64 = 100_000;
+const MOST_BODIES: u64 = 1_000_000;
 
 /// The key among the properties that gives the number of bodies.
 const COUNT: &str = "count";

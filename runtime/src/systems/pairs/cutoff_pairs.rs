@@ -52,7 +52,7 @@ impl<P: Pair, const D: usize> CutoffPairs<P, D> {
     /// Bodies that interact up to a cutoff.
     ///
     /// # Errors
-    /// No bodies or more than 2³², no dimensions, properties of more or fewer bodies, a pair's formula in d.
+    /// No bodies, no dimensions, properties of more or fewer bodies, a pair's formula in d.
     pub fn new(bodies: usize, pair: P, cutoff: Cutoff<D>) -> Result<Self, PairsError> {
         if bodies == 0 || D == 0 {
             return Err(PairsError::Empty);
