@@ -2,7 +2,7 @@
 
 from math import inf
 
-from compare import Results, is_ours
+from compare import OURS, Results, is_ours
 from contestants import HERE
 from problems import PROBLEMS
 
@@ -17,12 +17,12 @@ LINES = [
     ("fput", "position_error", 1e-6, "chain of 32 bodies to t = 1000, position to 1e-6"),
 ]
 # Like is compared with like: schemes on T(p) + U(q) in plain time have a column of their own.
-COLUMNS = {"Shadowstep": "Shadowstep, T + U", "other": "Shadowstep, other parts or time", **{name: name for name in ("C by hand", "REBOUND", "heyoka", "odeint", "SUNDIALS", "scipy")}}
+COLUMNS = {OURS: f"{OURS}, T + U", "other": f"{OURS}, other parts or time", **{name: name for name in ("C by hand", "REBOUND", "heyoka", "odeint", "SUNDIALS", "scipy")}}
 
 
 def cell(results, name, error, target):
     """The least time of a rival, with its method."""
-    same = [rival for rival in results.rivals if not rival.many and (rival.name == name or name == "other" and is_ours(rival.name) and rival.name != "Shadowstep")]
+    same = [rival for rival in results.rivals if not rival.many and (rival.name == name or name == "other" and is_ours(rival.name) and rival.name != OURS)]
     if not same:
         return ""
     seconds, method = min(results.time_at(rival, error, target) for rival in same)

@@ -206,7 +206,7 @@ pub(crate) const KEYS: [Key; 66] = [
     key(
         "problem.cutoff",
         "derivatives",
-        "How many derivatives of the energy are continuous, 1 to 8. Orders of a scheme above this number and 1 gain nothing in long runs.",
+        "How many derivatives of the energy are continuous, 1 to 8. A scheme of high order needs more of them.",
         "3",
         None,
     ),

@@ -91,25 +91,20 @@ pub(super) fn cutoff<'g>(
     if let Some(at) = place("neighbours") {
         return reader.toml.wrong(at, "a chain of neighbours has no cutoff", "keep one of the two");
     }
+    // what is given must have a value
     let radius = reader.evaluate(&cutoff.at);
     let smooth = match &cutoff.smooth {
         Some((from, derivatives)) => {
-            let from = reader.evaluate(from);
-            Some(from.map(|from| SmoothEnd { from, derivatives: derivatives.value as u32 }))
+            reader.evaluate(from).map(|from| Some(SmoothEnd { from, derivatives: derivatives.value as u32 }))
         }
-        None => None,
+        None => Some(None),
     };
     let sides = match (of_box, place("box")) {
-        (Some(sides), _) => Some(sides.sides(reader, dimensions)),
-        (None, Some(_)) => Some(None),
-        (None, None) => None,
+        (Some(sides), _) => sides.sides(reader, dimensions).map(Some),
+        (None, Some(_)) => None,
+        (None, None) => Some(None),
     };
-    // what is given must have a value
-    let cutoff_of_pairs = PairCutoff {
-        radius: radius?,
-        smooth: smooth.map_or(Some(None), |smooth| smooth.map(Some))?,
-        sides: sides.map_or(Some(None), |sides| sides.map(Some))?,
-    };
+    let cutoff_of_pairs = PairCutoff { radius: radius?, smooth: smooth?, sides: sides? };
     if let Some(error) = cutoff_of_pairs.error(dimensions) {
         let (at, help) = match error {
             CutoffError::Radius => (&cutoff.at.at, "write a positive distance: cutoff = 2.5"),

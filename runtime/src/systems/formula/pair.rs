@@ -106,7 +106,7 @@ impl<N: Number> FormulaPair<N> {
     #[inline(always)]
     fn block<'s, const W: usize>(
         &self,
-        bodies: impl Fn(usize) -> (usize, usize),
+        bodies: impl Fn(usize) -> [usize; 2],
         scratch: &'s mut [N],
     ) -> Option<&'s mut [[N; W]]> {
         if W != BLOCK || !N::IN_VECTORS {
@@ -116,7 +116,7 @@ impl<N: Number> FormulaPair<N> {
         let (of_i, of_j) = self.interpreter.properties(blocks).split_at_mut(self.properties.len());
         for ((of_i, of_j), values) in of_i.iter_mut().zip(of_j).zip(&self.properties) {
             for l in 0..W {
-                let (i, j) = bodies(l);
+                let [i, j] = bodies(l);
                 of_i[l].assign(&values[i]);
                 of_j[l].assign(&values[j]);
             }
@@ -182,65 +182,9 @@ impl<N: Number> PairPotential<N> for FormulaPair<N> {
     }
 
     #[inline]
-    fn energies<const W: usize>(&self, i: usize, j: usize, x: &[N; W], energies: &mut [N; W], scratch: &mut [N]) {
-        self.energies_between(|l| (i, j + l), x, energies, scratch);
-    }
-
-    #[inline]
-    fn slopes<const W: usize>(&self, i: usize, j: usize, x: &[N; W], slopes: &mut [N; W], scratch: &mut [N]) {
-        self.slopes_between(|l| (i, j + l), x, slopes, scratch);
-    }
-
-    #[inline]
-    fn slopes_and_summands<const W: usize>(
-        &self,
-        i: usize,
-        j: usize,
-        x: &[N; W],
-        slopes: &mut [N; W],
-        summands: &mut [N; W],
-        scratch: &mut [N],
-    ) {
-        self.slopes_and_summands_between(|l| (i, j + l), x, (slopes, summands), scratch);
-    }
-
-    #[inline]
     fn energies_of<const W: usize>(
         &self,
-        i: &[u32; W],
-        j: usize,
-        x: &[N; W],
-        energies: &mut [N; W],
-        scratch: &mut [N],
-    ) {
-        self.energies_between(|l| (i[l] as usize, j), x, energies, scratch);
-    }
-
-    #[inline]
-    fn slopes_of<const W: usize>(&self, i: &[u32; W], j: usize, x: &[N; W], slopes: &mut [N; W], scratch: &mut [N]) {
-        self.slopes_between(|l| (i[l] as usize, j), x, slopes, scratch);
-    }
-
-    #[inline]
-    fn slopes_and_summands_of<const W: usize>(
-        &self,
-        i: &[u32; W],
-        j: usize,
-        x: &[N; W],
-        slopes: &mut [N; W],
-        summands: &mut [N; W],
-        scratch: &mut [N],
-    ) {
-        self.slopes_and_summands_between(|l| (i[l] as usize, j), x, (slopes, summands), scratch);
-    }
-}
-
-/// Blocks of pairs, each lane of which has its bodies.
-impl<N: Number> FormulaPair<N> {
-    #[inline(always)]
-    fn energies_between<const W: usize>(
-        &self,
-        bodies: impl Fn(usize) -> (usize, usize),
+        bodies: impl Fn(usize) -> [usize; 2],
         x: &[N; W],
         energies: &mut [N; W],
         scratch: &mut [N],
@@ -249,15 +193,15 @@ impl<N: Number> FormulaPair<N> {
             return energies.swap_with_slice(self.interpreter.energies(x, registers));
         }
         for l in 0..W {
-            let (i, j) = bodies(l);
+            let [i, j] = bodies(l);
             self.energy(i, j, &x[l], &mut energies[l], scratch);
         }
     }
 
-    #[inline(always)]
-    fn slopes_between<const W: usize>(
+    #[inline]
+    fn slopes_of<const W: usize>(
         &self,
-        bodies: impl Fn(usize) -> (usize, usize),
+        bodies: impl Fn(usize) -> [usize; 2],
         x: &[N; W],
         slopes: &mut [N; W],
         scratch: &mut [N],
@@ -266,17 +210,18 @@ impl<N: Number> FormulaPair<N> {
             return slopes.swap_with_slice(self.interpreter.slopes(x, registers));
         }
         for l in 0..W {
-            let (i, j) = bodies(l);
+            let [i, j] = bodies(l);
             self.slope(i, j, &x[l], &mut slopes[l], scratch);
         }
     }
 
-    #[inline(always)]
-    fn slopes_and_summands_between<const W: usize>(
+    #[inline]
+    fn slopes_and_summands_of<const W: usize>(
         &self,
-        bodies: impl Fn(usize) -> (usize, usize),
+        bodies: impl Fn(usize) -> [usize; 2],
         x: &[N; W],
-        (slopes, summands): (&mut [N; W], &mut [N; W]),
+        slopes: &mut [N; W],
+        summands: &mut [N; W],
         scratch: &mut [N],
     ) {
         if let Some(registers) = self.block::<W>(&bodies, scratch) {
@@ -285,7 +230,7 @@ impl<N: Number> FormulaPair<N> {
             return summands.swap_with_slice(&mut outputs[1]);
         }
         for l in 0..W {
-            let (i, j) = bodies(l);
+            let [i, j] = bodies(l);
             self.slope_and_summand(i, j, &x[l], &mut slopes[l], &mut summands[l], scratch);
         }
     }

@@ -1,18 +1,18 @@
 //! The Hessian–vector product of a sum over pairs up to a cutoff, one pair after the other.
 
-use super::cutoff_pairs::{Constants, CutoffPairs, Near, clear_far_lanes, constants, is_below};
+use super::cutoff_pairs::{Constants, CutoffPairs, Near, clear_far_lanes, is_below};
 use super::pair::{PairCurvature, PairPotential};
 use crate::number::Number;
-use crate::systems::potential::HessianProduct;
+use crate::systems::potential::{HessianProduct, Potential};
 
 impl<N: Number, P: PairPotential<N>, const D: usize> HessianProduct<N> for CutoffPairs<P, D> {
     fn hessian_scratch(&self) -> usize {
-        constants(D) + self.pair.scratch() + self.pair.curved().map_or(0, PairCurvature::curvature_scratch)
+        Potential::<N>::scratch(self) + self.pair.curved().map_or(0, PairCurvature::curvature_scratch)
     }
 
     fn prepare_hessian(&self, scratch: &mut [N], context: &N::Context) {
-        let (own, second) = scratch.split_at_mut(constants(D) + self.pair.scratch());
-        self.prepare_all(own, context);
+        let (own, second) = scratch.split_at_mut(Potential::<N>::scratch(self));
+        self.prepare(own, context);
         if let Some(curved) = self.pair.curved() {
             curved.prepare_curvature(second, context);
         }
@@ -37,18 +37,19 @@ impl<P, const D: usize> CutoffPairs<P, D> {
         P: PairPotential<N>,
     {
         let curved = self.pair.curved().expect("the potential has a Hessian–vector product only then");
-        let (scratch, second) = scratch.split_at_mut(constants(D) + self.pair.scratch());
+        let (scratch, second) = scratch.split_at_mut(Potential::<N>::scratch(self));
         let (constants, pair) = Constants::<N, D>::split(scratch);
         let zero = N::zero(&q[0].context());
         product.iter_mut().for_each(N::assign_zero);
         let (q, _) = q.as_chunks::<D>();
         let (vectors, _) = v.as_chunks::<D>();
         let (product, _) = product.as_chunks_mut::<D>();
+        let reciprocal_sides = self.reciprocal_sides();
         let mut near = Near::<N, D, 1>::new(&zero);
         let [mut along, mut total] = [zero.clone(), zero];
         for j in 0..self.bodies {
             for other in self.neighbours.of(j).chunks(1) {
-                near.add(other, &q[j], q, &constants, self.reciprocal_sides().as_ref());
+                near.add(other, &q[j], q, &constants, reciprocal_sides.as_ref());
                 if near.count == 0 {
                     continue;
                 }

@@ -113,7 +113,7 @@ impl<'a, N, const D: usize> Constants<'a, N, D> {
 }
 
 /// How many numbers these are.
-pub(super) const fn constants(dimensions: usize) -> usize {
+const fn constants(dimensions: usize) -> usize {
     3 + COEFFICIENTS + dimensions
 }
 
@@ -219,27 +219,6 @@ struct Own<N, const D: usize> {
 }
 
 impl<P, const D: usize> CutoffPairs<P, D> {
-    /// Puts the constants, and what the pair keeps, into the scratch space.
-    pub(super) fn prepare_all<N: Number>(&self, scratch: &mut [N], context: &N::Context)
-    where
-        P: PairPotential<N>,
-    {
-        let (own, pair) = scratch.split_at_mut(constants(D));
-        let (squares, rest) = own.split_at_mut(3);
-        let (coefficients, sides) = rest.split_at_mut(COEFFICIENTS);
-        let assign = |places: &mut [N], values: &mut dyn Iterator<Item = Rational>| {
-            places.iter_mut().zip(values).for_each(|(place, value)| *place = N::from_rational(&value, context));
-        };
-        assign(squares, &mut self.cutoff.squares().into_iter());
-        if let Some(polynomial) = self.switch {
-            assign(coefficients, &mut polynomial.coefficients());
-        }
-        if let Some(of_box) = self.cutoff.sides() {
-            assign(sides, &mut of_box.iter().cloned());
-        }
-        self.pair.prepare(pair, context);
-    }
-
     /// The reciprocals of the sides of the box.
     pub(super) fn reciprocal_sides(&self) -> Option<[f64; D]> {
         self.sides.map(|sides| sides.map(|side| 1.0 / side))
@@ -380,13 +359,14 @@ impl<P, const D: usize> CutoffPairs<P, D> {
     ) where
         P: PairPotential<N>,
     {
+        let bodies = |l: usize| [others[l] as usize, body];
         match (forces, energy) {
             (true, false) if self.alike => self.pair.slopes(0, 0, x, slopes, pair),
-            (true, false) => self.pair.slopes_of(others, body, x, slopes, pair),
+            (true, false) => self.pair.slopes_of(bodies, x, slopes, pair),
             (true, true) if self.alike => self.pair.slopes_and_summands(0, 0, x, slopes, energies, pair),
-            (true, true) => self.pair.slopes_and_summands_of(others, body, x, slopes, energies, pair),
+            (true, true) => self.pair.slopes_and_summands_of(bodies, x, slopes, energies, pair),
             (false, _) if self.alike => return self.pair.energies(0, 0, x, energies, pair),
-            (false, _) => return self.pair.energies_of(others, body, x, energies, pair),
+            (false, _) => return self.pair.energies_of(bodies, x, energies, pair),
         }
         if energy && self.pair.summand() == Summand::Rate {
             // 2r²u′ − 2u
@@ -420,7 +400,20 @@ impl<N: Number, P: PairPotential<N>, const D: usize> Potential<N> for CutoffPair
     }
 
     fn prepare(&self, scratch: &mut [N], context: &N::Context) {
-        self.prepare_all(scratch, context);
+        let (own, pair) = scratch.split_at_mut(constants(D));
+        let (squares, rest) = own.split_at_mut(3);
+        let (coefficients, sides) = rest.split_at_mut(COEFFICIENTS);
+        let assign = |places: &mut [N], values: &mut dyn Iterator<Item = Rational>| {
+            places.iter_mut().zip(values).for_each(|(place, value)| *place = N::from_rational(&value, context));
+        };
+        assign(squares, &mut self.cutoff.squares().into_iter());
+        if let Some(polynomial) = self.switch {
+            assign(coefficients, &mut polynomial.coefficients());
+        }
+        if let Some(of_box) = self.cutoff.sides() {
+            assign(sides, &mut of_box.iter().cloned());
+        }
+        self.pair.prepare(pair, context);
     }
 
     fn update(&mut self, q: &[N]) {

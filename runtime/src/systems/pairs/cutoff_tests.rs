@@ -49,22 +49,13 @@ fn places(bodies: usize, each: usize, dimensions: usize, seed: u64) -> Vec<f64> 
     places
 }
 
-/// The gradient, that which comes with the rate, rate and energy.
+/// What the list of neighbours at q gives: the gradient, that which comes with the rate, rate and energy.
 fn evaluated<N: Number, P: PairPotential<N>, const D: usize>(
     pairs: &mut CutoffPairs<P, D>,
     q: &[N],
 ) -> (Vec<N>, Vec<N>, [N; 2]) {
-    let context = q[0].context();
-    let zeros = |count| vec![N::zero(&context); count];
-    let mut scratch = zeros(Potential::<N>::scratch(pairs));
-    pairs.prepare(&mut scratch, &context);
     pairs.update(q);
-    let (mut plain, mut with_rate) = (zeros(q.len()), zeros(q.len()));
-    let [mut rate, mut energy] = [N::zero(&context), N::zero(&context)];
-    pairs.gradient(q, &mut plain, &mut scratch);
-    pairs.gradient_and_rate(q, &mut with_rate, &mut rate, &mut scratch);
-    pairs.energy(q, &mut energy, &mut scratch);
-    (plain, with_rate, [rate, energy])
+    super::tests::evaluated(pairs, q)
 }
 
 /// U and U_q by the definition: all pairs, all images; the energy of a pair and its derivative from r².

@@ -41,20 +41,62 @@ pub trait PairPotential<N: Number>: Pair {
         None
     }
 
-    /// The energies of the body i with the bodies j, j + 1, …, one x for each.
+    /// The energies of W pairs of bodies i < j, one x for each; `bodies` gives i and j.
     #[inline(always)]
-    fn energies<const W: usize>(&self, i: usize, j: usize, x: &[N; W], energies: &mut [N; W], scratch: &mut [N]) {
+    fn energies_of<const W: usize>(
+        &self,
+        bodies: impl Fn(usize) -> [usize; 2],
+        x: &[N; W],
+        energies: &mut [N; W],
+        scratch: &mut [N],
+    ) {
         for l in 0..W {
-            self.energy(i, j + l, &x[l], &mut energies[l], scratch);
+            let [i, j] = bodies(l);
+            self.energy(i, j, &x[l], &mut energies[l], scratch);
         }
     }
 
     /// The slopes in the same way.
     #[inline(always)]
-    fn slopes<const W: usize>(&self, i: usize, j: usize, x: &[N; W], slopes: &mut [N; W], scratch: &mut [N]) {
+    fn slopes_of<const W: usize>(
+        &self,
+        bodies: impl Fn(usize) -> [usize; 2],
+        x: &[N; W],
+        slopes: &mut [N; W],
+        scratch: &mut [N],
+    ) {
         for l in 0..W {
-            self.slope(i, j + l, &x[l], &mut slopes[l], scratch);
+            let [i, j] = bodies(l);
+            self.slope(i, j, &x[l], &mut slopes[l], scratch);
         }
+    }
+
+    /// Those slopes, and the summands.
+    #[inline(always)]
+    fn slopes_and_summands_of<const W: usize>(
+        &self,
+        bodies: impl Fn(usize) -> [usize; 2],
+        x: &[N; W],
+        slopes: &mut [N; W],
+        summands: &mut [N; W],
+        scratch: &mut [N],
+    ) {
+        for l in 0..W {
+            let [i, j] = bodies(l);
+            self.slope_and_summand(i, j, &x[l], &mut slopes[l], &mut summands[l], scratch);
+        }
+    }
+
+    /// The energies of the body i with the bodies j, j + 1, …, whose properties are side by side.
+    #[inline(always)]
+    fn energies<const W: usize>(&self, i: usize, j: usize, x: &[N; W], energies: &mut [N; W], scratch: &mut [N]) {
+        self.energies_of(|l| [i, j + l], x, energies, scratch);
+    }
+
+    /// The slopes in the same way.
+    #[inline(always)]
+    fn slopes<const W: usize>(&self, i: usize, j: usize, x: &[N; W], slopes: &mut [N; W], scratch: &mut [N]) {
+        self.slopes_of(|l| [i, j + l], x, slopes, scratch);
     }
 
     /// Those slopes, and the summands.
@@ -68,48 +110,7 @@ pub trait PairPotential<N: Number>: Pair {
         summands: &mut [N; W],
         scratch: &mut [N],
     ) {
-        for l in 0..W {
-            self.slope_and_summand(i, j + l, &x[l], &mut slopes[l], &mut summands[l], scratch);
-        }
-    }
-
-    /// The energies of bodies i, which need not follow each other, with the body j > i.
-    #[inline(always)]
-    fn energies_of<const W: usize>(
-        &self,
-        i: &[u32; W],
-        j: usize,
-        x: &[N; W],
-        energies: &mut [N; W],
-        scratch: &mut [N],
-    ) {
-        for l in 0..W {
-            self.energy(i[l] as usize, j, &x[l], &mut energies[l], scratch);
-        }
-    }
-
-    /// The slopes in the same way.
-    #[inline(always)]
-    fn slopes_of<const W: usize>(&self, i: &[u32; W], j: usize, x: &[N; W], slopes: &mut [N; W], scratch: &mut [N]) {
-        for l in 0..W {
-            self.slope(i[l] as usize, j, &x[l], &mut slopes[l], scratch);
-        }
-    }
-
-    /// Those slopes, and the summands.
-    #[inline(always)]
-    fn slopes_and_summands_of<const W: usize>(
-        &self,
-        i: &[u32; W],
-        j: usize,
-        x: &[N; W],
-        slopes: &mut [N; W],
-        summands: &mut [N; W],
-        scratch: &mut [N],
-    ) {
-        for l in 0..W {
-            self.slope_and_summand(i[l] as usize, j, &x[l], &mut slopes[l], &mut summands[l], scratch);
-        }
+        self.slopes_and_summands_of(|l| [i, j + l], x, slopes, summands, scratch);
     }
 }
 

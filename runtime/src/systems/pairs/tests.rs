@@ -22,13 +22,10 @@ fn places(bodies: usize, dimensions: usize) -> Vec<f64> {
 }
 
 /// The gradient, that which comes with the rate, and the rate with the energy.
-fn evaluated<N: crate::Number, P: PairPotential<N>, const D: usize>(
-    pairs: &Pairs<P, D>,
-    q: &[N],
-) -> (Vec<N>, Vec<N>, [N; 2]) {
+pub(super) fn evaluated<N: crate::Number>(pairs: &impl Potential<N>, q: &[N]) -> (Vec<N>, Vec<N>, [N; 2]) {
     let context = q[0].context();
     let zeros = |count| vec![N::zero(&context); count];
-    let mut scratch = zeros(Potential::<N>::scratch(pairs));
+    let mut scratch = zeros(pairs.scratch());
     pairs.prepare(&mut scratch, &context);
     let (mut plain, mut with_rate) = (zeros(q.len()), zeros(q.len()));
     let [mut rate, mut energy] = [N::zero(&context), N::zero(&context)];
