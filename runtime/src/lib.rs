@@ -67,13 +67,14 @@
 //!
 //! # Rooms
 //!
-//! The library is five rooms; each uses only what stands before it:
+//! The library is six rooms; each uses only what stands before it:
 //!
 //! | room | what it is |
 //! | --- | --- |
 //! | [`number`] | numbers that compute in place: `f64`, several of them in lanes, double-double, limbs, MPFR |
 //! | [`systems`] | Hamiltonian systems, their states, and the exact flows of their parts |
 //! | [`steps`] | schemes, steppers, integrators |
+//! | [`tangent`] | tangent maps: indicators of chaos, derivatives of states |
 //! | [`shadow`] | estimators of the modified energy, the [monitor](shadow::ShadowEnergy), trajectories and [energy drifts](shadow::run) |
 //! | the root | what most programs need; with its traits in the [`prelude`] |
 
@@ -85,6 +86,7 @@ pub mod prelude;
 pub mod shadow;
 pub mod steps;
 pub mod systems;
+pub mod tangent;
 
 #[doc(inline)]
 pub use number::{Number, Real};

@@ -8,6 +8,7 @@ pub mod counting;
 mod double;
 mod double_double;
 mod doubles;
+mod dual;
 mod epsilon;
 mod fused;
 mod high_precision;
@@ -38,6 +39,7 @@ pub use double_double::{DoubleDouble, Machine};
 pub(crate) use double::scaled;
 #[doc(hidden)]
 pub use doubles::Doubles;
+pub use dual::Dual;
 pub(crate) use epsilon::epsilon;
 pub use fused::Fused;
 pub use lanes::Lanes;
@@ -98,6 +100,9 @@ pub trait Number: Clone + fmt::Debug {
 
     /// How many numbers this is: those in lanes, else 1.
     const LANES: usize = 1;
+
+    /// Whether a number has derivatives beside its value, as a [`Dual`] has.
+    const HAS_DERIVATIVES: bool = false;
 
     /// For a number made of 64-bit limbs, with which estimators then compute in fixed point; without it they compute with numbers.
     #[doc(hidden)]
@@ -271,6 +276,12 @@ pub trait Number: Clone + fmt::Debug {
 
     /// x ← NaN where x is finite, but not r² of two points in space with such a coordinate a: |a| > 3.8e153 in `f64`.
     fn make_nan_where_square_overflows(&mut self, a: &Self);
+
+    /// Derivatives of x ← those of a; x stays. Iterations end when x does not change any more, which may be before its derivatives do not.
+    #[inline(always)]
+    fn assign_derivatives(&mut self, a: &Self) {
+        let _ = a;
+    }
 
     /// The number in a lane as m 2ⁿ, rounded to 53 bits, for decisions that depend on sizes. n is 0 of numbers that are `f64`s.
     fn lane(&self, lane: usize) -> (f64, i64);

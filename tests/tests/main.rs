@@ -39,6 +39,7 @@ mod sampling;
 mod stepper;
 mod structure;
 mod summation;
+mod tangent;
 mod transformed_time;
 mod transposed_digits;
 mod wisdom_holman;

@@ -186,7 +186,9 @@ impl<N: Number> KeplerDrift<N> {
             self.equation.set_anomaly(lane, s);
             for (i, of_both) in self.increments.iter_mut().enumerate() {
                 for (number, increment) in of_both.iter_mut().zip(passage.increments(i)) {
+                    let generic = number.clone();
                     number.set_lane(lane, increment, 0);
+                    number.assign_derivatives(&generic);
                 }
             }
         }

@@ -119,6 +119,28 @@ impl<N: Number> Equation<N> {
             self.refine();
         }
         self.take_last_step();
+        if N::HAS_DERIVATIVES {
+            self.settle_derivatives();
+        }
+    }
+
+    /// One more step, of which the derivatives are taken: those of the solution, as the step itself is 0 up to round-off.
+    fn settle_derivatives(&mut self) {
+        let solution = |own: &mut Self| {
+            let [g1, g2, _] = &own.g;
+            [&own.s, g1, g2, &own.r, &own.anomaly].map(N::clone)
+        };
+        let before = solution(self);
+        self.evaluate(Terms::All);
+        self.assign_step();
+        self.take_last_step();
+        let settled = solution(self);
+        let [g1, g2, _] = &mut self.g;
+        let numbers = [&mut self.s, g1, g2, &mut self.r, &mut self.anomaly];
+        for ((number, value), derivatives) in numbers.into_iter().zip(before).zip(&settled) {
+            number.assign(&value);
+            number.assign_derivatives(derivatives);
+        }
     }
 
     #[cfg_attr(not(debug_assertions), inline(always))]
@@ -388,7 +410,9 @@ impl<N: Number> Equation<N> {
 
     /// s of a lane ← an `f64`
     pub(super) fn set_anomaly(&mut self, lane: usize, s: f64) {
+        let generic = self.anomaly.clone();
         self.anomaly.set_lane(lane, s, 0);
+        self.anomaly.assign_derivatives(&generic);
     }
 
     /// s = ∫dt/r

@@ -1,0 +1,238 @@
+//! How a tangent vector grows: the largest Lyapunov exponent, MEGNO, and what they decide.
+
+use std::fmt;
+
+/// log |δ| of a tangent vector along a trajectory, and what follows from it.
+///
+/// With L(t) = log(|δ(t)|/|δ(0)|):
+///
+/// - the finite-time Lyapunov exponent is L(t)/t. G. Benettin, L. Galgani, A. Giorgilli, J.-M. Strelcyn, Meccanica 15 (1980) 9;
+/// - MEGNO is Y(t) = (2/t) ∫₀ᵗ L′(s) s ds, and its mean Ȳ(t) = (1/t) ∫₀ᵗ Y(s) ds. Along a quasiperiodic trajectory vectors grow like t, and both tend to 2 (to
+///   0 where all frequencies are constant, as vectors do not grow); along a chaotic one Y grows like λt and Ȳ like λt/2. P. M. Cincotta, C. Simó, Astron. Astrophys. Suppl. 147 (2000)
+///   205; P. M. Cincotta, C. M. Giordano, C. Simó, Physica D 182 (2003) 151.
+///
+/// Integrals are sums by the midpoint rule over the intervals between observations.
+#[derive(Clone, Debug)]
+pub struct Growth {
+    initial: f64,
+    time: f64,
+    logarithm: f64,
+    /// ∫ L′ s ds
+    weighted: f64,
+    /// ∫ Y ds
+    integral: f64,
+    marks: Marks,
+}
+
+/// Whether a trajectory is chaotic, as far as it was followed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Regularity {
+    /// Vectors grow no faster than on a quasiperiodic trajectory. Slower chaos than a run shows is always possible.
+    Regular,
+    /// Vectors grow exponentially, at all times.
+    Chaotic,
+    /// The run is too short, or ends in another kind of motion than it begins with.
+    Undecided,
+}
+
+impl fmt::Display for Regularity {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Regularity::Regular => "regular",
+            Regularity::Chaotic => "chaotic",
+            Regularity::Undecided => "undecided",
+        })
+    }
+}
+
+/// A Lyapunov exponent with twice its standard error.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Exponent {
+    /// λ
+    pub value: f64,
+    /// Twice the standard error of λ, from its scatter over parts of the trajectory.
+    pub error: f64,
+}
+
+/// Up to this mean MEGNO a trajectory is regular: the mean of regular ones tends to 2 or, without shear, to 0.
+const REGULAR: f64 = 2.5;
+
+/// From this mean of Y over a half of the run on it may be chaotic: growth by a power of t would be t⁴.
+const CHAOTIC: f64 = 8.0;
+
+/// By at least this factor Y is larger in the second half of a chaotic run than in its second quarter. Y ∝ t would have 2; growth by a power of t has 1.
+const STEADY: f64 = 1.4;
+
+impl Growth {
+    /// Of a vector with this log |δ| at t = 0.
+    pub fn new(logarithm: f64) -> Self {
+        Growth { initial: logarithm, time: 0.0, logarithm: 0.0, weighted: 0.0, integral: 0.0, marks: Marks::default() }
+    }
+
+    pub(super) fn is_finite(&self) -> bool {
+        self.initial.is_finite()
+    }
+
+    /// The vector has this log |δ| at |t|, later than before.
+    pub fn observe(&mut self, time: f64, logarithm: f64) {
+        let grown = logarithm - self.initial;
+        let (interval, middle) = (time - self.time, (time + self.time) / 2.0);
+        let before = self.megno();
+        self.weighted += (grown - self.logarithm) * middle;
+        (self.time, self.logarithm) = (time, grown);
+        self.integral += interval * (before + self.megno()) / 2.0;
+        self.marks.push([time, grown, self.integral]);
+    }
+
+    /// How long the trajectory was followed.
+    pub fn time(&self) -> f64 {
+        self.time
+    }
+
+    /// L = log(|δ(t)|/|δ(0)|).
+    pub fn logarithm(&self) -> f64 {
+        self.logarithm
+    }
+
+    /// The finite-time Lyapunov exponent L(t)/t; NaN at t = 0.
+    pub fn lyapunov(&self) -> f64 {
+        self.logarithm / self.time
+    }
+
+    /// MEGNO, Y; 0 at t = 0.
+    pub fn megno(&self) -> f64 {
+        if self.time == 0.0 { 0.0 } else { 2.0 * self.weighted / self.time }
+    }
+
+    /// The mean of MEGNO, Ȳ; NaN at t = 0.
+    pub fn mean_megno(&self) -> f64 {
+        self.integral / self.time
+    }
+
+    /// The exponent over the last three quarters of the trajectory, where vectors have turned to the direction that grows fastest, with its error from
+    /// six parts of them; `None` of fewer than 64 observations.
+    pub fn exponent(&self) -> Option<Exponent> {
+        const PARTS: usize = 6;
+        let at: Vec<_> = (2..=2 + PARTS).map(|i| self.marks.near(self.time * i as f64 / 8.0)).collect::<Option<_>>()?;
+        let rates = at.windows(2).map(|pair| (pair[1][1] - pair[0][1]) / (pair[1][0] - pair[0][0]));
+        let rates: Vec<f64> = rates.collect();
+        let value = rates.iter().sum::<f64>() / PARTS as f64;
+        let variance = rates.iter().map(|rate| (rate - value).powi(2)).sum::<f64>() / (PARTS - 1) as f64;
+        Some(Exponent { value, error: 2.0 * (variance / PARTS as f64).sqrt() })
+    }
+
+    /// Whether the motion is regular or chaotic, as far as the trajectory shows it.
+    ///
+    /// From the means of Y over the second quarter of the trajectory, Y₂, and over its second half, Y₃₄. Regular: −½ ≤ Y₃₄ ≤ 2.5 and Y₂ ≤ 2.5. Chaotic: Y₃₄ ≥ 8, and at least 1.4 Y₂: vectors grow
+    /// by e⁸ where regular ones grow tenfold, and their growth does not slow down.
+    pub fn regularity(&self) -> Regularity {
+        let marks = [0.25, 0.5, 1.0].map(|part| self.marks.near(self.time * part));
+        let [Some(quarter), Some(half), Some(end)] = marks else { return Regularity::Undecided };
+        let mean = |from: [f64; 3], to: [f64; 3]| (to[2] - from[2]) / (to[0] - from[0]);
+        let (earlier, later) = (mean(quarter, half), mean(half, end));
+        if later >= CHAOTIC && later >= STEADY * earlier {
+            Regularity::Chaotic
+        } else if (-0.5..=REGULAR).contains(&later) && earlier <= REGULAR {
+            Regularity::Regular
+        } else {
+            Regularity::Undecided
+        }
+    }
+}
+
+/// Up to 256 observations of (t, L, ∫Y) at nearly equal distances, whatever their number.
+#[derive(Clone, Debug, Default)]
+struct Marks {
+    kept: Vec<[f64; 3]>,
+    /// Every 2ⁿth observation is kept.
+    every: u32,
+    seen: u64,
+    last: Option<[f64; 3]>,
+}
+
+impl Marks {
+    const MOST: usize = 256;
+    const LEAST: usize = 64;
+
+    fn push(&mut self, mark: [f64; 3]) {
+        self.last = Some(mark);
+        self.seen += 1;
+        if !self.seen.is_multiple_of(1 << self.every) {
+            return;
+        }
+        self.kept.push(mark);
+        if self.kept.len() == Self::MOST {
+            let mut number = 0_usize;
+            self.kept.retain(|_| {
+                number += 1;
+                number.is_multiple_of(2)
+            });
+            self.every += 1;
+        }
+    }
+
+    /// The observation that is nearest in time; `None` of fewer than 64.
+    fn near(&self, time: f64) -> Option<[f64; 3]> {
+        let enough = self.kept.len() >= Self::LEAST;
+        let distance = |mark: &[f64; 3]| (mark[0] - time).abs();
+        let nearest = self.kept.iter().chain(&self.last).min_by(|a, b| distance(a).total_cmp(&distance(b)));
+        nearest.copied().filter(|_| enough)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The growth L(t) = f(t), of 0 at t = 0.
+    fn growth(until: f64, steps: u32, f: impl Fn(f64) -> f64) -> Growth {
+        let mut growth = Growth::new(1.5);
+        for n in 1..=steps {
+            let t = until * f64::from(n) / f64::from(steps);
+            growth.observe(t, 1.5 + f(t));
+        }
+        growth
+    }
+
+    #[test]
+    fn exponential_growth() {
+        let found = growth(100.0, 10_000, |t| 0.3 * t);
+        assert!((found.lyapunov() - 0.3).abs() < 1e-12);
+        assert!((found.megno() - 30.0).abs() < 1e-9); // λt
+        assert!((found.mean_megno() - 15.0).abs() < 1e-3); // λt/2
+        let exponent = found.exponent().unwrap();
+        assert!((exponent.value - 0.3).abs() < 1e-9 && exponent.error < 1e-9);
+        assert_eq!(found.regularity(), Regularity::Chaotic);
+    }
+
+    /// |δ|² = 1 + t² of a sheared flow: Y = 2 − 2 arctan(t)/t.
+    #[test]
+    fn linear_growth() {
+        let found = growth(1000.0, 100_000, |t| (1.0 + t * t).ln() / 2.0);
+        assert!((found.megno() - (2.0 - 2.0 * 1000_f64.atan() / 1000.0)).abs() < 1e-4);
+        assert!((found.mean_megno() - 2.0).abs() < 0.05);
+        assert_eq!(found.regularity(), Regularity::Regular);
+        let exponent = found.exponent().unwrap();
+        assert!(exponent.value.abs() < 0.005);
+    }
+
+    #[test]
+    fn what_is_between_is_undecided() {
+        assert_eq!(growth(100.0, 10_000, |t| 0.04 * t).regularity(), Regularity::Undecided); // too short
+        assert_eq!(growth(100.0, 10_000, |t| 4.0 * (1.0 + t * t).ln()).regularity(), Regularity::Undecided); // a power of t
+        let ended = |t: f64| if t < 40.0 { 0.5 * t } else { 20.0 };
+        assert_eq!(growth(100.0, 10_000, ended).regularity(), Regularity::Undecided);
+        assert_eq!(growth(100.0, 63, |t| 0.3 * t).regularity(), Regularity::Undecided); // too few
+        assert_eq!(growth(100.0, 10_000, |t| t.sin()).regularity(), Regularity::Regular); // no shear
+        assert!(growth(100.0, 10, |t| t).exponent().is_none());
+    }
+
+    #[test]
+    fn observations_are_kept_at_equal_distances() {
+        let found = growth(1.0, 100_000, |t| t);
+        assert!(found.marks.kept.len() < Marks::MOST);
+        for part in [0.25, 0.5, 1.0] {
+            assert!((found.marks.near(part).unwrap()[0] - part).abs() < 1.0 / 64.0);
+        }
+    }
+}
