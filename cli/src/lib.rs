@@ -10,6 +10,7 @@
 //! | `schemes`, `problems` | what can be run |
 //! | `emit` | schemes as code for other ecosystems |
 //! | `work_precision`, `advise` | speed against error; a scheme and a step size for a tolerance |
+//! | `chaos` | indicators of chaos along a run |
 //! | `sweep`, `collect` | many runs of a scene; their results |
 //! | `stability` | hard cases |
 //! | `figures` | the figures of the paper, and additional ones |
@@ -21,6 +22,7 @@
 //! | `report`, `colour`, `interrupt` | messages on stderr and the exit status; colours; Ctrl-C |
 
 mod advise;
+mod chaos;
 mod collect;
 mod drift;
 mod emit;
@@ -82,6 +84,7 @@ commands! {
     Emit: emit,
     WorkPrecision: work_precision,
     Advise: advise,
+    Chaos: chaos,
     Sweep: sweep,
     Collect: collect,
     Stability: stability,

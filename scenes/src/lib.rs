@@ -91,6 +91,7 @@
 //! | `shell` | words of commands that users copy |
 
 pub mod arithmetic;
+pub mod chaos;
 pub mod computation;
 pub mod cpu_time;
 pub mod drift;
@@ -127,6 +128,7 @@ mod snapshots;
 pub mod stability;
 pub mod start;
 pub mod steps;
+pub mod tangent;
 mod template;
 mod temporary;
 pub mod watch;

@@ -12,7 +12,9 @@ use shadowstep::{Real, StepSize};
 use crate::arithmetic::number_types;
 use crate::error::Error;
 use crate::follow::{Follower, follow};
-use crate::scene::SceneNumber;
+use crate::scene::{SceneNumber, System};
+use crate::start::Steps;
+use crate::tangent::{TangentRun, Vectors, tangents};
 
 /// A number type of runs.
 pub trait RunNumber: SceneNumber {
@@ -27,6 +29,17 @@ pub trait RunNumber: SceneNumber {
         settings: Option<&EstimatorSettings>,
         follower: &mut dyn Follower<Self>,
     ) -> Result<ControlFlow<()>, Error>;
+
+    /// The system at its first state with tangent vectors beside it.
+    ///
+    /// # Errors
+    /// As [`System::integrator`]; a start where the flows have no derivatives.
+    fn tangents(
+        system: &System,
+        steps: Steps<'_>,
+        vectors: Vectors,
+        context: &Self::Context,
+    ) -> Result<Box<dyn TangentRun>, Error>;
 
     /// The estimator of these settings: see [`BuildEstimator::build`].
     ///
@@ -137,6 +150,16 @@ macro_rules! run_numbers {
                 follower: &mut dyn Follower<Self>,
             ) -> Result<ControlFlow<()>, Error> {
                 follow(integrator, states, settings, follower)
+            }
+
+            #[inline(never)]
+            fn tangents(
+                system: &System,
+                steps: Steps<'_>,
+                vectors: Vectors,
+                context: &Self::Context,
+            ) -> Result<Box<dyn TangentRun>, Error> {
+                tangents::<Self>(system, steps, vectors, context)
             }
 
             #[inline(never)]

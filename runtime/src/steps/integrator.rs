@@ -231,43 +231,50 @@ impl<S: Scheme + ValidFor<M::Class>, M: System> Integrator for WithStepper<'_, S
     }
 }
 
-/// Of an integrator that is used afterwards, or of a `dyn Integrator`.
-impl<I: Integrator + ?Sized> Integrator for &mut I {
-    type Number = I::Number;
-    type Coordinates = I::Coordinates;
-    type Summation = I::Summation;
+/// Of an integrator behind a pointer.
+macro_rules! behind {
+    ($($pointer:ty),*) => {$(
+        impl<I: Integrator + ?Sized> Integrator for $pointer {
+            type Number = I::Number;
+            type Coordinates = I::Coordinates;
+            type Summation = I::Summation;
 
-    fn state(&self) -> &State<I::Number, I::Coordinates, I::Summation> {
-        (**self).state()
-    }
-    fn system(&mut self) -> &mut AnySystem<'_, I::Number, I::Coordinates, I::Summation> {
-        (**self).system()
-    }
-    fn scheme(&self) -> SchemeProperties<'_> {
-        (**self).scheme()
-    }
-    fn step_size(&self) -> &StepSize {
-        (**self).step_size()
-    }
-    fn check(&self) -> Result<(), MismatchError> {
-        (**self).check()
-    }
-    fn step(&mut self, carried: Carried) {
-        (**self).step(carried);
-    }
-    fn step_back(&mut self, carried: Carried) {
-        (**self).step_back(carried);
-    }
-    fn steps(&mut self, count: u64) {
-        (**self).steps(count);
-    }
-    fn part_of_step(&mut self, part: &I::Number) {
-        (**self).part_of_step(part);
-    }
-    fn is_processed(&self) -> bool {
-        (**self).is_processed()
-    }
-    fn postprocess(&mut self) {
-        (**self).postprocess();
-    }
+            fn state(&self) -> &State<I::Number, I::Coordinates, I::Summation> {
+                (**self).state()
+            }
+            fn system(&mut self) -> &mut AnySystem<'_, I::Number, I::Coordinates, I::Summation> {
+                (**self).system()
+            }
+            fn scheme(&self) -> SchemeProperties<'_> {
+                (**self).scheme()
+            }
+            fn step_size(&self) -> &StepSize {
+                (**self).step_size()
+            }
+            fn check(&self) -> Result<(), MismatchError> {
+                (**self).check()
+            }
+            fn step(&mut self, carried: Carried) {
+                (**self).step(carried);
+            }
+            fn step_back(&mut self, carried: Carried) {
+                (**self).step_back(carried);
+            }
+            fn steps(&mut self, count: u64) {
+                (**self).steps(count);
+            }
+            fn part_of_step(&mut self, part: &I::Number) {
+                (**self).part_of_step(part);
+            }
+            fn is_processed(&self) -> bool {
+                (**self).is_processed()
+            }
+            fn postprocess(&mut self) {
+                (**self).postprocess();
+            }
+        }
+    )*};
 }
+
+// used afterwards, and owned
+behind!(&mut I, Box<I>);

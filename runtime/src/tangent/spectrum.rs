@@ -76,18 +76,16 @@ where
         &self.integrators
     }
 
-    /// The finite-time exponents Σ log R_jj / t of the trajectory in a lane, the largest first; NaN at t = 0.
-    pub fn exponents(&self, lane: usize) -> Vec<f64> {
-        let mut found: Vec<f64> = self.of_lane(lane).map(Growth::lyapunov).collect();
-        found.sort_by(|a, b| b.total_cmp(a));
-        found
-    }
-
     /// The exponents over the last three quarters of the trajectory with their errors, the largest first: see [`Growth::exponent`].
     pub fn estimates(&self, lane: usize) -> Option<Vec<Exponent>> {
-        let mut found: Vec<Exponent> = self.of_lane(lane).map(Growth::exponent).collect::<Option<_>>()?;
-        found.sort_by(|a, b| b.value.total_cmp(&a.value));
-        Some(found)
+        self.growths(lane).into_iter().map(Growth::exponent).collect()
+    }
+
+    /// The growth of Σ log R_jj of each exponent, the largest first.
+    pub fn growths(&self, lane: usize) -> Vec<&Growth> {
+        let mut found: Vec<_> = self.of_lane(lane).collect();
+        found.sort_by(|a, b| b.logarithm().total_cmp(&a.logarithm()));
+        found
     }
 
     fn of_lane(&self, lane: usize) -> impl Iterator<Item = &Growth> {

@@ -69,6 +69,7 @@ impl<N: Number> Equation<N> {
         minus_one.negate();
         let mut pi = zero();
         pi.assign_acos(&minus_one);
+        pi.assign_derivatives(&one); // of a constant, where the function has none
         Equation {
             is_double: bits <= f64::MANTISSA_DIGITS,
             last_step: (-f64::from(bits) / 3.0 - 2.0).exp2(),

@@ -1,0 +1,160 @@
+//! `shadowstep chaos`: whether the trajectory of a scene is chaotic, and whether its step size makes it so.
+
+use std::io::{IsTerminal, Write};
+use std::path::Path;
+
+use clap::Args;
+use shadowstep_scenes::chaos::{ChaosRecord, conclusion};
+use shadowstep_scenes::ensemble::Ensemble;
+use shadowstep_scenes::tangent::Vectors;
+use shadowstep_scenes::{Error, Observer, Scene};
+
+use crate::interrupt::Interrupt;
+use crate::output::{Output, OutputArguments};
+use crate::progress::Progress;
+use crate::quantity::whole;
+use crate::readable::table;
+use crate::report::{self, Status};
+
+const EXAMPLE: &str = "\
+Examples:
+  shadowstep scene kepler > scene.toml
+  shadowstep chaos scene.toml
+  shadowstep chaos scene.toml --exponents 4 --json
+
+The run is made at the step size of the scene and at half of it, with tangent vectors: chaos that only the larger step has is of the step. The exponent is
+the largest Lyapunov exponent over the last three quarters of the run with twice its standard error. The mean of MEGNO tends to 2 on regular
+orbits, to 0 where all frequencies are constant, and grows with the time on chaotic ones; SALI tends to 0 exponentially on chaotic ones.";
+
+/// Whether a trajectory is chaotic: Lyapunov exponents, MEGNO, SALI and GALI.
+#[derive(Debug, Args)]
+#[command(after_help = EXAMPLE)]
+pub(crate) struct Arguments {
+    /// The scene's file, such as scene.toml; its [output] is not used
+    #[arg(value_name = "FILE")]
+    scene: String,
+    /// The number of tangent vectors: 2 give SALI, more GALI of all of them
+    #[arg(long, value_name = "N", default_value_t = 2, value_parser = |text: &str| whole(text, 1..=64))]
+    vectors: u32,
+    /// This number of the largest Lyapunov exponents, of orthonormal vectors, in place of SALI
+    #[arg(long, value_name = "N", conflicts_with = "vectors", value_parser = |text: &str| whole(text, 1..=64))]
+    exponents: Option<u32>,
+    /// Vectors are measured, and made orthonormal, every N steps
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = |text: &str| whole(text, 1..=1_000_000))]
+    every: u32,
+    /// Only the step size of the scene, not half of it
+    #[arg(long)]
+    one: bool,
+    /// One JSON object per run, a line each, in place of the table
+    #[arg(long)]
+    json: bool,
+    #[command(flatten)]
+    output: OutputArguments,
+}
+
+impl Arguments {
+    fn vectors(&self) -> Vectors {
+        match self.exponents {
+            Some(count) => Vectors::Orthonormal(count as usize),
+            None => Vectors::Free(self.vectors as usize),
+        }
+    }
+}
+
+pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
+    let source = shadowstep_scenes::source(Path::new(&arguments.scene))?;
+    if Ensemble::is_in(&source) {
+        let message = format!("{} is an ensemble, and chaos follows one trajectory", arguments.scene);
+        return Err(Error::usage(message, "remove [ensemble]; a sweep with keep = [\"megno\"] follows many"));
+    }
+    let scene = Scene::read(source)?;
+    scene.notes.iter().for_each(report::note);
+    refuse_dependent(&scene, arguments.vectors())?;
+    let steps = scene.steps();
+    let interrupt = Interrupt::listen(&scene.source.path, "try a shorter run, or a larger --every");
+    let mut output = Output::of(&arguments.output)?;
+    let bar = arguments.output.output.is_some() || !std::io::stdout().is_terminal();
+    let mut records = Vec::new();
+    for parts in if arguments.one { 1..=1 } else { 1..=2 } {
+        let name = format!("{}, part {parts}", scene.as_run().name());
+        let progress = Progress::new(bar, name, steps * u64::from(parts));
+        let mut terminal = Terminal { progress, interrupt: &interrupt };
+        let found = scene.chaos(parts, arguments.vectors(), arguments.every.into(), &mut terminal)?;
+        let record = found.ok_or_else(|| {
+            Error::run(format!("{}: interrupted", scene.source.path), "try a shorter run, or a larger --every")
+        })?;
+        if arguments.json {
+            output.json(&record)?;
+        }
+        records.push(record);
+    }
+    if !arguments.json {
+        write!(output, "{}", readable(&records))?;
+    }
+    output.finish()?;
+    Ok(Status::Success)
+}
+
+/// Refuses more vectors than are linearly independent.
+fn refuse_dependent(scene: &Scene, vectors: Vectors) -> Result<(), Error> {
+    let (Vectors::Free(count) | Vectors::Orthonormal(count)) = vectors;
+    let most = 2 * (scene.system.q.len() + usize::from(scene.system.transformed_time().is_some()));
+    if count <= most {
+        return Ok(());
+    }
+    let flag = if matches!(vectors, Vectors::Free(_)) { "--vectors" } else { "--exponents" };
+    Err(Error::usage(
+        format!("{flag} {count}: the state has {most} components"),
+        format!("write {flag} {most} or less"),
+    ))
+}
+
+/// A row for each run, and what both say.
+fn readable(records: &[ChaosRecord]) -> String {
+    let or_nothing = |value: Option<f64>, digits: usize| value.map_or_else(String::new, |x| format!("{x:.digits$e}"));
+    let row = |record: &ChaosRecord| {
+        let exponent = match (record.exponent, record.exponent_error) {
+            (Some(value), Some(error)) => format!("{value:.3e} ± {error:.0e}"),
+            _ => String::new(),
+        };
+        [
+            record.step.clone(),
+            record.motion.clone(),
+            exponent,
+            format!("{:.4}", record.mean_megno),
+            or_nothing(record.sali, 1),
+            record.summary.conclusion().to_owned(),
+        ]
+    };
+    let header = ["step", "motion", "exponent", "mean MEGNO", "SALI", "energy"];
+    let mut text = table(header, records.iter().map(row).collect(), 2..5) + "\n";
+    for record in records {
+        if let Some(exponents) = &record.exponents {
+            let each = exponents.iter().map(|[value, error]| format!("{value:.3e} ± {error:.0e}"));
+            text += &format!("exponents at {}: {}\n", record.step, each.collect::<Vec<_>>().join(", "));
+        }
+        if let Some(gali) = record.gali {
+            text += &format!("GALI at {}: {gali:.1e}\n", record.step);
+        }
+    }
+    match records {
+        [whole, half] => text + &conclusion(whole, half) + "\n",
+        _ => text,
+    }
+}
+
+/// Shows the progress, and ends the run after a signal.
+struct Terminal<'a> {
+    progress: Progress,
+    interrupt: &'a Interrupt,
+}
+
+impl Observer for Terminal<'_> {
+    fn progress(&mut self, n: i64) {
+        self.progress.reach(n);
+    }
+
+    fn stops(&mut self) -> bool {
+        self.interrupt.ends()
+    }
+}

@@ -1,0 +1,296 @@
+//! Tangent vectors along a run, in the number types of runs.
+
+use shadowstep::number::{CorrectlyRounded, Dual};
+use shadowstep::tangent::{Growth, Spectrum, TangentError, Tangents};
+use shadowstep::{Integrator as _, MotionError, Number as _, Rational, Real};
+
+use crate::error::Error;
+use crate::scene::{SceneNumber, System};
+use crate::start::{SceneIntegrator, Steps};
+
+/// A trajectory with tangent vectors.
+pub trait TangentRun {
+    /// One step.
+    fn step(&mut self);
+
+    /// The growth of all vectors up to the present state, at t.
+    fn observe(&mut self, t: f64);
+
+    /// The physical time of the present state, where time is transformed.
+    fn time(&self) -> Option<f64>;
+
+    /// Whether q and p are finite numbers.
+    fn is_finite(&self) -> bool;
+
+    /// How vectors grew: [`Tangents::growth`], or of vectors that are made orthonormal [`Spectrum::growths`], the fastest first.
+    fn growths(&self) -> Vec<&Growth>;
+
+    /// [`Tangents::sali`] of two vectors and more that evolve freely.
+    fn sali(&self) -> Option<f64>;
+
+    /// [`Tangents::gali`] of all vectors, if they evolve freely and there are three or more.
+    fn gali(&self) -> Option<f64>;
+}
+
+/// Which vectors there are.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Vectors {
+    /// This number of vectors, which evolve freely.
+    Free(usize),
+    /// This number of vectors, which are made orthonormal at each observation.
+    Orthonormal(usize),
+}
+
+/// The system at its first state with these vectors, each beside states of its own with the same bits. Their directions are always the same ones, and none of
+/// them is special.
+///
+/// # Errors
+/// As [`System::integrator`]; a start where the flows have no derivatives.
+pub(crate) fn tangents<N: CorrectlyRounded + 'static>(
+    system: &System,
+    steps: Steps<'_>,
+    vectors: Vectors,
+    context: &N::Context,
+) -> Result<Box<dyn TangentRun>, Error>
+where
+    Dual<N>: SceneNumber<Context = N::Context>,
+{
+    let (Vectors::Free(count) | Vectors::Orthonormal(count)) = vectors;
+    let integrators = (0..count).map(|k| with_vector(system, steps, k, context));
+    let integrators = integrators.collect::<Result<Vec<_>, _>>()?;
+    let transformed = system.transformed_time().is_some();
+    let refused = |error: TangentError| Error::run(error.to_string(), "choose another initial state");
+    Ok(match vectors {
+        Vectors::Free(_) => Box::new(Free { tangents: Tangents::new(integrators).map_err(refused)?, transformed }),
+        Vectors::Orthonormal(_) => {
+            Box::new(Orthonormal { spectrum: Spectrum::new(integrators).map_err(refused)?, transformed })
+        }
+    })
+}
+
+/// The system at its first state with the vector k.
+fn with_vector<N: CorrectlyRounded + 'static>(
+    system: &System,
+    steps: Steps<'_>,
+    k: usize,
+    context: &N::Context,
+) -> Result<SceneIntegrator<Dual<N>>, MotionError>
+where
+    Dual<N>: SceneNumber<Context = N::Context>,
+{
+    let (mut q, mut p) = system.start::<Dual<N>>(context);
+    point(&mut q, k, 0, context);
+    point(&mut p, k, q.len(), context);
+    system.integrator(steps, (q, p), context)
+}
+
+/// The components of the vector k along these coordinates, the first of which has the number `first`, of the size of the largest coordinate: fractional
+/// parts of multiples of irrational numbers, minus ½.
+fn point<N: CorrectlyRounded>(coordinates: &mut [Dual<N>], k: usize, first: usize, context: &N::Context) {
+    let largest = coordinates.iter().map(|x| x.to_f64().abs()).fold(0.0, f64::max);
+    let size = if largest > 0.0 && largest.is_finite() { largest } else { 1.0 };
+    for (i, x) in (first..).zip(coordinates) {
+        let turns = (i + 1) as f64 * 2_f64.sqrt() + (k + 1) as f64 * ((i + 2) as f64).sqrt().fract() * 3_f64.sqrt();
+        let component = size * (turns.fract() - 0.5);
+        let exact = Rational::from_float(component).expect("the size is finite");
+        x.derivatives = [N::from_rational(&exact, context)];
+    }
+}
+
+struct Free<N: CorrectlyRounded> {
+    tangents: Tangents<SceneIntegrator<Dual<N>>>,
+    transformed: bool,
+}
+
+struct Orthonormal<N: CorrectlyRounded> {
+    spectrum: Spectrum<SceneIntegrator<Dual<N>>>,
+    transformed: bool,
+}
+
+fn time<N: CorrectlyRounded>(integrator: &SceneIntegrator<Dual<N>>, transformed: bool) -> Option<f64> {
+    integrator.state().q().last().filter(|_| transformed).map(Real::to_f64)
+}
+
+fn is_finite<N: CorrectlyRounded>(integrator: &SceneIntegrator<Dual<N>>) -> bool {
+    let state = integrator.state();
+    state.q().iter().chain(state.p()).all(|x| x.is_finite())
+}
+
+impl<N: CorrectlyRounded> TangentRun for Free<N> {
+    fn step(&mut self) {
+        self.tangents.step();
+    }
+
+    fn observe(&mut self, t: f64) {
+        self.tangents.observe(t);
+    }
+
+    fn time(&self) -> Option<f64> {
+        time(&self.tangents.integrators()[0], self.transformed)
+    }
+
+    fn is_finite(&self) -> bool {
+        is_finite(&self.tangents.integrators()[0])
+    }
+
+    fn growths(&self) -> Vec<&Growth> {
+        (0..self.tangents.count()).map(|vector| self.tangents.growth(vector, 0)).collect()
+    }
+
+    fn sali(&self) -> Option<f64> {
+        (self.tangents.count() >= 2).then(|| self.tangents.sali(0))
+    }
+
+    fn gali(&self) -> Option<f64> {
+        let count = self.tangents.count();
+        (count >= 3).then(|| self.tangents.gali(count, 0))
+    }
+}
+
+impl<N: CorrectlyRounded> TangentRun for Orthonormal<N> {
+    fn step(&mut self) {
+        self.spectrum.step();
+    }
+
+    fn observe(&mut self, t: f64) {
+        self.spectrum.observe(t);
+    }
+
+    fn time(&self) -> Option<f64> {
+        time(&self.spectrum.integrators()[0], self.transformed)
+    }
+
+    fn is_finite(&self) -> bool {
+        is_finite(&self.spectrum.integrators()[0])
+    }
+
+    fn growths(&self) -> Vec<&Growth> {
+        self.spectrum.growths(0)
+    }
+
+    fn sali(&self) -> Option<f64> {
+        None
+    }
+
+    fn gali(&self) -> Option<f64> {
+        None
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    //! Protects the derivatives of all kinds of systems: beside differences of nearby trajectories with 57 digits, and in double precision beside those.
+
+    use shadowstep::number::{AnyLimbs, LimbCount, Number};
+    use shadowstep::tables::Source;
+    use shadowstep::tangent::vector;
+    use shadowstep::{Carried, Integrator as _};
+
+    use super::*;
+    use crate::scene::Scene;
+    use crate::shipped::{SHIPPED_SCENES, scene_text};
+    use crate::start::Begin;
+
+    const STEPS: usize = 3;
+
+    fn numbers(text: &str) -> LimbCount {
+        LimbCount::of_bits(192).unwrap_or_else(|| panic!("{text}"))
+    }
+
+    /// The state after some steps from the first one, moved by `distance` along the first vector; from the first state of the kernel, where the scheme is processed.
+    fn moved(scene: &Scene, distance: &str) -> Vec<AnyLimbs> {
+        let context = &numbers(distance);
+        let (mut q, mut p) = scene.system.start::<Dual<AnyLimbs>>(context);
+        point(&mut q, 0, 0, context);
+        point(&mut p, 0, q.len(), context);
+        let distance = AnyLimbs::from_rational(&shadowstep::exact(distance).unwrap(), context);
+        let plain = |x: &Dual<AnyLimbs>| {
+            let mut moved = x.value;
+            moved.add_product(&x.derivatives[0], &distance);
+            moved
+        };
+        let state = (q.iter().map(plain).collect(), p.iter().map(plain).collect());
+        let mut integrator = scene.system.integrator(scene.steps_from(Begin::InitialState), state, context).unwrap();
+        (0..STEPS).for_each(|_| integrator.step(Carried::Nothing));
+        integrator.state().q().iter().chain(integrator.state().p()).copied().collect()
+    }
+
+    fn after<N: CorrectlyRounded>(scene: &Scene, context: &N::Context) -> SceneIntegrator<Dual<N>>
+    where
+        Dual<N>: SceneNumber<Context = N::Context>,
+    {
+        let mut found = with_vector(&scene.system, scene.steps_from(Begin::InitialState), 0, context).unwrap();
+        (0..STEPS).for_each(|_| found.step(Carried::Nothing));
+        found
+    }
+
+    fn check(name: &str, text: String) {
+        let scene =
+            Scene::read(Source { path: name.to_owned(), text }).unwrap_or_else(|error| panic!("{name}: {error}"));
+        let long = vector(after::<AnyLimbs>(&scene, &numbers(name)).state(), 0);
+        // central differences of 10⁻¹⁹: an error of the size 10⁻³⁸ in 57 digits
+        let (plus, minus) = (moved(&scene, "1e-19"), moved(&scene, "-1e-19"));
+        let size = long.iter().map(|x| x.to_f64().abs()).fold(0.0, f64::max);
+        for (i, derivative) in long.iter().enumerate() {
+            let mut difference = plus[i];
+            difference.subtract(&minus[i]);
+            difference.multiply(&AnyLimbs::from_rational(&shadowstep::exact("5e18").unwrap(), &numbers(name)));
+            difference.subtract(derivative);
+            let error = difference.to_f64().abs() / size;
+            assert!(
+                error < 1e-27,
+                "{name}, component {i}: {} is wrong by {error:.1e} of the largest",
+                derivative.to_f64()
+            );
+        }
+        let double = after::<f64>(&scene, &());
+        let plain = {
+            let (start, steps) = (scene.system.start::<f64>(&()), scene.steps_from(Begin::InitialState));
+            let mut plain = scene.system.integrator(steps, start, &()).unwrap();
+            (0..STEPS).for_each(|_| plain.step(Carried::Nothing));
+            plain
+        };
+        let bits = |x: &[f64]| x.iter().map(|x| x.to_bits()).collect::<Vec<_>>();
+        let values = |x: &[Dual<f64>]| x.iter().map(|x| x.value.to_bits()).collect::<Vec<_>>();
+        assert_eq!(values(double.state().q()), bits(plain.state().q()), "{name}");
+        assert_eq!(values(double.state().p()), bits(plain.state().p()), "{name}");
+        for (i, (short, long)) in vector(double.state(), 0).iter().zip(&long).enumerate() {
+            let error = (short - long.to_f64()).abs() / size;
+            assert!(error < 1e-9, "{name}, component {i}: {short} and {}", long.to_f64());
+        }
+    }
+
+    #[test]
+    fn derivatives_of_other_systems() {
+        let run =
+            "[run]\nscheme = \"SCHEME\"\nstep = \"1/10\"\nsteps = 10\ndigits = \"double\"\n[output]\nenergy = true\n";
+        let initial = "[initial]\nq = [\"2/5\", \"1/10\"]\np = [\"1/7\", 1]\n";
+        let formula = "[problem]\ncoordinates = [\"x\", \"y\"]\npotential = \"x^2/2 + 2*y^2 + sin(x)*exp(-y)*x^4\"\n";
+        for (name, problem, scheme) in [
+            ("linear parts", format!("{formula}parts = \"linear\"\n{initial}"), "yoshida4"),
+            ("gradient kicks", format!("{formula}{initial}"), "chin-4a"),
+            ("displaced forces", format!("{formula}{initial}"), "chin-4a\"\ngradient_kicks = \"displaced"),
+            ("kinetic", format!("{formula}kinetic = \"sqrt(1 + px^2 + py^2)\"\n{initial}"), "yoshida4"),
+            (
+                "a cutoff in a box",
+                "[problem]\npair = \"1/r2^6 - 1/r2^3\"\nbodies = 5\ndimensions = 3\nbox = 8\ncutoff = { at = 3, from = 2, derivatives = 3 }\n\
+                 [initial]\nq = [[0,0,0],[1,\"1/3\",0],[\"5/2\",0,1],[0,7,\"15/2\"],[3,3,3]]\np = [[0,0,0],[1,0,0],[0,0,1],[0,0,0],[0,1,0]]\n"
+                    .to_owned(),
+                "yoshida4",
+            ),
+            ("springs", "[problem]\nname = \"fput-alpha\"\n".to_owned(), "blanes-moan-srkn6b"),
+            ("the power of time", "[problem]\nname = \"kepler\"\n[time]\ntransform = \"power\"\nexponent = \"-1/2\"\n".to_owned(), "yoshida4"),
+        ] {
+            check(name, format!("{problem}{}", run.replace("SCHEME", scheme)));
+        }
+    }
+
+    #[test]
+    fn derivatives_of_shipped_scenes() {
+        let all = SHIPPED_SCENES.iter().flat_map(|(_, scenes)| *scenes);
+        for shipped in all.filter(|shipped| shipped.name != "argon-liquid") {
+            check(shipped.name, shipped.text.to_owned());
+        }
+        check("kepler", scene_text("kepler").unwrap());
+    }
+}
