@@ -4,7 +4,7 @@ use rand_pcg::Pcg64Mcg;
 use rand_pcg::rand_core::{RngCore, SeedableRng};
 use shadowstep::exact;
 use shadowstep::number::counting::Counting;
-use shadowstep::number::{AnyLimbs, DoubleDouble, Fused, Lanes, LimbCount, Limbs, Number, Real};
+use shadowstep::number::{AnyLimbs, DoubleDouble, Dual, Fused, Lanes, LimbCount, Limbs, Number, Real};
 use shadowstep::systems::kepler_drift::{KeplerDrift, KeplerDriftError};
 use std::f64::consts::{PI, TAU};
 
@@ -548,4 +548,43 @@ fn a_drift_of_a_planet_has_so_many_operations() {
         operations.additions < 110 && operations.multiplications < 140 && operations.divisions < 40,
         "{operations}"
     );
+}
+
+/// The largest error of the derivative of q and v along a direction, as a part of its size, in numbers N beside numbers with more digits.
+fn error_of_derivative<N: Number<Context = ()>>(
+    input: &Input<f64>,
+    number: fn(f64) -> N,
+    exactly: fn(&N) -> Reference,
+) -> f64 {
+    // changes of a relative size around 1 of all eight numbers
+    let direction: Input<f64> = std::array::from_fn(|i| input[i] * (1.0 + i as f64).sin());
+    let long: Output<Dual<Reference>> =
+        drift(&mut new(), std::array::from_fn(|i| Dual::new(input[i].into(), [direction[i].into()])));
+    let found: Output<Dual<N>> =
+        drift(&mut new(), std::array::from_fn(|i| Dual::new(number(input[i]), [number(direction[i])])));
+    let [long, found] = [long.map(|x| x.derivatives[0]), found.map(|x| exactly(&x.derivatives[0]))];
+    let errors = [1..4, 4..7].map(|range| distance(&found[range.clone()], &long[range.clone()]) / size(&long[range]));
+    errors.into_iter().fold(0.0, f64::max)
+}
+
+/// Of conditioned inputs, whose times are at most that of a revolution: most derivatives have all digits but two or three, and where terms cancel some fewer.
+#[test]
+fn derivatives_have_the_digits_of_numbers() {
+    let mut orbits = Orbits::new(31);
+    let short = |mut input: Input<f64>| {
+        let [mu, x, y, z, _, _, _, _] = input;
+        let r = (x * x + y * y + z * z).sqrt();
+        input[7] = (input[7] * 1e3).sin() * r * (r / mu).sqrt();
+        input
+    };
+    let inputs: Vec<_> =
+        cases().into_iter().map(|(input, _)| input).chain((0..300).map(|_| orbits.input())).map(short).collect();
+    let check = |error: &dyn Fn(&Input<f64>) -> f64, u: f64| {
+        let mut errors: Vec<_> = inputs.iter().map(error).collect();
+        errors.sort_by(f64::total_cmp);
+        let [most, worst] = [errors[errors.len() * 9 / 10] / u, errors[errors.len() - 1] / u];
+        assert!(most < 50.0 && worst < 1e5, "{most} {worst}");
+    };
+    check(&|input| error_of_derivative(input, |x| x, exactly::<f64>), f64::EPSILON);
+    check(&|input| error_of_derivative(input, Limbs::<2>::from, exactly), 2_f64.powi(-127));
 }
