@@ -64,12 +64,12 @@ impl Arguments {
 pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
     let source = shadowstep_scenes::source(Path::new(&arguments.scene))?;
     if Ensemble::is_in(&source) {
+        Ensemble::read(source)?; // its own faults come first
         let message = format!("{} is an ensemble, and chaos follows one trajectory", arguments.scene);
         return Err(Error::usage(message, "remove [ensemble]; a sweep with keep = [\"megno\"] follows many"));
     }
     let scene = Scene::read(source)?;
     scene.notes.iter().for_each(report::note);
-    refuse_dependent(&scene, arguments.vectors())?;
     let steps = scene.steps();
     let interrupt = Interrupt::listen(&scene.source.path, "try a shorter run, or a larger --every");
     let mut output = Output::of(&arguments.output)?;
@@ -79,7 +79,7 @@ pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
         let name = format!("{}, part {parts}", scene.as_run().name());
         let progress = Progress::new(bar, name, steps * u64::from(parts));
         let mut terminal = Terminal { progress, interrupt: &interrupt };
-        let found = scene.chaos(parts, arguments.vectors(), arguments.every.into(), &mut terminal)?;
+        let found = scene.chaos(arguments.vectors(), arguments.every.into()).run(parts, &mut terminal)?;
         let record = found.ok_or_else(|| {
             Error::run(format!("{}: interrupted", scene.source.path), "try a shorter run, or a larger --every")
         })?;
@@ -93,20 +93,6 @@ pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
     }
     output.finish()?;
     Ok(Status::Success)
-}
-
-/// Refuses more vectors than are linearly independent.
-fn refuse_dependent(scene: &Scene, vectors: Vectors) -> Result<(), Error> {
-    let (Vectors::Free(count) | Vectors::Orthonormal(count)) = vectors;
-    let most = 2 * (scene.system.q.len() + usize::from(scene.system.transformed_time().is_some()));
-    if count <= most {
-        return Ok(());
-    }
-    let flag = if matches!(vectors, Vectors::Free(_)) { "--vectors" } else { "--exponents" };
-    Err(Error::usage(
-        format!("{flag} {count}: the state has {most} components"),
-        format!("write {flag} {most} or less"),
-    ))
 }
 
 /// A row for each run, and what both say.

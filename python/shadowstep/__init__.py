@@ -13,6 +13,7 @@ True
 
 from .border import InternalError  # isort: skip, before all that takes functions from the compiled module
 from ._shadowstep import InputError, RunError, __version__
+from .chaos import Chaos, Indicators, chaos
 from .command import command, sweep
 from .drift import drift
 from .ensemble import Ensemble, ensemble
@@ -26,10 +27,12 @@ from .work_precision import Advice, Choice, Curve, Measurement, advise, work_pre
 
 __all__ = [
     "Advice",
+    "Chaos",
     "Choice",
     "Curve",
     "Diagnosis",
     "Ensemble",
+    "Indicators",
     "InputError",
     "InternalError",
     "Monitor",
@@ -45,6 +48,7 @@ __all__ = [
     "Trajectory",
     "__version__",
     "advise",
+    "chaos",
     "command",
     "diagnose",
     "drift",

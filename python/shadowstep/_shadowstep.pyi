@@ -93,6 +93,23 @@ def integrate(
     progress: Progress,
 ) -> dict[str, Any]: ...
 def ensemble(text: str, names: Sequence[str], columns: Sequence[np.ndarray], *, progress: Progress) -> dict[str, Any]: ...
+def chaos(
+    problem: Given,
+    scheme: Table,
+    h: str,
+    *,
+    steps: int | None,
+    until: str | None,
+    first: str | None,
+    gradient_kicks: str,
+    vectors: int,
+    exponents: int | None,
+    every: int,
+    half: bool,
+    digits: str,
+    mpfr: bool,
+    progress: Progress,
+) -> str: ...
 def drift(
     problem: Given,
     name: str,

@@ -44,19 +44,10 @@ pub(crate) fn integrate<'py>(
     let arithmetic = arithmetic(py, digits, mpfr)?;
     let estimator = options.map(|options| options.settings(py)).transpose()?;
     let is_between = estimator.as_ref().is_some_and(EstimatorSettings::is_between);
-    let first = first.map(|given| word(py, "first", given, &[("kick", First::Kick), ("drift", First::Drift)]));
-    let scheme = match first.transpose()? {
-        Some(first) => scheme.0.beginning_with(first).map_err(|error| of_library(py, error))?,
-        None => scheme.0.clone(),
-    };
+    let scheme = beginning_with(py, scheme, first)?;
     let displaced = word(py, "gradient_kicks", gradient_kicks, &[("exact", false), ("displaced", true)])?;
     let failed = |error| exception(py, error);
-    let times = match (until, steps) {
-        (Some(until), None) if problem.system(arithmetic).map_err(failed)?.transformed_time().is_some() => {
-            Times::physical(py, h, until)?
-        }
-        _ => Times::of(py, h, steps, until)?,
-    };
+    let times = times(py, problem, arithmetic, (h, steps, until))?;
     let given = problem.clone();
     let found = waiting(py, progress, move |watched| {
         let posed = SystemWithScheme::of(&given, &scheme, arithmetic)?;
@@ -78,12 +69,40 @@ pub(crate) fn integrate<'py>(
     Ok(dictionary)
 }
 
+/// The scheme whose steps begin with what is wanted.
+pub(crate) fn beginning_with(py: Python<'_>, scheme: &Table, first: Option<&str>) -> PyResult<NamedScheme> {
+    let first = first.map(|given| word(py, "first", given, &[("kick", First::Kick), ("drift", First::Drift)]));
+    match first.transpose()? {
+        Some(first) => scheme.0.beginning_with(first).map_err(|error| of_library(py, error)),
+        None => Ok(scheme.0.clone()),
+    }
+}
+
+/// The steps of a run of a problem; where its time is transformed, `until` is a physical time.
+pub(crate) fn times(
+    py: Python<'_>,
+    problem: &Given,
+    arithmetic: Arithmetic,
+    (h, steps, until): (&str, Option<u64>, Option<&str>),
+) -> PyResult<Times> {
+    match (until, steps) {
+        (Some(until), None) => {
+            let system = problem.system(arithmetic).map_err(|error| exception(py, error))?;
+            match system.transformed_time() {
+                Some(_) => Times::physical(py, h, until),
+                None => Times::of(py, h, None, Some(until)),
+            }
+        }
+        _ => Times::of(py, h, steps, until),
+    }
+}
+
 /// The steps of a run.
 pub(crate) struct Times {
     pub(crate) h: StepSize,
     pub(crate) steps: u64,
     /// The physical time at which the run ends, where time is transformed.
-    physical_end: Option<Rational>,
+    pub(crate) physical_end: Option<Rational>,
     note: Option<Note>,
 }
 

@@ -13,6 +13,7 @@
 //! | `estimator` | the estimator of the modified energy, from its options |
 //! | `integrate` | runs into arrays |
 //! | `ensemble` | many trajectories at once |
+//! | `chaos` | indicators of chaos |
 //! | `drift` | the drift of the modified energy |
 //! | `work_precision` | speed against error, and advice |
 //! | `scene` | runs that a file describes |
@@ -23,6 +24,7 @@
 
 #![allow(clippy::needless_pass_by_value)] // arguments from Python have no owner
 
+mod chaos;
 mod command;
 mod drift;
 mod emit;
@@ -44,6 +46,8 @@ use pyo3::prelude::*;
 /// The module.
 #[pymodule]
 mod _shadowstep {
+    #[pymodule_export]
+    use crate::chaos::chaos;
     #[pymodule_export]
     use crate::command::command;
     #[pymodule_export]

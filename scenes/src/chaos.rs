@@ -6,19 +6,21 @@ use serde::Serialize;
 use shadowstep::shadow::Estimate;
 use shadowstep::shadow::run::RunError;
 use shadowstep::steps::integrator::VectorIntegrator;
+use shadowstep::tables::{AtRunTime, TableScheme};
 use shadowstep::tangent::{Exponent, Growth, Regularity};
 use shadowstep::{Carried, Rational, StepSize};
 use shadowstep_symbolic::decimal::to_text;
 
-use crate::arithmetic::DigitsLabel;
+use crate::arithmetic::{Arithmetic, DigitsLabel};
 use crate::computation::{Computation, RunNumber};
 use crate::error::Error;
 use crate::follow::Follower;
 use crate::observer::Observer;
+use crate::physical_end::steps_to;
 use crate::run::Run;
-use crate::scene::{PotentialEnergy, Scene, System};
+use crate::scene::{Scene, System};
 use crate::start::{Begin, Steps};
-use crate::tangent::{TangentRun, Vectors};
+use crate::tangent::{FollowingVectors, TangentRun, Vectors};
 use crate::watch::summary::Summary;
 use crate::watch::{Energies, Watch};
 
@@ -61,7 +63,9 @@ pub struct ChaosRecord {
 }
 
 impl ChaosRecord {
-    fn of(scene: &Scene, run: Run<'_>, tangents: &dyn TangentRun, orthonormal: bool, summary: Summary) -> Self {
+    fn of(request: &ChaosRequest<'_>, tangents: &dyn TangentRun, summary: Summary) -> Self {
+        let run = request.run;
+        let orthonormal = matches!(request.vectors, Vectors::Orthonormal(_));
         let growths = tangents.growths();
         let (growth, exponent) = (growths[0], growths[0].exponent());
         let each = |growth: &&Growth| growth.exponent().map(|Exponent { value, error }| [value, error]);
@@ -69,7 +73,7 @@ impl ChaosRecord {
             scheme: run.propagator.to_owned(),
             step: to_text(run.h.exact()),
             steps: run.steps,
-            digits: scene.arithmetic.label(),
+            digits: request.arithmetic.label(),
             time: growth.time(),
             motion: growth.regularity().to_string(),
             exponent: exponent.map(|found| found.value),
@@ -120,68 +124,86 @@ pub fn conclusion(whole: &ChaosRecord, half: &ChaosRecord) -> String {
     "not decided: the run is too short".to_owned()
 }
 
+/// A run from t = 0 with tangent vectors. Nothing is written.
+#[derive(Clone, Copy)]
+pub struct ChaosRequest<'a> {
+    /// H and the initial state.
+    pub system: &'a System,
+    /// The scheme, valid for the [system](crate::propagator::for_system).
+    pub scheme: &'a TableScheme<AtRunTime>,
+    /// The steps.
+    pub run: Run<'a>,
+    /// The number type.
+    pub arithmetic: Arithmetic,
+    /// Whether gradient kicks are by displaced forces.
+    pub displaced: bool,
+    /// The physical time at which the run ends, where time is transformed; the number of steps of the run is then not used.
+    pub until: Option<&'a Rational>,
+    /// The vectors.
+    pub vectors: Vectors,
+    /// Vectors are measured every `every` steps.
+    pub every: u64,
+}
+
 impl Scene {
-    /// Follows the run with tangent vectors, from t = 0, at the scene's step size divided by `parts`; `None` if the observer stopped it. Vectors are observed every `every`
-    /// steps. Nothing is written.
-    ///
-    /// # Errors
-    /// A run that fails; a potential that the caller computes, whose second derivatives are not known.
-    pub fn chaos(
-        &self,
-        parts: u32,
-        vectors: Vectors,
-        every: u64,
-        observer: &mut dyn Observer,
-    ) -> Result<Option<ChaosRecord>, Error> {
-        refuse_own(&self.system)?;
-        let h = StepSize::try_from(self.h.exact() / Rational::from_integer(parts.into())).expect("h is not 0");
-        let run = Run { h: &h, steps: self.steps() * u64::from(parts), ..self.as_run() };
-        self.arithmetic.compute(Following { scene: self, run, vectors, every: every.max(1), observer })
+    /// The run of the scene with these vectors, measured every `every` steps.
+    pub fn chaos(&self, vectors: Vectors, every: u64) -> ChaosRequest<'_> {
+        let Scene { system, arithmetic, displaced, .. } = self;
+        let (scheme, run) = (&self.scheme.scheme, self.as_run());
+        let (arithmetic, displaced) = (*arithmetic, *displaced);
+        ChaosRequest { system, scheme, run, arithmetic, displaced, until: None, vectors, every }
     }
 }
 
-/// Refuses a potential that has no second derivatives.
-fn refuse_own(system: &System) -> Result<(), Error> {
-    match &system.potential {
-        PotentialEnergy::Own(own) => Err(Error::usage(
-            format!("tangent vectors need second derivatives, which {} has not", own.name()),
-            "give the potential as a formula",
-        )),
-        _ => Ok(()),
+impl ChaosRequest<'_> {
+    /// Makes the run with steps of h/`parts`; `None` if the observer stopped it.
+    ///
+    /// # Errors
+    /// A run that fails; those of [`FollowingVectors::new`].
+    pub fn run(&self, parts: u32, observer: &mut dyn Observer) -> Result<Option<ChaosRecord>, Error> {
+        let h = StepSize::try_from(self.run.h.exact() / Rational::from_integer(parts.into())).expect("h is not 0");
+        let run = Run { h: &h, steps: self.run.steps * u64::from(parts), ..self.run };
+        self.arithmetic.compute(Following { request: ChaosRequest { run, ..*self }, observer })
+    }
+
+    fn steps(&self) -> Steps<'_> {
+        let ChaosRequest { scheme, run, displaced, .. } = *self;
+        Steps { scheme, h: run.h, compensated: self.arithmetic.is_compensated(), displaced, begin: Begin::InitialState }
     }
 }
 
 /// The run in any number type.
-struct Following<'a> {
-    scene: &'a Scene,
-    run: Run<'a>,
-    vectors: Vectors,
-    every: u64,
-    observer: &'a mut dyn Observer,
+struct Following<'a, 'o> {
+    request: ChaosRequest<'a>,
+    observer: &'o mut dyn Observer,
 }
 
-impl Computation for Following<'_> {
+impl Computation for Following<'_, '_> {
     type Output = Result<Option<ChaosRecord>, Error>;
 
     fn compute<N: RunNumber>(self, context: &N::Context) -> Self::Output {
-        let Following { scene, run, vectors, every, observer } = self;
-        let system = &scene.system;
-        let steps = Steps { h: run.h, ..scene.steps_from(Begin::InitialState) };
-        let mut integrator = system.integrator::<N>(steps, system.start(context), context)?;
-        let tangents = N::tangents(system, steps, vectors, context)?;
+        let Following { mut request, observer } = self;
+        let (system, vectors) = (request.system, (request.vectors, request.every));
+        let begin =
+            |request: &ChaosRequest<'_>| system.integrator::<N>(request.steps(), system.start(context), context);
+        if let Some(until) = request.until {
+            request.run.steps = steps_to(&mut *begin(&request)?, until, context);
+        }
+        let mut integrator = begin(&request)?;
+        let tangents = FollowingVectors::new(request.arithmetic, system, request.steps(), vectors)?;
+        let run = request.run;
         let failed = |error: RunError| run.failed_naming(&error, &system.coordinates, &system.momenta);
         let (q, p) = system.start(context);
         let initial = integrator.system().energy_at(&q, &p);
         let watch = Watch::begin(&mut *integrator, run, (0, initial), Energies::Windows, true).map_err(failed)?;
         let watch = watch.of_system(system, &integrator);
-        let mut follower = ChaosFollower { run, system, tangents, every, watch, observer, h: scene_step(run.h) };
+        let mut follower = ChaosFollower { run, system, tangents, watch, observer };
         if N::follow(&mut *integrator, (None, run.steps), None, &mut follower)?.is_break() {
             return Ok(None);
         }
-        let ChaosFollower { tangents, watch, .. } = follower;
+        let ChaosFollower { mut tangents, watch, .. } = follower;
         let summary = watch.summary(run).expect("it was asked for");
-        let orthonormal = matches!(vectors, Vectors::Orthonormal(_));
-        Ok(Some(ChaosRecord::of(scene, run, &*tangents, orthonormal, summary)))
+        Ok(Some(ChaosRecord::of(&request, tangents.end(), summary)))
     }
 }
 
@@ -189,16 +211,9 @@ impl Computation for Following<'_> {
 struct ChaosFollower<'a, N: RunNumber> {
     run: Run<'a>,
     system: &'a System,
-    tangents: Box<dyn TangentRun>,
-    every: u64,
+    tangents: FollowingVectors,
     watch: Watch<N>,
     observer: &'a mut dyn Observer,
-    h: f64,
-}
-
-fn scene_step(h: &StepSize) -> f64 {
-    use num_traits::ToPrimitive;
-    h.exact().to_f64().unwrap_or(f64::NAN)
 }
 
 impl<N: RunNumber> Follower<N> for ChaosFollower<'_, N> {
@@ -212,11 +227,6 @@ impl<N: RunNumber> Follower<N> for ChaosFollower<'_, N> {
         }
         self.watch.include(n, integrator);
         self.tangents.step();
-        let n = n.unsigned_abs();
-        if n.is_multiple_of(self.every) || n == self.run.steps {
-            let time = self.tangents.time().unwrap_or(self.h * n as f64);
-            self.tangents.observe(time);
-        }
     }
 
     fn output(

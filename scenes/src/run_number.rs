@@ -12,9 +12,7 @@ use shadowstep::{Real, StepSize};
 use crate::arithmetic::number_types;
 use crate::error::Error;
 use crate::follow::{Follower, follow};
-use crate::scene::{SceneNumber, System};
-use crate::start::Steps;
-use crate::tangent::{TangentRun, Vectors, tangents};
+use crate::scene::SceneNumber;
 
 /// A number type of runs.
 pub trait RunNumber: SceneNumber {
@@ -29,17 +27,6 @@ pub trait RunNumber: SceneNumber {
         settings: Option<&EstimatorSettings>,
         follower: &mut dyn Follower<Self>,
     ) -> Result<ControlFlow<()>, Error>;
-
-    /// The system at its first state with tangent vectors beside it.
-    ///
-    /// # Errors
-    /// As [`System::integrator`]; a start where the flows have no derivatives.
-    fn tangents(
-        system: &System,
-        steps: Steps<'_>,
-        vectors: Vectors,
-        context: &Self::Context,
-    ) -> Result<Box<dyn TangentRun>, Error>;
 
     /// The estimator of these settings: see [`BuildEstimator::build`].
     ///
@@ -150,16 +137,6 @@ macro_rules! run_numbers {
                 follower: &mut dyn Follower<Self>,
             ) -> Result<ControlFlow<()>, Error> {
                 follow(integrator, states, settings, follower)
-            }
-
-            #[inline(never)]
-            fn tangents(
-                system: &System,
-                steps: Steps<'_>,
-                vectors: Vectors,
-                context: &Self::Context,
-            ) -> Result<Box<dyn TangentRun>, Error> {
-                tangents::<Self>(system, steps, vectors, context)
             }
 
             #[inline(never)]

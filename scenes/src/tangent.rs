@@ -1,12 +1,14 @@
-//! Tangent vectors along a run, in the number types of runs.
+//! Tangent vectors along a run.
 
-use shadowstep::number::{CorrectlyRounded, Dual};
+use num_traits::ToPrimitive;
+use shadowstep::number::{AnyLimbs, CorrectlyRounded, DoubleDouble, Dual, LimbCount, Precision};
 use shadowstep::tangent::{Growth, Spectrum, TangentError, Tangents};
-use shadowstep::{Integrator as _, MotionError, Number as _, Rational, Real};
+use shadowstep::{Integrator as _, MotionError, Rational, Real};
 
+use crate::arithmetic::{Arithmetic, Digits, Numbers};
 use crate::error::Error;
-use crate::scene::{SceneNumber, System};
-use crate::start::{SceneIntegrator, Steps};
+use crate::scene::{PotentialEnergy, Scene, SceneNumber, System};
+use crate::start::{Begin, SceneIntegrator, Steps};
 
 /// A trajectory with tangent vectors.
 pub trait TangentRun {
@@ -19,9 +21,6 @@ pub trait TangentRun {
     /// The physical time of the present state, where time is transformed.
     fn time(&self) -> Option<f64>;
 
-    /// Whether q and p are finite numbers.
-    fn is_finite(&self) -> bool;
-
     /// How vectors grew: [`Tangents::growth`], or of vectors that are made orthonormal [`Spectrum::growths`], the fastest first.
     fn growths(&self) -> Vec<&Growth>;
 
@@ -30,6 +29,87 @@ pub trait TangentRun {
 
     /// [`Tangents::gali`] of all vectors, if they evolve freely and there are three or more.
     fn gali(&self) -> Option<f64>;
+}
+
+/// Tangent vectors that follow a run from t = 0, measured from time to time.
+pub struct FollowingVectors {
+    run: Box<dyn TangentRun>,
+    h: f64,
+    every: u64,
+    /// The number of steps so far.
+    steps: u64,
+}
+
+impl FollowingVectors {
+    /// One step.
+    pub fn step(&mut self) {
+        self.run.step();
+        self.steps += 1;
+        if self.steps.is_multiple_of(self.every) {
+            self.observe();
+        }
+    }
+
+    /// The vectors at the last state.
+    pub fn end(&mut self) -> &dyn TangentRun {
+        if !self.steps.is_multiple_of(self.every) {
+            self.observe();
+        }
+        &*self.run
+    }
+
+    fn observe(&mut self) {
+        let t = self.run.time().unwrap_or(self.h * self.steps as f64);
+        self.run.observe(t);
+    }
+}
+
+impl FollowingVectors {
+    /// Vectors beside the steps of a system from t = 0, measured every `every` steps.
+    ///
+    /// # Errors
+    /// A potential that the caller computes, whose second derivatives are not known; more digits than numbers of limbs have; more vectors than a state has
+    /// components; a start where the flows have no derivatives.
+    pub fn new(
+        arithmetic: Arithmetic,
+        system: &System,
+        steps: Steps<'_>,
+        (vectors, every): (Vectors, u64),
+    ) -> Result<Self, Error> {
+        refuse(system, vectors)?;
+        let run = arithmetic.tangents(system, steps, vectors)?;
+        let h = steps.h.exact().to_f64().expect("every rational has a nearest f64");
+        Ok(FollowingVectors { run, h, every: every.max(1), steps: 0 })
+    }
+}
+
+impl Scene {
+    /// Vectors beside the run of the scene.
+    ///
+    /// # Errors
+    /// As [`FollowingVectors::new`].
+    pub fn tangents(&self, vectors: Vectors, every: u64) -> Result<FollowingVectors, Error> {
+        FollowingVectors::new(self.arithmetic, &self.system, self.steps_from(Begin::InitialState), (vectors, every))
+    }
+}
+
+fn refuse(system: &System, vectors: Vectors) -> Result<(), Error> {
+    if let PotentialEnergy::Own(own) = &system.potential {
+        return Err(Error::usage(
+            format!("tangent vectors need second derivatives, which {} has not", own.name()),
+            "give the potential as a formula",
+        ));
+    }
+    let (Vectors::Free(count) | Vectors::Orthonormal(count)) = vectors;
+    let most = 2 * system.dimension();
+    match count {
+        0 => Err(Error::usage("there are no tangent vectors", "ask for one at least")),
+        _ if count > most => Err(Error::usage(
+            format!("{count} tangent vectors are linearly dependent, as a state has {most} components"),
+            format!("ask for {most} or fewer"),
+        )),
+        _ => Ok(()),
+    }
 }
 
 /// Which vectors there are.
@@ -41,12 +121,39 @@ pub enum Vectors {
     Orthonormal(usize),
 }
 
-/// The system at its first state with these vectors, each beside states of its own with the same bits. Their directions are always the same ones, and none of
-/// them is special.
-///
-/// # Errors
-/// As [`System::integrator`]; a start where the flows have no derivatives.
-pub(crate) fn tangents<N: CorrectlyRounded + 'static>(
+impl Arithmetic {
+    /// The system at its first state with these vectors, each beside states of its own. Their directions are always the same ones, and none of them is
+    /// special.
+    ///
+    /// States have the bits of a run, in double precision and in numbers of limbs; runs in other numbers are followed in numbers of at least as many limbs.
+    ///
+    /// # Errors
+    /// As [`System::integrator`]; more digits than numbers of limbs have; a start where the flows have no derivatives.
+    pub(crate) fn tangents(
+        self,
+        system: &System,
+        steps: Steps<'_>,
+        vectors: Vectors,
+    ) -> Result<Box<dyn TangentRun>, Error> {
+        let limbs = |count: LimbCount| tangents::<AnyLimbs>(system, steps, vectors, &count);
+        let of_bits = |bits: u32| {
+            LimbCount::of_bits(bits).ok_or_else(|| {
+                let most = Precision::of_limbs(LimbCount::MOST.get()).in_digits();
+                let message = format!("tangent vectors have at most {most} digits, and the run has {}", self.digits());
+                Error::usage(message, "write fewer digits in [run]")
+            })
+        };
+        match self.numbers() {
+            Numbers::Double => tangents::<f64>(system, steps, vectors, &()),
+            Numbers::DoubleDouble => limbs(of_bits(DoubleDouble::precision(&()).in_bits())?),
+            Numbers::Digits(_, Digits::Limbs(count)) => limbs(count),
+            #[cfg(feature = "mpfr")]
+            Numbers::Digits(_, Digits::Mpfr(precision)) => limbs(of_bits(precision.in_bits())?),
+        }
+    }
+}
+
+fn tangents<N: CorrectlyRounded + 'static>(
     system: &System,
     steps: Steps<'_>,
     vectors: Vectors,
@@ -111,11 +218,6 @@ fn time<N: CorrectlyRounded>(integrator: &SceneIntegrator<Dual<N>>, transformed:
     integrator.state().q().last().filter(|_| transformed).map(Real::to_f64)
 }
 
-fn is_finite<N: CorrectlyRounded>(integrator: &SceneIntegrator<Dual<N>>) -> bool {
-    let state = integrator.state();
-    state.q().iter().chain(state.p()).all(|x| x.is_finite())
-}
-
 impl<N: CorrectlyRounded> TangentRun for Free<N> {
     fn step(&mut self) {
         self.tangents.step();
@@ -127,10 +229,6 @@ impl<N: CorrectlyRounded> TangentRun for Free<N> {
 
     fn time(&self) -> Option<f64> {
         time(&self.tangents.integrators()[0], self.transformed)
-    }
-
-    fn is_finite(&self) -> bool {
-        is_finite(&self.tangents.integrators()[0])
     }
 
     fn growths(&self) -> Vec<&Growth> {
@@ -160,10 +258,6 @@ impl<N: CorrectlyRounded> TangentRun for Orthonormal<N> {
         time(&self.spectrum.integrators()[0], self.transformed)
     }
 
-    fn is_finite(&self) -> bool {
-        is_finite(&self.spectrum.integrators()[0])
-    }
-
     fn growths(&self) -> Vec<&Growth> {
         self.spectrum.growths(0)
     }
@@ -181,15 +275,13 @@ impl<N: CorrectlyRounded> TangentRun for Orthonormal<N> {
 mod tests {
     //! Protects the derivatives of all kinds of systems: beside differences of nearby trajectories with 57 digits, and in double precision beside those.
 
-    use shadowstep::number::{AnyLimbs, LimbCount, Number};
+    use shadowstep::number::Number;
     use shadowstep::tables::Source;
     use shadowstep::tangent::vector;
     use shadowstep::{Carried, Integrator as _};
 
     use super::*;
-    use crate::scene::Scene;
     use crate::shipped::{SHIPPED_SCENES, scene_text};
-    use crate::start::Begin;
 
     const STEPS: usize = 3;
 

@@ -7,10 +7,12 @@ use serde::{Deserialize, Serialize};
 use shadowstep::shadow::Estimate;
 use shadowstep::shadow::run::{DriftRecorder, EnergyDrift, Finding, RunError};
 use shadowstep::steps::integrator::{VectorIntegrator, at_output};
+use shadowstep::tangent::Growth;
 use shadowstep::{Carried, Real};
 use shadowstep_scenes::computation::{Computation, RunNumber};
 use shadowstep_scenes::follow::Follower;
 use shadowstep_scenes::run::Run;
+use shadowstep_scenes::tangent::{FollowingVectors, TangentRun, Vectors};
 use shadowstep_scenes::watch::{Energies, Watch};
 use shadowstep_scenes::{EnergySummary, Error, Observer, Scene, ShownCoordinates, Summary, System};
 use shadowstep_symbolic::decimal::to_text;
@@ -112,6 +114,10 @@ impl Computation for Measuring<'_> {
             let drift = DriftRecorder::new(integrator.step_size().clone());
             following.drift = Some(drift.compensated_if(integrator.state().is_compensated()));
         }
+        following.tangents = match (keep.needs(Need::Tangents), keep.values.contains(&RunValue::Sali)) {
+            (false, _) => None,
+            (true, with_sali) => Some(scene.tangents(Vectors::Free(1 + usize::from(with_sali)), 1)?),
+        };
         let settings = settings.map(|(settings, _)| settings);
         let ended = N::follow(&mut *integrator, (None, run.steps), settings, &mut following)?;
         if ended.is_break() && !following.is_over() {
@@ -139,6 +145,7 @@ struct RunFollower<'a, N: RunNumber> {
     /// Of the modified energy, where it is estimated.
     drift: Option<DriftRecorder<N>>,
     watch: Option<Watch<N>>,
+    tangents: Option<FollowingVectors>,
     /// The conditions, each with the time of the first state that meets it.
     tests: Vec<(Test<N>, Option<String>)>,
     at_end: Vec<Evaluator<N>>,
@@ -190,6 +197,7 @@ impl<'a, N: RunNumber> RunFollower<'a, N> {
             is_long: scene.arithmetic.is_longer_than_double(),
             drift: None,
             watch,
+            tangents: None,
             tests: tests.collect(),
             at_end: at_end.collect(),
             last,
@@ -200,7 +208,7 @@ impl<'a, N: RunNumber> RunFollower<'a, N> {
 
     /// Whether more than the last state is of interest.
     fn follows_all(&self) -> bool {
-        self.watch.is_some() || !self.tests.is_empty()
+        self.watch.is_some() || self.tangents.is_some() || !self.tests.is_empty()
     }
 
     /// Whether the last state has come.
@@ -212,6 +220,9 @@ impl<'a, N: RunNumber> RunFollower<'a, N> {
     fn include(&mut self, n: i64, integrator: &mut VectorIntegrator<'_, N>) {
         if let Some(watch) = self.watch.as_mut().filter(|_| n > 0) {
             watch.include(n, integrator);
+        }
+        if let Some(tangents) = self.tangents.as_mut().filter(|_| n > 0) {
+            tangents.step();
         }
         if self.tests.is_empty() && n != self.last {
             return;
@@ -243,14 +254,15 @@ impl<'a, N: RunNumber> RunFollower<'a, N> {
 
     /// The values of all columns.
     fn values(self, run: Run<'_>, ended: &Ended<N>) -> Result<Values, Error> {
-        let RunFollower { keep, watch, tests, last, end, .. } = self;
+        let RunFollower { keep, watch, mut tangents, tests, last, end, .. } = self;
         let end = end.expect("the last state was included");
         if !end.has_energy {
             return Err(run.not_finite(&format!("the energy at the end, n = {last},")));
         }
         let energy = watch.as_ref().map(Watch::energy);
         let summary = watch.and_then(|watch| watch.summary(run));
-        let found = RunValues { energy: energy.as_ref(), summary: summary.as_ref(), ended, last };
+        let tangents = tangents.as_mut().map(FollowingVectors::end);
+        let found = RunValues { energy: energy.as_ref(), summary: summary.as_ref(), tangents, ended, last };
         let values = keep.values.iter().map(|kept| found.value(*kept));
         let times = tests.into_iter().map(|(_, met)| met);
         Ok(values.chain(times).chain(end.expressions).chain(end.state).collect())
@@ -301,13 +313,16 @@ impl<N: RunNumber> Follower<N> for RunFollower<'_, N> {
 struct RunValues<'a, N> {
     energy: Option<&'a EnergySummary>,
     summary: Option<&'a Summary>,
+    tangents: Option<&'a dyn TangentRun>,
     ended: &'a Ended<N>,
     last: i64,
 }
 
 impl<N: Real> RunValues<'_, N> {
     fn value(&self, kept: RunValue) -> Option<String> {
-        let RunValues { energy, summary, ended, last } = self;
+        let RunValues { energy, summary, tangents, ended, last } = self;
+        let growth = tangents.map(|tangents| tangents.growths()[0]);
+        let exponent = growth.and_then(Growth::exponent);
         let permanent = ended.drift.as_ref().and_then(|drift| drift.permanent.as_ref());
         match kept {
             RunValue::Verdict => summary.map(|summary| summary.verdict().to_owned()),
@@ -325,6 +340,11 @@ impl<N: Real> RunValues<'_, N> {
             }
             RunValue::PermanentResolution => permanent.map(|permanent| permanent.resolution.to_text()),
             RunValue::PermanentFinding => permanent.map(|permanent| finding(permanent.finding).to_owned()),
+            RunValue::Motion => growth.map(|growth| growth.regularity().to_string()),
+            RunValue::Lyapunov => exponent.map(|found| found.value.to_text()),
+            RunValue::LyapunovError => exponent.map(|found| found.error.to_text()),
+            RunValue::Megno => growth.map(|growth| growth.mean_megno().to_text()),
+            RunValue::Sali => tangents.and_then(TangentRun::sali).map(|sali| sali.to_text()),
             RunValue::Steps => Some(last.to_string()),
             RunValue::ForceEvaluations => Some(ended.evaluations.to_string()),
         }

@@ -28,7 +28,7 @@ const CHECKED: &str = "the formulas were checked with the sweep";
 
 /// Whether runs of which this is kept can be computed together: the monitor and estimates follow a run alone.
 pub(crate) fn allows(keep: &Keep) -> bool {
-    !(keep.rows || keep.needs(Need::Summary) || keep.needs(Need::Estimates))
+    !(keep.rows || [Need::Summary, Need::Estimates, Need::Tangents].into_iter().any(|need| keep.needs(need)))
 }
 
 /// Whether a run can be computed together with others like it.

@@ -14,6 +14,11 @@ pub(crate) enum RunValue {
     PermanentChange,
     PermanentResolution,
     PermanentFinding,
+    Motion,
+    Lyapunov,
+    LyapunovError,
+    Megno,
+    Sali,
     Steps,
     ForceEvaluations,
 }
@@ -27,6 +32,8 @@ pub(crate) enum Need {
     Summary,
     /// Estimates of the modified energy at each state.
     Estimates,
+    /// Tangent vectors.
+    Tangents,
     Nothing,
 }
 
@@ -48,7 +55,7 @@ const fn word(kept: RunValue, name: &'static str, need: Need, meaning: &'static 
 }
 
 /// All of them.
-pub(crate) const VALUES: [Description; 13] = [
+pub(crate) const VALUES: [Description; 18] = [
     word(RunValue::Verdict, "verdict", Need::Summary, "the monitor's verdict on the step size"),
     word(RunValue::Reason, "reason", Need::Summary, "the reason of the verdict"),
     number(RunValue::EnergyError, "energy_error", Need::Energies, "the largest |H(t) − H(0)| of all states"),
@@ -70,6 +77,26 @@ pub(crate) const VALUES: [Description; 13] = [
         "what a permanent change must exceed to be resolved",
     ),
     word(RunValue::PermanentFinding, "permanent_finding", Need::Estimates, "resolved, below-resolution or one-sided"),
+    word(
+        RunValue::Motion,
+        "motion",
+        Need::Tangents,
+        "regular, chaotic or undecided, by the growth of a tangent vector",
+    ),
+    number(
+        RunValue::Lyapunov,
+        "lyapunov",
+        Need::Tangents,
+        "the largest Lyapunov exponent over the last three quarters of the run",
+    ),
+    number(RunValue::LyapunovError, "lyapunov_error", Need::Tangents, "twice its standard error"),
+    number(
+        RunValue::Megno,
+        "megno",
+        Need::Tangents,
+        "the mean of MEGNO: 2 of regular runs, growing with the time of chaotic ones",
+    ),
+    number(RunValue::Sali, "sali", Need::Tangents, "SALI of two tangent vectors"),
     number(RunValue::Steps, "steps", Need::Nothing, "the number of steps"),
     number(
         RunValue::ForceEvaluations,

@@ -42,7 +42,7 @@ const fn column(name: &'static str, done: Done) -> Column {
     Column { name, done, reads_run: true, without: |_| None }
 }
 
-pub(crate) const COLUMNS: [Column; 10] = [
+pub(crate) const COLUMNS: [Column; 11] = [
     column("run", run),
     column("resume", resume),
     column("plot", plot),
@@ -50,6 +50,7 @@ pub(crate) const COLUMNS: [Column; 10] = [
     Column { reads_run: false, without: has_no_flag, ..column("drift", drift) },
     Column { without: has_own, ..column("work-precision", work_precision) },
     Column { without: has_own, ..column("advise", advise) },
+    Column { without: has_no_estimator, ..column("chaos", chaos) },
     column("sweep", sweep),
     column("sweep of a file", sweep_of_a_file),
     column("ensemble", ensemble),
@@ -313,6 +314,27 @@ fn advise(scene: &Scene, folder: &Path) -> Outcome {
     ended(scene, command, |output| {
         let text = String::from_utf8_lossy(&output.stdout);
         expect(text.contains("  verified ") && text.contains(", step "), || text.clone().into_owned())
+    })
+}
+
+/// Indicators of chaos need no modified energy beside that of the verdict.
+fn has_no_estimator(scene: &Scene) -> Option<Cell> {
+    scene.run.title.starts_with("Estimators: ").then_some(Cell::Same)
+}
+
+fn chaos(scene: &Scene, folder: &Path) -> Outcome {
+    fs::write(folder.join("scene.toml"), scene.text(scene.step(), "")).unwrap();
+    ended(scene, shadowstep(folder, "chaos scene.toml --json"), |output| {
+        let text = String::from_utf8_lossy(&output.stdout);
+        let records: Vec<serde_json::Value> = text
+            .lines()
+            .map(|line| serde_json::from_str(line).map_err(|error| error.to_string()))
+            .collect::<Result<_, _>>()?;
+        let [whole, half] = &records[..] else { return Err(format!("{} records", records.len())) };
+        let [a, b] = [whole, half].map(|record| record["lyapunov"].as_f64().unwrap_or(f64::NAN));
+        let time = whole["time"].as_f64().unwrap_or(f64::NAN);
+        // both follow the same flow: by how much the vector grew is the same up to the error of the steps
+        expect(((a - b) * time).abs() < 0.5 && whole["motion"] == "undecided", || text.clone().into_owned())
     })
 }
 

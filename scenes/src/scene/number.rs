@@ -1,6 +1,6 @@
 //! Systems in the number types of scenes. They are compiled in this crate, once for each, and not again in every crate that uses them.
 
-use shadowstep::number::{CorrectlyRounded, Dual};
+use shadowstep::number::{AnyLimbs, CorrectlyRounded, Dual};
 use shadowstep::problems::{CubicSpring, ProblemMotion, Setup};
 use shadowstep::systems::kinetic::Quadratic;
 use shadowstep::systems::pairs::{Ends, Pairs};
@@ -174,11 +174,5 @@ macro_rules! scene_numbers {
 
 number_types!(scene_numbers);
 
-/// Systems with a tangent vector.
-macro_rules! dual_numbers {
-    ($($number:ty),*) => {
-        scene_numbers!($(Dual<$number>),*);
-    };
-}
-
-number_types!(dual_numbers);
+// with a tangent vector: other numbers are followed with those of limbs
+scene_numbers!(Dual<f64>, Dual<AnyLimbs>);
