@@ -25,7 +25,7 @@ CHAPTERS = {
         "docs/what-works-with-what",
         "docs/book/rust-api",
     ],
-    "The modified energy": ["docs/the-modified-energy", "docs/monitor", "docs/recorded-trajectories"],
+    "The modified energy, and chaos": ["docs/the-modified-energy", "docs/monitor", "docs/recorded-trajectories", "docs/chaos"],
     "Schemes": [
         "docs/schemes",
         "schemes/tables/README",
@@ -33,7 +33,7 @@ CHAPTERS = {
         "docs/processed-schemes",
         "docs/errata-of-published-tables",
     ],
-    "Systems": ["docs/planets", "docs/linear-part", "docs/many-parts", "docs/transformed-time"],
+    "Systems": ["docs/planets", "docs/linear-part", "docs/many-parts", "docs/transformed-time", "docs/liquids"],
     "Numbers": ["docs/numbers", "docs/round-off"],
     "Measurements": [
         "docs/work-precision",

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 import shadowstep
-from shadowstep import InputError, Monitor, Problem, advise, drift, integrate, run, sweep, work_precision
+from shadowstep import InputError, Monitor, Problem, advise, chaos, drift, integrate, run, sweep, work_precision
 
 FOLDER = Path(__file__).resolve().parents[2] / "cli/tests/crosses"
 
@@ -99,6 +99,13 @@ def drifted(system, way, folder):
     finite([found["drift"]])
 
 
+def followed(system, way, folder):
+    mpfr = "--mpfr" in way.keys["numbers"]
+    found = chaos(problem(system, folder), scheme(way), step(system, way), steps=STEPS, digits=digits(way), mpfr=mpfr)
+    finite([found.at.lyapunov, found.at_half.lyapunov, found.at.sali])
+    assert found.conclusion == "not decided: the run is too short"
+
+
 def monitored(system, way, folder):
     monitor = Monitor(problem(system, folder), scheme(way), step(system, way), order=4, every=1, digits=digits(way))
     monitor.step(40)
@@ -137,10 +144,10 @@ def swept(system, way, folder):
     assert len(found["energy_error"]) == 2
 
 
-FUNCTIONS = {"integrate": integrated, "drift": drifted, "Monitor": monitored, "work_precision": compared, "advise": advised, "run": ran, "sweep": swept}
+FUNCTIONS = {"integrate": integrated, "drift": drifted, "chaos": followed, "Monitor": monitored, "work_precision": compared, "advise": advised, "run": ran, "sweep": swept}
 
 # Of [run] these read a scheme by its name or table only, and the last two no `mpfr`.
-OF_PROBLEMS = ["integrate", "drift", "Monitor", "work_precision", "advise"]
+OF_PROBLEMS = ["integrate", "drift", "chaos", "Monitor", "work_precision", "advise"]
 LONG = "double-double", "digits", "mpfr", "many-digits"
 REFUSED = {("ensemble", function) for function in [*OF_PROBLEMS, "sweep"]} | {(way, "Monitor") for way in LONG}
 REFUSED |= {("many-digits", function) for function in ("work_precision", "advise")}

@@ -4,6 +4,7 @@
     allow(dead_code, unused_imports, reason = "some tests need more digits than limbs have")
 )]
 
+mod chaos;
 mod checkpoints;
 #[cfg(feature = "mpfr")]
 mod digits;

@@ -1,0 +1,91 @@
+//! `shadowstep chaos`: chaos that the step size makes, exponents in pairs, refusals; the same values in a sweep.
+
+use std::collections::BTreeMap;
+use std::fs;
+
+use serde_json::Value;
+use tempfile::TempDir;
+
+use crate::program::{objects, quietly, shadowstep, text};
+
+/// The steps are the standard map with K = 1.
+const PENDULUM: &str = r#"
+[problem]
+name = "pendulum"
+[initial]
+q = [3]
+p = [0]
+[run]
+scheme = "stormer-verlet"
+step = 1
+until = 5000
+digits = "double"
+[output]
+energy = true
+"#;
+
+fn in_folder(text: &str) -> (TempDir, String) {
+    let folder = TempDir::new().unwrap();
+    let path = folder.path().join("scene.toml");
+    fs::write(&path, text).unwrap();
+    let name = path.display().to_string();
+    (folder, name)
+}
+
+fn number(record: &Value, name: &str) -> f64 {
+    record[name].as_f64().unwrap_or_else(|| panic!("{name}: {record}"))
+}
+
+#[test]
+fn chaos_of_the_step_size_is_told_from_that_of_the_problem() {
+    let (_folder, scene) = in_folder(PENDULUM);
+    let printed = quietly(&format!("chaos {scene}"));
+    assert!(printed.ends_with("\nchaotic at 1 and regular at 1/2: of the step size\n"), "{printed}");
+    let records = objects(&quietly(&format!("chaos {scene} --exponents 2 --json")));
+    let [whole, half] = &records[..] else { panic!("{records:?}") };
+    assert_eq!((text(whole, "motion"), text(half, "motion")), ("chaotic", "regular"));
+    let pair = whole["exponents"].as_array().unwrap();
+    let [largest, smallest] = [0, 1].map(|i| pair[i][0].as_f64().unwrap());
+    // a step is symplectic
+    assert!(largest > 0.1 && (largest + smallest).abs() < 1e-12, "{pair:?}");
+    assert!((number(half, "mean_megno") - 2.0).abs() < 0.1, "{half}");
+    assert_eq!(text(&whole["summary"], "verdict"), "the step size is too large");
+}
+
+#[test]
+fn a_sweep_keeps_the_values_of_the_command() {
+    let (folder, scene) = in_folder(PENDULUM);
+    let alone = objects(&quietly(&format!("chaos {scene} --one --json")));
+    let sweep = folder.path().join("sweep.toml");
+    let keep = "[keep]\nvalues = [\"motion\", \"lyapunov\", \"lyapunov_error\", \"megno\", \"sali\"]\n";
+    fs::write(&sweep, PENDULUM.replace("step = 1", "step = \"h0\"") + "[axes]\nh0 = [1]\n" + keep).unwrap();
+    let out = folder.path().join("out");
+    let made = shadowstep(&format!("sweep {} --out {}", sweep.display(), out.display()));
+    assert_eq!(made.code, 0, "{}", made.err);
+    let table = fs::read_to_string(out.join("results.csv")).unwrap();
+    let mut lines = table.lines().filter(|line| !line.starts_with('#')).map(|line| line.split(','));
+    let row: BTreeMap<&str, &str> = lines.next().unwrap().zip(lines.next().unwrap()).collect();
+    assert_eq!(row["motion"], "chaotic");
+    let pairs =
+        [("lyapunov", "exponent"), ("lyapunov_error", "exponent_error"), ("megno", "mean_megno"), ("sali", "sali")];
+    for (column, name) in pairs {
+        assert_eq!(row[column].parse::<f64>().unwrap(), number(&alone[0], name), "{name}");
+    }
+}
+
+#[test]
+fn what_has_no_vectors_is_refused() {
+    let (_folder, scene) = in_folder(PENDULUM);
+    let refused = shadowstep(&format!("chaos {scene} --vectors 3"));
+    assert!(refused.code == 2, "{}", refused.err);
+    assert!(
+        refused.err.contains("3 tangent vectors are linearly dependent, as a state has 2 components"),
+        "{}",
+        refused.err
+    );
+    let (_folder, scene) = in_folder(&PENDULUM.replace("\"double\"", "400"));
+    let refused = shadowstep(&format!("chaos {scene} --one"));
+    let expected =
+        if cfg!(feature = "mpfr") { "tangent vectors have at most 327 digits, and the run has 400" } else { "MPFR" };
+    assert!(refused.code == 2 && refused.err.contains(expected), "{}", refused.err);
+}
