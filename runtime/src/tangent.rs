@@ -26,10 +26,12 @@
 //! C. Skokos, *The Lyapunov characteristic exponents and their computation*, Lect. Notes Phys. 790 (2010) 63, has the theory; C. Skokos, E. Gerlach, Phys. Rev. E
 //! 82 (2010) 036704 the tangent map of splitting schemes.
 
+mod adjoint;
 mod growth;
 mod spectrum;
 mod vectors;
 
+pub use adjoint::{Covector, gradient};
 pub use growth::{Exponent, Growth, Regularity};
 pub use spectrum::Spectrum;
 pub use vectors::{vector, with_derivatives};

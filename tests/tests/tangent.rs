@@ -4,7 +4,7 @@
 use shadowstep::number::{Dual, Lanes, Limbs, Number, Real};
 use shadowstep::problems::HenonHeiles;
 use shadowstep::systems::kinetic::Quadratic;
-use shadowstep::tangent::{Regularity, Spectrum, Tangents, vector, with_derivatives};
+use shadowstep::tangent::{Regularity, Spectrum, Tangents, gradient, vector, with_derivatives};
 use shadowstep::{Integrator as _, Motion, Scheme, Stepper, UnitMasses, ValidFor, potential};
 use shadowstep_schemes::First;
 use shadowstep_tests::shipped::{Visitor, for_each};
@@ -154,6 +154,35 @@ impl MapLanes for Vec<f64> {
     fn map_lanes(&self) -> Vec<Lanes<4>> {
         self.iter().map(|x| Lanes::all(*x)).collect()
     }
+}
+
+/// λᵀMδ by steps back with λ, and by steps with δ.
+struct Adjoint;
+
+impl Visitor for Adjoint {
+    fn visit<S: Scheme + ValidFor<Quadratic> + Copy>(&mut self, name: &str, first: Option<First>, scheme: &'static S) {
+        let stepper = Stepper::new(*scheme, "1/20").unwrap();
+        let [q, p] = START.map(|half| numbers::<f64>(&half, &()));
+        let dual = |x: &[f64], of: &[f64]| with_derivatives(x, [of]).try_into().unwrap();
+        let (of_q, of_p) = ([0.3, -0.7], [0.2, 0.5]);
+        let mut carried: Star<Dual<f64>> = star([dual(&q, &of_q), dual(&p, &of_p)]);
+        (0..50).for_each(|_| stepper.step(&mut carried));
+        let forward = vector(carried.state(), 0);
+        let values = |numbers: &[Dual<f64>]| numbers.iter().map(|x| x.value).collect::<Vec<_>>();
+        let covector = |q: &[f64], p: &[f64]| (vec![q[0], q[1] * p[1]], vec![p[0].cos(), 1.0]);
+        let (by_q, by_p) = covector(&values(carried.q()), &values(carried.p()));
+        let product = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
+        let expected = product(&by_q, &forward[..2]) + product(&by_p, &forward[2..]);
+        let zero: Star<Dual<f64>> = star([dual(&q, &[0.0; 2]), dual(&p, &[0.0; 2])]);
+        let (by_q, by_p) = gradient(&mut stepper.with(zero), 50, covector);
+        let found = product(&by_q, &of_q) + product(&by_p, &of_p);
+        assert!((found - expected).abs() < 1e-12, "{name}, {first:?}: {found} and {expected}");
+    }
+}
+
+#[test]
+fn gradients_backwards_are_those_of_vectors_forwards() {
+    for_each(&mut Adjoint);
 }
 
 // ---------------------------------------------------------------------------------------------------------------
