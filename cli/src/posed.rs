@@ -4,9 +4,10 @@ use std::path::Path;
 
 use clap::Args;
 use shadowstep::Rational;
+use shadowstep::tables::First;
 use shadowstep_scenes::arithmetic::{Arithmetic, MOST_DIGITS};
 use shadowstep_scenes::library::NamedScheme;
-use shadowstep_scenes::{Error, Scene, source};
+use shadowstep_scenes::{Error, Scene, first_map, source};
 use shadowstep_schemes::document::document;
 use shadowstep_symbolic::decimal::to_text;
 use shadowstep_work_precision::length::length_of;
@@ -47,6 +48,8 @@ pub(crate) struct PosedProblem {
     /// About the length of the runs in s, where time is transformed.
     pub(crate) length: Option<Rational>,
     pub(crate) arithmetic: Arithmetic,
+    /// The map that steps begin with, where the scene has one.
+    pub(crate) first: Option<First>,
 }
 
 impl PosedProblem {
@@ -83,18 +86,24 @@ impl PosedProblem {
         }
         let described = Described::read(&arguments.system, arithmetic)?;
         let length = length_of(&described.system, &until)?;
-        Ok(PosedProblem { described, until, length, arithmetic })
+        let first = path.map(|path| Ok::<_, Error>(first_map(&source(Path::new(path))?)?)).transpose()?.flatten();
+        Ok(PosedProblem { described, until, length, arithmetic, first })
     }
 
     pub(crate) fn problem(&self) -> Problem<'_> {
-        let PosedProblem { described, until, length, arithmetic } = self;
+        let PosedProblem { described, until, length, arithmetic, .. } = self;
         Problem { system: &described.system, until, arithmetic: *arithmetic, length: length.as_ref() }
     }
 
-    /// The problem, the time and the number type in a line.
+    /// The problem, the time, the number type and what steps begin with in a line.
     pub(crate) fn title(&self) -> String {
-        let PosedProblem { described, until, arithmetic, .. } = self;
-        format!("{}, t = 0 to {}, {}", described.title, to_text(until), arithmetic.described())
+        let PosedProblem { described, until, arithmetic, first, .. } = self;
+        let first = match first {
+            Some(First::Drift) => ", drifts first",
+            Some(First::Kick) => ", kicks first",
+            None => "",
+        };
+        format!("{}, t = 0 to {}, {}{first}", described.title, to_text(until), arithmetic.described())
     }
 }
 

@@ -8,7 +8,7 @@ use std::time::Duration;
 
 use clap::Args;
 use shadowstep::Rational;
-use shadowstep_scenes::library::{NamedScheme, scheme};
+use shadowstep_scenes::library::{NamedScheme, scheme_from};
 use shadowstep_scenes::propagator::for_system;
 use shadowstep_scenes::{Error, System, shell_word};
 use shadowstep_symbolic::decimal::to_text;
@@ -100,7 +100,7 @@ pub(crate) fn seconds(text: &str) -> Result<f64, String> {
     }
 }
 
-/// The schemes, each once, that are valid for the system and have the digits of the runs.
+/// The schemes, each once, that are valid for the system and have the digits of the runs, with steps that begin as those of the scene.
 pub(crate) fn schemes(words: &[String], posed: &PosedProblem) -> Result<Vec<NamedScheme>, Error> {
     let system = &posed.described.system;
     let mut found: Vec<NamedScheme> = Vec::new();
@@ -111,7 +111,7 @@ pub(crate) fn schemes(words: &[String], posed: &PosedProblem) -> Result<Vec<Name
         }
     };
     if words.iter().all(|word| word.starts_with('+')) {
-        Group::Default.schemes(system, posed.arithmetic)?.into_iter().for_each(&mut add);
+        Group::Default.schemes(system, posed.arithmetic, posed.first)?.into_iter().for_each(&mut add);
     }
     for word in words {
         let word = word.strip_prefix('+').unwrap_or(word);
@@ -119,8 +119,8 @@ pub(crate) fn schemes(words: &[String], posed: &PosedProblem) -> Result<Vec<Name
             return Err(Error::usage("--schemes has an empty value", "write --schemes yoshida4,+mine.toml"));
         }
         match Group::of_word(word) {
-            Some(group) => group.schemes(system, posed.arithmetic)?.into_iter().for_each(&mut add),
-            None => add(valid(scheme(word)?, system, posed)?),
+            Some(group) => group.schemes(system, posed.arithmetic, posed.first)?.into_iter().for_each(&mut add),
+            None => add(valid(scheme_from(word, Path::new(""), posed.first)?, system, posed)?),
         }
     }
     Ok(found)

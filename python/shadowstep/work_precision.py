@@ -62,6 +62,7 @@ def work_precision(
     until: Number,
     schemes: Schemes = (),
     *,
+    first: str | None = None,
     steps: Sequence[int] | None = None,
     digits: Union[int, str] = "double",
     seconds: float = 2.0,
@@ -78,6 +79,8 @@ def work_precision(
         The end of the runs, a physical time.
     schemes
         By default a dozen that are valid for the problem; ``"all"`` are those of the catalogue, ``"near-integrable"`` those with orders for A + εB.
+    first
+        As in `integrate`: what the steps of all schemes begin with. Default schemes whose order would not hold are left out.
     steps
         The numbers of steps of the runs; by default equal numbers of evaluations for all schemes.
     seconds
@@ -99,7 +102,16 @@ def work_precision(
         raise _shadowstep.InputError(f"steps = {steps}: give numbers of steps such as [100, 200, 400]")
     with _folder(folder) as path, bar(1000, "", progress) as reach:
         found = _shadowstep.work_precision(
-            given_of(problem), exact(until, "until"), tables, group, steps=given, digits=str(digits), seconds=seconds, folder=path, progress=reach
+            given_of(problem),
+            exact(until, "until"),
+            tables,
+            group,
+            first=first,
+            steps=given,
+            digits=str(digits),
+            seconds=seconds,
+            folder=path,
+            progress=reach,
         )
     return [Curve(**{**curve, "runs": [Measurement(**run) for run in curve["runs"]]}) for curve in json.loads(found)]
 
@@ -167,6 +179,7 @@ def advise(
     of: str = "position",
     cost: str = "forces",
     schemes: Schemes = (),
+    first: str | None = None,
     digits: Union[int, str] = "double",
     seconds: float = 30.0,
     folder: Union[str, os.PathLike[str], None] = None,
@@ -185,6 +198,8 @@ def advise(
         What is to be small: ``"forces"``, with which Hessian–vector products and flows of a dominant part are counted, or ``"time"``.
     schemes
         As in `work_precision`. Beside a dominant part, such as Kepler orbits, near-integrable schemes are among the default ones.
+    first
+        As in `work_precision`.
     seconds
         The time of the search on all cores; the runs that verify the choice take what they take.
 
@@ -209,6 +224,7 @@ def advise(
                 cost=cost,
                 schemes=tables,
                 group=group,
+                first=first,
                 digits=str(digits),
                 seconds=seconds,
                 folder=path,

@@ -10,7 +10,7 @@ use shadowstep_scenes::tangent::Vectors;
 
 use crate::errors::exception;
 use crate::given::{Given, arithmetic, word};
-use crate::integrate::{SystemWithScheme, Times, beginning_with, times};
+use crate::integrate::{SystemWithScheme, Times, beginning_with, first_map, times};
 use crate::scheme::Table;
 use crate::waiting::waiting;
 
@@ -36,7 +36,8 @@ pub(crate) fn chaos(
     progress: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<String> {
     let arithmetic = arithmetic(py, digits, mpfr)?;
-    let scheme = beginning_with(py, scheme, first)?;
+    let first = first.map(|given| first_map(py, given)).transpose()?;
+    let scheme = beginning_with(py, &scheme.0, first)?;
     let displaced = word(py, "gradient_kicks", gradient_kicks, &[("exact", false), ("displaced", true)])?;
     let times = times(py, problem, arithmetic, (h, steps, until))?;
     let vectors = exponents.map_or(Vectors::Free(vectors), Vectors::Orthonormal);

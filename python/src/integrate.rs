@@ -44,7 +44,8 @@ pub(crate) fn integrate<'py>(
     let arithmetic = arithmetic(py, digits, mpfr)?;
     let estimator = options.map(|options| options.settings(py)).transpose()?;
     let is_between = estimator.as_ref().is_some_and(EstimatorSettings::is_between);
-    let scheme = beginning_with(py, scheme, first)?;
+    let first = first.map(|given| first_map(py, given)).transpose()?;
+    let scheme = beginning_with(py, &scheme.0, first)?;
     let displaced = word(py, "gradient_kicks", gradient_kicks, &[("exact", false), ("displaced", true)])?;
     let failed = |error| exception(py, error);
     let times = times(py, problem, arithmetic, (h, steps, until))?;
@@ -69,12 +70,16 @@ pub(crate) fn integrate<'py>(
     Ok(dictionary)
 }
 
-/// The scheme whose steps begin with what is wanted.
-pub(crate) fn beginning_with(py: Python<'_>, scheme: &Table, first: Option<&str>) -> PyResult<NamedScheme> {
-    let first = first.map(|given| word(py, "first", given, &[("kick", First::Kick), ("drift", First::Drift)]));
-    match first.transpose()? {
-        Some(first) => scheme.0.beginning_with(first).map_err(|error| of_library(py, error)),
-        None => Ok(scheme.0.clone()),
+/// The map that a word means.
+pub(crate) fn first_map(py: Python<'_>, given: &str) -> PyResult<First> {
+    word(py, "first", given, &[("kick", First::Kick), ("drift", First::Drift)])
+}
+
+/// The scheme with steps that begin with a map, where one is given.
+pub(crate) fn beginning_with(py: Python<'_>, scheme: &NamedScheme, first: Option<First>) -> PyResult<NamedScheme> {
+    match first {
+        Some(first) => scheme.beginning_with(first).map_err(|error| of_library(py, error)),
+        None => Ok(scheme.clone()),
     }
 }
 

@@ -6,6 +6,7 @@ use std::time::Duration;
 use pyo3::prelude::*;
 use serde_json::{Value, json};
 use shadowstep::Rational;
+use shadowstep::tables::First;
 use shadowstep_scenes::arithmetic::Arithmetic;
 use shadowstep_scenes::library::NamedScheme;
 use shadowstep_scenes::{Error, System};
@@ -22,7 +23,7 @@ use shadowstep_work_precision::study::{Cost, Request, Studied, Study};
 
 use crate::errors::{exception, usage};
 use crate::given::{Given, arithmetic, number, word};
-use crate::integrate::SystemWithScheme;
+use crate::integrate::{SystemWithScheme, beginning_with, first_map};
 use crate::scheme::Table;
 use crate::waiting::waiting;
 
@@ -43,6 +44,8 @@ struct Asked {
     arithmetic: Arithmetic,
     schemes: Vec<NamedScheme>,
     group: Group,
+    /// The map that steps begin with, in place of what the tables have.
+    first: Option<First>,
 }
 
 impl Asked {
@@ -52,6 +55,7 @@ impl Asked {
         problem: &Given,
         until: &str,
         (schemes, group): (&[PyRef<'_, Table>], Option<&str>),
+        first: Option<&str>,
         digits: &str,
     ) -> PyResult<Self> {
         let group = group.map(|given| word(py, "schemes", given, &Group::NAMED)).transpose()?;
@@ -59,19 +63,20 @@ impl Asked {
         if until == Rational::from_integer(0.into()) {
             return Err(usage(py, "until = 0: the runs must have a length", "until = 100"));
         }
-        let schemes = schemes.iter().map(|table| table.0.clone()).collect();
+        let first = first.map(|given| first_map(py, given)).transpose()?;
+        let schemes = schemes.iter().map(|table| beginning_with(py, &table.0, first)).collect::<PyResult<_>>()?;
         let group = group.unwrap_or(Group::Default);
-        Ok(Asked { problem: problem.clone(), until, arithmetic, schemes, group })
+        Ok(Asked { problem: problem.clone(), until, arithmetic, schemes, group, first })
     }
 }
 
 impl Compared {
     fn of(asked: Asked) -> Result<Self, Error> {
-        let Asked { problem, until, arithmetic, schemes, group } = asked;
+        let Asked { problem, until, arithmetic, schemes, group, first } = asked;
         let system = problem.system(arithmetic)?;
         let valid = |scheme| SystemWithScheme::of(&problem, scheme, arithmetic).map(|posed| posed.scheme);
         let schemes = match &schemes[..] {
-            [] => group.schemes(&system, arithmetic)?,
+            [] => group.schemes(&system, arithmetic, first)?,
             given => given.iter().map(valid).collect::<Result<_, _>>()?,
         };
         let length = length_of(&system, &until)?;
@@ -86,7 +91,7 @@ impl Compared {
 
 /// The errors of several schemes on a problem beside a reference, and their cost, as JSON.
 #[pyfunction]
-#[pyo3(signature = (problem, until, schemes, group, *, steps, digits, seconds, folder, progress))]
+#[pyo3(signature = (problem, until, schemes, group, *, first, steps, digits, seconds, folder, progress))]
 #[allow(clippy::too_many_arguments)] // the package's own function has the defaults
 pub(crate) fn work_precision(
     py: Python<'_>,
@@ -94,6 +99,7 @@ pub(crate) fn work_precision(
     until: &str,
     schemes: Vec<PyRef<'_, Table>>,
     group: Option<&str>,
+    first: Option<&str>,
     steps: Option<Vec<u64>>,
     digits: &str,
     seconds: f64,
@@ -102,7 +108,7 @@ pub(crate) fn work_precision(
 ) -> PyResult<String> {
     /// The reference may take this multiple of the time of a scheme.
     const REFERENCE: f64 = 10.0;
-    let asked = Asked::of(py, problem, until, (&schemes, group), digits)?;
+    let asked = Asked::of(py, problem, until, (&schemes, group), first, digits)?;
     let range = match steps {
         Some(steps) => StepRange::Given(steps),
         None => StepRange::Automatic { seconds, target: None },
@@ -159,7 +165,7 @@ fn number_of(size: Size) -> Option<f64> {
 
 /// A scheme and a step size for a tolerance, as JSON.
 #[pyfunction]
-#[pyo3(signature = (problem, until, tolerance, *, of, cost, schemes, group, digits, seconds, folder, progress))]
+#[pyo3(signature = (problem, until, tolerance, *, of, cost, schemes, group, first, digits, seconds, folder, progress))]
 #[allow(clippy::too_many_arguments)]
 pub(crate) fn advise(
     py: Python<'_>,
@@ -170,6 +176,7 @@ pub(crate) fn advise(
     cost: &str,
     schemes: Vec<PyRef<'_, Table>>,
     group: Option<&str>,
+    first: Option<&str>,
     digits: &str,
     seconds: f64,
     folder: PathBuf,
@@ -180,7 +187,7 @@ pub(crate) fn advise(
     if !(tolerance > 0.0 && tolerance.is_finite()) {
         return Err(usage(py, format!("tolerance = {tolerance}: the tolerance must be positive"), "tolerance = 1e-8"));
     }
-    let asked = Asked::of(py, problem, until, (&schemes, group), digits)?;
+    let asked = Asked::of(py, problem, until, (&schemes, group), first, digits)?;
     let found = waiting(py, progress, move |watched| {
         let compared = Compared::of(asked)?;
         let request = AdviceRequest {

@@ -68,6 +68,10 @@ def scheme(way):
     return str(FOLDER / name) if name.endswith(".toml") else name
 
 
+def first(way):
+    return way.value("first") if "\nfirst = " in way.text else None
+
+
 def digits(way):
     flags = way.keys["numbers"].split()
     return flags[1] if flags[0] == "--digits" else flags[0].removeprefix("--")
@@ -85,9 +89,8 @@ def finite(values):
 
 
 def integrated(system, way, folder):
-    found = integrate(
-        problem(system, folder), scheme(way), step(system, way), steps=STEPS, digits=digits(way), mpfr="--mpfr" in way.keys["numbers"], **estimator(way)
-    )
+    numbers = {"digits": digits(way), "mpfr": "--mpfr" in way.keys["numbers"]}
+    found = integrate(problem(system, folder), scheme(way), step(system, way), steps=STEPS, first=first(way), **numbers, **estimator(way))
     finite(found.modified_energy)
     energy = found.energy.astype(float)
     assert np.all(np.abs(energy - energy[0]) < 0.1 * abs(energy[0]))
@@ -101,7 +104,7 @@ def drifted(system, way, folder):
 
 def followed(system, way, folder):
     mpfr = "--mpfr" in way.keys["numbers"]
-    found = chaos(problem(system, folder), scheme(way), step(system, way), steps=STEPS, digits=digits(way), mpfr=mpfr)
+    found = chaos(problem(system, folder), scheme(way), step(system, way), steps=STEPS, first=first(way), digits=digits(way), mpfr=mpfr)
     finite([found.at.lyapunov, found.at_half.lyapunov, found.at.sali])
     assert found.conclusion == "not decided: the run is too short"
 
@@ -114,13 +117,13 @@ def monitored(system, way, folder):
 
 
 def compared(system, way, folder):
-    [curve] = work_precision(problem(system, folder), end(system, way), [scheme(way)], steps=[8, 32], digits=digits(way))
+    [curve] = work_precision(problem(system, folder), end(system, way), [scheme(way)], first=first(way), steps=[8, 32], digits=digits(way))
     coarse, fine = (measured.energy_error for measured in curve.runs)
     assert fine < max(coarse, 1e-13)
 
 
 def advised(system, way, folder):
-    advice = advise(problem(system, folder), end(system, way), 1e-2, schemes=[scheme(way)], digits=digits(way), seconds=1)
+    advice = advise(problem(system, folder), end(system, way), 1e-2, schemes=[scheme(way)], first=first(way), digits=digits(way), seconds=1)
     assert advice.verified <= 1e-2
 
 
@@ -146,13 +149,13 @@ def swept(system, way, folder):
 
 FUNCTIONS = {"integrate": integrated, "drift": drifted, "chaos": followed, "Monitor": monitored, "work_precision": compared, "advise": advised, "run": ran, "sweep": swept}
 
-# Of [run] these read a scheme by its name or table only, and the last two no `mpfr`.
-OF_PROBLEMS = ["integrate", "drift", "chaos", "Monitor", "work_precision", "advise"]
+# Of [run] the first two of these read a scheme by its name or table only, and the last two no `mpfr`.
+OF_PROBLEMS = ["drift", "Monitor", "chaos", "integrate", "work_precision", "advise"]
 LONG = "double-double", "digits", "mpfr", "many-digits"
 REFUSED = {("ensemble", function) for function in [*OF_PROBLEMS, "sweep"]} | {(way, "Monitor") for way in LONG}
 REFUSED |= {("many-digits", function) for function in ("work_precision", "advise")}
 WITHOUT_MPFR = {"mpfr", "many-digits"}
-NOT_TAKEN = {(way, function) for way in ("drift-first", "displaced") for function in OF_PROBLEMS}
+NOT_TAKEN = {("displaced", function) for function in OF_PROBLEMS} | {("drift-first", function) for function in OF_PROBLEMS[:2]}
 NOT_TAKEN |= {("mpfr", function) for function in ("work_precision", "advise")}
 
 

@@ -71,6 +71,22 @@ def test_work_precision_measures_the_order():
     assert [curve.order for curve in curves] == [2, 4, 6]
 
 
+def test_steps_of_all_schemes_begin_with_a_map():
+    pendulum, schemes = Problem("pendulum"), ["stormer-verlet"]
+    curves = {first: shadowstep.work_precision(pendulum, 2, schemes, first=first, steps=[20])[0] for first in ["kick", "drift"]}
+    precise = shadowstep.integrate(pendulum, "bce-rkn8-17", "1/80", until=2)
+    for first, curve in curves.items():
+        run = shadowstep.integrate(pendulum, "stormer-verlet", "1/10", until=2, first=first)
+        assert np.isclose(curve.runs[0].position_error, abs(run.q[-1, 0] - precise.q[-1, 0]), rtol=1e-6)
+    assert not np.isclose(*(curve.runs[0].position_error for curve in curves.values()), rtol=0.1)
+    advice = shadowstep.advise(pendulum, 2, 1e-4, first="drift", seconds=2)
+    assert advice.verified <= 1e-4 and all(choice.scheme != "blanes-moan-srkn11b" for choice in advice.choices)
+    with pytest.raises(InputError, match="order 6 is claimed"):
+        shadowstep.advise(pendulum, 2, 1e-4, first="drift", schemes=["blanes-moan-srkn11b"])
+    with pytest.raises(InputError, match='first = "drifts" is not known'):
+        shadowstep.advise(pendulum, 2, 1e-4, first="drifts")
+
+
 def test_advice_beside_a_dominant_part_has_near_integrable_schemes():
     planets = Problem("outer-solar-system", parts="wisdom-holman")
     for schemes in [(), "near-integrable"]:

@@ -140,7 +140,7 @@ pub use explain::{explain, explanation};
 pub use frequency::Frequency;
 pub use note::Note;
 pub use observer::Observer;
-pub use read::source;
+pub use read::{first_map, source};
 pub use refusal::{NoGradientKicks, NoProcessor, Refusal};
 pub use results::{FileOptions, elementary_functions, hexadecimal};
 pub use scene::plot;

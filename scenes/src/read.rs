@@ -26,7 +26,7 @@ use std::io::ErrorKind;
 use std::path::Path;
 use std::sync::OnceLock;
 
-use shadowstep::tables::{Faults, Source};
+use shadowstep::tables::{Faults, First, Source};
 use shadowstep_schemes::document::{Section, document, read_text};
 use shadowstep_symbolic::{Exact, nearest};
 use toml::de::DeTable;
@@ -102,6 +102,19 @@ pub(crate) fn read(source: &Source, document: &DeTable<'_>, names: Names<'_>) ->
         (Some(faults), _) => Err(faults),
         (None, None) => unreachable!("what cannot be read is a fault"),
     }
+}
+
+/// The map that the steps of a scene begin with, whatever else it contains; `None` if \[run\] has no `first`.
+///
+/// # Errors
+/// A text that is not TOML; a word that is not a map.
+pub fn first_map(source: &Source) -> Result<Option<First>, Faults> {
+    let (document, faults) = document(source);
+    let Some(document) = document.filter(|_| faults.is_empty()) else { return Err(Faults(faults)) };
+    let run = document.get("run").and_then(|run| run.get_ref().as_table());
+    let mut reader = Reader::new(source);
+    let first = run.and_then(|run| run.get("first")).and_then(|value| run::first(&mut reader, value));
+    Faults::of(reader.toml.faults).map_or(Ok(first), Err)
 }
 
 /// The text of a scene's file.

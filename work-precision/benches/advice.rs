@@ -57,7 +57,7 @@ fn main() {
         let (system, _) = System::read(&source, Arithmetic::DOUBLE).unwrap();
         let until = Rational::from_integer(until.into());
         let problem = Problem { system: &system, until: &until, arithmetic: Arithmetic::DOUBLE, length: None };
-        let schemes = Group::Default.schemes(&system, Arithmetic::DOUBLE).unwrap();
+        let schemes = Group::Default.schemes(&system, Arithmetic::DOUBLE, None).unwrap();
         let folder = tempfile::tempdir().unwrap();
         let study = study(problem, &schemes, &folder.path().join("study"));
         for exponent in TOLERANCES {

@@ -1,7 +1,10 @@
 //! Groups of shipped schemes: those that are compared if none are named, and those that words mean.
 
+use std::path::Path;
+
+use shadowstep::tables::First;
 use shadowstep_scenes::arithmetic::Arithmetic;
-use shadowstep_scenes::library::{NamedScheme, scheme};
+use shadowstep_scenes::library::{NamedScheme, scheme_from};
 use shadowstep_scenes::propagator::for_system;
 use shadowstep_scenes::{Error, System};
 
@@ -90,14 +93,19 @@ impl Group {
         }
     }
 
-    /// Its schemes that are valid for a system and have the digits of the runs.
+    /// Its schemes that are valid for a system and have the digits of the runs, with steps that begin with a map, where one is given.
     ///
     /// # Errors
     /// None is.
-    pub fn schemes(self, system: &System, arithmetic: Arithmetic) -> Result<Vec<NamedScheme>, Error> {
+    pub fn schemes(
+        self,
+        system: &System,
+        arithmetic: Arithmetic,
+        first: Option<First>,
+    ) -> Result<Vec<NamedScheme>, Error> {
         let valid = |name: &str| {
-            let fitted = for_system(scheme(name).ok()?, system).ok()?.fitted(arithmetic).ok()?;
-            Some(fitted.0)
+            let scheme = scheme_from(name, Path::new(""), first).ok()?;
+            Some(for_system(scheme, system).ok()?.fitted(arithmetic).ok()?.0)
         };
         let found: Vec<_> = self.names(system).into_iter().filter_map(valid).collect();
         match found.is_empty() {
@@ -119,13 +127,14 @@ fn is_near_integrable(name: &str) -> bool {
 mod tests {
     use super::*;
     use shadowstep::tables::Source;
+    use shadowstep_scenes::library::scheme;
 
     fn system(text: &str) -> System {
         System::read(&Source { path: "test.toml".to_owned(), text: text.to_owned() }, Arithmetic::DOUBLE).unwrap().0
     }
 
     fn names(group: Group, text: &str) -> Vec<String> {
-        let found = group.schemes(&system(text), Arithmetic::DOUBLE).unwrap();
+        let found = group.schemes(&system(text), Arithmetic::DOUBLE, None).unwrap();
         found.into_iter().map(|named| named.name).collect()
     }
 

@@ -256,10 +256,15 @@ fn value<'a>(scene: &'a Scene, key: &str) -> &'a str {
 
 /// What of [run] has no flag.
 fn has_no_flag(scene: &Scene) -> Option<Cell> {
+    lacks(scene, &["first", "gradient_kicks"])
+}
+
+/// Which of these keys of [run] a command does not have.
+fn lacks(scene: &Scene, keys: &[&str]) -> Option<Cell> {
     if scene.run.title == "Steps: until a time" {
         return Some(Cell::Same);
     }
-    let key = ["first", "gradient_kicks"].into_iter().find(|key| scene.run.text.contains(&format!("\n{key} = ")))?;
+    let key = keys.iter().find(|key| scene.run.text.contains(&format!("\n{key} = ")))?;
     let reason = format!("there is no flag for `{key}`: the command takes a scheme by its name or table only");
     Some(Cell::Refused { reason, has_place: false })
 }
@@ -291,9 +296,9 @@ fn of_scene(scene: &Scene, folder: &Path, words: &str) -> Command {
     command
 }
 
-/// Work–precision diagrams and advice have an estimator of their own.
+/// Work–precision diagrams and advice have an estimator of their own, and begin steps with the map of the scene.
 fn has_own(scene: &Scene) -> Option<Cell> {
-    if scene.run.title.starts_with("Estimators: ") { Some(Cell::Same) } else { has_no_flag(scene) }
+    if scene.run.title.starts_with("Estimators: ") { Some(Cell::Same) } else { lacks(scene, &["gradient_kicks"]) }
 }
 
 fn work_precision(scene: &Scene, folder: &Path) -> Outcome {

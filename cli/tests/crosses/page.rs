@@ -24,7 +24,7 @@ file; its axes are the step size and a number of the system. An ensemble varies 
 const OF_RUNS: &str = "\
 ## Numbers, schemes, estimators and commands
 
-The system is a shipped problem. `trace` and `drift` get these by flags, and their end as a time; `work-precision` and `advise` use the number type of the scene, and
+The system is a shipped problem. `trace` and `drift` get these by flags, and their end as a time; `work-precision` and `advise` use the number type of the scene and its `first`, and
 have an estimator of their own (–).
 ";
 

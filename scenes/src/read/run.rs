@@ -16,7 +16,7 @@ use crate::refusal::Refusal;
 use crate::scene::System;
 use crate::scene::split::{Class, Needs};
 use crate::steps::{self, MOST_STEPS};
-use shadowstep_schemes::document::{Section, Text};
+use shadowstep_schemes::document::{Section, Text, Value};
 
 /// The number type, to whose digits all values of the scene are computed.
 pub(super) fn arithmetic(reader: &mut Reader<'_>, run: &Section<'_, '_>) -> Option<Arithmetic> {
@@ -32,6 +32,11 @@ pub(super) fn arithmetic(reader: &mut Reader<'_>, run: &Section<'_, '_>) -> Opti
         Ok(arithmetic) => Some(arithmetic),
         Err(error) => reader.toml.wrong(&run.at, error.to_string(), "write digits = 120"),
     }
+}
+
+/// The map that steps begin with.
+pub(super) fn first(reader: &mut Reader<'_>, value: &Value<'_>) -> Option<First> {
+    reader.word(value, &[("kick", First::Kick), ("drift", First::Drift)])
 }
 
 /// The section [run].
@@ -54,7 +59,7 @@ impl Steps {
         (system, transformed): (Option<&System>, bool),
         schemes: &Schemes,
     ) -> Option<Steps> {
-        let first = run.get("first").map(|value| reader.word(value, &[("kick", First::Kick), ("drift", First::Drift)]));
+        let first = run.get("first").map(|value| first(reader, value));
         let scheme = match run.get("scheme") {
             Some(value) => {
                 reader.toml.text(value).and_then(|text| scheme(reader, &text, first.flatten(), system, schemes))
