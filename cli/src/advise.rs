@@ -129,7 +129,7 @@ fn readable(posed: &PosedProblem, request: &AdviceRequest<'_>, advice: &Advice<'
     let mut text = wrapped_to(&posed.title(), "", WIDTH);
     text += &wrapped_to(&format!("tolerance {}: {}", request.tolerance, request.of.name()), "", WIDTH);
     match advice {
-        Advice::OutOfReach { least, part, reference, in_time, missed, unfinished } => {
+        Advice::OutOfReach { least, overflow, part, reference, in_time, missed, unfinished } => {
             let runs = over(*part);
             let limit = match in_time {
                 true => format!("in {}", posed.arithmetic.described()),
@@ -139,11 +139,20 @@ fn readable(posed: &PosedProblem, request: &AdviceRequest<'_>, advice: &Advice<'
                 _ if *missed > 0 => format!(
                     "No advice: runs over all of the time, {missed} of them, were expected to meet the tolerance from runs {runs}, and missed it."
                 ),
+                _ if *overflow => format!(
+                    "No advice {limit}: a state, its energy or its error overflows in every run {runs}, as with steps that are too large, or numbers \
+                     that are."
+                ),
                 Some((error, name)) => {
                     format!("No scheme meets the tolerance {limit}: the smallest error was {error}, of {name}, {runs}.")
                 }
                 None if *unfinished != Unfinished::default() => {
                     format!("No advice: no error is known {limit}, {runs}.")
+                }
+                None if request.of == Of::Position && !reference.is_finite() => {
+                    format!(
+                        "No advice: there are no positions to compare with {limit}, {runs}. Use a shorter time, or more seconds."
+                    )
                 }
                 None if request.of == Of::Position => format!(
                     "No advice: the positions of the reference change by {reference} with its step {runs}, as they do where the motion is \
@@ -152,7 +161,9 @@ fn readable(posed: &PosedProblem, request: &AdviceRequest<'_>, advice: &Advice<'
                 None => format!("No advice: no error is known {runs}."),
             };
             text += &wrapped_to(&found, "", WIDTH);
-            text += &not_finished(unfinished, request.seconds);
+            if !overflow {
+                text += &not_finished(unfinished, request.seconds);
+            }
         }
         Advice::Found { choices, verified, part, unfinished } => {
             let best = &choices[0];
@@ -180,7 +191,7 @@ fn not_finished(unfinished: &Unfinished<'_>, seconds: f64) -> String {
         [] => String::new(),
         names => wrapped_to(&format!("{what} in {seconds} s, which --seconds sets: {}", names.join(", ")), "", WIDTH),
     };
-    line("not tried", untried) + &line("extrapolated from larger errors, as runs ended", extrapolated)
+    line("without a result", untried) + &line("extrapolated from larger errors, as runs ended", extrapolated)
 }
 
 fn evidence(best: &Choice<'_>, request: &AdviceRequest<'_>, verified: Verified, part: f64) -> String {

@@ -20,7 +20,7 @@ use crate::of::Of;
 use crate::problem::Problem;
 use crate::reference::{Reference, Resolution};
 use crate::run::{Measurement, PositionError};
-use crate::series::{End, StepRange, Target, stable_step};
+use crate::series::{End, Series, StepRange, Target, stable_step};
 use crate::size::Size;
 use crate::study::{Cost, Request, Studied, Study, proved_order};
 use crate::timing::time_of_steps;
@@ -63,6 +63,8 @@ pub enum Advice<'a> {
     OutOfReach {
         /// The smallest error that some scheme had, over the part of the time, and its name; `None` if there is none.
         least: Option<(Size, &'a str)>,
+        /// Whether a state, its H or its error was not finite in every run.
+        overflow: bool,
         /// The part of the time over which runs were made.
         part: f64,
         /// The error of the reference.
@@ -79,7 +81,7 @@ pub enum Advice<'a> {
 /// The schemes that a search had too little time for.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Unfinished<'a> {
-    /// Those without a run.
+    /// Those without a run that has an error.
     pub untried: Vec<&'a str>,
     /// Those whose runs ended before the tolerance or round-off: their errors are extrapolated.
     pub extrapolated: Vec<&'a str>,
@@ -114,6 +116,7 @@ impl<'a> AdviceRequest<'a> {
     /// # Errors
     /// As [`Request::study`].
     pub fn run(&self, observer: &mut dyn Observer) -> Result<Advice<'a>, Error> {
+        self.problem.check_energy()?;
         let halvings = self.halvings()?;
         let until = self.problem.until / Rational::from_integer((1_i64 << halvings).into());
         let length = length_of(self.problem.system, &until)?;
@@ -143,9 +146,11 @@ impl<'a> AdviceRequest<'a> {
             missed += 1;
         }
         let runs = study.schemes.iter().flat_map(|studied| studied.series.runs.iter().map(move |run| (studied, run)));
+        let overflow = runs.clone().next().is_some() && runs.clone().all(|(_, run)| run.failed.is_some());
         let errors = runs.filter_map(|(studied, run)| Some((self.of.error(run)?, self.named(studied).name.as_str())));
         Ok(Advice::OutOfReach {
             least: errors.min_by(|a, b| a.0.log10().total_cmp(&b.0.log10())),
+            overflow,
             part,
             reference: study.reference.error(),
             in_time: study.schemes.iter().all(|studied| studied.series.end != End::Time),
@@ -155,9 +160,10 @@ impl<'a> AdviceRequest<'a> {
     }
 
     fn unfinished(&self, study: &Study<'_>) -> Unfinished<'a> {
-        let ended = |has_runs: bool| {
+        let ended = |has_error: bool| {
             let is = move |studied: &&Studied<'_>| {
-                studied.series.end == End::Time && studied.series.runs.is_empty() != has_runs
+                let Series { runs, end } = &studied.series;
+                *end == End::Time && runs.iter().any(|run| self.of.error(run).is_some()) == has_error
             };
             study.schemes.iter().filter(is).map(|studied| self.named(studied).name.as_str()).collect()
         };

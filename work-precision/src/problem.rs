@@ -4,8 +4,8 @@ use num_traits::Signed;
 use shadowstep::problems::Setup;
 use shadowstep::shadow::exact_flow::has_exact_flow;
 use shadowstep::{Number, Rational, StepSize};
-use shadowstep_scenes::arithmetic::Arithmetic;
-use shadowstep_scenes::computation::RunNumber;
+use shadowstep_scenes::arithmetic::{Arithmetic, Numbers};
+use shadowstep_scenes::computation::{Computation, RunNumber};
 use shadowstep_scenes::library::{NamedScheme, fingerprint};
 use shadowstep_scenes::start::{Begin, SceneIntegrator, Steps};
 use shadowstep_scenes::{Error, System};
@@ -67,6 +67,18 @@ impl Problem<'_> {
         Ok(self.system.integrator(steps, self.system.start(context), context)?)
     }
 
+    /// Refuses a problem whose H is not finite at t = 0: no run of it has an error.
+    pub(crate) fn check_energy(&self) -> Result<(), Error> {
+        self.arithmetic.compute(EnergyAtStart(self.system)).map_or(Ok(()), |energy| {
+            let message = format!("H is {energy} at t = 0 in {}", self.arithmetic.described());
+            let hint = match self.arithmetic.numbers() {
+                Numbers::Digits(..) => "choose another initial state",
+                _ => "choose another initial state, or 16 digits, whose numbers are of any size",
+            };
+            Err(Error::run(message, hint))
+        })
+    }
+
     /// Whether the runs go forward in time.
     pub(crate) fn is_forward(&self) -> bool {
         self.until.is_positive()
@@ -77,6 +89,19 @@ impl Problem<'_> {
         let all = format!("{:?} {} {:?}", self.system, to_text(self.until), self.arithmetic.label());
         let all = self.length.map_or(all.clone(), |length| format!("{all} s {}", to_text(length)));
         fingerprint(&all)
+    }
+}
+
+/// H at t = 0 as a text, where it is not finite.
+struct EnergyAtStart<'a>(&'a System);
+
+impl Computation for EnergyAtStart<'_> {
+    type Output = Option<String>;
+
+    fn compute<N: RunNumber>(self, context: &N::Context) -> Option<String> {
+        let (q, p) = self.0.start(context);
+        let energy: N = self.0.energy(context)(&q, &p);
+        (!energy.is_finite()).then(|| energy.to_text())
     }
 }
 

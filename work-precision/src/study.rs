@@ -96,9 +96,10 @@ impl<'a> Request<'a> {
     /// Makes all runs that the folder lacks, on all cores, and then times the steps of all schemes by turns.
     ///
     /// # Errors
-    /// No reference; a folder that cannot be written or that another process uses; an observer that stops. A scheme that fails is
+    /// H that is not finite at t = 0; no reference; a folder that cannot be written or that another process uses; an observer that stops. A scheme that fails is
     /// reported to the observer.
     pub fn study(&self, observer: &mut dyn Observer) -> Result<Study<'a>, Error> {
+        self.problem.check_energy()?;
         let mut store = Store::open(&self.folder, observer)?;
         let problem = self.problem;
         let wanted = match self.resolution {

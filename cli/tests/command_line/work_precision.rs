@@ -55,6 +55,33 @@ fn what_is_out_of_reach_is_a_negative_answer() {
     assert!(refused.out.contains("No scheme meets the tolerance in double precision"), "{}", refused.out);
 }
 
+/// Numbers of 16 digits have no such bound.
+#[test]
+fn problems_that_overflow_have_no_advice() {
+    let folder = TempDir::new().unwrap();
+    let large = "harmonic-oscillator --set q=1e300 --until 1";
+    for words in [
+        format!("advise {large} --tolerance 1e-6"),
+        format!("work-precision {large} --out {}", folder.path().display()),
+    ] {
+        let ended = shadowstep(&words);
+        assert_eq!(ended.code, 3, "{words}: {} {}", ended.out, ended.err);
+        assert!(
+            ended.err.contains("H is inf at t = 0 in double precision") && ended.err.contains("16 digits"),
+            "{}",
+            ended.err
+        );
+    }
+    let precise = quietly(&format!("advise {large} --tolerance 1e290 --digits 16 --schemes yoshida6-a"));
+    assert!(precise.contains("  verified "), "{precise}");
+    // the motion is infinite after a finite time
+    let far =
+        shadowstep("advise --potential=-exp(x^2) --q x=1 --p 0 --until 5 --tolerance 1e-6 --seconds 0.2 --of energy");
+    assert_eq!(far.code, 1, "{}", far.err);
+    assert!(far.out.contains("overflows in every run") && !far.out.contains("chaotic"), "{}", far.out);
+    assert!(!far.out.contains("stormer-verlet"), "{}", far.out);
+}
+
 #[test]
 fn wrong_requests_are_refused() {
     let folder = TempDir::new().unwrap();
