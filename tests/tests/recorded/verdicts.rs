@@ -49,7 +49,7 @@ fn is_right(case: Case, found: &Diagnosis, effect: f64) -> bool {
         | (Cause::OtherSteps | Cause::Jumps { .. }, Fault::Changed(_)) => true,
         (Cause::Nothing, Fault::None | Fault::Rounded(_) | Fault::NoisyEnergy(_) | Fault::Kinks(_)) => case.turn < 1.5,
         (Cause::Nothing, _) => effect < 0.4 * found.energy_error,
-        (Cause::TimeStep, _) => case.turn > 0.5 && (found.method_error > 0.4 * found.kinetic || without()),
+        (Cause::TimeStep, _) => case.turn > 0.5 && (found.method_error >= 0.4 * found.usual_kinetic || without()),
         _ => false,
     }
 }
@@ -71,7 +71,7 @@ fn judged(seeds: std::ops::Range<u64>) -> (BTreeMap<String, BTreeMap<String, usi
     (matrix, wrong)
 }
 
-/// One verdict in fifty may be wrong, and one in five undecided.
+/// No verdict is wrong, and one in five may be undecided.
 fn hold(seeds: std::ops::Range<u64>) {
     let (matrix, wrong) = judged(seeds);
     let all: usize = matrix.values().flat_map(BTreeMap::values).sum();
@@ -80,7 +80,7 @@ fn hold(seeds: std::ops::Range<u64>) {
         println!("{fault}: {causes:?}");
     }
     println!("{all} verdicts, {undecided} undecided, {} wrong:\n{}", wrong.len(), wrong.join("\n\n"));
-    assert!(50 * wrong.len() <= all && 5 * undecided <= all, "see the output");
+    assert!(wrong.is_empty() && 5 * undecided <= all, "see the output");
 }
 
 #[test]
@@ -93,4 +93,11 @@ fn verdicts_hold() {
 #[ignore = "takes a minute"]
 fn verdicts_of_a_thousand_hold() {
     hold(4000..4600);
+}
+
+/// Others, by which the thresholds were tested once when they were chosen.
+#[test]
+#[ignore = "takes a minute"]
+fn verdicts_of_another_thousand_hold() {
+    hold(8000..8600);
 }

@@ -27,7 +27,7 @@ pub struct Diagnosis {
     /// The mean kinetic energy.
     pub kinetic: f64,
     /// Its median, which is not of a few last states that explode.
-    pub(super) usual_kinetic: f64,
+    pub usual_kinetic: f64,
     /// The energy error: max − min of H.
     pub energy_error: f64,
     /// The method's part of it: max − min of H − H̄.

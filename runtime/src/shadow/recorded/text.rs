@@ -61,7 +61,14 @@ impl Diagnosis {
             return "not decided: no forces are logged".to_owned();
         };
         let moved = self.moved();
-        let (undecided, next) = if self.has_large_jumps() {
+        let (undecided, next) = if self.may_cancel() {
+            (
+                "to and fro, or with steps that do not resolve the motion; estimates are means over nine states, in which what U jumps by, or forces that \
+                 are not −U_q, may cancel"
+                    .to_owned(),
+                "steps of half the size tell whether anything does",
+            )
+        } else if self.has_large_jumps() {
             (
                 format!("it jumps {}, by as much as the kinetic energy", self.where_it_jumps()),
                 "look at these states: steps that are too large there do that, or a state that is changed",
