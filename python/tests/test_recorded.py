@@ -150,7 +150,8 @@ def test_ase_with_noise():
 
 def test_ase_with_a_time_step_that_is_too_large():
     found = followed(argon(lennard_jones(smooth=True)), femtoseconds=50, steps=200).diagnosis()
-    assert found.cause == "time-step", str(found)
+    # a cutoff may hide in it
+    assert found.cause == "undecided" and "steps of half the size tell these apart" in str(found), str(found)
 
 
 def test_ase_windows_and_emt():

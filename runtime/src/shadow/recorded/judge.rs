@@ -132,7 +132,7 @@ impl Diagnosis {
     }
 
     /// Whether the steps resolve the motion, as the forces show.
-    fn is_resolved(&self) -> bool {
+    pub(super) fn is_resolved(&self) -> bool {
         self.smoothness.is_some_and(|forces| forces.differences < unresolved(self.window) * forces.size)
     }
 

@@ -77,6 +77,8 @@ impl Diagnosis {
             ("by more than errors of the forces explain: U jumps, or the forces are not −U_q".to_owned(), SMALLER)
         } else if self.is_independent() {
             ("independently from step to step: the forces have errors, or are not smooth, or the steps are too large".to_owned(), SMALLER)
+        } else if !self.is_resolved() {
+            ("with steps that do not resolve the motion: that moves it, or hides what does".to_owned(), SMALLER)
         } else {
             (
                 format!("and the estimates have errors of {:.1e}", self.known_to),
