@@ -8,6 +8,7 @@ use shadowstep::number::{DoubleDouble, Limbs, Number};
 use shadowstep::problems::{HenonHeiles, Kepler};
 use shadowstep::systems::kinetic::{Kinetic, Quadratic};
 use shadowstep::systems::potential::FewCoordinates;
+use shadowstep::systems::system::Visitor;
 use shadowstep::tables::{TableScheme, shipped};
 use shadowstep::{Carried, DiagonalMasses, Motion, Potential, Rational, Stepper, System, UnitMasses, potential};
 
@@ -42,6 +43,50 @@ fn check<M: System<Number = f64, Class = Quadratic> + Clone>(start: &M) {
     stepper.step_augmented(&mut start);
     stepper.step_augmented(&mut none);
     assert_eq!((none.q(), none.state().increments().beta), (start.q(), start.state().increments().beta));
+}
+
+/// Sees that the states are those of steps one by one.
+struct OneByOne<'a, M> {
+    stepper: &'a Stepper<TableScheme, f64>,
+    system: M,
+    seen: u64,
+}
+
+impl<M: System<Number = f64, Class = Quadratic>> Visitor<f64> for OneByOne<'_, M> {
+    fn visit(&mut self, q: &[f64], p: &[f64]) {
+        self.stepper.step(&mut self.system);
+        self.seen += 1;
+        assert_eq!((self.system.q(), self.system.p()), (q, p), "state {}", self.seen);
+    }
+}
+
+fn check_visited<M: System<Number = f64, Class = Quadratic>>(scheme: &str, start: impl Fn() -> M) {
+    let stepper = Stepper::new(shipped(scheme).unwrap(), "1/50").unwrap();
+    for count in [0, 1, 7, 8, 100] {
+        let mut system = start();
+        let mut one_by_one = OneByOne { stepper: &stepper, system: start(), seen: 0 };
+        stepper.steps_visited(&mut system, count, &mut one_by_one);
+        assert_eq!(one_by_one.seen, count);
+        let mut one_by_one = one_by_one.system;
+        same(&one_by_one, &system);
+        stepper.step_augmented(&mut system);
+        stepper.step_augmented(&mut one_by_one);
+        same(&one_by_one, &system);
+    }
+}
+
+#[test]
+fn a_visitor_sees_the_states_of_steps_one_by_one() {
+    let boxed = || -> Box<dyn Potential<f64>> { Box::new(HenonHeiles) };
+    for scheme in ["stormer-verlet", "yoshida4", "saba4", "chin-4a"] {
+        let arrays = || Motion::new(HenonHeiles, UnitMasses, [0.1, 0.2], [0.1, 0.0]).unwrap();
+        let vectors = || Motion::new(boxed(), UnitMasses, vec![0.1, 0.2], vec![0.1, 0.0]).unwrap();
+        check_visited(scheme, arrays);
+        check_visited(scheme, || arrays().compensated());
+        check_visited(scheme, || arrays().fixed_point(&[2.0; 2], &[2.0; 2]).unwrap());
+        check_visited(scheme, vectors);
+        check_visited(scheme, || vectors().compensated());
+    }
 }
 
 #[test]

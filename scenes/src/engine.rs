@@ -7,6 +7,7 @@ use std::time::{Duration, Instant};
 use shadowstep::shadow::Estimate;
 use shadowstep::shadow::run::RunError;
 use shadowstep::steps::integrator::{VectorIntegrator, at_output};
+use shadowstep::systems::system::Visitor;
 use shadowstep::{Carried, MotionError};
 
 use crate::computation::RunNumber;
@@ -14,6 +15,7 @@ use crate::error::Error;
 use crate::follow::{Follower, follow};
 use crate::note::Note;
 use crate::observer::Observer;
+use crate::pace::Pace;
 use crate::physical_end::last_step;
 use crate::results::{Checkpoint, ModifiedEnergy, Row, Rows, SavedState};
 use crate::run::Run;
@@ -84,6 +86,7 @@ pub(crate) fn run<N: RunNumber>(
         state: (integrator.state().q().to_vec(), integrator.state().p().to_vec()),
         n: from.unwrap_or(0),
         due: 0,
+        pace: Pace::new(from.unwrap_or(0).unsigned_abs() + ONE_BY_ONE),
     };
     recorder.watch = recorder.watch(&mut *integrator)?;
     let settings = scene.output.modified_energy.as_ref().map(|(settings, _)| settings);
@@ -102,8 +105,16 @@ fn unreadable(n: i64) -> Error {
     Error::usage(format!("the state n = {n} of the checkpoint cannot be read"), "begin again with `restart`")
 }
 
+/// The next multiple of `every` after n.
+fn next_multiple(n: i64, every: u64) -> i64 {
+    n.saturating_add_unsigned(every - n.unsigned_abs() % every)
+}
+
 /// Where a state takes longer than this, each has its checkpoint: a program that is asked to end may not wait for the next one.
 const LONG: Duration = Duration::from_millis(500);
+
+/// The observer is asked at each of the first states: it may stop short runs anywhere.
+const ONE_BY_ONE: u64 = 256;
 
 /// Follows the states of a run in the order of time.
 struct Recorder<'a, 'r, N: RunNumber> {
@@ -132,6 +143,8 @@ struct Recorder<'a, 'r, N: RunNumber> {
     n: i64,
     /// No row of states or energies is due before.
     due: i64,
+    /// Of asking the observer.
+    pace: Pace,
 }
 
 impl<N: RunNumber> Recorder<'_, '_, N> {
@@ -169,8 +182,7 @@ impl<N: RunNumber> Recorder<'_, '_, N> {
         }
         let periods = [self.scene.output.energy, self.scene.output.trajectory];
         let [energy, state] = periods.map(|every| self.is_due(every, n));
-        let next = |every: u64| n.saturating_add_unsigned(every - n.unsigned_abs() % every);
-        self.due = periods.into_iter().flatten().map(next).min().unwrap_or(i64::MAX);
+        self.due = periods.into_iter().flatten().map(|every| next_multiple(n, every)).min().unwrap_or(i64::MAX);
         if !energy && !state {
             self.observer.progress(n);
             return Ok(());
@@ -356,6 +368,21 @@ impl<N: RunNumber> Follower<N> for Recorder<'_, '_, N> {
         self.watch.as_ref().map_or(Carried::Nothing, Watch::carried)
     }
 
+    fn next(&self, n: i64) -> i64 {
+        let checkpoint = match self.scene.output.checkpoint {
+            Some(CheckpointInterval::Steps(every)) => next_multiple(n, every),
+            _ => i64::MAX,
+        };
+        let idle = self.watch.as_ref().map_or(u64::MAX, Watch::idle);
+        let watched = n.saturating_add_unsigned(idle).saturating_add(1);
+        let looked_up = i64::try_from(self.pace.next(n.unsigned_abs())).unwrap_or(i64::MAX);
+        self.due.min(checkpoint).min(watched).min(looked_up).max(n + 1)
+    }
+
+    fn visitor(&mut self) -> Option<&mut dyn Visitor<N>> {
+        self.watch.as_mut().map(|watch| -> &mut dyn Visitor<N> { watch })
+    }
+
     fn state(&mut self, n: i64, integrator: &mut VectorIntegrator<'_, N>) {
         if self.scene.output.modified_energy.is_some() {
             self.snapshots.offer(n, integrator.state());
@@ -373,6 +400,7 @@ impl<N: RunNumber> Follower<N> for Recorder<'_, '_, N> {
         integrator: &mut VectorIntegrator<'_, N>,
     ) -> Result<ControlFlow<()>, Error> {
         self.n = n;
+        self.pace.looks_up(n.unsigned_abs());
         match estimate {
             None => {
                 self.present(n, integrator)?;

@@ -5,6 +5,7 @@ use std::ops::ControlFlow::{self, Break, Continue};
 use shadowstep::shadow::run::{RunError, ShadowRun, States as _, Trajectory};
 use shadowstep::shadow::{Estimate, EstimatorSettings};
 use shadowstep::steps::integrator::VectorIntegrator;
+use shadowstep::systems::system::Visitor;
 use shadowstep::{Carried, Real};
 
 use crate::error::Error;
@@ -21,9 +22,14 @@ pub trait Follower<N: Real> {
         Carried::Nothing
     }
 
-    /// The n of the next state that it takes after the state `n`, where nothing is estimated: those between are made at once.
+    /// The n of the next state that it takes after the state `n`, where nothing is estimated: those between are made at once, without increments.
     fn next(&self, n: i64) -> i64 {
         n + 1
+    }
+
+    /// What sees the states between.
+    fn visitor(&mut self) -> Option<&mut dyn Visitor<N>> {
+        None
     }
 
     /// Takes the state n, at which the system is. Where modified energies are estimated there are states before n = 0 and after the last one, which
@@ -98,16 +104,23 @@ fn plain<N: Real, F: Follower<N> + ?Sized>(
     follower: &mut F,
 ) -> Result<ControlFlow<()>, Failed> {
     let mut trajectory = Trajectory::plain(integrator, from, steps)?;
-    let mut next = from;
+    let (mut reached, mut next) = (from, from);
     loop {
+        if next > reached + 1 {
+            trajectory.set_augmented(false);
+            match follower.visitor() {
+                Some(visitor) => trajectory.reach_visited(next - 1, visitor)?,
+                None => trajectory.reach(next - 1)?,
+            }
+        }
         trajectory.set_augmented(follower.carried() == Carried::Increments);
-        trajectory.reach(next - 1)?;
         let Some(n) = trajectory.advance()?.map(|state| state.n) else { return Ok(Continue(())) };
         let integrator = &mut **trajectory.integrator();
         follower.state(n, integrator);
         if follower.output(n, None, integrator)?.is_break() {
             return Ok(Break(()));
         }
+        reached = n;
         next = follower.next(n).min(i64::try_from(steps).unwrap_or(i64::MAX));
     }
 }

@@ -23,7 +23,6 @@
 //! ```
 
 use std::ops::ControlFlow;
-use std::time::{Duration, Instant};
 
 use shadowstep::Rational;
 use shadowstep::number::Number;
@@ -36,6 +35,7 @@ use crate::computation::RunNumber;
 use crate::error::Error;
 use crate::follow::Follower;
 use crate::observer::Observer;
+use crate::pace::Pace;
 use crate::physical_end::{last_step, steps_to};
 use crate::run::Run;
 use crate::scene::split::ShownCoordinates;
@@ -133,8 +133,7 @@ impl Integration<'_> {
             },
             approaches: Approaches::of(system),
             last: None,
-            at_once: 1,
-            asked: Instant::now(),
+            pace: Pace::new(0),
         };
         // no follower of samples ends the run
         let _ = N::follow(&mut *integrator, (None, run.steps), self.estimator, &mut keeper)?;
@@ -173,33 +172,11 @@ struct Keeper<'a, N: Number> {
     approaches: Option<Approaches>,
     /// The last state, where estimates belong to the middles between states, or the run ends at a physical time.
     last: Option<(Vec<N>, Vec<N>)>,
-    /// The number of steps after which the observer is asked.
-    at_once: u64,
-    asked: Instant,
+    /// Of asking the observer.
+    pace: Pace,
 }
 
-/// The observer is asked about as often as this.
-const ASKED: Duration = Duration::from_millis(10);
-
-/// At most this number of steps is made at once.
-const MOST_AT_ONCE: u64 = 1 << 16;
-
 impl<N: RunNumber> Keeper<'_, N> {
-    /// Asks the observer after some number of steps, which follows the time that these take; at all others not even for the time.
-    fn ask_in_time(&mut self, n: u64) -> Result<(), Error> {
-        if !n.is_multiple_of(self.at_once) {
-            return Ok(());
-        }
-        let took = self.asked.elapsed();
-        if took < ASKED / 4 {
-            self.at_once = (2 * self.at_once).min(MOST_AT_ONCE);
-        } else if took > ASKED {
-            self.at_once = (self.at_once / 2).max(1);
-        }
-        self.asked = Instant::now();
-        self.ask(n)
-    }
-
     /// Reports progress, and ends the run if the observer stops it.
     fn ask(&mut self, n: u64) -> Result<(), Error> {
         self.observer.progress(i64::try_from(n).unwrap_or(i64::MAX));
@@ -266,8 +243,8 @@ impl<N: RunNumber> Keeper<'_, N> {
 impl<N: RunNumber> Follower<N> for Keeper<'_, N> {
     fn next(&self, n: i64) -> i64 {
         let (n, every) = (n.unsigned_abs(), self.integration.every.max(1));
-        let next = |every: u64| (n / every + 1).saturating_mul(every);
-        i64::try_from(next(every).min(next(self.at_once))).unwrap_or(i64::MAX)
+        let kept = (n / every + 1).saturating_mul(every);
+        i64::try_from(kept.min(self.pace.next(n))).unwrap_or(i64::MAX)
     }
 
     fn state(&mut self, n: i64, integrator: &mut VectorIntegrator<'_, N>) {
@@ -285,7 +262,9 @@ impl<N: RunNumber> Follower<N> for Keeper<'_, N> {
         integrator: &mut VectorIntegrator<'_, N>,
     ) -> Result<ControlFlow<()>, Error> {
         let n = n.unsigned_abs();
-        self.ask_in_time(n)?;
+        if self.pace.looks_up(n) {
+            self.ask(n)?;
+        }
         if self.integration.keeps(n) {
             match estimate {
                 None => at_output(integrator, |integrator| self.keep(n, integrator))?,

@@ -112,6 +112,7 @@ pub mod library;
 pub mod lock;
 mod note;
 mod observer;
+mod pace;
 mod physical_end;
 pub mod propagator;
 mod read;

@@ -10,6 +10,7 @@ use std::mem::take;
 use shadowstep::shadow::run::RunError;
 use shadowstep::shadow::{Criterion, KINETIC_LIMIT, Missing, Report, Verdict};
 use shadowstep::steps::integrator::{VectorIntegrator, at_output};
+use shadowstep::systems::system::Visitor;
 use shadowstep::{Carried, Integrator as _, Real};
 
 pub use self::approaches::{Approach, Approaches, Interactions};
@@ -61,6 +62,36 @@ struct Observed<N: RunNumber> {
     approaches: Option<Approaches>,
 }
 
+impl<N: RunNumber> Observed<N> {
+    /// Takes the state n; whether the monitor takes nothing of it.
+    #[inline]
+    fn include(&mut self, n: i64, (q, p): (&[N], &[N])) -> bool {
+        let Observed { monitor, pass, idle, encounters, approaches } = self;
+        encounters.include(n, p);
+        if let Some(approaches) = approaches {
+            approaches.include(n, (q, p));
+        }
+        if *idle == 0 {
+            return false;
+        }
+        (*idle, *pass) = (*idle - 1, *pass + 1);
+        if *idle == 0 {
+            monitor.pass(take(pass));
+        }
+        true
+    }
+}
+
+/// Of [idle](Watch::idle) states.
+impl<N: RunNumber> Visitor<N> for Watch<N> {
+    fn visit(&mut self, q: &[N], p: &[N]) {
+        self.n += 1;
+        if let Some(observed) = &mut self.observed {
+            observed.include(self.n, (q, p));
+        }
+    }
+}
+
 impl<N: RunNumber> Watch<N> {
     /// Begins at the system's present state, which is number `from` of the run; `initial` is H at t = 0.
     ///
@@ -110,6 +141,14 @@ impl<N: RunNumber> Watch<N> {
         }
     }
 
+    /// How many of the next states need not be [included](Watch::include): it is enough that they are visited.
+    pub(crate) fn idle(&self) -> u64 {
+        match &self.observed {
+            Some(observed) if self.energies == Energies::Windows => observed.idle,
+            _ => 0,
+        }
+    }
+
     /// Takes the state n, which a step has made: the one after the last one that it took. Of a processed scheme, the monitor and encounters
     /// follow the kernel; H is that of the trajectory.
     pub fn include(&mut self, n: i64, integrator: &mut VectorIntegrator<'_, N>) {
@@ -121,19 +160,11 @@ impl<N: RunNumber> Watch<N> {
             self.energy.include(n, &energy);
             self.energy.include_kinetic(&kinetic);
         }
-        let Some(Observed { monitor, pass, idle, encounters, approaches }) = &mut self.observed else { return };
-        let (q, p) = (integrator.state().q(), integrator.state().p());
-        encounters.include(n, p);
-        if let Some(approaches) = approaches {
-            approaches.include(n, (q, p));
-        }
-        if *idle > 0 {
-            (*idle, *pass) = (*idle - 1, *pass + 1);
-            if *idle == 0 {
-                monitor.pass(take(pass));
-            }
+        let Some(observed) = &mut self.observed else { return };
+        if observed.include(n, (integrator.state().q(), integrator.state().p())) {
             return;
         }
+        let Observed { monitor, idle, .. } = observed;
         // what is not finite is found by the run as well, or by the verdict
         let found = monitor.observe(integrator);
         if let Ok(Some(sample)) = found

@@ -13,7 +13,7 @@ use crate::systems::coordinates::Coordinates;
 use crate::systems::increments::Carried;
 use crate::systems::state::{Saved, State};
 use crate::systems::summation::{Compensated, Summation};
-use crate::systems::system::{AnySystem, System};
+use crate::systems::system::{AnySystem, System, Visitor};
 
 /// A system with the stepper that advances it: what trajectories and estimates along them are made of.
 ///
@@ -73,6 +73,9 @@ pub trait Integrator {
 
     /// `count` plain steps: see [`Stepper::steps`].
     fn steps(&mut self, count: u64);
+
+    /// `count` plain steps, of which the visitor sees the states: see [`Stepper::steps_visited`].
+    fn steps_visited(&mut self, count: u64, visitor: &mut dyn Visitor<Self::Number>);
 
     /// One plain step of the size part·h: the weights of the stepper times the part (its third power those of gradient kicks), each rounded once more.
     fn part_of_step(&mut self, part: &Self::Number);
@@ -208,6 +211,10 @@ impl<S: Scheme + ValidFor<M::Class>, M: System> Integrator for WithStepper<'_, S
         self.stepper.steps(std::slice::from_mut(&mut self.system), count);
     }
 
+    fn steps_visited(&mut self, count: u64, visitor: &mut dyn Visitor<M::Number>) {
+        self.stepper.steps_visited(&mut self.system, count, visitor);
+    }
+
     fn part_of_step(&mut self, part: &M::Number) {
         let times = |weight: &M::Number, factor: &M::Number| {
             let mut product = weight.clone();
@@ -262,6 +269,9 @@ macro_rules! behind {
             }
             fn steps(&mut self, count: u64) {
                 (**self).steps(count);
+            }
+            fn steps_visited(&mut self, count: u64, visitor: &mut dyn Visitor<I::Number>) {
+                (**self).steps_visited(count, visitor);
             }
             fn part_of_step(&mut self, part: &I::Number) {
                 (**self).part_of_step(part);

@@ -13,7 +13,7 @@ use crate::systems::displaced::Displacements;
 use crate::systems::increments::Carried;
 use crate::systems::maps::MapKind;
 use crate::systems::state::Saved;
-use crate::systems::system::{Carrying, System};
+use crate::systems::system::{Carrying, System, Visitor};
 
 /// A scheme, its step size h and its weights h·a_s, h·b_s and 2h³·c_s of gradient kicks, each an exact product rounded once to the number
 /// type.
@@ -219,6 +219,17 @@ impl<S: Scheme, N: Number> Stepper<S, N> {
         S: ValidFor<M::Class>,
     {
         M::advance(systems, &self.maps(), count, Carried::Nothing);
+    }
+
+    /// `count` steps of a system, with the bits that [`Stepper::step`] gives; the visitor sees the state after each.
+    ///
+    /// It is for what needs each state of a long run and little of it: of `f64` in vectors, behind a `dyn`, a step takes less time than one by one, as
+    /// with [`Stepper::steps`].
+    pub fn steps_visited<M: System<Number = N>>(&self, system: &mut M, count: u64, visitor: &mut dyn Visitor<N>)
+    where
+        S: ValidFor<M::Class>,
+    {
+        system.advance_visited(&self.maps(), count, visitor);
     }
 
     /// `count` steps of each of several systems, where the last map of a step and the first of the next are made as one: n steps of

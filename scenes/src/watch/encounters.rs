@@ -57,6 +57,7 @@ impl<N: Real> Encounters<N> {
     }
 
     /// Takes the momenta of the state n.
+    #[inline]
     pub(super) fn include(&mut self, n: i64, p: &[N]) {
         let Encounters { p: last, difference, square, passages } = self;
         square.assign_zero();
@@ -64,7 +65,8 @@ impl<N: Real> Encounters<N> {
         for (last, p) in last.iter_mut().zip(p) {
             difference.assign_difference(p, last);
             square.add_product(difference, difference);
-            largest = largest.max(p.to_f64().abs());
+            let size = p.to_f64().abs();
+            largest = if size > largest { size } else { largest };
             last.assign(p);
         }
         let size = square.to_f64().sqrt();
@@ -82,6 +84,7 @@ impl<N: Real> Encounters<N> {
 }
 
 impl Passages {
+    #[inline]
     fn include(&mut self, n: i64, size: f64) {
         let begins = self.rising.is_empty();
         if begins || size > self.peak.1 {
@@ -94,13 +97,21 @@ impl Passages {
             }
         } else if size < self.peak.1 / 2.0 && (self.end.is_none() || self.peak.1 >= 2.0 * self.floor) {
             self.end_passage(n - 1);
-            (self.rising, self.peak, self.floor) = (vec![(n, size)], (n, size), size);
+            self.rise_from(n, size);
         } else if size < self.floor && self.end.is_some() {
-            (self.rising, self.peak, self.floor) = (vec![(n, size)], (n, size), size);
+            self.rise_from(n, size);
         }
     }
 
+    #[inline]
+    fn rise_from(&mut self, n: i64, size: f64) {
+        self.rising.clear();
+        self.rising.push((n, size));
+        (self.peak, self.floor) = ((n, size), size);
+    }
+
     /// The passage around the peak ends with the step `last`.
+    #[inline(never)]
     fn end_passage(&mut self, last: i64) {
         let (n, peak) = self.peak;
         let begin = self.rising.iter().find(|(_, size)| *size >= peak / 2.0).map_or(n, |(begin, _)| *begin);

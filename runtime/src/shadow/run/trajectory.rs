@@ -8,6 +8,7 @@ use crate::systems::coordinates::Coordinates;
 use crate::systems::increments::{Carried, OwnedIncrements};
 use crate::systems::state::{Saved, State};
 use crate::systems::summation::Summation;
+use crate::systems::system::Visitor;
 
 /// The states of a trajectory in the order of time: for an estimator n = −reach, …, steps + reach with the increments of each
 /// step, or [plain](Trajectory::plain) ones without them.
@@ -117,19 +118,33 @@ impl<I: Integrator<Number: Real>> Trajectory<I> {
     /// As `advance`.
     #[inline]
     pub fn reach(&mut self, n: i64) -> Result<(), RunError> {
-        if n <= self.n { Ok(()) } else { self.make_until(n) }
+        if n <= self.n { Ok(()) } else { self.make_until(n, None) }
     }
 
-    fn make_until(&mut self, n: i64) -> Result<(), RunError> {
+    /// The same, and the visitor sees the states between and the last one; of a run that fails also some that are not finite.
+    ///
+    /// # Errors
+    /// As `advance`.
+    pub fn reach_visited(&mut self, n: i64, visitor: &mut dyn Visitor<I::Number>) -> Result<(), RunError> {
+        if n <= self.n { Ok(()) } else { self.make_until(n, Some(visitor)) }
+    }
+
+    fn make_until(&mut self, n: i64, mut visitor: Option<&mut dyn Visitor<I::Number>>) -> Result<(), RunError> {
         let n = n.min(self.last);
         while self.n < n && (self.augmented || !self.before.is_empty() || n - self.n < AT_ONCE) {
-            self.advance()?;
+            let state = self.advance()?;
+            if let (Some(visitor), Some(state)) = (&mut visitor, state) {
+                visitor.visit(state.q, state.p);
+            }
         }
         if self.n >= n {
             return Ok(());
         }
         let (from, saved) = (self.n, Saved::of(self.integrator.state()));
-        self.integrator.steps(n.abs_diff(from));
+        match visitor {
+            Some(visitor) => self.integrator.steps_visited(n.abs_diff(from), visitor),
+            None => self.integrator.steps(n.abs_diff(from)),
+        }
         self.n = n;
         if TrajectoryState::of(self.integrator.state(), n).check().is_ok() {
             return Ok(());
@@ -244,6 +259,31 @@ mod tests {
             let error = lost.reach(20);
             let mut again = Trajectory::plain(stepper.with(motion(vec![0.05, 0.0], vec![-1.0, 0.0])), 0, 20).unwrap();
             assert_eq!(error.err(), (0..3).find_map(|_| again.advance().err()));
+        }
+    }
+
+    /// Keeps the states that it sees.
+    #[derive(Default)]
+    struct Seen(Vec<(Vec<f64>, Vec<f64>)>);
+
+    impl Visitor<f64> for Seen {
+        fn visit(&mut self, q: &[f64], p: &[f64]) {
+            self.0.push((q.to_vec(), p.to_vec()));
+        }
+    }
+
+    #[test]
+    fn states_that_are_reached_are_visited() {
+        for stepper in steppers() {
+            let states = plain(&stepper, 50);
+            let mut trajectory = Trajectory::plain(stepper.with(start()), 0, 50).unwrap();
+            let mut seen = Seen::default();
+            // the state at the beginning, too few steps to be made at once, and many
+            for stop in [0, 3, 17, 17, 70] {
+                trajectory.reach_visited(stop, &mut seen).unwrap();
+            }
+            let expected: Vec<_> = states.into_iter().map(|(_, q, p)| (q, p)).collect();
+            assert_eq!(seen.0, expected);
         }
     }
 

@@ -12,6 +12,7 @@ use crate::systems::maps::{Flows, MapKind, MapSequence, PartOrder};
 use crate::systems::potential::{FewCoordinates, Potential, Repeated};
 use crate::systems::state::State;
 use crate::systems::summation::Summation;
+use crate::systems::system::Visitor;
 
 /// A state, and what is kept of the potential at its q.
 #[derive(Clone, Debug)]
@@ -170,7 +171,7 @@ impl<N: Number, P: Potential<N>, K: Kinetic<N>> Hamiltonian<N, P, K> {
         maps: &impl MapSequence<N>,
         count: u64,
     ) {
-        if self.advance_few(at, maps, count) {
+        if self.advance_few(at, maps, count, None) {
             return;
         }
         if std::mem::needs_drop::<Evaluated<N, V, S>>() {
@@ -182,6 +183,24 @@ impl<N: Number, P: Potential<N>, K: Kinetic<N>> Hamiltonian<N, P, K> {
         }
     }
 
+    /// The same, and the visitor sees the state after each step.
+    #[inline(always)]
+    pub(super) fn advance_visited<V: Coordinates<N>, S: Summation<N>>(
+        &mut self,
+        at: &mut Evaluated<N, V, S>,
+        maps: &impl MapSequence<N>,
+        count: u64,
+        visitor: &mut dyn Visitor<N>,
+    ) {
+        if self.advance_few(at, maps, count, Some(visitor)) {
+            return;
+        }
+        for step in 0..count {
+            maps.each(step..step + 1, count, &mut PlainFlows { hamiltonian: self, at });
+            visitor.visit(at.state.q.as_ref(), at.state.p.as_ref());
+        }
+    }
+
     /// The steps by one call of a potential behind a `dyn`; false, and nothing is done, where these steps are not of
     /// [a few coordinates](FewCoordinates).
     #[inline(always)]
@@ -190,6 +209,7 @@ impl<N: Number, P: Potential<N>, K: Kinetic<N>> Hamiltonian<N, P, K> {
         at: &mut Evaluated<N, V, S>,
         maps: &impl MapSequence<N>,
         count: u64,
+        visitor: Option<&mut dyn Visitor<N>>,
     ) -> bool {
         let Evaluated { state: State { q, p, sums, evaluations, .. }, gradient, kept, .. } = at;
         let [q, p, gradient] = [q, p, gradient].map(V::as_mut);
@@ -200,7 +220,9 @@ impl<N: Number, P: Potential<N>, K: Kinetic<N>> Hamiltonian<N, P, K> {
         let Some(inverse_masses) = self.kinetic.inverse_masses() else { return false };
         let Some(maps) = kicks_and_drifts(maps, count) else { return false };
         let state = [q, p, gradient];
-        let mut few = FewCoordinates { state, inverse_masses, kept: *kept, evaluations: 0, maps };
+        // as short a borrow as that of the state
+        let visitor = visitor.map(|visitor| -> &mut dyn Visitor<N> { visitor });
+        let mut few = FewCoordinates { state, inverse_masses, kept: *kept, evaluations: 0, maps, visitor };
         self.potential.advance_few(&mut few, &mut self.scratch);
         (*kept, *evaluations) = (few.kept, *evaluations + few.evaluations);
         true

@@ -12,7 +12,7 @@ use crate::systems::maps::MapSequence;
 use crate::systems::potential::Potential;
 use crate::systems::state::State;
 use crate::systems::summation::Summation;
-use crate::systems::system::{Carrying, System};
+use crate::systems::system::{Carrying, System, Visitor};
 
 impl<N, V, P, K, S> System for Motion<N, V, P, K, S>
 where
@@ -85,6 +85,14 @@ where
                 },
             );
         }
+    }
+
+    fn advance_visited(&mut self, maps: &impl MapSequence<N>, count: u64, visitor: &mut dyn Visitor<N>) {
+        let Motion { hamiltonian, at } = self;
+        N::in_widest_instructions(
+            #[inline(always)]
+            || hamiltonian.advance_visited(at, maps, count, visitor),
+        );
     }
 
     /// Where the gradient and the rate are kept, U = ½(qᵀU_q − rate) costs no evaluation.

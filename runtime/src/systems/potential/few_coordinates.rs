@@ -1,6 +1,7 @@
 //! Steps of a few coordinates, held in registers, for a potential behind a `dyn`.
 
 use std::array;
+use std::fmt;
 use std::mem::{needs_drop, size_of};
 
 use crate::number::Number;
@@ -8,12 +9,12 @@ use crate::systems::kept::KeptForce;
 use crate::systems::kinetic::InverseMasses;
 use crate::systems::maps::MapKind;
 use crate::systems::summation::{Plain, Summation};
+use crate::systems::system::Visitor;
 
 /// Steps of H = ½pᵀM⁻¹p + U(q) with at most three coordinates and a diagonal M, for [`Potential::advance_few`](super::Potential::advance_few).
 ///
 /// A step in which the potential and the masses are each behind a `dyn` passes q, p and U_q through memory between its maps. Here one call
 /// makes many steps, compiled for the type of the potential, so that these stay in registers. The bits are the same as with the maps one by one.
-#[derive(Debug)]
 pub struct FewCoordinates<'a, N> {
     /// q, p and U_q.
     pub(crate) state: [&'a mut [N]; 3],
@@ -23,6 +24,16 @@ pub struct FewCoordinates<'a, N> {
     /// Evaluations of the gradient.
     pub(crate) evaluations: u64,
     pub(crate) maps: [Repeated<N>; 3],
+    /// Sees the state after each step.
+    pub(crate) visitor: Option<&'a mut dyn Visitor<N>>,
+}
+
+impl<N: fmt::Debug> fmt::Debug for FewCoordinates<'_, N> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let FewCoordinates { state, evaluations, maps, .. } = self;
+        let mut text = f.debug_struct("FewCoordinates");
+        text.field("state", state).field("evaluations", evaluations).field("maps", maps).finish_non_exhaustive()
+    }
 }
 
 /// Kicks and drifts with their weights, and how often they are made.
@@ -58,7 +69,7 @@ impl<N: Number> FewCoordinates<'_, N> {
 
     #[inline(always)]
     fn advance_in_arrays<const D: usize>(&mut self, mut evaluate: impl FnMut(&[N], &mut [N])) {
-        let FewCoordinates { state, inverse_masses, kept, evaluations, maps } = self;
+        let FewCoordinates { state, inverse_masses, kept, evaluations, maps, visitor } = self;
         let copy = |from: &[N]| -> [N; D] { array::from_fn(|i| from[i].clone()) };
         let [mut q, mut p, mut gradient] = [copy(state[0]), copy(state[1]), copy(state[2])];
         let mut velocity = p[0].clone();
@@ -77,6 +88,11 @@ impl<N: Number> FewCoordinates<'_, N> {
                         evaluated += 1;
                     }
                     Plain.kick(weight, &gradient, &mut p);
+                }
+                if let Some(visitor) = visitor {
+                    // copies: what is lent to another function is not held in registers
+                    let (q, p) = (q.clone(), p.clone());
+                    visitor.visit(&q, &p);
                 }
             }
         }
