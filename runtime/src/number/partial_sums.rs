@@ -1,5 +1,7 @@
 //! Sums over the coordinates of a state.
 
+use std::mem::needs_drop;
+
 use crate::number::Number;
 use crate::number::instructions;
 
@@ -24,9 +26,18 @@ pub(crate) fn add_sum<N: Number, const V: usize>(
         lanes.iter().for_each(|lane| sum.add(lane));
     }
     let vectors = vectors.map(|vector| &vector[..length]);
-    for i in in_lanes..length {
-        add(vectors.map(|vector| &vector[i]), sum);
+    let mut add_all = |sum: &mut N| {
+        for i in in_lanes..length {
+            add(vectors.map(|vector| &vector[i]), sum);
+        }
+    };
+    if needs_drop::<N>() {
+        return add_all(sum);
     }
+    // a copy, in a register: memory would take twice as long as the addition, at each coordinate
+    let mut own = sum.clone();
+    add_all(&mut own);
+    *sum = own;
 }
 
 /// Not inlined, so that the lanes are in memory at the end and the compiler makes vectors of them.

@@ -79,11 +79,13 @@ impl<N: Number> LaggedEstimator<N> {
 
     #[inline(always)]
     pub(super) fn push(&mut self, q: &[N], p: &[N], increments: Increments<'_, N>) -> Option<Estimate<'_, N>> {
-        if self.lags == 4 {
-            self.add::<4>(q, p, increments);
-        } else {
-            self.add::<8>(q, p, increments);
-        }
+        N::in_widest_instructions(
+            #[inline(always)]
+            || match self.lags {
+                4 => self.add::<4>(q, p, increments),
+                _ => self.add::<8>(q, p, increments),
+            },
+        );
         self.keep(q, p);
         if self.pushed <= self.k {
             return None;

@@ -63,7 +63,7 @@ impl<N: Number> LongRows<N> {
         let mut products = std::array::from_fn(|_| N::zero(&q[0].context()));
         instructions::widest_if_long(
             N::IN_VECTORS,
-            q.len(),
+            K * q.len(),
             #[inline(always)]
             || {
                 for (group, products) in products.as_chunks_mut::<AT_ONCE>().0.iter_mut().enumerate() {
