@@ -1,8 +1,9 @@
 //! The arithmetic of a run: its number type, the one place that dispatches on number types, and its sums.
 
+use shadowstep::Rational;
 use shadowstep::number::{LimbCount, Precision, PrecisionError};
 use shadowstep_symbolic::Exact;
-use shadowstep_symbolic::decimal::{to_significant, to_text};
+use shadowstep_symbolic::decimal::{round_significant, to_significant, to_text};
 
 use crate::readable;
 
@@ -203,6 +204,14 @@ impl Arithmetic {
     /// Whether a value is exact, or has the digits that a run needs.
     pub fn has_digits_of(self, value: &Exact) -> bool {
         !value.rounded || self.value_digits() <= MOST_VALUE_DIGITS
+    }
+
+    /// The number of this [text](Arithmetic::text).
+    pub(crate) fn number(self, exact: &Exact) -> Rational {
+        match exact.rounded {
+            true => round_significant(&exact.value, self.value_digits()),
+            false => exact.value.clone(),
+        }
     }
 
     /// The exact text of a value that is given to the run, or the digits of an irrational one.

@@ -49,11 +49,19 @@ use crate::family::{Family, Parsed};
 use crate::keys::ENSEMBLE;
 use crate::lanes::{LANES, SystemInLanes};
 use crate::results::{FileOptions, Identity, Origin, no_file};
-use crate::scene::Scene;
+use crate::scene::{KineticEnergy, Scene, System};
 use crate::start::Begin;
 use crate::whole_file::WholeFile;
 use columns::Columns;
 use settings::{Observed, settings};
+
+/// Whether \[run\] and \[output\] are the same in all trajectories: they contain no names whose values may differ, and each T(p) has the class of the first.
+fn has_one_run(parsed: &Parsed<'_>, columns: &Columns, first: &Scene) -> bool {
+    let parameters = first.system.parameters.iter().map(|(name, _)| name);
+    let names: Vec<&String> = columns.names.iter().chain(parameters).collect();
+    matches!(first.system.kinetic, KineticEnergy::Masses(_))
+        && !["run", "output"].iter().any(|section| parsed.has_names(section, &names))
+}
 
 /// A scene with columns of initial values and parameters.
 #[derive(Debug)]
@@ -63,6 +71,8 @@ pub struct Ensemble {
     /// The scene of the first trajectory, with what is the same in all.
     first: Scene,
     observed: Observed,
+    /// Whether steps, scheme and output are those of the first scene in all: what is read of the others is the system.
+    has_one_run: bool,
 }
 
 impl Ensemble {
@@ -99,7 +109,8 @@ impl Ensemble {
         let family = Family::new(source, &[ENSEMBLE.name]);
         let first = family.scene(&columns.values(0)).map_err(|faults| columns.with_trajectory(faults, 0))?;
         let observed = settings(family.source(), &first)?;
-        Ok(Ensemble { family, columns, first, observed })
+        let has_one_run = has_one_run(&family.parsed()?, &columns, &first);
+        Ok(Ensemble { family, columns, first, observed, has_one_run })
     }
 
     /// The scene of the first trajectory.
@@ -181,12 +192,23 @@ impl Ensemble {
 
     /// The system of some lanes.
     fn together(&self, parsed: &Parsed<'_>, block: &Block<LANES>) -> Result<SystemInLanes, Error> {
-        let scenes = block.trajectories().map(|t| self.scene(parsed, t)).collect::<Result<Vec<Scene>, Error>>()?;
-        let systems = std::array::from_fn(|lane| &scenes[lane].system);
+        let systems = block.trajectories().map(|t| self.system(parsed, t)).collect::<Result<Vec<System>, Error>>()?;
+        let systems = std::array::from_fn(|lane| &systems[lane]);
         SystemInLanes::of(&systems).ok_or_else(|| {
             let fault = self.columns.fault(self.family.source(), "trajectories differ in more than numbers");
             Faults(vec![fault.hint("use the names of columns in numbers and formulas only")]).into()
         })
+    }
+
+    /// The system of a trajectory, for steps in lanes.
+    fn system(&self, parsed: &Parsed<'_>, t: usize) -> Result<System, Error> {
+        if self.has_one_run
+            && let Ok(system) = parsed.system(&self.columns.values(t), self.first.arithmetic)
+        {
+            return Ok(system);
+        }
+        // its faults are those of the scene
+        Ok(self.scene(parsed, t)?.system)
     }
 
     /// The scene of a trajectory.

@@ -11,9 +11,10 @@ use shadowstep_symbolic::decimal::to_text;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
+use crate::arithmetic::Arithmetic;
 use crate::library::Schemes;
 use crate::read::{Names, read};
-use crate::scene::Scene;
+use crate::scene::{Scene, System};
 
 /// A scene's text in which names stand for values: one scene for each choice of the values.
 ///
@@ -136,14 +137,28 @@ impl Family {
 }
 
 impl Parsed<'_> {
+    /// Whether a section, such as "run", contains one of these names in its texts.
+    pub(crate) fn has_names(&self, section: &str, names: &[&String]) -> bool {
+        let mut found = BTreeSet::new();
+        self.document.get(section).into_iter().for_each(|section| collect_names(section.get_ref(), &mut found));
+        self.has_words || names.iter().any(|name| found.contains(*name))
+    }
+
+    /// The system of the scene with these values of the names, computed to the digits of a run in this arithmetic.
+    ///
+    /// # Errors
+    /// All faults of the system with these values; the scene may have others.
+    pub(crate) fn system(&self, names: &[(String, Meaning)], arithmetic: Arithmetic) -> Result<System, Faults> {
+        System::read_of(self.family.source(), &self.document, numbers(names), arithmetic)
+    }
+
     /// The scene with these values of the names.
     ///
     /// # Errors
     /// All faults of the text with these values.
     pub fn scene(&self, names: &[(String, Meaning)]) -> Result<Scene, Faults> {
         let Family { source, others, schemes } = self.family;
-        let numbers = names.iter().filter_map(|(name, meaning)| Some((name.clone(), meaning.number()?))).collect();
-        let numbers = Names { numbers, others, schemes };
+        let numbers = Names { numbers: numbers(names), others, schemes };
         if !self.has_words {
             return read(source, &self.document, numbers);
         }
@@ -152,6 +167,11 @@ impl Parsed<'_> {
         document.iter_mut().for_each(|(_, value)| substitute(value.get_mut(), &words));
         read(source, &document, numbers)
     }
+}
+
+/// The names that stand for numbers.
+fn numbers(names: &[(String, Meaning)]) -> Vec<(String, Exact)> {
+    names.iter().filter_map(|(name, meaning)| Some((name.clone(), meaning.number()?))).collect()
 }
 
 impl Meaning {

@@ -166,6 +166,30 @@ impl System {
     }
 }
 
+impl System {
+    /// The system of a document whose sections are known, with these names in its numbers.
+    ///
+    /// # Errors
+    /// All faults of its sections.
+    pub(crate) fn read_of(
+        source: &Source,
+        document: &DeTable<'_>,
+        names: Vec<(String, Exact)>,
+        arithmetic: Arithmetic,
+    ) -> Result<System, Faults> {
+        let mut reader = Reader::new(source);
+        reader.known.extend(names.iter().cloned());
+        (reader.names, reader.arithmetic) = (names, arithmetic);
+        let (problem, initial) = (reader.section(document, "problem"), reader.section(document, "initial"));
+        let system = system(&mut reader, document, &problem, &initial);
+        match (Faults::of(reader.toml.faults), system) {
+            (None, Some(system)) => Ok(system),
+            (Some(faults), _) => Err(faults),
+            (None, None) => unreachable!("what cannot be read is a fault"),
+        }
+    }
+}
+
 /// The system in the parts that its steps have.
 fn system(
     reader: &mut Reader<'_>,

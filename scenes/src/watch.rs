@@ -142,7 +142,7 @@ impl<N: RunNumber> Watch<N> {
     }
 
     /// How many of the next states need not be [included](Watch::include): it is enough that they are visited.
-    pub(crate) fn idle(&self) -> u64 {
+    pub fn idle(&self) -> u64 {
         match &self.observed {
             Some(observed) if self.energies == Energies::Windows => observed.idle,
             _ => 0,

@@ -7,6 +7,7 @@ use serde::{Deserialize, Serialize};
 use shadowstep::shadow::Estimate;
 use shadowstep::shadow::run::{DriftRecorder, EnergyDrift, Finding, RunError};
 use shadowstep::steps::integrator::{VectorIntegrator, at_output};
+use shadowstep::systems::system::Visitor;
 use shadowstep::tangent::Growth;
 use shadowstep::{Carried, Real};
 use shadowstep_scenes::computation::{Computation, RunNumber};
@@ -206,11 +207,6 @@ impl<'a, N: RunNumber> RunFollower<'a, N> {
         })
     }
 
-    /// Whether more than the last state is of interest.
-    fn follows_all(&self) -> bool {
-        self.watch.is_some() || self.tangents.is_some() || !self.tests.is_empty()
-    }
-
     /// Whether the last state has come.
     fn is_over(&self) -> bool {
         self.end.is_some()
@@ -269,7 +265,7 @@ impl<'a, N: RunNumber> RunFollower<'a, N> {
     }
 }
 
-/// This number of steps in double precision is made at once where only the last state is of interest. Of longer numbers a step may take seconds, after
+/// This number of steps in double precision is made at once, at most. Of longer numbers a step may take seconds, after
 /// which a call must be able to stop.
 const AT_ONCE: i64 = 64;
 
@@ -279,7 +275,16 @@ impl<N: RunNumber> Follower<N> for RunFollower<'_, N> {
     }
 
     fn next(&self, n: i64) -> i64 {
-        if self.follows_all() || self.is_long { n + 1 } else { n + AT_ONCE }
+        if self.is_long || self.tangents.is_some() || !self.tests.is_empty() {
+            return n + 1;
+        }
+        // what is watched but idle sees the states between
+        let idle = self.watch.as_ref().map_or(u64::MAX, Watch::idle);
+        n.saturating_add_unsigned(idle).saturating_add(1).min(n + AT_ONCE)
+    }
+
+    fn visitor(&mut self) -> Option<&mut dyn Visitor<N>> {
+        self.watch.as_mut().map(|watch| -> &mut dyn Visitor<N> { watch })
     }
 
     fn state(&mut self, n: i64, integrator: &mut VectorIntegrator<'_, N>) {

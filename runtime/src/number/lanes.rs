@@ -6,7 +6,6 @@ use super::Number;
 use super::double::scaled;
 use crate::{Rational, number::instructions};
 use functions::{cos_each, exp_each, log_each, sin_cos_each, sin_each};
-use std::array::from_fn;
 use std::ops::{Deref, DerefMut};
 
 /// W numbers of a kind, `f64`, on which every operation works at once: W trajectories of one system, one a lane.
@@ -35,22 +34,37 @@ impl<const W: usize> Lanes<W> {
     /// x ← f(x) in each lane
     #[inline(always)]
     fn change(&mut self, f: impl Fn(f64) -> f64) {
-        self.0 = self.0.map(f);
+        for x in &mut self.0 {
+            *x = f(*x);
+        }
     }
 
+    // loops: in a long function the compiler does not inline `from_fn`, and calls it for each lane
     #[inline(always)]
     fn of(a: &Self, f: impl Fn(f64) -> f64) -> Self {
-        Lanes(from_fn(|i| f(a.0[i])))
+        let mut found = *a;
+        for i in 0..W {
+            found.0[i] = f(a.0[i]);
+        }
+        found
     }
 
     #[inline(always)]
     fn of_two(a: &Self, b: &Self, f: impl Fn(f64, f64) -> f64) -> Self {
-        Lanes(from_fn(|i| f(a.0[i], b.0[i])))
+        let mut found = *a;
+        for i in 0..W {
+            found.0[i] = f(a.0[i], b.0[i]);
+        }
+        found
     }
 
     #[inline(always)]
     fn of_three(x: &Self, a: &Self, b: &Self, f: impl Fn(f64, f64, f64) -> f64) -> Self {
-        Lanes(from_fn(|i| f(x.0[i], a.0[i], b.0[i])))
+        let mut found = *x;
+        for i in 0..W {
+            found.0[i] = f(x.0[i], a.0[i], b.0[i]);
+        }
+        found
     }
 }
 
@@ -268,6 +282,7 @@ mod tests {
     use super::*;
     use crate::number::instructions::Instructions;
     use proptest::prelude::*;
+    use std::array::from_fn;
 
     /// The bits, of which a NaN has one kind only.
     fn bits(x: f64) -> u64 {

@@ -137,8 +137,13 @@ impl<N: Number, K: Kinetic<N> + ?Sized> Kinetic<N> for Box<K> {
     fn prepare(&self, scratch: &mut [N], context: &N::Context) {
         (**self).prepare(scratch, context);
     }
+    #[inline(always)]
     fn drift(&self, weight: &N, p: &[N], q: &mut [N], scratch: &mut [N]) {
-        (**self).drift(weight, p, q, scratch);
+        // lanes here: so the drift is compiled for the vector instructions of the loop that it is in
+        match if N::LANES > 1 { (**self).inverse_masses() } else { None } {
+            Some(inverse_masses) => inverse_masses.drift(weight, p, q, &mut weight.clone()),
+            None => (**self).drift(weight, p, q, scratch),
+        }
     }
     fn drift_augmented(&self, weight: &N, p: &[N], q: &mut [N], beta: &mut N, scratch: &mut [N]) {
         (**self).drift_augmented(weight, p, q, beta, scratch);

@@ -1,6 +1,6 @@
 //! A shipped problem, with its own or other parameters and initial state.
 
-use shadowstep::problems::{self, ProblemError, Setup};
+use shadowstep::problems::{self, Problem, ProblemError, Setup};
 use shadowstep::systems::wisdom_holman::Bodies;
 use shadowstep_symbolic::{evaluate, nearest, parse};
 
@@ -81,6 +81,11 @@ fn setup(reader: &mut Reader<'_>, given: &Given, name: &Text) -> Option<Setup> {
         // a default that cannot be evaluated is a fault of the setup below
         reader.known.extend(value.map(|value| (parameter.name.to_owned(), value)));
     }
+    if !reader.names.is_empty()
+        && let Some(setup) = setup_with_numbers(reader, problem, &names, |name| value_of(name).is_some())
+    {
+        return Some(setup);
+    }
     let set: Vec<_> =
         names.iter().filter_map(|name| Some(((*name).to_owned(), text(reader, name, value_of(name)?)))).collect();
     let place = |name: &str| value_of(name).map_or(given.problem.clone(), |text| text.at.clone());
@@ -95,6 +100,18 @@ fn setup(reader: &mut Reader<'_>, given: &Given, name: &Text) -> Option<Setup> {
         }
         Err(error) => reader.toml.wrong(&given.problem, error.to_string(), "see `shadowstep problems`"),
     }
+}
+
+/// The problem with the values of the parameters that are given, which were evaluated; `None` where its text is to say what is wrong.
+fn setup_with_numbers(
+    reader: &Reader<'_>,
+    problem: Problem,
+    names: &[&str],
+    is_given: impl Fn(&str) -> bool,
+) -> Option<Setup> {
+    let given = names.iter().filter(|name| is_given(name));
+    let set = given.map(|name| Some(((*name).to_owned(), reader.arithmetic.number(reader.known.get(*name)?))));
+    problem.setup_with_numbers(&set.collect::<Option<Vec<_>>>()?, reader.arithmetic.value_digits()).ok()
 }
 
 /// The text of a parameter's value: its formula, or its value where that may contain names that the problem does not know.

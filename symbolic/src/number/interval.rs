@@ -71,8 +71,11 @@ impl Interval {
 
     /// x^exponent, rounded outward after every product; `None` as for [`Interval::outward`].
     pub(crate) fn power(&self, exponent: u32, digits: u32) -> Option<Self> {
-        let mut result = Interval::point(&Rational::one());
-        for bit in (0..u32::BITS - exponent.leading_zeros()).rev() {
+        if exponent == 0 {
+            return Some(Interval::point(&Rational::one()));
+        }
+        let mut result = self.outward(digits)?;
+        for bit in (0..u32::BITS - 1 - exponent.leading_zeros()).rev() {
             result = result.multiply(&result).outward(digits)?;
             if exponent >> bit & 1 == 1 {
                 result = result.multiply(self).outward(digits)?;
@@ -84,6 +87,10 @@ impl Interval {
     /// The real q-th root to `digits` significant digits; for an even q the interval must not
     /// reach below zero.
     pub(crate) fn root(&self, q: u32, digits: u32) -> Self {
+        if self.is_point() && !self.low.is_negative() {
+            let [low, high] = root_between(&self.low, q, digits);
+            return Interval { low, high };
+        }
         Interval { low: root(&self.low, q, digits, Direction::Down), high: root(&self.high, q, digits, Direction::Up) }
     }
 
@@ -113,13 +120,20 @@ fn root(value: &Rational, q: u32, digits: u32, direction: Direction) -> Rational
         };
         return -root(&-value, q, digits, opposite);
     }
+    let [low, high] = root_between(value, q, digits);
+    if matches!(direction, Direction::Up) { high } else { low }
+}
+
+/// The real q-th root of a number that is not negative, rounded down and up.
+fn root_between(value: &Rational, q: u32, digits: u32) -> [Rational; 2] {
     let size = magnitude(value).div_euclid(i64::from(q));
     let places = i64::from(digits) - 1 - size;
     let (numerator, denominator) = scaled(value, places * i64::from(q));
     let floor: BigInt = (&numerator / &denominator).nth_root(q);
     let inexact = floor.pow(q) * denominator != numerator;
-    let up = matches!(direction, Direction::Up) && inexact;
-    at_places(floor + u8::from(up), places)
+    let low = at_places(floor.clone(), places);
+    let high = if inexact { at_places(floor + 1, places) } else { low.clone() };
+    [low, high]
 }
 
 #[cfg(test)]
