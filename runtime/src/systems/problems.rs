@@ -147,7 +147,7 @@ impl Problem {
     /// # Errors
     /// Unknown or repeated names, expressions that cannot be evaluated, parameters out of range.
     pub fn setup(self, set: &[(String, String)], digits: u32) -> Result<Setup, ProblemError> {
-        self.check_names(set.iter().map(|(name, _)| name))?;
+        self.check_names(&set.iter().map(|(name, _)| name.as_str()).collect::<Vec<_>>())?;
         let given = |name: &str| set.iter().find(|(own, _)| own == name).map(|(_, text)| Given::Text(text));
         self.setup_of(given, digits)
     }
@@ -157,7 +157,7 @@ impl Problem {
     /// # Errors
     /// As [`setup`](Problem::setup).
     pub fn setup_with_numbers(self, set: &[(String, Rational)], digits: u32) -> Result<Setup, ProblemError> {
-        self.check_names(set.iter().map(|(name, _)| name))?;
+        self.check_names(&set.iter().map(|(name, _)| name.as_str()).collect::<Vec<_>>())?;
         let given = |name: &str| set.iter().find(|(own, _)| own == name).map(|(_, number)| Given::Number(number));
         self.setup_of(given, digits)
     }
@@ -198,15 +198,15 @@ impl Problem {
         })
     }
 
-    fn check_names<'s>(self, set: impl Iterator<Item = &'s String> + Clone) -> Result<(), ProblemError> {
-        for (i, name) in set.clone().enumerate() {
+    fn check_names(self, set: &[&str]) -> Result<(), ProblemError> {
+        for (i, name) in set.iter().enumerate() {
             if !self.defaults().named.iter().any(|(known, _)| known == name) {
                 let names: Vec<_> = self.defaults().named.iter().map(|(name, _)| name.as_str()).collect();
                 let (problem, hint) = (self.name(), suggestion(name, &names));
-                return Err(ProblemError::UnknownParameter { problem, name: name.clone(), hint });
+                return Err(ProblemError::UnknownParameter { problem, name: (*name).to_owned(), hint });
             }
-            if set.clone().take(i).any(|other| other == name) {
-                return Err(ProblemError::SetTwice { name: name.clone() });
+            if set[..i].contains(name) {
+                return Err(ProblemError::SetTwice { name: (*name).to_owned() });
             }
         }
         Ok(())
