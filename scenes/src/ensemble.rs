@@ -228,3 +228,54 @@ impl Ensemble {
         Err(Faults(vec![self.columns.fault(self.family.source(), message).hint(hint)]).into())
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn ensemble(problem: &str, run: &str, values: &str) -> Result<Ensemble, Error> {
+        let text = format!(
+            "{problem}\nrun = {{ scheme = \"yoshida4\", steps = 20, digits = \"double\", {run} }}\noutput.energy = true\n\
+             ensemble.columns = {{ e = {values} }}\n"
+        );
+        Ensemble::read(Source { path: "scene.toml".to_owned(), text })
+    }
+
+    fn refusal(problem: &str, run: &str) -> String {
+        ensemble(problem, run, "[0.1, 0.2]").unwrap().outcomes(|| true).unwrap_err().to_string()
+    }
+
+    #[test]
+    fn steps_that_differ_are_refused_however_they_depend_on_the_columns() {
+        let kepler = "problem.name = \"kepler\"\nproblem.parameters.eccentricity = \"2*e\"";
+        for step in ["e/10", "eccentricity/20"] {
+            let found = refusal(kepler, &format!("step = \"{step}\""));
+            assert!(found.contains("trajectory 1 has another step size"), "{found}");
+        }
+    }
+
+    #[test]
+    fn what_is_wrong_with_a_trajectory_is_said_with_its_values() {
+        let kepler = "problem.name = \"kepler\"\nproblem.parameters.eccentricity = \"6*e\"";
+        let found = refusal(kepler, "step = \"1/20\"");
+        assert!(found.contains("out of range (trajectory 1: e = 1/5)"), "{found}");
+    }
+
+    /// Those of which the system alone is read, and those of which the whole scene is read.
+    #[test]
+    fn systems_are_those_of_whole_scenes() {
+        let problems = [
+            "problem.name = \"kepler\"\nproblem.parameters.eccentricity = \"sqrt(e)\"",
+            "problem = { potential = \"-e/sqrt(x^2 + y^2)\", coordinates = [\"x\", \"y\"] }\n\
+             initial = { q = [1, \"e\"], p = [0, \"1 - e^2\"] }",
+        ];
+        for problem in problems {
+            // the weight of a name that is 0 in the step size
+            let [one_run, read_each] = ["1/20", "1/20 + 0*e"]
+                .map(|step| ensemble(problem, &format!("step = \"{step}\""), "[0.1, \"1/3\", 0.7]").unwrap());
+            assert!(one_run.has_one_run && !read_each.has_one_run);
+            let [one_run, read_each] = [one_run, read_each].map(|ensemble| ensemble.outcomes(|| true).unwrap());
+            assert_eq!(one_run, read_each);
+        }
+    }
+}
