@@ -102,7 +102,7 @@ bench: deps
 	  printf 'Measured on %s: %s, %s cores, %s. The load of the machine was %s when it began.\n' "$$(date +%F)" \
 	    "$$(sed -n 's/^model name.*: //p' /proc/cpuinfo 2>/dev/null | head -1)" "$$(getconf _NPROCESSORS_ONLN)" \
 	    "$$(rustc --version)" "$$(cut -d' ' -f1 /proc/loadavg 2>/dev/null)"; \
-	  for name in steps double limbs estimators potentials monitor ensembles double_double summation kepler_drift planets; do \
+	  for name in steps double limbs estimators potentials monitor ensembles double_double summation kepler_drift planets tangent; do \
 	    printf '\n## %s\n\n`cargo bench -p shadowstep --bench %s`\n' "$$name" "$$name"; \
 	    cargo bench -p shadowstep --features mpfr --locked --bench "$$name"; \
 	  done; \

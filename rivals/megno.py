@@ -1,0 +1,76 @@
+"""MEGNO of two planets that are regular, beside REBOUND's: hannorein/rebound, issue 701.
+
+    build/venv/bin/python megno.py PROGRAM STEPS       # as ../target/release/shadowstep 43900000
+
+REBOUND's WHFast and Shadowstep make the same steps, of a twentieth of the inner period. Of REBOUND's vectors MEGNO is computed twice: as REBOUND does, and from the
+logarithms of their lengths every 100 steps.
+"""
+
+import json
+import math
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+import rebound
+
+EARTH = 3.0034893488507934e-06
+STAR, MASSES, AXES, ECCENTRICITIES = 0.12, [mass * EARTH / math.sin(133.0) for mass in (0.26, 1.07)], (0.029, 0.049), (0.61, 0.36)
+SAMPLES, EVERY = 20, 100
+
+
+def simulation():
+    sim = rebound.Simulation()
+    sim.integrator = "whfast"
+    sim.add(m=STAR)
+    for mass, a, e, turn in zip(MASSES, AXES, ECCENTRICITIES, (0, math.pi)):
+        sim.add(m=mass, a=a, e=e, Omega=turn, pomega=turn)
+    sim.dt = 0.05 * sim.particles[1].P
+    sim.move_to_com()
+    sim.init_megno(seed=0)
+    return sim
+
+
+def logarithm(sim):
+    vectors = (sim.particles_var[k] for k in range(sim.N_var))
+    return math.log(sum(x * x for v in vectors for x in (v.x, v.y, v.z, v.vx, v.vy, v.vz))) / 2
+
+
+def of_rebound(steps):
+    sim = simulation()
+    first, grown, t, weighted, integral = logarithm(sim), 0.0, 0.0, 0.0, 0.0
+    for n in range(1, steps // EVERY + 1):
+        sim.steps(EVERY)
+        before = 2 * weighted / t if t else 0.0
+        now = logarithm(sim) - first
+        weighted += (now - grown) * (sim.t + t) / 2
+        integral += (before + 2 * weighted / sim.t) / 2 * (sim.t - t)
+        grown, t = now, sim.t
+        if n % (steps // EVERY // SAMPLES) == 0:
+            print(f"{n * EVERY} steps: REBOUND's sum {sim.megno():.3f}, from its vectors Y = {2 * weighted / t:.3f}, mean {integral / t:.4f}", flush=True)
+
+
+def scene(steps):
+    bodies = "".join(
+        f'[[body]]\nname = "{name}"\nmass = {mass!r}\na = {a}\ne = {e}\nnode = {node}\n'
+        for name, mass, a, e, node in zip("db", MASSES, AXES, ECCENTRICITIES, (0, 180))
+    )
+    return (
+        f'[problem]\nparts = "wisdom-holman"\nparameters = {{ g = 1 }}\nbarycentric = true\nelements = "jacobi"\n[[body]]\nname = "star"\nmass = {STAR}\n{bodies}'
+        f'[run]\nscheme = "stormer-verlet"\nfirst = "drift"\nstep = {simulation().dt!r}\nsteps = {steps}\ndigits = "double"\n[output]\nenergy = true\n'
+    )
+
+
+def main(program, steps):
+    of_rebound(int(steps))
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / "scene.toml"
+        path.write_text(scene(steps))
+        for vectors in ("1", "2"):
+            found = subprocess.run([program, "chaos", path, "--one", "--json", "--vectors", vectors], check=True, capture_output=True, text=True)
+            record = json.loads(found.stdout)
+            print(f"Shadowstep, {vectors} vectors: Y = {record['megno']:.3f}, mean {record['mean_megno']:.4f}, {record['motion']}", flush=True)
+
+
+main(*sys.argv[1:])

@@ -1,0 +1,109 @@
+//! What tangent vectors cost in `f64`: a step with one, and with four at once, beside a plain step.
+
+mod timing;
+
+use std::hint::black_box;
+
+use num_traits::One as _;
+use shadowstep::number::{Dual, Number};
+use shadowstep::problems::{HenonHeiles, Kepler};
+use shadowstep::systems::pairs::{Gravity, Pairs};
+use shadowstep::systems::wisdom_holman::{Bodies, Jacobi, WisdomHolman};
+use shadowstep::tables::shipped;
+use shadowstep::{Motion, Potential, Rational, Stepper, System, UnitMasses, ValidFor, exact, tables::TableScheme};
+
+use timing::{Contestant, compare};
+
+/// A number with its vectors, of fixed components.
+trait Carrying: Number<Context = ()> + 'static {
+    fn number(x: f64, index: usize) -> Self;
+}
+
+impl Carrying for f64 {
+    fn number(x: f64, _: usize) -> Self {
+        x
+    }
+}
+
+impl<const K: usize> Carrying for Dual<f64, K> {
+    fn number(x: f64, index: usize) -> Self {
+        Dual::new(x, std::array::from_fn(|k| ((7 * index + 3 * k + 1) as f64).sin()))
+    }
+}
+
+fn state<N: Carrying>(numbers: &[f64], first: usize) -> Vec<N> {
+    (first..).zip(numbers).map(|(index, x)| N::number(*x, index)).collect()
+}
+
+fn steps<M>(name: &'static str, mut system: M) -> Contestant<'static>
+where
+    M: System + 'static,
+    M::Number: Carrying,
+    TableScheme: ValidFor<M::Class>,
+{
+    let stepper = Stepper::with_context(shipped("yoshida4").expect("it is shipped"), "1/100", &());
+    let stepper: Stepper<TableScheme, M::Number> = stepper.expect("a step size");
+    let run = move |repetitions: u32| {
+        for _ in 0..repetitions {
+            stepper.step(black_box(&mut system));
+        }
+    };
+    (name, Box::new(run))
+}
+
+fn motion<N: Carrying>(
+    name: &'static str,
+    potential: impl Potential<N> + 'static,
+    q: &[f64],
+    p: &[f64],
+) -> Contestant<'static> {
+    let (q, p) = (state(q, 0), state(p, q.len()));
+    steps(name, Motion::new(potential, UnitMasses, q, p).expect("the dimensions agree"))
+}
+
+fn gravity<N: Carrying>(name: &'static str, bodies: usize) -> Contestant<'static> {
+    let place = |i: usize| ((i * i * 31 + 7 * i) % 1009) as f64 / 100.0;
+    let q: Vec<f64> = (0..3 * bodies).map(place).collect();
+    let constant = |x: f64| N::from_rational(&Rational::from_float(x).expect("finite"), &());
+    let pair = Gravity { g: constant(1e-6), m: vec![constant(1.0); bodies] };
+    motion(name, Pairs::<_, 3>::all(bodies, pair).expect("the pairs fit"), &q, &vec![0.0; 3 * bodies])
+}
+
+/// Planets of 10⁻⁵ of the star on nearly circular orbits.
+fn planets<N: Carrying>(name: &'static str, count: usize) -> Contestant<'static> {
+    let masses = std::iter::once(Rational::one()).chain((0..count).map(|_| exact("1/100000").expect("a number")));
+    let bodies = Bodies::new(Rational::one(), masses.collect()).expect("positive masses");
+    let (mut q, mut p) = (vec![0.0; 3], vec![0.0; 3]);
+    for i in 0..count {
+        let (r, (sin, cos)) = (1.6_f64.powi(i as i32), (2.4 * i as f64).sin_cos());
+        let momentum = 1.03e-5 / r.sqrt();
+        q.extend([r * cos, r * sin, 0.01 * r]);
+        p.extend([-momentum * sin, momentum * cos, 0.0]);
+    }
+    let system = WisdomHolman::<N, Jacobi<N, 3>, 3>::new(&bodies, (&state(&q, 0), &state(&p, q.len())), &());
+    steps(name, system.expect("a state of these bodies"))
+}
+
+/// The plain step, and those with vectors, of a system that a macro writes in each number type.
+macro_rules! compared {
+    ($title:expr, $repetitions:expr, $contestant:ident($($argument:expr),*)) => {
+        compare(
+            concat!($title, ", `yoshida4`"),
+            vec![
+                $contestant::<f64>("plain", $($argument),*),
+                $contestant::<Dual<f64>>("1 vector", $($argument),*),
+                $contestant::<Dual<f64, 4>>("4 vectors", $($argument),*),
+            ],
+            $repetitions,
+        );
+    };
+}
+
+fn main() {
+    compared!("Kepler", 20_000, motion(Kepler, &[0.4, 0.0], &[0.0, 2.0]));
+    compared!("Hénon and Heiles", 20_000, motion(HenonHeiles, &[0.1, 0.2], &[0.1, 0.0]));
+    compared!("6 bodies in space", 5_000, gravity(6));
+    compared!("100 bodies in space", 50, gravity(100));
+    compared!("2 planets on Kepler orbits", 1_000, planets(2));
+    compared!("8 planets on Kepler orbits", 300, planets(8));
+}
