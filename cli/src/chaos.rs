@@ -105,7 +105,7 @@ fn readable(records: &[ChaosRecord]) -> String {
         };
         [
             record.step.clone(),
-            record.motion.clone(),
+            record.motion.to_string(),
             exponent,
             format!("{:.4}", record.mean_megno),
             or_nothing(record.sali, 1),

@@ -58,7 +58,7 @@ pub(crate) fn chaos(
         }
         let conclusion = match &records[..] {
             [whole, half] => conclusion(whole, half),
-            _ => records[0].motion.clone(),
+            _ => records[0].motion.to_string(),
         };
         Ok(json!({ "records": records, "conclusion": conclusion }).to_string())
     });

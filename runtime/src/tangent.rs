@@ -23,7 +23,8 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! C. Skokos, *The Lyapunov characteristic exponents and their computation*, Lect. Notes Phys. 790 (2010) 63, has the theory; C. Skokos, E. Gerlach, Phys. Rev. E
+//! C. Skokos, *The Lyapunov characteristic exponents and their computation*, Lect. Notes Phys. 790 (2010) 63, has the theory; C. Skokos, E. Gerlach,
+//! Phys. Rev. E
 //! 82 (2010) 036704 the tangent map of splitting schemes.
 
 mod adjoint;
@@ -176,7 +177,8 @@ where
         self.integrators.iter().flat_map(|integrator| (0..K).map(|k| vector(integrator.state(), k)))
     }
 
-    /// GALI_k, the volume of the parallelepiped of the unit vectors along the first k ones, in the trajectory of a lane. Along chaotic trajectories it goes to 0
+    /// GALI_k, the volume of the parallelepiped of the unit vectors along the first k ones, in the trajectory of a lane. Along chaotic trajectories it
+    /// goes to 0
     /// exponentially, along regular ones of n degrees of freedom not at all for k ≤ n, and by a power of t beyond.
     ///
     /// C. Skokos, T. Bountis, C. Antonopoulos, Physica D 231 (2007) 30.
@@ -191,7 +193,8 @@ where
         (volume - norms).exp().min(1.0)
     }
 
-    /// SALI, the smaller of |e₁ + e₂| and |e₁ − e₂| of the unit vectors along the first two: the angle between their lines. Along chaotic trajectories it goes to 0 exponentially.
+    /// SALI, the smaller of |e₁ + e₂| and |e₁ − e₂| of the unit vectors along the first two: the angle between their lines. Along chaotic trajectories
+    /// it goes to 0 exponentially.
     ///
     /// C. Skokos, J. Phys. A 34 (2001) 10029.
     ///

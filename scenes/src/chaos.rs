@@ -2,7 +2,7 @@
 
 use std::ops::ControlFlow::{self, Break, Continue};
 
-use serde::Serialize;
+use serde::{Serialize, Serializer};
 use shadowstep::shadow::Estimate;
 use shadowstep::shadow::run::RunError;
 use shadowstep::steps::integrator::VectorIntegrator;
@@ -37,8 +37,9 @@ pub struct ChaosRecord {
     pub digits: DigitsLabel,
     /// The length of the trajectory in time; in physical time where time is transformed.
     pub time: f64,
-    /// `regular`, `chaotic` or `undecided`: see [`Growth::regularity`].
-    pub motion: String,
+    /// Whether it is regular: see [`Growth::regularity`].
+    #[serde(serialize_with = "displayed")]
+    pub motion: Regularity,
     /// The largest Lyapunov exponent over the last three quarters of the trajectory.
     pub exponent: Option<f64>,
     /// Twice its standard error.
@@ -75,7 +76,7 @@ impl ChaosRecord {
             steps: run.steps,
             digits: request.arithmetic.label(),
             time: growth.time(),
-            motion: growth.regularity().to_string(),
+            motion: growth.regularity(),
             exponent: exponent.map(|found| found.value),
             exponent_error: exponent.map(|found| found.error),
             lyapunov: growth.lyapunov(),
@@ -87,11 +88,10 @@ impl ChaosRecord {
             summary,
         }
     }
+}
 
-    /// Whether its indicators say so.
-    fn is(&self, regularity: Regularity) -> bool {
-        self.motion == regularity.to_string()
-    }
+fn displayed<S: Serializer>(regularity: &Regularity, serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.collect_str(regularity)
 }
 
 /// What two runs at h and h/2 say of the problem, in a sentence.
@@ -99,29 +99,26 @@ impl ChaosRecord {
 /// Exponents of chaotic runs agree if their difference is at most the sum of their errors, or a quarter of the larger one: exponents of finite runs scatter
 /// more than their parts do.
 pub fn conclusion(whole: &ChaosRecord, half: &ChaosRecord) -> String {
-    let both = |regularity| whole.is(regularity) && half.is(regularity);
-    let size = |record: &ChaosRecord| record.exponent.unwrap_or(f64::NAN);
-    let errors = whole.exponent_error.unwrap_or(f64::NAN) + half.exponent_error.unwrap_or(f64::NAN);
+    use Regularity::{Chaotic, Regular};
     let (h, half_step) = (&whole.step, &half.step);
-    if both(Regularity::Chaotic) {
-        let difference = (size(whole) - size(half)).abs();
-        return match difference <= errors || difference <= size(whole).max(size(half)) / 4.0 {
-            true => "chaotic at both step sizes with the same exponent: of the problem".to_owned(),
-            false => {
-                "chaotic at both step sizes, with exponents that differ: try smaller steps, or a longer run".to_owned()
-            }
-        };
+    match (whole.motion, half.motion) {
+        (Chaotic, Chaotic) if exponents_agree(whole, half) => {
+            "chaotic at both step sizes with the same exponent: of the problem".to_owned()
+        }
+        (Chaotic, Chaotic) => {
+            "chaotic at both step sizes, with exponents that differ: try smaller steps, or a longer run".to_owned()
+        }
+        (Regular, Regular) => "regular at both step sizes; slower chaos than the run shows is possible".to_owned(),
+        (Chaotic, Regular) => format!("chaotic at {h} and regular at {half_step}: of the step size"),
+        (Regular, Chaotic) => format!("regular at {h} and chaotic at {half_step}: not decided; try smaller steps"),
+        _ => "not decided: the run is too short".to_owned(),
     }
-    if both(Regularity::Regular) {
-        return "regular at both step sizes; slower chaos than the run shows is possible".to_owned();
-    }
-    if whole.is(Regularity::Chaotic) && half.is(Regularity::Regular) {
-        return format!("chaotic at {h} and regular at {half_step}: of the step size");
-    }
-    if whole.is(Regularity::Regular) && half.is(Regularity::Chaotic) {
-        return format!("regular at {h} and chaotic at {half_step}: not decided; try smaller steps");
-    }
-    "not decided: the run is too short".to_owned()
+}
+
+fn exponents_agree(whole: &ChaosRecord, half: &ChaosRecord) -> bool {
+    let [a, b] = [whole, half].map(|record| record.exponent.unwrap_or(f64::NAN));
+    let errors = [whole, half].map(|record| record.exponent_error.unwrap_or(f64::NAN)).iter().sum::<f64>();
+    (a - b).abs() <= errors.max(a.max(b) / 4.0)
 }
 
 /// A run from t = 0 with tangent vectors. Nothing is written.

@@ -289,7 +289,8 @@ mod tests {
         LimbCount::of_bits(192).unwrap_or_else(|| panic!("{text}"))
     }
 
-    /// The state after some steps from the first one, moved by `distance` along the first vector; from the first state of the kernel, where the scheme is processed.
+    /// The state after some steps from the first one, moved by `distance` along the first vector; from the first state of the kernel, where the scheme
+    /// is processed.
     fn moved(scene: &Scene, distance: &str) -> Vec<AnyLimbs> {
         let context = &numbers(distance);
         let (mut q, mut p) = scene.system.start::<Dual<AnyLimbs>>(context);

@@ -183,6 +183,6 @@ mod tests {
                 }
             }
         }
-        assert_eq!(count, 5956);
+        assert_eq!(count, 5959);
     }
 }

@@ -7,9 +7,9 @@ use std::fmt;
 /// With L(t) = log(|δ(t)|/|δ(0)|):
 ///
 /// - the finite-time Lyapunov exponent is L(t)/t. G. Benettin, L. Galgani, A. Giorgilli, J.-M. Strelcyn, Meccanica 15 (1980) 9;
-/// - MEGNO is Y(t) = (2/t) ∫₀ᵗ L′(s) s ds, and its mean Ȳ(t) = (1/t) ∫₀ᵗ Y(s) ds. Along a quasiperiodic trajectory vectors grow like t, and both tend to 2 (to
-///   0 where all frequencies are constant, as vectors do not grow); along a chaotic one Y grows like λt and Ȳ like λt/2. P. M. Cincotta, C. Simó, Astron. Astrophys. Suppl. 147 (2000)
-///   205; P. M. Cincotta, C. M. Giordano, C. Simó, Physica D 182 (2003) 151.
+/// - MEGNO is Y(t) = (2/t) ∫₀ᵗ L′(s) s ds, and its mean Ȳ(t) = (1/t) ∫₀ᵗ Y(s) ds. Along a quasiperiodic trajectory vectors grow like t, and both
+///   tend to 2 (to 0 where all frequencies are constant, as vectors do not grow); along a chaotic one Y grows like λt and Ȳ like λt/2.
+///   P. M. Cincotta, C. Simó, Astron. Astrophys. Suppl. 147 (2000) 205; P. M. Cincotta, C. M. Giordano, C. Simó, Physica D 182 (2003) 151.
 ///
 /// Integrals are sums by the midpoint rule over the intervals between observations.
 #[derive(Clone, Debug)]
@@ -123,8 +123,8 @@ impl Growth {
 
     /// Whether the motion is regular or chaotic, as far as the trajectory shows it.
     ///
-    /// From the means of Y over the second quarter of the trajectory, Y₂, and over its second half, Y₃₄. Regular: −½ ≤ Y₃₄ ≤ 2.5 and Y₂ ≤ 2.5. Chaotic: Y₃₄ ≥ 8, and at least 1.4 Y₂: vectors grow
-    /// by e⁸ where regular ones grow tenfold, and their growth does not slow down.
+    /// Y₂ is the mean of Y over the second quarter of the trajectory, Y₃₄ that over its second half. Regular: −½ ≤ Y₃₄ ≤ 2.5 and Y₂ ≤ 2.5. Chaotic:
+    /// Y₃₄ ≥ 8 and Y₃₄ ≥ 1.4 Y₂, so that vectors grow faster than t⁴, and their growth does not slow down.
     pub fn regularity(&self) -> Regularity {
         let marks = [0.25, 0.5, 1.0].map(|part| self.marks.near(self.time * part));
         let [Some(quarter), Some(half), Some(end)] = marks else { return Regularity::Undecided };

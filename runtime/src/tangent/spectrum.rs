@@ -49,8 +49,8 @@ where
         self.integrators.iter_mut().for_each(|integrator| integrator.step(Carried::Nothing));
     }
 
-    /// Makes the vectors orthonormal, and adds their growth up to the present state, at t, to that of before. Vectors should not have grown by more than some 10⁶ since
-    /// the last observation.
+    /// Makes the vectors orthonormal, and adds their growth up to the present state, at t, to that of before. Vectors should not
+    /// have grown by more than some 10⁶ since the last observation.
     pub fn observe(&mut self, t: f64) {
         let logarithms = self.orthonormalise();
         for ((growth, sum), added) in self.growths.iter_mut().zip(&mut self.sums).zip(logarithms.iter().flatten()) {
