@@ -222,8 +222,10 @@ impl<'a> AdviceRequest<'a> {
 
     /// The largest step of a scheme that is expected to meet the tolerance.
     fn choice(&self, study: &Study<'_>, studied: &Studied<'_>, halvings: i32) -> Option<Choice<'a>> {
-        let growth = f64::from(halvings) * self.of.growth(&studied.series.runs).log10();
-        let whole = |run: &Measurement| Some((run.steps as f64, self.of.error(run)?.log10() + growth));
+        let whole = |run: &Measurement| {
+            let error = self.of.error(run)?;
+            Some((run.steps as f64, error.log10() + f64::from(halvings) * self.of.growth(run).log10()))
+        };
         let curve: Curve = studied.series.runs.iter().filter_map(whole).collect();
         let error = self.tolerance.times_power_of_ten(MARGIN);
         let steps = cost_of(&curve, error).or_else(|| self.extrapolated(studied, &curve, error))?;

@@ -80,17 +80,10 @@ impl Choice<'_> {
         cost_of(&self.curve, error).map(|steps| self.length / steps)
     }
 
-    /// With the error that was found for its step: another run, where the step is smaller than those of all runs, as their errors need not follow the order
-    /// between; else the errors of all runs are multiplied, so that it is the prediction.
+    /// With the errors of all its runs multiplied, so that the prediction for its step is the error that was found.
     pub(crate) fn corrected(&self, found: Size) -> Choice<'_> {
-        let steps = self.length / self.size();
-        let curve = match self.curve.last() {
-            Some((last, _)) if steps <= *last => {
-                let shift = found.log10() - self.predicted(self.size());
-                self.curve.iter().map(|(steps, error)| (*steps, error + shift)).collect()
-            }
-            _ => self.curve.iter().copied().chain([(steps, found.log10())]).collect(),
-        };
+        let shift = found.log10() - self.predicted(self.size());
+        let curve = self.curve.iter().map(|(steps, error)| (*steps, error + shift)).collect();
         Choice { curve, ..self.clone() }
     }
 }
@@ -105,35 +98,5 @@ pub(crate) fn last_order(curve: &Curve, proved: f64) -> f64 {
     match curve[..] {
         [.., (a, above), (b, below)] => ((above - below) / (b / a).log10()).clamp(proved, MOST_ORDER.max(proved)),
         _ => proved,
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use shadowstep_scenes::library::scheme;
-
-    /// About the runs of wisdom-kernel-17 on the outer planets up to 300000 days, and the error with a step of 62.5 days.
-    #[test]
-    fn an_extrapolated_error_that_was_found_to_be_small_makes_room_for_a_larger_step() {
-        let scheme = scheme("wisdom-kernel-17").unwrap();
-        let choice = Choice {
-            scheme: &scheme,
-            step: Rational::new(125.into(), 2.into()),
-            steps: 4800,
-            error: Size::power_of_ten(-6.1),
-            seconds_per_step: 1e-6,
-            stable_step: None,
-            conserved_up_to: None,
-            lost_from: None,
-            curve: vec![(300.0, -0.5), (600.0, -1.8)],
-            length: 300_000.0,
-            order: 4.0,
-        };
-        let corrected = choice.corrected(Size::power_of_ten(-9.5));
-        let larger = corrected.largest_step(Size::power_of_ten(-6.1)).unwrap();
-        // its error is 4e-9
-        assert!((125.0..180.0).contains(&larger), "{larger}");
-        assert!((corrected.predicted(62.5) + 9.5).abs() < 1e-9);
     }
 }
