@@ -101,7 +101,7 @@ def chaos(
     Examples
     --------
     >>> import shadowstep
-    >>> star = shadowstep.Problem(potential="(x^2 + y^2)/2 + x^2*y - y^3/3", q={"x": 0, "y": "-1/4"}, p=["0.42081", 0])
+    >>> star = shadowstep.Problem("(x^2 + y^2)/2 + x^2*y - y^3/3", q={"x": 0, "y": "-1/4"}, p=["0.42081", 0])
     >>> found = shadowstep.chaos(star, "blanes-moan-srkn6b", h="1/5", until=2000)
     >>> found.conclusion
     'chaotic at both step sizes with the same exponent: of the problem'
