@@ -133,4 +133,5 @@ def chaos(
 
 def _indicators(record: dict[str, Any]) -> Indicators:
     names = ("time", "motion", "exponent", "exponent_error", "lyapunov", "megno", "mean_megno", "sali", "gali", "exponents", "summary")
-    return Indicators(h=float(Fraction(record["step"])), steps=record["steps"], **{name: record.get(name) for name in names})
+    values: dict[str, Any] = {name: record.get(name) for name in names}
+    return Indicators(h=float(Fraction(record["step"])), steps=record["steps"], **values)

@@ -93,6 +93,8 @@ const OF_SEARCH: [f64; 3] = [0.08, 0.7, 0.1];
 const PART_OF_TIME: f64 = 0.125;
 /// Where the time was over, errors are extrapolated by the proved order to at most this multiple of the steps.
 const MOST_EXTRAPOLATED: f64 = 100.0;
+/// A run that missed the tolerance is made again with at most this multiple of its steps: what it misses by more is hardly of the order, but round-off.
+const MOST_REFINED: f64 = 10.0;
 /// A run with a small error has about this number of evaluations in a turn of the fastest oscillation.
 const EVALUATIONS_PER_TURN: f64 = 400.0;
 /// Runs over fewer turns say little of the growth of errors.
@@ -274,7 +276,8 @@ impl<'a> AdviceRequest<'a> {
         let target = self.tolerance.times_power_of_ten(2.0 * MARGIN);
         let corrected = choice.corrected(error);
         let by_order = choice.size() * 10_f64.powf((target.log10() - error.log10()) / choice.order);
-        let h = corrected.largest_step(target).unwrap_or(by_order).min(0.89 * choice.size());
+        let h = corrected.largest_step(target).unwrap_or(by_order);
+        let h = h.clamp(choice.size() / MOST_REFINED, 0.89 * choice.size());
         self.with_step(&Choice { curve: corrected.curve, ..choice.clone() }, h)
     }
 
