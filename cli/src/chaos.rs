@@ -26,6 +26,9 @@ The run is made at the step size of the scene and at half of it, with tangent ve
 the largest Lyapunov exponent over the last three quarters of the run with twice its standard error. The mean of MEGNO tends to 2 on regular
 orbits, to 0 where all frequencies are constant, and grows with the time on chaotic ones; SALI tends to 0 exponentially on chaotic ones.";
 
+/// What can be done after an interruption.
+const AGAIN: &str = "try a shorter run, or a larger --every";
+
 /// Whether a trajectory is chaotic: Lyapunov exponents, MEGNO, SALI and GALI.
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLE)]
@@ -71,7 +74,7 @@ pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
     let scene = Scene::read(source)?;
     scene.notes.iter().for_each(report::note);
     let steps = scene.steps();
-    let interrupt = Interrupt::listen(&scene.source.path, "try a shorter run, or a larger --every");
+    let interrupt = Interrupt::listen(&scene.source.path, AGAIN);
     let mut output = Output::of(&arguments.output)?;
     let bar = arguments.output.output.is_some() || !std::io::stdout().is_terminal();
     let mut records = Vec::new();
@@ -80,9 +83,7 @@ pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
         let progress = Progress::new(bar, name, steps * u64::from(parts));
         let mut terminal = Terminal { progress, interrupt: &interrupt };
         let found = scene.chaos(arguments.vectors(), arguments.every.into()).run(parts, &mut terminal)?;
-        let record = found.ok_or_else(|| {
-            Error::run(format!("{}: interrupted", scene.source.path), "try a shorter run, or a larger --every")
-        })?;
+        let record = found.ok_or_else(|| Error::run(format!("{}: interrupted", scene.source.path), AGAIN))?;
         if arguments.json {
             output.json(&record)?;
         }

@@ -10,16 +10,15 @@
 //! use shadowstep::tangent::{Regularity, Tangents, with_derivatives};
 //!
 //! let stepper = Stepper::new(shipped("yoshida4").unwrap(), "1/10")?;
-//! let q = with_derivatives(&[0.0, -0.1], [&[1.0, 0.0]]);
-//! let p = with_derivatives(&[0.39, 0.0], [&[0.0, 1.0]]);
+//! let q = with_derivatives(&[0.0, -0.25], [&[1.0, 0.0]]);
+//! let p = with_derivatives(&[0.42081, 0.0], [&[0.0, 1.0]]);
 //! let motion = Motion::new(HenonHeiles, UnitMasses, q, p)?;
 //! let mut tangents = Tangents::new(vec![stepper.with(motion)])?;
 //! for n in 1..=20_000 {
 //!     tangents.step();
 //!     tangents.observe(0.1 * f64::from(n));
 //! }
-//! let growth = tangents.growth(0, 0);
-//! assert!(growth.mean_megno() > 0.0);
+//! assert_eq!(tangents.growth(0, 0).regularity(), Regularity::Chaotic);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!

@@ -285,14 +285,14 @@ mod tests {
 
     const STEPS: usize = 3;
 
-    fn numbers(text: &str) -> LimbCount {
-        LimbCount::of_bits(192).unwrap_or_else(|| panic!("{text}"))
+    /// Numbers of 57 digits.
+    fn long() -> LimbCount {
+        LimbCount::of_bits(192).unwrap()
     }
 
-    /// The state after some steps from the first one, moved by `distance` along the first vector; from the first state of the kernel, where the scheme
-    /// is processed.
+    /// The state after some steps from the first one, moved by `distance` along the first vector.
     fn moved(scene: &Scene, distance: &str) -> Vec<AnyLimbs> {
-        let context = &numbers(distance);
+        let context = &long();
         let (mut q, mut p) = scene.system.start::<Dual<AnyLimbs>>(context);
         point(&mut q, 0, 0, context);
         point(&mut p, 0, q.len(), context);
@@ -320,14 +320,14 @@ mod tests {
     fn check(name: &str, text: String) {
         let scene =
             Scene::read(Source { path: name.to_owned(), text }).unwrap_or_else(|error| panic!("{name}: {error}"));
-        let long = vector(after::<AnyLimbs>(&scene, &numbers(name)).state(), 0);
+        let exact = vector(after::<AnyLimbs>(&scene, &long()).state(), 0);
         // central differences of 10⁻¹⁹: an error of the size 10⁻³⁸ in 57 digits
         let (plus, minus) = (moved(&scene, "1e-19"), moved(&scene, "-1e-19"));
-        let size = long.iter().map(|x| x.to_f64().abs()).fold(0.0, f64::max);
-        for (i, derivative) in long.iter().enumerate() {
+        let size = exact.iter().map(|x| x.to_f64().abs()).fold(0.0, f64::max);
+        for (i, derivative) in exact.iter().enumerate() {
             let mut difference = plus[i];
             difference.subtract(&minus[i]);
-            difference.multiply(&AnyLimbs::from_rational(&shadowstep::exact("5e18").unwrap(), &numbers(name)));
+            difference.multiply(&AnyLimbs::from_rational(&shadowstep::exact("5e18").unwrap(), &long()));
             difference.subtract(derivative);
             let error = difference.to_f64().abs() / size;
             assert!(
@@ -347,9 +347,9 @@ mod tests {
         let values = |x: &[Dual<f64>]| x.iter().map(|x| x.value.to_bits()).collect::<Vec<_>>();
         assert_eq!(values(double.state().q()), bits(plain.state().q()), "{name}");
         assert_eq!(values(double.state().p()), bits(plain.state().p()), "{name}");
-        for (i, (short, long)) in vector(double.state(), 0).iter().zip(&long).enumerate() {
-            let error = (short - long.to_f64()).abs() / size;
-            assert!(error < 1e-9, "{name}, component {i}: {short} and {}", long.to_f64());
+        for (i, (short, exact)) in vector(double.state(), 0).iter().zip(&exact).enumerate() {
+            let error = (short - exact.to_f64()).abs() / size;
+            assert!(error < 1e-9, "{name}, component {i}: {short} and {}", exact.to_f64());
         }
     }
 
