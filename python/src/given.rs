@@ -74,6 +74,14 @@ impl Given {
         Ok(self.system(Arithmetic::DOUBLE).map_err(|error| exception(py, error))?.problem.momenta)
     }
 
+    /// The parameters with their values as texts, to 100 digits.
+    #[getter]
+    fn parameters(&self, py: Python<'_>) -> PyResult<Vec<(String, String)>> {
+        let digits = Arithmetic::with_digits(100).expect("there are numbers of 100 digits");
+        let system = self.system(digits).map_err(|error| exception(py, error))?;
+        Ok(system.problem.parameters.into_iter().map(|(name, exact)| (name, exact.value.to_string())).collect())
+    }
+
     /// The state at t = 0 in double precision, in the coordinates that trajectories have.
     #[getter]
     fn initial(&self, py: Python<'_>) -> PyResult<(Vec<f64>, Vec<f64>)> {

@@ -26,6 +26,7 @@
 
 mod chaos;
 mod command;
+mod derivatives;
 mod drift;
 mod emit;
 mod ensemble;
@@ -50,6 +51,8 @@ mod _shadowstep {
     use crate::chaos::chaos;
     #[pymodule_export]
     use crate::command::command;
+    #[pymodule_export]
+    use crate::derivatives::{derivatives, distance_of, gradient};
     #[pymodule_export]
     use crate::drift::drift;
     #[pymodule_export]

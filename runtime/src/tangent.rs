@@ -31,7 +31,7 @@ mod growth;
 mod spectrum;
 mod vectors;
 
-pub use adjoint::{Covector, gradient};
+pub use adjoint::{Adjoint, Covector, gradient};
 pub use growth::{Exponent, Growth, Regularity};
 pub use spectrum::Spectrum;
 pub use vectors::{vector, with_derivatives};

@@ -94,6 +94,7 @@ pub mod arithmetic;
 pub mod chaos;
 pub mod computation;
 pub mod cpu_time;
+pub mod derivatives;
 pub mod drift;
 mod engine;
 pub mod ensemble;

@@ -6,6 +6,7 @@ use shadowstep::tangent::{Growth, Spectrum, TangentError, Tangents};
 use shadowstep::{Integrator as _, MotionError, Rational, Real};
 
 use crate::arithmetic::{Arithmetic, Digits, Numbers};
+use crate::computation::RunNumber;
 use crate::error::Error;
 use crate::scene::{PotentialEnergy, Scene, SceneNumber, System};
 use crate::start::{Begin, SceneIntegrator, Steps};
@@ -77,7 +78,7 @@ impl FollowingVectors {
         (vectors, every): (Vectors, u64),
     ) -> Result<Self, Error> {
         refuse(system, vectors)?;
-        let run = arithmetic.tangents(system, steps, vectors)?;
+        let run = arithmetic.compute_with_derivatives(Begun { system, steps, vectors })??;
         let h = steps.h.exact().to_f64().expect("every rational has a nearest f64");
         Ok(FollowingVectors { run, h, every: every.max(1), steps: 0 })
     }
@@ -93,13 +94,19 @@ impl Scene {
     }
 }
 
-fn refuse(system: &System, vectors: Vectors) -> Result<(), Error> {
-    if let PotentialEnergy::Own(own) = &system.potential {
-        return Err(Error::usage(
+/// Refuses forces whose derivatives are not known.
+pub(crate) fn needs_second_derivatives(system: &System) -> Result<(), Error> {
+    match &system.potential {
+        PotentialEnergy::Own(own) => Err(Error::usage(
             format!("tangent vectors need second derivatives, which {} has not", own.name()),
             "give the potential as a formula",
-        ));
+        )),
+        _ => Ok(()),
     }
+}
+
+fn refuse(system: &System, vectors: Vectors) -> Result<(), Error> {
+    needs_second_derivatives(system)?;
     let (Vectors::Free(count) | Vectors::Orthonormal(count)) = vectors;
     let most = 2 * system.dimension();
     match count {
@@ -122,34 +129,58 @@ pub enum Vectors {
 }
 
 impl Arithmetic {
-    /// The system at its first state with these vectors, each beside states of its own. Their directions are always the same ones, and none of them is
-    /// special.
+    /// Makes a computation with a tangent vector, of dual numbers.
     ///
     /// States have the bits of a run, in double precision and in numbers of limbs; runs in other numbers are followed in numbers of at least as many limbs.
     ///
     /// # Errors
-    /// As [`System::integrator`]; more digits than numbers of limbs have; a start where the flows have no derivatives.
-    pub(crate) fn tangents(
-        self,
-        system: &System,
-        steps: Steps<'_>,
-        vectors: Vectors,
-    ) -> Result<Box<dyn TangentRun>, Error> {
-        let limbs = |count: LimbCount| tangents::<AnyLimbs>(system, steps, vectors, &count);
+    /// More digits than numbers of limbs have.
+    pub(crate) fn compute_with_derivatives<C: WithDerivatives>(self, computation: C) -> Result<C::Output, Error> {
         let of_bits = |bits: u32| {
             LimbCount::of_bits(bits).ok_or_else(|| {
                 let most = Precision::of_limbs(LimbCount::MOST.get()).in_digits();
-                let message = format!("tangent vectors have at most {most} digits, and the run has {}", self.digits());
+                let message = format!("derivatives have at most {most} digits, and the run has {}", self.digits());
                 Error::usage(message, "write fewer digits in [run]")
             })
         };
-        match self.numbers() {
-            Numbers::Double => tangents::<f64>(system, steps, vectors, &()),
-            Numbers::DoubleDouble => limbs(of_bits(DoubleDouble::precision(&()).in_bits())?),
-            Numbers::Digits(_, Digits::Limbs(count)) => limbs(count),
+        Ok(match self.numbers() {
+            Numbers::Double => computation.compute::<f64>(&()),
+            Numbers::DoubleDouble => computation.compute::<AnyLimbs>(&of_bits(DoubleDouble::precision(&()).in_bits())?),
+            Numbers::Digits(_, Digits::Limbs(count)) => computation.compute::<AnyLimbs>(&count),
             #[cfg(feature = "mpfr")]
-            Numbers::Digits(_, Digits::Mpfr(precision)) => limbs(of_bits(precision.in_bits())?),
-        }
+            Numbers::Digits(_, Digits::Mpfr(precision)) => {
+                computation.compute::<AnyLimbs>(&of_bits(precision.in_bits())?)
+            }
+        })
+    }
+}
+
+/// A computation that can be made in numbers of which there are dual ones.
+pub(crate) trait WithDerivatives {
+    /// Its result.
+    type Output;
+
+    /// Makes it with numbers of type N.
+    fn compute<N: RunNumber>(self, context: &N::Context) -> Self::Output
+    where
+        Dual<N>: SceneNumber<Context = N::Context>;
+}
+
+/// The system at its first state with vectors, each beside states of its own. Their directions are always the same ones, and none of them is special.
+struct Begun<'a> {
+    system: &'a System,
+    steps: Steps<'a>,
+    vectors: Vectors,
+}
+
+impl WithDerivatives for Begun<'_> {
+    type Output = Result<Box<dyn TangentRun>, Error>;
+
+    fn compute<N: RunNumber>(self, context: &N::Context) -> Self::Output
+    where
+        Dual<N>: SceneNumber<Context = N::Context>,
+    {
+        tangents::<N>(self.system, self.steps, self.vectors, context)
     }
 }
 

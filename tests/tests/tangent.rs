@@ -167,6 +167,7 @@ impl Visitor for Adjoint {
         let (of_q, of_p) = ([0.3, -0.7], [0.2, 0.5]);
         let mut carried: Star<Dual<f64>> = star([dual(&q, &of_q), dual(&p, &of_p)]);
         (0..50).for_each(|_| stepper.step(&mut carried));
+        stepper.postprocess(&mut carried);
         let forward = vector(carried.state(), 0);
         let values = |numbers: &[Dual<f64>]| numbers.iter().map(|x| x.value).collect::<Vec<_>>();
         let covector = |q: &[f64], p: &[f64]| (vec![q[0], q[1] * p[1]], vec![p[0].cos(), 1.0]);

@@ -86,6 +86,6 @@ fn what_has_no_vectors_is_refused() {
     let (_folder, scene) = in_folder(&PENDULUM.replace("\"double\"", "400"));
     let refused = shadowstep(&format!("chaos {scene} --one"));
     let expected =
-        if cfg!(feature = "mpfr") { "tangent vectors have at most 327 digits, and the run has 400" } else { "MPFR" };
+        if cfg!(feature = "mpfr") { "derivatives have at most 327 digits, and the run has 400" } else { "MPFR" };
     assert!(refused.code == 2 && refused.err.contains(expected), "{}", refused.err);
 }

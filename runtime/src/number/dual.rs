@@ -1,5 +1,9 @@
 //! Dual numbers: a number with its derivatives along some directions.
 
+mod constants;
+
+pub use constants::{OtherConstants, with_parameter};
+
 use std::cmp::Ordering;
 use std::fmt;
 
@@ -145,7 +149,11 @@ impl<N: Number, const K: usize> Number for Dual<N, K> {
     }
 
     fn from_rational(value: &Rational, context: &N::Context) -> Self {
-        Dual::constant(N::from_rational(value, context))
+        let mut constant = Dual::constant(N::from_rational(value, context));
+        if let (Some(derivative), Some(own)) = (constants::derivative(value), constant.derivatives.first_mut()) {
+            *own = N::from_rational(&derivative, context);
+        }
+        constant
     }
 
     fn context(&self) -> N::Context {

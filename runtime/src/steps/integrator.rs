@@ -83,6 +83,9 @@ pub trait Integrator {
     /// Whether the scheme is a processed one, whose steps are those of its kernel.
     fn is_processed(&self) -> bool;
 
+    /// The pre-map of a processed scheme: see [`Stepper::preprocess`].
+    fn preprocess(&mut self);
+
     /// The post-map of a processed scheme: see [`Stepper::postprocess`].
     fn postprocess(&mut self);
 
@@ -233,6 +236,10 @@ impl<S: Scheme + ValidFor<M::Class>, M: System> Integrator for WithStepper<'_, S
         self.stepper.is_processed()
     }
 
+    fn preprocess(&mut self) {
+        self.stepper.preprocess(&mut self.system);
+    }
+
     fn postprocess(&mut self) {
         self.stepper.postprocess(&mut self.system);
     }
@@ -278,6 +285,9 @@ macro_rules! behind {
             }
             fn is_processed(&self) -> bool {
                 (**self).is_processed()
+            }
+            fn preprocess(&mut self) {
+                (**self).preprocess();
             }
             fn postprocess(&mut self) {
                 (**self).postprocess();

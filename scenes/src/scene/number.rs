@@ -40,8 +40,8 @@ pub trait SceneNumber: CorrectlyRounded + 'static {
 
 /// What a system gives in numbers N.
 pub trait SystemIn<N: SceneNumber> {
-    /// [`System::start`]
-    fn start(&self, context: &N::Context) -> State<N>;
+    /// [`System::start_at`]
+    fn start_at(&self, state: State<N>, context: &N::Context) -> State<N>;
 
     /// [`System::shown`]
     fn shown(&self, context: &N::Context) -> Option<ShownCoordinates<N>>;
@@ -64,7 +64,12 @@ pub trait SystemIn<N: SceneNumber> {
 impl System {
     /// Positions and momenta at t = 0, in the coordinates of the steps.
     pub fn start<N: SceneNumber>(&self, context: &N::Context) -> State<N> {
-        N::system(self).start(context)
+        self.start_at(self.initial(context), context)
+    }
+
+    /// The same from positions and momenta in the coordinates of the scene.
+    pub fn start_at<N: SceneNumber>(&self, state: State<N>, context: &N::Context) -> State<N> {
+        N::system(self).start_at(state, context)
     }
 
     /// Converts states from the coordinates of the steps to those that are shown, where these differ.
@@ -104,8 +109,7 @@ impl System {
 }
 
 impl<N: SceneNumber> SystemIn<N> for System {
-    fn start(&self, context: &N::Context) -> State<N> {
-        let state = self.initial(context);
+    fn start_at(&self, state: State<N>, context: &N::Context) -> State<N> {
         ask!(&self.parts, split => split.start(&self.problem, state, context))
     }
 

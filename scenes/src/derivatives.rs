@@ -1,0 +1,239 @@
+//! Derivatives of the states of a run by the initial state and by parameters, forwards and backwards.
+
+mod backward;
+mod check;
+mod forward;
+#[cfg(test)]
+mod tests;
+
+pub use backward::Gradient;
+pub use forward::Derivatives;
+
+use shadowstep::number::{Dual, Number, OtherConstants, with_parameter};
+use shadowstep::shadow::run::{NotFinite, Quantity, RunError};
+use shadowstep::steps::integrator::{VectorIntegrator, at_output};
+use shadowstep::tables::{AtRunTime, TableScheme};
+use shadowstep::{MotionError, Rational, StepSize, exact};
+
+use crate::arithmetic::Arithmetic;
+use crate::computation::RunNumber;
+use crate::error::Error;
+use crate::observer::Observer;
+use crate::run::Run;
+use crate::scene::split::{ShownCoordinates, State};
+use crate::scene::{SceneNumber, System};
+use crate::start::{Begin, SceneIntegrator, Steps};
+
+/// A run whose states are differentiated.
+///
+/// States are those that runs show, n = 0, `every`, 2 `every`, … and the last one.
+#[derive(Clone, Copy)]
+pub struct Differentiation<'a> {
+    /// H and the initial state.
+    pub system: &'a System,
+    /// The same, read to [more digits](precise).
+    pub precise: &'a System,
+    /// The scheme, valid for the [system](crate::propagator::for_system).
+    pub scheme: &'a TableScheme<AtRunTime>,
+    /// The steps. In transformed time their number is that of steps of s.
+    pub run: Run<'a>,
+    /// The number type.
+    pub arithmetic: Arithmetic,
+    /// Whether gradient kicks are by displaced forces.
+    pub displaced: bool,
+    /// Each such state is one of the result.
+    pub every: u64,
+    /// By what derivatives are taken.
+    pub by: &'a [Variable],
+}
+
+/// By what derivatives are taken.
+#[derive(Debug)]
+pub enum Variable {
+    /// A position at t = 0, in the coordinates of the scene.
+    Position(usize),
+    /// A momentum at t = 0.
+    Momentum(usize),
+    /// A number in the text of the scene, or the step size at a fixed number of steps.
+    Parameter(Parameter),
+}
+
+/// A number in the text of a scene, by a nearby value.
+#[derive(Debug)]
+pub struct Parameter {
+    /// Its name, for messages.
+    pub name: String,
+    /// The system where it is larger by the [distance](distance), read to [more digits](precise).
+    pub system: Box<System>,
+    /// The step size there.
+    pub h: StepSize,
+}
+
+/// The digits of values of which differences are taken: twice those of the run, and more.
+fn digits_of_distance(arithmetic: Arithmetic) -> u32 {
+    arithmetic.digits().max(20) + 5
+}
+
+/// How much larger a [`Parameter`] is: small beyond the digits of the run.
+///
+/// # Panics
+/// Never.
+pub fn distance(arithmetic: Arithmetic) -> Rational {
+    exact(&format!("1e-{}", digits_of_distance(arithmetic))).expect("it is a number")
+}
+
+/// The number type for which systems are read of which differences are taken.
+///
+/// # Errors
+/// More digits than numbers of limbs have.
+pub fn precise(arithmetic: Arithmetic) -> Result<Arithmetic, Error> {
+    let digits = 2 * digits_of_distance(arithmetic) + 20;
+    let found = Arithmetic::with_digits(digits).ok().filter(|found| found.limbs().is_some());
+    found.ok_or_else(|| {
+        let digits = arithmetic.digits();
+        Error::usage(
+            format!("{digits} digits are too many for derivatives by parameters"),
+            "use 100 digits or fewer, or derivatives by the initial state only",
+        )
+    })
+}
+
+/// Numbers of a result: doubles of a run in double precision, else decimal texts.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Array {
+    /// In double precision.
+    Doubles(Vec<f64>),
+    /// With all digits of the run.
+    Texts(Vec<String>),
+}
+
+impl Array {
+    fn of<N: RunNumber>(numbers: &[N], arithmetic: Arithmetic) -> Self {
+        match arithmetic.is_longer_than_double() {
+            false => Array::Doubles(numbers.iter().map(N::to_f64).collect()),
+            true => Array::Texts(numbers.iter().map(N::to_text).collect()),
+        }
+    }
+}
+
+/// A system at its first state, of which a variable has the derivative 1.
+struct Begun<N: RunNumber> {
+    integrator: SceneIntegrator<Dual<N>>,
+    shown: Option<ShownCoordinates<Dual<N>>>,
+}
+
+impl<N: RunNumber> Begun<N>
+where
+    Dual<N>: SceneNumber<Context = N::Context>,
+{
+    /// q and then p as they are shown, of the present state.
+    fn output(&mut self) -> Vec<Dual<N>> {
+        let Begun { integrator, shown } = self;
+        at_output(&mut **integrator, |integrator| output(integrator, shown))
+    }
+}
+
+fn output<N: Number>(integrator: &VectorIntegrator<'_, N>, shown: &mut Option<ShownCoordinates<N>>) -> Vec<N> {
+    let (q, p) = (integrator.state().q(), integrator.state().p());
+    let (q, p) = match shown {
+        Some(shown) => shown.of_state(q, p),
+        None => (q, p),
+    };
+    [q, p].concat()
+}
+
+impl Differentiation<'_> {
+    fn steps<'s>(&'s self, h: &'s StepSize) -> Steps<'s> {
+        let compensated = self.arithmetic.is_compensated();
+        Steps { scheme: self.scheme, h, compensated, displaced: self.displaced, begin: Begin::InitialState }
+    }
+
+    /// The numbers of the states of the result.
+    fn rows(&self) -> Vec<u64> {
+        let (every, last) = (self.every.max(1), self.run.steps);
+        let mut rows: Vec<u64> = (0..=last / every).map(|row| row * every).collect();
+        rows.extend(Some(last).filter(|last| !last.is_multiple_of(every)));
+        rows
+    }
+
+    fn begin<N: RunNumber>(&self, variable: Option<&Variable>, context: &N::Context) -> Result<Begun<N>, Error>
+    where
+        Dual<N>: SceneNumber<Context = N::Context>,
+    {
+        let (mut q, mut p) = self.system.initial::<Dual<N>>(context);
+        let one = || [N::from_rational(&num_traits::One::one(), context)];
+        match variable {
+            None => {}
+            Some(Variable::Position(i)) => q[*i].derivatives = one(),
+            Some(Variable::Momentum(i)) => p[*i].derivatives = one(),
+            Some(Variable::Parameter(parameter)) => return self.begin_parameter(parameter, context),
+        }
+        Ok(self.begin_at(self.system, self.run.h, (q, p))?)
+    }
+
+    fn begin_parameter<N: RunNumber>(&self, parameter: &Parameter, context: &N::Context) -> Result<Begun<N>, Error>
+    where
+        Dual<N>: SceneNumber<Context = N::Context>,
+    {
+        let of = [(self.system, self.run.h), (self.precise, self.run.h), (&parameter.system, &parameter.h)];
+        let found = with_parameter(&distance(self.arithmetic), |i| {
+            let (system, h) = of[i];
+            self.begin_at(system, h, system.initial(context))
+        });
+        let found = found.map_err(|error: OtherConstants| {
+            let name = &parameter.name;
+            Error::usage(format!("derivatives by {name} are not known: {error}"), "choose a value beside it")
+        });
+        Ok(found??)
+    }
+
+    fn begin_at<N: RunNumber>(
+        &self,
+        system: &System,
+        h: &StepSize,
+        state: State<Dual<N>>,
+    ) -> Result<Begun<N>, MotionError>
+    where
+        Dual<N>: SceneNumber<Context = N::Context>,
+    {
+        let context = &state.0[0].context();
+        let state = system.start_at(state, context);
+        let integrator = system.integrator(self.steps(h), state, context)?;
+        Ok(Begun { integrator, shown: system.shown(context) })
+    }
+
+    /// Checks what is not known before.
+    fn refuse(&self) -> Result<(), Error> {
+        crate::tangent::needs_second_derivatives(self.system)?;
+        self.by.iter().try_for_each(|variable| match variable {
+            Variable::Parameter(parameter) => self.check_first_step(parameter),
+            _ => Ok(()),
+        })
+    }
+
+    fn ask(&self, n: u64, observer: &mut dyn Observer) -> Result<(), Error> {
+        observer.progress(i64::try_from(n).unwrap_or(i64::MAX));
+        match observer.stops() {
+            false => Ok(()),
+            true => Err(Error::run(
+                format!("{}: interrupted at n = {n}", self.run.name()),
+                "run it again, over a shorter time for example",
+            )),
+        }
+    }
+
+    /// The run stopped, if a number is not finite.
+    fn check_finite<N: RunNumber>(&self, n: u64, output: &[Dual<N>]) -> Result<(), Error> {
+        let dimension = output.len() / 2;
+        let not_finite = |x: &Dual<N>| !(x.value.is_finite() && x.derivatives[0].is_finite());
+        let Some(i) = output.iter().position(not_finite) else { return Ok(()) };
+        let quantity = if i < dimension { Quantity::Position(i) } else { Quantity::Momentum(i - dimension) };
+        if output[i].value.is_finite() {
+            let text = output[i].derivatives[0].to_text();
+            return Err(self.run.not_finite(&format!("a derivative of the state {n} is {text}: it")));
+        }
+        let value = NotFinite { quantity, value: output[i].value.to_text() };
+        let error = RunError::NotFinite { step: i64::try_from(n).unwrap_or(i64::MAX), value };
+        Err(self.run.failed_naming(&error, &self.system.coordinates, &self.system.momenta))
+    }
+}

@@ -1,0 +1,184 @@
+//! Protects derivatives by numbers of the text, of each kind of split and scheme: forwards beside differences of runs at nearby values, with 60 digits;
+//! backwards beside those forwards.
+
+use shadowstep::tables::Source;
+use shadowstep::{Rational, StepSize};
+
+use super::*;
+use crate::library;
+use crate::propagator::for_system;
+use crate::scene::System;
+
+const STEPS: u64 = 25;
+const EVERY: u64 = 10;
+
+fn system(text: &str, arithmetic: Arithmetic) -> System {
+    let source = Source { path: "test".to_owned(), text: text.to_owned() };
+    System::read(&source, arithmetic).unwrap_or_else(|error| panic!("{text}: {error}")).0
+}
+
+fn step(text: &str) -> StepSize {
+    StepSize::try_from(text).unwrap()
+}
+
+/// Runs of a problem with the number θ in its text or in its step size.
+struct Case {
+    text: &'static str,
+    scheme: &'static str,
+    h: &'static str,
+    theta: &'static str,
+}
+
+impl Case {
+    fn at(&self, theta: &str) -> (String, StepSize) {
+        (self.text.replace('θ', theta), step(&self.h.replace('θ', theta)))
+    }
+
+    fn with<R>(&self, arithmetic: Arithmetic, use_it: impl FnOnce(Differentiation<'_>) -> R) -> R {
+        let precise = precise(arithmetic).unwrap();
+        let moved = format!("({}) + 1e-{}", self.theta, digits_of_distance(arithmetic));
+        let ((text, h), (moved, moved_h)) = (self.at(self.theta), self.at(&moved));
+        let posed = system(&text, arithmetic);
+        let scheme = for_system(library::scheme(self.scheme).unwrap(), &posed).unwrap();
+        let parameter = Parameter { name: "θ".to_owned(), system: Box::new(system(&moved, precise)), h: moved_h };
+        let by = [Variable::Position(0), Variable::Momentum(posed.p.len() - 1), Variable::Parameter(parameter)];
+        let run = Run { propagator: &scheme.name, h: &h, steps: STEPS, order: None };
+        use_it(Differentiation {
+            system: &posed,
+            precise: &system(&text, precise),
+            scheme: &scheme.scheme,
+            run,
+            arithmetic,
+            displaced: false,
+            every: EVERY,
+            by: &by,
+        })
+    }
+
+    fn forward(&self, arithmetic: Arithmetic) -> Derivatives {
+        self.with(arithmetic, |request| {
+            request.forward(&mut ()).unwrap_or_else(|error| panic!("{}: {error}", self.text))
+        })
+    }
+
+    /// The derivative by θ beside the difference of two runs.
+    fn check_forward(&self) {
+        let arithmetic = Arithmetic::with_digits(60).unwrap();
+        let exact = |array: &Array| -> Vec<Rational> {
+            let Array::Texts(texts) = array else { panic!("60 digits are texts") };
+            texts.iter().map(|text| shadowstep::exact(text).unwrap()).collect()
+        };
+        let states = |theta: &str| {
+            let (text, h) = self.at(theta);
+            let posed = system(&text, arithmetic);
+            let scheme = for_system(library::scheme(self.scheme).unwrap(), &posed).unwrap();
+            let run = Run { propagator: &scheme.name, h: &h, steps: STEPS, order: None };
+            let (precise, scheme, displaced) = (&posed, &scheme.scheme, false);
+            let request =
+                Differentiation { system: &posed, precise, scheme, run, arithmetic, displaced, every: EVERY, by: &[] };
+            exact(&request.forward(&mut ()).unwrap().states)
+        };
+        let (plus, minus) =
+            (states(&format!("({}) + 1e-20", self.theta)), states(&format!("({}) - 1e-20", self.theta)));
+        let factor = shadowstep::exact("5e19").unwrap();
+        let expected: Vec<f64> = plus.iter().zip(&minus).map(|(a, b)| nearest(&((a - b) * &factor))).collect();
+        let found: Vec<f64> = exact(&self.forward(arithmetic).by[2]).iter().map(nearest).collect();
+        let size = expected.iter().copied().map(f64::abs).fold(0.0, f64::max);
+        assert!(size > 0.0, "{}", self.text);
+        for (found, expected) in found.iter().zip(&expected) {
+            assert!((found - expected).abs() < 1e-14 * size, "{}, {}: {found} {expected}", self.text, self.scheme);
+        }
+    }
+
+    /// Of the function Σ c_i x_i of all states, in double precision.
+    fn check_backward(&self) {
+        let forward = self.forward(Arithmetic::DOUBLE);
+        let doubles = |array: &Array| match array {
+            Array::Doubles(numbers) => numbers.clone(),
+            Array::Texts(_) => panic!("double precision has no texts"),
+        };
+        let count = doubles(&forward.states).len();
+        let covectors: Vec<f64> = (0..count).map(|i| ((i + 1) as f64 * 2_f64.sqrt()).fract() - 0.5).collect();
+        let found = self.with(Arithmetic::DOUBLE, |request| request.backward(&covectors, &mut ()).unwrap());
+        assert!(found.reversal_error < 1e-11, "{}: {}", self.text, found.reversal_error);
+        for (by, found) in forward.by.iter().zip(doubles(&found.by)) {
+            let products: Vec<f64> = doubles(by).iter().zip(&covectors).map(|(a, b)| a * b).collect();
+            let (expected, size) = (products.iter().sum::<f64>(), products.iter().map(|x| x.abs()).sum::<f64>());
+            assert!((found - expected).abs() < 1e-11 * size, "{}, {}: {found} {expected}", self.text, self.scheme);
+        }
+    }
+
+    fn check(&self) {
+        self.check_forward();
+        self.check_backward();
+    }
+}
+
+fn nearest(x: &Rational) -> f64 {
+    shadowstep::Number::from_rational(x, &())
+}
+
+const OSCILLATOR: &str = "[problem]\npotential = \"k*x^2/2 + x^4/4 + x^2*y^2 + y^2\"\ncoordinates = [\"x\", \"y\"]\nparameters = { k = \"θ\" }\n\
+                          [initial]\nq = [1, \"1/3\"]\np = [0, \"1/7\"]\n";
+const MASSES: &str = "[problem]\npotential = \"x^2/2 + x^4/4 + x^2*y^2 + y^2\"\ncoordinates = [\"x\", \"y\"]\nmasses = [\"θ\", 3]\n\
+                      [initial]\nq = [1, \"1/3\"]\np = [0, \"1/7\"]\n";
+const BODIES: &str = "[problem]\npair = \"-m_i*m_j/sqrt(r2)\"\ndimensions = 2\nbodies = { m = [1, \"θ\", \"1/500\"] }\n\
+                      [initial]\nq = [[0, 0], [1, 0], [0, 2]]\nv = [[0, 0], [0, 1], [\"-0.7\", 0]]\n";
+const PLANETS: &str = "[problem]\nparts = \"wisdom-holman\"\nparameters = { g = 1 }\n[[body]]\nname = \"sun\"\nmass = 1\nq = [0, 0, 0]\nv = [0, 0, 0]\n\
+                       [[body]]\nname = \"a\"\nmass = \"θ\"\nq = [1, 0, 0]\nv = [0, 1, \"1/10\"]\n\
+                       [[body]]\nname = \"b\"\nmass = \"1/2000\"\nq = [0, 2, 0]\nv = [\"-0.7\", 0, 0]\n";
+
+#[test]
+fn by_parameters_of_formulas() {
+    for scheme in ["stormer-verlet", "blanes-moan-srkn6b", "chin-4a", "takahashi-imada"] {
+        Case { text: OSCILLATOR, scheme, h: "1/10", theta: "2" }.check();
+    }
+    Case { text: MASSES, scheme: "yoshida4", h: "1/10", theta: "3/2" }.check();
+}
+
+#[test]
+fn by_parameters_of_shipped_problems() {
+    Case {
+        text: "[problem]\nname = \"kepler\"\nparameters = { eccentricity = \"θ\" }\n",
+        scheme: "yoshida4",
+        h: "1/20",
+        theta: "1/3",
+    }
+    .check();
+}
+
+#[test]
+fn by_masses_of_bodies() {
+    Case { text: BODIES, scheme: "yoshida4", h: "1/20", theta: "1/300" }.check();
+    Case { text: PLANETS, scheme: "aba1064", h: "1/5", theta: "1/300" }.check();
+}
+
+#[test]
+fn by_the_step_size() {
+    for scheme in ["yoshida4", "chin-4a", "takahashi-imada"] {
+        Case { text: OSCILLATOR.replace('θ', "2").leak(), scheme, h: "θ", theta: "1/10" }.check();
+    }
+    Case { text: PLANETS.replace('θ', "1/300").leak(), scheme: "aba1064", h: "θ", theta: "1/5" }.check();
+}
+
+#[test]
+fn by_parameters_of_other_splits() {
+    let transformed = "[problem]\nname = \"kepler\"\nparameters = { eccentricity = \"θ\" }\n[time]\ntransform = \"power\"\nexponent = \"-1/2\"\n";
+    Case { text: transformed, scheme: "yoshida4", h: "1/20", theta: "1/3" }.check();
+    let formulas = "[problem]\ncoordinates = [\"x\", \"y\"]\nparts = [\"px^2/2 + py^2/2 + x^2/2\", \"k*x^2*y - y^3/3 + y^2/2\"]\nparameters = { k = \"θ\" }\n\
+                    [initial]\nq = [\"1/5\", \"1/3\"]\np = [0, \"1/7\"]\n";
+    Case { text: formulas, scheme: "yoshida4", h: "1/20", theta: "6/5" }.check();
+}
+
+/// The flow of a quadratic part is a matrix that is computed from its coefficients otherwise.
+#[test]
+fn unknown_derivatives_are_refused() {
+    let quadratic = "[problem]\ncoordinates = [\"x\"]\nparts = [\"px^2/2 + k*x^2/2\", \"x^4/4\"]\nparameters = { k = \"θ\" }\n\
+                     [initial]\nq = [\"1/5\"]\np = [0]\n";
+    let case = Case { text: quadratic, scheme: "yoshida4", h: "1/20", theta: "6/5" };
+    let refused = case.with(Arithmetic::DOUBLE, |request| request.forward(&mut ()).unwrap_err().to_string());
+    assert!(refused.starts_with("derivatives by θ are not known: it is no constant of the steps"), "{refused}");
+    let folded = Case { theta: "1", ..case };
+    let refused = folded.with(Arithmetic::DOUBLE, |request| request.forward(&mut ()).unwrap_err().to_string());
+    assert!(refused.starts_with("derivatives by θ are not known"), "{refused}");
+}
