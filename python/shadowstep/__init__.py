@@ -15,6 +15,7 @@ from .border import InternalError  # isort: skip, before all that takes function
 from ._shadowstep import InputError, RunError, __version__
 from .chaos import Chaos, Indicators, chaos
 from .command import command, sweep
+from .derivatives import Derivatives, Gradient, derivatives, gradient
 from .drift import drift
 from .ensemble import Ensemble, ensemble
 from .integration import Trajectory, integrate
@@ -30,8 +31,10 @@ __all__ = [
     "Chaos",
     "Choice",
     "Curve",
+    "Derivatives",
     "Diagnosis",
     "Ensemble",
+    "Gradient",
     "Indicators",
     "InputError",
     "InternalError",
@@ -50,9 +53,11 @@ __all__ = [
     "advise",
     "chaos",
     "command",
+    "derivatives",
     "diagnose",
     "drift",
     "ensemble",
+    "gradient",
     "integrate",
     "run",
     "scene",

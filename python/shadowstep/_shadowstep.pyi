@@ -29,6 +29,8 @@ class Given:
     @property
     def momenta(self) -> list[str]: ...
     @property
+    def parameters(self) -> list[tuple[str, str]]: ...
+    @property
     def initial(self) -> tuple[list[float], list[float]]: ...
     @property
     def energy(self) -> float: ...
@@ -77,39 +79,14 @@ def shipped_names() -> list[str]: ...
 def problem_names() -> list[str]: ...
 def emit(scheme: Table, target: str) -> str: ...
 def command(arguments: Sequence[str], program: str | None) -> int: ...
-def integrate(
-    problem: Given,
-    scheme: Table,
-    h: str,
-    *,
-    steps: int | None,
-    until: str | None,
-    first: str | None,
-    gradient_kicks: str,
-    every: int,
-    digits: str,
-    mpfr: bool,
-    options: Mapping[str, Any] | None,
-    progress: Progress,
-) -> dict[str, Any]: ...
+def integrate(run: Mapping[str, Any], *, options: Mapping[str, Any] | None, progress: Progress) -> dict[str, Any]: ...
 def ensemble(text: str, names: Sequence[str], columns: Sequence[np.ndarray], *, progress: Progress) -> dict[str, Any]: ...
-def chaos(
-    problem: Given,
-    scheme: Table,
-    h: str,
-    *,
-    steps: int | None,
-    until: str | None,
-    first: str | None,
-    gradient_kicks: str,
-    vectors: int,
-    exponents: int | None,
-    every: int,
-    half: bool,
-    digits: str,
-    mpfr: bool,
-    progress: Progress,
-) -> str: ...
+def chaos(run: Mapping[str, Any], *, vectors: int, exponents: int | None, half: bool, progress: Progress) -> str: ...
+def distance_of(digits: str, mpfr: bool) -> str: ...
+def derivatives(run: Mapping[str, Any], by: Sequence[tuple[str, int, Given | None]], *, progress: Progress) -> dict[str, Any]: ...
+def gradient(
+    run: Mapping[str, Any], by: Sequence[tuple[str, int, Given | None]], covectors: np.ndarray, *, progress: Progress
+) -> tuple[Any, float]: ...
 def drift(
     problem: Given,
     name: str,

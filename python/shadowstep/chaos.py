@@ -9,10 +9,11 @@ from fractions import Fraction
 from typing import Any, Union
 
 from . import _shadowstep
-from .exact import Number, count, exact
-from .problem import Problem, given_of
+from .exact import Number, count
+from .integration import run_of
+from .problem import Problem
 from .progress import bar
-from .scheme import Scheme, table_of
+from .scheme import Scheme
 
 
 @dataclass(frozen=True)
@@ -108,24 +109,10 @@ def chaos(
     >>> 0.02 < found.at.exponent < 0.08
     True
     """
-    given, table = given_of(problem), table_of(scheme)
+    run = run_of(problem, scheme, h, until, steps, first, gradient_kicks, every, digits, mpfr)
+    exponents = None if exponents is None else count(exponents, "exponents")
     with bar(None, "steps", progress) as reach:
-        found = _shadowstep.chaos(
-            given,
-            table,
-            exact(h, "h"),
-            steps=None if steps is None else count(steps, "steps"),
-            until=None if until is None else exact(until, "until"),
-            first=first,
-            gradient_kicks=gradient_kicks,
-            vectors=count(vectors, "vectors"),
-            exponents=None if exponents is None else count(exponents, "exponents"),
-            every=count(every, "every"),
-            half=half,
-            digits=str(digits),
-            mpfr=mpfr,
-            progress=reach,
-        )
+        found = _shadowstep.chaos(run, vectors=count(vectors, "vectors"), exponents=exponents, half=half, progress=reach)
     found = json.loads(found)
     records = [_indicators(record) for record in found["records"]]
     return Chaos(found["conclusion"], records[0], records[1] if half else None)

@@ -175,24 +175,10 @@ def integrate(
     >>> precise.t[-1]
     '0.3'
     """
-    given, table = given_of(problem), table_of(scheme)
-    steps = None if steps is None else count(steps, "steps")
+    run = run_of(problem, scheme, h, until, steps, first, gradient_kicks, every, digits, mpfr)
     chosen = None if estimator is None else options(estimator, order, max_order, stop, rule, accuracy)
-    with bar(steps, "steps", progress) as reach:
-        found = _shadowstep.integrate(
-            given,
-            table,
-            exact(h, "h"),
-            steps=steps,
-            until=None if until is None else exact(until, "until"),
-            first=first,
-            gradient_kicks=gradient_kicks,
-            every=count(every, "every"),
-            digits=str(digits),
-            mpfr=mpfr,
-            options=chosen,
-            progress=reach,
-        )
+    with bar(run["steps"], "steps", progress) as reach:
+        found = _shadowstep.integrate(run, options=chosen, progress=reach)
     if found["planets"] is not None:
         found["planets"] = json.loads(found["planets"])
     for note in found["notes"]:
@@ -204,3 +190,30 @@ def integrate(
     for name in ("q", "p"):
         found[name] = found[name].reshape(rows, -1)
     return Trajectory(**found)
+
+
+def run_of(
+    problem: Union[Problem, str],
+    scheme: Union[Scheme, str, os.PathLike[str]],
+    h: Number,
+    until: Number | None,
+    steps: int | None,
+    first: str | None,
+    gradient_kicks: str,
+    every: int,
+    digits: Union[int, str],
+    mpfr: bool,
+) -> dict[str, Any]:
+    """A run as the compiled module takes it."""
+    return {
+        "problem": given_of(problem),
+        "scheme": table_of(scheme),
+        "h": exact(h, "h"),
+        "steps": None if steps is None else count(steps, "steps"),
+        "until": None if until is None else exact(until, "until"),
+        "first": first,
+        "gradient_kicks": gradient_kicks,
+        "every": count(every, "every"),
+        "digits": str(digits),
+        "mpfr": mpfr,
+    }

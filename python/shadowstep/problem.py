@@ -157,6 +157,77 @@ class Problem:
             raise TypeError("this needs a problem that is given by its keys, not by a scene's file or a function for the forces")
         return self._sections
 
+    def replaced(self, numbers: Mapping[str, Number] = {}, *, q: Values | None = None, p: Values | None = None) -> Problem:
+        """The same problem with other numbers, or another state at t = 0.
+
+        Numbers have the names of parameters, or of places in lists and bodies: ``"k"``, ``"m[1]"``, ``"masses[0]"``, ``"body[1].mass"``, ``"body.earth.mass"``.
+
+        Raises
+        ------
+        InputError
+            A name that the problem has not.
+        TypeError
+            A problem of a scene's file or with a function for its forces.
+
+        Examples
+        --------
+        >>> spring = Problem("k*x^2/2", q={"x": 1}, p=[0], k=4)
+        >>> spring.replaced({"k": 2}).energy, spring.replaced(q=[3]).energy
+        (1.0, 18.0)
+        """
+        sections: dict[str, Any] = {name: _copied(content) for name, content in self.sections.items()}
+        for name, value in numbers.items():
+            container, key = self._place(sections, name)
+            container[key] = value
+        if q is not None or p is not None:
+            if sections.get("body"):
+                raise _shadowstep.InputError("the state of this problem is in its bodies: replace numbers such as 'body[1].a'")
+            now = self.initial
+            halves = {"q": q if q is not None else now[0], "p": p if p is not None else now[1]}
+            sections["initial"] = {name: _list(half) for name, half in halves.items()}
+        problem = self.__class__.__new__(self.__class__)
+        problem.__dict__.update(self.__dict__, _sections=sections, _given=Given.of_text(document(sections), "problem"))
+        return problem
+
+    def number(self, name: str) -> Number:
+        """The number of this name, as `replaced` has them, as it was given."""
+        container, key = self._place({name: _copied(content) for name, content in self.sections.items()}, name)
+        number: Number = container[key]
+        return number
+
+    def _place(self, sections: dict[str, Any], name: str) -> tuple[Any, Any]:
+        """Where a number is: what contains it, and its key or index there."""
+        first, *rest = (word for word in re.split(r"[.\[\]]+", name) if word)
+        problem = sections["problem"]
+        if first == "masses" and problem.get("masses") is None:
+            problem["masses"] = [1] * self.dimension
+        defaults = dict(self._given.parameters)
+        if first in defaults:
+            problem["parameters"] = {first: defaults[first], **(problem.get("parameters") or {})}
+        for container in (problem.get("parameters"), problem.get("bodies"), problem, sections):
+            if isinstance(container, dict) and container.get(first) is not None:
+                break
+        else:
+            raise self._unknown(name)
+        key: Any = first
+        for word in rest:
+            container = container[key]
+            if isinstance(container, list) and not word.isdigit():
+                word = next((i for i, body in enumerate(container) if isinstance(body, dict) and body.get("name") == word), word)
+            key = int(word) if isinstance(container, list) and str(word).isdigit() else word
+            known = range(len(container)) if isinstance(container, list) else container if isinstance(container, dict) else ()
+            if key not in known:
+                raise self._unknown(name)
+        if isinstance(container[key], (dict, list)):
+            raise _shadowstep.InputError(f"{name!r} has several numbers; write one of them, such as {name}[0]")
+        return container, key
+
+    def _unknown(self, name: str) -> Exception:
+        known = [*self.coordinates, *self.momenta, *dict(self._given.parameters)]
+        near = get_close_matches(name, known, n=1)
+        right = f"did you mean {near[0]!r}?" if near else f"there are {', '.join(known)}, and places such as 'masses[0]' and 'body[1].mass'"
+        return _shadowstep.InputError(f"{name!r} is not a number of the problem; {right}")
+
     @property
     def coordinates(self) -> list[str]:
         """The names of q_1, …, q_d."""
@@ -229,6 +300,15 @@ def _sections(system: str | None, q: Values | None, p: Values | None, v: Values 
 def _is_name(system: str, q: Values | None) -> bool:
     # a formula needs q; without it a word is meant as a name, which may be misspelt
     return system in problem_names() or (q is None and re.fullmatch("[a-z][a-z0-9-]*", system) is not None)
+
+
+def _copied(content: Any) -> Any:
+    """A copy of what sections have, whose arrays are lists."""
+    if isinstance(content, Mapping):
+        return {key: _copied(value) for key, value in content.items()}
+    if hasattr(content, "tolist"):  # NumPy
+        content = content.tolist()
+    return [_copied(value) for value in content] if isinstance(content, (list, tuple)) else content
 
 
 def _list(values: Values | None) -> Sequence[Number] | np.ndarray | None:

@@ -4,52 +4,33 @@ use pyo3::prelude::*;
 use serde_json::json;
 use shadowstep_scenes::Error;
 use shadowstep_scenes::chaos::{ChaosRequest, conclusion};
-use shadowstep_scenes::library::check_displaced;
 use shadowstep_scenes::run::Run;
 use shadowstep_scenes::tangent::Vectors;
 
 use crate::errors::exception;
-use crate::given::{Given, arithmetic, word};
-use crate::integrate::{SystemWithScheme, Times, beginning_with, first_map, times};
-use crate::scheme::Table;
+use crate::given_run::{GivenRun, Times};
 use crate::waiting::waiting;
 
 /// The records of runs at h and, if `half` is true, h/2, with what both say, as JSON.
 #[pyfunction]
-#[pyo3(signature = (problem, scheme, h, *, steps, until, first, gradient_kicks, vectors, exponents, every, half, digits, mpfr, progress))]
-#[allow(clippy::too_many_arguments)] // the package's own function has the defaults
+#[pyo3(signature = (run, *, vectors, exponents, half, progress))]
 pub(crate) fn chaos(
     py: Python<'_>,
-    problem: &Given,
-    scheme: &Table,
-    h: &str,
-    steps: Option<u64>,
-    until: Option<&str>,
-    first: Option<&str>,
-    gradient_kicks: &str,
+    run: GivenRun,
     vectors: usize,
     exponents: Option<usize>,
-    every: u64,
     half: bool,
-    digits: &str,
-    mpfr: bool,
     progress: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<String> {
-    let arithmetic = arithmetic(py, digits, mpfr)?;
-    let first = first.map(|given| first_map(py, given)).transpose()?;
-    let scheme = beginning_with(py, &scheme.0, first)?;
-    let displaced = word(py, "gradient_kicks", gradient_kicks, &[("exact", false), ("displaced", true)])?;
-    let times = times(py, problem, arithmetic, (h, steps, until))?;
+    let given = run.read(py)?;
     let vectors = exponents.map_or(Vectors::Free(vectors), Vectors::Orthonormal);
-    let given = problem.clone();
+    let problem = given.problem.clone();
     let found = waiting(py, progress, move |watched| -> Result<String, Error> {
-        let posed = SystemWithScheme::of(&given, &scheme, arithmetic)?;
-        if displaced {
-            check_displaced(&posed.scheme)?;
-        }
-        let Times { h, steps, physical_end, .. } = &times;
+        let posed = given.posed()?;
+        let Times { h, steps, physical_end, .. } = &given.times;
         let run = Run { propagator: &posed.scheme.name, h, steps: *steps, order: None };
         let (system, scheme, until) = (&posed.system, &posed.scheme.scheme, physical_end.as_ref());
+        let (arithmetic, displaced, every) = (given.arithmetic, given.displaced, given.every);
         let request = ChaosRequest { system, scheme, run, arithmetic, displaced, until, vectors, every };
         let mut records = Vec::new();
         for parts in if half { 1..=2 } else { 1..=1 } {

@@ -11,7 +11,7 @@ use shadowstep_scenes::run::{OrderSetting, Run};
 use crate::errors::exception;
 use crate::estimator::Options;
 use crate::given::{Given, arithmetic, number};
-use crate::integrate::{SystemWithScheme, Times};
+use crate::given_run::{SystemWithScheme, Times};
 use crate::scheme::Table;
 use crate::waiting::{Watched, waiting};
 

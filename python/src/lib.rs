@@ -33,6 +33,7 @@ mod ensemble;
 mod errors;
 mod estimator;
 mod given;
+mod given_run;
 mod integrate;
 mod monitor;
 mod own_forces;

@@ -23,7 +23,7 @@ use shadowstep_scenes::watch::{Approaches, Interactions};
 
 use crate::errors::exception;
 use crate::given::{Given, arithmetic, step_size};
-use crate::integrate::SystemWithScheme;
+use crate::given_run::SystemWithScheme;
 use crate::scheme::Table;
 use crate::waiting::{Watched, answered, awaited, spawned};
 

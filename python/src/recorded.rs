@@ -16,7 +16,7 @@ use shadowstep_scenes::start::{Begin, SceneIntegrator, Steps};
 
 use crate::errors::{exception, usage};
 use crate::given::{Given, step_size};
-use crate::integrate::SystemWithScheme;
+use crate::given_run::SystemWithScheme;
 use crate::scheme::Table;
 use crate::waiting::waiting;
 

@@ -23,7 +23,7 @@ use shadowstep_work_precision::study::{Cost, Request, Studied, Study};
 
 use crate::errors::{exception, usage};
 use crate::given::{Given, arithmetic, number, word};
-use crate::integrate::{SystemWithScheme, beginning_with, first_map};
+use crate::given_run::{SystemWithScheme, beginning_with, first_map};
 use crate::scheme::Table;
 use crate::waiting::waiting;
 

@@ -1,0 +1,268 @@
+"""Derivatives of runs: forwards by tangent vectors, and backwards by steps back."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any, Union
+
+import numpy as np
+
+from . import _shadowstep
+from ._shadowstep import Given, InputError
+from .exact import Number, exact
+from .integration import integrate, run_of
+from .problem import Problem, problem_of
+from .progress import bar
+from .scheme import Scheme
+
+Loss = Callable[[np.ndarray, np.ndarray], "tuple[float, Any, Any]"]
+
+
+@dataclass(frozen=True, repr=False)
+class Derivatives:
+    """States of a run with their derivatives by k variables: n states of d coordinates.
+
+    With more digits than double precision has, arrays are those of decimal texts.
+    """
+
+    by: list[str]
+    """The names of the variables."""
+    n: np.ndarray
+    """The numbers of the states, of shape (n,)."""
+    q: np.ndarray
+    """Positions, of shape (n, d)."""
+    p: np.ndarray
+    """Momenta, of shape (n, d)."""
+    of_q: np.ndarray
+    """∂q/∂(variables), of shape (n, d, k)."""
+    of_p: np.ndarray
+    """∂p/∂(variables), of shape (n, d, k)."""
+
+    def __repr__(self) -> str:
+        return f"Derivatives({len(self.n)} states of {self.q.shape[1]} coordinates by {', '.join(self.by)})"
+
+
+@dataclass(frozen=True)
+class Gradient:
+    """The value of a function of the states of a run, and its derivatives."""
+
+    value: float
+    """The value of the function."""
+    by: dict[str, Any]
+    """Its derivatives by the variables."""
+    reversal_error: float
+    """How far the steps back end from the initial state, as a part of the largest coordinate or momentum: by round-off, which grows with the steps."""
+
+
+def derivatives(
+    problem: Union[Problem, str],
+    scheme: Union[Scheme, str, os.PathLike[str]],
+    h: Number,
+    until: Number | None = None,
+    *,
+    by: Sequence[str] | None = None,
+    steps: int | None = None,
+    first: str | None = None,
+    gradient_kicks: str = "exact",
+    every: int = 1,
+    digits: Union[int, str] = "double",
+    mpfr: bool = False,
+    progress: bool | None = None,
+) -> Derivatives:
+    """The states of a run with their derivatives by the initial state, by parameters, masses and the step size: of the steps, not of the exact flow.
+
+    Each variable costs a tangent vector, about twice a run; for a function of the states and many variables see `gradient`.
+
+    Parameters
+    ----------
+    problem, scheme, h, until, steps, first, gradient_kicks, every, digits, mpfr, progress
+        As in `integrate`. In transformed time steps are given.
+    by
+        The variables: names of coordinates and momenta, which mean the state at t = 0; names of numbers of the problem, as `Problem.replaced` has
+        them; and ``"h"``, at a fixed number of steps. By default all coordinates and momenta.
+
+    Raises
+    ------
+    InputError
+        A name that the problem has not; a number that enters the steps otherwise than as a constant, as a cutoff does; forces that the caller
+        computes, as they have no second derivatives.
+    RunError
+        A state or a derivative that is not finite.
+
+    Examples
+    --------
+    >>> import shadowstep
+    >>> spring = shadowstep.Problem("k*x^2/2", q={"x": 1}, p=[0], k=4)
+    >>> found = shadowstep.derivatives(spring, "yoshida4", h="1/100", until=1, every=100, by=["x", "k"])
+    >>> found.of_q.shape
+    (2, 1, 2)
+    >>> [round(float(x), 6) for x in found.of_q[-1, 0]]  # of cos(√k t): cos 2 and −sin(2)/4
+    [-0.416147, -0.227324]
+    """
+    problem = problem_of(problem)
+    names = [*problem.coordinates, *problem.momenta] if by is None else list(by)
+    run = run_of(problem, scheme, h, until, steps, first, gradient_kicks, every, digits, mpfr)
+    variables = _variables(problem, names, str(digits), mpfr)
+    with bar(run["steps"], "steps", progress) as reach:
+        found = _shadowstep.derivatives(run, variables, progress=reach)
+    states, rows = _array(found["states"]), len(found["n"])
+    q, p = np.split(states.reshape(rows, -1), 2, axis=1)
+    columns = [np.split(_array(column).reshape(rows, -1), 2, axis=1) for column in found["by"]]
+    of_q, of_p = (np.stack([column[half] for column in columns], axis=-1) if columns else np.zeros((*q.shape, 0)) for half in (0, 1))
+    return Derivatives(names, found["n"], q, p, of_q, of_p)
+
+
+def gradient(
+    loss: Loss,
+    problem: Union[Problem, str],
+    scheme: Union[Scheme, str, os.PathLike[str]],
+    h: Number,
+    until: Number | None = None,
+    *,
+    by: Sequence[str] | None = None,
+    steps: int | None = None,
+    first: str | None = None,
+    gradient_kicks: str = "exact",
+    every: int = 1,
+    digits: Union[int, str] = "double",
+    mpfr: bool = False,
+    progress: bool | None = None,
+) -> Gradient:
+    """The derivatives of a function of the states by the initial state, by parameters, masses and the step size, backwards.
+
+    The steps are made back with one tangent vector for the initial state, and one for each other variable; no states are kept but those that the
+    function gets. For functions of JAX and PyTorch see `shadowstep.jax` and `shadowstep.torch`.
+
+    Parameters
+    ----------
+    loss
+        It gets q and p of the states 0, every, 2 every, … and of the last one, of shape (n, d) in double precision, and returns its value with its
+        derivatives by q and by p, in the same shape; None means 0.
+    problem, scheme, h, until, by, steps, first, gradient_kicks, every, digits, mpfr, progress
+        As in `derivatives`.
+
+    Raises
+    ------
+    InputError, RunError
+        As `derivatives`.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import shadowstep
+    >>> def distance(q, p):  # of the last state from (1, 1), squared
+    ...     of_q = np.zeros_like(q)
+    ...     of_q[-1] = 2*(q[-1] - 1)
+    ...     return ((q[-1] - 1)**2).sum(), of_q, None
+    >>> found = shadowstep.gradient(distance, "henon-heiles", "blanes-moan-srkn6b", h="1/5", until=10, by=["x", "px", "h"])
+    >>> sorted(found.by)
+    ['h', 'px', 'x']
+    >>> found.reversal_error < 1e-12
+    True
+    """
+    problem = problem_of(problem)
+    names = [*problem.coordinates, *problem.momenta] if by is None else list(by)
+    variables = _variables(problem, names, str(digits), mpfr)
+    run = run_of(problem, scheme, h, until, steps, first, gradient_kicks, every, digits, mpfr)
+    made = integrate(
+        problem, scheme, h, until, steps=steps, first=first, gradient_kicks=gradient_kicks, every=every, digits=digits, mpfr=mpfr, progress=progress
+    )
+    q, p = (np.asarray(half, dtype=float) for half in (made.q, made.p))
+    value, of_q, of_p = loss(q, p)
+    covectors = _covectors(q.shape, of_q, of_p)
+    with bar(run["steps"], "steps", progress) as reach:
+        found, error = _shadowstep.gradient(run, variables, covectors, progress=reach)
+    return Gradient(float(value), dict(zip(names, _array(found).tolist())), error)
+
+
+class Flow:
+    """The states of a run as a function of its initial state and of numbers of the problem, with derivatives backwards: what `shadowstep.jax` and
+    `shadowstep.torch` make functions of.
+
+    Parameters
+    ----------
+    by
+        Names of numbers, as in `derivatives`, whose values the function gets; ``"h"`` is the step size, at a fixed number of steps.
+    problem, scheme, h, until, steps, first, gradient_kicks, every
+        As in `integrate`.
+    """
+
+    def __init__(
+        self,
+        problem: Union[Problem, str],
+        scheme: Union[Scheme, str, os.PathLike[str]],
+        h: Number,
+        until: Number | None = None,
+        *,
+        by: Sequence[str] = (),
+        steps: int | None = None,
+        first: str | None = None,
+        gradient_kicks: str = "exact",
+        every: int = 1,
+    ) -> None:
+        self._problem, self._scheme, self._by = problem_of(problem), scheme, list(by)
+        self._h = h
+        self._options: dict[str, Any] = {"first": first, "gradient_kicks": gradient_kicks, "every": every}
+        if steps is None:  # of each step size
+            made = integrate(self._problem, scheme, h, until, first=first, gradient_kicks=gradient_kicks, every=2**63 - 1, progress=False)
+            steps = int(made.n[-1])
+        self.steps = steps
+        """The number of steps."""
+        self.dimension = self._problem.dimension
+        """d, the number of coordinates."""
+        self.rows = steps // every + 1 + (steps % every > 0)
+        """The number of states that it has."""
+
+    def _at(self, q: Any, p: Any, numbers: Any) -> tuple[Problem, Number]:
+        q, p, numbers = (np.asarray(given, dtype=float) for given in (q, p, numbers))
+        if numbers.shape != (len(self._by),):
+            raise InputError(f"there are {numbers.size} numbers for the {len(self._by)} names in `by`")
+        values = dict(zip(self._by, numbers.tolist()))
+        h = values.pop("h", self._h)
+        return self._problem.replaced(values, q=q, p=p), h
+
+    def states(self, q: Any, p: Any, numbers: Any = ()) -> tuple[np.ndarray, np.ndarray]:
+        """q and p of the states, of shape (rows, d), from the initial state q, p of shape (d,) with these values of the numbers."""
+        problem, h = self._at(q, p, numbers)
+        made = integrate(problem, self._scheme, h, steps=self.steps, progress=False, **self._options)
+        return made.q, made.p
+
+    def pull_back(self, q: Any, p: Any, numbers: Any, of_q: Any, of_p: Any) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """The derivatives of a function by q, p and the numbers, from those by the states, each of shape (rows, d)."""
+        problem, h = self._at(q, p, numbers)
+        names = [*problem.coordinates, *problem.momenta, *self._by]
+        run = run_of(problem, self._scheme, h, None, self.steps, digits="double", mpfr=False, **self._options)
+        covectors = _covectors((self.rows, self.dimension), of_q, of_p)
+        found, _ = _shadowstep.gradient(run, _variables(problem, names, "double", False), covectors, progress=None)
+        by_q, by_p, by_numbers = np.split(found, [self.dimension, 2 * self.dimension])
+        return by_q, by_p, by_numbers
+
+
+def _covectors(shape: tuple[int, ...], of_q: Any, of_p: Any) -> np.ndarray:
+    """The derivatives of a function by the states, flat."""
+    halves = []
+    for name, given in (("q", of_q), ("p", of_p)):
+        half = np.zeros(shape) if given is None else np.asarray(given, dtype=float)
+        if half.shape != shape:
+            raise InputError(f"the derivatives by {name} have the shape {half.shape}, not {shape}")
+        halves.append(half)
+    return np.ascontiguousarray(np.concatenate(halves, axis=1)).ravel()
+
+
+def _variables(problem: Problem, names: Sequence[str], digits: str, mpfr: bool) -> list[tuple[str, int, Given | None]]:
+    halves = (("q", problem.coordinates), ("p", problem.momenta))
+    places = {name: (half, i, None) for half, all_names in halves for i, name in enumerate(all_names)}
+    return [places.get(name) or _number(problem, name, digits, mpfr) for name in names]
+
+
+def _number(problem: Problem, name: str, digits: str, mpfr: bool) -> tuple[str, int, Given | None]:
+    if name == "h" and "h" not in dict(problem._given.parameters):
+        return name, 0, None
+    nearby = f"({exact(problem.number(name), name)}) + {_shadowstep.distance_of(digits, mpfr)}"
+    return name, 0, problem.replaced({name: nearby})._given
+
+
+def _array(numbers: Any) -> np.ndarray:
+    return numbers if isinstance(numbers, np.ndarray) else np.array(numbers, dtype=object)
