@@ -24,17 +24,20 @@ def ordinary(function: Callable[..., Any]) -> Callable[..., Any]:
     def called(*arguments: Any, **named: Any) -> Any:
         try:
             return function(*arguments, **named)
-        except TypeError as error:
+        except TypeError as raised:
+            error: BaseException = raised
             # PyO3 notes it, where Python has notes
             notes = [note for note in getattr(error, "__notes__", ()) if note.startswith(_PROCESSING)]
             if not notes:
                 raise
             argument = notes[0].removeprefix(_PROCESSING).strip("'")
+            if argument == "run" and error.__cause__ is not None:  # a field of it
+                argument, error = str(error).rpartition(".")[2], error.__cause__
             wrong: Exception = TypeError(f"{argument}: {error}")
-        except BaseException as error:
-            if type(error).__name__ != "PanicException":
+        except BaseException as panic:
+            if type(panic).__name__ != "PanicException":
                 raise
-            wrong = InternalError(f"{error} (a fault of shadowstep {_shadowstep.__version__}: please report it)")
+            wrong = InternalError(f"{panic} (a fault of shadowstep {_shadowstep.__version__}: please report it)")
         raise wrong
 
     return called

@@ -86,7 +86,7 @@ def derivatives(
     Raises
     ------
     InputError
-        A name that the problem has not; a number that enters the steps otherwise than as a constant, as a cutoff does; forces that the caller
+        A name that the problem has not; a number that enters the steps otherwise than as a constant, as one of a part that is a quadratic form does; forces that the caller
         computes, as they have no second derivatives.
     RunError
         A state or a derivative that is not finite.

@@ -203,7 +203,8 @@ class Problem:
             problem["masses"] = [1] * self.dimension
         defaults = dict(self._given.parameters)
         if first in defaults:
-            problem["parameters"] = {first: defaults[first], **(problem.get("parameters") or {})}
+            problem["parameters"] = {**(problem.get("parameters") or {})}
+            problem["parameters"].setdefault(first, defaults[first])
         for container in (problem.get("parameters"), problem.get("bodies"), problem, sections):
             if isinstance(container, dict) and container.get(first) is not None:
                 break

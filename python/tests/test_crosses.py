@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 import shadowstep
-from shadowstep import InputError, Monitor, Problem, advise, chaos, drift, integrate, run, sweep, work_precision
+from shadowstep import InputError, Monitor, Problem, advise, chaos, derivatives, drift, gradient, integrate, run, sweep, work_precision
 
 FOLDER = Path(__file__).resolve().parents[2] / "cli/tests/crosses"
 
@@ -109,6 +109,23 @@ def followed(system, way, folder):
     assert found.conclusion == "not decided: the run is too short"
 
 
+def differentiated(system, way, folder):
+    mpfr = "--mpfr" in way.keys["numbers"]
+    options = {"steps": STEPS, "first": first(way), "digits": digits(way), "mpfr": mpfr, "every": STEPS}
+    posed = problem(system, folder)
+    options["by"] = [posed.coordinates[0], posed.momenta[-1]]
+    found = derivatives(posed, scheme(way), step(system, way), **options)
+    finite(found.of_p[-1].ravel())
+
+    def first_at_end(q, p):
+        of_q = np.zeros_like(q)
+        of_q[-1, 0] = 1.0
+        return q[-1, 0], of_q, None
+
+    by = gradient(first_at_end, posed, scheme(way), step(system, way), **options).by
+    assert np.allclose([float(x) for x in by.values()], found.of_q[-1, 0].astype(float), rtol=1e-9, atol=1e-9)
+
+
 def monitored(system, way, folder):
     monitor = Monitor(problem(system, folder), scheme(way), step(system, way), order=4, every=1, digits=digits(way))
     monitor.step(40)
@@ -147,10 +164,10 @@ def swept(system, way, folder):
     assert len(found["energy_error"]) == 2
 
 
-FUNCTIONS = {"integrate": integrated, "drift": drifted, "chaos": followed, "Monitor": monitored, "work_precision": compared, "advise": advised, "run": ran, "sweep": swept}
+FUNCTIONS = {"integrate": integrated, "drift": drifted, "chaos": followed, "derivatives": differentiated, "Monitor": monitored, "work_precision": compared, "advise": advised, "run": ran, "sweep": swept}
 
 # Of [run] the first two of these read a scheme by its name or table only, and the last two no `mpfr`.
-OF_PROBLEMS = ["drift", "Monitor", "chaos", "integrate", "work_precision", "advise"]
+OF_PROBLEMS = ["drift", "Monitor", "chaos", "derivatives", "integrate", "work_precision", "advise"]
 LONG = "double-double", "digits", "mpfr", "many-digits"
 REFUSED = {("ensemble", function) for function in [*OF_PROBLEMS, "sweep"]} | {(way, "Monitor") for way in LONG}
 REFUSED |= {("many-digits", function) for function in ("work_precision", "advise")}

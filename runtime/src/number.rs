@@ -39,7 +39,7 @@ pub use double_double::{DoubleDouble, Machine};
 pub(crate) use double::scaled;
 #[doc(hidden)]
 pub use doubles::Doubles;
-pub use dual::{Dual, OtherConstants, with_parameter};
+pub use dual::{Dual, ParameterError, with_parameter};
 pub(crate) use epsilon::epsilon;
 pub use fused::Fused;
 pub use lanes::Lanes;

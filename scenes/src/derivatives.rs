@@ -9,7 +9,7 @@ mod tests;
 pub use backward::Gradient;
 pub use forward::Derivatives;
 
-use shadowstep::number::{Dual, Number, OtherConstants, with_parameter};
+use shadowstep::number::{Dual, Number, ParameterError, with_parameter};
 use shadowstep::shadow::run::{NotFinite, Quantity, RunError};
 use shadowstep::steps::integrator::{VectorIntegrator, at_output};
 use shadowstep::tables::{AtRunTime, TableScheme};
@@ -166,21 +166,26 @@ impl Differentiation<'_> {
             None => {}
             Some(Variable::Position(i)) => q[*i].derivatives = one(),
             Some(Variable::Momentum(i)) => p[*i].derivatives = one(),
-            Some(Variable::Parameter(parameter)) => return self.begin_parameter(parameter, context),
+            Some(Variable::Parameter(parameter)) => return self.begin_parameter(parameter, |state| state, context),
         }
         Ok(self.begin_at(self.system, self.run.h, (q, p))?)
     }
 
-    fn begin_parameter<N: RunNumber>(&self, parameter: &Parameter, context: &N::Context) -> Result<Begun<N>, Error>
+    fn begin_parameter<N: RunNumber>(
+        &self,
+        parameter: &Parameter,
+        from: impl Fn(State<Dual<N>>) -> State<Dual<N>>,
+        context: &N::Context,
+    ) -> Result<Begun<N>, Error>
     where
         Dual<N>: SceneNumber<Context = N::Context>,
     {
         let of = [(self.system, self.run.h), (self.precise, self.run.h), (&parameter.system, &parameter.h)];
         let found = with_parameter(&distance(self.arithmetic), |i| {
             let (system, h) = of[i];
-            self.begin_at(system, h, system.initial(context))
+            self.begin_at(system, h, from(system.initial(context)))
         });
-        let found = found.map_err(|error: OtherConstants| {
+        let found = found.map_err(|error: ParameterError| {
             let name = &parameter.name;
             Error::usage(format!("derivatives by {name} are not known: {error}"), "choose a value beside it")
         });

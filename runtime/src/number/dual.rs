@@ -2,7 +2,7 @@
 
 mod constants;
 
-pub use constants::{OtherConstants, with_parameter};
+pub use constants::{ParameterError, with_parameter};
 
 use std::cmp::Ordering;
 use std::fmt;

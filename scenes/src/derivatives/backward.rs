@@ -19,7 +19,8 @@ use crate::tangent::WithDerivatives;
 pub struct Gradient {
     /// The derivative by each variable.
     pub by: Array,
-    /// How far the steps back end from the initial state: the largest error of a coordinate as a part of the largest coordinate, or of momenta likewise.
+    /// How far the steps back end from the initial state: the largest error of a coordinate as a part of the largest coordinate at the start or at the
+    /// end, or the same of momenta.
     pub reversal_error: f64,
 }
 
@@ -68,6 +69,7 @@ impl WithDerivatives for Backward<'_, '_> {
             request.ask(n, observer)?;
         }
         request.check_finite(n, &begun.output())?;
+        let end = values(&begun.integrator);
         let mut backwards = Backwards::new(request, begun, context)?;
         let width = covectors.len() / rows.len();
         for (row, covector) in rows.iter().zip(covectors.chunks(width)).rev() {
@@ -83,7 +85,7 @@ impl WithDerivatives for Backward<'_, '_> {
         if let Some(by) = by.iter().find(|by| !by.is_finite()) {
             return Err(request.run.not_finite(&format!("a component of the gradient is {}: it", by.to_text())));
         }
-        let reversal_error = largest_error(&start, &values(backwards.adjoint.integrator()));
+        let reversal_error = largest_error(&start, &end, &values(backwards.adjoint.integrator()));
         Ok(Gradient { by: Array::of(&by, request.arithmetic), reversal_error })
     }
 }
@@ -189,12 +191,13 @@ fn values<N: RunNumber>(integrator: &SceneIntegrator<Dual<N>>) -> [Vec<f64>; 2] 
     [values(integrator.state().q()), values(integrator.state().p())]
 }
 
-fn largest_error(a: &[Vec<f64>; 2], b: &[Vec<f64>; 2]) -> f64 {
-    let of = |(a, b): (&Vec<f64>, &Vec<f64>)| {
-        let largest = |all: &mut dyn Iterator<Item = f64>| all.map(f64::abs).fold(0.0, f64::max);
-        let size = largest(&mut a.iter().copied());
-        let error = largest(&mut a.iter().zip(b).map(|(a, b)| a - b));
+/// Of q and of p: the largest difference as a part of the largest number at the start or at the end.
+fn largest_error(start: &[Vec<f64>; 2], end: &[Vec<f64>; 2], back: &[Vec<f64>; 2]) -> f64 {
+    let largest = |numbers: &mut dyn Iterator<Item = f64>| numbers.map(f64::abs).fold(0.0, f64::max);
+    let of = |half: usize| {
+        let size = largest(&mut start[half].iter().chain(&end[half]).copied());
+        let error = largest(&mut start[half].iter().zip(&back[half]).map(|(a, b)| a - b));
         if error == 0.0 { 0.0 } else { error / size }
     };
-    a.iter().zip(b).map(of).fold(0.0, f64::max)
+    of(0).max(of(1))
 }

@@ -1,13 +1,14 @@
-//! Whether derivatives by a parameter are right: a number may come into the steps in another way than as a constant, as a cutoff does.
+//! Whether derivatives by a parameter are right: a number may enter the steps otherwise than as a constant.
 
 use shadowstep::number::AnyLimbs;
 use shadowstep::steps::integrator::at_output;
-use shadowstep::{Carried, Integrator as _, Number, StepSize};
+use shadowstep::{Carried, Integrator as _, Number, Rational, StepSize};
 
 use super::{Differentiation, Parameter, distance, output, precise};
 use crate::arithmetic::{Digits, Numbers};
 use crate::error::Error;
 use crate::scene::System;
+use crate::scene::split::State;
 
 /// Of the largest derivative. The difference is right to the distance, at most 10⁻²⁵ of the second derivative; a derivative that is missing is wrong by a size
 /// of order 1.
@@ -19,14 +20,15 @@ impl Differentiation<'_> {
         let arithmetic = precise(self.arithmetic)?;
         let Numbers::Digits(_, Digits::Limbs(count)) = arithmetic.numbers() else { unreachable!("they have limbs") };
         let step = |system: &System, h: &StepSize| -> Result<Vec<AnyLimbs>, Error> {
-            let mut integrator = system.integrator(self.steps(h), system.start(&count), &count)?;
+            let state = system.start_at(beside(system.initial::<AnyLimbs>(&count), &count), &count);
+            let mut integrator = system.integrator(self.steps(h), state, &count)?;
             integrator.step(Carried::Nothing);
             let mut shown = system.shown(&count);
             Ok(at_output(&mut *integrator, |integrator| output(integrator, &mut shown)))
         };
         let (here, there) = (step(self.precise, self.run.h)?, step(&parameter.system, &parameter.h)?);
         let exactly = Differentiation { system: self.precise, ..*self };
-        let mut begun = exactly.begin_parameter::<AnyLimbs>(parameter, &count)?;
+        let mut begun = exactly.begin_parameter::<AnyLimbs>(parameter, |state| beside(state, &count), &count)?;
         begun.integrator.step(Carried::Nothing);
         let inverse = AnyLimbs::from_rational(&distance(self.arithmetic).recip(), &count);
         let pairs: Vec<(f64, f64)> = begun
@@ -49,4 +51,15 @@ impl Differentiation<'_> {
             "take derivatives by other parameters; differences of runs at nearby values are left",
         ))
     }
+}
+
+/// A state beside another one, from which nothing vanishes by symmetry: a part that a state at rest does not show is not missed.
+fn beside<N: Number>((mut q, mut p): State<N>, context: &N::Context) -> State<N> {
+    for (i, x) in (1..).zip(q.iter_mut().chain(&mut p)) {
+        let mut factor = N::from_rational(&Rational::new((8192 + i % 7).into(), 8192.into()), context);
+        std::mem::swap(x, &mut factor);
+        x.multiply(&factor);
+        x.add(&N::from_rational(&Rational::new((1 + i % 5).into(), 65_536.into()), context));
+    }
+    (q, p)
 }

@@ -174,7 +174,7 @@ fn by_parameters_of_other_splits() {
 #[test]
 fn unknown_derivatives_are_refused() {
     let quadratic = "[problem]\ncoordinates = [\"x\"]\nparts = [\"px^2/2 + k*x^2/2\", \"x^4/4\"]\nparameters = { k = \"θ\" }\n\
-                     [initial]\nq = [\"1/5\"]\np = [0]\n";
+                     [initial]\nq = [0]\np = [0]\n";
     let case = Case { text: quadratic, scheme: "yoshida4", h: "1/20", theta: "6/5" };
     let refused = case.with(Arithmetic::DOUBLE, |request| request.forward(&mut ()).unwrap_err().to_string());
     assert!(refused.starts_with("derivatives by θ are not known: it is no constant of the steps"), "{refused}");

@@ -10,10 +10,16 @@ use thiserror::Error;
 use crate::Rational;
 use num_traits::Zero;
 
-/// What was made at the second value of a parameter has not the same constants in the same order.
+/// Why constants have no derivatives by a parameter.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
-#[error("the formulas have another form at a nearby value of the parameter")]
-pub struct OtherConstants;
+pub enum ParameterError {
+    /// What is made at the second value has not the same constants in the same order.
+    #[error("the formulas have another form at a nearby value")]
+    OtherForm,
+    /// All are the same at both values.
+    #[error("no constant of the steps depends on it")]
+    NoConstant,
+}
 
 /// What happens to the constants of this thread.
 enum Constants {
@@ -63,8 +69,8 @@ pub(super) fn derivative(value: &Rational) -> Option<Rational> {
 /// ```
 ///
 /// # Errors
-/// Constants that are not the same ones at both values.
-pub fn with_parameter<T>(distance: &Rational, mut make: impl FnMut(usize) -> T) -> Result<T, OtherConstants> {
+/// Constants that are not the same ones at both values, or have the same values.
+pub fn with_parameter<T>(distance: &Rational, mut make: impl FnMut(usize) -> T) -> Result<T, ParameterError> {
     // if `make` panics, too
     let _plain = Plain;
     let mut noted = |at: usize| {
@@ -75,14 +81,17 @@ pub fn with_parameter<T>(distance: &Rational, mut make: impl FnMut(usize) -> T) 
     };
     let (here, there) = (noted(1), noted(2));
     if here.len() != there.len() {
-        return Err(OtherConstants);
+        return Err(ParameterError::OtherForm);
+    }
+    if here == there {
+        return Err(ParameterError::NoConstant);
     }
     let derivatives = here.iter().zip(&there).rev().map(|(here, there)| (there - here) / distance).collect();
     set(Some(Constants::Differentiated { derivatives, fits: true }));
     let made = make(0);
     match set(None) {
         Some(Constants::Differentiated { derivatives, fits: true }) if derivatives.is_empty() => Ok(made),
-        _ => Err(OtherConstants),
+        _ => Err(ParameterError::OtherForm),
     }
 }
 
