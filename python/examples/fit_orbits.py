@@ -9,52 +9,42 @@ from scipy.optimize import least_squares, minimize
 
 import shadowstep
 
-G = 2.9591220828559115e-4  # AU³/(solar mass · day²)
+YEAR = 365.25
 
 
 def planets():
-    """Two planets as heavy as Jupiter and Saturn, whose periods are nearly 2 : 1, so that their masses show."""
-    names = ["m[1]", "m[2]"]
-    true = shadowstep.Problem(
-        pair="-g*m_i*m_j/sqrt(r2)", dimensions=2, bodies={"m": [1, 9.5e-4, 2.9e-4]}, g=G, q=[0, 0, 1, 0, -1.6, 0], v=[0, 0, 0, 0.0172, 0, -0.0136]
-    )
-    run = {"scheme": "blanes-moan-srkn6b", "h": "2", "until": 4000, "every": 40}
-    seen = [2, 3, 4, 5]  # the coordinates of the planets
-    noise = 1e-4
-    made = shadowstep.integrate(true, **run)
-    observed = made.q[:, seen] + noise * np.random.default_rng(1).standard_normal(made.q[:, seen].shape)
+    """Two planets as heavy as Jupiter and Saturn near a resonance of 2 : 1, so that their masses show in their positions."""
+    bodies = [
+        {"name": "star", "mass": 1},
+        {"name": "b", "mass": 9.5e-4, "a": 1, "e": 0.05, "pericentre": 30, "M": 10},
+        {"name": "c", "mass": 2.9e-4, "a": 1.6, "e": 0.08, "pericentre": 200, "M": 300},
+    ]
+    units = {"length": "AU", "time": "day", "mass": "solar"}
+    true = shadowstep.Problem(parts="wisdom-holman", units=units, body=bodies)
+    run = {"scheme": "aba1064", "h": "10", "until": 5 * YEAR, "every": 2}
+    names = [f"body.{planet}.{element}" for planet in "bc" for element in ("mass", "a", "e", "pericentre", "M")]
+    noise = 1e-4  # AU
 
-    coordinates = [true.coordinates[i] for i in seen]
-    momenta = [true.momenta[i] for i in seen]
-    q, p = true.initial
+    def seen(q):
+        """The positions of the planets in the plane, from the star."""
+        return np.concatenate([q[:, 3:5] - q[:, :2], q[:, 6:8] - q[:, :2]], axis=1) / noise
 
-    def at(x):
-        """The problem at masses, positions and velocities of the planets."""
-        masses, positions, velocities = np.split(x, [2, 6])
-        at_p = p.copy()
-        at_p[2:] = np.repeat(masses, 2) * velocities
-        at_q = q.copy()
-        at_q[2:] = positions
-        return true.replaced(dict(zip(names, masses)), q=at_q, p=at_p)
+    exact = np.array([float(true.number(name)) for name in names])
+    clean = seen(shadowstep.integrate(true, **run).q)
+    observed = clean + np.random.default_rng(1).standard_normal(clean.shape)
 
     def residuals(x):
-        return ((shadowstep.integrate(at(x), **run).q[:, seen] - observed) / noise).ravel()
+        return (seen(shadowstep.integrate(true.replaced(dict(zip(names, x))), **run).q) - observed).ravel()
 
     def jacobian(x):
-        found = shadowstep.derivatives(at(x), by=[*names, *coordinates, *momenta], **run).of_q[:, seen].reshape(-1, 10)
-        masses, velocities = np.repeat(x[:2], 2), x[6:]
-        by_masses, by_q, by_p = np.split(found, [2, 6], axis=1)
-        # p = m v
-        by_masses = by_masses + np.stack([by_p[:, :2] @ velocities[:2], by_p[:, 2:] @ velocities[2:]], axis=1)
-        return np.concatenate([by_masses, by_q, by_p * masses], axis=1) / noise
+        return seen(shadowstep.derivatives(true.replaced(dict(zip(names, x))), by=names, **run).of_q).reshape(-1, len(names))
 
-    exact = np.concatenate([[9.5e-4, 2.9e-4], q[2:], p[2:] / np.repeat([9.5e-4, 2.9e-4], 2)])
-    start = exact * (1 + 0.002 * np.random.default_rng(2).standard_normal(10)) * np.repeat([0.5, 1], [2, 8])
-    found = least_squares(residuals, start, jacobian, x_scale="jac", verbose=2)
+    start = exact * np.where([name.endswith("mass") for name in names], 0.5, 1 + 0.01 * np.random.default_rng(2).standard_normal(10))
+    found = least_squares(residuals, start, jacobian, x_scale="jac")
     errors = np.sqrt(np.diag(np.linalg.inv(found.jac.T @ found.jac)))
-    print(f"planets: {found.nfev} runs, {found.njev} Jacobians, χ²/(n − 10) = {2 * found.cost / (observed.size - 10):.3f}")
-    for name, value, error, right in zip(["m_1", "m_2"], found.x, errors, exact):
-        print(f"  {name} = ({value * 1e4:.4f} ± {error * 1e4:.4f})e-4, true {right * 1e4:.4f}e-4, begun at {start[int(name[-1]) - 1] * 1e4:.2f}e-4")
+    print(f"planets: {found.nfev} runs, {found.njev} with derivatives; χ² = {2 * found.cost:.0f} of {observed.size} numbers")
+    for name, value, error, right, begun in zip(names, found.x, errors, exact, start):
+        print(f"  {name:17} {value:.7f} ± {error:.7f}, true {right}, begun at {begun:.6f}")
 
 
 def pair_potential():

@@ -1,7 +1,8 @@
 //! Backwards: the gradient of a function of all states, in memory that does not grow with the steps.
 
 use shadowstep::number::Dual;
-use shadowstep::steps::integrator::at_output;
+use shadowstep::steps::integrator::{VectorIntegrator, at_output};
+use shadowstep::systems::summation::Remainders;
 use shadowstep::tangent::{Adjoint, Covector, vector};
 use shadowstep::{Integrator as _, Rational, Real};
 
@@ -59,17 +60,20 @@ impl WithDerivatives for Backward<'_, '_> {
         Dual<N>: SceneNumber<Context = N::Context>,
     {
         let Backward { request, covectors, observer } = self;
-        let mut begun = request.begin::<N>(None, context)?;
-        let start = values(&begun.integrator);
         let rows = request.rows();
+        let steps = request.steps(request.run.h);
+        let mut plain = request.system.integrator::<N>(steps, request.system.start(context), context)?;
+        let start = values(&*plain);
         let mut n = 0;
         for row in &rows {
-            begun.integrator.steps(row - n);
+            plain.steps(row - n);
             n = *row;
             request.ask(n, observer)?;
         }
+        let mut begun = request.begin::<N>(None, context)?;
+        set_values(&mut begun.integrator, &*plain);
         request.check_finite(n, &begun.output())?;
-        let end = values(&begun.integrator);
+        let end = values(&*plain);
         let mut backwards = Backwards::new(request, begun, context)?;
         let width = covectors.len() / rows.len();
         for (row, covector) in rows.iter().zip(covectors.chunks(width)).rev() {
@@ -85,7 +89,7 @@ impl WithDerivatives for Backward<'_, '_> {
         if let Some(by) = by.iter().find(|by| !by.is_finite()) {
             return Err(request.run.not_finite(&format!("a component of the gradient is {}: it", by.to_text())));
         }
-        let reversal_error = largest_error(&start, &end, &values(backwards.adjoint.integrator()));
+        let reversal_error = largest_error(&start, &end, &values(&**backwards.adjoint.integrator()));
         Ok(Gradient { by: Array::of(&by, request.arithmetic), reversal_error })
     }
 }
@@ -186,9 +190,19 @@ fn along<N: RunNumber>(shown: &mut ShownCoordinates<Dual<N>>, state: &[Dual<N>],
 }
 
 /// q and p.
-fn values<N: RunNumber>(integrator: &SceneIntegrator<Dual<N>>) -> [Vec<f64>; 2] {
-    let values = |x: &[Dual<N>]| x.iter().map(Real::to_f64).collect();
+fn values<N: Real>(integrator: &VectorIntegrator<'_, N>) -> [Vec<f64>; 2] {
+    let values = |x: &[N]| x.iter().map(Real::to_f64).collect();
     [values(integrator.state().q()), values(integrator.state().p())]
+}
+
+/// The state ← that of another integrator, with the remainders of its sums and without derivatives.
+fn set_values<N: RunNumber>(integrator: &mut SceneIntegrator<Dual<N>>, plain: &VectorIntegrator<'_, N>) {
+    let state = plain.state();
+    let constants = |numbers: &[N]| numbers.iter().cloned().map(Dual::constant).collect::<Vec<_>>();
+    let remainders = state.remainders();
+    let own = integrator.system().state_mut();
+    own.set(&constants(state.q()), &constants(state.p()));
+    own.set_remainders(&Remainders { q: constants(&remainders.q), p: constants(&remainders.p) });
 }
 
 /// Of q and of p: the largest difference as a part of the largest number at the start or at the end.
