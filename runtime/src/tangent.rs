@@ -28,12 +28,10 @@
 
 mod adjoint;
 mod growth;
-mod spectrum;
 mod vectors;
 
 pub use adjoint::{Adjoint, Covector, gradient};
 pub use growth::{Exponent, Growth, Regularity};
-pub use spectrum::Spectrum;
 pub use vectors::{vector, with_derivatives};
 
 use std::f64::consts::LN_2;
@@ -45,25 +43,33 @@ use crate::steps::integrator::Integrator;
 use crate::systems::increments::Carried;
 use vectors::{log_norm, orthonormalise, set_vector};
 
-/// A trajectory with tangent vectors that evolve freely, and the indicators of chaos that follow from these.
+/// A trajectory with tangent vectors, and the indicators of chaos that follow from these.
 ///
 /// The vectors are those of one integrator of numbers [`Dual<N, K>`], or of several at the same state with K vectors each, which are counted through. Of
 /// numbers in lanes each lane is a trajectory.
 ///
 /// | indicator | vectors | |
 /// | --- | --- | --- |
-/// | [largest Lyapunov exponent](Growth::lyapunov), [MEGNO](Growth::megno) | 1 | [`Tangents::growth`] |
-/// | SALI | 2 | [`Tangents::sali`] |
-/// | GALI_k | k | [`Tangents::gali`] |
-/// | all Lyapunov exponents | as many | [`Spectrum`] |
+/// | [largest Lyapunov exponent](Growth::lyapunov), [MEGNO](Growth::megno) | 1, [free](Tangents::new) | [`Tangents::growth`] |
+/// | SALI | 2, free | [`Tangents::sali`] |
+/// | GALI_k | k, free | [`Tangents::gali`] |
+/// | all Lyapunov exponents | as many, [orthonormal](Tangents::orthonormal) | [`Tangents::spectrum`] |
 #[derive(Debug)]
 pub struct Tangents<I> {
     integrators: Vec<I>,
     lanes: usize,
     /// Of the vector i and the lane l at i·lanes + l.
     growths: Vec<Growth>,
-    /// By which factors, as exponents of 2, vectors were made smaller.
-    scales: Vec<i64>,
+    divisors: Divisors,
+}
+
+/// By what vectors were divided when they were observed, in the order of their growths.
+#[derive(Debug)]
+enum Divisors {
+    /// Vectors evolve freely. Exponents of 2.
+    PowersOfTwo(Vec<i64>),
+    /// Vectors are made orthonormal. Logarithms: Σ log R_jj of V = QR.
+    Norms(Vec<f64>),
 }
 
 /// Why there are no indicators.
@@ -85,27 +91,64 @@ where
     N: Number,
     I: Integrator<Number = Dual<N, K>>,
 {
-    /// The trajectory of these integrators, at t = 0.
+    /// The trajectory of these integrators, at t = 0, with vectors that evolve freely.
     ///
     /// # Errors
     /// No vectors, or one that is 0 or not finite.
     pub fn new(integrators: Vec<I>) -> Result<Self, TangentError> {
-        if integrators.is_empty() || K == 0 {
-            return Err(TangentError::NoVectors);
+        let mut found = Tangents::begin(integrators)?;
+        let logarithms: Vec<_> = found.vectors().map(|vector| logarithms(&vector)).collect();
+        found.growths = logarithms.iter().flatten().map(|logarithm| Growth::new(*logarithm)).collect();
+        found.divisors = Divisors::PowersOfTwo(vec![0; found.growths.len()]);
+        check(&logarithms).map(|()| found)
+    }
+
+    /// The same with vectors that are made orthonormal at each observation, for the Lyapunov exponents: of m vectors, at most 2n for n degrees of freedom,
+    /// follow the m largest ones. Those of all 2n are pairs λ, −λ, and their sum is 0. With V = QR at each observation, λ_j is the mean rate at which
+    /// Σ log R_jj grows.
+    ///
+    /// G. Benettin, L. Galgani, A. Giorgilli, J.-M. Strelcyn, Meccanica 15 (1980) 9 and 21.
+    ///
+    /// # Errors
+    /// No vectors, or vectors that are not linearly independent.
+    pub fn orthonormal(integrators: Vec<I>) -> Result<Self, TangentError> {
+        let mut found = Tangents::begin(integrators)?;
+        let logarithms = found.orthonormalise();
+        let count = logarithms.iter().flatten().count();
+        found.growths = vec![Growth::new(0.0); count];
+        found.divisors = Divisors::Norms(vec![0.0; count]);
+        check(&logarithms).map(|()| found)
+    }
+
+    /// Goes on with free vectors that the [integrators](Tangents::integrators_mut) have now: with the growths of all vectors, and the powers of 2 by which they
+    /// [were divided](Tangents::exponents), in the order of vectors and lanes.
+    ///
+    /// # Panics
+    /// Numbers of growths or exponents that are not those of the vectors.
+    pub fn resume(&mut self, growths: Vec<Growth>, exponents: Vec<i64>) {
+        let count = self.growths.len();
+        assert_eq!((growths.len(), exponents.len()), (count, count), "there is one for each vector and lane");
+        (self.growths, self.divisors) = (growths, Divisors::PowersOfTwo(exponents));
+    }
+
+    /// By which powers of 2 free vectors were divided so far; `None` of orthonormal ones.
+    pub fn exponents(&self) -> Option<&[i64]> {
+        match &self.divisors {
+            Divisors::PowersOfTwo(exponents) => Some(exponents),
+            Divisors::Norms(_) => None,
         }
-        let mut growths = Vec::new();
-        for (i, integrator) in integrators.iter().enumerate() {
-            for k in 0..K {
-                let vector = vector(integrator.state(), k);
-                let logarithms = (0..N::LANES).map(|lane| log_norm(vector.iter(), lane));
-                growths.extend(logarithms.map(Growth::new));
-                if !growths.iter().rev().take(N::LANES).all(Growth::is_finite) {
-                    return Err(TangentError::NoDirection(i * K + k));
-                }
-            }
+    }
+
+    fn begin(integrators: Vec<I>) -> Result<Self, TangentError> {
+        match integrators.len() * K {
+            0 => Err(TangentError::NoVectors),
+            _ => Ok(Tangents {
+                integrators,
+                lanes: N::LANES,
+                growths: Vec::new(),
+                divisors: Divisors::Norms(Vec::new()),
+            }),
         }
-        let scales = vec![0; growths.len()];
-        Ok(Tangents { integrators, lanes: N::LANES, growths, scales })
     }
 
     /// One step.
@@ -113,8 +156,12 @@ where
         self.integrators.iter_mut().for_each(|integrator| integrator.step(Carried::Nothing));
     }
 
-    /// The growth of all vectors up to the present state, at t. Vectors that became large or small are multiplied by a power of 2.
+    /// The growth of all vectors up to the present state, at t. Free vectors that became large or small are multiplied by a power of 2; orthonormal ones
+    /// should not have grown by more than some 10⁶ since the last observation.
     pub fn observe(&mut self, t: f64) {
+        if let Divisors::Norms(_) = self.divisors {
+            return self.observe_norms(t.abs());
+        }
         for i in 0..self.integrators.len() {
             for k in 0..K {
                 self.observe_vector(i, k, t.abs());
@@ -122,14 +169,24 @@ where
         }
     }
 
+    fn observe_norms(&mut self, time: f64) {
+        let logarithms = self.orthonormalise();
+        let Divisors::Norms(sums) = &mut self.divisors else { unreachable!("vectors are orthonormal") };
+        for ((growth, sum), added) in self.growths.iter_mut().zip(sums).zip(logarithms.iter().flatten()) {
+            *sum += added;
+            growth.observe(time, *sum);
+        }
+    }
+
     fn observe_vector(&mut self, i: usize, k: usize, time: f64) {
         let state = self.integrators[i].state();
         let components = state.q().iter().chain(state.p()).map(|x| &x.derivatives[k]);
         let first = (i * K + k) * self.lanes;
+        let Divisors::PowersOfTwo(exponents) = &self.divisors else { unreachable!("vectors are free") };
         let mut rescale = false;
         for lane in 0..self.lanes {
             let logarithm = log_norm(components.clone(), lane);
-            self.growths[first + lane].observe(time, logarithm + self.scales[first + lane] as f64 * LN_2);
+            self.growths[first + lane].observe(time, logarithm + exponents[first + lane] as f64 * LN_2);
             rescale |= logarithm.abs() > SCALE * LN_2;
         }
         if rescale {
@@ -142,11 +199,12 @@ where
         let state = self.integrators[i].state();
         let mut vector = vector(state, k);
         let mut factor = vector[0].clone();
+        let Divisors::PowersOfTwo(exponents) = &mut self.divisors else { unreachable!("vectors are free") };
         for lane in 0..self.lanes {
             let exponent = (log_norm(vector.iter(), lane) / LN_2).round();
             let exponent = if exponent.is_finite() { exponent as i64 } else { 0 };
             factor.set_lane(lane, 1.0, -exponent);
-            self.scales[(i * K + k) * self.lanes + lane] += exponent;
+            exponents[(i * K + k) * self.lanes + lane] += exponent;
         }
         vector.iter_mut().for_each(|x| x.multiply(&factor));
         set_vector(self.integrators[i].system().state_mut(), k, &vector);
@@ -162,6 +220,11 @@ where
         &self.integrators
     }
 
+    /// The integrators, to set their states with their vectors.
+    pub fn integrators_mut(&mut self) -> &mut [I] {
+        &mut self.integrators
+    }
+
     /// How the vector grew, of the trajectory in a lane, up to the last observation.
     ///
     /// # Panics
@@ -169,6 +232,24 @@ where
     pub fn growth(&self, vector: usize, lane: usize) -> &Growth {
         assert!(lane < self.lanes, "there are {} lanes", self.lanes);
         &self.growths[vector * self.lanes + lane]
+    }
+
+    /// The growths of all vectors of the trajectory in a lane, those that grew most first: of orthonormal vectors they have the Lyapunov exponents.
+    pub fn spectrum(&self, lane: usize) -> Vec<&Growth> {
+        let mut found: Vec<_> = self.growths.iter().skip(lane).step_by(self.lanes).collect();
+        found.sort_by(|a, b| b.logarithm().total_cmp(&a.logarithm()));
+        found
+    }
+
+    /// Makes the vectors orthonormal; the logarithms by which they were divided, by vectors and lanes.
+    fn orthonormalise(&mut self) -> Vec<Vec<f64>> {
+        let mut vectors: Vec<_> = self.vectors().collect();
+        let logarithms = orthonormalise(&mut vectors);
+        for (integrator, own) in self.integrators.iter_mut().zip(vectors.chunks(K)) {
+            let state = integrator.system().state_mut();
+            own.iter().enumerate().for_each(|(k, vector)| set_vector(state, k, vector));
+        }
+        logarithms
     }
 
     /// The vectors.
@@ -202,5 +283,17 @@ where
     pub fn sali(&self, lane: usize) -> f64 {
         let sine = self.gali(2, lane);
         sine / ((1.0 + (1.0 - sine * sine).sqrt()) / 2.0).sqrt()
+    }
+}
+
+fn logarithms<N: Number>(vector: &[N]) -> Vec<f64> {
+    (0..N::LANES).map(|lane| log_norm(vector.iter(), lane)).collect()
+}
+
+/// Refuses vectors without a direction.
+fn check(logarithms: &[Vec<f64>]) -> Result<(), TangentError> {
+    match logarithms.iter().position(|of_lanes| !of_lanes.iter().all(|x| x.is_finite())) {
+        Some(vector) => Err(TangentError::NoDirection(vector)),
+        None => Ok(()),
     }
 }

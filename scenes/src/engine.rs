@@ -17,12 +17,13 @@ use crate::note::Note;
 use crate::observer::Observer;
 use crate::pace::Pace;
 use crate::physical_end::last_step;
-use crate::results::{Checkpoint, ModifiedEnergy, Row, Rows, SavedState};
+use crate::results::{Checkpoint, Indicators, ModifiedEnergy, Row, Rows, SavedState};
 use crate::run::Run;
 use crate::scene::split::ShownCoordinates;
 use crate::scene::{CheckpointInterval, EnergyAt, Scene};
 use crate::snapshots::{Snapshot, Snapshots};
 use crate::start::Begin;
+use crate::tangent::{FollowingVectors, VECTORS_OF_ROWS, Vectors};
 use crate::watch::summary::Summary;
 use crate::watch::{Energies, Watch};
 
@@ -69,6 +70,7 @@ pub(crate) fn run<N: RunNumber>(
         integrator.system().state_mut().set_remainders(&remainders);
     }
     let from = saved.map(|saved| saved.n);
+    let vectors = vectors(scene, checkpoint)?;
     let mut recorder = Recorder {
         scene,
         run: scene.as_run(),
@@ -82,6 +84,7 @@ pub(crate) fn run<N: RunNumber>(
         shown: scene.system.shown(context),
         energy_of: scene.system.energy_of_rows(context),
         watch: None,
+        vectors,
         snapshots: Snapshots::new(0),
         state: (integrator.state().q().to_vec(), integrator.state().p().to_vec()),
         n: from.unwrap_or(0),
@@ -94,6 +97,20 @@ pub(crate) fn run<N: RunNumber>(
         Break(()) => Ok((Outcome::Stopped { n: recorder.n }, None)),
         Continue(()) => recorder.complete(&mut *integrator),
     }
+}
+
+/// The tangent vectors of rows, at t = 0 or at the state of the checkpoint.
+fn vectors(scene: &Scene, checkpoint: Option<&Checkpoint>) -> Result<Option<FollowingVectors>, Error> {
+    if scene.output.chaos.is_none() {
+        return Ok(None);
+    }
+    let mut vectors = scene.tangents(Vectors::Free(VECTORS_OF_ROWS), 1)?;
+    if let Some(Checkpoint { n, vectors: saved, .. }) = checkpoint
+        && !vectors.restore(*n, saved)
+    {
+        return Err(unreadable(*n));
+    }
+    Ok(Some(vectors))
 }
 
 /// Dimensions that do not agree, such as those of the state in a checkpoint.
@@ -135,6 +152,8 @@ struct Recorder<'a, 'r, N: RunNumber> {
     energy_of: Option<EnergyAt<N>>,
     /// Follows the run for a summary.
     watch: Option<Watch<N>>,
+    /// The tangent vectors of rows, which make their own steps.
+    vectors: Option<FollowingVectors>,
     /// The states from which estimates can be computed again.
     snapshots: Snapshots<N>,
     /// The state of the newest output, in the coordinates of the steps; of a processed scheme the trajectory's where it is written.
@@ -180,10 +199,10 @@ impl<N: RunNumber> Recorder<'_, '_, N> {
             self.observer.progress(n);
             return Ok(());
         }
-        let periods = [self.scene.output.energy, self.scene.output.trajectory];
-        let [energy, state] = periods.map(|every| self.is_due(every, n));
+        let periods = [self.scene.output.energy, self.scene.output.trajectory, self.scene.output.chaos];
+        let [energy, state, chaos] = periods.map(|every| self.is_due(every, n));
         self.due = periods.into_iter().flatten().map(|every| next_multiple(n, every)).min().unwrap_or(i64::MAX);
-        if !energy && !state {
+        if !energy && !state && !chaos {
             self.observer.progress(n);
             return Ok(());
         }
@@ -255,7 +274,7 @@ impl<N: RunNumber> Recorder<'_, '_, N> {
         self.write(
             n,
             (integrator.state().q(), integrator.state().p()),
-            (energy.as_ref(), None),
+            (energy.as_ref(), None, None),
             scene.output.trajectory.is_some(),
         )
     }
@@ -295,10 +314,18 @@ impl<N: RunNumber> Recorder<'_, '_, N> {
             return Err(self.run.not_finite(&format!("the energy at n = {n}, {},", energy.to_text())));
         }
         let state_is_due = self.is_due(self.scene.output.trajectory, n);
-        if energy.is_none() && modified.is_none() && !state_is_due {
+        let chaos = self.indicators(n);
+        if energy.is_none() && modified.is_none() && chaos.is_none() && !state_is_due {
             return Ok(());
         }
-        self.write(n, (q, p), (energy, modified), state_is_due)
+        self.write(n, (q, p), (energy, modified, chaos), state_is_due)
+    }
+
+    /// The indicators of chaos up to the state n, if they are due.
+    fn indicators(&mut self, n: i64) -> Option<Indicators> {
+        let is_due = self.is_due(self.scene.output.chaos, n);
+        let vectors = self.vectors.as_mut().filter(|_| is_due)?;
+        Some(Indicators::of(vectors.end()))
     }
 
     /// Writes a row.
@@ -306,7 +333,7 @@ impl<N: RunNumber> Recorder<'_, '_, N> {
         &mut self,
         n: i64,
         (q, p): (&[N], &[N]),
-        (energy, modified): (Option<&N>, Option<ModifiedEnergy>),
+        (energy, modified, chaos): (Option<&N>, Option<ModifiedEnergy>, Option<Indicators>),
         with_state: bool,
     ) -> Result<(), Error> {
         let t = match self.scene.system.time_of(q) {
@@ -320,7 +347,7 @@ impl<N: RunNumber> Recorder<'_, '_, N> {
         let texts = |numbers: &[N]| with_state.then(|| numbers.iter().map(N::to_text).collect());
         let (q, p) = (texts(q), texts(p));
         let energy = energy.map(N::to_text);
-        self.rows.row(&Row { n, t, energy, modified_energy: modified, q, p })
+        self.rows.row(&Row { n, t, energy, modified_energy: modified, chaos, q, p })
     }
 
     /// Makes a checkpoint where it is time for one, or where the run is stopped: then it ends.
@@ -337,9 +364,13 @@ impl<N: RunNumber> Recorder<'_, '_, N> {
 
     #[cold]
     fn checkpoint(&mut self, n: i64, state: Option<&Snapshot<N>>) -> Result<(), Error> {
-        match state.map(SavedState::of) {
-            Some(None) => self.observer.note(&Note::NoCheckpoint { n }),
-            saved => self.rows.target.keep(n, saved.flatten())?,
+        let vectors = match &self.vectors {
+            None => Some(Vec::new()),
+            Some(vectors) => vectors.saved(),
+        };
+        match (state.map(SavedState::of), vectors) {
+            (Some(None), _) | (_, None) => self.observer.note(&Note::NoCheckpoint { n }),
+            (saved, Some(vectors)) => self.rows.target.keep(n, saved.flatten(), vectors)?,
         }
         self.last_checkpoint = Instant::now();
         Ok(())
@@ -400,6 +431,9 @@ impl<N: RunNumber> Follower<N> for Recorder<'_, '_, N> {
         integrator: &mut VectorIntegrator<'_, N>,
     ) -> Result<ControlFlow<()>, Error> {
         self.n = n;
+        if let Some(vectors) = &mut self.vectors {
+            vectors.reach(n);
+        }
         self.pace.looks_up(n.unsigned_abs());
         match estimate {
             None => {

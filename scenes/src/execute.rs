@@ -108,6 +108,7 @@ fn columns(scene: &Scene) -> Columns {
     Columns {
         energy: output.energy.is_some(),
         modified_energy: output.modified_energy.is_some(),
+        chaos: output.chaos.is_some(),
         state: names.filter(|_| output.trajectory.is_some()).cloned().collect(),
     }
 }
@@ -115,6 +116,9 @@ fn columns(scene: &Scene) -> Columns {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::chaos::ChaosRequest;
+    use crate::run::Run;
+    use crate::tangent::Vectors;
     use std::fs;
     use std::path::Path;
 
@@ -182,6 +186,8 @@ mod tests {
             "modified_energy = { max_order = 6, rule = \"robust\" }\nenergy = { every = 4 }",
             "modified_energy = { estimator = \"bilinear\", order = 6 }",
             "modified_energy = { estimator = \"bilinear\", max_order = 8, accuracy = \"1e-9\", every = 2 }",
+            "chaos = true",
+            "modified_energy = { max_order = 6 }\nchaos = { every = 3 }",
         ] {
             let (whole, stops) = with_stops(KEPLER, output, 1000);
             assert_eq!((stops.len(), whole.lines().last().unwrap().split(',').next()), (0, Some("20")), "{output}");
@@ -204,7 +210,9 @@ mod tests {
         let many_parts = "[problem]\nparts = [\"(q1^2 + p1^2)^2 + q2^2 + p2^2\", \"-p1*p2\", \"-q1*q2\"]\n\
                           coordinates = [\"q1\", \"q2\"]\nmomenta = [\"p1\", \"p2\"]\n[initial]\nq = [1, 0]\np = [0, \"1/3\"]";
         for system in [pairs, kinetic, planets, many_parts] {
-            for output in ["trajectory = true", "modified_energy = { max_order = 6 }\nenergy = { every = 3 }"] {
+            for output in
+                ["trajectory = true", "chaos = true", "modified_energy = { max_order = 6 }\nenergy = { every = 3 }"]
+            {
                 let (whole, _) = with_stops(system, output, 1000);
                 for each in [5, 8, 13] {
                     let (bytes, stops) = with_stops(system, output, each);
@@ -218,7 +226,9 @@ mod tests {
     #[test]
     fn so_has_a_file_in_transformed_time() {
         let system = format!("{KEPLER}\n[time]\ntransform = \"logarithmic\"");
-        for output in ["trajectory = true", "modified_energy = { max_order = 6 }\nenergy = { every = 3 }"] {
+        for output in
+            ["trajectory = true", "chaos = true", "modified_energy = { max_order = 6 }\nenergy = { every = 3 }"]
+        {
             let (whole, _) = with_stops(&system, output, 1000);
             for each in [5, 8, 13] {
                 let (bytes, stops) = with_stops(&system, output, each);
@@ -236,6 +246,7 @@ mod tests {
             "modified_energy = { order = 4 }\ntrajectory = true",
             "modified_energy = { max_order = 6 }\ntrajectory = { every = 2 }",
             "modified_energy = { estimator = \"bilinear\", order = 6 }\nenergy = true",
+            "chaos = true\ntrajectory = true",
         ] {
             let (whole, _) = with_stops_in("\"compensated\"", KEPLER, output, 1000);
             assert!(whole.contains("# digits: compensated\n"), "{whole}");
@@ -248,6 +259,29 @@ mod tests {
                 assert!(!stops.is_empty() && stops.is_sorted(), "{output}: {stops:?}");
                 assert_eq!(bytes, whole, "{output}: {stops:?}");
             }
+        }
+    }
+
+    /// At the last state they are what the command of that name has.
+    #[test]
+    fn rows_have_the_indicators_of_chaos() {
+        let folder = tempfile::tempdir().unwrap();
+        for digits in ["\"double\"", "\"double-double\"", "25"] {
+            let scene = scene_in(digits, folder.path(), KEPLER, "chaos = { every = 7 }");
+            let mut rows = Vec::new();
+            scene.run_into(&mut rows, &mut ()).unwrap();
+            let rows = String::from_utf8(rows).unwrap();
+            let rows: Vec<&str> = rows.lines().filter(|line| !line.starts_with('#')).collect();
+            assert_eq!(rows[0], "n,t,lyapunov,megno,mean_megno,sali");
+            assert_eq!(rows[1].split(',').skip(2).take(3).collect::<Vec<_>>(), ["", "0.0", ""]);
+            assert_eq!(rows.len(), 4, "{rows:?}");
+            let shorter = scene_in(digits, folder.path(), KEPLER, "energy = true");
+            let request = shorter.chaos(Vectors::Free(2), 1);
+            let request = ChaosRequest { run: Run { steps: 14, ..request.run }, ..request };
+            let expected = request.run(1, &mut ()).unwrap().unwrap();
+            let found: Vec<f64> = rows[3].split(',').skip(2).map(|text| text.parse().unwrap()).collect();
+            let expected = [expected.lyapunov, expected.megno, expected.mean_megno, expected.sali.unwrap()];
+            assert_eq!(found, expected, "{digits}");
         }
     }
 

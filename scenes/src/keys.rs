@@ -25,7 +25,7 @@ pub struct Key {
 }
 
 /// All sections, in the order of the explanation.
-pub(crate) const SECTIONS: [Section; 12] = [
+pub(crate) const SECTIONS: [Section; 13] = [
     section(
         "problem",
         "[problem]",
@@ -57,11 +57,12 @@ pub(crate) const SECTIONS: [Section; 12] = [
     section("output.energy", "[output.energy]", "A table in place of `energy = true`."),
     section("output.modified_energy", "[output.modified_energy]", "A table in place of `modified_energy = true`."),
     section("output.trajectory", "[output.trajectory]", "A table in place of `trajectory = true`."),
+    section("output.chaos", "[output.chaos]", "A table in place of `chaos = true`."),
     section("output.plot", "[output.plot]", "A table in place of `plot = \"kepler.svg\"`."),
 ];
 
 /// All keys, section by section.
-pub(crate) const KEYS: [Key; 66] = [
+pub(crate) const KEYS: [Key; 68] = [
     key(
         "problem",
         "name",
@@ -360,6 +361,14 @@ pub(crate) const KEYS: [Key; 66] = [
     ),
     key(
         "output",
+        "chaos",
+        "Writes indicators of chaos as columns `lyapunov`, `megno`, `mean_megno` and `sali`, of two tangent vectors from t = 0: true, or a table. \
+         See docs/chaos.md.",
+        "{ every = 100 }",
+        Some("false"),
+    ),
+    key(
+        "output",
         "checkpoint",
         "How often the run saves a checkpoint: a time in s, min or h, or a number of steps. If a run is stopped, running \
          the scene again resumes it from the last checkpoint, and the file gets the same bytes. A changed scene, even if \
@@ -432,6 +441,7 @@ pub(crate) const KEYS: [Key; 66] = [
         Some("none; the best k of each state"),
     ),
     key("output.trajectory", "every", "They are written at every n that is a multiple of this.", "100", Some("1")),
+    key("output.chaos", "every", "They are written at every n that is a multiple of this.", "100", Some("1")),
     key(
         "output.plot",
         "file",

@@ -9,12 +9,12 @@ mod resumable;
 mod rows;
 mod target;
 
-pub(crate) use checkpoint::{Checkpoint, Identity, SavedState};
+pub(crate) use checkpoint::{Checkpoint, Identity, SavedState, SavedVector};
 pub use functions::elementary_functions;
 pub(crate) use metadata::Metadata;
 pub use metadata::hexadecimal;
 pub(crate) use metadata::sha256;
 pub use options::FileOptions;
 pub(crate) use origin::Origin;
-pub(crate) use rows::{Columns, ModifiedEnergy, Row, Rows};
+pub(crate) use rows::{Columns, Indicators, ModifiedEnergy, Row, Rows};
 pub(crate) use target::{Target, no_file};

@@ -2,13 +2,15 @@
 
 use num_traits::ToPrimitive;
 use shadowstep::number::{AnyLimbs, CorrectlyRounded, DoubleDouble, Dual, LimbCount, Precision};
-use shadowstep::tangent::{Growth, Spectrum, TangentError, Tangents};
-use shadowstep::{Integrator as _, MotionError, Rational, Real};
+use shadowstep::tangent::{Growth, Tangents, with_derivatives};
+use shadowstep::{Integrator as _, MotionError, Rational, Real, Remainders};
 
 use crate::arithmetic::{Arithmetic, Digits, Numbers};
 use crate::computation::RunNumber;
 use crate::error::Error;
+use crate::results::{SavedState, SavedVector};
 use crate::scene::{PotentialEnergy, Scene, SceneNumber, System};
+use crate::snapshots::Snapshot;
 use crate::start::{Begin, SceneIntegrator, Steps};
 
 /// A trajectory with tangent vectors.
@@ -22,7 +24,7 @@ pub trait TangentRun {
     /// The physical time of the present state, where time is transformed.
     fn time(&self) -> Option<f64>;
 
-    /// How vectors grew: [`Tangents::growth`], or of vectors that are made orthonormal [`Spectrum::growths`], the fastest first.
+    /// How vectors grew, in their order; of vectors that are made orthonormal the fastest first: [`Tangents::spectrum`].
     fn growths(&self) -> Vec<&Growth>;
 
     /// [`Tangents::sali`] of two vectors and more that evolve freely.
@@ -32,9 +34,21 @@ pub trait TangentRun {
     fn gali(&self) -> Option<f64>;
 }
 
+/// A trajectory with tangent vectors that checkpoints have.
+trait ResumableRun: TangentRun {
+    /// The vectors at the state n, if they evolve freely; `None` if a number has an exponent that cannot be read.
+    fn saved(&self, n: i64) -> Option<Vec<SavedVector>>;
+
+    /// Goes on from such vectors; whether they can be read.
+    fn restore(&mut self, saved: &[SavedVector]) -> bool;
+}
+
+/// The number of vectors of which rows have indicators.
+pub(crate) const VECTORS_OF_ROWS: usize = 2;
+
 /// Tangent vectors that follow a run from t = 0, measured from time to time.
 pub struct FollowingVectors {
-    run: Box<dyn TangentRun>,
+    run: Box<dyn ResumableRun>,
     h: f64,
     every: u64,
     /// The number of steps so far.
@@ -49,6 +63,24 @@ impl FollowingVectors {
         if self.steps.is_multiple_of(self.every) {
             self.observe();
         }
+    }
+
+    /// Makes the steps up to the state n.
+    pub(crate) fn reach(&mut self, n: i64) {
+        while self.steps < n.unsigned_abs() {
+            self.step();
+        }
+    }
+
+    /// The vectors at the present state, for a checkpoint.
+    pub(crate) fn saved(&self) -> Option<Vec<SavedVector>> {
+        self.run.saved(i64::try_from(self.steps).unwrap_or(i64::MAX))
+    }
+
+    /// Goes on from the vectors of a checkpoint; whether they can be read.
+    pub(crate) fn restore(&mut self, n: i64, saved: &[SavedVector]) -> bool {
+        self.steps = n.unsigned_abs();
+        self.run.restore(saved)
     }
 
     /// The vectors at the last state.
@@ -174,7 +206,7 @@ struct Begun<'a> {
 }
 
 impl WithDerivatives for Begun<'_> {
-    type Output = Result<Box<dyn TangentRun>, Error>;
+    type Output = Result<Box<dyn ResumableRun>, Error>;
 
     fn compute<N: RunNumber>(self, context: &N::Context) -> Self::Output
     where
@@ -189,21 +221,17 @@ fn tangents<N: CorrectlyRounded + 'static>(
     steps: Steps<'_>,
     vectors: Vectors,
     context: &N::Context,
-) -> Result<Box<dyn TangentRun>, Error>
+) -> Result<Box<dyn ResumableRun>, Error>
 where
     Dual<N>: SceneNumber<Context = N::Context>,
 {
     let (Vectors::Free(count) | Vectors::Orthonormal(count)) = vectors;
     let integrators = (0..count).map(|k| with_vector(system, steps, k, context));
     let integrators = integrators.collect::<Result<Vec<_>, _>>()?;
-    let transformed = system.transformed_time().is_some();
-    let refused = |error: TangentError| Error::run(error.to_string(), "choose another initial state");
-    Ok(match vectors {
-        Vectors::Free(_) => Box::new(Free { tangents: Tangents::new(integrators).map_err(refused)?, transformed }),
-        Vectors::Orthonormal(_) => {
-            Box::new(Orthonormal { spectrum: Spectrum::new(integrators).map_err(refused)?, transformed })
-        }
-    })
+    let are_free = matches!(vectors, Vectors::Free(_));
+    let tangents = if are_free { Tangents::new(integrators) } else { Tangents::orthonormal(integrators) };
+    let tangents = tangents.map_err(|error| Error::run(error.to_string(), "choose another initial state"))?;
+    Ok(Box::new(InNumbers { tangents, are_free, transformed: system.transformed_time().is_some() }))
 }
 
 /// The system at its first state with the vector k.
@@ -235,21 +263,13 @@ fn point<N: CorrectlyRounded>(coordinates: &mut [Dual<N>], k: usize, first: usiz
     }
 }
 
-struct Free<N: CorrectlyRounded> {
+struct InNumbers<N: CorrectlyRounded> {
     tangents: Tangents<SceneIntegrator<Dual<N>>>,
+    are_free: bool,
     transformed: bool,
 }
 
-struct Orthonormal<N: CorrectlyRounded> {
-    spectrum: Spectrum<SceneIntegrator<Dual<N>>>,
-    transformed: bool,
-}
-
-fn time<N: CorrectlyRounded>(integrator: &SceneIntegrator<Dual<N>>, transformed: bool) -> Option<f64> {
-    integrator.state().q().last().filter(|_| transformed).map(Real::to_f64)
-}
-
-impl<N: CorrectlyRounded> TangentRun for Free<N> {
+impl<N: CorrectlyRounded> TangentRun for InNumbers<N> {
     fn step(&mut self) {
         self.tangents.step();
     }
@@ -259,47 +279,69 @@ impl<N: CorrectlyRounded> TangentRun for Free<N> {
     }
 
     fn time(&self) -> Option<f64> {
-        time(&self.tangents.integrators()[0], self.transformed)
+        let state = self.tangents.integrators()[0].state();
+        state.q().last().filter(|_| self.transformed).map(Real::to_f64)
     }
 
     fn growths(&self) -> Vec<&Growth> {
-        (0..self.tangents.count()).map(|vector| self.tangents.growth(vector, 0)).collect()
+        match self.are_free {
+            true => (0..self.tangents.count()).map(|vector| self.tangents.growth(vector, 0)).collect(),
+            false => self.tangents.spectrum(0),
+        }
     }
 
     fn sali(&self) -> Option<f64> {
-        (self.tangents.count() >= 2).then(|| self.tangents.sali(0))
+        (self.are_free && self.tangents.count() >= 2).then(|| self.tangents.sali(0))
     }
 
     fn gali(&self) -> Option<f64> {
         let count = self.tangents.count();
-        (count >= 3).then(|| self.tangents.gali(count, 0))
+        (self.are_free && count >= 3).then(|| self.tangents.gali(count, 0))
     }
 }
 
-impl<N: CorrectlyRounded> TangentRun for Orthonormal<N> {
-    fn step(&mut self) {
-        self.spectrum.step();
+impl<N: CorrectlyRounded> ResumableRun for InNumbers<N> {
+    fn saved(&self, n: i64) -> Option<Vec<SavedVector>> {
+        let exponents = self.tangents.exponents()?;
+        let saved = |(i, integrator): (usize, &SceneIntegrator<Dual<N>>)| {
+            let (state, remainders) = (integrator.state(), integrator.state().remainders());
+            let part = |part: fn(&Dual<N>) -> &N| {
+                let of = |numbers: &[Dual<N>]| numbers.iter().map(part).cloned().collect::<Vec<_>>();
+                let remainders = Remainders { q: of(&remainders.q), p: of(&remainders.p) };
+                SavedState::of(&Snapshot { n, q: of(state.q()), p: of(state.p()), remainders })
+            };
+            Some(SavedVector {
+                state: part(|x| &x.value)?,
+                derivatives: part(|x| &x.derivatives[0])?,
+                exponent: exponents[i],
+                growth: self.tangents.growth(i, 0).parts().map(|part| part.to_text()).to_vec(),
+            })
+        };
+        self.tangents.integrators().iter().enumerate().map(saved).collect()
     }
 
-    fn observe(&mut self, t: f64) {
-        self.spectrum.observe(t);
+    fn restore(&mut self, saved: &[SavedVector]) -> bool {
+        let growths: Option<Vec<Growth>> = saved.iter().map(SavedVector::growth).collect();
+        let mut integrators = self.tangents.integrators_mut().iter_mut().zip(saved);
+        let Some(growths) = growths.filter(|_| integrators.all(|(own, saved)| set_state(own, saved).is_some())) else {
+            return false;
+        };
+        self.tangents.resume(growths, saved.iter().map(|saved| saved.exponent).collect());
+        true
     }
+}
 
-    fn time(&self) -> Option<f64> {
-        time(&self.spectrum.integrators()[0], self.transformed)
-    }
-
-    fn growths(&self) -> Vec<&Growth> {
-        self.spectrum.growths(0)
-    }
-
-    fn sali(&self) -> Option<f64> {
-        None
-    }
-
-    fn gali(&self) -> Option<f64> {
-        None
-    }
+/// The state ← one of a checkpoint, with its vector.
+fn set_state<N: CorrectlyRounded>(integrator: &mut SceneIntegrator<Dual<N>>, saved: &SavedVector) -> Option<()> {
+    let context = integrator.state().context();
+    let ((q, p), remainders) = saved.state.numbers::<N>(&context)?;
+    let ((of_q, of_p), of_remainders) = saved.derivatives.numbers::<N>(&context)?;
+    let dual = |numbers: &[N], derivatives: &[N]| with_derivatives(numbers, [derivatives]);
+    let state = integrator.system().state_mut();
+    state.set(&dual(&q, &of_q), &dual(&p, &of_p));
+    let (q, p) = (dual(&remainders.q, &of_remainders.q), dual(&remainders.p, &of_remainders.p));
+    state.set_remainders(&Remainders { q, p });
+    Some(())
 }
 
 #[cfg(test)]

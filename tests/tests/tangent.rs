@@ -4,7 +4,7 @@
 use shadowstep::number::{Dual, Lanes, Limbs, Number, Real};
 use shadowstep::problems::HenonHeiles;
 use shadowstep::systems::kinetic::Quadratic;
-use shadowstep::tangent::{Regularity, Spectrum, Tangents, gradient, vector, with_derivatives};
+use shadowstep::tangent::{Regularity, Tangents, gradient, vector, with_derivatives};
 use shadowstep::{Integrator as _, Motion, Scheme, Stepper, UnitMasses, ValidFor, potential};
 use shadowstep_schemes::First;
 use shadowstep_tests::shipped::{Visitor, for_each};
@@ -202,7 +202,7 @@ fn exponents_of_a_saddle_are_those_of_its_steps() {
             .unwrap()
     };
     let verlet = stepper("stormer-verlet", "1/10", &());
-    let mut spectrum = Spectrum::new(vec![verlet.with(start())]).unwrap();
+    let mut spectrum = Tangents::orthonormal(vec![verlet.with(start())]).unwrap();
     let mut tangents = Tangents::new(vec![verlet.with(start())]).unwrap();
     for n in 1..=20_000 {
         spectrum.step();
@@ -210,7 +210,7 @@ fn exponents_of_a_saddle_are_those_of_its_steps() {
         tangents.step();
         tangents.observe(h * f64::from(n));
     }
-    let found = spectrum.estimates(0).unwrap();
+    let found: Vec<_> = spectrum.spectrum(0).into_iter().map(|growth| growth.exponent().unwrap()).collect();
     for (found, expected) in found.iter().zip([exact, 0.0, 0.0, -exact]) {
         assert!((found.value - expected).abs() < 1e-3 && found.error < 2e-3, "{found:?} {expected}");
     }
@@ -264,9 +264,9 @@ fn no_direction_is_an_error() {
     let refused = Tangents::new(vec![verlet.with(star(zero))]).err().unwrap();
     assert_eq!(refused.to_string(), "the tangent vector 0 is 0 or not finite");
     let parallel = [0, 1].map(|_| verlet.with(star([[Dual::new(0.1, [1.0]); 2]; 2]))).into();
-    let refused = Spectrum::new(parallel).err().unwrap();
+    let refused = Tangents::orthonormal(parallel).err().unwrap();
     assert_eq!(refused.to_string(), "the tangent vector 1 is 0 or not finite");
-    let none = Spectrum::<
+    let none = Tangents::<
         shadowstep::steps::integrator::WithStepper<'_, shadowstep::tables::TableScheme, Star<Dual<f64>>>,
     >::new(vec![]);
     assert_eq!(none.err().unwrap().to_string(), "there are no tangent vectors");

@@ -69,8 +69,15 @@ impl Growth {
         Growth { initial: logarithm, time: 0.0, logarithm: 0.0, weighted: 0.0, integral: 0.0, marks: Marks::default() }
     }
 
-    pub(super) fn is_finite(&self) -> bool {
-        self.initial.is_finite()
+    /// log |δ(0)|, t, L, ∫ L′ s ds and ∫ Y ds: what a run needs to be resumed.
+    pub fn parts(&self) -> [f64; 5] {
+        [self.initial, self.time, self.logarithm, self.weighted, self.integral]
+    }
+
+    /// Growth with these [`parts`](Growth::parts), that goes on. The [exponent](Growth::exponent) with its error and the
+    /// [regularity](Growth::regularity) need observations of the whole trajectory, which it has not.
+    pub fn of_parts([initial, time, logarithm, weighted, integral]: [f64; 5]) -> Self {
+        Growth { initial, time, logarithm, weighted, integral, marks: Marks::default() }
     }
 
     /// The vector has this log |δ| at |t|, later than before.

@@ -25,12 +25,13 @@ pub(super) fn read(reader: &mut Reader<'_>, output: &Section<'_, '_>, system: Op
     let energy = every(reader, output, "energy", "output.energy");
     let modified_energy = modified_energy(reader, output);
     let trajectory = every(reader, output, "trajectory", "output.trajectory");
+    let chaos = every(reader, output, "chaos", "output.chaos");
     let summary = output.get("summary").and_then(|value| reader.toml.truth(value)).is_none_or(|truth| truth.value);
     let checkpoint = output.get("checkpoint").map(|value| (value.span(), interval(reader, value)));
     if let (Some((at, _)), None) = (&checkpoint, output.get("file")) {
         reader.toml.fault(at, "a checkpoint requires a file", "add `file = \"out.csv\"`");
     }
-    let silent = energy.is_none() && modified_energy.is_none() && trajectory.is_none();
+    let silent = energy.is_none() && modified_energy.is_none() && trajectory.is_none() && chaos.is_none();
     if silent && reader.toml.faults.len() == before && output.is_there() {
         let help = "add `energy = true`, `modified_energy = true` or `trajectory = true`";
         reader.toml.fault(&output.at, "no output is selected", help);
@@ -49,8 +50,9 @@ pub(super) fn read(reader: &mut Reader<'_>, output: &Section<'_, '_>, system: Op
     let folder = Path::new(&reader.toml.source.path).parent().unwrap_or(Path::new(""));
     let file = file.map(|name| (folder.join(&name.value), name.at));
     let checkpoint = checkpoint.and_then(|(_, interval)| interval);
+    let format = format?;
     let mut outputs =
-        Outputs { file, format: format?, energy, modified_energy, trajectory, checkpoint, summary, plot: None };
+        Outputs { file, format, energy, modified_energy, trajectory, chaos, checkpoint, summary, plot: None };
     outputs.plot = plot::read(reader, output, system, &outputs);
     Some(outputs)
 }

@@ -2,6 +2,7 @@
 
 use num_traits::Zero;
 use serde::{Deserialize, Serialize};
+use shadowstep::tangent::Growth;
 use shadowstep::{Real, Remainders};
 use shadowstep_symbolic::decimal::from_text;
 
@@ -10,6 +11,7 @@ use crate::results::functions::elementary_functions;
 use crate::results::metadata::{platform, sha256, table_hashes};
 use crate::scene::Scene;
 use crate::snapshots::Snapshot;
+use crate::tangent::VECTORS_OF_ROWS;
 
 /// Everything that determines the numbers of a run.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -29,6 +31,9 @@ pub(crate) struct Identity {
     /// How many remainders of positions a state has, and of momenta.
     #[serde(skip)]
     remainders: usize,
+    /// How many tangent vectors there are.
+    #[serde(skip)]
+    vectors: usize,
 }
 
 impl Identity {
@@ -43,6 +48,7 @@ impl Identity {
             steps: scene.steps(),
             dimension,
             remainders: if scene.arithmetic.is_compensated() { dimension } else { 0 },
+            vectors: if scene.output.chaos.is_some() { VECTORS_OF_ROWS } else { 0 },
         }
     }
 
@@ -95,6 +101,21 @@ pub(crate) struct Checkpoint {
     pub(crate) sha256: String,
     /// The state from which the run is resumed; `None` for the one at t = 0.
     pub(crate) state: Option<SavedState>,
+    /// The tangent vectors at n, if there are any.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub(crate) vectors: Vec<SavedVector>,
+}
+
+/// A tangent vector with the state that it is beside.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub(crate) struct SavedVector {
+    pub(crate) state: SavedState,
+    /// The derivatives of the numbers of the state.
+    pub(crate) derivatives: SavedState,
+    /// By which power of 2 the vector was divided.
+    pub(crate) exponent: i64,
+    /// [`Growth::parts`]
+    pub(crate) growth: Vec<String>,
 }
 
 /// A state as texts that give the same numbers when they are read.
@@ -143,12 +164,25 @@ impl Checkpoint {
     }
 
     /// Refuses what no run of the scene writes: a checkpoint may have been made by another program, with a hash that fits.
-    fn check(&self, &Identity { steps, dimension, remainders, .. }: &Identity) -> Result<(), String> {
+    fn check(&self, identity: &Identity) -> Result<(), String> {
+        let Identity { steps, vectors, .. } = *identity;
         let is_of_run = |n: i64| u64::try_from(n).is_ok_and(|n| n <= steps);
         if !is_of_run(self.n) {
             return Err(format!("is at n = {}, which is not a state of the run", self.n));
         }
-        let Some(SavedState { n, q, p, q_remainders, p_remainders }) = &self.state else { return Ok(()) };
+        if self.vectors.len() != vectors {
+            return Err(format!("has {} tangent vectors, where the scene has {vectors}", self.vectors.len()));
+        }
+        let vectors = self.vectors.iter().flat_map(|vector| [&vector.state, &vector.derivatives]);
+        self.state.iter().chain(vectors).try_for_each(|state| self.check_state(state, identity))
+    }
+
+    fn check_state(
+        &self,
+        SavedState { n, q, p, q_remainders, p_remainders }: &SavedState,
+        &Identity { steps, dimension, remainders, .. }: &Identity,
+    ) -> Result<(), String> {
+        let is_of_run = |n: i64| u64::try_from(n).is_ok_and(|n| n <= steps);
         if !is_of_run(*n) || *n > self.n {
             return Err(format!("is at n = {} and has the state n = {n}", self.n));
         }
@@ -189,6 +223,13 @@ impl SavedState {
         let numbers = |texts: &[String]| texts.iter().map(|text| number(text, context)).collect::<Option<_>>();
         let remainders = Remainders { q: numbers(&self.q_remainders)?, p: numbers(&self.p_remainders)? };
         Some(((numbers(&self.q)?, numbers(&self.p)?), remainders))
+    }
+}
+
+impl SavedVector {
+    pub(crate) fn growth(&self) -> Option<Growth> {
+        let parts: Option<Vec<f64>> = self.growth.iter().map(|text| number(text, &())).collect();
+        Some(Growth::of_parts(parts?.try_into().ok()?))
     }
 }
 

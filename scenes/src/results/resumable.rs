@@ -16,7 +16,7 @@ use crate::error::{Error, NotWritten, not_written};
 use crate::lock::{LockError, open_locked};
 use crate::note::Note;
 use crate::observer::Observer;
-use crate::results::checkpoint::{Checkpoint, Identity, SavedState};
+use crate::results::checkpoint::{Checkpoint, Identity, SavedState, SavedVector};
 use crate::results::metadata::hexadecimal;
 use crate::results::options::FileOptions;
 use crate::temporary::Temporary;
@@ -161,14 +161,14 @@ impl Resumable {
     }
 
     /// Writes a checkpoint: all rows up to n are written, and the run can be resumed from `state`.
-    pub(crate) fn keep(&mut self, n: i64, state: Option<SavedState>) -> Result<(), Error> {
+    pub(crate) fn keep(&mut self, n: i64, state: Option<SavedState>, vectors: Vec<SavedVector>) -> Result<(), Error> {
         if !self.saves {
             return Ok(());
         }
         let synchronized = self.file.flush().and_then(|()| self.file.get_ref().sync_data());
         synchronized.map_err(|error| self.not_written(&self.partial, error))?;
         let sha256 = hexadecimal(&self.hash.clone().finalize());
-        let checkpoint = Checkpoint { identity: self.identity.clone(), n, bytes: self.bytes, sha256, state };
+        let checkpoint = Checkpoint { identity: self.identity.clone(), n, bytes: self.bytes, sha256, state, vectors };
         let text = checkpoint.to_text();
         if text.len() as u64 > LARGEST_CHECKPOINT {
             let message = format!("a checkpoint of this run is longer than {} MiB", LARGEST_CHECKPOINT >> 20);

@@ -12,6 +12,7 @@ use crate::results::origin::METADATA;
 use crate::results::resumable::beside;
 use crate::results::target::Target;
 use crate::scene::{COLUMNS, Format};
+use crate::tangent::TangentRun;
 use crate::watch::summary::Summary;
 use crate::whole_file::WholeFile;
 
@@ -24,6 +25,8 @@ pub(crate) struct Row {
     pub(crate) energy: Option<String>,
     #[serde(flatten)]
     pub(crate) modified_energy: Option<ModifiedEnergy>,
+    #[serde(flatten)]
+    pub(crate) chaos: Option<Indicators>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) q: Option<Vec<String>>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -35,6 +38,28 @@ pub(crate) struct ModifiedEnergy {
     pub(crate) modified_energy: String,
     pub(crate) estimate: Option<String>,
     pub(crate) order: u32,
+}
+
+/// Indicators of chaos up to the state; a number that is not finite, as at t = 0, has no text.
+#[derive(Serialize)]
+pub(crate) struct Indicators {
+    pub(crate) lyapunov: Option<String>,
+    pub(crate) megno: Option<String>,
+    pub(crate) mean_megno: Option<String>,
+    pub(crate) sali: Option<String>,
+}
+
+impl Indicators {
+    pub(crate) fn of(run: &dyn TangentRun) -> Self {
+        let growth = run.growths()[0];
+        let text = |x: f64| Some(x).filter(|x| x.is_finite()).map(|x| x.to_text());
+        Indicators {
+            lyapunov: text(growth.lyapunov()),
+            megno: text(growth.megno()),
+            mean_megno: text(growth.mean_megno()),
+            sali: run.sali().and_then(text),
+        }
+    }
 }
 
 impl ModifiedEnergy {
@@ -51,6 +76,7 @@ impl ModifiedEnergy {
 pub(crate) struct Columns {
     pub(crate) energy: bool,
     pub(crate) modified_energy: bool,
+    pub(crate) chaos: bool,
     /// The names of positions and momenta, if they are written.
     pub(crate) state: Vec<String>,
 }
@@ -59,7 +85,8 @@ impl Columns {
     fn names(&self) -> Vec<&str> {
         let mut names = COLUMNS[..2].to_vec();
         names.extend(self.energy.then_some(COLUMNS[2]));
-        names.extend(COLUMNS[3..].iter().filter(|_| self.modified_energy));
+        names.extend(COLUMNS[3..6].iter().filter(|_| self.modified_energy));
+        names.extend(COLUMNS[6..].iter().filter(|_| self.chaos));
         names.extend(self.state.iter().map(String::as_str));
         names
     }
@@ -75,6 +102,12 @@ impl Columns {
                 cells.extend([modified_energy.clone(), estimate.clone().unwrap_or_default(), order.to_string()]);
             }
             None => cells.extend(vec![String::new(); if self.modified_energy { 3 } else { 0 }]),
+        }
+        match row.chaos.as_ref().filter(|_| self.chaos) {
+            Some(Indicators { lyapunov, megno, mean_megno, sali }) => {
+                cells.extend([lyapunov, megno, mean_megno, sali].map(|text| text.clone().unwrap_or_default()));
+            }
+            None => cells.extend(vec![String::new(); if self.chaos { 4 } else { 0 }]),
         }
         match (&row.q, &row.p) {
             (Some(q), Some(p)) => cells.extend(q.iter().chain(p).cloned()),

@@ -9,7 +9,7 @@ use shadowstep_schemes::document::refuse_pipe;
 
 use crate::error::Error;
 use crate::observer::Observer;
-use crate::results::checkpoint::{Checkpoint, Identity, SavedState};
+use crate::results::checkpoint::{Checkpoint, Identity, SavedState, SavedVector};
 use crate::results::options::FileOptions;
 use crate::results::origin::{METADATA, Origin};
 use crate::results::resumable::{CHECKPOINT, NEW_CHECKPOINT, Resumable, beside};
@@ -85,10 +85,10 @@ impl<'a> Target<'a> {
     }
 
     /// Makes a checkpoint, where there can be one.
-    pub(crate) fn keep(&mut self, n: i64, state: Option<SavedState>) -> Result<(), Error> {
+    pub(crate) fn keep(&mut self, n: i64, state: Option<SavedState>, vectors: Vec<SavedVector>) -> Result<(), Error> {
         match self {
             Target::Writer(_) => Ok(()),
-            Target::File(file) => file.keep(n, state),
+            Target::File(file) => file.keep(n, state, vectors),
         }
     }
 

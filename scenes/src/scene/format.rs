@@ -1,7 +1,8 @@
 //! The formats of files, and the columns before positions and momenta.
 
 /// The columns before those of the trajectory; no coordinate has such a name.
-pub(crate) const COLUMNS: [&str; 6] = ["n", "t", "energy", "modified_energy", "estimate", "order"];
+pub(crate) const COLUMNS: [&str; 10] =
+    ["n", "t", "energy", "modified_energy", "estimate", "order", "lyapunov", "megno", "mean_megno", "sali"];
 
 /// How rows are written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

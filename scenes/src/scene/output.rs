@@ -22,6 +22,8 @@ pub struct Outputs {
     pub modified_energy: Option<(EstimatorSettings, u64)>,
     /// The period of positions and momenta.
     pub trajectory: Option<u64>,
+    /// The period of the indicators of chaos.
+    pub chaos: Option<u64>,
     /// How often a checkpoint is made.
     pub checkpoint: Option<CheckpointInterval>,
     /// Whether a summary of the run is made.
