@@ -18,6 +18,7 @@ from .command import command, sweep
 from .derivatives import Derivatives, Gradient, derivatives, gradient
 from .drift import drift
 from .ensemble import Ensemble, ensemble
+from .flow import Flow
 from .integration import Trajectory, integrate
 from .monitor import Monitor, Report, Sample
 from .problem import Problem
@@ -34,6 +35,7 @@ __all__ = [
     "Derivatives",
     "Diagnosis",
     "Ensemble",
+    "Flow",
     "Gradient",
     "Indicators",
     "InputError",

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any, Union
 
@@ -104,7 +104,7 @@ def derivatives(
     problem = problem_of(problem)
     names = [*problem.coordinates, *problem.momenta] if by is None else list(by)
     run = run_of(problem, scheme, h, until, steps, first, gradient_kicks, every, digits, mpfr)
-    variables = _variables(problem, names, str(digits), mpfr)
+    variables = variables_of(problem, names, str(digits), mpfr)
     with bar(run["steps"], "steps", progress) as reach:
         found = _shadowstep.derivatives(run, variables, progress=reach)
     states, rows = _array(found["states"]), len(found["n"])
@@ -164,83 +164,20 @@ def gradient(
     """
     problem = problem_of(problem)
     names = [*problem.coordinates, *problem.momenta] if by is None else list(by)
-    variables = _variables(problem, names, str(digits), mpfr)
+    variables = variables_of(problem, names, str(digits), mpfr)
     run = run_of(problem, scheme, h, until, steps, first, gradient_kicks, every, digits, mpfr)
     made = integrate(
         problem, scheme, h, until, steps=steps, first=first, gradient_kicks=gradient_kicks, every=every, digits=digits, mpfr=mpfr, progress=progress
     )
     q, p = (np.asarray(half, dtype=float) for half in (made.q, made.p))
     value, of_q, of_p = loss(q, p)
-    covectors = _covectors(q.shape, of_q, of_p)
+    covectors = covectors_of(q.shape, of_q, of_p)
     with bar(run["steps"], "steps", progress) as reach:
         found, error = _shadowstep.gradient(run, variables, covectors, progress=reach)
     return Gradient(float(value), dict(zip(names, _array(found).tolist())), error)
 
 
-class Flow:
-    """The states of a run as a function of its initial state and of numbers of the problem, with derivatives backwards: what `shadowstep.jax` and
-    `shadowstep.torch` make functions of.
-
-    Parameters
-    ----------
-    by
-        Names of numbers, as in `derivatives`, whose values the function gets; ``"h"`` is the step size, at a fixed number of steps.
-    problem, scheme, h, until, steps, first, gradient_kicks, every
-        As in `integrate`.
-    """
-
-    def __init__(
-        self,
-        problem: Union[Problem, str],
-        scheme: Union[Scheme, str, os.PathLike[str]],
-        h: Number,
-        until: Number | None = None,
-        *,
-        by: Sequence[str] = (),
-        steps: int | None = None,
-        first: str | None = None,
-        gradient_kicks: str = "exact",
-        every: int = 1,
-    ) -> None:
-        self._problem, self._scheme, self._by = problem_of(problem), scheme, list(by)
-        self._h = h
-        self._options: dict[str, Any] = {"first": first, "gradient_kicks": gradient_kicks, "every": every}
-        if steps is None:  # of each step size
-            made = integrate(self._problem, scheme, h, until, first=first, gradient_kicks=gradient_kicks, every=2**63 - 1, progress=False)
-            steps = int(made.n[-1])
-        self.steps = steps
-        """The number of steps."""
-        self.dimension = self._problem.dimension
-        """d, the number of coordinates."""
-        self.rows = steps // every + 1 + (steps % every > 0)
-        """The number of states that it has."""
-
-    def _at(self, q: Any, p: Any, numbers: Any) -> tuple[Problem, Number]:
-        q, p, numbers = (np.asarray(given, dtype=float) for given in (q, p, numbers))
-        if numbers.shape != (len(self._by),):
-            raise InputError(f"there are {numbers.size} numbers for the {len(self._by)} names in `by`")
-        values = dict(zip(self._by, numbers.tolist()))
-        h = values.pop("h", self._h)
-        return self._problem.replaced(values, q=q, p=p), h
-
-    def states(self, q: Any, p: Any, numbers: Any = ()) -> tuple[np.ndarray, np.ndarray]:
-        """q and p of the states, of shape (rows, d), from the initial state q, p of shape (d,) with these values of the numbers."""
-        problem, h = self._at(q, p, numbers)
-        made = integrate(problem, self._scheme, h, steps=self.steps, progress=False, **self._options)
-        return made.q, made.p
-
-    def pull_back(self, q: Any, p: Any, numbers: Any, of_q: Any, of_p: Any) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """The derivatives of a function by q, p and the numbers, from those by the states, each of shape (rows, d)."""
-        problem, h = self._at(q, p, numbers)
-        names = [*problem.coordinates, *problem.momenta, *self._by]
-        run = run_of(problem, self._scheme, h, None, self.steps, digits="double", mpfr=False, **self._options)
-        covectors = _covectors((self.rows, self.dimension), of_q, of_p)
-        found, _ = _shadowstep.gradient(run, _variables(problem, names, "double", False), covectors, progress=None)
-        by_q, by_p, by_numbers = np.split(found, [self.dimension, 2 * self.dimension])
-        return by_q, by_p, by_numbers
-
-
-def _covectors(shape: tuple[int, ...], of_q: Any, of_p: Any) -> np.ndarray:
+def covectors_of(shape: tuple[int, ...], of_q: Any, of_p: Any) -> np.ndarray:
     """The derivatives of a function by the states, flat."""
     halves = []
     for name, given in (("q", of_q), ("p", of_p)):
@@ -251,7 +188,7 @@ def _covectors(shape: tuple[int, ...], of_q: Any, of_p: Any) -> np.ndarray:
     return np.ascontiguousarray(np.concatenate(halves, axis=1)).ravel()
 
 
-def _variables(problem: Problem, names: Sequence[str], digits: str, mpfr: bool) -> list[tuple[str, int, Given | None]]:
+def variables_of(problem: Problem, names: Sequence[str], digits: str, mpfr: bool) -> list[tuple[str, int, Given | None]]:
     halves = (("q", problem.coordinates), ("p", problem.momenta))
     places = {name: (half, i, None) for half, all_names in halves for i, name in enumerate(all_names)}
     return [places.get(name) or _number(problem, name, digits, mpfr) for name in names]

@@ -9,13 +9,13 @@ import jax
 import jax.numpy as jnp
 import numpy as np
 
-from .derivatives import Flow
+from .flow import Flow
 
 
 def flow(*args: Any, **options: Any) -> Callable[..., tuple[jax.Array, jax.Array]]:
     """A function of JAX: from q and p at t = 0, of shape (d,), and the values of the numbers in ``by`` to q and p of the states, of shape (rows, d).
 
-    It takes the arguments of `shadowstep.derivatives.Flow`. The steps are made by Shadowstep in double precision, outside of compiled code; backwards
+    It takes the arguments of `shadowstep.Flow`. The steps are made by Shadowstep in double precision, outside of compiled code; backwards
     they are made back, so that memory does not grow with their number. With ``jax_enable_x64`` off, results are rounded to single precision.
 
     Examples

@@ -8,13 +8,13 @@ from typing import Any
 import numpy as np
 import torch
 
-from .derivatives import Flow
+from .flow import Flow
 
 
 def flow(*args: Any, **options: Any) -> Callable[..., tuple[torch.Tensor, torch.Tensor]]:
     """A function of PyTorch: from q and p at t = 0, of shape (d,), and the values of the numbers in ``by`` to q and p of the states, of shape (rows, d).
 
-    It takes the arguments of `shadowstep.derivatives.Flow`. The steps are made by Shadowstep in double precision on the CPU; backwards they are made
+    It takes the arguments of `shadowstep.Flow`. The steps are made by Shadowstep in double precision on the CPU; backwards they are made
     back, so that memory does not grow with their number.
 
     Examples
