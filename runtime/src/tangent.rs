@@ -187,7 +187,7 @@ where
         for lane in 0..self.lanes {
             let logarithm = log_norm(components.clone(), lane);
             self.growths[first + lane].observe(time, logarithm + exponents[first + lane] as f64 * LN_2);
-            rescale |= logarithm.abs() > SCALE * LN_2;
+            rescale |= is_far(logarithm);
         }
         if rescale {
             self.rescale(i, k);
@@ -201,8 +201,9 @@ where
         let mut factor = vector[0].clone();
         let Divisors::PowersOfTwo(exponents) = &mut self.divisors else { unreachable!("vectors are free") };
         for lane in 0..self.lanes {
-            let exponent = (log_norm(vector.iter(), lane) / LN_2).round();
-            let exponent = if exponent.is_finite() { exponent as i64 } else { 0 };
+            let logarithm = log_norm(vector.iter(), lane);
+            // others stay: a lane has the bits that it has alone
+            let exponent = if is_far(logarithm) { (logarithm / LN_2).round() as i64 } else { 0 };
             factor.set_lane(lane, 1.0, -exponent);
             exponents[(i * K + k) * self.lanes + lane] += exponent;
         }
@@ -284,6 +285,11 @@ where
         let sine = self.gali(2, lane);
         sine / ((1.0 + (1.0 - sine * sine).sqrt()) / 2.0).sqrt()
     }
+}
+
+/// Whether a vector with this log |δ| is to be multiplied by a power of 2.
+fn is_far(logarithm: f64) -> bool {
+    logarithm.is_finite() && logarithm.abs() > SCALE * LN_2
 }
 
 fn logarithms<N: Number>(vector: &[N]) -> Vec<f64> {

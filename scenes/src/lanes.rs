@@ -1,35 +1,39 @@
 //! Several systems of one form, whose numbers differ → one system of lanes.
 
-use shadowstep::number::{Lanes, Number};
+use shadowstep::number::{Dual, Lanes, Number};
 use shadowstep::problems::Setup;
 use shadowstep::systems::formula::FormulaPair;
 use shadowstep::systems::kinetic::{General, Quadratic};
 use shadowstep::systems::summation::Compensated;
+use shadowstep::tangent::{TangentError, Tangents};
 use shadowstep::{DiagonalMasses, Kinetic, Motion, Potential, Rational, UnitMasses};
 use shadowstep_symbolic::{Exact, parse};
 
 use crate::scene::{ClassifiedKinetic, KineticEnergy, PairEnergy, PotentialEnergy, System};
 use crate::start::{SceneIntegrator, Steps};
+use crate::tangent::components;
 
 /// Trajectories that are computed together.
 pub const LANES: usize = 16;
 
+/// Numbers in lanes, or made of such.
+pub trait OfLanes: Number<Context = ()> + From<Lanes<LANES>> + 'static {}
+
+impl OfLanes for Lanes<LANES> {}
+
+impl OfLanes for Dual<Lanes<LANES>> {}
+
 /// The systems of [`LANES`] trajectories as one, at their initial states.
-pub struct SystemInLanes {
-    potential: Box<dyn Potential<Lanes<LANES>>>,
-    kinetic: ClassifiedKinetic<Lanes<LANES>>,
-    q: Vec<Lanes<LANES>>,
-    p: Vec<Lanes<LANES>>,
+pub struct SystemInLanes<N = Lanes<LANES>> {
+    potential: Box<dyn Potential<N>>,
+    kinetic: ClassifiedKinetic<N>,
+    q: Vec<N>,
+    p: Vec<N>,
 }
 
 /// A system of lanes.
-pub(crate) type MotionInLanes<C> = Motion<
-    Lanes<LANES>,
-    Vec<Lanes<LANES>>,
-    Box<dyn Potential<Lanes<LANES>>>,
-    Box<dyn Kinetic<Lanes<LANES>, Class = C>>,
-    Option<Compensated<Lanes<LANES>, Vec<Lanes<LANES>>>>,
->;
+pub(crate) type MotionInLanes<N, C> =
+    Motion<N, Vec<N>, Box<dyn Potential<N>>, Box<dyn Kinetic<N, Class = C>>, Option<Compensated<N, Vec<N>>>>;
 
 const READ: &str = "the system was read with the scene";
 const QUADRATIC: &str = "T is of the class of the first system";
@@ -37,6 +41,46 @@ const QUADRATIC: &str = "T is of the class of the first system";
 impl SystemInLanes {
     /// `None` if the systems differ in more than numbers, or cannot be in lanes.
     pub fn of(systems: &[&System; LANES]) -> Option<Self> {
+        SystemInLanes::in_numbers(systems)
+    }
+
+    /// The system with a stepper that is valid for it.
+    ///
+    /// # Panics
+    /// If the step size is 0 or the scheme is not valid for T(p), which reading a scene excludes.
+    #[inline(never)]
+    pub fn integrator(self, steps: Steps<'_>) -> SceneIntegrator<Lanes<LANES>> {
+        self.with_stepper(steps)
+    }
+}
+
+/// The trajectories with tangent vectors, whose directions are those that each trajectory has alone; `None` as of [`SystemInLanes::of`].
+///
+/// # Errors
+/// A vector that has no direction.
+#[inline(never)]
+pub fn tangents(
+    systems: &[&System; LANES],
+    steps: Steps<'_>,
+    vectors: usize,
+) -> Option<Result<Tangents<SceneIntegrator<Dual<Lanes<LANES>>>>, TangentError>> {
+    let with_vector = |k: usize| {
+        let mut system = SystemInLanes::<Dual<Lanes<LANES>>>::in_numbers(systems)?;
+        for (half, first) in [(&mut system.q, 0), (&mut system.p, systems[0].q.len())] {
+            let of_lane = |lane: usize| half.iter().map(|x| x.value.0[lane]).collect::<Vec<_>>();
+            let of_lanes: [_; LANES] = std::array::from_fn(|lane| components(&of_lane(lane), k, first));
+            for (i, x) in half.iter_mut().enumerate() {
+                x.derivatives = [Lanes(std::array::from_fn(|lane| of_lanes[lane][i]))];
+            }
+        }
+        Some(system.with_stepper(steps))
+    };
+    let integrators: Option<Vec<_>> = (0..vectors).map(with_vector).collect();
+    integrators.map(Tangents::new)
+}
+
+impl<N: OfLanes> SystemInLanes<N> {
+    fn in_numbers(systems: &[&System; LANES]) -> Option<Self> {
         if !systems.iter().all(|system| system.has_lanes()) {
             return None;
         }
@@ -48,24 +92,19 @@ impl SystemInLanes {
         })
     }
 
-    /// The system with a stepper that is valid for it.
-    ///
-    /// # Panics
-    /// If the step size is 0 or the scheme is not valid for T(p), which reading a scene excludes.
-    #[inline(never)]
-    pub fn integrator(self, steps: Steps<'_>) -> SceneIntegrator<Lanes<LANES>> {
+    fn with_stepper(self, steps: Steps<'_>) -> SceneIntegrator<N> {
         if matches!(self.kinetic, ClassifiedKinetic::Quadratic(_)) {
             return steps.integrator(steps.quadratic(), self.quadratic(steps.compensated), &());
         }
         steps.integrator(steps.for_every_kinetic(), self.general(steps.compensated), &())
     }
 
-    pub(crate) fn quadratic(self, compensated: bool) -> MotionInLanes<Quadratic> {
+    pub(crate) fn quadratic(self, compensated: bool) -> MotionInLanes<N, Quadratic> {
         let ClassifiedKinetic::Quadratic(kinetic) = self.kinetic else { unreachable!("{QUADRATIC}") };
         Motion::new(self.potential, kinetic, self.q, self.p).expect(READ).compensated_if(compensated)
     }
 
-    pub(crate) fn general(self, compensated: bool) -> MotionInLanes<General> {
+    pub(crate) fn general(self, compensated: bool) -> MotionInLanes<N, General> {
         let ClassifiedKinetic::General(kinetic) = self.kinetic else { unreachable!("{QUADRATIC}") };
         Motion::new(self.potential, kinetic, self.q, self.p).expect(READ).compensated_if(compensated)
     }
@@ -138,16 +177,16 @@ fn lanes_of<'a>(exact: impl Fn(usize) -> &'a Exact) -> Lanes<LANES> {
 }
 
 /// The same for a list of each system.
-fn in_lanes<'a>(list: impl Fn(usize) -> &'a [Exact]) -> Vec<Lanes<LANES>> {
-    (0..list(0).len()).map(|i| lanes_of(|lane| &list(lane)[i])).collect()
+fn in_lanes<'a, N: OfLanes>(list: impl Fn(usize) -> &'a [Exact]) -> Vec<N> {
+    (0..list(0).len()).map(|i| lanes_of(|lane| &list(lane)[i]).into()).collect()
 }
 
 /// The parameters of the formulas.
-fn parameters(systems: &[&System; LANES]) -> Vec<Lanes<LANES>> {
-    System::parameters_of_each(systems).into_iter().map(|(_, value)| value).collect()
+fn parameters<N: OfLanes>(systems: &[&System; LANES]) -> Vec<N> {
+    System::parameters_of_each(systems).into_iter().map(|(_, value)| value.into()).collect()
 }
 
-fn potential(systems: &[&System; LANES]) -> Box<dyn Potential<Lanes<LANES>>> {
+fn potential<N: OfLanes>(systems: &[&System; LANES]) -> Box<dyn Potential<N>> {
     match &systems[0].potential {
         PotentialEnergy::Shipped(_) => Setup::potential_of_each(&systems.map(|system| match &system.potential {
             PotentialEnergy::Shipped(setup) => setup,
@@ -159,7 +198,7 @@ fn potential(systems: &[&System; LANES]) -> Box<dyn Potential<Lanes<LANES>>> {
     }
 }
 
-fn pair(systems: &[&System; LANES], first: &PairEnergy) -> FormulaPair<Lanes<LANES>> {
+fn pair<N: OfLanes>(systems: &[&System; LANES], first: &PairEnergy) -> FormulaPair<N> {
     let property = |lane: usize, k: usize| match &systems[lane].potential {
         PotentialEnergy::Pairs(pairs) => pairs.properties[k].1.as_slice(),
         _ => unreachable!("the systems have one form"),
@@ -169,7 +208,7 @@ fn pair(systems: &[&System; LANES], first: &PairEnergy) -> FormulaPair<Lanes<LAN
     first.formula.meaning().in_numbers(properties, parameters(systems))
 }
 
-fn kinetic(systems: &[&System; LANES]) -> ClassifiedKinetic<Lanes<LANES>> {
+fn kinetic<N: OfLanes>(systems: &[&System; LANES]) -> ClassifiedKinetic<N> {
     let KineticEnergy::Formula(formula) = &systems[0].kinetic else {
         return ClassifiedKinetic::Quadratic(of_masses(systems));
     };
@@ -179,7 +218,7 @@ fn kinetic(systems: &[&System; LANES]) -> ClassifiedKinetic<Lanes<LANES>> {
     }
 }
 
-fn of_masses(systems: &[&System; LANES]) -> Box<dyn Kinetic<Lanes<LANES>, Class = Quadratic>> {
+fn of_masses<N: OfLanes>(systems: &[&System; LANES]) -> Box<dyn Kinetic<N, Class = Quadratic>> {
     let masses = systems.map(|system| match &system.kinetic {
         KineticEnergy::Masses(masses) => masses.as_ref(),
         KineticEnergy::Formula(_) => unreachable!("the systems have one form"),
@@ -190,5 +229,5 @@ fn of_masses(systems: &[&System; LANES]) -> Box<dyn Kinetic<Lanes<LANES>, Class 
     let ones = || vec![Rational::from_integer(1.into()); systems[0].q.len()];
     let exact = |given: &Vec<Exact>| given.iter().map(|mass| mass.value.clone()).collect();
     let each = masses.map(|masses| DiagonalMasses::new(&masses.map_or_else(ones, exact), &()).expect(READ));
-    Box::new(DiagonalMasses::of_each(&each.each_ref()).expect(READ))
+    Box::new(DiagonalMasses::of_each(&each.each_ref()).expect(READ).into_numbers::<N>())
 }

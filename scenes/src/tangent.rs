@@ -250,17 +250,24 @@ where
     system.integrator(steps, (q, p), context)
 }
 
-/// The components of the vector k along these coordinates, the first of which has the number `first`, of the size of the largest coordinate: fractional
-/// parts of multiples of irrational numbers, minus ½.
+/// The components of the vector k along these coordinates, the first of which has the number `first`.
 fn point<N: CorrectlyRounded>(coordinates: &mut [Dual<N>], k: usize, first: usize, context: &N::Context) {
-    let largest = coordinates.iter().map(|x| x.to_f64().abs()).fold(0.0, f64::max);
-    let size = if largest > 0.0 && largest.is_finite() { largest } else { 1.0 };
-    for (i, x) in (first..).zip(coordinates) {
-        let turns = (i + 1) as f64 * 2_f64.sqrt() + (k + 1) as f64 * ((i + 2) as f64).sqrt().fract() * 3_f64.sqrt();
-        let component = size * (turns.fract() - 0.5);
+    let components = components(&coordinates.iter().map(Real::to_f64).collect::<Vec<_>>(), k, first);
+    for (x, component) in coordinates.iter_mut().zip(components) {
         let exact = Rational::from_float(component).expect("the size is finite");
         x.derivatives = [N::from_rational(&exact, context)];
     }
+}
+
+/// Components of the size of the largest coordinate: fractional parts of multiples of irrational numbers, minus ½.
+pub(crate) fn components(coordinates: &[f64], k: usize, first: usize) -> Vec<f64> {
+    let largest = coordinates.iter().copied().map(f64::abs).fold(0.0, f64::max);
+    let size = if largest > 0.0 && largest.is_finite() { largest } else { 1.0 };
+    let component = |i: usize| {
+        let turns = (i + 1) as f64 * 2_f64.sqrt() + (k + 1) as f64 * ((i + 2) as f64).sqrt().fract() * 3_f64.sqrt();
+        size * (turns.fract() - 0.5)
+    };
+    (first..first + coordinates.len()).map(component).collect()
 }
 
 struct InNumbers<N: CorrectlyRounded> {

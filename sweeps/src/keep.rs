@@ -79,6 +79,11 @@ impl Keep {
         values.chain(times).chain(ends).chain(states).collect()
     }
 
+    /// How many tangent vectors a run has.
+    pub(crate) fn vectors(&self) -> usize {
+        usize::from(self.needs(Need::Tangents)) + usize::from(self.values.contains(&RunValue::Sali))
+    }
+
     pub(crate) fn needs(&self, need: Need) -> bool {
         self.values.iter().any(|kept| kept.description().need == need)
     }

@@ -8,7 +8,6 @@ use shadowstep::shadow::Estimate;
 use shadowstep::shadow::run::{DriftRecorder, EnergyDrift, Finding, RunError};
 use shadowstep::steps::integrator::{VectorIntegrator, at_output};
 use shadowstep::systems::system::Visitor;
-use shadowstep::tangent::Growth;
 use shadowstep::{Carried, Real};
 use shadowstep_scenes::computation::{Computation, RunNumber};
 use shadowstep_scenes::follow::Follower;
@@ -115,9 +114,9 @@ impl Computation for Measuring<'_> {
             let drift = DriftRecorder::new(integrator.step_size().clone());
             following.drift = Some(drift.compensated_if(integrator.state().is_compensated()));
         }
-        following.tangents = match (keep.needs(Need::Tangents), keep.values.contains(&RunValue::Sali)) {
-            (false, _) => None,
-            (true, with_sali) => Some(scene.tangents(Vectors::Free(1 + usize::from(with_sali)), 1)?),
+        following.tangents = match keep.vectors() {
+            0 => None,
+            vectors => Some(scene.tangents(Vectors::Free(vectors), 1)?),
         };
         let settings = settings.map(|(settings, _)| settings);
         let ended = N::follow(&mut *integrator, (None, run.steps), settings, &mut following)?;
@@ -326,8 +325,6 @@ struct RunValues<'a, N> {
 impl<N: Real> RunValues<'_, N> {
     fn value(&self, kept: RunValue) -> Option<String> {
         let RunValues { energy, summary, tangents, ended, last } = self;
-        let growth = tangents.map(|tangents| tangents.growths()[0]);
-        let exponent = growth.and_then(Growth::exponent);
         let permanent = ended.drift.as_ref().and_then(|drift| drift.permanent.as_ref());
         match kept {
             RunValue::Verdict => summary.map(|summary| summary.verdict().to_owned()),
@@ -345,10 +342,9 @@ impl<N: Real> RunValues<'_, N> {
             }
             RunValue::PermanentResolution => permanent.map(|permanent| permanent.resolution.to_text()),
             RunValue::PermanentFinding => permanent.map(|permanent| finding(permanent.finding).to_owned()),
-            RunValue::Motion => growth.map(|growth| growth.regularity().to_string()),
-            RunValue::Lyapunov => exponent.map(|found| found.value.to_text()),
-            RunValue::LyapunovError => exponent.map(|found| found.error.to_text()),
-            RunValue::Megno => growth.map(|growth| growth.mean_megno().to_text()),
+            RunValue::Motion | RunValue::Lyapunov | RunValue::LyapunovError | RunValue::Megno => {
+                tangents.and_then(|tangents| kept.of_growth(tangents.growths()[0]))
+            }
             RunValue::Sali => tangents.and_then(TangentRun::sali).map(|sali| sali.to_text()),
             RunValue::Steps => Some(last.to_string()),
             RunValue::ForceEvaluations => Some(ended.evaluations.to_string()),

@@ -5,12 +5,13 @@
 
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use shadowstep::number::{Lanes, Number, Real};
+use shadowstep::number::{Dual, Lanes, Number, Real};
 use shadowstep::steps::integrator::VectorIntegrator;
+use shadowstep::tangent::Tangents;
 use shadowstep::{Scheme as _, System};
 use shadowstep_scenes::Scene;
-use shadowstep_scenes::lanes::{LANES, SystemInLanes};
-use shadowstep_scenes::start::{Begin, Steps};
+use shadowstep_scenes::lanes::{self, LANES, SystemInLanes};
+use shadowstep_scenes::start::{Begin, SceneIntegrator, Steps};
 use shadowstep_symbolic::decimal::to_text;
 
 use crate::expression::{Evaluator, Expression, Test};
@@ -24,11 +25,13 @@ const MOST_STEPS: u64 = 1_000_000;
 /// This number of steps is made at once where only the last state is of interest.
 const STEPS_AT_ONCE: u64 = 50;
 
+type TangentsInLanes = Tangents<SceneIntegrator<Dual<Lanes<LANES>>>>;
+
 const CHECKED: &str = "the formulas were checked with the sweep";
 
 /// Whether runs of which this is kept can be computed together: the monitor and estimates follow a run alone.
 pub(crate) fn allows(keep: &Keep) -> bool {
-    !(keep.rows || [Need::Summary, Need::Estimates, Need::Tangents].into_iter().any(|need| keep.needs(need)))
+    !(keep.rows || [Need::Summary, Need::Estimates].into_iter().any(|need| keep.needs(need)))
 }
 
 /// Whether a run can be computed together with others like it.
@@ -57,10 +60,17 @@ fn sums(scene: &Scene) -> Option<bool> {
 pub(crate) fn measure(scenes: &[&Scene], keep: &Keep, stops: &AtomicBool) -> Vec<Option<Values>> {
     // lanes without a run have the last one
     let of_lanes: [&Scene; LANES] = std::array::from_fn(|lane| scenes[lane.min(scenes.len() - 1)]);
-    let Some(together) = SystemInLanes::of(&of_lanes.map(|scene| &scene.system)) else {
-        return vec![None; scenes.len()];
+    let (systems, steps) = (of_lanes.map(|scene| &scene.system), steps(scenes[0]));
+    let none = vec![None; scenes.len()];
+    let Some(together) = SystemInLanes::of(&systems) else { return none };
+    let tangents = match keep.vectors() {
+        0 => None,
+        vectors => match lanes::tangents(&systems, steps, vectors) {
+            Some(Ok(tangents)) => Some(tangents),
+            _ => return none,
+        },
     };
-    let mut found = follow(&mut *together.integrator(steps(scenes[0])), &of_lanes, keep, stops);
+    let mut found = follow(&mut *together.integrator(steps), tangents, &of_lanes, keep, stops);
     found.truncate(scenes.len());
     found
 }
@@ -85,11 +95,13 @@ fn has_functions(scene: &Scene, keep: &Keep) -> bool {
 /// Follows a run in each lane.
 fn follow(
     integrator: &mut VectorIntegrator<'_, Lanes<LANES>>,
+    tangents: Option<TangentsInLanes>,
     scenes: &[&Scene; LANES],
     keep: &Keep,
     stops: &AtomicBool,
 ) -> Vec<Option<Values>> {
     let mut following = LanesFollower::begin(scenes, keep, integrator.system());
+    following.tangents = tangents;
     let at_once = if following.follows_all() { 1 } else { STEPS_AT_ONCE };
     let (mut n, last) = (0, scenes[0].steps());
     following.include(n, integrator.system());
@@ -109,8 +121,10 @@ fn follow(
 struct LanesFollower<'a> {
     scene: &'a Scene,
     keep: &'a Keep,
+    h: f64,
     /// H − H(0), where it is kept.
     energies: Option<Energies>,
+    tangents: Option<TangentsInLanes>,
     /// The conditions, each with the n of the first states that meet it.
     tests: Vec<(Test<Lanes<LANES>>, [Option<u64>; LANES])>,
     at_end: Vec<Evaluator<Lanes<LANES>>>,
@@ -141,7 +155,9 @@ impl<'a> LanesFollower<'a> {
         LanesFollower {
             scene: scenes[0],
             keep,
+            h: f64::from_rational(scenes[0].h.exact(), &()),
             energies: keep.needs(Need::Energies).then_some(Energies { initial, largest: zero, last: zero }),
+            tangents: None,
             tests: tests.collect(),
             at_end: at_end.collect(),
             active: initial.0.map(f64::is_finite),
@@ -151,7 +167,7 @@ impl<'a> LanesFollower<'a> {
 
     /// Whether more than the last state is of interest.
     fn follows_all(&self) -> bool {
-        self.energies.is_some() || !self.tests.is_empty()
+        self.energies.is_some() || self.tangents.is_some() || !self.tests.is_empty()
     }
 
     fn goes_on(&self) -> bool {
@@ -168,6 +184,10 @@ impl<'a> LanesFollower<'a> {
             && let Some(energies) = &mut self.energies
         {
             energies.include(&system.energy(), &mut self.active);
+        }
+        if let Some(tangents) = self.tangents.as_mut().filter(|_| n > 0) {
+            tangents.step();
+            tangents.observe(self.h * n as f64);
         }
         let mut ends = [n == self.scene.steps(); LANES];
         let run = self.scene.as_run();
@@ -209,6 +229,7 @@ impl<'a> LanesFollower<'a> {
 
     fn value(&self, kept: RunValue, lane: usize, n: u64, evaluations: u64) -> Option<String> {
         let energies = || self.energies.as_ref().expect("they are followed where they are kept");
+        let tangents = || self.tangents.as_ref().expect("they are followed where they are kept");
         match kept {
             RunValue::EnergyError => Some(energies().largest.0[lane].to_text()),
             RunValue::RelativeEnergyError => {
@@ -218,7 +239,8 @@ impl<'a> LanesFollower<'a> {
             RunValue::LastEnergyError => Some(energies().last.0[lane].to_text()),
             RunValue::Steps => Some(n.to_string()),
             RunValue::ForceEvaluations => Some(evaluations.to_string()),
-            _ => unreachable!("runs of which it is kept are not computed together"),
+            RunValue::Sali => Some(tangents().sali(lane).to_text()),
+            _ => kept.of_growth(tangents().growth(0, lane)),
         }
     }
 }
@@ -286,10 +308,19 @@ mod tests {
         assert_eq!(together(&format!("{HENON_HEILES}[keep]\n{energies}\n{escape}\nstate = true\n")), 30);
     }
 
+    /// Of those that stay in the well, regular and chaotic ones.
+    #[test]
+    fn indicators_of_chaos_are_those_of_runs_alone() {
+        let values = "values = [\"motion\", \"lyapunov\", \"lyapunov_error\", \"megno\", \"sali\", \"energy_error\"]";
+        let ends = together(&format!("{HENON_HEILES}[keep]\n{values}\n"));
+        assert!((5..30).contains(&ends), "{ends}");
+        assert_eq!(together(&format!("{HENON_HEILES}[keep]\nvalues = [\"megno\"]\n")), ends);
+    }
+
     #[test]
     fn masses_parameters_and_bodies_differ() {
         let run = "run = { scheme = \"ruth3\", step = \"1/20\", steps = 50, digits = \"compensated\" }\n";
-        let keep = "[axes]\na = \"1/3 … 2 in 7 values\"\n[keep]\nstate = true\nvalues = [\"energy_error\"]\nat_end = { x = \"a*t\" }\n";
+        let keep = "[axes]\na = \"1/3 … 2 in 7 values\"\n[keep]\nstate = true\nvalues = [\"energy_error\", \"sali\", \"megno\"]\nat_end = { x = \"a*t\" }\n";
         for problem in [
             "problem = { name = \"harmonic-oscillator\", parameters.omega = \"a\" }\n",
             "problem = { name = \"kepler\", parameters.eccentricity = \"a/3\" }\n",

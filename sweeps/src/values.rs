@@ -1,5 +1,8 @@
 //! Values that every run has, whatever its system: the list of them.
 
+use shadowstep::Real;
+use shadowstep::tangent::Growth;
+
 /// A value that every run has, whatever its system.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum RunValue {
@@ -109,5 +112,17 @@ pub(crate) const VALUES: [Description; 18] = [
 impl RunValue {
     pub(crate) fn description(self) -> &'static Description {
         VALUES.iter().find(|value| value.kept == self).expect("each value has its description")
+    }
+
+    /// The value that the growth of the first tangent vector has; `None` of other values.
+    pub(crate) fn of_growth(self, growth: &Growth) -> Option<String> {
+        let exponent = || growth.exponent();
+        match self {
+            RunValue::Motion => Some(growth.regularity().to_string()),
+            RunValue::Lyapunov => exponent().map(|found| found.value.to_text()),
+            RunValue::LyapunovError => exponent().map(|found| found.error.to_text()),
+            RunValue::Megno => Some(growth.mean_megno().to_text()),
+            _ => None,
+        }
     }
 }

@@ -79,6 +79,13 @@ impl<N: Number, const K: usize> Dual<N, K> {
     }
 }
 
+/// With derivatives 0.
+impl<N: Number, const K: usize> From<N> for Dual<N, K> {
+    fn from(value: N) -> Self {
+        Dual::constant(value)
+    }
+}
+
 /// x ← 1 + sign·a²
 fn assign_one_and_square<N: Number>(x: &mut N, a: &N, sign: i32) {
     x.assign_square(a);

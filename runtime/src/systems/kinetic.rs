@@ -279,6 +279,13 @@ impl<const W: usize> DiagonalMasses<Lanes<W>> {
     }
 }
 
+impl<N: Number> DiagonalMasses<N> {
+    /// The same masses in other numbers, to which these convert.
+    pub fn into_numbers<M: Number + From<N>>(self) -> DiagonalMasses<M> {
+        DiagonalMasses { inverse: self.inverse.into_iter().map(M::from).collect() }
+    }
+}
+
 /// Refuses lanes of different dimensions.
 fn check_same_dimension(first: usize, mut each: impl Iterator<Item = usize>) -> Result<(), MassError> {
     match each.find(|other| *other != first) {

@@ -286,17 +286,21 @@ impl Setup {
         Some((Bodies::new(self.values.value("g").clone(), masses.collect()).ok()?, dimensions))
     }
 
-    /// The potential energy of several trajectories of one problem, whose parameters may differ: each lane has the parameters of one.
+    /// The potential energy of several trajectories of one problem, whose parameters may differ: each lane has the parameters of one. Numbers are lanes, or
+    /// made of lanes.
     ///
     /// # Panics
     /// If they are not all of one problem.
-    pub fn potential_of_each<const W: usize>(each: &[&Setup; W]) -> Box<dyn Potential<Lanes<W>>> {
+    pub fn potential_of_each<N, const W: usize>(each: &[&Setup; W]) -> Box<dyn Potential<N>>
+    where
+        N: Number + From<Lanes<W>> + 'static,
+    {
         let problem = each[0].problem;
         assert!(
             each.iter().all(|setup| setup.problem == problem),
             "trajectories of different problems are not one system"
         );
-        problem.potential(&|name| Lanes(each.map(|setup| setup.values.number(name, &()))))
+        problem.potential(&|name| Lanes(each.map(|setup| setup.values.number(name, &()))).into())
     }
 
     /// The system at its initial state.
