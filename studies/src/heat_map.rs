@@ -30,7 +30,7 @@
 //! # Ok::<(), shadowstep_studies::Error>(())
 //! ```
 //!
-//! Up to 10 000 cells of at least two pixels are rectangles, of which neighbours with one colour are one. Others are an image within the
+//! Fewer than 10 000 cells of at least two pixels are rectangles, of which neighbours with one colour are one. Others are an image within the
 //! picture (PNG, lossless, without smoothing) of about a byte for each cell: 2000 × 2000 cells without any order are 5.4 MB of SVG, those
 //! of an escape map 0.08 MB. If the cells have different sizes, the image has four pixels for each unit of the picture, so
 //! that borders are exact to an eighth of a unit.

@@ -10,7 +10,8 @@ use shadowstep_symbolic::Error;
 use toml::de::DeValue;
 
 use draws::Draws;
-use number::{NUMBERS, evaluated};
+use number::evaluated;
+pub(crate) use number::{NUMBERS, number};
 use range::Range;
 
 /// A name and its values, which are numbered from 0.

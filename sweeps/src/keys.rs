@@ -29,7 +29,7 @@ const SECTIONS: [Section; 4] = [
     ),
 ];
 
-const KEYS: [Key; 21] = [
+const KEYS: [Key; 22] = [
     key(
         "",
         "scene",
@@ -135,6 +135,13 @@ const KEYS: [Key; 21] = [
         "The scale of the values, \"linear\" or \"log\".",
         "\"log\"",
         Some("the one that suits the values"),
+    ),
+    key(
+        "picture",
+        "range",
+        "The values at the ends of a map's colours, which values beyond share.",
+        "[1, 100]",
+        Some("the least and the largest value"),
     ),
     key("picture", "title", "The title.", "\"Permanent change\"", Some("the name of the sweep's file")),
     key(

@@ -1,5 +1,6 @@
 //! The tests of sweeps, as one program.
 
 mod examples;
+mod pictures;
 mod tables;
 mod together;

@@ -10,8 +10,8 @@ use super::shades::{MISSING, Shades};
 use super::svg::{Place, length};
 use crate::Error;
 
-/// More cells in all panels are drawn as images; so are cells narrower than this.
-pub(super) const MOST_RECTANGLES: usize = 10_000;
+/// From this number of cells in all panels on they are drawn as images; so are cells narrower than this.
+pub(super) const TOO_MANY_RECTANGLES: usize = 10_000;
 const NARROWEST: f64 = 2.0;
 
 /// Pixels of the image for each unit of the picture, where cells have different sizes.
@@ -20,7 +20,7 @@ const FINENESS: f64 = 4.0;
 /// Whether a picture of this number of cells on panels like this has images.
 pub(super) fn is_needed(cells: usize, (columns, rows): (usize, usize), place: Place) -> bool {
     let narrowest = (place.width / columns as f64).min(place.height / rows as f64);
-    cells > MOST_RECTANGLES || narrowest < NARROWEST
+    cells >= TOO_MANY_RECTANGLES || narrowest < NARROWEST
 }
 
 /// Which cell each pixel along an axis shows.

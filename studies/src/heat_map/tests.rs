@@ -321,7 +321,7 @@ fn the_number_of_elements_is_bounded() {
         let cells = (0..count * count).map(|_| next()).collect();
         HeatMap::new("", axis(), axis(), Colour::linear(""), vec![Panel::new("", cells)]).svg().unwrap()
     };
-    let rectangles = noise(100);
+    let rectangles = noise(99);
     assert!(!rectangles.contains("<image") && rectangles.len() < 500_000, "{}", rectangles.len());
     let image = noise(400);
     assert!(image.contains("<image") && image.len() < 2 * 400 * 400, "{}", image.len());

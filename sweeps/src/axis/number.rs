@@ -11,7 +11,7 @@ use shadowstep_symbolic::{Budget, Error, Exact, evaluate, evaluate_within, parse
 const DIGITS: u32 = 30;
 
 /// How numbers are written.
-pub(super) const NUMBERS: &str = "1, 0.05, or in quotes \"1/10\" or \"sqrt(2)/20\"";
+pub(crate) const NUMBERS: &str = "1, 0.05, or in quotes \"1/10\" or \"sqrt(2)/20\"";
 
 /// The most characters of a number, as of a formula.
 const LONGEST: usize = 10_000;
@@ -37,7 +37,7 @@ pub(super) fn formula(formula: &str, names: &[(&str, &Rational)], digits: u32) -
 }
 
 /// The value of a part of a text.
-pub(super) fn number(reader: &mut Reader<'_>, text: &Text) -> Option<Rational> {
+pub(crate) fn number(reader: &mut Reader<'_>, text: &Text) -> Option<Rational> {
     match evaluated(&text.value) {
         Ok(value) => Some(value),
         Err(error) => {

@@ -71,13 +71,17 @@ impl Picture {
         if !words.is_empty() {
             return (words.len() <= MOST_WORDS).then(|| Colour::words(label, words));
         }
-        Some(match self.scale {
+        let colour = match self.scale {
             Some(Scale::Linear) => Colour::linear(label),
             Some(Scale::Logarithmic) if cells.numbers().any(|number| number < 0.0) => {
                 Colour::symmetric_logarithmic(label)
             }
             Some(Scale::Logarithmic) => Colour::logarithmic(label),
             None => Colour::automatic(label),
+        };
+        Some(match &self.range {
+            Some([least, most]) => colour.over(double(least), double(most)),
+            None => colour,
         })
     }
 

@@ -1,5 +1,7 @@
 //! What a picture shows.
 
+use shadowstep::Rational;
+
 /// What is drawn: places of axes and of a column.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Picture {
@@ -15,6 +17,8 @@ pub struct Picture {
     pub(crate) of_several: OfSeveral,
     /// Of the values; where it is not given, that which suits them.
     pub(crate) scale: Option<Scale>,
+    /// The values at the ends of a map's colours; where they are not given, the least and the largest one.
+    pub(crate) range: Option<[Rational; 2]>,
     pub(crate) title: Option<String>,
     /// What the values are called.
     pub(crate) label: Option<String>,

@@ -1,12 +1,14 @@
 //! The section \[picture\] of a sweep's text, and what it means for its axes and columns.
 
-use shadowstep_schemes::document::{Reader, Text};
+use num_traits::Zero;
+use shadowstep::Rational;
+use shadowstep_schemes::document::{Placed, Reader, Text, Value};
 use shadowstep_symbolic::nearest;
 use toml::de::DeTable;
 
 use super::drawn::{OfSeveral, Picture, Scale};
 use crate::axes::Axes;
-use crate::axis::Axis;
+use crate::axis::{Axis, NUMBERS, number};
 use crate::keep::Column;
 use crate::keys;
 
@@ -20,6 +22,7 @@ pub(crate) struct Written {
     value: Option<Text>,
     of_several: Option<OfSeveral>,
     scale: Option<Scale>,
+    range: Option<Placed<[Rational; 2]>>,
     title: Option<Text>,
     label: Option<Text>,
 }
@@ -36,10 +39,11 @@ impl Written {
         let of_several = section.get("of_several").and_then(|value| reader.word(value, &words)).map(|word| word.value);
         let words = [("linear", Scale::Linear), ("log", Scale::Logarithmic)];
         let scale = section.get("scale").and_then(|value| reader.word(value, &words)).map(|word| word.value);
+        let range = section.get("range").and_then(|value| range(reader, value, scale));
         if let (Some(_), Some(curves)) = (&y, &curves) {
             reader.fault(&curves.at, "y and curves are both given", "keep y for a map, or curves for curves");
         }
-        let written = Written { x, y, curves, panels, value, of_several, scale, title, label };
+        let written = Written { x, y, curves, panels, value, of_several, scale, range, title, label };
         (reader.faults.len() == before).then_some(written)
     }
 }
@@ -92,6 +96,14 @@ impl Written {
             Some(_) => panels = panels.or_else(|| words(&[x, y])),
             None => curves = curves.or_else(|| words(&[x, panels])),
         }
+        if let Some(range) = self.range.as_ref().filter(|_| y.is_none()) {
+            reader.fault(
+                &range.at,
+                "range is of the colours of a map, and curves are drawn",
+                "leave it out, or give y for a map",
+            );
+            return None;
+        }
         let of_several = self.of_several.unwrap_or(OfSeveral::Mean);
         Some(Picture {
             x: x?,
@@ -101,10 +113,31 @@ impl Written {
             value: value?,
             of_several,
             scale: self.scale,
+            range: self.range.map(|range| range.value),
             title: self.title.map(|t| t.value),
             label: self.label.map(|l| l.value),
         })
     }
+}
+
+/// The values at the ends of the colours.
+fn range(reader: &mut Reader<'_>, value: &Value<'_>, scale: Option<Scale>) -> Option<Placed<[Rational; 2]>> {
+    const TWO: &str = "the values at both ends, such as [1, 100]";
+    let found = reader.list(value, TWO, |reader, value| {
+        let text = reader.number(value, NUMBERS)?;
+        number(reader, &text)
+    })?;
+    let at = found.at;
+    let Ok([least, most]) = <[Rational; 2]>::try_from(found.value) else {
+        return reader.wrong(&at, "range has two values", format!("write {TWO}"));
+    };
+    if least >= most {
+        return reader.wrong(&at, "range must have the smaller value first", format!("write {TWO}"));
+    }
+    if scale == Some(Scale::Logarithmic) && least <= Rational::zero() {
+        return reader.wrong(&at, "the range of a logarithmic scale must be positive", format!("write {TWO}"));
+    }
+    Some(Placed { value: [least, most], at })
 }
 
 /// The most maps or curves that are drawn unless they are asked for.

@@ -185,6 +185,11 @@ const CHANGES: &[(&str, &str)] = &[
     ("x = \"h\"", "value = \"energy\""),
     ("x = \"h\"", "scale = \"logarithmic\""),
     ("x = \"h\"", "of_several = \"median\""),
+    ("x = \"h\"", "range = 1"),
+    ("x = \"h\"", "range = [1]"),
+    ("x = \"h\"", "range = [\"1/2\", 0.5]"),
+    ("x = \"h\"", "scale = \"log\"\nrange = [0, 1]"),
+    ("x = \"h\"", "curves = \"scheme\"\nrange = [1, 2]"),
 ];
 
 #[test]
