@@ -4,7 +4,11 @@ use std::fs;
 use std::path::Path;
 use std::sync::atomic::AtomicBool;
 
+use shadowstep::tables::Source;
 use shadowstep_sweeps::SweepPlan;
+
+/// Maps of chaos follow long orbits, of which this test makes the beginnings.
+const SHORTER: [(&str, &str); 2] = [("until = 10000", "until = 100"), ("steps = 100000", "steps = 500")];
 
 #[test]
 fn the_examples_of_the_documentation_can_be_run() {
@@ -12,7 +16,10 @@ fn the_examples_of_the_documentation_can_be_run() {
     let mut names = Vec::new();
     for entry in fs::read_dir(folder).unwrap() {
         let path = entry.unwrap().path();
-        let plan = SweepPlan::open(&path).unwrap_or_else(|error| panic!("{error}"));
+        let text =
+            SHORTER.iter().fold(fs::read_to_string(&path).unwrap(), |text, (long, short)| text.replace(long, short));
+        let plan = SweepPlan::of(&Source { path: path.display().to_string(), text });
+        let plan = plan.unwrap_or_else(|error| panic!("{error}"));
         let runs = plan.axes().runs();
         assert!(runs >= 10_000, "{}", path.display());
         assert!(plan.picture().is_some());
@@ -24,5 +31,6 @@ fn the_examples_of_the_documentation_can_be_run() {
         names.push(path.file_name().unwrap().to_string_lossy().into_owned());
     }
     names.sort();
-    assert_eq!(names, ["henon-heiles-escape.toml", "kepler-map.toml"]);
+    let expected = ["henon-heiles-chaos.toml", "henon-heiles-escape.toml", "kepler-map.toml", "planet-between.toml"];
+    assert_eq!(names, expected);
 }
