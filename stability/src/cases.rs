@@ -21,6 +21,7 @@ mod resonances;
 mod reversal;
 mod round_off;
 mod stiff_springs;
+mod tangent_maps;
 mod transformed_time;
 
 use crate::case::Entry;
@@ -48,5 +49,6 @@ pub(crate) const CASES: &[Entry] = &[
     Entry::of::<chains::Chains>(),
     Entry::of::<round_off::RoundOff>(),
     Entry::of::<reversal::Reversal>(),
+    Entry::of::<tangent_maps::TangentMaps>(),
     Entry::of::<precision::Precision>(),
 ];

@@ -25,8 +25,10 @@
 //! | `case` | what a case is |
 //! | `systems`, `integrator` | systems of cases; a system with its stepper as scenes make it, in a number type or in one that is hidden |
 //! | `linear_step`, `growth` | a step of the oscillator as a matrix; how fast a linear system grows |
+//! | `area` | areas of pairs of tangent vectors |
 //! | `watched`, `long_run`, `scene_run` | a run with a monitor; long runs of shipped problems; a run of a scene with its summary |
 
+mod area;
 mod case;
 mod cases;
 mod examination;
