@@ -4,7 +4,8 @@
     build/venv/bin/python megno_map.py map/results.csv build/megno-map.csv 2      # on two cores
 
 Both make Wisdom–Holman steps in Jacobi coordinates. A run is regular for REBOUND if its mean MEGNO is within 0.5 of 2, and chaotic if it is 4 or more. Where one
-program calls a run regular and the other chaotic, MEGNO is also computed from the logarithms of the lengths of REBOUND's vectors, and of ten times as many steps.
+program calls a run regular and the other chaotic, by the word or by the same limits, MEGNO is also computed from the logarithms of the lengths of REBOUND's
+vectors, and over ten times as many steps.
 REBOUND's values are saved in the second file, and are read from there if it exists.
 """
 
@@ -44,8 +45,9 @@ def of_rebound(place):
 
 
 def logarithm(sim):
+    # REBOUND divides long vectors, and keeps the logarithm of what it divided by
     vectors = (sim.particles_var[k] for k in range(sim.N_var))
-    return math.log(sum(x * x for v in vectors for x in (v.x, v.y, v.z, v.vx, v.vy, v.vz))) / 2
+    return math.log(sum(x * x for v in vectors for x in (v.x, v.y, v.z, v.vx, v.vy, v.vz))) / 2 + sim.var_config[0]._lrescale
 
 
 def of_lengths(place, steps, seed):
@@ -98,7 +100,9 @@ def main(results, saved, processes):
     table([(row["motion"], other) for row, other in zip(own, words)])
     print()
     table([(word(float(row["megno"])), other) for row, other in zip(own, words)])
-    opposed = [k for k, row in enumerate(own) if {row["motion"], words[k]} == {"regular", "chaotic"}]
+    of_motion = [{row["motion"], other} for row, other in zip(own, words)]
+    of_megno = [{word(float(row["megno"])), other} for row, other in zip(own, words)]
+    opposed = [k for k in range(len(own)) if {"regular", "chaotic"} in (of_motion[k], of_megno[k])]
     print(f"\n{len(opposed)} runs are opposed; of REBOUND's vectors with seeds 0 and 1, and of seed 0 over ten times the steps: its sum, from the lengths")
     for k in opposed[:: max(1, len(opposed) // LOOKED_AT)]:
         runs = [of_lengths(places[k], steps, seed) for steps, seed in ((STEPS, 0), (STEPS, 1), (10 * STEPS, 0))]
