@@ -11,7 +11,7 @@ use shadowstep_symbolic::{Exact, parse};
 
 use crate::scene::{ClassifiedKinetic, KineticEnergy, PairEnergy, PotentialEnergy, System};
 use crate::start::{SceneIntegrator, Steps};
-use crate::tangent::components;
+use crate::tangent::{components, scales};
 
 /// Trajectories that are computed together.
 pub const LANES: usize = 16;
@@ -66,9 +66,11 @@ pub fn tangents(
 ) -> Option<Result<Tangents<SceneIntegrator<Dual<Lanes<LANES>>>>, TangentError>> {
     let with_vector = |k: usize| {
         let mut system = SystemInLanes::<Dual<Lanes<LANES>>>::in_numbers(systems)?;
-        for (half, first) in [(&mut system.q, 0), (&mut system.p, systems[0].q.len())] {
+        let scales = systems.map(scales);
+        for (i, half) in [&mut system.q, &mut system.p].into_iter().enumerate() {
             let of_lane = |lane: usize| half.iter().map(|x| x.value.0[lane]).collect::<Vec<_>>();
-            let of_lanes: [_; LANES] = std::array::from_fn(|lane| components(&of_lane(lane), k, first));
+            let place = |lane: usize| (i * systems[0].q.len(), &scales[lane][i][..]);
+            let of_lanes: [_; LANES] = std::array::from_fn(|lane| components(&of_lane(lane), k, place(lane)));
             for (i, x) in half.iter_mut().enumerate() {
                 x.derivatives = [Lanes(std::array::from_fn(|lane| of_lanes[lane][i]))];
             }

@@ -3,7 +3,7 @@
 use num_traits::ToPrimitive;
 use shadowstep::number::{AnyLimbs, CorrectlyRounded, DoubleDouble, Dual, LimbCount, Precision};
 use shadowstep::tangent::{Growth, Tangents, with_derivatives};
-use shadowstep::{Integrator as _, MotionError, Rational, Real, Remainders};
+use shadowstep::{Integrator as _, MotionError, Number, Rational, Real, Remainders};
 
 use crate::arithmetic::{Arithmetic, Digits, Numbers};
 use crate::computation::RunNumber;
@@ -245,29 +245,44 @@ where
     Dual<N>: SceneNumber<Context = N::Context>,
 {
     let (mut q, mut p) = system.start::<Dual<N>>(context);
-    point(&mut q, k, 0, context);
-    point(&mut p, k, q.len(), context);
+    let [of_q, of_p] = scales(system);
+    point(&mut q, k, (0, &of_q), context);
+    point(&mut p, k, (q.len(), &of_p), context);
     system.integrator(steps, (q, p), context)
 }
 
-/// The components of the vector k along these coordinates, the first of which has the number `first`.
-fn point<N: CorrectlyRounded>(coordinates: &mut [Dual<N>], k: usize, first: usize, context: &N::Context) {
-    let components = components(&coordinates.iter().map(Real::to_f64).collect::<Vec<_>>(), k, first);
+/// The components of the vector k along these coordinates, the first of which has the number `first`, with these scales.
+fn point<N: CorrectlyRounded>(
+    coordinates: &mut [Dual<N>],
+    k: usize,
+    (first, scales): (usize, &[f64]),
+    context: &N::Context,
+) {
+    let components = components(&coordinates.iter().map(Real::to_f64).collect::<Vec<_>>(), k, (first, scales));
     for (x, component) in coordinates.iter_mut().zip(components) {
         let exact = Rational::from_float(component).expect("the size is finite");
         x.derivatives = [N::from_rational(&exact, context)];
     }
 }
 
-/// Components of the size of the largest coordinate: fractional parts of multiples of irrational numbers, minus ½.
-pub(crate) fn components(coordinates: &[f64], k: usize, first: usize) -> Vec<f64> {
-    let largest = coordinates.iter().copied().map(f64::abs).fold(0.0, f64::max);
+/// Components of the size of the largest coordinate, in units of their scales: fractional parts of multiples of irrational numbers, minus ½.
+pub(crate) fn components(coordinates: &[f64], k: usize, (first, scales): (usize, &[f64])) -> Vec<f64> {
+    let in_scales = coordinates.iter().zip(scales).map(|(x, scale)| (x / scale).abs());
+    let largest = in_scales.fold(0.0, f64::max);
     let size = if largest > 0.0 && largest.is_finite() { largest } else { 1.0 };
-    let component = |i: usize| {
+    let component = |(i, scale): (usize, &f64)| {
         let turns = (i + 1) as f64 * 2_f64.sqrt() + (k + 1) as f64 * ((i + 2) as f64).sqrt().fract() * 3_f64.sqrt();
-        size * (turns.fract() - 0.5)
+        size * scale * (turns.fract() - 0.5)
     };
-    (first..first + coordinates.len()).map(component).collect()
+    (first..).zip(scales).map(component).collect()
+}
+
+/// The scales of positions, and of momenta: masses, so that the first vectors displace velocities alike.
+pub(crate) fn scales(system: &System) -> [Vec<f64>; 2] {
+    let mut masses: Vec<f64> =
+        system.exact_masses().iter().map(|mass| <f64 as Number>::from_rational(mass, &()).abs()).collect();
+    masses.resize(system.dimension(), 1.0);
+    [vec![1.0; masses.len()], masses]
 }
 
 struct InNumbers<N: CorrectlyRounded> {
@@ -374,8 +389,9 @@ mod tests {
     fn moved(scene: &Scene, distance: &str) -> Vec<AnyLimbs> {
         let context = &long();
         let (mut q, mut p) = scene.system.start::<Dual<AnyLimbs>>(context);
-        point(&mut q, 0, 0, context);
-        point(&mut p, 0, q.len(), context);
+        let [of_q, of_p] = scales(&scene.system);
+        point(&mut q, 0, (0, &of_q), context);
+        point(&mut p, 0, (q.len(), &of_p), context);
         let distance = AnyLimbs::from_rational(&shadowstep::exact(distance).unwrap(), context);
         let plain = |x: &Dual<AnyLimbs>| {
             let mut moved = x.value;
