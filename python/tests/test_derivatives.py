@@ -61,7 +61,7 @@ def test_derivatives_are_differences(system):
 
 
 @pytest.mark.parametrize("system", SYSTEMS)
-@pytest.mark.parametrize("digits", ["double", 30])
+@pytest.mark.parametrize("digits", ["double", "compensated", "double-double", 30])
 def test_gradients_are_derivatives(system, digits):
     problem, names = SYSTEMS[system]
     names = [coordinate(problem, name) for name in names]

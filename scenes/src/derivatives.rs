@@ -93,7 +93,7 @@ pub fn precise(arithmetic: Arithmetic) -> Result<Arithmetic, Error> {
         let digits = arithmetic.digits();
         Error::usage(
             format!("{digits} digits are too many for derivatives by parameters"),
-            "use 100 digits or fewer, or derivatives by the initial state only",
+            "use 138 digits or fewer, or derivatives by the initial state only",
         )
     })
 }

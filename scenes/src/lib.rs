@@ -71,7 +71,7 @@
 //! | [`family`] | scenes that differ in the values of some names |
 //! | [`ensemble`], [`lanes`] | many trajectories of such a family; their systems as one system of lanes |
 //! | `read` | a scene's text → a scene, or all its faults |
-//! | `execute`, `engine`, `snapshots` | the run of a scene |
+//! | `execute`, `engine`, `snapshots`, `saved_state` | the run of a scene |
 //! | `observer`, `note` | how a caller watches a run and stops it |
 //! | `results` | rows, the head of a file, checkpoints, and where they go |
 //! | `whole_file`, [`lock`], `temporary` | files that get their names when they are complete, that one process has alone, and that are removed if the program ends early |
@@ -81,6 +81,8 @@
 //! | [`estimator`] | estimators of the modified energy with their settings |
 //! | [`run`], [`steps`], [`propagator`] | one run of a scheme or of the exact flow with one step size |
 //! | [`integrate`] | a run into memory |
+//! | [`tangent`], [`chaos`] | tangent vectors beside a run, and the indicators of chaos that they give |
+//! | [`derivatives`] | derivatives of a run by the initial state, the step size and numbers of the scene, forwards and backwards |
 //! | [`drift`] | the drift of the modified energy of a run, and that on the exact flow; [`cpu_time`] is what it costs |
 //! | [`plot`] | what charts of a run show |
 //! | `split` | how H is split into parts: each kind of split has its file |
@@ -122,6 +124,7 @@ mod refusal;
 mod results;
 pub mod run;
 mod run_number;
+mod saved_state;
 mod scene;
 pub mod scheme_record;
 mod shell;

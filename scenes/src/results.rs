@@ -9,7 +9,7 @@ mod resumable;
 mod rows;
 mod target;
 
-pub(crate) use checkpoint::{Checkpoint, Identity, SavedState, SavedVector};
+pub(crate) use checkpoint::{Checkpoint, Identity};
 pub use functions::elementary_functions;
 pub(crate) use metadata::Metadata;
 pub use metadata::hexadecimal;

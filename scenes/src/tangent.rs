@@ -8,7 +8,7 @@ use shadowstep::{Integrator as _, MotionError, Number, Rational, Real, Remainder
 use crate::arithmetic::{Arithmetic, Digits, Numbers};
 use crate::computation::RunNumber;
 use crate::error::Error;
-use crate::results::{SavedState, SavedVector};
+use crate::saved_state::{SavedState, SavedVector};
 use crate::scene::{PotentialEnergy, Scene, SceneNumber, System};
 use crate::snapshots::Snapshot;
 use crate::start::{Begin, SceneIntegrator, Steps};

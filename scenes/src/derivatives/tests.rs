@@ -178,6 +178,9 @@ fn unknown_derivatives_are_refused() {
     let case = Case { text: quadratic, scheme: "yoshida4", h: "1/20", theta: "6/5" };
     let refused = case.with(Arithmetic::DOUBLE, |request| request.forward(&mut ()).unwrap_err().to_string());
     assert!(refused.starts_with("derivatives by θ are not known: it is no constant of the steps"), "{refused}");
+    let long = |digits| precise(Arithmetic::with_digits(digits).unwrap());
+    let refused = long(139).unwrap_err().to_string();
+    assert!(long(138).is_ok() && refused.contains("use 138 digits"), "{refused}");
     let folded = Case { theta: "1", ..case };
     let refused = folded.with(Arithmetic::DOUBLE, |request| request.forward(&mut ()).unwrap_err().to_string());
     assert!(refused.starts_with("derivatives by θ are not known"), "{refused}");

@@ -16,9 +16,10 @@ use crate::error::{Error, NotWritten, not_written};
 use crate::lock::{LockError, open_locked};
 use crate::note::Note;
 use crate::observer::Observer;
-use crate::results::checkpoint::{Checkpoint, Identity, SavedState, SavedVector};
+use crate::results::checkpoint::{Checkpoint, Identity};
 use crate::results::metadata::hexadecimal;
 use crate::results::options::FileOptions;
+use crate::saved_state::{SavedState, SavedVector};
 use crate::temporary::Temporary;
 
 /// The extension of rows that are not complete.

@@ -9,10 +9,11 @@ use shadowstep_schemes::document::refuse_pipe;
 
 use crate::error::Error;
 use crate::observer::Observer;
-use crate::results::checkpoint::{Checkpoint, Identity, SavedState, SavedVector};
+use crate::results::checkpoint::{Checkpoint, Identity};
 use crate::results::options::FileOptions;
 use crate::results::origin::{METADATA, Origin};
 use crate::results::resumable::{CHECKPOINT, NEW_CHECKPOINT, Resumable, beside};
+use crate::saved_state::{SavedState, SavedVector};
 use crate::scene::Scene;
 use crate::whole_file::destination;
 
