@@ -63,7 +63,7 @@ pub enum Variable {
 pub struct Parameter {
     /// Its name, for messages.
     pub name: String,
-    /// The system where it is larger by the [distance](distance), read to [more digits](precise).
+    /// The system where it is larger by the [distance()], read to [more digits](precise).
     pub system: Box<System>,
     /// The step size there.
     pub h: StepSize,
