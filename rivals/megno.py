@@ -1,4 +1,4 @@
-"""MEGNO of two planets that are regular, beside REBOUND's: hannorein/rebound, issue 701.
+"""MEGNO of two planets that seem regular, beside REBOUND's: hannorein/rebound, issue 701.
 
     build/venv/bin/python megno.py PROGRAM STEPS       # as ../target/release/shadowstep 43900000
 
