@@ -201,15 +201,13 @@ class Problem:
         problem = sections["problem"]
         if first == "masses" and problem.get("masses") is None:
             problem["masses"] = [1] * self.dimension
-        defaults = dict(self._given.parameters)
-        if first in defaults:
-            problem["parameters"] = {**(problem.get("parameters") or {})}
-            problem["parameters"].setdefault(first, defaults[first])
-        for container in (problem.get("parameters"), problem.get("bodies"), problem, sections):
-            if isinstance(container, dict) and container.get(first) is not None:
-                break
-        else:
-            raise self._unknown(name)
+        given = (problem.get("parameters"), problem.get("bodies"), problem, sections)
+        container: Any = next((content for content in given if isinstance(content, dict) and content.get(first) is not None), None)
+        if container is None:
+            default = dict(self._given.parameters).get(first)
+            if default is None:
+                raise self._unknown(name)
+            container = problem["parameters"] = {**(problem.get("parameters") or {}), first: default}
         key: Any = first
         for word in rest:
             container = container[key]

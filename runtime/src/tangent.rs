@@ -131,6 +131,11 @@ where
         (self.growths, self.divisors) = (growths, Divisors::PowersOfTwo(exponents));
     }
 
+    /// Whether vectors evolve freely.
+    pub fn are_free(&self) -> bool {
+        self.exponents().is_some()
+    }
+
     /// By which powers of 2 free vectors were divided so far; `None` of orthonormal ones.
     pub fn exponents(&self) -> Option<&[i64]> {
         match &self.divisors {

@@ -18,7 +18,6 @@ use shadowstep::{MotionError, Rational, StepSize, exact};
 use crate::arithmetic::Arithmetic;
 use crate::computation::RunNumber;
 use crate::error::Error;
-use crate::observer::Observer;
 use crate::run::Run;
 use crate::scene::split::{ShownCoordinates, State};
 use crate::scene::{SceneNumber, System};
@@ -214,17 +213,6 @@ impl Differentiation<'_> {
             Variable::Parameter(parameter) => self.check_first_step(parameter),
             _ => Ok(()),
         })
-    }
-
-    fn ask(&self, n: u64, observer: &mut dyn Observer) -> Result<(), Error> {
-        observer.progress(i64::try_from(n).unwrap_or(i64::MAX));
-        match observer.stops() {
-            false => Ok(()),
-            true => Err(Error::run(
-                format!("{}: interrupted at n = {n}", self.run.name()),
-                "run it again, over a shorter time for example",
-            )),
-        }
     }
 
     /// The run stopped, if a number is not finite.

@@ -177,18 +177,6 @@ struct Keeper<'a, N: Number> {
 }
 
 impl<N: RunNumber> Keeper<'_, N> {
-    /// Reports progress, and ends the run if the observer stops it.
-    fn ask(&mut self, n: u64) -> Result<(), Error> {
-        self.observer.progress(i64::try_from(n).unwrap_or(i64::MAX));
-        match self.observer.stops() {
-            false => Ok(()),
-            true => Err(Error::run(
-                format!("{}: interrupted at n = {n}", self.integration.run.name()),
-                "run it again, over a shorter time for example",
-            )),
-        }
-    }
-
     /// Keeps the present state.
     fn keep(&mut self, n: u64, integrator: &mut VectorIntegrator<'_, N>) -> Result<(), Error> {
         let energy = match &mut self.energy_of {
@@ -263,7 +251,7 @@ impl<N: RunNumber> Follower<N> for Keeper<'_, N> {
     ) -> Result<ControlFlow<()>, Error> {
         let n = n.unsigned_abs();
         if self.pace.looks_up(n) {
-            self.ask(n)?;
+            self.integration.run.report(n, self.observer)?;
         }
         if self.integration.keeps(n) {
             match estimate {

@@ -228,10 +228,12 @@ where
     let (Vectors::Free(count) | Vectors::Orthonormal(count)) = vectors;
     let integrators = (0..count).map(|k| with_vector(system, steps, k, context));
     let integrators = integrators.collect::<Result<Vec<_>, _>>()?;
-    let are_free = matches!(vectors, Vectors::Free(_));
-    let tangents = if are_free { Tangents::new(integrators) } else { Tangents::orthonormal(integrators) };
+    let tangents = match vectors {
+        Vectors::Free(_) => Tangents::new(integrators),
+        Vectors::Orthonormal(_) => Tangents::orthonormal(integrators),
+    };
     let tangents = tangents.map_err(|error| Error::run(error.to_string(), "choose another initial state"))?;
-    Ok(Box::new(InNumbers { tangents, are_free, transformed: system.transformed_time().is_some() }))
+    Ok(Box::new(InNumbers { tangents, transformed: system.transformed_time().is_some() }))
 }
 
 /// The system at its first state with the vector k.
@@ -287,7 +289,6 @@ pub(crate) fn scales(system: &System) -> [Vec<f64>; 2] {
 
 struct InNumbers<N: CorrectlyRounded> {
     tangents: Tangents<SceneIntegrator<Dual<N>>>,
-    are_free: bool,
     transformed: bool,
 }
 
@@ -306,19 +307,19 @@ impl<N: CorrectlyRounded> TangentRun for InNumbers<N> {
     }
 
     fn growths(&self) -> Vec<&Growth> {
-        match self.are_free {
+        match self.tangents.are_free() {
             true => (0..self.tangents.count()).map(|vector| self.tangents.growth(vector, 0)).collect(),
             false => self.tangents.spectrum(0),
         }
     }
 
     fn sali(&self) -> Option<f64> {
-        (self.are_free && self.tangents.count() >= 2).then(|| self.tangents.sali(0))
+        (self.tangents.are_free() && self.tangents.count() >= 2).then(|| self.tangents.sali(0))
     }
 
     fn gali(&self) -> Option<f64> {
         let count = self.tangents.count();
-        (self.are_free && count >= 3).then(|| self.tangents.gali(count, 0))
+        (self.tangents.are_free() && count >= 3).then(|| self.tangents.gali(count, 0))
     }
 }
 

@@ -68,7 +68,7 @@ impl WithDerivatives for Backward<'_, '_> {
         for row in &rows {
             plain.steps(row - n);
             n = *row;
-            request.ask(n, observer)?;
+            request.run.report(n, observer)?;
         }
         let mut begun = request.begin::<N>(None, context)?;
         set_values(&mut begun.integrator, &*plain);
@@ -81,7 +81,7 @@ impl WithDerivatives for Backward<'_, '_> {
                 backwards.adjoint.step_back();
             }
             n = *row;
-            request.ask(n, observer)?;
+            request.run.report(n, observer)?;
             let covector: Vec<N> = covector.iter().map(|x| N::from_rational(x, context)).collect();
             backwards.add(&covector);
         }

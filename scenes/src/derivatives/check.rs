@@ -56,9 +56,7 @@ impl Differentiation<'_> {
 /// A state beside another one, from which nothing vanishes by symmetry: a part that a state at rest does not show is not missed.
 fn beside<N: Number>((mut q, mut p): State<N>, context: &N::Context) -> State<N> {
     for (i, x) in (1..).zip(q.iter_mut().chain(&mut p)) {
-        let mut factor = N::from_rational(&Rational::new((8192 + i % 7).into(), 8192.into()), context);
-        std::mem::swap(x, &mut factor);
-        x.multiply(&factor);
+        x.multiply(&N::from_rational(&Rational::new((8192 + i % 7).into(), 8192.into()), context));
         x.add(&N::from_rational(&Rational::new((1 + i % 5).into(), 65_536.into()), context));
     }
     (q, p)

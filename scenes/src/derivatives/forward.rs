@@ -55,15 +55,16 @@ impl WithDerivatives for Forward<'_, '_> {
         let rows = request.rows();
         let mut n = 0;
         for row in &rows {
-            for (begun, derivatives) in all.iter_mut().zip(&mut by) {
+            for (k, (begun, derivatives)) in all.iter_mut().zip(&mut by).enumerate() {
                 begun.integrator.steps(row - n);
                 let output = begun.output();
                 request.check_finite(*row, &output)?;
                 derivatives.extend(output.iter().map(|x| x.derivatives[0].clone()));
+                // the states are the same beside each vector
+                states.extend(output.into_iter().filter(|_| k == 0).map(|x| x.value));
             }
-            states.extend(all[0].output().into_iter().map(|x| x.value));
             n = *row;
-            request.ask(n, observer)?;
+            request.run.report(n, observer)?;
         }
         let array = |numbers: &Vec<N>| Array::of(numbers, request.arithmetic);
         let by = by.iter().take(request.by.len()).map(array).collect();
