@@ -33,12 +33,13 @@ def simulation():
 
 
 def logarithm(sim):
+    # REBOUND divides long vectors, and keeps the logarithm of what it divided by
     vectors = (sim.particles_var[k] for k in range(sim.N_var))
-    return math.log(sum(x * x for v in vectors for x in (v.x, v.y, v.z, v.vx, v.vy, v.vz))) / 2
+    return math.log(sum(x * x for v in vectors for x in (v.x, v.y, v.z, v.vx, v.vy, v.vz))) / 2 + sim.var_config[0]._lrescale
 
 
-def of_rebound(steps):
-    sim = simulation()
+def of_lengths(sim, steps):
+    """MEGNO and its mean from the lengths of REBOUND's vectors, each EVERY steps, with the number of steps."""
     first, grown, t, weighted, integral = logarithm(sim), 0.0, 0.0, 0.0, 0.0
     for n in range(1, steps // EVERY + 1):
         sim.steps(EVERY)
@@ -47,8 +48,14 @@ def of_rebound(steps):
         weighted += (now - grown) * (sim.t + t) / 2
         integral += (before + 2 * weighted / sim.t) / 2 * (sim.t - t)
         grown, t = now, sim.t
-        if n % (steps // EVERY // SAMPLES) == 0:
-            print(f"{n * EVERY} steps: REBOUND's sum {sim.megno():.3f}, from its vectors Y = {2 * weighted / t:.3f}, mean {integral / t:.4f}", flush=True)
+        yield n * EVERY, 2 * weighted / t, integral / t
+
+
+def of_rebound(steps):
+    sim = simulation()
+    for n, megno, mean in of_lengths(sim, steps):
+        if n // EVERY % (steps // EVERY // SAMPLES) == 0:
+            print(f"{n} steps: REBOUND's sum {sim.megno():.3f}, from its vectors Y = {megno:.3f}, mean {mean:.4f}", flush=True)
 
 
 def scene(steps):
@@ -73,4 +80,5 @@ def main(program, steps):
             print(f"Shadowstep, {vectors} vectors: Y = {record['megno']:.3f}, mean {record['mean_megno']:.4f}, {record['motion']}", flush=True)
 
 
-main(*sys.argv[1:])
+if __name__ == "__main__":
+    main(*sys.argv[1:])

@@ -18,8 +18,9 @@ from multiprocessing import Pool
 from pathlib import Path
 
 import rebound
+from megno import of_lengths
 
-STEPS, DT, EVERY = 100_000, math.pi / 10, 100
+STEPS, DT = 100_000, math.pi / 10
 LOOKED_AT = 12
 
 
@@ -44,24 +45,11 @@ def of_rebound(place):
     return sim.megno(), time.process_time() - before
 
 
-def logarithm(sim):
-    # REBOUND divides long vectors, and keeps the logarithm of what it divided by
-    vectors = (sim.particles_var[k] for k in range(sim.N_var))
-    return math.log(sum(x * x for v in vectors for x in (v.x, v.y, v.z, v.vx, v.vy, v.vz))) / 2 + sim.var_config[0]._lrescale
-
-
-def of_lengths(place, steps, seed):
+def mean_of_lengths(place, steps, seed):
     """REBOUND's own mean MEGNO, and that of the lengths of its vectors."""
     sim = simulation(*place, seed)
-    first, grown, t, weighted, integral = logarithm(sim), 0.0, 0.0, 0.0, 0.0
-    for _ in range(steps // EVERY):
-        sim.steps(EVERY)
-        before = 2 * weighted / t if t else 0.0
-        now = logarithm(sim) - first
-        weighted += (now - grown) * (sim.t + t) / 2
-        integral += (before + 2 * weighted / sim.t) / 2 * (sim.t - t)
-        grown, t = now, sim.t
-    return sim.megno(), integral / t
+    *_, (_, _, mean) = of_lengths(sim, steps)
+    return sim.megno(), mean
 
 
 def word(megno):
@@ -105,7 +93,7 @@ def main(results, saved, processes):
     opposed = [k for k in range(len(own)) if {"regular", "chaotic"} in (of_motion[k], of_megno[k])]
     print(f"\n{len(opposed)} runs are opposed; of REBOUND's vectors with seeds 0 and 1, and of seed 0 over ten times the steps: its sum, from the lengths")
     for k in opposed[:: max(1, len(opposed) // LOOKED_AT)]:
-        runs = [of_lengths(places[k], steps, seed) for steps, seed in ((STEPS, 0), (STEPS, 1), (10 * STEPS, 0))]
+        runs = [mean_of_lengths(places[k], steps, seed) for steps, seed in ((STEPS, 0), (STEPS, 1), (10 * STEPS, 0))]
         found = "; ".join(f"{sums:.2f}, {lengths:.2f}" for sums, lengths in runs)
         print(f"a = {own[k]['a']}, e = {own[k]['e']}: ours {own[k]['motion']}, {float(own[k]['megno']):.2f}; REBOUND {found}", flush=True)
 
