@@ -10,6 +10,9 @@ use shadowstep_studies::{Calculation, Continues};
 
 use crate::suite::Suite;
 
+/// The curves of a chart, at most: more are not distinguishable.
+pub(crate) const MOST_CURVES: usize = 12;
+
 /// A hard case: what theory predicts, what is computed to see it, and whether it holds.
 pub(crate) trait Case {
     /// The name by which it is requested.

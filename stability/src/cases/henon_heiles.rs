@@ -10,7 +10,7 @@ use shadowstep_studies::chart::{Axis, Chart, Curve};
 use shadowstep_studies::finding::Finding;
 use shadowstep_studies::verdict::Verdict;
 
-use crate::case::Case;
+use crate::case::{Case, MOST_CURVES};
 use crate::integrator::{start_in, step_size, steps_of};
 use crate::suite::{Examined, OF_ORDERS_2_TO_8, Suite};
 use crate::systems::{rational, shipped};
@@ -59,9 +59,6 @@ const BOUNDED: f64 = 1.5;
 const NEAR: f64 = 1e-10;
 /// The growth is kept at this number of times.
 const SAMPLES: u64 = 200;
-/// Curves that can be told apart.
-const MOST_CURVES: usize = 12;
-
 impl OrbitKind {
     /// The initial state: H = 0.005; H = 1/8 from the chaotic sea; H = 0.2, above 1/6.
     fn start(self) -> [(&'static str, String); 4] {

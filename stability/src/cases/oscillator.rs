@@ -13,7 +13,7 @@ use shadowstep_studies::chart::{Axis, Chart, Curve};
 use shadowstep_studies::finding::Finding;
 use shadowstep_studies::verdict::Verdict;
 
-use crate::case::Case;
+use crate::case::{Case, MOST_CURVES};
 use crate::growth::{TOLERANCE as GROWTH_TOLERANCE, growth, steps_to_see};
 use crate::integrator::{AnyIntegrator, start_in, step_size, steps_of};
 use crate::linear_step::LinearStep;
@@ -111,9 +111,6 @@ impl Case for Oscillator {
         finding
     }
 }
-
-/// Curves that can be told apart.
-const MOST_CURVES: usize = 12;
 
 /// The step sizes for ω = 1: parts of the limit, and the middle of each gap beyond.
 fn step_sizes(scheme: &NamedScheme) -> Vec<Rational> {

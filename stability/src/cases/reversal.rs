@@ -16,7 +16,7 @@ use shadowstep_studies::chart::{Axis, Chart, Curve};
 use shadowstep_studies::finding::Finding;
 use shadowstep_studies::verdict::Verdict;
 
-use crate::case::Case;
+use crate::case::{Case, MOST_CURVES};
 use crate::integrator::{start, step_size, steps_of};
 use crate::suite::Suite;
 use crate::systems::shipped;
@@ -53,9 +53,6 @@ const FACTOR: f64 = 10.0;
 /// Palindromic schemes of several orders, and two that are not palindromic.
 const SCHEMES: [&str; 6] =
     ["stormer-verlet", "yoshida4", "blanes-moan-srkn6b", "kahan-li8", "ruth3", "symplectic-euler"];
-
-/// Curves that can be told apart.
-const MOST_CURVES: usize = 12;
 
 impl Trial {
     fn longest(&self) -> u64 {

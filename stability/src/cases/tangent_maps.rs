@@ -13,7 +13,7 @@ use shadowstep_studies::finding::Finding;
 use shadowstep_studies::verdict::Verdict;
 
 use crate::area::{Areas, BLOCK, Change, Star};
-use crate::case::Case;
+use crate::case::{Case, MOST_CURVES};
 use crate::integrator::{step_size, steps_of};
 use crate::suite::{Examined, OF_ORDERS_2_TO_8, Suite};
 use crate::systems::{of_formula, shipped};
@@ -74,9 +74,6 @@ const MAPS: [&str; 2] = ["symplectic-euler", "stormer-verlet"];
 
 /// K of the standard map. log(K/2) is the mean of log|K cos q|, to which its exponent tends for large K: with an error of order 1/K².
 const K: f64 = 100.0;
-
-/// Curves that can be told apart.
-const MOST_CURVES: usize = 12;
 
 impl Followed {
     fn system(self) -> System {
