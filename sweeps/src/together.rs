@@ -100,8 +100,7 @@ fn follow(
     keep: &Keep,
     stops: &AtomicBool,
 ) -> Vec<Option<Values>> {
-    let mut following = LanesFollower::begin(scenes, keep, integrator.system());
-    following.tangents = tangents;
+    let mut following = LanesFollower::begin(scenes, keep, tangents, integrator.system());
     let at_once = if following.follows_all() { 1 } else { STEPS_AT_ONCE };
     let (mut n, last) = (0, scenes[0].steps());
     following.include(n, integrator.system());
@@ -141,7 +140,7 @@ struct Energies {
 }
 
 impl<'a> LanesFollower<'a> {
-    fn begin<M>(scenes: &[&'a Scene; LANES], keep: &'a Keep, system: &mut M) -> Self
+    fn begin<M>(scenes: &[&'a Scene; LANES], keep: &'a Keep, tangents: Option<TangentsInLanes>, system: &mut M) -> Self
     where
         M: System<Number = Lanes<LANES>> + ?Sized,
     {
@@ -157,7 +156,7 @@ impl<'a> LanesFollower<'a> {
             keep,
             h: f64::from_rational(scenes[0].h.exact(), &()),
             energies: keep.needs(Need::Energies).then_some(Energies { initial, largest: zero, last: zero }),
-            tangents: None,
+            tangents,
             tests: tests.collect(),
             at_end: at_end.collect(),
             active: initial.0.map(f64::is_finite),

@@ -116,11 +116,10 @@ impl RunValue {
 
     /// The value that the growth of the first tangent vector has; `None` of other values.
     pub(crate) fn of_growth(self, growth: &Growth) -> Option<String> {
-        let exponent = || growth.exponent();
         match self {
             RunValue::Motion => Some(growth.regularity().to_string()),
-            RunValue::Lyapunov => exponent().map(|found| found.value.to_text()),
-            RunValue::LyapunovError => exponent().map(|found| found.error.to_text()),
+            RunValue::Lyapunov => growth.exponent().map(|found| found.value.to_text()),
+            RunValue::LyapunovError => growth.exponent().map(|found| found.error.to_text()),
             RunValue::Megno => Some(growth.mean_megno().to_text()),
             _ => None,
         }

@@ -323,6 +323,7 @@ fn the_number_of_elements_is_bounded() {
     };
     let rectangles = noise(99);
     assert!(!rectangles.contains("<image") && rectangles.len() < 500_000, "{}", rectangles.len());
+    assert!(noise(100).contains("<image"));
     let image = noise(400);
     assert!(image.contains("<image") && image.len() < 2 * 400 * 400, "{}", image.len());
     for svg in [rectangles, image] {
