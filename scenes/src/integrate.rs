@@ -34,7 +34,7 @@ use shadowstep::tables::{AtRunTime, TableScheme};
 use crate::computation::RunNumber;
 use crate::error::Error;
 use crate::follow::Follower;
-use crate::observer::Observer;
+use crate::observer::{Observer, report};
 use crate::pace::Pace;
 use crate::physical_end::{last_step, steps_to};
 use crate::run::Run;
@@ -251,7 +251,7 @@ impl<N: RunNumber> Follower<N> for Keeper<'_, N> {
     ) -> Result<ControlFlow<()>, Error> {
         let n = n.unsigned_abs();
         if self.pace.looks_up(n) {
-            self.integration.run.report(n, self.observer)?;
+            report(self.observer, self.integration.run, n)?;
         }
         if self.integration.keeps(n) {
             match estimate {

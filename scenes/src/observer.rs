@@ -1,6 +1,8 @@
 //! How a caller watches a run and stops it.
 
+use crate::error::Error;
 use crate::note::Note;
+use crate::run::Run;
 use crate::watch::summary::Summary;
 
 /// Watches a run. `()` watches nothing and never stops it.
@@ -32,3 +34,18 @@ pub trait Observer {
 }
 
 impl Observer for () {}
+
+/// Reports progress at the state n of a run into memory.
+///
+/// # Errors
+/// That the observer stops it.
+pub(crate) fn report(observer: &mut dyn Observer, run: Run<'_>, n: u64) -> Result<(), Error> {
+    observer.progress(i64::try_from(n).unwrap_or(i64::MAX));
+    match observer.stops() {
+        false => Ok(()),
+        true => Err(Error::run(
+            format!("{}: interrupted at n = {n}", run.name()),
+            "run it again, over a shorter time for example",
+        )),
+    }
+}

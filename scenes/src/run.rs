@@ -6,7 +6,6 @@ use shadowstep::shadow::run::{NotFinite, Quantity, RunError};
 use shadowstep::{Rational, StepSize};
 
 use crate::error::Error;
-use crate::observer::Observer;
 use crate::readable::shortened;
 
 const OTHER_START: &str = "try a smaller step size or another initial state";
@@ -48,21 +47,6 @@ impl Run<'_> {
     /// (n + 1/2) h.
     pub fn time_of_value(&self, n: i64, estimator: &EstimatorSettings) -> Rational {
         if estimator.is_between() { self.h.exact() * Rational::new((2 * n + 1).into(), 2.into()) } else { self.time(n) }
-    }
-
-    /// Reports progress at the state n, and ends the run if the observer stops it.
-    ///
-    /// # Errors
-    /// That it was interrupted.
-    pub(crate) fn report(&self, n: u64, observer: &mut dyn Observer) -> Result<(), Error> {
-        observer.progress(i64::try_from(n).unwrap_or(i64::MAX));
-        match observer.stops() {
-            false => Ok(()),
-            true => Err(Error::run(
-                format!("{}: interrupted at n = {n}", self.name()),
-                "run it again, over a shorter time for example",
-            )),
-        }
     }
 
     /// Which run it is, in messages.

@@ -9,7 +9,7 @@ use shadowstep::{Integrator as _, Rational, Real};
 use super::{Array, Begun, Differentiation, Variable};
 use crate::computation::RunNumber;
 use crate::error::Error;
-use crate::observer::Observer;
+use crate::observer::{Observer, report};
 use crate::scene::SceneNumber;
 use crate::scene::split::ShownCoordinates;
 use crate::start::SceneIntegrator;
@@ -68,7 +68,7 @@ impl WithDerivatives for Backward<'_, '_> {
         for row in &rows {
             plain.steps(row - n);
             n = *row;
-            request.run.report(n, observer)?;
+            report(observer, request.run, n)?;
         }
         let mut begun = request.begin::<N>(None, context)?;
         set_values(&mut begun.integrator, &*plain);
@@ -81,7 +81,7 @@ impl WithDerivatives for Backward<'_, '_> {
                 backwards.adjoint.step_back();
             }
             n = *row;
-            request.run.report(n, observer)?;
+            report(observer, request.run, n)?;
             let covector: Vec<N> = covector.iter().map(|x| N::from_rational(x, context)).collect();
             backwards.add(&covector);
         }

@@ -6,7 +6,7 @@ use shadowstep::number::Dual;
 use super::{Array, Differentiation};
 use crate::computation::RunNumber;
 use crate::error::Error;
-use crate::observer::Observer;
+use crate::observer::{Observer, report};
 use crate::scene::SceneNumber;
 use crate::tangent::WithDerivatives;
 
@@ -64,7 +64,7 @@ impl WithDerivatives for Forward<'_, '_> {
                 states.extend(output.into_iter().filter(|_| k == 0).map(|x| x.value));
             }
             n = *row;
-            request.run.report(n, observer)?;
+            report(observer, request.run, n)?;
         }
         let array = |numbers: &Vec<N>| Array::of(numbers, request.arithmetic);
         let by = by.iter().take(request.by.len()).map(array).collect();
