@@ -11,11 +11,13 @@
 //! | [`linear_part`] | oscillations solved exactly: H = A + B with a quadratic form as A |
 //! | [`many_parts`] | H = H_1 + … + H_n of parts whose flows have formulas |
 //! | [`kepler_drift`], [`wisdom_holman`] | the exact flow of Kepler's problem; planets: H = A + B with Kepler orbits as A |
+//! | [`explicit_time`] | H(q, p, t), with t as a coordinate |
 //! | [`transformed_time`] | H′ with steps that become short in close encounters |
 //! | [`problems`] | the shipped problems, some with their exact solution |
 
 pub(crate) mod coordinates;
 pub mod displaced;
+pub mod explicit_time;
 #[cfg(feature = "formulas")]
 pub mod formula;
 pub(crate) mod gradient_kicks;

@@ -104,12 +104,12 @@ impl Computation for SceneRun<'_, '_> {
 
 fn columns(scene: &Scene) -> Columns {
     let output = &scene.output;
-    let names = scene.system.coordinates.iter().chain(&scene.system.momenta);
     Columns {
         energy: output.energy.is_some(),
         modified_energy: output.modified_energy.is_some(),
         chaos: output.chaos.is_some(),
-        state: names.filter(|_| output.trajectory.is_some()).cloned().collect(),
+        state: scene.system.columns().filter(|_| output.trajectory.is_some()).cloned().collect(),
+        coordinates: scene.system.coordinates_of_columns(),
     }
 }
 

@@ -44,10 +44,15 @@ impl System {
             return None;
         }
         let number = |exact: &shadowstep_symbolic::Exact| <f64 as shadowstep::Number>::from_rational(&exact.value, &());
-        let roots = match masses {
+        let mut roots: Vec<f64> = match masses {
             Some(masses) => masses.iter().map(|mass| number(mass).sqrt()).collect(),
             None => vec![1.0; q.len()],
         };
+        if self.explicit_time {
+            // t passes as it does, as a body of infinite mass
+            roots.truncate(q.len() - 1);
+            roots.push(f64::INFINITY);
+        }
         let mut hessian = Hessian::new(self.potential::<f64>(&()), q, roots);
         let largest = hessian.eigenvalue(0.0)?;
         // shifted by the eigenvalue of largest size, all are positive, and the largest one is the largest in size

@@ -73,7 +73,8 @@ pub(crate) const KEYS: [Key; 68] = [
     key(
         "problem",
         "potential",
-        "U(q), a smooth formula in the coordinates and parameters. The gradient is derived from it.",
+        "U(q), or U(q, t) with the time t, a smooth formula in the coordinates and parameters. The gradient is derived from it. With t, H is \
+         H(q, p, t) + pt, where pt is the momentum of t.",
         "\"-1/sqrt(x^2 + y^2)\"",
         Some("none; a `name` or a `pair` is given instead"),
     ),
@@ -155,7 +156,7 @@ pub(crate) const KEYS: [Key; 68] = [
         "problem",
         "kinetic",
         "T(p), a smooth formula in the momenta and parameters, in place of `masses`. If its degree in p is above 2, \
-         the scheme must be valid for every T(p).",
+         the scheme must be valid for every T(p); with the time t in it, for three parts and more.",
         "\"sqrt(1 + px^2 + py^2)\"",
         Some("p_1^2/(2 m_1) + p_2^2/(2 m_2) + …"),
     ),
@@ -174,7 +175,7 @@ pub(crate) const KEYS: [Key; 68] = [
          schemes such as abah864; or \"wisdom-holman-heliocentric\", the same in democratic heliocentric coordinates, for \
          schemes for every T(p), with states written in inertial coordinates; \"linear\", for any U that has second derivatives at q = 0, \
          T(p) + qᵀKq/2 with K = U_qq(0) and what is left of U: the oscillations are solved exactly. Or, in place of a name, a potential or a \
-         pair, a list of formulas in the coordinates, momenta and parameters, whose sum is H and each of which has a known flow: \
+         pair, a list of formulas in the coordinates, momenta and parameters, whose sum is H and each of which has a known flow, also with t: \
          [\"(px^2 + py^2)/2\", \"y*px - x*py\", \"cos(x) + cos(y)\"].",
         "\"wisdom-holman\"",
         Some("\"kinetic-potential\""),

@@ -6,7 +6,7 @@ use shadowstep::systems::formula::FormulaPair;
 use shadowstep::systems::kinetic::{General, Quadratic};
 use shadowstep::systems::summation::Compensated;
 use shadowstep::tangent::{TangentError, Tangents};
-use shadowstep::{DiagonalMasses, Kinetic, Motion, Potential, Rational, UnitMasses};
+use shadowstep::{DiagonalMasses, Kinetic, Motion, Potential, UnitMasses};
 use shadowstep_symbolic::{Exact, parse};
 
 use crate::scene::{ClassifiedKinetic, KineticEnergy, PairEnergy, PotentialEnergy, System};
@@ -88,7 +88,7 @@ impl<N: OfLanes> SystemInLanes<N> {
         }
         systems.iter().all(|system| have_one_form(systems[0], system)).then(|| SystemInLanes {
             potential: potential(systems),
-            kinetic: kinetic(systems),
+            kinetic: if systems[0].explicit_time { kinetic(systems).with_time() } else { kinetic(systems) },
             q: in_lanes(|lane| &systems[lane].q),
             p: in_lanes(|lane| &systems[lane].p),
         })
@@ -221,15 +221,9 @@ fn kinetic<N: OfLanes>(systems: &[&System; LANES]) -> ClassifiedKinetic<N> {
 }
 
 fn of_masses<N: OfLanes>(systems: &[&System; LANES]) -> Box<dyn Kinetic<N, Class = Quadratic>> {
-    let masses = systems.map(|system| match &system.kinetic {
-        KineticEnergy::Masses(masses) => masses.as_ref(),
-        KineticEnergy::Formula(_) => unreachable!("the systems have one form"),
-    });
-    if masses.iter().all(Option::is_none) {
+    if systems.iter().all(|system| matches!(system.kinetic, KineticEnergy::Masses(None))) {
         return Box::new(UnitMasses);
     }
-    let ones = || vec![Rational::from_integer(1.into()); systems[0].q.len()];
-    let exact = |given: &Vec<Exact>| given.iter().map(|mass| mass.value.clone()).collect();
-    let each = masses.map(|masses| DiagonalMasses::new(&masses.map_or_else(ones, exact), &()).expect(READ));
+    let each = systems.map(|system| DiagonalMasses::new(&system.exact_masses(), &()).expect(READ));
     Box::new(DiagonalMasses::of_each(&each.each_ref()).expect(READ).into_numbers::<N>())
 }

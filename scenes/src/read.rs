@@ -3,6 +3,7 @@
 mod bodies;
 mod cutoff;
 mod elements;
+mod explicit_time;
 mod formula;
 mod given;
 mod initial;

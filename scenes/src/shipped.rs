@@ -18,10 +18,11 @@ pub struct ShippedScene {
 }
 
 /// All shipped scenes, by what they are of; those of shipped problems are [written](scene_text) as templates.
-pub const SHIPPED_SCENES: [(&str, &[ShippedScene]); 5] = [
+pub const SHIPPED_SCENES: [(&str, &[ShippedScene]); 6] = [
     ("planetary systems", &PLANETARY),
     ("close encounters", &ENCOUNTERS),
     ("three parts", &MANY_PARTS),
+    ("explicit time", &EXPLICIT_TIME),
     ("liquids", &LIQUIDS),
     ("schemes with gradient kicks or processors", &SCHEMES),
 ];
@@ -77,6 +78,29 @@ pub(crate) const MANY_PARTS: [ShippedScene; 2] = [
         name: "arenstorf",
         title: "Arenstorf's orbit in the frame of the Earth and the Moon: three bodies, one without mass",
         text: include_str!("../many-parts/arenstorf.toml"),
+    },
+];
+
+const EXPLICIT_TIME: [ShippedScene; 4] = [
+    ShippedScene {
+        name: "driven-pendulum",
+        title: "A driven pendulum near its separatrix, once a period of the drive",
+        text: include_str!("../explicit-time/driven-pendulum.toml"),
+    },
+    ShippedScene {
+        name: "paul-trap",
+        title: "An ion in a linear Paul trap",
+        text: include_str!("../explicit-time/paul-trap.toml"),
+    },
+    ShippedScene {
+        name: "galactic-bar",
+        title: "A star in the potential of a bar that turns",
+        text: include_str!("../explicit-time/galactic-bar.toml"),
+    },
+    ShippedScene {
+        name: "two-waves",
+        title: "A charge in two waves, once a period of the second",
+        text: include_str!("../explicit-time/two-waves.toml"),
     },
 ];
 

@@ -269,7 +269,8 @@ fn point<N: CorrectlyRounded>(
 
 /// Components of the size of the largest coordinate, in units of their scales: fractional parts of multiples of irrational numbers, minus ½.
 pub(crate) fn components(coordinates: &[f64], k: usize, (first, scales): (usize, &[f64])) -> Vec<f64> {
-    let in_scales = coordinates.iter().zip(scales).map(|(x, scale)| (x / scale).abs());
+    let in_scales =
+        coordinates.iter().zip(scales).filter(|(_, scale)| **scale > 0.0).map(|(x, scale)| (x / scale).abs());
     let largest = in_scales.fold(0.0, f64::max);
     let size = if largest > 0.0 && largest.is_finite() { largest } else { 1.0 };
     let component = |(i, scale): (usize, &f64)| {
@@ -284,7 +285,12 @@ pub(crate) fn scales(system: &System) -> [Vec<f64>; 2] {
     let mut masses: Vec<f64> =
         system.exact_masses().iter().map(|mass| <f64 as Number>::from_rational(mass, &()).abs()).collect();
     masses.resize(system.dimension(), 1.0);
-    [vec![1.0; masses.len()], masses]
+    let mut scales = [vec![1.0; masses.len()], masses];
+    if system.explicit_time {
+        // the displaced trajectory is one at the same time
+        scales.iter_mut().for_each(|scales| scales[system.q.len() - 1] = 0.0);
+    }
+    scales
 }
 
 struct InNumbers<N: CorrectlyRounded> {

@@ -36,6 +36,7 @@ pub(crate) fn of_formula(
         coordinates,
         q: known_values(q),
         p: known_values(p),
+        explicit_time: false,
     })
 }
 

@@ -9,7 +9,7 @@ use shadowstep_scenes::computation::RunNumber;
 use shadowstep_scenes::lanes::LANES;
 use shadowstep_scenes::{EnergyAt, ShownCoordinates, System};
 use shadowstep_schemes::document::{Reader, Text};
-use shadowstep_symbolic::{Exact, Expression as Syntax, ExpressionKind, parse};
+use shadowstep_symbolic::{Exact, Expression as Syntax, parse};
 
 /// The time and the energy.
 const TIME: &str = "t";
@@ -49,7 +49,7 @@ impl Expression {
 
     fn with(formula: String, text: Text) -> Expression {
         let syntax = parse(&formula).ok();
-        let has = |name| syntax.as_ref().is_some_and(|syntax| mentions(syntax, name));
+        let has = |name| syntax.as_ref().is_some_and(|syntax| syntax.mentions(name));
         let has_functions = syntax.as_ref().is_none_or(Syntax::has_functions);
         Expression { has_time: has(TIME), has_energy: has(ENERGY), has_functions, formula, text }
     }
@@ -108,16 +108,6 @@ impl Condition {
     }
 }
 
-fn mentions(syntax: &Syntax, name: &str) -> bool {
-    match &syntax.kind {
-        ExpressionKind::Number(_) => false,
-        ExpressionKind::Name(own) => own == name,
-        ExpressionKind::Negate(inner) => mentions(inner, name),
-        ExpressionKind::Binary(_, left, right) => mentions(left, name) || mentions(right, name),
-        ExpressionKind::Call { arguments, .. } => arguments.iter().any(|part| mentions(part, name)),
-    }
-}
-
 /// An expression in the numbers of a run.
 pub(crate) struct Evaluator<N> {
     formula: FormulaPotential<N>,
@@ -155,7 +145,9 @@ impl<N: Number + 'static> Evaluator<N> {
         mut parameters: Vec<(&str, N)>,
         context: &N::Context,
     ) -> Result<Self, FormulaError> {
-        let names = system.coordinates.iter().chain(&system.momenta).map(String::as_str).chain([TIME, ENERGY]);
+        // t may be a coordinate; no formula has the empty name
+        let time = if system.explicit_time { "" } else { TIME };
+        let names = system.coordinates.iter().chain(&system.momenta).map(String::as_str).chain([time, ENERGY]);
         let names: Vec<&str> = names.collect();
         parameters.retain(|(name, _)| !names.contains(name));
         let formula = FormulaPotential::new(&expression.formula, &names, &parameters)?;

@@ -9,6 +9,7 @@ mod documentation;
 mod double_precision;
 mod errata;
 mod exact_flow;
+mod explicit_time;
 mod formulas;
 mod general_kinetic;
 mod generated;

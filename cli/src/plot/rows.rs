@@ -96,16 +96,11 @@ fn each_row(scene: &Scene, path: &Path, mut take: impl FnMut(Option<Row>) -> Res
                         number.and_then(|number| record.get(number)).filter(|text| !text.is_empty()).map(str::to_owned)
                     };
                     let [n, t, energy, modified_energy, estimate] = known.each_ref().map(text);
-                    let state = |numbers: &[Option<usize>]| numbers.iter().filter_map(text).collect();
-                    Some(Row {
-                        n: n?.parse().ok()?,
-                        t: t?,
-                        energy,
-                        modified_energy,
-                        estimate,
-                        q: state(&q),
-                        p: state(&p),
-                    })
+                    let state = |numbers: &[Option<usize>]| numbers.iter().filter_map(text).collect::<Vec<_>>();
+                    let p = state(&p);
+                    // a coordinate may be t, which rows without states have, too
+                    let q = if p.is_empty() { Vec::new() } else { state(&q) };
+                    Some(Row { n: n?.parse().ok()?, t: t?, energy, modified_energy, estimate, q, p })
                 });
                 take(row)?;
             }

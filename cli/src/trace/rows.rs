@@ -46,7 +46,7 @@ pub(super) fn writer<'a>(
     }
     let mut csv = csv::Writer::from_writer(output);
     let system = &selection.problem.system;
-    let coordinates = system.coordinates.iter().chain(&system.momenta).map(String::as_str);
+    let (coordinates, positions) = (system.columns().map(String::as_str), system.coordinates_of_columns());
     let columns = ["n", "t", "energy", "modified_energy", "estimate", "order"];
     let run = ["scheme", "step"].into_iter().filter(|_| selection.count() > 1);
     csv.write_record(run.chain(columns).chain(coordinates.filter(|_| states)))?;
@@ -56,7 +56,8 @@ pub(super) fn writer<'a>(
         let [energy, estimate] = [&row.energy, &row.estimate].map(|text| text.as_ref().unwrap_or(&none));
         let run = row.run.iter().flat_map(|run| [&run.scheme, &run.step]);
         let fields = [&n, &row.t, energy, &row.modified_energy, estimate, &order];
-        let state = [&row.q, &row.p].into_iter().flatten().flatten();
+        let positions = row.q.iter().flatten().take(positions);
+        let state = positions.chain(row.p.iter().flatten());
         csv.write_record(run.chain(fields).chain(state))?;
         Ok(csv.flush()?)
     }))

@@ -36,6 +36,7 @@ mod function;
 pub use function::{ExponentError, TimeTransformation};
 
 use crate::number::Number;
+use crate::systems::explicit_time::{split, split_mut};
 use crate::systems::kinetic::{General, Kinetic};
 use crate::systems::potential::Potential;
 use function::Place;
@@ -52,16 +53,6 @@ impl<P> TransformedPotential<P> {
     pub fn new(time: TimeTransformation, potential: P) -> Self {
         TransformedPotential { time, potential }
     }
-}
-
-/// The last number of a state, and those before it.
-fn split<N>(state: &[N]) -> (&N, &[N]) {
-    state.split_last().expect("a system has a coordinate")
-}
-
-/// The last number of a state, and those before it, to be changed.
-fn split_mut<N>(state: &mut [N]) -> (&mut N, &mut [N]) {
-    state.split_last_mut().expect("a system has a coordinate")
 }
 
 impl<P> TransformedPotential<P> {

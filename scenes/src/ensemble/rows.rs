@@ -23,15 +23,14 @@ pub(super) fn write(
     }
     let system = &scene.system;
     let mut csv = csv::Writer::from_writer(writer);
-    let state = system.coordinates.iter().chain(&system.momenta);
-    let names = columns.names.iter().chain(state).map(String::as_str);
+    let names = columns.names.iter().chain(system.columns()).map(String::as_str);
     let modified = ["modified_drift", "modified_start", "modified_end"].into_iter().filter(|_| has_modified_energy);
     let energies = ["energy_error", "energy_start", "energy_end"].into_iter().chain(modified);
     csv.write_record(["trajectory"].into_iter().chain(names).chain(energies).chain(["not_finite"]))?;
     for (t, (outcome, values)) in outcomes.iter().zip(&columns.rows).enumerate() {
         let Outcome { q, p, energies: [start, end], energy_error, modified_drift, modified_energies, not_finite } =
             outcome;
-        let state = q.iter().chain(p).map(number);
+        let state = q.iter().take(system.coordinates_of_columns()).chain(p).map(number);
         let [first, last] = modified_energies.map_or([None; 2], |ends| ends.map(Some));
         let modified = [*modified_drift, first, last].map(|x| x.as_ref().map(number).unwrap_or_default());
         let energies = [energy_error, start, end].map(number).into_iter();

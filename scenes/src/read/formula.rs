@@ -3,6 +3,7 @@
 use shadowstep::systems::formula::FormulaPotential;
 use shadowstep_symbolic::Exact;
 
+use super::explicit_time;
 use super::given::Given;
 use super::kinetic;
 use super::names::check_name;
@@ -20,19 +21,28 @@ pub(super) fn problem(reader: &mut Reader<'_>, given: &Given, potential: &Text) 
     let parameters = given.own_parameters(reader);
     let list = given.coordinates.as_ref()?;
     let before = reader.toml.faults.len();
-    let (coordinates, momenta) = names(reader, given, list);
+    let (mut coordinates, mut momenta) = names(reader, given, list);
+    let of_coordinates = coordinates.len();
+    let moved = momenta.clone();
+    let explicit_time = explicit_time::is_in(reader, given, &potential.value);
+    if explicit_time {
+        explicit_time::add_names(reader, given, (&mut coordinates, &mut momenta));
+    }
     let named = reader.toml.faults.len() == before;
     let potential = if named { self::potential(reader, potential, &coordinates, &parameters) } else { None };
-    let values = |reader: &mut Reader<'_>, numbers: &Numbers| numbers.values(reader, coordinates.len());
     let masses = given.masses.as_ref().and_then(|numbers| {
-        let values = values(reader, numbers)?;
+        let values = numbers.values(reader, of_coordinates)?;
         kinetic::masses(reader, numbers, values)
     });
     if let Some(initial) = &given.initial {
         given.state.all_there(reader, initial);
     }
+    let values = |reader: &mut Reader<'_>, numbers: &Numbers| {
+        let values = numbers.values(reader, of_coordinates)?;
+        Some(if explicit_time { explicit_time::start(values) } else { values })
+    };
     let (q, p) = given.state.values(reader, values, masses.as_deref());
-    let kinetic = if named { kinetic::kinetic(reader, given, &momenta, &parameters, masses) } else { None };
+    let kinetic = if named { kinetic::kinetic(reader, given, &moved, &parameters, masses) } else { None };
     Some(InitialValueProblem {
         potential: PotentialEnergy::Formula(potential?),
         kinetic: kinetic?,
@@ -41,6 +51,7 @@ pub(super) fn problem(reader: &mut Reader<'_>, given: &Given, potential: &Text) 
         momenta,
         q: q?,
         p: p?,
+        explicit_time,
     })
 }
 

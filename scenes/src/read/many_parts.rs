@@ -9,6 +9,7 @@ use super::formula::names;
 use super::given::Given;
 use super::numbers::Numbers;
 use super::reader::Reader;
+use super::{explicit_time, kinetic};
 use crate::scene::split::Formulas;
 use crate::scene::{Formula, InitialValueProblem, KineticEnergy, Parts, PotentialEnergy, System};
 
@@ -27,22 +28,44 @@ pub(super) fn system(reader: &mut Reader<'_>, given: &Given, value: &Value<'_>) 
     given.state.refuse_velocities(reader, "H is given by formulas of its parts");
     let formulas =
         reader.toml.list(value, "a list of formulas: [\"p^2/2\", \"-cos(q)\"]", |reader, value| reader.text(value));
+    let formulas = formulas.filter(|formulas| match formulas.value.len() {
+        0 | 1 => {
+            let message = format!("H needs two parts at least, not {}", formulas.value.len());
+            reader.toml.fault(&formulas.at, message, "add the other parts of H to the list");
+            false
+        }
+        _ => true,
+    });
     let parameters = given.own_parameters(reader);
+    of_formulas(reader, given, formulas?.value, parameters)
+}
+
+/// The system of these parts, two at least.
+pub(super) fn of_formulas(
+    reader: &mut Reader<'_>,
+    given: &Given,
+    mut formulas: Vec<Text>,
+    parameters: Vec<(String, Exact)>,
+) -> Option<System> {
     let list = given.coordinates.as_ref()?;
     let before = reader.toml.faults.len();
-    let (coordinates, momenta) = names(reader, given, list);
-    let formulas = formulas?;
-    if formulas.value.len() < 2 {
-        let message = format!("H needs two parts at least, not {}", formulas.value.len());
-        return reader.toml.wrong(&formulas.at, message, "add the other parts of H to the list");
+    let (mut coordinates, mut momenta) = names(reader, given, list);
+    let of_coordinates = coordinates.len();
+    let explicit_time = formulas.iter().any(|formula| explicit_time::is_in(reader, given, &formula.value));
+    if explicit_time {
+        explicit_time::add_names(reader, given, (&mut coordinates, &mut momenta));
+        explicit_time::add_momentum(reader, given, &mut formulas);
     }
     let named = reader.toml.faults.len() == before;
-    let parts = formulas.value.iter().filter(|_| named);
+    let parts = formulas.iter().filter(|_| named);
     let parts: Vec<_> = parts.map(|formula| part(reader, formula, (&coordinates, &momenta), &parameters)).collect();
     if let Some(initial) = &given.initial {
         given.state.all_there(reader, initial);
     }
-    let values = |reader: &mut Reader<'_>, numbers: &Numbers| numbers.values(reader, coordinates.len());
+    let values = |reader: &mut Reader<'_>, numbers: &Numbers| {
+        let values = numbers.values(reader, of_coordinates)?;
+        Some(if explicit_time { explicit_time::start(values) } else { values })
+    };
     let (q, p) = given.state.values(reader, values, None);
     let problem = InitialValueProblem {
         potential: PotentialEnergy::OfParts,
@@ -52,8 +75,23 @@ pub(super) fn system(reader: &mut Reader<'_>, given: &Given, value: &Value<'_>) 
         momenta,
         q: q?,
         p: p?,
+        explicit_time,
     };
     Some(System { problem, parts: Parts::Formulas(Formulas(parts.into_iter().collect::<Option<_>>()?)) })
+}
+
+/// H = T(p, t) + U as formulas of its parts.
+pub(super) fn with_time_in_kinetic(reader: &mut Reader<'_>, given: &Given, potential: Text) -> Option<System> {
+    given.refuse(reader, &["bodies", "dimensions", "neighbours", "cutoff", "box"], |key| {
+        (format!("{key} requires `pair`"), format!("remove `{key}`, or write `pair` instead of `potential`"))
+    });
+    given.refuse(reader, &["parts"], |_| {
+        let help = "remove it, or give the parts by their formulas: parts = [\"p^2*exp(-t)/2\", \"q^4\"]";
+        ("T depends on t, so that its part is that of its formula".to_owned(), help.to_owned())
+    });
+    kinetic::refuse_masses(reader, given);
+    let parameters = given.own_parameters(reader);
+    of_formulas(reader, given, vec![given.kinetic.clone()?, potential], parameters)
 }
 
 /// A part whose flow is known.

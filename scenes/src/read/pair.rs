@@ -5,6 +5,7 @@ use shadowstep_symbolic::{Exact, Expression, ExpressionKind, is_symmetric, parse
 
 use super::bodies::{Bodies, refuse_reserved};
 use super::cutoff::cutoff;
+use super::explicit_time;
 use super::given::Given;
 use super::kinetic;
 use super::numbers::Numbers;
@@ -78,6 +79,7 @@ pub(super) fn problem(
     if let Some(initial) = &given.initial {
         given.state.all_there(reader, initial);
     }
+    explicit_time::refuse(reader, given, [pair.as_ref().map(|pair| &pair.text), given.kinetic.as_ref()])?;
     let (pair, bodies, dimensions) = (pair?, bodies?, dimensions?);
     let (coordinates, momenta) = names(bodies.count, dimensions);
     let named = !has_names_of_bodies(reader, given, &coordinates, &momenta);
@@ -101,6 +103,7 @@ pub(super) fn problem(
         momenta,
         q: q?,
         p: p?,
+        explicit_time: false,
     })
 }
 

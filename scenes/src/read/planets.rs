@@ -393,6 +393,7 @@ impl Placing {
             parameters,
             coordinates,
             momenta,
+            explicit_time: false,
         };
         Some((problem, bodies))
     }

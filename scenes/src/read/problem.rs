@@ -7,7 +7,7 @@ use super::pair::PairFormula;
 use super::parts;
 use super::planets::{self, GivenBody, Settings};
 use super::reader::Reader;
-use super::{formula, many_parts, pair, shipped};
+use super::{explicit_time, formula, many_parts, pair, shipped};
 use crate::scene::System;
 use shadowstep_schemes::document::Section;
 
@@ -49,6 +49,10 @@ pub(super) fn system(
         ["name"] => {
             let (problem, bodies) = shipped::problem(reader, &given, &name?)?;
             parts::split(reader, &given, problem, settings.split?, bodies)
+        }
+        ["potential"] if explicit_time::is_in_kinetic(reader, &given) => {
+            given.needs(reader, problem, "coordinates");
+            many_parts::with_time_in_kinetic(reader, &given, potential?)
         }
         ["potential"] => {
             given.needs(reader, problem, "coordinates");

@@ -53,6 +53,7 @@ pub(super) fn problem(
         momenta,
         q: own_q.unwrap_or(q),
         p: own_p.unwrap_or(p),
+        explicit_time: false,
     };
     Some((problem, bodies))
 }

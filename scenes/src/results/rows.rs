@@ -79,6 +79,8 @@ pub(crate) struct Columns {
     pub(crate) chaos: bool,
     /// The names of positions and momenta, if they are written.
     pub(crate) state: Vec<String>,
+    /// How many of these are positions.
+    pub(crate) coordinates: usize,
 }
 
 impl Columns {
@@ -110,7 +112,7 @@ impl Columns {
             None => cells.extend(vec![String::new(); if self.chaos { 4 } else { 0 }]),
         }
         match (&row.q, &row.p) {
-            (Some(q), Some(p)) => cells.extend(q.iter().chain(p).cloned()),
+            (Some(q), Some(p)) => cells.extend(q.iter().take(self.coordinates).chain(p).cloned()),
             _ => cells.extend(vec![String::new(); self.state.len()]),
         }
         cells

@@ -1,6 +1,7 @@
 //! What moves: a shipped problem or a formula's potential, its kinetic energy and its state at t = 0.
 
 use shadowstep::problems::Setup;
+use shadowstep::systems::explicit_time::WithTime;
 use shadowstep::systems::formula::{FormulaKinetic, FormulaPotential};
 use shadowstep::systems::kinetic::{General, Quadratic};
 use shadowstep::{DiagonalMasses, Kinetic, Motion, Number, Potential, Rational, UnitMasses};
@@ -31,6 +32,8 @@ pub struct InitialValueProblem {
     pub q: Vec<Exact>,
     /// Momenta at t = 0.
     pub p: Vec<Exact>,
+    /// Whether H depends on t: then t and p_t are the last of each, and T + p_t is moved.
+    pub explicit_time: bool,
 }
 
 /// U(q)
@@ -66,6 +69,16 @@ pub(crate) enum ClassifiedKinetic<N> {
     General(Box<dyn Kinetic<N, Class = General>>),
 }
 
+impl<N: Number + 'static> ClassifiedKinetic<N> {
+    /// T(p) + p_t
+    pub(crate) fn with_time(self) -> Self {
+        match self {
+            ClassifiedKinetic::Quadratic(kinetic) => ClassifiedKinetic::Quadratic(Box::new(WithTime(kinetic))),
+            ClassifiedKinetic::General(kinetic) => ClassifiedKinetic::General(Box::new(WithTime(kinetic))),
+        }
+    }
+}
+
 impl InitialValueProblem {
     /// Positions and momenta at t = 0.
     pub(crate) fn initial<N: Number>(&self, context: &N::Context) -> (Vec<N>, Vec<N>) {
@@ -86,8 +99,13 @@ impl InitialValueProblem {
         }
     }
 
-    /// T(p)
+    /// T(p), or T(p) + p_t
     pub(crate) fn kinetic<N: Number + 'static>(&self, context: &N::Context) -> ClassifiedKinetic<N> {
+        let kinetic = self.kinetic_without_time(context);
+        if self.explicit_time { kinetic.with_time() } else { kinetic }
+    }
+
+    fn kinetic_without_time<N: Number + 'static>(&self, context: &N::Context) -> ClassifiedKinetic<N> {
         match &self.kinetic {
             KineticEnergy::Masses(None) => ClassifiedKinetic::Quadratic(Box::new(UnitMasses)),
             KineticEnergy::Masses(Some(masses)) => {
@@ -110,11 +128,21 @@ impl InitialValueProblem {
         parameters.chain(self.coordinates.iter().zip(&self.q)).chain(self.momenta.iter().zip(&self.p))
     }
 
-    /// The masses of the coordinates; of a system whose T is given by them.
+    /// The names of the columns of q and p: t has its column already.
+    pub fn columns(&self) -> impl Iterator<Item = &String> {
+        self.coordinates.iter().take(self.coordinates_of_columns()).chain(&self.momenta)
+    }
+
+    /// The number of coordinates that have a column of their own.
+    pub fn coordinates_of_columns(&self) -> usize {
+        self.coordinates.len() - usize::from(self.explicit_time)
+    }
+
+    /// The masses of the coordinates, t excepted; of a system whose T is given by them.
     pub(crate) fn exact_masses(&self) -> Vec<Rational> {
         match &self.kinetic {
             KineticEnergy::Masses(Some(masses)) => masses.iter().map(|mass| mass.value.clone()).collect(),
-            _ => vec![Rational::from_integer(1.into()); self.q.len()],
+            _ => vec![Rational::from_integer(1.into()); self.coordinates_of_columns()],
         }
     }
 

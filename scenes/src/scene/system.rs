@@ -108,7 +108,16 @@ impl System {
         let parameters = values.named()[..values.named().len() - state].to_vec();
         let kinetic = KineticEnergy::Masses(values.masses().map(<[_]>::to_vec));
         let potential = PotentialEnergy::Shipped(setup);
-        System::from(InitialValueProblem { potential, kinetic, parameters, coordinates, momenta, q, p })
+        System::from(InitialValueProblem {
+            potential,
+            kinetic,
+            parameters,
+            coordinates,
+            momenta,
+            q,
+            p,
+            explicit_time: false,
+        })
     }
 
     /// The system of a potential of the caller, with the names q1, q2, … and p1, p2, ….
@@ -142,6 +151,7 @@ impl System {
             momenta: names("p"),
             q,
             p,
+            explicit_time: false,
         }))
     }
 

@@ -12,6 +12,13 @@ pub(crate) const PI: &str = "pi";
 const ROOTS: [(&str, u32); 2] = [("sqrt", 2), ("cbrt", 3)];
 
 impl Expression {
+    /// Whether it contains this name of a number.
+    pub fn mentions(&self, name: &str) -> bool {
+        let mut found = false;
+        self.visit(&mut |part| found |= matches!(&part.kind, ExpressionKind::Name(own) if own == name));
+        found
+    }
+
     /// Whether it calls a function that is not a root: exp, sin and the like.
     pub fn has_functions(&self) -> bool {
         let mut found = false;

@@ -73,6 +73,12 @@ impl Linear {
                 let message = "the attraction between bodies has no linear part";
                 return Err(Refusal::new(message, "write parts = \"wisdom-holman\""));
             }
+            () if problem.explicit_time => {
+                return Err(Refusal::new(
+                    "a linear part requires an H that does not depend on t",
+                    "give the parts by their formulas: parts = [\"px^2/2 + x^2/2\", \"x^3*cos(t)\"]",
+                ));
+            }
             () if coordinates > MOST_COORDINATES => {
                 return refuse(format!("a linear part has at most {MOST_COORDINATES} coordinates, not {coordinates}"));
             }

@@ -1,0 +1,73 @@
+//! t in the formulas of a scene: H depends on time. Then t is a coordinate, after all others, and `pt` its momentum.
+//!
+//! Where only U depends on t, the parts are T(p) + p_t and U(q, t), with all schemes for T and U. Where T does, too, they are formulas of parts.
+
+use num_traits::Zero;
+use shadowstep::Rational;
+use shadowstep_schemes::document::Text;
+use shadowstep_symbolic::{Exact, parse};
+
+use super::given::Given;
+use super::reader::Reader;
+
+/// The name of the coordinate, which is that of the column of the time.
+const TIME: &str = "t";
+/// The name of its momentum.
+const MOMENTUM: &str = "pt";
+
+/// Whether t occurs in a formula; not where it is a parameter or an axis.
+pub(super) fn is_in(reader: &Reader<'_>, given: &Given, formula: &str) -> bool {
+    let axes = reader.names.iter().map(|(name, _)| name);
+    if given.parameters.iter().map(|(name, _)| &name.value).chain(axes).any(|name| name == TIME) {
+        return false;
+    }
+    parse(formula).is_ok_and(|syntax| syntax.mentions(TIME))
+}
+
+/// Whether t occurs in T.
+pub(super) fn is_in_kinetic(reader: &Reader<'_>, given: &Given) -> bool {
+    given.kinetic.as_ref().is_some_and(|text| is_in(reader, given, &text.value))
+}
+
+/// Refuses t in formulas of bodies.
+pub(super) fn refuse(reader: &mut Reader<'_>, given: &Given, formulas: [Option<&Text>; 2]) -> Option<()> {
+    let Some(formula) = formulas.into_iter().flatten().find(|formula| is_in(reader, given, &formula.value)) else {
+        return Some(());
+    };
+    let help = "write all of U as `potential`, in which t is the time";
+    reader.toml.wrong(&formula.at, "a sum over pairs of bodies does not depend on t", help)
+}
+
+/// Adds t and its momentum to the names.
+pub(super) fn add_names(
+    reader: &mut Reader<'_>,
+    given: &Given,
+    (coordinates, momenta): (&mut Vec<String>, &mut Vec<String>),
+) {
+    let parameters = given.parameters.iter().map(|(name, _)| &name.value);
+    if parameters.chain(&*coordinates).chain(&*momenta).any(|name| name == MOMENTUM) {
+        let message = format!("`{MOMENTUM}` is the name of the momentum of t, on which H depends");
+        let place = given.coordinates.as_ref().map_or(&given.problem, |names| &names.at);
+        reader.toml.fault(place, message, "give the coordinate, momentum or parameter of this name another one");
+    }
+    coordinates.push(TIME.to_owned());
+    momenta.push(MOMENTUM.to_owned());
+}
+
+/// Adds p_t to the first part in which t has no place, or as a part of its own.
+pub(super) fn add_momentum(reader: &Reader<'_>, given: &Given, formulas: &mut Vec<Text>) {
+    match formulas.iter_mut().find(|formula| !is_in(reader, given, &formula.value)) {
+        Some(formula) => formula.value += &format!(" + {MOMENTUM}"),
+        None => {
+            let mut alone = formulas[0].clone();
+            MOMENTUM.clone_into(&mut alone.value);
+            formulas.push(alone);
+        }
+    }
+}
+
+/// With t = 0, or p_t = 0, after the other numbers of the initial state.
+pub(super) fn start(mut numbers: Vec<Exact>) -> Vec<Exact> {
+    numbers.push(Exact { value: Rational::zero(), rounded: false });
+    numbers
+}
