@@ -62,7 +62,7 @@ pub(crate) const SECTIONS: [Section; 13] = [
 ];
 
 /// All keys, section by section.
-pub(crate) const KEYS: [Key; 68] = [
+pub(crate) const KEYS: [Key; 69] = [
     key(
         "problem",
         "name",
@@ -159,6 +159,15 @@ pub(crate) const KEYS: [Key; 68] = [
          the scheme must be valid for every T(p); with the time t in it, for three parts and more.",
         "\"sqrt(1 + px^2 + py^2)\"",
         Some("p_1^2/(2 m_1) + p_2^2/(2 m_2) + …"),
+    ),
+    key(
+        "problem",
+        "vector_potential",
+        "For `potential`: the components of A, times the charge, of a magnetic field, one for each of the `coordinates`. H is the sum of \
+         (p_i - A_i)^2/(2*m_i) and U. A constant field is a part with an exact flow; in another one no A_i may depend on its own coordinate. \
+         The scheme must be valid for three parts and more. Velocities `v` of [initial] give p = m v + A.",
+        "[\"-b*y/2\", \"b*x/2\"]",
+        Some("none; no magnetic field"),
     ),
     key(
         "problem",

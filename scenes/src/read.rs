@@ -8,6 +8,7 @@ mod formula;
 mod given;
 mod initial;
 mod kinetic;
+mod magnetic;
 mod many_parts;
 mod names;
 mod numbers;

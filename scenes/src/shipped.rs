@@ -18,11 +18,12 @@ pub struct ShippedScene {
 }
 
 /// All shipped scenes, by what they are of; those of shipped problems are [written](scene_text) as templates.
-pub const SHIPPED_SCENES: [(&str, &[ShippedScene]); 6] = [
+pub const SHIPPED_SCENES: [(&str, &[ShippedScene]); 7] = [
     ("planetary systems", &PLANETARY),
     ("close encounters", &ENCOUNTERS),
     ("three parts", &MANY_PARTS),
     ("explicit time", &EXPLICIT_TIME),
+    ("magnetic fields", &MAGNETIC_FIELDS),
     ("liquids", &LIQUIDS),
     ("schemes with gradient kicks or processors", &SCHEMES),
 ];
@@ -101,6 +102,19 @@ const EXPLICIT_TIME: [ShippedScene; 4] = [
         name: "two-waves",
         title: "A charge in two waves, once a period of the second",
         text: include_str!("../explicit-time/two-waves.toml"),
+    },
+];
+
+const MAGNETIC_FIELDS: [ShippedScene; 2] = [
+    ShippedScene {
+        name: "penning-trap",
+        title: "An ion in a Penning trap",
+        text: include_str!("../magnetic-fields/penning-trap.toml"),
+    },
+    ShippedScene {
+        name: "drift-in-a-gradient",
+        title: "Gyrations that drift around the axis of a field",
+        text: include_str!("../magnetic-fields/drift-in-a-gradient.toml"),
     },
 ];
 

@@ -11,9 +11,9 @@ use super::given::Given;
 use super::reader::Reader;
 
 /// The name of the coordinate, which is that of the column of the time.
-const TIME: &str = "t";
+pub(super) const TIME: &str = "t";
 /// The name of its momentum.
-const MOMENTUM: &str = "pt";
+pub(super) const MOMENTUM: &str = "pt";
 
 /// Whether t occurs in a formula; not where it is a parameter or an axis.
 pub(super) fn is_in(reader: &Reader<'_>, given: &Given, formula: &str) -> bool {

@@ -45,6 +45,11 @@ impl State {
         }
     }
 
+    /// Whether velocities are given in place of momenta.
+    pub(super) fn has_velocities(&self) -> bool {
+        self.velocities.is_some()
+    }
+
     /// Refuses velocities: T(p) is not given by masses, but by this key, or is not given.
     pub(super) fn refuse_velocities(&self, reader: &mut Reader<'_>, given: &str) {
         if let Some(at) = &self.velocities {

@@ -37,15 +37,16 @@ pub(super) fn system(reader: &mut Reader<'_>, given: &Given, value: &Value<'_>) 
         _ => true,
     });
     let parameters = given.own_parameters(reader);
-    of_formulas(reader, given, formulas?.value, parameters)
+    of_formulas(reader, given, formulas?.value, parameters, None)
 }
 
-/// The system of these parts, two at least.
+/// The system of these parts, two at least; with masses, if `v` gives velocities.
 pub(super) fn of_formulas(
     reader: &mut Reader<'_>,
     given: &Given,
     mut formulas: Vec<Text>,
     parameters: Vec<(String, Exact)>,
+    masses: Option<&[Exact]>,
 ) -> Option<System> {
     let list = given.coordinates.as_ref()?;
     let before = reader.toml.faults.len();
@@ -66,7 +67,7 @@ pub(super) fn of_formulas(
         let values = numbers.values(reader, of_coordinates)?;
         Some(if explicit_time { explicit_time::start(values) } else { values })
     };
-    let (q, p) = given.state.values(reader, values, None);
+    let (q, p) = given.state.values(reader, values, masses);
     let problem = InitialValueProblem {
         potential: PotentialEnergy::OfParts,
         kinetic: KineticEnergy::Masses(None),
@@ -91,7 +92,7 @@ pub(super) fn with_time_in_kinetic(reader: &mut Reader<'_>, given: &Given, poten
     });
     kinetic::refuse_masses(reader, given);
     let parameters = given.own_parameters(reader);
-    of_formulas(reader, given, vec![given.kinetic.clone()?, potential], parameters)
+    of_formulas(reader, given, vec![given.kinetic.clone()?, potential], parameters, None)
 }
 
 /// A part whose flow is known.

@@ -7,7 +7,7 @@ use super::pair::PairFormula;
 use super::parts;
 use super::planets::{self, GivenBody, Settings};
 use super::reader::Reader;
-use super::{explicit_time, formula, many_parts, pair, shipped};
+use super::{explicit_time, formula, magnetic, many_parts, pair, shipped};
 use crate::scene::System;
 use shadowstep_schemes::document::Section;
 
@@ -28,6 +28,15 @@ pub(super) fn system(
     let is_of_parts = problem.get("parts").is_some_and(parts::is_list);
     let given = Given::read(reader, problem, initial, ways.contains(&"pair") || ways.is_empty() && !is_of_parts);
     let settings = Settings::read(reader, problem);
+    let field = reader.names(problem, magnetic::KEY, "a list of formulas: [\"-b*y/2\", \"b*x/2\"]");
+    if ways[..] != ["potential"] {
+        given.refuse(reader, &[magnetic::KEY], |key| {
+            (
+                format!("{key} requires `potential`"),
+                format!("remove `{key}`, or give U by a formula: potential = \"0\""),
+            )
+        });
+    }
     if !ways.is_empty() || bodies.is_empty() {
         refuse_keys_of_bodies(reader, &given);
     }
@@ -49,6 +58,10 @@ pub(super) fn system(
         ["name"] => {
             let (problem, bodies) = shipped::problem(reader, &given, &name?)?;
             parts::split(reader, &given, problem, settings.split?, bodies)
+        }
+        ["potential"] if field.is_some() => {
+            given.needs(reader, problem, "coordinates");
+            magnetic::system(reader, &given, potential?, &field?)
         }
         ["potential"] if explicit_time::is_in_kinetic(reader, &given) => {
             given.needs(reader, problem, "coordinates");

@@ -1,0 +1,196 @@
+//! `vector_potential`: charges in a magnetic field, H = Σ (p_i − A_i)²/(2 m_i) + U with p = m v + A.
+//!
+//! Where the sum is a quadratic form, as in a constant field, it is one part: a rotation. Otherwise each summand is a part, whose flow has a formula
+//! where A_i does not depend on q_i: then p_i − A_i is constant along it.
+
+use num_traits::Zero;
+use shadowstep::Rational;
+use shadowstep::systems::many_parts::PartError;
+use shadowstep_schemes::document::{Placed, Text};
+use shadowstep_symbolic::Exact;
+use shadowstep_symbolic::decimal::to_text;
+
+use super::explicit_time::{MOMENTUM, TIME};
+use super::given::Given;
+use super::reader::Reader;
+use super::{kinetic, many_parts};
+use crate::scene::{Formula, System};
+
+/// The key.
+pub(super) const KEY: &str = "vector_potential";
+
+/// The system of this potential and these A_i, one for each coordinate, times the charge.
+pub(super) fn system(
+    reader: &mut Reader<'_>,
+    given: &Given,
+    potential: Text,
+    field: &Placed<Vec<Text>>,
+) -> Option<System> {
+    given.refuse(reader, &["bodies", "dimensions", "neighbours", "cutoff", "box", "kinetic", "parts"], |key| {
+        let help = format!("remove `{key}`: T is the sum of (p_i - A_i)^2/(2*m_i), and its parts follow from the A_i");
+        (format!("{key} cannot be set with `{KEY}`"), help)
+    });
+    let parameters = given.own_parameters(reader);
+    let coordinates = given.coordinates.as_ref()?.value.iter().map(|name| name.value.clone()).collect::<Vec<_>>();
+    if field.value.len() != coordinates.len() {
+        let fault = reader.toml.source.fault(&field.at, "this list needs a component for each coordinate");
+        reader.toml.faults.push(fault.values(field.value.len().to_string(), coordinates.len().to_string()));
+        return None;
+    }
+    let masses = match &given.masses {
+        Some(numbers) => {
+            let masses = numbers.values(reader, coordinates.len())?;
+            kinetic::masses(reader, numbers, masses.clone());
+            Some(masses)
+        }
+        None => None,
+    };
+    let momenta: Vec<String> = match &given.momenta {
+        Some(names) => names.value.iter().map(|name| name.value.clone()).collect(),
+        None => coordinates.iter().map(|name| format!("p{name}")).collect(),
+    };
+    let summands = summands(&field.value, &momenta, masses.as_deref());
+    let parts = parts(reader, (coordinates, momenta), &parameters, (&field.value, summands))?;
+    let formulas = parts.into_iter().chain([potential]).collect();
+    let mut system = many_parts::of_formulas(reader, given, formulas, parameters, masses.as_deref())?;
+    if given.state.has_velocities() {
+        add_field(reader, &mut system, &field.value)?;
+    }
+    Some(system)
+}
+
+/// (p_i − A_i)²/(2 m_i) of each coordinate, at the place of A_i.
+fn summands(field: &[Text], momenta: &[String], masses: Option<&[Exact]>) -> Vec<Text> {
+    let summand = |(i, (component, momentum)): (usize, (&Text, &String))| {
+        let twice = masses.map_or_else(|| "2".to_owned(), |masses| format!("(2*{})", to_text(&masses[i].value)));
+        let mut summand = component.clone();
+        summand.value = format!("({momentum} - ({}))^2/{twice}", component.value);
+        summand
+    };
+    field.iter().zip(momenta).enumerate().map(summand).collect()
+}
+
+/// The parts of T: one, if its flow is that of a quadratic form, else one for each coordinate.
+fn parts(
+    reader: &mut Reader<'_>,
+    (mut coordinates, mut momenta): (Vec<String>, Vec<String>),
+    parameters: &[(String, Exact)],
+    (field, summands): (&[Text], Vec<Text>),
+) -> Option<Vec<Text>> {
+    let names = coordinates.clone();
+    coordinates.push(TIME.to_owned());
+    momenta.push(MOMENTUM.to_owned());
+    let before = reader.toml.faults.len();
+    for component in field {
+        if let Err(error) = Formula::potential(&component.value, &coordinates, parameters) {
+            let help = "a component of A is a smooth formula in the coordinates, the time t and the parameters";
+            reader.toml.fault(&component.place(&error.range()), error.to_string(), help);
+        }
+    }
+    if reader.toml.faults.len() > before {
+        return None;
+    }
+    let mut all = summands[0].clone();
+    all.value = summands.iter().map(|summand| summand.value.as_str()).collect::<Vec<_>>().join(" + ");
+    if Formula::part(&all.value, (&coordinates, &momenta), parameters).is_ok() {
+        return Some(vec![all]);
+    }
+    for (summand, name) in summands.iter().zip(&names) {
+        if let Err(PartError::NoFlow(_)) = Formula::part(&summand.value, (&coordinates, &momenta), parameters) {
+            let message = format!("this component of A depends on {name}, its own coordinate");
+            let help =
+                "use another gauge: A + grad f is the same field; only a constant field may have any A that is linear";
+            reader.toml.fault(&summand.at, message, help);
+        }
+    }
+    (reader.toml.faults.len() == before).then_some(summands)
+}
+
+/// p = m v + A of the initial velocities.
+fn add_field(reader: &mut Reader<'_>, system: &mut System, field: &[Text]) -> Option<()> {
+    let known = reader.known.clone();
+    let problem = &mut system.problem;
+    let start = problem.coordinates.iter().cloned().zip(problem.q.iter().cloned());
+    reader.known.extend(start.chain([(TIME.to_owned(), Exact { value: Rational::zero(), rounded: false })]));
+    let values: Vec<_> = field.iter().map(|component| reader.evaluate(component)).collect();
+    reader.known = known;
+    for (p, value) in problem.p.iter_mut().zip(values) {
+        let value = value?;
+        p.value += value.value;
+        p.rounded |= value.rounded;
+    }
+    Some(())
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::scene::Scene;
+    use crate::start::Begin;
+    use shadowstep::tables::{Faults, Source};
+    use shadowstep::{Carried, Integrator as _};
+
+    fn read(field: &str, more: &str, run: &str) -> Result<Scene, Faults> {
+        let text = format!(
+            "[problem]\npotential = \"0\"\nvector_potential = {field}\ncoordinates = [\"x\", \"y\"]\nparameters = {{ b = \"3/2\" }}\n{more}\n\
+             [initial]\nq = [2, 1]\nv = [\"1/2\", 0]\n[run]\nscheme = \"stormer-verlet\"\nstep = \"1/2\"\n{run}\ndigits = 30\n[output]\nenergy = true"
+        );
+        Scene::read(Source { path: "test.toml".to_owned(), text })
+    }
+
+    /// A charge in a constant field goes round a circle with the frequency b/m, whatever the step is: about (2, 1 − m v/b).
+    #[test]
+    fn a_constant_field_is_a_rotation_in_every_gauge() {
+        for gauge in ["[\"-b*y/2\", \"b*x/2\"]", "[\"-b*y\", \"0\"]", "[\"-b*y + x\", \"y\"]"] {
+            let scene = read(gauge, "masses = [2, 2]", "steps = 7").unwrap();
+            let steps = scene.steps_from(Begin::InitialState);
+            let mut integrator = scene.system.integrator::<f64>(steps, scene.system.start(&()), &()).unwrap();
+            (0..7).for_each(|_| integrator.step(Carried::Nothing));
+            let (sine, cosine) = 2.625_f64.sin_cos();
+            let turned = [2.0 + sine * 2.0 / 3.0, (1.0 + 2.0 * cosine) / 3.0];
+            // some fifty roundings of numbers of size 1
+            let off = integrator.state().q().iter().zip(turned).map(|(q, exact)| (q - exact).abs()).fold(0.0, f64::max);
+            assert!(off < 1e-14, "{gauge}: {off}");
+        }
+    }
+
+    #[test]
+    fn parts_and_momenta_follow_from_the_field() {
+        let scene = |field: &str| read(field, "", "steps = 1").unwrap();
+        let constant = scene("[\"-b*y/2\", \"b*x/2\"]");
+        assert_eq!(constant.system.parts.hamiltonian().unwrap(), "((px - (-b*y/2))^2/2 + (py - (b*x/2))^2/2) + (0)");
+        let texts: Vec<_> = constant.system.p.iter().map(|p| p.value.to_string()).collect();
+        assert_eq!(texts, ["-1/4", "3/2"]);
+        let of_position = scene("[\"-b*y^3*cos(t)\", \"b*x/2\"]");
+        assert_eq!(
+            of_position.system.parts.hamiltonian().unwrap(),
+            "((px - (-b*y^3*cos(t)))^2/2) + ((py - (b*x/2))^2/2 + pt) + (0)"
+        );
+    }
+
+    #[test]
+    fn faults_have_their_places() {
+        let faults = |field: &str, more: &str| match read(field, more, "steps = 1") {
+            Err(Faults(faults)) => faults
+                .iter()
+                .map(|fault| format!("{}:{}: {}", fault.line, fault.column, fault.message))
+                .collect::<Vec<_>>()
+                .join("; "),
+            Ok(_) => String::new(),
+        };
+        let found = [
+            faults("[\"x^2\", \"0\"]", ""),
+            faults("[\"-b*y/2\"]", ""),
+            faults("[\"-b*y/2\", \"b*x/c\"]", ""),
+            faults("[\"-b*y/2\", \"b*x/2\"]", "kinetic = \"px^2/2\""),
+        ];
+        assert_eq!(
+            found,
+            [
+                "3:21: this component of A depends on x, its own coordinate",
+                "3:20: this list needs a component for each coordinate",
+                "3:36: unknown name `c`; did you mean `x`? known names: x, y, t, b",
+                "6:11: kinetic cannot be set with `vector_potential`",
+            ]
+        );
+    }
+}
