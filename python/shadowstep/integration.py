@@ -109,6 +109,7 @@ def integrate(
     until: Number | None = None,
     *,
     steps: int | None = None,
+    end: str | None = None,
     first: str | None = None,
     gradient_kicks: str = "exact",
     every: int = 1,
@@ -137,6 +138,9 @@ def integrate(
     until, steps
         One of the two: the time at which the run ends at the latest, or the number of steps. In transformed time h is a step of s and ``until`` a
         physical time, to which a last step is made.
+    end
+        A condition that ends the run before, at the first state after t = 0 that meets it: one comparison of formulas in the coordinates, momenta,
+        parameters, t and the energy E, such as ``"x^2 + y^2 > 100"``. The steps are made twice, as the end is looked for first.
     first
         ``"kick"`` or ``"drift"``: what steps begin with, in place of what the table has.
     gradient_kicks
@@ -174,11 +178,14 @@ def integrate(
     >>> precise = shadowstep.integrate(shadowstep.Problem("pendulum"), "yoshida4", h="1/10", steps=3, digits=50)
     >>> precise.t[-1]
     '0.3'
+    >>> turned = shadowstep.integrate(shadowstep.Problem("pendulum"), "yoshida4", h="1/10", until=100, end="p < 0")
+    >>> float(turned.t[-1])
+    1.7
     """
     run = run_of(problem, scheme, h, until, steps, first, gradient_kicks, every, digits, mpfr)
     chosen = None if estimator is None else options(estimator, order, max_order, stop, rule, accuracy)
     with bar(run["steps"], "steps", progress) as reach:
-        found = _shadowstep.integrate(run, options=chosen, progress=reach)
+        found = _shadowstep.integrate(run, options=chosen, end=end, progress=reach)
     if found["planets"] is not None:
         found["planets"] = json.loads(found["planets"])
     for note in found["notes"]:

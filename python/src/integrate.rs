@@ -19,11 +19,12 @@ use crate::waiting::waiting;
 
 /// Makes a run, and gives a dictionary of its states: arrays in double precision, else lists of decimal texts.
 #[pyfunction]
-#[pyo3(signature = (run, *, options, progress))]
+#[pyo3(signature = (run, *, options, end, progress))]
 pub(crate) fn integrate<'py>(
     py: Python<'py>,
     run: GivenRun,
     options: Option<Options>,
+    end: Option<String>,
     progress: Option<&Bound<'py, PyAny>>,
 ) -> PyResult<Bound<'py, PyDict>> {
     let estimator = options.map(|options| options.settings(py)).transpose()?;
@@ -33,8 +34,13 @@ pub(crate) fn integrate<'py>(
     let found = waiting(py, progress, move |watched| {
         let posed = run.posed()?;
         let runs = (&run.times, run.displaced);
-        let (found, mut notes) =
-            posed.run(runs, run.every, estimator.as_ref(), run.arithmetic, &mut watched.observer())?;
+        let (found, mut notes) = posed.run(
+            runs,
+            (run.every, end.as_deref()),
+            estimator.as_ref(),
+            run.arithmetic,
+            &mut watched.observer(),
+        )?;
         notes.extend(run.times.note);
         Ok((found, notes, posed.system.problem))
     });
@@ -52,7 +58,7 @@ impl SystemWithScheme {
     fn run(
         &self,
         (times, displaced): (&Times, bool),
-        every: u64,
+        (every, end): (u64, Option<&str>),
         estimator: Option<&EstimatorSettings>,
         arithmetic: Arithmetic,
         observer: &mut dyn Observer,
@@ -63,7 +69,9 @@ impl SystemWithScheme {
         let compensated = arithmetic.is_compensated();
         let (system, scheme) = (&self.system, &self.scheme.scheme);
         let until = times.physical_end.as_ref();
-        let integration = Integration { system, scheme, run, compensated, displaced, until, every, estimator };
+        let ends = end.map(|text| system.condition("end", text)).transpose()?;
+        let ends = ends.as_ref();
+        let integration = Integration { system, scheme, run, compensated, displaced, until, ends, every, estimator };
         let found = match arithmetic.is_longer_than_double() {
             false => Integrated::Doubles(integration.run::<f64>(&(), observer)?),
             true => Integrated::Texts(arithmetic.compute(InTexts { integration, observer })?),

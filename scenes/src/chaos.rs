@@ -16,10 +16,11 @@ use crate::computation::{Computation, RunNumber};
 use crate::error::Error;
 use crate::follow::Follower;
 use crate::observer::Observer;
-use crate::physical_end::steps_to;
+use crate::physical_end::{Ends, find_end};
 use crate::run::Run;
 use crate::scene::{Scene, System};
 use crate::start::{Begin, Steps};
+use crate::steps::MOST_STEPS;
 use crate::tangent::{FollowingVectors, TangentRun, Vectors};
 use crate::watch::summary::Summary;
 use crate::watch::{Energies, Watch};
@@ -184,7 +185,9 @@ impl Computation for Following<'_, '_> {
         let begin =
             |request: &ChaosRequest<'_>| system.integrator::<N>(request.steps(), system.start(context), context);
         if let Some(until) = request.until {
-            request.run.steps = steps_to(&mut *begin(&request)?, until, context);
+            let ends = Ends { until: Some(until), condition: None };
+            let integrator = &mut *begin(&request)?;
+            request.run.steps = find_end(integrator, system, ends, (request.run.h.exact(), MOST_STEPS), context).steps;
         }
         let mut integrator = begin(&request)?;
         let tangents = FollowingVectors::new(request.arithmetic, system, request.steps(), vectors)?;

@@ -5,6 +5,7 @@ use std::io::Write;
 use crate::computation::{Computation, RunNumber};
 use crate::engine::{self, Ended, Outcome};
 use crate::error::Error;
+use crate::expression::Condition;
 use crate::note::Note;
 use crate::observer::Observer;
 use crate::results::{Checkpoint, Columns, FileOptions, Metadata, Rows, Target};
@@ -49,6 +50,12 @@ impl Scene {
         unstable.or_else(|| few_kicks(&self.system, scheme, h))
     }
 
+    /// Where the condition ends the run.
+    fn note_of_condition(&self, condition: &Condition) -> Note {
+        let (condition, steps) = (condition.text().to_owned(), self.steps());
+        Note::Ends { condition, steps, is_met: self.end().is_met }
+    }
+
     /// Whether a summary is made.
     pub(crate) fn summarises(&self, observer: &dyn Observer) -> bool {
         self.output.summary && observer.summarises()
@@ -66,7 +73,13 @@ impl Scene {
             None => {
                 let plain = self.until.as_ref().filter(|_| self.physical_end().is_none());
                 let early = plain.and_then(|until| Note::of_end(self.h.exact(), self.steps(), until));
-                early.iter().chain(self.note_of_steps(observer).iter()).for_each(|note| observer.note(note));
+                let ends = self.ends.as_ref().map(|condition| self.note_of_condition(condition));
+                early
+                    .iter()
+                    .filter(|_| ends.is_none())
+                    .chain(ends.iter())
+                    .chain(self.note_of_steps(observer).iter())
+                    .for_each(|note| observer.note(note));
                 rows.head(&Metadata::of(self))?;
             }
         }

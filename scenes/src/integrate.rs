@@ -15,7 +15,7 @@
 //! let h = StepSize::try_from("1/20").unwrap();
 //! let run = Run { propagator: &scheme.name, h: &h, steps: 1000, order: None };
 //! let integration =
-//!     Integration { system: &system, scheme: &scheme.scheme, run, compensated: false, displaced: false, until: None, every: 100, estimator: None };
+//!     Integration { system: &system, scheme: &scheme.scheme, run, compensated: false, displaced: false, until: None, ends: None, every: 100, estimator: None };
 //! let samples = integration.run::<f64>(&(), &mut ())?;
 //! assert_eq!(samples.n, (0..=10).map(|i| 100 * i).collect::<Vec<_>>());
 //! assert!(samples.energy.iter().all(|energy| (energy + 0.5).abs() < 1e-3));
@@ -33,14 +33,16 @@ use shadowstep::tables::{AtRunTime, TableScheme};
 
 use crate::computation::RunNumber;
 use crate::error::Error;
+use crate::expression::Condition;
 use crate::follow::Follower;
 use crate::observer::{Observer, report};
 use crate::pace::Pace;
-use crate::physical_end::{last_step, steps_to};
+use crate::physical_end::{Ends, find_end, last_step};
 use crate::run::Run;
 use crate::scene::split::ShownCoordinates;
 use crate::scene::{self, EnergyAt};
 use crate::start::{Begin, Steps};
+use crate::steps::{End, MOST_STEPS};
 use crate::watch::{Approaches, Interactions};
 
 /// A run whose states are kept.
@@ -59,6 +61,8 @@ pub struct Integration<'a> {
     /// The physical time at which the run ends, where time is transformed: after whole steps up to then it makes one of the exact remainder. The number of
     /// steps of the run is then not used.
     pub until: Option<&'a Rational>,
+    /// The condition that ends the run before, checked for the system.
+    pub ends: Option<&'a Condition>,
     /// The states n = 0, `every`, 2 `every`, … are kept, and the last one.
     pub every: u64,
     /// The estimator of the modified energy, if that is wanted.
@@ -109,11 +113,15 @@ impl Integration<'_> {
         let Integration { system, scheme, compensated, displaced, until, .. } = self;
         let steps = Steps { scheme, h: self.run.h, compensated, displaced, begin: Begin::InitialState };
         let at_start = || system.integrator(steps, system.start(context), context);
-        let steps = match until {
-            Some(until) => steps_to(&mut *at_start()?, until, context),
-            None => self.run.steps,
+        let end = match (Ends { until, condition: self.ends }) {
+            Ends { until: None, condition: None } => End { steps: self.run.steps, is_met: false },
+            ends => {
+                let most = if until.is_some() { MOST_STEPS } else { self.run.steps };
+                find_end(&mut *at_start()?, system, ends, (self.run.h.exact(), most), context)
+            }
         };
-        let run = Run { steps, ..self.run };
+        let until = until.filter(|_| !end.is_met);
+        let run = Run { steps: end.steps, ..self.run };
         let mut integrator = at_start()?;
         let mut keeper = Keeper {
             integration: Integration { run, ..self },

@@ -62,7 +62,7 @@ pub(crate) const SECTIONS: [Section; 13] = [
 ];
 
 /// All keys, section by section.
-pub(crate) const KEYS: [Key; 69] = [
+pub(crate) const KEYS: [Key; 70] = [
     key(
         "problem",
         "name",
@@ -316,6 +316,14 @@ pub(crate) const KEYS: [Key; 69] = [
          physical time, and the run ends there by a last step of the exact remainder: a row more, which is always written.",
         "100",
         Some("none; `steps` are given instead"),
+    ),
+    key(
+        "run",
+        "end",
+        "A condition that ends the run at the first state after t = 0 that meets it: one comparison of formulas in the coordinates, momenta and \
+         parameters, t and the energy E. `until` or `steps` is the end if it is not met. The steps are made twice, as the end is looked for first.",
+        "\"x^2 + y^2 > 100\"",
+        Some("none; the run ends with `until` or `steps`"),
     ),
     key("run", "steps", "The number of steps, in place of `until`.", "2000", Some("none; `until` is given instead")),
     key(

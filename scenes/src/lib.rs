@@ -76,6 +76,7 @@
 //! | `results` | rows, the head of a file, checkpoints, and where they go |
 //! | `whole_file`, [`lock`], `temporary` | files that get their names when they are complete, that one process has alone, and that are removed if the program ends early |
 //! | [`arithmetic`] | number types and their digits |
+//! | [`expression`], [`evaluator`] | formulas in the numbers of a state, and conditions on them |
 //! | [`library`] | schemes by their names: shipped ones and files |
 //! | [`scheme_record`] | everything that is known about a scheme |
 //! | [`estimator`] | estimators of the modified energy with their settings |
@@ -103,8 +104,10 @@ pub mod ensemble;
 mod error;
 pub mod estimates;
 pub mod estimator;
+pub mod evaluator;
 mod execute;
 mod explain;
+pub mod expression;
 pub mod family;
 pub mod follow;
 mod frequency;

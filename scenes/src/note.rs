@@ -21,6 +21,15 @@ pub enum Note {
         /// How many steps are made.
         steps: u64,
     },
+    /// A condition ends the run, or is not met.
+    Ends {
+        /// The condition.
+        condition: String,
+        /// How many steps are made.
+        steps: u64,
+        /// Whether it is met then.
+        is_met: bool,
+    },
     /// The scheme's order holds to fewer digits than the run has.
     OrderHoldsTo {
         /// The scheme's name.
@@ -124,6 +133,8 @@ impl fmt::Display for Note {
                 let (until, h) = (shortened(until, 20), shortened(h, 20));
                 write!(f, "{until} is not a multiple of {h}: the run ends at n = {steps}, t = {end}")
             }
+            Note::Ends { condition, steps, is_met: true } => write!(f, "{condition} ends the run at n = {steps}"),
+            Note::Ends { condition, steps, is_met: false } => write!(f, "{condition} is not met up to n = {steps}"),
             Note::OrderHoldsTo { scheme, order, digits } => {
                 write!(
                     f,

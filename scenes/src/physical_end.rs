@@ -1,92 +1,118 @@
-//! The end of a run in transformed time: how many steps fit before a physical time, and the last step to that time.
+//! The end of a run: the first state that meets a condition; in transformed time how many steps fit before a physical time, and the last step to that time.
 
 use std::ops::ControlFlow::{self, Break, Continue};
 
 use num_traits::Signed;
 use shadowstep::shadow::Estimate;
 use shadowstep::shadow::run::RunError;
-use shadowstep::steps::integrator::VectorIntegrator;
+use shadowstep::steps::integrator::{VectorIntegrator, at_output};
 use shadowstep::steps::step_to_time;
 use shadowstep::{Rational, Real};
 
 use crate::computation::{Computation, RunNumber};
 use crate::error::Error;
+use crate::evaluator::Test;
+use crate::expression::Condition;
 use crate::follow::Follower;
 use crate::run::Run;
-use crate::scene;
-use crate::steps::MOST_STEPS;
+use crate::scene::{Scene, System};
+use crate::steps::{End, MOST_STEPS};
 
-impl scene::Scene {
-    /// The number of steps. Of a run in transformed time that ends at a physical time, the first call makes them all to count them;
-    /// another step of the exact remainder then ends the run.
+impl Scene {
+    /// The number of steps. Of a run that ends on a condition, or in transformed time at a physical time, the first call makes them all to count them;
+    /// in transformed time another step of the exact remainder then ends the run.
     pub fn steps(&self) -> u64 {
-        *self.steps.get_or_init(|| self.until.as_ref().map_or(0, |until| self.count_steps(until)))
+        self.end().steps
+    }
+
+    pub(crate) fn end(&self) -> End {
+        *self.end.get_or_init(|| self.arithmetic.compute(Counting { scene: self }))
     }
 
     /// The physical time of the last step, where time is transformed and the run ends there.
     pub(crate) fn physical_end(&self) -> Option<&Rational> {
-        self.until.as_ref().filter(|_| self.system.transformed_time().is_some())
-    }
-
-    /// The number of steps that end at or before `until`. They are made once, in the numbers of the run: a step has no known time before.
-    fn count_steps(&self, until: &Rational) -> u64 {
-        self.arithmetic.compute(Counting { scene: self, until })
+        self.until.as_ref().filter(|_| self.system.transformed_time().is_some() && !self.end().is_met)
     }
 }
 
+/// Finds the end of a run.
 struct Counting<'a> {
-    scene: &'a scene::Scene,
-    until: &'a Rational,
+    scene: &'a Scene,
 }
 
 impl Computation for Counting<'_> {
-    type Output = u64;
+    type Output = End;
 
-    fn compute<N: RunNumber>(self, context: &N::Context) -> u64 {
-        let Counting { scene, until } = self;
-        let Ok(mut integrator) = scene.integrator::<N>(context) else { return 0 };
-        steps_to(&mut *integrator, until, context)
+    fn compute<N: RunNumber>(self, context: &N::Context) -> End {
+        let scene = self.scene;
+        let Ok(mut integrator) = scene.integrator::<N>(context) else { return End { steps: 0, is_met: false } };
+        let until = scene.until.as_ref().filter(|_| scene.system.transformed_time().is_some());
+        let ends = Ends { until, condition: scene.ends.as_ref() };
+        let most = scene.most_steps.unwrap_or(MOST_STEPS);
+        find_end(&mut *integrator, &scene.system, ends, (scene.h.exact(), most), context)
     }
 }
 
-/// How many steps end at or before a physical time; they are made.
-pub(crate) fn steps_to<N: RunNumber>(
+/// What ends a run before its last step.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Ends<'a> {
+    /// The physical time, where time is transformed.
+    pub(crate) until: Option<&'a Rational>,
+    /// The condition, which was checked for the system.
+    pub(crate) condition: Option<&'a Condition>,
+}
+
+/// Makes steps of h, at most this number, to find where they end.
+pub(crate) fn find_end<N: RunNumber>(
     integrator: &mut VectorIntegrator<'_, N>,
-    until: &Rational,
+    system: &System,
+    Ends { until, condition }: Ends<'_>,
+    (h, most): (&Rational, u64),
     context: &N::Context,
-) -> u64 {
-    let forward = until.is_positive();
-    let mut count = StepsTo { until: N::from_rational(until, context), forward, steps: 0 };
+) -> End {
+    let mut found = FindEnd {
+        until: until.map(|until| (N::from_rational(until, context), until.is_positive())),
+        test: condition.map(|condition| Test::new(condition, system, context).expect("it was checked with the system")),
+        h,
+        end: End { steps: 0, is_met: false },
+    };
     // a step whose state is not finite counts, so that the run finds it
-    let _ = N::follow(integrator, (None, MOST_STEPS), None, &mut count);
-    count.steps
+    let _ = N::follow(integrator, (None, most), None, &mut found);
+    found.end
 }
 
-/// Counts the steps that end at or before a physical time.
-struct StepsTo<N> {
-    until: N,
-    forward: bool,
-    steps: u64,
+/// Finds the last step at or before a physical time, or the first one after t = 0 at which a condition is met.
+struct FindEnd<'a, N> {
+    /// The time, and whether steps go forwards.
+    until: Option<(N, bool)>,
+    test: Option<Test<N>>,
+    h: &'a Rational,
+    end: End,
 }
 
-impl<N: Real> Follower<N> for StepsTo<N> {
+impl<N: RunNumber> Follower<N> for FindEnd<'_, N> {
     fn output(
         &mut self,
         n: i64,
         _: Option<&Estimate<'_, N>>,
         integrator: &mut VectorIntegrator<'_, N>,
     ) -> Result<ControlFlow<()>, Error> {
-        let t = integrator.state().q().last().expect("time is a coordinate");
-        if if self.forward { *t > self.until } else { *t < self.until } {
-            return Ok(Break(()));
+        if let Some((until, forward)) = &self.until {
+            let t = integrator.state().q().last().expect("time is a coordinate");
+            if if *forward { t > until } else { t < until } {
+                return Ok(Break(()));
+            }
         }
-        self.steps = n.unsigned_abs();
-        Ok(Continue(()))
+        self.end.steps = n.unsigned_abs();
+        let Some(test) = self.test.as_mut().filter(|_| n != 0) else { return Ok(Continue(())) };
+        let time = || self.h * Rational::from_integer(n.into());
+        self.end.is_met = at_output(integrator, |integrator| test.is_met(integrator.system(), time));
+        Ok(if self.end.is_met { Break(()) } else { Continue(()) })
     }
 
     fn failed(&mut self, error: RunError) -> Result<(), Error> {
         if let RunError::NotFinite { step, .. } = error {
-            self.steps = step.unsigned_abs();
+            self.end.steps = step.unsigned_abs();
         }
         Ok(())
     }
@@ -112,5 +138,66 @@ pub(crate) fn last_step<N: Real>(
             let message = format!("{}: no last step to t = {until} has a finite state", run.name());
             Err(Error::run(message, "try a smaller step size"))
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::engine::Outcome;
+    use shadowstep::tables::{Faults, Source};
+
+    fn read(text: &str) -> Result<Scene, Faults> {
+        Scene::read(Source { path: "test.toml".to_owned(), text: text.to_owned() })
+    }
+
+    fn pendulum(end: &str, output: &str) -> Result<Scene, Faults> {
+        read(&format!(
+            "problem.name = \"pendulum\"\n[run]\nscheme = \"yoshida4\"\nstep = \"1/10\"\nuntil = 100\nend = {end}\ndigits = \"double\"\n[output]\n{output}"
+        ))
+    }
+
+    fn rows(scene: &Scene) -> Vec<String> {
+        let mut rows = Vec::new();
+        assert!(matches!(scene.run_into(&mut rows, &mut ()).unwrap(), Outcome::Complete { .. }));
+        let text = String::from_utf8(rows).unwrap();
+        text.lines().filter(|line| !line.starts_with('#')).map(str::to_owned).collect()
+    }
+
+    /// The first state at which p < 0 is the last one, whatever is written, and the rows before are those of a run that goes on.
+    #[test]
+    fn a_condition_ends_a_run_at_the_first_state_that_meets_it() {
+        for output in ["trajectory = true", "trajectory = true\nmodified_energy = { estimator = \"bilinear\", order = 4 }"] {
+            let (ended, free) = (pendulum("\"p < 0\"", output).unwrap(), pendulum("\"p > 100\"", output).unwrap());
+            assert_eq!((ended.steps(), ended.end().is_met), (17, true));
+            assert_eq!((free.steps(), free.end().is_met), (1000, false));
+            let (ended, free) = (rows(&ended), rows(&free));
+            assert_eq!(ended.len(), 1 + 18);
+            assert_eq!(ended, free[..ended.len()]);
+            let momentum = |row: &String| row.rsplit(',').next().unwrap().parse::<f64>().unwrap();
+            assert!(momentum(&ended[17]) >= 0.0 && momentum(&ended[18]) < 0.0);
+        }
+    }
+
+    /// t of the condition is the physical one; then no last step is made to `until`.
+    #[test]
+    fn a_condition_ends_a_run_in_transformed_time() {
+        let text = "problem.name = \"kepler\"\ntime.transform = \"logarithmic\"\noutput.trajectory = true\n\
+                    run = { scheme = \"stormer-verlet\", first = \"drift\", step = \"1/20\", until = 20, end = \"t > 3\", digits = \"double\" }";
+        let rows = rows(&read(text).unwrap());
+        let time = |row: &String| row.split(',').nth(1).unwrap().parse::<f64>().unwrap();
+        assert!(time(&rows[rows.len() - 2]) <= 3.0 && time(&rows[rows.len() - 1]) > 3.0);
+    }
+
+    #[test]
+    fn faults_of_a_condition_have_their_places() {
+        let fault = |end: &str| {
+            let Err(Faults(faults)) = pendulum(end, "energy = true") else { panic!("{end} is read") };
+            format!("{}:{}: {}", faults[0].line, faults[0].column, faults[0].message)
+        };
+        assert_eq!(fault("\"p\""), "6:7: this text is not a condition");
+        assert_eq!(fault("\"p < z\""), "6:7: unknown name `z`; did you mean `q`? known names: q, p, t, E");
+        assert_eq!(fault("\"p < 2^^3\""), "6:14: unexpected `^`: a number, a name or `(` should follow `^`");
+        assert_eq!(fault("1"), "6:7: this value is of the wrong kind");
     }
 }

@@ -41,6 +41,7 @@ use crate::note::Note;
 use crate::read::reader::Reader;
 use crate::scene::{Outputs, Scene, System};
 use crate::shipped::scene_names;
+use crate::steps::End;
 
 /// The most bytes of a scene, which may have the initial values of many bodies.
 const LARGEST_SCENE: u64 = 16 << 20;
@@ -97,9 +98,11 @@ pub(crate) fn read(source: &Source, document: &DeTable<'_>, names: Names<'_>) ->
     let sections = sections(&mut reader, document, names.others, names.schemes);
     let Reader { toml, arithmetic, notes, .. } = reader;
     match (Faults::of(toml.faults), sections) {
-        (None, Some((system, run::Steps { scheme, displaced, h, until, steps }, output))) => {
-            let steps = steps.map_or_else(OnceLock::new, OnceLock::from);
-            Ok(Scene { source: source.clone(), arithmetic, system, scheme, displaced, h, until, steps, output, notes })
+        (None, Some((system, run::Steps { scheme, displaced, h, until, steps, ends }, output))) => {
+            let known = steps.filter(|_| ends.is_none()).map(|steps| End { steps, is_met: false });
+            let end = known.map_or_else(OnceLock::new, OnceLock::from);
+            let (source, most_steps) = (source.clone(), steps);
+            Ok(Scene { source, arithmetic, system, scheme, displaced, h, until, ends, most_steps, end, output, notes })
         }
         (Some(faults), _) => Err(faults),
         (None, None) => unreachable!("what cannot be read is a fault"),

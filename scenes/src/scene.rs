@@ -31,10 +31,12 @@ use shadowstep::{MotionError, Rational, StepSize};
 
 use crate::arithmetic::Arithmetic;
 use crate::estimator::order_setting;
+use crate::expression::Condition;
 use crate::library::NamedScheme;
 use crate::note::Note;
 use crate::run::{OrderSetting, Run};
 use crate::start::{Begin, SceneIntegrator, Steps};
+use crate::steps::End;
 
 /// A scene: the system, the scheme with its steps, and the output.
 #[derive(Debug)]
@@ -53,8 +55,12 @@ pub struct Scene {
     pub h: StepSize,
     /// The time at which the run ends, at the latest; `None` where time is transformed and the number of steps is given.
     pub until: Option<Rational>,
-    /// The number of steps, where it is known.
-    pub(crate) steps: OnceLock<u64>,
+    /// The condition on which the run ends before, if there is one.
+    pub ends: Option<Condition>,
+    /// The most steps; `None` where only the steps themselves have their times.
+    pub(crate) most_steps: Option<u64>,
+    /// The end of the run, where it is known.
+    pub(crate) end: OnceLock<End>,
     /// What is written, and where.
     pub output: Outputs,
     /// What the user should know of this scene.

@@ -1,10 +1,10 @@
 //! \[keep\]: what is kept of each run.
 
+use shadowstep_scenes::expression::{Condition, Expression};
 use shadowstep_schemes::document::{Reader, Section, Text};
 use shadowstep_symbolic::nearest;
 use toml::de::{DeTable, DeValue};
 
-use crate::expression::{Condition, Expression};
 use crate::keys;
 use crate::values::{Description, Need, RunValue, VALUES};
 

@@ -35,7 +35,7 @@
 //! | `plan` | a sweep's text → its scene, axes, and what is kept; hashes of what determines the results |
 //! | `axes`, `axis` | names and their values; the values of a run from its number |
 //! | `keys` | every key with its meaning |
-//! | `keep`, `values`, `expression` | what is kept of a run |
+//! | `keep`, `values` | what is kept of a run |
 //! | `record` | one run |
 //! | `batch`, `together` | some runs of one thread; runs that are computed together, one in each lane |
 //! | `chunk`, `partial` | the file of a chunk, and of one that is not complete |
@@ -52,7 +52,6 @@ mod batch;
 mod chunk;
 mod collect;
 mod compute;
-mod expression;
 mod keep;
 mod keys;
 mod manifest;

@@ -10,6 +10,7 @@ use shadowstep::steps::integrator::{VectorIntegrator, at_output};
 use shadowstep::systems::system::Visitor;
 use shadowstep::{Carried, Real};
 use shadowstep_scenes::computation::{Computation, RunNumber};
+use shadowstep_scenes::evaluator::{Evaluator, Test};
 use shadowstep_scenes::follow::Follower;
 use shadowstep_scenes::run::Run;
 use shadowstep_scenes::tangent::{FollowingVectors, TangentRun, Vectors};
@@ -17,7 +18,6 @@ use shadowstep_scenes::watch::{Energies, Watch};
 use shadowstep_scenes::{EnergySummary, Error, Observer, Scene, ShownCoordinates, Summary, System};
 use shadowstep_symbolic::decimal::to_text;
 
-use crate::expression::{Evaluator, Test};
 use crate::keep::Keep;
 use crate::values::{Need, RunValue};
 

@@ -10,11 +10,12 @@ use shadowstep::steps::integrator::VectorIntegrator;
 use shadowstep::tangent::Tangents;
 use shadowstep::{Scheme as _, System};
 use shadowstep_scenes::Scene;
+use shadowstep_scenes::evaluator::{Evaluator, Test};
+use shadowstep_scenes::expression::Expression;
 use shadowstep_scenes::lanes::{self, LANES, SystemInLanes};
 use shadowstep_scenes::start::{Begin, SceneIntegrator, Steps};
 use shadowstep_symbolic::decimal::to_text;
 
-use crate::expression::{Evaluator, Expression, Test};
 use crate::keep::Keep;
 use crate::record::Values;
 use crate::values::{Need, RunValue};

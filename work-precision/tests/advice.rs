@@ -53,8 +53,17 @@ impl Computation for Final<'_> {
         let run = Run { propagator: &scheme.name, h: &h, steps, order: None };
         let scheme = &scheme.scheme;
         let (compensated, displaced, until) = (false, false, None);
-        let integration =
-            Integration { system, scheme, run, compensated, displaced, until, every: steps, estimator: None };
+        let integration = Integration {
+            system,
+            scheme,
+            run,
+            compensated,
+            displaced,
+            until,
+            ends: None,
+            every: steps,
+            estimator: None,
+        };
         let samples = integration.run::<N>(context, &mut ()).unwrap();
         samples.q[system.q.len()..].iter().map(|q| exact(&q.to_text()).unwrap()).collect()
     }

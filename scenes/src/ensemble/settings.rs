@@ -62,6 +62,10 @@ fn refuse_outputs(reader: &mut Reader<'_>, scene: &Scene) {
         let at = place(reader.source, "output", key);
         reader.fault(&at, format!("an ensemble has no `{key}`"), format!("remove `{key}`: {why}"));
     }
+    if scene.ends.is_some() {
+        let help = "remove `end`: its trajectories end together; a sweep ends each of its runs alone";
+        reader.fault(&place(reader.source, "run", "end"), "an ensemble has no `end`", help);
+    }
     if let Some(refusal) = scene.system.needs().no_ensembles {
         let (section, key) = scene.system.parts.key();
         reader.fault(&place(reader.source, section, key), refusal.message, refusal.hint);

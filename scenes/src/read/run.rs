@@ -10,6 +10,7 @@ use toml::de::DeValue;
 
 use super::reader::Reader;
 use crate::arithmetic::{Arithmetic, DEFAULT_DIGITS, MOST_DIGITS, OTHER_SCHEME};
+use crate::expression::Condition;
 use crate::library::{LibraryError, NamedScheme, Schemes, check_displaced};
 use crate::note::Note;
 use crate::refusal::Refusal;
@@ -49,6 +50,8 @@ pub(super) struct Steps {
     pub(super) until: Option<Rational>,
     /// `None` where only the steps themselves have their times.
     pub(super) steps: Option<u64>,
+    /// As in [`Scene`](crate::scene::Scene).
+    pub(super) ends: Option<Condition>,
 }
 
 impl Steps {
@@ -76,6 +79,10 @@ impl Steps {
             }
         };
         let times = times(reader, run, transformed);
+        let ends = match run.get("end") {
+            None => Some(None),
+            Some(value) => condition(reader, value, system).map(Some),
+        };
         if matches!(first, Some(None)) {
             return None;
         }
@@ -83,7 +90,7 @@ impl Steps {
         let scheme = scheme?;
         let displaced =
             displaced?.map_or(Some(false), |(at, wanted)| displaced_forces(reader, &at, wanted, &scheme))?;
-        Some(Steps { scheme, displaced, h, until, steps })
+        Some(Steps { scheme, displaced, h, until, steps, ends: ends? })
     }
 }
 
@@ -138,6 +145,17 @@ fn displaced_forces(reader: &mut Reader<'_>, at: &Range<usize>, wanted: bool, na
         Err(Refusal { message, hint }) if wanted => reader.toml.wrong(at, message, hint),
         _ => Some(wanted),
     }
+}
+
+/// A condition on a state of the system.
+fn condition(reader: &mut Reader<'_>, value: &Value<'_>, system: Option<&System>) -> Option<Condition> {
+    let text = reader.toml.text(value)?;
+    let condition = Condition::read(&mut reader.toml, &text)?;
+    let before = reader.toml.faults.len();
+    if let Some(system) = system {
+        system.check(condition.difference(), &mut reader.toml);
+    }
+    (reader.toml.faults.len() == before).then_some(condition)
 }
 
 /// h, the end and the number of steps.

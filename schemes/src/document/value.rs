@@ -38,6 +38,11 @@ impl Text {
         Text { value: value.to_owned(), at, begin }
     }
 
+    /// A document that is a text and nothing else.
+    pub fn alone(text: &str) -> Text {
+        Text { value: text.to_owned(), at: 0..text.len(), begin: Some(0) }
+    }
+
     /// A key as a text.
     pub fn of_key(key: &Spanned<DeString<'_>>) -> Text {
         Text { value: key.get_ref().to_string(), at: key.span(), begin: None }

@@ -85,7 +85,7 @@ pub(super) fn scene(reader: &mut Reader<'_>, root: &DeTable<'_>, axes: &Axes, ke
         }
     }
     let differences = keep.first_time.iter().map(|(_, condition)| condition.difference());
-    keep.at_end.iter().map(|(_, end)| end).chain(differences).for_each(|text| text.check(reader, system));
+    keep.at_end.iter().map(|(_, end)| end).chain(differences).for_each(|text| system.check(text, reader));
     let at = root.get("keep").map_or(0..0, |keep| keep.span());
     let output = &scene.output;
     if keep.needs(Need::Estimates) && output.modified_energy.is_none() {

@@ -1,0 +1,105 @@
+//! Expressions in q, p, the time and the energy of a state, and conditions on them.
+
+use std::cmp::Ordering;
+
+use shadowstep_schemes::document::{Reader, Text};
+use shadowstep_symbolic::{Expression as Syntax, parse};
+
+/// The time and the energy.
+pub(crate) const TIME: &str = "t";
+pub(crate) const ENERGY: &str = "E";
+
+/// A formula in the coordinates, momenta and parameters of a system, the names of the axes, t and E.
+#[derive(Clone, Debug)]
+pub struct Expression {
+    pub(crate) formula: String,
+    /// What is written.
+    pub(crate) text: Text,
+    pub(crate) has_time: bool,
+    pub(crate) has_energy: bool,
+    has_functions: bool,
+}
+
+/// One expression is less or greater than another.
+#[derive(Clone, Debug)]
+pub struct Condition {
+    /// The left side less the right side.
+    difference: Expression,
+    pub(crate) met: Comparison,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Comparison {
+    Less,
+    LessOrEqual,
+    Greater,
+    GreaterOrEqual,
+}
+
+impl Expression {
+    /// The formula of a text.
+    pub fn new(text: Text) -> Expression {
+        Expression::with(text.value.clone(), text)
+    }
+
+    fn with(formula: String, text: Text) -> Expression {
+        let syntax = parse(&formula).ok();
+        let has = |name| syntax.as_ref().is_some_and(|syntax| syntax.mentions(name));
+        let has_functions = syntax.as_ref().is_none_or(Syntax::has_functions);
+        Expression { has_time: has(TIME), has_energy: has(ENERGY), has_functions, formula, text }
+    }
+
+    /// Whether it has functions such as exp and sin.
+    pub fn has_functions(&self) -> bool {
+        self.has_functions
+    }
+}
+
+impl Condition {
+    /// The condition of a text; a fault has its place.
+    pub fn read(reader: &mut Reader<'_>, text: &Text) -> Option<Condition> {
+        let comparisons = [
+            ("<=", Comparison::LessOrEqual),
+            (">=", Comparison::GreaterOrEqual),
+            ("<", Comparison::Less),
+            (">", Comparison::Greater),
+        ];
+        let found = comparisons.iter().find_map(|(sign, met)| Some((text.value.split_once(sign)?, *met)));
+        let Some(((left, right), met)) = found.filter(|((_, right), _)| !right.contains(['<', '>'])) else {
+            return reader.wrong(&text.at, "this text is not a condition", "write one comparison: \"x^2 + y^2 > 100\"");
+        };
+        for side in [left, right] {
+            if let Err(error) = parse(side) {
+                let begin = side.as_ptr() as usize - text.value.as_ptr() as usize;
+                let range = &error.range;
+                let at = text.place(&(begin + range.start..begin + range.end));
+                return reader.wrong(&at, error.to_string(), "write one comparison: \"x^2 + y^2 > 100\"");
+            }
+        }
+        // one subtraction and no rounding of the sides alone
+        let difference = format!("({left}) - ({right})");
+        Some(Condition { difference: Expression::with(difference, text.clone()), met })
+    }
+
+    /// The left side less the right side.
+    pub fn difference(&self) -> &Expression {
+        &self.difference
+    }
+
+    /// The text.
+    pub fn text(&self) -> &str {
+        &self.difference.text.value
+    }
+}
+
+impl Comparison {
+    /// Whether it is that of a difference with 0; NaN has none.
+    pub(crate) fn is_of(self, ordering: Option<Ordering>) -> bool {
+        match self {
+            Comparison::Less => ordering == Some(Ordering::Less),
+            Comparison::LessOrEqual => matches!(ordering, Some(Ordering::Less | Ordering::Equal)),
+            Comparison::Greater => ordering == Some(Ordering::Greater),
+            Comparison::GreaterOrEqual => matches!(ordering, Some(Ordering::Greater | Ordering::Equal)),
+        }
+    }
+}
