@@ -16,7 +16,7 @@ pub(crate) mod processor;
 pub mod scheme;
 pub(crate) mod scheme_maps;
 pub mod step_size;
-pub(crate) mod step_to_time;
+pub(crate) mod step_to_zero;
 pub mod stepper;
 #[cfg(feature = "tables")]
 pub mod tables;
@@ -24,4 +24,4 @@ pub(crate) mod weights;
 
 pub use displacements::DisplacementError;
 pub use mismatch::MismatchError;
-pub use step_to_time::step_to_time;
+pub use step_to_zero::{step_to_time, step_to_zero};

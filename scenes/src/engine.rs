@@ -11,6 +11,7 @@ use shadowstep::systems::system::Visitor;
 use shadowstep::{Carried, MotionError};
 
 use crate::computation::RunNumber;
+use crate::crossings::Crossings;
 use crate::error::Error;
 use crate::follow::{Follower, follow};
 use crate::note::Note;
@@ -86,6 +87,7 @@ pub(crate) fn run<N: RunNumber>(
         energy_of: scene.system.energy_of_rows(context),
         watch: None,
         vectors,
+        crossings: scene.output.section.as_ref().map(|surface| Crossings::new(surface, scene, context)),
         snapshots: Snapshots::new(0),
         state: (integrator.state().q().to_vec(), integrator.state().p().to_vec()),
         n: from.unwrap_or(0),
@@ -155,6 +157,8 @@ struct Recorder<'a, 'r, N: RunNumber> {
     watch: Option<Watch<N>>,
     /// The tangent vectors of rows, which make their own steps.
     vectors: Option<FollowingVectors>,
+    /// Finds the crossings of a surface of section.
+    crossings: Option<Crossings<N>>,
     /// The states from which estimates can be computed again.
     snapshots: Snapshots<N>,
     /// The state of the newest output, in the coordinates of the steps; of a processed scheme the trajectory's where it is written.
@@ -272,12 +276,9 @@ impl<N: RunNumber> Recorder<'_, '_, N> {
         }
         let n = i64::try_from(self.run.steps).unwrap_or(i64::MAX - 1) + 1;
         let energy = scene.output.energy.is_some().then(|| self.energy(integrator));
-        self.write(
-            n,
-            (integrator.state().q(), integrator.state().p()),
-            (energy.as_ref(), None, None),
-            scene.output.trajectory.is_some(),
-        )
+        let state = (integrator.state().q(), integrator.state().p());
+        let time = self.time(n, state.0);
+        self.write((n, time), state, (energy.as_ref(), None, None), scene.output.trajectory.is_some())
     }
 
     /// `energy` is that of the last state.
@@ -319,7 +320,8 @@ impl<N: RunNumber> Recorder<'_, '_, N> {
         if energy.is_none() && modified.is_none() && chaos.is_none() && !state_is_due {
             return Ok(());
         }
-        self.write(n, (q, p), (energy, modified, chaos), state_is_due)
+        let time = self.time(n, q);
+        self.write((n, time), (q, p), (energy, modified, chaos), state_is_due)
     }
 
     /// The indicators of chaos up to the state n, if they are due.
@@ -329,18 +331,42 @@ impl<N: RunNumber> Recorder<'_, '_, N> {
         Some(Indicators::of(vectors.end()))
     }
 
+    /// The row of a crossing between the state n, at which the system is, and the state before.
+    fn cross(&mut self, n: i64, integrator: &mut VectorIntegrator<'_, N>) -> Result<(), Error> {
+        let Some(mut crossings) = self.crossings.take() else { return Ok(()) };
+        let written = crossings.state(integrator, |integrator, part| {
+            if n <= self.written {
+                return Ok(());
+            }
+            let mut time = N::from_rational(self.run.h.exact(), self.context);
+            time.multiply(part);
+            time.add(&N::from_rational(&self.run.time(n - 1), self.context));
+            at_output(integrator, |integrator| {
+                let (q, p) = (integrator.state().q(), integrator.state().p());
+                let time = self.scene.system.time_of(q).unwrap_or(&time).to_text();
+                self.write((n - 1, time), (q, p), (None, None, None), true)
+            })
+        });
+        self.crossings = Some(crossings);
+        written.unwrap_or(Ok(()))
+    }
+
+    /// The time of the state n.
+    fn time(&self, n: i64, q: &[N]) -> String {
+        match self.scene.system.time_of(q) {
+            Some(t) => t.to_text(),
+            None => N::from_rational(&self.run.time(n), self.context).to_text(),
+        }
+    }
+
     /// Writes a row.
     fn write(
         &mut self,
-        n: i64,
+        (n, t): (i64, String),
         (q, p): (&[N], &[N]),
         (energy, modified, chaos): (Option<&N>, Option<ModifiedEnergy>, Option<Indicators>),
         with_state: bool,
     ) -> Result<(), Error> {
-        let t = match self.scene.system.time_of(q) {
-            Some(t) => t.to_text(),
-            None => N::from_rational(&self.run.time(n), self.context).to_text(),
-        };
         let (q, p) = match &mut self.shown {
             Some(shown) if with_state => shown.of_state(q, p),
             _ => (q, p),
@@ -401,6 +427,9 @@ impl<N: RunNumber> Follower<N> for Recorder<'_, '_, N> {
     }
 
     fn next(&self, n: i64) -> i64 {
+        if self.crossings.is_some() {
+            return n + 1;
+        }
         let checkpoint = match self.scene.output.checkpoint {
             Some(CheckpointInterval::Steps(every)) => next_multiple(n, every),
             _ => i64::MAX,
@@ -439,6 +468,7 @@ impl<N: RunNumber> Follower<N> for Recorder<'_, '_, N> {
         match estimate {
             None => {
                 self.present(n, integrator)?;
+                self.cross(n, integrator)?;
                 self.ends(n, |_| Some(Snapshot::of(n, integrator.state())))
             }
             Some(found) => {

@@ -121,7 +121,7 @@ fn columns(scene: &Scene) -> Columns {
         energy: output.energy.is_some(),
         modified_energy: output.modified_energy.is_some(),
         chaos: output.chaos.is_some(),
-        state: scene.system.columns().filter(|_| output.trajectory.is_some()).cloned().collect(),
+        state: scene.system.columns().filter(|_| output.has_states()).cloned().collect(),
         coordinates: scene.system.coordinates_of_columns(),
     }
 }
@@ -247,6 +247,21 @@ mod tests {
                 let (bytes, stops) = with_stops(&system, output, each);
                 assert!(!stops.is_empty());
                 assert_eq!(bytes, whole, "{output}: {stops:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn crossings_of_a_section_are_the_same_after_a_stop() {
+        let output = "energy = { every = 5 }\ntrajectory = { section = \"x\", direction = \"both\" }";
+        for digits in ["30", "\"double\"", "\"compensated\""] {
+            let (whole, _) = with_stops_in(digits, KEPLER, output, 1000);
+            let crossings = whole.lines().filter(|line| !line.starts_with('#') && !line.ends_with(',')).count() - 1;
+            assert!(crossings > 0, "{whole}");
+            for each in [2, 3, 5, 8, 13] {
+                let (bytes, stops) = with_stops_in(digits, KEPLER, output, each);
+                assert!(!stops.is_empty());
+                assert_eq!(bytes, whole, "{stops:?}");
             }
         }
     }

@@ -62,7 +62,7 @@ pub(crate) const SECTIONS: [Section; 13] = [
 ];
 
 /// All keys, section by section.
-pub(crate) const KEYS: [Key; 70] = [
+pub(crate) const KEYS: [Key; 72] = [
     key(
         "problem",
         "name",
@@ -459,6 +459,21 @@ pub(crate) const KEYS: [Key; 70] = [
         Some("none; the best k of each state"),
     ),
     key("output.trajectory", "every", "They are written at every n that is a multiple of this.", "100", Some("1")),
+    key(
+        "output.trajectory",
+        "section",
+        "A formula in positions and momenta, in place of `every`: they are written where it becomes 0 between two states, at the end of a step of a part of \
+         h from the state before (M. Hénon, Physica D 5 (1982) 412). Its row has the n of the state before.",
+        "\"x\"",
+        Some("none; `every` says when"),
+    ),
+    key(
+        "output.trajectory",
+        "direction",
+        "How the formula of `section` goes through 0, in the order of the steps: \"up\", \"down\" or \"both\".",
+        "\"both\"",
+        Some("\"up\""),
+    ),
     key("output.chaos", "every", "They are written at every n that is a multiple of this.", "100", Some("1")),
     key(
         "output.plot",

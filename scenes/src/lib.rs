@@ -72,6 +72,7 @@
 //! | [`ensemble`], [`lanes`] | many trajectories of such a family; their systems as one system of lanes |
 //! | `read` | a scene's text → a scene, or all its faults |
 //! | `execute`, `engine`, `snapshots`, `saved_state` | the run of a scene |
+//! | `crossings` | where a run crosses a surface of section |
 //! | `observer`, `note` | how a caller watches a run and stops it |
 //! | `results` | rows, the head of a file, checkpoints, and where they go |
 //! | `whole_file`, [`lock`], `temporary` | files that get their names when they are complete, that one process has alone, and that are removed if the program ends early |
@@ -97,6 +98,7 @@ pub mod arithmetic;
 pub mod chaos;
 pub mod computation;
 pub mod cpu_time;
+mod crossings;
 pub mod derivatives;
 pub mod drift;
 mod engine;
@@ -157,8 +159,8 @@ pub use scene::split::{
     TransformedTime,
 };
 pub use scene::{
-    CheckpointInterval, EnergyAt, Format, Formula, InitialValueProblem, KineticEnergy, Outputs, OwnPotential,
-    PairEnergy, Parts, PotentialEnergy, Scene, SceneNumber, System, SystemIn,
+    CheckpointInterval, Direction, EnergyAt, Format, Formula, InitialValueProblem, KineticEnergy, Outputs,
+    OwnPotential, PairEnergy, Parts, PotentialEnergy, Scene, SceneNumber, Surface, System, SystemIn,
 };
 pub use shell::shell_word;
 pub use shipped::{SHIPPED_SCENES, ShippedScene, scene_text};

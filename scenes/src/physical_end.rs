@@ -167,7 +167,9 @@ mod tests {
     /// The first state at which p < 0 is the last one, whatever is written, and the rows before are those of a run that goes on.
     #[test]
     fn a_condition_ends_a_run_at_the_first_state_that_meets_it() {
-        for output in ["trajectory = true", "trajectory = true\nmodified_energy = { estimator = \"bilinear\", order = 4 }"] {
+        for output in
+            ["trajectory = true", "trajectory = true\nmodified_energy = { estimator = \"bilinear\", order = 4 }"]
+        {
             let (ended, free) = (pendulum("\"p < 0\"", output).unwrap(), pendulum("\"p > 100\"", output).unwrap());
             assert_eq!((ended.steps(), ended.end().is_met), (17, true));
             assert_eq!((free.steps(), free.end().is_met), (1000, false));

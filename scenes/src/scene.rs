@@ -16,7 +16,7 @@ pub(crate) use format::COLUMNS;
 pub use format::Format;
 pub use formula::Formula;
 pub use number::{SceneNumber, SystemIn};
-pub use output::{CheckpointInterval, Outputs};
+pub use output::{CheckpointInterval, Direction, Outputs, Surface};
 pub use own::OwnPotential;
 pub use pairs::PairEnergy;
 pub(crate) use pairs::{PairCutoff, SmoothEnd};

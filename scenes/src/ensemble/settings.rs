@@ -53,7 +53,7 @@ fn refuse_numbers(reader: &mut Reader<'_>, scene: &Scene) {
 fn refuse_outputs(reader: &mut Reader<'_>, scene: &Scene) {
     let output = &scene.output;
     let refused = [
-        ("trajectory", output.trajectory.is_some(), "its rows have the states at the end"),
+        ("trajectory", output.has_states(), "its rows have the states at the end"),
         ("chaos", output.chaos.is_some(), "a sweep keeps indicators of chaos of many runs"),
         ("plot", output.plot.is_some(), "draw its rows with another program"),
         ("checkpoint", output.checkpoint.is_some(), "a run that is stopped begins again"),

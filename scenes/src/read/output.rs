@@ -12,7 +12,8 @@ use toml::de::DeValue;
 use super::plot;
 use super::reader::Reader;
 use crate::estimator::{ACCURACY_HINT, conflict};
-use crate::scene::{CheckpointInterval, Format, Outputs, System};
+use crate::expression::Expression;
+use crate::scene::{CheckpointInterval, Direction, Format, Outputs, Surface, System};
 use crate::steps::MOST_STEPS;
 use shadowstep_schemes::document::{Section, Value};
 
@@ -24,14 +25,15 @@ pub(super) fn read(reader: &mut Reader<'_>, output: &Section<'_, '_>, system: Op
         output.get("format").map(|value| reader.word(value, &[("csv", Format::Csv), ("jsonl", Format::JsonLines)]));
     let energy = every(reader, output, "energy", "output.energy");
     let modified_energy = modified_energy(reader, output);
-    let trajectory = every(reader, output, "trajectory", "output.trajectory");
+    let (trajectory, section) = trajectory(reader, output, system);
     let chaos = every(reader, output, "chaos", "output.chaos");
     let summary = output.get("summary").and_then(|value| reader.toml.truth(value)).is_none_or(|truth| truth.value);
     let checkpoint = output.get("checkpoint").map(|value| (value.span(), interval(reader, value)));
     if let (Some((at, _)), None) = (&checkpoint, output.get("file")) {
         reader.toml.fault(at, "a checkpoint requires a file", "add `file = \"out.csv\"`");
     }
-    let silent = energy.is_none() && modified_energy.is_none() && trajectory.is_none() && chaos.is_none();
+    let silent =
+        [energy, trajectory, chaos].iter().all(Option::is_none) && modified_energy.is_none() && section.is_none();
     if silent && reader.toml.faults.len() == before && output.is_there() {
         let help = "add `energy = true`, `modified_energy = true` or `trajectory = true`";
         reader.toml.fault(&output.at, "no output is selected", help);
@@ -52,7 +54,7 @@ pub(super) fn read(reader: &mut Reader<'_>, output: &Section<'_, '_>, system: Op
     let checkpoint = checkpoint.and_then(|(_, interval)| interval);
     let format = format?;
     let mut outputs =
-        Outputs { file, format, energy, modified_energy, trajectory, chaos, checkpoint, summary, plot: None };
+        Outputs { file, format, energy, modified_energy, trajectory, section, chaos, checkpoint, summary, plot: None };
     outputs.plot = plot::read(reader, output, system, &outputs);
     Some(outputs)
 }
@@ -82,6 +84,52 @@ fn when<'t, 'i>(
 
 fn every(reader: &mut Reader<'_>, output: &Section<'_, '_>, key: &'static str, section: &'static str) -> Option<u64> {
     when(reader, output, key, section).map(|(every, _)| every)
+}
+
+/// The period of states, or the surface at whose crossings they are.
+fn trajectory(
+    reader: &mut Reader<'_>,
+    output: &Section<'_, '_>,
+    system: Option<&System>,
+) -> (Option<u64>, Option<Surface>) {
+    let Some((every, table)) = when(reader, output, "trajectory", "output.trajectory") else { return (None, None) };
+    let Some((table, value)) = table.as_ref().and_then(|table| Some((table, table.get("section")?))) else {
+        if let Some(value) = table.as_ref().and_then(|table| table.get("direction")) {
+            reader.toml.fault(&value.span(), "a direction requires a section", "add `section = \"x\"`");
+        }
+        return (Some(every), None);
+    };
+    if table.get("every").is_some() {
+        reader.toml.fault(&value.span(), "every and section are both given", "keep one of the two");
+    }
+    if let Some(value) = output.get("modified_energy") {
+        let help = "remove it, and run the scene again without `section` for modified energies";
+        reader.toml.fault(&value.span(), "rows of a section have no modified energy", help);
+    }
+    (None, surface(reader, table, value, system))
+}
+
+fn surface(
+    reader: &mut Reader<'_>,
+    table: &Section<'_, '_>,
+    value: &Value<'_>,
+    system: Option<&System>,
+) -> Option<Surface> {
+    let directions = [("up", Direction::Up), ("down", Direction::Down), ("both", Direction::Both)];
+    let direction = match table.get("direction") {
+        Some(value) => reader.word(value, &directions)?,
+        None => Direction::Up,
+    };
+    let text = reader.toml.text(value)?;
+    let expression = Expression::new(text.clone());
+    let system = system?;
+    if expression.has_time && !system.explicit_time && system.transformed_time().is_none() {
+        let help = "write `every` for states at times that are known, or a formula in positions and momenta";
+        return reader.toml.wrong(&text.at, "a section is a function of q and p, and t is no coordinate here", help);
+    }
+    let before = reader.toml.faults.len();
+    system.check(&expression, &mut reader.toml);
+    (reader.toml.faults.len() == before).then_some(Surface { expression, direction })
 }
 
 fn modified_energy(reader: &mut Reader<'_>, output: &Section<'_, '_>) -> Option<(EstimatorSettings, u64)> {

@@ -6,6 +6,7 @@ use std::time::Duration;
 
 use shadowstep::shadow::EstimatorSettings;
 
+use crate::expression::Expression;
 use crate::scene::format::Format;
 use crate::scene::plot::Plot;
 
@@ -22,6 +23,8 @@ pub struct Outputs {
     pub modified_energy: Option<(EstimatorSettings, u64)>,
     /// The period of positions and momenta.
     pub trajectory: Option<u64>,
+    /// The surface at whose crossings positions and momenta are written.
+    pub section: Option<Surface>,
     /// The period of the indicators of chaos.
     pub chaos: Option<u64>,
     /// How often a checkpoint is made.
@@ -30,6 +33,33 @@ pub struct Outputs {
     pub summary: bool,
     /// Charts of the run, drawn from the rows of the file.
     pub plot: Option<Plot>,
+}
+
+impl Outputs {
+    /// Whether positions and momenta are written.
+    pub fn has_states(&self) -> bool {
+        self.trajectory.is_some() || self.section.is_some()
+    }
+}
+
+/// A surface of section: where a function of q and p is 0.
+#[derive(Clone, Debug)]
+pub struct Surface {
+    /// The function.
+    pub expression: Expression,
+    /// How it is crossed.
+    pub direction: Direction,
+}
+
+/// How a surface is crossed, in the order of the steps.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Direction {
+    /// The function grows.
+    Up,
+    /// It falls.
+    Down,
+    /// Either.
+    Both,
 }
 
 /// How often a checkpoint is made.

@@ -92,7 +92,7 @@ pub(super) fn scene(reader: &mut Reader<'_>, root: &DeTable<'_>, axes: &Axes, ke
         let hint = "add modified_energy = { estimator = \"bilinear\", order = 16 } to [output] of the scene";
         reader.fault(&at, "drift and permanent_change require an estimator", hint);
     }
-    if keep.rows && output.energy.is_none() && output.modified_energy.is_none() && output.trajectory.is_none() {
+    if keep.rows && output.energy.is_none() && output.modified_energy.is_none() && !output.has_states() {
         reader.fault(&at, "rows require [output] in the scene", "add output.trajectory = { every = 10 }, for example");
     }
 }

@@ -1,4 +1,4 @@
-//! The last step of a run in transformed time: to a given physical time.
+//! Steps of a part of h to where a function of the state is 0: to a physical time in transformed time, to a surface of section.
 
 use crate::number::{Number, Real};
 use crate::steps::integrator::Integrator;
@@ -9,17 +9,32 @@ const MOST_ITERATIONS: u32 = 400;
 /// Makes one step after which the physical time, the last coordinate, is `until` to the last digits, and returns its size as a part of h.
 /// The step of the integrator itself must not end before `until`; it is made by [`Integrator::part_of_step`].
 ///
-/// The size is found by the secant method, within a bracket that shrinks in each iteration, with a trial step in each. `None` if the time
-/// is `until` already, or if a trial step is not finite; the system is then as it was.
+/// `None` as of [`step_to_zero`].
 pub fn step_to_time<I>(integrator: &mut I, until: &I::Number) -> Option<I::Number>
+where
+    I: Integrator<Number: Real> + ?Sized,
+{
+    step_to_zero(integrator, |integrator| {
+        let mut missed = integrator.state().q().last().expect("a system has a coordinate").clone();
+        missed.subtract(until);
+        missed
+    })
+}
+
+/// Makes one step after which a function of the state is 0 to the last digits, and returns its size as a part of h: a point of the trajectory with the
+/// error of a step of the scheme, as in M. Hénon, Physica D 5 (1982) 412. The function must not have the same sign at the present state and after the step of the integrator itself.
+///
+/// The size is found by the secant method, within a bracket that shrinks in each iteration, with a trial step in each. `None` if the function
+/// is 0 already, or if it is not finite after a trial step; the system is then as it was.
+pub fn step_to_zero<I>(integrator: &mut I, value: impl FnMut(&mut I) -> I::Number) -> Option<I::Number>
 where
     I: Integrator<Number: Real> + ?Sized,
 {
     let context = integrator.state().context();
     let zero = <I::Number as Number>::zero(&context);
     let start = (integrator.state().q().to_vec(), integrator.state().p().to_vec());
-    let mut search = Search { start, until, best: None };
-    let mut low = (zero.clone(), search.missed(integrator));
+    let mut search = Search { start, value, best: None };
+    let mut low = (zero.clone(), (search.value)(integrator));
     if low.1 == zero {
         return None;
     }
@@ -44,7 +59,7 @@ where
     Some(part)
 }
 
-/// A part of h with the time that its step misses.
+/// A part of h with the value of the function after its step.
 type Point<N> = (N, N);
 
 /// The secant through the two latest points, or the middle of the bracket where that is outside.
@@ -63,36 +78,35 @@ fn next_part<N: Real>(latest: &[Point<N>; 2], [low, high]: [&Point<N>; 2]) -> N 
     part
 }
 
-struct Search<'a, N: Real> {
+struct Search<N, F> {
     start: (Vec<N>, Vec<N>),
-    until: &'a N,
-    /// The part that misses least, and by how much.
+    /// The function.
+    value: F,
+    /// The part after which it is nearest to 0, and its size there.
     best: Option<Point<N>>,
 }
 
-impl<N: Real> Search<'_, N> {
-    /// t − until of the present state.
-    fn missed<I: Integrator<Number = N> + ?Sized>(&self, integrator: &I) -> N {
-        let mut missed = integrator.state().q().last().expect("a system has a coordinate").clone();
-        missed.subtract(self.until);
-        missed
-    }
-
-    /// t − until after a step of this part of h from the start; `None` if it is not finite.
-    fn after<I: Integrator<Number = N> + ?Sized>(&mut self, integrator: &mut I, part: &N) -> Option<N> {
-        let begin = |integrator: &mut I| integrator.system().state_mut().set(&self.start.0, &self.start.1);
+impl<N: Real, F> Search<N, F> {
+    /// The value after a step of this part of h from the start; `None` if it is not finite.
+    fn after<I>(&mut self, integrator: &mut I, part: &N) -> Option<N>
+    where
+        I: Integrator<Number = N> + ?Sized,
+        F: FnMut(&mut I) -> N,
+    {
+        let Search { start, value, best } = self;
+        let begin = |integrator: &mut I| integrator.system().state_mut().set(&start.0, &start.1);
         begin(integrator);
         integrator.part_of_step(part);
-        let missed = self.missed(integrator);
-        if !missed.is_finite() {
+        let value = value(integrator);
+        if !value.is_finite() {
             begin(integrator);
             return None;
         }
-        let mut distance = missed.clone();
-        distance.make_absolute();
-        if self.best.as_ref().is_none_or(|(_, best)| distance < *best) {
-            self.best = Some((part.clone(), distance));
+        let mut size = value.clone();
+        size.make_absolute();
+        if best.as_ref().is_none_or(|(_, best)| size < *best) {
+            *best = Some((part.clone(), size));
         }
-        Some(missed)
+        Some(value)
     }
 }

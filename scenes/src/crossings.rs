@@ -1,0 +1,166 @@
+//! Where a run crosses a surface of section, g(q, p) = 0: a step of a part of h from the state before, at whose end g is 0.
+
+use shadowstep::Real;
+use shadowstep::steps::integrator::{VectorIntegrator, at_output};
+use shadowstep::steps::step_to_zero;
+use shadowstep::systems::summation::Remainders;
+
+use crate::computation::RunNumber;
+use crate::evaluator::Evaluator;
+use crate::scene::{Direction, Scene, Surface};
+
+/// Finds the crossings of a run, whose states it takes one after the other.
+pub(crate) struct Crossings<N: RunNumber> {
+    value: Evaluator<N>,
+    direction: Direction,
+    /// The state before, and g there.
+    before: Option<(N, Saved<N>)>,
+}
+
+/// A state of the steps.
+struct Saved<N: Real> {
+    q: Vec<N>,
+    p: Vec<N>,
+    remainders: Remainders<N>,
+}
+
+impl<N: RunNumber> Crossings<N> {
+    /// Of the surface that the scene was read with.
+    pub(crate) fn new(Surface { expression, direction }: &Surface, scene: &Scene, context: &N::Context) -> Self {
+        let value = Evaluator::of_run(expression, &scene.system, context).expect("it was checked with the scene");
+        Crossings { value, direction: *direction, before: None }
+    }
+
+    /// Takes the next state, at which the integrator is. If the surface lies between it and the state before, `take` sees the integrator at the crossing
+    /// and the part of a step from the state before; the integrator is then at its state again, to the last bit.
+    pub(crate) fn state<T>(
+        &mut self,
+        integrator: &mut VectorIntegrator<'_, N>,
+        take: impl FnOnce(&mut VectorIntegrator<'_, N>, &N) -> T,
+    ) -> Option<T> {
+        let now = self.value_at(integrator);
+        let state = Saved::of(integrator);
+        let before = self.before.take();
+        let found = before.filter(|(value, _)| self.direction.is_of(value, &now)).and_then(|(_, before)| {
+            before.restore(integrator);
+            let part = step_to_zero(integrator, |integrator| self.value_at(integrator))?;
+            Some(take(integrator, &part))
+        });
+        state.restore(integrator);
+        self.before = Some((now, state));
+        found
+    }
+
+    fn value_at(&mut self, integrator: &mut VectorIntegrator<'_, N>) -> N {
+        let no_time = || unreachable!("g does not depend on t, unless t is a coordinate");
+        at_output(integrator, |integrator| self.value.value(integrator.system(), no_time).clone())
+    }
+}
+
+impl<N: Real> Saved<N> {
+    fn of(integrator: &VectorIntegrator<'_, N>) -> Self {
+        let state = integrator.state();
+        Saved { q: state.q().to_vec(), p: state.p().to_vec(), remainders: state.remainders() }
+    }
+
+    fn restore(&self, integrator: &mut VectorIntegrator<'_, N>) {
+        let state = integrator.system().state_mut();
+        state.set(&self.q, &self.p);
+        state.set_remainders(&self.remainders);
+    }
+}
+
+impl Direction {
+    /// Whether g goes through 0 in this direction between two states.
+    fn is_of<N: Real>(self, before: &N, now: &N) -> bool {
+        let zero = N::zero(&now.context());
+        let (up, down) = (*before < zero && *now >= zero, *before > zero && *now <= zero);
+        match self {
+            Direction::Up => up,
+            Direction::Down => down,
+            Direction::Both => up || down,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use shadowstep::tables::{Faults, Source};
+
+    fn read(step: &str, trajectory: &str, more: &str) -> Result<Scene, Faults> {
+        let text = format!(
+            "problem.name = \"henon-heiles\"\n[run]\nscheme = \"blanes-moan-srkn11b\"\nstep = \"{step}\"\nuntil = 60\ndigits = 40\n[output]\n\
+             trajectory = {trajectory}\n{more}"
+        );
+        Scene::read(Source { path: "test.toml".to_owned(), text })
+    }
+
+    /// The rows, each as its cells.
+    fn rows(scene: &Scene) -> Vec<Vec<String>> {
+        let mut rows = Vec::new();
+        scene.run_into(&mut rows, &mut ()).unwrap();
+        let text = String::from_utf8(rows).unwrap();
+        let rows = text.lines().filter(|line| !line.starts_with('#')).skip(1);
+        rows.map(|line| line.split(',').map(str::to_owned).collect()).collect()
+    }
+
+    fn number(text: &str) -> f64 {
+        text.parse().unwrap()
+    }
+
+    /// Differences of halved steps fall as the order of the scheme says: the crossing is a point of the trajectory with the error of a step.
+    #[test]
+    fn crossings_have_the_order_of_the_scheme() {
+        let of_step = |step: &str| rows(&read(step, "{ section = \"x\" }", "").unwrap());
+        let found = ["1/10", "1/20", "1/40"].map(of_step);
+        assert_eq!(found.each_ref().map(Vec::len), [9, 9, 9]);
+        let last = found.each_ref().map(|rows| &rows[8]);
+        for row in last {
+            assert!(number(&row[2]).abs() < 1e-40, "{row:?}");
+            assert!(number(&row[4]) > 0.0);
+        }
+        let difference = |a: &Vec<String>, b: &Vec<String>| {
+            let [a, b] = [a, b].map(|row| shadowstep_symbolic::decimal::from_text(&row[3]).unwrap());
+            number(&shadowstep_symbolic::decimal::to_significant(&(a - b), 12)).abs()
+        };
+        let slope = (difference(last[0], last[1]) / difference(last[1], last[2])).log2();
+        assert!((slope - 6.0).abs() < 0.1, "{slope}");
+    }
+
+    /// Up and down are both together, x = 0 at the start being no crossing, and the run itself goes on as without a section.
+    #[test]
+    fn a_section_changes_nothing_else() {
+        let count = |direction: &str| {
+            rows(&read("1/10", &format!("{{ section = \"x\", direction = \"{direction}\" }}"), "").unwrap()).len()
+        };
+        assert_eq!((count("up"), count("down"), count("both")), (9, 10, 19));
+        let energies = |trajectory: &str| {
+            let rows = rows(&read("1/10", trajectory, "energy = { every = 100 }").unwrap());
+            rows.into_iter().map(|row| row[2].clone()).filter(|energy| !energy.is_empty()).collect::<Vec<_>>()
+        };
+        assert_eq!(energies("{ section = \"x\", direction = \"both\" }"), energies("{ every = 1000 }"));
+    }
+
+    #[test]
+    fn faults_have_their_places() {
+        let fault = |trajectory: &str, more: &str| {
+            let Err(Faults(faults)) = read("1/10", trajectory, more) else { panic!("{trajectory} is read") };
+            format!("{}:{}: {}", faults[0].line, faults[0].column, faults[0].message)
+        };
+        assert_eq!(
+            fault("{ section = \"z\" }", ""),
+            "8:27: unknown name `z`; did you mean `x`? known names: x, y, px, py, t, E"
+        );
+        assert_eq!(
+            fault("{ section = \"t\" }", ""),
+            "8:26: a section is a function of q and p, and t is no coordinate here"
+        );
+        assert_eq!(fault("{ section = \"x\", every = 2 }", ""), "8:26: every and section are both given");
+        assert_eq!(fault("{ direction = \"up\" }", ""), "8:28: a direction requires a section");
+        assert_eq!(
+            fault("{ section = \"x\" }", "modified_energy = true"),
+            "9:19: rows of a section have no modified energy"
+        );
+    }
+}
