@@ -6,11 +6,13 @@ use std::hint::black_box;
 
 use num_traits::One as _;
 use shadowstep::number::{Dual, Number};
-use shadowstep::problems::{HenonHeiles, Kepler};
-use shadowstep::systems::pairs::{Gravity, Pairs};
+use shadowstep::problems::{HenonHeiles, Kepler, LennardJones};
+use shadowstep::systems::pairs::{Gravity, PairPotential, Pairs};
 use shadowstep::systems::wisdom_holman::{Bodies, Jacobi, WisdomHolman};
 use shadowstep::tables::shipped;
-use shadowstep::{Motion, Potential, Rational, Stepper, System, UnitMasses, ValidFor, exact, tables::TableScheme};
+use shadowstep::{
+    Motion, Potential, Rational, Stepper, System, UnitMasses, ValidFor, exact, potential, tables::TableScheme,
+};
 
 use timing::{Contestant, compare};
 
@@ -61,12 +63,34 @@ fn motion<N: Carrying>(
     steps(name, Motion::new(potential, UnitMasses, q, p).expect("the dimensions agree"))
 }
 
-fn gravity<N: Carrying>(name: &'static str, bodies: usize) -> Contestant<'static> {
+potential! {
+    /// Gravity with a softening length.
+    struct Softened { g, s }
+    pair U(r2; m_i, m_j) = -g * m_i * m_j / sqrt(r2 + s^2)
+}
+
+fn constant<N: Carrying>(x: f64) -> N {
+    N::from_rational(&Rational::from_float(x).expect("finite"), &())
+}
+
+/// All pairs of bodies, at rest in places without an order.
+fn pairs<N: Carrying>(name: &'static str, bodies: usize, pair: impl PairPotential<N> + 'static) -> Contestant<'static> {
     let place = |i: usize| ((i * i * 31 + 7 * i) % 1009) as f64 / 100.0;
     let q: Vec<f64> = (0..3 * bodies).map(place).collect();
-    let constant = |x: f64| N::from_rational(&Rational::from_float(x).expect("finite"), &());
-    let pair = Gravity { g: constant(1e-6), m: vec![constant(1.0); bodies] };
     motion(name, Pairs::<_, 3>::all(bodies, pair).expect("the pairs fit"), &q, &vec![0.0; 3 * bodies])
+}
+
+fn gravity<N: Carrying>(name: &'static str, bodies: usize) -> Contestant<'static> {
+    pairs(name, bodies, Gravity { g: constant::<N>(1e-6), m: vec![constant(1.0); bodies] })
+}
+
+fn softened<N: Carrying>(name: &'static str, bodies: usize) -> Contestant<'static> {
+    pairs(name, bodies, Softened { g: constant::<N>(1e-6), s: constant(0.1), m: vec![constant(1.0); bodies] })
+}
+
+/// So weak and small that bodies stay where they are.
+fn lennard_jones<N: Carrying>(name: &'static str, bodies: usize) -> Contestant<'static> {
+    pairs(name, bodies, LennardJones { epsilon: constant::<N>(1e-6), sigma: constant(0.1) })
 }
 
 /// Planets of 10⁻⁵ of the star on nearly circular orbits.
@@ -104,6 +128,8 @@ fn main() {
     compared!("Hénon and Heiles", 20_000, motion(HenonHeiles, &[0.1, 0.2], &[0.1, 0.0]));
     compared!("6 bodies in space", 5_000, gravity(6));
     compared!("100 bodies in space", 50, gravity(100));
+    compared!("100 bodies in space, softened", 50, softened(100));
+    compared!("100 bodies in space, Lennard-Jones", 50, lennard_jones(100));
     compared!("2 planets on Kepler orbits", 1_000, planets(2));
     compared!("8 planets on Kepler orbits", 300, planets(8));
 }

@@ -1,6 +1,7 @@
 //! Numbers of every kind behind one trait: `f64`, several of them in lanes, numbers of some limbs, MPFR numbers of any precision, and
 //! wrappers.
 
+mod block;
 mod correctly_rounded;
 #[cfg(feature = "formulas")]
 #[doc(hidden)]
@@ -23,6 +24,7 @@ pub(crate) mod partial_sums;
 mod precision;
 pub(crate) mod value;
 
+pub use block::{BLOCK, Block};
 pub use correctly_rounded::CorrectlyRounded;
 pub use high_precision::{HighPrecision, ScaledInteger};
 pub use precision::{Precision, PrecisionError};
@@ -39,6 +41,8 @@ pub use double_double::{DoubleDouble, Machine};
 pub(crate) use double::scaled;
 #[doc(hidden)]
 pub use doubles::Doubles;
+#[doc(hidden)]
+pub use dual::DualBlock;
 pub use dual::{Dual, ParameterError, with_parameter};
 pub(crate) use epsilon::epsilon;
 pub use fused::Fused;
@@ -111,6 +115,9 @@ pub trait Number: Clone + fmt::Debug {
     /// For a number that is an `f64`, so that a system computes several of them at once in [`Lanes`], with the same bits.
     #[doc(hidden)]
     const DOUBLES: Option<Doubles<Self>> = None;
+
+    /// Numbers side by side, in the form that loops over pairs compute with: `[Self; BLOCK]` unless a number has parts.
+    type Block: Block<Self>;
 
     /// Holds an intermediate result: for a big number, `&mut Self`; for one of a few bytes a copy, which can stay in the
     /// processor's registers.

@@ -87,6 +87,37 @@ impl Methods<'_> {
         self.block_body(&self.programs.gradient_and_rate, self.programs.energy.kept, lane, outputs)
     }
 
+    /// U_q at each place of a block in one loop: `argument` gives the argument and something more, which `take` gets with U_q.
+    pub(crate) fn each_gradient(&self, [lane, argument, take, output]: [&Ident; 4], x: &Ident) -> TokenStream {
+        let program = &self.programs.gradient;
+        let constants = scratch_names(program, self.programs.energy.kept, self.programs.kept(), false);
+        // to which nothing else refers
+        let copies = (0..program.kept).map(|i| {
+            let name = numbered("constant", i);
+            quote! { let #name = &N::clone(#name); }
+        });
+        let scratch = (0..program.scratch).map(|i| {
+            let name = numbered("scratch", i);
+            quote! { let mut #name = N::clone(#x); }
+        });
+        let statements = program.instructions.iter().map(|i| statement(i, &self.names, &[quote! { #output }]));
+        let (arguments, [of_lane, more, result]) = (&self.arguments, ["of_lane", "more", "result"].map(own));
+        quote! {
+            #constants
+            #(#copies)*
+            for #lane in 0..::shadowstep::number::BLOCK {
+                let (#of_lane, #more) = #argument(#lane);
+                let #x = &#of_lane;
+                #arguments
+                let mut #result = N::clone(#x);
+                let #output = &mut #result;
+                #(#scratch)*
+                #(#statements)*
+                #take(#lane, #result, #more);
+            }
+        }
+    }
+
     /// A program, whose constants begin at `kept_before` in the scratch space.
     fn block_body(
         &self,

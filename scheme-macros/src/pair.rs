@@ -34,6 +34,10 @@ pub(crate) fn emit(definition: &Definition) -> syn::Result<TokenStream> {
         arguments: values_in_lane(definition, [&i, &xs, &lane]),
     };
     let property_blocks = property_blocks(definition, &j);
+    let each =
+        Methods { programs: &programs, names: definition.names(), arguments: values_of_copies(definition, &lane) };
+    let property_copies = property_copies(definition, [&i, &j]);
+    let each_body = each.each_gradient([&lane, &xs, &slopes, &slope], x);
     let prepare =
         methods.prepare("prepare").unwrap_or_else(|| quote! { fn prepare(&self, _: &mut [N], _: &N::Context) {} });
     let energy_body = methods.energy(&energy);
@@ -117,6 +121,17 @@ pub(crate) fn emit(definition: &Definition) -> syn::Result<TokenStream> {
                 #property_blocks
                 #summands_body
             }
+            #[inline(always)]
+            fn each_slope<M>(
+                &self,
+                (#i, #j): (usize, usize),
+                #xs: impl ::core::ops::Fn(usize) -> (N, M),
+                mut #slopes: impl ::core::ops::FnMut(usize, N, M),
+                #scratch: &mut [N],
+            ) {
+                #property_copies
+                #each_body
+            }
             fn curved(&self) -> ::core::option::Option<&dyn ::shadowstep::systems::pairs::PairCurvature<N>> {
                 ::core::option::Option::Some(self)
             }
@@ -193,6 +208,32 @@ fn property_blocks(definition: &Definition, j: &Ident) -> TokenStream {
         }
     });
     quote! { #(#blocks)* }
+}
+
+/// Copies of the property of the body i and of those of a block from j on, to which nothing else refers.
+fn property_copies(definition: &Definition, [i, j]: [&Ident; 2]) -> TokenStream {
+    let copies = listed(definition).enumerate().map(|(n, (_, list, is_first))| {
+        let copy = numbered("copy", n);
+        if is_first {
+            quote! { let #copy = N::clone(&self.#list[#i]); }
+        } else {
+            quote! {
+                let #copy: [N; ::shadowstep::number::BLOCK] =
+                    ::core::clone::Clone::clone(self.#list[#j..].first_chunk().expect("the block is within the bodies"));
+            }
+        }
+    });
+    quote! { #(#copies)* }
+}
+
+/// The property of the body i and of the one in a lane.
+fn values_of_copies(definition: &Definition, lane: &Ident) -> TokenStream {
+    let values = listed(definition).enumerate().map(|(n, (name, _, is_first))| {
+        let copy = numbered("copy", n);
+        let place = (!is_first).then(|| quote! { [#lane] });
+        quote! { let #name = &#copy #place; }
+    });
+    quote! { #(#values)* }
 }
 
 /// The distance and the properties of the body i and of the one in a lane.

@@ -1,6 +1,6 @@
 //! What a computation costs: a number that counts its operations.
 
-use super::{CorrectlyRounded, HighPrecision, Number, Precision, Real};
+use super::{BLOCK, CorrectlyRounded, HighPrecision, Number, Precision, Real};
 use crate::Rational;
 use std::cell::Cell;
 use std::fmt;
@@ -74,6 +74,7 @@ macro_rules! delegate {
 
 impl<N: Number> Number for Counting<N> {
     type Context = N::Context;
+    type Block = [Self; BLOCK];
     const LANES: usize = N::LANES;
     type Register<'a>
         = &'a mut Self

@@ -2,7 +2,7 @@
 
 use std::ops::{Deref, DerefMut};
 
-use super::{Doubles, Number, Real};
+use super::{BLOCK, Doubles, Number, Real};
 use crate::Rational;
 use num_traits::ToPrimitive;
 
@@ -42,6 +42,7 @@ pub(super) const LARGEST_SQUARED: f64 = 3.8e153;
 
 impl Number for f64 {
     type Context = ();
+    type Block = [Self; BLOCK];
     const KEEPS_INCREMENTS: bool = true;
     const IN_VECTORS: bool = true;
     const DOUBLES: Option<Doubles<f64>> = Some(Doubles { of: |numbers| numbers, numbers: |doubles| doubles });

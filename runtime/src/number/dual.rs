@@ -1,7 +1,9 @@
 //! Dual numbers: a number with its derivatives along some directions.
 
+mod block;
 mod constants;
 
+pub use block::DualBlock;
 pub use constants::{ParameterError, with_parameter};
 
 use std::cmp::Ordering;
@@ -34,6 +36,7 @@ use crate::Rational;
 /// W. K. Clifford, *Preliminary sketch of biquaternions*, Proc. London Math. Soc. 4 (1873) 381; as a way to derivatives R. E. Wengert, *A simple
 /// automatic derivative evaluation program*, Comm. ACM 7 (1964) 463.
 #[derive(Clone, Copy, Debug)]
+#[repr(C)]
 pub struct Dual<N, const K: usize = 1> {
     /// x
     pub value: N,
@@ -135,6 +138,7 @@ impl<N: Number, const K: usize> Number for Dual<N, K> {
     const IN_VECTORS: bool = N::IN_VECTORS;
     const LANES: usize = N::LANES;
     const HAS_DERIVATIVES: bool = true;
+    type Block = DualBlock<N, K>;
     type Register<'a>
         = &'a mut Self
     where

@@ -4,7 +4,7 @@ use std::fmt;
 use std::ops::{Deref, DerefMut};
 
 use super::double::scaled;
-use super::{Number, Real};
+use super::{BLOCK, Number, Real};
 use crate::Rational;
 use crate::number::instructions;
 
@@ -68,6 +68,7 @@ macro_rules! delegate {
 
 impl Number for Fused {
     type Context = ();
+    type Block = [Self; BLOCK];
     const KEEPS_INCREMENTS: bool = true;
     const IN_VECTORS: bool = true;
     type Register<'a> = Copied;

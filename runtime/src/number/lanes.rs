@@ -2,8 +2,8 @@
 
 mod functions;
 
-use super::Number;
 use super::double::scaled;
+use super::{BLOCK, Number};
 use crate::{Rational, number::instructions};
 use functions::{cos_each, exp_each, log_each, sin_cos_each, sin_each};
 use std::ops::{Deref, DerefMut};
@@ -130,6 +130,7 @@ macro_rules! change_by_two {
 
 impl<const W: usize> Number for Lanes<W> {
     type Context = ();
+    type Block = [Self; BLOCK];
     const KEEPS_INCREMENTS: bool = true;
     const LANES: usize = W;
     type Register<'a> = Copied<W>;

@@ -3,7 +3,7 @@
 //!
 //! All functions are `inline`, so that only the crates that use these numbers compile them: most programs compute in `f64`.
 
-use super::{LimbAccess, Number, Parts, Real};
+use super::{BLOCK, LimbAccess, Number, Parts, Real};
 use crate::Rational;
 use num_traits::{Signed, Zero};
 use shadowstep_limbs::{AnyLimbs, LimbCount, Limbs};
@@ -48,6 +48,7 @@ macro_rules! number_of_limbs {
     ([$($L:tt)*] $Limbs:ty { $($own:item)* }) => {
         impl<$($L)*> Number for $Limbs {
             type Register<'a> = &'a mut Self;
+            type Block = [Self; BLOCK];
 
             $($own)*
 

@@ -1,7 +1,7 @@
 //! MPFR's numbers, [`rug::Float`], as a [`Number`].
 
 use super::high_precision::ScaledInteger;
-use super::{Number, Precision, Real};
+use super::{BLOCK, Number, Precision, Real};
 use crate::Rational;
 use num_bigint::BigInt;
 use num_traits::Signed;
@@ -12,6 +12,7 @@ use std::f64::consts::LOG10_2;
 
 impl Number for Float {
     type Context = Precision;
+    type Block = [Self; BLOCK];
     type Register<'a> = &'a mut Float;
 
     fn register(&mut self) -> &mut Float {

@@ -7,6 +7,7 @@ mod cutoff_hessian;
 mod cutoff_pairs;
 #[cfg(test)]
 mod cutoff_tests;
+mod dual_blocks;
 mod few;
 mod gravity;
 mod hessian;
@@ -29,6 +30,7 @@ use crate::number::partial_sums::add_sum;
 use crate::systems::potential::{HessianProduct, Potential};
 use blocks::{Blocks, Places, sum_of_places};
 use chain::Chain;
+use dual_blocks::DualBlocks;
 use few::Few;
 
 /// The potential U = Σ u over pairs of bodies in D dimensions.
@@ -450,6 +452,9 @@ impl<N: Number, P: PairPotential<N>, const D: usize> Potential<N> for Pairs<P, D
 
     fn gradient(&self, q: &[N], gradient: &mut [N], scratch: &mut [N]) {
         if let Some((axes, pair)) = self.blocks(scratch) {
+            if N::HAS_DERIVATIVES {
+                return DualBlocks::<_, D> { pair: &self.pair, bodies: self.bodies }.sum((q, gradient), axes, pair);
+            }
             return self.all_blocks().sum((q, gradient), None, axes, pair);
         }
         if let Some(ends) = self.chain_in_blocks::<N>() {

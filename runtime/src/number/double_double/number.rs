@@ -6,7 +6,7 @@ use super::nearest::nearest;
 use super::{DoubleDouble, Machine, decimal, exponential, root, trigonometric};
 use crate::Rational;
 use crate::number::double::{Copied, LARGEST_SQUARED, scaled};
-use crate::number::{Number, Real};
+use crate::number::{BLOCK, Number, Real};
 
 impl<T: Machine> DoubleDouble<T> {
     /// Applies a function of one number to each lane.
@@ -31,6 +31,7 @@ macro_rules! functions {
 /// h = 1/100, 2e-30 with h = 1/1000. To keep them would cost two more sums a coordinate and map.
 impl<T: Machine> Number for DoubleDouble<T> {
     type Context = ();
+    type Block = [Self; BLOCK];
     const LANES: usize = T::LANES;
     type Register<'a>
         = Copied<Self>

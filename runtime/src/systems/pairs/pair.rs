@@ -4,8 +4,7 @@ use shadowstep_symbolic::{Separation, Summand};
 
 use crate::number::Number;
 
-/// How many bodies are in a block, which sums over pairs take at once: a vector of AVX-512, two of AVX2, four of SSE2.
-pub const BLOCK: usize = 8;
+pub use crate::number::BLOCK;
 
 /// What the energy u of a pair of bodies depends on.
 pub trait Pair {
@@ -97,6 +96,25 @@ pub trait PairPotential<N: Number>: Pair {
     #[inline(always)]
     fn slopes<const W: usize>(&self, i: usize, j: usize, x: &[N; W], slopes: &mut [N; W], scratch: &mut [N]) {
         self.slopes_of(|l| [i, j + l], x, slopes, scratch);
+    }
+
+    /// The slopes of the body i with a block of bodies j, j + 1, …: `x` gives x of each and something more, which `take` gets with the slope. What is computed of numbers
+    /// with derivatives is one loop in it, without calls, which the compiler makes vector operations of.
+    #[inline(always)]
+    fn each_slope<M>(
+        &self,
+        (i, j): (usize, usize),
+        x: impl Fn(usize) -> (N, M),
+        mut take: impl FnMut(usize, N, M),
+        scratch: &mut [N],
+    ) {
+        let of_places: [(N, M); BLOCK] = std::array::from_fn(x);
+        let x = of_places.each_ref().map(|(x, _)| x.clone());
+        let mut slopes = x.clone();
+        self.slopes(i, j, &x, &mut slopes, scratch);
+        for (l, (slope, (_, more))) in slopes.into_iter().zip(of_places).enumerate() {
+            take(l, slope, more);
+        }
     }
 
     /// Those slopes, and the summands.

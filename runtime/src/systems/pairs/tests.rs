@@ -2,10 +2,11 @@
 
 use super::{Ends, Pair, Pairs, Summand, Which};
 use crate::Potential;
-use crate::number::Lanes;
 use crate::number::counting::Counting;
 use crate::number::instructions::Instructions;
-use crate::systems::pairs::PairPotential;
+use crate::number::{Dual, Fused, Lanes, Number};
+use crate::systems::formula::FormulaPair;
+use crate::systems::pairs::{PairPotential, Separation};
 use crate::systems::problems::{CubicSpring, Gravity, LennardJones, TodaSpring};
 
 crate::potential! {
@@ -198,5 +199,71 @@ fn lanes_have_the_bits_of_f64() {
                 &Pairs::<_, 1>::neighbours(bodies, CubicSpring { alpha: Lanes::all(0.25) }, ends).unwrap(),
             );
         }
+    }
+}
+
+/// A dual number whose derivatives depend on `index`.
+fn dual<N: Number<Context = ()>>(number: impl Fn(f64) -> N, x: f64, index: usize) -> Dual<N, 2> {
+    Dual::new(number(x), [1.3, 2.9].map(|k| number((k * index as f64).sin())))
+}
+
+/// Values have the bits of plain numbers, and both have the bits of the sum with the rate, which takes one dual number after the other.
+fn dual_numbers_agree<N, P, Q, const D: usize>(number: impl Fn(f64) -> N, plain: &Pairs<P, D>, pairs: &Pairs<Q, D>)
+where
+    N: Number<Context = ()> + PartialEq,
+    P: PairPotential<N>,
+    Q: PairPotential<Dual<N, 2>>,
+{
+    let q = places(pairs.bodies(), D);
+    let expected = evaluated(plain, &q.iter().copied().map(&number).collect::<Vec<_>>());
+    let q: Vec<_> = (1..).zip(q).map(|(index, x)| dual(&number, x, index)).collect();
+    for instructions in Instructions::available() {
+        let (found, with_rate, _) = instructions.only(|| evaluated(pairs, &q));
+        for (c, found) in found.iter().enumerate() {
+            let what = format!("coordinate {c} of {} bodies, {instructions:?}", pairs.bodies());
+            assert_eq!((&found.value, &found.value), (&expected.0[c], &with_rate[c].value), "{what}");
+            assert_eq!(found.derivatives, with_rate[c].derivatives, "{what}");
+            assert!(found.derivatives.iter().all(N::is_finite), "{what}");
+        }
+    }
+}
+
+#[test]
+fn blocks_of_dual_numbers_have_the_bits_of_numbers_one_by_one() {
+    for bodies in [15, 16, 17, 23, 24, 25, 40] {
+        let m: Vec<f64> = (0..bodies).map(|i| 1.0 + i as f64 / 8.0).collect();
+        let dual_m = || (0..).zip(&m).map(|(i, m)| dual(f64::from, *m, i)).collect::<Vec<_>>();
+        let [s, d] = [0.2, 1.5].map(|x| dual(f64::from, x, 3));
+        dual_numbers_agree(
+            f64::from,
+            &Pairs::<_, 3>::all(bodies, Softened { s: 0.2, m: m.clone() }).unwrap(),
+            &Pairs::all(bodies, Softened { s, m: dual_m() }).unwrap(),
+        );
+        let lennard_jones = LennardJones { epsilon: 1.5, sigma: 0.2 };
+        dual_numbers_agree(
+            f64::from,
+            &Pairs::<_, 2>::all(bodies, lennard_jones).unwrap(),
+            &Pairs::all(bodies, LennardJones { epsilon: d, sigma: s }).unwrap(),
+        );
+        let toda = Pairs::<_, 1>::all(bodies, TodaSpring).unwrap();
+        dual_numbers_agree(f64::from, &toda, &toda);
+        let fused = m.iter().copied().map(Fused).collect();
+        let dual_fused = (0..).zip(&m).map(|(i, m)| dual(Fused, *m, i)).collect();
+        dual_numbers_agree(
+            Fused,
+            &Pairs::<_, 3>::all(bodies, Gravity { g: Fused(0.7), m: fused }).unwrap(),
+            &Pairs::all(bodies, Gravity { g: dual(Fused, 0.7, 2), m: dual_fused }).unwrap(),
+        );
+        let formula = "-m_i * m_j / sqrt(r2 + s^2)";
+        let squared = Separation::SquaredDistance;
+        dual_numbers_agree(
+            f64::from,
+            &Pairs::<_, 3>::all(
+                bodies,
+                FormulaPair::new(formula, squared, &[("m", m.clone())], &[("s", 0.2)]).unwrap(),
+            )
+            .unwrap(),
+            &Pairs::all(bodies, FormulaPair::new(formula, squared, &[("m", dual_m())], &[("s", s)]).unwrap()).unwrap(),
+        );
     }
 }
