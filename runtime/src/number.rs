@@ -8,13 +8,13 @@ mod correctly_rounded;
 pub mod counting;
 mod double;
 mod double_double;
-mod doubles;
 mod dual;
 mod epsilon;
 mod fused;
 mod high_precision;
 #[doc(hidden)]
 pub mod instructions;
+mod lane_access;
 mod lanes;
 mod limb_access;
 mod limbs;
@@ -40,12 +40,12 @@ pub use double_double::{DoubleDouble, Machine};
 
 pub(crate) use double::scaled;
 #[doc(hidden)]
-pub use doubles::Doubles;
-#[doc(hidden)]
 pub use dual::DualBlock;
 pub use dual::{Dual, ParameterError, with_parameter};
 pub(crate) use epsilon::epsilon;
 pub use fused::Fused;
+#[doc(hidden)]
+pub use lane_access::LaneAccess;
 pub use lanes::Lanes;
 #[doc(hidden)]
 pub use limb_access::{LimbAccess, Parts};
@@ -112,9 +112,13 @@ pub trait Number: Clone + fmt::Debug {
     #[doc(hidden)]
     const LIMBS: Option<LimbAccess<Self>> = None;
 
-    /// For a number that is an `f64`, so that a system computes several of them at once in [`Lanes`], with the same bits.
+    /// For a number of which a system computes several at once, with the same bits, how they are put into [lanes](Number::InLanes).
     #[doc(hidden)]
-    const DOUBLES: Option<Doubles<Self>> = None;
+    const LANE_ACCESS: Option<LaneAccess<Self>> = None;
+
+    /// Several of these numbers at once; the number itself where there are none.
+    #[doc(hidden)]
+    type InLanes: Number<Context = Self::Context>;
 
     /// Numbers side by side, in the form that loops over pairs compute with: `[Self; BLOCK]` unless a number has parts.
     type Block: Block<Self>;

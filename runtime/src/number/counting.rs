@@ -75,6 +75,7 @@ macro_rules! delegate {
 impl<N: Number> Number for Counting<N> {
     type Context = N::Context;
     type Block = [Self; BLOCK];
+    type InLanes = Self;
     const LANES: usize = N::LANES;
     type Register<'a>
         = &'a mut Self

@@ -2,7 +2,7 @@
 
 use std::ops::{Deref, DerefMut};
 
-use super::{BLOCK, Doubles, Number, Real};
+use super::{BLOCK, LaneAccess, Lanes, Number, Real};
 use crate::Rational;
 use num_traits::ToPrimitive;
 
@@ -45,7 +45,9 @@ impl Number for f64 {
     type Block = [Self; BLOCK];
     const KEEPS_INCREMENTS: bool = true;
     const IN_VECTORS: bool = true;
-    const DOUBLES: Option<Doubles<f64>> = Some(Doubles { of: |numbers| numbers, numbers: |doubles| doubles });
+    const LANE_ACCESS: Option<LaneAccess<f64>> =
+        Some(LaneAccess { set: |lanes, lane, x| lanes.0[lane] = *x, number: |lanes, lane| lanes.0[lane] });
+    type InLanes = Lanes<8>;
     type Register<'a> = Copied<f64>;
 
     #[inline]

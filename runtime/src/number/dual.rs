@@ -9,7 +9,7 @@ pub use constants::{ParameterError, with_parameter};
 use std::cmp::Ordering;
 use std::fmt;
 
-use super::{CorrectlyRounded, HighPrecision, Number, Precision, Real};
+use super::{CorrectlyRounded, HighPrecision, LaneAccess, Number, Precision, Real};
 use crate::Rational;
 
 /// A dual number x + Σ ẋ_k ε_k with ε_j ε_k = 0: a number x and its derivatives ẋ_1, …, ẋ_K along K directions.
@@ -139,6 +139,11 @@ impl<N: Number, const K: usize> Number for Dual<N, K> {
     const LANES: usize = N::LANES;
     const HAS_DERIVATIVES: bool = true;
     type Block = DualBlock<N, K>;
+    type InLanes = Dual<N::InLanes, K>;
+    const LANE_ACCESS: Option<LaneAccess<Self>> = match N::LANE_ACCESS {
+        None => None,
+        Some(_) => Some(LaneAccess { set: Self::set_in_lanes, number: Self::in_lane }),
+    };
     type Register<'a>
         = &'a mut Self
     where
@@ -403,6 +408,22 @@ impl<N: Number, const K: usize> Number for Dual<N, K> {
 }
 
 impl<N: Number, const K: usize> Dual<N, K> {
+    #[inline(always)]
+    fn set_in_lanes(lanes: &mut Dual<N::InLanes, K>, lane: usize, x: &Self) {
+        let Some(LaneAccess { set, .. }) = N::LANE_ACCESS else { return };
+        set(&mut lanes.value, lane, &x.value);
+        for (lanes, derivative) in lanes.derivatives.iter_mut().zip(&x.derivatives) {
+            set(lanes, lane, derivative);
+        }
+    }
+
+    #[inline(always)]
+    fn in_lane(lanes: &Dual<N::InLanes, K>, lane: usize) -> Self {
+        let LaneAccess { number, .. } = N::LANE_ACCESS.expect("numbers are in lanes");
+        let derivatives = std::array::from_fn(|k| number(&lanes.derivatives[k], lane));
+        Dual { value: number(&lanes.value, lane), derivatives }
+    }
+
     fn negate_derivatives(&mut self, lane: usize) {
         for own in &mut self.derivatives {
             let mut opposite = own.clone();

@@ -69,6 +69,7 @@ macro_rules! delegate {
 impl Number for Fused {
     type Context = ();
     type Block = [Self; BLOCK];
+    type InLanes = Self;
     const KEEPS_INCREMENTS: bool = true;
     const IN_VECTORS: bool = true;
     type Register<'a> = Copied;

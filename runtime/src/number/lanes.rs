@@ -131,6 +131,7 @@ macro_rules! change_by_two {
 impl<const W: usize> Number for Lanes<W> {
     type Context = ();
     type Block = [Self; BLOCK];
+    type InLanes = Self;
     const KEEPS_INCREMENTS: bool = true;
     const LANES: usize = W;
     type Register<'a> = Copied<W>;

@@ -49,6 +49,7 @@ macro_rules! number_of_limbs {
         impl<$($L)*> Number for $Limbs {
             type Register<'a> = &'a mut Self;
             type Block = [Self; BLOCK];
+            type InLanes = Self;
 
             $($own)*
 

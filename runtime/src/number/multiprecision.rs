@@ -13,6 +13,7 @@ use std::f64::consts::LOG10_2;
 impl Number for Float {
     type Context = Precision;
     type Block = [Self; BLOCK];
+    type InLanes = Self;
     type Register<'a> = &'a mut Float;
 
     fn register(&mut self) -> &mut Float {

@@ -32,6 +32,7 @@ macro_rules! functions {
 impl<T: Machine> Number for DoubleDouble<T> {
     type Context = ();
     type Block = [Self; BLOCK];
+    type InLanes = Self;
     const LANES: usize = T::LANES;
     type Register<'a>
         = Copied<Self>

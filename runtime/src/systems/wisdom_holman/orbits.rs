@@ -42,7 +42,7 @@ impl<N: Number> Orbit<N> {
 pub(super) struct Advance<N: Number, const D: usize> {
     kepler: KeplerDrift<N>,
     /// The first planets, if there are several that lanes compute at once.
-    pub(super) together: Option<Box<Together<D>>>,
+    pub(super) together: Option<Box<Together<N, D>>>,
     place: [N; D],
     velocity: [N; D],
     /// What a drift adds.
@@ -57,7 +57,7 @@ impl<N: Number, const D: usize> Advance<N, D> {
         let zeros = || std::array::from_fn(|_| N::zero(context));
         Advance {
             kepler: KeplerDrift::new(context),
-            together: N::DOUBLES.and_then(|_| Together::new(&masses_and_parameters(&orbits.planets))),
+            together: Together::new(&orbits.planets, context),
             place: zeros(),
             velocity: zeros(),
             to_q: zeros(),
@@ -96,15 +96,15 @@ impl<N: Number, const D: usize> Advance<N, D> {
         carried: Carried,
     ) -> usize {
         let Advance { together, scratch, .. } = self;
-        let (Some(doubles), Some(together)) = (N::DOUBLES, together) else { return 0 };
-        let [q, p] = [state.q(), state.p()].map(|numbers| &(doubles.of)(numbers)[D..]);
-        together.find_increments(time.lane(0).0, (q, p));
+        let Some(together) = together else { return 0 };
+        let [q, p] = [state.q(), state.p()].map(|numbers| &numbers[D..]);
+        together.find_increments(time, (q, p));
         for (half, increments) in [(Half::Positions, &together.to_q), (Half::Momenta, &together.to_p)] {
-            for (index, part) in (D..).zip((doubles.numbers)(increments)) {
+            for (index, part) in (D..).zip(increments) {
                 state.change(half, index, carried, |x| x.add(part));
             }
         }
-        for (orbit, s) in orbits.planets.iter().zip((doubles.numbers)(&together.anomalies)) {
+        for (orbit, s) in orbits.planets.iter().zip(&together.anomalies) {
             scratch.assign(s);
             add_to_beta(orbit, scratch, state, carried);
         }
@@ -140,11 +140,6 @@ impl<N: Number, const D: usize> Advance<N, D> {
             energy.subtract_product(&orbit.attraction, scratch);
         }
     }
-}
-
-/// m and μ of each planet, of numbers that are `f64`s.
-fn masses_and_parameters<N: Number>(planets: &[Orbit<N>]) -> Vec<[f64; 2]> {
-    planets.iter().map(|orbit| [&orbit.mass, &orbit.parameter].map(|x| x.lane(0).0)).collect()
 }
 
 /// β ← β + 3κ s, if increments are carried along; s is lost.

@@ -1,72 +1,83 @@
 //! The Kepler drifts of several planets at once, each in a lane, with the bits that it has alone.
 
-use crate::number::{Lanes, Number};
+use super::orbits::Orbit;
+use crate::Rational;
+use crate::number::{LaneAccess, Number};
 use crate::systems::kepler_drift::KeplerDrift;
-
-/// How many planets a group has at most.
-const WIDTH: usize = 8;
 
 /// Fewer planets than these are as fast one after the other, in all vector instructions.
 const FEWEST: usize = 3;
 
 /// The planets in groups, and what their drifts add; the last ones may be too few for a group.
 #[derive(Clone, Debug)]
-pub(super) struct Together<const D: usize> {
-    kepler: KeplerDrift<Lanes<WIDTH>>,
-    groups: Vec<Group>,
+pub(super) struct Together<N: Number, const D: usize> {
+    kepler: KeplerDrift<N::InLanes>,
+    groups: Vec<Group<N>>,
+    /// 1 in all lanes.
+    one: N::InLanes,
     /// What a drift adds to positions, planet after planet.
-    pub(super) to_q: Vec<f64>,
+    pub(super) to_q: Vec<N>,
     /// The same of momenta.
-    pub(super) to_p: Vec<f64>,
+    pub(super) to_p: Vec<N>,
     /// The universal anomaly of each planet.
-    pub(super) anomalies: Vec<f64>,
+    pub(super) anomalies: Vec<N>,
 }
 
-/// The masses m and gravity parameters μ of up to 8 planets.
+/// The masses m and gravity parameters μ of planets in lanes.
 #[derive(Clone, Debug)]
-struct Group {
+struct Group<N: Number> {
     planets: usize,
-    mass: Lanes<WIDTH>,
-    parameter: Lanes<WIDTH>,
+    mass: N::InLanes,
+    parameter: N::InLanes,
 }
 
-impl Group {
+impl<N: Number> Group<N> {
     /// A lane without a planet has a body at rest that nothing attracts, which needs no long computation.
-    fn of(planets: &[[f64; 2]]) -> Self {
-        let (mut mass, mut parameter) = (Lanes::all(1.0), Lanes::all(0.0));
-        for (lane, [m, mu]) in planets.iter().enumerate() {
-            (mass.0[lane], parameter.0[lane]) = (*m, *mu);
+    fn of(planets: &[Orbit<N>], access: &LaneAccess<N>, one: &N::InLanes) -> Self {
+        let (mut mass, mut parameter) = (one.clone(), N::InLanes::zero(&one.context()));
+        for (lane, orbit) in planets.iter().enumerate() {
+            (access.set)(&mut mass, lane, &orbit.mass);
+            (access.set)(&mut parameter, lane, &orbit.parameter);
         }
         Group { planets: planets.len(), mass, parameter }
     }
 }
 
-impl<const D: usize> Together<D> {
-    /// For planets with these m and μ, if there are enough of them.
-    pub(super) fn new(planets: &[[f64; 2]]) -> Option<Box<Self>> {
-        let groups: Vec<_> = planets.chunks(WIDTH).filter(|group| group.len() >= FEWEST).map(Group::of).collect();
+impl<N: Number, const D: usize> Together<N, D> {
+    /// For these planets, if numbers are computed in lanes, and there are enough planets.
+    pub(super) fn new(planets: &[Orbit<N>], context: &N::Context) -> Option<Box<Self>> {
+        let access = N::LANE_ACCESS?;
+        let one = N::InLanes::from_rational(&Rational::from_integer(1.into()), context);
+        let groups = planets.chunks(N::InLanes::LANES).filter(|group| group.len() >= FEWEST);
+        let groups: Vec<_> = groups.map(|group| Group::of(group, &access, &one)).collect();
         let count = groups.iter().map(|group| group.planets).sum();
-        let zeros = |length| vec![0.0; length];
-        let (kepler, to_q, to_p) = (KeplerDrift::new(&()), zeros(count * D), zeros(count * D));
-        (count > 0).then(|| Box::new(Together { kepler, groups, to_q, to_p, anomalies: zeros(count) }))
+        let zeros = |length| vec![N::zero(context); length];
+        let (kepler, to_q, to_p) = (KeplerDrift::new(context), zeros(count * D), zeros(count * D));
+        (count > 0).then(|| Box::new(Together { kepler, groups, one, to_q, to_p, anomalies: zeros(count) }))
     }
 
     /// What the drift adds to positions and momenta of the planets, and their universal anomalies.
-    pub(super) fn find_increments(&mut self, time: f64, (q, p): (&[f64], &[f64])) {
-        let Together { kepler, groups, to_q, to_p, anomalies } = self;
+    pub(super) fn find_increments(&mut self, time: &N, (q, p): (&[N], &[N])) {
+        let Together { kepler, groups, one, to_q, to_p, anomalies } = self;
+        let Some(LaneAccess { set, number }) = N::LANE_ACCESS else { return };
+        let context = time.context();
+        let zeros = || -> [N::InLanes; D] { std::array::from_fn(|_| N::InLanes::zero(&context)) };
+        let mut times = N::InLanes::zero(&context);
+        (0..N::InLanes::LANES).for_each(|lane| set(&mut times, lane, time));
         let mut first = 0;
         for group in groups {
             let planets = first..first + group.planets;
             let coordinates = planets.start * D..planets.end * D;
             // not at the centre, where there is no planet
-            let (mut place, mut velocity) = ([Lanes::all(1.0); D], [Lanes::all(0.0); D]);
+            let (mut place, mut velocity) = (std::array::from_fn::<_, D, _>(|_| one.clone()), zeros());
             to_lanes(&q[coordinates.clone()], &mut place);
             to_lanes(&p[coordinates.clone()], &mut velocity);
             velocity.iter_mut().for_each(|v| v.divide(&group.mass));
-            let (mut of_q, mut of_v) = ([Lanes::all(0.0); D], [Lanes::all(0.0); D]);
-            let (time, mu) = (Lanes::all(time), &group.parameter);
-            let s = kepler.advance_augmented(mu, &time, &mut place, &mut velocity, &mut of_q, &mut of_v);
-            anomalies[planets].copy_from_slice(&s.0[..group.planets]);
+            let (mut of_q, mut of_v) = (zeros(), zeros());
+            let s = kepler.advance_augmented(&group.parameter, &times, &mut place, &mut velocity, &mut of_q, &mut of_v);
+            for (lane, anomaly) in anomalies[planets].iter_mut().enumerate() {
+                *anomaly = number(s, lane);
+            }
             of_v.iter_mut().for_each(|v| v.multiply(&group.mass));
             from_lanes(&of_q, &mut to_q[coordinates.clone()]);
             from_lanes(&of_v, &mut to_p[coordinates]);
@@ -77,17 +88,19 @@ impl<const D: usize> Together<D> {
 
 /// The coordinates of planets, one planet after the other, to a lane for each.
 #[inline(always)]
-fn to_lanes<const D: usize>(planets: &[f64], coordinates: &mut [Lanes<WIDTH>; D]) {
+fn to_lanes<N: Number, const D: usize>(planets: &[N], coordinates: &mut [N::InLanes; D]) {
+    let Some(LaneAccess { set, .. }) = N::LANE_ACCESS else { return };
     for (lane, planet) in planets.as_chunks::<D>().0.iter().enumerate() {
-        coordinates.iter_mut().zip(planet).for_each(|(lanes, x)| lanes.0[lane] = *x);
+        coordinates.iter_mut().zip(planet).for_each(|(lanes, x)| set(lanes, lane, x));
     }
 }
 
 /// The same back.
 #[inline(always)]
-fn from_lanes<const D: usize>(coordinates: &[Lanes<WIDTH>; D], planets: &mut [f64]) {
+fn from_lanes<N: Number, const D: usize>(coordinates: &[N::InLanes; D], planets: &mut [N]) {
+    let Some(LaneAccess { number, .. }) = N::LANE_ACCESS else { return };
     for (lane, planet) in planets.as_chunks_mut::<D>().0.iter_mut().enumerate() {
-        planet.iter_mut().zip(coordinates).for_each(|(x, lanes)| *x = lanes.0[lane]);
+        planet.iter_mut().zip(coordinates).for_each(|(x, lanes)| *x = number(lanes, lane));
     }
 }
 
@@ -95,7 +108,7 @@ fn from_lanes<const D: usize>(coordinates: &[Lanes<WIDTH>; D], planets: &mut [f6
 mod tests {
     use super::super::{Bodies, DemocraticHeliocentric, Jacobi, PlanetaryCoordinates, WisdomHolman};
     use crate::number::instructions::Instructions;
-    use crate::number::{Fused, Number};
+    use crate::number::{Dual, Fused, Number};
     use crate::systems::increments::Carried;
     use crate::systems::system::System;
     use crate::{Rational, exact};
@@ -151,11 +164,11 @@ mod tests {
     }
 
     /// A drift, a kick and a drift: a step, or a step back.
-    fn step(system: &mut impl System<Number = f64>, h: f64, carried: Carried) {
+    fn step<N: Number + From<f64>>(system: &mut impl System<Number = N>, h: f64, carried: Carried) {
         system.clear_increments();
-        system.drift(&(0.5 * h), carried);
-        system.kick(&h, carried);
-        system.drift(&(0.5 * h), carried);
+        system.drift(&N::from(0.5 * h), carried);
+        system.kick(&N::from(h), carried);
+        system.drift(&N::from(0.5 * h), carried);
     }
 
     /// Plain and augmented steps of planets together beside those of planets one by one.
@@ -188,6 +201,35 @@ mod tests {
                     check(&flat, h);
                     check(&heliocentric, h);
                 });
+            }
+        }
+    }
+
+    /// Values beside those of plain numbers, and derivatives beside those of planets one by one.
+    #[test]
+    fn dual_planets_together_have_the_bits_of_planets_one_by_one() {
+        for planets in [3, 8, 11] {
+            for h in [0.01, 0.3, 7.0, -0.3] {
+                let mut plain = system::<Jacobi<_, 3>, _, 3>(planets, |x| x);
+                let mut together = system::<Jacobi<_, 3>, _, 3>(planets, |x| Dual::new(x, [x.cos(), (7.0 * x).sin()]));
+                let mut one_by_one = together.clone();
+                one_by_one.orbits.together = None;
+                assert!(together.orbits.together.is_some());
+                for count in 0..10 {
+                    step(&mut plain, h, Carried::Nothing);
+                    step(&mut together, h, Carried::Nothing);
+                    step(&mut one_by_one, h, Carried::Nothing);
+                    let [found, expected] =
+                        [&together, &one_by_one].map(|system| [system.state().q(), system.state().p()].concat());
+                    let plain = [plain.state().q(), plain.state().p()].concat();
+                    for (c, (found, expected)) in found.iter().zip(&expected).enumerate() {
+                        assert_eq!(found.value, plain[c], "coordinate {c} after {count} steps of {h}");
+                        assert_eq!(
+                            found.derivatives, expected.derivatives,
+                            "coordinate {c} after {count} steps of {h}"
+                        );
+                    }
+                }
             }
         }
     }
