@@ -22,6 +22,7 @@ mod limbs;
 mod multiprecision;
 pub(crate) mod partial_sums;
 mod precision;
+mod scaled;
 pub(crate) mod value;
 
 pub use block::{BLOCK, Block};
@@ -38,7 +39,6 @@ pub use rug::Float;
 
 pub use double_double::{DoubleDouble, Machine};
 
-pub(crate) use double::scaled;
 #[doc(hidden)]
 pub use dual::DualBlock;
 pub use dual::{Dual, ParameterError, with_parameter};
@@ -49,6 +49,7 @@ pub use lane_access::LaneAccess;
 pub use lanes::Lanes;
 #[doc(hidden)]
 pub use limb_access::{LimbAccess, Parts};
+pub(crate) use scaled::scaled;
 
 use crate::Rational;
 use std::fmt;
@@ -114,7 +115,7 @@ pub trait Number: Clone + fmt::Debug {
 
     /// For a number of which a system computes several at once, with the same bits, how they are put into [lanes](Number::InLanes).
     #[doc(hidden)]
-    const LANE_ACCESS: Option<LaneAccess<Self>> = None;
+    const LANE_ACCESS: Option<LaneAccess<Self, Self::InLanes>> = None;
 
     /// Several of these numbers at once; the number itself where there are none.
     #[doc(hidden)]

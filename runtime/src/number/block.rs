@@ -1,7 +1,5 @@
 //! Numbers side by side, for loops that the compiler makes vector operations of.
 
-use super::Number;
-
 /// How many numbers are in a [`Block`]: a vector of AVX-512, two of AVX2, four of SSE2.
 pub const BLOCK: usize = 8;
 
@@ -9,7 +7,7 @@ pub const BLOCK: usize = 8;
 /// vector operations.
 ///
 /// *Columns* are a list in this form in the memory of as many numbers: of dual numbers all values, then all first derivatives, and so on.
-pub trait Block<N: Number>: Clone {
+pub trait Block<N>: Clone {
     /// The same number at all places.
     fn filled(x: &N) -> Self;
 
@@ -32,7 +30,7 @@ pub trait Block<N: Number>: Clone {
     fn write_one(columns: &mut [N], place: usize, x: &N);
 }
 
-impl<N: Number> Block<N> for [N; BLOCK] {
+impl<N: Clone> Block<N> for [N; BLOCK] {
     #[inline(always)]
     fn filled(x: &N) -> Self {
         std::array::from_fn(|_| x.clone())
@@ -45,7 +43,7 @@ impl<N: Number> Block<N> for [N; BLOCK] {
 
     #[inline(always)]
     fn set(&mut self, place: usize, x: &N) {
-        self[place].assign(x);
+        self[place].clone_from(x);
     }
 
     #[inline(always)]
@@ -67,7 +65,7 @@ impl<N: Number> Block<N> for [N; BLOCK] {
 
     #[inline(always)]
     fn write_one(columns: &mut [N], place: usize, x: &N) {
-        columns[place].assign(x);
+        columns[place].clone_from(x);
     }
 }
 

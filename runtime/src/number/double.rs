@@ -2,6 +2,7 @@
 
 use std::ops::{Deref, DerefMut};
 
+use super::scaled::scaled;
 use super::{BLOCK, LaneAccess, Lanes, Number, Real};
 use crate::Rational;
 use num_traits::ToPrimitive;
@@ -26,17 +27,6 @@ impl<N> DerefMut for Copied<N> {
     }
 }
 
-/// x 2ⁿ, with one rounding; with more where it is subnormal.
-#[inline(always)]
-pub(crate) fn scaled(x: f64, n: i64) -> f64 {
-    if n == 0 || x == 0.0 {
-        return x;
-    }
-    let n = n.clamp(-2200, 2200) as i32; // beyond, x overflows or underflows anyway
-    let quarter = 2_f64.powi(n / 4); // no factor overflows or underflows
-    x * quarter * quarter * quarter * 2_f64.powi(n - n / 4 * 3)
-}
-
 /// 3 (2x)² is below the largest `f64`, 1.797e308.
 pub(super) const LARGEST_SQUARED: f64 = 3.8e153;
 
@@ -45,7 +35,7 @@ impl Number for f64 {
     type Block = [Self; BLOCK];
     const KEEPS_INCREMENTS: bool = true;
     const IN_VECTORS: bool = true;
-    const LANE_ACCESS: Option<LaneAccess<f64>> =
+    const LANE_ACCESS: Option<LaneAccess<f64, Lanes<8>>> =
         Some(LaneAccess { set: |lanes, lane, x| lanes.0[lane] = *x, number: |lanes, lane| lanes.0[lane] });
     type InLanes = Lanes<8>;
     type Register<'a> = Copied<f64>;

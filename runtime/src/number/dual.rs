@@ -1,6 +1,7 @@
 //! Dual numbers: a number with its derivatives along some directions.
 
 mod block;
+mod columns;
 mod constants;
 
 pub use block::DualBlock;
@@ -138,9 +139,9 @@ impl<N: Number, const K: usize> Number for Dual<N, K> {
     const IN_VECTORS: bool = N::IN_VECTORS;
     const LANES: usize = N::LANES;
     const HAS_DERIVATIVES: bool = true;
-    type Block = DualBlock<N, K>;
+    type Block = DualBlock<N::Block, K>;
     type InLanes = Dual<N::InLanes, K>;
-    const LANE_ACCESS: Option<LaneAccess<Self>> = match N::LANE_ACCESS {
+    const LANE_ACCESS: Option<LaneAccess<Self, Self::InLanes>> = match N::LANE_ACCESS {
         None => None,
         Some(_) => Some(LaneAccess { set: Self::set_in_lanes, number: Self::in_lane }),
     };

@@ -3,7 +3,7 @@
 use std::fmt;
 use std::ops::{Deref, DerefMut};
 
-use super::double::scaled;
+use super::scaled::scaled;
 use super::{BLOCK, Number, Real};
 use crate::Rational;
 use crate::number::instructions;

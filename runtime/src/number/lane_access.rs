@@ -1,11 +1,9 @@
 //! Several numbers at once in lanes, for what computes them together.
 
-use super::Number;
-
-/// How numbers are put into lanes, and taken from them.
-pub struct LaneAccess<N: Number> {
+/// How numbers are put into lanes L, and taken from them.
+pub struct LaneAccess<N, L> {
     /// The number in a lane ← x
-    pub set: fn(&mut N::InLanes, usize, &N),
+    pub set: fn(&mut L, usize, &N),
     /// The number in a lane.
-    pub number: fn(&N::InLanes, usize) -> N,
+    pub number: fn(&L, usize) -> N,
 }

@@ -2,7 +2,7 @@
 
 mod functions;
 
-use super::double::scaled;
+use super::scaled::scaled;
 use super::{BLOCK, Number};
 use crate::{Rational, number::instructions};
 use functions::{cos_each, exp_each, log_each, sin_cos_each, sin_each};

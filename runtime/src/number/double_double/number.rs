@@ -5,7 +5,8 @@ use std::fmt;
 use super::nearest::nearest;
 use super::{DoubleDouble, Machine, decimal, exponential, root, trigonometric};
 use crate::Rational;
-use crate::number::double::{Copied, LARGEST_SQUARED, scaled};
+use crate::number::double::{Copied, LARGEST_SQUARED};
+use crate::number::scaled::scaled;
 use crate::number::{BLOCK, Number, Real};
 
 impl<T: Machine> DoubleDouble<T> {

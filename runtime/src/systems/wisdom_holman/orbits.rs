@@ -55,9 +55,10 @@ pub(super) struct Advance<N: Number, const D: usize> {
 impl<N: Number, const D: usize> Advance<N, D> {
     pub(super) fn new(orbits: &Orbits<N>, context: &N::Context) -> Self {
         let zeros = || std::array::from_fn(|_| N::zero(context));
+        let planets: Vec<_> = orbits.planets.iter().map(|orbit| [&orbit.mass, &orbit.parameter]).collect();
         Advance {
             kepler: KeplerDrift::new(context),
-            together: Together::new(&orbits.planets, context),
+            together: Together::new(&planets, context),
             place: zeros(),
             velocity: zeros(),
             to_q: zeros(),

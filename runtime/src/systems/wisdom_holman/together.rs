@@ -1,6 +1,5 @@
 //! The Kepler drifts of several planets at once, each in a lane, with the bits that it has alone.
 
-use super::orbits::Orbit;
 use crate::Rational;
 use crate::number::{LaneAccess, Number};
 use crate::systems::kepler_drift::KeplerDrift;
@@ -33,19 +32,19 @@ struct Group<N: Number> {
 
 impl<N: Number> Group<N> {
     /// A lane without a planet has a body at rest that nothing attracts, which needs no long computation.
-    fn of(planets: &[Orbit<N>], access: &LaneAccess<N>, one: &N::InLanes) -> Self {
+    fn of(planets: &[[&N; 2]], access: &LaneAccess<N, N::InLanes>, one: &N::InLanes) -> Self {
         let (mut mass, mut parameter) = (one.clone(), N::InLanes::zero(&one.context()));
-        for (lane, orbit) in planets.iter().enumerate() {
-            (access.set)(&mut mass, lane, &orbit.mass);
-            (access.set)(&mut parameter, lane, &orbit.parameter);
+        for (lane, [m, mu]) in planets.iter().enumerate() {
+            (access.set)(&mut mass, lane, m);
+            (access.set)(&mut parameter, lane, mu);
         }
         Group { planets: planets.len(), mass, parameter }
     }
 }
 
 impl<N: Number, const D: usize> Together<N, D> {
-    /// For these planets, if numbers are computed in lanes, and there are enough planets.
-    pub(super) fn new(planets: &[Orbit<N>], context: &N::Context) -> Option<Box<Self>> {
+    /// For planets with these m and μ, if numbers are computed in lanes, and there are enough planets.
+    pub(super) fn new(planets: &[[&N; 2]], context: &N::Context) -> Option<Box<Self>> {
         let access = N::LANE_ACCESS?;
         let one = N::InLanes::from_rational(&Rational::from_integer(1.into()), context);
         let groups = planets.chunks(N::InLanes::LANES).filter(|group| group.len() >= FEWEST);
