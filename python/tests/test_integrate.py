@@ -325,3 +325,31 @@ def test_monitor_of_a_loop():
     assert monitor.n == 10_000 and abs(farthest - 1.6) < 0.1
     assert report.verdict == "fine" and report.is_fine and str(report).startswith("bounded: the energy error is ")
     assert abs(monitor.newest.modified_energy + 0.5) < 1e-2
+
+
+def test_hamiltonians_that_depend_on_time():
+    # x'' = -x + sin 2t
+    forced = Problem("x^2/2 - x*sin(2*t)", coordinates=["x"], q=[1], p=[0])
+    run = integrate(forced, "blanes-moan-srkn11b", h="1/20", until=10)
+    exact = np.cos(run.t) + 2 / 3 * np.sin(run.t) - np.sin(2 * run.t) / 3
+    assert run.q.shape == (201, 2) and np.allclose(run.q[:, 0], exact, atol=1e-13)
+    assert np.allclose(run.q[:, 1], run.t, atol=1e-13) and np.ptp(run.energy) < 1e-12 and np.ptp(run.p[:, 1]) > 0.1
+    # t and pt may be given, as states have them
+    assert np.array_equal(integrate(forced.replaced(q=[1, 0], p=[0, 0]), "blanes-moan-srkn11b", h="1/20", until=10).q, run.q)
+    with pytest.raises(InputError, match="t must be 0 at the start"):
+        Problem("x^2/2 - x*sin(2*t)", coordinates=["x"], q=[1, 1], p=[0, 0])
+    flow = shadowstep.Flow(forced, "yoshida4", "1/20", 1, every=20)
+    q, p = flow.states([1, 0], [0, 0])
+    by_q, by_p, _ = flow.pull_back([1, 0], [0, 0], (), [[0, 0], [1, 0]], [[0, 0], [0, 0]])
+    # of a linear oscillator, by its initial position and momentum
+    assert q.shape == (2, 2) and np.allclose([by_q[0], by_p[0]], [np.cos(1), np.sin(1)], atol=1e-5)
+
+
+def test_magnetic_fields_and_ends():
+    charge = Problem("0", coordinates=["x", "y"], vector_potential=["-b*y/2", "b*x/2"], parameters={"b": "3/2"}, q=[0, 0], v=[1, 0])
+    run = integrate(charge, "stormer-verlet", h="1/2", until=10, end="y < -1")
+    angle = 1.5 * run.t
+    assert np.allclose(run.q, np.transpose([np.sin(angle), np.cos(angle) - 1]) / 1.5, atol=1e-14)
+    assert run.q[-1, 1] < -1 <= run.q[:-1, 1].min() and run.t[-1] == 1.5
+    with pytest.raises(InputError, match="end:1:5: .*known names"):
+        integrate(charge, "stormer-verlet", h="1/2", until=10, end="y < z")

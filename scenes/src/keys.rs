@@ -62,7 +62,7 @@ pub(crate) const SECTIONS: [Section; 13] = [
 ];
 
 /// All keys, section by section.
-pub(crate) const KEYS: [Key; 72] = [
+pub(crate) const KEYS: [Key; 74] = [
     key(
         "problem",
         "name",
@@ -159,6 +159,22 @@ pub(crate) const KEYS: [Key; 72] = [
          the scheme must be valid for every T(p); with the time t in it, for three parts and more.",
         "\"sqrt(1 + px^2 + py^2)\"",
         Some("p_1^2/(2 m_1) + p_2^2/(2 m_2) + …"),
+    ),
+    key(
+        "problem",
+        "hamiltonian",
+        "H(q, p), a smooth formula in the coordinates, momenta and parameters that has no parts with known flows. The steps are in M. Tao's extended phase \
+         space, with copies x_2, px_2 of each x, px: H(x, px_2) + H(x_2, px) + coupling/2 |differences|^2, whose parts they solve. The \
+         scheme must be valid for three parts and more; the energy is that sum.",
+        "\"(x^2 + 1)*(px^2 + 1)/2\"",
+        Some("none; a `potential` or another of these is given instead"),
+    ),
+    key(
+        "problem",
+        "coupling",
+        "For `hamiltonian`: the rate that holds the copies together. Too small, they part; large, it asks for small steps.",
+        "20",
+        None,
     ),
     key(
         "problem",

@@ -2,6 +2,7 @@
 
 mod bodies;
 mod cutoff;
+mod doubled;
 mod elements;
 mod explicit_time;
 mod formula;

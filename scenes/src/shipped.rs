@@ -69,7 +69,7 @@ pub(crate) const ENCOUNTERS: [ShippedScene; 2] = [
     },
 ];
 
-pub(crate) const MANY_PARTS: [ShippedScene; 2] = [
+pub(crate) const MANY_PARTS: [ShippedScene; 3] = [
     ShippedScene {
         name: "disordered-chain",
         title: "A wave packet in the disordered nonlinear Schrödinger chain",
@@ -79,6 +79,11 @@ pub(crate) const MANY_PARTS: [ShippedScene; 2] = [
         name: "arenstorf",
         title: "Arenstorf's orbit in the frame of the Earth and the Moon: three bodies, one without mass",
         text: include_str!("../many-parts/arenstorf.toml"),
+    },
+    ShippedScene {
+        name: "not-separable",
+        title: "A Hamiltonian that is no sum of T(p) and U(q), in the extended phase space",
+        text: include_str!("../many-parts/not-separable.toml"),
     },
 ];
 

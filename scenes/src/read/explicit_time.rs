@@ -8,6 +8,7 @@ use shadowstep_schemes::document::Text;
 use shadowstep_symbolic::{Exact, parse};
 
 use super::given::Given;
+use super::numbers::Numbers;
 use super::reader::Reader;
 
 /// The name of the coordinate, which is that of the column of the time.
@@ -66,8 +67,20 @@ pub(super) fn add_momentum(reader: &Reader<'_>, given: &Given, formulas: &mut Ve
     }
 }
 
-/// With t = 0, or p_t = 0, after the other numbers of the initial state.
-pub(super) fn start(mut numbers: Vec<Exact>) -> Vec<Exact> {
-    numbers.push(Exact { value: Rational::zero(), rounded: false });
-    numbers
+/// The numbers of the initial state, with t or p_t after them: 0, if it is not given.
+pub(super) fn start(reader: &mut Reader<'_>, numbers: &Numbers, coordinates: usize) -> Option<Vec<Exact>> {
+    if numbers.count() == Some(coordinates + 1) {
+        return numbers.values(reader, coordinates + 1);
+    }
+    let mut values = numbers.values(reader, coordinates)?;
+    values.push(Exact { value: Rational::zero(), rounded: false });
+    Some(values)
+}
+
+/// Refuses another t than 0: it would not be that of the rows.
+pub(super) fn refuse_other_start(reader: &mut Reader<'_>, given: &Given, q: Option<&Vec<Exact>>) {
+    if q.and_then(|q| q.last()).is_some_and(|t| !t.value.is_zero()) {
+        let place = given.initial.as_ref().unwrap_or(&given.problem);
+        reader.toml.fault(place, "t must be 0 at the start", "write the phase in the formula: cos(w*t + 1)");
+    }
 }

@@ -37,11 +37,14 @@ pub(super) fn problem(reader: &mut Reader<'_>, given: &Given, potential: &Text) 
     if let Some(initial) = &given.initial {
         given.state.all_there(reader, initial);
     }
-    let values = |reader: &mut Reader<'_>, numbers: &Numbers| {
-        let values = numbers.values(reader, of_coordinates)?;
-        Some(if explicit_time { explicit_time::start(values) } else { values })
+    let values = |reader: &mut Reader<'_>, numbers: &Numbers| match explicit_time {
+        true => explicit_time::start(reader, numbers, of_coordinates),
+        false => numbers.values(reader, of_coordinates),
     };
     let (q, p) = given.state.values(reader, values, masses.as_deref());
+    if explicit_time {
+        explicit_time::refuse_other_start(reader, given, q.as_ref());
+    }
     let kinetic = if named { kinetic::kinetic(reader, given, &moved, &parameters, masses) } else { None };
     Some(InitialValueProblem {
         potential: PotentialEnergy::Formula(potential?),

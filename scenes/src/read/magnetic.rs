@@ -12,6 +12,7 @@ use shadowstep_symbolic::decimal::to_text;
 
 use super::explicit_time::{MOMENTUM, TIME};
 use super::given::Given;
+use super::many_parts::Copies;
 use super::reader::Reader;
 use super::{kinetic, many_parts};
 use crate::scene::{Formula, System};
@@ -52,7 +53,7 @@ pub(super) fn system(
     let summands = summands(&field.value, &momenta, masses.as_deref());
     let parts = parts(reader, (coordinates, momenta), &parameters, (&field.value, summands))?;
     let formulas = parts.into_iter().chain([potential]).collect();
-    let mut system = many_parts::of_formulas(reader, given, formulas, parameters, masses.as_deref())?;
+    let mut system = many_parts::of_formulas(reader, given, formulas, parameters, Copies::One(masses.as_deref()))?;
     if given.state.has_velocities() {
         add_field(reader, &mut system, &field.value)?;
     }

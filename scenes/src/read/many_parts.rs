@@ -37,21 +37,39 @@ pub(super) fn system(reader: &mut Reader<'_>, given: &Given, value: &Value<'_>) 
         _ => true,
     });
     let parameters = given.own_parameters(reader);
-    of_formulas(reader, given, formulas?.value, parameters, None)
+    of_formulas(reader, given, formulas?.value, parameters, Copies::One(None))
 }
 
-/// The system of these parts, two at least; with masses, if `v` gives velocities.
+/// What the names of second copies end with.
+pub(super) const SECOND: &str = "_2";
+
+/// How often there is each degree of freedom.
+#[derive(Clone, Copy)]
+pub(super) enum Copies<'a> {
+    /// Once; with masses, if `v` gives velocities.
+    One(Option<&'a [Exact]>),
+    /// Twice, the second time with other names.
+    Two,
+}
+
+/// The system of these parts, two at least.
 pub(super) fn of_formulas(
     reader: &mut Reader<'_>,
     given: &Given,
     mut formulas: Vec<Text>,
     parameters: Vec<(String, Exact)>,
-    masses: Option<&[Exact]>,
+    copies: Copies<'_>,
 ) -> Option<System> {
     let list = given.coordinates.as_ref()?;
     let before = reader.toml.faults.len();
     let (mut coordinates, mut momenta) = names(reader, given, list);
     let of_coordinates = coordinates.len();
+    if let Copies::Two = copies {
+        for names in [&mut coordinates, &mut momenta] {
+            names.extend_from_within(..);
+            names[of_coordinates..].iter_mut().for_each(|name| name.push_str(SECOND));
+        }
+    }
     let explicit_time = formulas.iter().any(|formula| explicit_time::is_in(reader, given, &formula.value));
     if explicit_time {
         explicit_time::add_names(reader, given, (&mut coordinates, &mut momenta));
@@ -64,10 +82,21 @@ pub(super) fn of_formulas(
         given.state.all_there(reader, initial);
     }
     let values = |reader: &mut Reader<'_>, numbers: &Numbers| {
-        let values = numbers.values(reader, of_coordinates)?;
-        Some(if explicit_time { explicit_time::start(values) } else { values })
+        let mut values = match explicit_time {
+            true => explicit_time::start(reader, numbers, of_coordinates)?,
+            false => numbers.values(reader, of_coordinates)?,
+        };
+        if let Copies::Two = copies {
+            let second = values[..of_coordinates].to_vec();
+            values.splice(of_coordinates..of_coordinates, second);
+        }
+        Some(values)
     };
+    let masses = if let Copies::One(masses) = copies { masses } else { None };
     let (q, p) = given.state.values(reader, values, masses);
+    if explicit_time {
+        explicit_time::refuse_other_start(reader, given, q.as_ref());
+    }
     let problem = InitialValueProblem {
         potential: PotentialEnergy::OfParts,
         kinetic: KineticEnergy::Masses(None),
@@ -92,7 +121,7 @@ pub(super) fn with_time_in_kinetic(reader: &mut Reader<'_>, given: &Given, poten
     });
     kinetic::refuse_masses(reader, given);
     let parameters = given.own_parameters(reader);
-    of_formulas(reader, given, vec![given.kinetic.clone()?, potential], parameters, None)
+    of_formulas(reader, given, vec![given.kinetic.clone()?, potential], parameters, Copies::One(None))
 }
 
 /// A part whose flow is known.

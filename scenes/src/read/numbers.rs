@@ -53,6 +53,14 @@ impl Numbers {
         }
     }
 
+    /// How many numbers are listed.
+    pub(super) fn count(&self) -> Option<usize> {
+        match self {
+            Numbers::List(list) => Some(list.value.len()),
+            Numbers::Lists(..) | Numbers::Formula(_) => None,
+        }
+    }
+
     /// A number for each coordinate of a system without bodies.
     pub(super) fn values(&self, reader: &mut Reader<'_>, coordinates: usize) -> Option<Vec<Exact>> {
         match self {

@@ -7,12 +7,12 @@ use super::pair::PairFormula;
 use super::parts;
 use super::planets::{self, GivenBody, Settings};
 use super::reader::Reader;
-use super::{explicit_time, formula, magnetic, many_parts, pair, shipped};
+use super::{doubled, explicit_time, formula, magnetic, many_parts, pair, shipped};
 use crate::scene::System;
 use shadowstep_schemes::document::Section;
 
 /// The keys of which exactly one gives the potential.
-const WAYS: [&str; 3] = ["name", "potential", "pair"];
+const WAYS: [&str; 4] = ["name", "potential", "pair", doubled::HAMILTONIAN];
 
 /// The system with its initial state.
 pub(super) fn system(
@@ -22,13 +22,20 @@ pub(super) fn system(
     bodies: &[GivenBody],
 ) -> Option<System> {
     let ways: Vec<_> = WAYS.into_iter().filter(|way| problem.get(way).is_some()).collect();
-    let [name, potential, pair] = WAYS.map(|way| problem.get(way).and_then(|value| reader.toml.text(value)));
+    let [name, potential, pair, hamiltonian] =
+        WAYS.map(|way| problem.get(way).and_then(|value| reader.toml.text(value)));
     let pair = pair.and_then(|text| PairFormula::read(reader, text));
     // if none of the keys is given, only that is a fault
     let is_of_parts = problem.get("parts").is_some_and(parts::is_list);
     let given = Given::read(reader, problem, initial, ways.contains(&"pair") || ways.is_empty() && !is_of_parts);
     let settings = Settings::read(reader, problem);
     let field = reader.names(problem, magnetic::KEY, "a list of formulas: [\"-b*y/2\", \"b*x/2\"]");
+    let coupling = problem.get(doubled::COUPLING).and_then(|value| reader.number(value));
+    if ways[..] != [doubled::HAMILTONIAN] {
+        given.refuse(reader, &[doubled::COUPLING], |key| {
+            (format!("{key} requires `{}`", doubled::HAMILTONIAN), format!("remove `{key}`"))
+        });
+    }
     if ways[..] != ["potential"] {
         given.refuse(reader, &[magnetic::KEY], |key| {
             (
@@ -81,15 +88,19 @@ pub(super) fn system(
             let problem = pair::problem(reader, &given, pair)?;
             parts::split(reader, &given, problem, settings.split?, None)
         }
+        [doubled::HAMILTONIAN] => {
+            given.needs(reader, problem, "coordinates");
+            doubled::system(reader, &given, hamiltonian?, coupling)
+        }
         [] => {
             reader.toml.missing(problem, &WAYS);
             None
         }
-        [first, second] => {
+        [first, second, ..] => {
             let message = format!("{first} and {second} are both given");
             reader.toml.wrong(given.place(second)?, message, "keep one of the two")
         }
-        _ => reader.toml.wrong(given.place("pair")?, "name, potential and pair are all given", "keep one of the three"),
+        [_] => unreachable!("it is one of the ways"),
     }
 }
 
