@@ -93,9 +93,12 @@ fn trajectory(
     system: Option<&System>,
 ) -> (Option<u64>, Option<Surface>) {
     let Some((every, table)) = when(reader, output, "trajectory", "output.trajectory") else { return (None, None) };
+    let directions = [("up", Direction::Up), ("down", Direction::Down), ("both", Direction::Both)];
+    let direction = table.as_ref().and_then(|table| table.get("direction"));
+    let direction = direction.map(|value| (value.span(), reader.word(value, &directions)));
     let Some((table, value)) = table.as_ref().and_then(|table| Some((table, table.get("section")?))) else {
-        if let Some(value) = table.as_ref().and_then(|table| table.get("direction")) {
-            reader.toml.fault(&value.span(), "a direction requires a section", "add `section = \"x\"`");
+        if let Some((at, Some(_))) = direction {
+            reader.toml.fault(&at, "a direction requires a section", "add `section = \"x\"`");
         }
         return (Some(every), None);
     };
@@ -106,20 +109,16 @@ fn trajectory(
         let help = "remove it, and run the scene again without `section` for modified energies";
         reader.toml.fault(&value.span(), "rows of a section have no modified energy", help);
     }
-    (None, surface(reader, table, value, system))
+    let direction = direction.map_or(Some(Direction::Up), |(_, direction)| direction);
+    (None, direction.and_then(|direction| surface(reader, value, direction, system)))
 }
 
 fn surface(
     reader: &mut Reader<'_>,
-    table: &Section<'_, '_>,
     value: &Value<'_>,
+    direction: Direction,
     system: Option<&System>,
 ) -> Option<Surface> {
-    let directions = [("up", Direction::Up), ("down", Direction::Down), ("both", Direction::Both)];
-    let direction = match table.get("direction") {
-        Some(value) => reader.word(value, &directions)?,
-        None => Direction::Up,
-    };
     let text = reader.toml.text(value)?;
     let expression = Expression::new(text.clone());
     let system = system?;
