@@ -1,11 +1,12 @@
 """MEGNO of two planets that seem regular, beside REBOUND's: hannorein/rebound, issue 701.
 
-    build/venv/bin/python megno.py PROGRAM STEPS       # as ../target/release/shadowstep 43900000
+    build/venv/bin/python megno.py PROGRAM STEPS       # as ../target/release/shadowstep 43900000; draws docs/pictures/megno.svg
 
 REBOUND's WHFast and Shadowstep make the same steps, of a twentieth of the inner period. Of REBOUND's vectors MEGNO is computed twice: as REBOUND does, and from the
 logarithms of their lengths every 100 steps.
 """
 
+import csv
 import json
 import math
 import subprocess
@@ -13,11 +14,16 @@ import sys
 import tempfile
 from pathlib import Path
 
+import matplotlib
+
+matplotlib.use("svg")
+import matplotlib.pyplot as plt
 import rebound
 
 EARTH = 3.0034893488507934e-06
 STAR, MASSES, AXES, ECCENTRICITIES = 0.12, [mass * EARTH / math.sin(133.0) for mass in (0.26, 1.07)], (0.029, 0.049), (0.61, 0.36)
-SAMPLES, EVERY = 20, 100
+SAMPLES, EVERY, POINTS = 20, 100, 800
+PICTURE = Path(__file__).parent.parent / "docs" / "pictures" / "megno.svg"
 
 
 def simulation():
@@ -52,10 +58,37 @@ def of_lengths(sim, steps):
 
 
 def of_rebound(steps):
-    sim = simulation()
+    sim, points = simulation(), []
     for n, megno, mean in of_lengths(sim, steps):
+        if n // EVERY % (steps // EVERY // POINTS) == 0:
+            points.append((n, sim.megno(), mean))
         if n // EVERY % (steps // EVERY // SAMPLES) == 0:
             print(f"{n} steps: REBOUND's sum {sim.megno():.3f}, from its vectors Y = {megno:.3f}, mean {mean:.4f}", flush=True)
+    return points
+
+
+def draw(rebound_points, ours):
+    matplotlib.rcParams |= {"svg.hashsalt": "shadowstep", "svg.fonttype": "none", "font.family": "sans-serif", "font.size": 11}
+    figure, axes = plt.subplots(figsize=(8, 4))
+    n, total, mean = zip(*rebound_points)
+    axes.plot(n, total, color="#D55E00", linewidth=1, label="REBOUND's sum")
+    axes.plot(n, mean, color="#0072B2", linewidth=1.8, label="from the lengths of REBOUND's vectors")
+    axes.plot(*zip(*ours), color="#000000", linewidth=1.8, linestyle="--", label="Shadowstep")
+    axes.set(xlabel="steps", ylabel="mean MEGNO", ylim=(-10, 30))
+    axes.grid(True, color="#DDDDDD", linewidth=0.6)
+    axes.legend(loc="upper left", frameon=False)
+    figure.savefig(PICTURE, metadata={"Date": None}, bbox_inches="tight", facecolor="white")
+
+
+def series(program, folder, steps):
+    """The mean of MEGNO by the rows of a run."""
+    path = folder / "rows.toml"
+    output = f'[output]\nfile = "rows.csv"\nsummary = false\nchaos = {{ every = {steps // POINTS} }}\n'
+    path.write_text(scene(steps).partition("[output]")[0] + output)
+    subprocess.run([program, "run", path], check=True, capture_output=True)
+    with (folder / "rows.csv").open() as file:
+        rows = csv.DictReader(line for line in file if not line.startswith("#"))
+        return [(int(row["n"]), float(row["mean_megno"])) for row in rows if row["mean_megno"]]
 
 
 def scene(steps):
@@ -70,8 +103,9 @@ def scene(steps):
 
 
 def main(program, steps):
-    of_rebound(int(steps))
+    points = of_rebound(int(steps))
     with tempfile.TemporaryDirectory() as folder:
+        draw(points, series(Path(program).resolve(), Path(folder), int(steps)))
         path = Path(folder) / "scene.toml"
         path.write_text(scene(steps))
         for vectors in ("1", "2"):

@@ -18,6 +18,7 @@ from .command import command, sweep
 from .derivatives import Derivatives, Gradient, derivatives, gradient
 from .drift import drift
 from .ensemble import Ensemble, ensemble
+from .files import open
 from .flow import Flow
 from .integration import Trajectory, integrate
 from .monitor import Monitor, Report, Sample
@@ -61,6 +62,7 @@ __all__ = [
     "ensemble",
     "gradient",
     "integrate",
+    "open",
     "run",
     "scene",
     "schemes",

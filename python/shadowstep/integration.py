@@ -44,8 +44,8 @@ class Trajectory:
     """The names of the coordinates."""
     momenta: list[str]
     """The names of the momenta."""
-    force_evaluations: int
-    """Evaluations of the gradient, those for the states that only the estimator needs included."""
+    force_evaluations: int | None
+    """Evaluations of the gradient, those for the states that only the estimator needs included; None of a file."""
     modified_energy: np.ndarray | None = None
     """The modified energy H̄, of shape (n,), if an estimator was asked for."""
     modified_energy_error: np.ndarray | None = None
@@ -59,6 +59,10 @@ class Trajectory:
     """Whether the modified energies belong to the times t + h/2; the last one is then NaN."""
     notes: list[str] = field(default_factory=list)
     """What should be known of the run; each was a warning, too."""
+    metadata: dict[str, Any] = field(default_factory=dict)
+    """Of a file: what determined the run."""
+    indicators: dict[str, np.ndarray] = field(default_factory=dict)
+    """Of a file with `chaos`: lyapunov, megno, mean_megno and sali, each of shape (n,)."""
 
     def mpmath(self, name: str, digits: int | None = None) -> list[Any]:
         """Numbers of more digits as those of mpmath: nested lists of `mpf` in the shape of the array.

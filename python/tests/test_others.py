@@ -168,3 +168,26 @@ def test_types():
     assert (package / "py.typed").exists()
     found, errors, status = api.run(["--ignore-missing-imports", "--python-version", "3.10", "--package", "shadowstep"])
     assert status == 0, found + errors
+
+
+@pytest.mark.parametrize("digits", ['"double"', "30"])
+@pytest.mark.parametrize("ending", ["csv", "jsonl"])
+def test_files_of_runs_are_opened(tmp_path, digits, ending):
+    scene = tmp_path / "kepler.toml"
+    output = f'{{ file = "kepler.{ending}", trajectory = {{ every = 2 }}, energy = true, modified_energy = {{ order = 4, every = 5 }} }}'
+    scene.write_text(f'problem.name = "kepler"\nrun = {{ scheme = "yoshida4", step = "1/10", steps = 20, digits = {digits} }}\noutput = {output}')
+    shadowstep.run(scene)
+    read = shadowstep.open(tmp_path / f"kepler.{ending}")
+    made = shadowstep.integrate("kepler", "yoshida4", "1/10", steps=20, digits=digits.strip('"') if "double" in digits else 30, estimator="central", order=4)
+    assert np.array_equal(read.q[::2], made.q[::2]) and np.array_equal(read.p[::2], made.p[::2]) and np.array_equal(read.t, made.t)
+    assert np.array_equal(read.energy, made.energy) and np.array_equal(read.n, made.n)
+    assert np.array_equal(read.modified_energy[::5], made.modified_energy[::5]) and read.order[5] == 4
+    assert np.isnan(read.q[1].astype(float)).all() and np.isnan(float(read.modified_energy[1]))
+    assert (read.coordinates, read.momenta, read.force_evaluations) == (["x", "y"], ["px", "py"], None)
+    assert read.metadata["scheme"] == "yoshida4"
+
+
+def test_a_file_of_something_else_is_refused(tmp_path):
+    (tmp_path / "table.csv").write_text("a,b\n1,2\n")
+    with pytest.raises(shadowstep.InputError, match="this is no file of a run"):
+        shadowstep.open(tmp_path / "table.csv")
