@@ -5,7 +5,9 @@ use shadowstep::number::{CorrectlyRounded, Limbs, Number, Real};
 use shadowstep::problems::HenonHeiles;
 use shadowstep::shadow::Bilinear;
 use shadowstep::shadow::run::energy_drift;
+use shadowstep::systems::formula::{FormulaOfBodies, RelativeTo};
 use shadowstep::systems::linear_part::LinearPart;
+use shadowstep::systems::potential::Sum;
 use shadowstep::systems::wisdom_holman::{Bodies, Jacobi, PlanetaryCoordinates, WisdomHolman};
 use shadowstep::{Carried, Rational, Stepper, System};
 use shadowstep_tests::{
@@ -23,6 +25,20 @@ fn planets<N: Number>(context: &N::Context) -> WisdomHolman<N, Jacobi<N, 3>, 3> 
     let momentum = |(axis, v): (usize, &&str)| N::from_rational(&(rational(v) * &masses[axis / 3]), context);
     let p: Vec<N> = v.iter().enumerate().map(momentum).collect();
     WisdomHolman::new(&bodies, (&numbers(&q, context), &p), context).expect("a state of four bodies")
+}
+
+/// The same with an oblate first body, and a tide.
+fn with_more<N: Number>(
+    context: &N::Context,
+) -> WisdomHolman<N, Jacobi<N, 3>, 3, Sum<FormulaOfBodies<N>, FormulaOfBodies<N>>> {
+    let masses = numbers::<N>(&["1", "1/1000", "1/3000", "1/500"], context);
+    let parameters = [("s", N::from_rational(&rational("20"), context))];
+    let of = |formula: &str, relative_to| {
+        FormulaOfBodies::new(formula, relative_to, 3, &masses, &parameters).expect("it is a formula")
+    };
+    let oblate = of("m*s/r^3*(3*z^2/r^2 - 1) - m*s/r^2", RelativeTo::FirstBody);
+    let tide = of("m*(x^2/1000 - y^3/s^4 + z^2/30)", RelativeTo::Origin);
+    planets(context).beside(Some(Sum(oblate, tide))).expect("a potential of four bodies")
 }
 
 /// Hénon–Heiles with coupled oscillators of different masses, whose stiffness is not all of U_qq at 0.
@@ -93,6 +109,7 @@ fn gradient_kicks_are_the_derivatives_of_kicks() {
     let masses = std::iter::once(&orbits.total_mass).chain(orbits.planets.iter().map(|orbit| &orbit.mass));
     let inverse: Vec<_> = masses.flat_map(|mass| vec![mass.clone().recip(); 3]).collect();
     is_the_derivative_of_kicks(planets, &inverse);
+    is_the_derivative_of_kicks(with_more::<Float>(&context), &inverse);
     is_the_derivative_of_kicks(oscillators::<Float>(&context), &numbers(&["1/3", "2"], &context));
 }
 
@@ -130,6 +147,8 @@ fn steps_are_steps_in_both_kinds_of_numbers() {
     // positions of size 10, whose phases round-off changes; and numbers below 1
     steps_are_steps(&planets::<f64>(&()), "1/3", 3.5);
     steps_are_steps(&planets::<Float>(&precision(DIGITS)), "1/3", 3.5);
+    steps_are_steps(&with_more::<f64>(&()), "1/3", 3.5);
+    steps_are_steps(&with_more::<Float>(&precision(DIGITS)), "1/3", 3.5);
     steps_are_steps(&oscillators::<f64>(&()), "1/3", 2.0);
     steps_are_steps(&oscillators::<Float>(&precision(DIGITS)), "1/3", 2.0);
 }
@@ -158,9 +177,11 @@ where
 /// With a wrong rate of β it would not converge.
 #[test]
 fn the_modified_energy_converges() {
-    for [energy, k8, k16] in
-        [variations(planets::<Limbs<4>>(&()), "1/8"), variations(oscillators::<Limbs<4>>(&()), "1/4")]
-    {
+    for [energy, k8, k16] in [
+        variations(planets::<Limbs<4>>(&()), "1/8"),
+        variations(with_more::<Limbs<4>>(&()), "1/8"),
+        variations(oscillators::<Limbs<4>>(&()), "1/4"),
+    ] {
         println!("H varies by {energy:e}, E_8 by {k8:e}, E_16 by {k16:e}");
         assert!(k8 < energy * 1e-3 && k16 < k8 * 1e-3, "{energy:e}, {k8:e}, {k16:e}");
     }

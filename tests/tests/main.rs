@@ -44,3 +44,4 @@ mod tangent;
 mod transformed_time;
 mod transposed_digits;
 mod wisdom_holman;
+mod wisdom_holman_beside;

@@ -1,10 +1,12 @@
 //! Potentials and kinetic energies from formulas read at run time: the twins of [`crate::potential!`] and
 //! [`crate::kinetic!`], with the same bits.
 
+mod bodies;
 mod kinetic;
 mod newest;
 mod pair;
 
+pub use bodies::{FormulaOfBodies, RelativeTo};
 pub use pair::FormulaPair;
 
 use std::ops::Range;
@@ -128,7 +130,12 @@ fn derive<N>(
         let expression = parse(formula)?;
         refuse_repeated(variables.iter().chain(parameters))?;
         let mut graph = Graph::new();
-        let node = graph.build(&expression, variables, parameters).map_err(FormulaError::Meaning)?;
+        let mut node = graph.build(&expression, variables, parameters).map_err(FormulaError::Meaning)?;
+        let mut variables = &variables[..];
+        if role == Role::Body {
+            variables = &variables[..variables.len() - 1];
+            node = bodies::without_distance(&mut graph, node, variables.len());
+        }
         let quadratic = role == Role::Kinetic && graph.is_at_most_quadratic(node, variables.len());
         let quadratic_form = quadratic && graph.is_quadratic(node, variables.len());
         let programs = graph.potential(node, variables.len());

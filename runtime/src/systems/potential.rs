@@ -3,12 +3,14 @@
 mod few_coordinates;
 mod from_fn;
 mod hessian;
+mod sum;
 mod vectorised;
 
 pub use few_coordinates::FewCoordinates;
 pub(crate) use few_coordinates::Repeated;
 pub use from_fn::{FromFn, from_fn};
 pub use hessian::HessianProduct;
+pub use sum::Sum;
 pub use vectorised::Vectorised;
 
 use crate::number::Number;

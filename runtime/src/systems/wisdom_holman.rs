@@ -12,7 +12,10 @@
 //!
 //! In Jacobi coordinates B depends on Q only, and of A only T = Σ P²/2m′ does not commute with it. So `[B,[A,B]]` is `[B,[T,B]]`, and a gradient kick
 //! is the flow of −½B_QᵀM′⁻¹B_Q as for H = T + U. With v = M′⁻¹B_Q its rate of β is −vᵀ∂(−3B)/∂Q = 3vᵀB_Q.
+//!
+//! B may have a potential of the inertial positions beside the attraction, of any form ([`WisdomHolman::beside`]): relativity, an oblate body, a tide.
 
+mod beside;
 mod bodies;
 mod heliocentric;
 mod interactions;
@@ -21,6 +24,7 @@ mod orbits;
 pub mod secular;
 mod together;
 
+pub use beside::NoPotential;
 pub use bodies::{Bodies, BodiesError};
 pub use heliocentric::DemocraticHeliocentric;
 pub use jacobi::Jacobi;
@@ -32,9 +36,11 @@ use crate::systems::displaced::Displacements;
 use crate::systems::gradient_kicks::{Curvature, GradientKicks, Place};
 use crate::systems::increments::Carried;
 use crate::systems::kept::KeptForce;
+use crate::systems::potential::Potential;
 use crate::systems::state::{State, VectorState};
 use crate::systems::summation::{Compensated, Half};
 use crate::systems::system::System;
+use beside::Beside;
 
 /// Canonical coordinates in which a planetary system is a sum of Kepler orbits and interactions.
 ///
@@ -44,7 +50,7 @@ pub trait PlanetaryCoordinates<N: Number, const D: usize> {
     /// [`Quadratic`](crate::systems::kinetic::Quadratic) where the kick depends on Q only, else [`General`](crate::systems::kinetic::General).
     type Class;
 
-    /// Whether the kick depends on Q only, so that `[B,[A,B]]` has a flow of its own: gradient kicks.
+    /// Whether the kick depends on Q only, so that `[B,[A,B]]` has a flow of its own, gradient kicks, and B may have other potentials.
     const HAS_GRADIENT_KICKS: bool;
 
     /// The coordinates for bodies of these masses.
@@ -53,16 +59,34 @@ pub trait PlanetaryCoordinates<N: Number, const D: usize> {
     /// The Kepler orbits of A.
     fn orbits(&self) -> &Orbits<N>;
 
-    /// canonical ← the coordinates of an inertial state; each is positions and momenta, body after body.
-    fn assign_from_inertial(&mut self, inertial: (&[N], &[N]), canonical: (&mut [N], &mut [N]));
+    /// canonical ← the coordinates of inertial positions, body after body.
+    fn assign_positions(&mut self, inertial: &[N], canonical: &mut [N]);
+
+    /// canonical ← the coordinates of inertial momenta. A gradient by inertial positions becomes one by Q in the same way, as the coordinates are canonical.
+    fn assign_momenta(&mut self, inertial: &[N], canonical: &mut [N]);
+
+    /// inertial ← the positions with these coordinates.
+    fn assign_inertial_positions(&mut self, canonical: &[N], inertial: &mut [N]);
+
+    /// inertial ← the momenta with these coordinates.
+    fn assign_inertial_momenta(&mut self, canonical: &[N], inertial: &mut [N]);
+
+    /// canonical ← the coordinates of an inertial state; each is positions and momenta.
+    fn assign_from_inertial(&mut self, (q, p): (&[N], &[N]), (own_q, own_p): (&mut [N], &mut [N])) {
+        self.assign_positions(q, own_q);
+        self.assign_momenta(p, own_p);
+    }
 
     /// inertial ← the state with these coordinates.
-    fn assign_inertial(&mut self, canonical: (&[N], &[N]), inertial: (&mut [N], &mut [N]));
+    fn assign_inertial(&mut self, (own_q, own_p): (&[N], &[N]), (q, p): (&mut [N], &mut [N])) {
+        self.assign_inertial_positions(own_q, q);
+        self.assign_inertial_momenta(own_p, p);
+    }
 
-    /// gradient ← ∂B/∂Q and, if asked for, rate ← QᵀB_Q − 2B = −3B, of the part of B that depends on Q.
+    /// gradient ← ∂B/∂Q and, if asked for, rate ← QᵀB_Q − 2B = −3B, of the attraction in B.
     fn gradient_and_rate(&mut self, q: &[N], gradient: &mut [N], rate: Option<&mut N>);
 
-    /// product ← B_QQ v, of the part of B that depends on Q.
+    /// product ← B_QQ v, of the attraction in B.
     fn hessian_product(&mut self, q: &[N], v: &[N], product: &mut [N]);
 
     /// The velocity with which the part of B that depends on P moves all planets; there is none by default.
@@ -71,7 +95,7 @@ pub trait PlanetaryCoordinates<N: Number, const D: usize> {
         None
     }
 
-    /// energy ← B
+    /// energy ← B without other potentials
     fn assign_interaction_energy(&mut self, canonical: (&[N], &[N]), energy: &mut N);
 }
 
@@ -99,12 +123,13 @@ pub trait PlanetaryCoordinates<N: Number, const D: usize> {
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Debug)]
-pub struct WisdomHolman<N: Number, C, const D: usize> {
+pub struct WisdomHolman<N: Number, C, const D: usize, P = NoPotential> {
     coordinates: C,
+    beside: Option<Box<Beside<N, P>>>,
     state: VectorState<N>,
     /// ∂B/∂Q
     gradient: Vec<N>,
-    /// −3B
+    /// QᵀB_Q − 2B
     rate: N,
     kept: KeptForce,
     /// Once there was a gradient kick; what it keeps belongs to the Q of the last evaluation.
@@ -132,6 +157,7 @@ impl<N: Number, C: PlanetaryCoordinates<N, D>, const D: usize> WisdomHolman<N, C
         let orbits = orbits::Advance::new(coordinates.orbits(), context);
         let mut system = WisdomHolman {
             coordinates,
+            beside: None,
             state: State::new(zeros(), zeros(), context).compensated_if(false),
             gradient: zeros(),
             rate: N::zero(context),
@@ -143,6 +169,61 @@ impl<N: Number, C: PlanetaryCoordinates<N, D>, const D: usize> WisdomHolman<N, C
         Ok(system)
     }
 
+    /// The same system with a potential of the inertial positions, body after body, as a part of B.
+    ///
+    /// Kicks are its flow together with the attraction; β and the modified energy take it for what it is, of whatever degree. Gradient kicks need its
+    /// [second derivatives](Potential::hessian), unless they are by displaced forces.
+    ///
+    /// ```
+    /// use shadowstep::systems::potential::from_fn;
+    /// use shadowstep::systems::wisdom_holman::{Bodies, Jacobi, WisdomHolman};
+    /// use shadowstep::{Stepper, System, exact, tables};
+    ///
+    /// // a tide k m |x|²/2 of each body of the plane
+    /// let tide = from_fn(4, |x, gradient| {
+    ///     let [k, m] = [0.01, [1.0, 1.0, 0.001, 0.001]];
+    ///     (0..4).for_each(|i| gradient[i] = k * m[i] * x[i]);
+    ///     (0..4).map(|i| gradient[i] * x[i]).sum::<f64>() / 2.0
+    /// });
+    /// let bodies = Bodies::new(exact("1")?, vec![exact("1")?, exact("1/1000")?])?;
+    /// let state = (&[0.0, 0.0, 1.0, 0.0][..], &[0.0, 0.0, 0.0, 0.001][..]);
+    /// let mut planets = WisdomHolman::<_, Jacobi<_, 2>, 2>::new(&bodies, state, &())?.beside(Some(tide))?;
+    ///
+    /// let before = planets.energy();
+    /// let stepper = Stepper::new(tables::shipped("saba4").unwrap(), "1/10")?;
+    /// for _ in 0..1000 {
+    ///     stepper.step(&mut planets);
+    /// }
+    /// assert!((planets.energy() / before - 1.0).abs() < 1e-8);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// A potential of another dimension; coordinates in which kicks depend on momenta, so that B would have no exact flow.
+    pub fn beside<P: Potential<N>>(self, potential: Option<P>) -> Result<WisdomHolman<N, C, D, P>, BodiesError> {
+        let WisdomHolman { coordinates, state, gradient, rate, gradient_kicks, orbits, .. } = self;
+        let dimension = state.q.len();
+        if let Some(found) = potential.as_ref().map(Potential::dimension).filter(|found| *found != dimension) {
+            return Err(BodiesError::Potential { found, bodies: dimension / D, dimensions: D });
+        }
+        if potential.is_some() && !C::HAS_GRADIENT_KICKS {
+            return Err(BodiesError::NoFlow);
+        }
+        let beside = potential.map(|potential| Box::new(Beside::new(potential, &state.context())));
+        Ok(WisdomHolman {
+            coordinates,
+            beside,
+            state,
+            gradient,
+            rate,
+            kept: KeptForce::Nothing,
+            gradient_kicks,
+            orbits,
+        })
+    }
+}
+
+impl<N: Number, C: PlanetaryCoordinates<N, D>, const D: usize, P: Potential<N>> WisdomHolman<N, C, D, P> {
     /// The same system with [compensated sums](crate::systems::summation::Compensated): the round-off of a kick or drift is ε times the increment, in place of ε
     /// times the coordinate.
     #[must_use]
@@ -181,13 +262,20 @@ impl<N: Number, C: PlanetaryCoordinates<N, D>, const D: usize> WisdomHolman<N, C
         &self.coordinates
     }
 
+    /// gradient ← ∂B/∂Q at a Q, of the part of B that depends on Q.
+    pub fn assign_gradient(&mut self, q: &[N], gradient: &mut [N]) {
+        let WisdomHolman { coordinates, beside, .. } = self;
+        Interacting { coordinates, beside }.gradient(q, gradient, None);
+    }
+
     /// Evaluates the gradient at the present Q, unless it is known.
     fn evaluate(&mut self, with_rate: bool) {
         if self.kept.suffices(with_rate) {
             return;
         }
         let rate = with_rate.then_some(&mut self.rate);
-        self.coordinates.gradient_and_rate(&self.state.q, &mut self.gradient, rate);
+        let (coordinates, beside) = (&mut self.coordinates, &mut self.beside);
+        Interacting { coordinates, beside }.gradient(&self.state.q, &mut self.gradient, rate);
         self.kept = if with_rate { KeptForce::GradientAndRate } else { KeptForce::Gradient };
         self.state.count_evaluation();
         if let Some(kicks) = &mut self.gradient_kicks {
@@ -206,35 +294,51 @@ impl<N: Number, C: PlanetaryCoordinates<N, D>, const D: usize> WisdomHolman<N, C
     }
 }
 
-/// The second derivatives of B.
-struct Interacting<'a, C, const D: usize>(&'a mut C);
+/// The derivatives of B.
+struct Interacting<'a, N, C, P, const D: usize> {
+    coordinates: &'a mut C,
+    beside: &'a mut Option<Box<Beside<N, P>>>,
+}
 
-impl<N: Number, C: PlanetaryCoordinates<N, D>, const D: usize> Curvature<N> for Interacting<'_, C, D> {
+impl<N: Number, C: PlanetaryCoordinates<N, D>, P: Potential<N>, const D: usize> Curvature<N>
+    for Interacting<'_, N, C, P, D>
+{
     fn assign_velocity(&mut self, gradient: &[N], velocity: &mut [N]) {
-        // B does not depend on the centre of mass
-        let (centre, planets) = velocity.split_at_mut(D);
-        centre.iter_mut().for_each(N::assign_zero);
-        let orbits = &self.0.orbits().planets;
-        for ((velocity, gradient), orbit) in planets.chunks_mut(D).zip(gradient[D..].chunks(D)).zip(orbits) {
-            velocity.iter_mut().zip(gradient).for_each(|(v, gradient)| v.assign_quotient(gradient, &orbit.mass));
+        let orbits = self.coordinates.orbits();
+        let masses = std::iter::once(&orbits.total_mass).chain(orbits.planets.iter().map(|orbit| &orbit.mass));
+        for ((velocity, gradient), mass) in velocity.chunks_mut(D).zip(gradient.chunks(D)).zip(masses) {
+            velocity.iter_mut().zip(gradient).for_each(|(v, gradient)| v.assign_quotient(gradient, mass));
         }
     }
 
     fn hessian_product(&mut self, at: Place<'_, N>, v: &[N], product: &mut [N], rate: Option<&mut N>) {
-        self.0.hessian_product(at.q, v, product);
+        self.coordinates.hessian_product(at.q, v, product);
+        if let Some(beside) = self.beside {
+            beside.add_hessian_product::<C, D>(self.coordinates, (at.q, v), product);
+        }
         let Some(rate) = rate else { return };
-        // QᵀB_Q − 2B = −3B
         rate.assign_zero();
         v.iter().zip(at.gradient).for_each(|(v, gradient)| rate.add_product(v, gradient));
-        rate.multiply_integer(-3);
+        match self.beside {
+            // QᵀB_Q − 2B = −3B
+            None => rate.multiply_integer(-3),
+            // of any B: its derivative is QᵀB_QQ v − vᵀB_Q
+            Some(_) => {
+                rate.negate();
+                at.q.iter().zip(product).for_each(|(q, product)| rate.add_product(q, product));
+            }
+        }
     }
 
-    fn gradient(&mut self, q: &[N], gradient: &mut [N], rate: Option<&mut N>) {
-        self.0.gradient_and_rate(q, gradient, rate);
+    fn gradient(&mut self, q: &[N], gradient: &mut [N], mut rate: Option<&mut N>) {
+        self.coordinates.gradient_and_rate(q, gradient, rate.as_deref_mut());
+        if let Some(beside) = self.beside {
+            beside.add_gradient::<C, D>(self.coordinates, q, gradient, rate);
+        }
     }
 }
 
-impl<N: Number, C: PlanetaryCoordinates<N, D>, const D: usize> System for WisdomHolman<N, C, D> {
+impl<N: Number, C: PlanetaryCoordinates<N, D>, const D: usize, P: Potential<N>> System for WisdomHolman<N, C, D, P> {
     type Number = N;
     type Class = C::Class;
     type Coordinates = Vec<N>;
@@ -271,7 +375,8 @@ impl<N: Number, C: PlanetaryCoordinates<N, D>, const D: usize> System for Wisdom
     }
 
     fn has_gradient_kicks(&self) -> bool {
-        C::HAS_GRADIENT_KICKS
+        let is_displaced = self.gradient_kicks.as_ref().is_some_and(|kicks| kicks.is_displaced());
+        C::HAS_GRADIENT_KICKS && (is_displaced || self.beside.as_ref().is_none_or(|beside| beside.has_hessian()))
     }
 
     /// The gradient kick p ← p + weight·B_QQ M′⁻¹B_Q.
@@ -282,12 +387,12 @@ impl<N: Number, C: PlanetaryCoordinates<N, D>, const D: usize> System for Wisdom
         );
         let augmented = carried.has_increments();
         self.evaluate(augmented);
-        let WisdomHolman { coordinates, state, gradient, rate, gradient_kicks, .. } = self;
+        let WisdomHolman { coordinates, beside, state, gradient, rate, gradient_kicks, .. } = self;
         let kicks =
             gradient_kicks.get_or_insert_with(|| Box::new(GradientKicks::new(state.q.len(), None, &weight.context())));
         let before = kicks.evaluations;
         let place = Place { q: &state.q, gradient, rate };
-        kicks.evaluate(&mut Interacting::<C, D>(coordinates), place, weight, augmented);
+        kicks.evaluate(&mut Interacting { coordinates, beside }, place, weight, augmented);
         if kicks.is_displaced() {
             state.evaluations += kicks.evaluations - before;
         }
@@ -299,9 +404,12 @@ impl<N: Number, C: PlanetaryCoordinates<N, D>, const D: usize> System for Wisdom
 
     /// H is the same as in inertial coordinates; `kinetic` is T.
     fn assign_energies(&mut self, at: Option<(&[N], &[N])>, energy: &mut N, kinetic: &mut N) {
-        let WisdomHolman { coordinates, state, orbits, .. } = self;
+        let WisdomHolman { coordinates, beside, state, orbits, .. } = self;
         let at = at.unwrap_or((&state.q, &state.p));
         coordinates.assign_interaction_energy(at, energy);
+        if let Some(beside) = beside {
+            beside.add_energy::<C, D>(coordinates, at.0, energy);
+        }
         orbits.add_energies(coordinates.orbits(), at, energy, kinetic);
     }
 }

@@ -77,6 +77,21 @@ pub enum BodiesError {
         /// Its mass.
         found: String,
     },
+    /// A potential of positions with more or fewer coordinates.
+    #[error("a potential of {found} coordinates is not one of {bodies} bodies in {dimensions} dimensions")]
+    Potential {
+        /// The dimension of the potential.
+        found: usize,
+        /// How many bodies there are.
+        bodies: usize,
+        /// The dimensions of their positions.
+        dimensions: usize,
+    },
+    /// A potential beside the attraction in heliocentric coordinates.
+    #[error(
+        "in heliocentric coordinates kicks move the planets, so that a potential beside their attraction has no exact flow with them"
+    )]
+    NoFlow,
     /// An initial value is infinite or NaN.
     #[error("the initial value of {name} is not finite")]
     NotFinite {

@@ -57,17 +57,24 @@ impl<N: Number, const D: usize> PlanetaryCoordinates<N, D> for DemocraticHelioce
         &self.orbits
     }
 
-    fn assign_from_inertial(&mut self, (q, p): (&[N], &[N]), (own_q, own_p): (&mut [N], &mut [N])) {
-        let ((q, _), (p, _)) = (q.as_chunks::<D>(), p.as_chunks::<D>());
-        let ((own_q, _), (own_p, _)) = (own_q.as_chunks_mut::<D>(), own_p.as_chunks_mut::<D>());
+    fn assign_positions(&mut self, q: &[N], own: &mut [N]) {
+        let ((q, _), (own_q, _)) = (q.as_chunks::<D>(), own.as_chunks_mut::<D>());
         for axis in 0..D {
             own_q[0][axis].assign(&q[0][axis]);
-            own_p[0][axis].assign_zero();
-            p.iter().for_each(|p| own_p[0][axis].add(&p[axis]));
             for (i, share) in (1..).zip(&self.shares) {
                 self.scratch.assign_difference(&q[i][axis], &q[0][axis]);
                 own_q[i][axis].assign(&self.scratch);
                 own_q[0][axis].add_product(share, &self.scratch);
+            }
+        }
+    }
+
+    fn assign_momenta(&mut self, p: &[N], own: &mut [N]) {
+        let ((p, _), (own_p, _)) = (p.as_chunks::<D>(), own.as_chunks_mut::<D>());
+        for axis in 0..D {
+            own_p[0][axis].assign_zero();
+            p.iter().for_each(|p| own_p[0][axis].add(&p[axis]));
+            for (i, share) in (1..).zip(&self.shares) {
                 self.scratch.assign(&p[i][axis]);
                 self.scratch.subtract_product(share, &own_p[0][axis]);
                 own_p[i][axis].assign(&self.scratch);
@@ -75,18 +82,25 @@ impl<N: Number, const D: usize> PlanetaryCoordinates<N, D> for DemocraticHelioce
         }
     }
 
-    fn assign_inertial(&mut self, (own_q, own_p): (&[N], &[N]), (q, p): (&mut [N], &mut [N])) {
-        let ((own_q, _), (own_p, _)) = (own_q.as_chunks::<D>(), own_p.as_chunks::<D>());
-        let ((q, _), (p, _)) = (q.as_chunks_mut::<D>(), p.as_chunks_mut::<D>());
+    fn assign_inertial_positions(&mut self, own: &[N], q: &mut [N]) {
+        let ((own_q, _), (q, _)) = (own.as_chunks::<D>(), q.as_chunks_mut::<D>());
         for axis in 0..D {
             q[0][axis].assign(&own_q[0][axis]);
             for (q_i, share) in own_q[1..].iter().zip(&self.shares) {
                 q[0][axis].subtract_product(share, &q_i[axis]);
             }
-            p[0][axis].assign(&own_p[0][axis]);
-            for (i, share) in (1..).zip(&self.shares) {
+            for i in 1..=self.shares.len() {
                 self.scratch.assign_sum(&q[0][axis], &own_q[i][axis]);
                 q[i][axis].assign(&self.scratch);
+            }
+        }
+    }
+
+    fn assign_inertial_momenta(&mut self, own: &[N], p: &mut [N]) {
+        let ((own_p, _), (p, _)) = (own.as_chunks::<D>(), p.as_chunks_mut::<D>());
+        for axis in 0..D {
+            p[0][axis].assign(&own_p[0][axis]);
+            for (i, share) in (1..).zip(&self.shares) {
                 self.scratch.assign(&own_p[i][axis]);
                 self.scratch.add_product(share, &own_p[0][axis]);
                 p[i][axis].assign(&self.scratch);

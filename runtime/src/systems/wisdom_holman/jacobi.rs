@@ -68,37 +68,54 @@ impl<N: Number, const D: usize> PlanetaryCoordinates<N, D> for Jacobi<N, D> {
         &self.orbits
     }
 
-    fn assign_from_inertial(&mut self, (q, p): (&[N], &[N]), (own_q, own_p): (&mut [N], &mut [N])) {
-        let ((q, _), (p, _)) = (q.as_chunks::<D>(), p.as_chunks::<D>());
-        let ((own_q, _), (own_p, _)) = (own_q.as_chunks_mut::<D>(), own_p.as_chunks_mut::<D>());
+    fn assign_positions(&mut self, q: &[N], own: &mut [N]) {
+        let ((q, _), (own_q, _)) = (q.as_chunks::<D>(), own.as_chunks_mut::<D>());
         for axis in 0..D {
-            let (mut centre, mut momentum) = (q[0][axis].clone(), p[0][axis].clone());
-            for (i, [own, inner]) in (1..).zip(&self.shares) {
+            let mut centre = q[0][axis].clone();
+            for (i, [own, _]) in (1..).zip(&self.shares) {
                 own_q[i][axis].assign_difference(&q[i][axis], &centre);
                 centre.add_product(own, &own_q[i][axis]);
+            }
+            own_q[0][axis].assign(&centre);
+        }
+    }
+
+    fn assign_momenta(&mut self, p: &[N], own: &mut [N]) {
+        let ((p, _), (own_p, _)) = (p.as_chunks::<D>(), own.as_chunks_mut::<D>());
+        for axis in 0..D {
+            let mut momentum = p[0][axis].clone();
+            for (i, [own, inner]) in (1..).zip(&self.shares) {
                 own_p[i][axis].assign_product(inner, &p[i][axis]);
                 own_p[i][axis].subtract_product(own, &momentum);
                 momentum.add(&p[i][axis]);
             }
-            own_q[0][axis].assign(&centre);
             own_p[0][axis].assign(&momentum);
         }
     }
 
-    fn assign_inertial(&mut self, (own_q, own_p): (&[N], &[N]), (q, p): (&mut [N], &mut [N])) {
-        let ((own_q, _), (own_p, _)) = (own_q.as_chunks::<D>(), own_p.as_chunks::<D>());
-        let ((q, _), (p, _)) = (q.as_chunks_mut::<D>(), p.as_chunks_mut::<D>());
+    fn assign_inertial_positions(&mut self, own: &[N], q: &mut [N]) {
+        let ((own_q, _), (q, _)) = (own.as_chunks::<D>(), q.as_chunks_mut::<D>());
         for axis in 0..D {
-            let (mut centre, mut momentum) = (own_q[0][axis].clone(), own_p[0][axis].clone());
+            let mut centre = own_q[0][axis].clone();
             for (before, [own, _]) in self.shares.iter().enumerate().rev() {
                 let i = before + 1;
                 centre.subtract_product(own, &own_q[i][axis]);
                 q[i][axis].assign_sum(&centre, &own_q[i][axis]);
+            }
+            q[0][axis].assign(&centre);
+        }
+    }
+
+    fn assign_inertial_momenta(&mut self, own: &[N], p: &mut [N]) {
+        let ((own_p, _), (p, _)) = (own.as_chunks::<D>(), p.as_chunks_mut::<D>());
+        for axis in 0..D {
+            let mut momentum = own_p[0][axis].clone();
+            for (before, [own, _]) in self.shares.iter().enumerate().rev() {
+                let i = before + 1;
                 p[i][axis].assign(&own_p[i][axis]);
                 p[i][axis].add_product(own, &momentum);
                 momentum.subtract(&p[i][axis]);
             }
-            q[0][axis].assign(&centre);
             p[0][axis].assign(&momentum);
         }
     }
