@@ -169,7 +169,9 @@ fn describe(name: String, system: System) -> Described {
         }
         PotentialEnergy::Formula(formula) => (name.clone(), format!("{kinetic} + {}", formula.text())),
         PotentialEnergy::Pairs(pairs) => {
-            (name.clone(), format!("{kinetic} + the sum over pairs of {}", pairs.formula.text()))
+            let of_bodies = pairs.of_bodies.iter().map(|energy| format!(" + the sum over bodies of {}", energy.text()));
+            let of_pairs = format!("{kinetic} + the sum over pairs of {}", pairs.formula.text());
+            (name.clone(), of_bodies.fold(of_pairs, |all, energy| all + &energy))
         }
         PotentialEnergy::Own(own) => (name.clone(), format!("{kinetic} + {}", own.name())),
         PotentialEnergy::OfParts => (name.clone(), system.parts.hamiltonian().unwrap_or_default()),

@@ -48,7 +48,7 @@ class Problem:
         The section [time] of a scene as a mapping: steps that become short in close encounters.
     **others
         Parameters by their names, with numbers or texts. Other keys of [problem] are taken as they are: ``coordinates``, ``momenta``,
-        ``bodies``, ``dimensions``, ``neighbours``, ``cutoff``, ``box``, ``units``, ….
+        ``bodies``, ``dimensions``, ``neighbours``, ``cutoff``, ``box``, ``units``, ``central``, ….
 
     Own forces
     ----------
@@ -278,7 +278,7 @@ def problem_of(problem: Any) -> Problem:
 
 
 # keys of [problem] and [initial]; every other keyword is a parameter
-_PROBLEM = ("coordinates", "momenta", "bodies", "dimensions", "neighbours", "cutoff", "box", "units", "elements", "barycentric", "parameters")
+_PROBLEM = ("coordinates", "momenta", "bodies", "dimensions", "neighbours", "cutoff", "box", "units", "elements", "barycentric", "central", "external", "parameters")
 
 
 def _sections(system: str | None, q: Values | None, p: Values | None, v: Values | None, others: Mapping[str, Any]) -> dict[str, Any]:

@@ -228,6 +228,22 @@ pub(crate) const KEYS: [Key; 74] = [
         "true",
         Some("false"),
     ),
+    key(
+        "problem",
+        "central",
+        "For [[body]]: an energy of each body but the first beside the attraction, a smooth formula in its position x, y, z relative to the first \
+         body, in its distance r, its mass m, the mass m0 of the first body, g and the parameters; by kicks, also with \
+         parts = \"wisdom-holman\". The example turns pericentres as general relativity does.",
+        "\"-3*(g*m0)^2*m/(c^2*r^2)\"",
+        Some("none; bodies attract each other only"),
+    ),
+    key(
+        "problem",
+        "external",
+        "For [[body]]: an energy of each body, the first too, in the same names; x, y, z and r are those of the inertial frame.",
+        "\"m*tide*z^2/2\"",
+        Some("none; there are no other forces"),
+    ),
     key("problem.cutoff", "at", "The distance at which the energy is 0.", "\"5/2\"", None),
     key("problem.cutoff", "from", "The distance from which on it falls.", "2", None),
     key(

@@ -2,14 +2,13 @@
 
 use shadowstep::number::{Dual, Lanes, Number};
 use shadowstep::problems::Setup;
-use shadowstep::systems::formula::FormulaPair;
 use shadowstep::systems::kinetic::{General, Quadratic};
 use shadowstep::systems::summation::Compensated;
 use shadowstep::tangent::{TangentError, Tangents};
 use shadowstep::{DiagonalMasses, Kinetic, Motion, Potential, UnitMasses};
 use shadowstep_symbolic::{Exact, parse};
 
-use crate::scene::{ClassifiedKinetic, KineticEnergy, PairEnergy, PotentialEnergy, System};
+use crate::scene::{ClassifiedKinetic, Formula, KineticEnergy, PairEnergy, PotentialEnergy, System};
 use crate::start::{SceneIntegrator, Steps};
 use crate::tangent::{components, scales};
 
@@ -139,7 +138,10 @@ impl System {
         let potential = match &self.potential {
             PotentialEnergy::Shipped(setup) => setup.problem.has_functions(),
             PotentialEnergy::Formula(formula) => formula_has_functions(formula.text()),
-            PotentialEnergy::Pairs(pairs) => formula_has_functions(pairs.formula.text()),
+            PotentialEnergy::Pairs(pairs) => {
+                let of_bodies = pairs.of_bodies.iter().map(Formula::text);
+                of_bodies.chain([pairs.formula.text()]).any(formula_has_functions)
+            }
             PotentialEnergy::Own(_) | PotentialEnergy::OfParts => true,
         };
         kinetic || potential
@@ -170,7 +172,10 @@ fn have_one_form(a: &System, b: &System) -> bool {
 fn pairs_have_one_form(a: &PairEnergy, b: &PairEnergy) -> bool {
     let names = |pairs: &PairEnergy| pairs.properties.iter().map(|(name, _)| name.clone()).collect::<Vec<_>>();
     let form = |pairs: &PairEnergy| (pairs.dimensions, pairs.bodies, pairs.ends);
-    a.formula.text() == b.formula.text() && form(a) == form(b) && names(a) == names(b)
+    let of_bodies = |pairs: &PairEnergy| {
+        pairs.of_bodies.iter().map(|energy| (energy.key(), energy.text().to_owned())).collect::<Vec<_>>()
+    };
+    a.formula.text() == b.formula.text() && form(a) == form(b) && names(a) == names(b) && of_bodies(a) == of_bodies(b)
 }
 
 /// An exact number of each system, rounded once.
@@ -195,19 +200,19 @@ fn potential<N: OfLanes>(systems: &[&System; LANES]) -> Box<dyn Potential<N>> {
             _ => unreachable!("the systems have one form"),
         })),
         PotentialEnergy::Formula(formula) => Box::new(formula.meaning().in_numbers(parameters(systems))),
-        PotentialEnergy::Pairs(pairs) => pairs.of_pair(pair(systems, pairs)),
+        PotentialEnergy::Pairs(pairs) => of_pairs(systems, pairs),
         PotentialEnergy::Own(_) | PotentialEnergy::OfParts => unreachable!("the systems have one form"),
     }
 }
 
-fn pair<N: OfLanes>(systems: &[&System; LANES], first: &PairEnergy) -> FormulaPair<N> {
+fn of_pairs<N: OfLanes>(systems: &[&System; LANES], first: &PairEnergy) -> Box<dyn Potential<N>> {
     let property = |lane: usize, k: usize| match &systems[lane].potential {
         PotentialEnergy::Pairs(pairs) => pairs.properties[k].1.as_slice(),
         _ => unreachable!("the systems have one form"),
     };
     let properties = first.properties.iter().enumerate();
     let properties = properties.map(|(k, _)| in_lanes(|lane| property(lane, k))).collect();
-    first.formula.meaning().in_numbers(properties, parameters(systems))
+    first.with_values(properties, parameters(systems))
 }
 
 fn kinetic<N: OfLanes>(systems: &[&System; LANES]) -> ClassifiedKinetic<N> {

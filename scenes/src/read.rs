@@ -13,6 +13,7 @@ mod magnetic;
 mod many_parts;
 mod names;
 mod numbers;
+mod of_bodies;
 mod output;
 mod pair;
 mod parts;

@@ -28,7 +28,7 @@ pub const SHIPPED_SCENES: [(&str, &[ShippedScene]); 7] = [
     ("schemes with gradient kicks or processors", &SCHEMES),
 ];
 
-pub(crate) const PLANETARY: [ShippedScene; 5] = [
+pub(crate) const PLANETARY: [ShippedScene; 7] = [
     ShippedScene {
         name: "outer-planets",
         title: "The Sun and the outer planets, on Kepler orbits that interact",
@@ -38,6 +38,16 @@ pub(crate) const PLANETARY: [ShippedScene; 5] = [
         name: "eight-planets",
         title: "The Sun and the eight planets, by orbital elements",
         text: include_str!("../planets/eight-planets.toml"),
+    },
+    ShippedScene {
+        name: "relativity",
+        title: "The same with relativity's part of the turn of the pericentres, by a potential",
+        text: include_str!("../planets/relativity.toml"),
+    },
+    ShippedScene {
+        name: "oblate-earth",
+        title: "A satellite of the Earth and its oblateness",
+        text: include_str!("../planets/oblate-earth.toml"),
     },
     ShippedScene {
         name: "sun-jupiter-saturn",

@@ -30,13 +30,13 @@ pub(super) fn is_in_kinetic(reader: &Reader<'_>, given: &Given) -> bool {
     given.kinetic.as_ref().is_some_and(|text| is_in(reader, given, &text.value))
 }
 
-/// Refuses t in formulas of bodies.
-pub(super) fn refuse(reader: &mut Reader<'_>, given: &Given, formulas: [Option<&Text>; 2]) -> Option<()> {
+/// Refuses t in formulas of bodies; `what` does not depend on it.
+pub(super) fn refuse(reader: &mut Reader<'_>, given: &Given, formulas: [Option<&Text>; 2], what: &str) -> Option<()> {
     let Some(formula) = formulas.into_iter().flatten().find(|formula| is_in(reader, given, &formula.value)) else {
         return Some(());
     };
     let help = "write all of U as `potential`, in which t is the time";
-    reader.toml.wrong(&formula.at, "a sum over pairs of bodies does not depend on t", help)
+    reader.toml.wrong(&formula.at, format!("{what} does not depend on t"), help)
 }
 
 /// Adds t and its momentum to the names.

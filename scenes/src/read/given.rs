@@ -24,6 +24,9 @@ pub(super) struct Given {
     pub(super) masses: Option<Numbers>,
     /// T(p)
     pub(super) kinetic: Option<Text>,
+    /// Energies of each body of a planetary system.
+    pub(super) central: Option<Text>,
+    pub(super) external: Option<Text>,
     pub(super) bodies: Option<GivenBodies>,
     pub(super) dimensions: Option<usize>,
     pub(super) neighbours: Option<Ends>,
@@ -54,6 +57,8 @@ impl Given {
             momenta: reader.names(problem, "momenta", "a list of names: [\"px\", \"py\"]"),
             masses: problem.get("masses").and_then(|value| masses(reader, value)),
             kinetic: problem.get("kinetic").and_then(|value| reader.toml.text(value)),
+            central: problem.get("central").and_then(|value| reader.toml.text(value)),
+            external: problem.get("external").and_then(|value| reader.toml.text(value)),
             bodies: problem.get("bodies").and_then(|value| GivenBodies::read(reader, value)),
             dimensions: problem
                 .get("dimensions")

@@ -79,7 +79,8 @@ pub(super) fn problem(
     if let Some(initial) = &given.initial {
         given.state.all_there(reader, initial);
     }
-    explicit_time::refuse(reader, given, [pair.as_ref().map(|pair| &pair.text), given.kinetic.as_ref()])?;
+    let formulas = [pair.as_ref().map(|pair| &pair.text), given.kinetic.as_ref()];
+    explicit_time::refuse(reader, given, formulas, "a sum over pairs of bodies")?;
     let (pair, bodies, dimensions) = (pair?, bodies?, dimensions?);
     let (coordinates, momenta) = names(bodies.count, dimensions);
     let named = !has_names_of_bodies(reader, given, &coordinates, &momenta);
@@ -140,7 +141,8 @@ fn pair_energy(
         reader.notes.push(Note::AsymmetricPair { formula: pair.text.value.clone() });
     }
     let Bodies { count, properties } = bodies;
-    let energy = PairEnergy { formula, dimensions, bodies: count, properties, ends, cutoff: cutoff?.map(Box::new) };
+    let cutoff = cutoff?.map(Box::new);
+    let energy = PairEnergy { formula, dimensions, bodies: count, properties, ends, cutoff, of_bodies: Vec::new() };
     (reader.toml.faults.len() == before).then_some(energy)
 }
 

@@ -18,11 +18,11 @@ const KINETIC_AND_POTENTIAL: Split = |_, _, _| Ok(Parts::KineticAndPotential(Kin
 
 /// The values of `parts`.
 const WORDS: [(&str, Split); 4] = [
-    (CanonicalCoordinates::Jacobi.name(), |_, _, bodies| {
-        Planets::of(CanonicalCoordinates::Jacobi, bodies).map(Parts::WisdomHolman)
+    (CanonicalCoordinates::Jacobi.name(), |problem, _, bodies| {
+        Planets::of(CanonicalCoordinates::Jacobi, problem, bodies).map(Parts::WisdomHolman)
     }),
-    (CanonicalCoordinates::DemocraticHeliocentric.name(), |_, _, bodies| {
-        Planets::of(CanonicalCoordinates::DemocraticHeliocentric, bodies).map(Parts::WisdomHolman)
+    (CanonicalCoordinates::DemocraticHeliocentric.name(), |problem, _, bodies| {
+        Planets::of(CanonicalCoordinates::DemocraticHeliocentric, problem, bodies).map(Parts::WisdomHolman)
     }),
     (LINEAR, |problem, arithmetic, bodies| Linear::of(problem, arithmetic, bodies.is_some()).map(Parts::Linear)),
     ("kinetic-potential", KINETIC_AND_POTENTIAL),

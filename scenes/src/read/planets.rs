@@ -4,6 +4,7 @@ use std::ops::Range;
 
 use num_traits::{One, Zero};
 use shadowstep::Rational;
+use shadowstep::systems::formula::FormulaOfBodies;
 use shadowstep::systems::pairs::Separation;
 use shadowstep::systems::wisdom_holman::Bodies;
 use shadowstep_symbolic::Exact;
@@ -14,6 +15,7 @@ use super::given::Given;
 use super::kinetic;
 use super::names::check_name;
 use super::numbers::Numbers;
+use super::of_bodies;
 use super::parts::{self, Split};
 use super::reader::Reader;
 use super::units;
@@ -186,7 +188,8 @@ pub(super) fn system(
     if has_names_of_energy(reader, given) {
         return None;
     }
-    let (problem, bodies) = placing.into_system(reader, parameters, &names, &given.problem)?;
+    let of_bodies = of_bodies::energies(reader, given, (bodies.len(), dimensions), &parameters)?;
+    let (problem, bodies) = placing.into_system(reader, (parameters, of_bodies), &names, &given.problem)?;
     parts::split(reader, given, problem, split, Some((bodies, dimensions)))
 }
 
@@ -361,7 +364,7 @@ impl Placing {
     fn into_system(
         self,
         reader: &mut Reader<'_>,
-        parameters: Vec<(String, Exact)>,
+        (parameters, of_bodies): (Vec<(String, Exact)>, Vec<Formula<FormulaOfBodies<f64>>>),
         names: &[String],
         at: &Range<usize>,
     ) -> Option<(InitialValueProblem, Bodies)> {
@@ -384,7 +387,8 @@ impl Placing {
             Ok(formula) => formula,
             Err(error) => return reader.toml.wrong(at, error.to_string(), "give the parameters other names"),
         };
-        let pairs = PairEnergy { formula, dimensions, bodies: masses.len(), properties, ends: None, cutoff: None };
+        let count = masses.len();
+        let pairs = PairEnergy { formula, dimensions, bodies: count, properties, ends: None, cutoff: None, of_bodies };
         let problem = InitialValueProblem {
             p: p.collect(),
             q: states.iter().flat_map(|[q, _]| q.iter().cloned().map(exact)).collect(),

@@ -106,7 +106,7 @@ pub(super) fn system(
 
 /// Refuses what only bodies can have.
 fn refuse_keys_of_bodies(reader: &mut Reader<'_>, given: &Given) {
-    given.refuse(reader, &["units", "elements", "barycentric"], |key| {
+    given.refuse(reader, &["units", "elements", "barycentric", "central", "external"], |key| {
         (format!("{key} requires bodies"), format!("remove `{key}`, or give the bodies in sections [[body]]"))
     });
 }

@@ -121,6 +121,7 @@ fn pair_energy(pairs: &PairEnergy, texts: impl Fn(&[Exact]) -> Value) -> Vec<(&'
     [("pair", json!(pairs.formula.text())), ("dimensions", json!(pairs.dimensions)), ("bodies", bodies)]
         .into_iter()
         .chain(neighbours.map(|neighbours| ("neighbours", json!(neighbours))))
+        .chain(pairs.of_bodies.iter().map(|energy| (energy.key(), json!(energy.text()))))
         .chain(pairs.cutoff.iter().flat_map(|cutoff| cutoff_of_pairs(cutoff, &texts)))
         .collect()
 }

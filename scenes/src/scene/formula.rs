@@ -3,7 +3,9 @@
 use std::fmt;
 
 use shadowstep::Rational;
-use shadowstep::systems::formula::{FormulaError, FormulaKinetic, FormulaPair, FormulaPotential};
+use shadowstep::systems::formula::{
+    FormulaError, FormulaKinetic, FormulaOfBodies, FormulaPair, FormulaPotential, RelativeTo,
+};
 use shadowstep::systems::many_parts::{PartError, PartFormula};
 use shadowstep::systems::pairs::Separation;
 use shadowstep_symbolic::Exact;
@@ -75,6 +77,32 @@ impl Formula<FormulaPair<f64>> {
             properties.iter().map(|(name, _)| (name.as_str(), Vec::new())).collect();
         let meaning = FormulaPair::new(text, separation, &properties, &rounded(parameters, &()))?;
         Ok(Formula { text: text.to_owned(), meaning })
+    }
+}
+
+impl Formula<FormulaOfBodies<f64>> {
+    /// An energy of each of some bodies in 1 to 3 dimensions.
+    ///
+    /// # Errors
+    /// A text that is not a valid formula of these.
+    pub(crate) fn of_bodies(
+        text: &str,
+        relative_to: RelativeTo,
+        (bodies, dimensions): (usize, usize),
+        parameters: &[(String, Exact)],
+    ) -> Result<Self, FormulaError> {
+        // the masses are those of the run
+        let masses = vec![1.0; bodies];
+        let meaning = FormulaOfBodies::new(text, relative_to, dimensions, &masses, &rounded(parameters, &()))?;
+        Ok(Formula { text: text.to_owned(), meaning })
+    }
+
+    /// The key of the scene that gives it.
+    pub(crate) fn key(&self) -> &'static str {
+        match self.meaning.relative_to() {
+            RelativeTo::FirstBody => "central",
+            RelativeTo::Origin => "external",
+        }
     }
 }
 

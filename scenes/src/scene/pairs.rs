@@ -1,7 +1,8 @@
 //! The energy of pairs of bodies by its formula.
 
-use shadowstep::systems::formula::FormulaPair;
+use shadowstep::systems::formula::{FormulaOfBodies, FormulaPair};
 use shadowstep::systems::pairs::{Cutoff, CutoffError, CutoffPairs, Ends, Pairs};
+use shadowstep::systems::potential::Sum;
 use shadowstep::{Number, Potential};
 use shadowstep_symbolic::Exact;
 
@@ -25,6 +26,8 @@ pub struct PairEnergy {
     pub ends: Option<Ends>,
     /// Where the energy ends; none if all pairs interact, or those of a chain.
     pub(crate) cutoff: Option<Box<PairCutoff>>,
+    /// Energies of each body beside those of pairs, of bodies whose first property is their mass.
+    pub of_bodies: Vec<Formula<FormulaOfBodies<f64>>>,
 }
 
 /// Up to where bodies interact.
@@ -76,19 +79,54 @@ impl PairEnergy {
         parameters: &[(String, Exact)],
         context: &N::Context,
     ) -> Box<dyn Potential<N>> {
-        let number = |exact: &Exact| N::from_rational(&exact.value, context);
-        let properties = self.properties.iter().map(|(_, values)| values.iter().map(number).collect()).collect();
-        self.of_pair(self.formula.meaning().in_numbers(properties, values(parameters, context)))
+        self.with_values(self.numbers(context), values(parameters, context))
     }
 
-    /// U of the pair's energy.
-    pub(crate) fn of_pair<N: Number + 'static>(&self, pair: FormulaPair<N>) -> Box<dyn Potential<N>> {
-        match self.dimensions {
+    /// The properties in numbers of a run, each rounded once.
+    fn numbers<N: Number>(&self, context: &N::Context) -> Vec<Vec<N>> {
+        let number = |exact: &Exact| N::from_rational(&exact.value, context);
+        self.properties.iter().map(|(_, values)| values.iter().map(number).collect()).collect()
+    }
+
+    /// U with these values of properties and parameters.
+    pub(crate) fn with_values<N: Number + 'static>(
+        &self,
+        properties: Vec<Vec<N>>,
+        parameters: Vec<N>,
+    ) -> Box<dyn Potential<N>> {
+        let beside = self.beside_with(&properties, &parameters);
+        let pair = self.formula.meaning().in_numbers(properties, parameters);
+        let of_pairs = match self.dimensions {
             1 => self.sum::<N, 1>(pair),
             2 => self.sum::<N, 2>(pair),
             3 => self.sum::<N, 3>(pair),
             more => unreachable!("{more} dimensions are refused"),
+        };
+        match beside {
+            Some(beside) => Box::new(Sum(of_pairs, beside)),
+            None => of_pairs,
         }
+    }
+
+    /// The energies of each body beside those of pairs, if there are any.
+    pub(crate) fn beside<N: Number + 'static>(
+        &self,
+        parameters: &[(String, Exact)],
+        context: &N::Context,
+    ) -> Option<Box<dyn Potential<N>>> {
+        self.beside_with(&self.numbers(context), &values(parameters, context))
+    }
+
+    fn beside_with<N: Number + 'static>(
+        &self,
+        properties: &[Vec<N>],
+        parameters: &[N],
+    ) -> Option<Box<dyn Potential<N>>> {
+        let energies = self.of_bodies.iter();
+        let boxed = energies.map(|energy| -> Box<dyn Potential<N>> {
+            Box::new(energy.meaning().in_numbers(&properties[0], parameters))
+        });
+        boxed.reduce(|one, other| Box::new(Sum(one, other)))
     }
 
     fn sum<N: Number + 'static, const D: usize>(&self, pair: FormulaPair<N>) -> Box<dyn Potential<N>> {

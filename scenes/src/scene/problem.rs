@@ -99,6 +99,14 @@ impl InitialValueProblem {
         }
     }
 
+    /// The part of U beside the attraction of bodies, if there is one.
+    pub(crate) fn beside<N: Number + 'static>(&self, context: &N::Context) -> Option<Box<dyn Potential<N>>> {
+        match &self.potential {
+            PotentialEnergy::Pairs(pairs) => pairs.beside(&self.parameters, context),
+            _ => None,
+        }
+    }
+
     /// T(p), or T(p) + p_t
     pub(crate) fn kinetic<N: Number + 'static>(&self, context: &N::Context) -> ClassifiedKinetic<N> {
         let kinetic = self.kinetic_without_time(context);

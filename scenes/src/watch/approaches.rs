@@ -70,7 +70,7 @@ impl Approaches {
             masses: masses.collect(),
             names,
             shown: planets.inertial(&()),
-            epsilon: planets.epsilon(),
+            epsilon: planets.epsilon(system),
             planets: planets.clone(),
             q: vec![0.0; system.coordinates.len()],
             p: vec![0.0; system.coordinates.len()],

@@ -5,11 +5,11 @@ use std::f64::consts::TAU;
 use serde_json::{Value, json};
 use shadowstep::number::CorrectlyRounded;
 use shadowstep::systems::wisdom_holman::{Bodies, DemocraticHeliocentric, Jacobi, PlanetaryCoordinates, WisdomHolman};
-use shadowstep::{MotionError, Number, Real, Scheme, System as _, ValidFor};
+use shadowstep::{MotionError, Number, Potential, Real, Scheme, System as _, ValidFor};
 
 use super::{Class, Needs, ShownCoordinates, Split, State};
 use crate::refusal::{NoGradientKicks, Refusal};
-use crate::scene::{EnergyAt, InitialValueProblem};
+use crate::scene::{EnergyAt, InitialValueProblem, PotentialEnergy};
 use crate::start::{SceneIntegrator, Steps};
 
 /// A planetary system of point masses, the central body first.
@@ -94,13 +94,17 @@ impl Split for Planets {
         Some(self.inertial(context))
     }
 
-    fn energy<N: CorrectlyRounded + 'static>(&self, _: &InitialValueProblem, context: &N::Context) -> EnergyAt<N> {
-        in_coordinates!(self, energy_at::<N>(context))
+    fn energy<N: CorrectlyRounded + 'static>(
+        &self,
+        problem: &InitialValueProblem,
+        context: &N::Context,
+    ) -> EnergyAt<N> {
+        in_coordinates!(self, energy_at::<N>(problem, context))
     }
 
     fn integrator<N: CorrectlyRounded + 'static>(
         &self,
-        _: &InitialValueProblem,
+        problem: &InitialValueProblem,
         steps: Steps<'_>,
         (q, p): State<N>,
         context: &N::Context,
@@ -112,7 +116,7 @@ impl Split for Planets {
         if p.len() != coordinates {
             return Err(MotionError::Momenta { coordinates, momenta: p.len() });
         }
-        let state = (q, p);
+        let state = (problem, (q, p));
         Ok(match (self.coordinates, self.dimensions) {
             (CanonicalCoordinates::Jacobi, 2) => {
                 self.moved::<N, Jacobi<N, 2>, 2, _>(steps.quadratic(), steps, &state, context)
@@ -139,9 +143,18 @@ impl Planets {
     /// The parts of a system of bodies that attract each other.
     ///
     /// # Errors
-    /// Another system.
-    pub(crate) fn of(coordinates: CanonicalCoordinates, bodies: Option<(Bodies, usize)>) -> Result<Self, Refusal> {
+    /// Another system; one with energies beside the attraction, in heliocentric coordinates.
+    pub(crate) fn of(
+        coordinates: CanonicalCoordinates,
+        problem: &InitialValueProblem,
+        bodies: Option<(Bodies, usize)>,
+    ) -> Result<Self, Refusal> {
+        let has_more = matches!(&problem.potential, PotentialEnergy::Pairs(pairs) if !pairs.of_bodies.is_empty());
         match bodies {
+            Some(_) if has_more && coordinates == CanonicalCoordinates::DemocraticHeliocentric => Err(Refusal::new(
+                "in heliocentric coordinates kicks move the planets, so that `central` and `external` have no exact flow with them",
+                "write parts = \"wisdom-holman\" for Jacobi coordinates",
+            )),
             Some((bodies, dimensions)) => Ok(Planets { coordinates, bodies, dimensions }),
             None => Err(Refusal::new(
                 "only bodies that attract each other have these parts",
@@ -185,21 +198,21 @@ impl Planets {
     }
 
     /// Computes |B_Q|/|A_Q| of each planet, from Q.
-    pub(crate) fn epsilon(&self) -> OfPlanets {
-        in_coordinates!(self, ratios::<f64>(&()))
+    pub(crate) fn epsilon(&self, problem: &InitialValueProblem) -> OfPlanets {
+        in_coordinates!(self, ratios::<f64>(problem))
     }
 
-    fn ratios<N, C, const D: usize>(&self, context: &N::Context) -> OfPlanets
+    fn ratios<N, C, const D: usize>(&self, problem: &InitialValueProblem) -> OfPlanets
     where
         N: Number<Context = ()>,
         C: PlanetaryCoordinates<f64, D> + 'static,
     {
-        let mut coordinates = C::new(&self.bodies, context);
+        let mut system = self.at_rest::<f64, C, D>(problem, &());
         let mut gradient = vec![0.0; self.bodies.count() * D];
         Box::new(move |q| {
-            coordinates.gradient_and_rate(q, &mut gradient, None);
+            system.assign_gradient(q, &mut gradient);
             let square = |vector: &[f64]| vector.iter().map(|x| x * x).sum::<f64>();
-            let planets = coordinates.orbits().planets.iter().zip(q.chunks(D).zip(gradient.chunks(D)).skip(1));
+            let planets = system.coordinates().orbits().planets.iter().zip(q.chunks(D).zip(gradient.chunks(D)).skip(1));
             planets.map(|(orbit, (q, gradient))| square(gradient).sqrt() * square(q) / orbit.attraction).collect()
         })
     }
@@ -209,7 +222,7 @@ impl Planets {
         &self,
         scheme: S,
         steps: Steps<'_>,
-        (q, p): &State<N>,
+        (problem, (q, p)): &(&InitialValueProblem, State<N>),
         context: &N::Context,
     ) -> SceneIntegrator<N>
     where
@@ -217,7 +230,7 @@ impl Planets {
         C: PlanetaryCoordinates<N, D> + 'static,
         S: Scheme + ValidFor<C::Class> + 'static,
     {
-        let mut system = self.at_rest::<N, C, D>(context);
+        let mut system = self.at_rest::<N, C, D>(problem, context);
         if let Some(displacements) = steps.displacements(context) {
             system = system.displaced(displacements);
         }
@@ -230,19 +243,23 @@ impl Planets {
 
     fn energy_at<N: Number + 'static, C: PlanetaryCoordinates<N, D> + 'static, const D: usize>(
         &self,
+        problem: &InitialValueProblem,
         context: &N::Context,
     ) -> EnergyAt<N> {
-        let mut system = self.at_rest::<N, C, D>(context);
+        let mut system = self.at_rest::<N, C, D>(problem, context);
         Box::new(move |q, p| system.energy_at(q, p))
     }
 
     /// All bodies at 0.
-    fn at_rest<N: Number, C: PlanetaryCoordinates<N, D>, const D: usize>(
+    fn at_rest<N: Number + 'static, C: PlanetaryCoordinates<N, D>, const D: usize>(
         &self,
+        problem: &InitialValueProblem,
         context: &N::Context,
-    ) -> WisdomHolman<N, C, D> {
+    ) -> WisdomHolman<N, C, D, Box<dyn Potential<N>>> {
         let zeros = vec![N::zero(context); self.bodies.count() * D];
-        WisdomHolman::new(&self.bodies, (&zeros, &zeros), context).expect("it is a state of all bodies")
+        let attracted = WisdomHolman::new(&self.bodies, (&zeros, &zeros), context);
+        let beside = attracted.and_then(|planets| planets.beside(problem.beside(context)));
+        beside.expect("it is a state of all bodies, and the reader refuses what heliocentric coordinates do not have")
     }
 
     /// The coordinates of the steps at an inertial state.
