@@ -26,7 +26,7 @@ def cpu_time():
 
 
 class Run:
-    """A run of the scene: states at its beginning, every so many days and at its end, and the CPU time that it took."""
+    """A run of the scene: states at multiples of a number of days and at its end, and the CPU time that it took."""
 
     def __init__(self, program, scheme, digits, days, until, every=None, relativity=True):
         text = subprocess.run([program, "scene", "relativity"], check=True, capture_output=True, text=True).stdout

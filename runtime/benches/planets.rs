@@ -1,13 +1,15 @@
-//! What a step of planets costs in `f64`: Kepler orbits, which three planets and more drift on together, and their interactions.
+//! What a step of planets costs in `f64`: Kepler orbits, which three planets and more drift on together, and their interactions, also with relativity's potential.
 
 mod timing;
 
 use std::hint::black_box;
 
 use num_traits::One as _;
+use shadowstep::systems::formula::{FormulaOfBodies, RelativeTo};
+use shadowstep::systems::kinetic::Quadratic;
 use shadowstep::systems::wisdom_holman::{Bodies, Jacobi, WisdomHolman};
 use shadowstep::tables::{read, shipped, shipped_source};
-use shadowstep::{Rational, Stepper, exact};
+use shadowstep::{Rational, Stepper, System, exact};
 
 use timing::{Contestant, compare};
 
@@ -25,8 +27,19 @@ fn planets(count: usize) -> WisdomHolman<f64, Jacobi<f64, 3>, 3> {
     WisdomHolman::new(&bodies, (&q, &p), &()).expect("a state of these bodies")
 }
 
+fn with_relativity(count: usize) -> WisdomHolman<f64, Jacobi<f64, 3>, 3, FormulaOfBodies<f64>> {
+    let masses: Vec<_> = std::iter::once(1.0).chain((0..count).map(|_| 1e-5)).collect();
+    let parameters = [("g", 1.0), ("c", 6000.0)];
+    let potential = FormulaOfBodies::new("-3*(g*m0)^2*m/(c^2*r^2)", RelativeTo::FirstBody, 3, &masses, &parameters);
+    planets(count).beside(Some(potential.expect("a formula"))).expect("a potential of these bodies")
+}
+
 /// Merged steps of 1/22 of the shortest period.
-fn steps(name: &'static str, scheme: &str, count: usize) -> Contestant<'static> {
+fn steps<M: System<Number = f64, Class = Quadratic> + 'static>(
+    name: &'static str,
+    scheme: &str,
+    system: M,
+) -> Contestant<'static> {
     let scheme = match scheme {
         "drift-kick-drift" => {
             let source = shipped_source("stormer-verlet").expect("it is shipped");
@@ -36,10 +49,10 @@ fn steps(name: &'static str, scheme: &str, count: usize) -> Contestant<'static> 
         _ => shipped(scheme).expect("it is shipped"),
     };
     let stepper = Stepper::new(scheme, "2/7").expect("a step size");
-    let mut systems = [planets(count)];
+    let mut systems = [system];
     let run = move |repetitions: u32| {
         stepper.merged_steps(&mut systems, u64::from(repetitions));
-        black_box(&systems);
+        black_box(systems[0].q());
     };
     (name, Box::new(run))
 }
@@ -49,8 +62,11 @@ fn main() {
         let contestants = [("1 planet", 1), ("2", 2), ("3", 3), ("4", 4), ("8", 8), ("9", 9), ("16", 16)];
         compare(
             &format!("A Wisdom–Holman step, `{scheme}`, merged"),
-            contestants.map(|(name, count)| steps(name, scheme, count)).into(),
+            contestants.map(|(name, count)| steps(name, scheme, planets(count))).into(),
             repetitions,
         );
     }
+    let scheme = "drift-kick-drift";
+    let contestants = [steps("8 planets", scheme, planets(8)), steps("with relativity", scheme, with_relativity(8))];
+    compare(&format!("A Wisdom–Holman step, `{scheme}`, merged"), contestants.into(), 2000);
 }

@@ -8,7 +8,7 @@ use shadowstep::tangent::{TangentError, Tangents};
 use shadowstep::{DiagonalMasses, Kinetic, Motion, Potential, UnitMasses};
 use shadowstep_symbolic::{Exact, parse};
 
-use crate::scene::{ClassifiedKinetic, Formula, KineticEnergy, PairEnergy, PotentialEnergy, System};
+use crate::scene::{ClassifiedKinetic, EnergyOfBodies, KineticEnergy, PairEnergy, PotentialEnergy, System};
 use crate::start::{SceneIntegrator, Steps};
 use crate::tangent::{components, scales};
 
@@ -139,7 +139,7 @@ impl System {
             PotentialEnergy::Shipped(setup) => setup.problem.has_functions(),
             PotentialEnergy::Formula(formula) => formula_has_functions(formula.text()),
             PotentialEnergy::Pairs(pairs) => {
-                let of_bodies = pairs.of_bodies.iter().map(Formula::text);
+                let of_bodies = pairs.of_bodies.iter().map(EnergyOfBodies::text);
                 of_bodies.chain([pairs.formula.text()]).any(formula_has_functions)
             }
             PotentialEnergy::Own(_) | PotentialEnergy::OfParts => true,

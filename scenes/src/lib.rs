@@ -159,8 +159,8 @@ pub use scene::split::{
     TransformedTime,
 };
 pub use scene::{
-    CheckpointInterval, Direction, EnergyAt, Format, Formula, InitialValueProblem, KineticEnergy, Outputs,
-    OwnPotential, PairEnergy, Parts, PotentialEnergy, Scene, SceneNumber, Surface, System, SystemIn,
+    CheckpointInterval, Direction, EnergyAt, EnergyOfBodies, Format, Formula, InitialValueProblem, KineticEnergy,
+    Outputs, OwnPotential, PairEnergy, Parts, PotentialEnergy, Scene, SceneNumber, Surface, System, SystemIn,
 };
 pub use shell::shell_word;
 pub use shipped::{SHIPPED_SCENES, ShippedScene, scene_text};

@@ -18,7 +18,7 @@ pub use formula::Formula;
 pub use number::{SceneNumber, SystemIn};
 pub use output::{CheckpointInterval, Direction, Outputs, Surface};
 pub use own::OwnPotential;
-pub use pairs::PairEnergy;
+pub use pairs::{EnergyOfBodies, PairEnergy};
 pub(crate) use pairs::{PairCutoff, SmoothEnd};
 pub(crate) use problem::ClassifiedKinetic;
 pub use problem::{EnergyAt, InitialValueProblem, KineticEnergy, PotentialEnergy};

@@ -392,3 +392,24 @@ fn compensated_sums_lose_less() {
     println!("relative errors of H by round-off, rms: plain {plain:e}, compensated {compensated:e}");
     assert!(compensated < plain / 2.0, "{compensated:e}, {plain:e}");
 }
+
+/// A last body of 1e-40 of the central mass moves among the others and changes no bit of them.
+#[test]
+fn bodies_of_tiny_masses_are_test_particles() {
+    let tiny = rational("1e-40");
+    let ends = [2, 3].map(|count| {
+        let masses = ["1", "1/1047.35"].map(rational).into_iter().chain([tiny.clone()]).take(count).collect();
+        let bodies = Bodies::new(rational("4*pi^2"), masses).expect("they are bodies");
+        let q = [0.0, 0.0, 4.94, 0.0, -3.2, 0.1];
+        let p = [0.0, 0.0, 0.0, 2.8967 / 1047.35, 0.0, -3.5e-40];
+        let mut system = WisdomHolman::<f64, Jacobi<f64, 2>, 2>::new(&bodies, (&q[..2 * count], &p[..2 * count]), &());
+        let system = system.as_mut().expect("a state of these bodies");
+        let stepper = Stepper::new(scheme("saba4"), "1/16").expect("it is nonzero");
+        (0..1000).for_each(|_| stepper.step(system));
+        let (q, p) = system.inertial();
+        (q, p, System::energy(system))
+    });
+    let [(q, p, energy), (with_q, with_p, with_energy)] = &ends;
+    assert!(same_bits(q, &with_q[..4]) && same_bits(p, &with_p[..4]) && energy == with_energy);
+    assert!((2.5..4.5).contains(&with_q[4].hypot(with_q[5])), "{with_q:?}");
+}

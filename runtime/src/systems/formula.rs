@@ -2,6 +2,7 @@
 //! [`crate::kinetic!`], with the same bits.
 
 mod bodies;
+mod distance;
 mod kinetic;
 mod newest;
 mod pair;
@@ -134,7 +135,7 @@ fn derive<N>(
         let mut variables = &variables[..];
         if role == Role::Body {
             variables = &variables[..variables.len() - 1];
-            node = bodies::without_distance(&mut graph, node, variables.len());
+            node = distance::without_distance(&mut graph, node, variables.len());
         }
         let quadratic = role == Role::Kinetic && graph.is_at_most_quadratic(node, variables.len());
         let quadratic_form = quadratic && graph.is_quadratic(node, variables.len());

@@ -154,6 +154,17 @@ fn by_masses_of_bodies() {
 }
 
 #[test]
+fn by_parameters_of_energies_beside_the_attraction() {
+    let energies = "parameters = { g = 1, s = \"θ\" }\ncentral = \"m*s/r^3*(3*z^2/r^2 - 1)\"\nexternal = \"m*s*z^2*x\"";
+    let text: &str = PLANETS.replace('θ', "1/300").replace("parameters = { g = 1 }", energies).leak();
+    for scheme in ["aba1064", "chin-4a"] {
+        Case { text, scheme, h: "1/5", theta: "1/50" }.check();
+    }
+    let text = text.replace("wisdom-holman", "kinetic-potential").leak();
+    Case { text, scheme: "yoshida4", h: "1/20", theta: "1/50" }.check();
+}
+
+#[test]
 fn by_the_step_size() {
     for scheme in ["yoshida4", "chin-4a", "takahashi-imada"] {
         Case { text: OSCILLATOR.replace('θ', "2").leak(), scheme, h: "θ", theta: "1/10" }.check();

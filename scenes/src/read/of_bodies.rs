@@ -1,24 +1,24 @@
 //! `central` and `external`: energies of each body of a planetary system, beside the attraction.
 
-use shadowstep::systems::formula::{FormulaOfBodies, RelativeTo};
+use shadowstep::systems::formula::RelativeTo;
 use shadowstep_schemes::document::Text;
 use shadowstep_symbolic::Exact;
 
 use super::explicit_time;
 use super::given::Given;
 use super::reader::Reader;
-use crate::scene::Formula;
+use crate::scene::{EnergyOfBodies, Formula};
 
 /// The names in these formulas besides parameters: the coordinates come last, of which there may be fewer.
 const NAMES: [&str; 6] = ["m", "m0", "r", "x", "y", "z"];
 
-/// The energies of bodies, of whom there are so many in so many dimensions.
+/// The energies of a number of bodies in a number of dimensions.
 pub(super) fn energies(
     reader: &mut Reader<'_>,
     given: &Given,
     bodies: (usize, usize),
     parameters: &[(String, Exact)],
-) -> Option<Vec<Formula<FormulaOfBodies<f64>>>> {
+) -> Option<Vec<EnergyOfBodies>> {
     let texts = [&given.central, &given.external].map(Option::as_ref);
     explicit_time::refuse(reader, given, texts, "the energy of a body beside the attraction")?;
     let before = reader.toml.faults.len();

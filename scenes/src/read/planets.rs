@@ -4,7 +4,6 @@ use std::ops::Range;
 
 use num_traits::{One, Zero};
 use shadowstep::Rational;
-use shadowstep::systems::formula::FormulaOfBodies;
 use shadowstep::systems::pairs::Separation;
 use shadowstep::systems::wisdom_holman::Bodies;
 use shadowstep_symbolic::Exact;
@@ -19,7 +18,7 @@ use super::of_bodies;
 use super::parts::{self, Split};
 use super::reader::Reader;
 use super::units;
-use crate::scene::{Formula, InitialValueProblem, KineticEnergy, PairEnergy, PotentialEnergy, System};
+use crate::scene::{EnergyOfBodies, Formula, InitialValueProblem, KineticEnergy, PairEnergy, PotentialEnergy, System};
 use shadowstep_schemes::document::{Placed, Section, Text};
 
 /// The name of the section.
@@ -364,7 +363,7 @@ impl Placing {
     fn into_system(
         self,
         reader: &mut Reader<'_>,
-        (parameters, of_bodies): (Vec<(String, Exact)>, Vec<Formula<FormulaOfBodies<f64>>>),
+        (parameters, of_bodies): (Vec<(String, Exact)>, Vec<EnergyOfBodies>),
         names: &[String],
         at: &Range<usize>,
     ) -> Option<(InitialValueProblem, Bodies)> {

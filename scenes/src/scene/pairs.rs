@@ -27,8 +27,11 @@ pub struct PairEnergy {
     /// Where the energy ends; none if all pairs interact, or those of a chain.
     pub(crate) cutoff: Option<Box<PairCutoff>>,
     /// Energies of each body beside those of pairs, of bodies whose first property is their mass.
-    pub of_bodies: Vec<Formula<FormulaOfBodies<f64>>>,
+    pub of_bodies: Vec<EnergyOfBodies>,
 }
+
+/// The sum over bodies of an energy of each.
+pub type EnergyOfBodies = Formula<FormulaOfBodies<f64>>;
 
 /// Up to where bodies interact.
 #[derive(Debug)]

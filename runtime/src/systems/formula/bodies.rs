@@ -1,9 +1,8 @@
 //! Energies of each body from a formula read at run time, beside those of pairs.
 
-use std::collections::HashMap;
 use std::sync::Arc;
 
-use shadowstep_symbolic::{Graph, Node, Rational};
+use shadowstep_symbolic::Rational;
 
 use super::newest::Role;
 use super::{FormulaError, FormulaPotential, derive};
@@ -51,21 +50,6 @@ pub struct FormulaOfBodies<N> {
     bodies: usize,
     /// Of each body, or of each but the first.
     formulas: Vec<FormulaPotential<N>>,
-}
-
-/// coordinate `dimensions`, the distance, replaced by the length of those before it
-pub(super) fn without_distance(graph: &mut Graph, node: Node, dimensions: usize) -> Node {
-    let whole = |n: i64| Rational::from_integer(n.into());
-    let distance = graph.coordinate(dimensions);
-    let squares: Vec<_> = (0..dimensions)
-        .map(|axis| {
-            let coordinate = graph.coordinate(axis);
-            (graph.power(coordinate, &whole(2)), whole(1))
-        })
-        .collect();
-    let squared = graph.sum(&squares);
-    let length = graph.power(squared, &(whole(1) / whole(2)));
-    graph.replaced(&[node], HashMap::from([(distance, length)]))[0]
 }
 
 impl<N: Number> FormulaOfBodies<N> {

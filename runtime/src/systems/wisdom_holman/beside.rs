@@ -6,7 +6,7 @@
 use crate::number::Number;
 use crate::systems::potential::Potential;
 
-use super::PlanetaryCoordinates;
+use super::coordinates::PlanetaryCoordinates;
 
 /// That there is no potential beside the attraction.
 #[derive(Clone, Copy, Debug)]

@@ -4,8 +4,8 @@ use crate::Rational;
 use crate::number::Number;
 use crate::systems::kinetic::Quadratic;
 
-use super::PlanetaryCoordinates;
 use super::bodies::Bodies;
+use super::coordinates::PlanetaryCoordinates;
 use super::interactions::Interactions;
 use super::orbits::{Orbit, Orbits};
 

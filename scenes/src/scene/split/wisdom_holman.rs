@@ -199,15 +199,15 @@ impl Planets {
 
     /// Computes |B_Q|/|A_Q| of each planet, from Q.
     pub(crate) fn epsilon(&self, problem: &InitialValueProblem) -> OfPlanets {
-        in_coordinates!(self, ratios::<f64>(problem))
+        in_coordinates!(self, ratios::<f64>(problem, &()))
     }
 
-    fn ratios<N, C, const D: usize>(&self, problem: &InitialValueProblem) -> OfPlanets
+    fn ratios<N, C, const D: usize>(&self, problem: &InitialValueProblem, context: &N::Context) -> OfPlanets
     where
         N: Number<Context = ()>,
         C: PlanetaryCoordinates<f64, D> + 'static,
     {
-        let mut system = self.at_rest::<f64, C, D>(problem, &());
+        let mut system = self.at_rest::<f64, C, D>(problem, context);
         let mut gradient = vec![0.0; self.bodies.count() * D];
         Box::new(move |q| {
             system.assign_gradient(q, &mut gradient);
