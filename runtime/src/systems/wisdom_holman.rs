@@ -126,7 +126,7 @@ impl<N: Number, C: PlanetaryCoordinates<N, D>, const D: usize> WisdomHolman<N, C
     ///
     /// // a tide k m |x|²/2 of each body of the plane
     /// let tide = from_fn(4, |x, gradient| {
-    ///     let [k, m] = [0.01, [1.0, 1.0, 0.001, 0.001]];
+    ///     let (k, m) = (0.01, [1.0, 1.0, 0.001, 0.001]);
     ///     (0..4).for_each(|i| gradient[i] = k * m[i] * x[i]);
     ///     (0..4).map(|i| gradient[i] * x[i]).sum::<f64>() / 2.0
     /// });
