@@ -1,6 +1,6 @@
 """The Sun and the eight planets with relativity's potential: the shipped scene `relativity` beside REBOUND 5.2.2 with `gr_potential` of REBOUNDx 5.1.0.
 
-    build/venv/bin/pip install setuptools wheel reboundx==5.1.0 --no-build-isolation
+    build/venv/bin/pip install setuptools wheel && build/venv/bin/pip install --no-build-isolation reboundx==5.1.0
     build/venv/bin/python relativity.py ../target/release/shadowstep YEARS      # as 1000
 
 Positions at the end, in parts of the distance from the Sun; how far Mercury's pericentre is turned by the potential in a century; CPU time of a step.
