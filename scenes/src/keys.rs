@@ -62,7 +62,7 @@ pub(crate) const SECTIONS: [Section; 13] = [
 ];
 
 /// All keys, section by section.
-pub(crate) const KEYS: [Key; 74] = [
+pub(crate) const KEYS: [Key; 76] = [
     key(
         "problem",
         "name",
