@@ -278,17 +278,20 @@ def problem_of(problem: Any) -> Problem:
 
 
 # keys of [problem] and [initial]; every other keyword is a parameter
-_PROBLEM = ("coordinates", "momenta", "bodies", "dimensions", "neighbours", "cutoff", "box", "units", "elements", "barycentric", "central", "external", "parameters")
+_PROBLEM = ("coordinates", "momenta", "bodies", "dimensions", "neighbours", "cutoff", "box", "units", "elements", "barycentric", "vector_potential", "hamiltonian", "parameters")
+# keys beside another one, without which they are names of parameters
+_BESIDE = {"coupling": "hamiltonian", "central": "body", "external": "body"}
 
 
 def _sections(system: str | None, q: Values | None, p: Values | None, v: Values | None, others: Mapping[str, Any]) -> dict[str, Any]:
-    problem: dict[str, Any] = {key: others[key] for key in _PROBLEM if key in others}
-    parameters = {key: value for key, value in others.items() if key not in (*_PROBLEM, "body")}
+    keys = (*_PROBLEM, *(key for key, other in _BESIDE.items() if other in others))
+    problem: dict[str, Any] = {key: others[key] for key in keys if key in others}
+    parameters = {key: value for key, value in others.items() if key not in (*keys, "body")}
     if parameters:
         problem["parameters"] = {**problem.get("parameters", {}), **parameters}
     if system is not None:
         problem["name" if _is_name(system, q) else "potential"] = system
-    if "potential" in problem and isinstance(q, Mapping):
+    if isinstance(q, Mapping) and ("potential" in problem or "hamiltonian" in problem):
         problem.setdefault("coordinates", list(q))
     if isinstance(p, Mapping):
         problem.setdefault("momenta", list(p))

@@ -345,11 +345,21 @@ def test_hamiltonians_that_depend_on_time():
     assert q.shape == (2, 2) and np.allclose([by_q[0], by_p[0]], [np.cos(1), np.sin(1)], atol=1e-5)
 
 
+def test_hamiltonians_that_are_not_separable():
+    problem = Problem(hamiltonian="(x^2 + 1)*(px^2 + 1)/2", coupling=20, q={"x": -3}, p=[0])
+    run = integrate(problem, "blanes-moan-s6", h="1/400", until=10, every=400)
+    # DOP853 of SciPy to 1e-13
+    assert run.coordinates == ["x", "x_2"] and np.allclose(run.q[-1], -2.40223831, atol=1e-8) and np.allclose(run.p[-1], 0.69060951, atol=1e-8)
+    assert np.array_equal(integrate(problem.replaced(q=run.q[0]), "blanes-moan-s6", h="1/400", until=10, every=400).q, run.q)
+    # beside other ways `coupling` is a parameter
+    assert Problem("coupling*x^2", q={"x": 1}, p=[0], coupling=3).energy == 3
+
+
 def test_magnetic_fields_and_ends():
     charge = Problem("0", coordinates=["x", "y"], vector_potential=["-b*y/2", "b*x/2"], parameters={"b": "3/2"}, q=[0, 0], v=[1, 0])
     run = integrate(charge, "stormer-verlet", h="1/2", until=10, end="y < -1")
     angle = 1.5 * run.t
     assert np.allclose(run.q, np.transpose([np.sin(angle), np.cos(angle) - 1]) / 1.5, atol=1e-14)
     assert run.q[-1, 1] < -1 <= run.q[:-1, 1].min() and run.t[-1] == 1.5
-    with pytest.raises(InputError, match="end:1:5: .*known names"):
+    with pytest.raises(InputError, match="end:1:1: unknown name `z`"):
         integrate(charge, "stormer-verlet", h="1/2", until=10, end="y < z")

@@ -11,8 +11,7 @@ use crate::systems::kinetic::Kinetic;
 /// T(p) + p_t: the last coordinate is t, the last momentum p_t.
 ///
 /// ```
-/// use shadowstep::Motion;
-/// use shadowstep::kinetic::UnitMasses;
+/// use shadowstep::{Motion, UnitMasses};
 /// use shadowstep::systems::explicit_time::WithTime;
 /// use shadowstep::systems::formula::FormulaPotential;
 ///

@@ -8,7 +8,6 @@ use shadowstep_schemes::document::Text;
 use shadowstep_symbolic::{Exact, parse};
 
 use super::given::Given;
-use super::numbers::Numbers;
 use super::reader::Reader;
 
 /// The name of the coordinate, which is that of the column of the time.
@@ -67,14 +66,9 @@ pub(super) fn add_momentum(reader: &Reader<'_>, given: &Given, formulas: &mut Ve
     }
 }
 
-/// The numbers of the initial state, with t or p_t after them: 0, if it is not given.
-pub(super) fn start(reader: &mut Reader<'_>, numbers: &Numbers, coordinates: usize) -> Option<Vec<Exact>> {
-    if numbers.count() == Some(coordinates + 1) {
-        return numbers.values(reader, coordinates + 1);
-    }
-    let mut values = numbers.values(reader, coordinates)?;
-    values.push(Exact { value: Rational::zero(), rounded: false });
-    Some(values)
+/// t or p_t at the start.
+pub(super) fn zero() -> Exact {
+    Exact { value: Rational::zero(), rounded: false }
 }
 
 /// Refuses another t than 0: it would not be that of the rows.

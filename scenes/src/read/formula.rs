@@ -37,9 +37,13 @@ pub(super) fn problem(reader: &mut Reader<'_>, given: &Given, potential: &Text) 
     if let Some(initial) = &given.initial {
         given.state.all_there(reader, initial);
     }
-    let values = |reader: &mut Reader<'_>, numbers: &Numbers| match explicit_time {
-        true => explicit_time::start(reader, numbers, of_coordinates),
-        false => numbers.values(reader, of_coordinates),
+    let values = |reader: &mut Reader<'_>, numbers: &Numbers| {
+        if numbers.count() == Some(coordinates.len()) {
+            return numbers.values(reader, coordinates.len());
+        }
+        let mut values = numbers.values(reader, of_coordinates)?;
+        values.extend(explicit_time.then(explicit_time::zero));
+        Some(values)
     };
     let (q, p) = given.state.values(reader, values, masses.as_deref());
     if explicit_time {

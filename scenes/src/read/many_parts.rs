@@ -81,15 +81,16 @@ pub(super) fn of_formulas(
     if let Some(initial) = &given.initial {
         given.state.all_there(reader, initial);
     }
+    // the initial state may leave out what it determines
     let values = |reader: &mut Reader<'_>, numbers: &Numbers| {
-        let mut values = match explicit_time {
-            true => explicit_time::start(reader, numbers, of_coordinates)?,
-            false => numbers.values(reader, of_coordinates)?,
-        };
-        if let Copies::Two = copies {
-            let second = values[..of_coordinates].to_vec();
-            values.splice(of_coordinates..of_coordinates, second);
+        if numbers.count() == Some(coordinates.len()) {
+            return numbers.values(reader, coordinates.len());
         }
+        let mut values = numbers.values(reader, of_coordinates)?;
+        if let Copies::Two = copies {
+            values.extend_from_within(..);
+        }
+        values.extend(explicit_time.then(explicit_time::zero));
         Some(values)
     };
     let masses = if let Copies::One(masses) = copies { masses } else { None };
