@@ -142,6 +142,23 @@ mod tests {
         assert_eq!(energies("{ section = \"x\", direction = \"both\" }"), energies("{ every = 1000 }"));
     }
 
+    /// cos t = 0 of the coordinate t.
+    #[test]
+    fn a_section_may_be_one_of_explicit_time() {
+        for time in ["", "[time]\ntransform = \"logarithmic\"\n"] {
+            let text = format!(
+                "[problem]\npotential = \"-(1 + sin(t)/10)/sqrt(x^2 + 1)\"\ncoordinates = [\"x\"]\n[initial]\nq = [1]\np = [0]\n{time}[run]\n\
+                 scheme = \"blanes-moan-s6\"\nstep = \"1/10\"\nuntil = 20\ndigits = 30\n[output]\ntrajectory = {{ section = \"cos(t)\" }}"
+            );
+            let rows = rows(&Scene::read(Source { path: "test.toml".to_owned(), text }).unwrap());
+            // cos grows through 0 at 3π/2, 7π/2 and 11π/2
+            for (row, quarters) in rows.iter().zip([3.0, 7.0, 11.0]) {
+                assert!((number(&row[1]) - quarters * std::f64::consts::FRAC_PI_2).abs() < 1e-14, "{row:?}");
+            }
+            assert_eq!(rows.len(), 3);
+        }
+    }
+
     #[test]
     fn faults_have_their_places() {
         let fault = |trajectory: &str, more: &str| {

@@ -104,7 +104,7 @@ impl<N: Number + 'static> Evaluator<N> {
         let zero = N::zero(context);
         let mut scratch = vec![zero.clone(); formula.scratch()];
         formula.prepare(&mut scratch, context);
-        let (has_time, has_energy) = (expression.has_time, expression.has_energy);
+        let (has_time, has_energy) = (expression.has_time && !system.explicit_time, expression.has_energy);
         let point = vec![zero.clone(); names.len()];
         Ok(Evaluator { formula, scratch, point, value: zero, shown: None, has_time, has_energy, energy: None })
     }

@@ -31,7 +31,12 @@ const WRONG: &[(&str, &str, &str, &str)] = &[
     ("[initial]\nq = [1, 0]\np = [0, 1]\n", "", "1:1: the section [initial] is missing", "shadowstep scene"),
     ("step = \"1/20\"\n", "", "9:1: the key `step` is missing", "add `step = \"1/20\"`"),
     ("until = 2\n", "", "9:1: one of the keys `until`, `steps` is needed", "`until = 100` or `steps = 2000`"),
-    ("potential = \"k/sqrt(x^2 + y^2)\"\n", "", "1:1: one of the keys `name`, `potential`, `pair` is", "`potential ="),
+    (
+        "potential = \"k/sqrt(x^2 + y^2)\"\n",
+        "",
+        "1:1: one of the keys `name`, `potential`, `pair`, `hamiltonian` is",
+        "`potential =",
+    ),
     ("coordinates = [\"x\", \"y\"]\n", "", "1:1: the key `coordinates` is missing", "add `coordinates"),
     ("q = [1, 0]\n", "", "6:1: the key `q` is missing", "add `q = […]`"),
     ("scheme = \"yoshida4\"", "scheme = 4", "10:10: this value is of the wrong kind", "found a whole number"),
@@ -256,7 +261,12 @@ energy = true
 
 /// The same for that scene.
 const WRONG_PAIRS: &[(&str, &str, &str, &str)] = &[
-    ("pair = \"-g*m_i*m_j/sqrt(r2)\"\n", "", "1:1: one of the keys `name`, `potential`, `pair` is needed", "`pair ="),
+    (
+        "pair = \"-g*m_i*m_j/sqrt(r2)\"\n",
+        "",
+        "1:1: one of the keys `name`, `potential`, `pair`, `hamiltonian` is needed",
+        "`pair =",
+    ),
     ("pair =", "pairs =", "2:1: unknown key `pairs`", "did you mean `pair`?"),
     (
         "(r2)",
@@ -385,7 +395,7 @@ fn each_fault_of_a_shipped_problem_has_its_place_and_message() {
             "remove `neigh",
         ),
         ("[run]", "pair = \"d^2\"\n[run]", "4:8: name and pair are both given", "keep one of the two"),
-        ("[run]", "pair = \"d\"\npotential = \"x\"\n[run]", "4:8: name, potential and pair are all given", "keep one"),
+        ("[run]", "pair = \"d\"\npotential = \"x\"\n[run]", "5:13: name and potential are both given", "keep one"),
         ("[run]", "[initial]\nq = [1]\n[run]", "5:5: this list needs a number for each", "found 1 number, needed 2"),
         (
             "0.1",
