@@ -274,6 +274,9 @@ impl<N: RunNumber> Recorder<'_, '_, N> {
         if !last_step(integrator, (&self.state.0, &self.state.1), (self.run, until))? {
             return Ok(());
         }
+        if scene.output.section.is_some() && scene.output.energy.is_none() {
+            return Ok(());
+        }
         let n = i64::try_from(self.run.steps).unwrap_or(i64::MAX - 1) + 1;
         let energy = scene.output.energy.is_some().then(|| self.energy(integrator));
         let state = (integrator.state().q(), integrator.state().p());
