@@ -22,7 +22,7 @@ pub(super) const COUPLING: &str = "coupling";
 pub(super) fn system(
     reader: &mut Reader<'_>,
     given: &Given,
-    hamiltonian: Text,
+    hamiltonian: &Text,
     coupling: Option<Text>,
 ) -> Option<System> {
     given.refuse(

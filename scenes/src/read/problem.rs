@@ -90,7 +90,7 @@ pub(super) fn system(
         }
         [doubled::HAMILTONIAN] => {
             given.needs(reader, problem, "coordinates");
-            doubled::system(reader, &given, hamiltonian?, coupling)
+            doubled::system(reader, &given, &hamiltonian?, coupling)
         }
         [] => {
             reader.toml.missing(problem, &WAYS);
