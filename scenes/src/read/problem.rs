@@ -1,4 +1,4 @@
-//! [problem]: the system, given in one of five ways, each with its file.
+//! [problem]: the system, given in one of several ways, each with its file.
 
 use shadowstep::systems::pairs::Separation;
 
@@ -9,7 +9,7 @@ use super::planets::{self, GivenBody, Settings};
 use super::reader::Reader;
 use super::{doubled, explicit_time, formula, magnetic, many_parts, pair, shipped};
 use crate::scene::System;
-use shadowstep_schemes::document::Section;
+use shadowstep_schemes::document::{Placed, Section, Text};
 
 /// The keys of which exactly one gives the potential.
 const WAYS: [&str; 4] = ["name", "potential", "pair", doubled::HAMILTONIAN];
@@ -31,22 +31,7 @@ pub(super) fn system(
     let settings = Settings::read(reader, problem);
     let field = reader.names(problem, magnetic::KEY, "a list of formulas: [\"-b*y/2\", \"b*x/2\"]");
     let coupling = problem.get(doubled::COUPLING).and_then(|value| reader.number(value));
-    if ways[..] != [doubled::HAMILTONIAN] {
-        given.refuse(reader, &[doubled::COUPLING], |key| {
-            (format!("{key} requires `{}`", doubled::HAMILTONIAN), format!("remove `{key}`"))
-        });
-    }
-    if ways[..] != ["potential"] {
-        given.refuse(reader, &[magnetic::KEY], |key| {
-            (
-                format!("{key} requires `potential`"),
-                format!("remove `{key}`, or give U by a formula: potential = \"0\""),
-            )
-        });
-    }
-    if !ways.is_empty() || bodies.is_empty() {
-        refuse_keys_of_bodies(reader, &given);
-    }
+    refuse_keys_of_others(reader, &given, &ways, bodies);
     if let Some(value) = problem.get("parts").filter(|value| parts::is_list(value)) {
         let other = ways.first().copied().or((!bodies.is_empty()).then_some("[[body]]"));
         if let Some(other) = other {
@@ -66,18 +51,9 @@ pub(super) fn system(
             let (problem, bodies) = shipped::problem(reader, &given, &name?)?;
             parts::split(reader, &given, problem, settings.split?, bodies)
         }
-        ["potential"] if field.is_some() => {
-            given.needs(reader, problem, "coordinates");
-            magnetic::system(reader, &given, potential?, &field?)
-        }
-        ["potential"] if explicit_time::is_in_kinetic(reader, &given) => {
-            given.needs(reader, problem, "coordinates");
-            many_parts::with_time_in_kinetic(reader, &given, potential?)
-        }
         ["potential"] => {
             given.needs(reader, problem, "coordinates");
-            let problem = formula::problem(reader, &given, &potential?)?;
-            parts::split(reader, &given, problem, settings.split?, None)
+            of_potential(reader, &given, potential?, field.as_ref(), settings.split)
         }
         ["pair"] => {
             given.needs(reader, problem, "bodies");
@@ -101,6 +77,42 @@ pub(super) fn system(
             reader.toml.wrong(given.place(second)?, message, "keep one of the two")
         }
         [_] => unreachable!("it is one of the ways"),
+    }
+}
+
+/// The system of U: with a magnetic field, with t in T, or of T(p) and U.
+fn of_potential(
+    reader: &mut Reader<'_>,
+    given: &Given,
+    potential: Text,
+    field: Option<&Placed<Vec<Text>>>,
+    split: Option<parts::Split>,
+) -> Option<System> {
+    if let Some(field) = field {
+        return magnetic::system(reader, given, potential, field);
+    }
+    if explicit_time::is_in_kinetic(reader, given) {
+        return many_parts::with_time_in_kinetic(reader, given, potential);
+    }
+    let problem = formula::problem(reader, given, &potential)?;
+    parts::split(reader, given, problem, split?, None)
+}
+
+/// Refuses keys that belong to another way than the one that is given.
+fn refuse_keys_of_others(reader: &mut Reader<'_>, given: &Given, ways: &[&str], bodies: &[GivenBody]) {
+    if *ways != [doubled::HAMILTONIAN] {
+        given.refuse(reader, &[doubled::COUPLING], |key| {
+            (format!("{key} requires `{}`", doubled::HAMILTONIAN), format!("remove `{key}`"))
+        });
+    }
+    if *ways != ["potential"] {
+        given.refuse(reader, &[magnetic::KEY], |key| {
+            let help = format!("remove `{key}`, or give U by a formula: potential = \"0\"");
+            (format!("{key} requires `potential`"), help)
+        });
+    }
+    if !ways.is_empty() || bodies.is_empty() {
+        refuse_keys_of_bodies(reader, given);
     }
 }
 
