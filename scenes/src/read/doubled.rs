@@ -38,6 +38,8 @@ pub(super) fn system(
         );
         return reader.toml.wrong(&hamiltonian.at, format!("{HAMILTONIAN} requires `{COUPLING}`"), help);
     };
+    // its faults have its place
+    reader.evaluate(&coupling)?;
     let coordinates: Vec<String> = given.coordinates.as_ref()?.value.iter().map(|name| name.value.clone()).collect();
     let momenta: Vec<String> = match &given.momenta {
         Some(names) => names.value.iter().map(|name| name.value.clone()).collect(),
@@ -133,6 +135,7 @@ mod tests {
             fault("hamiltonian = \"x*px\"\ncoupling = 1\nmasses = [1, 1]"),
             "4:10: masses cannot be set with `hamiltonian`"
         );
+        assert_eq!(fault("hamiltonian = \"x*px\"\ncoupling = \"1/0\""), "3:15: division by zero");
         assert_eq!(fault("potential = \"x\"\ncoupling = 1"), "3:12: coupling requires `hamiltonian`");
     }
 }
