@@ -137,7 +137,12 @@ mod tests {
         assert_eq!((count("up"), count("down"), count("both")), (9, 10, 19));
         let energies = |trajectory: &str| {
             let rows = rows(&read("1/10", trajectory, "energy = { every = 100 }").unwrap());
-            rows.into_iter().map(|row| row[2].clone()).filter(|energy| !energy.is_empty()).collect::<Vec<_>>()
+            let is_of_step = |row: &Vec<String>| (number(&row[1]) * 10.0 - number(&row[0])).abs() < 1e-9;
+            assert!(
+                rows.iter().all(|row| !row[2].is_empty())
+                    && rows.is_sorted_by_key(|row| (number(&row[1]) * 1e9) as i64)
+            );
+            rows.into_iter().filter(is_of_step).map(|row| row[2].clone()).collect::<Vec<_>>()
         };
         assert_eq!(energies("{ section = \"x\", direction = \"both\" }"), energies("{ every = 1000 }"));
     }

@@ -91,6 +91,7 @@ pub(crate) fn run<N: RunNumber>(
         snapshots: Snapshots::new(0),
         state: (integrator.state().q().to_vec(), integrator.state().p().to_vec()),
         n: from.unwrap_or(0),
+        ends_at: Some(scene.end()).filter(|end| end.is_met).and_then(|end| i64::try_from(end.steps).ok()),
         due: 0,
         pace: Pace::new(from.unwrap_or(0).unsigned_abs() + ONE_BY_ONE),
     };
@@ -165,6 +166,8 @@ struct Recorder<'a, 'r, N: RunNumber> {
     state: (Vec<N>, Vec<N>),
     /// The n of the newest output.
     n: i64,
+    /// The last state of a run that its condition ends: it has a row whatever the periods are.
+    ends_at: Option<i64>,
     /// No row of states or energies is due before.
     due: i64,
     /// Of asking the observer.
@@ -207,6 +210,7 @@ impl<N: RunNumber> Recorder<'_, '_, N> {
         let periods = [self.scene.output.energy, self.scene.output.trajectory, self.scene.output.chaos];
         let [energy, state, chaos] = periods.map(|every| self.is_due(every, n));
         self.due = periods.into_iter().flatten().map(|every| next_multiple(n, every)).min().unwrap_or(i64::MAX);
+        self.due = self.due.min(self.ends_at.filter(|end| *end > n).unwrap_or(i64::MAX));
         if !energy && !state && !chaos {
             self.observer.progress(n);
             return Ok(());
@@ -302,7 +306,7 @@ impl<N: RunNumber> Recorder<'_, '_, N> {
 
     /// Whether something with this period is to be written at n.
     fn is_due(&self, every: Option<u64>, n: i64) -> bool {
-        n > self.written && every.is_some_and(|every| n.unsigned_abs().is_multiple_of(every))
+        n > self.written && every.is_some_and(|every| n.unsigned_abs().is_multiple_of(every) || self.ends_at == Some(n))
     }
 
     /// Writes a row if anything is due.
@@ -347,7 +351,9 @@ impl<N: RunNumber> Recorder<'_, '_, N> {
             at_output(integrator, |integrator| {
                 let (q, p) = (integrator.state().q(), integrator.state().p());
                 let time = self.scene.system.time_of(q).unwrap_or(&time).to_text();
-                self.write((n - 1, time), (q, p), (None, None, None), true)
+                let (q, p) = (q.to_vec(), p.to_vec());
+                let energy = self.scene.output.energy.is_some().then(|| self.energy(integrator));
+                self.write((n - 1, time), (&q, &p), (energy.as_ref(), None, None), true)
             })
         });
         self.crossings = Some(crossings);
@@ -470,8 +476,8 @@ impl<N: RunNumber> Follower<N> for Recorder<'_, '_, N> {
         self.pace.looks_up(n.unsigned_abs());
         match estimate {
             None => {
-                self.present(n, integrator)?;
                 self.cross(n, integrator)?;
+                self.present(n, integrator)?;
                 self.ends(n, |_| Some(Snapshot::of(n, integrator.state())))
             }
             Some(found) => {

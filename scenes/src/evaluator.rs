@@ -37,7 +37,7 @@ impl System {
     pub fn check(&self, expression: &Expression, reader: &mut Reader<'_>) {
         if let Err(error) = Evaluator::<f64>::new(expression, self, &()) {
             let known = self.coordinates.iter().chain(&self.momenta).take(6).cloned().collect::<Vec<_>>().join(", ");
-            let hint = format!("it is a formula in {known}, t, E, the parameters and the axes");
+            let hint = format!("it is a formula in {known}, t, E and the parameters, in a sweep also the axes");
             let (message, hint) = match error.to_string().split_once(" is not smooth") {
                 Some((name, _)) => {
                     (format!("{name} is not known here"), "use smooth functions: \"x^2 > 100\" for |x| > 10".to_owned())

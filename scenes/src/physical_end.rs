@@ -177,6 +177,8 @@ mod tests {
             assert_eq!(ended.len(), 1 + 18);
             assert_eq!(ended, free[..ended.len()]);
             let momentum = |row: &String| row.rsplit(',').next().unwrap().parse::<f64>().unwrap();
+            let sparse = output.replace("trajectory = true", "trajectory = { every = 1000 }");
+            assert_eq!(rows(&pendulum("\"p < 0\"", &sparse).unwrap()).last(), ended.last());
             assert!(momentum(&ended[17]) >= 0.0 && momentum(&ended[18]) < 0.0);
         }
     }

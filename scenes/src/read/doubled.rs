@@ -5,6 +5,7 @@
 //!
 //! Source: M. Tao, Phys. Rev. E 94 (2016) 043303.
 
+use num_traits::Signed;
 use shadowstep_schemes::document::Text;
 use shadowstep_symbolic::{ExpressionKind, parse};
 
@@ -39,7 +40,10 @@ pub(super) fn system(
         return reader.toml.wrong(&hamiltonian.at, format!("{HAMILTONIAN} requires `{COUPLING}`"), help);
     };
     // its faults have its place
-    reader.evaluate(&coupling)?;
+    if !reader.evaluate(&coupling)?.value.is_positive() {
+        let help = "write coupling = 20, for example: the rate at which the two copies of the motion are held together";
+        return reader.toml.wrong(&coupling.at, "a coupling must be positive", help);
+    }
     let coordinates: Vec<String> = given.coordinates.as_ref()?.value.iter().map(|name| name.value.clone()).collect();
     let momenta: Vec<String> = match &given.momenta {
         Some(names) => names.value.iter().map(|name| name.value.clone()).collect(),
@@ -136,6 +140,7 @@ mod tests {
             "4:10: masses cannot be set with `hamiltonian`"
         );
         assert_eq!(fault("hamiltonian = \"x*px\"\ncoupling = \"1/0\""), "3:15: division by zero");
+        assert_eq!(fault("hamiltonian = \"x*px\"\ncoupling = 0"), "3:12: a coupling must be positive");
         assert_eq!(fault("potential = \"x\"\ncoupling = 1"), "3:12: coupling requires `hamiltonian`");
     }
 }

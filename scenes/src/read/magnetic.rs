@@ -99,8 +99,7 @@ fn parts(
     for (summand, name) in summands.iter().zip(&names) {
         if let Err(PartError::NoFlow(_)) = Formula::part(&summand.value, (&coordinates, &momenta), parameters) {
             let message = format!("this component of A depends on {name}, its own coordinate");
-            let help =
-                "use another gauge: A + grad f is the same field; only a constant field may have any A that is linear";
+            let help = "use another gauge: A + grad f is the same field; a constant field may have any linear A without constant terms";
             reader.toml.fault(&summand.at, message, help);
         }
     }

@@ -79,7 +79,10 @@ fn made_with(scene: &Scene) -> Vec<(&'static str, Value)> {
 
 fn steps(scene: &Scene) -> impl Iterator<Item = (&'static str, Value)> {
     let until = scene.until.iter().map(|until| ("until", json!(to_text(until))));
-    [("step", json!(to_text(scene.h.exact())))].into_iter().chain(until).chain([("steps", json!(scene.steps()))])
+    let end = scene.ends.iter().map(|condition| ("end", json!(condition.text())));
+    let section = scene.output.section.iter().map(|surface| ("section", json!(surface.expression.text.value)));
+    let step = [("step", json!(to_text(scene.h.exact())))].into_iter();
+    step.chain(until).chain(end).chain([("steps", json!(scene.steps()))]).chain(section)
 }
 
 fn system(system: &System, arithmetic: Arithmetic) -> Vec<(&'static str, Value)> {

@@ -106,7 +106,7 @@ impl TransformedTime {
         if !plain {
             return Err(Refusal::new(
                 "transformed time requires the parts T(p) and U(q): others have no explicit flows in it",
-                "remove [time], or write `parts = \"kinetic-potential\"`",
+                "remove [time]; where `parts` is a word, parts = \"kinetic-potential\" has them",
             ));
         }
         match wrong_sign(problem) {
