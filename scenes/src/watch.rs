@@ -46,6 +46,8 @@ pub struct Watch<N: RunNumber> {
     energy: EnergyError<N>,
     /// Whether H is that of transformed time, which is 0 but for round-off.
     transformed: bool,
+    /// The coordinate that is t, which does not turn, whatever its momentum does.
+    time: Option<usize>,
     /// What a summary needs besides H; `None` where there is none.
     observed: Option<Observed<N>>,
     /// The n of the first state and of the last one so far.
@@ -117,13 +119,14 @@ impl<N: RunNumber> Watch<N> {
                 approaches: None,
             });
         }
-        Ok(Watch { energies, energy: EnergyError::new(initial), transformed: false, observed, from, n: from })
+        Ok(Watch { energies, energy: EnergyError::new(initial), transformed: false, time: None, observed, from, n: from })
     }
 
     /// Follows the planets of a system that has some, too; in transformed time H is H'.
     #[must_use]
     pub(crate) fn of_system(mut self, system: &scene::System, integrator: &VectorIntegrator<'_, N>) -> Self {
         self.transformed = system.transformed_time().is_some();
+        self.time = system.explicit_time.then(|| system.q.len() - 1);
         if let Some(observed) = &mut self.observed {
             observed.approaches = Approaches::of(system);
             if let Some(approaches) = &mut observed.approaches {
@@ -204,10 +207,11 @@ impl<N: RunNumber> Watch<N> {
     pub fn summary(self, run: Run<'_>) -> Option<Summary> {
         let energy = self.energy();
         let of_kinetic = self.energy.of_kinetic();
-        let Watch { observed, from, n, transformed, .. } = self;
+        let Watch { observed, from, n, transformed, time, .. } = self;
         let Observed { mut monitor, pass, encounters, approaches, .. } = observed?;
         monitor.pass(pass);
-        let report = monitor.report();
+        let mut report = monitor.report();
+        report.fastest_coordinate = report.fastest_coordinate.filter(|(coordinate, _)| Some(*coordinate) != time);
         let (verdict, reason) = conclusion(&report, of_kinetic);
         // where the energy is lost, the modified energy does not bound it
         let bounds = !matches!(verdict, Verdict::TooLarge(Criterion::EnergyError | Criterion::NotFinite));
