@@ -184,5 +184,9 @@ mod tests {
             fault("{ section = \"x\" }", "modified_energy = true"),
             "9:19: rows of a section have no modified energy"
         );
+        assert_eq!(
+            fault("{ section = \"x\" }", "file = \"x.csv\"\nplot = { file = \"x.svg\", of = [\"orbit=x:y\"] }"),
+            "10:32: the chart `orbit=x:y` is a curve, and the crossings of a section are points"
+        );
     }
 }

@@ -119,7 +119,15 @@ impl<N: RunNumber> Watch<N> {
                 approaches: None,
             });
         }
-        Ok(Watch { energies, energy: EnergyError::new(initial), transformed: false, time: None, observed, from, n: from })
+        Ok(Watch {
+            energies,
+            energy: EnergyError::new(initial),
+            transformed: false,
+            time: None,
+            observed,
+            from,
+            n: from,
+        })
     }
 
     /// Follows the planets of a system that has some, too; in transformed time H is H'.

@@ -89,6 +89,11 @@ fn missing(picture: &Picture, outputs: &Outputs) -> Option<PictureError> {
             format!("the chart `{text}` requires rows with energies"),
             "add `energy = true` or `modified_energy = true`",
         ),
+        Content::Orbit { .. } | Content::Distances(_) if outputs.section.is_some() => (
+            false,
+            format!("the chart `{text}` is a curve, and the crossings of a section are points"),
+            "draw the rows of the file with another program, or write `trajectory = true`",
+        ),
         Content::Orbit { .. } | Content::Distances(_) => (
             outputs.trajectory.is_some(),
             format!("the chart `{text}` requires rows with positions and momenta"),
