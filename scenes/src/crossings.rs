@@ -3,25 +3,18 @@
 use shadowstep::Real;
 use shadowstep::steps::integrator::{VectorIntegrator, at_output};
 use shadowstep::steps::step_to_zero;
-use shadowstep::systems::summation::Remainders;
 
 use crate::computation::RunNumber;
 use crate::evaluator::Evaluator;
 use crate::scene::{Direction, Scene, Surface};
+use crate::snapshots::Snapshot;
 
 /// Finds the crossings of a run, whose states it takes one after the other.
 pub(crate) struct Crossings<N: RunNumber> {
     value: Evaluator<N>,
     direction: Direction,
     /// The state before, and g there.
-    before: Option<(N, Saved<N>)>,
-}
-
-/// A state of the steps.
-struct Saved<N: Real> {
-    q: Vec<N>,
-    p: Vec<N>,
-    remainders: Remainders<N>,
+    before: Option<(N, Snapshot<N>)>,
 }
 
 impl<N: RunNumber> Crossings<N> {
@@ -31,22 +24,25 @@ impl<N: RunNumber> Crossings<N> {
         Crossings { value, direction: *direction, before: None }
     }
 
-    /// Takes the next state, at which the integrator is. If the surface lies between it and the state before, `take` sees the integrator at the crossing
-    /// and the part of a step from the state before; the integrator is then at its state again, to the last bit.
+    /// Takes the state n, the next one, at which the integrator is. If the surface lies between it and the state before, `take` sees the integrator at the
+    /// crossing and the part of a step from the state before; the integrator is then at its state again, to the last bit.
     pub(crate) fn state<T>(
         &mut self,
+        n: i64,
         integrator: &mut VectorIntegrator<'_, N>,
         take: impl FnOnce(&mut VectorIntegrator<'_, N>, &N) -> T,
     ) -> Option<T> {
         let now = self.value_at(integrator);
-        let state = Saved::of(integrator);
-        let before = self.before.take();
-        let found = before.filter(|(value, _)| self.direction.is_of(value, &now)).and_then(|(_, before)| {
+        let state = Snapshot::of(n, integrator.state());
+        let before = self.before.take().filter(|(value, _)| self.direction.is_of(value, &now));
+        let found = before.and_then(|(_, before)| {
             before.restore(integrator);
-            let part = step_to_zero(integrator, |integrator| self.value_at(integrator))?;
-            Some(take(integrator, &part))
+            let part = step_to_zero(integrator, |integrator| self.value_at(integrator));
+            let taken = part.map(|part| take(integrator, &part));
+            // only here: a state that is set has its gradient evaluated again
+            state.restore(integrator);
+            taken
         });
-        state.restore(integrator);
         self.before = Some((now, state));
         found
     }
@@ -54,19 +50,6 @@ impl<N: RunNumber> Crossings<N> {
     fn value_at(&mut self, integrator: &mut VectorIntegrator<'_, N>) -> N {
         let no_time = || unreachable!("g does not depend on t, unless t is a coordinate");
         at_output(integrator, |integrator| self.value.value(integrator.system(), no_time).clone())
-    }
-}
-
-impl<N: Real> Saved<N> {
-    fn of(integrator: &VectorIntegrator<'_, N>) -> Self {
-        let state = integrator.state();
-        Saved { q: state.q().to_vec(), p: state.p().to_vec(), remainders: state.remainders() }
-    }
-
-    fn restore(&self, integrator: &mut VectorIntegrator<'_, N>) {
-        let state = integrator.system().state_mut();
-        state.set(&self.q, &self.p);
-        state.set_remainders(&self.remainders);
     }
 }
 
@@ -145,6 +128,16 @@ mod tests {
             rows.into_iter().filter(is_of_step).map(|row| row[2].clone()).collect::<Vec<_>>()
         };
         assert_eq!(energies("{ section = \"x\", direction = \"both\" }"), energies("{ every = 1000 }"));
+    }
+
+    /// Only a crossing costs forces.
+    #[test]
+    fn a_surface_that_is_not_crossed_costs_no_forces() {
+        let evaluations = |trajectory: &str| {
+            let scene = read("1/10", trajectory, "summary = false").unwrap();
+            scene.run_into(&mut Vec::new(), &mut ()).unwrap()
+        };
+        assert_eq!(evaluations("{ section = \"x - 100\" }"), evaluations("true"));
     }
 
     /// cos t = 0 of the coordinate t.

@@ -91,7 +91,6 @@ pub(crate) fn run<N: RunNumber>(
         snapshots: Snapshots::new(0),
         state: (integrator.state().q().to_vec(), integrator.state().p().to_vec()),
         n: from.unwrap_or(0),
-        ends_at: Some(scene.end()).filter(|end| end.is_met).and_then(|end| i64::try_from(end.steps).ok()),
         due: 0,
         pace: Pace::new(from.unwrap_or(0).unsigned_abs() + ONE_BY_ONE),
     };
@@ -166,8 +165,6 @@ struct Recorder<'a, 'r, N: RunNumber> {
     state: (Vec<N>, Vec<N>),
     /// The n of the newest output.
     n: i64,
-    /// The last state of a run that its condition ends: it has a row whatever the periods are.
-    ends_at: Option<i64>,
     /// No row of states or energies is due before.
     due: i64,
     /// Of asking the observer.
@@ -210,7 +207,7 @@ impl<N: RunNumber> Recorder<'_, '_, N> {
         let periods = [self.scene.output.energy, self.scene.output.trajectory, self.scene.output.chaos];
         let [energy, state, chaos] = periods.map(|every| self.is_due(every, n));
         self.due = periods.into_iter().flatten().map(|every| next_multiple(n, every)).min().unwrap_or(i64::MAX);
-        self.due = self.due.min(self.ends_at.filter(|end| *end > n).unwrap_or(i64::MAX));
+        self.due = self.due.min(i64::try_from(self.run.steps).unwrap_or(i64::MAX));
         if !energy && !state && !chaos {
             self.observer.progress(n);
             return Ok(());
@@ -304,9 +301,10 @@ impl<N: RunNumber> Recorder<'_, '_, N> {
         }
     }
 
-    /// Whether something with this period is to be written at n.
+    /// Whether something with this period is to be written at n, as at the last state of a run that its condition ends.
     fn is_due(&self, every: Option<u64>, n: i64) -> bool {
-        n > self.written && every.is_some_and(|every| n.unsigned_abs().is_multiple_of(every) || self.ends_at == Some(n))
+        let is_end = n.unsigned_abs() == self.run.steps && self.scene.end().is_met;
+        n > self.written && every.is_some_and(|every| n.unsigned_abs().is_multiple_of(every) || is_end)
     }
 
     /// Writes a row if anything is due.
@@ -341,7 +339,7 @@ impl<N: RunNumber> Recorder<'_, '_, N> {
     /// The row of a crossing between the state n, at which the system is, and the state before.
     fn cross(&mut self, n: i64, integrator: &mut VectorIntegrator<'_, N>) -> Result<(), Error> {
         let Some(mut crossings) = self.crossings.take() else { return Ok(()) };
-        let written = crossings.state(integrator, |integrator, part| {
+        let written = crossings.state(n, integrator, |integrator, part| {
             if n <= self.written {
                 return Ok(());
             }

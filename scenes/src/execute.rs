@@ -5,12 +5,12 @@ use std::io::Write;
 use crate::computation::{Computation, RunNumber};
 use crate::engine::{self, Ended, Outcome};
 use crate::error::Error;
-use crate::expression::Condition;
 use crate::note::Note;
 use crate::observer::Observer;
 use crate::results::{Checkpoint, Columns, FileOptions, Metadata, Rows, Target};
 use crate::scene::Scene;
 use crate::stability::{few_kicks, unstable};
+use crate::steps::End;
 
 impl Scene {
     /// Runs the scene and writes its rows to the file that it names, from the last checkpoint if there is one.
@@ -50,10 +50,14 @@ impl Scene {
         unstable.or_else(|| few_kicks(&self.system, scheme, h))
     }
 
-    /// Where the condition ends the run.
-    fn note_of_condition(&self, condition: &Condition) -> Note {
-        let (condition, steps) = (condition.text().to_owned(), self.steps());
-        Note::Ends { condition, steps, is_met: self.end().is_met }
+    /// Where a condition ends the run, or that whole steps end before `until`.
+    fn note_of_end(&self) -> Option<Note> {
+        if let Some(condition) = &self.ends {
+            let (condition, End { steps, is_met }) = (condition.text().to_owned(), self.end());
+            return Some(Note::Ends { condition, steps, is_met });
+        }
+        let plain = self.until.as_ref().filter(|_| self.physical_end().is_none());
+        plain.and_then(|until| Note::of_end(self.h.exact(), self.steps(), until))
     }
 
     /// Whether a summary is made.
@@ -71,15 +75,8 @@ impl Scene {
         match checkpoint {
             Some(checkpoint) => observer.note(&Note::Resumed { n: checkpoint.n, steps: self.steps() }),
             None => {
-                let plain = self.until.as_ref().filter(|_| self.physical_end().is_none());
-                let early = plain.and_then(|until| Note::of_end(self.h.exact(), self.steps(), until));
-                let ends = self.ends.as_ref().map(|condition| self.note_of_condition(condition));
-                early
-                    .iter()
-                    .filter(|_| ends.is_none())
-                    .chain(ends.iter())
-                    .chain(self.note_of_steps(observer).iter())
-                    .for_each(|note| observer.note(note));
+                let notes = self.note_of_end().into_iter().chain(self.note_of_steps(observer));
+                notes.for_each(|note| observer.note(&note));
                 rows.head(&Metadata::of(self))?;
             }
         }

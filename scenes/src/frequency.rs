@@ -35,24 +35,17 @@ impl System {
 
     /// The same whatever the parts of H are: the frequency of T(p) + U(q). Steps resolve it where they do not solve the fastest motion exactly.
     pub fn fastest_motion(&self) -> Option<Frequency> {
-        let KineticEnergy::Masses(masses) = &self.kinetic else { return None };
-        if matches!(self.potential, PotentialEnergy::OfParts) {
+        if !matches!(self.kinetic, KineticEnergy::Masses(_)) || matches!(self.potential, PotentialEnergy::OfParts) {
             return None;
         }
         let (q, p) = self.problem.initial::<f64>(&());
         if !self.problem.plain_energy::<f64>(&())(&q, &p).is_finite() {
             return None;
         }
-        let number = |exact: &shadowstep_symbolic::Exact| <f64 as shadowstep::Number>::from_rational(&exact.value, &());
-        let mut roots: Vec<f64> = match masses {
-            Some(masses) => masses.iter().map(|mass| number(mass).sqrt()).collect(),
-            None => vec![1.0; q.len()],
-        };
-        if self.explicit_time {
-            // t passes as it does, as a body of infinite mass
-            roots.truncate(q.len() - 1);
-            roots.push(f64::INFINITY);
-        }
+        let number = |mass: &shadowstep::Rational| <f64 as shadowstep::Number>::from_rational(mass, &());
+        let mut roots: Vec<f64> = self.exact_masses().iter().map(|mass| number(mass).sqrt()).collect();
+        // t passes as it does, as a body of infinite mass
+        roots.resize(q.len(), f64::INFINITY);
         let mut hessian = Hessian::new(self.potential::<f64>(&()), q, roots);
         let largest = hessian.eigenvalue(0.0)?;
         // shifted by the eigenvalue of largest size, all are positive, and the largest one is the largest in size

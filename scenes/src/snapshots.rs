@@ -2,6 +2,7 @@
 
 use std::collections::VecDeque;
 
+use shadowstep::steps::integrator::VectorIntegrator;
 use shadowstep::{Real, Remainders, VectorState};
 
 /// The state n with its remainders.
@@ -16,6 +17,13 @@ pub(crate) struct Snapshot<N> {
 impl<N: Real> Snapshot<N> {
     pub(crate) fn of(n: i64, state: &VectorState<N>) -> Self {
         Snapshot { n, q: state.q().to_vec(), p: state.p().to_vec(), remainders: state.remainders() }
+    }
+
+    /// Sets the state of the system to this one, to the last bit.
+    pub(crate) fn restore(&self, integrator: &mut VectorIntegrator<'_, N>) {
+        let state = integrator.system().state_mut();
+        state.set(&self.q, &self.p);
+        state.set_remainders(&self.remainders);
     }
 }
 

@@ -44,11 +44,7 @@ pub(super) fn system(
         let help = "write coupling = 20, for example: the rate at which the two copies of the motion are held together";
         return reader.toml.wrong(&coupling.at, "a coupling must be positive", help);
     }
-    let coordinates: Vec<String> = given.coordinates.as_ref()?.value.iter().map(|name| name.value.clone()).collect();
-    let momenta: Vec<String> = match &given.momenta {
-        Some(names) => names.value.iter().map(|name| name.value.clone()).collect(),
-        None => coordinates.iter().map(|name| format!("p{name}")).collect(),
-    };
+    let (coordinates, momenta) = given.variables(given.coordinates.as_ref()?);
     let known = [&coordinates[..], &momenta, &[TIME.to_owned()]].concat();
     if let Err(error) = Formula::potential(&hamiltonian.value, &known, &parameters) {
         let help = "H is a smooth formula in the coordinates, the momenta, the time t and the parameters";

@@ -15,9 +15,7 @@ use shadowstep_schemes::document::{Placed, Text};
 
 /// The problem with this potential.
 pub(super) fn problem(reader: &mut Reader<'_>, given: &Given, potential: &Text) -> Option<InitialValueProblem> {
-    given.refuse(reader, &["bodies", "dimensions", "neighbours", "cutoff", "box"], |key| {
-        (format!("{key} requires `pair`"), format!("remove `{key}`, or write `pair` instead of `potential`"))
-    });
+    given.refuse_keys_of_pairs(reader);
     let parameters = given.own_parameters(reader);
     let list = given.coordinates.as_ref()?;
     let before = reader.toml.faults.len();
@@ -103,23 +101,21 @@ pub(super) fn names(reader: &mut Reader<'_>, given: &Given, list: &Placed<Vec<Te
         taken.push((name.value.clone(), COORDINATE.to_owned()));
         taken.extend(momentum.map(|momentum| (momentum, format!("of the momentum of `{}`", name.value))));
     }
-    let coordinates: Vec<String> = list.value.iter().map(|name| name.value.clone()).collect();
-    let momenta = match &given.momenta {
-        Some(list) => own_momenta(reader, list, coordinates.len(), taken),
-        None => coordinates.iter().map(|name| format!("p{name}")).collect(),
-    };
-    (coordinates, momenta)
+    if let Some(momenta) = &given.momenta {
+        check_momenta(reader, momenta, list.value.len(), taken);
+    }
+    given.variables(list)
 }
 
 const COORDINATE: &str = "of a coordinate";
 
-/// The names of the momenta: one for each coordinate, and each different from all other names.
-fn own_momenta(
+/// Checks the names of the momenta: one for each coordinate, and each different from all other names.
+fn check_momenta(
     reader: &mut Reader<'_>,
     list: &Placed<Vec<Text>>,
     coordinates: usize,
     mut taken: Vec<(String, String)>,
-) -> Vec<String> {
+) {
     for name in &list.value {
         check_name(reader, name);
         if let Some((other, whose)) = taken.iter().find(|(other, _)| *other == name.value) {
@@ -131,5 +127,4 @@ fn own_momenta(
         let fault = reader.toml.source.fault(&list.at, "this list needs a name for each coordinate");
         reader.toml.faults.push(fault.values(list.value.len().to_string(), coordinates.to_string()));
     }
-    list.value.iter().map(|name| name.value.clone()).collect()
 }

@@ -96,6 +96,22 @@ impl Given {
         parameters
     }
 
+    /// The names of the coordinates and momenta as they are given, valid or not: by default, momenta are named after the coordinates.
+    pub(super) fn variables(&self, coordinates: &Placed<Vec<Text>>) -> (Vec<String>, Vec<String>) {
+        let texts = |list: &Placed<Vec<Text>>| list.value.iter().map(|name| name.value.clone()).collect::<Vec<_>>();
+        let coordinates = texts(coordinates);
+        let default = || coordinates.iter().map(|name| format!("p{name}")).collect();
+        let momenta = self.momenta.as_ref().map_or_else(default, texts);
+        (coordinates, momenta)
+    }
+
+    /// Refuses keys that only pairs of bodies have.
+    pub(super) fn refuse_keys_of_pairs(&self, reader: &mut Reader<'_>) {
+        self.refuse(reader, &["bodies", "dimensions", "neighbours", "cutoff", "box"], |key| {
+            (format!("{key} requires `pair`"), format!("remove `{key}`, or write `pair` instead of `potential`"))
+        });
+    }
+
     /// The place of the value of a key, if the key is given.
     pub(super) fn place(&self, key: &str) -> Option<&Range<usize>> {
         self.places.iter().find(|(name, _)| *name == key).map(|(_, at)| at)

@@ -32,7 +32,7 @@ pub(super) fn system(
         (format!("{key} cannot be set with `{KEY}`"), help)
     });
     let parameters = given.own_parameters(reader);
-    let coordinates = given.coordinates.as_ref()?.value.iter().map(|name| name.value.clone()).collect::<Vec<_>>();
+    let (coordinates, momenta) = given.variables(given.coordinates.as_ref()?);
     if field.value.len() != coordinates.len() {
         let fault = reader.toml.source.fault(&field.at, "this list needs a component for each coordinate");
         reader.toml.faults.push(fault.values(field.value.len().to_string(), coordinates.len().to_string()));
@@ -45,10 +45,6 @@ pub(super) fn system(
             Some(masses)
         }
         None => None,
-    };
-    let momenta: Vec<String> = match &given.momenta {
-        Some(names) => names.value.iter().map(|name| name.value.clone()).collect(),
-        None => coordinates.iter().map(|name| format!("p{name}")).collect(),
     };
     let summands = summands(&field.value, &momenta, masses.as_deref());
     let parts = parts(reader, (coordinates, momenta), &parameters, (&field.value, summands))?;

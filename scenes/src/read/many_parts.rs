@@ -113,9 +113,7 @@ pub(super) fn of_formulas(
 
 /// H = T(p, t) + U as formulas of its parts.
 pub(super) fn with_time_in_kinetic(reader: &mut Reader<'_>, given: &Given, potential: Text) -> Option<System> {
-    given.refuse(reader, &["bodies", "dimensions", "neighbours", "cutoff", "box"], |key| {
-        (format!("{key} requires `pair`"), format!("remove `{key}`, or write `pair` instead of `potential`"))
-    });
+    given.refuse_keys_of_pairs(reader);
     given.refuse(reader, &["parts"], |_| {
         let help = "remove it, or give the parts by their formulas: parts = [\"p^2*exp(-t)/2\", \"q^4\"]";
         ("T depends on t, so that its part is that of its formula".to_owned(), help.to_owned())
