@@ -12,6 +12,7 @@ pub mod refusals;
 pub mod shipped;
 pub mod steps;
 pub mod systems;
+pub mod variations;
 
 use rug::Float;
 use shadowstep::number::{Number, Precision, Real};

@@ -3,15 +3,13 @@
 use rug::Float;
 use shadowstep::number::{CorrectlyRounded, Limbs, Number, Real};
 use shadowstep::problems::HenonHeiles;
-use shadowstep::shadow::Bilinear;
-use shadowstep::shadow::run::energy_drift;
 use shadowstep::systems::formula::{FormulaOfBodies, RelativeTo};
 use shadowstep::systems::linear_part::LinearPart;
 use shadowstep::systems::potential::Sum;
 use shadowstep::systems::wisdom_holman::{Bodies, Jacobi, PlanetaryCoordinates, WisdomHolman};
 use shadowstep::{Carried, Rational, Stepper, System};
 use shadowstep_tests::{
-    Bits, log10_distance, log10_largest_distance, numbers, precision, rational, same_bits, stepper,
+    Bits, log10_distance, log10_largest_distance, numbers, precision, rational, same_bits, stepper, variations,
 };
 
 const DIGITS: u32 = 90;
@@ -154,24 +152,13 @@ fn steps_are_steps_in_both_kinds_of_numbers() {
 }
 
 /// max − min of H, and of E_8 and E_16, over 100 steps of Chin's 4A.
-fn variations<M>(mut system: M, h: &str) -> [f64; 3]
+fn variations<M>(system: M, h: &str) -> [f64; 3]
 where
     M: System<Number = Limbs<4>> + Clone,
     shadowstep::tables::TableScheme: shadowstep::ValidFor<M::Class>,
 {
     let stepper: Stepper<_, Limbs<4>> = stepper("chin-4a", h, &());
-    let [k8, k16] = [8, 16].map(|k| {
-        energy_drift(stepper.with(system.clone()), 100, &Bilinear::new(k))
-            .expect("all states are finite")
-            .drift
-            .to_f64()
-    });
-    let energies = (0..100).map(|_| {
-        stepper.step(&mut system);
-        System::energy(&mut system).to_f64()
-    });
-    let (least, largest) = energies.fold((f64::MAX, f64::MIN), |(least, largest), e| (least.min(e), largest.max(e)));
-    [largest - least, k8, k16]
+    variations::of_energies(&stepper, system, 100, [8, 16])
 }
 
 /// With a wrong rate of β it would not converge.

@@ -5,7 +5,6 @@
 
 use rug::Float;
 use shadowstep::number::{Limbs, Number, Precision, Real};
-use shadowstep::shadow::run::energy_drift;
 use shadowstep::shadow::{Bilinear, ShadowEnergy};
 use shadowstep::systems::kinetic::General;
 use shadowstep::systems::wisdom_holman::{Bodies, DemocraticHeliocentric, Jacobi, PlanetaryCoordinates, WisdomHolman};
@@ -14,7 +13,9 @@ use shadowstep::{Rational, Scheme, Stepper, System, ValidFor};
 use shadowstep_schemes::{First, shipped_names, shipped_proved};
 use shadowstep_tests::reference::Separable;
 use shadowstep_tests::shipped::{Shipped, all, all_for_every_kinetic};
-use shadowstep_tests::{Bits, log10_distance, log10_largest_distance, numbers, precision, rational, same_bits};
+use shadowstep_tests::{
+    Bits, log10_distance, log10_largest_distance, numbers, precision, rational, same_bits, variations,
+};
 
 /// Digits of the computation.
 const DIGITS: u32 = 60;
@@ -284,18 +285,7 @@ where
     let drift_first = shadowstep_tests::shipped::twin("stormer-verlet", Some(First::Drift));
     let stepper =
         Stepper::<_, Limbs<4>>::new(drift_first.for_every_kinetic().expect("it is"), h).expect("it is nonzero");
-    let mut system = giants::<Limbs<4>, C>(&());
-    let [k8, k24] = [8, 24].map(|k| {
-        let found =
-            energy_drift(stepper.with(system.clone()), steps, &Bilinear::new(k)).expect("all states are finite");
-        found.drift.to_f64()
-    });
-    let energies = (0..steps).map(|_| {
-        stepper.step(&mut system);
-        System::energy(&mut system).to_f64()
-    });
-    let (least, largest) = energies.fold((f64::MAX, f64::MIN), |(least, largest), e| (least.min(e), largest.max(e)));
-    [largest - least, k8, k24]
+    variations::of_energies(&stepper, giants::<Limbs<4>, C>(&()), steps, [8, 24])
 }
 
 #[test]

@@ -5,8 +5,6 @@
 
 use rug::Float;
 use shadowstep::number::{Limbs, Number, Real};
-use shadowstep::shadow::Bilinear;
-use shadowstep::shadow::run::energy_drift;
 use shadowstep::systems::formula::{FormulaOfBodies, FormulaPair, FormulaPotential, RelativeTo};
 use shadowstep::systems::pairs::{Pairs, Separation};
 use shadowstep::systems::potential::Sum;
@@ -16,7 +14,7 @@ use shadowstep_tests::reference::Separable;
 use shadowstep_tests::shipped::all;
 use shadowstep_tests::{
     Bits, log10_distance, log10_largest_distance, number, numbers, potential_values, precision, rational, same_bits,
-    stepper,
+    stepper, variations,
 };
 
 const DIGITS: u32 = 60;
@@ -166,17 +164,7 @@ fn steps_are_steps_in_both_kinds_of_numbers() {
 /// max − min of H and of E_8 and E_24 over 100 steps.
 fn variations(scheme: &str, h: &str) -> [f64; 3] {
     let stepper: Stepper<_, Limbs<4>> = stepper(scheme, h, &());
-    let mut system = three::<Limbs<4>>(&());
-    let [k8, k24] = [8, 24].map(|k| {
-        let found = energy_drift(stepper.with(system.clone()), 100, &Bilinear::new(k)).expect("all states are finite");
-        found.drift.to_f64()
-    });
-    let energies = (0..100).map(|_| {
-        stepper.step(&mut system);
-        System::energy(&mut system).to_f64()
-    });
-    let (least, largest) = energies.fold((f64::MAX, f64::MIN), |(least, largest), e| (least.min(e), largest.max(e)));
-    [largest - least, k8, k24]
+    variations::of_energies(&stepper, three::<Limbs<4>>(&()), 100, [8, 24])
 }
 
 /// With a wrong rate of β it would not converge.
