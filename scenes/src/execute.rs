@@ -118,6 +118,7 @@ fn columns(scene: &Scene) -> Columns {
         energy: output.energy.is_some(),
         modified_energy: output.modified_energy.is_some(),
         chaos: output.chaos.is_some(),
+        values: output.named_values().map(|value| value.name.clone()).collect(),
         state: scene.system.columns().filter(|_| output.has_states()).cloned().collect(),
         coordinates: scene.system.coordinates_of_columns(),
     }

@@ -25,7 +25,7 @@ pub struct Key {
 }
 
 /// All sections, in the order of the explanation.
-pub(crate) const SECTIONS: [Section; 13] = [
+pub(crate) const SECTIONS: [Section; 14] = [
     section(
         "problem",
         "[problem]",
@@ -57,12 +57,13 @@ pub(crate) const SECTIONS: [Section; 13] = [
     section("output.energy", "[output.energy]", "A table in place of `energy = true`."),
     section("output.modified_energy", "[output.modified_energy]", "A table in place of `modified_energy = true`."),
     section("output.trajectory", "[output.trajectory]", "A table in place of `trajectory = true`."),
+    section("output.elements", "[output.elements]", "A table in place of `elements = true`."),
     section("output.chaos", "[output.chaos]", "A table in place of `chaos = true`."),
     section("output.plot", "[output.plot]", "A table in place of `plot = \"kepler.svg\"`."),
 ];
 
 /// All keys, section by section.
-pub(crate) const KEYS: [Key; 76] = [
+pub(crate) const KEYS: [Key; 81] = [
     key(
         "problem",
         "name",
@@ -411,6 +412,30 @@ pub(crate) const KEYS: [Key; 76] = [
     ),
     key(
         "output",
+        "values",
+        "Writes formulas in the coordinates, momenta, parameters, t and E as columns of these names, all of them at every n that is a multiple of `every`. A formula \
+         can have distance(sun, earth), and an element of a body's orbit about the first body or another one, the bodies before, or all: e(earth), a(moon, earth), \
+         i(earth, jacobi), M(earth, barycentre), with the names of [[body]].",
+        "{ r = \"sqrt(x^2 + y^2)\", every = 10 }",
+        Some("none"),
+    ),
+    key(
+        "output",
+        "elements",
+        "Writes the elements of the osculating orbits of all bodies but the first as columns a_earth, e_earth, i_earth, node_earth, pericentre_earth, \
+         M_earth, …, with angles in degrees: true, or a table.",
+        "{ every = 100, centre = \"jacobi\" }",
+        Some("false"),
+    ),
+    key(
+        "output",
+        "extremes",
+        "Adds the least and the greatest values of formulas over all states to the summary; the formulas are those of `values`.",
+        "{ closest = \"distance(earth, moon)\" }",
+        Some("none"),
+    ),
+    key(
+        "output",
         "chaos",
         "Writes indicators of chaos as columns `lyapunov`, `megno`, `mean_megno` and `sali`, of two tangent vectors from t = 0: true, or a table. \
          See docs/chaos.md.",
@@ -505,6 +530,15 @@ pub(crate) const KEYS: [Key; 76] = [
         "How the formula of `section` goes through 0, in the order of the steps: \"up\", \"down\" or \"both\".",
         "\"both\"",
         Some("\"up\""),
+    ),
+    key("output.elements", "every", "They are written at every n that is a multiple of this.", "100", Some("1")),
+    key(
+        "output.elements",
+        "centre",
+        "What orbits are about: \"heliocentric\" for the first body, with the masses of the two; \"jacobi\" for the centre of mass of the bodies before, with \
+         their mass and the body's own; \"barycentric\" for the centre of mass of all bodies, with their mass, where the first body has an orbit, too.",
+        "\"jacobi\"",
+        Some("\"heliocentric\""),
     ),
     key("output.chaos", "every", "They are written at every n that is a multiple of this.", "100", Some("1")),
     key(

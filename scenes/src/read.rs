@@ -25,6 +25,7 @@ mod run;
 mod shipped;
 mod time;
 mod units;
+mod values;
 
 use std::io::ErrorKind;
 use std::path::Path;

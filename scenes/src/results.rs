@@ -16,5 +16,5 @@ pub use metadata::hexadecimal;
 pub(crate) use metadata::sha256;
 pub use options::FileOptions;
 pub(crate) use origin::Origin;
-pub(crate) use rows::{Columns, Indicators, ModifiedEnergy, Row, Rows};
+pub(crate) use rows::{Columns, Indicators, ModifiedEnergy, Row, Rows, Values};
 pub(crate) use target::{Target, no_file};

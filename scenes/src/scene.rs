@@ -1,5 +1,6 @@
 //! The content of a scene: plain data, all of it exact.
 
+pub(crate) mod bodies;
 mod format;
 mod formula;
 mod number;
@@ -17,9 +18,10 @@ pub use format::Format;
 pub use formula::Formula;
 pub use number::{SceneNumber, SystemIn};
 pub use output::{CheckpointInterval, Direction, Outputs, Surface};
+pub(crate) use output::{NamedExpression, ValueColumns};
 pub use own::OwnPotential;
 pub use pairs::{EnergyOfBodies, PairEnergy};
-pub(crate) use pairs::{PairCutoff, SmoothEnd};
+pub(crate) use pairs::{GRAVITY, PairCutoff, SmoothEnd};
 pub(crate) use problem::ClassifiedKinetic;
 pub use problem::{EnergyAt, InitialValueProblem, KineticEnergy, PotentialEnergy};
 pub use system::{Parts, System};

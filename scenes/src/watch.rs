@@ -245,6 +245,7 @@ impl<N: RunNumber> Watch<N> {
             modified_energy,
             encounters,
             closest,
+            extremes: Vec::new(),
             interactions: approaches.map(|approaches| approaches.found().clone()),
             fine: verdict.is_fine(),
             verdict: verdict.to_string(),

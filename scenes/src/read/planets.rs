@@ -18,7 +18,9 @@ use super::of_bodies;
 use super::parts::{self, Split};
 use super::reader::Reader;
 use super::units;
-use crate::scene::{EnergyOfBodies, Formula, InitialValueProblem, KineticEnergy, PairEnergy, PotentialEnergy, System};
+use crate::scene::{
+    EnergyOfBodies, Formula, GRAVITY, InitialValueProblem, KineticEnergy, PairEnergy, PotentialEnergy, System,
+};
 use shadowstep_schemes::document::{Placed, Section, Text};
 
 /// The name of the section.
@@ -40,9 +42,6 @@ pub(super) struct GivenBody {
     elements: Vec<(&'static str, Text)>,
     at: Range<usize>,
 }
-
-/// The energy of two bodies.
-const GRAVITY: &str = "-g*m_i*m_j/sqrt(r2)";
 
 /// What the elements of a planet are relative to.
 #[derive(Clone, Copy, PartialEq, Eq)]

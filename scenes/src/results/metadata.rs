@@ -42,6 +42,9 @@ impl Metadata {
         all.extend(
             scene.output.modified_energy.iter().map(|(chosen, _)| ("modified_energy_by", json!(chosen.to_string()))),
         );
+        let values: serde_json::Map<_, _> =
+            scene.output.named_values().map(|value| (value.name.clone(), json!(value.expression.text.value))).collect();
+        all.extend((!values.is_empty()).then(|| ("values", json!(values))));
         Metadata(all)
     }
 

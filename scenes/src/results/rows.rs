@@ -2,7 +2,7 @@
 
 use std::io::Write;
 
-use serde::Serialize;
+use serde::{Serialize, Serializer};
 use shadowstep::Real;
 use shadowstep::shadow::Estimate;
 
@@ -18,7 +18,7 @@ use crate::whole_file::WholeFile;
 
 /// A state of the run: what is written at its n. Numbers are texts that give the same numbers when they are read.
 #[derive(Serialize)]
-pub(crate) struct Row {
+pub(crate) struct Row<'a> {
     pub(crate) n: i64,
     pub(crate) t: String,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -27,10 +27,21 @@ pub(crate) struct Row {
     pub(crate) modified_energy: Option<ModifiedEnergy>,
     #[serde(flatten)]
     pub(crate) chaos: Option<Indicators>,
+    #[serde(flatten)]
+    pub(crate) values: Values<'a>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) q: Option<Vec<String>>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) p: Option<Vec<String>>,
+}
+
+/// Values of expressions with the names of their columns; what is not due or not finite has no text.
+pub(crate) struct Values<'a>(pub(crate) Vec<(&'a str, Option<String>)>);
+
+impl Serialize for Values<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_map(self.0.iter().filter_map(|(name, text)| Some((name, text.as_ref()?))))
+    }
 }
 
 #[derive(Serialize)]
@@ -77,6 +88,8 @@ pub(crate) struct Columns {
     pub(crate) energy: bool,
     pub(crate) modified_energy: bool,
     pub(crate) chaos: bool,
+    /// The names of values.
+    pub(crate) values: Vec<String>,
     /// The names of positions and momenta, if they are written.
     pub(crate) state: Vec<String>,
     /// How many of these are positions.
@@ -89,12 +102,12 @@ impl Columns {
         names.extend(self.energy.then_some(COLUMNS[2]));
         names.extend(COLUMNS[3..6].iter().filter(|_| self.modified_energy));
         names.extend(COLUMNS[6..].iter().filter(|_| self.chaos));
-        names.extend(self.state.iter().map(String::as_str));
+        names.extend(self.values.iter().chain(&self.state).map(String::as_str));
         names
     }
 
     /// The cells of a row; what is not written at this n is empty.
-    fn cells(&self, row: &Row) -> Vec<String> {
+    fn cells(&self, row: &Row<'_>) -> Vec<String> {
         let mut cells = vec![row.n.to_string(), row.t.clone()];
         if self.energy {
             cells.push(row.energy.clone().unwrap_or_default());
@@ -111,6 +124,7 @@ impl Columns {
             }
             None => cells.extend(vec![String::new(); if self.chaos { 4 } else { 0 }]),
         }
+        cells.extend(row.values.0.iter().map(|(_, text)| text.clone().unwrap_or_default()));
         match (&row.q, &row.p) {
             (Some(q), Some(p)) => cells.extend(q.iter().take(self.coordinates).chain(p).cloned()),
             _ => cells.extend(vec![String::new(); self.state.len()]),
@@ -152,7 +166,7 @@ impl Rows<'_> {
         self.target.finish()
     }
 
-    pub(crate) fn row(&mut self, row: &Row) -> Result<(), Error> {
+    pub(crate) fn row(&mut self, row: &Row<'_>) -> Result<(), Error> {
         match self.format {
             Format::JsonLines => self.line(row),
             Format::Csv => {
