@@ -76,6 +76,7 @@ def open(path: Union[str, os.PathLike[str]]) -> Trajectory:
         order=array("order") if there("modified_energy") else None,
         metadata=metadata,
         indicators={name: array(name) for name in _INDICATORS if there(name)},
+        values={name: array(name, texts=True) for name in metadata.get("values", {})},
     )
 
 
@@ -88,8 +89,10 @@ def _csv(name: str) -> tuple[dict[str, Any], list[dict[str, str]], list[str]]:
         if columns is None or list(columns[:2]) != ["n", "t"] or "coordinates" not in metadata:
             raise InputError(f"{name}: this is no file of a run: it begins with lines of metadata, and columns n, t, …")
         rows = list(reader)
-    metadata["coordinates"] = json.loads(metadata["coordinates"])
-    state = [column for column in columns if column not in _FIXED]
+    for key in ("coordinates", "values"):
+        if key in metadata:
+            metadata[key] = json.loads(metadata[key])
+    state = [column for column in columns if column not in _FIXED and column not in metadata.get("values", {})]
     written = [coordinate for coordinate in metadata["coordinates"] if coordinate in state]
     return metadata, rows, state[len(written) :] or [f"p{name}" for name in metadata["coordinates"]]
 
