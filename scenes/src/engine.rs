@@ -431,12 +431,14 @@ impl<N: RunNumber> Recorder<'_, '_, N> {
         self.rows.row(&Row { n, t: time.to_text(), energy, modified_energy, chaos, values, q: texts(q), p: texts(p) })
     }
 
-    /// Makes a checkpoint where it is time for one, or where the run is stopped: then it ends.
+    /// Makes a checkpoint where it is time for one, at the last state, from which the run can be prolonged, or where the run is stopped: then it ends.
     ///
     /// `state` is the one from which the run can be resumed; `None` for the state at t = 0.
     fn ends(&mut self, n: i64, state: impl FnOnce(&Self) -> Option<Snapshot<N>>) -> Result<ControlFlow<()>, Error> {
         let stops = self.observer.stops();
-        let due = self.scene.output.checkpoint.is_some_and(|interval| self.is_time_for_a_checkpoint(n, interval));
+        let is_last = n.unsigned_abs() == self.run.steps;
+        let due = self.scene.output.checkpoint;
+        let due = due.is_some_and(|interval| self.is_time_for_a_checkpoint(n, interval) || is_last);
         if n > self.written && (due || stops) {
             self.checkpoint(n, state(self).as_ref())?;
         }

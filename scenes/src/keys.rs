@@ -447,7 +447,8 @@ pub(crate) const KEYS: [Key; 81] = [
         "checkpoint",
         "How often the run saves a checkpoint: a time in s, min or h, or a number of steps. If a run is stopped, running \
          the scene again resumes it from the last checkpoint, and the file gets the same bytes. A changed scene, even if \
-         only a comment is different, cannot be resumed. Requires `file`.",
+         only a comment is different, cannot be resumed. The last checkpoint stays beside the complete file: with a later `until` \
+         or more `steps`, and nothing else changed, the run goes on from there. Requires `file`.",
         "\"1 min\"",
         Some("none; a run that is stopped leaves no file"),
     ),

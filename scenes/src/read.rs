@@ -101,11 +101,25 @@ pub(crate) fn read(source: &Source, document: &DeTable<'_>, names: Names<'_>) ->
     let sections = sections(&mut reader, document, names.others, names.schemes);
     let Reader { toml, arithmetic, notes, .. } = reader;
     match (Faults::of(toml.faults), sections) {
-        (None, Some((system, run::Steps { scheme, displaced, h, until, steps, ends }, output))) => {
+        (None, Some((system, run::Steps { scheme, displaced, h, until, steps, end_at, ends }, output))) => {
             let known = steps.filter(|_| ends.is_none()).map(|steps| End { steps, is_met: false });
             let end = known.map_or_else(OnceLock::new, OnceLock::from);
             let (source, most_steps) = (source.clone(), steps);
-            Ok(Scene { source, arithmetic, system, scheme, displaced, h, until, ends, most_steps, end, output, notes })
+            Ok(Scene {
+                source,
+                arithmetic,
+                system,
+                scheme,
+                displaced,
+                h,
+                until,
+                end_at,
+                ends,
+                most_steps,
+                end,
+                output,
+                notes,
+            })
         }
         (Some(faults), _) => Err(faults),
         (None, None) => unreachable!("what cannot be read is a fault"),

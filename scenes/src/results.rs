@@ -16,5 +16,6 @@ pub use metadata::hexadecimal;
 pub(crate) use metadata::sha256;
 pub use options::FileOptions;
 pub(crate) use origin::Origin;
+pub(crate) use resumable::Begun;
 pub(crate) use rows::{Columns, Indicators, ModifiedEnergy, Row, Rows, Values};
 pub(crate) use target::{Target, no_file};

@@ -26,6 +26,7 @@ pub(crate) use problem::ClassifiedKinetic;
 pub use problem::{EnergyAt, InitialValueProblem, KineticEnergy, PotentialEnergy};
 pub use system::{Parts, System};
 
+use std::ops::Range;
 use std::sync::OnceLock;
 
 use shadowstep::tables::Source;
@@ -57,6 +58,8 @@ pub struct Scene {
     pub h: StepSize,
     /// The time at which the run ends, at the latest; `None` where time is transformed and the number of steps is given.
     pub until: Option<Rational>,
+    /// The place of the value of `until` or `steps` in the text.
+    pub(crate) end_at: Range<usize>,
     /// The condition on which the run ends before, if there is one.
     pub ends: Option<Condition>,
     /// The most steps; `None` where only the steps themselves have their times.

@@ -15,6 +15,9 @@ pub(crate) struct Identity {
     version: String,
     platform: String,
     scene_sha256: String,
+    /// The hash of the scene without the value of `until` or `steps`.
+    #[serde(default)]
+    without_end_sha256: String,
     tables_sha256: Vec<String>,
     /// Those of the machine, for a run in double precision with checkpoints.
     #[serde(default)]
@@ -39,6 +42,7 @@ impl Identity {
             version: env!("CARGO_PKG_VERSION").to_owned(),
             platform: platform(),
             scene_sha256: sha256(&scene.source.text),
+            without_end_sha256: without_end(scene),
             tables_sha256: table_hashes(scene),
             functions_sha256: functions(scene).map(str::to_owned),
             steps: scene.steps(),
@@ -51,6 +55,18 @@ impl Identity {
     /// The hash of the scene.
     pub(crate) fn scene(&self) -> &String {
         &self.scene_sha256
+    }
+
+    /// That of a run of the same scene with another end.
+    fn with_end_of(&self, other: &Identity) -> Identity {
+        let is_same = self.without_end_sha256 == other.without_end_sha256;
+        let scene = if is_same { other } else { self };
+        Identity { scene_sha256: scene.scene_sha256.clone(), ..self.clone() }
+    }
+
+    /// Whether a state is the last one.
+    pub(crate) fn is_last(&self, n: i64) -> bool {
+        n.unsigned_abs() == self.steps
     }
 
     /// Everything else, as it stands in metadata.
@@ -79,6 +95,12 @@ impl Identity {
     }
 }
 
+/// A hash of the text with nothing in the place of the value of `until` or `steps`.
+fn without_end(scene: &Scene) -> String {
+    let (text, end) = (&scene.source.text, &scene.end_at);
+    sha256(&format!("{}\0{}", &text[..end.start], &text[end.end..]))
+}
+
 /// The fingerprint of the functions that determine the bits of a run.
 fn functions(scene: &Scene) -> Option<&'static str> {
     let is_double = !matches!(scene.arithmetic.numbers(), Numbers::Digits(..));
@@ -93,10 +115,16 @@ pub(crate) struct Checkpoint {
     pub(crate) n: i64,
     /// Their length in bytes.
     pub(crate) bytes: u64,
+    /// The length of the head before them.
+    #[serde(default)]
+    pub(crate) head: u64,
     /// The hash of these bytes.
     pub(crate) sha256: String,
     /// The state from which the run is resumed; `None` for the one at t = 0.
     pub(crate) state: Option<SavedState>,
+    /// The hash of the scene with an earlier end whose file is prolonged.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(crate) prolongs: Option<String>,
     /// The tangent vectors at n, if there are any.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub(crate) vectors: Vec<SavedVector>,
@@ -120,14 +148,34 @@ impl Checkpoint {
     /// # Errors
     /// Why the run cannot be resumed from it, as the predicate of a sentence.
     pub(crate) fn read(text: &str, identity: &Identity) -> Result<Checkpoint, String> {
+        let checkpoint = Checkpoint::sealed(text)?;
+        if let Some(other) = identity.differs(&checkpoint.identity) {
+            return Err(format!("was made with {other}"));
+        }
+        checkpoint.check(identity)?;
+        Ok(checkpoint)
+    }
+
+    /// Reads the checkpoint that a complete run of this scene, but with an earlier end, has left.
+    pub(crate) fn of_earlier_end(text: &str, identity: &Identity) -> Option<Checkpoint> {
+        let checkpoint = Checkpoint::sealed(text).ok()?;
+        let expected = identity.with_end_of(&checkpoint.identity);
+        let is_other_end = expected.scene_sha256 != identity.scene_sha256;
+        let is_valid = is_other_end && expected.differs(&checkpoint.identity).is_none();
+        Some(checkpoint).filter(|checkpoint| is_valid && checkpoint.check(identity).is_ok())
+    }
+
+    /// The hash of the scene that it is of.
+    pub(crate) fn scene(&self) -> &str {
+        &self.identity.scene_sha256
+    }
+
+    /// What no one has changed.
+    fn sealed(text: &str) -> Result<Checkpoint, String> {
         let sealed: Sealed = serde_json::from_str(text).map_err(|_| "is damaged".to_owned())?;
         if seal(&sealed.checkpoint) != sealed.sha256 {
             return Err("was changed after it was written".to_owned());
         }
-        if let Some(other) = identity.differs(&sealed.checkpoint.identity) {
-            return Err(format!("was made with {other}"));
-        }
-        sealed.checkpoint.check(identity)?;
         Ok(sealed.checkpoint)
     }
 
