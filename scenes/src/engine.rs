@@ -18,7 +18,7 @@ use crate::note::Note;
 use crate::observer::Observer;
 use crate::pace::Pace;
 use crate::physical_end::last_step;
-use crate::results::{Checkpoint, Indicators, ModifiedEnergy, Row, Rows, Values};
+use crate::results::{Checkpoint, Indicators, ModifiedEnergy, Row, Rows};
 use crate::run::Run;
 use crate::saved_state::SavedState;
 use crate::scene::split::ShownCoordinates;
@@ -360,7 +360,7 @@ impl<N: RunNumber> Recorder<'_, '_, N> {
         n: i64,
         (q, p): (&[N], &[N]),
         energy: Option<&N>,
-        (due, modified): (Due, Option<ModifiedEnergy>),
+        (due, modified): (Due, Option<ModifiedEnergy<N>>),
     ) -> Result<(), Error> {
         self.observer.progress(n);
         if let Some(energy) = energy.filter(|energy| !energy.is_finite()) {
@@ -414,21 +414,19 @@ impl<N: RunNumber> Recorder<'_, '_, N> {
         (n, time): (i64, N),
         (q, p): (&[N], &[N]),
         energy: Option<&N>,
-        (due, modified_energy, chaos): (Due, Option<ModifiedEnergy>, Option<Indicators>),
+        (due, modified_energy, chaos): (Due, Option<ModifiedEnergy<N>>, Option<Indicators>),
     ) -> Result<(), Error> {
         let mut values = Vec::new();
         for place in 0..self.values.len() {
             let is_due = due.all_values || self.is_due(Some(self.values[place].every), n);
             self.values[place].append(is_due.then_some(((q, p), &time, energy)), &mut values);
         }
-        let (q, p) = match &mut self.shown {
+        let state = match &mut self.shown {
             Some(shown) if due.state => shown.of_state(q, p),
             _ => (q, p),
         };
-        let texts = |numbers: &[N]| due.state.then(|| numbers.iter().map(N::to_text).collect());
-        let energy = energy.filter(|_| due.energy).map(N::to_text);
-        let values = Values(values);
-        self.rows.row(&Row { n, t: time.to_text(), energy, modified_energy, chaos, values, q: texts(q), p: texts(p) })
+        let (energy, state) = (energy.filter(|_| due.energy), due.state.then_some(state));
+        self.rows.row(&Row { n, t: &time, energy, modified_energy, chaos, values, state })
     }
 
     /// Makes a checkpoint where it is time for one, at the last state, from which the run can be prolonged, or where the run is stopped: then it ends.

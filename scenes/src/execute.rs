@@ -1,13 +1,14 @@
 //! Running a scene: into its file, which a later run can resume, or into a writer.
 
-use std::io::Write;
+use std::io::{self, Write};
+use std::path::Path;
 
 use crate::computation::{Computation, RunNumber};
 use crate::engine::{self, Ended, Outcome};
 use crate::error::Error;
 use crate::note::Note;
 use crate::observer::Observer;
-use crate::results::{Begun, Checkpoint, Columns, FileOptions, Metadata, Rows, Target};
+use crate::results::{Begun, Checkpoint, Columns, FileOptions, Metadata, Rows, Target, records};
 use crate::scene::Scene;
 use crate::stability::{few_kicks, unstable};
 use crate::steps::End;
@@ -33,6 +34,19 @@ impl Scene {
     /// A run that fails, a writer that does.
     pub fn run_into(&self, rows: &mut dyn Write, observer: &mut dyn Observer) -> Result<Outcome, Error> {
         self.run(Target::Writer(rows), &Begun::Anew, observer)
+    }
+
+    /// The names of the columns of its rows.
+    pub fn column_names(&self) -> Vec<String> {
+        columns(self).names().into_iter().map(str::to_owned).collect()
+    }
+
+    /// The rows of a complete file of NumPy's format, as cells of [columns](Scene::column_names).
+    ///
+    /// # Errors
+    /// A file that cannot be read.
+    pub fn numpy_rows(&self, path: &Path) -> io::Result<impl Iterator<Item = io::Result<Vec<String>>> + use<>> {
+        records(path, self.column_names().len())
     }
 
     /// Everything that determines the numbers of the run, as a JSON object.
@@ -131,7 +145,6 @@ mod tests {
     use crate::run::Run;
     use crate::tangent::Vectors;
     use std::fs;
-    use std::path::Path;
 
     const KEPLER: &str = "[problem]\nname = \"kepler\"";
 
@@ -289,6 +302,35 @@ mod tests {
                 }
             }
         }
+    }
+
+    /// NumPy's records have the doubles of CSV, wherever the run is stopped, and when it is prolonged.
+    #[test]
+    fn so_are_records_of_numpy() {
+        let folder = tempfile::tempdir().unwrap();
+        let output = "modified_energy = { order = 4, every = 3 }\nenergy = true\ntrajectory = { every = 2 }\nchaos = { every = 5 }\n\
+                      values = { r = \"log(x)\" }";
+        let text = |file: &str, steps: u64| {
+            let scene = scene_in("\"double\"", folder.path(), KEPLER, output).source.text;
+            scene.replace("out.csv", file).replace("steps = 20", &format!("steps = {steps}"))
+        };
+        let run = |file: &str, steps: u64, stop: i64| {
+            fs::write(folder.path().join("scene.toml"), text(file, steps)).unwrap();
+            let scene = Scene::open(folder.path().join("scene.toml")).unwrap();
+            let outcome = scene.run_to_file(FileOptions::default(), &mut StopAfter(stop)).unwrap();
+            (scene, matches!(outcome, Outcome::Complete { .. }))
+        };
+        let (scene, _) = run("a.csv", 20, 1000);
+        let csv = fs::read_to_string(folder.path().join("a.csv")).unwrap();
+        let mut lines = csv.lines().filter(|line| !line.starts_with('#'));
+        assert_eq!(lines.next().unwrap(), scene.column_names().join(","));
+        assert!(!run("b.npy", 12, 5).1 && !run("b.npy", 12, 9).1 && run("b.npy", 12, 1000).1);
+        assert!(!run("b.npy", 20, 3).1 && run("b.npy", 20, 1000).1);
+        let rows = scene.numpy_rows(&folder.path().join("b.npy")).unwrap();
+        assert!(rows.map(|row| row.unwrap().join(",")).eq(lines.map(|line| line.replace(",4,", ",4.0,"))));
+        run("c.npy", 20, 1000);
+        let [b, c] = ["b.npy", "c.npy"].map(|file| fs::read(folder.path().join(file)).unwrap());
+        assert!(b == c && b.starts_with(b"\x93NUMPY\x02\x00"));
     }
 
     /// So it is where time is transformed and the end is a physical one: the last step to it is not of the longer run.

@@ -35,14 +35,13 @@ impl<'a, N: RunNumber> ValuesOfRows<'a, N> {
     }
 
     /// Appends the values at a state, or nothing for each column.
-    pub(crate) fn append(&mut self, state: Option<StateOfRow<'_, N>>, values: &mut Vec<(&'a str, Option<String>)>) {
+    pub(crate) fn append(&mut self, state: Option<StateOfRow<'_, N>>, values: &mut Vec<(&'a str, Option<N>)>) {
         for (named, evaluator) in self.columns.iter().zip(&mut self.evaluators) {
-            let text = state.and_then(|(state, time, energy)| {
+            let value = state.map(|(state, time, energy)| {
                 let energy = || energy.expect("it is computed where a formula has it").clone();
-                let value = evaluator.value_at(state, time, energy);
-                value.is_finite().then(|| value.to_text())
+                evaluator.value_at(state, time, energy).clone()
             });
-            values.push((&named.name, text));
+            values.push((&named.name, value.filter(N::is_finite)));
         }
     }
 }

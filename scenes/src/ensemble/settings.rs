@@ -73,7 +73,7 @@ fn refuse_outputs(reader: &mut Reader<'_>, scene: &Scene) {
         reader.fault(&place(reader.source, section, key), refusal.message, refusal.hint);
     }
     let Some((file, at)) = &output.file else { return };
-    if output.format == Format::JsonLines {
+    if output.format != Format::Csv {
         reader.fault(at, "an ensemble is written as CSV", "name a file such as \"out.csv\"");
     }
     if same_file::is_same_file(file, &scene.source.path).unwrap_or(false) {

@@ -22,8 +22,9 @@ use shadowstep_schemes::document::{Section, Value};
 pub(super) fn read(reader: &mut Reader<'_>, output: &Section<'_, '_>, system: Option<&System>) -> Option<Outputs> {
     let before = reader.toml.faults.len();
     let file = output.get("file").and_then(|value| reader.toml.text(value));
-    let format =
-        output.get("format").map(|value| reader.word(value, &[("csv", Format::Csv), ("jsonl", Format::JsonLines)]));
+    let format = output
+        .get("format")
+        .map(|value| reader.word(value, &[("csv", Format::Csv), ("jsonl", Format::JsonLines), ("npy", Format::Numpy)]));
     let energy = every(reader, output, "energy", "output.energy").map(|(every, _)| every);
     let modified_energy = modified_energy(reader, output);
     let (trajectory, section) = trajectory(reader, output, system);
@@ -43,13 +44,16 @@ pub(super) fn read(reader: &mut Reader<'_>, output: &Section<'_, '_>, system: Op
         (None, None) => Some(Format::Csv),
         (None, Some(name)) => Format::of(&name.value).or_else(|| {
             let message = format!("the name `{}` does not give the format", name.value);
-            reader.toml.wrong(&name.at, message, "use the ending .csv or .jsonl, or add `format = \"csv\"`")
+            reader.toml.wrong(&name.at, message, "use the ending .csv, .jsonl or .npy, or add `format = \"csv\"`")
         }),
     };
     let folder = Path::new(&reader.toml.source.path).parent().unwrap_or(Path::new(""));
     let file = file.map(|name| (folder.join(&name.value), name.at));
     let checkpoint = checkpoint.and_then(|(_, interval)| interval);
     let format = format?;
+    if format == Format::Numpy {
+        check_numpy(reader, output);
+    }
     let mut outputs = Outputs {
         file,
         format,
@@ -73,6 +77,19 @@ pub(super) fn read(reader: &mut Reader<'_>, output: &Section<'_, '_>, system: Op
     }
     outputs.plot = plot::read(reader, output, system, &outputs);
     Some(outputs)
+}
+
+/// Refuses records of NumPy where they would lose digits, or cannot be written.
+fn check_numpy(reader: &mut Reader<'_>, output: &Section<'_, '_>) {
+    let at =
+        ["format", "file"].into_iter().find_map(|key| output.get(key)).map_or(output.at.clone(), |value| value.span());
+    if output.get("file").is_none() {
+        reader.toml.fault(&at, "records of NumPy require a file", "add `file = \"out.npy\"`");
+    }
+    if reader.arithmetic.is_longer_than_double() {
+        let message = format!("records of NumPy have double precision, not {}", reader.arithmetic.described());
+        reader.toml.fault(&at, message, "write a file of .csv or .jsonl");
+    }
 }
 
 /// The value of a key that is `true`, `false` or a table: the period, and the table.

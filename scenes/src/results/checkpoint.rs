@@ -113,12 +113,12 @@ pub(crate) struct Checkpoint {
     pub(crate) identity: Identity,
     /// All rows up to this n are in the partial file.
     pub(crate) n: i64,
-    /// Their length in bytes.
+    /// Their length in bytes, with the head.
     pub(crate) bytes: u64,
     /// The length of the head before them.
     #[serde(default)]
     pub(crate) head: u64,
-    /// The hash of these bytes.
+    /// The hash of these rows.
     pub(crate) sha256: String,
     /// The state from which the run is resumed; `None` for the one at t = 0.
     pub(crate) state: Option<SavedState>,
@@ -185,6 +185,9 @@ impl Checkpoint {
         let is_of_run = |n: i64| u64::try_from(n).is_ok_and(|n| n <= steps);
         if !is_of_run(self.n) {
             return Err(format!("is at n = {}, which is not a state of the run", self.n));
+        }
+        if self.head > self.bytes {
+            return Err(format!("has a head of {} bytes in {} bytes", self.head, self.bytes));
         }
         if self.vectors.len() != vectors {
             return Err(format!("has {} tangent vectors, where the scene has {vectors}", self.vectors.len()));

@@ -150,6 +150,7 @@ impl Resumable {
     /// The rows begin here: the head is written.
     pub(crate) fn end_head(&mut self) {
         self.head = self.bytes;
+        self.hash = Sha256::new();
     }
 
     /// Writes the rows of the file that is prolonged.
@@ -174,8 +175,7 @@ impl Resumable {
     pub(crate) fn earlier_end(path: &Path, identity: &Identity) -> Option<Checkpoint> {
         let text = read_text(&beside(path, CHECKPOINT), LARGEST_CHECKPOINT).ok()?;
         let earlier = Checkpoint::of_earlier_end(&text, identity)?;
-        let mut hash = Sha256::new();
-        io::copy(&mut BufReader::new(File::open(path).ok()?).take(earlier.bytes), &mut Hashing(&mut hash)).ok()?;
+        let hash = hash_of_rows(&mut File::open(path).ok()?, &earlier).ok()?;
         (hexadecimal(&hash.finalize()) == earlier.sha256).then_some(earlier)
     }
 
@@ -206,7 +206,7 @@ impl Resumable {
         if length < checkpoint.bytes {
             return Err(self.refused(&self.partial, "is shorter than its checkpoint states"));
         }
-        io::copy(&mut BufReader::new(&*file).take(checkpoint.bytes), &mut Hashing(&mut self.hash))?;
+        self.hash = hash_of_rows(file, &checkpoint)?;
         if hexadecimal(&self.hash.clone().finalize()) != checkpoint.sha256 {
             return Err(self.refused(&self.partial, "was changed after its checkpoint was written"));
         }
@@ -265,9 +265,19 @@ impl Resumable {
         not_written(path, error, then)
     }
 
-    /// Gives the file its name.
-    pub(crate) fn finish(mut self) -> Result<(), Error> {
-        let written = self.file.flush().and_then(|()| self.file.get_ref().sync_all());
+    /// The bytes after the head.
+    pub(super) fn bytes_of_rows(&self) -> u64 {
+        self.bytes - self.head
+    }
+
+    /// Gives the file its name; a head that is known at the end replaces the one that it has.
+    pub(crate) fn finish(mut self, head: Option<&[u8]>) -> Result<(), Error> {
+        let mut written = self.file.flush();
+        if let Some(head) = head {
+            let file = self.file.get_mut();
+            written = written.and_then(|()| file.rewind()).and_then(|()| file.write_all(head));
+        }
+        let written = written.and_then(|()| self.file.get_ref().sync_all());
         written.map_err(|error| self.not_written(&self.partial, error))?;
         let rename = |partial: &Path| fs::rename(partial, &self.path);
         let renamed = match self.temporary.take() {
@@ -311,6 +321,14 @@ impl Write for Resumable {
     fn flush(&mut self) -> io::Result<()> {
         Ok(())
     }
+}
+
+/// The hash of the rows that belong to a checkpoint; the head may be written anew.
+fn hash_of_rows(file: &mut File, checkpoint: &Checkpoint) -> io::Result<Sha256> {
+    let mut hash = Sha256::new();
+    file.seek(SeekFrom::Start(checkpoint.head))?;
+    io::copy(&mut BufReader::new(file).take(checkpoint.bytes - checkpoint.head), &mut Hashing(&mut hash))?;
+    Ok(hash)
 }
 
 /// Hashes the bytes that are written to it.

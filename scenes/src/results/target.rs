@@ -107,10 +107,19 @@ impl<'a> Target<'a> {
         earlier.map_or(Ok(()), |earlier| file.copy_rows(earlier))
     }
 
-    pub(crate) fn finish(self) -> Result<(), Error> {
+    /// The bytes after the head; 0 of a writer.
+    pub(super) fn bytes_of_rows(&self) -> u64 {
+        match self {
+            Target::Writer(_) => 0,
+            Target::File(file) => file.bytes_of_rows(),
+        }
+    }
+
+    /// Completes it; a head that is known at the end replaces one of the same length.
+    pub(super) fn finish(self, head: Option<&[u8]>) -> Result<(), Error> {
         match self {
             Target::Writer(writer) => Ok(writer.flush()?),
-            Target::File(file) => file.finish(),
+            Target::File(file) => file.finish(head),
         }
     }
 
