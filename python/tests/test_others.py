@@ -170,9 +170,8 @@ def test_types():
     assert status == 0, found + errors
 
 
-@pytest.mark.parametrize("digits", ['"double"', "30"])
-@pytest.mark.parametrize("ending", ["csv", "jsonl"])
-def test_files_of_runs_are_opened(tmp_path, digits, ending):
+@pytest.mark.parametrize(("ending", "digits"), [("csv", '"double"'), ("csv", "30"), ("jsonl", '"double"'), ("jsonl", "30"), ("npy", '"double"')])
+def test_files_of_runs_are_opened(tmp_path, ending, digits):
     scene = tmp_path / "kepler.toml"
     output = f'{{ file = "kepler.{ending}", trajectory = {{ every = 2 }}, energy = true, modified_energy = {{ order = 4, every = 5 }}, values = {{ r = "x^2 + y^2", every = 4 }} }}'
     scene.write_text(f'problem.name = "kepler"\nrun = {{ scheme = "yoshida4", step = "1/10", steps = 20, digits = {digits} }}\noutput = {output}')

@@ -381,7 +381,8 @@ pub(crate) const KEYS: [Key; 81] = [
         "The file for the rows; its path is relative to the scene's folder. A .csv file begins with lines of metadata \
          that start with #, as in pandas.read_csv(file, comment=\"#\"); a .jsonl file has JSON lines, one a row, as in \
          pandas.read_json(file, lines=True), and the file with .metadata.json after its name has the metadata and the \
-         summary. The file gets its name when it is complete. An existing file is replaced only if it is from this \
+         summary. So it has beside a .npy file, an array of NumPy in double precision with fields n, t, energy, …, q and p, as in \
+         numpy.load(file, mmap_mode=\"r\"). The file gets its name when it is complete. An existing file is replaced only if it is from this \
          unchanged scene, or with --force.",
         "\"kepler.csv\"",
         Some("none; rows go to stdout"),
@@ -389,7 +390,7 @@ pub(crate) const KEYS: [Key; 81] = [
     key(
         "output",
         "format",
-        "\"csv\" or \"jsonl\", independent of the file's name.",
+        "\"csv\", \"jsonl\" or \"npy\", independent of the file's name.",
         "\"jsonl\"",
         Some("from the file's name; \"csv\" on stdout"),
     ),
