@@ -63,7 +63,7 @@ pub(crate) const SECTIONS: [Section; 14] = [
 ];
 
 /// All keys, section by section.
-pub(crate) const KEYS: [Key; 81] = [
+pub(crate) const KEYS: [Key; 82] = [
     key(
         "problem",
         "name",
@@ -273,6 +273,14 @@ pub(crate) const KEYS: [Key; 81] = [
         "The semi-major axis of its orbit; negative of a hyperbola.",
         "5.2",
         Some("none; q and v are given instead"),
+    ),
+    key(
+        "body",
+        "horizons",
+        "A table of vectors of JPL's Horizons in CSV, whose first row has its position and velocity; its path is relative to the scene's folder. Requires `units`; \
+         all tables need the same centre, frame and time.",
+        "\"earth.txt\"",
+        Some("none; q and v or elements are given instead"),
     ),
     key("body", "e", "The eccentricity.", "0.05", Some("0")),
     key("body", "i", "The inclination.", "1.3", Some("0")),

@@ -7,6 +7,7 @@ mod elements;
 mod explicit_time;
 mod formula;
 mod given;
+mod horizons;
 mod initial;
 mod kinetic;
 mod magnetic;
@@ -99,7 +100,7 @@ pub(crate) fn read(source: &Source, document: &DeTable<'_>, names: Names<'_>) ->
     reader.known.extend(names.numbers.iter().cloned());
     reader.names = names.numbers;
     let sections = sections(&mut reader, document, names.others, names.schemes);
-    let Reader { toml, arithmetic, notes, .. } = reader;
+    let Reader { toml, arithmetic, notes, files, .. } = reader;
     match (Faults::of(toml.faults), sections) {
         (None, Some((system, run::Steps { scheme, displaced, h, until, steps, end_at, ends }, output))) => {
             let known = steps.filter(|_| ends.is_none()).map(|steps| End { steps, is_met: false });
@@ -118,6 +119,7 @@ pub(crate) fn read(source: &Source, document: &DeTable<'_>, names: Names<'_>) ->
                 most_steps,
                 end,
                 output,
+                files,
                 notes,
             })
         }

@@ -68,6 +68,8 @@ pub struct Scene {
     pub(crate) end: OnceLock<End>,
     /// What is written, and where.
     pub output: Outputs,
+    /// The texts of other files that have states.
+    pub(crate) files: Vec<String>,
     /// What the user should know of this scene.
     pub notes: Vec<Note>,
 }

@@ -101,7 +101,6 @@ impl<'a, N: RunNumber> Extremes<'a, N> {
 
 #[cfg(test)]
 mod tests {
-    use super::*;
     use crate::Scene;
     use crate::watch::summary::Summary;
     use shadowstep::tables::{Faults, Source};

@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::arithmetic::Numbers;
 use crate::results::functions::elementary_functions;
-use crate::results::metadata::{platform, sha256, table_hashes};
+use crate::results::metadata::{file_hashes, platform, sha256, table_hashes};
 use crate::saved_state::{SavedState, SavedVector};
 use crate::scene::Scene;
 use crate::tangent::VECTORS_OF_ROWS;
@@ -19,6 +19,9 @@ pub(crate) struct Identity {
     #[serde(default)]
     without_end_sha256: String,
     tables_sha256: Vec<String>,
+    /// Of other files that have states.
+    #[serde(default)]
+    files_sha256: Vec<String>,
     /// Those of the machine, for a run in double precision with checkpoints.
     #[serde(default)]
     functions_sha256: Option<String>,
@@ -44,6 +47,7 @@ impl Identity {
             scene_sha256: sha256(&scene.source.text),
             without_end_sha256: without_end(scene),
             tables_sha256: table_hashes(scene),
+            files_sha256: file_hashes(scene),
             functions_sha256: functions(scene).map(str::to_owned),
             steps: scene.steps(),
             dimension,
@@ -71,7 +75,7 @@ impl Identity {
 
     /// Everything else, as it stands in metadata.
     pub(crate) fn others(&self) -> impl Iterator<Item = &String> {
-        [&self.version, &self.platform].into_iter().chain(&self.tables_sha256)
+        [&self.version, &self.platform].into_iter().chain(&self.tables_sha256).chain(&self.files_sha256)
     }
 
     /// The first difference of another identity, as the end of "was made with".
@@ -81,6 +85,9 @@ impl Identity {
         }
         if self.tables_sha256 != other.tables_sha256 {
             return Some("a different table of the scheme".to_owned());
+        }
+        if self.files_sha256 != other.files_sha256 {
+            return Some("a different table of Horizons".to_owned());
         }
         if self.version != other.version {
             return Some(format!("shadowstep {}", other.version));
