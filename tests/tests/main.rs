@@ -7,6 +7,7 @@ mod corpus;
 mod displaced_forces;
 mod documentation;
 mod double_precision;
+mod encounters;
 mod errata;
 mod exact_flow;
 mod explicit_time;

@@ -18,6 +18,7 @@
 mod beside;
 mod bodies;
 mod coordinates;
+mod encounters;
 mod heliocentric;
 mod interactions;
 mod jacobi;
@@ -28,6 +29,7 @@ mod together;
 pub use beside::NoPotential;
 pub use bodies::{Bodies, BodiesError};
 pub use coordinates::PlanetaryCoordinates;
+pub use encounters::{Encounters, Shells};
 pub use heliocentric::DemocraticHeliocentric;
 pub use jacobi::Jacobi;
 pub use orbits::Orbits;

@@ -57,6 +57,12 @@ impl Bodies {
 /// Bodies that are not a planetary system.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 pub enum BodiesError {
+    /// A distance of shells that is not positive.
+    #[error("the distance below which planets are close must be positive")]
+    Shells,
+    /// A substep that is not positive.
+    #[error("the substep must be positive")]
+    Substep,
     /// Fewer than two.
     #[error("a planetary system needs a central body and at least one planet, not {found} bodies")]
     Count {

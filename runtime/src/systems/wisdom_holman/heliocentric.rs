@@ -3,6 +3,7 @@
 use crate::Rational;
 use crate::number::Number;
 use crate::systems::kinetic::General;
+use crate::systems::pairs::Cutoff;
 
 use super::bodies::Bodies;
 use super::coordinates::PlanetaryCoordinates;
@@ -139,6 +140,11 @@ impl<N: Number, const D: usize> PlanetaryCoordinates<N, D> for DemocraticHelioce
 }
 
 impl<N: Number, const D: usize> DemocraticHeliocentric<N, D> {
+    /// Kicks by the attraction between the planets without what a cutoff has of it, which is switched.
+    pub(super) fn leave_near(&mut self, bodies: &Bodies, cutoff: &Cutoff<D>, context: &N::Context) {
+        self.interactions.leave_near(bodies, cutoff, context);
+    }
+
     /// sum ← Σ P_i of the planets
     fn assign_sum_of_momenta(&mut self, p: &[N]) {
         self.sum.iter_mut().for_each(N::assign_zero);

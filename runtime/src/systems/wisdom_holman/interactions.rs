@@ -1,7 +1,7 @@
 //! Sums of Newton's potential over chosen pairs of bodies, from the formula of the pair.
 
 use crate::number::Number;
-use crate::systems::pairs::{Gravity, PairCurvature, PairPotential, Pairs};
+use crate::systems::pairs::{Cutoff, Gravity, LongRange, PairCurvature, PairPotential, Pairs};
 use crate::systems::potential::{HessianProduct, Potential};
 
 use super::bodies::Bodies;
@@ -11,6 +11,8 @@ use super::bodies::Bodies;
 pub(super) struct Interactions<N, const D: usize> {
     planets: Pairs<Gravity<N>, D>,
     scratch: Vec<N>,
+    /// What kicks have of it, where close planets attract each other in drifts.
+    kicks: Option<Box<LongRangePairs<N, D>>>,
     /// The same formula, for pairs of masses one by one.
     single: Gravity<N>,
     single_scratch: Vec<N>,
@@ -22,19 +24,30 @@ pub(super) struct Interactions<N, const D: usize> {
     part: N,
 }
 
+/// The long-range part of the attraction, with its scratch space.
+#[derive(Clone, Debug)]
+struct LongRangePairs<N, const D: usize> {
+    pairs: Pairs<LongRange<Gravity<N>>, D>,
+    scratch: Vec<N>,
+}
+
 /// The formula of Newton's potential has second derivatives.
 fn curved<N: Number>(pair: &Gravity<N>) -> &dyn PairCurvature<N> {
     pair.curved().expect("they are derived with the formula")
 }
 
+/// The attraction between the planets.
+pub(super) fn gravity_of_planets<N: Number>(bodies: &Bodies, context: &N::Context) -> Gravity<N> {
+    let number = |value| N::from_rational(value, context);
+    Gravity { g: number(&bodies.g), m: bodies.masses[1..].iter().map(number).collect() }
+}
+
 impl<N: Number, const D: usize> Interactions<N, D> {
     /// Of the planets; `masses` are those of the pairs one by one.
     pub(super) fn new(bodies: &Bodies, masses: Vec<N>, context: &N::Context) -> Self {
-        let number = |value| N::from_rational(value, context);
-        let own: Vec<N> = bodies.masses[1..].iter().map(number).collect();
-        let gravity = |m| Gravity { g: number(&bodies.g), m };
-        let planets = Pairs::all(own.len(), gravity(own)).expect("a mass for each planet");
-        let single = gravity(masses);
+        let planets: Gravity<N> = gravity_of_planets(bodies, context);
+        let single = Gravity { g: planets.g.clone(), m: masses };
+        let planets = Pairs::all(bodies.count() - 1, planets).expect("a mass for each planet");
         let zeros = |count| vec![N::zero(context); count];
         let mut scratch = zeros(Potential::<N>::scratch(&planets));
         planets.prepare(&mut scratch, context);
@@ -48,6 +61,7 @@ impl<N: Number, const D: usize> Interactions<N, D> {
         Interactions {
             planets,
             scratch,
+            kicks: None,
             single,
             single_scratch,
             hessian_scratch,
@@ -58,8 +72,24 @@ impl<N: Number, const D: usize> Interactions<N, D> {
         }
     }
 
-    /// gradient ← U_x of the attraction between the planets and, if asked for, rate ← −3U
+    /// Leaves what a cutoff has of the attraction between the planets to others, which is switched.
+    pub(super) fn leave_near(&mut self, bodies: &Bodies, cutoff: &Cutoff<D>, context: &N::Context) {
+        let pair = LongRange::new(gravity_of_planets(bodies, context), cutoff).expect("it is switched");
+        let pairs = Pairs::all(bodies.count() - 1, pair).expect("a mass for each planet");
+        let mut scratch = vec![N::zero(context); Potential::<N>::scratch(&pairs)];
+        pairs.prepare(&mut scratch, context);
+        self.kicks = Some(Box::new(LongRangePairs { pairs, scratch }));
+    }
+
+    /// gradient ← U_x of the attraction between the planets in kicks and, if asked for, rate ← xᵀU_x − 2U
     pub(super) fn assign_gradient(&mut self, x: &[N], gradient: &mut [N], rate: Option<&mut N>) {
+        if let Some(kicks) = &mut self.kicks {
+            let LongRangePairs { pairs, scratch } = &mut **kicks;
+            return match rate {
+                None => pairs.gradient(x, gradient, scratch),
+                Some(rate) => pairs.gradient_and_rate(x, gradient, rate, scratch),
+            };
+        }
         match rate {
             None => self.planets.gradient(x, gradient, &mut self.scratch),
             Some(rate) => self.planets.gradient_and_rate(x, gradient, rate, &mut self.scratch),

@@ -1,0 +1,423 @@
+//! Close encounters of planets: near ones attract each other in drifts, which have substeps then.
+
+use num_traits::Signed;
+
+use crate::Rational;
+use crate::number::Number;
+use crate::systems::increments::Carried;
+use crate::systems::kept::KeptForce;
+use crate::systems::kinetic::General;
+use crate::systems::pairs::{Cutoff, CutoffPairs, Gravity, LongRange};
+use crate::systems::potential::Potential;
+use crate::systems::state::VectorState;
+use crate::systems::summation::{Compensated, Half};
+use crate::systems::system::System;
+
+use super::WisdomHolman;
+use super::bodies::{Bodies, BodiesError};
+use super::heliocentric::DemocraticHeliocentric;
+use super::interactions::gravity_of_planets;
+
+/// A planetary system whose planets may come close to each other, in [`DemocraticHeliocentric`] coordinates.
+///
+/// The attraction u of two planets is divided by switches at distances R_0 > R_1 > …, R_(k+1) = R_k/3^(2/3): S_k falls from 1 at R_(k+1) to 0 at R_k. Kicks have (1 − S_0) u; the
+/// [shells](Shells) (S_k − S_(k+1)) u are parts of A. A drift is n_0 leapfrogs of shell 0 and the flow of all that is further in over this time, which is three leapfrogs of shell 1 and of what is further in, and
+/// so on to the Kepler orbits (SyMBA: M. J. Duncan, H. F. Levison & M. H. Lee, Astron. J. 116 (1998) 2067). n_0 is the least number of substeps that are at most τ. While no two planets can come below R_k, by
+/// a bound from their speeds and accelerations, substeps of shell k are one Kepler drift, as its kicks are 0.
+///
+/// So a step is one map for all states, a composition of exact flows: β and the modified energy are exact as elsewhere. Its order in h is that of the scheme or 2, whichever is lower, but terms of order 2
+/// from the substeps have the factor (τ/h)².
+///
+/// ```
+/// use shadowstep::systems::wisdom_holman::{Bodies, Encounters, Shells};
+/// use shadowstep::{Stepper, System, exact, tables};
+///
+/// // two planets of a tenth of Jupiter's mass that meet
+/// let masses = ["1", "1/10000", "1/10000"].map(|mass| exact(mass).unwrap());
+/// let bodies = Bodies::new(exact("1")?, masses.to_vec())?;
+/// let (q, p) = ([0.0, 0.0, 1.0, 0.0, 1.1, 0.3], [0.0, 0.0, 0.0, 1e-4, -2.6e-5, 9e-5]);
+/// let shells = Shells::within(exact("1/8")?)?;
+/// let mut planets = Encounters::<f64, 2>::new(&bodies, (&q, &p), &shells, &exact("1/100")?, &())?;
+///
+/// let before = planets.energy();
+/// let stepper = Stepper::new(tables::shipped("stormer-verlet").unwrap().for_every_kinetic()?, "1/20")?;
+/// for _ in 0..1000 {
+///     stepper.step(&mut planets);
+/// }
+/// assert!((planets.energy() / before - 1.0).abs() < 1e-6);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct Encounters<N: Number, const D: usize> {
+    /// With kicks of (1 − S_0) u.
+    planets: WisdomHolman<N, DemocraticHeliocentric<N, D>, D>,
+    shells: Vec<Shell<N, D>>,
+    /// τ
+    substep: f64,
+    /// Masses of the planets, and G m_0.
+    masses: Vec<f64>,
+    parameter: f64,
+}
+
+/// The distances of the shells.
+#[derive(Clone, Debug)]
+pub struct Shells {
+    /// R_0, R_1, …
+    radii: Vec<Rational>,
+    derivatives: u32,
+}
+
+/// Substeps of a shell in one of the shell around it.
+const RATIO: i32 = 3;
+
+/// R_(k+1)/R_k = 3^(−2/3): a time of free fall becomes a third.
+const RATIO_OF_RADII: (i64, i64) = (4807, 10000);
+
+/// R is then 8e-6 of R_0, and a substep 1/4e7 of τ.
+const LEVELS: usize = 17;
+
+/// Of the switches.
+const DERIVATIVES: u32 = 6;
+
+impl Shells {
+    /// Shells of planets that are closer than this distance: 17 of them, with 6 continuous derivatives.
+    ///
+    /// # Errors
+    /// A distance that is not positive.
+    pub fn within(radius: Rational) -> Result<Self, BodiesError> {
+        if !radius.is_positive() {
+            return Err(BodiesError::Shells);
+        }
+        let (numerator, denominator) = RATIO_OF_RADII;
+        let ratio = Rational::new(numerator.into(), denominator.into());
+        let radii = std::iter::successors(Some(radius), |radius| Some(radius * &ratio)).take(LEVELS + 1).collect();
+        Ok(Shells { radii, derivatives: DERIVATIVES })
+    }
+
+    /// R_0
+    pub fn radius(&self) -> &Rational {
+        &self.radii[0]
+    }
+
+    /// The distance below which substeps do not become shorter.
+    pub fn least(&self) -> &Rational {
+        &self.radii[LEVELS - 1]
+    }
+
+    /// The cutoff that is S_k.
+    fn cutoff<const D: usize>(&self, k: usize) -> Cutoff<D> {
+        let cutoff = Cutoff::at(self.radii[k].clone());
+        let switched = cutoff.and_then(|cutoff| cutoff.switched(self.radii[k + 1].clone(), self.derivatives));
+        switched.expect("radii are positive and fall")
+    }
+}
+
+/// The attraction at some distances.
+#[derive(Clone, Debug)]
+struct Shell<N, const D: usize> {
+    /// R_k
+    radius: f64,
+    attraction: Attraction<N, D>,
+    scratch: Vec<N>,
+    /// By the positions of the planets.
+    gradient: Vec<N>,
+    rate: N,
+    kept: KeptForce,
+}
+
+#[derive(Clone, Debug)]
+enum Attraction<N, const D: usize> {
+    /// S_k u of the innermost shell.
+    Inner(CutoffPairs<Gravity<N>, D>),
+    /// (S_k − S_(k+1)) u, which is S_k (1 − S_(k+1)) u.
+    Between(CutoffPairs<LongRange<Gravity<N>>, D>),
+}
+
+impl<N: Number, const D: usize> Attraction<N, D> {
+    fn potential(&mut self) -> &mut dyn Potential<N> {
+        match self {
+            Attraction::Inner(pairs) => pairs,
+            Attraction::Between(pairs) => pairs,
+        }
+    }
+}
+
+impl<N: Number, const D: usize> Shell<N, D> {
+    fn new(bodies: &Bodies, shells: &Shells, k: usize, context: &N::Context) -> Self {
+        const WITH_MASSES: &str = "there are planets with masses, whose energy is one in r²";
+        let (count, gravity) = (bodies.count() - 1, gravity_of_planets(bodies, context));
+        let mut attraction = match k + 1 == LEVELS {
+            true => Attraction::Inner(CutoffPairs::new(count, gravity, shells.cutoff(k)).expect(WITH_MASSES)),
+            false => {
+                let inner = LongRange::new(gravity, &shells.cutoff::<D>(k + 1)).expect("it is switched");
+                Attraction::Between(CutoffPairs::new(count, inner, shells.cutoff(k)).expect(WITH_MASSES))
+            }
+        };
+        let potential = attraction.potential();
+        let mut scratch = vec![N::zero(context); potential.scratch()];
+        potential.prepare(&mut scratch, context);
+        Shell {
+            radius: double(&shells.radii[k]),
+            attraction,
+            scratch,
+            gradient: vec![N::zero(context); count * D],
+            rate: N::zero(context),
+            kept: KeptForce::Nothing,
+        }
+    }
+
+    fn evaluate(&mut self, x: &[N], augmented: bool) {
+        if self.kept.suffices(augmented) {
+            return;
+        }
+        let Shell { attraction, scratch, gradient, rate, kept, .. } = self;
+        let potential = attraction.potential();
+        potential.update(x);
+        match augmented {
+            true => potential.gradient_and_rate(x, gradient, rate, scratch),
+            false => potential.gradient(x, gradient, scratch),
+        }
+        *kept = if augmented { KeptForce::GradientAndRate } else { KeptForce::Gradient };
+    }
+}
+
+impl<N: Number, const D: usize> Encounters<N, D> {
+    /// The system at inertial positions and momenta, body after body, with drifts of substeps of at most `substep`.
+    ///
+    /// # Errors
+    /// A state of another number of bodies; an infinite q or p, or one that is NaN; a substep that is not positive.
+    pub fn new(
+        bodies: &Bodies,
+        state: (&[N], &[N]),
+        shells: &Shells,
+        substep: &Rational,
+        context: &N::Context,
+    ) -> Result<Self, BodiesError> {
+        let mut planets = WisdomHolman::<N, DemocraticHeliocentric<N, D>, D>::new(bodies, state, context)?;
+        planets.coordinates.leave_near(bodies, &shells.cutoff(0), context);
+        if !substep.is_positive() {
+            return Err(BodiesError::Substep);
+        }
+        Ok(Encounters {
+            planets,
+            shells: (0..LEVELS).map(|k| Shell::new(bodies, shells, k, context)).collect(),
+            substep: double(substep),
+            masses: bodies.masses[1..].iter().map(double).collect(),
+            parameter: double(&bodies.g) * double(&bodies.masses[0]),
+        })
+    }
+
+    /// The same system with [compensated sums](crate::systems::summation::Compensated).
+    #[must_use]
+    pub fn compensated(mut self) -> Self {
+        self.planets = self.planets.compensated();
+        self
+    }
+
+    /// The inertial positions and momenta.
+    pub fn inertial(&mut self) -> (Vec<N>, Vec<N>) {
+        self.planets.inertial()
+    }
+
+    /// The kick of a shell.
+    fn kick_shell(&mut self, k: usize, weight: &N, carried: Carried) {
+        let Encounters { planets, shells, .. } = self;
+        let augmented = carried.has_increments();
+        let shell = &mut shells[k];
+        shell.evaluate(&planets.state.q[D..], augmented);
+        for (index, slope) in (D..).zip(&shell.gradient) {
+            planets.state.change(Half::Momenta, index, carried, |p| p.subtract_product(weight, slope));
+        }
+        if augmented {
+            planets.state.increments.beta.add_product(weight, &shell.rate);
+        }
+    }
+
+    /// The Kepler orbits for a time.
+    fn drift_alone(&mut self, weight: &N, carried: Carried) {
+        self.planets.drift(weight, carried);
+        self.forget();
+    }
+
+    fn forget(&mut self) {
+        self.shells.iter_mut().for_each(|shell| shell.kept = KeptForce::Nothing);
+    }
+
+    /// The flow of the Kepler orbits and of the shells from k on, in this number of substeps of shell k.
+    fn drift_in(&mut self, k: usize, weight: &N, count: i32, carried: Carried) {
+        if k == LEVELS {
+            return self.drift_alone(weight, carried);
+        }
+        let mut each = weight.clone();
+        each.divide_integer(count);
+        let mut half = each.clone();
+        half.divide_integer(2);
+        let (mut left, substep) = (count, size(&each));
+        while left > 0 {
+            let free = self.free_substeps(self.shells[k].radius, substep, left);
+            if free == count {
+                self.drift_alone(weight, carried);
+            } else if free > 0 {
+                let mut together = each.clone();
+                together.multiply_integer(free);
+                self.drift_alone(&together, carried);
+            } else {
+                self.kick_shell(k, &half, carried);
+                self.drift_in(k + 1, &each, RATIO, carried);
+                self.kick_shell(k, &half, carried);
+            }
+            left -= free.max(1);
+        }
+    }
+
+    /// In how many of the next substeps no two planets can come below a distance, of at most `most`: it falls by at most v t + a t²/2 in the
+    /// time t, with their present relative speed v and the largest accelerations of their Kepler orbits, those at the pericentres.
+    fn free_substeps(&self, distance: f64, substep: f64, most: i32) -> i32 {
+        let mut free = f64::from(most);
+        let (q, p) = (self.planets.state.q.as_chunks::<D>().0, self.planets.state.p.as_chunks::<D>().0);
+        for lane in 0..N::LANES {
+            let point = |i: usize| {
+                let number = |number: &N| scaled(number.lane(lane));
+                let velocity = p[i + 1].each_ref().map(|p| number(p) / self.masses[i]);
+                MovingPoint { position: q[i + 1].each_ref().map(number), velocity }
+            };
+            for i in 0..self.masses.len() {
+                let one = point(i);
+                for other in (0..i).map(point) {
+                    let time = one.time_apart(&other, distance, self.parameter);
+                    // round-off of the bound
+                    free = free.min((time * (1.0 - 1e-9) / substep).floor());
+                }
+            }
+        }
+        // NaN is 0
+        free.max(0.0) as i32
+    }
+}
+
+fn double(value: &Rational) -> f64 {
+    <f64 as Number>::from_rational(value, &())
+}
+
+/// |x|, the largest of all lanes.
+fn size<N: Number>(number: &N) -> f64 {
+    (0..N::LANES).map(|lane| scaled(number.lane(lane)).abs()).fold(0.0, f64::max)
+}
+
+fn scaled((m, n): (f64, i64)) -> f64 {
+    if n == 0 { m } else { m * 2f64.powi(n.clamp(-4000, 4000) as i32) }
+}
+
+/// A planet, in double precision.
+struct MovingPoint<const D: usize> {
+    position: [f64; D],
+    velocity: [f64; D],
+}
+
+impl<const D: usize> MovingPoint<D> {
+    /// A time in which two planets do not come below a distance.
+    fn time_apart(&self, other: &Self, distance: f64, parameter: f64) -> f64 {
+        let square =
+            |one: &[f64; D], other: &[f64; D]| one.iter().zip(other).map(|(a, b)| (a - b).powi(2)).sum::<f64>();
+        let room = square(&self.position, &other.position).sqrt() - distance;
+        if room <= 0.0 {
+            return 0.0;
+        }
+        let speed = square(&self.velocity, &other.velocity).sqrt();
+        let acceleration = self.largest_acceleration(parameter) + other.largest_acceleration(parameter);
+        2.0 * room / (speed + (speed * speed + 2.0 * acceleration * room).sqrt())
+    }
+
+    /// On its Kepler orbit.
+    fn largest_acceleration(&self, parameter: f64) -> f64 {
+        let dot = |one: &[f64; D], other: &[f64; D]| one.iter().zip(other).map(|(a, b)| a * b).sum::<f64>();
+        let (r2, v2) = (dot(&self.position, &self.position), dot(&self.velocity, &self.velocity));
+        // h² = r²v² − (r·v)², e² = 1 + 2Eh²/μ², and h²/(μ (1 + e)) at the pericentre
+        let momentum = (r2 * v2 - dot(&self.position, &self.velocity).powi(2)).max(0.0);
+        let energy = v2 / 2.0 - parameter / r2.sqrt();
+        let eccentricity = (1.0 + 2.0 * energy * momentum / parameter.powi(2)).max(0.0).sqrt();
+        let pericentre = momentum / (parameter * (1.0 + eccentricity));
+        parameter / pericentre.powi(2)
+    }
+}
+
+impl<N: Number, const D: usize> System for Encounters<N, D> {
+    type Number = N;
+    type Class = General;
+    type Coordinates = Vec<N>;
+    type Summation = Option<Compensated<N, Vec<N>>>;
+
+    fn state(&self) -> &VectorState<N> {
+        self.planets.state()
+    }
+
+    fn state_mut(&mut self) -> &mut VectorState<N> {
+        self.forget();
+        self.planets.state_mut()
+    }
+
+    fn clear_increments(&mut self) {
+        self.planets.clear_increments();
+    }
+
+    fn kick(&mut self, weight: &N, carried: Carried) {
+        // the jump moves all planets alike, but the last bits of their differences
+        self.forget();
+        self.planets.kick(weight, carried);
+    }
+
+    fn drift(&mut self, weight: &N, carried: Carried) {
+        // a quotient that is a whole number but for round-off is this number
+        let count = (size(weight) / self.substep * (1.0 - 1e-12)).ceil() as i32;
+        self.drift_in(0, weight, count.max(1), carried);
+    }
+
+    fn assign_energies(&mut self, at: Option<(&[N], &[N])>, energy: &mut N, kinetic: &mut N) {
+        self.planets.assign_energies(at, energy, kinetic);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use rand_pcg::Pcg64Mcg;
+    use rand_pcg::rand_core::{RngCore, SeedableRng};
+
+    use super::MovingPoint;
+    use crate::systems::kepler_drift::KeplerDrift;
+
+    /// Points on Kepler orbits, at 200 times before the one that is returned.
+    #[test]
+    fn planets_stay_apart_for_the_time_that_is_returned() {
+        let mut random = Pcg64Mcg::seed_from_u64(35);
+        let mut uniform = |a: f64, b: f64| a + (b - a) * (random.next_u64() >> 11) as f64 / (1u64 << 53) as f64;
+        let mut kepler = KeplerDrift::<f64>::new(&());
+        let (mut longest, mut shortest) = (0.0f64, 1.0f64);
+        for _ in 0..500 {
+            let mut point = || {
+                let r = uniform(0.3, 2.0);
+                let position = [r, uniform(-0.2, 0.2), uniform(-0.1, 0.1)];
+                MovingPoint {
+                    position,
+                    velocity: [uniform(-0.8, 0.8), uniform(0.2, 1.2) / r.sqrt(), uniform(-0.2, 0.2)],
+                }
+            };
+            let (one, other) = (point(), point());
+            let distance = 0.05;
+            let time = one.time_apart(&other, distance, 1.0);
+            (longest, shortest) = (longest.max(time), shortest.min(time));
+            let mut at = |point: &MovingPoint<3>, t: f64| {
+                let (mut q, mut v) = ([0.0; 3], [0.0; 3]);
+                let (mut position, mut velocity) = (point.position, point.velocity);
+                kepler.advance_augmented(&1.0, &t, &mut position, &mut velocity, &mut q, &mut v);
+                std::array::from_fn::<f64, 3, _>(|axis| point.position[axis] + q[axis])
+            };
+            for part in 0..=200 {
+                let t = time * f64::from(part) / 200.0;
+                let (a, b) = (at(&one, t), at(&other, t));
+                let apart = a.iter().zip(&b).map(|(a, b)| (a - b).powi(2)).sum::<f64>().sqrt();
+                assert!(time == 0.0 || apart >= distance * (1.0 - 1e-12), "{apart} at {t} of {time}");
+            }
+        }
+        assert!(longest > 0.3 && shortest < 0.05, "{shortest} to {longest}");
+    }
+}
