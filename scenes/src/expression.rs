@@ -45,12 +45,12 @@ pub(crate) enum Comparison {
 impl Expression {
     /// The formula of a text.
     pub fn new(text: Text) -> Expression {
-        Expression::with(text.value.clone(), text)
+        Expression::with(&text.value.clone(), text)
     }
 
-    fn with(formula: String, text: Text) -> Expression {
-        let quantities = parse(&formula).map_or(Vec::new(), |syntax| Quantity::all(&formula, &syntax));
-        let formula = with_names(&formula, &quantities);
+    fn with(formula: &str, text: Text) -> Expression {
+        let quantities = parse(formula).map_or(Vec::new(), |syntax| Quantity::all(formula, &syntax));
+        let formula = with_names(formula, &quantities);
         let syntax = parse(&formula).ok();
         let has = |name| syntax.as_ref().is_some_and(|syntax| syntax.mentions(name));
         let has_functions = syntax.as_ref().is_none_or(Syntax::has_functions);
@@ -118,7 +118,7 @@ impl Condition {
         }
         // one subtraction and no rounding of the sides alone
         let difference = format!("({left}) - ({right})");
-        Some(Condition { difference: Expression::with(difference, text.clone()), met })
+        Some(Condition { difference: Expression::with(&difference, text.clone()), met })
     }
 
     /// The left side less the right side.

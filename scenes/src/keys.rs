@@ -25,7 +25,7 @@ pub struct Key {
 }
 
 /// All sections, in the order of the explanation.
-pub(crate) const SECTIONS: [Section; 14] = [
+pub(crate) const SECTIONS: [Section; 15] = [
     section(
         "problem",
         "[problem]",
@@ -37,6 +37,7 @@ pub(crate) const SECTIONS: [Section; 14] = [
         "A smooth end in place of `cutoff = 2.5`. Between the two distances the energy of a pair is multiplied with a polynomial in r2 that falls \
          from 1 to 0.",
     ),
+    section("problem.encounters", "[problem.encounters]", "The table `encounters`."),
     section("problem.units", "[problem.units]", "The table `units`."),
     section(
         "body",
@@ -63,7 +64,7 @@ pub(crate) const SECTIONS: [Section; 14] = [
 ];
 
 /// All keys, section by section.
-pub(crate) const KEYS: [Key; 82] = [
+pub(crate) const KEYS: [Key; 85] = [
     key(
         "problem",
         "name",
@@ -208,6 +209,13 @@ pub(crate) const KEYS: [Key; 82] = [
     ),
     key(
         "problem",
+        "encounters",
+        "With parts = \"wisdom-holman-heliocentric\": planets that are nearer than `within` attract each other in the drifts, whose substeps become shorter as they meet.",
+        "{ within = 0.3, substeps = 4 }",
+        Some("none; all attraction between planets is in kicks"),
+    ),
+    key(
+        "problem",
         "units",
         "For [[body]]: the units of length (AU, km, m), time (day, year of 365.25 days, s) and mass (solar, earth, jupiter, kg), from \
          which the gravitational constant follows.",
@@ -253,6 +261,20 @@ pub(crate) const KEYS: [Key; 82] = [
         "How many derivatives of the energy are continuous, 1 to 8. A scheme of high order needs more of them.",
         "3",
         None,
+    ),
+    key(
+        "problem.encounters",
+        "within",
+        "The distance below which planets are near, some 3 Hill radii or more.",
+        "\"3/10\"",
+        None,
+    ),
+    key(
+        "problem.encounters",
+        "substeps",
+        "How many substeps a step has, at least, while planets are near. Each time that their distance halves there are three times as many.",
+        "8",
+        Some("4"),
     ),
     key("problem.units", "length", "\"AU\", \"km\" or \"m\".", "\"AU\"", None),
     key("problem.units", "time", "\"day\", \"year\" or \"s\".", "\"day\"", None),

@@ -157,8 +157,8 @@ pub use refusal::{NoGradientKicks, NoProcessor, Refusal};
 pub use results::{FileOptions, elementary_functions, hexadecimal};
 pub use scene::plot;
 pub use scene::split::{
-    CanonicalCoordinates, Class, Formulas, KineticAndPotential, Linear, Needs, Planets, ShownCoordinates,
-    TransformedTime,
+    CanonicalCoordinates, Class, CloseEncounters, Formulas, KineticAndPotential, Linear, Needs, Planets,
+    ShownCoordinates, TransformedTime,
 };
 pub use scene::{
     CheckpointInterval, Direction, EnergyAt, EnergyOfBodies, Format, Formula, InitialValueProblem, KineticEnergy,

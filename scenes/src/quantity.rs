@@ -88,7 +88,8 @@ impl Quantity {
             }
             (Function::Element(element), [body]) => {
                 let body = number(body)?;
-                ElementOfBody::new(system, &bodies, (element, body), &[0]).map(QuantityOfBodies::Element)
+                ElementOfBody::new(system, &bodies, (element, body), &[0])
+                    .map(|of| QuantityOfBodies::Element(Box::new(of)))
             }
             (Function::Element(element), [body, centre]) => {
                 let (body, is_body) = (number(body)?, bodies.names.contains(centre));
@@ -97,7 +98,8 @@ impl Quantity {
                     BARYCENTRE if !is_body => (0..bodies.names.len()).collect(),
                     _ => vec![number(centre)?],
                 };
-                ElementOfBody::new(system, &bodies, (element, body), &centre).map(QuantityOfBodies::Element)
+                ElementOfBody::new(system, &bodies, (element, body), &centre)
+                    .map(|of| QuantityOfBodies::Element(Box::new(of)))
             }
             (Function::Distance, _) => refuse("a distance is one of two bodies", "write distance(earth, moon)"),
             (Function::Element(_), _) => refuse(
@@ -132,7 +134,7 @@ pub(crate) fn elements_of(system: &System, centre: Option<&str>) -> Vec<(String,
 pub(crate) enum QuantityOfBodies {
     /// Between the points with these coordinates.
     Distance([Range<usize>; 2]),
-    Element(ElementOfBody),
+    Element(Box<ElementOfBody>),
 }
 
 /// An element of a body's osculating orbit about a centre of mass.

@@ -4,6 +4,7 @@ mod bodies;
 mod cutoff;
 mod doubled;
 mod elements;
+mod encounters;
 mod explicit_time;
 mod formula;
 mod given;

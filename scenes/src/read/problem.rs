@@ -2,6 +2,7 @@
 
 use shadowstep::systems::pairs::Separation;
 
+use super::encounters::GivenEncounters;
 use super::given::Given;
 use super::pair::PairFormula;
 use super::parts;
@@ -16,6 +17,18 @@ const WAYS: [&str; 4] = ["name", "potential", "pair", doubled::HAMILTONIAN];
 
 /// The system with its initial state.
 pub(super) fn system(
+    reader: &mut Reader<'_>,
+    problem: &Section<'_, '_>,
+    initial: &Section<'_, '_>,
+    bodies: &[GivenBody],
+) -> Option<System> {
+    let encounters = problem.get("encounters").map(|value| GivenEncounters::read(reader, value));
+    let mut system = of_any_way(reader, problem, initial, bodies)?;
+    encounters.map_or(Some(()), |encounters| encounters.set(reader, &mut system))?;
+    Some(system)
+}
+
+fn of_any_way(
     reader: &mut Reader<'_>,
     problem: &Section<'_, '_>,
     initial: &Section<'_, '_>,

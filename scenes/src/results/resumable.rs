@@ -173,7 +173,7 @@ impl Resumable {
 
     /// The last checkpoint of a complete file that is of the same scene with an earlier end, if the file was not changed.
     pub(crate) fn earlier_end(path: &Path, identity: &Identity) -> Option<Checkpoint> {
-        let text = read_text(&beside(path, CHECKPOINT), LARGEST_CHECKPOINT).ok()?;
+        let text = read_text(beside(path, CHECKPOINT), LARGEST_CHECKPOINT).ok()?;
         let earlier = Checkpoint::of_earlier_end(&text, identity)?;
         let hash = hash_of_rows(&mut File::open(path).ok()?, &earlier).ok()?;
         (hexadecimal(&hash.finalize()) == earlier.sha256).then_some(earlier)
@@ -181,7 +181,7 @@ impl Resumable {
 
     /// The hash of the scene whose complete file a run that was stopped has begun to prolong.
     pub(crate) fn prolongs(path: &Path, identity: &Identity) -> Option<String> {
-        let text = read_text(&beside(path, CHECKPOINT), LARGEST_CHECKPOINT).ok()?;
+        let text = read_text(beside(path, CHECKPOINT), LARGEST_CHECKPOINT).ok()?;
         Checkpoint::read(&text, identity).ok()?.prolongs
     }
 

@@ -22,7 +22,7 @@ pub use needs::{Class, Needs};
 pub use shown_coordinates::ShownCoordinates;
 pub use transformed_time::TransformedTime;
 pub(crate) use wisdom_holman::OfPlanets;
-pub use wisdom_holman::{CanonicalCoordinates, Planets};
+pub use wisdom_holman::{CanonicalCoordinates, CloseEncounters, Planets};
 
 use serde_json::Value;
 use shadowstep::number::CorrectlyRounded;

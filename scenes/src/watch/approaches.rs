@@ -15,6 +15,8 @@ pub struct Approach {
     pub bodies: [String; 2],
     /// The distance in mutual Hill radii, ((m_i + m_j)/3m_0)^(1/3) (r_i + r_j)/2.
     pub hill_radii: f64,
+    /// That radius.
+    pub hill_radius: f64,
 }
 
 /// What a run has shown of the planets' interactions.
@@ -26,6 +28,9 @@ pub struct Interactions {
     pub of: String,
     /// The closest approach; `None` of a single planet.
     pub closest: Option<Approach>,
+    /// Whether planets that are near attract each other in drifts.
+    #[serde(skip)]
+    pub(crate) near_in_drifts: bool,
 }
 
 /// Planets that are nearer, in mutual Hill radii, attract each other more than the central body's tide separates them.
@@ -34,13 +39,13 @@ const CLOSE: f64 = 1.0;
 impl Interactions {
     /// The approach in which H was not a sum of Kepler orbits and small interactions.
     pub(crate) fn encounter(&self) -> Option<&Approach> {
-        self.closest.as_ref().filter(|closest| closest.hill_radii < CLOSE)
+        self.closest.as_ref().filter(|closest| closest.hill_radii < CLOSE && !self.near_in_drifts)
     }
 
     /// In a line, with the times of states in words.
     pub fn text(&self, time: impl Fn(i64) -> String) -> String {
-        let Interactions { epsilon, of, closest } = self;
-        let closest = closest.as_ref().map_or(String::new(), |Approach { n, bodies: [i, j], hill_radii }| {
+        let Interactions { epsilon, of, closest, .. } = self;
+        let closest = closest.as_ref().map_or(String::new(), |Approach { n, bodies: [i, j], hill_radii, .. }| {
             format!("; closest approach {hill_radii:.3} Hill radii, {i} and {j} at {}", time(*n))
         });
         format!("interactions at most {epsilon:.1e} of the Kepler force ({of}){closest}")
@@ -74,7 +79,7 @@ impl Approaches {
             planets: planets.clone(),
             q: vec![0.0; system.coordinates.len()],
             p: vec![0.0; system.coordinates.len()],
-            found: Interactions { epsilon: 0.0, of, closest: None },
+            found: Interactions { epsilon: 0.0, of, closest: None, near_in_drifts: planets.encounters.is_some() },
         })
     }
 
@@ -95,10 +100,11 @@ impl Approaches {
         for j in 2..places.len() {
             for i in 1..j {
                 let part = ((self.masses[i] + self.masses[j]) / (3.0 * self.masses[0])).cbrt();
-                let hill_radii = distance(i, j) / (part * (distance(0, i) + distance(0, j)) / 2.0);
+                let hill_radius = part * (distance(0, i) + distance(0, j)) / 2.0;
+                let hill_radii = distance(i, j) / hill_radius;
                 if self.found.closest.as_ref().is_none_or(|closest| hill_radii < closest.hill_radii) {
                     let bodies = [i, j].map(|body| self.names[body].clone());
-                    self.found.closest = Some(Approach { n, bodies, hill_radii });
+                    self.found.closest = Some(Approach { n, bodies, hill_radii, hill_radius });
                 }
             }
         }

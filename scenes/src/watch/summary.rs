@@ -123,14 +123,17 @@ impl Summary {
 
     /// Replaces a verdict that is worse than bounded where planets came so close that the splitting is not valid: that is the cause then.
     pub(crate) fn name_close_planets(&mut self) {
-        let Some(Approach { n, bodies: [i, j], hill_radii }) =
+        let Some(Approach { n, bodies: [i, j], hill_radii, hill_radius }) =
             self.interactions.as_ref().and_then(Interactions::encounter)
         else {
             return;
         };
+        let within = format!("{:.1e}", 3.0 * hill_radius);
+        let within = from_text(&within).map_or(within, |exact| to_significant(&exact, 2));
         self.reason = format!(
             "{i} and {j} came within {hill_radii:.2} Hill radii of each other at {}, where kicks are not small beside the Kepler orbits, as these \
-             parts require: smaller steps do not help; use an integrator whose steps adapt to the encounter, or change to one there",
+             parts require: smaller steps do not help; write parts = \"wisdom-holman-heliocentric\" with encounters = {{ within = {within} }}, 3 of \
+             these radii",
             self.time(*n)
         );
         self.verdict = "the splitting is not valid in a close encounter".to_owned();

@@ -146,7 +146,7 @@ impl Outputs {
 fn planets() -> System {
     let setup = setup("outer-solar-system", &[]);
     let (bodies, dimensions) = setup.bodies().expect("they are bodies");
-    let planets = Planets { coordinates: CanonicalCoordinates::Jacobi, bodies, dimensions };
+    let planets = Planets { coordinates: CanonicalCoordinates::Jacobi, bodies, dimensions, encounters: None };
     System { parts: Parts::WisdomHolman(planets), ..System::of_setup(setup) }
 }
 

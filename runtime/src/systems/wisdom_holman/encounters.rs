@@ -219,6 +219,11 @@ impl<N: Number, const D: usize> Encounters<N, D> {
         self.planets.inertial()
     }
 
+    /// gradient ← ∂B/∂Q at a Q, of the part of kicks that depends on Q.
+    pub fn assign_gradient(&mut self, q: &[N], gradient: &mut [N]) {
+        self.planets.assign_gradient(q, gradient);
+    }
+
     /// The kick of a shell.
     fn kick_shell(&mut self, k: usize, weight: &N, carried: Carried) {
         let Encounters { planets, shells, .. } = self;

@@ -2,10 +2,16 @@
 
 use std::f64::consts::TAU;
 
+use num_traits::Signed;
 use serde_json::{Value, json};
 use shadowstep::number::CorrectlyRounded;
-use shadowstep::systems::wisdom_holman::{Bodies, DemocraticHeliocentric, Jacobi, PlanetaryCoordinates, WisdomHolman};
-use shadowstep::{MotionError, Number, Potential, Real, Scheme, System as _, ValidFor};
+use shadowstep::systems::kinetic::General;
+use shadowstep::systems::wisdom_holman::{
+    Bodies, DemocraticHeliocentric, Encounters, Jacobi, PlanetaryCoordinates, Shells, WisdomHolman,
+};
+use shadowstep::tables::TableScheme;
+use shadowstep::{MotionError, Number, Potential, Rational, Real, Scheme, System as _, ValidFor};
+use shadowstep_symbolic::decimal::to_text;
 
 use super::{Class, Needs, ShownCoordinates, Split, State};
 use crate::refusal::{NoGradientKicks, Refusal};
@@ -21,6 +27,17 @@ pub struct Planets {
     pub bodies: Bodies,
     /// 2 or 3.
     pub dimensions: usize,
+    /// How planets that come close to each other move; in heliocentric coordinates only.
+    pub encounters: Option<CloseEncounters>,
+}
+
+/// Planets that are near each other attract each other in drifts, by [`Encounters`].
+#[derive(Clone, Debug)]
+pub struct CloseEncounters {
+    /// Below this distance.
+    pub shells: Shells,
+    /// Substeps of a step that are made there, at least.
+    pub substeps: u32,
 }
 
 /// Canonical coordinates of a planetary system.
@@ -76,7 +93,14 @@ impl Split for Planets {
     }
 
     fn metadata(&self) -> Option<(&'static str, Value)> {
-        Some(("parts", json!(self.coordinates.name())))
+        let name = self.coordinates.name();
+        let value = match &self.encounters {
+            None => json!(name),
+            Some(CloseEncounters { shells, substeps }) => {
+                json!({ "name": name, "encounters": { "within": to_text(shells.radius()), "substeps": substeps } })
+            }
+        };
+        Some(("parts", value))
     }
 
     fn start<N: Number + 'static>(
@@ -126,6 +150,12 @@ impl Split for Planets {
             }
             (CanonicalCoordinates::DemocraticHeliocentric, dimensions) => {
                 let scheme = steps.for_every_kinetic();
+                if self.encounters.is_some() {
+                    return Ok(match dimensions {
+                        2 => self.moved_close::<N, 2>(scheme, steps, &state, context),
+                        _ => self.moved_close::<N, 3>(scheme, steps, &state, context),
+                    });
+                }
                 match dimensions {
                     2 => self.moved::<N, DemocraticHeliocentric<N, 2>, 2, _>(scheme, steps, &state, context),
                     _ => self.moved::<N, DemocraticHeliocentric<N, 3>, 3, _>(scheme, steps, &state, context),
@@ -155,7 +185,7 @@ impl Planets {
                 "in heliocentric coordinates kicks move the planets, so that `central` and `external` have no exact flow with them",
                 "write parts = \"wisdom-holman\" for Jacobi coordinates",
             )),
-            Some((bodies, dimensions)) => Ok(Planets { coordinates, bodies, dimensions }),
+            Some((bodies, dimensions)) => Ok(Planets { coordinates, bodies, dimensions, encounters: None }),
             None => Err(Refusal::new(
                 "only bodies that attract each other have these parts",
                 "remove `parts`, give the bodies in sections [[body]], or use a problem such as outer-solar-system",
@@ -208,9 +238,15 @@ impl Planets {
         C: PlanetaryCoordinates<f64, D> + 'static,
     {
         let mut system = self.at_rest::<f64, C, D>(problem, context);
+        // the gradient does not depend on the step size
+        let any = Rational::from_integer(1.into());
+        let mut close = self.encounters.is_some().then(|| self.close_at_rest::<f64, D>(&any, &()));
         let mut gradient = vec![0.0; self.bodies.count() * D];
         Box::new(move |q| {
-            system.assign_gradient(q, &mut gradient);
+            match &mut close {
+                Some(close) => close.assign_gradient(q, &mut gradient),
+                None => system.assign_gradient(q, &mut gradient),
+            }
             let square = |vector: &[f64]| vector.iter().map(|x| x * x).sum::<f64>();
             let planets = system.coordinates().orbits().planets.iter().zip(q.chunks(D).zip(gradient.chunks(D)).skip(1));
             planets.map(|(orbit, (q, gradient))| square(gradient).sqrt() * square(q) / orbit.attraction).collect()
@@ -239,6 +275,31 @@ impl Planets {
         }
         system.state_mut().set(q, p);
         steps.integrator(scheme, system, context)
+    }
+
+    /// The same of planets that may come close to each other.
+    fn moved_close<N: CorrectlyRounded + 'static, const D: usize>(
+        &self,
+        scheme: TableScheme<General>,
+        steps: Steps<'_>,
+        (_, (q, p)): &(&InitialValueProblem, State<N>),
+        context: &N::Context,
+    ) -> SceneIntegrator<N> {
+        let mut system = self.close_at_rest::<N, D>(steps.h.exact(), context);
+        if steps.compensated {
+            system = system.compensated();
+        }
+        system.state_mut().set(q, p);
+        steps.integrator(scheme, system, context)
+    }
+
+    /// All bodies at 0, for steps of h.
+    fn close_at_rest<N: Number, const D: usize>(&self, h: &Rational, context: &N::Context) -> Encounters<N, D> {
+        const READ: &str = "it is a state of all bodies, and the distance and the substep were read as positive";
+        let CloseEncounters { shells, substeps } = self.encounters.as_ref().expect("planets may come close");
+        let zeros = vec![N::zero(context); self.bodies.count() * D];
+        let substep = h.abs() / Rational::from_integer((*substeps).into());
+        Encounters::new(&self.bodies, (&zeros, &zeros), shells, &substep, context).expect(READ)
     }
 
     fn energy_at<N: Number + 'static, C: PlanetaryCoordinates<N, D> + 'static, const D: usize>(

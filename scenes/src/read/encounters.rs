@@ -1,0 +1,130 @@
+//! `encounters` in [problem]: planets that come close to each other.
+
+use std::ops::Range;
+
+use shadowstep::systems::wisdom_holman::Shells;
+use shadowstep_schemes::document::Value;
+use toml::de::DeValue;
+
+use super::reader::Reader;
+use crate::scene::split::{CanonicalCoordinates, CloseEncounters};
+use crate::scene::{Parts, PotentialEnergy, System};
+
+/// Substeps of a step, by default.
+const SUBSTEPS: u32 = 4;
+
+/// More substeps of a step would take a step's time each.
+const MOST_SUBSTEPS: u64 = 1_000_000;
+
+/// The value of the key, with its place; `None` inside if it cannot be read.
+pub(super) struct GivenEncounters {
+    at: Range<usize>,
+    encounters: Option<CloseEncounters>,
+}
+
+impl GivenEncounters {
+    pub(super) fn read(reader: &mut Reader<'_>, value: &Value<'_>) -> GivenEncounters {
+        GivenEncounters { at: value.span(), encounters: encounters(reader, value) }
+    }
+
+    /// Sets them in a system of planets in heliocentric coordinates.
+    pub(super) fn set(self, reader: &mut Reader<'_>, system: &mut System) -> Option<()> {
+        let has_more =
+            matches!(&system.problem.potential, PotentialEnergy::Pairs(pairs) if !pairs.of_bodies.is_empty());
+        match &mut system.parts {
+            Parts::WisdomHolman(planets)
+                if planets.coordinates == CanonicalCoordinates::DemocraticHeliocentric && !has_more =>
+            {
+                planets.encounters = Some(self.encounters?);
+                Some(())
+            }
+            _ => {
+                let message = "close encounters are those of planets in heliocentric coordinates";
+                reader.toml.wrong(
+                    &self.at,
+                    message,
+                    "write parts = \"wisdom-holman-heliocentric\", or remove `encounters`",
+                )
+            }
+        }
+    }
+}
+
+fn encounters(reader: &mut Reader<'_>, value: &Value<'_>) -> Option<CloseEncounters> {
+    let DeValue::Table(table) = value.get_ref() else {
+        return reader.toml.wrong_kind(value, "a table: { within = 0.3, substeps = 4 }");
+    };
+    let section = reader.table(table, value, "problem.encounters");
+    let within = reader.toml.required(&section, "within").and_then(|value| reader.number(value));
+    let substeps =
+        section.get("substeps").map_or(Some(SUBSTEPS.into()), |value| reader.whole(value, 1..=MOST_SUBSTEPS));
+    let within = within?;
+    match Shells::within(reader.evaluate(&within)?.value) {
+        Ok(shells) => Some(CloseEncounters { shells, substeps: u32::try_from(substeps?).ok()? }),
+        Err(error) => reader.toml.wrong(&within.at, error.to_string(), "write some 3 Hill radii of the planets"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use shadowstep::tables::{Faults, Source};
+
+    use crate::watch::summary::Summary;
+    use crate::{Observer, Scene};
+
+    /// Two planets that come within 0.13 Hill radii.
+    fn scene(problem: &str) -> Result<Scene, Vec<String>> {
+        let text = format!(
+            "[problem]\nparameters = {{ g = 1 }}\n{problem}\n[[body]]\nmass = 1\n[[body]]\nmass = \"1/5000\"\nq = [1, 0]\nv = [0, 1]\n\
+             [[body]]\nmass = \"1/20000\"\nq = [\"1.127\", \"0.34\"]\nv = [\"-0.311\", \"0.852\"]\n\
+             [run]\nscheme = \"stormer-verlet\"\nstep = \"1/80\"\nuntil = 10\ndigits = \"double\"\n[output]\nenergy = true"
+        );
+        Scene::read(Source { path: "test.toml".to_owned(), text }).map_err(|Faults(faults)| {
+            faults.iter().map(|fault| format!("{}:{}: {}", fault.line, fault.column, fault.message)).collect()
+        })
+    }
+
+    struct Keep(Option<Summary>);
+
+    impl Observer for Keep {
+        fn summarises(&self) -> bool {
+            true
+        }
+
+        fn summary(&mut self, summary: &Summary) {
+            self.0 = Some(summary.clone());
+        }
+    }
+
+    fn summary(problem: &str) -> Summary {
+        let mut keep = Keep(None);
+        scene(problem).unwrap().run_into(&mut Vec::new(), &mut keep).unwrap();
+        keep.0.unwrap()
+    }
+
+    const HELIOCENTRIC: &str = "parts = \"wisdom-holman-heliocentric\"";
+
+    /// A run in which planets meet names what to write, and with that its energy is bounded.
+    #[test]
+    fn a_run_says_when_planets_need_it() {
+        let without = summary(HELIOCENTRIC);
+        let hint = "write parts = \"wisdom-holman-heliocentric\" with encounters = { within = 0.1";
+        assert!(!without.is_fine() && without.reason().contains(hint), "{}", without.reason());
+        let with = summary(&format!("{HELIOCENTRIC}\nencounters = {{ within = \"0.14\" }}"));
+        assert!(with.is_fine(), "{}", with.verdict_with_reason());
+    }
+
+    #[test]
+    fn faults_have_their_places() {
+        let faults = |problem: &str| scene(problem).map(drop).unwrap_err();
+        assert_eq!(
+            faults("parts = \"wisdom-holman\"\nencounters = { within = 1 }"),
+            ["4:14: close encounters are those of planets in heliocentric coordinates"]
+        );
+        let with = |table: &str| faults(&format!("{HELIOCENTRIC}\nencounters = {table}"));
+        assert_eq!(with("{ within = 0 }"), ["4:25: the distance below which planets are close must be positive"]);
+        assert_eq!(with("{ substeps = 3 }"), ["4:14: the key `within` is missing"]);
+        assert_eq!(with("3"), ["4:14: this value is of the wrong kind"]);
+        assert!(with("{ within = 1, substeps = 0 }")[0].starts_with("4:39: "));
+    }
+}
