@@ -22,6 +22,9 @@ use crate::scheme::{ExactScheme, Held};
 /// worst of the shipped tables loses 3.
 const MOST_DIGITS_LOST: u32 = 5;
 
+/// Digits that products of the weights of an outer and an inner scheme may lose.
+const DIGITS_LOST: u32 = 1;
+
 /// The order that was proved for one class of kinetic energies, or for one power of ε.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Order {
@@ -38,7 +41,7 @@ pub struct Order {
 /// What is true of a scheme.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Proof {
-    /// For every T(p). With gradient kicks: for all A and B, where a gradient kick is the flow of `[B,[A,B]]`, which for A = T(p) is so
+    /// For every T(p). With an [inner scheme](crate::inner): for H of three parts. With gradient kicks: for all A and B, where a gradient kick is the flow of `[B,[A,B]]`, which for A = T(p) is so
     /// for quadratic T only; see [`Proved::order_for_every_kinetic`](crate::Proved::order_for_every_kinetic).
     pub general: Order,
     /// For T = ½pᵀM⁻¹p.
@@ -88,7 +91,20 @@ impl Proof {
 /// Proves the orders of a scheme, whatever its table claims.
 pub fn prove(scheme: &ExactScheme) -> Proof {
     let table = &scheme.table;
-    let [general, quadratic] = kinetic_orders(&scheme.maps(), scheme.held, table.order.value);
+    let [general, quadratic] = match &scheme.inner {
+        // where there are no fast forces, its step is one of the outer scheme, of this order at least
+        Some(inner) => {
+            let (maps, fast) = inner.step(&scheme.maps());
+            // the words of one order are about three times those of the order before
+            let mut orders = (table.order.value + 1..=HIGHEST_ORDER + 1).map(|highest| {
+                order_of_parts((&maps, &fast), scheme.held.losing(DIGITS_LOST), 3, highest.min(HIGHEST_ORDER))
+            });
+            let order = orders.find(|order| order.failed.is_some() || order.order == HIGHEST_ORDER);
+            let order = order.expect("the last one is of the highest order");
+            [order.clone(), order]
+        }
+        None => kinetic_orders(&scheme.maps(), scheme.held, table.order.value),
+    };
     Proof {
         general,
         quadratic,
@@ -154,6 +170,8 @@ fn order_by(mut conditions: Vec<Evaluated>, highest: u32) -> Order {
 pub(crate) enum Of {
     /// The step as it stands: of a processed scheme, the kernel.
     Step,
+    /// The step of three parts with an inner scheme.
+    NestedStep,
     /// The processed step.
     ProcessedStep,
 }
@@ -207,11 +225,12 @@ pub(crate) fn findings<'a>(scheme: &'a ExactScheme, proof: &'a Proof) -> Vec<Fin
 fn order_finding<'a>(scheme: &'a ExactScheme, proof: &'a Proof) -> Vec<Finding<'a>> {
     let (kinetic, claimed) = (scheme.table.kinetic, &scheme.table.order);
     let (family, proved) = (Family::Kinetic(kinetic), proof.for_kinetic(kinetic));
+    let of = if scheme.inner.is_some() { Of::NestedStep } else { Of::Step };
     match proved.order {
-        holds if holds > claimed.value => vec![Finding::HigherOrder { of: Of::Step, family, claimed, holds }],
+        holds if holds > claimed.value => vec![Finding::HigherOrder { of, family, claimed, holds }],
         holds if holds == claimed.value => Vec::new(),
-        0 if !(proved.undecided && scheme.table.digits.is_some()) => sum_findings(scheme),
-        _ => vec![Finding::LowerOrder { of: Of::Step, family, claimed, proved }],
+        0 if of == Of::Step && !(proved.undecided && scheme.table.digits.is_some()) => sum_findings(scheme),
+        _ => vec![Finding::LowerOrder { of, family, claimed, proved }],
     }
 }
 
