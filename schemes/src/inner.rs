@@ -11,8 +11,18 @@ use shadowstep_symbolic::Rational;
 use crate::document::Fault;
 use crate::map::{Map, Stages};
 use crate::map_kind::MapKind;
-use crate::scheme::ExactInner;
+use crate::scheme::{ExactInner, ExactScheme};
 use crate::table::{self, MOST_STAGES, Table, Weights};
+
+impl ExactScheme {
+    /// The maps of a step with the weights of both its schemes: with an inner scheme, fast kicks stand as kicks behind all other maps.
+    pub fn maps_of_both(&self) -> Vec<Map> {
+        let Some(inner) = &self.inner else { return self.maps() };
+        let (mut maps, fast) = inner.step(&self.maps());
+        maps.extend(fast.into_iter().map(|weight| Map { kind: MapKind::Kick, weight }));
+        maps
+    }
+}
 
 impl ExactInner {
     /// The maps of a step and, between each and the next, the weight of the fast kick.

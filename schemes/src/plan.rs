@@ -97,7 +97,8 @@ impl StepPlan {
         self.evaluations + self.hessian_products
     }
 
-    /// How many maps of a kind a step has.
+    /// How many maps of a kind a step has. With an [inner scheme](crate::inner) the fast forces are evaluated once for each drift: the fast kicks at both
+    /// sides of a slow one are at the same q.
     pub fn count(&self, kind: MapKind) -> usize {
         self.maps.iter().filter(|(k, _)| *k == kind).count()
     }
