@@ -155,7 +155,7 @@ pub use refusal::{NoGradientKicks, NoProcessor, Refusal};
 pub use results::{FileOptions, elementary_functions, hexadecimal};
 pub use scene::plot;
 pub use scene::split::{
-    CanonicalCoordinates, Class, Formulas, KineticAndPotential, Linear, Needs, Planets, ShownCoordinates,
+    CanonicalCoordinates, Class, Formulas, KineticAndPotential, Linear, Needs, Planets, ShownCoordinates, SlowForces,
     TransformedTime,
 };
 pub use scene::{

@@ -8,7 +8,8 @@ use super::parts;
 use super::planets::{self, GivenBody, Settings};
 use super::reader::Reader;
 use super::{doubled, explicit_time, formula, magnetic, many_parts, pair, shipped};
-use crate::scene::System;
+use crate::scene::split::{SLOW, SlowForces};
+use crate::scene::{InitialValueProblem, Parts, PotentialEnergy, System};
 use shadowstep_schemes::document::{Placed, Section, Text};
 
 /// The keys of which exactly one gives the potential.
@@ -30,6 +31,7 @@ pub(super) fn system(
     let given = Given::read(reader, problem, initial, ways.contains(&"pair") || ways.is_empty() && !is_of_parts);
     let settings = Settings::read(reader, problem);
     let field = reader.names(problem, magnetic::KEY, "a list of formulas: [\"-b*y/2\", \"b*x/2\"]");
+    let slow = problem.get(SLOW).and_then(|value| reader.toml.text(value));
     let coupling = problem.get(doubled::COUPLING).and_then(|value| reader.number(value));
     refuse_keys_of_others(reader, &given, &ways, bodies);
     if let Some(value) = problem.get("parts").filter(|value| parts::is_list(value)) {
@@ -53,7 +55,7 @@ pub(super) fn system(
         }
         ["potential"] => {
             given.needs(reader, problem, "coordinates");
-            of_potential(reader, &given, potential?, field.as_ref(), settings.split)
+            of_potential(reader, &given, (potential?, slow), field.as_ref(), settings.split)
         }
         ["pair"] => {
             given.needs(reader, problem, "bodies");
@@ -61,8 +63,9 @@ pub(super) fn system(
             if pair.as_ref().is_some_and(|pair| pair.separation == Separation::SquaredDistance) {
                 given.needs(reader, problem, "dimensions");
             }
-            let problem = pair::problem(reader, &given, pair)?;
-            parts::split(reader, &given, problem, settings.split?, None)
+            let slow = slow.and_then(|text| PairFormula::read_if(reader, text));
+            let problem = pair::problem(reader, &given, pair, slow)?;
+            with_slow_forces(reader, &given, problem, settings.split)
         }
         [doubled::HAMILTONIAN] => {
             given.needs(reader, problem, "coordinates");
@@ -84,18 +87,40 @@ pub(super) fn system(
 fn of_potential(
     reader: &mut Reader<'_>,
     given: &Given,
-    potential: Text,
+    (potential, slow): (Text, Option<Text>),
     field: Option<&Placed<Vec<Text>>>,
     split: Option<parts::Split>,
 ) -> Option<System> {
+    if let Some(at) = given.place(SLOW).filter(|_| field.is_some() || explicit_time::is_in_kinetic(reader, given)) {
+        let what = if field.is_some() { magnetic::KEY } else { "t in `kinetic`" };
+        let help = "give H by the formulas of three parts: parts = [\"slow\", \"fast\", \"T\"]";
+        return reader.toml.wrong(at, format!("{SLOW} cannot be set with {what}"), help);
+    }
     if let Some(field) = field {
         return magnetic::system(reader, given, potential, field);
     }
     if explicit_time::is_in_kinetic(reader, given) {
         return many_parts::with_time_in_kinetic(reader, given, potential);
     }
-    let problem = formula::problem(reader, given, &potential)?;
-    parts::split(reader, given, problem, split?, None)
+    let problem = formula::problem(reader, given, &potential, slow.as_ref())?;
+    with_slow_forces(reader, given, problem, split)
+}
+
+/// The system of a problem, in three parts if it has slow forces.
+fn with_slow_forces(
+    reader: &mut Reader<'_>,
+    given: &Given,
+    (problem, slow): (InitialValueProblem, Option<PotentialEnergy>),
+    split: Option<parts::Split>,
+) -> Option<System> {
+    let Some(slow) = slow else { return parts::split(reader, given, problem, split?, None) };
+    given.refuse(reader, &["parts"], |_| {
+        (
+            "parts cannot be set with `slow`".to_owned(),
+            "remove one of the two: the parts are U_slow, U and T".to_owned(),
+        )
+    });
+    Some(System { problem, parts: Parts::SlowForces(SlowForces(slow)) })
 }
 
 /// Refuses keys that belong to another way than the one that is given.
@@ -103,6 +128,14 @@ fn refuse_keys_of_others(reader: &mut Reader<'_>, given: &Given, ways: &[&str], 
     if *ways != [doubled::HAMILTONIAN] {
         given.refuse(reader, &[doubled::COUPLING], |key| {
             (format!("{key} requires `{}`", doubled::HAMILTONIAN), format!("remove `{key}`"))
+        });
+    }
+    if !matches!(*ways, ["potential" | "pair"]) {
+        given.refuse(reader, &[SLOW], |key| {
+            (
+                format!("{key} requires `potential` or `pair`"),
+                format!("remove `{key}`, or give the fast forces by a formula"),
+            )
         });
     }
     if *ways != ["potential"] {
