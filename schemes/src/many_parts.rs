@@ -88,8 +88,8 @@ impl Proved {
         if scheme.processor.is_some() {
             return Err(NotForManyParts::Processed(name));
         }
-        let order = match scheme.inner {
-            Some(_) => proof.general.clone(),
+        let order = match &proof.nested {
+            Some(nested) => nested.clone(),
             None => many_parts_order(scheme, PARTS, proof.general.order),
         };
         if let Some((failed, _)) = order.failed.as_ref().filter(|_| scheme.inner.is_none()) {
@@ -103,6 +103,11 @@ impl Proved {
             None => (maps.clone(), middle_weights(&maps)),
         };
         proved.plan = StepPlan::of_many_parts(&maps, middle);
+        if scheme.inner.is_some() {
+            [&mut proved.proof.general, &mut proved.proof.quadratic]
+                .into_iter()
+                .for_each(|of_two| *of_two = order.clone());
+        }
         proved.proof.many_parts = Some(order);
         Ok(proved)
     }

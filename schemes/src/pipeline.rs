@@ -30,9 +30,9 @@ pub struct Proved {
 }
 
 impl Proved {
-    /// The order proved for the kinetic energies that the table is meant for.
+    /// The order proved for the kinetic energies that the table is meant for; with an inner scheme, for slow forces, fast forces and T.
     pub fn order(&self) -> &Order {
-        self.proof.for_kinetic(self.scheme.table.kinetic)
+        self.proof.nested.as_ref().unwrap_or_else(|| self.proof.for_kinetic(self.scheme.table.kinetic))
     }
 
     /// Whether the order claimed holds for every T(p), whatever kinetic energies the table is meant for. With gradient kicks it does not:

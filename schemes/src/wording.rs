@@ -119,7 +119,7 @@ fn lower_order(
         _ => proof.quadratic.order,
     };
     match family {
-        Family::Kinetic(Kinetic::Any) if quadratic >= claimed.value => {
+        Family::Kinetic(Kinetic::Any) if quadratic >= claimed.value && of != Of::NestedStep => {
             fault.hint(format!("{of} {quadratic} holds for quadratic T: write `kinetic = \"quadratic\"`"))
         }
         _ => with_rounding_hint(fault, table, &(found - &failed.needed)),

@@ -7,9 +7,9 @@ use super::pair::PairFormula;
 use super::parts;
 use super::planets::{self, GivenBody, Settings};
 use super::reader::Reader;
-use super::{doubled, explicit_time, formula, magnetic, many_parts, pair, shipped};
-use crate::scene::split::{SLOW, SlowForces};
-use crate::scene::{InitialValueProblem, Parts, PotentialEnergy, System};
+use super::{doubled, explicit_time, formula, magnetic, many_parts, pair, shipped, slow};
+use crate::scene::System;
+use crate::scene::split::SLOW;
 use shadowstep_schemes::document::{Placed, Section, Text};
 
 /// The keys of which exactly one gives the potential.
@@ -65,7 +65,7 @@ pub(super) fn system(
             }
             let slow = slow.and_then(|text| PairFormula::read_if(reader, text));
             let problem = pair::problem(reader, &given, pair, slow)?;
-            with_slow_forces(reader, &given, problem, settings.split)
+            slow::system(reader, &given, problem, settings.split)
         }
         [doubled::HAMILTONIAN] => {
             given.needs(reader, problem, "coordinates");
@@ -91,10 +91,9 @@ fn of_potential(
     field: Option<&Placed<Vec<Text>>>,
     split: Option<parts::Split>,
 ) -> Option<System> {
-    if let Some(at) = given.place(SLOW).filter(|_| field.is_some() || explicit_time::is_in_kinetic(reader, given)) {
-        let what = if field.is_some() { magnetic::KEY } else { "t in `kinetic`" };
-        let help = "give H by the formulas of three parts: parts = [\"slow\", \"fast\", \"T\"]";
-        return reader.toml.wrong(at, format!("{SLOW} cannot be set with {what}"), help);
+    if slow.is_some() && (field.is_some() || explicit_time::is_in_kinetic(reader, given)) {
+        slow::refuse(reader, given, field.map_or("t in `kinetic`", |_| magnetic::KEY));
+        return None;
     }
     if let Some(field) = field {
         return magnetic::system(reader, given, potential, field);
@@ -103,24 +102,7 @@ fn of_potential(
         return many_parts::with_time_in_kinetic(reader, given, potential);
     }
     let problem = formula::problem(reader, given, &potential, slow.as_ref())?;
-    with_slow_forces(reader, given, problem, split)
-}
-
-/// The system of a problem, in three parts if it has slow forces.
-fn with_slow_forces(
-    reader: &mut Reader<'_>,
-    given: &Given,
-    (problem, slow): (InitialValueProblem, Option<PotentialEnergy>),
-    split: Option<parts::Split>,
-) -> Option<System> {
-    let Some(slow) = slow else { return parts::split(reader, given, problem, split?, None) };
-    given.refuse(reader, &["parts"], |_| {
-        (
-            "parts cannot be set with `slow`".to_owned(),
-            "remove one of the two: the parts are U_slow, U and T".to_owned(),
-        )
-    });
-    Some(System { problem, parts: Parts::SlowForces(SlowForces(slow)) })
+    slow::system(reader, given, problem, split)
 }
 
 /// Refuses keys that belong to another way than the one that is given.
@@ -132,10 +114,8 @@ fn refuse_keys_of_others(reader: &mut Reader<'_>, given: &Given, ways: &[&str], 
     }
     if !matches!(*ways, ["potential" | "pair"]) {
         given.refuse(reader, &[SLOW], |key| {
-            (
-                format!("{key} requires `potential` or `pair`"),
-                format!("remove `{key}`, or give the fast forces by a formula"),
-            )
+            let help = format!("remove `{key}`, or give the fast forces by a formula");
+            (format!("{key} requires `potential` or `pair`"), help)
         });
     }
     if *ways != ["potential"] {
