@@ -6,6 +6,8 @@
 //!
 //! Source: M. Tuckerman, B. J. Berne & G. J. Martyna, J. Chem. Phys. 97 (1992) 1990.
 
+use std::ops::Range;
+
 use shadowstep_symbolic::Rational;
 
 use crate::document::Fault;
@@ -67,26 +69,38 @@ impl ExactInner {
         if self.scheme.processor.is_some() {
             return fault("is a processed scheme, which an inner scheme cannot be", "write the name of a plain scheme");
         }
-        let hint = "stormer-verlet, yoshida4 and blanes-moan-s6 are such schemes";
         let outer = outer.maps();
-        let inner_name = format!("the inner scheme {}", self.scheme.table.name.value);
-        let at_outer = match &table.weights {
-            Some(Weights::Composition { base, .. }) => &base.at,
-            Some(Weights::Stages { kick, .. }) => &kick.at,
-            None => &table.name.at,
-        };
-        let both = [(self.scheme.maps(), &*inner_name, &claim.base.at), (outer.clone(), "the outer scheme", at_outer)];
-        for (maps, what, at) in both {
-            let is_kick = |map: Option<&Map>| map.is_some_and(|map| map.kind == MapKind::Kick);
-            let has_gradient_kicks = maps.iter().any(|map| map.kind == MapKind::GradientKick);
-            if has_gradient_kicks || maps.len() < 3 || !is_kick(maps.first()) || !is_kick(maps.last()) {
+        let name = format!("the inner scheme {}", self.scheme.table.name.value);
+        for (maps, what, at) in
+            [(&self.scheme.maps(), &*name, &claim.base.at), (&outer, "the outer scheme", place_of_weights(table))]
+        {
+            if !is_between_kicks(maps) {
                 let message = format!("{what} must begin and end with kicks, and have no gradient kicks");
+                let hint = "stormer-verlet, yoshida4 and blanes-moan-s6 are such schemes";
                 return Err(table.source.fault(at, message).hint(hint));
             }
         }
-        let drifts = |maps: &[Map]| maps.iter().filter(|map| map.kind == MapKind::Drift).count();
         let substeps = drifts(&outer) * self.substeps as usize * drifts(&self.scheme.maps());
         if substeps > MOST_STAGES { Err(table.too_long(substeps)) } else { Ok(()) }
+    }
+}
+
+/// Whether maps are drifts between plain kicks, so that fast kicks stand between all other maps.
+fn is_between_kicks(maps: &[Map]) -> bool {
+    let is_kick = |map: Option<&Map>| map.is_some_and(|map| map.kind == MapKind::Kick);
+    let has_gradient_kicks = maps.iter().any(|map| map.kind == MapKind::GradientKick);
+    maps.len() > 2 && !has_gradient_kicks && is_kick(maps.first()) && is_kick(maps.last())
+}
+
+fn drifts(maps: &[Map]) -> usize {
+    maps.iter().filter(|map| map.kind == MapKind::Drift).count()
+}
+
+fn place_of_weights(table: &Table) -> &Range<usize> {
+    match &table.weights {
+        Some(Weights::Composition { base, .. }) => &base.at,
+        Some(Weights::Stages { kick, .. }) => &kick.at,
+        None => &table.name.at,
     }
 }
 
