@@ -170,7 +170,8 @@ fn nested_facts(proved: &Proved, inner: &ExactInner) -> Vec<(String, String)> {
         (
             "a step",
             format!(
-                "{slow} evaluations of the slow forces, {fast} of the fast ones where these depend on q only; it begins with a slow kick"
+                "{} of the slow forces, {fast} of the fast ones where these depend on q only; it begins with a slow kick",
+                counted(slow, "evaluation")
             ),
         ),
     ];
