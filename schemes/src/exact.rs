@@ -115,7 +115,8 @@ fn scheme_within(
         cells.faults.extend(of_inner);
         let scheme = Box::new(scheme?);
         let inner = ExactInner { scheme, substeps: claim.substeps };
-        inner.refused(&table, claim, stages).map_err(|fault| cells.faults.push(fault)).ok().map(|()| inner)
+        cells.faults.extend(inner.refused(&table, claim, stages));
+        Some(inner)
     });
     let good = cells.faults.is_empty();
     faults.extend(cells.faults);

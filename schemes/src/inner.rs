@@ -58,10 +58,10 @@ impl ExactInner {
     }
 
     /// Why there is no step with it, if there is none.
-    pub(crate) fn refused(&self, table: &Table, claim: &table::Inner, outer: &Stages) -> Result<(), Fault> {
+    pub(crate) fn refused(&self, table: &Table, claim: &table::Inner, outer: &Stages) -> Option<Fault> {
         let fault = |why: &str, hint: &str| {
             let message = format!("{} {why}", self.scheme.table.name.value);
-            Err(table.source.fault(&claim.base.at, message).hint(hint))
+            Some(table.source.fault(&claim.base.at, message).hint(hint))
         };
         if self.scheme.inner.is_some() {
             return fault("has an inner scheme, which an inner scheme cannot have", "H has three parts");
@@ -77,11 +77,11 @@ impl ExactInner {
             if !is_between_kicks(maps) {
                 let message = format!("{what} must begin and end with kicks, and have no gradient kicks");
                 let hint = "stormer-verlet, yoshida4 and blanes-moan-s6 are such schemes";
-                return Err(table.source.fault(at, message).hint(hint));
+                return Some(table.source.fault(at, message).hint(hint));
             }
         }
         let substeps = drifts(&outer) * self.substeps as usize * drifts(&self.scheme.maps());
-        if substeps > MOST_STAGES { Err(table.too_long(substeps)) } else { Ok(()) }
+        (substeps > MOST_STAGES).then(|| table.too_long(substeps))
     }
 }
 
@@ -232,7 +232,7 @@ mod tests {
             unfinished,
         ];
         let sentences = cases.map(|changes| {
-            let faults = read(&table(&changes), &|base, _| shipped(base)).err().expect("it is refused");
+            let Err(faults) = read(&table(&changes), &|base, _| shipped(base)) else { panic!("{changes:?}") };
             let sentence = |f: &Fault| format!("{}:{}: {}", f.line, f.column, f.message);
             faults.0.iter().map(sentence).collect::<Vec<_>>().join("; ")
         });

@@ -102,7 +102,7 @@ impl Proved {
             Some(inner) => inner.step(&maps),
             None => (maps.clone(), middle_weights(&maps)),
         };
-        proved.plan = StepPlan::of_many_parts(&maps, middle);
+        proved.plan = StepPlan::of_many_parts(&maps, &middle);
         if scheme.inner.is_some() {
             [&mut proved.proof.general, &mut proved.proof.quadratic]
                 .into_iter()

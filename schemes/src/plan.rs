@@ -73,7 +73,7 @@ impl StepPlan {
     }
 
     /// The plan of its step for three parts and more, with the weights of the middle parts between each map and the next.
-    pub(crate) fn of_many_parts(maps: &[Map], middle: Vec<Rational>) -> StepPlan {
+    pub(crate) fn of_many_parts(maps: &[Map], middle: &[Rational]) -> StepPlan {
         let mut plan = StepPlan::of_maps(maps);
         plan.middle = middle.iter().map(|weight| index_of(weight, &mut plan.middle_weights)).collect();
         plan

@@ -17,7 +17,7 @@ pub(super) fn system(
     given.refuse(reader, &["parts"], |_| {
         (format!("parts cannot be set with `{SLOW}`"), "remove one of the two: the parts are slow, fast, T".to_owned())
     });
-    Some(System { problem, parts: Parts::SlowForces(SlowForces(slow)) })
+    Some(System { problem, parts: Parts::SlowForces(SlowForces::new(slow)) })
 }
 
 /// Refuses slow forces beside parts that are formulas.

@@ -14,7 +14,7 @@ pub(crate) const SLOW: &str = "slow";
 
 /// H = U_slow(q) + U(q) + T(p), where U is the potential of the problem.
 #[derive(Debug)]
-pub struct SlowForces(pub(crate) PotentialEnergy);
+pub struct SlowForces(Box<PotentialEnergy>);
 
 impl Split for SlowForces {
     fn needs(&self, _: &InitialValueProblem) -> Needs {
@@ -53,9 +53,14 @@ impl Split for SlowForces {
 }
 
 impl SlowForces {
+    /// The parts with this slow potential.
+    pub(crate) fn new(slow: PotentialEnergy) -> Self {
+        SlowForces(Box::new(slow))
+    }
+
     /// The formula of the slow potential.
     pub fn text(&self) -> &str {
-        match &self.0 {
+        match &*self.0 {
             PotentialEnergy::Formula(formula) => formula.text(),
             PotentialEnergy::Pairs(pairs) => pairs.formula.text(),
             _ => unreachable!("a scene gives it by a formula"),
@@ -64,7 +69,7 @@ impl SlowForces {
 
     /// The slow potential in words.
     pub fn described(&self) -> String {
-        match &self.0 {
+        match &*self.0 {
             PotentialEnergy::Pairs(_) => format!("the sum over all pairs of {}", self.text()),
             _ => self.text().to_owned(),
         }
