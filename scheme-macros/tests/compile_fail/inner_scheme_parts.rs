@@ -1,13 +1,10 @@
-//! A scheme with an inner scheme for two parts, and for four.
+//! A scheme with an inner scheme for two parts.
 
 use shadowstep::splitting_scheme;
 
 #[splitting_scheme("r-respa-4.toml")]
-pub struct ForTwo;
-
-#[splitting_scheme("r-respa-4.toml", parts = 4)]
-pub struct ForFour;
+pub struct Mine;
 
 fn main() {
-    let _ = (ForTwo, ForFour);
+    let _ = Mine;
 }
