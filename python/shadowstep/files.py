@@ -19,9 +19,9 @@ _FIXED = ("n", "t", "energy", "modified_energy", "estimate", "order", *_INDICATO
 
 
 def open(path: Union[str, os.PathLike[str]]) -> Trajectory:
-    """The rows of a file that `shadowstep run` has written: CSV, or JSON lines with the file of their metadata beside them.
+    """The rows of a file that `shadowstep run` has written: CSV, or JSON lines or records of NumPy with the file of their metadata beside them.
 
-    What a row does not have is NaN: energies, positions and modified energies can have different periods. `Trajectory.metadata` is what determined the run.
+    Records of NumPy are mapped into memory: what is not used of them is not read. What a row does not have is NaN: energies, positions and modified energies can have different periods. `Trajectory.metadata` is what determined the run.
 
     Raises
     ------
@@ -46,6 +46,8 @@ def open(path: Union[str, os.PathLike[str]]) -> Trajectory:
     ((31, 1), 'yoshida4', 4)
     """
     name = os.fspath(path)
+    if name.endswith(".npy"):
+        return _numpy(name)
     metadata, rows, momenta = _json_lines(name) if name.endswith(".jsonl") else _csv(name)
     coordinates = metadata["coordinates"]
     doubles = metadata.get("digits") in ("double", "compensated")
@@ -76,6 +78,7 @@ def open(path: Union[str, os.PathLike[str]]) -> Trajectory:
         order=array("order") if there("modified_energy") else None,
         metadata=metadata,
         indicators={name: array(name) for name in _INDICATORS if there(name)},
+        values={name: array(name, texts=True) for name in metadata.get("values", {})},
     )
 
 
@@ -88,8 +91,10 @@ def _csv(name: str) -> tuple[dict[str, Any], list[dict[str, str]], list[str]]:
         if columns is None or list(columns[:2]) != ["n", "t"] or "coordinates" not in metadata:
             raise InputError(f"{name}: this is no file of a run: it begins with lines of metadata, and columns n, t, …")
         rows = list(reader)
-    metadata["coordinates"] = json.loads(metadata["coordinates"])
-    state = [column for column in columns if column not in _FIXED]
+    for key in ("coordinates", "values"):
+        if key in metadata:
+            metadata[key] = json.loads(metadata[key])
+    state = [column for column in columns if column not in _FIXED and column not in metadata.get("values", {})]
     written = [coordinate for coordinate in metadata["coordinates"] if coordinate in state]
     return metadata, rows, state[len(written) :] or [f"p{name}" for name in metadata["coordinates"]]
 
@@ -103,9 +108,44 @@ def _without_head(file: Any, metadata: dict[str, Any]) -> Iterator[str]:
         metadata[key] = value
 
 
-def _json_lines(name: str) -> tuple[dict[str, Any], list[dict[str, str]], list[str]]:
+def _numpy(name: str) -> Trajectory:
+    metadata = _metadata(name)
+    rows = np.load(name, mmap_mode="r", max_header_size=1 << 24)
+    fields = rows.dtype.names or ()
+    missing = np.full(len(rows), np.nan)
+
+    def field(column: str) -> np.ndarray:
+        return rows[column] if column in fields else missing
+
+    momenta = metadata.get("momenta") or [f"p{coordinate}" for coordinate in metadata["coordinates"]]
+    no_states = np.full((len(rows), len(momenta)), np.nan)
+    estimated = "modified_energy" in fields
+    return Trajectory(
+        n=rows["n"],
+        t=rows["t"],
+        q=rows["q"] if "q" in fields else no_states,
+        p=rows["p"] if "p" in fields else no_states,
+        energy=field("energy"),
+        coordinates=metadata["coordinates"],
+        momenta=momenta,
+        force_evaluations=None,
+        modified_energy=rows["modified_energy"] if estimated else None,
+        modified_energy_error=rows["estimate"] if estimated else None,
+        order=rows["order"] if estimated else None,
+        metadata=metadata,
+        indicators={name: rows[name] for name in _INDICATORS if name in fields},
+        values={name: rows[name] for name in metadata.get("values", {})},
+    )
+
+
+def _metadata(name: str) -> dict[str, Any]:
     with builtins.open(f"{name}.metadata.json") as file:
         metadata: dict[str, Any] = json.load(file)["metadata"]
+    return metadata
+
+
+def _json_lines(name: str) -> tuple[dict[str, Any], list[dict[str, str]], list[str]]:
+    metadata = _metadata(name)
     momenta = metadata.get("momenta") or [f"p{coordinate}" for coordinate in metadata["coordinates"]]
     rows = []
     with builtins.open(name) as file:

@@ -63,6 +63,8 @@ class Trajectory:
     """Of a file: what determined the run."""
     indicators: dict[str, np.ndarray] = field(default_factory=dict)
     """Of a file with `chaos`: lyapunov, megno, mean_megno and sali, each of shape (n,)."""
+    values: dict[str, np.ndarray] = field(default_factory=dict)
+    """Of a file with `values` or `elements`: each column, of shape (n,)."""
 
     def mpmath(self, name: str, digits: int | None = None) -> list[Any]:
         """Numbers of more digits as those of mpmath: nested lists of `mpf` in the shape of the array.

@@ -170,11 +170,10 @@ def test_types():
     assert status == 0, found + errors
 
 
-@pytest.mark.parametrize("digits", ['"double"', "30"])
-@pytest.mark.parametrize("ending", ["csv", "jsonl"])
-def test_files_of_runs_are_opened(tmp_path, digits, ending):
+@pytest.mark.parametrize(("ending", "digits"), [("csv", '"double"'), ("csv", "30"), ("jsonl", '"double"'), ("jsonl", "30"), ("npy", '"double"')])
+def test_files_of_runs_are_opened(tmp_path, ending, digits):
     scene = tmp_path / "kepler.toml"
-    output = f'{{ file = "kepler.{ending}", trajectory = {{ every = 2 }}, energy = true, modified_energy = {{ order = 4, every = 5 }} }}'
+    output = f'{{ file = "kepler.{ending}", trajectory = {{ every = 2 }}, energy = true, modified_energy = {{ order = 4, every = 5 }}, values = {{ r = "x^2 + y^2", every = 4 }} }}'
     scene.write_text(f'problem.name = "kepler"\nrun = {{ scheme = "yoshida4", step = "1/10", steps = 20, digits = {digits} }}\noutput = {output}')
     shadowstep.run(scene)
     read = shadowstep.open(tmp_path / f"kepler.{ending}")
@@ -184,7 +183,9 @@ def test_files_of_runs_are_opened(tmp_path, digits, ending):
     assert np.array_equal(read.modified_energy[::5], made.modified_energy[::5]) and read.order[5] == 4
     assert np.isnan(read.q[1].astype(float)).all() and np.isnan(float(read.modified_energy[1]))
     assert (read.coordinates, read.momenta, read.force_evaluations) == (["x", "y"], ["px", "py"], None)
-    assert read.metadata["scheme"] == "yoshida4"
+    assert read.metadata["scheme"] == "yoshida4" and read.metadata["values"] == {"r": "x^2 + y^2"}
+    r = read.values["r"].astype(float)
+    assert np.allclose(r[::4], (made.q[::4].astype(float) ** 2).sum(axis=1), rtol=1e-15) and np.isnan(r[1])
 
 
 def test_a_file_of_something_else_is_refused(tmp_path):

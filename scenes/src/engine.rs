@@ -22,10 +22,11 @@ use crate::results::{Checkpoint, Indicators, ModifiedEnergy, Row, Rows};
 use crate::run::Run;
 use crate::saved_state::SavedState;
 use crate::scene::split::ShownCoordinates;
-use crate::scene::{CheckpointInterval, EnergyAt, Scene};
+use crate::scene::{CheckpointInterval, EnergyAt, Outputs, Scene};
 use crate::snapshots::{Snapshot, Snapshots};
 use crate::start::Begin;
 use crate::tangent::{FollowingVectors, VECTORS_OF_ROWS, Vectors};
+use crate::values::{Extremes, ValuesOfRows};
 use crate::watch::summary::Summary;
 use crate::watch::{Energies, Watch};
 
@@ -73,7 +74,10 @@ pub(crate) fn run<N: RunNumber>(
     }
     let from = saved.map(|saved| saved.n);
     let vectors = vectors(scene, checkpoint)?;
+    let values = scene.output.values.iter().map(|columns| ValuesOfRows::new(columns, &scene.system, context));
     let mut recorder = Recorder {
+        values: values.collect(),
+        extremes: Extremes::new(&scene.output.extremes, &scene.system, context),
         scene,
         run: scene.as_run(),
         context,
@@ -136,6 +140,21 @@ const LONG: Duration = Duration::from_millis(500);
 /// The observer is asked at each of the first states: it may stop short runs anywhere.
 const ONE_BY_ONE: u64 = 256;
 
+/// What a row has besides modified energies and indicators.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+struct Due {
+    energy: bool,
+    state: bool,
+    /// Some of the values.
+    values: bool,
+    /// All of them, whatever their periods are.
+    all_values: bool,
+}
+
+impl Due {
+    const NOTHING: Due = Due { energy: false, state: false, values: false, all_values: false };
+}
+
 /// Follows the states of a run in the order of time.
 struct Recorder<'a, 'r, N: RunNumber> {
     scene: &'a Scene,
@@ -157,6 +176,10 @@ struct Recorder<'a, 'r, N: RunNumber> {
     watch: Option<Watch<N>>,
     /// The tangent vectors of rows, which make their own steps.
     vectors: Option<FollowingVectors>,
+    /// Columns of expressions.
+    values: Vec<ValuesOfRows<'a, N>>,
+    /// Expressions whose least and greatest values the summary has.
+    extremes: Extremes<'a, N>,
     /// Finds the crossings of a surface of section.
     crossings: Option<Crossings<N>>,
     /// The states from which estimates can be computed again.
@@ -204,17 +227,18 @@ impl<N: RunNumber> Recorder<'_, '_, N> {
             self.observer.progress(n);
             return Ok(());
         }
-        let periods = [self.scene.output.energy, self.scene.output.trajectory, self.scene.output.chaos];
-        let [energy, state, chaos] = periods.map(|every| self.is_due(every, n));
-        self.due = periods.into_iter().flatten().map(|every| next_multiple(n, every)).min().unwrap_or(i64::MAX);
+        let Outputs { energy, trajectory, chaos, .. } = self.scene.output;
+        let periods = [energy, trajectory, chaos].into_iter().flatten().chain(self.values.iter().map(|own| own.every));
+        self.due = periods.map(|every| next_multiple(n, every)).min().unwrap_or(i64::MAX);
         self.due = self.due.min(i64::try_from(self.run.steps).unwrap_or(i64::MAX));
-        if !energy && !state && !chaos {
+        let (due, chaos) = (self.due_at(n), self.is_due(chaos, n));
+        if due == Due::NOTHING && !chaos {
             self.observer.progress(n);
             return Ok(());
         }
         at_output(integrator, |integrator| {
-            let energy = energy.then(|| self.energy(integrator));
-            self.row(n, integrator.state().q(), integrator.state().p(), energy.as_ref(), None)
+            let energy = self.needs_energy(due).then(|| self.energy(integrator));
+            self.row(n, (integrator.state().q(), integrator.state().p()), energy.as_ref(), (due, None))
         })
     }
 
@@ -229,17 +253,17 @@ impl<N: RunNumber> Recorder<'_, '_, N> {
         let (mut q, mut p) = take(&mut self.state);
         q.iter_mut().zip(found.q).for_each(|(own, q)| own.assign(q));
         p.iter_mut().zip(found.p).for_each(|(own, p)| own.assign(p));
-        let [due, state] = [self.scene.output.energy, self.scene.output.trajectory].map(|every| self.is_due(every, n));
+        let due = self.due_at(n);
         let every = self.scene.output.modified_energy.as_ref().map(|(_, every)| *every);
         let modified = self.is_due(every, n).then(|| ModifiedEnergy::of(found));
-        if due || state || n.unsigned_abs() == self.run.steps {
+        if due != Due::NOTHING || n.unsigned_abs() == self.run.steps {
             integrator.postprocess_state(&mut q, &mut p);
         }
-        let energy = due.then(|| match &mut self.energy_of {
+        let energy = self.needs_energy(due).then(|| match &mut self.energy_of {
             Some(energy_of) => energy_of(&q, &p),
             None => integrator.system().energy_at(&q, &p),
         });
-        self.row(n, &q, &p, energy.as_ref(), modified)?;
+        self.row(n, (&q, &p), energy.as_ref(), (due, modified))?;
         self.state = (q, p);
         Ok(())
     }
@@ -275,21 +299,23 @@ impl<N: RunNumber> Recorder<'_, '_, N> {
         if !last_step(integrator, (&self.state.0, &self.state.1), (self.run, until))? {
             return Ok(());
         }
-        if scene.output.section.is_some() && scene.output.energy.is_none() {
+        let due = Due { state: scene.output.trajectory.is_some(), ..self.due_everywhere() };
+        if due == Due::NOTHING {
             return Ok(());
         }
         let n = i64::try_from(self.run.steps).unwrap_or(i64::MAX - 1) + 1;
-        let energy = scene.output.energy.is_some().then(|| self.energy(integrator));
+        let energy = self.needs_energy(due).then(|| self.energy(integrator));
         let state = (integrator.state().q(), integrator.state().p());
-        let time = self.time(n, state.0);
-        self.write((n, time), state, (energy.as_ref(), None, None), scene.output.trajectory.is_some())
+        self.write((n, self.time(n, state.0)), state, energy.as_ref(), (due, None, None))
     }
 
     /// `energy` is that of the last state.
     fn summary(&mut self, energy: &N) -> Option<Summary> {
         let mut watch = self.watch.take()?;
         watch.include_energy(i64::try_from(self.run.steps).unwrap_or(i64::MAX), energy);
-        watch.summary(self.run)
+        let mut summary = watch.summary(self.run)?;
+        summary.extremes = self.extremes.found();
+        Some(summary)
     }
 
     /// The gradient may have values where the potential has none, as that of log(x) for x < 0: a run that got there is
@@ -307,26 +333,44 @@ impl<N: RunNumber> Recorder<'_, '_, N> {
         n > self.written && every.is_some_and(|every| n.unsigned_abs().is_multiple_of(every) || is_end)
     }
 
+    /// What is due at n.
+    fn due_at(&self, n: i64) -> Due {
+        let Outputs { energy, trajectory, .. } = self.scene.output;
+        Due {
+            energy: self.is_due(energy, n),
+            state: self.is_due(trajectory, n),
+            values: self.values.iter().any(|own| self.is_due(Some(own.every), n)),
+            all_values: false,
+        }
+    }
+
+    /// What rows have that belong to no n: positions and momenta, and what is written at all.
+    fn due_everywhere(&self) -> Due {
+        let values = !self.values.is_empty();
+        Due { energy: self.scene.output.energy.is_some(), state: true, values, all_values: values }
+    }
+
+    fn needs_energy(&self, due: Due) -> bool {
+        due.energy || (due.values && self.values.iter().any(ValuesOfRows::needs_energy))
+    }
+
     /// Writes a row if anything is due.
     fn row(
         &mut self,
         n: i64,
-        q: &[N],
-        p: &[N],
+        (q, p): (&[N], &[N]),
         energy: Option<&N>,
-        modified: Option<ModifiedEnergy>,
+        (due, modified): (Due, Option<ModifiedEnergy<N>>),
     ) -> Result<(), Error> {
         self.observer.progress(n);
         if let Some(energy) = energy.filter(|energy| !energy.is_finite()) {
             return Err(self.run.not_finite(&format!("the energy at n = {n}, {},", energy.to_text())));
         }
-        let state_is_due = self.is_due(self.scene.output.trajectory, n);
         let chaos = self.indicators(n);
-        if energy.is_none() && modified.is_none() && chaos.is_none() && !state_is_due {
+        if due == Due::NOTHING && modified.is_none() && chaos.is_none() {
             return Ok(());
         }
-        let time = self.time(n, q);
-        self.write((n, time), (q, p), (energy, modified, chaos), state_is_due)
+        self.write((n, self.time(n, q)), (q, p), energy, (due, modified, chaos))
     }
 
     /// The indicators of chaos up to the state n, if they are due.
@@ -347,11 +391,11 @@ impl<N: RunNumber> Recorder<'_, '_, N> {
             time.multiply(part);
             time.add(&N::from_rational(&self.run.time(n - 1), self.context));
             at_output(integrator, |integrator| {
-                let (q, p) = (integrator.state().q(), integrator.state().p());
-                let time = self.scene.system.time_of(q).unwrap_or(&time).to_text();
-                let (q, p) = (q.to_vec(), p.to_vec());
-                let energy = self.scene.output.energy.is_some().then(|| self.energy(integrator));
-                self.write((n - 1, time), (&q, &p), (energy.as_ref(), None, None), true)
+                let (q, p) = (integrator.state().q().to_vec(), integrator.state().p().to_vec());
+                let time = self.scene.system.time_of(&q).unwrap_or(&time).clone();
+                let due = self.due_everywhere();
+                let energy = self.needs_energy(due).then(|| self.energy(integrator));
+                self.write((n - 1, time), (&q, &p), energy.as_ref(), (due, None, None))
             })
         });
         self.crossings = Some(crossings);
@@ -359,37 +403,40 @@ impl<N: RunNumber> Recorder<'_, '_, N> {
     }
 
     /// The time of the state n.
-    fn time(&self, n: i64, q: &[N]) -> String {
-        match self.scene.system.time_of(q) {
-            Some(t) => t.to_text(),
-            None => N::from_rational(&self.run.time(n), self.context).to_text(),
-        }
+    fn time(&self, n: i64, q: &[N]) -> N {
+        let time = self.scene.system.time_of(q);
+        time.cloned().unwrap_or_else(|| N::from_rational(&self.run.time(n), self.context))
     }
 
-    /// Writes a row.
+    /// Writes a row; `energy` is H where it is needed.
     fn write(
         &mut self,
-        (n, t): (i64, String),
+        (n, time): (i64, N),
         (q, p): (&[N], &[N]),
-        (energy, modified, chaos): (Option<&N>, Option<ModifiedEnergy>, Option<Indicators>),
-        with_state: bool,
+        energy: Option<&N>,
+        (due, modified_energy, chaos): (Due, Option<ModifiedEnergy<N>>, Option<Indicators>),
     ) -> Result<(), Error> {
-        let (q, p) = match &mut self.shown {
-            Some(shown) if with_state => shown.of_state(q, p),
+        let mut values = Vec::new();
+        for place in 0..self.values.len() {
+            let is_due = due.all_values || self.is_due(Some(self.values[place].every), n);
+            self.values[place].append(is_due.then_some(((q, p), &time, energy)), &mut values);
+        }
+        let state = match &mut self.shown {
+            Some(shown) if due.state => shown.of_state(q, p),
             _ => (q, p),
         };
-        let texts = |numbers: &[N]| with_state.then(|| numbers.iter().map(N::to_text).collect());
-        let (q, p) = (texts(q), texts(p));
-        let energy = energy.map(N::to_text);
-        self.rows.row(&Row { n, t, energy, modified_energy: modified, chaos, q, p })
+        let (energy, state) = (energy.filter(|_| due.energy), due.state.then_some(state));
+        self.rows.row(&Row { n, t: &time, energy, modified_energy, chaos, values, state })
     }
 
-    /// Makes a checkpoint where it is time for one, or where the run is stopped: then it ends.
+    /// Makes a checkpoint where it is time for one, at the last state, from which the run can be prolonged, or where the run is stopped: then it ends.
     ///
     /// `state` is the one from which the run can be resumed; `None` for the state at t = 0.
     fn ends(&mut self, n: i64, state: impl FnOnce(&Self) -> Option<Snapshot<N>>) -> Result<ControlFlow<()>, Error> {
         let stops = self.observer.stops();
-        let due = self.scene.output.checkpoint.is_some_and(|interval| self.is_time_for_a_checkpoint(n, interval));
+        let is_last = n.unsigned_abs() == self.run.steps;
+        let due = self.scene.output.checkpoint;
+        let due = due.is_some_and(|interval| self.is_time_for_a_checkpoint(n, interval) || is_last);
         if n > self.written && (due || stops) {
             self.checkpoint(n, state(self).as_ref())?;
         }
@@ -434,7 +481,7 @@ impl<N: RunNumber> Follower<N> for Recorder<'_, '_, N> {
     }
 
     fn next(&self, n: i64) -> i64 {
-        if self.crossings.is_some() {
+        if self.crossings.is_some() || !self.extremes.is_empty() {
             return n + 1;
         }
         let checkpoint = match self.scene.output.checkpoint {
@@ -456,6 +503,10 @@ impl<N: RunNumber> Follower<N> for Recorder<'_, '_, N> {
             self.snapshots.offer(n, integrator.state());
         }
         let own = self.from.unwrap_or(0)..i64::try_from(self.run.steps).unwrap_or(i64::MAX);
+        // the first state and those after it
+        if n == own.start || own.contains(&(n - 1)) {
+            self.extremes.include(n, self.run, integrator);
+        }
         if let Some(watch) = self.watch.as_mut().filter(|_| own.contains(&(n - 1))) {
             watch.include(n, integrator);
         }

@@ -1,16 +1,20 @@
 //! Expressions and conditions in the numbers of a run.
 
+use std::ops::Range;
+
 use shadowstep::number::{Lanes, Number};
 use shadowstep::systems::formula::{FormulaError, FormulaPotential};
 use shadowstep::tables::{Faults, Source};
 use shadowstep::{Potential, Rational};
 use shadowstep_schemes::document::{Reader, Text};
 use shadowstep_symbolic::Exact;
+use thiserror::Error;
 
 use crate::computation::RunNumber;
 use crate::error::Error;
-use crate::expression::{Comparison, Condition, ENERGY, Expression, TIME};
+use crate::expression::{Comparison, Condition, ENERGY, Expression, TIME, name_of_quantity};
 use crate::lanes::LANES;
+use crate::quantity::{Compute, NoQuantity, Quantity, QuantityOfBodies};
 use crate::scene::split::ShownCoordinates;
 use crate::scene::{EnergyAt, System};
 
@@ -35,31 +39,59 @@ impl System {
 
     /// Checks an expression for the system; a fault has its place.
     pub fn check(&self, expression: &Expression, reader: &mut Reader<'_>) {
-        if let Err(error) = Evaluator::<f64>::new(expression, self, &()) {
-            let known = self.coordinates.iter().chain(&self.momenta).take(6).cloned().collect::<Vec<_>>().join(", ");
-            let hint = format!("it is a formula in {known}, t, E and the parameters, in a sweep also the axes");
-            let (message, hint) = match error.to_string().split_once(" is not smooth") {
-                Some((name, _)) => {
-                    (format!("{name} is not known here"), "use smooth functions: \"x^2 > 100\" for |x| > 10".to_owned())
-                }
-                None => (error.to_string(), hint),
-            };
-            let is_whole = expression.formula == expression.text.value;
-            let place = if is_whole { expression.text.place(&error.range()) } else { expression.text.at.clone() };
-            reader.fault(&place, message, hint);
-        }
+        // that of a condition has another length
+        let is_whole = expression.formula.len() == expression.text.value.len();
+        let place = |range: &Range<usize>| match is_whole {
+            true => expression.text.place(range),
+            false => expression.text.at.clone(),
+        };
+        let Err(error) = Evaluator::<f64>::new(expression, self, &()) else { return };
+        let (message, hint, range) = match error {
+            NotOfSystem::Quantity { no: NoQuantity { message, hint }, range } => (message, hint, range),
+            NotOfSystem::Formula(error) => {
+                let known =
+                    self.coordinates.iter().chain(&self.momenta).take(6).cloned().collect::<Vec<_>>().join(", ");
+                let hint = format!("it is a formula in {known}, t, E and the parameters, in a sweep also the axes");
+                let (message, hint) = match error.to_string().split_once(" is not smooth") {
+                    Some((name, _)) => (
+                        format!("{name} is not known here"),
+                        "use smooth functions: \"x^2 > 100\" for |x| > 10".to_owned(),
+                    ),
+                    None => (error.to_string(), hint),
+                };
+                (message, hint, error.range())
+            }
+        };
+        reader.fault(&place(&range), message, hint);
     }
+}
+
+/// Why an expression has no value for the states of a system.
+#[derive(Clone, Debug, Error)]
+pub enum NotOfSystem {
+    /// It is no formula in the names of the system.
+    #[error(transparent)]
+    Formula(#[from] FormulaError),
+    /// The system has no such quantity of bodies.
+    #[error("{}", .no.message)]
+    Quantity {
+        /// Why, and what would be right.
+        no: NoQuantity,
+        /// Its bytes in the formula.
+        range: Range<usize>,
+    },
 }
 
 /// An expression in the numbers of a run.
 pub struct Evaluator<N> {
     formula: FormulaPotential<N>,
     scratch: Vec<N>,
-    /// q, p, t and E.
+    /// q, p, t, E and the quantities of bodies.
     point: Vec<N>,
     value: N,
     has_time: bool,
     has_energy: bool,
+    quantities: Vec<Compute<N>>,
     /// Converts states, where formulas are in other coordinates than the steps.
     shown: Option<ShownCoordinates<N>>,
     /// H, where the steps follow another Hamiltonian: in transformed time, where t is a coordinate.
@@ -71,34 +103,43 @@ impl<N: RunNumber> Evaluator<N> {
     ///
     /// # Errors
     /// As [`new`](Evaluator::new).
-    pub fn of_run(expression: &Expression, system: &System, context: &N::Context) -> Result<Self, FormulaError> {
+    pub fn of_run(expression: &Expression, system: &System, context: &N::Context) -> Result<Self, NotOfSystem> {
         let energy = system.transformed_time().map(|_| system.energy(context));
         Ok(Evaluator { energy, shown: system.shown(context), ..Evaluator::new(expression, system, context)? })
     }
-}
 
-impl<N: Number + 'static> Evaluator<N> {
     /// For the states of a system in the coordinates of its scene.
     ///
     /// # Errors
-    /// A formula that is not one of these names.
-    pub fn new(expression: &Expression, system: &System, context: &N::Context) -> Result<Self, FormulaError> {
+    /// A formula that is not one of these names, a quantity that the system does not have.
+    pub fn new(expression: &Expression, system: &System, context: &N::Context) -> Result<Self, NotOfSystem> {
         let number = |exact: &Exact| N::from_rational(&exact.value, context);
         let parameters = system.parameters.iter().map(|(name, exact)| (name.as_str(), number(exact))).collect();
-        Evaluator::with(expression, system, parameters, context)
+        let quantities = quantities(expression, system)?.iter().map(|quantity| quantity.in_numbers(context)).collect();
+        Evaluator::with(expression, system, (parameters, quantities), context)
     }
+}
 
-    /// For a system with these values of its parameters.
+fn quantities(expression: &Expression, system: &System) -> Result<Vec<QuantityOfBodies>, NotOfSystem> {
+    let of = |quantity: &Quantity| {
+        quantity.of(system).map_err(|no| NotOfSystem::Quantity { no, range: quantity.range.clone() })
+    };
+    expression.quantities.iter().map(of).collect()
+}
+
+impl<N: Number + 'static> Evaluator<N> {
+    /// For a system with these values of its parameters and these quantities.
     fn with(
         expression: &Expression,
         system: &System,
-        mut parameters: Vec<(&str, N)>,
+        (mut parameters, quantities): (Vec<(&str, N)>, Vec<Compute<N>>),
         context: &N::Context,
-    ) -> Result<Self, FormulaError> {
+    ) -> Result<Self, NotOfSystem> {
         // t may be a coordinate; no formula has the empty name
         let time = if system.explicit_time { "" } else { TIME };
+        let of_quantities: Vec<String> = (0..quantities.len()).map(name_of_quantity).collect();
         let names = system.coordinates.iter().chain(&system.momenta).map(String::as_str).chain([time, ENERGY]);
-        let names: Vec<&str> = names.collect();
+        let names: Vec<&str> = names.chain(of_quantities.iter().map(String::as_str)).collect();
         parameters.retain(|(name, _)| !names.contains(name));
         let formula = FormulaPotential::new(&expression.formula, &names, &parameters)?;
         let zero = N::zero(context);
@@ -106,33 +147,62 @@ impl<N: Number + 'static> Evaluator<N> {
         formula.prepare(&mut scratch, context);
         let (has_time, has_energy) = (expression.has_time && !system.explicit_time, expression.has_energy);
         let point = vec![zero.clone(); names.len()];
-        Ok(Evaluator { formula, scratch, point, value: zero, shown: None, has_time, has_energy, energy: None })
+        let value = zero;
+        Ok(Evaluator { formula, scratch, point, value, shown: None, has_time, has_energy, quantities, energy: None })
     }
 
-    /// The value at a state.
+    /// The value at the present state of a system.
     pub fn value<M: shadowstep::System<Number = N> + ?Sized>(
         &mut self,
         system: &mut M,
         time: impl Fn() -> Rational,
     ) -> &N {
-        let (q, p) = match &mut self.shown {
-            Some(shown) => shown.of_state(system.q(), system.p()),
-            None => (system.q(), system.p()),
-        };
-        let (state, rest) = self.point.split_at_mut(2 * q.len());
-        state.iter_mut().zip(q.iter().chain(p)).for_each(|(own, value)| own.assign(value));
+        self.set_state(system.q(), system.p());
+        let rest = self.rest();
         if self.has_time {
-            rest[0] = match (&self.energy, system.q().last()) {
+            self.point[rest] = match (&self.energy, system.q().last()) {
                 (Some(_), Some(t)) => t.clone(),
                 _ => N::from_rational(&time(), &self.value.context()),
             };
         }
         if self.has_energy {
-            rest[1] = match &mut self.energy {
+            self.point[rest + 1] = match &mut self.energy {
                 Some(energy) => energy(system.q(), system.p()),
                 None => system.energy(),
             };
         }
+        self.evaluate()
+    }
+
+    /// The value at a state with its physical time, in the coordinates of the steps; `energy` is H there.
+    pub fn value_at(&mut self, (q, p): (&[N], &[N]), time: &N, energy: impl FnOnce() -> N) -> &N {
+        self.set_state(q, p);
+        let rest = self.rest();
+        self.point[rest].assign(time);
+        if self.has_energy {
+            self.point[rest + 1] = energy();
+        }
+        self.evaluate()
+    }
+
+    /// The place of t and E in the point.
+    fn rest(&self) -> usize {
+        self.point.len() - self.quantities.len() - 2
+    }
+
+    fn set_state(&mut self, q: &[N], p: &[N]) {
+        let (q, p) = match &mut self.shown {
+            Some(shown) => shown.of_state(q, p),
+            None => (q, p),
+        };
+        self.point.iter_mut().zip(q.iter().chain(p)).for_each(|(own, value)| own.assign(value));
+        let of_quantities = self.point.len() - self.quantities.len();
+        for (own, quantity) in self.point[of_quantities..].iter_mut().zip(&mut self.quantities) {
+            *own = quantity(q, p);
+        }
+    }
+
+    fn evaluate(&mut self) -> &N {
         self.formula.energy(&self.point, &mut self.value, &mut self.scratch);
         &self.value
     }
@@ -143,9 +213,28 @@ impl Evaluator<Lanes<LANES>> {
     ///
     /// # Errors
     /// As [`new`](Evaluator::new).
-    pub fn of_each(expression: &Expression, systems: &[&System; LANES]) -> Result<Self, FormulaError> {
-        Evaluator::with(expression, systems[0], System::parameters_of_each(systems), &())
+    pub fn of_each(expression: &Expression, systems: &[&System; LANES]) -> Result<Self, NotOfSystem> {
+        let mut of_systems = Vec::new();
+        for system in systems {
+            of_systems.push(quantities(expression, system)?);
+        }
+        let in_lanes = |number: usize| in_lanes(of_systems.iter().map(|of_system| &of_system[number]));
+        let quantities = (0..expression.quantities.len()).map(in_lanes).collect();
+        Evaluator::with(expression, systems[0], (System::parameters_of_each(systems), quantities), &())
     }
+}
+
+/// A quantity of a system in each lane.
+fn in_lanes<'a>(quantities: impl Iterator<Item = &'a QuantityOfBodies>) -> Compute<Lanes<LANES>> {
+    let mut each: Vec<Compute<f64>> = quantities.map(|quantity| quantity.in_numbers(&())).collect();
+    Box::new(move |q, p| {
+        let mut values = Lanes::all(0.0);
+        for (lane, (value, compute)) in values.0.iter_mut().zip(&mut each).enumerate() {
+            let of_lane = |numbers: &[Lanes<LANES>]| numbers.iter().map(|x| x.0[lane]).collect::<Vec<_>>();
+            *value = compute(&of_lane(q), &of_lane(p));
+        }
+        values
+    })
 }
 
 /// A condition in the numbers of a run.
@@ -160,7 +249,7 @@ impl<N: RunNumber> Test<N> {
     ///
     /// # Errors
     /// As [`Evaluator::new`].
-    pub fn new(condition: &Condition, system: &System, context: &N::Context) -> Result<Self, FormulaError> {
+    pub fn new(condition: &Condition, system: &System, context: &N::Context) -> Result<Self, NotOfSystem> {
         let difference = Evaluator::of_run(condition.difference(), system, context)?;
         Ok(Test { difference, met: condition.met, zero: N::zero(context) })
     }
@@ -180,7 +269,7 @@ impl Test<Lanes<LANES>> {
     ///
     /// # Errors
     /// As [`new`](Evaluator::new).
-    pub fn of_each(condition: &Condition, systems: &[&System; LANES]) -> Result<Self, FormulaError> {
+    pub fn of_each(condition: &Condition, systems: &[&System; LANES]) -> Result<Self, NotOfSystem> {
         let difference = Evaluator::of_each(condition.difference(), systems)?;
         Ok(Test { difference, met: condition.met, zero: Lanes::all(0.0) })
     }

@@ -1,13 +1,14 @@
 //! Running a scene: into its file, which a later run can resume, or into a writer.
 
-use std::io::Write;
+use std::io::{self, Write};
+use std::path::Path;
 
 use crate::computation::{Computation, RunNumber};
 use crate::engine::{self, Ended, Outcome};
 use crate::error::Error;
 use crate::note::Note;
 use crate::observer::Observer;
-use crate::results::{Checkpoint, Columns, FileOptions, Metadata, Rows, Target};
+use crate::results::{Begun, Checkpoint, Columns, FileOptions, Metadata, Rows, Target, records};
 use crate::scene::Scene;
 use crate::stability::{few_kicks, resonant, unstable};
 use crate::steps::End;
@@ -22,7 +23,7 @@ impl Scene {
     /// run that fails. The rows of a run that fails stay in a partial file if the scene asks for checkpoints.
     pub fn run_to_file(&self, options: FileOptions, observer: &mut dyn Observer) -> Result<Outcome, Error> {
         match Target::open(self, options, observer)? {
-            Some((target, checkpoint)) => self.run(target, checkpoint.as_ref(), observer),
+            Some((target, begun)) => self.run(target, &begun, observer),
             None => Ok(Outcome::AlreadyComplete),
         }
     }
@@ -32,7 +33,20 @@ impl Scene {
     /// # Errors
     /// A run that fails, a writer that does.
     pub fn run_into(&self, rows: &mut dyn Write, observer: &mut dyn Observer) -> Result<Outcome, Error> {
-        self.run(Target::Writer(rows), None, observer)
+        self.run(Target::Writer(rows), &Begun::Anew, observer)
+    }
+
+    /// The names of the columns of its rows.
+    pub fn column_names(&self) -> Vec<String> {
+        columns(self).names().into_iter().map(str::to_owned).collect()
+    }
+
+    /// The rows of a complete file of NumPy's format, as cells of [columns](Scene::column_names).
+    ///
+    /// # Errors
+    /// A file that cannot be read.
+    pub fn numpy_rows(&self, path: &Path) -> io::Result<impl Iterator<Item = io::Result<Vec<String>>> + use<>> {
+        records(path, self.column_names().len())
     }
 
     /// Everything that determines the numbers of the run, as a JSON object.
@@ -65,20 +79,20 @@ impl Scene {
         self.output.summary && observer.summarises()
     }
 
-    fn run(
-        &self,
-        target: Target<'_>,
-        checkpoint: Option<&Checkpoint>,
-        observer: &mut dyn Observer,
-    ) -> Result<Outcome, Error> {
+    fn run(&self, target: Target<'_>, begun: &Begun, observer: &mut dyn Observer) -> Result<Outcome, Error> {
         let mut rows = Rows { target, format: self.output.format, columns: columns(self) };
-        match checkpoint {
-            Some(checkpoint) => observer.note(&Note::Resumed { n: checkpoint.n, steps: self.steps() }),
-            None => {
+        let (checkpoint, steps) = (begun.checkpoint(), self.steps());
+        match begun {
+            Begun::Resumed(Checkpoint { n, .. }) => observer.note(&Note::Resumed { n: *n, steps }),
+            Begun::Prolonged(Checkpoint { n, .. }) => observer.note(&Note::Prolonged { n: *n, steps }),
+            Begun::Anew => {
                 let notes = self.note_of_end().into_iter().chain(self.note_of_steps(observer));
                 notes.for_each(|note| observer.note(&note));
-                rows.head(&Metadata::of(self))?;
             }
+        }
+        if !matches!(begun, Begun::Resumed(_)) {
+            rows.head(&Metadata::of(self))?;
+            rows.target.end_head(checkpoint)?;
         }
         let following = SceneRun { scene: self, rows: &mut rows, checkpoint, observer: &mut *observer };
         let ended = self.arithmetic.compute(following);
@@ -118,6 +132,7 @@ fn columns(scene: &Scene) -> Columns {
         energy: output.energy.is_some(),
         modified_energy: output.modified_energy.is_some(),
         chaos: output.chaos.is_some(),
+        values: output.named_values().map(|value| value.name.clone()).collect(),
         state: scene.system.columns().filter(|_| output.has_states()).cloned().collect(),
         coordinates: scene.system.coordinates_of_columns(),
     }
@@ -130,7 +145,6 @@ mod tests {
     use crate::run::Run;
     use crate::tangent::Vectors;
     use std::fs;
-    use std::path::Path;
 
     const KEPLER: &str = "[problem]\nname = \"kepler\"";
 
@@ -180,7 +194,7 @@ mod tests {
             let partial = fs::OpenOptions::new().append(true).open(folder.path().join("out.csv.partial"));
             partial.unwrap().write_all(b"a row, and the half of").unwrap();
         }
-        assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 2, "the file and its scene");
+        assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 3, "the file, its last checkpoint, and the scene");
         (fs::read_to_string(folder.path().join("out.csv")).unwrap(), stops)
     }
 
@@ -246,6 +260,122 @@ mod tests {
                 assert_eq!(bytes, whole, "{output}: {stops:?}");
             }
         }
+    }
+
+    /// The bytes of a run to the end, from that of an earlier end, with a stop after so many states of the prolonged one.
+    fn prolonged(digits: &str, system: &str, output: &str, (earlier, stop): (u64, i64)) -> String {
+        let folder = tempfile::tempdir().unwrap();
+        let whole = scene_in(digits, folder.path(), system, output);
+        let text = |steps: u64| whole.source.text.replace("steps = 20", &format!("steps = {steps}"));
+        let run = |steps: u64, observer: &mut dyn Observer| {
+            fs::write(folder.path().join("scene.toml"), text(steps)).unwrap();
+            let scene = Scene::open(folder.path().join("scene.toml")).unwrap();
+            scene.run_to_file(FileOptions::default(), observer).unwrap()
+        };
+        assert!(matches!(run(earlier, &mut ()), Outcome::Complete { .. }));
+        let outcome = run(20, &mut StopAfter(stop));
+        assert!(fs::exists(folder.path().join("out.csv")).unwrap(), "the file stays until there is a longer one");
+        if matches!(outcome, Outcome::Stopped { .. }) {
+            assert!(matches!(run(20, &mut ()), Outcome::Complete { .. }));
+        }
+        assert_eq!(run(20, &mut ()), Outcome::AlreadyComplete);
+        fs::read_to_string(folder.path().join("out.csv")).unwrap()
+    }
+
+    #[test]
+    fn a_run_with_a_later_end_goes_on_from_its_last_state() {
+        let transformed = format!("{KEPLER}\n[time]\ntransform = \"logarithmic\"");
+        for (digits, system) in [("30", KEPLER), ("\"compensated\"", KEPLER), ("\"double\"", &*transformed)] {
+            for output in [
+                "trajectory = true",
+                "energy = { every = 3 }\ntrajectory = { every = 2 }",
+                "modified_energy = { order = 4, every = 3 }\nenergy = true",
+                "modified_energy = { estimator = \"bilinear\", order = 6 }",
+                "modified_energy = { max_order = 6 }\nchaos = { every = 3 }",
+                "trajectory = { section = \"x\", direction = \"both\" }",
+                "values = { r = \"x^2 + y^2\" }",
+            ] {
+                let (whole, _) = with_stops_in(digits, system, output, 1000);
+                for (earlier, stop) in [(12, 1000), (12, 1), (12, 3), (19, 1), (1, 8), (1, 1000)] {
+                    let bytes = prolonged(digits, system, output, (earlier, stop));
+                    assert_eq!(bytes, whole, "{digits}, {output}: {earlier} steps, a stop after {stop}");
+                }
+            }
+        }
+    }
+
+    /// NumPy's records have the doubles of CSV, wherever the run is stopped, and when it is prolonged.
+    #[test]
+    fn so_are_records_of_numpy() {
+        let folder = tempfile::tempdir().unwrap();
+        let output = "modified_energy = { order = 4, every = 3 }\nenergy = true\ntrajectory = { every = 2 }\nchaos = { every = 5 }\n\
+                      values = { r = \"log(x)\" }";
+        let text = |file: &str, steps: u64| {
+            let scene = scene_in("\"double\"", folder.path(), KEPLER, output).source.text;
+            scene.replace("out.csv", file).replace("steps = 20", &format!("steps = {steps}"))
+        };
+        let run = |file: &str, steps: u64, stop: i64| {
+            fs::write(folder.path().join("scene.toml"), text(file, steps)).unwrap();
+            let scene = Scene::open(folder.path().join("scene.toml")).unwrap();
+            let outcome = scene.run_to_file(FileOptions::default(), &mut StopAfter(stop)).unwrap();
+            (scene, matches!(outcome, Outcome::Complete { .. }))
+        };
+        let (scene, _) = run("a.csv", 20, 1000);
+        let csv = fs::read_to_string(folder.path().join("a.csv")).unwrap();
+        let mut lines = csv.lines().filter(|line| !line.starts_with('#'));
+        assert_eq!(lines.next().unwrap(), scene.column_names().join(","));
+        assert!(!run("b.npy", 12, 5).1 && !run("b.npy", 12, 9).1 && run("b.npy", 12, 1000).1);
+        assert!(!run("b.npy", 20, 3).1 && run("b.npy", 20, 1000).1);
+        let rows = scene.numpy_rows(&folder.path().join("b.npy")).unwrap();
+        assert!(rows.map(|row| row.unwrap().join(",")).eq(lines.map(|line| line.replace(",4,", ",4.0,"))));
+        run("c.npy", 20, 1000);
+        let [b, c] = ["b.npy", "c.npy"].map(|file| fs::read(folder.path().join(file)).unwrap());
+        assert!(b == c && b.starts_with(b"\x93NUMPY\x02\x00"));
+    }
+
+    /// So it is where time is transformed and the end is a physical one: the last step to it is not of the longer run.
+    #[test]
+    fn a_run_to_a_later_physical_time_goes_on() {
+        let folder = tempfile::tempdir().unwrap();
+        let text = |until: &str, file: &str| {
+            format!(
+                "{KEPLER}\n[time]\ntransform = \"logarithmic\"\n[run]\nscheme = \"ruth3\"\nstep = \"1/20\"\nuntil = {until}\ndigits = 30\n\
+                 [output]\nfile = \"{file}\"\ncheckpoint = 5\ntrajectory = {{ every = 3 }}\nenergy = true\n"
+            )
+        };
+        let run = |until: &str, file: &str| {
+            let path = folder.path().join("scene.toml");
+            fs::write(&path, text(until, file)).unwrap();
+            Scene::open(&path).unwrap().run_to_file(FileOptions::default(), &mut ()).unwrap();
+            fs::read_to_string(folder.path().join(file)).unwrap()
+        };
+        let rows =
+            |text: &str| text.lines().filter(|line| !line.starts_with('#')).map(str::to_owned).collect::<Vec<_>>();
+        let (short, long, whole) = (run("\"1/2\"", "a.csv"), run("3", "a.csv"), run("3", "b.csv"));
+        assert_eq!(rows(&long), rows(&whole));
+        assert!(rows(&short).len() < rows(&long).len());
+    }
+
+    #[test]
+    fn only_a_file_of_the_same_scene_is_prolonged() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("scene.toml");
+        let text = scene(folder.path(), KEPLER, "trajectory = true").source.text;
+        let run = |text: &str| {
+            fs::write(&path, text).unwrap();
+            Scene::open(&path).unwrap().run_to_file(FileOptions::default(), &mut ()).map_err(|error| error.to_string())
+        };
+        run(&text).unwrap();
+        let longer = text.replace("steps = 20", "steps = 30");
+        for changed in [text.replace("= 20", "= 19"), longer.replace("trajectory = true", "energy = true")] {
+            assert!(run(&changed).unwrap_err().contains("is not from this unchanged scene"), "{changed}");
+        }
+        let rows = fs::read_to_string(folder.path().join("out.csv")).unwrap();
+        fs::write(folder.path().join("out.csv"), rows.replace("\n20,", "\n21,")).unwrap();
+        assert!(
+            run(&longer).unwrap_err().contains("is not from this unchanged scene"),
+            "a changed file is not replaced"
+        );
     }
 
     #[test]

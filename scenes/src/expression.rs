@@ -2,17 +2,23 @@
 
 use std::cmp::Ordering;
 
-use shadowstep_schemes::document::{Reader, Text};
+use shadowstep_schemes::document::{Reader, Text, Value};
 use shadowstep_symbolic::{Expression as Syntax, parse};
+use toml::de::DeValue;
+
+use crate::quantity::Quantity;
 
 /// The time and the energy.
 pub(crate) const TIME: &str = "t";
 pub(crate) const ENERGY: &str = "E";
 
-/// A formula in the coordinates, momenta and parameters of a system, the names of the axes, t and E.
+/// A formula in the coordinates, momenta and parameters of a system, the names of the axes, t and E, and quantities of its bodies.
 #[derive(Clone, Debug)]
 pub struct Expression {
+    /// With names in the places of quantities.
     pub(crate) formula: String,
+    /// The quantities, of which the i-th has the name that [`name_of_quantity`] gives.
+    pub(crate) quantities: Vec<Quantity>,
     /// What is written.
     pub(crate) text: Text,
     pub(crate) has_time: bool,
@@ -43,16 +49,50 @@ impl Expression {
     }
 
     fn with(formula: String, text: Text) -> Expression {
+        let quantities = parse(&formula).map_or(Vec::new(), |syntax| Quantity::all(&formula, &syntax));
+        let formula = with_names(&formula, &quantities);
         let syntax = parse(&formula).ok();
         let has = |name| syntax.as_ref().is_some_and(|syntax| syntax.mentions(name));
         let has_functions = syntax.as_ref().is_none_or(Syntax::has_functions);
-        Expression { has_time: has(TIME), has_energy: has(ENERGY), has_functions, formula, text }
+        Expression { has_time: has(TIME), has_energy: has(ENERGY), has_functions, quantities, formula, text }
     }
 
     /// Whether it has functions such as exp and sin.
     pub fn has_functions(&self) -> bool {
         self.has_functions
     }
+}
+
+/// The most formulas of a table.
+const MOST_FORMULAS: usize = 1000;
+
+/// A table of names with formulas, in the order of the text; those of other keys are left out.
+pub fn named(reader: &mut Reader<'_>, value: &Value<'_>, is_name: impl Fn(&str) -> bool) -> Option<Vec<(Text, Text)>> {
+    let DeValue::Table(table) = value.get_ref() else {
+        return reader.wrong_kind(value, "a table of names with formulas: { r = \"sqrt(x^2 + y^2)\" }");
+    };
+    if !reader.has_at_most(value, MOST_FORMULAS, "formulas") {
+        return None;
+    }
+    let formulas = table.iter().filter(|(name, _)| is_name(name.get_ref()));
+    let mut found: Vec<_> =
+        formulas.filter_map(|(name, value)| Some((Text::of_key(name), reader.text(value)?))).collect();
+    found.sort_by_key(|(name, _)| name.at.start);
+    Some(found)
+}
+
+/// The name that stands for a quantity in a formula: that of no coordinate.
+pub(crate) fn name_of_quantity(number: usize) -> String {
+    format!("__{number}")
+}
+
+/// The formula with a name in the place of each quantity, as long as the quantity, so that all others stay in their places.
+fn with_names(formula: &str, quantities: &[Quantity]) -> String {
+    let mut text = formula.to_owned();
+    for (number, Quantity { range, .. }) in quantities.iter().enumerate().rev() {
+        text.replace_range(range.clone(), &format!("{:<1$}", name_of_quantity(number), range.len()));
+    }
+    text
 }
 
 impl Condition {

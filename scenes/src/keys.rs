@@ -25,7 +25,7 @@ pub struct Key {
 }
 
 /// All sections, in the order of the explanation.
-pub(crate) const SECTIONS: [Section; 13] = [
+pub(crate) const SECTIONS: [Section; 14] = [
     section(
         "problem",
         "[problem]",
@@ -57,12 +57,13 @@ pub(crate) const SECTIONS: [Section; 13] = [
     section("output.energy", "[output.energy]", "A table in place of `energy = true`."),
     section("output.modified_energy", "[output.modified_energy]", "A table in place of `modified_energy = true`."),
     section("output.trajectory", "[output.trajectory]", "A table in place of `trajectory = true`."),
+    section("output.elements", "[output.elements]", "A table in place of `elements = true`."),
     section("output.chaos", "[output.chaos]", "A table in place of `chaos = true`."),
     section("output.plot", "[output.plot]", "A table in place of `plot = \"kepler.svg\"`."),
 ];
 
 /// All keys, section by section.
-pub(crate) const KEYS: [Key; 77] = [
+pub(crate) const KEYS: [Key; 83] = [
     key(
         "problem",
         "name",
@@ -282,6 +283,14 @@ pub(crate) const KEYS: [Key; 77] = [
         "5.2",
         Some("none; q and v are given instead"),
     ),
+    key(
+        "body",
+        "horizons",
+        "A table of vectors of JPL's Horizons in CSV, whose first row has its position and velocity; its path is relative to the scene's folder. Requires `units`; \
+         all tables need the same centre, frame and time.",
+        "\"earth.txt\"",
+        Some("none; q and v or elements are given instead"),
+    ),
     key("body", "e", "The eccentricity.", "0.05", Some("0")),
     key("body", "i", "The inclination.", "1.3", Some("0")),
     key("body", "node", "The longitude Ω of the ascending node.", "100.5", Some("0")),
@@ -389,7 +398,8 @@ pub(crate) const KEYS: [Key; 77] = [
         "The file for the rows; its path is relative to the scene's folder. A .csv file begins with lines of metadata \
          that start with #, as in pandas.read_csv(file, comment=\"#\"); a .jsonl file has JSON lines, one a row, as in \
          pandas.read_json(file, lines=True), and the file with .metadata.json after its name has the metadata and the \
-         summary. The file gets its name when it is complete. An existing file is replaced only if it is from this \
+         summary. So it has beside a .npy file, an array of NumPy in double precision with fields n, t, energy, …, q and p, as in \
+         numpy.load(file, mmap_mode=\"r\"). The file gets its name when it is complete. An existing file is replaced only if it is from this \
          unchanged scene, or with --force.",
         "\"kepler.csv\"",
         Some("none; rows go to stdout"),
@@ -397,7 +407,7 @@ pub(crate) const KEYS: [Key; 77] = [
     key(
         "output",
         "format",
-        "\"csv\" or \"jsonl\", independent of the file's name.",
+        "\"csv\", \"jsonl\" or \"npy\", independent of the file's name.",
         "\"jsonl\"",
         Some("from the file's name; \"csv\" on stdout"),
     ),
@@ -420,6 +430,30 @@ pub(crate) const KEYS: [Key; 77] = [
     ),
     key(
         "output",
+        "values",
+        "Writes formulas in the coordinates, momenta, parameters, t and E as columns of these names, all of them at every n that is a multiple of `every`. A formula \
+         can have distance(sun, earth), and an element of a body's orbit about the first body or another one, the bodies before, or all: e(earth), a(moon, earth), \
+         i(earth, jacobi), M(earth, barycentre), with the names of [[body]].",
+        "{ r = \"sqrt(x^2 + y^2)\", every = 10 }",
+        Some("none"),
+    ),
+    key(
+        "output",
+        "elements",
+        "Writes the elements of the osculating orbits of all bodies but the first as columns a_earth, e_earth, i_earth, node_earth, pericentre_earth, \
+         M_earth, …, with angles in degrees: true, or a table.",
+        "{ every = 100, centre = \"jacobi\" }",
+        Some("false"),
+    ),
+    key(
+        "output",
+        "extremes",
+        "Adds the least and the greatest values of formulas over all states to the summary; the formulas are those of `values`.",
+        "{ closest = \"distance(earth, moon)\" }",
+        Some("none"),
+    ),
+    key(
+        "output",
         "chaos",
         "Writes indicators of chaos as columns `lyapunov`, `megno`, `mean_megno` and `sali`, of two tangent vectors from t = 0: true, or a table. \
          See docs/chaos.md.",
@@ -431,7 +465,8 @@ pub(crate) const KEYS: [Key; 77] = [
         "checkpoint",
         "How often the run saves a checkpoint: a time in s, min or h, or a number of steps. If a run is stopped, running \
          the scene again resumes it from the last checkpoint, and the file gets the same bytes. A changed scene, even if \
-         only a comment is different, cannot be resumed. Requires `file`.",
+         only a comment is different, cannot be resumed. The last checkpoint stays beside the complete file: with a later `until` \
+         or more `steps`, and nothing else changed, the run goes on from there. Requires `file`.",
         "\"1 min\"",
         Some("none; a run that is stopped leaves no file"),
     ),
@@ -514,6 +549,15 @@ pub(crate) const KEYS: [Key; 77] = [
         "How the formula of `section` goes through 0, in the order of the steps: \"up\", \"down\" or \"both\".",
         "\"both\"",
         Some("\"up\""),
+    ),
+    key("output.elements", "every", "They are written at every n that is a multiple of this.", "100", Some("1")),
+    key(
+        "output.elements",
+        "centre",
+        "What orbits are about: \"heliocentric\" for the first body, with the masses of the two; \"jacobi\" for the centre of mass of the bodies before, with \
+         their mass and the body's own; \"barycentric\" for the centre of mass of all bodies, with their mass, where the first body has an orbit, too.",
+        "\"jacobi\"",
+        Some("\"heliocentric\""),
     ),
     key("output.chaos", "every", "They are written at every n that is a multiple of this.", "100", Some("1")),
     key(

@@ -123,6 +123,7 @@ mod observer;
 mod pace;
 mod physical_end;
 pub mod propagator;
+mod quantity;
 mod read;
 pub mod readable;
 mod refusal;
@@ -141,6 +142,7 @@ pub mod steps;
 pub mod tangent;
 mod template;
 mod temporary;
+mod values;
 pub mod watch;
 mod whole_file;
 
@@ -165,6 +167,6 @@ pub use scene::{
 pub use shell::shell_word;
 pub use shipped::{SHIPPED_SCENES, ShippedScene, scene_text};
 pub use temporary::{Temporary, remove_temporary_files};
-pub use watch::summary::{EnergySummary, ModifiedEnergySummary, Summary};
+pub use watch::summary::{EnergySummary, Extreme, ModifiedEnergySummary, Summary};
 pub use watch::{Approach, Encounter, Interactions};
 pub use whole_file::WholeFile;

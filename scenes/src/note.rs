@@ -107,6 +107,13 @@ pub enum Note {
         /// The number of steps of the whole run.
         steps: u64,
     },
+    /// The run goes on from the last state of the same scene with an earlier end.
+    Prolonged {
+        /// The n of that state.
+        n: i64,
+        /// The number of steps of the whole run.
+        steps: u64,
+    },
     /// There is a checkpoint without a partial file: the run begins at t = 0.
     CheckpointWithoutRows {
         /// The checkpoint.
@@ -200,6 +207,9 @@ impl fmt::Display for Note {
                  ends it smoothly"
             ),
             Note::Resumed { n, steps } => write!(f, "resumed at n = {n} of {steps}"),
+            Note::Prolonged { n, steps } => {
+                write!(f, "the file is that of an earlier end: the run goes on from its last state, n = {n} of {steps}")
+            }
             Note::CheckpointWithoutRows { checkpoint } => {
                 write!(f, "{} has no partial file: the run begins again", checkpoint.display())
             }

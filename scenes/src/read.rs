@@ -7,6 +7,7 @@ mod elements;
 mod explicit_time;
 mod formula;
 mod given;
+mod horizons;
 mod initial;
 mod kinetic;
 mod magnetic;
@@ -26,6 +27,7 @@ mod shipped;
 mod slow;
 mod time;
 mod units;
+mod values;
 
 use std::io::ErrorKind;
 use std::path::Path;
@@ -99,13 +101,28 @@ pub(crate) fn read(source: &Source, document: &DeTable<'_>, names: Names<'_>) ->
     reader.known.extend(names.numbers.iter().cloned());
     reader.names = names.numbers;
     let sections = sections(&mut reader, document, names.others, names.schemes);
-    let Reader { toml, arithmetic, notes, .. } = reader;
+    let Reader { toml, arithmetic, notes, files, .. } = reader;
     match (Faults::of(toml.faults), sections) {
-        (None, Some((system, run::Steps { scheme, displaced, h, until, steps, ends }, output))) => {
+        (None, Some((system, run::Steps { scheme, displaced, h, until, steps, end_at, ends }, output))) => {
             let known = steps.filter(|_| ends.is_none()).map(|steps| End { steps, is_met: false });
             let end = known.map_or_else(OnceLock::new, OnceLock::from);
             let (source, most_steps) = (source.clone(), steps);
-            Ok(Scene { source, arithmetic, system, scheme, displaced, h, until, ends, most_steps, end, output, notes })
+            Ok(Scene {
+                source,
+                arithmetic,
+                system,
+                scheme,
+                displaced,
+                h,
+                until,
+                end_at,
+                ends,
+                most_steps,
+                end,
+                output,
+                files,
+                notes,
+            })
         }
         (Some(faults), _) => Err(faults),
         (None, None) => unreachable!("what cannot be read is a fault"),

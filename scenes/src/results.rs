@@ -3,9 +3,11 @@
 mod checkpoint;
 mod functions;
 mod metadata;
+mod numpy;
 mod options;
 mod origin;
 mod resumable;
+mod row;
 mod rows;
 mod target;
 
@@ -14,7 +16,10 @@ pub use functions::elementary_functions;
 pub(crate) use metadata::Metadata;
 pub use metadata::hexadecimal;
 pub(crate) use metadata::sha256;
+pub(crate) use numpy::records;
 pub use options::FileOptions;
 pub(crate) use origin::Origin;
-pub(crate) use rows::{Columns, Indicators, ModifiedEnergy, Row, Rows};
+pub(crate) use resumable::Begun;
+pub(crate) use row::{Columns, Indicators, ModifiedEnergy, Row};
+pub(crate) use rows::Rows;
 pub(crate) use target::{Target, no_file};

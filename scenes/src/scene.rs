@@ -1,5 +1,6 @@
 //! The content of a scene: plain data, all of it exact.
 
+pub(crate) mod bodies;
 mod format;
 mod formula;
 mod number;
@@ -17,13 +18,15 @@ pub use format::Format;
 pub use formula::Formula;
 pub use number::{SceneNumber, SystemIn};
 pub use output::{CheckpointInterval, Direction, Outputs, Surface};
+pub(crate) use output::{NamedExpression, ValueColumns};
 pub use own::OwnPotential;
 pub use pairs::{EnergyOfBodies, PairEnergy};
-pub(crate) use pairs::{PairCutoff, SmoothEnd};
+pub(crate) use pairs::{GRAVITY, PairCutoff, SmoothEnd};
 pub(crate) use problem::ClassifiedKinetic;
 pub use problem::{EnergyAt, InitialValueProblem, KineticEnergy, PotentialEnergy};
 pub use system::{Parts, System};
 
+use std::ops::Range;
 use std::sync::OnceLock;
 
 use shadowstep::tables::Source;
@@ -55,6 +58,8 @@ pub struct Scene {
     pub h: StepSize,
     /// The time at which the run ends, at the latest; `None` where time is transformed and the number of steps is given.
     pub until: Option<Rational>,
+    /// The place of the value of `until` or `steps` in the text.
+    pub(crate) end_at: Range<usize>,
     /// The condition on which the run ends before, if there is one.
     pub ends: Option<Condition>,
     /// The most steps; `None` where only the steps themselves have their times.
@@ -63,6 +68,8 @@ pub struct Scene {
     pub(crate) end: OnceLock<End>,
     /// What is written, and where.
     pub output: Outputs,
+    /// The texts of other files that have states.
+    pub(crate) files: Vec<String>,
     /// What the user should know of this scene.
     pub notes: Vec<Note>,
 }

@@ -215,12 +215,14 @@ impl<N: RunNumber> Watch<N> {
     pub fn summary(self, run: Run<'_>) -> Option<Summary> {
         let energy = self.energy();
         let of_kinetic = self.energy.of_kinetic();
+        let last = self.energy.last.clone();
         let Watch { observed, from, n, transformed, time, .. } = self;
         let Observed { mut monitor, pass, encounters, approaches, .. } = observed?;
         monitor.pass(pass);
         let mut report = monitor.report();
         report.fastest_coordinate = report.fastest_coordinate.filter(|(coordinate, _)| Some(*coordinate) != time);
-        let (verdict, reason) = conclusion(&report, of_kinetic);
+        let of_windows = if transformed { f64::NAN } else { last_of_kinetic(&last, &report) };
+        let (verdict, reason) = conclusion(&report, of_kinetic, of_windows);
         // where the energy is lost, the modified energy does not bound it
         let bounds = !matches!(verdict, Verdict::TooLarge(Criterion::EnergyError | Criterion::NotFinite));
         let (encounters, closest) = encounters.found(n);
@@ -245,6 +247,7 @@ impl<N: RunNumber> Watch<N> {
             modified_energy,
             encounters,
             closest,
+            extremes: Vec::new(),
             interactions: approaches.map(|approaches| approaches.found().clone()),
             fine: verdict.is_fine(),
             verdict: verdict.to_string(),
@@ -267,12 +270,70 @@ fn changes<N: Real>(report: &Report<N>, verdict: Verdict) -> bool {
     }
 }
 
-/// The verdict of the monitor with its reason. Of a run that is too short for it, one on the error of H.
-fn conclusion<N: Real>(report: &Report<N>, of_kinetic: f64) -> (Verdict, String) {
-    let short = report.verdict == Verdict::Undecided(Missing::Windows);
-    if short && of_kinetic.is_finite() && of_kinetic >= KINETIC_LIMIT {
-        let reason = format!("the energy error is {of_kinetic:.1e} of the mean kinetic energy");
-        return (Verdict::TooLarge(Criterion::EnergyError), reason);
+/// The verdict of the monitor with its reason. Of a run that is too short for it, one on the error of H; of one that loses the energy after the
+/// monitor's last window, one on the error at the end.
+fn conclusion<N: Real>(report: &Report<N>, of_kinetic: f64, of_windows: f64) -> (Verdict, String) {
+    let is_large = |part: f64| part.is_finite() && part >= KINETIC_LIMIT;
+    let reason = match report.verdict {
+        Verdict::Undecided(Missing::Windows) if is_large(of_kinetic) => {
+            format!("the energy error is {of_kinetic:.1e} of the mean kinetic energy")
+        }
+        verdict if verdict.is_fine() && is_large(of_windows) => {
+            format!("at the end the energy error is {of_windows:.1e} of the mean kinetic energy before")
+        }
+        verdict => return (verdict, report.reason()),
+    };
+    (Verdict::TooLarge(Criterion::EnergyError), reason)
+}
+
+/// The error of H at the end as a part of the mean T of the monitor's windows.
+fn last_of_kinetic<N: Real>(last: &N, report: &Report<N>) -> f64 {
+    let mut part = last.clone();
+    part.make_absolute();
+    part.divide(&report.kinetic);
+    part.to_f64()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{Observer, Scene};
+    use shadowstep::tables::Source;
+
+    /// Keeps the summary.
+    struct Keep(Option<Summary>);
+
+    impl Observer for Keep {
+        fn summarises(&self) -> bool {
+            true
+        }
+
+        fn summary(&mut self, summary: &Summary) {
+            self.0 = Some(summary.clone());
+        }
     }
-    (report.verdict, report.reason())
+
+    fn summary(end: &str, digits: &str) -> Summary {
+        let text = format!(
+            "problem.name = \"henon-heiles\"\ninitial = {{ q = [0, \"7/10\"], p = [\"9/10\", 0] }}\n\
+             run = {{ scheme = \"yoshida4\", step = \"1/10\", until = 1000, end = \"{end}\", digits = \"{digits}\" }}\noutput.energy = true"
+        );
+        let mut keep = Keep(None);
+        let scene = Scene::read(Source { path: "test.toml".to_owned(), text }).unwrap();
+        scene.run_into(&mut Vec::new(), &mut keep).unwrap();
+        keep.0.unwrap()
+    }
+
+    /// The run leaves the well, and its energy is lost in the last steps, which are in no window of the monitor.
+    #[test]
+    fn an_energy_that_is_lost_at_the_end_is_no_round_off() {
+        for (end, digits) in
+            [("x^2 + y^2 > 1e3", "double"), ("x^2 + y^2 > 1e20", "double"), ("x^2 + y^2 > 1e6", "double-double")]
+        {
+            let found = summary(end, digits);
+            assert!(!found.is_fine(), "{end}: {}", found.verdict_with_reason());
+            assert!(found.reason().starts_with("at the end the energy error is"), "{}", found.reason());
+        }
+        assert!(summary("t > 5", "double").is_fine());
+    }
 }

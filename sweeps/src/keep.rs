@@ -1,9 +1,10 @@
 //! \[keep\]: what is kept of each run.
 
-use shadowstep_scenes::expression::{Condition, Expression};
+use shadowstep::Real;
+use shadowstep_scenes::expression::{Condition, Expression, named};
 use shadowstep_schemes::document::{Reader, Section, Text};
 use shadowstep_symbolic::nearest;
-use toml::de::{DeTable, DeValue};
+use toml::de::DeTable;
 
 use crate::keys;
 use crate::values::{Description, Need, RunValue, VALUES};
@@ -17,12 +18,34 @@ pub(crate) struct Keep {
     pub(crate) state: bool,
     /// Expressions at the last state.
     pub(crate) at_end: Vec<(Text, Expression)>,
+    /// Expressions whose least or greatest value over the run is kept.
+    pub(crate) extremes: Vec<(Text, Expression, Extremum)>,
     /// Conditions, of which the time of the first state that meets them is kept.
     pub(crate) first_time: Vec<(Text, Condition)>,
     /// Those of them that end the run, by their places.
     pub(crate) stop: Vec<usize>,
     /// Whether the rows of the scene's \[output\] are kept.
     pub(crate) rows: bool,
+}
+
+/// The least or the greatest value of a run.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Extremum {
+    Least,
+    Greatest,
+}
+
+impl Extremum {
+    /// Takes a value; one that is not finite is left out.
+    pub(crate) fn include<N: Real>(self, found: &mut Option<N>, value: &N) {
+        let is_beyond = found.as_ref().is_none_or(|found| match self {
+            Extremum::Least => value < found,
+            Extremum::Greatest => value > found,
+        });
+        if is_beyond && value.is_finite() {
+            *found = Some(value.clone());
+        }
+    }
 }
 
 /// A column of the results.
@@ -53,6 +76,10 @@ impl Keep {
         for (name, text) in formulas(reader, &section, "at_end") {
             keep.at_end.push((name, Expression::new(text)));
         }
+        for (key, extremum) in [("min", Extremum::Least), ("max", Extremum::Greatest)] {
+            let named = formulas(reader, &section, key).into_iter();
+            keep.extremes.extend(named.map(|(name, text)| (name, Expression::new(text), extremum)));
+        }
         let mut conditions = Vec::new();
         for (name, text) in formulas(reader, &section, "first_time") {
             conditions.push(name.value.clone());
@@ -75,8 +102,23 @@ impl Keep {
         });
         let times = self.first_time.iter().map(|(name, _)| column(&name.value, true, true));
         let ends = self.at_end.iter().map(|(name, _)| column(&name.value, true, false));
+        let extremes = self.extremes.iter().map(|(name, ..)| column(&name.value, true, false));
         let states = state.iter().filter(|_| self.state).map(|name| column(name, true, false));
-        values.chain(times).chain(ends).chain(states).collect()
+        values.chain(times).chain(ends).chain(extremes).chain(states).collect()
+    }
+
+    /// The names of formulas and conditions.
+    pub(crate) fn named(&self) -> impl Iterator<Item = &Text> {
+        let times = self.first_time.iter().map(|(name, _)| name);
+        let ends = self.at_end.iter().map(|(name, _)| name);
+        times.chain(ends).chain(self.extremes.iter().map(|(name, ..)| name))
+    }
+
+    /// All formulas, those of conditions included.
+    pub(crate) fn formulas(&self) -> impl Iterator<Item = &Expression> {
+        let conditions = self.first_time.iter().map(|(_, condition)| condition.difference());
+        let ends = self.at_end.iter().map(|(_, end)| end);
+        conditions.chain(ends).chain(self.extremes.iter().map(|(_, expression, _)| expression))
     }
 
     /// How many tangent vectors a run has.
@@ -111,23 +153,9 @@ fn values(reader: &mut Reader<'_>, section: &Section<'_, '_>) -> Vec<RunValue> {
     kept
 }
 
-/// The most formulas of a key.
-const MOST_FORMULAS: usize = 1000;
-
 /// Names with formulas, in the order of the text.
 fn formulas(reader: &mut Reader<'_>, section: &Section<'_, '_>, key: &str) -> Vec<(Text, Text)> {
-    let Some(value) = section.get(key) else { return Vec::new() };
-    let DeValue::Table(table) = value.get_ref() else {
-        reader.wrong_kind::<()>(value, "a table of names with formulas");
-        return Vec::new();
-    };
-    if !reader.has_at_most(value, MOST_FORMULAS, "formulas") {
-        return Vec::new();
-    }
-    let read = |(name, value)| Some((Text::of_key(name), reader.text(value)?));
-    let mut found: Vec<_> = table.iter().filter_map(read).collect();
-    found.sort_by_key(|(name, _)| name.at.start);
-    found
+    section.get(key).and_then(|value| named(reader, value, |_| true)).unwrap_or_default()
 }
 
 /// Places of conditions of these names.
@@ -150,7 +178,7 @@ fn stop(reader: &mut Reader<'_>, section: &Section<'_, '_>, conditions: &[String
 fn refuse_repeated(reader: &mut Reader<'_>, keep: &Keep) {
     let mut seen: Vec<&str> = keep.values.iter().map(|kept| kept.description().name).collect();
     seen.extend(["run", "failure"]);
-    for name in keep.first_time.iter().map(|(name, _)| name).chain(keep.at_end.iter().map(|(name, _)| name)) {
+    for name in keep.named() {
         if seen.contains(&name.value.as_str()) {
             reader.fault(&name.at, format!("a column is named `{}` already", name.value), "give it another name");
         }

@@ -29,7 +29,7 @@ const SECTIONS: [Section; 4] = [
     ),
 ];
 
-const KEYS: [Key; 22] = [
+const KEYS: [Key; 24] = [
     key(
         "",
         "scene",
@@ -70,6 +70,20 @@ const KEYS: [Key; 22] = [
         "at_end",
         "Formulas at the last state: in the coordinates, momenta and parameters, the axes, t and E.",
         "{ L = \"x*py - y*px\" }",
+        Some("none"),
+    ),
+    key(
+        "keep",
+        "min",
+        "The least values of formulas over all states of the run.",
+        "{ closest = \"x^2 + y^2\" }",
+        Some("none"),
+    ),
+    key(
+        "keep",
+        "max",
+        "The greatest values of formulas over all states of the run.",
+        "{ E_max = \"E\" }",
         Some("none"),
     ),
     key(

@@ -11,6 +11,7 @@ use shadowstep::systems::system::Visitor;
 use shadowstep::{Carried, Real};
 use shadowstep_scenes::computation::{Computation, RunNumber};
 use shadowstep_scenes::evaluator::{Evaluator, Test};
+use shadowstep_scenes::expression::Expression;
 use shadowstep_scenes::follow::Follower;
 use shadowstep_scenes::run::Run;
 use shadowstep_scenes::tangent::{FollowingVectors, TangentRun, Vectors};
@@ -18,7 +19,7 @@ use shadowstep_scenes::watch::{Energies, Watch};
 use shadowstep_scenes::{EnergySummary, Error, Observer, Scene, ShownCoordinates, Summary, System};
 use shadowstep_symbolic::decimal::to_text;
 
-use crate::keep::Keep;
+use crate::keep::{Extremum, Keep};
 use crate::values::{Need, RunValue};
 
 /// What a run has given.
@@ -149,6 +150,8 @@ struct RunFollower<'a, N: RunNumber> {
     /// The conditions, each with the time of the first state that meets it.
     tests: Vec<(Test<N>, Option<String>)>,
     at_end: Vec<Evaluator<N>>,
+    /// The least or greatest values of expressions so far.
+    extremes: Vec<(Evaluator<N>, Extremum, Option<N>)>,
     /// The n of the last state: that of the run, or the one at which a condition ends it.
     last: i64,
     end: Option<End>,
@@ -186,8 +189,9 @@ impl<'a, N: RunNumber> RunFollower<'a, N> {
             .first_time
             .iter()
             .map(|(_, condition)| (Test::new(condition, &scene.system, context).expect(CHECKED), None));
-        let at_end =
-            keep.at_end.iter().map(|(_, text)| Evaluator::of_run(text, &scene.system, context).expect(CHECKED));
+        let evaluator = |text: &Expression| Evaluator::of_run(text, &scene.system, context).expect(CHECKED);
+        let at_end = keep.at_end.iter().map(|(_, text)| evaluator(text));
+        let extremes = keep.extremes.iter().map(|(_, text, extremum)| (evaluator(text), *extremum, None));
         let last = i64::try_from(scene.steps()).unwrap_or(i64::MAX);
         Ok(RunFollower {
             run: scene.as_run(),
@@ -200,6 +204,7 @@ impl<'a, N: RunNumber> RunFollower<'a, N> {
             tangents: None,
             tests: tests.collect(),
             at_end: at_end.collect(),
+            extremes: extremes.collect(),
             last,
             end: None,
             shown: scene.system.shown(context),
@@ -219,7 +224,7 @@ impl<'a, N: RunNumber> RunFollower<'a, N> {
         if let Some(tangents) = self.tangents.as_mut().filter(|_| n > 0) {
             tangents.step();
         }
-        if self.tests.is_empty() && n != self.last {
+        if self.tests.is_empty() && self.extremes.is_empty() && n != self.last {
             return;
         }
         let run = self.run;
@@ -233,6 +238,9 @@ impl<'a, N: RunNumber> RunFollower<'a, N> {
             }
             if self.keep.stop.iter().any(|&place| self.tests[place].1.is_some()) {
                 self.last = n;
+            }
+            for (evaluator, extremum, found) in &mut self.extremes {
+                extremum.include(found, evaluator.value(system, || run.time(n)));
             }
             if n == self.last {
                 let text = |number: &N| number.is_finite().then(|| number.to_text());
@@ -249,7 +257,7 @@ impl<'a, N: RunNumber> RunFollower<'a, N> {
 
     /// The values of all columns.
     fn values(self, run: Run<'_>, ended: &Ended<N>) -> Result<Values, Error> {
-        let RunFollower { keep, watch, mut tangents, tests, last, end, .. } = self;
+        let RunFollower { keep, watch, mut tangents, tests, extremes, last, end, .. } = self;
         let end = end.expect("the last state was included");
         if !end.has_energy {
             return Err(run.not_finite(&format!("the energy at the end, n = {last},")));
@@ -260,7 +268,8 @@ impl<'a, N: RunNumber> RunFollower<'a, N> {
         let found = RunValues { energy: energy.as_ref(), summary: summary.as_ref(), tangents, ended, last };
         let values = keep.values.iter().map(|kept| found.value(*kept));
         let times = tests.into_iter().map(|(_, met)| met);
-        Ok(values.chain(times).chain(end.expressions).chain(end.state).collect())
+        let extremes = extremes.iter().map(|(_, _, found)| found.as_ref().map(N::to_text));
+        Ok(values.chain(times).chain(end.expressions).chain(extremes).chain(end.state).collect())
     }
 }
 
@@ -274,7 +283,7 @@ impl<N: RunNumber> Follower<N> for RunFollower<'_, N> {
     }
 
     fn next(&self, n: i64) -> i64 {
-        if self.is_long || self.tangents.is_some() || !self.tests.is_empty() {
+        if self.is_long || self.tangents.is_some() || !(self.tests.is_empty() && self.extremes.is_empty()) {
             return n + 1;
         }
         // what is watched but idle sees the states between

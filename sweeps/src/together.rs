@@ -16,7 +16,7 @@ use shadowstep_scenes::lanes::{self, LANES, SystemInLanes};
 use shadowstep_scenes::start::{Begin, SceneIntegrator, Steps};
 use shadowstep_symbolic::decimal::to_text;
 
-use crate::keep::Keep;
+use crate::keep::{Extremum, Keep};
 use crate::record::Values;
 use crate::values::{Need, RunValue};
 
@@ -88,9 +88,7 @@ fn steps(scene: &Scene) -> Steps<'_> {
 
 /// Of the system and of all formulas that are kept.
 fn has_functions(scene: &Scene, keep: &Keep) -> bool {
-    let conditions = keep.first_time.iter().map(|(_, condition)| condition.difference());
-    let mut kept = conditions.chain(keep.at_end.iter().map(|(_, end)| end));
-    scene.system.has_functions() || kept.any(Expression::has_functions)
+    scene.system.has_functions() || keep.formulas().any(Expression::has_functions)
 }
 
 /// Follows a run in each lane.
@@ -128,6 +126,8 @@ struct LanesFollower<'a> {
     /// The conditions, each with the n of the first states that meet it.
     tests: Vec<(Test<Lanes<LANES>>, [Option<u64>; LANES])>,
     at_end: Vec<Evaluator<Lanes<LANES>>>,
+    /// The least or greatest values of expressions so far.
+    extremes: Vec<(Evaluator<Lanes<LANES>>, Extremum, [Option<f64>; LANES])>,
     /// Whether a run is followed: it has not ended, and all that was seen of it is finite.
     active: [bool; LANES],
     values: [Option<Values>; LANES],
@@ -150,7 +150,9 @@ impl<'a> LanesFollower<'a> {
             .first_time
             .iter()
             .map(|(_, condition)| (Test::of_each(condition, &systems).expect(CHECKED), [None; LANES]));
-        let at_end = keep.at_end.iter().map(|(_, text)| Evaluator::of_each(text, &systems).expect(CHECKED));
+        let evaluator = |text: &Expression| Evaluator::of_each(text, &systems).expect(CHECKED);
+        let at_end = keep.at_end.iter().map(|(_, text)| evaluator(text));
+        let extremes = keep.extremes.iter().map(|(_, text, extremum)| (evaluator(text), *extremum, [None; LANES]));
         let (initial, zero) = (system.energy(), Lanes::all(0.0));
         LanesFollower {
             scene: scenes[0],
@@ -160,6 +162,7 @@ impl<'a> LanesFollower<'a> {
             tangents,
             tests: tests.collect(),
             at_end: at_end.collect(),
+            extremes: extremes.collect(),
             active: initial.0.map(f64::is_finite),
             values: [const { None }; LANES],
         }
@@ -167,7 +170,7 @@ impl<'a> LanesFollower<'a> {
 
     /// Whether more than the last state is of interest.
     fn follows_all(&self) -> bool {
-        self.energies.is_some() || self.tangents.is_some() || !self.tests.is_empty()
+        self.energies.is_some() || self.tangents.is_some() || !(self.tests.is_empty() && self.extremes.is_empty())
     }
 
     fn goes_on(&self) -> bool {
@@ -199,6 +202,12 @@ impl<'a> LanesFollower<'a> {
                 ends[lane] |= stops;
             }
         }
+        for (evaluator, extremum, found) in &mut self.extremes {
+            let values = evaluator.value(system, || run.time(n.cast_signed()));
+            for lane in (0..LANES).filter(|lane| self.active[*lane]) {
+                extremum.include(&mut found[lane], &values.0[lane]);
+            }
+        }
         let ended = std::array::from_fn(|lane| ends[lane] && self.active[lane]);
         if ended.contains(&true) {
             self.end(n, &ended, system);
@@ -223,7 +232,8 @@ impl<'a> LanesFollower<'a> {
             let text = |x: f64| x.is_finite().then(|| x.to_text());
             let ends = at_end.iter().map(of_lane).map(text);
             let state = state.iter().copied().filter(|_| self.keep.state).map(text);
-            self.values[lane] = Some(values.chain(times).chain(ends).chain(state).collect());
+            let extremes = self.extremes.iter().map(|(_, _, found)| found[lane].and_then(text));
+            self.values[lane] = Some(values.chain(times).chain(ends).chain(extremes).chain(state).collect());
         }
     }
 
@@ -305,7 +315,8 @@ mod tests {
         assert_eq!(together(&format!("{HENON_HEILES}[keep]\n{energies}\n")), ends);
         let escape =
             "first_time = { escape = \"x^2 + y^2 > 9\", turn = \"px < 0\", late = \"t > 10\" }\nstop = [\"escape\"]";
-        assert_eq!(together(&format!("{HENON_HEILES}[keep]\n{energies}\n{escape}\nstate = true\n")), 30);
+        let extremes = "min = { low = \"x\" }\nmax = { high = \"y - E\", r = \"x^2 + y^2\" }";
+        assert_eq!(together(&format!("{HENON_HEILES}[keep]\n{energies}\n{escape}\n{extremes}\nstate = true\n")), 30);
     }
 
     /// Of those that stay in the well, regular and chaotic ones.
@@ -333,6 +344,14 @@ mod tests {
             let keep = keep.replace("x = ", "end = ");
             assert_eq!(together(&format!("{problem}{run}{keep}")), 7, "{problem}");
         }
+    }
+
+    #[test]
+    fn quantities_of_bodies_are_those_of_runs_alone() {
+        let text = "problem = { name = \"figure-eight\", parameters.m_2 = \"a\" }\n\
+            run = { scheme = \"ruth3\", step = \"1/20\", steps = 50, digits = \"double\" }\n[axes]\na = \"1/3 … 2 in 7 values\"\n[keep]\n\
+            at_end = { angle = \"M(2) + pericentre(3, jacobi)\" }\nmin = { d = \"distance(1, 2)\" }\nmax = { e = \"e(3, barycentre)\" }\n";
+        assert_eq!(together(text), 7);
     }
 
     #[test]

@@ -1,4 +1,4 @@
-//! The curves of a run from the file that it has written: CSV or JSON lines.
+//! The curves of a run from the file that it has written: CSV, JSON lines or records of NumPy.
 
 use std::fs::File;
 use std::io::{BufRead, BufReader};
@@ -84,27 +84,44 @@ fn each_row(scene: &Scene, path: &Path, mut take: impl FnMut(Option<Row>) -> Res
         Format::JsonLines => BufReader::new(file).lines().try_for_each(|line| take(serde_json::from_str(&line?).ok())),
         Format::Csv => {
             let mut reader = csv::ReaderBuilder::new().comment(Some(b'#')).from_reader(file);
-            let header = reader.headers()?.clone();
-            let (coordinates, momenta) = (&scene.system.coordinates, &scene.system.momenta);
-            let column = |name: &str| header.iter().position(|known| known == name);
-            let all = |names: &[String]| names.iter().map(|name| column(name)).collect::<Vec<_>>();
-            let known = ["n", "t", "energy", "modified_energy", "estimate"].map(column);
-            let (q, p) = (all(coordinates), all(momenta));
-            for record in reader.records() {
-                let row = record.ok().and_then(|record| {
-                    let text = |number: &Option<usize>| {
-                        number.and_then(|number| record.get(number)).filter(|text| !text.is_empty()).map(str::to_owned)
-                    };
-                    let [n, t, energy, modified_energy, estimate] = known.each_ref().map(text);
-                    let state = |numbers: &[Option<usize>]| numbers.iter().filter_map(text).collect::<Vec<_>>();
-                    let p = state(&p);
-                    // a coordinate may be t, which rows without states have, too
-                    let q = if p.is_empty() { Vec::new() } else { state(&q) };
-                    Some(Row { n: n?.parse().ok()?, t: t?, energy, modified_energy, estimate, q, p })
-                });
-                take(row)?;
-            }
-            Ok(())
+            let row = RowOfCells::new(scene, &reader.headers()?.iter().map(str::to_owned).collect::<Vec<_>>());
+            reader
+                .records()
+                .try_for_each(|record| take(record.ok().and_then(|record| row.of(|number| record.get(number)))))
         }
+        Format::Numpy => {
+            let row = RowOfCells::new(scene, &scene.column_names());
+            let mut rows = scene.numpy_rows(path)?;
+            rows.try_for_each(|cells| {
+                take(cells.ok().and_then(|cells| row.of(|number| cells.get(number).map(String::as_str))))
+            })
+        }
+    }
+}
+
+/// The places of columns.
+struct RowOfCells {
+    known: [Option<usize>; 5],
+    q: Vec<Option<usize>>,
+    p: Vec<Option<usize>>,
+}
+
+impl RowOfCells {
+    fn new(scene: &Scene, header: &[String]) -> Self {
+        let column = |name: &str| header.iter().position(|known| known == name);
+        let all = |names: &[String]| names.iter().map(|name| column(name)).collect::<Vec<_>>();
+        let known = ["n", "t", "energy", "modified_energy", "estimate"].map(column);
+        RowOfCells { known, q: all(&scene.system.coordinates), p: all(&scene.system.momenta) }
+    }
+
+    /// The row of these cells.
+    fn of<'c>(&self, cell: impl Fn(usize) -> Option<&'c str>) -> Option<Row> {
+        let text = |number: &Option<usize>| number.and_then(&cell).filter(|text| !text.is_empty()).map(str::to_owned);
+        let [n, t, energy, modified_energy, estimate] = self.known.each_ref().map(text);
+        let state = |numbers: &[Option<usize>]| numbers.iter().filter_map(text).collect::<Vec<_>>();
+        let p = state(&self.p);
+        // a coordinate may be t, which rows without states have, too
+        let q = if p.is_empty() { Vec::new() } else { state(&self.q) };
+        Some(Row { n: n?.parse().ok()?, t: t?, energy, modified_energy, estimate, q, p })
     }
 }

@@ -50,16 +50,18 @@ file = "out.jsonl"
 checkpoint = 50
 "#;
 
-/// The names in a folder without that of the metadata of JSON lines.
-fn complete(folder: &Path) -> Vec<String> {
-    names(folder).into_iter().filter(|name| !name.ends_with(".jsonl.metadata.json")).collect()
+/// Whether a folder has nothing but the scene, its complete file, and what belongs to it: metadata of JSON lines, the last checkpoint.
+fn is_complete(folder: &Path, file: &str) -> bool {
+    let checkpoint = format!("{file}.checkpoint");
+    let names = names(folder).into_iter().filter(|name| !name.ends_with(".jsonl.metadata.json"));
+    names.eq([file, &checkpoint, "scene.toml"])
 }
 
 /// The file of an undisturbed run.
 fn undisturbed(scene: &str, file: &str) -> String {
     let folder = folder(scene);
     assert_eq!(run(folder.path(), "").code, 0);
-    assert_eq!(complete(folder.path()), [file, "scene.toml"]);
+    assert!(is_complete(folder.path(), file));
     fs::read_to_string(folder.path().join(file)).unwrap()
 }
 
@@ -100,7 +102,7 @@ fn survives_kills(scene: &str, file: &str) {
     let result = run(folder.path(), "");
     assert_eq!(result.code, 0, "{}", result.err);
     assert!(result.err.starts_with("note: resumed at n = "), "{}", result.err);
-    assert_eq!(complete(folder.path()), [file, "scene.toml"]);
+    assert!(is_complete(folder.path(), file));
     assert!(fs::read_to_string(folder.path().join(file)).unwrap() == undisturbed(scene, file), "other bytes");
 }
 
@@ -155,7 +157,7 @@ fn refused(folder: &TempDir, sentence: &str) {
     fs::write(folder.path().join("scene.toml"), short(&scene)).unwrap();
     let result = run(folder.path(), "--restart");
     assert_eq!((result.code, result.err.as_str()), (0, ""));
-    assert_eq!(names(folder.path()), ["out.csv", "scene.toml"]);
+    assert!(is_complete(folder.path(), "out.csv"));
 }
 
 #[test]
@@ -265,7 +267,7 @@ fn rows_without_a_checkpoint_are_replaced() {
     let result = run(folder.path(), "");
     assert_eq!((result.code, result.err.as_str()), (0, ""));
     assert!(fs::read_to_string(folder.path().join("out.csv")).unwrap() == rows);
-    assert_eq!(names(folder.path()), ["out.csv", "scene.toml"]);
+    assert!(is_complete(folder.path(), "out.csv"));
     let folder = self::folder(&scene.replace("out.csv", "out.jsonl"));
     fs::write(folder.path().join("out.jsonl.partial"), "{\"n\":0,\"t\":0.0,").unwrap();
     let result = run(folder.path(), "");
@@ -291,7 +293,7 @@ fn a_file_of_someone_else_with_the_name_of_a_partial_file_is_kept() {
     let folder = folder(&scene);
     fs::write(folder.path().join("out.csv.partial"), "notes").unwrap();
     assert_eq!(run(folder.path(), "--force").code, 0);
-    assert_eq!(names(folder.path()), ["out.csv", "scene.toml"]);
+    assert!(is_complete(folder.path(), "out.csv"));
 }
 
 #[cfg(unix)]
@@ -313,12 +315,12 @@ fn a_checkpoint_left_by_a_complete_run_is_ignored() {
     let result = run(folder.path(), "");
     assert_eq!(result.code, 0, "{}", result.err);
     assert!(result.err.contains("has no partial file: the run begins again"), "{}", result.err);
-    assert_eq!(names(folder.path()), ["out.csv", "scene.toml"]);
+    assert!(is_complete(folder.path(), "out.csv"));
 }
 
-/// A run is killed after its file has its name and before its checkpoint is removed.
+/// It may be an earlier one than the last, where that could not be written.
 #[test]
-fn a_checkpoint_beside_a_complete_file_is_removed() {
+fn a_checkpoint_beside_a_complete_file_changes_nothing() {
     let scene = PLAIN.replace("steps = 100000000", "steps = 200000");
     let folder = stopped(&scene, "out.csv");
     let path = |name: &str| folder.path().join(name);
@@ -329,7 +331,20 @@ fn a_checkpoint_beside_a_complete_file_is_removed() {
     let result = run(folder.path(), "");
     assert!(result.code == 0 && result.err.contains("its file is complete"), "{}", result.err);
     assert_eq!(fs::metadata(path("out.csv")).unwrap().modified().unwrap(), rows);
-    assert_eq!(names(folder.path()), ["out.csv", "scene.toml"]);
+    assert!(is_complete(folder.path(), "out.csv"));
+}
+
+#[test]
+fn a_complete_run_is_prolonged_with_the_bytes_of_one_run() {
+    let text = |steps: u32| PLAIN.replace("steps = 100000000", &format!("steps = {steps}"));
+    let folder = folder(&text(100_000));
+    assert_eq!(run(folder.path(), "").code, 0);
+    fs::write(folder.path().join("scene.toml"), text(200_000)).unwrap();
+    let result = run(folder.path(), "");
+    let note = "note: the file is that of an earlier end: the run goes on from its last state, n = 100000 of 200000";
+    assert!(result.code == 0 && result.err.starts_with(note), "{}", result.err);
+    assert!(is_complete(folder.path(), "out.csv"));
+    assert!(fs::read_to_string(folder.path().join("out.csv")).unwrap() == undisturbed(&text(200_000), "out.csv"));
 }
 
 #[test]

@@ -118,7 +118,8 @@ fn symbolic_links_are_followed() {
         for _ in 0..2 {
             assert_eq!(run(folder.path(), "").code, 0);
             assert!(is_link(&path("out.csv")) && is_link(&path("data/second")));
-            assert_eq!(names(&path("data")), ["rows.csv", "second"]);
+            let rows = names(&path("data")).into_iter().filter(|name| !name.ends_with(".checkpoint"));
+            assert!(rows.eq(["rows.csv", "second"]));
             assert_eq!(names(folder.path()), ["data", "out.csv", "scene.toml"]);
         }
         assert_eq!(

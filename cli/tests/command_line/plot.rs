@@ -150,8 +150,8 @@ fn the_charts_of_a_scene_are_those_of_trace() {
     let of_trace = tempfile::tempdir().unwrap();
     assert_eq!(plot(of_trace.path(), &format!("{RUN} --plot-of energies,orbit=x:y,distance")).code, 0);
     let charts = ["kepler.svg", "kepler-orbit-x-y.svg", "kepler-distance.svg"];
-    for scene in [SCENE.to_owned(), SCENE.replace("rows.csv", "rows.jsonl")] {
-        let folder = folder(&scene);
+    for file in ["rows.csv", "rows.jsonl"] {
+        let folder = folder(&SCENE.replace("rows.csv", file));
         let result = run(folder.path(), "");
         assert_eq!((result.code, result.err.as_str()), (0, ""));
         for chart in charts {
@@ -159,6 +159,20 @@ fn the_charts_of_a_scene_are_those_of_trace() {
             assert!(of_scene.contains("scene.toml: stormer-verlet, step 1/32"), "{chart}");
             assert!(!curves(&of_scene).is_empty() && curves(&of_scene) == curves(&of_trace), "{chart}");
         }
+    }
+}
+
+#[test]
+fn records_of_numpy_have_the_charts_of_csv() {
+    let charts = ["rows.csv", "rows.npy"].map(|file| {
+        let scene = SCENE.replace("rows.csv", file).replace("digits = 30", "digits = \"double\"");
+        let folder = folder(&scene.replace("trajectory = true", "trajectory = { every = 3 }"));
+        assert_eq!(run(folder.path(), "").code, 0);
+        ["kepler.svg", "kepler-orbit-x-y.svg", "kepler-distance.svg"].map(|chart| read(folder.path(), chart))
+    });
+    let [of_csv, of_records] = &charts;
+    for (one, other) in of_csv.iter().zip(of_records) {
+        assert!(!curves(one).is_empty() && curves(one) == curves(other));
     }
 }
 

@@ -158,7 +158,19 @@ const WRONG: &[(&str, &str, &str, &str)] = &[
         "energy = true",
         "energy = true\nfile = \"x.txt\"",
         "16:8: the name `x.txt` does not give the format",
+        ".csv, .jsonl or .npy",
+    ),
+    (
+        "energy = true",
+        "energy = true\nfile = \"x.npy\"",
+        "16:8: records of NumPy have double precision, not 30 digits",
         ".csv or .jsonl",
+    ),
+    (
+        "digits = 30\n[output]\nenergy = true",
+        "digits = \"double\"\n[output]\nenergy = true\nformat = \"npy\"",
+        "16:10: records of NumPy require a file",
+        "file = \"out.npy\"",
     ),
     ("energy = true", "energy = true\nfile = \"no/x.csv\"", "16:8: file ", "a folder that exists"),
     (

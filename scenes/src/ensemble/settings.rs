@@ -55,6 +55,8 @@ fn refuse_outputs(reader: &mut Reader<'_>, scene: &Scene) {
     let refused = [
         ("trajectory", output.has_states(), "its rows have the states at the end"),
         ("chaos", output.chaos.is_some(), "a sweep keeps indicators of chaos of many runs"),
+        ("values", output.named_values().count() > 0, "a sweep keeps formulas at the end of many runs"),
+        ("extremes", !output.extremes.is_empty(), "a sweep keeps the least and greatest values of many runs"),
         ("plot", output.plot.is_some(), "draw its rows with another program"),
         ("checkpoint", output.checkpoint.is_some(), "a run that is stopped begins again"),
     ];
@@ -71,7 +73,7 @@ fn refuse_outputs(reader: &mut Reader<'_>, scene: &Scene) {
         reader.fault(&place(reader.source, section, key), refusal.message, refusal.hint);
     }
     let Some((file, at)) = &output.file else { return };
-    if output.format == Format::JsonLines {
+    if output.format != Format::Csv {
         reader.fault(at, "an ensemble is written as CSV", "name a file such as \"out.csv\"");
     }
     if same_file::is_same_file(file, &scene.source.path).unwrap_or(false) {

@@ -11,6 +11,7 @@ use toml::de::DeValue;
 
 use super::plot;
 use super::reader::Reader;
+use super::values;
 use crate::estimator::{ACCURACY_HINT, conflict};
 use crate::expression::Expression;
 use crate::scene::{CheckpointInterval, Direction, Format, Outputs, Surface, System};
@@ -21,22 +22,19 @@ use shadowstep_schemes::document::{Section, Value};
 pub(super) fn read(reader: &mut Reader<'_>, output: &Section<'_, '_>, system: Option<&System>) -> Option<Outputs> {
     let before = reader.toml.faults.len();
     let file = output.get("file").and_then(|value| reader.toml.text(value));
-    let format =
-        output.get("format").map(|value| reader.word(value, &[("csv", Format::Csv), ("jsonl", Format::JsonLines)]));
-    let energy = every(reader, output, "energy", "output.energy");
+    let format = output
+        .get("format")
+        .map(|value| reader.word(value, &[("csv", Format::Csv), ("jsonl", Format::JsonLines), ("npy", Format::Numpy)]));
+    let energy = every(reader, output, "energy", "output.energy").map(|(every, _)| every);
     let modified_energy = modified_energy(reader, output);
     let (trajectory, section) = trajectory(reader, output, system);
-    let chaos = every(reader, output, "chaos", "output.chaos");
+    let values = values::columns(reader, output, system);
+    let extremes = values::extremes(reader, output, system);
+    let chaos = every(reader, output, "chaos", "output.chaos").map(|(every, _)| every);
     let summary = output.get("summary").and_then(|value| reader.toml.truth(value)).is_none_or(|truth| truth.value);
     let checkpoint = output.get("checkpoint").map(|value| (value.span(), interval(reader, value)));
     if let (Some((at, _)), None) = (&checkpoint, output.get("file")) {
         reader.toml.fault(at, "a checkpoint requires a file", "add `file = \"out.csv\"`");
-    }
-    let silent =
-        [energy, trajectory, chaos].iter().all(Option::is_none) && modified_energy.is_none() && section.is_none();
-    if silent && reader.toml.faults.len() == before && output.is_there() {
-        let help = "add `energy = true`, `modified_energy = true` or `trajectory = true`";
-        reader.toml.fault(&output.at, "no output is selected", help);
     }
     if let Some(name) = file.as_ref().filter(|name| name.value.ends_with(['/', '\\'])) {
         reader.toml.fault(&name.at, format!("`{}` is a folder", name.value), "give the name of a file");
@@ -46,21 +44,56 @@ pub(super) fn read(reader: &mut Reader<'_>, output: &Section<'_, '_>, system: Op
         (None, None) => Some(Format::Csv),
         (None, Some(name)) => Format::of(&name.value).or_else(|| {
             let message = format!("the name `{}` does not give the format", name.value);
-            reader.toml.wrong(&name.at, message, "use the ending .csv or .jsonl, or add `format = \"csv\"`")
+            reader.toml.wrong(&name.at, message, "use the ending .csv, .jsonl or .npy, or add `format = \"csv\"`")
         }),
     };
     let folder = Path::new(&reader.toml.source.path).parent().unwrap_or(Path::new(""));
     let file = file.map(|name| (folder.join(&name.value), name.at));
     let checkpoint = checkpoint.and_then(|(_, interval)| interval);
     let format = format?;
-    let mut outputs =
-        Outputs { file, format, energy, modified_energy, trajectory, section, chaos, checkpoint, summary, plot: None };
+    if format == Format::Numpy {
+        check_numpy(reader, output);
+    }
+    let mut outputs = Outputs {
+        file,
+        format,
+        energy,
+        modified_energy,
+        trajectory,
+        section,
+        values,
+        extremes,
+        chaos,
+        checkpoint,
+        summary,
+        plot: None,
+    };
+    if !outputs.has_rows() && outputs.extremes.is_empty() && reader.toml.faults.len() == before && output.is_there() {
+        let help = "add `energy = true`, `modified_energy = true` or `trajectory = true`";
+        reader.toml.fault(&output.at, "no output is selected", help);
+    }
+    if let (false, Some(value)) = (summary, output.get("extremes")) {
+        reader.toml.fault(&value.span(), "extremes are in the summary, and `summary = false`", "remove one of the two");
+    }
     outputs.plot = plot::read(reader, output, system, &outputs);
     Some(outputs)
 }
 
+/// Refuses records of NumPy where they would lose digits, or cannot be written.
+fn check_numpy(reader: &mut Reader<'_>, output: &Section<'_, '_>) {
+    let at =
+        ["format", "file"].into_iter().find_map(|key| output.get(key)).map_or(output.at.clone(), |value| value.span());
+    if output.get("file").is_none() {
+        reader.toml.fault(&at, "records of NumPy require a file", "add `file = \"out.npy\"`");
+    }
+    if reader.arithmetic.is_longer_than_double() {
+        let message = format!("records of NumPy have double precision, not {}", reader.arithmetic.described());
+        reader.toml.fault(&at, message, "write a file of .csv or .jsonl");
+    }
+}
+
 /// The value of a key that is `true`, `false` or a table: the period, and the table.
-fn when<'t, 'i>(
+pub(super) fn every<'t, 'i>(
     reader: &mut Reader<'_>,
     output: &Section<'t, 'i>,
     key: &'static str,
@@ -82,17 +115,13 @@ fn when<'t, 'i>(
     }
 }
 
-fn every(reader: &mut Reader<'_>, output: &Section<'_, '_>, key: &'static str, section: &'static str) -> Option<u64> {
-    when(reader, output, key, section).map(|(every, _)| every)
-}
-
 /// The period of states, or the surface at whose crossings they are.
 fn trajectory(
     reader: &mut Reader<'_>,
     output: &Section<'_, '_>,
     system: Option<&System>,
 ) -> (Option<u64>, Option<Surface>) {
-    let Some((every, table)) = when(reader, output, "trajectory", "output.trajectory") else { return (None, None) };
+    let Some((every, table)) = every(reader, output, "trajectory", "output.trajectory") else { return (None, None) };
     let directions = [("up", Direction::Up), ("down", Direction::Down), ("both", Direction::Both)];
     let direction = table.as_ref().and_then(|table| table.get("direction"));
     let direction = direction.map(|value| (value.span(), reader.word(value, &directions)));
@@ -132,7 +161,7 @@ fn surface(
 }
 
 fn modified_energy(reader: &mut Reader<'_>, output: &Section<'_, '_>) -> Option<(EstimatorSettings, u64)> {
-    let (every, table) = when(reader, output, "modified_energy", "output.modified_energy")?;
+    let (every, table) = every(reader, output, "modified_energy", "output.modified_energy")?;
     let mut options = EstimatorOptions::default();
     let mut name = EstimatorSettings::NAMES[0];
     if let Some(table) = &table {

@@ -11,6 +11,7 @@ use toml::de::{DeTable, DeValue};
 
 use super::elements::{Elements, Vector};
 use super::given::Given;
+use super::horizons::{HorizonsVector, LengthAndTime};
 use super::kinetic;
 use super::names::check_name;
 use super::numbers::Numbers;
@@ -18,7 +19,9 @@ use super::of_bodies;
 use super::parts::{self, Split};
 use super::reader::Reader;
 use super::units;
-use crate::scene::{EnergyOfBodies, Formula, InitialValueProblem, KineticEnergy, PairEnergy, PotentialEnergy, System};
+use crate::scene::{
+    EnergyOfBodies, Formula, GRAVITY, InitialValueProblem, KineticEnergy, PairEnergy, PotentialEnergy, System,
+};
 use shadowstep_schemes::document::{Placed, Section, Text};
 
 /// The name of the section.
@@ -38,11 +41,10 @@ pub(super) struct GivenBody {
     v: Option<Placed<Vec<Text>>>,
     a: Option<Text>,
     elements: Vec<(&'static str, Text)>,
+    /// A table of Horizons that has the state, `None` inside if it cannot be read.
+    horizons: Option<(Range<usize>, Option<HorizonsVector>)>,
     at: Range<usize>,
 }
-
-/// The energy of two bodies.
-const GRAVITY: &str = "-g*m_i*m_j/sqrt(r2)";
 
 /// What the elements of a planet are relative to.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -94,7 +96,11 @@ impl GivenBody {
             reader.toml.missing(section, &["mass"]);
         }
         let name = section.get("name").and_then(|value| reader.toml.text(value));
-        GivenBody { name, mass, q, v, a, elements, at: section.at.clone() }
+        let horizons = section.get("horizons").map(|value| {
+            let file = reader.toml.text(value);
+            (value.span(), file.and_then(|file| HorizonsVector::open(reader, &file)))
+        });
+        GivenBody { name, mass, q, v, a, elements, horizons, at: section.at.clone() }
     }
 
     fn element(&self, key: &str) -> Option<&Text> {
@@ -136,6 +142,8 @@ impl GivenBody {
 /// Bodies with their exact states so far.
 struct Placing {
     g: Rational,
+    /// Where they are known.
+    units: Option<LengthAndTime>,
     dimensions: usize,
     centre: Centre,
     masses: Vec<Rational>,
@@ -168,8 +176,10 @@ pub(super) fn system(
     let (g, centre, split) = (constant?, settings.centre?, settings.split?);
     let dimensions = bodies.iter().find_map(|body| body.q.as_ref()).map_or(3, |q| q.value.len());
     let masses = masses(reader, bodies)?;
-    let mut placing = Placing { g: g.clone(), dimensions, centre, masses, states: Vec::new() };
+    let units = settings.units.as_ref().and_then(|units| units.as_ref()).map(|(_, units)| units.clone());
+    let mut placing = Placing { g: g.clone(), units, dimensions, centre, masses, states: Vec::new() };
     let before = reader.toml.faults.len();
+    agree(reader, bodies);
     for (index, body) in bodies.iter().enumerate() {
         let state = placing.state(reader, index, body).unwrap_or_else(|| placing.origin());
         placing.states.push(state);
@@ -192,6 +202,19 @@ pub(super) fn system(
     parts::split(reader, given, problem, split, Some((bodies, dimensions)))
 }
 
+/// Refuses tables of Horizons of different centres, frames or epochs.
+fn agree(reader: &mut Reader<'_>, bodies: &[GivenBody]) {
+    let tables = || {
+        bodies.iter().filter_map(|body| body.horizons.as_ref()).filter_map(|(at, table)| Some((at, table.as_ref()?)))
+    };
+    let Some((_, first)) = tables().next() else { return };
+    for (at, table) in tables().skip(1) {
+        if let Some(message) = table.differs(first) {
+            reader.toml.fault(at, message, "ask Horizons for tables with one centre, frame and time");
+        }
+    }
+}
+
 /// Refuses parameters that have a name of the bodies' energy; whether there are any.
 fn has_names_of_energy(reader: &mut Reader<'_>, given: &Given) -> bool {
     let before = reader.toml.faults.len();
@@ -207,7 +230,7 @@ pub(super) struct Settings {
     /// The parts that the steps have.
     pub(super) split: Option<Split>,
     /// The constant in these units.
-    units: Option<Option<Rational>>,
+    units: Option<Option<(Rational, LengthAndTime)>>,
     centre: Option<Centre>,
     barycentric: Option<bool>,
 }
@@ -234,7 +257,7 @@ impl Settings {
     ) -> Option<Rational> {
         let parameter = parameters.iter().find(|(name, _)| name == "g").map(|(_, value)| value.value.clone());
         match (&self.units, parameter) {
-            (Some(constant), None) => constant.clone(),
+            (Some(units), None) => units.as_ref().map(|(constant, _)| constant.clone()),
             (None, Some(g)) => Some(g),
             (Some(_), Some(_)) => {
                 let at = problem.get("units").map_or(problem.at.clone(), |value| value.span());
@@ -287,6 +310,9 @@ impl Placing {
 
     /// Position and velocity of a body.
     fn state(&self, reader: &mut Reader<'_>, index: usize, body: &GivenBody) -> Option<[Vec<Rational>; 2]> {
+        if let Some((at, table)) = &body.horizons {
+            return self.of_horizons(reader, body, (at, table.as_ref()));
+        }
         match (&body.q, &body.v) {
             (Some(q), Some(v)) => {
                 if body.is_by_elements() {
@@ -314,6 +340,28 @@ impl Placing {
             },
             (None, None) => self.on_orbit(reader, index, body),
         }
+    }
+
+    /// The state of a table of Horizons.
+    fn of_horizons(
+        &self,
+        reader: &mut Reader<'_>,
+        body: &GivenBody,
+        (at, table): (&Range<usize>, Option<&HorizonsVector>),
+    ) -> Option<[Vec<Rational>; 2]> {
+        if body.q.is_some() || body.v.is_some() || body.is_by_elements() {
+            return reader.toml.wrong(at, "this body has a table of Horizons and another state", "keep one of the two");
+        }
+        if self.dimensions != 3 {
+            let help = "give the other bodies positions in three dimensions";
+            return reader.toml.wrong(at, "a table of Horizons has three dimensions", help);
+        }
+        let Some(units) = &self.units else {
+            let help =
+                "write units = { length = \"AU\", time = \"day\", mass = \"solar\" } in place of the parameter g";
+            return reader.toml.wrong(at, "a table of Horizons requires units", help);
+        };
+        table.map(|table| table.in_units(units))
     }
 
     /// The state of a planet on its orbit.

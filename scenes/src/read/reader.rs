@@ -29,6 +29,8 @@ pub(super) struct Reader<'a> {
     budget: Budget,
     /// What the user should know.
     pub(super) notes: Vec<Note>,
+    /// The texts of other files that have states.
+    pub(super) files: Vec<String>,
 }
 
 impl<'a> Reader<'a> {
@@ -41,6 +43,7 @@ impl<'a> Reader<'a> {
             names: Vec::new(),
             budget: Budget::default(),
             notes: Vec::new(),
+            files: Vec::new(),
         }
     }
 

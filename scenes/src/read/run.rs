@@ -51,6 +51,8 @@ pub(super) struct Steps {
     /// `None` where only the steps themselves have their times.
     pub(super) steps: Option<u64>,
     /// As in [`Scene`](crate::scene::Scene).
+    pub(super) end_at: Range<usize>,
+    /// As in [`Scene`](crate::scene::Scene).
     pub(super) ends: Option<Condition>,
 }
 
@@ -90,7 +92,8 @@ impl Steps {
         let scheme = scheme?;
         let displaced =
             displaced?.map_or(Some(false), |(at, wanted)| displaced_forces(reader, &at, wanted, &scheme))?;
-        Some(Steps { scheme, displaced, h, until, steps, ends: ends? })
+        let end_at = run.get("until").or(run.get("steps")).map_or(run.at.clone(), |value| value.span());
+        Some(Steps { scheme, displaced, h, until, steps, end_at, ends: ends? })
     }
 }
 

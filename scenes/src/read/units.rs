@@ -3,6 +3,7 @@
 use shadowstep::{Rational, exact};
 use toml::de::DeValue;
 
+use super::horizons::LengthAndTime;
 use super::reader::Reader;
 use shadowstep_schemes::document::Value;
 
@@ -16,8 +17,8 @@ const TIMES: [(&str, &str); 3] = [("day", "86400"), ("year", "31557600"), ("s", 
 const MASSES: [(&str, &str); 4] =
     [("solar", "1.3271244e20"), ("earth", "3.986004e14"), ("jupiter", "1.2668653e17"), ("kg", "6.67430e-11")];
 
-/// The gravitational constant in the units of a table.
-pub(super) fn constant(reader: &mut Reader<'_>, value: &Value<'_>) -> Option<Rational> {
+/// The gravitational constant in the units of a table, and these.
+pub(super) fn constant(reader: &mut Reader<'_>, value: &Value<'_>) -> Option<(Rational, LengthAndTime)> {
     let DeValue::Table(table) = value.get_ref() else {
         return reader.toml.wrong_kind(value, "a table: { length = \"AU\", time = \"day\", mass = \"solar\" }");
     };
@@ -27,5 +28,6 @@ pub(super) fn constant(reader: &mut Reader<'_>, value: &Value<'_>) -> Option<Rat
     let mass = reader.toml.required(&section, "mass").and_then(|value| reader.word(value, &MASSES));
     let number = |text: &str| exact(text).expect("units are exact numbers");
     let (length, time) = (number(length?), number(time?));
-    Some(number(mass?) * &time * &time / (&length * &length * &length))
+    let constant = number(mass?) * &time * &time / (&length * &length * &length);
+    Some((constant, LengthAndTime { length, time }))
 }

@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::arithmetic::Numbers;
 use crate::results::functions::elementary_functions;
-use crate::results::metadata::{platform, sha256, table_hashes};
+use crate::results::metadata::{file_hashes, platform, sha256, table_hashes};
 use crate::saved_state::{SavedState, SavedVector};
 use crate::scene::Scene;
 use crate::tangent::VECTORS_OF_ROWS;
@@ -15,7 +15,13 @@ pub(crate) struct Identity {
     version: String,
     platform: String,
     scene_sha256: String,
+    /// The hash of the scene without the value of `until` or `steps`.
+    #[serde(default)]
+    without_end_sha256: String,
     tables_sha256: Vec<String>,
+    /// Of other files that have states.
+    #[serde(default)]
+    files_sha256: Vec<String>,
     /// Those of the machine, for a run in double precision with checkpoints.
     #[serde(default)]
     functions_sha256: Option<String>,
@@ -39,7 +45,9 @@ impl Identity {
             version: env!("CARGO_PKG_VERSION").to_owned(),
             platform: platform(),
             scene_sha256: sha256(&scene.source.text),
+            without_end_sha256: without_end(scene),
             tables_sha256: table_hashes(scene),
+            files_sha256: file_hashes(scene),
             functions_sha256: functions(scene).map(str::to_owned),
             steps: scene.steps(),
             dimension,
@@ -53,9 +61,21 @@ impl Identity {
         &self.scene_sha256
     }
 
+    /// That of a run of the same scene with another end.
+    fn with_end_of(&self, other: &Identity) -> Identity {
+        let is_same = self.without_end_sha256 == other.without_end_sha256;
+        let scene = if is_same { other } else { self };
+        Identity { scene_sha256: scene.scene_sha256.clone(), ..self.clone() }
+    }
+
+    /// Whether a state is the last one.
+    pub(crate) fn is_last(&self, n: i64) -> bool {
+        n.unsigned_abs() == self.steps
+    }
+
     /// Everything else, as it stands in metadata.
     pub(crate) fn others(&self) -> impl Iterator<Item = &String> {
-        [&self.version, &self.platform].into_iter().chain(&self.tables_sha256)
+        [&self.version, &self.platform].into_iter().chain(&self.tables_sha256).chain(&self.files_sha256)
     }
 
     /// The first difference of another identity, as the end of "was made with".
@@ -65,6 +85,9 @@ impl Identity {
         }
         if self.tables_sha256 != other.tables_sha256 {
             return Some("a different table of the scheme".to_owned());
+        }
+        if self.files_sha256 != other.files_sha256 {
+            return Some("a different table of Horizons".to_owned());
         }
         if self.version != other.version {
             return Some(format!("shadowstep {}", other.version));
@@ -79,6 +102,12 @@ impl Identity {
     }
 }
 
+/// A hash of the text with nothing in the place of the value of `until` or `steps`.
+fn without_end(scene: &Scene) -> String {
+    let (text, end) = (&scene.source.text, &scene.end_at);
+    sha256(&format!("{}\0{}", &text[..end.start], &text[end.end..]))
+}
+
 /// The fingerprint of the functions that determine the bits of a run.
 fn functions(scene: &Scene) -> Option<&'static str> {
     let is_double = !matches!(scene.arithmetic.numbers(), Numbers::Digits(..));
@@ -91,12 +120,18 @@ pub(crate) struct Checkpoint {
     pub(crate) identity: Identity,
     /// All rows up to this n are in the partial file.
     pub(crate) n: i64,
-    /// Their length in bytes.
+    /// Their length in bytes, with the head.
     pub(crate) bytes: u64,
-    /// The hash of these bytes.
+    /// The length of the head before them.
+    #[serde(default)]
+    pub(crate) head: u64,
+    /// The hash of these rows.
     pub(crate) sha256: String,
     /// The state from which the run is resumed; `None` for the one at t = 0.
     pub(crate) state: Option<SavedState>,
+    /// The hash of the scene with an earlier end whose file is prolonged.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(crate) prolongs: Option<String>,
     /// The tangent vectors at n, if there are any.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub(crate) vectors: Vec<SavedVector>,
@@ -120,14 +155,34 @@ impl Checkpoint {
     /// # Errors
     /// Why the run cannot be resumed from it, as the predicate of a sentence.
     pub(crate) fn read(text: &str, identity: &Identity) -> Result<Checkpoint, String> {
+        let checkpoint = Checkpoint::sealed(text)?;
+        if let Some(other) = identity.differs(&checkpoint.identity) {
+            return Err(format!("was made with {other}"));
+        }
+        checkpoint.check(identity)?;
+        Ok(checkpoint)
+    }
+
+    /// Reads the checkpoint that a complete run of this scene, but with an earlier end, has left.
+    pub(crate) fn of_earlier_end(text: &str, identity: &Identity) -> Option<Checkpoint> {
+        let checkpoint = Checkpoint::sealed(text).ok()?;
+        let expected = identity.with_end_of(&checkpoint.identity);
+        let is_other_end = expected.scene_sha256 != identity.scene_sha256;
+        let is_valid = is_other_end && expected.differs(&checkpoint.identity).is_none();
+        Some(checkpoint).filter(|checkpoint| is_valid && checkpoint.check(identity).is_ok())
+    }
+
+    /// The hash of the scene that it is of.
+    pub(crate) fn scene(&self) -> &str {
+        &self.identity.scene_sha256
+    }
+
+    /// What no one has changed.
+    fn sealed(text: &str) -> Result<Checkpoint, String> {
         let sealed: Sealed = serde_json::from_str(text).map_err(|_| "is damaged".to_owned())?;
         if seal(&sealed.checkpoint) != sealed.sha256 {
             return Err("was changed after it was written".to_owned());
         }
-        if let Some(other) = identity.differs(&sealed.checkpoint.identity) {
-            return Err(format!("was made with {other}"));
-        }
-        sealed.checkpoint.check(identity)?;
         Ok(sealed.checkpoint)
     }
 
@@ -137,6 +192,9 @@ impl Checkpoint {
         let is_of_run = |n: i64| u64::try_from(n).is_ok_and(|n| n <= steps);
         if !is_of_run(self.n) {
             return Err(format!("is at n = {}, which is not a state of the run", self.n));
+        }
+        if self.head > self.bytes {
+            return Err(format!("has a head of {} bytes in {} bytes", self.head, self.bytes));
         }
         if self.vectors.len() != vectors {
             return Err(format!("has {} tangent vectors, where the scene has {vectors}", self.vectors.len()));

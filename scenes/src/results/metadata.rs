@@ -42,6 +42,9 @@ impl Metadata {
         all.extend(
             scene.output.modified_energy.iter().map(|(chosen, _)| ("modified_energy_by", json!(chosen.to_string()))),
         );
+        let values: serde_json::Map<_, _> =
+            scene.output.named_values().map(|value| (value.name.clone(), json!(value.expression.text.value))).collect();
+        all.extend((!values.is_empty()).then(|| ("values", json!(values))));
         Metadata(all)
     }
 
@@ -74,6 +77,7 @@ fn made_with(scene: &Scene) -> Vec<(&'static str, Value)> {
         ("table_sha256", json!(sha256(&table.source.text))),
     ];
     all.extend(bases(table).iter().map(|base| ("base_table_sha256", json!(sha256(&base.text)))));
+    all.extend((!scene.files.is_empty()).then(|| ("states_sha256", json!(file_hashes(scene)))));
     all
 }
 
@@ -144,6 +148,11 @@ fn cutoff_of_pairs(cutoff: &PairCutoff, texts: impl Fn(&[Exact]) -> Value) -> Ve
 pub(crate) fn table_hashes(scene: &Scene) -> Vec<String> {
     let table = &scene.scheme.scheme.proved().scheme.table;
     std::iter::once(&table.source).chain(&bases(table)).map(|source| sha256(&source.text)).collect()
+}
+
+/// The hashes of other files that have states.
+pub(crate) fn file_hashes(scene: &Scene) -> Vec<String> {
+    scene.files.iter().map(|text| sha256(text)).collect()
 }
 
 /// The base tables of a composition, which were found when it was read.

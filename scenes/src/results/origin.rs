@@ -33,10 +33,7 @@ impl Origin {
         scene: &[&str],
         mut others: impl Iterator<Item = &'a String>,
     ) -> Origin {
-        let metadata = match format {
-            Format::Csv => path.to_owned(),
-            Format::JsonLines => beside(path, METADATA),
-        };
+        let metadata = if format.has_metadata() { path.to_owned() } else { beside(path, METADATA) };
         let is_there = |path: &Path| path.symlink_metadata().is_ok();
         if !is_there(path) && !is_there(&metadata) {
             return Origin::None;

@@ -2,7 +2,8 @@
 //!
 //! Rows go to `FILE.partial`. `FILE.checkpoint` has the length of its valid bytes and the state from which the run is
 //! resumed. It is written after those bytes are on the disk, under another name until it is complete. When all rows are
-//! written, `FILE.partial` is renamed to `FILE` and the checkpoint is removed. A run holds a lock on `FILE.partial`,
+//! written, `FILE.partial` is renamed to `FILE`. The last checkpoint, that of the last state, stays beside it: a run of the
+//! same scene with a later end begins with the rows of `FILE`, and goes on from there. A run holds a lock on `FILE.partial`,
 //! which the system releases however the run ends. Rows that no checkpoint belongs to are removed when the run stops.
 
 use std::fs::{self, File, OpenOptions};
@@ -58,19 +59,45 @@ pub(crate) struct Resumable {
     temporary: Option<Temporary>,
     file: BufWriter<File>,
     bytes: u64,
+    /// The length of the head.
+    head: u64,
     hash: Sha256,
+    /// The n of the last checkpoint.
+    kept: Option<i64>,
+    /// The hash of the scene whose file is prolonged.
+    prolongs: Option<String>,
+}
+
+/// Where a run begins.
+pub(crate) enum Begun {
+    /// At t = 0.
+    Anew,
+    /// At a checkpoint, whose rows are in the partial file.
+    Resumed(Checkpoint),
+    /// At the last state of the same scene with an earlier end, whose rows are in the complete file.
+    Prolonged(Checkpoint),
+}
+
+impl Begun {
+    pub(crate) fn checkpoint(&self) -> Option<&Checkpoint> {
+        match self {
+            Begun::Anew => None,
+            Begun::Resumed(checkpoint) | Begun::Prolonged(checkpoint) => Some(checkpoint),
+        }
+    }
 }
 
 impl Resumable {
     /// Creates the file, or opens it at its checkpoint. With `restart` it is always created. A partial file that has no
-    /// checkpoint and is not from this program is replaced with `force` only. Without `saves`, no checkpoints are made.
+    /// checkpoint and is not from this program is replaced with `force` only. Without `saves`, no checkpoints are made. `earlier` is the
+    /// checkpoint from which a complete file is prolonged.
     pub(crate) fn open(
         path: &Path,
         identity: Identity,
-        saves: bool,
+        (saves, earlier): (bool, Option<Checkpoint>),
         FileOptions { restart, force }: FileOptions,
         observer: &mut dyn Observer,
-    ) -> Result<(Resumable, Option<Checkpoint>), Error> {
+    ) -> Result<(Resumable, Begun), Error> {
         let [partial, checkpoint] = [PARTIAL, CHECKPOINT].map(|ending| beside(path, ending));
         let is_empty = |file: &File| file.metadata().is_ok_and(|file| file.len() == 0);
         let (temporary, file) = Temporary::open(&partial, || locked(path, &partial), is_empty)?;
@@ -84,12 +111,18 @@ impl Resumable {
             temporary,
             file: BufWriter::new(file),
             bytes: 0,
+            head: 0,
             hash: Sha256::new(),
+            kept: None,
+            prolongs: None,
         };
         let found = match resumable.checkpoint.try_exists()? {
             false if force || resumable.is_own_partial(length)? => None,
             false => return Err(not_own(&resumable.partial)),
             true if restart => None,
+            true if earlier.is_some() => None,
+            // that of a complete file
+            true if length == 0 && path.exists() => None,
             // its partial file was removed
             true if length == 0 => {
                 observer.note(&Note::CheckpointWithoutRows { checkpoint: resumable.checkpoint.clone() });
@@ -97,14 +130,35 @@ impl Resumable {
             }
             true => Some(resumable.resume(length)?),
         };
-        if found.is_none() {
-            let partial = &resumable.partial;
-            resumable.temporary.get_or_insert_with(|| Temporary::of(partial));
-            resumable.remove_checkpoint()?;
-            resumable.file.get_ref().set_len(0)?;
-            resumable.file.get_mut().rewind()?;
+        if let Some(found) = found {
+            return Ok((resumable, Begun::Resumed(found)));
         }
-        Ok((resumable, found))
+        let partial = &resumable.partial;
+        resumable.temporary.get_or_insert_with(|| Temporary::of(partial));
+        resumable.file.get_ref().set_len(0)?;
+        resumable.file.get_mut().rewind()?;
+        match earlier {
+            Some(earlier) => {
+                resumable.prolongs = Some(earlier.scene().to_owned());
+                Ok((resumable, Begun::Prolonged(earlier)))
+            }
+            // the checkpoint of a file that is prolonged stays until there is another one
+            None => resumable.remove_checkpoint().map(|()| (resumable, Begun::Anew)),
+        }
+    }
+
+    /// The rows begin here: the head is written.
+    pub(crate) fn end_head(&mut self) {
+        self.head = self.bytes;
+        self.hash = Sha256::new();
+    }
+
+    /// Writes the rows of the file that is prolonged.
+    pub(crate) fn copy_rows(&mut self, earlier: &Checkpoint) -> Result<(), Error> {
+        let mut file = File::open(&self.path)?;
+        file.seek(SeekFrom::Start(earlier.head))?;
+        io::copy(&mut BufReader::new(file).take(earlier.bytes - earlier.head), self)?;
+        Ok(())
     }
 
     /// The file's name when it is complete.
@@ -113,15 +167,22 @@ impl Resumable {
     }
 
     /// Whether the run of a complete file was begun again.
-    ///
-    /// A checkpoint without rows is that of the run that wrote the file, and ended just before it could remove it.
     pub(crate) fn is_begun_again(path: &Path) -> bool {
-        let has_rows = fs::metadata(beside(path, PARTIAL)).is_ok_and(|partial| partial.len() > 0);
-        if !has_rows {
-            // if it stays, the next run finds it again
-            let _ = fs::remove_file(beside(path, CHECKPOINT));
-        }
-        has_rows
+        fs::metadata(beside(path, PARTIAL)).is_ok_and(|partial| partial.len() > 0)
+    }
+
+    /// The last checkpoint of a complete file that is of the same scene with an earlier end, if the file was not changed.
+    pub(crate) fn earlier_end(path: &Path, identity: &Identity) -> Option<Checkpoint> {
+        let text = read_text(&beside(path, CHECKPOINT), LARGEST_CHECKPOINT).ok()?;
+        let earlier = Checkpoint::of_earlier_end(&text, identity)?;
+        let hash = hash_of_rows(&mut File::open(path).ok()?, &earlier).ok()?;
+        (hexadecimal(&hash.finalize()) == earlier.sha256).then_some(earlier)
+    }
+
+    /// The hash of the scene whose complete file a run that was stopped has begun to prolong.
+    pub(crate) fn prolongs(path: &Path, identity: &Identity) -> Option<String> {
+        let text = read_text(&beside(path, CHECKPOINT), LARGEST_CHECKPOINT).ok()?;
+        Checkpoint::read(&text, identity).ok()?.prolongs
     }
 
     /// Whether the partial file is from a run that wrote no checkpoint, or removed it.
@@ -145,14 +206,15 @@ impl Resumable {
         if length < checkpoint.bytes {
             return Err(self.refused(&self.partial, "is shorter than its checkpoint states"));
         }
-        io::copy(&mut BufReader::new(&*file).take(checkpoint.bytes), &mut Hashing(&mut self.hash))?;
+        self.hash = hash_of_rows(file, &checkpoint)?;
         if hexadecimal(&self.hash.clone().finalize()) != checkpoint.sha256 {
             return Err(self.refused(&self.partial, "was changed after its checkpoint was written"));
         }
         // rows after the checkpoint are written again
         file.set_len(checkpoint.bytes)?;
         file.seek(SeekFrom::Start(checkpoint.bytes))?;
-        self.bytes = checkpoint.bytes;
+        (self.bytes, self.head, self.kept) = (checkpoint.bytes, checkpoint.head, Some(checkpoint.n));
+        self.prolongs.clone_from(&checkpoint.prolongs);
         Ok(checkpoint)
     }
 
@@ -169,7 +231,9 @@ impl Resumable {
         let synchronized = self.file.flush().and_then(|()| self.file.get_ref().sync_data());
         synchronized.map_err(|error| self.not_written(&self.partial, error))?;
         let sha256 = hexadecimal(&self.hash.clone().finalize());
-        let checkpoint = Checkpoint { identity: self.identity.clone(), n, bytes: self.bytes, sha256, state, vectors };
+        let (identity, prolongs) = (self.identity.clone(), self.prolongs.clone());
+        let (bytes, head) = (self.bytes, self.head);
+        let checkpoint = Checkpoint { identity, n, bytes, head, sha256, state, prolongs, vectors };
         let text = checkpoint.to_text();
         if text.len() as u64 > LARGEST_CHECKPOINT {
             let message = format!("a checkpoint of this run is longer than {} MiB", LARGEST_CHECKPOINT >> 20);
@@ -179,6 +243,7 @@ impl Resumable {
         remove_new_checkpoint(&new)?;
         self.replace_checkpoint(&new, &text).map_err(|error| self.not_written(&new, error))?;
         self.temporary = None;
+        self.kept = Some(n);
         Ok(())
     }
 
@@ -200,9 +265,19 @@ impl Resumable {
         not_written(path, error, then)
     }
 
-    /// Gives the file its name.
-    pub(crate) fn finish(mut self) -> Result<(), Error> {
-        let written = self.file.flush().and_then(|()| self.file.get_ref().sync_all());
+    /// The bytes after the head.
+    pub(super) fn bytes_of_rows(&self) -> u64 {
+        self.bytes - self.head
+    }
+
+    /// Gives the file its name; a head that is known at the end replaces the one that it has.
+    pub(crate) fn finish(mut self, head: Option<&[u8]>) -> Result<(), Error> {
+        let mut written = self.file.flush();
+        if let Some(head) = head {
+            let file = self.file.get_mut();
+            written = written.and_then(|()| file.rewind()).and_then(|()| file.write_all(head));
+        }
+        let written = written.and_then(|()| self.file.get_ref().sync_all());
         written.map_err(|error| self.not_written(&self.partial, error))?;
         let rename = |partial: &Path| fs::rename(partial, &self.path);
         let renamed = match self.temporary.take() {
@@ -211,7 +286,7 @@ impl Resumable {
         };
         renamed.map_err(|error| self.not_written(&self.path, error))?;
         sync_folder(&self.path);
-        self.remove_checkpoint()
+        if self.kept.is_some_and(|n| self.identity.is_last(n)) { Ok(()) } else { self.remove_checkpoint() }
     }
 
     /// After a run that failed: its rows stay in the partial file if checkpoints are made.
@@ -246,6 +321,14 @@ impl Write for Resumable {
     fn flush(&mut self) -> io::Result<()> {
         Ok(())
     }
+}
+
+/// The hash of the rows that belong to a checkpoint; the head may be written anew.
+fn hash_of_rows(file: &mut File, checkpoint: &Checkpoint) -> io::Result<Sha256> {
+    let mut hash = Sha256::new();
+    file.seek(SeekFrom::Start(checkpoint.head))?;
+    io::copy(&mut BufReader::new(file).take(checkpoint.bytes - checkpoint.head), &mut Hashing(&mut hash))?;
+    Ok(hash)
 }
 
 /// Hashes the bytes that are written to it.

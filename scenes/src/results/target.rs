@@ -12,7 +12,7 @@ use crate::observer::Observer;
 use crate::results::checkpoint::{Checkpoint, Identity};
 use crate::results::options::FileOptions;
 use crate::results::origin::{METADATA, Origin};
-use crate::results::resumable::{CHECKPOINT, NEW_CHECKPOINT, Resumable, beside};
+use crate::results::resumable::{Begun, CHECKPOINT, NEW_CHECKPOINT, Resumable, beside};
 use crate::saved_state::{SavedState, SavedVector};
 use crate::scene::Scene;
 use crate::whole_file::destination;
@@ -55,7 +55,7 @@ impl<'a> Target<'a> {
         scene: &Scene,
         options: FileOptions,
         observer: &mut dyn Observer,
-    ) -> Result<Option<(Target<'a>, Option<Checkpoint>)>, Error> {
+    ) -> Result<Option<(Target<'a>, Begun)>, Error> {
         let Some((path, place)) = &scene.output.file else {
             return Err(no_file());
         };
@@ -66,15 +66,22 @@ impl<'a> Target<'a> {
             return Err(at_place(Error::usage("the file is the scene itself", "give it another name")));
         }
         let identity = Identity::of(scene);
-        let origin = Origin::of(path, scene.output.format, &[identity.scene()], identity.others());
-        origin.check(path, options).map_err(at_place)?;
+        let of_scene = |hash: &str| Origin::of(path, scene.output.format, &[hash], identity.others());
+        let origin = of_scene(identity.scene());
+        let saves = scene.output.checkpoint.is_some();
+        let is_allowed = saves && !options.restart && origin == Origin::Other;
+        let earlier = is_allowed.then(|| Resumable::earlier_end(path, &identity)).flatten();
+        let prolongs = earlier.as_ref().map(|earlier| earlier.scene().to_owned());
+        let prolongs = prolongs.or_else(|| is_allowed.then(|| Resumable::prolongs(path, &identity)).flatten());
+        if prolongs.is_none_or(|earlier| of_scene(&earlier) != Origin::Same) {
+            origin.check(path, options).map_err(at_place)?;
+        }
         if origin == Origin::Same && !options.restart && !Resumable::is_begun_again(path) {
             return Ok(None);
         }
-        let saves = scene.output.checkpoint.is_some();
-        let opened = Resumable::open(path, identity, saves, options, observer);
-        let (file, checkpoint) = opened.map_err(at_place)?;
-        Ok(Some((Target::File(Box::new(file)), checkpoint)))
+        let opened = Resumable::open(path, identity, (saves, earlier), options, observer);
+        let (file, begun) = opened.map_err(at_place)?;
+        Ok(Some((Target::File(Box::new(file)), begun)))
     }
 
     /// The name of the file when it is complete; `None` for a writer.
@@ -93,10 +100,26 @@ impl<'a> Target<'a> {
         }
     }
 
-    pub(crate) fn finish(self) -> Result<(), Error> {
+    /// The head is written, and after it the rows of a file that is prolonged.
+    pub(crate) fn end_head(&mut self, earlier: Option<&Checkpoint>) -> Result<(), Error> {
+        let Target::File(file) = self else { return Ok(()) };
+        file.end_head();
+        earlier.map_or(Ok(()), |earlier| file.copy_rows(earlier))
+    }
+
+    /// The bytes after the head; 0 of a writer.
+    pub(super) fn bytes_of_rows(&self) -> u64 {
+        match self {
+            Target::Writer(_) => 0,
+            Target::File(file) => file.bytes_of_rows(),
+        }
+    }
+
+    /// Completes it; a head that is known at the end replaces one of the same length.
+    pub(super) fn finish(self, head: Option<&[u8]>) -> Result<(), Error> {
         match self {
             Target::Writer(writer) => Ok(writer.flush()?),
-            Target::File(file) => file.finish(),
+            Target::File(file) => file.finish(head),
         }
     }
 

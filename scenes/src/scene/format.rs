@@ -11,6 +11,8 @@ pub enum Format {
     Csv,
     /// A JSON object a line, one for each row; the metadata are in a file beside it.
     JsonLines,
+    /// An array of NumPy, a record for each row; the metadata are in a file beside it.
+    Numpy,
 }
 
 impl Format {
@@ -19,7 +21,13 @@ impl Format {
         match file.rsplit_once('.')?.1 {
             "csv" => Some(Format::Csv),
             "jsonl" => Some(Format::JsonLines),
+            "npy" => Some(Format::Numpy),
             _ => None,
         }
+    }
+
+    /// Whether the file itself has the metadata.
+    pub(crate) fn has_metadata(self) -> bool {
+        self == Format::Csv
     }
 }

@@ -25,6 +25,10 @@ pub struct Outputs {
     pub trajectory: Option<u64>,
     /// The surface at whose crossings positions and momenta are written.
     pub section: Option<Surface>,
+    /// Columns of expressions, each with their period.
+    pub values: Vec<ValueColumns>,
+    /// Expressions whose least and greatest values the summary has.
+    pub extremes: Vec<NamedExpression>,
     /// The period of the indicators of chaos.
     pub chaos: Option<u64>,
     /// How often a checkpoint is made.
@@ -36,10 +40,42 @@ pub struct Outputs {
 }
 
 impl Outputs {
+    /// Whether anything is written.
+    pub fn has_rows(&self) -> bool {
+        let periods = [self.energy, self.chaos];
+        periods.iter().any(Option::is_some)
+            || (self.modified_energy.is_some() || self.has_states() || !self.values.is_empty())
+    }
+
+    /// The columns of expressions.
+    pub fn named_values(&self) -> impl Iterator<Item = &NamedExpression> {
+        self.values.iter().flat_map(|columns| &columns.expressions)
+    }
+
     /// Whether positions and momenta are written.
     pub fn has_states(&self) -> bool {
         self.trajectory.is_some() || self.section.is_some()
     }
+}
+
+/// Expressions that are columns of rows.
+#[derive(Clone, Debug)]
+pub struct ValueColumns {
+    /// Their period.
+    pub every: u64,
+    /// The columns.
+    pub expressions: Vec<NamedExpression>,
+}
+
+/// An expression with its name, which has a place in the scene.
+#[derive(Clone, Debug)]
+pub struct NamedExpression {
+    /// The name.
+    pub name: String,
+    /// Its place.
+    pub at: Range<usize>,
+    /// The expression, which was checked for the system.
+    pub expression: Expression,
 }
 
 /// A surface of section: where a function of q and p is 0.

@@ -11,6 +11,9 @@ use crate::scene::parameters::values;
 
 const READ: &str = "the numbers of bodies and properties were read with the scene";
 
+/// The energy of two bodies of [[body]].
+pub(crate) const GRAVITY: &str = "-g*m_i*m_j/sqrt(r2)";
+
 /// U = Σ u over all pairs of bodies, over those closer than a cutoff, or over those of neighbours in a chain.
 #[derive(Debug)]
 pub struct PairEnergy {
@@ -76,6 +79,11 @@ impl PairCutoff {
 }
 
 impl PairEnergy {
+    /// Whether the bodies are in a periodic box.
+    pub(crate) fn is_in_box(&self) -> bool {
+        self.cutoff.as_ref().is_some_and(|cutoff| cutoff.sides.is_some())
+    }
+
     /// U, with properties and parameters rounded once.
     pub(crate) fn potential<N: Number + 'static>(
         &self,

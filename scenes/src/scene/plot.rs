@@ -1,7 +1,5 @@
 //! What charts of a run show: energies in time, orbits, distances of bodies.
 
-mod bodies;
-
 use std::ops::Range;
 use std::path::PathBuf;
 
@@ -9,7 +7,7 @@ use shadowstep_symbolic::nearest;
 use thiserror::Error;
 
 use crate::scene::System;
-use bodies::Bodies;
+use crate::scene::bodies::Bodies;
 
 /// More curves in one chart cannot be told apart.
 pub const MOST_CURVES: usize = 12;

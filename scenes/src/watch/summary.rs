@@ -4,6 +4,7 @@ use std::fmt;
 
 use serde::ser::SerializeStruct;
 use serde::{Serialize, Serializer};
+use serde_json::json;
 use shadowstep::Rational;
 use shadowstep_symbolic::decimal::{from_text, to_significant, to_text};
 
@@ -32,11 +33,24 @@ pub struct Summary {
     pub(crate) closest: Vec<Encounter>,
     /// Of planets.
     pub(crate) interactions: Option<Interactions>,
+    /// The least and the greatest values of expressions.
+    pub(crate) extremes: Vec<Extreme>,
     pub(crate) fine: bool,
     pub(crate) verdict: String,
     /// The verdict, with the size of a bounded error.
     pub(crate) conclusion: String,
     pub(crate) reason: String,
+}
+
+/// The least and the greatest value of an expression, each with the n of its state.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Extreme {
+    /// Its name.
+    pub name: String,
+    /// The least value.
+    pub least: (String, i64),
+    /// The greatest value.
+    pub greatest: (String, i64),
 }
 
 /// The error of H: H(t) − H(0).
@@ -152,6 +166,19 @@ impl Summary {
         self.interactions.as_ref()
     }
 
+    /// The least and the greatest values of expressions.
+    pub fn extremes(&self) -> &[Extreme] {
+        &self.extremes
+    }
+
+    fn extremes_text(&self) -> Option<String> {
+        let at = |(value, n): &(String, i64)| format!("{} at {}", value_text(value), self.time(*n));
+        let one =
+            |Extreme { name, least, greatest }: &Extreme| format!("{name} from {} to {}", at(least), at(greatest));
+        let all = self.extremes.iter().map(one).collect::<Vec<_>>().join("; ");
+        (!all.is_empty()).then_some(all)
+    }
+
     /// The time of the steps with its letter.
     fn time(&self, n: i64) -> String {
         let letter = if self.transformed { 's' } else { 't' };
@@ -195,6 +222,11 @@ impl Summary {
 /// How many of the closest encounters the text has.
 const SHOWN: usize = 3;
 
+/// Eight digits of a value.
+fn value_text(text: &str) -> String {
+    from_text(text).map_or_else(|_| text.to_owned(), |value| to_significant(&value, 8))
+}
+
 /// Three digits of a number.
 fn short(text: &str) -> String {
     // numbers of a run that was lost may be too large to be read: their first digits, not rounded
@@ -218,7 +250,8 @@ impl fmt::Display for Summary {
             ("modified energy", self.modified_energy_text()),
             ("close encounters", self.encounters_text(SHOWN)),
         ];
-        let facts = facts.into_iter().chain(planets).chain([("verdict", self.verdict_with_reason())]);
+        let extremes = self.extremes_text().map(|text| ("values", text));
+        let facts = facts.into_iter().chain(planets).chain(extremes).chain([("verdict", self.verdict_with_reason())]);
         for (name, fact) in facts {
             let lines = wrapped_to(&fact, &" ".repeat(20), 80);
             write!(f, "\n  {name:<18}{}", lines.trim())?;
@@ -235,12 +268,21 @@ impl Serialize for Summary {
             t: String,
             steps: i64,
         }
-        let closest = self.closest.iter().map(|Encounter { n, steps }| Passage {
-            n: *n,
-            t: to_text(&(&self.h * Rational::from_integer((*n).into()))),
-            steps: *steps,
-        });
-        let mut object = serializer.serialize_struct("Summary", 9 + usize::from(self.interactions.is_some()))?;
+        let time = |n: i64| to_text(&(&self.h * Rational::from_integer(n.into())));
+        let closest = self.closest.iter().map(|Encounter { n, steps }| Passage { n: *n, t: time(*n), steps: *steps });
+        #[derive(Serialize)]
+        struct State<'a> {
+            value: &'a str,
+            n: i64,
+            t: String,
+        }
+        let state = |(value, n): &'_ (String, i64)| json!(State { value, n: *n, t: time(*n) });
+        let extreme = |found: &Extreme| {
+            (found.name.clone(), json!({ "least": state(&found.least), "greatest": state(&found.greatest) }))
+        };
+        let extremes: serde_json::Map<_, _> = self.extremes.iter().map(extreme).collect();
+        let fields = 9 + usize::from(self.interactions.is_some()) + usize::from(!extremes.is_empty());
+        let mut object = serializer.serialize_struct("Summary", fields)?;
         object.serialize_field("from", &self.from)?;
         object.serialize_field("to", &self.to)?;
         object.serialize_field("energy_error", &self.energy)?;
@@ -249,6 +291,9 @@ impl Serialize for Summary {
         object.serialize_field("closest_encounters", &closest.collect::<Vec<_>>())?;
         if let Some(interactions) = &self.interactions {
             object.serialize_field("planets", interactions)?;
+        }
+        if !extremes.is_empty() {
+            object.serialize_field("extremes", &extremes)?;
         }
         object.serialize_field("verdict", &self.verdict)?;
         object.serialize_field("reason", &self.reason)?;

@@ -43,9 +43,14 @@ impl Text {
         Text { value: text.to_owned(), at: 0..text.len(), begin: Some(0) }
     }
 
+    /// A text that the value at this place stands for.
+    pub fn at(text: &str, at: Range<usize>) -> Text {
+        Text { value: text.to_owned(), at, begin: None }
+    }
+
     /// A key as a text.
     pub fn of_key(key: &Spanned<DeString<'_>>) -> Text {
-        Text { value: key.get_ref().to_string(), at: key.span(), begin: None }
+        Text::at(key.get_ref(), key.span())
     }
 
     /// The place in the document of a byte range of the text; the whole value where escapes stand for some of the text.

@@ -84,15 +84,14 @@ pub(super) fn scene(reader: &mut Reader<'_>, root: &DeTable<'_>, axes: &Axes, ke
             reader.fault(&place(root, axis), message, hint);
         }
     }
-    let differences = keep.first_time.iter().map(|(_, condition)| condition.difference());
-    keep.at_end.iter().map(|(_, end)| end).chain(differences).for_each(|text| system.check(text, reader));
+    keep.formulas().for_each(|text| system.check(text, reader));
     let at = root.get("keep").map_or(0..0, |keep| keep.span());
     let output = &scene.output;
     if keep.needs(Need::Estimates) && output.modified_energy.is_none() {
         let hint = "add modified_energy = { estimator = \"bilinear\", order = 16 } to [output] of the scene";
         reader.fault(&at, "drift and permanent_change require an estimator", hint);
     }
-    if keep.rows && output.energy.is_none() && output.modified_energy.is_none() && !output.has_states() {
+    if keep.rows && !output.has_rows() {
         reader.fault(&at, "rows require [output] in the scene", "add output.trajectory = { every = 10 }, for example");
     }
 }
@@ -101,10 +100,9 @@ pub(super) fn scene(reader: &mut Reader<'_>, root: &DeTable<'_>, axes: &Axes, ke
 pub(super) fn columns(reader: &mut Reader<'_>, root: &DeTable<'_>, axes: &Axes, keep: &Keep, columns: &[Column]) {
     let mut named: Vec<(&str, bool, Range<usize>)> =
         axes.all().iter().map(|axis| (axis.name.as_str(), axis.is_numeric(), place(root, axis))).collect();
-    let formulas = || keep.first_time.iter().map(|(text, _)| text).chain(keep.at_end.iter().map(|(text, _)| text));
     let section = root.get("keep").map_or(0..0, |keep| keep.span());
     for Column { name, is_number, .. } in columns {
-        let formula = formulas().find(|text| text.value == *name).map(|text| text.at.clone());
+        let formula = keep.named().find(|text| text.value == *name).map(|text| text.at.clone());
         named.push((name, *is_number, formula.unwrap_or(section.clone())));
     }
     let mut seen = BTreeSet::new();

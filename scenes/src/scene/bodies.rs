@@ -7,14 +7,14 @@ use shadowstep_symbolic::nearest;
 use crate::scene::{PotentialEnergy, System};
 
 /// Bodies whose coordinates follow each other.
-pub(super) struct Bodies {
-    pub(super) names: Vec<String>,
-    pub(super) dimensions: usize,
+pub(crate) struct Bodies {
+    pub(crate) names: Vec<String>,
+    pub(crate) dimensions: usize,
 }
 
 impl Bodies {
     /// Those with coordinates such as x_sun, y_sun, x_jupiter, y_jupiter, or those of a sum over pairs; `None` without bodies.
-    pub(super) fn of(system: &System) -> Option<Bodies> {
+    pub(crate) fn of(system: &System) -> Option<Bodies> {
         Bodies::named(system).or_else(|| match &system.potential {
             PotentialEnergy::Pairs(pairs) => {
                 let names = (1..=pairs.bodies).map(|body| body.to_string()).collect();
@@ -35,7 +35,7 @@ impl Bodies {
     }
 
     /// The number of a value of the first body among those of the states: `x` or `px`.
-    pub(super) fn axis(&self, name: &str, momenta: usize) -> Option<usize> {
+    pub(crate) fn axis(&self, name: &str, momenta: usize) -> Option<usize> {
         let axes: &[&str] = if self.dimensions == 1 { &["q"] } else { &AXES[..self.dimensions] };
         let (axis, begin) = match name {
             "p" if self.dimensions == 1 => ("q", momenta),
@@ -45,7 +45,7 @@ impl Bodies {
     }
 
     /// The coordinates of a body among those of the states.
-    pub(super) fn coordinates(&self, body: usize) -> Range<usize> {
+    pub(crate) fn coordinates(&self, body: usize) -> Range<usize> {
         body * self.dimensions..(body + 1) * self.dimensions
     }
 
@@ -53,7 +53,7 @@ impl Bodies {
     ///
     /// # Errors
     /// Which bodies there are.
-    pub(super) fn number(&self, name: &str) -> Result<usize, String> {
+    pub(crate) fn number(&self, name: &str) -> Result<usize, String> {
         self.names.iter().position(|known| known == name).ok_or_else(|| {
             match (nearest(name, self.names.iter().map(String::as_str)), &self.names[..]) {
                 (Some(near), _) => format!("did you mean `{near}`?"),

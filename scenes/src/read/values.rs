@@ -1,0 +1,91 @@
+//! `values`, `elements` and `extremes` in [output]: expressions as columns, and their least and greatest values.
+
+use shadowstep_schemes::document::{Section, Text, Value};
+use toml::de::DeValue;
+
+use super::names::check_name;
+use super::output::every;
+use super::reader::Reader;
+use crate::expression::{Expression, named};
+use crate::quantity::{BARYCENTRE, JACOBI, elements_of};
+use crate::scene::{COLUMNS, NamedExpression, System, ValueColumns};
+use crate::steps::MOST_STEPS;
+
+/// The key that gives the period of values.
+const EVERY: &str = "every";
+
+/// The columns of `values` and `elements`.
+pub(super) fn columns(reader: &mut Reader<'_>, output: &Section<'_, '_>, system: Option<&System>) -> Vec<ValueColumns> {
+    let before = reader.toml.faults.len();
+    let mut found: Vec<ValueColumns> = Vec::new();
+    found.extend(output.get("values").and_then(|value| values(reader, value, system)));
+    found.extend(elements(reader, output, system));
+    let Some(system) = system else { return found };
+    let mut taken: Vec<&str> = COLUMNS.into_iter().chain(system.columns().map(String::as_str)).collect();
+    for NamedExpression { name, at, .. } in found.iter().flat_map(|columns| &columns.expressions) {
+        if taken.contains(&name.as_str()) {
+            reader.toml.fault(at, format!("there is another column `{name}`"), "give this one another name");
+        }
+        taken.push(name);
+    }
+    if reader.toml.faults.len() > before { Vec::new() } else { found }
+}
+
+/// `values = { r = "sqrt(x^2 + y^2)", every = 10 }`
+fn values(reader: &mut Reader<'_>, value: &Value<'_>, system: Option<&System>) -> Option<ValueColumns> {
+    let DeValue::Table(table) = value.get_ref() else {
+        return reader.toml.wrong_kind(value, "a table of names with formulas: { r = \"sqrt(x^2 + y^2)\" }");
+    };
+    let every = table.iter().find(|(key, _)| key.get_ref().as_ref() == EVERY).map(|(_, value)| value);
+    let every = every.map_or(Some(1), |value| reader.whole(value, 1..=MOST_STEPS))?;
+    let expressions = expressions(reader, value, system)?;
+    Some(ValueColumns { every, expressions })
+}
+
+/// `extremes = { r = "sqrt(x^2 + y^2)" }`
+pub(super) fn extremes(
+    reader: &mut Reader<'_>,
+    output: &Section<'_, '_>,
+    system: Option<&System>,
+) -> Vec<NamedExpression> {
+    output.get("extremes").and_then(|value| expressions(reader, value, system)).unwrap_or_default()
+}
+
+/// The formulas of a table, the period excepted.
+fn expressions(reader: &mut Reader<'_>, value: &Value<'_>, system: Option<&System>) -> Option<Vec<NamedExpression>> {
+    let before = reader.toml.faults.len();
+    let mut found = Vec::new();
+    for (name, text) in named(&mut reader.toml, value, |name| name != EVERY)? {
+        check_name(reader, &name);
+        let expression = Expression::new(text);
+        if let Some(system) = system {
+            system.check(&expression, &mut reader.toml);
+        }
+        found.push(NamedExpression { name: name.value, at: name.at, expression });
+    }
+    if found.is_empty() && reader.toml.faults.len() == before {
+        reader.toml.fault(&value.span(), "there is no formula", "write { r = \"sqrt(x^2 + y^2)\" }, for example");
+    }
+    (reader.toml.faults.len() == before).then_some(found)
+}
+
+/// `elements = true`, or `{ every = 10, centre = "jacobi" }`: those of all bodies but the first.
+fn elements(reader: &mut Reader<'_>, output: &Section<'_, '_>, system: Option<&System>) -> Option<ValueColumns> {
+    let (every, table) = every(reader, output, "elements", "output.elements")?;
+    let words = [("heliocentric", None), ("jacobi", Some(JACOBI)), ("barycentric", Some(BARYCENTRE))];
+    let centre = table.as_ref().and_then(|table| table.get("centre"));
+    let centre = centre.map_or(Some(None), |value| reader.word(value, &words))?;
+    let (system, at) = (system?, output.get("elements")?.span());
+    let mut expressions = Vec::new();
+    for (name, formula) in elements_of(system, centre) {
+        let expression = Expression::new(Text::at(&formula, at.clone()));
+        expressions.push(NamedExpression { name, at: at.clone(), expression });
+    }
+    let Some(NamedExpression { expression, .. }) = expressions.first() else {
+        let help = "write `values` with formulas in its coordinates and momenta";
+        return reader.toml.wrong(&at, "this system has no bodies with orbits", help);
+    };
+    let before = reader.toml.faults.len();
+    system.check(expression, &mut reader.toml);
+    (reader.toml.faults.len() == before).then_some(ValueColumns { every, expressions })
+}

@@ -1,0 +1,197 @@
+//! Expressions along a run: columns of rows, and their least and greatest values.
+
+use shadowstep::steps::integrator::{VectorIntegrator, at_output};
+
+use crate::computation::RunNumber;
+use crate::evaluator::Evaluator;
+use crate::run::Run;
+use crate::scene::{NamedExpression, System, ValueColumns};
+use crate::watch::summary::Extreme;
+
+/// The evaluator of an expression that was checked with its scene.
+fn evaluator<N: RunNumber>(named: &NamedExpression, system: &System, context: &N::Context) -> Evaluator<N> {
+    Evaluator::of_run(&named.expression, system, context).expect("it was checked with the scene")
+}
+
+/// The columns of expressions with one period.
+pub(crate) struct ValuesOfRows<'a, N: RunNumber> {
+    pub(crate) every: u64,
+    columns: &'a [NamedExpression],
+    evaluators: Vec<Evaluator<N>>,
+}
+
+/// A state in the coordinates of the steps with its time, and H where it is needed.
+type StateOfRow<'s, N> = ((&'s [N], &'s [N]), &'s N, Option<&'s N>);
+
+impl<'a, N: RunNumber> ValuesOfRows<'a, N> {
+    pub(crate) fn new(columns: &'a ValueColumns, system: &System, context: &N::Context) -> Self {
+        let evaluators = columns.expressions.iter().map(|named| evaluator(named, system, context)).collect();
+        ValuesOfRows { every: columns.every, columns: &columns.expressions, evaluators }
+    }
+
+    /// Whether a formula has E.
+    pub(crate) fn needs_energy(&self) -> bool {
+        self.columns.iter().any(|named| named.expression.has_energy)
+    }
+
+    /// Appends the values at a state, or nothing for each column.
+    pub(crate) fn append(&mut self, state: Option<StateOfRow<'_, N>>, values: &mut Vec<(&'a str, Option<N>)>) {
+        for (named, evaluator) in self.columns.iter().zip(&mut self.evaluators) {
+            let value = state.map(|(state, time, energy)| {
+                let energy = || energy.expect("it is computed where a formula has it").clone();
+                evaluator.value_at(state, time, energy).clone()
+            });
+            values.push((&named.name, value.filter(N::is_finite)));
+        }
+    }
+}
+
+/// The least and the greatest values of expressions, over states in the order of time.
+pub(crate) struct Extremes<'a, N: RunNumber>(Vec<ExtremesOfOne<'a, N>>);
+
+struct ExtremesOfOne<'a, N: RunNumber> {
+    name: &'a str,
+    evaluator: Evaluator<N>,
+    /// The least and the greatest value so far, each with the n of its first state.
+    found: Option<[(N, i64); 2]>,
+}
+
+impl<'a, N: RunNumber> Extremes<'a, N> {
+    pub(crate) fn new(expressions: &'a [NamedExpression], system: &System, context: &N::Context) -> Self {
+        let one = |named: &'a NamedExpression| ExtremesOfOne {
+            name: &named.name,
+            evaluator: evaluator(named, system, context),
+            found: None,
+        };
+        Extremes(expressions.iter().map(one).collect())
+    }
+
+    pub(crate) fn is_empty(&self) -> bool {
+        self.0.is_empty()
+    }
+
+    /// Takes the state n, at which the system is; values that are not finite are left out.
+    pub(crate) fn include(&mut self, n: i64, run: Run<'_>, integrator: &mut VectorIntegrator<'_, N>) {
+        if self.is_empty() {
+            return;
+        }
+        at_output(integrator, |integrator| {
+            for one in &mut self.0 {
+                let value = one.evaluator.value(integrator.system(), || run.time(n));
+                match &mut one.found {
+                    _ if !value.is_finite() => {}
+                    None => one.found = Some([(value.clone(), n), (value.clone(), n)]),
+                    Some([least, _]) if *value < least.0 => *least = (value.clone(), n),
+                    Some([_, greatest]) if *value > greatest.0 => *greatest = (value.clone(), n),
+                    Some(_) => {}
+                }
+            }
+        });
+    }
+
+    /// What was found, in the order of the text.
+    pub(crate) fn found(&self) -> Vec<Extreme> {
+        let one = |one: &ExtremesOfOne<'_, N>| {
+            let [least, greatest] = one.found.as_ref()?.each_ref().map(|(value, n)| (value.to_text(), *n));
+            Some(Extreme { name: one.name.to_owned(), least, greatest })
+        };
+        self.0.iter().filter_map(one).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::Scene;
+    use crate::watch::summary::Summary;
+    use shadowstep::tables::{Faults, Source};
+
+    fn read(more: &str, output: &str) -> Result<Scene, Faults> {
+        let text = format!(
+            "{more}\n[run]\nscheme = \"yoshida4\"\nstep = \"1/10\"\nsteps = 100\ndigits = \"double\"\n[output]\n{output}"
+        );
+        Scene::read(Source { path: "test.toml".to_owned(), text })
+    }
+
+    const KEPLER: &str = "problem.name = \"kepler\"";
+
+    /// Keeps the summary.
+    struct Keep(Option<Summary>);
+
+    impl crate::Observer for Keep {
+        fn summarises(&self) -> bool {
+            true
+        }
+
+        fn summary(&mut self, summary: &Summary) {
+            self.0 = Some(summary.clone());
+        }
+    }
+
+    fn run(scene: &Scene) -> (Vec<Vec<String>>, Summary) {
+        let (mut rows, mut keep) = (Vec::new(), Keep(None));
+        scene.run_into(&mut rows, &mut keep).unwrap();
+        let text = String::from_utf8(rows).unwrap();
+        let rows = text.lines().filter(|line| !line.starts_with('#'));
+        (rows.map(|line| line.split(',').map(str::to_owned).collect()).collect(), keep.0.unwrap())
+    }
+
+    /// Values are those of the state in the same row, with estimates and without, and extremes those of all rows.
+    #[test]
+    fn columns_and_extremes_are_of_the_states() {
+        for modified in ["", "modified_energy = { estimator = \"bilinear\", order = 6 }\n"] {
+            for problem in [KEPLER, "problem.name = \"kepler\"\ntime.transform = \"logarithmic\""] {
+                let output = format!(
+                    "{modified}energy = true\ntrajectory = true\nvalues = {{ x2 = \"2*x\", T = \"E + 0*t\", w = \"t/2\" }}\nextremes = {{ x = \"x\" }}"
+                );
+                let (rows, summary) = run(&read(problem, &output).unwrap());
+                let column = |name: &str| rows[0].iter().position(|found| found == name).unwrap();
+                let number = |row: &[String], name: &str| row[column(name)].parse::<f64>().unwrap();
+                for row in &rows[1..] {
+                    assert_eq!(number(row, "x2"), 2.0 * number(row, "x"), "{row:?}");
+                    assert_eq!(number(row, "w"), number(row, "t") / 2.0);
+                    assert_eq!(row[column("T")], row[column("energy")]);
+                }
+                let all = || rows[1..].iter().map(|row| (number(row, "x"), number(row, "n")));
+                let least = all().min_by(|a, b| a.0.total_cmp(&b.0)).unwrap();
+                let greatest = all().max_by(|a, b| a.0.total_cmp(&b.0)).unwrap();
+                let found = &summary.extremes()[0];
+                let of = |(value, n): &(String, i64)| (value.parse::<f64>().unwrap(), *n as f64);
+                assert_eq!((of(&found.least), of(&found.greatest)), (least, greatest));
+            }
+        }
+    }
+
+    #[test]
+    fn values_have_their_period() {
+        let (rows, summary) =
+            run(&read(KEPLER, "energy = { every = 50 }\nvalues = { r = \"log(x)\", every = 20 }").unwrap());
+        let written = |column: usize| {
+            rows[1..]
+                .iter()
+                .filter(|row| !row[column].is_empty())
+                .map(|row| row[0].clone())
+                .collect::<Vec<_>>()
+                .join(" ")
+        };
+        // where x < 0 the logarithm has no value
+        assert_eq!((&*written(2), &*written(3)), ("0 50 100", "0 60"));
+        assert!(summary.extremes().is_empty());
+    }
+
+    #[test]
+    fn faults_have_their_places() {
+        let fault = |output: &str| {
+            let Faults(faults) = read(KEPLER, output).map(drop).unwrap_err();
+            format!("{}:{}: {}", faults[0].line, faults[0].column, faults[0].message)
+        };
+        assert_eq!(fault("values = { x = \"y\" }"), "8:12: there is another column `x`");
+        assert_eq!(fault("values = { energy = \"y\" }"), "8:12: there is another column `energy`");
+        assert_eq!(fault("values = { \"r,s\" = \"y\" }"), "8:12: `r,s` is not a valid name");
+        assert!(fault("values = { r = \"y + z\" }").starts_with("8:21: unknown name `z`"));
+        assert_eq!(fault("values = { every = 3 }"), "8:10: there is no formula");
+        assert_eq!(
+            fault("extremes = { r = \"y\" }\nsummary = false"),
+            "8:12: extremes are in the summary, and `summary = false`"
+        );
+    }
+}
