@@ -5,7 +5,7 @@ use shadowstep_schemes::{Kinetic, Proved, parse, shipped, shipped_names, shipped
 use crate::analysis::Analysis;
 
 /// The shipped scheme of least effective error that is meant for every T(p) and claims this order; or the nearest higher
-/// order, or else the highest that there is. Processed schemes are left out. Only the schemes of one order are proved and analysed.
+/// order, or else the highest that there is. Processed schemes and those of multiple time steps are left out. Only the schemes of one order are proved and analysed.
 ///
 /// ```
 /// use shadowstep_analysis::best_for_every_kinetic;
@@ -16,7 +16,8 @@ use crate::analysis::Analysis;
 pub fn best_for_every_kinetic(order: u32) -> Option<&'static Proved> {
     let claim = |name: &'static str| {
         let table = parse::table(&shipped(name)?).0?;
-        (table.kinetic == Kinetic::Any && table.processor.is_none()).then_some((table.order.value, name))
+        (table.kinetic == Kinetic::Any && table.processor.is_none() && table.inner.is_none())
+            .then_some((table.order.value, name))
     };
     let claims: Vec<_> = shipped_names().into_iter().filter_map(claim).collect();
     let orders = || claims.iter().map(|(order, _)| *order);

@@ -10,6 +10,7 @@
 //! | `period` | the part that a step repeats: it is stable where the step is |
 //! | `powers` | double roots of the trace ∓ 2 that the repetitions within a step explain |
 //! | [`stability`], `roots`, `squarefree` | where the harmonic oscillator is stable: roots of integer polynomials |
+//! | [`resonance`] | where multiple time steps are in resonance with a fast oscillation |
 //! | `prime` | residues modulo a prime, for `bracket`, `squarefree` and `powers` |
 //! | `better` | [`best_for_every_kinetic`]: the shipped scheme to use for a T(p) that is not quadratic |
 //! | [`polish`](mod@polish) | a table of printed decimals → one whose order conditions hold to more digits |
@@ -25,6 +26,7 @@ mod period;
 pub mod polish;
 mod powers;
 mod prime;
+pub mod resonance;
 mod roots;
 pub mod sampling;
 mod squarefree;

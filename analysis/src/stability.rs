@@ -61,7 +61,7 @@ impl Stability {
     }
 
     /// Without the gaps that rounding of the weights may have opened where the trace only touches ±2.
-    fn resolved(self, held: Held) -> Stability {
+    pub(crate) fn resolved(self, held: Held) -> Stability {
         let Held::Digits(digits) = held else { return self };
         let rounding = 10_f64.powi(DIGITS_LOST - digits as i32);
         let gaps: Vec<_> = self.gaps.into_iter().filter(|gap| gap.width > rounding).collect();

@@ -16,7 +16,7 @@ use shadowstep_scenes::estimator::{ACCURACY_HINT, conflict, order_setting};
 use shadowstep_scenes::library::NamedScheme;
 use shadowstep_scenes::propagator::Propagator;
 use shadowstep_scenes::run::{OrderSetting, Run};
-use shadowstep_scenes::stability::{few_kicks, unstable};
+use shadowstep_scenes::stability::{few_kicks, resonant, unstable};
 
 /// Everything that is to be run.
 #[derive(Debug)]
@@ -100,7 +100,7 @@ impl Selection {
         let frequency = system.fastest_frequency();
         let note = |scheme, h| {
             let unstable = frequency.and_then(|frequency| unstable(frequency, scheme, h));
-            unstable.or_else(|| few_kicks(system, scheme, h))
+            unstable.or_else(|| few_kicks(system, scheme, h)).or_else(|| resonant(system, scheme, h))
         };
         for scheme in self.propagators.iter().filter_map(Propagator::scheme) {
             self.steps.iter().filter_map(|(h, _)| note(scheme, h.exact())).for_each(report::note);

@@ -176,5 +176,6 @@ fn describe(name: String, system: System) -> Described {
         PotentialEnergy::Own(own) => (name.clone(), format!("{kinetic} + {}", own.name())),
         PotentialEnergy::OfParts => (name.clone(), system.parts.hamiltonian().unwrap_or_default()),
     };
-    Described { name, title, hamiltonian, system }
+    let slow = system.parts.slow_forces().map_or_else(String::new, |slow| format!(" + {}", slow.described()));
+    Described { name, title, hamiltonian: hamiltonian + &slow, system }
 }

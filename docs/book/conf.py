@@ -33,7 +33,7 @@ CHAPTERS = {
         "docs/processed-schemes",
         "docs/errata-of-published-tables",
     ],
-    "Systems": ["docs/planets", "docs/linear-part", "docs/many-parts", "docs/transformed-time", "docs/explicit-time", "docs/magnetic-fields", "docs/liquids"],
+    "Systems": ["docs/planets", "docs/linear-part", "docs/many-parts", "docs/multiple-time-steps", "docs/transformed-time", "docs/explicit-time", "docs/magnetic-fields", "docs/liquids"],
     "Numbers": ["docs/numbers", "docs/round-off"],
     "Measurements": [
         "docs/work-precision",

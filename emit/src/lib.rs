@@ -153,6 +153,10 @@ fn lacks(proved: &Proved, target: Target) -> Option<(String, &'static str)> {
     if proved.proof.many_parts.is_some() {
         return Some(("is made for H of three parts and more".to_owned(), "emit the scheme for two parts"));
     }
+    if proved.scheme.inner.is_some() {
+        let hint = "emit the scheme that its table calls the base";
+        return Some(("has multiple time steps, for H of three parts".to_owned(), hint));
+    }
     let place = match target {
         Target::Openmm => "a CustomIntegrator of OpenMM",
         Target::Sundials => "a table of SPRKStep",

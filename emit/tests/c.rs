@@ -33,7 +33,8 @@ fn text(output: &Output) -> String {
 
 #[test]
 fn the_bits_and_the_orders_of_all_schemes() {
-    for name in shipped_names() {
+    let of_two_parts = |name: &&str| shipped(name).unwrap().proved().scheme.inner.is_none();
+    for name in shipped_names().into_iter().filter(of_two_parts) {
         let code = emit(&shipped(name).unwrap(), Target::C).unwrap();
         let output = self_test(&code, &["-ffp-contract=off"]);
         assert!(output.status.success(), "{name}: {}", text(&output));

@@ -9,7 +9,7 @@ use shadowstep_scenes::arithmetic::Arithmetic;
 use shadowstep_scenes::computation::{Computation, RunNumber};
 use shadowstep_scenes::integrate::{Integration, Samples};
 use shadowstep_scenes::run::{OrderSetting, Run};
-use shadowstep_scenes::stability::{few_kicks, unstable};
+use shadowstep_scenes::stability::{few_kicks, resonant, unstable};
 use shadowstep_scenes::{Error, Note, Observer, estimator};
 
 use crate::errors::exception;
@@ -79,7 +79,8 @@ impl SystemWithScheme {
         let frequency = system.fastest_frequency();
         let unstable = frequency.and_then(|frequency| unstable(frequency, &self.scheme, times.h.exact()));
         let few_kicks = few_kicks(system, &self.scheme, times.h.exact());
-        Ok((found, self.note.iter().cloned().chain(unstable).chain(few_kicks).collect()))
+        let resonant = resonant(system, &self.scheme, times.h.exact());
+        Ok((found, self.note.iter().cloned().chain(unstable).chain(few_kicks).chain(resonant).collect()))
     }
 }
 

@@ -10,7 +10,7 @@ use crate::note::Note;
 use crate::observer::Observer;
 use crate::results::{Begun, Checkpoint, Columns, FileOptions, Metadata, Rows, Target, records};
 use crate::scene::Scene;
-use crate::stability::{few_kicks, unstable};
+use crate::stability::{few_kicks, resonant, unstable};
 use crate::steps::End;
 
 impl Scene {
@@ -61,7 +61,7 @@ impl Scene {
         }
         let (scheme, h) = (&self.scheme, self.h.exact());
         let unstable = self.system.fastest_frequency().and_then(|frequency| unstable(frequency, scheme, h));
-        unstable.or_else(|| few_kicks(&self.system, scheme, h))
+        unstable.or_else(|| few_kicks(&self.system, scheme, h)).or_else(|| resonant(&self.system, scheme, h))
     }
 
     /// Where a condition ends the run, or that whole steps end before `until`.

@@ -64,7 +64,7 @@ pub(crate) const SECTIONS: [Section; 15] = [
 ];
 
 /// All keys, section by section.
-pub(crate) const KEYS: [Key; 85] = [
+pub(crate) const KEYS: [Key; 86] = [
     key(
         "problem",
         "name",
@@ -88,6 +88,15 @@ pub(crate) const KEYS: [Key; 85] = [
          coordinates are x1, y1, z1, x2, …, the momenta px1, py1, …; in one dimension q1, q2, … and p1, p2, ….",
         "\"-g*m_i*m_j/sqrt(r2)\"",
         Some("none; a `name` or a `potential` is given instead"),
+    ),
+    key(
+        "problem",
+        "slow",
+        "The slow part of U, a formula beside the `potential` or `pair`, which are then the fast part: H has three parts, slow forces, fast forces and T, \
+         for schemes with multiple time steps such as r-respa-4. Beside a `potential` it is a formula in the same names. Beside a `pair` it is one in r2 or d, \
+         whose sum is over all pairs of bodies whatever `neighbours` and `cutoff` are, or one in the coordinates x1, y1, ….",
+        "\"-g/sqrt(r2)\"",
+        Some("none"),
     ),
     key(
         "problem",

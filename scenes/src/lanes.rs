@@ -135,6 +135,7 @@ impl System {
             KineticEnergy::Masses(_) => false,
             KineticEnergy::Formula(formula) => formula_has_functions(formula.text()),
         };
+        let slow = self.parts.slow_forces().is_some_and(|slow| formula_has_functions(slow.text()));
         let potential = match &self.potential {
             PotentialEnergy::Shipped(setup) => setup.problem.has_functions(),
             PotentialEnergy::Formula(formula) => formula_has_functions(formula.text()),
@@ -144,7 +145,7 @@ impl System {
             }
             PotentialEnergy::Own(_) | PotentialEnergy::OfParts => true,
         };
-        kinetic || potential
+        kinetic || potential || slow
     }
 }
 

@@ -158,7 +158,7 @@ pub use results::{FileOptions, elementary_functions, hexadecimal};
 pub use scene::plot;
 pub use scene::split::{
     CanonicalCoordinates, Class, CloseEncounters, Formulas, KineticAndPotential, Linear, Needs, Planets,
-    ShownCoordinates, TransformedTime,
+    ShownCoordinates, SlowForces, TransformedTime,
 };
 pub use scene::{
     CheckpointInterval, Direction, EnergyAt, EnergyOfBodies, Format, Formula, InitialValueProblem, KineticEnergy,

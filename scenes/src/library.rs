@@ -100,7 +100,7 @@ impl NamedScheme {
         let own = self.scheme.proved();
         let scheme = self.scheme.summary().name;
         let shipped = tables::shipped(scheme).filter(|_| self.name != scheme)?;
-        let (own, shipped) = (own.scheme.maps(), shipped.proved().scheme.maps());
+        let (own, shipped) = (own.scheme.maps_of_both(), shipped.proved().scheme.maps_of_both());
         // the same table with more or fewer digits has these weights, too
         let rounding = Rational::new(1.into(), 1_000_000_000_000_i64.into());
         let is_near = |a: &Rational, b: &Rational| a - b < rounding && b - a < rounding;
@@ -116,7 +116,7 @@ pub fn weights_fingerprint(proved: &Proved) -> String {
         let weights = maps.iter().map(|map| format!("{:?} {}", map.kind, to_text(&map.weight)));
         weights.collect::<Vec<_>>().join(",")
     };
-    let step = text(&proved.scheme.maps());
+    let step = text(&proved.scheme.maps_of_both());
     fingerprint(&match &proved.scheme.processor {
         None => step,
         Some(processor) => format!("{step};{}", text(&processor.post)),
@@ -298,6 +298,23 @@ pub(crate) fn check_processor(named: &NamedScheme, none: Option<NoProcessor>) ->
             Err(Refusal::new(message, none.hint))
         }
     }
+}
+
+/// Whether a scheme can advance H of this number of parts.
+///
+/// # Errors
+/// A scheme with an inner scheme for H of other than three parts.
+pub(crate) fn check_inner(named: &NamedScheme, parts: usize) -> Result<(), Refusal> {
+    if parts == 3 || named.scheme.proved().scheme.inner.is_none() {
+        return Ok(());
+    }
+    let message =
+        format!("{} has multiple time steps, for slow forces, fast forces and T; here H has {parts} parts", named.name);
+    let hint = match parts {
+        2 => "split the potential: write its slow part as `slow`, or H as three `parts`, of which T is the last",
+        _ => "write three parts: the slow forces first, then the fast ones, then T",
+    };
+    Err(Refusal::new(message, hint))
 }
 
 /// The text of the table that a word means: a shipped one, or a file.

@@ -77,6 +77,17 @@ pub enum Note {
         /// How many kicks a revolution should have.
         least: f64,
     },
+    /// A step with multiple time steps is so long that fast oscillations may be in resonance with the slow kicks.
+    Resonant {
+        /// The scheme's name.
+        scheme: String,
+        /// hω of the fastest oscillation of fast forces and T.
+        h_omega: String,
+        /// Its ω.
+        omega: String,
+        /// The least hω of a resonance, with slow forces of a hundredth of the stiffness.
+        from: String,
+    },
     /// Bodies have a property that looks like a mass, and T has masses of 1.
     MassesAreOne {
         /// The property's name.
@@ -171,6 +182,11 @@ impl fmt::Display for Note {
                      {limit}of {scheme}: {how}"
                 )
             }
+            Note::Resonant { scheme, h_omega, omega, from } => write!(
+                f,
+                "the fastest oscillation of fast forces and T has omega = {omega} at the start, and h omega = {h_omega}: from \
+                 {from} on, in intervals of h omega, oscillations are in resonance with the slow kicks of {scheme}"
+            ),
             Note::FewKicks { planet, steps, kicks, least } => {
                 let kicks = if *kicks == 1 { "1 kick".to_owned() } else { format!("{kicks} kicks") };
                 write!(

@@ -25,6 +25,7 @@ mod problem;
 mod reader;
 mod run;
 mod shipped;
+mod slow;
 mod time;
 mod units;
 mod values;

@@ -6,13 +6,14 @@ use shadowstep::Rational;
 use shadowstep::tables::TableScheme;
 use shadowstep_analysis::bracket::Bracket;
 use shadowstep_analysis::error::LeadingError;
+use shadowstep_analysis::resonance::{REPORTED, resonances};
 use shadowstep_analysis::stability::MOST_MAPS;
 use shadowstep_analysis::trace::Trace;
 use shadowstep_analysis::{self as analysis, Analysis, stability, trace};
 use shadowstep_schemes::proof::Order;
 use shadowstep_schemes::scheme::Held;
 use shadowstep_schemes::table::Table;
-use shadowstep_schemes::{ExactScheme, First, Kinetic, Proof, Proved, to_significant, to_text};
+use shadowstep_schemes::{ExactScheme, First, Kinetic, MapKind, Proof, Proved, to_significant, to_text};
 
 /// Digits of what a condition of rounded weights was found to be.
 const CONDITION_DIGITS: usize = 30;
@@ -60,6 +61,8 @@ pub struct SchemeRecord {
     notes: Vec<String>,
     /// `None` for a scheme that is not processed.
     processor: Option<Processor>,
+    /// `None` for a scheme without an inner one; the other values are of the outer scheme for two parts.
+    inner: Option<Inner>,
     /// The orders and errors of the kernel of a processed scheme, whose steps are made.
     kernel: Option<Orders>,
 }
@@ -79,6 +82,25 @@ struct Orders {
     effective_error_quadratic: f64,
     leading_error: ErrorRecord,
     leading_error_quadratic: ErrorRecord,
+}
+
+/// The inner scheme of multiple time steps, and what is proved of the step of slow forces, fast forces and T.
+#[derive(Debug, Serialize)]
+struct Inner {
+    base: String,
+    substeps: u32,
+    order: u32,
+    /// Evaluations of the fast forces, where these depend on q only.
+    fast_evaluations: usize,
+    resonances: Vec<Resonances>,
+}
+
+/// Where an oscillation is unstable whose slow forces have a part of the stiffness of the fast ones.
+#[derive(Debug, Serialize)]
+struct Resonances {
+    /// That part.
+    ratio: String,
+    gaps: Vec<Gap>,
 }
 
 /// The post-map of a processed scheme.
@@ -231,6 +253,7 @@ impl SchemeRecord {
             table_hash: Sha256::digest(&table.source.text).iter().map(|byte| format!("{byte:02x}")).collect(),
             notes: proved.notes.iter().map(ToString::to_string).collect(),
             processor: processor(proved),
+            inner: inner(proved),
         }
     }
 }
@@ -256,6 +279,23 @@ impl Orders {
             leading_error_quadratic: ErrorRecord::of(error_quadratic),
         }
     }
+}
+
+fn inner(proved: &Proved) -> Option<Inner> {
+    let inner = proved.scheme.inner.as_ref()?;
+    let (maps, _) = inner.step(&proved.scheme.maps());
+    let of_ratio = |parts: i64| {
+        let ratio = Rational::new(1.into(), parts.into());
+        let gaps = resonances(proved, &ratio)?.gaps.iter().map(Gap::of).collect();
+        Some(Resonances { ratio: to_text(&ratio), gaps })
+    };
+    Some(Inner {
+        base: inner.scheme.table.name.value.clone(),
+        substeps: inner.substeps,
+        order: proved.order().order,
+        fast_evaluations: maps.iter().filter(|map| map.kind == MapKind::Drift).count(),
+        resonances: REPORTED.into_iter().filter_map(of_ratio).collect(),
+    })
 }
 
 fn processor(proved: &Proved) -> Option<Processor> {

@@ -1,4 +1,4 @@
-//! Shipped scenes: each a file in `scenes/planets/`, `scenes/close-encounters/`, `scenes/many-parts/`, `scenes/schemes/` or `scenes/liquids/`.
+//! Shipped scenes: each a file in `scenes/planets/`, `scenes/close-encounters/`, `scenes/many-parts/`, `scenes/schemes/`, `scenes/liquids/` or `scenes/multiple-steps/`.
 
 use shadowstep::problems::{PROBLEMS, problem};
 use shadowstep_symbolic::suggestion;
@@ -18,13 +18,14 @@ pub struct ShippedScene {
 }
 
 /// All shipped scenes, by what they are of; those of shipped problems are [written](scene_text) as templates.
-pub const SHIPPED_SCENES: [(&str, &[ShippedScene]); 7] = [
+pub const SHIPPED_SCENES: [(&str, &[ShippedScene]); 8] = [
     ("planetary systems", &PLANETARY),
     ("close encounters", &ENCOUNTERS),
     ("three parts", &MANY_PARTS),
     ("explicit time", &EXPLICIT_TIME),
     ("magnetic fields", &MAGNETIC_FIELDS),
     ("liquids", &LIQUIDS),
+    ("multiple time steps", &MULTIPLE_STEPS),
     ("schemes with gradient kicks or processors", &SCHEMES),
 ];
 
@@ -150,6 +151,12 @@ const SCHEMES: [ShippedScene; 3] = [
         text: include_str!("../schemes/corrected-planets.toml"),
     },
 ];
+
+const MULTIPLE_STEPS: [ShippedScene; 1] = [ShippedScene {
+    name: "bead-spring-chain",
+    title: "A polymer of 16 beads: stiff bonds in substeps, Lennard-Jones forces in steps",
+    text: include_str!("../multiple-steps/bead-spring-chain.toml"),
+}];
 
 const LIQUIDS: [ShippedScene; 1] = [ShippedScene {
     name: "argon-liquid",

@@ -2,6 +2,7 @@
 
 use shadowstep::{Rational, Scheme as _};
 use shadowstep_analysis::oscillator::Oscillator;
+use shadowstep_analysis::resonance::resonances;
 use shadowstep_analysis::stability::Stability;
 
 use crate::frequency::Frequency;
@@ -24,6 +25,22 @@ pub fn unstable(frequency: Frequency, named: &NamedScheme, h: &Rational) -> Opti
         h_omega: format!("{h_omega:.4}"),
         omega: format!("{:.4}", frequency.omega),
         quadratic: frequency.quadratic,
+    })
+}
+
+/// A note if the fastest oscillation of fast forces and T is beyond the first resonance with the slow kicks of multiple time steps, for slow forces of a
+/// hundredth of its stiffness.
+pub fn resonant(system: &System, named: &NamedScheme, h: &Rational) -> Option<Note> {
+    system.parts.slow_forces()?;
+    let first = resonances(named.scheme.proved(), &Rational::new(1.into(), 100.into()))?.limit;
+    let omega = system.fastest_motion()?.omega;
+    let h_omega = omega * <f64 as shadowstep::Number>::from_rational(h, &()).abs();
+    let from = first.parse::<f64>().ok()?;
+    (h_omega > from).then(|| Note::Resonant {
+        scheme: named.name.clone(),
+        h_omega: format!("{h_omega:.4}"),
+        omega: format!("{omega:.4}"),
+        from: format!("{from:.4}"),
     })
 }
 

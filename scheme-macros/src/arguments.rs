@@ -7,11 +7,11 @@ use syn::{Data, DataStruct, DeriveInput, Fields, Ident, LitInt, LitStr, Token};
 /// The arguments that may follow the table.
 const KNOWN: &str = "`first = \"kick\"`, `first = \"drift\"` and `parts = 3`";
 
-/// The table, the optional choice of the first map, and whether H has three parts or more.
+/// The table, the optional choice of the first map, and the number of parts of H.
 pub(crate) struct Arguments {
     pub(crate) table: LitStr,
     pub(crate) first: Option<First>,
-    pub(crate) many_parts: bool,
+    pub(crate) parts: u32,
 }
 
 impl Parse for Arguments {
@@ -19,7 +19,7 @@ impl Parse for Arguments {
         if !input.peek(LitStr) {
             return Err(input.error("name a table in quotes: #[splitting_scheme(\"yoshida4.toml\")]"));
         }
-        let mut arguments = Arguments { table: input.parse()?, first: None, many_parts: false };
+        let mut arguments = Arguments { table: input.parse()?, first: None, parts: 2 };
         let mut seen: Vec<Ident> = Vec::new();
         while input.parse::<Option<Token![,]>>()?.is_some() && !input.is_empty() {
             let key: Ident = input.parse()?;
@@ -29,7 +29,7 @@ impl Parse for Arguments {
             input.parse::<Token![=]>()?;
             match key.to_string().as_str() {
                 "first" => arguments.first = Some(first(&input.parse()?)?),
-                "parts" => arguments.many_parts = many_parts(&input.parse()?)?,
+                "parts" => arguments.parts = parts(&input.parse()?)?,
                 _ => {
                     let message = format!("unknown argument `{key}`: {KNOWN} are known");
                     return Err(syn::Error::new(key.span(), message));
@@ -54,11 +54,10 @@ fn first(value: &LitStr) -> syn::Result<First> {
     }
 }
 
-/// Whether a number of parts is three or more, for which steps are the same.
-fn many_parts(value: &LitInt) -> syn::Result<bool> {
+/// A number of parts.
+fn parts(value: &LitInt) -> syn::Result<u32> {
     match value.base10_parse::<u32>() {
-        Ok(2) => Ok(false),
-        Ok(3..) => Ok(true),
+        Ok(count @ 2..) => Ok(count),
         _ => Err(syn::Error::new(value.span(), "H has two parts at least")),
     }
 }

@@ -276,21 +276,29 @@ fn documentation(proved: &Proved) -> Vec<String> {
         ],
     };
     let meant_for = match (&proved.proof.many_parts, table.kinetic) {
+        (Some(_), _) if proved.scheme.inner.is_some() => "H of slow forces, fast forces and T",
         (Some(_), _) => "H of three parts and more",
         (None, Kinetic::Any) => "every kinetic energy T(p)",
         (None, Kinetic::Quadratic) => "quadratic kinetic energy",
     };
     let doi = table.doi.as_ref().map_or(String::new(), |doi| format!(", <https://doi.org/{doi}>"));
-    let costs = match plan.middle.len() {
-        0 => format!(
+    let costs = match (plan.middle.len(), &proved.scheme.inner) {
+        (1.., Some(inner)) => format!(
+            " - Multiple time steps: a step evaluates the slow forces H_1 {} and the fast ones H_2 {}, in {} of `{}` for each drift of the outer scheme.",
+            times(plan.evaluations),
+            times(plan.count(MapKind::Drift)),
+            counted(inner.substeps as usize, "step"),
+            inner.scheme.table.name.value
+        ),
+        (0, _) => format!(
             " - A step costs {}{kept}{products_of_hessian}, and {products} multiplications and {products} additions per dimension with unit masses; β adds {beta} of both.",
             counted(plan.evaluations, "gradient"),
             products = cost.products_per_dimension,
             beta = cost.products_for_beta
         ),
-        between => format!(
+        (between, None) => format!(
             " - H_1 flows where a scheme for two parts has kicks, H_n where it has drifts, and {} H_2 … H_(n−1), in both orders by turns.",
-            if between == 1 { "once".to_owned() } else { format!("{between} times") }
+            times(between)
         ),
     };
     let mut lines = vec![
@@ -346,7 +354,8 @@ fn near_integrable(orders: &[Order]) -> String {
 
 fn proved_orders(proved: &Proved) -> String {
     if let Some(many_parts) = &proved.proof.many_parts {
-        return format!(" - Order {} for H of three parts and more: proved.", order(many_parts));
+        let more = if proved.scheme.inner.is_some() { "" } else { " and more" };
+        return format!(" - Order {} for H of three parts{more}: proved.", order(many_parts));
     }
     let quadratic = order(&proved.proof.quadratic);
     match proved.order_for_every_kinetic() {
@@ -357,6 +366,10 @@ fn proved_orders(proved: &Proved) -> String {
         }
         None => format!(" - Order {quadratic} for quadratic T: proved. A T(p) that is not quadratic is refused."),
     }
+}
+
+fn times(count: usize) -> String {
+    if count == 1 { "once".to_owned() } else { format!("{count} times") }
 }
 
 fn counted(count: usize, noun: &str) -> String {
@@ -379,6 +392,13 @@ mod tests {
     fn generated_code_for_many_parts() {
         let proved = read(&shipped("yoshida4").unwrap(), &|base, _| shipped(base)).unwrap().for_many_parts().unwrap();
         let code = super::scheme(&syn::parse_quote! { pub struct Yoshida4; }, &proved, &[]);
+        insta::assert_snapshot!(prettyplease::unparse(&syn::parse2(code).expect("generated code is Rust")));
+    }
+
+    #[test]
+    fn generated_code_with_an_inner_scheme() {
+        let proved = read(&shipped("r-respa-4").unwrap(), &|base, _| shipped(base)).unwrap().for_many_parts().unwrap();
+        let code = super::scheme(&syn::parse_quote! { pub struct Respa4; }, &proved, &[]);
         insta::assert_snapshot!(prettyplease::unparse(&syn::parse2(code).expect("generated code is Rust")));
     }
 

@@ -43,7 +43,7 @@ use locate::Locator;
 /// ```
 ///
 /// With `parts = 3` the steps are for H = H_1 + … + H_n of three parts and more, whatever their number
-/// (`shadowstep::systems::many_parts`).
+/// (`shadowstep::systems::many_parts`). A table with an inner scheme needs it: its steps are for slow forces, fast forces and T.
 ///
 /// The table is looked for beside the source file, then in the crate's root, then among the shipped ones. Its claims
 /// are proved; a claim that does not hold is a compile error that names the condition which fails. The struct gets
@@ -66,7 +66,14 @@ fn prove(arguments: &Arguments, locator: &Locator) -> Result<Proved, String> {
     let source = locator.find(&arguments.table.value())?;
     let library = |name: &str, from: &_| locator.base(name, from);
     let proved = read_first(&source, &library, arguments.first).map_err(|faults| faults.to_string())?;
-    if arguments.many_parts { proved.for_many_parts().map_err(|refused| refused.to_string()) } else { Ok(proved) }
+    match (&proved.scheme.inner, arguments.parts) {
+        (None, 2) => Ok(proved),
+        (None, _) | (Some(_), 3) => proved.for_many_parts().map_err(|refused| refused.to_string()),
+        (Some(_), count) => {
+            let name = &proved.scheme.table.name.value;
+            Err(format!("{name} has an inner scheme, whose steps are for three parts, not {count}: write `parts = 3`"))
+        }
+    }
 }
 
 /// A potential from its formula: the gradient and qᵀU_q − 2U are derived, for every type of numbers.

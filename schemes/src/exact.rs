@@ -17,7 +17,7 @@ use crate::document::{Fault, Source};
 use crate::library::Library;
 use crate::map::Stages;
 use crate::parse;
-use crate::scheme::{ExactProcessor, ExactScheme, Held};
+use crate::scheme::{ExactInner, ExactProcessor, ExactScheme, Held};
 use crate::shipped::shipped_hint;
 use crate::table::{Cell, MOST_STAGES, Table, Weights};
 
@@ -78,12 +78,18 @@ fn scheme_within(
         }
         Some(Weights::Composition { base, gamma }) => {
             let gamma = cells.weights(&gamma.value);
+            let base_at = base.at.clone();
             let (base, base_faults) = base_scheme(&table, base, library, digits, above);
             cells.faults.extend(base_faults);
             let size = base.as_ref().map_or(0, |base| gamma.len() * base.stages.kick.len());
             if size > MOST_UNMERGED {
-                cells.faults.push(too_long(&table, size));
+                cells.faults.push(table.too_long(size));
             }
+            let nested = base.as_ref().filter(|base| base.inner.is_some());
+            cells.faults.extend(nested.map(|base| {
+                let message = format!("{} has an inner scheme, which a base cannot have", base.table.name.value);
+                table.source.fault(&base_at, message).hint("compose its outer scheme, and write [inner] here")
+            }));
             base.filter(|_| size <= MOST_UNMERGED).map(|base| {
                 let stages = Stages::of(&base.stages.repeated(&gamma).maps());
                 (stages, cells.held().weaker(base.held), Some(Box::new(base)))
@@ -92,7 +98,7 @@ fn scheme_within(
     };
     let processor = weights.as_ref().and_then(|(_, held, base)| cells.processor(*held, base.as_deref()));
     if let Some((stages, ..)) = weights.as_ref().filter(|(stages, ..)| stages.kick.len() > MOST_STAGES) {
-        cells.faults.push(too_long(&table, stages.kick.len()));
+        cells.faults.push(table.too_long(stages.kick.len()));
     }
     if let Some((Stages { kick, gradient_kick, drift }, Held::Exactly, _)) = &weights
         && cells.faults.is_empty()
@@ -103,10 +109,21 @@ fn scheme_within(
         let hint = "round the weights, and write `digits = …`";
         cells.faults.push(table.source.fault(&table.name.at, message).hint(hint));
     }
+    let inner = weights.as_ref().and_then(|(stages, ..)| {
+        let claim = table.inner.as_ref()?;
+        let (scheme, of_inner) = base_scheme(&table, &claim.base, library, digits, above);
+        cells.faults.extend(of_inner);
+        let scheme = Box::new(scheme?);
+        let inner = ExactInner { scheme, substeps: claim.substeps };
+        cells.faults.extend(inner.refused(&table, claim, stages));
+        Some(inner)
+    });
     let good = cells.faults.is_empty();
     faults.extend(cells.faults);
-    let scheme =
-        weights.filter(|_| good).map(|(stages, held, base)| ExactScheme { table, stages, held, base, processor });
+    let scheme = weights.filter(|_| good).map(|(stages, held, base)| {
+        let held = inner.as_ref().map_or(held, |inner| held.weaker(inner.scheme.held));
+        ExactScheme { table, stages, held, base, processor, inner }
+    });
     (scheme, faults)
 }
 
@@ -120,11 +137,6 @@ fn have_short_denominator<'a>(mut weights: impl Iterator<Item = &'a Rational>) -
         denominator = denominator.lcm(weight.denom());
         denominator.bits() <= LONGEST_DENOMINATOR
     })
-}
-
-fn too_long(table: &Table, stages: usize) -> Fault {
-    let message = format!("{stages} stages are too many");
-    table.source.fault(&table.name.at, message).hint(format!("at most {MOST_STAGES} are allowed"))
 }
 
 fn base_scheme(
@@ -250,14 +262,14 @@ impl Cells<'_> {
                 }
                 let size = gamma.value.len() * base.stages.kick.len();
                 if size > MOST_UNMERGED {
-                    self.faults.push(too_long(table, size));
+                    self.faults.push(table.too_long(size));
                     return None;
                 }
                 base.stages.repeated(&self.weights(&gamma.value)).maps()
             }
         };
         if post.len() > 2 * MOST_STAGES {
-            self.faults.push(too_long(table, post.len() / 2));
+            self.faults.push(table.too_long(post.len() / 2));
         }
         Some(ExactProcessor { post, held: self.held().weaker(held) })
     }

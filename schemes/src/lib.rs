@@ -13,6 +13,7 @@
 //! | [`decimal`], `printed`, `rounding`, `least_change` | printed decimals → whether their rounding explains how far the conditions are off |
 //! | [`proof`] | conditions → what is true of the scheme → the claims that differ from it |
 //! | [`many_parts`], `part_words` | scheme for two parts → steps for three and more, and their order conditions |
+//! | [`inner`] | outer and inner scheme → a step of slow forces, fast forces and T |
 //! | `wording` | such a claim → a sentence with its place |
 //! | [`plan`] | scheme → the plan of a step: maps, shared constants, cost |
 //! | `pipeline` | the text of a table → [`Proved`]: scheme, proof and plan, or all faults |
@@ -41,6 +42,8 @@ mod digits;
 pub mod document;
 #[cfg(feature = "tables")]
 pub mod exact;
+#[cfg(feature = "tables")]
+pub mod inner;
 #[cfg(feature = "tables")]
 mod least_change;
 #[cfg(feature = "tables")]

@@ -16,7 +16,7 @@ use crate::map_kind::MapKind;
 use crate::pipeline::Proved;
 use crate::plan::StepPlan;
 use crate::proof::{Order, order_of_parts};
-use crate::scheme::{ExactScheme, Held};
+use crate::scheme::ExactScheme;
 
 /// The number of parts for which the order is proved; for more it follows from the theorem.
 const PARTS: usize = 3;
@@ -88,13 +88,26 @@ impl Proved {
         if scheme.processor.is_some() {
             return Err(NotForManyParts::Processed(name));
         }
-        let order = many_parts_order(scheme, PARTS, proof.general.order);
-        if let Some((failed, _)) = &order.failed {
+        let order = match &proof.nested {
+            Some(nested) => nested.clone(),
+            None => many_parts_order(scheme, PARTS, proof.general.order),
+        };
+        if let Some((failed, _)) = order.failed.as_ref().filter(|_| scheme.inner.is_none()) {
             let failed = failed.functional.to_string();
             return Err(NotForManyParts::Fails { name, order: order.order, failed });
         }
         let mut proved = self.clone();
-        proved.plan = StepPlan::of_many_parts(scheme, middle_weights(&scheme.maps()));
+        let maps = scheme.maps();
+        let (maps, middle) = match &scheme.inner {
+            Some(inner) => inner.step(&maps),
+            None => (maps.clone(), middle_weights(&maps)),
+        };
+        proved.plan = StepPlan::of_many_parts(&maps, &middle);
+        if scheme.inner.is_some() {
+            [&mut proved.proof.general, &mut proved.proof.quadratic]
+                .into_iter()
+                .for_each(|of_two| *of_two = order.clone());
+        }
         proved.proof.many_parts = Some(order);
         Ok(proved)
     }
@@ -106,13 +119,8 @@ impl Proved {
 /// With gradient kicks, and for fewer than two parts.
 pub(crate) fn many_parts_order(scheme: &ExactScheme, parts: usize, highest: u32) -> Order {
     assert!(parts >= 2, "H has two parts at least");
-    let held = match scheme.held {
-        Held::Exactly => Held::Exactly,
-        Held::Digits(digits) => Held::Digits(digits.saturating_sub(DIGITS_LOST).max(1)),
-    };
     let maps = scheme.maps();
-    let middle = middle_weights(&maps);
-    order_of_parts((&maps, &middle), held, parts, highest)
+    order_of_parts((&maps, &middle_weights(&maps)), scheme.held.losing(DIGITS_LOST), parts, highest)
 }
 
 /// The weights of the middle parts between each map and the next: α after a kick, β after a drift.

@@ -7,9 +7,9 @@ use crate::claims::{HIGHEST_LINEAR_ORDER, HIGHEST_NEAR_INTEGRABLE_ORDER, HIGHEST
 use crate::document::{Fault, Key, Keys, Placed, Reader, Section, Source, Text, Value, document};
 use crate::map_kind::MapKind;
 use crate::spelling::spelling;
-use crate::table::{Cell, MOST_STAGES, Processor, Table, Weights};
+use crate::table::{Cell, Inner, MOST_STAGES, Processor, Table, Weights};
 
-const TABLE: [Key; 16] = [
+const TABLE: [Key; 17] = [
     Key::new("name", "\"yoshida4\""),
     Key::new("title", "\"Yoshida's triple jump of order 4\""),
     Key::new("aliases", "[\"Forest-Ruth\"]"),
@@ -26,7 +26,10 @@ const TABLE: [Key; 16] = [
     Key::new("composition", "{ base = \"stormer-verlet\", gamma = [\"g1\", \"1 - 2*g1\", \"g1\"] }"),
     Key::new("stages", "{ kick = [\"1/2\", \"1/2\"], drift = [1, 0] }"),
     Key::new("processor", "{ order = 4, kick = [\"1/24\", \"-1/24\"], drift = [\"1/2\", \"-1/2\"] }"),
+    Key::new("inner", "{ base = \"stormer-verlet\", substeps = 8 }"),
 ];
+
+const INNER: [Key; 2] = [Key::new("base", "\"stormer-verlet\""), Key::new("substeps", "8")];
 
 const PROCESSOR: [Key; 6] = [
     Key::new("order", "4"),
@@ -83,6 +86,7 @@ fn read(reader: &mut Reader<'_>, document: &DeTable<'_>) -> Table {
     let kinetic = kinetic.unwrap_or(Kinetic::Quadratic);
     let kinetic = refuse_beside_gradient_kicks(reader, root, weights.as_ref(), kinetic);
     let processor = root.get("processor").and_then(|_| processor(reader, document, weights.as_ref()));
+    let inner = root.get("inner").and_then(|_| inner(reader, root, document, kinetic));
     Table {
         source: reader.source.clone(),
         name: name.unwrap_or(Placed { value: "unnamed".to_owned(), at: 0..0 }),
@@ -90,7 +94,7 @@ fn read(reader: &mut Reader<'_>, document: &DeTable<'_>) -> Table {
         aliases,
         order: order.unwrap_or(Placed { value: 1, at: 0..0 }),
         kinetic,
-        near_integrable,
+        near_integrable: near_integrable.filter(|_| inner.is_none()),
         symmetric,
         digits,
         reference: reference.map(|r| r.value),
@@ -99,7 +103,26 @@ fn read(reader: &mut Reader<'_>, document: &DeTable<'_>) -> Table {
         free,
         weights,
         processor,
+        inner,
     }
+}
+
+/// The inner scheme, and claims that there are beside none.
+fn inner(reader: &mut Reader<'_>, root: &Section<'_, '_>, document: &DeTable<'_>, kinetic: Kinetic) -> Option<Inner> {
+    let of_two = ["near_integrable", "processor"].map(|key| (key, "is claimed of two parts, which there are not"));
+    let quadratic = (kinetic == Kinetic::Quadratic).then_some(("kinetic", "must be \"any\""));
+    for (key, wrong) in of_two.into_iter().chain(quadratic) {
+        if let Some(value) = root.get(key) {
+            let hint = "with [inner], H = slow + fast + T has three parts: leave it out, or leave [inner] out";
+            let hint = if key == "kinetic" { "the order of three parts is that for every T(p)" } else { hint };
+            reader.fault(&value.span(), format!("`{key}` {wrong} beside an inner scheme"), hint);
+        }
+    }
+    let section = reader.section(document, "inner", Keys::new("[inner]", INNER));
+    let base = reader.required(&section, "base").and_then(|v| trimmed(reader, v));
+    let substeps = reader.required(&section, "substeps");
+    let substeps = substeps.and_then(|v| reader.whole(v, 1..=MOST_STAGES as u32, "a number of substeps"));
+    Some(Inner { base: base?, substeps: substeps?.value })
 }
 
 /// A text without blanks at its ends.

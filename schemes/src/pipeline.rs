@@ -30,9 +30,9 @@ pub struct Proved {
 }
 
 impl Proved {
-    /// The order proved for the kinetic energies that the table is meant for.
+    /// The order proved for the kinetic energies that the table is meant for; with an inner scheme, for slow forces, fast forces and T.
     pub fn order(&self) -> &Order {
-        self.proof.for_kinetic(self.scheme.table.kinetic)
+        self.proof.nested.as_ref().unwrap_or_else(|| self.proof.for_kinetic(self.scheme.table.kinetic))
     }
 
     /// Whether the order claimed holds for every T(p), whatever kinetic energies the table is meant for. With gradient kicks it does not:
@@ -44,7 +44,7 @@ impl Proved {
     /// Whether there are irrational weights, all by closed forms, that are rounded to fewer digits than these: [`to_digits`](Proved::to_digits) gives more.
     pub fn lacks_digits(&self, digits: u32) -> bool {
         let is_closed = |scheme: &ExactScheme| scheme.table.digits.is_none();
-        let all_closed = std::iter::successors(Some(&self.scheme), |scheme| scheme.base.as_deref()).all(is_closed);
+        let all_closed = self.scheme.all().into_iter().all(is_closed);
         all_closed && matches!(self.scheme.held, Held::Digits(held) if held < digits)
     }
 
@@ -63,9 +63,8 @@ impl Proved {
     pub fn to_digits(&self, digits: u32) -> Result<Proved, Faults> {
         let digits = digits.min(MOST_EVALUATED_DIGITS);
         let library = |name: &str, from: &Source| {
-            let mut above = std::iter::successors(Some(&self.scheme), |scheme| scheme.base.as_deref());
-            let scheme = above.find(|scheme| scheme.table.source == *from)?;
-            scheme.base.as_ref().filter(|_| scheme.base_name() == Some(name)).map(|base| base.table.source.clone())
+            let scheme = self.scheme.all().into_iter().find(|scheme| scheme.table.source == *from)?;
+            Some(scheme.component(name)?.table.source.clone())
         };
         let first = Some(self.scheme.first());
         let proved = read_to_digits(&self.scheme.table.source, &library, first, digits)?;
@@ -103,11 +102,15 @@ fn read_to_digits(source: &Source, library: Library<'_>, first: Option<First>, d
     let (scheme, mut faults) = exact::scheme_to_digits(source, library, digits);
     let Some(mut scheme) = scheme else { return Err(Faults::of(faults).expect("what is not a scheme has a fault")) };
     if let Some(first) = first.filter(|first| *first != scheme.first()) {
-        if scheme.has_gradient_kicks() {
+        let without = match () {
+            () if scheme.has_gradient_kicks() => Some(("gradient kicks", "a drift has no counterpart of them")),
+            () if scheme.inner.is_some() => Some(("an inner scheme", "it is made for the drifts")),
+            () => None,
+        };
+        if let Some((what, why)) = without {
             let Table { source, name, .. } = &scheme.table;
-            let fault = source
-                .fault(&name.at, "the roles of kick and drift cannot be exchanged in a scheme with gradient kicks");
-            faults.push(fault.hint("a drift has no counterpart of them: leave `first` out"));
+            let message = format!("the roles of kick and drift cannot be exchanged in a scheme with {what}");
+            faults.push(source.fault(&name.at, message).hint(format!("{why}: leave `first` out")));
             return Err(Faults::of(faults).expect("there is a fault"));
         }
         scheme = scheme.starting_with(first);

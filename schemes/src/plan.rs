@@ -2,6 +2,7 @@
 
 use shadowstep_symbolic::Rational;
 
+use crate::map::Map;
 use crate::map_kind::MapKind;
 
 use crate::scheme::ExactScheme;
@@ -23,7 +24,7 @@ pub struct StepPlan {
     /// What is done: the kind of the map and the index of its weight among the weights of its kind.
     pub maps: Vec<(MapKind, usize)>,
     /// For [many parts](crate::many_parts): between each map and the next the index of the weight of the middle parts, which flow from H_2 to H_(n−1)
-    /// after a kick, and from H_(n−1) to H_2 after a drift.
+    /// after a kick, and from H_(n−1) to H_2 after a drift. With an [inner scheme](crate::inner), these are the fast kicks.
     pub middle: Vec<usize>,
     /// Evaluations of the gradient per step, the first step of a run not counted.
     pub evaluations: usize,
@@ -44,6 +45,10 @@ pub struct StepCost {
 impl StepPlan {
     /// The plan of a scheme's step.
     pub fn of(scheme: &ExactScheme) -> StepPlan {
+        StepPlan::of_maps(&scheme.maps())
+    }
+
+    fn of_maps(maps: &[Map]) -> StepPlan {
         let mut plan = StepPlan {
             kicks: Vec::new(),
             drifts: Vec::new(),
@@ -54,13 +59,13 @@ impl StepPlan {
             evaluations: 0,
             hessian_products: 0,
         };
-        for map in scheme.maps() {
+        for map in maps {
             let weights = match map.kind {
                 MapKind::Kick => &mut plan.kicks,
                 MapKind::Drift => &mut plan.drifts,
                 MapKind::GradientKick => &mut plan.gradient_kicks,
             };
-            plan.maps.push((map.kind, index_of(map.weight, weights)));
+            plan.maps.push((map.kind, index_of(&map.weight, weights)));
         }
         plan.evaluations = plan.evaluated(|_| true);
         plan.hessian_products = plan.evaluated(|kind| kind == MapKind::GradientKick);
@@ -68,9 +73,9 @@ impl StepPlan {
     }
 
     /// The plan of its step for three parts and more, with the weights of the middle parts between each map and the next.
-    pub(crate) fn of_many_parts(scheme: &ExactScheme, middle: Vec<Rational>) -> StepPlan {
-        let mut plan = StepPlan::of(scheme);
-        plan.middle = middle.into_iter().map(|weight| index_of(weight, &mut plan.middle_weights)).collect();
+    pub(crate) fn of_many_parts(maps: &[Map], middle: &[Rational]) -> StepPlan {
+        let mut plan = StepPlan::of_maps(maps);
+        plan.middle = middle.iter().map(|weight| index_of(weight, &mut plan.middle_weights)).collect();
         plan
     }
 
@@ -92,7 +97,8 @@ impl StepPlan {
         self.evaluations + self.hessian_products
     }
 
-    /// How many maps of a kind a step has.
+    /// How many maps of a kind a step has. With an [inner scheme](crate::inner) the fast forces are evaluated once for each drift: the fast kicks at both
+    /// sides of a slow one are at the same q.
     pub fn count(&self, kind: MapKind) -> usize {
         self.maps.iter().filter(|(k, _)| *k == kind).count()
     }
@@ -113,10 +119,10 @@ impl StepPlan {
 }
 
 /// The index of a weight among others, to which it is added if it is a new one.
-fn index_of(weight: Rational, weights: &mut Vec<Rational>) -> usize {
-    let known = weights.iter().position(|known| *known == weight);
+fn index_of(weight: &Rational, weights: &mut Vec<Rational>) -> usize {
+    let known = weights.iter().position(|known| known == weight);
     known.unwrap_or_else(|| {
-        weights.push(weight);
+        weights.push(weight.clone());
         weights.len() - 1
     })
 }

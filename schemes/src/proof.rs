@@ -16,11 +16,14 @@ use crate::map_kind::MapKind;
 use crate::near_integrable::Power;
 use crate::order::{Condition, Functional};
 use crate::rounding::{Linearised, Unexplained};
-use crate::scheme::{ExactScheme, Held};
+use crate::scheme::{ExactInner, ExactScheme, Held};
 
 /// Digits that sums of products of good weights lose without a note, where the decimals themselves are not examined; the
 /// worst of the shipped tables loses 3.
 const MOST_DIGITS_LOST: u32 = 5;
+
+/// Digits that products of the weights of an outer and an inner scheme may lose.
+const DIGITS_LOST: u32 = 1;
 
 /// The order that was proved for one class of kinetic energies, or for one power of ε.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -38,7 +41,7 @@ pub struct Order {
 /// What is true of a scheme.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Proof {
-    /// For every T(p). With gradient kicks: for all A and B, where a gradient kick is the flow of `[B,[A,B]]`, which for A = T(p) is so
+    /// For every T(p), of the outer scheme where there is an [inner one](crate::inner). With gradient kicks: for all A and B, where a gradient kick is the flow of `[B,[A,B]]`, which for A = T(p) is so
     /// for quadratic T only; see [`Proved::order_for_every_kinetic`](crate::Proved::order_for_every_kinetic).
     pub general: Order,
     /// For T = ½pᵀM⁻¹p.
@@ -50,6 +53,8 @@ pub struct Proof {
     pub symmetric: bool,
     /// The effective orders of a processed scheme; the others are the kernel's.
     pub effective: Option<Effective>,
+    /// Of the step with an [inner scheme](crate::inner), for slow forces, fast forces and T, by the words on three letters.
+    pub nested: Option<Order>,
     /// For H of three parts and more, by the words on three letters; only [where it is asked for](crate::many_parts).
     pub many_parts: Option<Order>,
 }
@@ -95,8 +100,18 @@ pub fn prove(scheme: &ExactScheme) -> Proof {
         near_integrable: near_integrable_orders(&scheme.maps(), scheme.held, table.near_integrable.as_ref()),
         symmetric: scheme.is_symmetric(),
         effective: effective(scheme),
+        nested: scheme.inner.as_ref().map(|inner| nested_order(scheme, inner)),
         many_parts: None,
     }
+}
+
+/// The order of the step of three parts, whose words of one order are about three times those of the order before.
+fn nested_order(scheme: &ExactScheme, inner: &ExactInner) -> Order {
+    let (maps, fast) = inner.step(&scheme.maps());
+    let orders = (scheme.table.order.value + 1..=HIGHEST_ORDER + 1)
+        .map(|highest| order_of_parts((&maps, &fast), scheme.held.losing(DIGITS_LOST), 3, highest.min(HIGHEST_ORDER)));
+    let mut decided = orders.filter(|order| order.failed.is_some() || order.order == HIGHEST_ORDER);
+    decided.next().expect("the last one is of the highest order")
 }
 
 fn effective(scheme: &ExactScheme) -> Option<Effective> {
@@ -154,6 +169,8 @@ fn order_by(mut conditions: Vec<Evaluated>, highest: u32) -> Order {
 pub(crate) enum Of {
     /// The step as it stands: of a processed scheme, the kernel.
     Step,
+    /// The step of three parts with an inner scheme.
+    NestedStep,
     /// The processed step.
     ProcessedStep,
 }
@@ -206,12 +223,16 @@ pub(crate) fn findings<'a>(scheme: &'a ExactScheme, proof: &'a Proof) -> Vec<Fin
 
 fn order_finding<'a>(scheme: &'a ExactScheme, proof: &'a Proof) -> Vec<Finding<'a>> {
     let (kinetic, claimed) = (scheme.table.kinetic, &scheme.table.order);
-    let (family, proved) = (Family::Kinetic(kinetic), proof.for_kinetic(kinetic));
+    let family = Family::Kinetic(kinetic);
+    let (of, proved) = match &proof.nested {
+        Some(nested) => (Of::NestedStep, nested),
+        None => (Of::Step, proof.for_kinetic(kinetic)),
+    };
     match proved.order {
-        holds if holds > claimed.value => vec![Finding::HigherOrder { of: Of::Step, family, claimed, holds }],
+        holds if holds > claimed.value => vec![Finding::HigherOrder { of, family, claimed, holds }],
         holds if holds == claimed.value => Vec::new(),
-        0 if !(proved.undecided && scheme.table.digits.is_some()) => sum_findings(scheme),
-        _ => vec![Finding::LowerOrder { of: Of::Step, family, claimed, proved }],
+        0 if of == Of::Step && !(proved.undecided && scheme.table.digits.is_some()) => sum_findings(scheme),
+        _ => vec![Finding::LowerOrder { of, family, claimed, proved }],
     }
 }
 

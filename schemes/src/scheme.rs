@@ -23,6 +23,14 @@ impl Held {
             (Held::Exactly, held) | (held, Held::Exactly) => held,
         }
     }
+
+    /// What is known of numbers derived from the weights that lose some digits.
+    pub(crate) fn losing(self, lost: u32) -> Held {
+        match self {
+            Held::Exactly => Held::Exactly,
+            Held::Digits(digits) => Held::Digits(digits.saturating_sub(lost).max(1)),
+        }
+    }
 }
 
 /// A scheme with exact weights, as its table claims it; see [`crate::prove`] for what is true of it.
@@ -38,6 +46,17 @@ pub struct ExactScheme {
     pub base: Option<Box<ExactScheme>>,
     /// The processor, if it is a processed scheme; the weights are the kernel's.
     pub processor: Option<ExactProcessor>,
+    /// The inner scheme of multiple time steps; the weights are the outer scheme's.
+    pub inner: Option<ExactInner>,
+}
+
+/// The inner scheme of [multiple time steps](crate::inner).
+#[derive(Clone, Debug)]
+pub struct ExactInner {
+    /// The scheme.
+    pub scheme: Box<ExactScheme>,
+    /// Its steps for each drift of the outer scheme.
+    pub substeps: u32,
 }
 
 /// The post-map χ⁻¹ of a processed scheme χ⁻¹ ∘ kernelⁿ ∘ χ; the pre-map χ is its exact inverse.
@@ -67,12 +86,14 @@ impl ExactScheme {
         self.stages.maps()
     }
 
-    /// The name by which the table of a composition calls its base.
-    pub(crate) fn base_name(&self) -> Option<&str> {
-        match &self.table.weights {
-            Some(Weights::Composition { base, .. }) => Some(&base.value),
+    /// The scheme of its components that its table calls by this name.
+    pub(crate) fn component(&self, name: &str) -> Option<&ExactScheme> {
+        let base = match &self.table.weights {
+            Some(Weights::Composition { base, .. }) if base.value == name => self.base.as_deref(),
             _ => None,
-        }
+        };
+        let is_inner = self.table.inner.as_ref().is_some_and(|inner| inner.base.value == name);
+        base.or_else(|| self.inner.as_ref().filter(|_| is_inner).map(|inner| &*inner.scheme))
     }
 
     /// Whether some of them are gradient kicks, which need a quadratic T.
@@ -114,9 +135,19 @@ impl ExactScheme {
         }
     }
 
-    /// Whether the maps read the same from both ends, so that the step is its own adjoint.
+    /// Whether the maps read the same from both ends, so that the step is its own adjoint; with an inner scheme, those of both.
     pub fn is_symmetric(&self) -> bool {
         let maps = self.maps();
-        maps == reversed(&maps)
+        maps == reversed(&maps) && self.inner.as_ref().is_none_or(|inner| inner.scheme.is_symmetric())
+    }
+
+    /// The schemes that it is made of: its base, and its inner scheme.
+    pub(crate) fn components(&self) -> impl Iterator<Item = &ExactScheme> {
+        self.base.as_deref().into_iter().chain(self.inner.iter().map(|inner| &*inner.scheme))
+    }
+
+    /// Itself and all schemes that it is made of.
+    pub(crate) fn all(&self) -> Vec<&ExactScheme> {
+        std::iter::once(self).chain(self.components().flat_map(ExactScheme::all)).collect()
     }
 }

@@ -3,7 +3,7 @@
 #![doc = include_str!("../tables/README.md")]
 
 use crate::claims::{Kinetic, NearIntegrable};
-use crate::document::{Placed, Source};
+use crate::document::{Fault, Placed, Source};
 
 /// The most stages a table may have, compositions written out.
 pub(crate) const MOST_STAGES: usize = 2000;
@@ -44,6 +44,25 @@ pub struct Table {
     pub weights: Option<Weights>,
     /// The processor of a processed scheme, whose kernel are the weights.
     pub processor: Option<Processor>,
+    /// The inner scheme of multiple time steps, whose outer scheme are the weights.
+    pub inner: Option<Inner>,
+}
+
+impl Table {
+    /// The fault of more than [`MOST_STAGES`].
+    pub(crate) fn too_long(&self, stages: usize) -> Fault {
+        let message = format!("{stages} stages are too many");
+        self.source.fault(&self.name.at, message).hint(format!("at most {MOST_STAGES} are allowed"))
+    }
+}
+
+/// What an inner scheme is, as written.
+#[derive(Clone, Debug)]
+pub struct Inner {
+    /// Name or file of its table.
+    pub base: Placed<String>,
+    /// Its steps for each drift of the outer scheme.
+    pub substeps: u32,
 }
 
 /// The processor of a table: its post-map χ⁻¹, and what is claimed of the processed step χ⁻¹ ∘ kernel ∘ χ.

@@ -29,7 +29,7 @@ pub(crate) fn worded(finding: &Finding<'_>, scheme: &ExactScheme, proof: &Proof)
             lower_order(table, proof, (*of, *family), claimed, proved)
         }
         Finding::HigherOrder { of, family, claimed, holds } => {
-            let message = format!("{of} {} is claimed, {of} {holds} holds {family}", claimed.value);
+            let message = format!("{of} {} is claimed, {of} {holds} holds {}", claimed.value, of.what(*family));
             let hint = match family {
                 Family::Kinetic(_) => format!("write `order = {holds}`"),
                 Family::Power(_) => format!("write {holds}"),
@@ -66,11 +66,21 @@ impl fmt::Display for Family {
     }
 }
 
+impl Of {
+    /// What an order of a family is for.
+    fn what(self, family: Family) -> String {
+        match self {
+            Of::NestedStep => "for slow forces, fast forces and T".to_owned(),
+            Of::Step | Of::ProcessedStep => family.to_string(),
+        }
+    }
+}
+
 /// What is claimed, and holds.
 impl fmt::Display for Of {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
-            Of::Step => "order",
+            Of::Step | Of::NestedStep => "order",
             Of::ProcessedStep => "effective order",
         })
     }
@@ -97,18 +107,19 @@ fn lower_order(
     proved: &Order,
 ) -> Fault {
     let (failed, found) = proved.failed.as_ref().expect("a higher order would hold");
+    let what = of.what(family);
     if let Some(digits) = table.digits.as_ref().filter(|_| proved.undecided) {
         let message =
-            format!("{} digits are too few to decide whether {of} {} holds {family}", digits.value, failed.order);
+            format!("{} digits are too few to decide whether {of} {} holds {what}", digits.value, failed.order);
         return table.source.fault(&digits.at, message).hint("take the weights from a source with more digits");
     }
-    let fault = failed_condition(table, (of, family), claimed, proved.order, failed, found);
+    let fault = failed_condition(table, (of, &what), claimed, proved.order, failed, found);
     let quadratic = match (of, &proof.effective) {
         (Of::ProcessedStep, Some(effective)) => effective.quadratic.order,
         _ => proof.quadratic.order,
     };
     match family {
-        Family::Kinetic(Kinetic::Any) if quadratic >= claimed.value => {
+        Family::Kinetic(Kinetic::Any) if quadratic >= claimed.value && of != Of::NestedStep => {
             fault.hint(format!("{of} {quadratic} holds for quadratic T: write `kinetic = \"quadratic\"`"))
         }
         _ => with_rounding_hint(fault, table, &(found - &failed.needed)),
@@ -117,14 +128,14 @@ fn lower_order(
 
 fn failed_condition(
     table: &Table,
-    (of, family): (Of, Family),
+    (of, what): (Of, &str),
     claimed: &Placed<u32>,
     holds: u32,
     failed: &Condition,
     found: &Rational,
 ) -> Fault {
     let message = format!(
-        "{of} {} is claimed, {of} {holds} holds {family}: the condition of {} fails",
+        "{of} {} is claimed, {of} {holds} holds {what}: the condition of {} fails",
         claimed.value, failed.functional
     );
     table.source.fault(&claimed.at, message).values(beside(found, &failed.needed), short(&failed.needed))

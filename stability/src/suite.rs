@@ -6,6 +6,7 @@ use std::sync::OnceLock;
 use shadowstep::tables::shipped_names;
 use shadowstep_scenes::arithmetic::Arithmetic;
 use shadowstep_scenes::library::{NamedScheme, scheme};
+use shadowstep_schemes::shipped_proved;
 
 /// The schemes of several cases: of the orders 2, 4, 4 and 8.
 pub(crate) const OF_ORDERS_2_TO_8: [&str; 4] = ["stormer-verlet", "yoshida4", "blanes-moan-srkn6b", "kahan-li8"];
@@ -56,9 +57,10 @@ impl Suite {
         }
     }
 
-    /// The schemes of a case: the requested ones, or all shipped ones.
+    /// The schemes of a case: the requested ones, or all shipped ones for two parts.
     pub(crate) fn schemes_or_all(&self) -> Vec<&Examined> {
-        self.schemes_or(&shipped_names())
+        let has_two_parts = |name: &&str| shipped_proved(name).is_some_and(|proved| proved.scheme.inner.is_none());
+        self.schemes_or(&shipped_names().into_iter().filter(has_two_parts).collect::<Vec<_>>())
     }
 
     /// A shipped scheme.

@@ -3,11 +3,12 @@
 use std::fmt::Write as _;
 
 use shadowstep_analysis::Analysis;
+use shadowstep_analysis::resonance::resonances;
 use shadowstep_analysis::stability::Stability;
 use shadowstep_schemes::First;
 use shadowstep_schemes::scheme::Held;
 use shadowstep_schemes::table::{Cell, Table, Weights};
-use shadowstep_schemes::{Kinetic, Proved, shipped_names, shipped_proved, to_significant, to_text};
+use shadowstep_schemes::{Kinetic, MapKind, Proved, Rational, shipped_names, shipped_proved, to_significant, to_text};
 
 use crate::rational;
 
@@ -70,13 +71,73 @@ pub fn catalogue_page() -> String {
     let mut page = HEAD.to_owned();
     page += "| name | order | quadratic T | A + εB | forces | operations | symmetric | effective error | for quadratic T | stable to hω | per force |\n";
     page += "| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |\n";
+    let (nested, schemes): (Vec<_>, Vec<_>) =
+        schemes.into_iter().partition(|(_, proved, _)| proved.scheme.inner.is_some());
     for (name, proved, analysis) in &schemes {
         page += &row(name, proved, analysis);
     }
+    page += MULTIPLE_STEPS;
+    nested.iter().for_each(|(name, proved, _)| page += &nested_row(name, proved));
     for (name, proved, analysis) in &schemes {
         write!(page, "\n## {name}\n\n{}", section(proved, analysis)).expect("memory suffices");
     }
+    for (name, proved, _) in &nested {
+        write!(page, "\n## {name}\n\n{}", nested_section(proved)).expect("memory suffices");
+    }
     page
+}
+
+const MULTIPLE_STEPS: &str = "
+[Multiple time steps](multiple-time-steps.md), for slow forces, fast forces and T, whose orders are proved for these three parts. *resonance*: the first interval of hω in
+which an oscillation is unstable that has 1/100 of the stiffness of its fast forces in the slow ones.
+
+| name | order | slow forces | fast forces | outer scheme | inner scheme | resonance |
+| --- | --- | --- | --- | --- | --- | --- |
+";
+
+fn nested_row(name: &str, proved: &Proved) -> String {
+    let inner = proved.scheme.inner.as_ref().expect("it has one");
+    let plan = proved.for_many_parts().expect("it has steps of three parts").plan;
+    let Some(Weights::Composition { base, .. }) = &proved.scheme.table.weights else {
+        unreachable!("the outer scheme is a table of its own")
+    };
+    let gaps = resonances(proved, &Rational::new(1.into(), 100.into())).expect("it has few maps").gaps;
+    let end = |text: &str| to_significant(&rational(text), 5);
+    format!(
+        "| [{name}](#{name}) | {} | {} | {} | {} | {} of {} | {} to {} |\n",
+        proved.order().order,
+        plan.evaluations,
+        plan.count(MapKind::Drift),
+        base.value,
+        inner.substeps,
+        inner.scheme.table.name.value,
+        end(&gaps[0].from),
+        end(gaps[0].to.as_ref().expect("it ends"))
+    )
+}
+
+fn nested_section(proved: &Proved) -> String {
+    let table = &proved.scheme.table;
+    let inner = table.inner.as_ref().expect("it has one");
+    let symmetric = if proved.proof.symmetric { "symmetric" } else { "not symmetric" };
+    format!(
+        "{}.\n\n```text\n{}inner: {} of {}\n```\n\n- order {} for slow forces, fast forces and T\n- {symmetric}, begins with a slow kick; {}\n- {}\n",
+        named(table),
+        weights(table),
+        inner.substeps,
+        inner.base.value,
+        proved.order().order,
+        held(proved.scheme.held),
+        reference(table)
+    )
+}
+
+/// The title, and the other names.
+fn named(table: &Table) -> String {
+    let title = table.title.as_deref().unwrap_or(&table.name.value);
+    let aliases: Vec<_> = table.aliases.iter().map(|alias| format!("`{}`", alias.value)).collect();
+    let also = if aliases.is_empty() { String::new() } else { format!("; also found as {}", aliases.join(", ")) };
+    format!("{title}{also}")
 }
 
 fn stability(analysis: &Analysis) -> &Stability {
@@ -141,11 +202,7 @@ fn processed(proved: &Proved) -> Option<String> {
 
 fn section(proved: &Proved, analysis: &Analysis) -> String {
     let (table, proof) = (&proved.scheme.table, &proved.proof);
-    let mut text = String::new();
-    let title = table.title.as_deref().unwrap_or(&table.name.value);
-    let aliases: Vec<_> = table.aliases.iter().map(|alias| format!("`{}`", alias.value)).collect();
-    let also = if aliases.is_empty() { String::new() } else { format!("; also found as {}", aliases.join(", ")) };
-    text += &format!("{title}{also}.\n\n```text\n{}```\n\n", weights(table));
+    let mut text = format!("{}.\n\n```text\n{}```\n\n", named(table), weights(table));
     let cost = proved.plan.cost();
     let near = match near_integrable(proved) {
         orders if orders.is_empty() => String::new(),

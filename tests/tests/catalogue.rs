@@ -3,10 +3,10 @@
 use std::time::{Duration, Instant};
 
 use shadowstep_schemes::proof::Order;
-use shadowstep_schemes::{First, Proved, read, read_first, shipped, shipped_names};
+use shadowstep_schemes::{First, MapKind, Proved, read, read_first, shipped, shipped_names};
 
 /// From the publications, except for the order for every T(p) of schemes for quadratic T, which they do not state.
-/// Columns: name; order for every T(p) and for quadratic T; evaluations per step, and Hessian–vector products of gradient kicks; palindrome;
+/// Columns: name; order for every T(p) and for quadratic T; evaluations per step, and Hessian–vector products of gradient kicks, or of slow and fast forces; palindrome;
 /// first map; near-integrable orders; of a processed scheme, whose other columns belong to its kernel, the effective orders for every T(p), for
 /// quadratic T and the near-integrable ones.
 const CATALOGUE: &str = "
@@ -54,6 +54,7 @@ mclachlan-ss17            8  8  17  yes  kick   -
 mclachlan-ss5             4  4   5  yes  kick   -
 mclachlan-ss9             6  6   9  yes  kick   -
 morales8-17               8  8  17  yes  kick   -
+nested-s6                 4  4   6/36  yes  kick   -
 okunbor-skeel6-13         4  6   7  yes  drift  -
 omelyan-4mn2f2gv          -  4   2+2  yes  kick   -
 omelyan-4mn3f1gp          -  4   3+1  yes  drift  -
@@ -69,6 +70,8 @@ omelyan-6mn5f5gv          -  6   5+5  yes  kick   -
 omelyan-8s11f11gp         -  8 11+11  yes  drift  -
 pefrl                     4  4   4  yes  drift  -
 predescu3                 2  2   3  yes  kick   -
+r-respa-4                 2  2   1/4  yes  kick   -
+r-respa-8                 2  2   1/8  yes  kick   -
 ruth3                     3  3   3  no   kick   -
 saba2                     2  2   2  yes  drift  4,2
 saba3                     2  2   3  yes  drift  6,2
@@ -127,6 +130,10 @@ fn line(name: &str, scheme: &Proved) -> String {
         scheme.order_for_every_kinetic().map_or_else(|| "-".to_owned(), |order| order.order.to_string()),
         proof.quadratic.order.to_string(),
         match scheme.plan.hessian_products {
+            0 if scheme.scheme.inner.is_some() => {
+                let plan = scheme.for_many_parts().unwrap().plan;
+                format!("{}/{}", plan.evaluations, plan.count(MapKind::Drift))
+            }
             0 => scheme.plan.evaluations.to_string(),
             products => format!("{}+{products}", scheme.plan.evaluations),
         },
@@ -179,6 +186,10 @@ fn exchanging_kick_and_drift() {
             Err(faults) if scheme.scheme.has_gradient_kicks() => {
                 let message = faults.to_string();
                 assert!(message.contains("cannot be exchanged in a scheme with gradient kicks"), "{name}: {message}");
+            }
+            Err(faults) if scheme.scheme.inner.is_some() => {
+                let message = faults.to_string();
+                assert!(message.contains("cannot be exchanged in a scheme with an inner scheme"), "{name}: {message}");
             }
             Err(faults) => refused.push((name, faults.to_string())),
         }

@@ -350,11 +350,12 @@ fn weights_sum_to_one() {
     }
 }
 
-/// A table that is not compiled would not be tested here.
+/// A table that is not compiled would not be tested here; those of multiple time steps are tested with three parts.
 #[test]
 fn every_shipped_table_is_among_them() {
     let compiled = all::<f64>(&rational(STEP), &());
-    for name in shadowstep_schemes::shipped_names() {
+    let has_two_parts = |name: &&str| shadowstep_schemes::shipped_proved(name).unwrap().scheme.inner.is_none();
+    for name in shadowstep_schemes::shipped_names().into_iter().filter(has_two_parts) {
         assert!(compiled.iter().any(|scheme| scheme.summary.name == name), "{name}");
     }
     let exchanged = compiled.iter().filter(|scheme| scheme.name.contains("Drift"));

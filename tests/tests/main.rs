@@ -25,6 +25,7 @@ mod many_parts;
 mod merged_steps;
 mod modified_energy;
 mod monitor;
+mod multiple_steps;
 mod order;
 mod own_system;
 mod pairs;

@@ -3,6 +3,7 @@
 mod nonlinear;
 mod oscillator;
 mod published;
+mod resonance;
 
 use std::sync::LazyLock;
 

@@ -60,6 +60,7 @@ pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
 fn verdict(path: &str, proved: &Proved) -> String {
     let order = proved.order();
     let class = match proved.scheme.table.kinetic {
+        _ if proved.scheme.inner.is_some() => "slow forces, fast forces and T",
         Kinetic::Any => "every T(p)",
         Kinetic::Quadratic => "quadratic T",
     };

@@ -13,7 +13,7 @@ use crate::quantity::whole;
 use crate::readable::wrapped_to;
 use crate::report::{self, Status};
 use crate::schemes::columns;
-use crate::schemes::facts::NEAR_INTEGRABLE;
+use crate::schemes::facts::{NEAR_INTEGRABLE, nested_text};
 use crate::schemes::record::Record;
 use shadowstep_scenes::Error;
 use shadowstep_scenes::library::{self, NamedScheme};
@@ -99,6 +99,11 @@ pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
         write!(output, "{}", wrapped_to(&columns::legend(arguments.wide, kinetic), "", 80))?;
         if records.iter().any(|record| !record.orders.near_integrable.is_empty()) {
             write!(output, "{}", wrapped_to(NEAR_INTEGRABLE, "", 80))?;
+        }
+        let nested = records.iter().filter(|record| record.is_nested).map(|record| record.name.as_str());
+        match nested.collect::<Vec<_>>() {
+            names if names.is_empty() => {}
+            names => write!(output, "{}", wrapped_to(&nested_text(&names), "", 80))?,
         }
     }
     output.finish()?;

@@ -34,6 +34,8 @@ pub(super) struct Record {
     #[serde(skip)]
     pub(super) moves_any: bool,
     pub(super) digits: Option<u32>,
+    /// Whether there is an inner scheme: the other values are of the outer one.
+    pub(super) is_nested: bool,
     title: Option<String>,
 }
 
@@ -100,6 +102,7 @@ impl Record {
             kinetic: kinetic(proved.scheme.table.kinetic),
             moves_any: proved.holds_for_every_kinetic(),
             digits: digits(proved.scheme.held),
+            is_nested: proved.scheme.inner.is_some(),
             title: proved.scheme.table.title.clone(),
         };
         record.stability_limit_per_force = record.limit().map(|limit| limit / proved.plan.degree() as f64);

@@ -4,13 +4,16 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
+use shadowstep::Rational;
 use shadowstep::tables::TableScheme;
 use shadowstep_analysis::Analysis;
+use shadowstep_analysis::resonance::{REPORTED, resonances};
 use shadowstep_schemes::claims::HIGHEST_ORDER;
 use shadowstep_schemes::map::Stages;
 use shadowstep_schemes::proof::Order;
+use shadowstep_schemes::scheme::ExactInner;
 use shadowstep_schemes::table::Table;
-use shadowstep_schemes::{Kinetic, Proved, StepPlan};
+use shadowstep_schemes::{Kinetic, MapKind, Proof, Proved, StepPlan};
 
 use crate::interrupt::Interrupt;
 use crate::output::Output;
@@ -83,7 +86,10 @@ fn draw(path: &Path, force: bool, scheme: &TableScheme, analysis: &Analysis) -> 
 fn readable(scheme: &TableScheme, analysis: &Analysis) -> String {
     let proved = scheme.proved();
     let table = &proved.scheme.table;
-    let facts = facts(scheme).into_iter().chain(analysis::facts(analysis)).chain(source(table));
+    let facts: Vec<_> = match &proved.scheme.inner {
+        Some(inner) => nested_facts(proved, inner).into_iter().chain(source(table)).collect(),
+        None => facts(scheme).into_iter().chain(analysis::facts(analysis)).chain(source(table)).collect(),
+    };
     let title = table.title.as_ref().map_or_else(String::new, |title| format!(": {title}"));
     let mut text = format!("{}{title}\n", table.name.value);
     for (what, fact) in facts {
@@ -115,7 +121,7 @@ fn facts(scheme: &TableScheme) -> Vec<(String, String)> {
         ("H = A + εB".to_owned(), near_integrable_fact(proved)),
         ("meant for".to_owned(), meant_for(table.kinetic).to_owned()),
         ("weights".to_owned(), weights_text(digits(proved.scheme.held))),
-        ("symmetric".to_owned(), if proof.symmetric { "yes" } else { "no" }.to_owned()),
+        ("symmetric".to_owned(), symmetry(proof).to_owned()),
         (
             "a step".to_owned(),
             format!(
@@ -138,6 +144,68 @@ fn facts(scheme: &TableScheme) -> Vec<(String, String)> {
     facts.extend(processor_facts(proved));
     facts.retain(|(_, fact)| !fact.is_empty());
     facts
+}
+
+/// The facts about a scheme of multiple time steps.
+fn nested_facts(proved: &Proved, inner: &ExactInner) -> Vec<(String, String)> {
+    let (proof, table) = (&proved.proof, &proved.scheme.table);
+    let nested = proved.for_many_parts().expect("a scheme with an inner scheme has steps of three parts");
+    let (slow, fast) = (nested.plan.evaluations, nested.plan.count(MapKind::Drift));
+    let counted = |count: usize, what: &str| format!("{count} {what}{}", if count == 1 { "" } else { "s" });
+    let mut facts = vec![
+        ("also named", aliases(table).join(", ")),
+        ("meant for", "H of three parts: slow forces, fast forces and T, for multiple time steps".to_owned()),
+        ("order", order_text(proved.order())),
+        ("outer scheme", format!("for two parts {}; below are its weights", order_text(&proof.general))),
+        (
+            "inner scheme",
+            format!(
+                "{} of {} in each drift of the outer scheme",
+                counted(inner.substeps as usize, "step"),
+                inner.scheme.table.name.value
+            ),
+        ),
+        ("weights", weights_text(digits(proved.scheme.held))),
+        ("symmetric", symmetry(proof).to_owned()),
+        (
+            "a step",
+            format!(
+                "{} of the slow forces, {fast} of the fast ones where these depend on q only; it begins with a slow kick",
+                counted(slow, "evaluation")
+            ),
+        ),
+    ];
+    facts.extend(resonance_facts(proved, fast).into_iter().map(|fact| ("resonance", fact)));
+    facts.into_iter().filter(|(_, fact)| !fact.is_empty()).map(|(what, fact)| (what.to_owned(), fact)).collect()
+}
+
+/// The first resonance of an oscillation for each of the ratios, and how many there are up to hω = 2·(drifts of a step).
+fn resonance_facts(proved: &Proved, substeps: usize) -> Vec<String> {
+    let fact = |parts: i64| {
+        let found = resonances(proved, &Rational::new(1.into(), parts.into()))?;
+        let first = found.gaps.first()?;
+        let to = first.to.as_ref().map_or_else(|| "on".to_owned(), |to| format!("to {}", shortened_text(to)));
+        let others = match found.gaps.len() - 1 {
+            0 => String::new(),
+            1 => format!(", and in another interval up to {}", 2 * substeps),
+            more => format!(", and in {more} other intervals up to {}", 2 * substeps),
+        };
+        Some(format!(
+            "an oscillation whose slow forces have 1/{parts} of the stiffness of its fast ones is unstable for hω from {} {to}, {:.3e} wide{others}",
+            shortened_text(&first.from),
+            first.width
+        ))
+    };
+    REPORTED.into_iter().filter_map(fact).collect()
+}
+
+/// The first digits of a number in a text.
+fn shortened_text(number: &str) -> &str {
+    number.get(..7).unwrap_or(number)
+}
+
+fn symmetry(proof: &Proof) -> &'static str {
+    if proof.symmetric { "yes" } else { "no" }
 }
 
 /// The Hessian–vector products U_qq M⁻¹U_q of a step, if there are any: their cost is stated apart.

@@ -327,8 +327,9 @@ fn every_shipped_problem_has_a_scene_that_runs() {
 }
 
 #[test]
-fn every_shipped_scene_of_a_scheme_or_a_liquid_runs_with_its_picture() {
-    let of = |group: &&(&str, _)| group.0.starts_with("schemes") || group.0 == "liquids";
+fn every_shipped_scene_of_a_scheme_a_liquid_or_multiple_steps_runs_with_its_picture() {
+    let of =
+        |group: &&(&str, _)| group.0.starts_with("schemes") || ["liquids", "multiple time steps"].contains(&group.0);
     for scene in shadowstep_scenes::SHIPPED_SCENES.iter().filter(of).flat_map(|(_, scenes)| *scenes) {
         let text = quietly(&format!("scene {}", scene.name));
         let until = text.lines().find(|line| line.starts_with("until")).unwrap();

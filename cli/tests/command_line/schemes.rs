@@ -484,3 +484,25 @@ fn a_faulty_table_does_not_run() {
     assert_eq!((result.code, result.out.as_str()), (2, ""));
     assert!(result.err.starts_with(&format!("error: {path}:2:9: order 5 is claimed, order 4 holds")), "{}", result.err);
 }
+
+/// The resonance is that of the analysis, whose tests hold it beside steps that are made.
+#[test]
+fn a_scheme_of_multiple_time_steps_is_shown_as_one() {
+    let unwrapped = |text: String| text.split_whitespace().collect::<Vec<_>>().join(" ");
+    let shown = unwrapped(quietly("schemes show r-respa-4"));
+    for fact in [
+        "H of three parts: slow forces, fast forces and T",
+        "order 2, exactly; of order 3, the condition of the word AAB fails: found 1/8, needed 1/6",
+        "4 steps of stormer-verlet in each drift of the outer scheme",
+        "1 evaluation of the slow forces, 4 of the fast ones",
+        "1/100 of the stiffness of its fast ones is unstable for hω from 3.04630 to 3.07673, 3.043e-2 wide, and in 2 other intervals up to 8",
+    ] {
+        assert!(shown.contains(fact), "{fact}: {shown}");
+    }
+    assert!(!shown.contains("effective error"), "{shown}");
+    let record = &objects(&quietly("schemes show nested-s6 --json"))[0];
+    assert_eq!(record["inner"]["fast_evaluations"], 36);
+    assert_eq!(record["inner"]["resonances"][1]["ratio"], "1/10");
+    assert!(unwrapped(quietly("schemes --order 2")).contains("r-respa-4, r-respa-8: multiple time steps"));
+    assert!(!quietly("schemes --order 8").contains("multiple time steps"));
+}

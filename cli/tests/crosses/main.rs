@@ -70,7 +70,8 @@ fn every_cell_works_or_says_why() {
         pages::assert_page("what-works-with-what.md", &page.to_string());
     }
     let (refused, cells) = (page.refused(), page.cells());
-    assert!(10 * refused < cells, "{refused} of {cells} cells are refused");
+    // schemes for one kind of system are refused by most others
+    assert!(9 * refused < cells, "{refused} of {cells} cells are refused");
 }
 
 #[test]

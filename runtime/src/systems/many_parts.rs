@@ -4,6 +4,8 @@
 //! 16 (1995) 151): H_1 flows where the scheme has kicks, H_n where it has drifts, and the others between them. The order for n parts is that for every A + B;
 //! [`for_many_parts`](crate::steps::tables::TableScheme::for_many_parts) and `#[splitting_scheme("…", parts = 3)]` prove it by the words on three letters.
 //!
+//! A scheme with an inner scheme (`shadowstep_schemes::inner`) has multiple time steps, for three parts: slow forces, fast forces and T.
+//!
 //! The flows, found from the formula of each part, exactly; β grows by ∫(qᵀA_q + pᵀA_p − 2A) dt:
 //!
 //! | part A | flow over t | increment of β |
@@ -12,6 +14,7 @@
 //! | a quadratic form ½xᵀSx in x = (q, p), at most 64 coordinates | e^{tJS}, once for each t | 0 |
 //! | f(I), I = ½(a q² + 2b q p + c p²) > 0 of one pair | a rotation by f′(I) √(ac − b²) t | t (2I f′ − 2f) |
 //! | f(q p) of one pair | q e^{t f′}, p e^{−t f′} | t (2q p f′ − 2f) |
+//! | any [`Potential`](crate::Potential) or [`Kinetic`](crate::Kinetic): [`OfPotential`], [`OfKinetic`] | p − t U_q, q + t T_p | as above |
 //! | p²/(2m) − κ/r | [Kepler's](crate::systems::kepler_drift) | 3κ ∫dt/r |
 //! | sums of these in different coordinates | all of them | the sum |
 //!
@@ -39,6 +42,7 @@ mod action;
 mod commuting;
 #[cfg(feature = "formulas")]
 mod formula;
+mod functions;
 #[cfg(feature = "formulas")]
 mod kepler;
 mod part;
@@ -47,6 +51,7 @@ mod quadratic;
 
 #[cfg(feature = "formulas")]
 pub use formula::{FormulaPart, PartError, PartFormula, parts};
+pub use functions::{OfKinetic, OfPotential};
 pub use part::{FlowState, Part};
 
 use crate::number::Number;
@@ -67,6 +72,10 @@ pub struct SystemOfParts<N> {
     state: VectorState<N>,
     /// The part that flowed last, if the state has not been changed otherwise.
     last: Option<usize>,
+    /// Whether what each part evaluated last is that of the state.
+    current: Vec<bool>,
+    /// Which parts are functions of q only.
+    potentials: Vec<bool>,
     of_part: N,
 }
 
@@ -88,6 +97,8 @@ impl<N: Number> SystemOfParts<N> {
         MotionError::refuse_not_finite(q, p)?;
         let context = first.context();
         Ok(SystemOfParts {
+            current: vec![false; parts.len()],
+            potentials: parts.iter().map(|part| part.is_potential(coordinates)).collect(),
             parts,
             state: State::new(q.to_vec(), p.to_vec(), &context).compensated_if(false),
             last: None,
@@ -105,12 +116,16 @@ impl<N: Number> SystemOfParts<N> {
 
     /// The flow of a part.
     fn flow(&mut self, index: usize, time: &N, carried: Carried) {
-        let continues = self.last == Some(index);
+        let continues = self.current[index];
         if index == 0 && !continues {
             self.state.count_evaluation();
         }
         self.parts[index].flow(time, &mut FlowState::new(&mut self.state, carried), continues);
         self.last = Some(index);
+        let is_potential = self.potentials[index];
+        let others = self.current.iter_mut().zip(&self.potentials);
+        others.for_each(|(current, potential)| *current &= is_potential && *potential);
+        self.current[index] = true;
     }
 }
 
@@ -126,6 +141,7 @@ impl<N: Number> System for SystemOfParts<N> {
 
     fn state_mut(&mut self) -> &mut VectorState<N> {
         self.last = None;
+        self.current.fill(false);
         &mut self.state
     }
 
@@ -137,7 +153,14 @@ impl<N: Number> System for SystemOfParts<N> {
         self.flow(0, weight, carried);
     }
 
+    /// # Panics
+    /// If a scheme with an inner scheme advances more than three parts: it alone has H_2 next before H_n then.
     fn drift(&mut self, weight: &N, carried: Carried) {
+        let count = self.parts.len();
+        assert!(
+            count <= 3 || self.last != Some(1),
+            "an inner scheme is for H of three parts, and this one has {count}"
+        );
         self.flow(self.parts.len() - 1, weight, carried);
     }
 

@@ -56,6 +56,7 @@ impl GivenBodies {
 }
 
 /// The number of bodies, and their properties.
+#[derive(Clone)]
 pub(super) struct Bodies {
     pub(super) count: usize,
     /// Names, with a value for each body.

@@ -30,7 +30,12 @@ pub(super) fn is_in_kinetic(reader: &Reader<'_>, given: &Given) -> bool {
 }
 
 /// Refuses t in formulas of bodies; `what` does not depend on it.
-pub(super) fn refuse(reader: &mut Reader<'_>, given: &Given, formulas: [Option<&Text>; 2], what: &str) -> Option<()> {
+pub(super) fn refuse<'a>(
+    reader: &mut Reader<'_>,
+    given: &Given,
+    formulas: impl IntoIterator<Item = Option<&'a Text>>,
+    what: &str,
+) -> Option<()> {
     let Some(formula) = formulas.into_iter().flatten().find(|formula| is_in(reader, given, &formula.value)) else {
         return Some(());
     };

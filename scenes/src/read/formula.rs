@@ -13,8 +13,13 @@ use crate::scene::COLUMNS;
 use crate::scene::{Formula, InitialValueProblem, PotentialEnergy};
 use shadowstep_schemes::document::{Placed, Text};
 
-/// The problem with this potential.
-pub(super) fn problem(reader: &mut Reader<'_>, given: &Given, potential: &Text) -> Option<InitialValueProblem> {
+/// The problem with this potential, and with it the slow potential of another one.
+pub(super) fn problem(
+    reader: &mut Reader<'_>,
+    given: &Given,
+    potential: &Text,
+    slow: Option<&Text>,
+) -> Option<(InitialValueProblem, Option<PotentialEnergy>)> {
     given.refuse_keys_of_pairs(reader);
     let parameters = given.own_parameters(reader);
     let list = given.coordinates.as_ref()?;
@@ -22,12 +27,14 @@ pub(super) fn problem(reader: &mut Reader<'_>, given: &Given, potential: &Text) 
     let (mut coordinates, mut momenta) = names(reader, given, list);
     let of_coordinates = coordinates.len();
     let moved = momenta.clone();
-    let explicit_time = explicit_time::is_in(reader, given, &potential.value);
+    let mut both = [Some(potential), slow].into_iter().flatten();
+    let explicit_time = both.any(|text| explicit_time::is_in(reader, given, &text.value));
     if explicit_time {
         explicit_time::add_names(reader, given, (&mut coordinates, &mut momenta));
     }
     let named = reader.toml.faults.len() == before;
-    let potential = if named { self::potential(reader, potential, &coordinates, &parameters) } else { None };
+    let mut in_names = |text| if named { self::potential(reader, text, &coordinates, &parameters) } else { None };
+    let (potential, slow) = (in_names(potential), slow.map(in_names));
     let masses = given.masses.as_ref().and_then(|numbers| {
         let values = numbers.values(reader, of_coordinates)?;
         kinetic::masses(reader, numbers, values)
@@ -48,7 +55,7 @@ pub(super) fn problem(reader: &mut Reader<'_>, given: &Given, potential: &Text) 
         explicit_time::refuse_other_start(reader, given, q.as_ref());
     }
     let kinetic = if named { kinetic::kinetic(reader, given, &moved, &parameters, masses) } else { None };
-    Some(InitialValueProblem {
+    let problem = InitialValueProblem {
         potential: PotentialEnergy::Formula(potential?),
         kinetic: kinetic?,
         parameters,
@@ -57,11 +64,15 @@ pub(super) fn problem(reader: &mut Reader<'_>, given: &Given, potential: &Text) 
         q: q?,
         p: p?,
         explicit_time,
-    })
+    };
+    match slow {
+        Some(slow) => Some((problem, Some(PotentialEnergy::Formula(slow?)))),
+        None => Some((problem, None)),
+    }
 }
 
 /// U(q) in these names.
-fn potential(
+pub(super) fn potential(
     reader: &mut Reader<'_>,
     text: &Text,
     coordinates: &[String],

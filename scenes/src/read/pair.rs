@@ -5,14 +5,17 @@ use shadowstep_symbolic::{Exact, Expression, ExpressionKind, is_symmetric, parse
 
 use super::bodies::{Bodies, refuse_reserved};
 use super::cutoff::cutoff;
-use super::explicit_time;
 use super::given::Given;
 use super::kinetic;
 use super::numbers::Numbers;
 use super::reader::Reader;
+use super::{explicit_time, formula};
 use crate::note::Note;
-use crate::scene::{Formula, InitialValueProblem, PairEnergy, PotentialEnergy};
+use crate::scene::{Formula, InitialValueProblem, PairCutoff, PairEnergy, PotentialEnergy};
 use shadowstep_schemes::document::Text;
+
+const HELP: &str =
+    "r2 is the square of the distance, d = q_j - q_i the difference in one dimension: \"-g*m_i*m_j/sqrt(r2)\"";
 
 /// The formula of the energy of a pair.
 pub(super) struct PairFormula {
@@ -24,26 +27,32 @@ pub(super) struct PairFormula {
 impl PairFormula {
     /// Reads the formula and finds the separation that it contains.
     pub(super) fn read(reader: &mut Reader<'_>, text: Text) -> Option<PairFormula> {
-        let help =
-            "r2 is the square of the distance, d = q_j - q_i the difference in one dimension: \"-g*m_i*m_j/sqrt(r2)\"";
+        match PairFormula::read_if(reader, text)? {
+            Ok(pair) => Some(pair),
+            Err(text) => reader.toml.wrong(
+                &text.at,
+                "the energy of a pair must be a formula in `r2` or in `d`; this one has neither",
+                HELP,
+            ),
+        }
+    }
+
+    /// The same of a text that is perhaps not a formula of pairs, which is returned then.
+    pub(super) fn read_if(reader: &mut Reader<'_>, text: Text) -> Option<Result<PairFormula, Text>> {
         let expression = match parse(&text.value) {
             Ok(expression) => expression,
-            Err(error) => return reader.toml.wrong(&text.place(&error.range), error.to_string(), help),
+            Err(error) => return reader.toml.wrong(&text.place(&error.range), error.to_string(), HELP),
         };
         let mut found = Vec::new();
         separations(&expression, &mut found);
         found.dedup();
         match found[..] {
-            [separation] => Some(PairFormula { text, expression, separation }),
-            [] => reader.toml.wrong(
-                &text.at,
-                "the energy of a pair must be a formula in `r2` or in `d`; this one has neither",
-                help,
-            ),
+            [separation] => Some(Ok(PairFormula { text, expression, separation })),
+            [] => Some(Err(text)),
             _ => reader.toml.wrong(
                 &text.at,
                 "the energy of a pair must be a formula in `r2` or in `d`; this one has both",
-                help,
+                HELP,
             ),
         }
     }
@@ -59,12 +68,16 @@ fn separations(expression: &Expression, found: &mut Vec<Separation>) {
     }
 }
 
-/// The problem of bodies with this energy of each pair.
+/// A slow potential beside pairs: of all pairs, or of the coordinates.
+pub(super) type Slow = Result<PairFormula, Text>;
+
+/// The problem of bodies with this energy of each pair, and with it the slow potential of another one.
 pub(super) fn problem(
     reader: &mut Reader<'_>,
     given: &Given,
     pair: Option<PairFormula>,
-) -> Option<InitialValueProblem> {
+    slow: Option<Slow>,
+) -> Option<(InitialValueProblem, Option<PotentialEnergy>)> {
     given.refuse(reader, &["coordinates", "momenta"], |key| {
         let names = "x1, y1, …, px1, py1, …, or in one dimension q1, …, p1, …";
         (format!("{key} cannot be set with `pair`"), format!("remove `{key}`: the names are {names}"))
@@ -79,7 +92,8 @@ pub(super) fn problem(
     if let Some(initial) = &given.initial {
         given.state.all_there(reader, initial);
     }
-    let formulas = [pair.as_ref().map(|pair| &pair.text), given.kinetic.as_ref()];
+    let of_slow = slow.as_ref().map(|slow| slow.as_ref().map_or_else(|text| text, |pair| &pair.text));
+    let formulas = [pair.as_ref().map(|pair| &pair.text), given.kinetic.as_ref(), of_slow];
     explicit_time::refuse(reader, given, formulas, "a sum over pairs of bodies")?;
     let (pair, bodies, dimensions) = (pair?, bodies?, dimensions?);
     let (coordinates, momenta) = names(bodies.count, dimensions);
@@ -95,8 +109,13 @@ pub(super) fn problem(
     let values = |reader: &mut Reader<'_>, numbers: &Numbers| bodies.values_in_space(reader, numbers, dimensions);
     let (q, p) = given.state.values(reader, values, masses.as_deref());
     let kinetic = if named { kinetic::kinetic(reader, given, &momenta, &parameters, masses) } else { None };
-    let potential = pair_energy(reader, given, &pair, bodies, dimensions, &parameters).map(PotentialEnergy::Pairs);
-    Some(InitialValueProblem {
+    let potential =
+        pair_energy(reader, given, &pair, bodies.clone(), dimensions, &parameters).map(PotentialEnergy::Pairs);
+    let slow = match slow {
+        Some(slow) => Some(slow_potential(reader, given, slow, (bodies, dimensions), (&coordinates, &parameters))?),
+        None => None,
+    };
+    let problem = InitialValueProblem {
         potential: potential?,
         kinetic: kinetic?,
         parameters,
@@ -105,7 +124,32 @@ pub(super) fn problem(
         q: q?,
         p: p?,
         explicit_time: false,
-    })
+    };
+    Some((problem, slow))
+}
+
+/// The slow potential: all pairs have it, of a chain too.
+fn slow_potential(
+    reader: &mut Reader<'_>,
+    given: &Given,
+    slow: Slow,
+    (bodies, dimensions): (Bodies, usize),
+    (coordinates, parameters): (&[String], &[(String, Exact)]),
+) -> Option<PotentialEnergy> {
+    let pair = match slow {
+        Ok(pair) => pair,
+        Err(text) => return formula::potential(reader, &text, coordinates, parameters).map(PotentialEnergy::Formula),
+    };
+    if given.place("box").is_some() || given.neighbours == Some(Ends::Periodic) || given.neighbours == Some(Ends::Fixed)
+    {
+        let help = "write the slow potential in the coordinates x1, y1, …, or the bodies in open space";
+        return reader.toml.wrong(&pair.text.at, "slow forces of pairs have no periodic images and no walls", help);
+    }
+    if pair.separation == Separation::Difference && dimensions != 1 {
+        let message = format!("a formula in `d` requires one dimension, not {dimensions}");
+        return reader.toml.wrong(&pair.text.at, message, "write the formula in `r2`");
+    }
+    of_pairs(reader, &pair, (bodies, None, None), dimensions, parameters).map(PotentialEnergy::Pairs)
 }
 
 fn pair_energy(
@@ -126,6 +170,18 @@ fn pair_energy(
         ),
         _ => cutoff(reader, (given.cutoff.as_ref(), given.sides.as_ref()), |key| given.place(key), dimensions),
     };
+    let energy = of_pairs(reader, pair, (bodies, ends, cutoff?.map(Box::new)), dimensions, parameters);
+    energy.filter(|_| reader.toml.faults.len() == before)
+}
+
+/// The energy of the pairs of these bodies, of a chain if it has ends, up to a cutoff if there is one.
+fn of_pairs(
+    reader: &mut Reader<'_>,
+    pair: &PairFormula,
+    (bodies, ends, cutoff): (Bodies, Option<Ends>, Option<Box<PairCutoff>>),
+    dimensions: usize,
+    parameters: &[(String, Exact)],
+) -> Option<PairEnergy> {
     let formula = match Formula::pair(&pair.text.value, pair.separation, &bodies.properties, parameters) {
         Ok(formula) => formula,
         Err(error) => {
@@ -141,9 +197,7 @@ fn pair_energy(
         reader.notes.push(Note::AsymmetricPair { formula: pair.text.value.clone() });
     }
     let Bodies { count, properties } = bodies;
-    let cutoff = cutoff?.map(Box::new);
-    let energy = PairEnergy { formula, dimensions, bodies: count, properties, ends, cutoff, of_bodies: Vec::new() };
-    (reader.toml.faults.len() == before).then_some(energy)
+    Some(PairEnergy { formula, dimensions, bodies: count, properties, ends, cutoff, of_bodies: Vec::new() })
 }
 
 /// The number of dimensions; 1 for a formula in `d`.

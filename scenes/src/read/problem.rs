@@ -8,8 +8,9 @@ use super::pair::PairFormula;
 use super::parts;
 use super::planets::{self, GivenBody, Settings};
 use super::reader::Reader;
-use super::{doubled, explicit_time, formula, magnetic, many_parts, pair, shipped};
+use super::{doubled, explicit_time, formula, magnetic, many_parts, pair, shipped, slow};
 use crate::scene::System;
+use crate::scene::split::SLOW;
 use shadowstep_schemes::document::{Placed, Section, Text};
 
 /// The keys of which exactly one gives the potential.
@@ -43,6 +44,7 @@ fn of_any_way(
     let given = Given::read(reader, problem, initial, ways.contains(&"pair") || ways.is_empty() && !is_of_parts);
     let settings = Settings::read(reader, problem);
     let field = reader.names(problem, magnetic::KEY, "a list of formulas: [\"-b*y/2\", \"b*x/2\"]");
+    let slow = problem.get(SLOW).and_then(|value| reader.toml.text(value));
     let coupling = problem.get(doubled::COUPLING).and_then(|value| reader.number(value));
     refuse_keys_of_others(reader, &given, &ways, bodies);
     if let Some(value) = problem.get("parts").filter(|value| parts::is_list(value)) {
@@ -66,7 +68,7 @@ fn of_any_way(
         }
         ["potential"] => {
             given.needs(reader, problem, "coordinates");
-            of_potential(reader, &given, potential?, field.as_ref(), settings.split)
+            of_potential(reader, &given, (potential?, slow), field.as_ref(), settings.split)
         }
         ["pair"] => {
             given.needs(reader, problem, "bodies");
@@ -74,8 +76,9 @@ fn of_any_way(
             if pair.as_ref().is_some_and(|pair| pair.separation == Separation::SquaredDistance) {
                 given.needs(reader, problem, "dimensions");
             }
-            let problem = pair::problem(reader, &given, pair)?;
-            parts::split(reader, &given, problem, settings.split?, None)
+            let slow = slow.and_then(|text| PairFormula::read_if(reader, text));
+            let problem = pair::problem(reader, &given, pair, slow)?;
+            slow::system(reader, &given, problem, settings.split)
         }
         [doubled::HAMILTONIAN] => {
             given.needs(reader, problem, "coordinates");
@@ -97,18 +100,22 @@ fn of_any_way(
 fn of_potential(
     reader: &mut Reader<'_>,
     given: &Given,
-    potential: Text,
+    (potential, slow): (Text, Option<Text>),
     field: Option<&Placed<Vec<Text>>>,
     split: Option<parts::Split>,
 ) -> Option<System> {
+    if slow.is_some() && (field.is_some() || explicit_time::is_in_kinetic(reader, given)) {
+        slow::refuse(reader, given, field.map_or("t in `kinetic`", |_| magnetic::KEY));
+        return None;
+    }
     if let Some(field) = field {
         return magnetic::system(reader, given, potential, field);
     }
     if explicit_time::is_in_kinetic(reader, given) {
         return many_parts::with_time_in_kinetic(reader, given, potential);
     }
-    let problem = formula::problem(reader, given, &potential)?;
-    parts::split(reader, given, problem, split?, None)
+    let problem = formula::problem(reader, given, &potential, slow.as_ref())?;
+    slow::system(reader, given, problem, split)
 }
 
 /// Refuses keys that belong to another way than the one that is given.
@@ -116,6 +123,12 @@ fn refuse_keys_of_others(reader: &mut Reader<'_>, given: &Given, ways: &[&str], 
     if *ways != [doubled::HAMILTONIAN] {
         given.refuse(reader, &[doubled::COUPLING], |key| {
             (format!("{key} requires `{}`", doubled::HAMILTONIAN), format!("remove `{key}`"))
+        });
+    }
+    if !matches!(*ways, ["potential" | "pair"]) {
+        given.refuse(reader, &[SLOW], |key| {
+            let help = format!("remove `{key}`, or give the fast forces by a formula");
+            (format!("{key} requires `potential` or `pair`"), help)
         });
     }
     if *ways != ["potential"] {

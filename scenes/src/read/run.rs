@@ -113,7 +113,9 @@ fn scheme(
             return None;
         }
     };
-    let needs = system.map_or_else(|| Needs::of_class(Class::Quadratic), System::needs);
+    // of a system that cannot be read, the number of parts is not known
+    let unknown = || Needs { parts: 3, ..Needs::of_class(Class::Quadratic) };
+    let needs = system.map_or_else(unknown, System::needs);
     let note = named.note();
     let named = match needs.scheme(named, schemes) {
         Ok(named) => named,

@@ -88,7 +88,16 @@ impl InitialValueProblem {
 
     /// U(q)
     pub(crate) fn potential<N: Number + 'static>(&self, context: &N::Context) -> Box<dyn Potential<N>> {
-        match &self.potential {
+        self.in_numbers(&self.potential, context)
+    }
+
+    /// A potential in the coordinates and parameters of the problem.
+    pub(crate) fn in_numbers<N: Number + 'static>(
+        &self,
+        potential: &PotentialEnergy,
+        context: &N::Context,
+    ) -> Box<dyn Potential<N>> {
+        match potential {
             PotentialEnergy::Shipped(setup) => setup.potential(context),
             PotentialEnergy::Formula(formula) => {
                 Box::new(formula.meaning().in_numbers(values(&self.parameters, context)))

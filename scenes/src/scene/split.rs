@@ -11,6 +11,7 @@ mod kinetic_and_potential;
 mod linear;
 mod needs;
 mod shown_coordinates;
+mod slow_forces;
 mod transformed_time;
 mod wisdom_holman;
 
@@ -20,6 +21,8 @@ pub(crate) use linear::LINEAR;
 pub use linear::Linear;
 pub use needs::{Class, Needs};
 pub use shown_coordinates::ShownCoordinates;
+pub(crate) use slow_forces::SLOW;
+pub use slow_forces::SlowForces;
 pub use transformed_time::TransformedTime;
 pub(crate) use wisdom_holman::OfPlanets;
 pub use wisdom_holman::{CanonicalCoordinates, CloseEncounters, Planets};

@@ -11,7 +11,9 @@ use shadowstep_symbolic::Exact;
 use crate::error::Error;
 use crate::scene::own::OwnPotential;
 use crate::scene::problem::{InitialValueProblem, KineticEnergy, PotentialEnergy};
-use crate::scene::split::{Class, Formulas, KineticAndPotential, Linear, Needs, Planets, Split, TransformedTime};
+use crate::scene::split::{
+    Class, Formulas, KineticAndPotential, Linear, Needs, Planets, SlowForces, Split, TransformedTime,
+};
 
 /// A problem and how its H is split for the steps.
 #[derive(Debug)]
@@ -35,6 +37,8 @@ pub enum Parts {
     TransformedTime(TransformedTime),
     /// H is the sum of formulas.
     Formulas(Formulas),
+    /// Slow forces, fast forces and T(p).
+    SlowForces(SlowForces),
 }
 
 /// Asks the kind of split: the one place where the kinds are told apart.
@@ -46,6 +50,7 @@ macro_rules! ask {
             Parts::Linear($split) => $answer,
             Parts::TransformedTime($split) => $answer,
             Parts::Formulas($split) => $answer,
+            Parts::SlowForces($split) => $answer,
         }
     };
 }
@@ -63,6 +68,14 @@ impl Parts {
 
     pub(crate) fn metadata(&self) -> Option<(&'static str, Value)> {
         ask!(self, split => split.metadata())
+    }
+
+    /// The slow forces, if they are a part.
+    pub fn slow_forces(&self) -> Option<&SlowForces> {
+        match self {
+            Parts::SlowForces(slow) => Some(slow),
+            _ => None,
+        }
     }
 
     /// The planets, if these are the parts.

@@ -73,4 +73,8 @@ impl<N: Number> Part<N> for Commuting<N> {
         }
         state.add_to_beta(time, &self.rate);
     }
+
+    fn is_potential(&self, coordinates: usize) -> bool {
+        self.variables.iter().all(|index| *index < coordinates)
+    }
 }

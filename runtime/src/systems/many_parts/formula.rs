@@ -151,6 +151,10 @@ impl<N: Number> Part<N> for FormulaPart<N> {
         // they have no degree of freedom in common
         self.flows.iter_mut().for_each(|part| part.flow(time, state, continues));
     }
+
+    fn is_potential(&self, coordinates: usize) -> bool {
+        self.flows.iter().all(|part| part.is_potential(coordinates))
+    }
 }
 
 /// The parts of formulas, for [`SystemOfParts`](super::SystemOfParts).

@@ -16,7 +16,7 @@ pub struct Formulas(pub(crate) Vec<Formula<PartFormula>>);
 
 impl Split for Formulas {
     fn needs(&self, _: &InitialValueProblem) -> Needs {
-        Needs::of_class(Class::ManyParts)
+        Needs { parts: self.0.len(), ..Needs::of_class(Class::ManyParts) }
     }
 
     fn metadata(&self) -> Option<(&'static str, Value)> {

@@ -8,6 +8,8 @@ use crate::refusal::{NoGradientKicks, NoProcessor, Refusal};
 pub struct Needs {
     /// The class of schemes that move it.
     pub class: Class,
+    /// How many parts H has.
+    pub parts: usize,
     /// Why it has no gradient kicks; `None` where it has them, or the class has none.
     pub no_gradient_kicks: Option<NoGradientKicks>,
     /// Why its schemes are not processed, if they are not.
@@ -28,9 +30,9 @@ pub enum Class {
 }
 
 impl Needs {
-    /// No more than that a scheme is of this class.
+    /// No more than that a scheme is of this class, for two parts.
     pub(crate) fn of_class(class: Class) -> Self {
-        Needs { class, no_gradient_kicks: None, no_processor: None, no_ensembles: None }
+        Needs { class, parts: 2, no_gradient_kicks: None, no_processor: None, no_ensembles: None }
     }
 
     /// The scheme with the steps that are needed: for many parts, those of many parts. The schemes that have been read keep these.
@@ -38,6 +40,7 @@ impl Needs {
     /// # Errors
     /// A scheme that is not valid.
     pub fn scheme(&self, named: NamedScheme, schemes: &Schemes) -> Result<NamedScheme, Refusal> {
+        library::check_inner(&named, self.parts)?;
         library::check_gradient_kicks(&named, self.no_gradient_kicks)?;
         match self.class {
             Class::Quadratic => {}
