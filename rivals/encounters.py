@@ -53,7 +53,7 @@ def encounters(count=50):
             if distance < least:
                 least, when = distance, start.t
         if least < 1 and 0.5 < when < 9.5 and max(np.linalg.norm(p.xyz) for p in start.particles) < 20:
-            found.append((bodies, hill, least))
+            found.append((bodies, float(hill), float(least)))
     return found
 
 

@@ -278,7 +278,7 @@ def problem_of(problem: Any) -> Problem:
 
 
 # keys of [problem] and [initial]; every other keyword is a parameter
-_PROBLEM = ("coordinates", "momenta", "bodies", "dimensions", "neighbours", "cutoff", "box", "units", "elements", "barycentric", "vector_potential", "hamiltonian", "parameters")
+_PROBLEM = ("coordinates", "momenta", "bodies", "dimensions", "neighbours", "cutoff", "box", "units", "elements", "barycentric", "encounters", "vector_potential", "hamiltonian", "slow", "parameters")
 # keys beside another one, without which they are names of parameters
 _BESIDE = {"coupling": "hamiltonian", "central": "body", "external": "body"}
 

@@ -112,6 +112,10 @@ mod tests {
         assert!(!without.is_fine() && without.reason().contains(hint), "{}", without.reason());
         let with = summary(&format!("{HELIOCENTRIC}\nencounters = {{ within = \"0.14\" }}"));
         assert!(with.is_fine(), "{}", with.verdict_with_reason());
+        // long steps through a narrow changeover
+        let narrow = summary(&format!("{HELIOCENTRIC}\nencounters = {{ within = \"0.01\" }}"));
+        assert_eq!(narrow.verdict(), "the step size is too large");
+        assert!(narrow.reason().contains("or a larger distance in encounters"), "{}", narrow.reason());
     }
 
     #[test]

@@ -39,7 +39,7 @@ const CLOSE: f64 = 1.0;
 impl Interactions {
     /// The approach in which H was not a sum of Kepler orbits and small interactions.
     pub(crate) fn encounter(&self) -> Option<&Approach> {
-        self.closest.as_ref().filter(|closest| closest.hill_radii < CLOSE && !self.near_in_drifts)
+        self.closest.as_ref().filter(|closest| closest.hill_radii < CLOSE)
     }
 
     /// In a line, with the times of states in words.

@@ -6,6 +6,7 @@ use serde::ser::SerializeStruct;
 use serde::{Serialize, Serializer};
 use serde_json::json;
 use shadowstep::Rational;
+use shadowstep::shadow::{Criterion, Verdict};
 use shadowstep_symbolic::decimal::{from_text, to_significant, to_text};
 
 use crate::readable::wrapped_to;
@@ -130,13 +131,21 @@ impl Summary {
         };
         let within = format!("{:.1e}", 3.0 * hill_radius);
         let within = from_text(&within).map_or(within, |exact| to_significant(&exact, 2));
-        self.reason = format!(
-            "{i} and {j} came within {hill_radii:.2} Hill radii of each other at {}, where kicks are not small beside the Kepler orbits, as these \
-             parts require: smaller steps do not help; write parts = \"wisdom-holman-heliocentric\" with encounters = {{ within = {within} }}, 3 of \
-             these radii",
-            self.time(*n)
-        );
-        self.verdict = "the splitting is not valid in a close encounter".to_owned();
+        let time = self.time(*n);
+        if self.interactions.as_ref().is_some_and(|found| found.near_in_drifts) {
+            self.reason = format!(
+                "{i} and {j} came within {hill_radii:.2} Hill radii of each other at {time}, and their attraction goes from kicks to drifts within \
+                 too few steps: use a smaller step size, or a larger distance in encounters = {{ within = … }}, {within} is 3 of these radii"
+            );
+            self.verdict = Verdict::TooLarge(Criterion::EnergyError).to_string();
+        } else {
+            self.reason = format!(
+                "{i} and {j} came within {hill_radii:.2} Hill radii of each other at {time}, where kicks are not small beside the Kepler orbits, as \
+                 these parts require: smaller steps do not help; write parts = \"wisdom-holman-heliocentric\" with encounters = {{ within = \
+                 {within} }}, 3 of these radii"
+            );
+            self.verdict = "the splitting is not valid in a close encounter".to_owned();
+        }
         self.conclusion.clone_from(&self.verdict);
     }
 
