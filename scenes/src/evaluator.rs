@@ -14,7 +14,8 @@ use crate::computation::RunNumber;
 use crate::error::Error;
 use crate::expression::{Comparison, Condition, ENERGY, Expression, TIME, name_of_quantity};
 use crate::lanes::LANES;
-use crate::quantity::{Compute, NoQuantity, Quantity, QuantityOfBodies};
+use crate::quantity::Quantity;
+use crate::quantity_of_bodies::{Compute, NoQuantity, QuantityOfBodies};
 use crate::scene::split::ShownCoordinates;
 use crate::scene::{EnergyAt, System};
 
@@ -122,7 +123,8 @@ impl<N: RunNumber> Evaluator<N> {
 
 fn quantities(expression: &Expression, system: &System) -> Result<Vec<QuantityOfBodies>, NotOfSystem> {
     let of = |quantity: &Quantity| {
-        quantity.of(system).map_err(|no| NotOfSystem::Quantity { no, range: quantity.range.clone() })
+        QuantityOfBodies::new(quantity, system)
+            .map_err(|no| NotOfSystem::Quantity { no, range: quantity.range.clone() })
     };
     expression.quantities.iter().map(of).collect()
 }

@@ -9,7 +9,7 @@ use crate::error::Error;
 use crate::note::Note;
 use crate::observer::Observer;
 use crate::results::{Begun, Checkpoint, Columns, FileOptions, Metadata, Rows, Target, records};
-use crate::scene::Scene;
+use crate::scene::{Format, Scene};
 use crate::stability::{few_kicks, resonant, unstable};
 use crate::steps::End;
 
@@ -92,7 +92,7 @@ impl Scene {
         }
         if !matches!(begun, Begun::Resumed(_)) {
             rows.head(&Metadata::of(self))?;
-            rows.target.end_head(checkpoint)?;
+            rows.target.end_head(self.output.format == Format::Numpy, checkpoint)?;
         }
         let following = SceneRun { scene: self, rows: &mut rows, checkpoint, observer: &mut *observer };
         let ended = self.arithmetic.compute(following);
@@ -262,7 +262,7 @@ mod tests {
         }
     }
 
-    /// The bytes of a run to the end, from that of an earlier end, with a stop after so many states of the prolonged one.
+    /// The bytes of a run to the end, from that of an earlier end, with a stop after a number of states of the prolonged one.
     fn prolonged(digits: &str, system: &str, output: &str, (earlier, stop): (u64, i64)) -> String {
         let folder = tempfile::tempdir().unwrap();
         let whole = scene_in(digits, folder.path(), system, output);

@@ -124,6 +124,7 @@ mod pace;
 mod physical_end;
 pub mod propagator;
 mod quantity;
+mod quantity_of_bodies;
 mod read;
 pub mod readable;
 mod refusal;

@@ -1,22 +1,26 @@
-//! Quantities of bodies in expressions: distances, and the elements of osculating Kepler orbits.
-
-mod orbit;
+//! Quantities of bodies as expressions have them: distances, and elements of orbits.
 
 use std::ops::Range;
 
-use num_traits::Zero;
-use shadowstep::{Rational, Real};
 use shadowstep_symbolic::{Expression as Syntax, ExpressionKind};
-
-use self::orbit::{Element, Orbit};
-use crate::scene::bodies::Bodies;
-use crate::scene::{GRAVITY, PotentialEnergy, System};
 
 /// The function of a distance.
 const DISTANCE: &str = "distance";
 
+/// An element of an orbit; angles are in degrees.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Element {
+    SemiMajorAxis,
+    Eccentricity,
+    Inclination,
+    Node,
+    Pericentre,
+    MeanAnomaly,
+    MeanLongitude,
+}
+
 /// The elements with their names, which are those of [[body]].
-const ELEMENTS: [(&str, Element); 7] = [
+pub(crate) const ELEMENTS: [(&str, Element); 7] = [
     ("a", Element::SemiMajorAxis),
     ("e", Element::Eccentricity),
     ("i", Element::Inclination),
@@ -26,32 +30,19 @@ const ELEMENTS: [(&str, Element); 7] = [
     ("lambda", Element::MeanLongitude),
 ];
 
-/// The centre of mass of the bodies before, and of all bodies.
-pub(crate) const JACOBI: &str = "jacobi";
-pub(crate) const BARYCENTRE: &str = "barycentre";
-
 /// A call in an expression, as it is written: `distance(earth, moon)`, `e(earth)`, `a(earth, jacobi)`.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Quantity {
-    function: Function,
-    arguments: Vec<String>,
+    pub(crate) function: Function,
+    pub(crate) arguments: Vec<String>,
     /// Its bytes in the formula.
     pub(crate) range: Range<usize>,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Function {
+pub(crate) enum Function {
     Distance,
     Element(Element),
-}
-
-/// Why a system does not have a quantity.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct NoQuantity {
-    /// What is wrong, one sentence.
-    pub message: String,
-    /// What would be right.
-    pub hint: String,
 }
 
 impl Quantity {
@@ -70,311 +61,5 @@ impl Quantity {
             found.push(Quantity { function, arguments, range: part.range.clone() });
         });
         found
-    }
-
-    /// What it is of the bodies of a system.
-    pub(crate) fn of(&self, system: &System) -> Result<QuantityOfBodies, NoQuantity> {
-        let bodies = Bodies::of(system).filter(|bodies| bodies.names.len() > 1).ok_or_else(|| NoQuantity {
-            message: "this system has no bodies".to_owned(),
-            hint: "write a formula in its coordinates and momenta".to_owned(),
-        })?;
-        let number = |name: &String| {
-            bodies.number(name).map_err(|hint| NoQuantity { message: format!("there is no body `{name}`"), hint })
-        };
-        match (self.function, &self.arguments[..]) {
-            (Function::Distance, [one, other]) => {
-                let of = [number(one)?, number(other)?].map(|body| bodies.coordinates(body));
-                refuse_box(system).map(|()| QuantityOfBodies::Distance(of))
-            }
-            (Function::Element(element), [body]) => {
-                let body = number(body)?;
-                ElementOfBody::new(system, &bodies, (element, body), &[0])
-                    .map(|of| QuantityOfBodies::Element(Box::new(of)))
-            }
-            (Function::Element(element), [body, centre]) => {
-                let (body, is_body) = (number(body)?, bodies.names.contains(centre));
-                let centre: Vec<usize> = match centre.as_str() {
-                    JACOBI if !is_body => (0..body).collect(),
-                    BARYCENTRE if !is_body => (0..bodies.names.len()).collect(),
-                    _ => vec![number(centre)?],
-                };
-                ElementOfBody::new(system, &bodies, (element, body), &centre)
-                    .map(|of| QuantityOfBodies::Element(Box::new(of)))
-            }
-            (Function::Distance, _) => refuse("a distance is one of two bodies", "write distance(earth, moon)"),
-            (Function::Element(_), _) => refuse(
-                "an element is one of a body, about the first body or another centre",
-                "write a(earth), a(moon, earth), a(earth, jacobi) or a(earth, barycentre)",
-            ),
-        }
-    }
-}
-
-/// The elements of every body about a centre, as names of columns with formulas: those of the first body about the barycentre only, and those of
-/// a plane without `i` and `node`; none without bodies.
-pub(crate) fn elements_of(system: &System, centre: Option<&str>) -> Vec<(String, String)> {
-    let Some(bodies) = Bodies::of(system) else { return Vec::new() };
-    let about = centre.map_or(String::new(), |centre| format!(", {centre}"));
-    let elements = ELEMENTS.iter().filter(|(_, element)| match element {
-        Element::Inclination | Element::Node => bodies.dimensions == 3,
-        Element::MeanLongitude => false,
-        _ => true,
-    });
-    let first = usize::from(centre != Some(BARYCENTRE));
-    let named = |body: &String| {
-        let joint = if body.parse::<usize>().is_ok() { "" } else { "_" };
-        let of = |(name, _): &(&str, Element)| (format!("{name}{joint}{body}"), format!("{name}({body}{about})"));
-        elements.clone().map(of).collect::<Vec<_>>()
-    };
-    bodies.names.iter().skip(first).flat_map(named).collect()
-}
-
-/// A quantity of bodies by their numbers.
-#[derive(Clone, Debug)]
-pub(crate) enum QuantityOfBodies {
-    /// Between the points with these coordinates.
-    Distance([Range<usize>; 2]),
-    Element(Box<ElementOfBody>),
-}
-
-/// An element of a body's osculating orbit about a centre of mass.
-#[derive(Clone, Debug)]
-pub(crate) struct ElementOfBody {
-    element: Element,
-    body: Range<usize>,
-    /// The body's mass.
-    mass: Rational,
-    /// The coordinates of the bodies of the centre, with their masses as parts of its mass.
-    centre: Vec<(Range<usize>, Rational)>,
-    /// The mass of the centre.
-    centre_mass: Rational,
-    /// G times the mass of the two; of the barycentre of all, of that alone.
-    parameter: Rational,
-}
-
-impl ElementOfBody {
-    fn new(
-        system: &System,
-        bodies: &Bodies,
-        (element, body): (Element, usize),
-        centre: &[usize],
-    ) -> Result<Self, NoQuantity> {
-        let g = gravitational_constant(system).filter(|_| bodies.dimensions > 1);
-        let Some(g) = g else {
-            return refuse(
-                "elements are of bodies that attract each other by Newton's law",
-                "give the bodies in sections [[body]]",
-            );
-        };
-        if centre == [body] || centre.is_empty() {
-            let hint = "name a planet, or another centre: a(moon, earth), a(sun, barycentre)";
-            return refuse(&format!("`{}` has no orbit about itself", bodies.names[body]), hint);
-        }
-        let masses: Vec<Rational> = system.exact_masses().into_iter().step_by(bodies.dimensions).collect();
-        let centre_mass: Rational = centre.iter().map(|own| &masses[*own]).sum();
-        let both = if centre.contains(&body) { centre_mass.clone() } else { &centre_mass + &masses[body] };
-        let part = |own: &usize| (bodies.coordinates(*own), &masses[*own] / &centre_mass);
-        Ok(ElementOfBody {
-            element,
-            body: bodies.coordinates(body),
-            mass: masses[body].clone(),
-            centre: centre.iter().map(part).collect(),
-            parameter: g * both,
-            centre_mass,
-        })
-    }
-}
-
-/// G of bodies whose energy is −G m_i m_j/r.
-fn gravitational_constant(system: &System) -> Option<Rational> {
-    let is_gravity = match &system.potential {
-        PotentialEnergy::Pairs(pairs) => pairs.formula.text() == GRAVITY,
-        PotentialEnergy::Shipped(_) => true,
-        _ => false,
-    };
-    let g = system.parameters.iter().find(|(name, _)| name == "g").filter(|_| is_gravity);
-    g.map(|(_, g)| g.value.clone())
-}
-
-fn refuse_box(system: &System) -> Result<(), NoQuantity> {
-    match &system.potential {
-        PotentialEnergy::Pairs(pairs) if pairs.is_in_box() => {
-            refuse("bodies in a periodic box have many distances", "write a formula in the coordinates")
-        }
-        _ => Ok(()),
-    }
-}
-
-fn refuse<T>(message: &str, hint: &str) -> Result<T, NoQuantity> {
-    Err(NoQuantity { message: message.to_owned(), hint: hint.to_owned() })
-}
-
-/// Computes a quantity from positions and momenta.
-pub(crate) type Compute<N> = Box<dyn FnMut(&[N], &[N]) -> N>;
-
-impl QuantityOfBodies {
-    /// In the numbers of a run.
-    pub(crate) fn in_numbers<N: Real + 'static>(&self, context: &N::Context) -> Compute<N> {
-        match self {
-            QuantityOfBodies::Distance([one, other]) => {
-                let (one, other) = (one.clone(), other.clone());
-                Box::new(move |q, _| {
-                    let mut difference = q[0].clone();
-                    let mut square = q[0].clone();
-                    square.assign_zero();
-                    for (a, b) in q[one.clone()].iter().zip(&q[other.clone()]) {
-                        difference.assign_difference(a, b);
-                        let factor = difference.clone();
-                        square.add_product(&difference, &factor);
-                    }
-                    difference.assign_sqrt(&square);
-                    difference
-                })
-            }
-            QuantityOfBodies::Element(of) => of.in_numbers(context),
-        }
-    }
-}
-
-impl ElementOfBody {
-    fn in_numbers<N: Real + 'static>(&self, context: &N::Context) -> Compute<N> {
-        let number = |value: &Rational| N::from_rational(value, context);
-        let (element, body) = (self.element, self.body.clone());
-        let (mass, centre_mass, parameter) = (number(&self.mass), number(&self.centre_mass), number(&self.parameter));
-        let centre: Vec<_> = self.centre.iter().map(|(own, part)| (own.clone(), number(part))).collect();
-        let zero = number(&Rational::zero());
-        Box::new(move |q, p| {
-            let mut position = [(); 3].map(|()| zero.clone());
-            let mut velocity = position.clone();
-            for (axis, index) in body.clone().enumerate() {
-                // Σ m_i v_i/M = Σ p_i/M
-                for (own, part) in &centre {
-                    position[axis].subtract_product(&q[own.start + axis], part);
-                    velocity[axis].subtract(&p[own.start + axis]);
-                }
-                velocity[axis].divide(&centre_mass);
-                position[axis].add(&q[index]);
-                let mut own = p[index].clone();
-                own.divide(&mass);
-                velocity[axis].add(&own);
-            }
-            Orbit { position, velocity, parameter: parameter.clone() }.element(element)
-        })
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use shadowstep::Number;
-    use shadowstep::tables::{Faults, Source};
-    use shadowstep_symbolic::decimal::from_text;
-
-    use crate::Scene;
-
-    fn scene(problem: &str, output: &str) -> Result<Scene, Vec<String>> {
-        let text = format!(
-            "{problem}\n[run]\nscheme = \"abah864\"\nstep = \"1/10\"\nsteps = 4\ndigits = 40\n[output]\n{output}"
-        );
-        Scene::read(Source { path: "test.toml".to_owned(), text }).map_err(|Faults(faults)| {
-            faults.iter().map(|fault| format!("{}:{}: {}", fault.line, fault.column, fault.message)).collect()
-        })
-    }
-
-    /// The names of columns and the cells of a row.
-    fn row(scene: &Scene, n: usize) -> Vec<(String, String)> {
-        let mut rows = Vec::new();
-        scene.run_into(&mut rows, &mut ()).unwrap();
-        let text = String::from_utf8(rows).unwrap();
-        let cells = |line: &str| line.split(',').map(str::to_owned).collect::<Vec<_>>();
-        let mut rows = text.lines().filter(|line| !line.starts_with('#')).map(cells);
-        let names = rows.next().unwrap();
-        names.into_iter().zip(rows.nth(n).unwrap()).collect()
-    }
-
-    const ORBITS: [[&str; 6]; 5] = [
-        ["1", "0.0167", "7", "30", "100", "350"],
-        ["5.2", "0.3", "170", "200", "300", "10"],
-        ["-30", "1.5", "90", "45", "10", "-40"],
-        ["2", "0.999", "0.001", "359", "0.5", "180"],
-        ["9", "1e-6", "179", "1", "181", "0.25"],
-    ];
-
-    fn bodies(parts: &str, elements: &str) -> String {
-        let body = |[a, e, i, node, pericentre, anomaly]: &[&str; 6]| {
-            format!(
-                "[[body]]\nmass = 0.001\na = {a}\ne = {e}\ni = {i}\nnode = {node}\npericentre = {pericentre}\nM = {anomaly}\n"
-            )
-        };
-        let planets: String = ORBITS.iter().map(body).collect();
-        format!("[problem]\nparameters = {{ g = 2 }}\n{elements}\n{parts}\n[[body]]\nmass = 3\n{planets}")
-    }
-
-    /// The elements at t = 0 are those of the text, which became positions and velocities by other formulas.
-    #[test]
-    fn elements_are_those_that_the_bodies_are_given_by() {
-        let parts = ["", "parts = \"wisdom-holman\"", "parts = \"wisdom-holman-heliocentric\""];
-        for (parts, centre) in parts.into_iter().flat_map(|parts| ["heliocentric", "jacobi"].map(|c| (parts, c))) {
-            let output = format!("elements = {{ centre = \"{centre}\" }}");
-            let scene = scene(&bodies(parts, &format!("elements = \"{centre}\"")), &output).unwrap();
-            let row = row(&scene, 0);
-            assert_eq!(row.len(), 2 + 6 * ORBITS.len());
-            let expected = ORBITS.iter().enumerate().flat_map(|(body, elements)| {
-                let names = ["a", "e", "i", "node", "pericentre", "M"].map(|name| format!("{name}{}", body + 2));
-                names.into_iter().zip(*elements)
-            });
-            for ((name, cell), (expected_name, expected)) in row[2..].iter().zip(expected) {
-                let error = from_text(cell).unwrap() - from_text(expected).unwrap();
-                assert_eq!(*name, expected_name);
-                // angles of an eccentricity of 1e-6 have 6 digits less than the numbers of 40
-                assert!(
-                    f64::from_rational(&error, &()).abs() < 1e-30,
-                    "{name}: {cell} for {expected} ({parts}, {centre})"
-                );
-            }
-        }
-    }
-
-    #[test]
-    fn longitudes_and_the_barycentre_are_those_of_their_formulas() {
-        let values = "values = { l = \"lambda(5) - node(5) - pericentre(5) - M(5)\", o = \"a(1, barycentre)\", d = \"distance(1, 2)\" }\ntrajectory = true";
-        let row = row(&scene(&bodies("parts = \"wisdom-holman\"", ""), values).unwrap(), 1);
-        let value = |name: &str| {
-            let cell = &row.iter().find(|(found, _)| found == name).unwrap().1;
-            f64::from_rational(&from_text(cell).unwrap(), &())
-        };
-        let turns = value("l") / 360.0;
-        assert!((turns - turns.round()).abs() < 1e-30, "{turns}");
-        let masses = [3.0, 0.001, 0.001, 0.001, 0.001, 0.001];
-        let mean = |of: &dyn Fn(usize) -> f64| (0..6).map(of).sum::<f64>() / 3.005;
-        let square =
-            |component: &dyn Fn(&str) -> f64| ["x", "y", "z"].map(|axis| component(axis).powi(2)).iter().sum::<f64>();
-        let r = square(&|axis| value(&format!("{axis}1")) - mean(&|b| masses[b] * value(&format!("{axis}{}", b + 1))));
-        let v = square(&|axis| value(&format!("p{axis}1")) / 3.0 - mean(&|b| value(&format!("p{axis}{}", b + 1))));
-        let expected = 1.0 / (2.0 / r.sqrt() - v / (2.0 * 3.005));
-        assert!((value("o") / expected - 1.0).abs() < 1e-9, "{} for {expected}", value("o"));
-        let d = square(&|axis| value(&format!("{axis}1")) - value(&format!("{axis}2"))).sqrt();
-        assert!((value("d") / d - 1.0).abs() < 1e-15);
-    }
-
-    #[test]
-    fn what_a_system_does_not_have_is_refused_with_its_place() {
-        let planets = bodies("", "");
-        let line = planets.lines().count() + 8;
-        let chain = "[problem]\npair = \"d^2\"\nbodies = 3\n[initial]\nq = [0, 1, 2]\np = [0, 0, 0]";
-        for (problem, formula, column, fault) in [
-            (&*planets, "distance(1)", 17, "a distance is one of two bodies"),
-            (&*planets, "2*distance(1, x)", 19, "there is no body `x`"),
-            (&*planets, "e(1)", 17, "`1` has no orbit about itself"),
-            (&*planets, "e(1, jacobi)", 17, "`1` has no orbit about itself"),
-            (&*planets, "a(2, 3, 4)", 17, "an element is one of a body, about the first body or another centre"),
-            (chain, "e(2)", 17, "elements are of bodies that attract each other by Newton's law"),
-            ("problem.name = \"kepler\"", "e(2)", 17, "this system has no bodies"),
-        ] {
-            let line = if problem == planets { line } else { problem.lines().count() + 7 };
-            let faults = scene(problem, &format!("values = {{ v = \"{formula}\" }}")).map(drop).unwrap_err();
-            assert_eq!(faults, [format!("{line}:{column}: {fault}")], "{formula}");
-        }
-        let faults = scene("problem.name = \"kepler\"", "elements = true").map(drop).unwrap_err();
-        assert!(faults[0].contains("this system has no bodies with orbits"), "{faults:?}");
     }
 }

@@ -19,6 +19,7 @@ mod of_bodies;
 mod output;
 mod pair;
 mod parts;
+mod period;
 mod planets;
 mod plot;
 mod problem;

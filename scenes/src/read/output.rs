@@ -9,6 +9,7 @@ use shadowstep::shadow::{
 };
 use toml::de::DeValue;
 
+use super::period::every;
 use super::plot;
 use super::reader::Reader;
 use super::values;
@@ -89,29 +90,6 @@ fn check_numpy(reader: &mut Reader<'_>, output: &Section<'_, '_>) {
     if reader.arithmetic.is_longer_than_double() {
         let message = format!("records of NumPy have double precision, not {}", reader.arithmetic.described());
         reader.toml.fault(&at, message, "write a file of .csv or .jsonl");
-    }
-}
-
-/// The value of a key that is `true`, `false` or a table: the period, and the table.
-pub(super) fn every<'t, 'i>(
-    reader: &mut Reader<'_>,
-    output: &Section<'t, 'i>,
-    key: &'static str,
-    section: &'static str,
-) -> Option<(u64, Option<Section<'t, 'i>>)> {
-    let value = output.get(key)?;
-    match value.get_ref() {
-        DeValue::Boolean(true) => Some((1, None)),
-        DeValue::Boolean(false) => None,
-        DeValue::Table(table) => {
-            let table = reader.table(table, value, section);
-            let every = match table.get("every") {
-                Some(value) => reader.whole(value, 1..=MOST_STEPS)?,
-                None => 1,
-            };
-            Some((every, Some(table)))
-        }
-        _ => reader.toml.wrong_kind(value, "true, or a table: { every = 10 }"),
     }
 }
 

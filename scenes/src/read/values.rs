@@ -4,10 +4,10 @@ use shadowstep_schemes::document::{Section, Text, Value};
 use toml::de::DeValue;
 
 use super::names::check_name;
-use super::output::every;
+use super::period::every;
 use super::reader::Reader;
 use crate::expression::{Expression, named};
-use crate::quantity::{BARYCENTRE, JACOBI, elements_of};
+use crate::quantity_of_bodies::{BARYCENTRE, JACOBI, elements_of};
 use crate::scene::{COLUMNS, NamedExpression, System, ValueColumns};
 use crate::steps::MOST_STEPS;
 

@@ -125,7 +125,10 @@ pub(crate) struct Checkpoint {
     /// The length of the head before them.
     #[serde(default)]
     pub(crate) head: u64,
-    /// The hash of these rows.
+    /// From where on these bytes are hashed: the head of some formats is written anew at the end.
+    #[serde(default)]
+    pub(crate) hashed_from: u64,
+    /// The hash of these bytes.
     pub(crate) sha256: String,
     /// The state from which the run is resumed; `None` for the one at t = 0.
     pub(crate) state: Option<SavedState>,
@@ -193,7 +196,7 @@ impl Checkpoint {
         if !is_of_run(self.n) {
             return Err(format!("is at n = {}, which is not a state of the run", self.n));
         }
-        if self.head > self.bytes {
+        if self.head > self.bytes || self.hashed_from > self.head {
             return Err(format!("has a head of {} bytes in {} bytes", self.head, self.bytes));
         }
         if self.vectors.len() != vectors {

@@ -61,6 +61,8 @@ pub(crate) struct Resumable {
     bytes: u64,
     /// The length of the head.
     head: u64,
+    /// From where on bytes are hashed.
+    hashed_from: u64,
     hash: Sha256,
     /// The n of the last checkpoint.
     kept: Option<i64>,
@@ -112,6 +114,7 @@ impl Resumable {
             file: BufWriter::new(file),
             bytes: 0,
             head: 0,
+            hashed_from: 0,
             hash: Sha256::new(),
             kept: None,
             prolongs: None,
@@ -147,10 +150,13 @@ impl Resumable {
         }
     }
 
-    /// The rows begin here: the head is written.
-    pub(crate) fn end_head(&mut self) {
+    /// The rows begin here: the head is written, which another one [replaces](Resumable::finish) at the end where that is `written_anew`.
+    pub(crate) fn end_head(&mut self, written_anew: bool) {
         self.head = self.bytes;
-        self.hash = Sha256::new();
+        if written_anew {
+            self.hashed_from = self.bytes;
+            self.hash = Sha256::new();
+        }
     }
 
     /// Writes the rows of the file that is prolonged.
@@ -175,7 +181,7 @@ impl Resumable {
     pub(crate) fn earlier_end(path: &Path, identity: &Identity) -> Option<Checkpoint> {
         let text = read_text(beside(path, CHECKPOINT), LARGEST_CHECKPOINT).ok()?;
         let earlier = Checkpoint::of_earlier_end(&text, identity)?;
-        let hash = hash_of_rows(&mut File::open(path).ok()?, &earlier).ok()?;
+        let hash = hash_of(&mut File::open(path).ok()?, &earlier).ok()?;
         (hexadecimal(&hash.finalize()) == earlier.sha256).then_some(earlier)
     }
 
@@ -206,14 +212,15 @@ impl Resumable {
         if length < checkpoint.bytes {
             return Err(self.refused(&self.partial, "is shorter than its checkpoint states"));
         }
-        self.hash = hash_of_rows(file, &checkpoint)?;
+        self.hash = hash_of(file, &checkpoint)?;
         if hexadecimal(&self.hash.clone().finalize()) != checkpoint.sha256 {
             return Err(self.refused(&self.partial, "was changed after its checkpoint was written"));
         }
         // rows after the checkpoint are written again
         file.set_len(checkpoint.bytes)?;
         file.seek(SeekFrom::Start(checkpoint.bytes))?;
-        (self.bytes, self.head, self.kept) = (checkpoint.bytes, checkpoint.head, Some(checkpoint.n));
+        (self.bytes, self.head, self.hashed_from) = (checkpoint.bytes, checkpoint.head, checkpoint.hashed_from);
+        self.kept = Some(checkpoint.n);
         self.prolongs.clone_from(&checkpoint.prolongs);
         Ok(checkpoint)
     }
@@ -232,8 +239,8 @@ impl Resumable {
         synchronized.map_err(|error| self.not_written(&self.partial, error))?;
         let sha256 = hexadecimal(&self.hash.clone().finalize());
         let (identity, prolongs) = (self.identity.clone(), self.prolongs.clone());
-        let (bytes, head) = (self.bytes, self.head);
-        let checkpoint = Checkpoint { identity, n, bytes, head, sha256, state, prolongs, vectors };
+        let (bytes, head, hashed_from) = (self.bytes, self.head, self.hashed_from);
+        let checkpoint = Checkpoint { identity, n, bytes, head, hashed_from, sha256, state, prolongs, vectors };
         let text = checkpoint.to_text();
         if text.len() as u64 > LARGEST_CHECKPOINT {
             let message = format!("a checkpoint of this run is longer than {} MiB", LARGEST_CHECKPOINT >> 20);
@@ -323,11 +330,11 @@ impl Write for Resumable {
     }
 }
 
-/// The hash of the rows that belong to a checkpoint; the head may be written anew.
-fn hash_of_rows(file: &mut File, checkpoint: &Checkpoint) -> io::Result<Sha256> {
+/// The hash of the bytes that belong to a checkpoint.
+fn hash_of(file: &mut File, &Checkpoint { bytes, hashed_from, .. }: &Checkpoint) -> io::Result<Sha256> {
     let mut hash = Sha256::new();
-    file.seek(SeekFrom::Start(checkpoint.head))?;
-    io::copy(&mut BufReader::new(file).take(checkpoint.bytes - checkpoint.head), &mut Hashing(&mut hash))?;
+    file.seek(SeekFrom::Start(hashed_from))?;
+    io::copy(&mut BufReader::new(file).take(bytes - hashed_from), &mut Hashing(&mut hash))?;
     Ok(hash)
 }
 

@@ -8,17 +8,7 @@ use std::mem::swap;
 
 use shadowstep::{Rational, Real};
 
-/// An element of an orbit; angles are in degrees.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Element {
-    SemiMajorAxis,
-    Eccentricity,
-    Inclination,
-    Node,
-    Pericentre,
-    MeanAnomaly,
-    MeanLongitude,
-}
+use crate::quantity::Element;
 
 /// A position and a velocity relative to the centre.
 pub(super) struct Orbit<N> {
