@@ -48,7 +48,8 @@ class Problem:
         The section [time] of a scene as a mapping: steps that become short in close encounters.
     **others
         Parameters by their names, with numbers or texts. Other keys of [problem] are taken as they are: ``coordinates``, ``momenta``,
-        ``bodies``, ``dimensions``, ``neighbours``, ``cutoff``, ``box``, ``units``, ``central``, ….
+        ``bodies``, ``dimensions``, ``neighbours``, ``cutoff``, ``box``, ``units``, ``central``, ``slow``, ``encounters``, …; and ``body`` is a list of
+        mappings with the keys of [[body]], by elements, by ``q`` and ``v``, or by a table of Horizons.
 
     Own forces
     ----------
@@ -67,6 +68,9 @@ class Problem:
     >>> bodies = {"m": [1, "1/1000"]}
     >>> Problem(pair="-m_i*m_j/sqrt(r2)", dimensions=2, bodies=bodies, q=[0, 0, 1, 0], v=[0, 0, 0, 1]).dimension
     4
+    >>> star, planet = {"name": "star", "mass": 1}, {"name": "planet", "mass": "1/1000", "a": 1, "e": "1/10"}
+    >>> Problem(body=[star, planet], parameters={"g": 1}, parts="wisdom-holman")
+    Problem('[problem]', coordinates x_star, y_star, z_star, x_planet, y_planet, z_planet)
     >>> import numpy as np
     >>> def spring(q):
     ...     return 0.5 * q @ q, q
