@@ -11,9 +11,9 @@ mod dual_blocks;
 mod few;
 mod gravity;
 mod hessian;
-mod long_range;
 mod neighbours;
 mod pair;
+mod shell;
 mod switch;
 #[cfg(test)]
 mod tests;
@@ -21,9 +21,9 @@ mod tests;
 pub use cutoff::{Cutoff, CutoffError, MOST_DERIVATIVES, Switch};
 pub use cutoff_pairs::CutoffPairs;
 pub use gravity::Gravity;
-pub(crate) use long_range::LongRange;
 pub use pair::{BLOCK, Ends, Pair, PairCurvature, PairPotential};
 pub use shadowstep_symbolic::{Separation, Summand};
+pub(crate) use shell::Shell;
 
 use thiserror::Error;
 

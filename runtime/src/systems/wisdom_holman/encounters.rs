@@ -7,7 +7,7 @@ use crate::number::Number;
 use crate::systems::increments::Carried;
 use crate::systems::kept::KeptForce;
 use crate::systems::kinetic::General;
-use crate::systems::pairs::{Cutoff, CutoffPairs, Gravity, LongRange};
+use crate::systems::pairs::{Cutoff, Gravity, Pairs, Shell};
 use crate::systems::potential::Potential;
 use crate::systems::state::VectorState;
 use crate::systems::summation::{Compensated, Half};
@@ -51,7 +51,7 @@ use super::interactions::gravity_of_planets;
 pub struct Encounters<N: Number, const D: usize> {
     /// With kicks of (1 − S_0) u.
     planets: WisdomHolman<N, DemocraticHeliocentric<N, D>, D>,
-    shells: Vec<Shell<N, D>>,
+    shells: Vec<ShellOfPlanets<N, D>>,
     /// τ
     substep: f64,
     /// Masses of the planets, and G m_0.
@@ -112,12 +112,13 @@ impl Shells {
     }
 }
 
-/// The attraction at some distances.
+/// The attraction between planets at some distances.
 #[derive(Clone, Debug)]
-struct Shell<N, const D: usize> {
+struct ShellOfPlanets<N, const D: usize> {
     /// R_k
     radius: f64,
-    attraction: Attraction<N, D>,
+    /// (S_k − S_(k+1)) u, of the innermost one S_k u.
+    pairs: Pairs<Shell<Gravity<N>>, D>,
     scratch: Vec<N>,
     /// By the positions of the planets.
     gradient: Vec<N>,
@@ -125,42 +126,18 @@ struct Shell<N, const D: usize> {
     kept: KeptForce,
 }
 
-#[derive(Clone, Debug)]
-enum Attraction<N, const D: usize> {
-    /// S_k u of the innermost shell.
-    Inner(CutoffPairs<Gravity<N>, D>),
-    /// (S_k − S_(k+1)) u, which is S_k (1 − S_(k+1)) u.
-    Between(CutoffPairs<LongRange<Gravity<N>>, D>),
-}
-
-impl<N: Number, const D: usize> Attraction<N, D> {
-    fn potential(&mut self) -> &mut dyn Potential<N> {
-        match self {
-            Attraction::Inner(pairs) => pairs,
-            Attraction::Between(pairs) => pairs,
-        }
-    }
-}
-
-impl<N: Number, const D: usize> Shell<N, D> {
+impl<N: Number, const D: usize> ShellOfPlanets<N, D> {
     fn new(bodies: &Bodies, shells: &Shells, k: usize, context: &N::Context) -> Self {
-        const WITH_MASSES: &str = "there are planets with masses, whose energy is one in r²";
-        let (count, gravity) = (bodies.count() - 1, gravity_of_planets(bodies, context));
-        let mut attraction = match k + 1 == LEVELS {
-            true => Attraction::Inner(CutoffPairs::new(count, gravity, shells.cutoff(k)).expect(WITH_MASSES)),
-            false => {
-                let inner = LongRange::new(gravity, &shells.cutoff::<D>(k + 1)).expect("it is switched");
-                Attraction::Between(CutoffPairs::new(count, inner, shells.cutoff(k)).expect(WITH_MASSES))
-            }
-        };
-        let potential = attraction.potential();
-        let mut scratch = vec![N::zero(context); potential.scratch()];
-        potential.prepare(&mut scratch, context);
-        Shell {
+        let (outer, inner) = (shells.cutoff(k), (k + 1 < LEVELS).then(|| shells.cutoff::<D>(k + 1)));
+        let pair = Shell::new(gravity_of_planets(bodies, context), Some(&outer), inner.as_ref());
+        let pairs = Pairs::all(bodies.count() - 1, pair).expect("a mass for each planet");
+        let mut scratch = vec![N::zero(context); Potential::<N>::scratch(&pairs)];
+        pairs.prepare(&mut scratch, context);
+        ShellOfPlanets {
             radius: double(&shells.radii[k]),
-            attraction,
+            pairs,
             scratch,
-            gradient: vec![N::zero(context); count * D],
+            gradient: vec![N::zero(context); (bodies.count() - 1) * D],
             rate: N::zero(context),
             kept: KeptForce::Nothing,
         }
@@ -170,12 +147,10 @@ impl<N: Number, const D: usize> Shell<N, D> {
         if self.kept.suffices(augmented) {
             return;
         }
-        let Shell { attraction, scratch, gradient, rate, kept, .. } = self;
-        let potential = attraction.potential();
-        potential.update(x);
+        let ShellOfPlanets { pairs, scratch, gradient, rate, kept, .. } = self;
         match augmented {
-            true => potential.gradient_and_rate(x, gradient, rate, scratch),
-            false => potential.gradient(x, gradient, scratch),
+            true => pairs.gradient_and_rate(x, gradient, rate, scratch),
+            false => pairs.gradient(x, gradient, scratch),
         }
         *kept = if augmented { KeptForce::GradientAndRate } else { KeptForce::Gradient };
     }
@@ -200,7 +175,7 @@ impl<N: Number, const D: usize> Encounters<N, D> {
         }
         Ok(Encounters {
             planets,
-            shells: (0..LEVELS).map(|k| Shell::new(bodies, shells, k, context)).collect(),
+            shells: (0..LEVELS).map(|k| ShellOfPlanets::new(bodies, shells, k, context)).collect(),
             substep: double(substep),
             masses: bodies.masses[1..].iter().map(double).collect(),
             parameter: double(&bodies.g) * double(&bodies.masses[0]),

@@ -1,7 +1,7 @@
 //! Sums of Newton's potential over chosen pairs of bodies, from the formula of the pair.
 
 use crate::number::Number;
-use crate::systems::pairs::{Cutoff, Gravity, LongRange, PairCurvature, PairPotential, Pairs};
+use crate::systems::pairs::{Cutoff, Gravity, PairCurvature, PairPotential, Pairs, Shell};
 use crate::systems::potential::{HessianProduct, Potential};
 
 use super::bodies::Bodies;
@@ -12,7 +12,7 @@ pub(super) struct Interactions<N, const D: usize> {
     planets: Pairs<Gravity<N>, D>,
     scratch: Vec<N>,
     /// What kicks have of it, where close planets attract each other in drifts.
-    kicks: Option<Box<LongRangePairs<N, D>>>,
+    kicks: Option<Box<PairsOfKicks<N, D>>>,
     /// The same formula, for pairs of masses one by one.
     single: Gravity<N>,
     single_scratch: Vec<N>,
@@ -24,10 +24,10 @@ pub(super) struct Interactions<N, const D: usize> {
     part: N,
 }
 
-/// The long-range part of the attraction, with its scratch space.
+/// The part of the attraction that kicks have, with its scratch space.
 #[derive(Clone, Debug)]
-struct LongRangePairs<N, const D: usize> {
-    pairs: Pairs<LongRange<Gravity<N>>, D>,
+struct PairsOfKicks<N, const D: usize> {
+    pairs: Pairs<Shell<Gravity<N>>, D>,
     scratch: Vec<N>,
 }
 
@@ -74,17 +74,17 @@ impl<N: Number, const D: usize> Interactions<N, D> {
 
     /// Leaves what a cutoff has of the attraction between the planets to others, which is switched.
     pub(super) fn leave_near(&mut self, bodies: &Bodies, cutoff: &Cutoff<D>, context: &N::Context) {
-        let pair = LongRange::new(gravity_of_planets(bodies, context), cutoff).expect("it is switched");
+        let pair = Shell::new(gravity_of_planets(bodies, context), None, Some(cutoff));
         let pairs = Pairs::all(bodies.count() - 1, pair).expect("a mass for each planet");
         let mut scratch = vec![N::zero(context); Potential::<N>::scratch(&pairs)];
         pairs.prepare(&mut scratch, context);
-        self.kicks = Some(Box::new(LongRangePairs { pairs, scratch }));
+        self.kicks = Some(Box::new(PairsOfKicks { pairs, scratch }));
     }
 
     /// gradient ← U_x of the attraction between the planets in kicks and, if asked for, rate ← xᵀU_x − 2U
     pub(super) fn assign_gradient(&mut self, x: &[N], gradient: &mut [N], rate: Option<&mut N>) {
         if let Some(kicks) = &mut self.kicks {
-            let LongRangePairs { pairs, scratch } = &mut **kicks;
+            let PairsOfKicks { pairs, scratch } = &mut **kicks;
             return match rate {
                 None => pairs.gradient(x, gradient, scratch),
                 Some(rate) => pairs.gradient_and_rate(x, gradient, rate, scratch),
