@@ -69,8 +69,8 @@ class Problem:
     >>> Problem(pair="-m_i*m_j/sqrt(r2)", dimensions=2, bodies=bodies, q=[0, 0, 1, 0], v=[0, 0, 0, 1]).dimension
     4
     >>> star, planet = {"name": "star", "mass": 1}, {"name": "planet", "mass": "1/1000", "a": 1, "e": "1/10"}
-    >>> Problem(body=[star, planet], parameters={"g": 1}, parts="wisdom-holman")
-    Problem('[problem]', coordinates x_star, y_star, z_star, x_planet, y_planet, z_planet)
+    >>> Problem(body=[star, planet], parameters={"g": 1}, parts="wisdom-holman").dimension
+    6
     >>> import numpy as np
     >>> def spring(q):
     ...     return 0.5 * q @ q, q

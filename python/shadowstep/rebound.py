@@ -39,8 +39,8 @@ def problem(simulation: Union[Any, str, os.PathLike[str]], snapshot: int = -1, p
     >>> simulation.add(m=1)
     >>> simulation.add(m=1e-3, a=1, e=0.1)
     >>> simulation.add(m=1e-3, a=2)
-    >>> problem(simulation)
-    Problem('[problem]', coordinates x1, y1, z1, x2, y2, z2, …)
+    >>> problem(simulation).dimension
+    9
     """
     if not isinstance(simulation, rebound.Simulation):
         path = os.fspath(simulation)

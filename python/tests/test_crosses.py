@@ -171,6 +171,8 @@ OF_PROBLEMS = ["drift", "Monitor", "chaos", "derivatives", "integrate", "work_pr
 LONG = "double-double", "digits", "mpfr", "many-digits"
 REFUSED = {("ensemble", function) for function in [*OF_PROBLEMS, "sweep"]} | {(way, "Monitor") for way in LONG}
 REFUSED |= {("many-digits", function) for function in ("work_precision", "advise")}
+# a formula has no slow forces
+NESTED = "multiple-steps"
 WITHOUT_MPFR = {"mpfr", "many-digits"}
 NOT_TAKEN = {("displaced", function) for function in OF_PROBLEMS} | {("drift-first", function) for function in OF_PROBLEMS[:2]}
 NOT_TAKEN |= {("mpfr", function) for function in ("work_precision", "advise")}
@@ -196,12 +198,14 @@ def test_the_command_line_without_mpfr_says_so(more, digits):
 
 CELLS = [(system, "double", function) for system in SYSTEMS for function in FUNCTIONS]
 CELLS += [("formula", way, function) for way in RUNS for function in FUNCTIONS if (way, function) not in NOT_TAKEN]
+CELLS += [(system, NESTED, function) for system in SYSTEMS if system.startswith("slow") for function in FUNCTIONS]
 
 
 @pytest.mark.parametrize("system, way, function", CELLS)
 @pytest.mark.filterwarnings("ignore")
 def test_every_cell_works_or_says_why(system, way, function, tmp_path):
     refused = (system, function) in REFUSED or (way, function) in REFUSED or (way in WITHOUT_MPFR and not has_mpfr())
+    refused |= way == NESTED and not system.startswith("slow")
     if not refused:
         FUNCTIONS[function](SYSTEMS[system], RUNS[way], tmp_path)
         return
