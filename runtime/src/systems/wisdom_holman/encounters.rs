@@ -16,7 +16,7 @@ use crate::systems::system::System;
 use super::WisdomHolman;
 use super::bodies::{Bodies, BodiesError};
 use super::heliocentric::DemocraticHeliocentric;
-use super::interactions::gravity_of_planets;
+use super::interactions::{gravity_of_planets, scaled};
 
 /// A planetary system whose planets may come close to each other, in [`DemocraticHeliocentric`] coordinates.
 ///
@@ -57,6 +57,8 @@ pub struct Encounters<N: Number, const D: usize> {
     /// Masses of the planets, and G m_0.
     masses: Vec<f64>,
     parameter: f64,
+    /// Scratch space.
+    points: Vec<MovingPoint<D>>,
 }
 
 /// The distances of the shells.
@@ -179,6 +181,7 @@ impl<N: Number, const D: usize> Encounters<N, D> {
             substep: double(substep),
             masses: bodies.masses[1..].iter().map(double).collect(),
             parameter: double(&bodies.g) * double(&bodies.masses[0]),
+            points: Vec::new(),
         })
     }
 
@@ -252,21 +255,22 @@ impl<N: Number, const D: usize> Encounters<N, D> {
 
     /// In how many of the next substeps no two planets can come below a distance, of at most `most`: it falls by at most v t + a t²/2 in the
     /// time t, with their present relative speed v and the largest accelerations of their Kepler orbits, those at the pericentres.
-    fn free_substeps(&self, distance: f64, substep: f64, most: i32) -> i32 {
+    fn free_substeps(&mut self, distance: f64, substep: f64, most: i32) -> i32 {
         let mut free = f64::from(most);
-        let (q, p) = (self.planets.state.q.as_chunks::<D>().0, self.planets.state.p.as_chunks::<D>().0);
+        let Encounters { planets, points, masses, parameter, .. } = self;
+        let (q, p) = (planets.state.q.as_chunks::<D>().0, planets.state.p.as_chunks::<D>().0);
         for lane in 0..N::LANES {
-            let point = |i: usize| {
-                let number = |number: &N| scaled(number.lane(lane));
-                let velocity = p[i + 1].each_ref().map(|p| number(p) / self.masses[i]);
-                MovingPoint { position: q[i + 1].each_ref().map(number), velocity }
-            };
-            for i in 0..self.masses.len() {
-                let one = point(i);
-                for other in (0..i).map(point) {
-                    let time = one.time_apart(&other, distance, self.parameter);
+            let number = |number: &N| scaled(number.lane(lane));
+            points.clear();
+            for ((q, p), mass) in q.iter().zip(p).skip(1).zip(&*masses) {
+                let velocity = p.each_ref().map(|p| number(p) / mass);
+                points.push(MovingPoint::new(q.each_ref().map(number), velocity, *parameter));
+            }
+            let all = substep * f64::from(most);
+            for (i, one) in points.iter().enumerate() {
+                for other in points[..i].iter().filter(|other| !one.stays_apart(other, distance, all)) {
                     // round-off of the bound
-                    free = free.min((time * (1.0 - 1e-9) / substep).floor());
+                    free = free.min(one.time_apart(other, distance) * (1.0 - 1e-9) / substep);
                 }
             }
         }
@@ -284,40 +288,47 @@ fn size<N: Number>(number: &N) -> f64 {
     (0..N::LANES).map(|lane| scaled(number.lane(lane)).abs()).fold(0.0, f64::max)
 }
 
-fn scaled((m, n): (f64, i64)) -> f64 {
-    if n == 0 { m } else { m * 2f64.powi(n.clamp(-4000, 4000) as i32) }
-}
-
-/// A planet, in double precision.
+/// A planet on its Kepler orbit, in double precision.
+#[derive(Clone, Debug)]
 struct MovingPoint<const D: usize> {
     position: [f64; D],
     velocity: [f64; D],
+    speed: f64,
+    /// The largest acceleration on the orbit.
+    acceleration: f64,
 }
 
 impl<const D: usize> MovingPoint<D> {
+    fn new(position: [f64; D], velocity: [f64; D], parameter: f64) -> Self {
+        let dot = |one: &[f64; D], other: &[f64; D]| one.iter().zip(other).map(|(a, b)| a * b).sum::<f64>();
+        let (r2, v2) = (dot(&position, &position), dot(&velocity, &velocity));
+        // h² = r²v² − (r·v)², e² = 1 + 2Eh²/μ², and h²/(μ (1 + e)) at the pericentre
+        let momentum = (r2 * v2 - dot(&position, &velocity).powi(2)).max(0.0);
+        let energy = v2 / 2.0 - parameter / r2.sqrt();
+        let eccentricity = (1.0 + 2.0 * energy * momentum / (parameter * parameter)).max(0.0).sqrt();
+        let pericentre = momentum / (parameter * (1.0 + eccentricity));
+        MovingPoint { position, velocity, speed: v2.sqrt(), acceleration: parameter / (pericentre * pericentre) }
+    }
+
+    /// Whether two planets stay apart for a time because even opposite velocities would not bring them together: the common case, at little cost.
+    fn stays_apart(&self, other: &Self, distance: f64, time: f64) -> bool {
+        let acceleration = self.acceleration + other.acceleration;
+        let way = (self.speed + other.speed + acceleration * time / 2.0) * time;
+        let reach = (distance + way) * (1.0 + 1e-9);
+        self.position.iter().zip(&other.position).map(|(a, b)| (a - b).powi(2)).sum::<f64>() > reach * reach
+    }
+
     /// A time in which two planets do not come below a distance.
-    fn time_apart(&self, other: &Self, distance: f64, parameter: f64) -> f64 {
+    fn time_apart(&self, other: &Self, distance: f64) -> f64 {
         let square =
             |one: &[f64; D], other: &[f64; D]| one.iter().zip(other).map(|(a, b)| (a - b).powi(2)).sum::<f64>();
         let room = square(&self.position, &other.position).sqrt() - distance;
         if room <= 0.0 {
             return 0.0;
         }
-        let speed = square(&self.velocity, &other.velocity).sqrt();
-        let acceleration = self.largest_acceleration(parameter) + other.largest_acceleration(parameter);
-        2.0 * room / (speed + (speed * speed + 2.0 * acceleration * room).sqrt())
-    }
-
-    /// On its Kepler orbit.
-    fn largest_acceleration(&self, parameter: f64) -> f64 {
-        let dot = |one: &[f64; D], other: &[f64; D]| one.iter().zip(other).map(|(a, b)| a * b).sum::<f64>();
-        let (r2, v2) = (dot(&self.position, &self.position), dot(&self.velocity, &self.velocity));
-        // h² = r²v² − (r·v)², e² = 1 + 2Eh²/μ², and h²/(μ (1 + e)) at the pericentre
-        let momentum = (r2 * v2 - dot(&self.position, &self.velocity).powi(2)).max(0.0);
-        let energy = v2 / 2.0 - parameter / r2.sqrt();
-        let eccentricity = (1.0 + 2.0 * energy * momentum / parameter.powi(2)).max(0.0).sqrt();
-        let pericentre = momentum / (parameter * (1.0 + eccentricity));
-        parameter / pericentre.powi(2)
+        let speed = square(&self.velocity, &other.velocity);
+        let acceleration = self.acceleration + other.acceleration;
+        2.0 * room / (speed.sqrt() + (speed + 2.0 * acceleration * room).sqrt())
     }
 }
 
@@ -376,14 +387,12 @@ mod tests {
             let mut point = || {
                 let r = uniform(0.3, 2.0);
                 let position = [r, uniform(-0.2, 0.2), uniform(-0.1, 0.1)];
-                MovingPoint {
-                    position,
-                    velocity: [uniform(-0.8, 0.8), uniform(0.2, 1.2) / r.sqrt(), uniform(-0.2, 0.2)],
-                }
+                let velocity = [uniform(-0.8, 0.8), uniform(0.2, 1.2) / r.sqrt(), uniform(-0.2, 0.2)];
+                MovingPoint::new(position, velocity, 1.0)
             };
             let (one, other) = (point(), point());
             let distance = 0.05;
-            let time = one.time_apart(&other, distance, 1.0);
+            let time = one.time_apart(&other, distance);
             (longest, shortest) = (longest.max(time), shortest.min(time));
             let mut at = |point: &MovingPoint<3>, t: f64| {
                 let (mut q, mut v) = ([0.0; 3], [0.0; 3]);

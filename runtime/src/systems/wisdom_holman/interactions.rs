@@ -29,6 +29,30 @@ pub(super) struct Interactions<N, const D: usize> {
 struct PairsOfKicks<N, const D: usize> {
     pairs: Pairs<Shell<Gravity<N>>, D>,
     scratch: Vec<N>,
+    /// Beyond this distance it is the whole attraction.
+    radius: f64,
+}
+
+impl<N: Number, const D: usize> PairsOfKicks<N, D> {
+    /// Whether there is a pair that may be below the distance.
+    fn has_near(&self, x: &[N]) -> bool {
+        // beyond round-off of this sum
+        let limit = self.radius * self.radius * (1.0 + 1e-12);
+        let x = x.as_chunks::<D>().0;
+        let is_near = |one: &[N; D], other: &[N; D], lane: usize| {
+            let difference = |(a, b): (&N, &N)| (scaled(a.lane(lane)) - scaled(b.lane(lane))).powi(2);
+            one.iter().zip(other).map(difference).sum::<f64>() <= limit
+        };
+        let has =
+            |(i, one): (usize, &[N; D])| x[..i].iter().any(|other| (0..N::LANES).any(|lane| is_near(one, other, lane)));
+        x.iter().enumerate().any(has)
+    }
+}
+
+/// m 2ⁿ
+#[inline(always)]
+pub(super) fn scaled((m, n): (f64, i64)) -> f64 {
+    if n == 0 { m } else { m * 2f64.powi(n.clamp(-4000, 4000) as i32) }
 }
 
 /// The formula of Newton's potential has second derivatives.
@@ -78,13 +102,14 @@ impl<N: Number, const D: usize> Interactions<N, D> {
         let pairs = Pairs::all(bodies.count() - 1, pair).expect("a mass for each planet");
         let mut scratch = vec![N::zero(context); Potential::<N>::scratch(&pairs)];
         pairs.prepare(&mut scratch, context);
-        self.kicks = Some(Box::new(PairsOfKicks { pairs, scratch }));
+        let radius = <f64 as Number>::from_rational(cutoff.radius(), &());
+        self.kicks = Some(Box::new(PairsOfKicks { pairs, scratch, radius }));
     }
 
     /// gradient ← U_x of the attraction between the planets in kicks and, if asked for, rate ← xᵀU_x − 2U
     pub(super) fn assign_gradient(&mut self, x: &[N], gradient: &mut [N], rate: Option<&mut N>) {
-        if let Some(kicks) = &mut self.kicks {
-            let PairsOfKicks { pairs, scratch } = &mut **kicks;
+        if let Some(kicks) = self.kicks.as_mut().filter(|kicks| kicks.has_near(x)) {
+            let PairsOfKicks { pairs, scratch, .. } = &mut **kicks;
             return match rate {
                 None => pairs.gradient(x, gradient, scratch),
                 Some(rate) => pairs.gradient_and_rate(x, gradient, rate, scratch),
