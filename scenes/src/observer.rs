@@ -49,3 +49,19 @@ pub(crate) fn report(observer: &mut dyn Observer, run: Run<'_>, n: u64) -> Resul
         )),
     }
 }
+
+/// Keeps the summary of a run.
+#[cfg(test)]
+#[derive(Default)]
+pub(crate) struct KeptSummary(pub(crate) Option<Summary>);
+
+#[cfg(test)]
+impl Observer for KeptSummary {
+    fn summarises(&self) -> bool {
+        true
+    }
+
+    fn summary(&mut self, summary: &Summary) {
+        self.0 = Some(summary.clone());
+    }
+}

@@ -102,6 +102,7 @@ impl<'a, N: RunNumber> Extremes<'a, N> {
 #[cfg(test)]
 mod tests {
     use crate::Scene;
+    use crate::observer::KeptSummary;
     use crate::watch::summary::Summary;
     use shadowstep::tables::{Faults, Source};
 
@@ -114,21 +115,8 @@ mod tests {
 
     const KEPLER: &str = "problem.name = \"kepler\"";
 
-    /// Keeps the summary.
-    struct Keep(Option<Summary>);
-
-    impl crate::Observer for Keep {
-        fn summarises(&self) -> bool {
-            true
-        }
-
-        fn summary(&mut self, summary: &Summary) {
-            self.0 = Some(summary.clone());
-        }
-    }
-
     fn run(scene: &Scene) -> (Vec<Vec<String>>, Summary) {
-        let (mut rows, mut keep) = (Vec::new(), Keep(None));
+        let (mut rows, mut keep) = (Vec::new(), KeptSummary::default());
         scene.run_into(&mut rows, &mut keep).unwrap();
         let text = String::from_utf8(rows).unwrap();
         let rows = text.lines().filter(|line| !line.starts_with('#'));

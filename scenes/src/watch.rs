@@ -297,28 +297,16 @@ fn last_of_kinetic<N: Real>(last: &N, report: &Report<N>) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Observer, Scene};
+    use crate::Scene;
+    use crate::observer::KeptSummary;
     use shadowstep::tables::Source;
-
-    /// Keeps the summary.
-    struct Keep(Option<Summary>);
-
-    impl Observer for Keep {
-        fn summarises(&self) -> bool {
-            true
-        }
-
-        fn summary(&mut self, summary: &Summary) {
-            self.0 = Some(summary.clone());
-        }
-    }
 
     fn summary(end: &str, digits: &str) -> Summary {
         let text = format!(
             "problem.name = \"henon-heiles\"\ninitial = {{ q = [0, \"7/10\"], p = [\"9/10\", 0] }}\n\
              run = {{ scheme = \"yoshida4\", step = \"1/10\", until = 1000, end = \"{end}\", digits = \"{digits}\" }}\noutput.energy = true"
         );
-        let mut keep = Keep(None);
+        let mut keep = KeptSummary::default();
         let scene = Scene::read(Source { path: "test.toml".to_owned(), text }).unwrap();
         scene.run_into(&mut Vec::new(), &mut keep).unwrap();
         keep.0.unwrap()

@@ -113,7 +113,7 @@ fn steps_back_return_through_an_encounter() {
     assert!(off(&planets.inertial().0, &before) < 1e-10, "{:e}", off(&planets.inertial().0, &before));
 }
 
-/// Without encounters, kicks of the long-range part are those of the whole attraction, and drifts are one Kepler drift.
+/// Without encounters, kicks are those of the whole attraction, and drifts are one Kepler drift: to the last bit.
 #[test]
 fn planets_that_stay_apart_move_as_without_shells() {
     let (q, p) = state::<f64>(Q);
@@ -125,7 +125,7 @@ fn planets_that_stay_apart_move_as_without_shells() {
         stepper.step(&mut plain);
         stepper.step(&mut planets);
     }
-    assert!(off(&planets.inertial().0, &plain.inertial().0) < 1e-13);
+    assert_eq!((planets.state().q(), planets.state().p()), (plain.state().q(), plain.state().p()));
     assert_eq!(planets.state().evaluations(), plain.state().evaluations());
 }
 

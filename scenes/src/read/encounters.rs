@@ -69,8 +69,9 @@ fn encounters(reader: &mut Reader<'_>, value: &Value<'_>) -> Option<CloseEncount
 mod tests {
     use shadowstep::tables::{Faults, Source};
 
+    use crate::Scene;
+    use crate::observer::KeptSummary;
     use crate::watch::summary::Summary;
-    use crate::{Observer, Scene};
 
     /// Two planets that come within 0.13 Hill radii.
     fn scene(problem: &str) -> Result<Scene, Vec<String>> {
@@ -84,20 +85,8 @@ mod tests {
         })
     }
 
-    struct Keep(Option<Summary>);
-
-    impl Observer for Keep {
-        fn summarises(&self) -> bool {
-            true
-        }
-
-        fn summary(&mut self, summary: &Summary) {
-            self.0 = Some(summary.clone());
-        }
-    }
-
     fn summary(problem: &str) -> Summary {
-        let mut keep = Keep(None);
+        let mut keep = KeptSummary::default();
         scene(problem).unwrap().run_into(&mut Vec::new(), &mut keep).unwrap();
         keep.0.unwrap()
     }
