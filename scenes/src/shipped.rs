@@ -29,7 +29,7 @@ pub const SHIPPED_SCENES: [(&str, &[ShippedScene]); 8] = [
     ("schemes with gradient kicks or processors", &SCHEMES),
 ];
 
-pub(crate) const PLANETARY: [ShippedScene; 7] = [
+pub(crate) const PLANETARY: [ShippedScene; 8] = [
     ShippedScene {
         name: "outer-planets",
         title: "The Sun and the outer planets, on Kepler orbits that interact",
@@ -64,6 +64,11 @@ pub(crate) const PLANETARY: [ShippedScene; 7] = [
         name: "hierarchical-triple",
         title: "A binary and a distant third star on an inclined orbit",
         text: include_str!("../planets/hierarchical-triple.toml"),
+    },
+    ShippedScene {
+        name: "meeting-planets",
+        title: "Two planets that come close to each other again and again, with their elements",
+        text: include_str!("../planets/meeting-planets.toml"),
     },
 ];
 
