@@ -112,19 +112,18 @@ def _numpy(name: str) -> Trajectory:
     metadata = _metadata(name)
     rows = np.load(name, mmap_mode="r", max_header_size=1 << 24)
     fields = rows.dtype.names or ()
-    missing = np.full(len(rows), np.nan)
 
-    def field(column: str) -> np.ndarray:
-        return rows[column] if column in fields else missing
+    def field(column: str, *shape: int) -> np.ndarray:
+        # one NaN for all rows, which takes no memory
+        return rows[column] if column in fields else np.broadcast_to(np.nan, (len(rows), *shape))
 
     momenta = metadata.get("momenta") or [f"p{coordinate}" for coordinate in metadata["coordinates"]]
-    no_states = np.full((len(rows), len(momenta)), np.nan)
     estimated = "modified_energy" in fields
     return Trajectory(
         n=rows["n"],
         t=rows["t"],
-        q=rows["q"] if "q" in fields else no_states,
-        p=rows["p"] if "p" in fields else no_states,
+        q=field("q", len(momenta)),
+        p=field("p", len(momenta)),
         energy=field("energy"),
         coordinates=metadata["coordinates"],
         momenta=momenta,

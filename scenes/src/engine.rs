@@ -77,7 +77,11 @@ pub(crate) fn run<N: RunNumber>(
     let values = scene.output.values.iter().map(|columns| ValuesOfRows::new(columns, &scene.system, context));
     let mut recorder = Recorder {
         values: values.collect(),
-        extremes: Extremes::new(&scene.output.extremes, &scene.system, context),
+        extremes: Extremes::new(
+            if scene.summarises(observer) { &scene.output.extremes } else { &[] },
+            &scene.system,
+            context,
+        ),
         scene,
         run: scene.as_run(),
         context,

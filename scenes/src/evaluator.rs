@@ -70,7 +70,7 @@ impl System {
 /// Why an expression has no value for the states of a system.
 #[derive(Clone, Debug, Error)]
 pub enum NotOfSystem {
-    /// It is no formula in the names of the system.
+    /// It is not a formula in the names of the system.
     #[error(transparent)]
     Formula(#[from] FormulaError),
     /// The system has no such quantity of bodies.

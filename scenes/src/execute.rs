@@ -328,6 +328,8 @@ mod tests {
         assert!(!run("b.npy", 20, 3).1 && run("b.npy", 20, 1000).1);
         let rows = scene.numpy_rows(&folder.path().join("b.npy")).unwrap();
         assert!(rows.map(|row| row.unwrap().join(",")).eq(lines.map(|line| line.replace(",4,", ",4.0,"))));
+        // what a run that was killed before its first checkpoint has left
+        fs::write(folder.path().join("c.npy.partial"), b"\x93NUMPY\x02\x00 and so on").unwrap();
         run("c.npy", 20, 1000);
         let [b, c] = ["b.npy", "c.npy"].map(|file| fs::read(folder.path().join(file)).unwrap());
         assert!(b == c && b.starts_with(b"\x93NUMPY\x02\x00"));

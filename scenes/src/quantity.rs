@@ -30,7 +30,7 @@ pub(crate) const ELEMENTS: [(&str, Element); 7] = [
     ("lambda", Element::MeanLongitude),
 ];
 
-/// A call in an expression, as it is written: `distance(earth, moon)`, `e(earth)`, `a(earth, jacobi)`.
+/// A function call in an expression, as written: `distance(earth, moon)`, `e(earth)`, `a(earth, jacobi)`.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Quantity {
     pub(crate) function: Function,

@@ -176,8 +176,7 @@ impl QuantityOfBodies {
                     square.assign_zero();
                     for (a, b) in q[one.clone()].iter().zip(&q[other.clone()]) {
                         difference.assign_difference(a, b);
-                        let factor = difference.clone();
-                        square.add_product(&difference, &factor);
+                        square.add_product(&difference, &difference);
                     }
                     difference.assign_sqrt(&square);
                     difference

@@ -4,6 +4,7 @@ use shadowstep::number::CorrectlyRounded;
 use shadowstep::steps::integrator::VectorIntegrator;
 use shadowstep::systems::displaced::Displacements;
 use shadowstep::systems::kinetic::General;
+use shadowstep::systems::many_parts::SystemOfParts;
 use shadowstep::systems::summation::Compensated;
 use shadowstep::tables::{AtRunTime, TableScheme};
 use shadowstep::{Number, Scheme, StepSize, Stepper, System, ValidFor};
@@ -49,6 +50,16 @@ impl Steps<'_> {
     /// The scheme for every T(p).
     pub(crate) fn for_every_kinetic(self) -> TableScheme<General> {
         self.quadratic().for_every_kinetic().expect(READ)
+    }
+
+    /// A system of three parts and more at the first state with its stepper.
+    pub(crate) fn of_parts<N: Number + 'static>(
+        self,
+        system: SystemOfParts<N>,
+        context: &N::Context,
+    ) -> SceneIntegrator<N> {
+        let scheme = self.scheme.clone().for_many_parts().expect(READ);
+        self.integrator(scheme, system.compensated_if(self.compensated), context)
     }
 
     /// The displacements of the forces, where gradient kicks are made by them.

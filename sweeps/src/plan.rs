@@ -226,7 +226,7 @@ fn separate_scene(reader: &mut Reader<'_>, root: &DeTable<'_>) -> Result<Option<
         reader.fault(&key.span(), message, "write the section in the scene, or remove `scene`");
     }
     let Some(path) = reader.text(value) else { return Ok(None) };
-    let folder = Path::new(&reader.source.path).parent().unwrap_or(Path::new(""));
+    let folder = reader.source.folder();
     match source(&folder.join(&path.value)) {
         Ok(source) => Ok(Some(source)),
         Err(Error::Usage { message, hint }) => Ok(reader.wrong(&path.at, message, hint)),

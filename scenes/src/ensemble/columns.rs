@@ -1,7 +1,6 @@
 //! The section \[ensemble\]: columns in the text, or in a file.
 
 use std::ops::Range;
-use std::path::Path;
 
 use shadowstep::tables::{Faults, Source};
 use shadowstep::{Rational, exact};
@@ -128,7 +127,7 @@ fn column(reader: &mut Reader<'_>, list: &Value<'_>) -> Option<Vec<Rational>> {
 
 /// A file of CSV with a line of names; its path is relative to the folder of the scene.
 fn of_file(source: &Source, file: &Text) -> Result<Columns, Error> {
-    let path = Path::new(&source.path).parent().unwrap_or(Path::new("")).join(&file.value);
+    let path = source.folder().join(&file.value);
     let text = read_text(&path, LARGEST_FILE).map_err(|error| {
         let fault = source.fault(&file.at, format!("{} cannot be read: {error}", path.display()));
         Faults(vec![fault.hint("give a file of CSV with a line of names")])

@@ -2,8 +2,6 @@
 //!
 //! Source: <https://ssd.jpl.nasa.gov/horizons/manual.html>, "Vector table".
 
-use std::path::Path;
-
 use shadowstep::{Rational, exact};
 use shadowstep_schemes::document::{Text, read_text};
 
@@ -41,7 +39,7 @@ pub(super) struct LengthAndTime {
 impl HorizonsVector {
     /// The first vector of the file that a key names, relative to the folder of the scene; a fault has the line of the file.
     pub(super) fn open(reader: &mut Reader<'_>, name: &Text) -> Option<HorizonsVector> {
-        let path = Path::new(&reader.toml.source.path).parent().unwrap_or(Path::new("")).join(&name.value);
+        let path = reader.toml.source.folder().join(&name.value);
         let text = match read_text(&path, LARGEST_FILE) {
             Ok(text) => text,
             Err(error) => {

@@ -1,6 +1,5 @@
 //! [output]: what is written, where, and how often.
 
-use std::path::Path;
 use std::time::Duration;
 
 use shadowstep::Rational;
@@ -48,7 +47,7 @@ pub(super) fn read(reader: &mut Reader<'_>, output: &Section<'_, '_>, system: Op
             reader.toml.wrong(&name.at, message, "use the ending .csv, .jsonl or .npy, or add `format = \"csv\"`")
         }),
     };
-    let folder = Path::new(&reader.toml.source.path).parent().unwrap_or(Path::new(""));
+    let folder = reader.toml.source.folder();
     let file = file.map(|name| (folder.join(&name.value), name.at));
     let checkpoint = checkpoint.and_then(|(_, interval)| interval);
     let format = format?;

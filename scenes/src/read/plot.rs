@@ -1,7 +1,5 @@
 //! `plot` in [output]: the charts and their file.
 
-use std::path::Path;
-
 use toml::de::DeValue;
 
 use super::reader::Reader;
@@ -34,7 +32,7 @@ pub(super) fn read(
         let message = format!("`{}` is not the name of an SVG file", file.value);
         return reader.toml.wrong(&file.at, message, "give a name such as kepler.svg");
     }
-    let path = Path::new(&reader.toml.source.path).parent().unwrap_or(Path::new("")).join(&file.value);
+    let path = reader.toml.source.folder().join(&file.value);
     match &outputs.file {
         None if output.get("file").is_none() => {
             let message = "a plot requires a file, from whose rows it is drawn";

@@ -1,7 +1,6 @@
 //! [run]: the scheme, its steps and the digits.
 
 use std::ops::Range;
-use std::path::Path;
 
 use shadowstep::{Rational, StepSize};
 use shadowstep_schemes::First;
@@ -104,7 +103,7 @@ fn scheme(
     system: Option<&System>,
     schemes: &Schemes,
 ) -> Option<NamedScheme> {
-    let folder = Path::new(&reader.toml.source.path).parent().unwrap_or(Path::new(""));
+    let folder = reader.toml.source.folder();
     let named = match schemes.scheme_from(&word.value, folder, first) {
         Ok(named) => named,
         Err(LibraryError::NotFound { message, hint }) => return reader.toml.wrong(&word.at, message, hint),

@@ -10,27 +10,21 @@ use std::path::Path;
 
 use shadowstep::Real;
 
-use crate::results::row::{Columns, Indicators, ModifiedEnergy, Row};
+use crate::results::row::{Cell, Columns, Row};
 
 /// The beginning of a file of version 2.
-const MAGIC: &[u8; 8] = b"\x93NUMPY\x02\x00";
+pub(super) const MAGIC: &[u8; 8] = b"\x93NUMPY\x02\x00";
 
 /// Heads and records are aligned to this.
 const ALIGNMENT: usize = 64;
 
-/// The columns after n and t that are one double each.
-const ENERGY: &str = "energy";
-const MODIFIED_ENERGY: [&str; 3] = ["modified_energy", "estimate", "order"];
-const CHAOS: [&str; 4] = ["lyapunov", "megno", "mean_megno", "sali"];
-
 /// The head of a file with this number of records; its length does not depend on that.
 pub(super) fn head(columns: &Columns, records: u64) -> Vec<u8> {
-    let mut fields = "('n', '<i8'), ('t', '<f8'), ".to_owned();
-    let names = columns.energy.then_some(ENERGY).into_iter();
-    let names = names.chain(MODIFIED_ENERGY.into_iter().filter(|_| columns.modified_energy));
-    let names =
-        names.chain(CHAOS.into_iter().filter(|_| columns.chaos)).chain(columns.values.iter().map(String::as_str));
-    names.for_each(|name| write!(fields, "('{name}', '<f8'), ").expect("a text grows"));
+    let mut fields = "('n', '<i8'), ".to_owned();
+    let names = columns.names();
+    for name in &names[1..names.len() - columns.state.len()] {
+        write!(fields, "('{name}', '<f8'), ").expect("a text grows");
+    }
     if !columns.state.is_empty() {
         let (q, p) = (columns.coordinates, columns.state.len() - columns.coordinates);
         write!(fields, "('q', '<f8', ({q},)), ('p', '<f8', ({p},)), ").expect("a text grows");
@@ -42,40 +36,14 @@ pub(super) fn head(columns: &Columns, records: u64) -> Vec<u8> {
     [MAGIC.as_slice(), &bytes, text.as_bytes()].concat()
 }
 
-/// A record; what a row does not have is NaN.
+/// The record of a row.
 pub(super) fn record<N: Real>(columns: &Columns, row: &Row<'_, N>) -> Vec<u8> {
-    let mut record = row.n.to_le_bytes().to_vec();
-    let mut put = |value: f64| record.extend(value.to_le_bytes());
-    let number = |value: Option<&N>| value.map_or(f64::NAN, N::to_f64);
-    put(row.t.to_f64());
-    if columns.energy {
-        put(number(row.energy));
-    }
-    if columns.modified_energy {
-        let (value, estimate, order) = match &row.modified_energy {
-            Some(ModifiedEnergy { value, estimate, order }) => (Some(value), estimate.as_ref(), f64::from(*order)),
-            None => (None, None, f64::NAN),
-        };
-        [number(value), number(estimate), order].into_iter().for_each(&mut put);
-    }
-    if columns.chaos {
-        let none = Indicators { lyapunov: f64::NAN, megno: f64::NAN, mean_megno: f64::NAN, sali: f64::NAN };
-        let Indicators { lyapunov, megno, mean_megno, sali } = row.chaos.as_ref().unwrap_or(&none);
-        [*lyapunov, *megno, *mean_megno, *sali].into_iter().for_each(&mut put);
-    }
-    row.values.iter().for_each(|(_, value)| put(number(value.as_ref())));
-    match row.state {
-        Some((q, p)) => q.iter().take(columns.coordinates).chain(p).for_each(|value| put(value.to_f64())),
-        None => columns.state.iter().for_each(|_| put(f64::NAN)),
-    }
-    record
+    columns.cells(row).iter().flat_map(Cell::bytes).collect()
 }
 
 /// The length of a record in bytes.
 pub(super) fn length(columns: &Columns) -> u64 {
-    let flags = [(columns.energy, 1), (columns.modified_energy, MODIFIED_ENERGY.len()), (columns.chaos, CHAOS.len())];
-    let numbers: usize = flags.iter().filter(|(is_there, _)| *is_there).map(|(_, count)| count).sum();
-    8 * (2 + numbers + columns.values.len() + columns.state.len()) as u64
+    8 * columns.names().len() as u64
 }
 
 /// The records of a file with this number of columns, as cells of CSV.

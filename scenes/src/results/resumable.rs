@@ -19,6 +19,7 @@ use crate::note::Note;
 use crate::observer::Observer;
 use crate::results::checkpoint::{Checkpoint, Identity};
 use crate::results::metadata::hexadecimal;
+use crate::results::numpy::MAGIC;
 use crate::results::options::FileOptions;
 use crate::saved_state::{SavedState, SavedVector};
 use crate::temporary::Temporary;
@@ -195,8 +196,8 @@ impl Resumable {
     fn is_own_partial(&mut self, length: u64) -> Result<bool, Error> {
         let mut head = Vec::new();
         self.file.get_ref().take(HEAD_OF_CSV.len() as u64).read_to_end(&mut head)?;
-        let is_head = |own: &str| head.starts_with(own.as_bytes()) || own.as_bytes().starts_with(&head);
-        Ok(length == 0 || is_head(HEAD_OF_ROW) || is_head(HEAD_OF_CSV))
+        let heads = [HEAD_OF_ROW.as_bytes(), HEAD_OF_CSV.as_bytes(), MAGIC];
+        Ok(length == 0 || heads.iter().any(|own| head.starts_with(own) || own.starts_with(&head)))
     }
 
     fn resume(&mut self, length: u64) -> Result<Checkpoint, Error> {

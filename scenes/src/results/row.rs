@@ -46,11 +46,10 @@ impl Indicators {
         }
     }
 
-    /// With the names of their columns.
-    fn texts(&self) -> [(&'static str, Option<String>); 4] {
-        let Indicators { lyapunov, megno, mean_megno, sali } = self;
-        let text = |x: &f64| Some(x).filter(|x| x.is_finite()).map(|x| x.to_text());
-        [("lyapunov", text(lyapunov)), ("megno", text(megno)), ("mean_megno", text(mean_megno)), ("sali", text(sali))]
+    /// In the order of their columns.
+    fn numbers(&self) -> [f64; 4] {
+        let Indicators { lyapunov, megno, mean_megno, sali } = *self;
+        [lyapunov, megno, mean_megno, sali]
     }
 }
 
@@ -74,8 +73,8 @@ impl<N: Real> Serialize for Row<'_, N> {
             object.serialize_entry("estimate", &estimate.as_ref().map(N::to_text))?;
             object.serialize_entry("order", order)?;
         }
-        for (name, text) in self.chaos.iter().flat_map(Indicators::texts) {
-            object.serialize_entry(name, &text)?;
+        for (name, x) in self.chaos.iter().flat_map(|own| COLUMNS[6..].iter().zip(own.numbers())) {
+            object.serialize_entry(name, &Some(x).filter(|x| x.is_finite()).map(|x| x.to_text()))?;
         }
         for (name, value) in self.values.iter().filter_map(|(name, value)| Some((name, value.as_ref()?))) {
             object.serialize_entry(name, &value.to_text())?;
@@ -112,28 +111,65 @@ impl Columns {
         names
     }
 
-    /// The cells of a row; what is not written at this n is empty.
-    pub(super) fn cells<N: Real>(&self, row: &Row<'_, N>) -> Vec<String> {
-        let mut cells = vec![row.n.to_string(), row.t.to_text()];
-        let text = |value: Option<&N>| value.map_or(String::new(), N::to_text);
+    /// The cells of a row, one for each name.
+    pub(super) fn cells<'r, N: Real>(&self, row: &'r Row<'_, N>) -> Vec<Cell<'r, N>> {
+        let mut cells = vec![Cell::Step(row.n), Cell::Number(row.t)];
+        let number = |value: Option<&'r N>| value.map_or(Cell::Empty, Cell::Number);
         if self.energy {
-            cells.push(text(row.energy));
+            cells.push(number(row.energy));
         }
-        match row.modified_energy.as_ref().filter(|_| self.modified_energy) {
-            Some(ModifiedEnergy { value, estimate, order }) => {
-                cells.extend([value.to_text(), text(estimate.as_ref()), order.to_string()]);
-            }
-            None => cells.extend(vec![String::new(); if self.modified_energy { 3 } else { 0 }]),
+        if self.modified_energy {
+            let found = row.modified_energy.as_ref();
+            cells.extend([
+                number(found.map(|found| &found.value)),
+                number(found.and_then(|found| found.estimate.as_ref())),
+                found.map_or(Cell::Empty, |found| Cell::Order(found.order)),
+            ]);
         }
-        match row.chaos.as_ref().filter(|_| self.chaos) {
-            Some(indicators) => cells.extend(indicators.texts().map(|(_, text)| text.unwrap_or_default())),
-            None => cells.extend(vec![String::new(); if self.chaos { 4 } else { 0 }]),
+        if self.chaos {
+            let none = [f64::NAN; 4];
+            cells.extend(row.chaos.as_ref().map_or(none, Indicators::numbers).map(Cell::Double));
         }
-        cells.extend(row.values.iter().map(|(_, value)| text(value.as_ref())));
+        cells.extend(row.values.iter().map(|(_, value)| number(value.as_ref())));
         match row.state {
-            Some((q, p)) => cells.extend(q.iter().take(self.coordinates).chain(p).map(N::to_text)),
-            None => cells.extend(vec![String::new(); self.state.len()]),
+            Some((q, p)) => cells.extend(q.iter().take(self.coordinates).chain(p).map(Cell::Number)),
+            None => cells.extend(self.state.iter().map(|_| Cell::Empty)),
         }
         cells
+    }
+}
+
+/// A number of a row.
+pub(super) enum Cell<'r, N> {
+    Step(i64),
+    Number(&'r N),
+    Order(u32),
+    /// An indicator of chaos, which may be NaN.
+    Double(f64),
+    /// What is not written at this n.
+    Empty,
+}
+
+impl<N: Real> Cell<'_, N> {
+    /// As in CSV: a text that gives the same number when it is read.
+    pub(super) fn text(&self) -> String {
+        match self {
+            Cell::Step(n) => n.to_string(),
+            Cell::Number(x) => x.to_text(),
+            Cell::Order(order) => order.to_string(),
+            Cell::Double(x) if x.is_finite() => x.to_text(),
+            Cell::Double(_) | Cell::Empty => String::new(),
+        }
+    }
+
+    /// As in a record of NumPy: a double, but of n an integer; NaN of what is not there.
+    pub(super) fn bytes(&self) -> [u8; 8] {
+        match self {
+            Cell::Step(n) => n.to_le_bytes(),
+            Cell::Number(x) => x.to_f64().to_le_bytes(),
+            Cell::Order(order) => f64::from(*order).to_le_bytes(),
+            Cell::Double(x) => x.to_le_bytes(),
+            Cell::Empty => f64::NAN.to_le_bytes(),
+        }
     }
 }

@@ -9,7 +9,7 @@ use crate::results::metadata::Metadata;
 use crate::results::numpy;
 use crate::results::origin::METADATA;
 use crate::results::resumable::beside;
-use crate::results::row::{Columns, Row};
+use crate::results::row::{Cell, Columns, Row};
 use crate::results::target::Target;
 use crate::scene::Format;
 use crate::watch::summary::Summary;
@@ -63,7 +63,7 @@ impl Rows<'_> {
             }
             Format::Numpy => Ok(self.target.write_all(&numpy::record(&self.columns, row))?),
             Format::Csv => {
-                let line = record(self.columns.cells(row))?;
+                let line = record(self.columns.cells(row).iter().map(Cell::text))?;
                 Ok(self.target.write_all(&line)?)
             }
         }

@@ -2,6 +2,7 @@
 
 use std::fmt;
 use std::ops::Range;
+use std::path::Path;
 
 /// The text of a document and its name in messages.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -13,6 +14,11 @@ pub struct Source {
 }
 
 impl Source {
+    /// The folder of the file, to which paths in it are relative.
+    pub fn folder(&self) -> &Path {
+        Path::new(&self.path).parent().unwrap_or(Path::new(""))
+    }
+
     /// A fault of this text at the byte range `at`.
     pub fn fault(&self, at: &Range<usize>, message: impl Into<String>) -> Fault {
         let start = self.floor_boundary(at.start);

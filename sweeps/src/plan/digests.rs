@@ -1,7 +1,6 @@
 //! Hashes of what determines the results: of the values in the text, not of its letters.
 
 use std::fmt::Write;
-use std::path::Path;
 
 use sha2::{Digest, Sha256};
 use shadowstep::tables::Faults;
@@ -87,7 +86,7 @@ fn tables(scene: &DeTable<'_>, family: &Family, axes: &Axes) -> Result<String, E
         (None, Some(word)) => vec![word.to_owned()],
         (None, None) => Vec::new(),
     };
-    let folder = Path::new(&family.source().path).parent().unwrap_or(Path::new("")).to_owned();
+    let folder = family.source().folder();
     let mut identities = Vec::new();
     for word in words {
         identities.push(family.schemes().scheme_from(&word, &folder, None)?.identity());

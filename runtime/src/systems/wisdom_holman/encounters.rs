@@ -66,7 +66,6 @@ pub struct Encounters<N: Number, const D: usize> {
 pub struct Shells {
     /// R_0, R_1, …
     radii: Vec<Rational>,
-    derivatives: u32,
 }
 
 /// Substeps of a shell in one of the shell around it.
@@ -93,7 +92,7 @@ impl Shells {
         let (numerator, denominator) = RATIO_OF_RADII;
         let ratio = Rational::new(numerator.into(), denominator.into());
         let radii = std::iter::successors(Some(radius), |radius| Some(radius * &ratio)).take(LEVELS + 1).collect();
-        Ok(Shells { radii, derivatives: DERIVATIVES })
+        Ok(Shells { radii })
     }
 
     /// R_0
@@ -101,15 +100,10 @@ impl Shells {
         &self.radii[0]
     }
 
-    /// The distance below which substeps do not become shorter.
-    pub fn least(&self) -> &Rational {
-        &self.radii[LEVELS - 1]
-    }
-
     /// The cutoff that is S_k.
     fn cutoff<const D: usize>(&self, k: usize) -> Cutoff<D> {
         let cutoff = Cutoff::at(self.radii[k].clone());
-        let switched = cutoff.and_then(|cutoff| cutoff.switched(self.radii[k + 1].clone(), self.derivatives));
+        let switched = cutoff.and_then(|cutoff| cutoff.switched(self.radii[k + 1].clone(), DERIVATIVES));
         switched.expect("radii are positive and fall")
     }
 }

@@ -29,8 +29,7 @@ impl Split for Formulas {
         context: &N::Context,
     ) -> EnergyAt<N> {
         let state = problem.initial(context);
-        let mut system =
-            self.system(problem, &state, false, context).expect("the dimensions were read with the system");
+        let mut system = self.system(problem, &state, context).expect("the dimensions were read with the system");
         Box::new(move |q, p| system.energy_at(q, p))
     }
 
@@ -41,9 +40,7 @@ impl Split for Formulas {
         state: State<N>,
         context: &N::Context,
     ) -> Result<SceneIntegrator<N>, MotionError> {
-        let system = self.system(problem, &state, steps.compensated, context)?;
-        let scheme = steps.scheme.clone().for_many_parts().expect("the scheme is valid for many parts");
-        Ok(steps.integrator(scheme, system, context))
+        Ok(steps.of_parts(self.system(problem, &state, context)?, context))
     }
 
     fn hamiltonian(&self) -> Option<String> {
@@ -69,7 +66,6 @@ impl Formulas {
         &self,
         problem: &InitialValueProblem,
         (q, p): &State<N>,
-        compensated: bool,
         context: &N::Context,
     ) -> Result<SystemOfParts<N>, MotionError> {
         let dimension = problem.coordinates.len();
@@ -78,7 +74,6 @@ impl Formulas {
         }
         let parts = self.0.iter().map(|formula| formula.meaning().in_numbers(context));
         let parts = parts.map(|part| Ok(Box::new(part.map_err(|_| MotionError::Digits)?) as Box<dyn Part<N>>));
-        let system = SystemOfParts::new(parts.collect::<Result<_, MotionError>>()?, q, p)?;
-        Ok(system.compensated_if(compensated))
+        SystemOfParts::new(parts.collect::<Result<_, MotionError>>()?, q, p)
     }
 }

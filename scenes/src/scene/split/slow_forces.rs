@@ -46,9 +46,7 @@ impl Split for SlowForces {
         state: State<N>,
         context: &N::Context,
     ) -> Result<SceneIntegrator<N>, MotionError> {
-        let system = self.system(problem, &state, context)?.compensated_if(steps.compensated);
-        let scheme = steps.scheme.clone().for_many_parts().expect("the scheme is valid for many parts");
-        Ok(steps.integrator(scheme, system, context))
+        Ok(steps.of_parts(self.system(problem, &state, context)?, context))
     }
 }
 
