@@ -110,6 +110,7 @@ pub mod evaluator;
 mod execute;
 mod explain;
 pub mod expression;
+pub mod extremum;
 pub mod family;
 pub mod follow;
 mod frequency;

@@ -4,6 +4,7 @@ use shadowstep::steps::integrator::{VectorIntegrator, at_output};
 
 use crate::computation::RunNumber;
 use crate::evaluator::Evaluator;
+use crate::extremum::Extremum;
 use crate::run::Run;
 use crate::scene::{NamedExpression, System, ValueColumns};
 use crate::watch::summary::Extreme;
@@ -53,7 +54,7 @@ struct ExtremesOfOne<'a, N: RunNumber> {
     name: &'a str,
     evaluator: Evaluator<N>,
     /// The least and the greatest value so far, each with the n of its first state.
-    found: Option<[(N, i64); 2]>,
+    found: [Option<(N, i64)>; 2],
 }
 
 impl<'a, N: RunNumber> Extremes<'a, N> {
@@ -61,7 +62,7 @@ impl<'a, N: RunNumber> Extremes<'a, N> {
         let one = |named: &'a NamedExpression| ExtremesOfOne {
             name: &named.name,
             evaluator: evaluator(named, system, context),
-            found: None,
+            found: [None, None],
         };
         Extremes(expressions.iter().map(one).collect())
     }
@@ -78,12 +79,10 @@ impl<'a, N: RunNumber> Extremes<'a, N> {
         at_output(integrator, |integrator| {
             for one in &mut self.0 {
                 let value = one.evaluator.value(integrator.system(), || run.time(n));
-                match &mut one.found {
-                    _ if !value.is_finite() => {}
-                    None => one.found = Some([(value.clone(), n), (value.clone(), n)]),
-                    Some([least, _]) if *value < least.0 => *least = (value.clone(), n),
-                    Some([_, greatest]) if *value > greatest.0 => *greatest = (value.clone(), n),
-                    Some(_) => {}
+                for (extremum, found) in [Extremum::Least, Extremum::Greatest].into_iter().zip(&mut one.found) {
+                    if extremum.is_beyond(value, found.as_ref().map(|(value, _)| value)) {
+                        *found = Some((value.clone(), n));
+                    }
                 }
             }
         });
@@ -92,8 +91,9 @@ impl<'a, N: RunNumber> Extremes<'a, N> {
     /// What was found, in the order of the text.
     pub(crate) fn found(&self) -> Vec<Extreme> {
         let one = |one: &ExtremesOfOne<'_, N>| {
-            let [least, greatest] = one.found.as_ref()?.each_ref().map(|(value, n)| (value.to_text(), *n));
-            Some(Extreme { name: one.name.to_owned(), least, greatest })
+            let [least, greatest] =
+                one.found.each_ref().map(|found| found.as_ref().map(|(value, n)| (value.to_text(), *n)));
+            Some(Extreme { name: one.name.to_owned(), least: least?, greatest: greatest? })
         };
         self.0.iter().filter_map(one).collect()
     }

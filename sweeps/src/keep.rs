@@ -1,7 +1,7 @@
 //! \[keep\]: what is kept of each run.
 
-use shadowstep::Real;
 use shadowstep_scenes::expression::{Condition, Expression, named};
+use shadowstep_scenes::extremum::Extremum;
 use shadowstep_schemes::document::{Reader, Section, Text};
 use shadowstep_symbolic::nearest;
 use toml::de::DeTable;
@@ -26,26 +26,6 @@ pub(crate) struct Keep {
     pub(crate) stop: Vec<usize>,
     /// Whether the rows of the scene's \[output\] are kept.
     pub(crate) rows: bool,
-}
-
-/// The least or the greatest value of a run.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Extremum {
-    Least,
-    Greatest,
-}
-
-impl Extremum {
-    /// Takes a value; one that is not finite is left out.
-    pub(crate) fn include<N: Real>(self, found: &mut Option<N>, value: &N) {
-        let is_beyond = found.as_ref().is_none_or(|found| match self {
-            Extremum::Least => value < found,
-            Extremum::Greatest => value > found,
-        });
-        if is_beyond && value.is_finite() {
-            *found = Some(value.clone());
-        }
-    }
 }
 
 /// A column of the results.

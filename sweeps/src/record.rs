@@ -12,6 +12,7 @@ use shadowstep::{Carried, Real};
 use shadowstep_scenes::computation::{Computation, RunNumber};
 use shadowstep_scenes::evaluator::{Evaluator, Test};
 use shadowstep_scenes::expression::Expression;
+use shadowstep_scenes::extremum::Extremum;
 use shadowstep_scenes::follow::Follower;
 use shadowstep_scenes::run::Run;
 use shadowstep_scenes::tangent::{FollowingVectors, TangentRun, Vectors};
@@ -19,7 +20,7 @@ use shadowstep_scenes::watch::{Energies, Watch};
 use shadowstep_scenes::{EnergySummary, Error, Observer, Scene, ShownCoordinates, Summary, System};
 use shadowstep_symbolic::decimal::to_text;
 
-use crate::keep::{Extremum, Keep};
+use crate::keep::Keep;
 use crate::values::{Need, RunValue};
 
 /// What a run has given.
@@ -240,7 +241,10 @@ impl<'a, N: RunNumber> RunFollower<'a, N> {
                 self.last = n;
             }
             for (evaluator, extremum, found) in &mut self.extremes {
-                extremum.include(found, evaluator.value(system, || run.time(n)));
+                let value = evaluator.value(system, || run.time(n));
+                if extremum.is_beyond(value, found.as_ref()) {
+                    *found = Some(value.clone());
+                }
             }
             if n == self.last {
                 let text = |number: &N| number.is_finite().then(|| number.to_text());

@@ -12,11 +12,12 @@ use shadowstep::{Scheme as _, System};
 use shadowstep_scenes::Scene;
 use shadowstep_scenes::evaluator::{Evaluator, Test};
 use shadowstep_scenes::expression::Expression;
+use shadowstep_scenes::extremum::Extremum;
 use shadowstep_scenes::lanes::{self, LANES, SystemInLanes};
 use shadowstep_scenes::start::{Begin, SceneIntegrator, Steps};
 use shadowstep_symbolic::decimal::to_text;
 
-use crate::keep::{Extremum, Keep};
+use crate::keep::Keep;
 use crate::record::Values;
 use crate::values::{Need, RunValue};
 
@@ -205,7 +206,10 @@ impl<'a> LanesFollower<'a> {
         for (evaluator, extremum, found) in &mut self.extremes {
             let values = evaluator.value(system, || run.time(n.cast_signed()));
             for lane in (0..LANES).filter(|lane| self.active[*lane]) {
-                extremum.include(&mut found[lane], &values.0[lane]);
+                let value = values.0[lane];
+                if extremum.is_beyond(&value, found[lane].as_ref()) {
+                    found[lane] = Some(value);
+                }
             }
         }
         let ended = std::array::from_fn(|lane| ends[lane] && self.active[lane]);

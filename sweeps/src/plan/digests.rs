@@ -89,7 +89,7 @@ fn tables(scene: &DeTable<'_>, family: &Family, axes: &Axes) -> Result<String, E
     let folder = family.source().folder();
     let mut identities = Vec::new();
     for word in words {
-        identities.push(family.schemes().scheme_from(&word, &folder, None)?.identity());
+        identities.push(family.schemes().scheme_from(&word, folder, None)?.identity());
     }
     Ok(identities.join("\n"))
 }
