@@ -150,6 +150,18 @@ impl<N: Number, const K: usize> Number for Dual<N, K> {
     where
         N: 'a;
 
+    type Plain = N;
+
+    #[inline(always)]
+    fn dual_parts(&self) -> (&N, &[N]) {
+        (&self.value, &self.derivatives)
+    }
+
+    #[inline(always)]
+    fn dual_parts_mut(&mut self) -> (&mut N, &mut [N]) {
+        (&mut self.value, &mut self.derivatives)
+    }
+
     #[inline(always)]
     fn register(&mut self) -> &mut Self {
         self
