@@ -120,11 +120,14 @@ impl<L: Letter> fmt::Display for Bracket<L> {
     }
 }
 
+/// Words with their coefficients.
+type Values<L> = (Vec<Vec<L>>, Vec<BigInt>);
+
 /// The coordinates of a Lie polynomial in the basis for a class of kinetic energies. The polynomial is given by its
 /// coefficients at all Lyndon words of one length, which determine it.
 pub(crate) fn coordinates<L: Letter>(lyndon: &[(Vec<L>, BigInt)], kinetic: Kinetic) -> Vec<(Bracket<L>, Rational)> {
     // by the letters that words have, those with more of the first letter first
-    let mut by_letters: BTreeMap<Vec<L>, (Vec<Vec<L>>, Vec<BigInt>)> = BTreeMap::new();
+    let mut by_letters: BTreeMap<Vec<L>, Values<L>> = BTreeMap::new();
     for (word, value) in lyndon {
         let mut letters = word.clone();
         letters.sort();

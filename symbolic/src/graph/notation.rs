@@ -1,5 +1,7 @@
 //! Formulas of a graph as text: as they are read here, and for LaTeX, Rust and NumPy.
 
+use std::collections::{BTreeSet, HashMap};
+
 use num_bigint::BigInt;
 use num_traits::{One, Signed, Zero};
 
@@ -24,6 +26,9 @@ pub enum Notation {
 /// Numerators and denominators up to this one are written as fractions.
 const LARGEST_IN_FRACTIONS: u64 = 1_000_000_000_000_000;
 
+/// The most terms of a sum that is not in groups.
+const LONGEST_SUM: usize = 50;
+
 /// How strongly a text holds together.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 enum Binding {
@@ -39,9 +44,18 @@ struct Written {
 }
 
 impl Graph {
+    /// The indices of the parameters in some formulas.
+    pub fn parameters(&self, nodes: &[Node]) -> BTreeSet<usize> {
+        let parameter = |node: Node| match self.form(node) {
+            Form::Parameter(index) => Some(*index),
+            _ => None,
+        };
+        self.below(nodes).into_iter().filter_map(parameter).collect()
+    }
+
     /// The number of symbols of the formula of a node as text, in which common parts are written as often as they occur.
     pub fn written_size(&self, node: Node) -> u64 {
-        let mut sizes = std::collections::HashMap::new();
+        let mut sizes = HashMap::new();
         for part in self.below(&[node]) {
             let size = self.children(part).map(|child| sizes[&child]).fold(1, u64::saturating_add);
             sizes.insert(part, size);
@@ -99,7 +113,18 @@ impl Writer<'_> {
         }
     }
 
+    /// Long sums are in groups: what reads them nests a level for each term.
     fn sum(&self, constant: &Rational, terms: &[(Node, Rational)]) -> Written {
+        if terms.len() <= LONGEST_SUM || self.notation == Notation::Latex {
+            return self.short_sum(constant, terms);
+        }
+        let (first, rest) = terms.split_at(terms.len() % LONGEST_SUM);
+        let groups = rest.chunks(LONGEST_SUM).map(|group| self.short_sum(&Rational::zero(), group));
+        let groups: String = groups.map(|group| format!(" + ({})", group.text)).collect();
+        Written { text: self.short_sum(constant, first).text + &groups, binding: Binding::Sum }
+    }
+
+    fn short_sum(&self, constant: &Rational, terms: &[(Node, Rational)]) -> Written {
         let mut text = String::new();
         let mut binding = Binding::Product;
         let pieces = terms.iter().map(|(node, c)| (c, Some(*node)));
@@ -151,8 +176,8 @@ impl Writer<'_> {
                 Written { text: format!(r"\frac{{{}}}{{{}}}", above.text, below.text), binding: Binding::Product }
             }
             (Some(below), _) => {
-                let below = self.at_least(Binding::Power, below);
-                Written { text: format!("{}/{below}", above.text), binding: Binding::Product }
+                let (above, below) = (self.at_least(Binding::Product, above), self.at_least(Binding::Power, below));
+                Written { text: format!("{above}/{below}"), binding: Binding::Product }
             }
         }
     }
@@ -280,7 +305,9 @@ mod tests {
         (graph, node, names)
     }
 
-    const FORMULAS: [&str; 14] = [
+    const FORMULAS: [&str; 16] = [
+        "(x + y)/(2*px)",
+        "(x - y)/3 + 2/(x + y)",
         "0",
         "-3/7",
         "x - y",
@@ -296,6 +323,15 @@ mod tests {
         "x/(y*px)*3/4",
         "1/(1/x + 1/y)",
     ];
+
+    #[test]
+    fn long_sums_are_read_again() {
+        let sum = (1..=789).map(|n| format!("x^{n}/{n}")).collect::<Vec<_>>();
+        let sum = sum.chunks(100).map(|terms| format!("({})", terms.join(" - "))).collect::<Vec<_>>().join(" + ");
+        let (mut graph, node, names) = graph_of(&sum);
+        let text = graph.text(node, Notation::Formula, (&names, &[]), 20);
+        assert_eq!(graph.build(&parse(&text).unwrap(), &names, &[]).unwrap(), node);
+    }
 
     /// What is written is what it is of.
     #[test]
