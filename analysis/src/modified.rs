@@ -222,7 +222,7 @@ mod tests {
     #[test]
     fn the_series_of_baker_campbell_and_hausdorff() {
         let euler = shipped_proved("symplectic-euler").unwrap();
-        let modified = ModifiedHamiltonian::of(&euler, Kinetic::Any, 4);
+        let modified = ModifiedHamiltonian::of(euler, Kinetic::Any, 4);
         assert_eq!(modified.digits, None);
         assert_eq!(
             texts(&modified),
@@ -254,12 +254,12 @@ mod tests {
             "takahashi-imada",
         ] {
             let proved = shipped_proved(name).unwrap();
-            let errors = LeadingError::processed(&proved).unwrap_or_else(|| LeadingError::of(&proved));
+            let errors = LeadingError::processed(proved).unwrap_or_else(|| LeadingError::of(proved));
             for (kinetic, error) in [Kinetic::Any, Kinetic::Quadratic].into_iter().zip(errors) {
                 if kinetic == Kinetic::Any && proved.scheme.has_gradient_kicks() {
                     continue;
                 }
-                let modified = ModifiedHamiltonian::of(&proved, kinetic, error.power - 1);
+                let modified = ModifiedHamiltonian::of(proved, kinetic, error.power - 1);
                 let found: Vec<_> =
                     modified.all().map(|(power, bracket, c)| (power, bracket.clone(), c.to_f64().unwrap())).collect();
                 let expected: Vec<_> = error
@@ -279,8 +279,8 @@ mod tests {
         for name in ["symplectic-euler", "yoshida4", "mclachlan-s5"] {
             let proved = shipped_proved(name).unwrap();
             let [two, many] = [
-                texts(&ModifiedHamiltonian::of(&proved, Kinetic::Any, 5)),
-                texts(&ModifiedHamiltonian::of_parts(&proved, 2, 5).unwrap()),
+                texts(&ModifiedHamiltonian::of(proved, Kinetic::Any, 5)),
+                texts(&ModifiedHamiltonian::of_parts(proved, 2, 5).unwrap()),
             ];
             let renamed: Vec<_> = two.iter().map(|text| text.replace('K', "A").replace('D', "B")).collect();
             assert_eq!(renamed, many, "{name}");
@@ -290,7 +290,7 @@ mod tests {
     /// Of symmetric schemes even powers of h remain, also where weights are rounded.
     #[test]
     fn symmetric_schemes_have_even_powers() {
-        let modified = ModifiedHamiltonian::of(&shipped_proved("blanes-moan-s6").unwrap(), Kinetic::Any, 7);
+        let modified = ModifiedHamiltonian::of(shipped_proved("blanes-moan-s6").unwrap(), Kinetic::Any, 7);
         let sizes: Vec<_> = modified.terms.iter().map(Vec::len).collect();
         assert_eq!(sizes, [0, 0, 0, 6, 0, 18, 0]);
         assert!(modified.digits.is_some_and(|digits| digits > 200));

@@ -11,6 +11,7 @@ use shadowstep::{Rational, StepSize};
 use shadowstep_analysis::bracket::Letter;
 use shadowstep_analysis::modified::ModifiedHamiltonian;
 use shadowstep_schemes::Kinetic;
+use shadowstep_symbolic::decimal::round_significant;
 use shadowstep_symbolic::{Exact, Graph, Node, Notation, parse};
 
 use crate::expression::Derived;
@@ -19,6 +20,9 @@ use crate::scene::{GRAVITY, InitialValueProblem, KineticEnergy, PairEnergy, Part
 
 /// Longer formulas are refused: they are no longer read, and take long.
 const LONGEST: u64 = 200_000;
+
+/// The digits of the matrix of a linear part, of which some more are computed: what is exact is so again.
+const STIFFNESS_DIGITS: u32 = 110;
 
 /// H of a system as formulas of its parts, from which the modified Hamiltonian of a scheme's step is derived.
 pub struct SymbolicHamiltonian {
@@ -71,7 +75,16 @@ impl SymbolicHamiltonian {
                 symbolic.parts = formulas.0.iter().map(|formula| symbolic.formula(formula.text())).collect();
                 symbolic.has_many_parts = true;
             }
-            Parts::WisdomHolman(_) | Parts::Linear(_) | Parts::TransformedTime(_) | Parts::SlowForces(_) => {
+            Parts::Linear(linear) => {
+                let kinetic = symbolic.kinetic(&system.problem);
+                let potential = symbolic.potential(&system.problem, kinetic)?;
+                let form = symbolic.quadratic_form(linear.stiffness());
+                let rest = symbolic.graph.sum(&[(potential, Rational::one()), (form, -Rational::one())]);
+                // brackets that are 0 by their degree in p are so for T + f(q), too
+                (symbolic.parts, symbolic.kinetic) =
+                    (vec![rest, symbolic.graph.plus(kinetic, form)], Kinetic::Quadratic);
+            }
+            Parts::WisdomHolman(_) | Parts::TransformedTime(_) | Parts::SlowForces(_) => {
                 let (section, key) = system.parts.key();
                 return Err(Refusal::new(
                     "the modified Hamiltonian is a formula for T(p) + U(q) and for parts that are formulas only",
@@ -144,6 +157,19 @@ impl SymbolicHamiltonian {
             PotentialEnergy::Own(_) => no_formula("a function has none"),
             PotentialEnergy::OfParts => unreachable!("H is the sum of its parts"),
         }
+    }
+
+    /// ½qᵀKq
+    fn quadratic_form(&mut self, stiffness: &[Vec<Rational>]) -> Node {
+        let entries =
+            stiffness.iter().enumerate().flat_map(|(i, row)| (0..).zip(row).map(move |(j, entry)| (i, j, entry)));
+        let half = Rational::new(1.into(), 2.into());
+        let term = |(i, j, entry): (usize, usize, &Rational)| {
+            let [x, y] = [i, j].map(|index| self.graph.coordinate(index));
+            (self.graph.times(x, y), round_significant(entry, STIFFNESS_DIGITS) * &half)
+        };
+        let terms: Vec<_> = entries.map(term).collect();
+        self.graph.sum(&terms)
     }
 
     /// The sum over pairs.
@@ -227,10 +253,7 @@ impl SymbolicHamiltonian {
             let terms: Vec<_> =
                 terms.iter().map(|(bracket, c)| (self.bracket(bracket.letters(), &mut known), c.clone())).collect();
             let sum = self.graph.sum(&terms);
-            // where products of sums cancel or are few, they are shorter multiplied out
-            let expanded = self.graph.multiplied_out(sum);
-            let is_shorter = self.graph.written_size(expanded) <= self.graph.written_size(sum);
-            let formula = if is_shorter { expanded } else { sum };
+            let formula = self.shorter(sum);
             if self.graph.as_number(formula).is_none_or(|value| value.numer() != &0.into()) {
                 found.push(SymbolicTerm { power, formula });
             }
@@ -249,6 +272,7 @@ impl SymbolicHamiltonian {
         }
         let inner = self.bracket(rest, known);
         let node = self.graph.bracket(self.parts[first.number()], inner, self.coordinates.len() / 2);
+        let node = self.shorter(node);
         known.insert(letters.to_vec(), node);
         node
     }
@@ -263,6 +287,15 @@ impl SymbolicHamiltonian {
         let terms: Vec<_> = terms.chain([(energy, Rational::one())]).collect();
         let node = graph.sum(&terms);
         Derived { graph, node }
+    }
+
+    /// The formula multiplied out, where it is shorter then: products of sums cancel or are few.
+    fn shorter(&mut self, formula: Node) -> Node {
+        if self.graph.written_size(formula) > LONGEST {
+            return formula;
+        }
+        let expanded = self.graph.multiplied_out(formula);
+        if self.graph.written_size(expanded) <= self.graph.written_size(formula) { expanded } else { formula }
     }
 
     /// A formula as text; numbers that are no short fractions have this number of significant digits.
@@ -358,6 +391,7 @@ mod tests {
             (general, "stormer-verlet", &[2, 4], &[4, 6]),
             (driven, "stormer-verlet", &[2, 4], &[4, 6]),
             (parts, "stormer-verlet", &[2, 4], &[4, 6]),
+            ("problem.name = \"henon-heiles\"\nproblem.parts = \"linear\"", "aba864", &[4, 6], &[6, 8]),
             (chain, "stormer-verlet", &[2, 4], &[4, 6]),
             (bodies, "stormer-verlet", &[2], &[4]),
         ] {
