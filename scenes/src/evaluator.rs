@@ -2,10 +2,10 @@
 
 use std::ops::Range;
 
+use shadowstep::Rational;
 use shadowstep::number::{Lanes, Number};
-use shadowstep::systems::formula::{FormulaError, FormulaPotential};
+use shadowstep::systems::formula::{FormulaError, FormulaValue};
 use shadowstep::tables::{Faults, Source};
-use shadowstep::{Potential, Rational};
 use shadowstep_schemes::document::{Reader, Text};
 use shadowstep_symbolic::Exact;
 use thiserror::Error;
@@ -85,8 +85,7 @@ pub enum NotOfSystem {
 
 /// An expression in the numbers of a run.
 pub struct Evaluator<N> {
-    formula: FormulaPotential<N>,
-    scratch: Vec<N>,
+    formula: FormulaValue<N>,
     /// q, p, t, E and the quantities of bodies.
     point: Vec<N>,
     value: N,
@@ -142,15 +141,21 @@ impl<N: Number + 'static> Evaluator<N> {
         let of_quantities: Vec<String> = (0..quantities.len()).map(name_of_quantity).collect();
         let names = system.coordinates.iter().chain(&system.momenta).map(String::as_str).chain([time, ENERGY]);
         let names: Vec<&str> = names.chain(of_quantities.iter().map(String::as_str)).collect();
-        parameters.retain(|(name, _)| !names.contains(name));
-        let formula = FormulaPotential::new(&expression.formula, &names, &parameters)?;
+        let formula = match &expression.derived {
+            None => {
+                parameters.retain(|(name, _)| !names.contains(name));
+                FormulaValue::new(&expression.formula, &names, &parameters, context)?
+            }
+            Some(derived) => {
+                let values = parameters.into_iter().map(|(_, value)| value).collect();
+                FormulaValue::of(&derived.graph, derived.node, values, context)
+            }
+        };
         let zero = N::zero(context);
-        let mut scratch = vec![zero.clone(); formula.scratch()];
-        formula.prepare(&mut scratch, context);
         let (has_time, has_energy) = (expression.has_time && !system.explicit_time, expression.has_energy);
         let point = vec![zero.clone(); names.len()];
         let value = zero;
-        Ok(Evaluator { formula, scratch, point, value, shown: None, has_time, has_energy, quantities, energy: None })
+        Ok(Evaluator { formula, point, value, shown: None, has_time, has_energy, quantities, energy: None })
     }
 
     /// The value at the present state of a system.
@@ -205,7 +210,7 @@ impl<N: Number + 'static> Evaluator<N> {
     }
 
     fn evaluate(&mut self) -> &N {
-        self.formula.energy(&self.point, &mut self.value, &mut self.scratch);
+        self.value.assign(self.formula.at(&self.point));
         &self.value
     }
 }
