@@ -4,6 +4,7 @@ mod analysis;
 mod check;
 mod columns;
 mod facts;
+mod from;
 mod list;
 mod plot;
 mod polish;
