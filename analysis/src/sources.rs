@@ -3,9 +3,10 @@
 //! | file | what it does |
 //! | --- | --- |
 //! | `language` | the ending of a file → its language |
-//! | `token` | text → numbers, names, symbols, comments |
+//! | `token`, `cursor` | text → numbers, names, symbols, comments |
 //! | `expression`, `numbers` | tokens → formulas → exact numbers with the decimals that they print |
-//! | `lists` | statements → lists of numbers with their names |
+//! | `left`, `loops` | what is given a value; loops that append |
+//! | `list`, `lists`, `groups` | statements → lists of numbers with their names; constants with an index |
 //! | `claims` | names and comments → the order that is claimed |
 //! | `roles` | list → compositions, kicks and drifts, halves of palindromes |
 //! | `recognised` | the readings of all lists → those that are schemes, or nearly |
@@ -22,9 +23,14 @@
 //! ```
 
 mod claims;
+mod cursor;
 mod expression;
+mod groups;
 mod language;
+mod left;
+mod list;
 mod lists;
+mod loops;
 mod numbers;
 mod recognised;
 mod roles;

@@ -294,6 +294,45 @@ fn the_first_map_matters_for_quadratic_kinetic_energies() {
     assert_eq!((verdict.orders, verdict.first), ([4, 6], Some(First::Drift)));
 }
 
+/// Whatever is cut out, doubled or changed: an answer, not a panic.
+#[test]
+fn any_text_has_an_answer() {
+    let texts = [
+        "double w[3]; w[0] = 1.0/(2.0 - pow(2.0, 1.0/3.0)); w[1] = 1 - 2*w[0]; w[2] = w[0]; /* a */ #define X 0.5",
+        "real(dp), parameter :: w(3) = (/ 1.3512071919596578_dp, &\n -1.7024143839193153d0, 1.351207191959658 /) ! order 4",
+        "a, b = 0.11888010966548, 0.29619504261126\nyoshida = [a, b, 0.5 - a, 1 - 2*b, 0.5 - a, b, a]\nfor x in range(3):\n  w.append(x)",
+        "let w = [0.784513610477560_f64, 0.235573213359357]; for &x in &w { v.push(x); } for i in (0..2).rev() { v.push(w[i]); }",
+        "x = convert(T, -3//73); y = 2x'; z = T[x, 17//59, 1 - 2(x + y)]; w = big\"0.1\"",
+    ];
+    let mut random = 12345_u64;
+    let mut next = |below: usize| {
+        random = random.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (random >> 33) as usize % below
+    };
+    for text in texts {
+        for _ in 0..60 {
+            let mut bytes = text.as_bytes().to_vec();
+            for _ in 0..=next(3) {
+                let (from, length) = (next(bytes.len()), next(20));
+                let part = from..(from + length).min(bytes.len());
+                match next(3) {
+                    0 => drop(bytes.drain(part)),
+                    1 => bytes.extend_from_within(part),
+                    _ => bytes[from] = b"()[]{}\"'=,;:.*/-+e09\n&!#"[next(25)],
+                }
+                if bytes.is_empty() {
+                    break;
+                }
+            }
+            let text = String::from_utf8(bytes).unwrap();
+            for language in Language::ALL {
+                let found = check(&text, language);
+                assert!(found.verdicts.iter().all(|verdict| verdict.line > 0), "{text}");
+            }
+        }
+    }
+}
+
 // ---- all shipped schemes ----
 
 fn literal(language: Language, weight: &Rational) -> String {

@@ -97,10 +97,10 @@ impl Context {
         let above = line(at.start).saturating_sub(8);
         let comments =
             about.filter(|comment| line(comment.end) >= above).map(|comment| words(&text[comment.clone()]).join(" "));
-        let order = orders
+        let mut order = orders
             .iter()
             .filter(|(_, place)| *place < at.end && *place + 200 > at.start && line(*place) + 3 >= line(at.start));
-        let order = order.last().and_then(|(order, _)| u32::try_from(*order).ok()).filter(|order| *order > 1);
+        let order = order.next_back().and_then(|(order, _)| u32::try_from(*order).ok()).filter(|order| *order > 1);
         let names =
             names.iter().filter(|name| !name.is_empty()).map(|name| ((*name).to_owned(), words(name))).collect();
         Context { names, comments: comments.collect(), order }
@@ -195,7 +195,9 @@ mod tests {
     fn claimed(name: &str, comment: &str) -> Option<u32> {
         let text = format!("{comment}\nx");
         let at = text.len() - 1..text.len();
-        Context::of(&text, &[name], &at, &[0..comment.len()], &[]).order().map(|claim| claim.order)
+        Context::of(&text, &[name], &at, std::slice::from_ref(&(0..comment.len())), &[])
+            .order()
+            .map(|claim| claim.order)
     }
 
     #[test]

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use crate::sources::cursor::Cursor;
 use crate::sources::language::Language;
 use crate::sources::numbers::{Formula, Id, name};
 use crate::sources::token::{Kind, Token};
@@ -74,20 +75,19 @@ pub(super) struct Names {
 
 /// Reads an expression from a place on.
 pub(super) struct Expressions<'a> {
-    pub(super) tokens: &'a [Token],
+    cursor: Cursor<'a>,
     pub(super) next: usize,
-    pub(super) language: Language,
-    pub(super) names: &'a Names,
+    names: &'a Names,
     depth: usize,
 }
 
 impl<'a> Expressions<'a> {
-    pub(super) fn at(place: usize, tokens: &'a [Token], language: Language, names: &'a Names) -> Expressions<'a> {
-        Expressions { tokens, next: place, language, names, depth: 0 }
+    pub(super) fn at(place: usize, cursor: Cursor<'a>, names: &'a Names) -> Expressions<'a> {
+        Expressions { cursor, next: place, names, depth: 0 }
     }
 
     fn kind(&self) -> Option<&'a Kind> {
-        self.tokens.get(self.next).map(|token| &token.kind)
+        self.cursor.kind(self.next)
     }
 
     pub(super) fn takes(&mut self, symbol: &str) -> bool {
@@ -103,15 +103,11 @@ impl<'a> Expressions<'a> {
             return None;
         }
         let mut left = self.product()?;
-        loop {
-            let sign = match self.kind() {
-                Some(Kind::Symbol(sign @ ("+" | "-"))) => *sign,
-                _ => break,
-            };
+        while let Some(Kind::Symbol(sign @ ("+" | "-"))) = self.kind() {
             self.next += 1;
             let right = self.product()?;
             let whole = left.whole.zip(right.whole);
-            let whole = whole.and_then(|(a, b)| if sign == "+" { a.checked_add(b) } else { a.checked_sub(b) });
+            let whole = whole.and_then(|(a, b)| if *sign == "+" { a.checked_add(b) } else { a.checked_sub(b) });
             left = joined(left, sign, right, whole);
         }
         self.depth -= 1;
@@ -124,13 +120,13 @@ impl<'a> Expressions<'a> {
             let sign = match self.kind() {
                 Some(Kind::Symbol("*")) => "*",
                 Some(Kind::Symbol("/")) => "/",
-                Some(Kind::Symbol("//")) if self.language == Language::Julia => "//",
+                Some(Kind::Symbol("//")) if self.cursor.language == Language::Julia => "//",
                 _ => break,
             };
             self.next += 1;
             let right = self.signed()?;
             left = match left.whole.zip(right.whole) {
-                Some((a, b)) if sign == "/" && self.language.truncates() => whole_number(a.checked_div(b)?),
+                Some((a, b)) if sign == "/" && self.cursor.language.truncates() => whole_number(a.checked_div(b)?),
                 Some((a, b)) if sign == "*" => joined(left, "*", right, a.checked_mul(b)),
                 _ => joined(left, if sign == "*" { "*" } else { "/" }, right, None),
             };
@@ -153,9 +149,9 @@ impl<'a> Expressions<'a> {
 
     fn power(&mut self) -> Option<Formula> {
         let base = self.postfix()?;
-        let has_power = match self.language {
+        let has_power = match self.cursor.language {
             Language::C | Language::Rust | Language::Json => false,
-            _ => self.takes("**") || (self.language == Language::Julia && self.takes("^")),
+            _ => self.takes("**") || (self.cursor.language == Language::Julia && self.takes("^")),
         };
         if !has_power {
             return Some(base);
@@ -177,7 +173,7 @@ impl<'a> Expressions<'a> {
                     Token { kind: Kind::Name(method), .. },
                     Token { kind: Kind::Symbol("("), .. },
                 ],
-            ) = self.tokens.get(self.next..self.next + 3)
+            ) = self.cursor.tokens.get(self.next..self.next + 3)
             else {
                 return Some(value);
             };
@@ -233,8 +229,8 @@ impl<'a> Expressions<'a> {
             Kind::Number(literal) => {
                 self.next += 1;
                 let number = of_literal(literal);
-                let implied =
-                    self.language == Language::Julia && matches!(self.kind(), Some(Kind::Name(_) | Kind::Symbol("(")));
+                let implied = self.cursor.language == Language::Julia
+                    && matches!(self.kind(), Some(Kind::Name(_) | Kind::Symbol("(")));
                 if !implied {
                     return Some(number);
                 }
@@ -254,7 +250,7 @@ impl<'a> Expressions<'a> {
                 let inner = self.sum()?;
                 self.takes(")").then_some(Formula { text: format!("({})", inner.text), ..inner })
             }
-            Kind::Symbol("&") if self.language == Language::Rust => {
+            Kind::Symbol("&") if self.cursor.language == Language::Rust => {
                 self.next += 1;
                 self.primary()
             }
@@ -266,11 +262,11 @@ impl<'a> Expressions<'a> {
     /// A number after `(double)`.
     fn cast(&mut self) -> Option<Formula> {
         let Some([Token { kind: Kind::Name(kind), .. }, Token { kind: Kind::Symbol(")"), .. }, after]) =
-            self.tokens.get(self.next..self.next + 3)
+            self.cursor.tokens.get(self.next..self.next + 3)
         else {
             return None;
         };
-        let is_cast = self.language == Language::C
+        let is_cast = self.cursor.language == Language::C
             && !self.names.scalars.contains_key(kind)
             && matches!(after.kind, Kind::Number(_) | Kind::Name(_) | Kind::Symbol("("));
         if !is_cast {
@@ -289,11 +285,12 @@ impl<'a> Expressions<'a> {
             self.next += 1;
             let joins = match self.kind() {
                 Some(Kind::Symbol("." | "::" | "->")) => true,
-                Some(Kind::Symbol("%")) => self.language.is_fortran(),
+                Some(Kind::Symbol("%")) => self.cursor.language.is_fortran(),
                 _ => false,
             };
             // a method of a number that is known
-            let is_method = matches!(self.tokens.get(self.next + 2).map(|token| &token.kind), Some(Kind::Symbol("(")));
+            let is_method =
+                matches!(self.cursor.tokens.get(self.next + 2).map(|token| &token.kind), Some(Kind::Symbol("(")));
             if !joins || (is_method && self.scalar(&path).is_some()) {
                 break;
             }
@@ -340,7 +337,7 @@ impl<'a> Expressions<'a> {
         }
         let (first, last) = (*list.keys().next()?, *list.keys().next_back()?);
         // −1 is the last one
-        let index = if index < 0 && self.language == Language::Python {
+        let index = if index < 0 && self.cursor.language == Language::Python {
             last.checked_add(1)?.checked_add(index)?
         } else {
             index

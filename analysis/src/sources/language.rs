@@ -31,6 +31,17 @@ const ENDINGS: [(Language, &[&str]); 7] = [
 ];
 
 impl Language {
+    /// All languages.
+    pub const ALL: [Language; 7] = [
+        Language::C,
+        Language::Fortran,
+        Language::FixedFortran,
+        Language::Python,
+        Language::Julia,
+        Language::Rust,
+        Language::Json,
+    ];
+
     /// The language of a file by the ending of its name, capital letters or not.
     pub fn of(path: &str) -> Option<Language> {
         let ending = path.rsplit_once('.')?.1.to_ascii_lowercase();

@@ -11,7 +11,8 @@ use num_traits::ToPrimitive;
 
 use crate::known::{KNOWN, Known, Slip, resembles, slip};
 use crate::sources::claims::Context;
-use crate::sources::lists::{Found, List};
+use crate::sources::list::List;
+use crate::sources::lists::Found;
 use crate::sources::numbers::Id;
 use crate::sources::roles::{Cell, Part, Reading, Steps, cells, interleaved, readings};
 
@@ -23,6 +24,9 @@ const HIGHEST: usize = 4;
 
 /// Two lists that are farther apart are not a pair.
 const FAR: usize = 3000;
+
+/// Lists between two that are a pair.
+const MOST_APART: usize = 20;
 
 /// How sure it is that a list is meant as a scheme.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -54,10 +58,10 @@ pub(super) struct Recognised<'a> {
 pub(super) fn recognised<'a>(text: &'a str, found: &'a Found) -> (Vec<Recognised<'a>>, usize) {
     let mut tries: Vec<Recognised<'a>> = Vec::new();
     for (i, list) in found.lists.iter().enumerate() {
-        tries.extend(Recognised::best(text, found, vec![list]));
-        let others = found.lists.iter().enumerate().skip(i + 1);
-        for (_, other) in others.filter(|(j, other)| are_pair(list, other, (j - i, &found.lists))) {
-            tries.extend(Recognised::best(text, found, vec![list, other]));
+        tries.extend(Recognised::best(text, found, &[list]));
+        let others = found.lists.iter().enumerate().skip(i + 1).take(MOST_APART);
+        for (_, other) in others.filter(|(j, other)| are_pair(list, other, j - i)) {
+            tries.extend(Recognised::best(text, found, &[list, other]));
         }
     }
     // a list that is made of others says more than they do
@@ -94,16 +98,13 @@ pub(super) fn recognised<'a>(text: &'a str, found: &'a Found) -> (Vec<Recognised
 }
 
 /// Whether two lists may be the kicks and drifts of a scheme: neighbours, or named alike.
-fn are_pair(first: &List, second: &List, (apart, lists): (usize, &[List])) -> bool {
+fn are_pair(first: &List, second: &List, apart: usize) -> bool {
     let near = second.at.start < first.at.end + FAR && first.at.start < second.at.end + FAR;
     let alike = first.is_group == second.is_group;
     // two arguments are a pair, rows of a table are not
-    let table = |list: &List| list.name.split_once('[').map(|(table, _)| table.to_owned());
-    let are_rows = table(first).is_some_and(|name| {
-        table(second).as_ref() == Some(&name)
-            && lists.iter().filter(|list| table(list).as_ref() == Some(&name)).count() > 2
-    });
-    near && alike && !are_rows && (apart == 1 || (apart < 20 && are_named_alike(&first.name, &second.name)))
+    let table = |list: &List| list.name.split('[').next().map(str::to_owned);
+    let are_rows = first.rows > 2 && table(first) == table(second);
+    near && alike && !are_rows && (apart == 1 || (are_named_alike(&first.name, &second.name)))
 }
 
 /// Whether names differ in one letter, or in the words of kick and drift: `c_4` and `d_4`, `rows_c[2]` and `rows_d[2]`.
@@ -125,7 +126,7 @@ fn are_named_alike(first: &str, second: &str) -> bool {
 
 impl<'a> Recognised<'a> {
     /// The best reading of lists that explains them.
-    fn best(text: &'a str, found: &'a Found, lists: Vec<&'a List>) -> Option<Recognised<'a>> {
+    fn best(text: &'a str, found: &'a Found, lists: &[&'a List]) -> Option<Recognised<'a>> {
         let ids = lists.iter().flat_map(|list| list.entries.iter().copied());
         let closure = found.numbers.closure(ids);
         let numbers = &found.numbers;
@@ -136,7 +137,7 @@ impl<'a> Recognised<'a> {
             cells.truncate(end);
             cells
         };
-        let readings = match &*lists {
+        let readings = match lists {
             [list] => readings(&cells(list), &[Steps::Composition, Steps::Maps, Steps::Adjoints]),
             [first, second] => {
                 let [first, second] = [first, second].map(|list| cells(list));
@@ -153,17 +154,17 @@ impl<'a> Recognised<'a> {
             _ => return None,
         };
         let telling = numbers.are_telling(&closure);
-        let (mut hints, named) = (None, context(text, found, &lists).are_named());
+        let (mut hints, named) = (None, context(text, found, lists).are_named());
         let mut best: Option<Recognised<'a>> = None;
         for reading in readings {
-            let mut hinted = || *hints.get_or_insert_with(|| context(text, found, &lists).hints());
+            let mut hinted = || *hints.get_or_insert_with(|| context(text, found, lists).hints());
             let Some((certainty, order)) = certainty(&reading, [telling, named], &mut hinted) else { continue };
             let is_better = best.as_ref().is_none_or(|best| (certainty, order) > (best.certainty, best.order));
             if is_better {
                 best = Some(Recognised {
                     text,
                     found,
-                    lists: lists.clone(),
+                    lists: lists.to_vec(),
                     reading,
                     certainty,
                     order,

@@ -4,6 +4,7 @@ use std::io::Write;
 
 use clap::Args;
 use shadowstep::tables::{self, Proved};
+use shadowstep_analysis::Likeness;
 use shadowstep_schemes::Kinetic;
 
 use crate::output::Output;
@@ -88,8 +89,14 @@ fn verdict(path: &str, proved: &Proved) -> String {
         let digits = order.digits.map_or_else(|| "exactly".to_owned(), |digits| format!("to {}", in_digits(digits)));
         format!("effective order {} for {class}{near}, {digits}; of the kernel ", order.order)
     });
-    let mut text =
-        format!("{path}: proved: {effective}order {} for {class}{near}, {digits}{symmetric}{refused}\n", order.order);
+    // with an inner scheme, the maps are those of the outer one
+    let likeness = Likeness::of(&proved.scheme.maps())
+        .filter(|known| proved.scheme.inner.is_none() && known.known.name != proved.scheme.table.name.value);
+    let known = likeness.map_or_else(String::new, |known| format!("; is {}", known.text()));
+    let mut text = format!(
+        "{path}: proved: {effective}order {} for {class}{near}, {digits}{symmetric}{refused}{known}\n",
+        order.order
+    );
     for note in &proved.notes {
         text += &format!("note: {note}\n");
     }

@@ -1,6 +1,6 @@
 //! `shadowstep schemes check --from`: the schemes in source code.
 
-use std::io::Write;
+use std::io::{ErrorKind, Write};
 
 use shadowstep_analysis::sources::{Language, Verdict, check};
 use shadowstep_schemes::First;
@@ -13,7 +13,7 @@ use shadowstep_scenes::Error;
 use shadowstep_scenes::readable::digits as in_digits;
 
 /// The most bytes of a source.
-const LARGEST_SOURCE: u64 = 16 << 20;
+const LARGEST_SOURCE: u64 = 4 << 20;
 
 /// The margin of what is said of a list.
 const MARGIN: &str = "  ";
@@ -49,8 +49,9 @@ fn source(path: &str) -> Result<(String, Language), Error> {
         let hint = format!("the language is known by the ending: {}", Language::endings());
         Error::usage(format!("{path} is not a source that can be read"), hint)
     })?;
-    let text = read_text(path, LARGEST_SOURCE).map_err(|error| {
-        Error::usage(format!("{path} cannot be read: {error}"), "give a file of source code in UTF-8")
+    let text = read_text(path, LARGEST_SOURCE).map_err(|error| match error.kind() {
+        ErrorKind::NotFound => Error::usage(format!("there is no file {path}"), "give the path of source code"),
+        _ => Error::usage(format!("{path} cannot be read: {error}"), "give a file of source code in UTF-8"),
     })?;
     Ok((text, language))
 }
