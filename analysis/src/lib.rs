@@ -13,6 +13,8 @@
 //! | [`resonance`] | where multiple time steps are in resonance with a fast oscillation |
 //! | `prime` | residues modulo a prime, for `bracket`, `squarefree` and `powers` |
 //! | `better` | [`best_for_every_kinetic`]: the shipped scheme to use for a T(p) that is not quadratic |
+//! | [`sources`], `known` | source code → the schemes in it; which shipped scheme a scheme is, by its weights |
+//! | [`certificate`] | the proof of an order, for other programs to check |
 //! | [`polish`](mod@polish) | a table of printed decimals → one whose order conditions hold to more digits |
 //!
 //! Compiling a user's crate does not need any of this: the macros and the runtime depend on `shadowstep-schemes` only.
@@ -20,6 +22,7 @@
 mod analysis;
 mod better;
 pub mod bracket;
+pub mod certificate;
 pub mod error;
 mod known;
 pub mod oscillator;

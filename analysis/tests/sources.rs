@@ -304,13 +304,14 @@ fn any_text_has_an_answer() {
         "let w = [0.784513610477560_f64, 0.235573213359357]; for &x in &w { v.push(x); } for i in (0..2).rev() { v.push(w[i]); }",
         "x = convert(T, -3//73); y = 2x'; z = T[x, 17//59, 1 - 2(x + y)]; w = big\"0.1\"",
     ];
+    const SIGNS: &[u8] = b"()[]{}\"'=,;:.*/-+e09\n&!#";
     let mut random = 12345_u64;
     let mut next = |below: usize| {
         random = random.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         (random >> 33) as usize % below
     };
     for text in texts {
-        for _ in 0..60 {
+        for _ in 0..40 {
             let mut bytes = text.as_bytes().to_vec();
             for _ in 0..=next(3) {
                 let (from, length) = (next(bytes.len()), next(20));
@@ -318,7 +319,7 @@ fn any_text_has_an_answer() {
                 match next(3) {
                     0 => drop(bytes.drain(part)),
                     1 => bytes.extend_from_within(part),
-                    _ => bytes[from] = b"()[]{}\"'=,;:.*/-+e09\n&!#"[next(25)],
+                    _ => bytes[from] = SIGNS[next(SIGNS.len())],
                 }
                 if bytes.is_empty() {
                     break;

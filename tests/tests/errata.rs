@@ -514,7 +514,7 @@ fn a_digit_lost() {
     assert!(distance(&right, "aba864") < 2e-39);
     let fewer = judge(&wrong.replace("digits = 39", "digits = 30")).unwrap();
     assert_eq!(fewer.proof.general.order, 4);
-    assert!(judge(&wrong.replace("digits = 39", "digits = 32")).is_err());
+    assert!(judge(&wrong.replace("digits = 39", "digits = 34")).is_err());
 }
 
 /// The middle weight of REBOUND's leapfrog of order 6.

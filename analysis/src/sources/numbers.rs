@@ -101,7 +101,7 @@ impl Numbers {
         counts.into_iter().filter(|digits| 2 * digits > most).min()
     }
 
-    /// Whether some of them have so many digits, or are roots, that nobody writes them by accident.
+    /// Whether some of them are roots, or have more digits than numbers that are written by accident.
     pub(super) fn are_telling(&self, ids: &BTreeSet<Id>) -> bool {
         let telling = |number: &Number| {
             number.exact.rounded || number.decimals.iter().any(|decimal| decimal.significant >= TELLING)

@@ -19,6 +19,7 @@ mod polish;
 mod problems;
 mod processed;
 mod program;
+mod prove;
 mod scene_faults;
 mod scene_kinetic;
 mod scene_pairs;
