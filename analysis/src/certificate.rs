@@ -14,7 +14,8 @@ mod ring;
 use num_traits::{Signed, Zero};
 use shadowstep_schemes::arithmetic::{Arithmetic, ExactArithmetic};
 use shadowstep_schemes::order::{lyndon_words, word_conditions};
-use shadowstep_schemes::{MapKind, Proved, Rational};
+use shadowstep_schemes::scheme::Held;
+use shadowstep_schemes::{Map, MapKind, Proved, Rational};
 
 pub use ring::{Polynomial, Root};
 use ring::{Ring, constant};
@@ -60,23 +61,21 @@ impl Certificate {
         if scheme.inner.is_some() {
             return None;
         }
-        let rational: Vec<_> = scheme.maps().into_iter().map(|map| (map.kind, map.weight)).collect();
-        let distance = distance(&rational, order);
-        let as_polynomials = || rational.iter().map(|(kind, weight)| (*kind, constant(weight.clone()))).collect();
-        if distance.is_zero() {
+        let as_polynomials = || scheme.maps().into_iter().map(|map| (map.kind, constant(map.weight))).collect();
+        if scheme.held == Held::Exactly {
             return Some(Certificate { order, kind: Kind::Exact, maps: as_polynomials() });
         }
-        Some(algebraic(proved, order).unwrap_or_else(|| Certificate {
-            order,
-            kind: Kind::Decimal(distance),
-            maps: as_polynomials(),
+        Some(algebraic(proved, order).unwrap_or_else(|| {
+            let kind = Kind::Decimal(distance(&scheme.maps(), order));
+            Certificate { order, kind, maps: as_polynomials() }
         }))
     }
 }
 
 /// How far the farthest condition up to an order is from what is needed.
-fn distance(maps: &[(MapKind, Rational)], order: u32) -> Rational {
-    let conditions = word_conditions(&lyndon_words(order as usize), maps, &ExactArithmetic);
+fn distance(maps: &[Map], order: u32) -> Rational {
+    let maps: Vec<_> = maps.iter().map(|map| (map.kind, map.weight.clone())).collect();
+    let conditions = word_conditions(&lyndon_words(order as usize), &maps, &ExactArithmetic);
     conditions
         .into_iter()
         .map(|(condition, value)| (value - condition.needed).abs())

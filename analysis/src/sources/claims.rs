@@ -34,6 +34,10 @@ const HINTS: [&str; 26] = [
     "neri",
 ];
 
+/// Those that names of other things have as well.
+const COMMON: [&str; 8] =
+    ["drift", "gamma", "integrator", "position", "product", "symmetric", "thermostat", "velocity"];
+
 /// Families of schemes that are called by their authors.
 const AUTHORS: [&str; 12] = [
     "blanes",
@@ -115,10 +119,8 @@ impl Context {
 
     /// Whether the names alone are of a splitting scheme.
     pub(super) fn are_named(&self) -> bool {
-        self.names
-            .iter()
-            .flat_map(|(_, words)| words)
-            .any(|word| HINTS.contains(&&**word) || AUTHORS.contains(&&**word))
+        let is_hint = |word: &&str| HINTS.contains(word) && !COMMON.contains(word);
+        self.names.iter().flat_map(|(_, words)| words).any(|word| is_hint(&&**word) || AUTHORS.contains(&&**word))
     }
 
     /// The order that is claimed: by the name of the list, else that of its function, a key beside it, or the comment above.

@@ -80,5 +80,6 @@ fn names(cursor: Cursor<'_>, first: usize, end: usize) -> Option<Vec<String>> {
         place = from - 1;
     }
     names.reverse();
-    (!names.is_empty()).then_some(names)
+    // `let (a, b) = …`
+    (!names.is_empty() && !names.iter().any(|name| name == "let")).then_some(names)
 }

@@ -58,12 +58,21 @@ pub(super) struct Recognised<'a> {
 pub(super) fn recognised<'a>(text: &'a str, found: &'a Found) -> (Vec<Recognised<'a>>, usize) {
     let mut tries: Vec<Recognised<'a>> = Vec::new();
     for (i, list) in found.lists.iter().enumerate() {
-        tries.extend(Recognised::best(text, found, &[list]));
+        tries.extend(Recognised::best(text, found, &[list], false));
         let others = found.lists.iter().enumerate().skip(i + 1).take(MOST_APART);
         for (_, other) in others.filter(|(j, other)| are_pair(list, other, j - i)) {
-            tries.extend(Recognised::best(text, found, &[list, other]));
+            tries.extend(Recognised::best(text, found, &[list, other], false));
         }
     }
+    // lists beside a scheme under the same name are meant as schemes
+    let table = |list: &List| list.name.split('[').next().unwrap_or_default().to_owned();
+    let named: BTreeSet<_> =
+        tries.iter().filter(|found| found.lists.len() == 1).map(|found| table(found.lists[0])).collect();
+    let siblings = found.lists.iter().filter(|list| list.rows > 1 && named.contains(&table(list)));
+    let siblings =
+        siblings.filter(|list| !tries.iter().any(|found| found.lists.iter().any(|other| std::ptr::eq(*other, *list))));
+    let siblings: Vec<_> = siblings.filter_map(|list| Recognised::best(text, found, &[list], true)).collect();
+    tries.extend(siblings);
     // a list that is made of others says more than they do
     let built = |found: &Recognised<'_>, others: &[Recognised<'_>]| {
         let ids = || found.lists.iter().flat_map(|list| &list.entries);
@@ -126,7 +135,7 @@ fn are_named_alike(first: &str, second: &str) -> bool {
 
 impl<'a> Recognised<'a> {
     /// The best reading of lists that explains them.
-    fn best(text: &'a str, found: &'a Found, lists: &[&'a List]) -> Option<Recognised<'a>> {
+    fn best(text: &'a str, found: &'a Found, lists: &[&'a List], is_meant: bool) -> Option<Recognised<'a>> {
         let ids = lists.iter().flat_map(|list| list.entries.iter().copied());
         let closure = found.numbers.closure(ids);
         let numbers = &found.numbers;
@@ -157,7 +166,7 @@ impl<'a> Recognised<'a> {
         let (mut hints, named) = (None, context(text, found, lists).are_named());
         let mut best: Option<Recognised<'a>> = None;
         for reading in readings {
-            let mut hinted = || *hints.get_or_insert_with(|| context(text, found, lists).hints());
+            let mut hinted = || is_meant || *hints.get_or_insert_with(|| context(text, found, lists).hints());
             let Some((certainty, order)) = certainty(&reading, [telling, named], &mut hinted) else { continue };
             let is_better = best.as_ref().is_none_or(|best| (certainty, order) > (best.certainty, best.order));
             if is_better {
@@ -265,10 +274,15 @@ fn certainty(
     if !is_written_out && (!telling || maps.len() < 5 || reading.cells.iter().any(|cell| cell.value == 0.0)) {
         return None;
     }
+    // a single number, or an order by accident
+    let is_little = |entries: usize| !is_written_out && (maps.len() <= entries);
+    if is_little(5) && !hinted() {
+        return None;
+    }
     if sums && (telling || (named && (part == Part::Whole || maps.len() >= 5))) && resembles(&maps) {
         return Some((Certainty::Known, order));
     }
-    if order >= 3 && maps.len() > 4 {
+    if order >= 3 && maps.len() > 4 && (is_written_out || hinted()) {
         return Some((Certainty::Order, order));
     }
     if telling && part != Part::WithoutMiddle(2) && slip_of(reading).is_some() {
@@ -276,7 +290,8 @@ fn certainty(
     }
     let is_long = reading.role.steps == Steps::Maps && part == Part::Whole && maps.len() >= 5;
     let is_enough = part == Part::Whole || reading.cells.len() >= 5;
-    if sums && telling && is_written_out && is_enough && reading.is_palindrome() && (is_long || hinted()) {
+    if sums && order >= 2 && telling && is_written_out && is_enough && reading.is_palindrome() && (is_long || hinted())
+    {
         return Some((Certainty::Sums, order));
     }
     let is_near = [sum(0), sum(1)].iter().all(|sum| (sum - 1.0).abs() < 0.9);

@@ -158,16 +158,20 @@ impl Verdict {
         if let Some(claim) = context.order().filter(|claim| claim.order > holds) {
             let failed = self.failed(recognised);
             self.faults.push(format!("order {} is claimed by {}, order {holds} holds{failed}", claim.order, claim.by));
-        } else if let (Some((author, least)), Some(likeness)) = (context.author(), &self.likeness)
-            && least > holds
-            && !likeness.known.mentions(author)
-        {
+        } else if let Some((author, least)) = context.author().filter(|(_, least)| *least > holds) {
             let failed = self.failed(recognised);
-            let name = likeness.known.name;
-            self.faults.push(format!(
-                "it is named after {}, whose schemes have order {least} and more; it is {name}, of order {holds}{failed}",
-                capital(author)
-            ));
+            let named = format!("it is named after {}, whose schemes have order {least} and more", capital(author));
+            match &self.likeness {
+                Some(likeness) if likeness.known.mentions(author) => {}
+                Some(likeness) => {
+                    self.faults.push(format!("{named}; it is {}, of order {holds}{failed}", likeness.known.name))
+                }
+                // others have published schemes of order 2 that are not shipped
+                None if ["suzuki", "yoshida"].contains(&author) && holds > 0 => {
+                    self.faults.push(format!("{named}; it has order {holds}{failed}"))
+                }
+                None => {}
+            }
         }
     }
 

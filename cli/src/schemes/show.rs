@@ -7,6 +7,7 @@ use clap::Args;
 use shadowstep::Rational;
 use shadowstep::tables::TableScheme;
 use shadowstep_analysis::Analysis;
+use shadowstep_analysis::certificate::{Certificate, Kind};
 use shadowstep_analysis::resonance::{REPORTED, resonances};
 use shadowstep_schemes::claims::HIGHEST_ORDER;
 use shadowstep_schemes::map::Stages;
@@ -121,6 +122,7 @@ fn facts(scheme: &TableScheme) -> Vec<(String, String)> {
         ("H = A + εB".to_owned(), near_integrable_fact(proved)),
         ("meant for".to_owned(), meant_for(table.kinetic).to_owned()),
         ("weights".to_owned(), weights_text(digits(proved.scheme.held))),
+        ("proof".to_owned(), proof_text(proved)),
         ("symmetric".to_owned(), symmetry(proof).to_owned()),
         (
             "a step".to_owned(),
@@ -270,6 +272,19 @@ fn meant_for(kinetic: Kinetic) -> &'static str {
 
 fn weights_text(digits: Option<u32>) -> String {
     digits.map_or_else(|| "exact".to_owned(), in_digits)
+}
+
+/// What kind of proof the order for every T(p) has.
+fn proof_text(proved: &Proved) -> String {
+    match Certificate::of(proved).map(|certificate| certificate.kind) {
+        None => String::new(),
+        Some(Kind::Exact) => "exact: rational weights, `schemes prove` writes a certificate".to_owned(),
+        Some(Kind::Algebraic(roots)) => {
+            let roots = if roots.len() == 1 { "a root".to_owned() } else { format!("{} roots", roots.len()) };
+            format!("algebraic: exact in the weights as polynomials in {roots}, `schemes prove` writes a certificate")
+        }
+        Some(Kind::Decimal(_)) => "decimal: the conditions hold to the digits of the weights".to_owned(),
+    }
 }
 
 fn order_text(order: &Order) -> String {

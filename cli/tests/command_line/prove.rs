@@ -48,6 +48,20 @@ fn every_certificate_is_verified() {
     assert!(kinds("exact") >= 10 && kinds("algebraic") >= 10 && kinds("decimal") >= 40, "{lines:#?}");
 }
 
+/// The kind of proof that `schemes show` names.
+#[test]
+fn show_names_the_kind_of_proof() {
+    for (name, kind) in [
+        ("ruth3", "exact: rational weights"),
+        ("yoshida4", "algebraic: exact in the weights as polynomials in a root"),
+        ("pefrl", "decimal: the conditions hold to the digits of the weights"),
+    ] {
+        let shown = quietly(&format!("schemes show {name}"));
+        let line = shown.lines().find(|line| line.starts_with("proof:")).unwrap_or_else(|| panic!("{shown}"));
+        assert!(line.contains(kind), "{line}");
+    }
+}
+
 #[test]
 fn wrong_certificates_are_refused() {
     let folder = tempfile::tempdir().unwrap();
