@@ -8,7 +8,7 @@ use shadowstep_analysis::bracket::Letter;
 use shadowstep_analysis::modified::{HIGHEST_GRADE, ModifiedHamiltonian};
 use shadowstep_scenes::arithmetic::Arithmetic;
 use shadowstep_scenes::library::{self, NamedScheme};
-use shadowstep_scenes::{Error, SymbolicHamiltonian, SymbolicTerm};
+use shadowstep_scenes::{Error, Refusal, SymbolicHamiltonian, SymbolicTerm};
 use shadowstep_schemes::{Kinetic, Proved};
 use shadowstep_symbolic::decimal::to_significant;
 use shadowstep_symbolic::{Notation, Rational};
@@ -215,11 +215,13 @@ fn of_system(arguments: &Arguments, named: &NamedScheme, described: &Described) 
     let write =
         |symbolic: &SymbolicHamiltonian, node| symbolic.text(node, arguments.to.notation(), arguments.digits as usize);
     let whole = symbolic.hamiltonian();
-    let hamiltonian = write(&symbolic, whole);
+    let hamiltonian = write(&symbolic, whole)?;
     let formulas: Vec<_> = terms
         .iter()
-        .map(|SymbolicTerm { power, formula }| FormulaOfTerm { power: *power, formula: write(&symbolic, *formula) })
-        .collect();
+        .map(|SymbolicTerm { power, formula }| {
+            Ok(FormulaOfTerm { power: *power, formula: write(&symbolic, *formula)? })
+        })
+        .collect::<Result<_, Refusal>>()?;
     let scheme = &*scheme.scheme.proved().scheme.table.name.value;
     if arguments.json {
         let record = Formulas { scheme, system: &described.name, hamiltonian, terms: formulas };
