@@ -14,6 +14,7 @@
 
 use std::collections::BTreeMap;
 use std::fmt;
+use std::hash::Hash;
 use std::sync::{Arc, Mutex, PoisonError};
 
 use num_bigint::BigInt;
@@ -24,20 +25,72 @@ use shadowstep_symbolic::Rational;
 use crate::prime::{PRIME, add_multiple, power};
 use shadowstep_schemes::MapKind;
 use shadowstep_schemes::claims::Kinetic;
-use shadowstep_schemes::order::{Word, letter};
+use shadowstep_schemes::order::letter;
+use shadowstep_schemes::part_words;
 
-/// The bracket [x_1,[x_2,[…,[x_{n−1},x_n]…]]] of the Lie derivatives K of the kick and D of the drift.
+/// A letter of brackets: the Lie derivative of the kick or the drift, or that of one of many parts, by its number.
+pub trait Letter: Copy + Ord + Hash {
+    /// How it is written.
+    fn symbol(self) -> char;
+
+    /// 1 for a kick, −1 for a drift, 0 for one of many parts.
+    fn excess(self) -> i64;
+
+    /// Its place among the letters.
+    fn number(self) -> usize;
+
+    /// The letter with this place.
+    fn numbered(number: usize) -> Self;
+}
+
+impl Letter for MapKind {
+    fn symbol(self) -> char {
+        letter(self)
+    }
+
+    fn excess(self) -> i64 {
+        if self == MapKind::Kick { 1 } else { -1 }
+    }
+
+    fn number(self) -> usize {
+        usize::from(self != MapKind::Kick)
+    }
+
+    fn numbered(number: usize) -> Self {
+        if number == 0 { MapKind::Kick } else { MapKind::Drift }
+    }
+}
+
+impl Letter for usize {
+    fn symbol(self) -> char {
+        part_words::letter(self)
+    }
+
+    fn excess(self) -> i64 {
+        0
+    }
+
+    fn number(self) -> usize {
+        self
+    }
+
+    fn numbered(number: usize) -> Self {
+        number
+    }
+}
+
+/// The bracket [x_1,[x_2,[…,[x_{n−1},x_n]…]]] of Lie derivatives: K of the kick and D of the drift, or A, B, C, … of many parts.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Bracket(Vec<MapKind>);
+pub struct Bracket<L = MapKind>(Vec<L>);
 
-impl Bracket {
+impl<L: Letter> Bracket<L> {
     /// x_1, …, x_n
-    pub fn letters(&self) -> &[MapKind] {
+    pub fn letters(&self) -> &[L] {
         &self.0
     }
 
     /// The coefficient of a word of as many letters.
-    fn coefficient(&self, word: &[MapKind]) -> i64 {
+    fn coefficient(&self, word: &[L]) -> i64 {
         // of the innermost letters: what each piece of the word has
         let (last, outer) = self.0.split_last().expect("a bracket has letters");
         let mut pieces: Vec<i64> = word.iter().map(|letter| i64::from(letter == last)).collect();
@@ -52,66 +105,78 @@ impl Bracket {
     /// Whether some inner bracket, or the whole one, has at least two kicks more than drifts.
     fn vanishes_for_quadratic(&self) -> bool {
         let mut excess = 0;
-        self.0.iter().rev().any(|kind| {
-            excess += if *kind == MapKind::Kick { 1 } else { -1 };
+        self.0.iter().rev().any(|letter| {
+            excess += letter.excess();
             excess >= 2
         })
     }
 }
 
-impl fmt::Display for Bracket {
+impl<L: Letter> fmt::Display for Bracket<L> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let (last, outer) = self.0.split_last().expect("a bracket has letters");
-        outer.iter().try_for_each(|kind| write!(f, "[{},", letter(*kind)))?;
-        write!(f, "{}{}", letter(*last), "]".repeat(outer.len()))
+        outer.iter().try_for_each(|letter| write!(f, "[{},", letter.symbol()))?;
+        write!(f, "{}{}", last.symbol(), "]".repeat(outer.len()))
     }
 }
 
+/// Words with their coefficients.
+type Values<L> = (Vec<Vec<L>>, Vec<BigInt>);
+
 /// The coordinates of a Lie polynomial in the basis for a class of kinetic energies. The polynomial is given by its
 /// coefficients at all Lyndon words of one length, which determine it.
-pub(crate) fn coordinates(lyndon: &[(Word, BigInt)], kinetic: Kinetic) -> Vec<(Bracket, Rational)> {
-    let length = lyndon.first().map_or(0, |(word, _)| word.len());
-    let kicks = |word: &[MapKind]| word.iter().filter(|kind| **kind == MapKind::Kick).count();
+pub(crate) fn coordinates<L: Letter>(lyndon: &[(Vec<L>, BigInt)], kinetic: Kinetic) -> Vec<(Bracket<L>, Rational)> {
+    // by the letters that words have, those with more of the first letter first
+    let mut by_letters: BTreeMap<Vec<L>, Values<L>> = BTreeMap::new();
+    for (word, value) in lyndon {
+        let mut letters = word.clone();
+        letters.sort();
+        let (words, values) = by_letters.entry(letters).or_default();
+        words.push(word.clone());
+        values.push(value.clone());
+    }
     let mut all = Vec::new();
-    for k in (1..length).rev() {
-        let (words, values): (Vec<_>, Vec<_>) = lyndon.iter().filter(|(word, _)| kicks(word) == k).cloned().unzip();
-        if kinetic == Kinetic::Quadratic && k >= length - k + 2 {
+    for (letters, (words, values)) in by_letters {
+        if kinetic == Kinetic::Quadratic && letters.iter().map(|letter| letter.excess()).sum::<i64>() >= 2 {
             continue;
         }
-        let basis = Basis::known(&words, k, kinetic);
-        let stays = |(bracket, _): &(Bracket, _)| kinetic == Kinetic::Any || !bracket.vanishes_for_quadratic();
-        all.extend(basis.brackets.iter().cloned().zip(basis.coordinates(&values)).filter(stays));
+        let basis = Basis::known(&words, &letters, kinetic);
+        let brackets = basis.brackets.iter().map(|bracket| Bracket(bracket.iter().map(|&n| L::numbered(n)).collect()));
+        let stays = |(bracket, _): &(Bracket<L>, _)| kinetic == Kinetic::Any || !bracket.vanishes_for_quadratic();
+        all.extend(brackets.zip(basis.coordinates(&values)).filter(stays));
     }
     all
 }
 
 /// A basis of brackets, and its matrix inverted.
 struct Basis {
-    brackets: Vec<Bracket>,
+    /// The numbers of their letters.
+    brackets: Vec<Vec<usize>>,
     /// Integers: for each bracket, what each word's coefficient contributes, times the denominator.
     numerators: Vec<Vec<BigInt>>,
     denominator: BigInt,
 }
 
 impl Basis {
-    /// The basis of the brackets with k kicks, whose Lyndon words are given; computed once for each k, number of letters and kinetic energy.
-    fn known(words: &[Word], k: usize, kinetic: Kinetic) -> Arc<Basis> {
-        type Known = BTreeMap<(usize, usize, bool), Arc<Basis>>;
+    /// The basis of the brackets with these letters, whose Lyndon words are given; computed once for the letters and the kinetic energy.
+    fn known<L: Letter>(words: &[Vec<L>], letters: &[L], kinetic: Kinetic) -> Arc<Basis> {
+        type Known = BTreeMap<(Vec<usize>, bool), Arc<Basis>>;
         static KNOWN: Mutex<Known> = Mutex::new(BTreeMap::new());
-        let key = (words[0].len(), k, kinetic == Kinetic::Quadratic);
+        let key = (letters.iter().map(|letter| letter.number()).collect(), kinetic == Kinetic::Quadratic);
         // not computed under the lock: threads that need others do not wait
         let known = || KNOWN.lock().unwrap_or_else(PoisonError::into_inner);
         let found = known().get(&key).cloned();
-        found.unwrap_or_else(|| known().entry(key).or_insert(Arc::new(Basis::of(words, k, kinetic))).clone())
+        found.unwrap_or_else(|| known().entry(key).or_insert(Arc::new(Basis::of(words, letters, kinetic))).clone())
     }
 
-    fn of(words: &[Word], k: usize, kinetic: Kinetic) -> Basis {
-        let brackets = basis(words, k, words[0].len() - k, kinetic);
+    fn of<L: Letter>(words: &[Vec<L>], letters: &[L], kinetic: Kinetic) -> Basis {
+        let brackets = basis(words, letters, kinetic);
         let inverse = inverse(matrix(&brackets, words));
         let denominator = inverse.iter().flatten().fold(BigInt::one(), |lcm, value| lcm.lcm(value.denom()));
         let integer = |value: &Rational| value.numer() * (&denominator / value.denom());
         let numerators = inverse.iter().map(|row| row.iter().map(integer).collect()).collect();
-        Basis { brackets, numerators, denominator }
+        let numbers = |bracket: &Bracket<L>| bracket.0.iter().map(|letter| letter.number()).collect();
+        Basis { brackets: brackets.iter().map(numbers).collect(), numerators, denominator }
     }
 
     /// The coordinates of the polynomial with these coefficients at the words.
@@ -123,9 +188,9 @@ impl Basis {
     }
 }
 
-/// The basis of the brackets with k kicks and d drifts; for quadratic T the basis of the ideal comes first.
-fn basis(words: &[Word], k: usize, d: usize, kinetic: Kinetic) -> Vec<Bracket> {
-    let mut candidates = candidates(k, d);
+/// The basis of the brackets with these letters; for quadratic T the basis of the ideal comes first.
+fn basis<L: Letter>(words: &[Vec<L>], letters: &[L], kinetic: Kinetic) -> Vec<Bracket<L>> {
+    let mut candidates = candidates(letters);
     if kinetic == Kinetic::Quadratic {
         candidates.sort_by_key(|bracket| !bracket.vanishes_for_quadratic());
     }
@@ -139,26 +204,42 @@ fn basis(words: &[Word], k: usize, d: usize, kinetic: Kinetic) -> Vec<Bracket> {
     candidates
 }
 
-/// The right-nested brackets with k kicks and d drifts that end in the more frequent letter and the other one, in the
-/// order of the dictionary.
-fn candidates(k: usize, d: usize) -> Vec<Bracket> {
-    let more = if k >= d { MapKind::Kick } else { MapKind::Drift };
-    let (mores, others) = (k.max(d) - 1, k.min(d) - 1);
+/// The right-nested brackets with these letters that end in the least frequent one, in the order of the dictionary in which the most frequent
+/// letters come first: the ideal of a letter is spanned by the brackets that end in it.
+fn candidates<L: Letter>(letters: &[L]) -> Vec<Bracket<L>> {
+    let mut counts: Vec<(L, usize)> = Vec::new();
+    for &letter in letters {
+        match counts.iter_mut().find(|(known, _)| *known == letter) {
+            Some((_, count)) => *count += 1,
+            None => counts.push((letter, 1)),
+        }
+    }
+    // of letters that are as frequent the first in the alphabet stays first
+    counts.sort_by_key(|(_, count)| std::cmp::Reverse(*count));
+    let last = counts.last_mut().expect("a bracket has letters");
+    last.1 -= 1;
+    let last = last.0;
     let mut found = Vec::new();
-    grow(more, mores, others, &mut Vec::new(), &mut found);
+    grow(&mut counts, last, &mut Vec::new(), &mut found);
     found
 }
 
-fn grow(more: MapKind, mores: usize, others: usize, letters: &mut Vec<MapKind>, found: &mut Vec<Bracket>) {
-    if mores == 0 && others == 0 {
-        found.push(Bracket([&letters[..], &[more, more.other()]].concat()));
-    }
-    for (kind, left) in [(more, mores), (more.other(), others)] {
-        if left > 0 {
-            letters.push(kind);
-            grow(more, mores - usize::from(kind == more), others - usize::from(kind != more), letters, found);
-            letters.pop();
+fn grow<L: Letter>(counts: &mut [(L, usize)], last: L, outer: &mut Vec<L>, found: &mut Vec<Bracket<L>>) {
+    let mut is_whole = true;
+    for place in 0..counts.len() {
+        let (letter, count) = counts[place];
+        if count > 0 {
+            is_whole = false;
+            counts[place].1 -= 1;
+            outer.push(letter);
+            grow(counts, last, outer, found);
+            outer.pop();
+            counts[place].1 += 1;
         }
+    }
+    // [x,x] is 0
+    if is_whole && outer.last() != Some(&last) {
+        found.push(Bracket([&outer[..], &[last]].concat()));
     }
 }
 
@@ -184,7 +265,7 @@ impl Echelon {
 }
 
 /// A row for each word, a column for each bracket.
-fn matrix(brackets: &[Bracket], words: &[Word]) -> Vec<Vec<Rational>> {
+fn matrix<L: Letter>(brackets: &[Bracket<L>], words: &[Vec<L>]) -> Vec<Vec<Rational>> {
     let integer = |n: i64| Rational::from_integer(BigInt::from(n));
     words.iter().map(|word| brackets.iter().map(|bracket| integer(bracket.coefficient(word))).collect()).collect()
 }
@@ -215,7 +296,7 @@ fn inverse(mut matrix: Vec<Vec<Rational>>) -> Vec<Vec<Rational>> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use shadowstep_schemes::order::lyndon_words;
+    use shadowstep_schemes::order::{Word, lyndon_words};
 
     fn size_of_basis(length: usize, kinetic: Kinetic) -> usize {
         let words = lyndon_words(length).into_iter().filter(|word| word.len() == length);
@@ -229,6 +310,17 @@ mod tests {
         // the Lie algebra of classical mechanics: McLachlan & Ryland, J. Math. Phys. 44 (2003) 3071
         let quadratic = (2..=9).map(|n| size_of_basis(n, Kinetic::Quadratic)).collect::<Vec<_>>();
         assert_eq!(quadratic, [1, 2, 2, 4, 5, 10, 14, 25]);
+    }
+
+    #[test]
+    fn the_basis_of_many_parts_is_as_large_as_the_space() {
+        let size = |parts: usize, length: usize| {
+            let words = part_words::lyndon_words(parts, length).into_iter().filter(|word| word.len() == length);
+            coordinates(&words.map(|word| (word, BigInt::zero())).collect::<Vec<_>>(), Kinetic::Any).len()
+        };
+        // Witt's formula
+        assert_eq!((2..=6).map(|n| size(3, n)).collect::<Vec<_>>(), [3, 8, 18, 48, 116]);
+        assert_eq!((2..=5).map(|n| size(4, n)).collect::<Vec<_>>(), [6, 20, 60, 204]);
     }
 
     #[test]
@@ -247,7 +339,8 @@ mod tests {
         let basis_of = |k: usize, d: usize| {
             let count = |word: &Word| word.iter().filter(|kind| **kind == MapKind::Kick).count();
             let words: Vec<_> = lyndon_words(7).into_iter().filter(|w| w.len() == 7 && count(w) == k).collect();
-            basis(&words, k, d, Kinetic::Any)
+            let letters = [vec![MapKind::Kick; k], vec![MapKind::Drift; d]].concat();
+            basis(&words, &letters, Kinetic::Any)
         };
         for k in 1..=6 {
             let other: Vec<_> = basis_of(7 - k, k).into_iter().map(exchanged).collect();

@@ -4,6 +4,7 @@
 //! | --- | --- |
 //! | `analysis` | [`Analysis`]: everything below for one scheme, and the sizes of its weights |
 //! | [`error`](mod@error), [`bracket`] | the leading error: the terms of lowest order in the logarithm of a step |
+//! | [`modified`] | the whole logarithm up to a power of h: the modified Hamiltonian as a series in brackets |
 //! | [`trace`] | the trace of a step of the harmonic oscillator, and the leading error of its phase |
 //! | [`oscillator`] | trace and phase of a step of the harmonic oscillator at a given hω, in f64 |
 //! | [`sampling`] | the largest expected error of the energy of the harmonic oscillator, which schemes for Hamiltonian Monte Carlo minimise |
@@ -25,6 +26,7 @@ pub mod bracket;
 pub mod certificate;
 pub mod error;
 mod known;
+pub mod modified;
 pub mod oscillator;
 mod period;
 pub mod polish;

@@ -8,6 +8,7 @@
 //! | `drift`, `trace` | runs of problems: one line a run, or one line a step |
 //! | `run`, `scene` | runs that a file describes; such files |
 //! | `schemes`, `problems` | what can be run |
+//! | `modified` | the modified Hamiltonian of a scheme as a series and as a formula |
 //! | `emit` | schemes as code for other ecosystems |
 //! | `work_precision`, `advise` | speed against error; a scheme and a step size for a tolerance |
 //! | `chaos` | indicators of chaos along a run |
@@ -27,6 +28,7 @@ mod collect;
 mod drift;
 mod emit;
 mod figures;
+mod modified;
 mod problems;
 mod run;
 mod scene;
@@ -81,6 +83,7 @@ commands! {
     Run: run,
     Scene: scene,
     Schemes: schemes,
+    Modified: modified,
     Emit: emit,
     WorkPrecision: work_precision,
     Advise: advise,

@@ -2,10 +2,10 @@
 
 use std::ops::Range;
 
+use shadowstep::Rational;
 use shadowstep::number::{Lanes, Number};
-use shadowstep::systems::formula::{FormulaError, FormulaPotential};
+use shadowstep::systems::formula::{FormulaError, FormulaValue};
 use shadowstep::tables::{Faults, Source};
-use shadowstep::{Potential, Rational};
 use shadowstep_schemes::document::{Reader, Text};
 use shadowstep_symbolic::Exact;
 use thiserror::Error;
@@ -85,14 +85,14 @@ pub enum NotOfSystem {
 
 /// An expression in the numbers of a run.
 pub struct Evaluator<N> {
-    formula: FormulaPotential<N>,
-    scratch: Vec<N>,
+    formula: FormulaValue<N>,
     /// q, p, t, E and the quantities of bodies.
     point: Vec<N>,
     value: N,
     has_time: bool,
     has_energy: bool,
     quantities: Vec<Compute<N>>,
+    has_momentum_of_time: bool,
     /// Converts states, where formulas are in other coordinates than the steps.
     shown: Option<ShownCoordinates<N>>,
     /// H, where the steps follow another Hamiltonian: in transformed time, where t is a coordinate.
@@ -142,15 +142,32 @@ impl<N: Number + 'static> Evaluator<N> {
         let of_quantities: Vec<String> = (0..quantities.len()).map(name_of_quantity).collect();
         let names = system.coordinates.iter().chain(&system.momenta).map(String::as_str).chain([time, ENERGY]);
         let names: Vec<&str> = names.chain(of_quantities.iter().map(String::as_str)).collect();
-        parameters.retain(|(name, _)| !names.contains(name));
-        let formula = FormulaPotential::new(&expression.formula, &names, &parameters)?;
+        let formula = match &expression.derived {
+            None => {
+                parameters.retain(|(name, _)| !names.contains(name));
+                FormulaValue::new(&expression.formula, &names, &parameters, context)?
+            }
+            Some(derived) => {
+                let values = parameters.into_iter().map(|(_, value)| value).collect();
+                FormulaValue::of(&derived.graph, derived.node, values, context)
+            }
+        };
         let zero = N::zero(context);
-        let mut scratch = vec![zero.clone(); formula.scratch()];
-        formula.prepare(&mut scratch, context);
         let (has_time, has_energy) = (expression.has_time && !system.explicit_time, expression.has_energy);
-        let point = vec![zero.clone(); names.len()];
+        let has_momentum_of_time = expression.derived.as_ref().is_some_and(|derived| derived.has_momentum_of_time);
+        let point = vec![zero.clone(); names.len() + usize::from(has_momentum_of_time)];
         let value = zero;
-        Ok(Evaluator { formula, scratch, point, value, shown: None, has_time, has_energy, quantities, energy: None })
+        Ok(Evaluator {
+            has_momentum_of_time,
+            formula,
+            point,
+            value,
+            shown: None,
+            has_time,
+            has_energy,
+            quantities,
+            energy: None,
+        })
     }
 
     /// The value at the present state of a system.
@@ -189,23 +206,26 @@ impl<N: Number + 'static> Evaluator<N> {
 
     /// The place of t and E in the point.
     fn rest(&self) -> usize {
-        self.point.len() - self.quantities.len() - 2
+        self.point.len() - usize::from(self.has_momentum_of_time) - self.quantities.len() - 2
     }
 
     fn set_state(&mut self, q: &[N], p: &[N]) {
+        if let (true, Some(place), Some(momentum)) = (self.has_momentum_of_time, self.point.last_mut(), p.last()) {
+            place.assign(momentum);
+        }
+        let of_quantities = self.rest() + 2;
         let (q, p) = match &mut self.shown {
             Some(shown) => shown.of_state(q, p),
             None => (q, p),
         };
         self.point.iter_mut().zip(q.iter().chain(p)).for_each(|(own, value)| own.assign(value));
-        let of_quantities = self.point.len() - self.quantities.len();
         for (own, quantity) in self.point[of_quantities..].iter_mut().zip(&mut self.quantities) {
             *own = quantity(q, p);
         }
     }
 
     fn evaluate(&mut self) -> &N {
-        self.formula.energy(&self.point, &mut self.value, &mut self.scratch);
+        self.value.assign(self.formula.at(&self.point));
         &self.value
     }
 }

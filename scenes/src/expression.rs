@@ -1,9 +1,10 @@
 //! Expressions in q, p, the time and the energy of a state, and conditions on them.
 
 use std::cmp::Ordering;
+use std::sync::Arc;
 
 use shadowstep_schemes::document::{Reader, Text, Value};
-use shadowstep_symbolic::{Expression as Syntax, parse};
+use shadowstep_symbolic::{Expression as Syntax, Graph, Node, parse};
 use toml::de::DeValue;
 
 use crate::quantity::Quantity;
@@ -24,6 +25,17 @@ pub struct Expression {
     pub(crate) has_time: bool,
     pub(crate) has_energy: bool,
     has_functions: bool,
+    /// A formula that was not read.
+    pub(crate) derived: Option<Arc<Derived>>,
+}
+
+/// A formula in the coordinates, the momenta, t and E of a system, in this order, and its parameters.
+#[derive(Debug)]
+pub(crate) struct Derived {
+    pub(crate) graph: Graph,
+    pub(crate) node: Node,
+    /// Whether it has p_t of transformed time, too, after E.
+    pub(crate) has_momentum_of_time: bool,
 }
 
 /// One expression is less or greater than another.
@@ -54,7 +66,28 @@ impl Expression {
         let syntax = parse(&formula).ok();
         let has = |name| syntax.as_ref().is_some_and(|syntax| syntax.mentions(name));
         let has_functions = syntax.as_ref().is_none_or(Syntax::has_functions);
-        Expression { has_time: has(TIME), has_energy: has(ENERGY), has_functions, quantities, formula, text }
+        Expression {
+            has_time: has(TIME),
+            has_energy: has(ENERGY),
+            has_functions,
+            quantities,
+            formula,
+            text,
+            derived: None,
+        }
+    }
+
+    /// A formula that was not read, with E in it; the text is what it is derived from.
+    pub(crate) fn derived(derived: Derived, text: Text) -> Expression {
+        Expression {
+            formula: text.value.clone(),
+            quantities: Vec::new(),
+            text,
+            has_time: false,
+            has_energy: true,
+            has_functions: true,
+            derived: Some(Arc::new(derived)),
+        }
     }
 
     /// Whether it has functions such as exp and sin.

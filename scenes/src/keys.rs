@@ -25,7 +25,7 @@ pub struct Key {
 }
 
 /// All sections, in the order of the explanation.
-pub(crate) const SECTIONS: [Section; 15] = [
+pub(crate) const SECTIONS: [Section; 16] = [
     section(
         "problem",
         "[problem]",
@@ -57,6 +57,11 @@ pub(crate) const SECTIONS: [Section; 15] = [
     section("output", "[output]", "What is written, and where. Nothing else is computed."),
     section("output.energy", "[output.energy]", "A table in place of `energy = true`."),
     section("output.modified_energy", "[output.modified_energy]", "A table in place of `modified_energy = true`."),
+    section(
+        "output.modified_hamiltonian",
+        "[output.modified_hamiltonian]",
+        "A table in place of `modified_hamiltonian = 4`.",
+    ),
     section("output.trajectory", "[output.trajectory]", "A table in place of `trajectory = true`."),
     section("output.elements", "[output.elements]", "A table in place of `elements = true`."),
     section("output.chaos", "[output.chaos]", "A table in place of `chaos = true`."),
@@ -64,7 +69,7 @@ pub(crate) const SECTIONS: [Section; 15] = [
 ];
 
 /// All keys, section by section.
-pub(crate) const KEYS: [Key; 86] = [
+pub(crate) const KEYS: [Key; 89] = [
     key(
         "problem",
         "name",
@@ -469,6 +474,14 @@ pub(crate) const KEYS: [Key; 86] = [
     ),
     key(
         "output",
+        "modified_hamiltonian",
+        "Writes H + h^2 H_3 + …, the series of the modified Hamiltonian up to this power of h, derived as a formula, as the column \
+         `modified_hamiltonian_4`: the power, a list of several, or a table. It requires T(p) + U(q) by formulas, or parts that are formulas.",
+        "{ grade = [2, 4, 6], every = 10 }",
+        Some("none"),
+    ),
+    key(
+        "output",
         "extremes",
         "Adds the least and the greatest values of formulas over all states to the summary; the formulas are those of `values`.",
         "{ closest = \"distance(earth, moon)\" }",
@@ -508,6 +521,14 @@ pub(crate) const KEYS: [Key; 86] = [
         Some("none"),
     ),
     key("output.energy", "every", "It is written at every n that is a multiple of this.", "10", Some("1")),
+    key("output.modified_hamiltonian", "grade", "The highest power of h, at most 10, or a list of such.", "4", None),
+    key(
+        "output.modified_hamiltonian",
+        "every",
+        "It is written at every n that is a multiple of this.",
+        "10",
+        Some("1"),
+    ),
     key("output.modified_energy", "every", "It is written at every n that is a multiple of this.", "10", Some("1")),
     key(
         "output.modified_energy",

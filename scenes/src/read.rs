@@ -13,6 +13,7 @@ mod initial;
 mod kinetic;
 mod magnetic;
 mod many_parts;
+mod modified_hamiltonian;
 mod names;
 mod numbers;
 mod of_bodies;
@@ -245,7 +246,7 @@ fn sections(
     reader.arithmetic = arithmetic.unwrap_or(Arithmetic::DOUBLE);
     let system = system(reader, root, &problem, &initial);
     let steps = run::Steps::read(reader, &run, (system.as_ref(), root.contains_key(time::TIME)), schemes);
-    let output = output::read(reader, &output, system.as_ref());
+    let output = output::read(reader, &output, system.as_ref(), steps.as_ref());
     if let (Some(run::Steps { displaced: true, .. }), Some(Outputs { section: Some(_), .. })) = (&steps, &output) {
         let help = "write gradient_kicks = \"exact\", or write states with `every`";
         reader.toml.fault(&run.at, "displaced forces belong to whole steps, and a section needs parts of a step", help);

@@ -12,7 +12,7 @@
 //! | [`arithmetic`], `conditions`, `digits` | the values of the conditions, exactly or with bounds, and how exactly they must be met |
 //! | [`decimal`], `printed`, `rounding`, `least_change` | printed decimals → whether their rounding explains how far the conditions are off |
 //! | [`proof`] | conditions → what is true of the scheme → the claims that differ from it |
-//! | [`many_parts`], `part_words` | scheme for two parts → steps for three and more, and their order conditions |
+//! | [`many_parts`], [`part_words`] | scheme for two parts → steps for three and more, and their order conditions |
 //! | [`inner`] | outer and inner scheme → a step of slow forces, fast forces and T |
 //! | `wording` | such a claim → a sentence with its place |
 //! | [`plan`] | scheme → the plan of a step: maps, shared constants, cost |
@@ -62,7 +62,7 @@ pub mod order;
 #[cfg(feature = "tables")]
 pub mod parse;
 #[cfg(feature = "tables")]
-mod part_words;
+pub mod part_words;
 #[cfg(feature = "tables")]
 mod pipeline;
 #[cfg(feature = "tables")]

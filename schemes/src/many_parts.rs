@@ -97,11 +97,7 @@ impl Proved {
             return Err(NotForManyParts::Fails { name, order: order.order, failed });
         }
         let mut proved = self.clone();
-        let maps = scheme.maps();
-        let (maps, middle) = match &scheme.inner {
-            Some(inner) => inner.step(&maps),
-            None => (maps.clone(), middle_weights(&maps)),
-        };
+        let (maps, middle) = scheme.step_of_parts();
         proved.plan = StepPlan::of_many_parts(&maps, &middle);
         if scheme.inner.is_some() {
             [&mut proved.proof.general, &mut proved.proof.quadratic]
@@ -110,6 +106,23 @@ impl Proved {
         }
         proved.proof.many_parts = Some(order);
         Ok(proved)
+    }
+}
+
+impl ExactScheme {
+    /// The maps of a step of three parts and more, with the weights of the middle parts between each and the next.
+    ///
+    /// # Panics
+    /// With gradient kicks.
+    pub fn step_of_parts(&self) -> (Vec<Map>, Vec<Rational>) {
+        let maps = self.maps();
+        match &self.inner {
+            Some(inner) => inner.step(&maps),
+            None => {
+                let middle = middle_weights(&maps);
+                (maps, middle)
+            }
+        }
     }
 }
 

@@ -8,8 +8,9 @@ use std::collections::HashMap;
 use shadowstep_symbolic::Rational;
 
 use crate::arithmetic::Arithmetic;
+use crate::map::Map;
 use crate::map_kind::MapKind;
-use crate::order::{Condition, Functional, divided_powers};
+use crate::order::{Condition, Functional, divided_powers, weighed};
 
 /// A map of a step of n parts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -70,15 +71,46 @@ pub(crate) fn conditions<A: Arithmetic>(
 ) -> Vec<(Condition, A::Value)> {
     let words = lyndon_words(parts, highest as usize);
     let (prefixes, ends) = prefixes(&words);
-    let mut values = vec![arithmetic.zero(); prefixes.len()];
-    for (map, weight) in maps {
-        let powers = divided_powers(weight, highest as usize, arithmetic);
-        map.parts(parts).into_iter().for_each(|part| multiply(&mut values, &prefixes, (part, &powers), arithmetic));
-    }
+    let values = coefficients(maps, (parts, highest as usize), &prefixes, arithmetic);
     let mut conditions: Vec<_> =
         words.iter().zip(ends).map(|(word, end)| (condition(word), values[end].clone())).collect();
     conditions.sort_by_key(|(condition, _)| condition.order);
     conditions
+}
+
+/// The coefficients of words on the letters of this number of parts, and of all their prefixes, in the product of the exponentials of a step's maps and of
+/// its [middle maps](crate::many_parts).
+pub fn prefix_coefficients<A: Arithmetic>(
+    (maps, middle): (&[Map], &[Rational]),
+    parts: usize,
+    words: &[Vec<usize>],
+    arithmetic: &A,
+) -> HashMap<Vec<usize>, A::Value> {
+    let longest = words.iter().map(Vec::len).max().unwrap_or(0);
+    let (prefixes, _) = prefixes(words);
+    let middle = middle.iter().map(|weight| arithmetic.weight(weight)).collect();
+    let values = coefficients(&part_maps(weighed(maps, arithmetic), middle), (parts, longest), &prefixes, arithmetic);
+    let mut written: Vec<Vec<usize>> = Vec::new();
+    for prefix in &prefixes {
+        let before = prefix.parent.map_or(&[][..], |parent| &written[parent]);
+        written.push([before, &[prefix.last]].concat());
+    }
+    written.into_iter().zip(values).collect()
+}
+
+/// The coefficients of the prefixes, none longer than `longest`, in the product of the exponentials of the maps.
+fn coefficients<A: Arithmetic>(
+    maps: &[(PartMap, A::Value)],
+    (parts, longest): (usize, usize),
+    prefixes: &[Prefix],
+    arithmetic: &A,
+) -> Vec<A::Value> {
+    let mut values = vec![arithmetic.zero(); prefixes.len()];
+    for (map, weight) in maps {
+        let powers = divided_powers(weight, longest, arithmetic);
+        map.parts(parts).into_iter().for_each(|part| multiply(&mut values, prefixes, (part, &powers), arithmetic));
+    }
+    values
 }
 
 /// The coefficients of a product with the exponential of a letter at its end.
@@ -131,12 +163,12 @@ fn condition(word: &[usize]) -> Condition {
 }
 
 /// A for the first part, B for the second, ….
-fn letter(part: usize) -> char {
+pub fn letter(part: usize) -> char {
     u8::try_from(part).map_or('?', |part| char::from(b'A' + part))
 }
 
 /// The Lyndon words on this number of letters, of at most `longest` of them (Duval's algorithm), in lexicographic order.
-fn lyndon_words(letters: usize, longest: usize) -> Vec<Vec<usize>> {
+pub fn lyndon_words(letters: usize, longest: usize) -> Vec<Vec<usize>> {
     let mut words = Vec::new();
     let mut word = vec![0];
     loop {

@@ -3,11 +3,13 @@
 //! A node is made of existing nodes, so the nodes below a node have smaller numbers. An algorithm that needs the parts
 //! before the whole goes through the numbers in order, without recursion.
 
+mod bracket;
 pub(crate) mod build;
 mod degree;
 mod derivative;
 mod expand;
 pub(crate) mod flow;
+pub(crate) mod notation;
 pub(crate) mod pair;
 mod quadratic;
 mod rate;

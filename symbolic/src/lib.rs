@@ -65,6 +65,8 @@
 //! | `graph/pair` | formulas of a pair of bodies |
 //! | `graph/degree`, `graph/derivative`, `graph/rate`, `graph/quadratic` | homogeneity, ∂/∂q, qᵀU_q − 2U, quadratic forms |
 //! | `graph/expand`, `graph/substitute` | sums multiplied out; formulas with parts replaced |
+//! | `graph/bracket` | brackets of functions of positions and momenta |
+//! | `graph/notation` | formulas as text, for LaTeX, Rust and NumPy |
 //! | `graph/flow` | Hamiltonians whose flow has a formula |
 //! | `program` | **formulas → straight-line programs**, with the feature `graph` |
 //! | `program/instruction`, `program/operations` | one operation in place, numbers of operations |
@@ -86,6 +88,8 @@ use std::collections::BTreeMap;
 pub use evaluation::{MOST_EVALUATED_DIGITS, budget::Budget, evaluate, evaluate_within, value::Exact};
 #[cfg(feature = "graph")]
 pub use graph::flow::{ExplicitFlow, NoFlow};
+#[cfg(feature = "graph")]
+pub use graph::notation::Notation;
 #[cfg(feature = "graph")]
 pub use graph::pair::is_symmetric;
 #[cfg(feature = "graph")]

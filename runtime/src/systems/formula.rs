@@ -6,9 +6,11 @@ mod distance;
 mod kinetic;
 mod newest;
 mod pair;
+mod value;
 
-pub use bodies::{FormulaOfBodies, RelativeTo};
+pub use bodies::{AXES, DISTANCE, FormulaOfBodies, MASSES, RelativeTo};
 pub use pair::FormulaPair;
+pub use value::FormulaValue;
 
 use std::ops::Range;
 use std::sync::{Arc, OnceLock};

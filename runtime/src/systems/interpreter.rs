@@ -153,7 +153,7 @@ impl Layout {
         let gradient_kept = energy_kept + programs.energy.kept;
         let first_property = gradient_kept + programs.gradient_and_rate.kept;
         let outputs = first_property + properties;
-        let intermediate = outputs + programs.gradient_and_rate.outputs;
+        let intermediate = outputs + programs.gradient_and_rate.outputs.max(programs.energy.outputs);
         // constants that are not kept are computed among the intermediate results
         let spare = [&programs.energy, &programs.gradient_and_rate].map(|program| program.constants - program.kept);
         let end = intermediate + programs.scratch().max(spare[0]).max(spare[1]);

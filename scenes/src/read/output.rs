@@ -11,6 +11,7 @@ use toml::de::DeValue;
 use super::period::every;
 use super::plot;
 use super::reader::Reader;
+use super::run::Steps;
 use super::values;
 use crate::estimator::{ACCURACY_HINT, conflict};
 use crate::expression::Expression;
@@ -19,7 +20,12 @@ use crate::steps::MOST_STEPS;
 use shadowstep_schemes::document::{Section, Value};
 
 /// What is to be written, and where.
-pub(super) fn read(reader: &mut Reader<'_>, output: &Section<'_, '_>, system: Option<&System>) -> Option<Outputs> {
+pub(super) fn read(
+    reader: &mut Reader<'_>,
+    output: &Section<'_, '_>,
+    system: Option<&System>,
+    steps: Option<&Steps>,
+) -> Option<Outputs> {
     let before = reader.toml.faults.len();
     let file = output.get("file").and_then(|value| reader.toml.text(value));
     let format = output
@@ -28,7 +34,7 @@ pub(super) fn read(reader: &mut Reader<'_>, output: &Section<'_, '_>, system: Op
     let energy = every(reader, output, "energy", "output.energy").map(|(every, _)| every);
     let modified_energy = modified_energy(reader, output);
     let (trajectory, section) = trajectory(reader, output, system);
-    let values = values::columns(reader, output, system);
+    let values = values::columns(reader, output, system, steps);
     let extremes = values::extremes(reader, output, system);
     let chaos = every(reader, output, "chaos", "output.chaos").map(|(every, _)| every);
     let summary = output.get("summary").and_then(|value| reader.toml.truth(value)).is_none_or(|truth| truth.value);

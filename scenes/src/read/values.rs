@@ -3,9 +3,11 @@
 use shadowstep_schemes::document::{Section, Text, Value};
 use toml::de::DeValue;
 
+use super::modified_hamiltonian;
 use super::names::check_name;
 use super::period::every;
 use super::reader::Reader;
+use super::run::Steps;
 use crate::expression::{Expression, named};
 use crate::quantity_of_bodies::{BARYCENTRE, JACOBI, elements_of};
 use crate::scene::{COLUMNS, NamedExpression, System, ValueColumns};
@@ -14,12 +16,18 @@ use crate::steps::MOST_STEPS;
 /// The key that gives the period of values.
 const EVERY: &str = "every";
 
-/// The columns of `values` and `elements`.
-pub(super) fn columns(reader: &mut Reader<'_>, output: &Section<'_, '_>, system: Option<&System>) -> Vec<ValueColumns> {
+/// The columns of `values`, `elements` and `modified_hamiltonian`.
+pub(super) fn columns(
+    reader: &mut Reader<'_>,
+    output: &Section<'_, '_>,
+    system: Option<&System>,
+    steps: Option<&Steps>,
+) -> Vec<ValueColumns> {
     let before = reader.toml.faults.len();
     let mut found: Vec<ValueColumns> = Vec::new();
     found.extend(output.get("values").and_then(|value| values(reader, value, system)));
     found.extend(elements(reader, output, system));
+    found.extend(modified_hamiltonian::columns(reader, output, system, steps));
     let Some(system) = system else { return found };
     let mut taken: Vec<&str> = COLUMNS.into_iter().chain(system.columns().map(String::as_str)).collect();
     for NamedExpression { name, at, .. } in found.iter().flat_map(|columns| &columns.expressions) {

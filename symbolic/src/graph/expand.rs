@@ -1,4 +1,4 @@
-//! Whether a formula is 0, after its products of sums have been multiplied out.
+//! Products of sums multiplied out, and whether a formula is 0 then.
 
 use num_traits::{One, ToPrimitive};
 
@@ -15,29 +15,30 @@ impl Graph {
     /// Whether the formula is 0, for all values for which it is defined. A formula that is 0 by other rules than the rules of polynomials in its parts is not
     /// found to be so.
     pub fn vanishes(&mut self, node: Node) -> bool {
-        let expanded = self.expanded_fully(node);
+        let expanded = self.multiplied_out(node);
         self.is_zero(expanded)
     }
 
-    fn expanded_fully(&mut self, node: Node) -> Node {
+    /// The formula with products of sums multiplied out, but those that have too many terms, and the arguments of functions.
+    pub fn multiplied_out(&mut self, node: Node) -> Node {
         match &*self.shared_form(node) {
             Form::Sum { constant, terms } => {
                 let mut expanded: Vec<_> =
-                    terms.iter().map(|(part, factor)| (self.expanded_fully(*part), factor.clone())).collect();
+                    terms.iter().map(|(part, factor)| (self.multiplied_out(*part), factor.clone())).collect();
                 expanded.push((self.number(constant.clone()), Rational::one()));
                 self.sum(&expanded)
             }
-            Form::Product(factors) => self.multiplied_out(factors).unwrap_or(node),
+            Form::Product(factors) => self.product_of_sums(factors).unwrap_or(node),
             _ => node,
         }
     }
 
     /// The product of powers of sums, unless it has too many terms.
-    fn multiplied_out(&mut self, factors: &[(Node, Rational)]) -> Option<Node> {
+    fn product_of_sums(&mut self, factors: &[(Node, Rational)]) -> Option<Node> {
         let mut terms = vec![self.number(Rational::one())];
         for (base, exponent) in factors {
             let power = exponent.to_integer().to_u32().filter(|n| exponent.is_integer() && *n <= HIGHEST);
-            let expanded = self.expanded_fully(*base);
+            let expanded = self.multiplied_out(*base);
             let (parts, count) = match (&*self.shared_form(expanded), power) {
                 (Form::Sum { constant, terms }, Some(power)) => {
                     let mut parts: Vec<Node> = terms.iter().map(|(part, c)| self.scaled(*part, c)).collect();

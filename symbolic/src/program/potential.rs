@@ -29,6 +29,11 @@ impl Graph {
         let gradient_and_rate = self.program(&outputs);
         PotentialPrograms::new(self.program(&[energy]), gradient_and_rate, Summand::Rate)
     }
+
+    /// The program of a value, without derivatives.
+    pub fn value(&self, value: Node) -> PotentialPrograms {
+        PotentialPrograms::new(self.program(&[value]), Program::default(), Summand::Rate)
+    }
 }
 
 /// A pair's energy is computed in place of its rate if that saves at least this number of operations a pair. qᵀU_q takes two operations a pair for seven bodies

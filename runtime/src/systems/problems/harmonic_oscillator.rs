@@ -23,7 +23,7 @@ impl Definition for Entry {
     const DESCRIPTION: Description = Description {
         name: "harmonic-oscillator",
         title: "Harmonic oscillator",
-        hamiltonian: "p^2/2 + omega^2 q^2/2",
+        hamiltonian: "p^2/2 + omega^2*q^2/2",
         parameters: &[Parameter::positive("omega", "1", "angular frequency")],
         initial: || Initial::new([("q", "1")], [("p", "0")]),
         step: "1/20",

@@ -20,7 +20,7 @@ impl Definition for Entry {
     const DESCRIPTION: Description = Description {
         name: "henon-heiles",
         title: "Hénon–Heiles",
-        hamiltonian: "(px^2 + py^2 + x^2 + y^2)/2 + x^2 y - y^3/3",
+        hamiltonian: "(px^2 + py^2 + x^2 + y^2)/2 + x^2*y - y^3/3",
         parameters: &[],
         initial: || Initial::new([("x", "0"), ("y", "0")], [("px", "0.1"), ("py", "0")]),
         step: "1/10",

@@ -61,6 +61,11 @@ impl Linear {
         Linear(stiffness)
     }
 
+    /// K, row by row.
+    pub(crate) fn stiffness(&self) -> &[Vec<Rational>] {
+        &self.0
+    }
+
     /// The parts of a system in this arithmetic; `of_bodies` if it is one of bodies that attract each other.
     ///
     /// # Errors

@@ -1,0 +1,58 @@
+//! The value of a formula, without derivatives.
+
+use shadowstep_symbolic::{Graph, Node, parse};
+
+use super::{FormulaError, refuse_repeated};
+use crate::number::Number;
+use crate::systems::interpreter::Interpreter;
+
+/// A function of some variables from a formula read at run time: a list of operations, executed without allocation.
+///
+/// ```
+/// use shadowstep::systems::formula::FormulaValue;
+///
+/// let mut distance = FormulaValue::new("sqrt(x^2 + y^2)", &["x", "y"], &[], &())?;
+/// assert_eq!(*distance.at(&[3.0, 4.0]), 5.0);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct FormulaValue<N> {
+    interpreter: Interpreter<N>,
+    registers: Vec<N>,
+}
+
+impl<N: Number> FormulaValue<N> {
+    /// The function of a formula in these variables, with the values of its parameters.
+    ///
+    /// # Errors
+    /// A text that is not a valid formula, unknown or repeated names, functions that are not smooth.
+    pub fn new(
+        formula: &str,
+        variables: &[&str],
+        parameters: &[(&str, N)],
+        context: &N::Context,
+    ) -> Result<Self, FormulaError> {
+        let expression = parse(formula)?;
+        let [variables, names]: [Vec<String>; 2] =
+            [variables.to_vec(), parameters.iter().map(|(name, _)| *name).collect()]
+                .map(|names| names.into_iter().map(str::to_owned).collect());
+        refuse_repeated(variables.iter().chain(&names))?;
+        let mut graph = Graph::new();
+        let node = graph.build(&expression, &variables, &names).map_err(FormulaError::Meaning)?;
+        let parameters = parameters.iter().map(|(_, value)| value.clone()).collect();
+        Ok(FormulaValue::of(&graph, node, parameters, context))
+    }
+
+    /// The function of a node, whose coordinates are the variables, with the values of its parameters.
+    pub fn of(graph: &Graph, node: Node, parameters: Vec<N>, context: &N::Context) -> Self {
+        let interpreter = Interpreter::new(&graph.value(node), parameters, 0);
+        let mut registers = vec![N::zero(context); interpreter.registers()];
+        interpreter.prepare(&mut registers, context);
+        FormulaValue { interpreter, registers }
+    }
+
+    /// Its value where the variables are x.
+    pub fn at(&mut self, x: &[N]) -> &N {
+        self.interpreter.energy(x, &mut self.registers)
+    }
+}
