@@ -4,11 +4,13 @@
 //! | --- | --- |
 //! | `ring` | polynomials in roots, with exact arithmetic |
 //! | `closed` | cells with roots → weights as such polynomials |
+//! | `enclosure` | decimals → a box in which there is one solution |
 //!
 //! The conditions are those of [`order`](shadowstep_schemes::order): in the product of the exponentials of kicks and drifts, every Lyndon word of n
 //! letters up to the order has the coefficient 1/n!. A certificate has the weights; whoever checks it computes the coefficients.
 
 mod closed;
+mod enclosure;
 mod ring;
 
 use num_traits::{Signed, Zero};
@@ -17,6 +19,7 @@ use shadowstep_schemes::order::{lyndon_words, word_conditions};
 use shadowstep_schemes::scheme::Held;
 use shadowstep_schemes::{Map, MapKind, Proved, Rational};
 
+pub use enclosure::Enclosure;
 pub use ring::{Polynomial, Root};
 use ring::{Ring, constant};
 
@@ -40,6 +43,8 @@ pub struct Certificate {
     pub kind: Kind,
     /// The maps in their order with their weights.
     pub maps: Vec<(MapKind, Polynomial)>,
+    /// Of decimals, the box about them in which there is one solution, where it is known how to prove that.
+    pub enclosure: Option<Enclosure>,
 }
 
 impl Certificate {
@@ -63,11 +68,11 @@ impl Certificate {
         }
         let as_polynomials = || scheme.maps().into_iter().map(|map| (map.kind, constant(map.weight))).collect();
         if scheme.held == Held::Exactly {
-            return Some(Certificate { order, kind: Kind::Exact, maps: as_polynomials() });
+            return Some(Certificate { order, kind: Kind::Exact, maps: as_polynomials(), enclosure: None });
         }
         Some(algebraic(proved, order).unwrap_or_else(|| {
             let kind = Kind::Decimal(distance(&scheme.maps(), order));
-            Certificate { order, kind, maps: as_polynomials() }
+            Certificate { order, kind, maps: as_polynomials(), enclosure: Enclosure::of(scheme, order) }
         }))
     }
 }
@@ -91,5 +96,5 @@ fn algebraic(proved: &Proved, order: u32) -> Option<Certificate> {
     let maps = closed::maps(&proved.scheme, &ring).filter(|_| is_closed)?;
     let conditions = word_conditions(&lyndon_words(order as usize), &maps, &ring);
     let hold = conditions.into_iter().all(|(condition, value)| value == ring.weight(&condition.needed));
-    hold.then(|| Certificate { order, kind: Kind::Algebraic(ring.roots.into_inner()), maps })
+    hold.then(|| Certificate { order, kind: Kind::Algebraic(ring.roots.into_inner()), maps, enclosure: None })
 }

@@ -2,7 +2,7 @@
 
 use clap::{Args, ValueEnum};
 use serde_json::{Value, json};
-use shadowstep_analysis::certificate::{Certificate, Kind, Polynomial};
+use shadowstep_analysis::certificate::{Certificate, Enclosure, Kind, Polynomial};
 use shadowstep_scenes::{Error, library};
 use shadowstep_schemes::{Rational, to_significant};
 use shadowstep_symbolic::decimal::to_text;
@@ -71,6 +71,19 @@ fn record(name: &str, certificate: &Certificate) -> Value {
         "bound": bound,
         "roots": roots,
         "maps": maps,
+        "enclosure": certificate.enclosure.as_ref().map(enclosure),
+    })
+}
+
+/// The box and the matrix, as decimals that are exact.
+fn enclosure(enclosure: &Enclosure) -> Value {
+    let inverse: Vec<Vec<_>> =
+        enclosure.inverse.iter().map(|row| row.iter().map(|y| format!("{y:e}")).collect()).collect();
+    json!({
+        "half": enclosure.half.iter().map(to_text).collect::<Vec<_>>(),
+        "solved": enclosure.solved,
+        "inverse": inverse,
+        "radius": to_text(&enclosure.radius),
     })
 }
 

@@ -14,7 +14,7 @@ use shadowstep_schemes::map::Stages;
 use shadowstep_schemes::proof::Order;
 use shadowstep_schemes::scheme::ExactInner;
 use shadowstep_schemes::table::Table;
-use shadowstep_schemes::{Kinetic, MapKind, Proof, Proved, StepPlan};
+use shadowstep_schemes::{Kinetic, MapKind, Proof, Proved, StepPlan, to_significant};
 
 use crate::interrupt::Interrupt;
 use crate::output::Output;
@@ -276,14 +276,22 @@ fn weights_text(digits: Option<u32>) -> String {
 
 /// What kind of proof the order for every T(p) has.
 fn proof_text(proved: &Proved) -> String {
-    match Certificate::of(proved).map(|certificate| certificate.kind) {
-        None => String::new(),
-        Some(Kind::Exact) => "exact: rational weights, `schemes prove` writes a certificate".to_owned(),
-        Some(Kind::Algebraic(roots)) => {
-            let roots = if roots.len() == 1 { "a root".to_owned() } else { format!("{} roots", roots.len()) };
-            format!("algebraic: exact in the weights as polynomials in {roots}, `schemes prove` writes a certificate")
+    let Some(certificate) = Certificate::of(proved) else { return String::new() };
+    match (&certificate.kind, &certificate.enclosure) {
+        (Kind::Exact, _) => "exact: rational weights".to_owned(),
+        (Kind::Algebraic(roots), _) if roots.len() == 1 => {
+            "algebraic: exact in the weights as polynomials in a root".to_owned()
         }
-        Some(Kind::Decimal(_)) => "decimal: the conditions hold to the digits of the weights".to_owned(),
+        (Kind::Algebraic(roots), _) => {
+            format!("algebraic: exact in the weights as polynomials in {} roots", roots.len())
+        }
+        (Kind::Decimal(_), Some(enclosure)) => {
+            format!(
+                "certified enclosure: one solution of the order conditions within {} of the weights",
+                to_significant(&enclosure.radius, 2)
+            )
+        }
+        (Kind::Decimal(_), None) => "decimal: the conditions hold to the digits of the weights".to_owned(),
     }
 }
 

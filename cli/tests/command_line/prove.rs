@@ -45,6 +45,8 @@ fn every_certificate_is_verified() {
         "{out}\n{lines:?}"
     );
     let kinds = |kind: &str| lines.iter().filter(|line| line.ends_with(kind)).count();
+    let enclosed: Vec<_> = out.lines().filter(|line| line.ends_with("one solution enclosed")).collect();
+    assert!(enclosed.len() >= 20, "{enclosed:#?}");
     assert!(kinds("exact") >= 10 && kinds("algebraic") >= 10 && kinds("decimal") >= 40, "{lines:#?}");
 }
 
@@ -55,6 +57,7 @@ fn show_names_the_kind_of_proof() {
         ("ruth3", "exact: rational weights"),
         ("yoshida4", "algebraic: exact in the weights as polynomials in a root"),
         ("pefrl", "decimal: the conditions hold to the digits of the weights"),
+        ("yoshida8-d", "certified enclosure: one solution of the order conditions within 1e-2"),
     ] {
         let shown = quietly(&format!("schemes show {name}"));
         let line = shown.lines().find(|line| line.starts_with("proof:")).unwrap_or_else(|| panic!("{shown}"));
@@ -82,6 +85,12 @@ fn wrong_certificates_are_refused() {
         refused(name, &|certificate| drop(certificate["maps"].as_array_mut().unwrap().pop()));
     }
     refused("yoshida4", &|certificate| certificate["roots"][0]["of"][0][0] = "3".into());
+    for radius in ["1e-290", "1/10"] {
+        let small = refused("yoshida6-a", &|certificate| certificate["enclosure"]["radius"] = radius.into());
+        assert!(small.contains("the box need not have a solution"), "{small}");
+    }
+    refused("yoshida6-a", &|certificate| certificate["enclosure"]["inverse"][0][0] = "1".into());
+    refused("yoshida6-a", &|certificate| certificate["enclosure"]["half"][0] = "1/2".into());
     let loose = refused("pefrl", &|certificate| certificate["bound"] = "1/10".into());
     assert!(loose.contains("a bound that decides"), "{loose}");
     assert!(
