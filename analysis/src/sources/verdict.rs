@@ -64,35 +64,35 @@ impl Verdict {
     fn judge(&mut self, recognised: &Recognised<'_>, found: &Proved) {
         self.likeness = Likeness::of(&found.scheme.maps());
         self.symmetric = found.proof.symmetric;
-        let both = match recognised.reading.role.steps {
-            Steps::Composition => vec![Claims::ANY],
-            _ => vec![Claims::ANY, Claims { first: Some(First::Drift), ..Claims::ANY }],
-        };
-        // a shipped scheme with a wrong digit is that scheme to fewer digits
-        let tries = both.iter().flat_map(|claims| [*claims, self.shipped_claims(claims.first)]);
-        let tries = tries.filter_map(|claims| Some((claims, proved(recognised, claims)?)));
-        let orders = |proved: &Proved| [proved.proof.general.order, proved.proof.quadratic.order];
-        let tries: Vec<_> = tries.map(|(claims, proved)| (claims, orders(&proved), proved)).collect();
-        let quadratic = |first: Option<First>| {
-            tries.iter().filter(|(claims, ..)| claims.first == first).map(|(_, orders, _)| orders[1]).max()
-        };
+        let tries = self.tries(recognised);
+        let quadratic =
+            |first| tries.iter().filter(|found| found.claims.first == first).map(|found| found.orders[1]).max();
         if let Some((kick, drift)) = quadratic(None).zip(quadratic(Some(First::Drift)))
             && kick != drift
         {
             self.first = Some(if kick > drift { First::Kick } else { First::Drift });
         }
-        let best = tries
-            .iter()
-            .rev()
-            .max_by_key(|(claims, orders, _)| (orders[1], orders[0], claims.order == 1, claims.first.is_none()));
-        let Some((claims, orders, proved)) = best else { return };
-        self.orders = *orders;
-        let is_quadratic = orders[1] > orders[0];
-        let order = if is_quadratic { &proved.proof.quadratic } else { &proved.proof.general };
+        let Some(best) = tries.iter().rev().max_by_key(|found| found.rank()) else { return };
+        self.orders = best.orders;
+        let is_quadratic = best.orders[1] > best.orders[0];
+        let order = if is_quadratic { &best.proved.proof.quadratic } else { &best.proved.proof.general };
         // sums that are met exactly have any number of digits
         self.digits = order.digits.filter(|digits| *digits <= exact::DIGITS);
         let kinetic = if is_quadratic { "quadratic" } else { "any" };
-        self.judge_digits(recognised, Claims { order: order.order, kinetic, first: claims.first });
+        self.judge_digits(recognised, Claims { order: order.order, kinetic, first: best.claims.first });
+    }
+
+    /// Proofs with a kick and a drift first, and with the claims of the shipped scheme: with a wrong digit it is that scheme to fewer digits.
+    fn tries(&self, recognised: &Recognised<'_>) -> Vec<Try> {
+        let firsts: &[_] =
+            if recognised.reading.role.steps == Steps::Composition { &[None] } else { &[None, Some(First::Drift)] };
+        let claims =
+            firsts.iter().flat_map(|first| [Claims { first: *first, ..Claims::ANY }, self.shipped_claims(*first)]);
+        let tried = |claims| {
+            let proved = proved(recognised, claims)?;
+            Some(Try { claims, orders: [proved.proof.general.order, proved.proof.quadratic.order], proved })
+        };
+        claims.filter_map(tried).collect()
     }
 
     /// What the shipped scheme claims that it is.
@@ -143,7 +143,7 @@ impl Verdict {
         let place = if recognised.reading.role.steps == Steps::Composition { map / 2 } else { map };
         let (entry, text) = recognised.entry(place);
         let text = text.map_or_else(String::new, |text| {
-            format!(" `{text}`, which should be {}", to_significant(right, text.len()))
+            format!(" `{text}`, which should be {}", to_significant(right, text.len().min(LONGEST)))
         });
         format!("; farthest from {} is {entry}{text}", likeness.known.name)
     }
@@ -196,6 +196,21 @@ struct Claims {
 impl Claims {
     /// Nothing but that the weights sum to 1.
     const ANY: Claims = Claims { order: 1, kinetic: "any", first: None };
+}
+
+/// A list with claims that hold.
+struct Try {
+    claims: Claims,
+    /// For every T(p), and for quadratic T.
+    orders: [u32; 2],
+    proved: Proved,
+}
+
+impl Try {
+    /// The higher orders, of equal ones those with more digits, and a kick first.
+    fn rank(&self) -> (u32, u32, bool, bool) {
+        (self.orders[1], self.orders[0], self.claims.order == 1, self.claims.first.is_none())
+    }
 }
 
 /// The scheme with as many digits as the claims allow; `None` where they do not hold.
