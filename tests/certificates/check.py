@@ -110,7 +110,7 @@ class Number:
 
 
 def odd_words(highest):
-    """Lyndon words in the letters 1, 3, 5, ... whose sum is odd, 3 at least."""
+    """Lyndon words in the letters 1, 3, 5, ... whose sum is odd, 3 at least, by their sums."""
 
     def grow(word, left):
         yield word
@@ -118,7 +118,7 @@ def odd_words(highest):
             yield from grow(word + (letter,), left - letter)
 
     odd = [word for word in grow((), highest) if sum(word) % 2 == 1 and word != (1,)]
-    return [word for word in odd if all(word < word[i:] for i in range(1, len(word)))]
+    return sorted([word for word in odd if all(word < word[i:] for i in range(1, len(word)))], key=sum)
 
 
 def error_terms(words, steps, one, zero):
