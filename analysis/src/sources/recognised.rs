@@ -279,7 +279,8 @@ fn certainty(
     if is_little(5) && !hinted() {
         return None;
     }
-    if sums && (telling || (named && (part == Part::Whole || maps.len() >= 5))) && resembles(&maps) {
+    let is_enough = (telling && maps.len() > 3) || (named && (part == Part::Whole || maps.len() >= 5));
+    if sums && is_enough && resembles(&maps) {
         return Some((Certainty::Known, order));
     }
     if order >= 3 && maps.len() > 4 && (is_written_out || hinted()) {

@@ -34,6 +34,9 @@ pub struct Verdict {
     pub notes: Vec<String>,
 }
 
+/// Digits to which conditions hold beyond those of the weights, where not exactly.
+const MORE: u32 = 5;
+
 /// The longest text of a number in a message.
 const LONGEST: usize = 60;
 
@@ -77,7 +80,8 @@ impl Verdict {
         let is_quadratic = best.orders[1] > best.orders[0];
         let order = if is_quadratic { &best.proved.proof.quadratic } else { &best.proved.proof.general };
         // sums that are met exactly have any number of digits
-        self.digits = order.digits.filter(|digits| *digits <= exact::DIGITS);
+        let most = recognised.digits().map_or(exact::DIGITS, |printed| printed + MORE);
+        self.digits = order.digits.filter(|digits| *digits <= most);
         let kinetic = if is_quadratic { "quadratic" } else { "any" };
         self.judge_digits(recognised, Claims { order: order.order, kinetic, first: best.claims.first });
     }
