@@ -21,7 +21,7 @@ pub struct Root {
     pub of: Polynomial,
 }
 
-/// The most products of powers of roots: the inverse of a polynomial solves a system of so many equations.
+/// The most products of powers of roots: the inverse of a polynomial solves as many linear equations.
 const LARGEST: usize = 36;
 
 /// All roots of a scheme.
