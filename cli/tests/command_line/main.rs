@@ -11,6 +11,7 @@ mod digits;
 mod drift;
 mod emit;
 mod figures;
+mod modified;
 mod lost_energy;
 mod output_files;
 mod planets;
