@@ -4,6 +4,7 @@
 
 mod planets;
 mod potential;
+pub mod record;
 
 use std::collections::HashMap;
 
@@ -37,7 +38,7 @@ const LONGEST: u64 = 200_000;
 const STIFFNESS_DIGITS: u32 = 110;
 
 /// H of a system as formulas of its parts, from which the modified Hamiltonian of a scheme's step is derived.
-pub struct SymbolicHamiltonian {
+pub(crate) struct SymbolicHamiltonian {
     graph: Graph,
     /// U and T, or the parts that are formulas.
     parts: Vec<Node>,
@@ -52,11 +53,11 @@ pub struct SymbolicHamiltonian {
 
 /// A summand hⁿ H_(n+1) of the modified Hamiltonian.
 #[derive(Clone, Copy, Debug)]
-pub struct SymbolicTerm {
+pub(crate) struct SymbolicTerm {
     /// n
-    pub power: u32,
+    pub(crate) power: u32,
     /// H_(n+1)
-    pub formula: Node,
+    pub(crate) formula: Node,
 }
 
 impl SymbolicHamiltonian {
@@ -64,7 +65,7 @@ impl SymbolicHamiltonian {
     ///
     /// # Errors
     /// A system whose parts have no formulas in q and p.
-    pub fn of(system: &System) -> Result<Self, Refusal> {
+    pub(crate) fn of(system: &System) -> Result<Self, Refusal> {
         let mut coordinates = system.coordinates.clone();
         coordinates.extend(system.momenta.iter().cloned());
         let mut symbolic = SymbolicHamiltonian {
@@ -202,7 +203,7 @@ impl SymbolicHamiltonian {
     ///
     /// # Errors
     /// A scheme that is not for these parts; too many parts of formulas.
-    pub fn modified(&mut self, scheme: &Proved, grade: u32) -> Result<Vec<SymbolicTerm>, Refusal> {
+    pub(crate) fn modified(&mut self, scheme: &Proved, grade: u32) -> Result<Vec<SymbolicTerm>, Refusal> {
         match self.has_many_parts {
             false => self.terms(&ModifiedHamiltonian::of(scheme, self.kinetic, grade)),
             true => {
@@ -286,7 +287,7 @@ impl SymbolicHamiltonian {
     ///
     /// # Errors
     /// A formula that is too long.
-    pub fn text(&self, formula: Node, notation: Notation, digits: usize) -> Result<String, Refusal> {
+    pub(crate) fn text(&self, formula: Node, notation: Notation, digits: usize) -> Result<String, Refusal> {
         let size = self.graph.written_size(formula);
         if size > LONGEST {
             let message = format!("the formula has {size} symbols, more than {LONGEST}");
@@ -296,13 +297,13 @@ impl SymbolicHamiltonian {
     }
 
     /// H
-    pub fn hamiltonian(&mut self) -> Node {
+    pub(crate) fn hamiltonian(&mut self) -> Node {
         let parts: Vec<_> = self.parts.iter().map(|part| (*part, Rational::one())).collect();
         self.graph.sum(&parts)
     }
 
     /// The names of coordinates and momenta, and of the parameters in some formulas.
-    pub fn names_in(&self, formulas: &[Node]) -> Vec<&str> {
+    pub(crate) fn names_in(&self, formulas: &[Node]) -> Vec<&str> {
         let parameters = self.graph.parameters(formulas).into_iter().map(|index| &self.parameters[index]);
         self.coordinates.iter().chain(parameters).map(String::as_str).collect()
     }

@@ -53,7 +53,11 @@ fn what_has_no_series_is_refused_with_what_would_be_right() {
         ("modified r-respa-4", "r-respa-4 has multiple time steps", "add --parts 3"),
         ("modified chin-4a --parts 3", "chin-4a has gradient kicks", "use a scheme such as yoshida4"),
         ("modified yoshida4 --to latex", "there is no system", "name a problem or a scene"),
-        ("modified yoshida4 --parts 9 --grade 10", "the series of 9 parts up to h^10 has too many terms", "fewer parts"),
+        (
+            "modified yoshida4 --parts 9 --grade 10",
+            "the series of 9 parts up to h^10 has too many terms",
+            "fewer parts",
+        ),
         ("modified yoshida4 fput-stiff", "fput-stiff has none in its coordinates", "write `potential` as a formula"),
         ("modified stormer-verlet outer-solar-system --grade 8", "has more than 100000 parts", "powers of h below"),
         ("modified yoshida4 --grade 11", "11", "1"),
