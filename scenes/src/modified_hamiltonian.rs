@@ -4,6 +4,7 @@
 
 mod planets;
 mod potential;
+pub mod record;
 
 use std::collections::HashMap;
 
@@ -24,14 +25,20 @@ use crate::scene::{InitialValueProblem, KineticEnergy, Parts, System};
 /// The name of the momentum of t in transformed time.
 const MOMENTUM_OF_TIME: &str = "pt";
 
-/// Longer formulas are not written, and not multiplied out.
+/// Longer formulas are not multiplied out.
+const LONGEST_EXPANDED: u64 = 20_000;
+
+/// More distinct parts of formulas take too long.
+const MOST_NODES: usize = 100_000;
+
+/// Longer formulas are not written.
 const LONGEST: u64 = 200_000;
 
 /// The digits of the matrix of a linear part, of which some more are computed: what is exact is so again.
 const STIFFNESS_DIGITS: u32 = 110;
 
 /// H of a system as formulas of its parts, from which the modified Hamiltonian of a scheme's step is derived.
-pub struct SymbolicHamiltonian {
+pub(crate) struct SymbolicHamiltonian {
     graph: Graph,
     /// U and T, or the parts that are formulas.
     parts: Vec<Node>,
@@ -46,11 +53,11 @@ pub struct SymbolicHamiltonian {
 
 /// A summand hⁿ H_(n+1) of the modified Hamiltonian.
 #[derive(Clone, Copy, Debug)]
-pub struct SymbolicTerm {
+pub(crate) struct SymbolicTerm {
     /// n
-    pub power: u32,
+    pub(crate) power: u32,
     /// H_(n+1)
-    pub formula: Node,
+    pub(crate) formula: Node,
 }
 
 impl SymbolicHamiltonian {
@@ -58,7 +65,7 @@ impl SymbolicHamiltonian {
     ///
     /// # Errors
     /// A system whose parts have no formulas in q and p.
-    pub fn of(system: &System) -> Result<Self, Refusal> {
+    pub(crate) fn of(system: &System) -> Result<Self, Refusal> {
         let mut coordinates = system.coordinates.clone();
         coordinates.extend(system.momenta.iter().cloned());
         let mut symbolic = SymbolicHamiltonian {
@@ -195,30 +202,36 @@ impl SymbolicHamiltonian {
     /// The terms of the modified Hamiltonian of a scheme's step that are not 0, up to h^grade; of a processed scheme that of the processed step.
     ///
     /// # Errors
-    /// A scheme that is not for these parts.
-    pub fn modified(&mut self, scheme: &Proved, grade: u32) -> Result<Vec<SymbolicTerm>, Refusal> {
+    /// A scheme that is not for these parts; too many parts of formulas.
+    pub(crate) fn modified(&mut self, scheme: &Proved, grade: u32) -> Result<Vec<SymbolicTerm>, Refusal> {
         match self.has_many_parts {
-            false => Ok(self.terms(&ModifiedHamiltonian::of(scheme, self.kinetic, grade))),
+            false => self.terms(&ModifiedHamiltonian::of(scheme, self.kinetic, grade)),
             true => {
                 let series = ModifiedHamiltonian::of_parts(scheme, self.parts.len(), grade);
-                Ok(self.terms(&series.map_err(|not| Refusal::new(not.to_string(), "use a scheme such as yoshida4"))?))
+                self.terms(&series.map_err(|not| Refusal::new(not.to_string(), "use a scheme such as yoshida4"))?)
             }
         }
     }
 
-    fn terms<L: Letter>(&mut self, series: &ModifiedHamiltonian<L>) -> Vec<SymbolicTerm> {
+    fn terms<L: Letter>(&mut self, series: &ModifiedHamiltonian<L>) -> Result<Vec<SymbolicTerm>, Refusal> {
         let mut known = HashMap::new();
         let mut found = Vec::new();
         for (power, terms) in (1..).zip(&series.terms) {
-            let terms: Vec<_> =
-                terms.iter().map(|(bracket, c)| (self.bracket(bracket.letters(), &mut known), c.clone())).collect();
-            let sum = self.graph.sum(&terms);
+            let mut sum = Vec::new();
+            for (bracket, c) in terms {
+                sum.push((self.bracket(bracket.letters(), &mut known), c.clone()));
+                if self.graph.len() > MOST_NODES {
+                    let message = format!("H_{} of this system has more than {MOST_NODES} parts", power + 1);
+                    return Err(Refusal::new(message, format!("ask for powers of h below {power}")));
+                }
+            }
+            let sum = self.graph.sum(&sum);
             let formula = self.shorter(sum);
             if self.graph.as_number(formula).is_none_or(|value| value.numer() != &0.into()) {
                 found.push(SymbolicTerm { power, formula });
             }
         }
-        found
+        Ok(found)
     }
 
     /// [x_1,[x_2,[…,x_n]]], with those within it that are known.
@@ -263,7 +276,7 @@ impl SymbolicHamiltonian {
 
     /// The formula multiplied out, where it is shorter then: products of sums cancel or are few.
     fn shorter(&mut self, formula: Node) -> Node {
-        if self.graph.written_size(formula) > LONGEST {
+        if self.graph.written_size(formula) > LONGEST_EXPANDED {
             return formula;
         }
         let expanded = self.graph.multiplied_out(formula);
@@ -274,7 +287,7 @@ impl SymbolicHamiltonian {
     ///
     /// # Errors
     /// A formula that is too long.
-    pub fn text(&self, formula: Node, notation: Notation, digits: usize) -> Result<String, Refusal> {
+    pub(crate) fn text(&self, formula: Node, notation: Notation, digits: usize) -> Result<String, Refusal> {
         let size = self.graph.written_size(formula);
         if size > LONGEST {
             let message = format!("the formula has {size} symbols, more than {LONGEST}");
@@ -284,13 +297,13 @@ impl SymbolicHamiltonian {
     }
 
     /// H
-    pub fn hamiltonian(&mut self) -> Node {
+    pub(crate) fn hamiltonian(&mut self) -> Node {
         let parts: Vec<_> = self.parts.iter().map(|part| (*part, Rational::one())).collect();
         self.graph.sum(&parts)
     }
 
     /// The names of coordinates and momenta, and of the parameters in some formulas.
-    pub fn names_in(&self, formulas: &[Node]) -> Vec<&str> {
+    pub(crate) fn names_in(&self, formulas: &[Node]) -> Vec<&str> {
         let parameters = self.graph.parameters(formulas).into_iter().map(|index| &self.parameters[index]);
         self.coordinates.iter().chain(parameters).map(String::as_str).collect()
     }

@@ -12,6 +12,7 @@ mod drift;
 mod emit;
 mod figures;
 mod lost_energy;
+mod modified;
 mod output_files;
 mod planets;
 mod plot;
