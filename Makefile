@@ -120,7 +120,7 @@ stability: deps
 rivals: deps
 	rivals/run.sh
 
-# Fuzzes the readers of tables, formulas, scenes, sweeps and checkpoints, SECONDS each: `make fuzz SECONDS=600 READERS="table scene"`.
+# Fuzzes the readers of tables, formulas, scenes, sweeps, checkpoints and source code, SECONDS each: `make fuzz SECONDS=600 READERS="table scene"`.
 SECONDS = 60
 fuzz: deps
 	SECONDS_EACH=$(SECONDS) fuzz/run.sh $(READERS)

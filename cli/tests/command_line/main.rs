@@ -20,6 +20,7 @@ mod polish;
 mod problems;
 mod processed;
 mod program;
+mod prove;
 mod scene_faults;
 mod scene_kinetic;
 mod scene_pairs;
