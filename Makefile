@@ -83,14 +83,14 @@ bench-python: wheel
 # Sweeps on Slurm (of Debian's packages, with a private configuration), with GNU parallel and with Dask, whose tasks and nodes are killed:
 # the results are those of one machine. What is not installed is skipped.
 test-cluster: deps
-	cargo build --locked -p shadowstep-cli
+	cargo build --workspace --features mpfr --locked --bin shadowstep
 	@command -v python3 >/dev/null || { echo "Skipped: python3 is not installed."; exit 0; }; \
 	    PYTHONDONTWRITEBYTECODE=1 exec python3 tests/cluster/test.py
 
 # What `shadowstep emit` writes, run in its own ecosystem. What is not installed is skipped; `make test-emit REQUIRED="fortran jax"` insists on these.
 REQUIRED =
 test-emit:
-	cargo build --locked -p shadowstep-cli
+	cargo build --workspace --features mpfr --locked --bin shadowstep
 	@command -v python3 >/dev/null || { echo "Skipped: python3 is not installed."; exit 0; }; \
 	    REQUIRED="$(REQUIRED)" PYTHONDONTWRITEBYTECODE=1 exec python3 tests/emit/test.py
 
@@ -120,7 +120,7 @@ stability: deps
 rivals: deps
 	rivals/run.sh
 
-# Fuzzes the readers of tables, formulas, scenes, sweeps and checkpoints, SECONDS each: `make fuzz SECONDS=600 READERS="table scene"`.
+# Fuzzes the readers of tables, formulas, scenes, sweeps, checkpoints and source code, SECONDS each: `make fuzz SECONDS=600 READERS="table scene"`.
 SECONDS = 60
 fuzz: deps
 	SECONDS_EACH=$(SECONDS) fuzz/run.sh $(READERS)

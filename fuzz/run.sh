@@ -13,7 +13,7 @@ export RUSTFLAGS="--cfg fuzzing -Cpasses=sancov-module -Cllvm-args=-sanitizer-co
 -Cllvm-args=-sanitizer-coverage-trace-compares"
 cargo build --release --locked --manifest-path fuzz/Cargo.toml --target "$host" --target-dir target/fuzz/build
 mkdir -p "$found/failed"
-for name in ${*:-table expression scene sweep checkpoint}; do
+for name in ${*:-table expression scene sweep checkpoint code}; do
     mkdir -p "$found/$name"
     echo "fuzzing the reader of ${name}s for $seconds seconds"
     "target/fuzz/build/$host/release/$name" "$found/$name" "fuzz/corpus/$name" \

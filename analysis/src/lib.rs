@@ -14,6 +14,8 @@
 //! | [`resonance`] | where multiple time steps are in resonance with a fast oscillation |
 //! | `prime` | residues modulo a prime, for `bracket`, `squarefree` and `powers` |
 //! | `better` | [`best_for_every_kinetic`]: the shipped scheme to use for a T(p) that is not quadratic |
+//! | [`sources`], `known` | source code → the schemes in it; which shipped scheme a scheme is, by its weights |
+//! | [`certificate`] | the proof of an order, for other programs to check |
 //! | [`polish`](mod@polish) | a table of printed decimals → one whose order conditions hold to more digits |
 //!
 //! Compiling a user's crate does not need any of this: the macros and the runtime depend on `shadowstep-schemes` only.
@@ -21,7 +23,9 @@
 mod analysis;
 mod better;
 pub mod bracket;
+pub mod certificate;
 pub mod error;
+mod known;
 pub mod modified;
 pub mod oscillator;
 mod period;
@@ -31,9 +35,11 @@ mod prime;
 pub mod resonance;
 mod roots;
 pub mod sampling;
+pub mod sources;
 mod squarefree;
 pub mod stability;
 pub mod trace;
 
 pub use analysis::{Analysis, Sizes};
 pub use better::best_for_every_kinetic;
+pub use known::{Known, Likeness};

@@ -40,6 +40,7 @@ use std::collections::BTreeSet;
 
 use shadowstep_symbolic::{Rational, nearest, nearest_few};
 
+pub(crate) use composition::{conditions, lyndon_words};
 use equations::Equations;
 use new_table::NewTable;
 use newton::Problem;

@@ -4,14 +4,13 @@ use std::io::Write;
 
 use clap::{Args, ValueEnum};
 use serde::Serialize;
-use shadowstep_analysis::bracket::Letter;
-use shadowstep_analysis::modified::{HIGHEST_GRADE, ModifiedHamiltonian};
+use shadowstep_analysis::modified::HIGHEST_GRADE;
+use shadowstep_scenes::Error;
 use shadowstep_scenes::arithmetic::Arithmetic;
 use shadowstep_scenes::library::{self, NamedScheme};
-use shadowstep_scenes::{Error, SymbolicHamiltonian, SymbolicTerm};
-use shadowstep_schemes::{Kinetic, Proved};
-use shadowstep_symbolic::decimal::to_significant;
-use shadowstep_symbolic::{Notation, Rational};
+use shadowstep_scenes::modified_hamiltonian::record::{FormulaRecord, SeriesOptions, SeriesRecord, SeriesTerm, sum_of};
+use shadowstep_schemes::Proved;
+use shadowstep_symbolic::Notation;
 
 use crate::output::{Output, OutputArguments};
 use crate::quantity::whole;
@@ -26,14 +25,8 @@ Examples:
   shadowstep modified blanes-moan-s6 --grade 6 --potential \"x^4/4\" --q x=1 --p 0 --to numpy
   shadowstep modified yoshida4 --parts 3
 
-A step of size h is the flow over h of H + h H_2 + h^2 H_3 + …, an asymptotic series: smaller terms follow larger ones up to a power that h sets. In brackets K
+A step of size h is the flow over h of H + h H_2 + h^2 H_3 + …, an asymptotic series: its terms become smaller up to a power that h sets. In brackets K
 stands for U and D for T, or A, B, C, … for parts, and [F,G] = F_p·G_q - F_q·G_p, so that [K,D] = -U_q·T_p.";
-
-/// Short fractions have numerators and denominators of at most this number of digits.
-const SHORT: usize = 15;
-
-/// The most words of the series of many parts.
-const MOST_WORDS: u64 = 20_000;
 
 /// The modified Hamiltonian of a scheme: its coefficients, and with a system its formula.
 #[derive(Debug, Args)]
@@ -70,8 +63,11 @@ pub(crate) struct Arguments {
 enum To {
     /// As scenes have it
     Text,
+    /// Lines of an `aligned` environment
     Latex,
+    /// A function
     Rust,
+    /// A function of Python
     Numpy,
 }
 
@@ -99,167 +95,64 @@ pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
     Ok(Status::Success)
 }
 
-/// A term of the series.
-#[derive(Serialize)]
-struct Term {
-    power: u32,
-    bracket: String,
-    coefficient: String,
-}
-
-#[derive(Serialize)]
-struct Series<'a> {
-    scheme: &'a str,
-    /// `null` for many parts.
-    kinetic: Option<&'static str>,
-    parts: u32,
-    exact: bool,
-    terms: Vec<Term>,
-}
-
 fn of_brackets(arguments: &Arguments, proved: &Proved) -> Result<String, Error> {
-    let name = &proved.scheme.table.name.value;
+    let Arguments { grade, parts, quadratic, digits, .. } = *arguments;
     if arguments.to != To::Text {
         let help = "name a problem or a scene, or give --potential";
         return Err(Error::usage("this notation is that of a formula, and there is no system", help));
     }
-    let grade = arguments.grade;
-    let Some(parts) = arguments.parts else {
-        if proved.scheme.inner.is_some() {
-            let message = format!("{name} has multiple time steps, for slow forces, fast forces and T");
-            return Err(Error::usage(message, "add --parts 3: A for the slow forces, B for the fast ones, C for T"));
-        }
-        let is_quadratic = arguments.quadratic || proved.scheme.has_gradient_kicks();
-        let (kinetic, word) = match is_quadratic {
-            true => (Kinetic::Quadratic, "quadratic"),
-            false => (Kinetic::Any, "any"),
-        };
-        return written(arguments, (name, Some(word), 2), &ModifiedHamiltonian::of(proved, kinetic, grade));
-    };
-    if u64::from(parts).pow(grade + 1) > MOST_WORDS {
-        let message = format!("the series of {parts} parts up to h^{grade} has too many terms");
-        return Err(Error::usage(message, "ask for fewer parts, or a lower --grade"));
+    if parts.is_none() && proved.scheme.inner.is_some() {
+        let message = format!("{} has multiple time steps, for slow forces, fast forces and T", arguments.scheme);
+        return Err(Error::usage(message, "add --parts 3: A for the slow forces, B for the fast ones, C for T"));
     }
-    let series = ModifiedHamiltonian::of_parts(proved, parts as usize, grade)
-        .map_err(|not| Error::usage(not.to_string(), "use a scheme such as yoshida4"))?;
-    written(arguments, (name, None, parts), &series)
-}
-
-fn written<L: Letter>(
-    arguments: &Arguments,
-    (scheme, kinetic, parts): (&str, Option<&'static str>, u32),
-    series: &ModifiedHamiltonian<L>,
-) -> Result<String, Error> {
-    let coefficient = |c: &Rational| coefficient(c, arguments.digits as usize);
-    let terms: Vec<_> = series
-        .all()
-        .map(|(power, bracket, c)| Term { power, bracket: bracket.to_string(), coefficient: coefficient(c) })
-        .collect();
+    let series = SeriesRecord::of(proved, SeriesOptions { grade, parts, quadratic, digits: digits as usize })?;
     if arguments.json {
-        let record = Series { scheme, kinetic, parts, exact: series.digits.is_none(), terms };
-        return Ok(serde_json::to_string(&record)? + "\n");
+        return Ok(serde_json::to_string(&series)? + "\n");
     }
-    let powers: Vec<u32> = (1..=arguments.grade).filter(|n| terms.iter().any(|term| term.power == *n)).collect();
-    let of = match kinetic {
+    let terms = &series.terms;
+    let powers: Vec<u32> = (1..=grade).filter(|n| terms.iter().any(|term| term.power == *n)).collect();
+    let of = match series.kinetic {
         Some("quadratic") => "T + U with quadratic T".to_owned(),
         Some(_) => "T + U".to_owned(),
-        None => format!("a sum of {parts} parts"),
+        None => format!("a sum of {} parts", series.parts),
     };
-    let mut text = format!("{scheme}: H = {of} becomes {}\n", sum_of(&powers, arguments.grade));
+    let mut text = format!("{}: H = {of} becomes {}\n", series.scheme, sum_of(powers.iter().copied(), grade));
     let width = terms.iter().map(|term| term.coefficient.len()).max().unwrap_or(0);
     for power in powers {
         text += &format!("\nH_{}\n", power + 1);
-        for Term { coefficient, bracket, .. } in terms.iter().filter(|term| term.power == power) {
+        for SeriesTerm { coefficient, bracket, .. } in terms.iter().filter(|term| term.power == power) {
             text += &format!("  {coefficient:>width$}  {bracket}\n");
         }
     }
     Ok(text)
 }
 
-/// A short fraction, or a decimal.
-fn coefficient(c: &Rational, digits: usize) -> String {
-    let fraction = c.to_string();
-    let is_short = fraction.trim_start_matches('-').split('/').all(|part| part.len() <= SHORT);
-    if is_short { fraction } else { to_significant(c, digits) }
-}
-
-/// H + h^2 H_3 + …
-fn sum_of(powers: &[u32], grade: u32) -> String {
-    let terms = powers.iter().map(|n| match n {
-        1 => " + h H_2".to_owned(),
-        _ => format!(" + h^{n} H_{}", n + 1),
-    });
-    format!("H{} + O(h^{})", terms.collect::<String>(), grade + 1)
-}
-
-/// The formulas of a system.
+/// The formulas with the system's name.
 #[derive(Serialize)]
-struct Formulas<'a> {
-    scheme: &'a str,
+struct OfSystem<'a> {
     system: &'a str,
-    hamiltonian: String,
-    terms: Vec<FormulaOfTerm>,
-}
-
-#[derive(Serialize)]
-struct FormulaOfTerm {
-    power: u32,
-    formula: String,
+    #[serde(flatten)]
+    formulas: &'a FormulaRecord,
 }
 
 fn of_system(arguments: &Arguments, named: &NamedScheme, described: &Described) -> Result<String, Error> {
-    let system = &described.system;
-    let scheme = system.needs().scheme(named.clone(), &Default::default())?;
-    let mut symbolic = SymbolicHamiltonian::of(system)?;
-    let terms = symbolic.modified(scheme.scheme.proved(), arguments.grade)?;
-    let write =
-        |symbolic: &SymbolicHamiltonian, node| symbolic.text(node, arguments.to.notation(), arguments.digits as usize);
-    let whole = symbolic.hamiltonian();
-    let hamiltonian = write(&symbolic, whole);
-    let formulas: Vec<_> = terms
-        .iter()
-        .map(|SymbolicTerm { power, formula }| FormulaOfTerm { power: *power, formula: write(&symbolic, *formula) })
-        .collect();
-    let scheme = &*scheme.scheme.proved().scheme.table.name.value;
+    let notation = arguments.to.notation();
+    let formulas = FormulaRecord::of(&described.system, named, (arguments.grade, notation, arguments.digits as usize))?;
     if arguments.json {
-        let record = Formulas { scheme, system: &described.name, hamiltonian, terms: formulas };
-        return Ok(serde_json::to_string(&record)? + "\n");
+        return Ok(serde_json::to_string(&OfSystem { system: &described.name, formulas: &formulas })? + "\n");
     }
-    let powers: Vec<u32> = terms.iter().map(|term| term.power).collect();
-    let title = format!("{scheme}, {}: {}", described.name, sum_of(&powers, arguments.grade));
-    let nodes: Vec<_> = terms.iter().map(|term| term.formula).chain([whole]).collect();
-    let names = symbolic.names_in(&nodes);
+    let title = format!("{}, {}: {}", formulas.scheme, described.name, formulas.title());
+    let FormulaRecord { hamiltonian, terms, .. } = &formulas;
     Ok(match arguments.to {
         To::Text => {
-            let lines = formulas.iter().map(|term| format!("\nH_{} = {}\n", term.power + 1, term.formula));
+            let lines = terms.iter().map(|term| format!("\nH_{} = {}\n", term.power + 1, term.formula));
             format!("{title}\n\nH = {hamiltonian}\n{}", lines.collect::<String>())
         }
         To::Latex => {
-            let lines = formulas.iter().map(|term| format!(" \\\\\nH_{{{}}} &= {}", term.power + 1, term.formula));
-            format!(
-                "% {title}\n\\begin{{aligned}}\nH &= {hamiltonian}{}\n\\end{{aligned}}\n",
-                lines.collect::<String>()
-            )
+            let lines = terms.iter().map(|term| format!(" \\\\\nH_{{{}}} &= {}", term.power + 1, term.formula));
+            let lines: String = lines.collect();
+            format!("% {title}\n\\begin{{aligned}}\nH &= {hamiltonian}{lines}\n\\end{{aligned}}\n")
         }
-        To::Numpy => {
-            let names = names.join(", ");
-            let mut text = format!(
-                "import numpy as np\n\n\ndef modified_hamiltonian(h, {names}):\n    \"\"\"{title}\"\"\"\n    total = {hamiltonian}\n"
-            );
-            for FormulaOfTerm { power, formula } in formulas {
-                text += &format!("    total += h**{power}*({formula})\n");
-            }
-            text + "    return total\n"
-        }
-        To::Rust => {
-            let names = names.iter().map(|name| format!("{name}: f64")).collect::<Vec<_>>().join(", ");
-            let mut text = format!(
-                "/// {title}\npub fn modified_hamiltonian(h: f64, {names}) -> f64 {{\n    let mut total = {hamiltonian};\n"
-            );
-            for FormulaOfTerm { power, formula } in formulas {
-                text += &format!("    total += h.powi({power})*({formula});\n");
-            }
-            text + "    total\n}\n"
-        }
+        To::Numpy | To::Rust => formulas.function(&title, notation),
     })
 }

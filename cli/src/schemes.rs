@@ -4,9 +4,11 @@ mod analysis;
 mod check;
 mod columns;
 mod facts;
+mod from;
 mod list;
 mod plot;
 mod polish;
+mod prove;
 mod record;
 mod show;
 
@@ -35,6 +37,7 @@ enum Command {
     Show(show::Arguments),
     Check(check::Arguments),
     Polish(polish::Arguments),
+    Prove(prove::Arguments),
 }
 
 /// Lists the schemes, or runs a subcommand.
@@ -44,5 +47,6 @@ pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
         Some(Command::Show(arguments)) => show::execute(arguments),
         Some(Command::Check(arguments)) => check::execute(arguments),
         Some(Command::Polish(arguments)) => polish::execute(arguments),
+        Some(Command::Prove(arguments)) => prove::execute(arguments),
     }
 }

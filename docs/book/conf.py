@@ -25,7 +25,7 @@ CHAPTERS = {
         "docs/what-works-with-what",
         "docs/book/rust-api",
     ],
-    "The modified energy, and chaos": ["docs/the-modified-energy", "docs/monitor", "docs/recorded-trajectories", "docs/chaos", "docs/derivatives"],
+    "The modified energy, and chaos": ["docs/the-modified-energy", "docs/modified-hamiltonian", "docs/monitor", "docs/recorded-trajectories", "docs/chaos", "docs/derivatives"],
     "Schemes": [
         "docs/schemes",
         "schemes/tables/README",

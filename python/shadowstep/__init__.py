@@ -21,6 +21,7 @@ from .ensemble import Ensemble, ensemble
 from .files import open
 from .flow import Flow
 from .integration import Trajectory, integrate
+from .modified_hamiltonian import ModifiedHamiltonian, modified_hamiltonian
 from .monitor import Monitor, Report, Sample
 from .problem import Problem
 from .recorded import Diagnosis, Observer, ShadowEnergy, diagnose, shadow_energy
@@ -42,6 +43,7 @@ __all__ = [
     "Indicators",
     "InputError",
     "InternalError",
+    "ModifiedHamiltonian",
     "Monitor",
     "Observer",
     "Outcome",
@@ -65,6 +67,7 @@ __all__ = [
     "integrate",
     "lyapunov",
     "megno",
+    "modified_hamiltonian",
     "open",
     "run",
     "scene",

@@ -7,7 +7,8 @@ import os
 from functools import cached_property
 from typing import Any, Union
 
-from ._shadowstep import Table, emit, shipped_names
+from ._shadowstep import Table, emit, modified_series, shipped_names
+from .exact import count
 
 
 class Scheme:
@@ -138,6 +139,40 @@ class Scheme:
         True
         """
         return emit(self._table, target)
+
+    def modified(self, grade: int = 4, *, parts: int | None = None, quadratic: bool = False, digits: int = 17) -> dict[int, dict[str, str]]:
+        """The series of the modified Hamiltonian in brackets: the coefficients by the power n of h, of H_(n+1), and the bracket.
+
+        K stands for U and D for T, or A, B, C, … for parts, and [F, G] = F_p·G_q − F_q·G_p. Coefficients are short fractions where they are exact,
+        else decimals. :func:`modified_hamiltonian` has the formulas of a problem.
+
+        Parameters
+        ----------
+        grade
+            The highest power of h, at most 10.
+        parts
+            For H of 3 to 9 parts in place of T + U.
+        quadratic
+            Whether brackets that are 0 for every quadratic T are left out, as they are of schemes with gradient kicks.
+        digits
+            Significant digits of decimals.
+
+        Raises
+        ------
+        InputError
+            A scheme that is not for these parts; too many terms.
+
+        Examples
+        --------
+        >>> Scheme("stormer-verlet").modified(2)
+        {2: {'[K,[K,D]]': '-1/24', '[D,[D,K]]': '1/12'}}
+        """
+        parts = None if parts is None else count(parts, "parts", least=3, most=9)
+        series: dict[int, dict[str, str]] = {}
+        terms = modified_series(self._table, count(grade, "grade", most=10), parts, quadratic, count(digits, "digits", most=300))
+        for power, bracket, coefficient in terms:
+            series.setdefault(power, {})[bracket] = coefficient
+        return series
 
     def __reduce__(self) -> tuple[Any, ...]:
         # the text of the table, so that it is the same scheme wherever it is read again

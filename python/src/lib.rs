@@ -17,6 +17,7 @@
 //! | `drift` | the drift of the modified energy |
 //! | `work_precision` | speed against error, and advice |
 //! | `scene` | runs that a file describes |
+//! | `modified_hamiltonian` | the modified Hamiltonian as a series and as formulas |
 //! | `emit` | schemes as code of other ecosystems |
 //! | `command` | the program `shadowstep` |
 //! | `monitor` | the monitor of the modified energy, for loops |
@@ -35,6 +36,7 @@ mod estimator;
 mod given;
 mod given_run;
 mod integrate;
+mod modified_hamiltonian;
 mod monitor;
 mod own_forces;
 mod recorded;
@@ -66,6 +68,8 @@ mod _shadowstep {
     use crate::given::{Given, problem_names};
     #[pymodule_export]
     use crate::integrate::integrate;
+    #[pymodule_export]
+    use crate::modified_hamiltonian::{modified_formulas, modified_series};
     #[pymodule_export]
     use crate::monitor::Monitor;
     #[pymodule_export]

@@ -92,6 +92,7 @@ pub struct Evaluator<N> {
     has_time: bool,
     has_energy: bool,
     quantities: Vec<Compute<N>>,
+    has_momentum_of_time: bool,
     /// Converts states, where formulas are in other coordinates than the steps.
     shown: Option<ShownCoordinates<N>>,
     /// H, where the steps follow another Hamiltonian: in transformed time, where t is a coordinate.
@@ -153,9 +154,20 @@ impl<N: Number + 'static> Evaluator<N> {
         };
         let zero = N::zero(context);
         let (has_time, has_energy) = (expression.has_time && !system.explicit_time, expression.has_energy);
-        let point = vec![zero.clone(); names.len()];
+        let has_momentum_of_time = expression.derived.as_ref().is_some_and(|derived| derived.has_momentum_of_time);
+        let point = vec![zero.clone(); names.len() + usize::from(has_momentum_of_time)];
         let value = zero;
-        Ok(Evaluator { formula, point, value, shown: None, has_time, has_energy, quantities, energy: None })
+        Ok(Evaluator {
+            has_momentum_of_time,
+            formula,
+            point,
+            value,
+            shown: None,
+            has_time,
+            has_energy,
+            quantities,
+            energy: None,
+        })
     }
 
     /// The value at the present state of a system.
@@ -194,16 +206,19 @@ impl<N: Number + 'static> Evaluator<N> {
 
     /// The place of t and E in the point.
     fn rest(&self) -> usize {
-        self.point.len() - self.quantities.len() - 2
+        self.point.len() - usize::from(self.has_momentum_of_time) - self.quantities.len() - 2
     }
 
     fn set_state(&mut self, q: &[N], p: &[N]) {
+        if let (true, Some(place), Some(momentum)) = (self.has_momentum_of_time, self.point.last_mut(), p.last()) {
+            place.assign(momentum);
+        }
+        let of_quantities = self.rest() + 2;
         let (q, p) = match &mut self.shown {
             Some(shown) => shown.of_state(q, p),
             None => (q, p),
         };
         self.point.iter_mut().zip(q.iter().chain(p)).for_each(|(own, value)| own.assign(value));
-        let of_quantities = self.point.len() - self.quantities.len();
         for (own, quantity) in self.point[of_quantities..].iter_mut().zip(&mut self.quantities) {
             *own = quantity(q, p);
         }

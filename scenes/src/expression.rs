@@ -34,6 +34,8 @@ pub struct Expression {
 pub(crate) struct Derived {
     pub(crate) graph: Graph,
     pub(crate) node: Node,
+    /// Whether it has p_t of transformed time, too, after E.
+    pub(crate) has_momentum_of_time: bool,
 }
 
 /// One expression is less or greater than another.

@@ -4,7 +4,7 @@ use num_traits::{ToPrimitive, Zero};
 use shadowstep_symbolic::{Fraction, Ratio};
 
 /// The number of decimal digits of which `uncertainty` is one unit, rounded down; `None` for 0.
-pub(crate) fn digits_of(uncertainty: &impl Ratio) -> Option<u32> {
+pub fn digits_of(uncertainty: &impl Ratio) -> Option<u32> {
     if uncertainty.numer().is_zero() {
         return None;
     }

@@ -87,6 +87,8 @@ mod wording;
 #[cfg(feature = "tables")]
 pub use claims::Kinetic;
 #[cfg(feature = "tables")]
+pub use digits::digits_of;
+#[cfg(feature = "tables")]
 pub use document::{Fault, Faults, Source};
 #[cfg(feature = "tables")]
 pub use many_parts::NotForManyParts;

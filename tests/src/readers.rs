@@ -11,6 +11,7 @@ use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
 use shadowstep::systems::formula::FormulaPotential;
 use shadowstep::tables::Source;
+use shadowstep_analysis::sources::{Language, check};
 use shadowstep_scenes::{FileOptions, Observer, Outcome, Scene};
 use shadowstep_sweeps::SweepPlan;
 use shadowstep_symbolic::{Budget, Exact, evaluate_within, exact, parse};
@@ -20,8 +21,14 @@ use tempfile::TempDir;
 pub type Reader = (&'static str, fn(&[u8]));
 
 /// All readers.
-pub const READERS: [Reader; 5] =
-    [("table", table), ("expression", expression), ("scene", scene), ("sweep", sweep), ("checkpoint", checkpoint)];
+pub const READERS: [Reader; 6] = [
+    ("table", table),
+    ("expression", expression),
+    ("scene", scene),
+    ("sweep", sweep),
+    ("checkpoint", checkpoint),
+    ("code", code),
+];
 
 fn source(bytes: &[u8]) -> Option<Source> {
     let text = String::from_utf8(bytes.to_vec()).ok()?;
@@ -51,6 +58,14 @@ pub fn expression(bytes: &[u8]) {
     };
     if let Err(error) = FormulaPotential::<f64>::new(text, &["x", "y"], &[("k", 1.5)]) {
         black_box((error.range(), error.to_string()));
+    }
+}
+
+/// Finds the schemes in source code, whatever its language is.
+pub fn code(bytes: &[u8]) {
+    let Ok(text) = std::str::from_utf8(bytes) else { return };
+    for language in Language::ALL {
+        black_box(check(text, language).verdicts);
     }
 }
 

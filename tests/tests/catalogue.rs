@@ -40,6 +40,7 @@ hairer10-33              10 10  33  yes  kick   -
 kahan-li6                 6  6   9  yes  kick   -
 kahan-li6-gni             6  6   9  yes  kick   -
 kahan-li8                 8  8  17  yes  kick   -
+kahan-li8-b               8  8  17  yes  kick   -
 mclachlan-aba84           4  4   5  yes  drift  8,4
 mclachlan-atela2          2  2   2  no   kick   -
 mclachlan-atela3          3  3   3  no   kick   -
@@ -76,6 +77,9 @@ ruth3                     3  3   3  no   kick   -
 saba2                     2  2   2  yes  drift  4,2
 saba3                     2  2   3  yes  drift  6,2
 saba4                     2  2   4  yes  drift  8,2
+saba5                     2  2   5  yes  drift  10,2
+sabac2                    -  4   3+1  yes  kick   4,4
+sabac3                    -  4   4+1  yes  kick   6,4
 sbab2                     2  2   2  yes  kick   4,2
 sbab3                     2  2   3  yes  kick   6,2
 sbab4                     2  2   4  yes  kick   8,2

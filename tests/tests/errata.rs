@@ -129,6 +129,9 @@ fn the_overview_agrees_with_the_messages() {
         ("blanes-moan-srkn14a", "roles exchanged"),
         ("blanes-moan-srkn11b", "roles exchanged"),
         ("kernel764", "`PLF7_6_4`"),
+        ("product4", "Product formulas"),
+        ("recursion4", "Product formulas"),
+        ("blackjax-yoshida", "BlackJAX"),
     ] {
         let message = message(name);
         let number = |after: &str| message.split(after).nth(1).unwrap().split(' ').next().unwrap();
@@ -159,8 +162,8 @@ fn what_to_take_instead() {
     let rows = TEXT.lines().filter(|line| line.starts_with("| [")).map(|line| line.split('|').collect::<Vec<_>>());
     let names: Vec<_> = rows.flat_map(|row| row[4].split('`').skip(1).step_by(2).collect::<Vec<_>>()).collect();
     let orders: Vec<_> = names.iter().map(|n| shipped_proved(n).expect(n).proof.general.order).collect();
-    assert_eq!(names.len(), 15);
-    assert_eq!(orders, [4, 4, 4, 4, 4, 6, 8, 4, 6, 8, 8, 8, 6, 6, 4]);
+    assert_eq!(names.len(), 20);
+    assert_eq!(orders, [4, 4, 4, 4, 4, 4, 8, 4, 2, 6, 8, 4, 4, 6, 8, 8, 8, 6, 6, 4]);
 }
 
 // ---------------------------------------------------------------------------------------------------------------
@@ -468,6 +471,100 @@ fn two_sets_of_digits_both_right() {
     let mixed = printed_with_digits(names[0], 25).replace(&cell(names[0]), &cell(names[1]));
     let said = judge(&mixed).unwrap_err().to_string();
     assert!(said.contains("the kicks do not sum to 1"), "{said}");
+}
+
+/// Of fifteen weights the middle one is there twice.
+#[test]
+fn a_weight_too_many() {
+    let wrong = table("eighth-order");
+    says("a step of sixteen weights goes a fifth of its way");
+    assert!(message("eighth-order").contains("found 0.203"), "{}", message("eighth-order"));
+    let right = wrong.replace("\"g8\", \"g8\"", "\"g8\"");
+    let proved = judge(&right).unwrap();
+    assert_eq!(proved.proof.general.order, 8);
+    says(&format!("With one `g8` order 8 holds to {} digits", proved.proof.general.digits.unwrap()));
+    assert!(distance(&right, "suzuki-umeno8") < 2e-14, "14 decimals");
+}
+
+/// The third root in place of the fifth and the seventh one.
+#[test]
+fn another_root() {
+    for (name, root) in [("product4", "1/7"), ("recursion4", "1/5")] {
+        let right = table(name).replace(root, "1/3");
+        assert_orders(&right, 4, 4);
+        assert!(distance(&right, "suzuki4") < 1e-290, "roots are rounded to 300 digits");
+    }
+}
+
+#[test]
+fn another_scheme_under_the_name() {
+    let honest = table("blackjax-yoshida").replace("order = 4", "order = 2");
+    assert_orders(&honest, 2, 2);
+    assert!(distance(&honest, "bcss3") < 2e-14, "14 decimals");
+}
+
+/// A digit is missing in the middle of the last weight.
+#[test]
+fn a_digit_lost() {
+    let wrong = table("rebound864");
+    let known = "0.0653961422823734184559721793911134363710";
+    says("a digit is missing, …793911134… in place of …7939161134…");
+    assert!(wrong.contains(known) && known.contains("793911134"));
+    let right = wrong.replace(known, &known.replace("3911134363710", "391611343637"));
+    assert!(distance(&right, "aba864") < 2e-39);
+    let fewer = judge(&wrong.replace("digits = 39", "digits = 30")).unwrap();
+    assert_eq!(fewer.proof.general.order, 4);
+    assert!(judge(&wrong.replace("digits = 39", "digits = 34")).is_err());
+}
+
+/// The middle weight of REBOUND's leapfrog of order 6.
+#[test]
+fn sixteen_digits_of_order_6() {
+    let text = "name = \"leapfrog6\"\norder = 6\nkinetic = \"any\"\n[constants]\ng1 = \"0.1867\"\ng2 = \"0.5554970237124784\"\n\
+                g3 = \"0.1294669489134754\"\ng4 = \"-0.843265623387734\"\ng5 = \"0.9432033015235604\"\n[composition]\nbase = \"stormer-verlet\"\n\
+                gamma = [\"g1\", \"g2\", \"g3\", \"g4\", \"g5\", \"g4\", \"g3\", \"g2\", \"g1\"]\n";
+    let polished = polished(text, &["g1".to_owned()]);
+    let middle = polished.weights.iter().find(|w| w.name == "g5").unwrap();
+    assert_eq!(shadowstep_schemes::to_significant(&middle.polished, 16), "0.9432033015235617");
+    says("0.9432033015235604, should end in 617. That is 13 units of its last digit, and 12 of rounding of an f64.");
+    assert!((off(middle) / 1e-16 - 13.0).abs() < 0.5 && (off(middle) / (f64::EPSILON / 2.0) - 12.0).abs() < 0.5);
+}
+
+/// Kepler's problem with eccentricity 1/2 in steps of 1/20: the mean errors of H in tenths of 10⁴ outputs, the least and the greatest.
+fn errors_at_outputs(fitted: bool) -> [f64; 2] {
+    let (mut q, mut p) = ([0.5_f64, 0.0], [0.0, 3.0_f64.sqrt()]);
+    let kick = |q: [f64; 2], p: &mut [f64; 2], h: f64| {
+        let cube = q[0].hypot(q[1]).powi(3);
+        (0..2).for_each(|i| p[i] -= h * q[i] / cube);
+    };
+    let (h, mut t, mut output, mut random) = (0.05, 0.0, 0.0, 1_u64);
+    let mut errors = Vec::new();
+    for _ in 0..10_000 {
+        random = random.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        output += 0.5 + (random >> 11) as f64 / (1_u64 << 53) as f64;
+        while t < output {
+            let step = if t + h <= output { h } else { output - t };
+            if step < h && !fitted {
+                break;
+            }
+            kick(q, &mut p, step / 2.0);
+            (0..2).for_each(|i| q[i] += step * p[i]);
+            kick(q, &mut p, step / 2.0);
+            t = if step < h { output } else { t + h };
+        }
+        errors.push((p[0] * p[0] + p[1] * p[1]) / 2.0 - 1.0 / q[0].hypot(q[1]) + 0.5);
+    }
+    let means = || errors.chunks(1000).map(|errors| errors.iter().sum::<f64>() / 1000.0);
+    [means().fold(f64::MAX, f64::min), means().fold(f64::MIN, f64::max)]
+}
+
+#[test]
+fn steps_fitted_to_outputs() {
+    let [fixed, fitted] = [false, true].map(errors_at_outputs);
+    assert!(fixed[1] - fixed[0] < 1e-4 && fitted[1] - fitted[0] > 4e-3, "{fixed:?} {fitted:?}");
+    let text = |value: f64| format!("{value:.4}");
+    says(&format!("the mean error of H of each tenth of the run is {};", text(fixed[0])));
+    says(&format!("it wanders between {} and {}", text(fitted[0]), text(fitted[1])));
 }
 
 // ---------------------------------------------------------------------------------------------------------------

@@ -13,10 +13,10 @@ use shadowstep_schemes::arithmetic::Arithmetic;
 use shadowstep_schemes::order::{Condition, Functional};
 
 /// A word, each letter given by its degree.
-pub(super) type Word = Vec<u32>;
+pub(crate) type Word = Vec<u32>;
 
 /// The Lyndon words of degree at most `order` in the letters of a symmetric base of order `base_order`.
-pub(super) fn lyndon_words(base_order: u32, order: u32) -> Vec<Word> {
+pub(crate) fn lyndon_words(base_order: u32, order: u32) -> Vec<Word> {
     let letters: Vec<u32> = (1..=order).filter(|&d| d == 1 || (d > base_order && d % 2 == 1)).collect();
     let mut words = Vec::new();
     grow(&letters, order, &mut Word::new(), &mut words);
@@ -39,7 +39,7 @@ fn is_lyndon(word: &Word) -> bool {
 }
 
 /// The conditions of words and their values for a composition.
-pub(super) fn conditions<A: Arithmetic>(
+pub(crate) fn conditions<A: Arithmetic>(
     words: &[Word],
     gamma: &[A::Value],
     arithmetic: &A,

@@ -4,31 +4,40 @@ use std::io::Write;
 
 use clap::Args;
 use shadowstep::tables::{self, Proved};
+use shadowstep_analysis::Likeness;
 use shadowstep_schemes::Kinetic;
 
 use crate::output::Output;
 use crate::report::{self, Status};
 use crate::schemes::facts::near_integrable_text;
+use crate::schemes::from;
 use shadowstep_scenes::Error;
 use shadowstep_scenes::library::{self, NamedScheme};
 use shadowstep_scenes::readable::digits as in_digits;
 use shadowstep_scenes::scheme_record::{effective_near_integrable, near_integrable};
 
 const EXAMPLE: &str = "\
-Example:
-  shadowstep schemes check mine.toml";
+Examples:
+  shadowstep schemes check mine.toml
+  shadowstep schemes check --from integrators.py src/*.c";
 
-/// Proves what tables claim; exit code 1 if one has faults, or decimals that rounding does not explain.
+/// Proves what tables claim, or finds the schemes in source code; exit code 1 if one has faults, or decimals that rounding does not explain.
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLE)]
 pub(crate) struct Arguments {
     /// The tables
-    #[arg(required = true, value_name = "FILE")]
+    #[arg(required_unless_present = "from", value_name = "FILE")]
     files: Vec<String>,
+    /// Reads lists of weights out of C, C++, Fortran, Python, Julia, Rust or JSON: which scheme each is, its order, and what is wrong with it
+    #[arg(long, value_name = "FILE", num_args = 1.., conflicts_with = "files")]
+    from: Vec<String>,
 }
 
 /// Goes through all tables; the worst answer counts.
 pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
+    if !arguments.from.is_empty() {
+        return from::execute(&arguments.from);
+    }
     let mut output = Output::stdout();
     let mut status = Status::Success;
     for path in &arguments.files {
@@ -80,8 +89,14 @@ fn verdict(path: &str, proved: &Proved) -> String {
         let digits = order.digits.map_or_else(|| "exactly".to_owned(), |digits| format!("to {}", in_digits(digits)));
         format!("effective order {} for {class}{near}, {digits}; of the kernel ", order.order)
     });
-    let mut text =
-        format!("{path}: proved: {effective}order {} for {class}{near}, {digits}{symmetric}{refused}\n", order.order);
+    // with an inner scheme, the maps are those of the outer one
+    let likeness = Likeness::of(&proved.scheme.maps())
+        .filter(|known| proved.scheme.inner.is_none() && known.known.name != proved.scheme.table.name.value);
+    let known = likeness.map_or_else(String::new, |known| format!("; is {}", known.text()));
+    let mut text = format!(
+        "{path}: proved: {effective}order {} for {class}{near}, {digits}{symmetric}{refused}{known}\n",
+        order.order
+    );
     for note in &proved.notes {
         text += &format!("note: {note}\n");
     }

@@ -7,13 +7,14 @@ use clap::Args;
 use shadowstep::Rational;
 use shadowstep::tables::TableScheme;
 use shadowstep_analysis::Analysis;
+use shadowstep_analysis::certificate::{Certificate, Kind};
 use shadowstep_analysis::resonance::{REPORTED, resonances};
 use shadowstep_schemes::claims::HIGHEST_ORDER;
 use shadowstep_schemes::map::Stages;
 use shadowstep_schemes::proof::Order;
 use shadowstep_schemes::scheme::ExactInner;
 use shadowstep_schemes::table::Table;
-use shadowstep_schemes::{Kinetic, MapKind, Proof, Proved, StepPlan};
+use shadowstep_schemes::{Kinetic, MapKind, Proof, Proved, StepPlan, to_significant};
 
 use crate::interrupt::Interrupt;
 use crate::output::Output;
@@ -121,6 +122,7 @@ fn facts(scheme: &TableScheme) -> Vec<(String, String)> {
         ("H = A + εB".to_owned(), near_integrable_fact(proved)),
         ("meant for".to_owned(), meant_for(table.kinetic).to_owned()),
         ("weights".to_owned(), weights_text(digits(proved.scheme.held))),
+        ("proof".to_owned(), proof_text(proved)),
         ("symmetric".to_owned(), symmetry(proof).to_owned()),
         (
             "a step".to_owned(),
@@ -270,6 +272,27 @@ fn meant_for(kinetic: Kinetic) -> &'static str {
 
 fn weights_text(digits: Option<u32>) -> String {
     digits.map_or_else(|| "exact".to_owned(), in_digits)
+}
+
+/// What kind of proof the order for every T(p) has.
+fn proof_text(proved: &Proved) -> String {
+    let Some(certificate) = Certificate::of(proved) else { return String::new() };
+    match (&certificate.kind, &certificate.enclosure) {
+        (Kind::Exact, _) => "exact: rational weights".to_owned(),
+        (Kind::Algebraic(roots), _) if roots.len() == 1 => {
+            "algebraic: exact in the weights as polynomials in a root".to_owned()
+        }
+        (Kind::Algebraic(roots), _) => {
+            format!("algebraic: exact in the weights as polynomials in {} roots", roots.len())
+        }
+        (Kind::Decimal(_), Some(enclosure)) => {
+            format!(
+                "certified enclosure: one solution of the order conditions within {} of the weights",
+                to_significant(&enclosure.radius, 2)
+            )
+        }
+        (Kind::Decimal(_), None) => "decimal: the conditions hold to the digits of the weights".to_owned(),
+    }
 }
 
 fn order_text(order: &Order) -> String {

@@ -257,10 +257,14 @@ fn a_digit_that_rounding_does_not_explain_is_a_negative_answer() {
     };
     let right = check("0.332599136789");
     assert_eq!(right.code, 0, "{}{}", right.out, right.err);
-    assert!(right.out.ends_with(": proved: order 6 for every T(p), to 13 digits, symmetric\n"), "{}", right.out);
+    assert!(
+        right.out.ends_with(": proved: order 6 for every T(p), to 13 digits, symmetric; is kahan-li6 to 11 digits\n"),
+        "{}",
+        right.out
+    );
     let exchanged = check("0.332599136798");
     assert_eq!(exchanged.code, 1, "{}", exchanged.out);
-    let verdict = "to 11 digits, symmetric; its printed digits are not all those of such a scheme\nnote: ";
+    let verdict = "to 11 digits, symmetric; its printed digits are not all those of such a scheme; is kahan-li6 to 10 digits\nnote: ";
     assert!(exchanged.out.contains(verdict), "{}", exchanged.out);
     assert!(exchanged.out.contains("rounding does not explain the digits of `g2`"), "{}", exchanged.out);
 }
@@ -363,6 +367,37 @@ fn check_proves_a_good_table() {
     assert!(result.starts_with(&format!("{path}: proved: order 4 for every T(p), to ")), "{result}");
     let shipped = quietly("schemes check LF8_6_4");
     assert!(shipped.starts_with("LF8_6_4: proved: order 4 for every T(p), (8,6,4) for A + εB, to "), "{shipped}");
+}
+
+/// The lists of a source: the names, the orders, the schemes; what is wrong with one is a negative answer.
+#[test]
+fn check_finds_schemes_in_sources() {
+    let folder = tempfile::tempdir().unwrap();
+    let source = "w1 = 1/(2 - 2**(1/3))\nfourth_order = [w1, 1 - 2*w1, w1]\nx = [0.25, 0.5]\n\
+                  b1, a1 = 0.11888010966548, 0.29619504261126\nyoshida = [b1, a1, 0.5 - b1, 1 - 2*a1, 0.5 - b1, a1, b1]\n";
+    let path = write(folder.path(), "integrators.py", source);
+    let found = shadowstep(&format!("schemes check --from {path}"));
+    assert_eq!(found.code, 1, "{}{}", found.out, found.err);
+    let lines: Vec<_> = found.out.lines().collect();
+    assert_eq!(lines[0], format!("{path}:2: fourth_order: composition of a symmetric step of order 2"));
+    assert!(
+        lines[1].starts_with("  order 4, to 29") && lines[1].ends_with("symmetric; is yoshida4 exactly"),
+        "{}",
+        lines[1]
+    );
+    assert_eq!(lines[2], format!("{path}:5: yoshida: kicks and drifts in turn"));
+    assert!(lines[3].starts_with("  order 2, ") && lines[3].contains("is bcss3 to 13 digits"), "{}", lines[3]);
+    assert!(
+        lines[4].starts_with("  wrong: it is named after Yoshida, whose schemes have order 4 and more"),
+        "{}",
+        lines[4]
+    );
+    assert_eq!(*lines.last().unwrap(), "schemes: 2, of which wrong: 1; lists that are not schemes: 1");
+    let right = write(folder.path(), "right.py", source.split("b1").next().unwrap());
+    assert!(
+        quietly(&format!("schemes check --from {right}"))
+            .ends_with("schemes: 1, of which wrong: 0; lists that are not schemes: 1\n")
+    );
 }
 
 #[test]

@@ -93,6 +93,8 @@ const COMMANDS: &[&str] = &[
     "schemes show yoshida5",
     "schemes check nowhere.toml",
     "schemes check scene.toml",
+    "schemes check --from scene.toml",
+    "schemes check --from nowhere.py",
     "schemes --order 11",
     "schemes --sort beauty",
     "schemes polish mine.toml --digits 5",

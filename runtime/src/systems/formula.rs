@@ -8,7 +8,7 @@ mod newest;
 mod pair;
 mod value;
 
-pub use bodies::{FormulaOfBodies, RelativeTo};
+pub use bodies::{AXES, DISTANCE, FormulaOfBodies, MASSES, RelativeTo};
 pub use pair::FormulaPair;
 pub use value::FormulaValue;
 

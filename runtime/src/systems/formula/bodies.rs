@@ -10,11 +10,11 @@ use crate::number::Number;
 use crate::systems::potential::{HessianProduct, Potential};
 
 /// The names of the coordinates in formulas.
-const AXES: [&str; 3] = ["x", "y", "z"];
+pub const AXES: [&str; 3] = ["x", "y", "z"];
 /// The name of the distance.
-const DISTANCE: &str = "r";
+pub const DISTANCE: &str = "r";
 /// The names of the masses: of the body, of the first body.
-const MASSES: [&str; 2] = ["m", "m0"];
+pub const MASSES: [&str; 2] = ["m", "m0"];
 
 /// What the positions in a formula of bodies are relative to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

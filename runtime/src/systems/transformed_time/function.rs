@@ -26,6 +26,13 @@ pub struct Exponent {
     denominator: u32,
 }
 
+impl Exponent {
+    /// γ
+    pub fn value(self) -> Rational {
+        Rational::new(self.numerator.into(), self.denominator.into())
+    }
+}
+
 /// An exponent that is refused.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 pub enum ExponentError {

@@ -56,6 +56,11 @@ impl SlowForces {
         SlowForces(Box::new(slow))
     }
 
+    /// The slow potential.
+    pub(crate) fn potential(&self) -> &PotentialEnergy {
+        &self.0
+    }
+
     /// The formula of the slow potential.
     pub fn text(&self) -> &str {
         match &*self.0 {

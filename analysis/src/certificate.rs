@@ -1,0 +1,100 @@
+//! The proof of an order for every T(p) in a form that other programs can check: `shadowstep schemes prove`.
+//!
+//! | file | what it does |
+//! | --- | --- |
+//! | `ring` | polynomials in roots, with exact arithmetic |
+//! | `closed` | cells with roots → weights as such polynomials |
+//! | `enclosure` | decimals → a box in which there is one solution |
+//!
+//! The conditions are those of [`order`](shadowstep_schemes::order): in the product of the exponentials of kicks and drifts, every Lyndon word of n
+//! letters up to the order has the coefficient 1/n!. A certificate has the weights; whoever checks it computes the coefficients.
+
+mod closed;
+mod enclosure;
+mod ring;
+
+use num_traits::{Signed, Zero};
+use shadowstep_schemes::arithmetic::{Arithmetic, ExactArithmetic};
+use shadowstep_schemes::order::{lyndon_words, word_conditions};
+use shadowstep_schemes::scheme::Held;
+use shadowstep_schemes::{Map, MapKind, Proved, Rational};
+
+pub use enclosure::Enclosure;
+pub use ring::{Polynomial, Root};
+use ring::{Ring, constant};
+
+/// What kind of proof an order has.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Kind {
+    /// The weights are rational, and all conditions hold exactly.
+    Exact,
+    /// The weights are polynomials in these roots, and all conditions hold modulo their equations, which is exactly.
+    Algebraic(Vec<Root>),
+    /// The weights are decimals, and all conditions hold to within this bound.
+    Decimal(Rational),
+}
+
+/// A proof that a step has an order.
+#[derive(Clone, Debug)]
+pub struct Certificate {
+    /// The order for every T(p).
+    pub order: u32,
+    /// How the weights are given, and how far the conditions may be off.
+    pub kind: Kind,
+    /// The maps in their order with their weights.
+    pub maps: Vec<(MapKind, Polynomial)>,
+    /// Of decimals, the box about them in which there is one solution, where it is known how to prove that.
+    pub enclosure: Option<Enclosure>,
+}
+
+impl Certificate {
+    /// The certificate of the order for every T(p); of a processed scheme, that of its kernel. `None` with gradient kicks and inner schemes, whose conditions
+    /// are not those of words in kicks and drifts.
+    ///
+    /// ```
+    /// use shadowstep_analysis::certificate::{Certificate, Kind};
+    /// use shadowstep_schemes::shipped_proved;
+    ///
+    /// let kind = |name: &str| Certificate::of(shipped_proved(name).unwrap()).unwrap().kind;
+    /// assert_eq!(kind("ruth3"), Kind::Exact);
+    /// assert!(matches!(kind("yoshida4"), Kind::Algebraic(roots) if roots[0].power == 3));
+    /// assert!(matches!(kind("pefrl"), Kind::Decimal(_)));
+    /// ```
+    pub fn of(proved: &Proved) -> Option<Certificate> {
+        let scheme = &proved.scheme;
+        let order = proved.order_for_every_kinetic()?.order;
+        if scheme.inner.is_some() {
+            return None;
+        }
+        let as_polynomials = || scheme.maps().into_iter().map(|map| (map.kind, constant(map.weight))).collect();
+        if scheme.held == Held::Exactly {
+            return Some(Certificate { order, kind: Kind::Exact, maps: as_polynomials(), enclosure: None });
+        }
+        Some(algebraic(proved, order).unwrap_or_else(|| {
+            let kind = Kind::Decimal(distance(&scheme.maps(), order));
+            Certificate { order, kind, maps: as_polynomials(), enclosure: Enclosure::of(scheme, order) }
+        }))
+    }
+}
+
+/// How far the farthest condition up to an order is from what is needed.
+fn distance(maps: &[Map], order: u32) -> Rational {
+    let maps: Vec<_> = maps.iter().map(|map| (map.kind, map.weight.clone())).collect();
+    let conditions = word_conditions(&lyndon_words(order as usize), &maps, &ExactArithmetic);
+    conditions
+        .into_iter()
+        .map(|(condition, value)| (value - condition.needed).abs())
+        .max()
+        .unwrap_or_else(Rational::zero)
+}
+
+/// The certificate of a scheme of closed forms.
+fn algebraic(proved: &Proved, order: u32) -> Option<Certificate> {
+    let is_closed = proved.scheme.table.digits.is_none()
+        && proved.scheme.base.as_ref().is_none_or(|base| base.table.digits.is_none());
+    let ring = Ring::default();
+    let maps = closed::maps(&proved.scheme, &ring).filter(|_| is_closed)?;
+    let conditions = word_conditions(&lyndon_words(order as usize), &maps, &ring);
+    let hold = conditions.into_iter().all(|(condition, value)| value == ring.weight(&condition.needed));
+    hold.then(|| Certificate { order, kind: Kind::Algebraic(ring.roots.into_inner()), maps, enclosure: None })
+}

@@ -1,0 +1,107 @@
+//! `shadowstep schemes prove`: the proof of an order as a certificate.
+
+use clap::{Args, ValueEnum};
+use serde_json::{Value, json};
+use shadowstep_analysis::certificate::{Certificate, Enclosure, Kind, Polynomial};
+use shadowstep_scenes::{Error, library};
+use shadowstep_schemes::{Rational, to_significant};
+use shadowstep_symbolic::decimal::to_text;
+
+use crate::output::{Output, OutputArguments};
+use crate::report::Status;
+
+const EXAMPLE: &str = "\
+Examples:
+  shadowstep schemes prove yoshida4 --to json > yoshida4.json
+  python3 tests/certificates/check.py yoshida4.json";
+
+/// Writes the proof of the order for every T(p) as a certificate that other programs can check.
+#[derive(Debug, Args)]
+#[command(after_help = EXAMPLE)]
+pub(crate) struct Arguments {
+    /// A shipped scheme, such as yoshida4, or a table's file, such as mine.toml
+    #[arg(value_name = "NAME|FILE")]
+    name: String,
+    /// The form of the certificate
+    #[arg(long, value_enum, default_value = "json")]
+    to: Form,
+    #[command(flatten)]
+    output: OutputArguments,
+}
+
+#[derive(Clone, Copy, Debug, ValueEnum)]
+enum Form {
+    /// One JSON object: order, kind, roots, maps, bound
+    Json,
+}
+
+pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
+    let scheme = library::scheme(&arguments.name)?.quadratic();
+    let certificate = Certificate::of(scheme.proved()).ok_or_else(|| {
+        let message = format!(
+            "{} has gradient kicks or an inner scheme, whose conditions are not those of words in kicks and drifts",
+            arguments.name
+        );
+        Error::usage(message, "certificates are of schemes of kicks and drifts")
+    })?;
+    let Form::Json = arguments.to;
+    let mut output = Output::of(&arguments.output)?;
+    output.json(&record(&scheme.proved().scheme.table.name.value, &certificate))?;
+    output.finish()?;
+    Ok(Status::Success)
+}
+
+fn record(name: &str, certificate: &Certificate) -> Value {
+    let (roots, bound) = match &certificate.kind {
+        Kind::Exact => (&[][..], "0".to_owned()),
+        Kind::Algebraic(roots) => (&roots[..], "0".to_owned()),
+        Kind::Decimal(bound) => (&[][..], above(bound)),
+    };
+    let roots: Vec<_> = roots.iter().map(|root| json!({ "power": root.power, "of": terms(&root.of) })).collect();
+    let maps: Vec<_> = certificate
+        .maps
+        .iter()
+        .map(|(kind, weight)| json!({ "map": kind.to_string(), "weight": terms(weight) }))
+        .collect();
+    json!({
+        "scheme": name,
+        "order": certificate.order,
+        "for": "every T(p)",
+        "kind": kind(&certificate.kind),
+        "bound": bound,
+        "roots": roots,
+        "maps": maps,
+        "enclosure": certificate.enclosure.as_ref().map(enclosure),
+    })
+}
+
+/// The box and the matrix, as decimals that are exact.
+fn enclosure(enclosure: &Enclosure) -> Value {
+    let inverse: Vec<Vec<_>> =
+        enclosure.inverse.iter().map(|row| row.iter().map(|y| format!("{y:e}")).collect()).collect();
+    json!({
+        "half": enclosure.half.iter().map(to_text).collect::<Vec<_>>(),
+        "solved": enclosure.solved,
+        "inverse": inverse,
+        "radius": to_text(&enclosure.radius),
+    })
+}
+
+/// The word for a kind of proof.
+pub(super) fn kind(kind: &Kind) -> &'static str {
+    match kind {
+        Kind::Exact => "exact",
+        Kind::Algebraic(_) => "algebraic",
+        Kind::Decimal(_) => "decimal",
+    }
+}
+
+/// Coefficients with the exponents of the roots.
+fn terms(polynomial: &Polynomial) -> Vec<(String, &Vec<u32>)> {
+    polynomial.iter().map(|(exponents, value)| (to_text(value), exponents)).collect()
+}
+
+/// A short decimal that is not less.
+fn above(bound: &Rational) -> String {
+    to_significant(&(bound * Rational::new(101.into(), 100.into())), 3)
+}

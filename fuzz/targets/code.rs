@@ -1,0 +1,4 @@
+//! The reader of source code on any bytes.
+#![no_main]
+
+libfuzzer_sys::fuzz_target!(|bytes: &[u8]| shadowstep_tests::readers::code(bytes));

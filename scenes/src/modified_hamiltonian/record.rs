@@ -1,0 +1,202 @@
+//! The modified Hamiltonian as texts: the coefficients of its series, and its formulas.
+
+use serde::Serialize;
+use shadowstep::tables::Proved;
+use shadowstep_analysis::bracket::Letter;
+use shadowstep_analysis::modified::ModifiedHamiltonian;
+use shadowstep_schemes::Kinetic;
+use shadowstep_symbolic::decimal::to_significant;
+use shadowstep_symbolic::{Notation, Rational};
+
+use super::SymbolicHamiltonian;
+use crate::library::NamedScheme;
+use crate::refusal::Refusal;
+use crate::scene::System;
+
+/// Short fractions have numerators and denominators of at most this number of digits.
+const SHORT: usize = 15;
+
+/// The most words of the series of many parts.
+const MOST_WORDS: u64 = 20_000;
+
+/// The series of a scheme's step in brackets.
+#[derive(Clone, Debug, Serialize)]
+pub struct SeriesRecord {
+    /// The scheme.
+    pub scheme: String,
+    /// `any` or `quadratic`; none for many parts.
+    pub kinetic: Option<&'static str>,
+    /// The number of parts.
+    pub parts: u32,
+    /// Whether coefficients are exact.
+    pub exact: bool,
+    /// The terms that are not 0.
+    pub terms: Vec<SeriesTerm>,
+}
+
+/// A term of the series.
+#[derive(Clone, Debug, Serialize)]
+pub struct SeriesTerm {
+    /// The power n of h, of a term of H_(n+1).
+    pub power: u32,
+    /// Such as `[K,[K,D]]`.
+    pub bracket: String,
+    /// A short fraction, or a decimal.
+    pub coefficient: String,
+}
+
+/// What a series is of.
+#[derive(Clone, Copy, Debug)]
+pub struct SeriesOptions {
+    /// The highest power of h.
+    pub grade: u32,
+    /// For H of this number of parts, 3 or more, in place of T + U.
+    pub parts: Option<u32>,
+    /// Whether brackets that are 0 for quadratic T are left out, as they are of schemes with gradient kicks.
+    pub quadratic: bool,
+    /// Significant digits of coefficients that are no short fractions.
+    pub digits: usize,
+}
+
+impl SeriesRecord {
+    /// The series of a scheme.
+    ///
+    /// # Errors
+    /// A scheme that is not for these parts; too many words.
+    pub fn of(proved: &Proved, options: SeriesOptions) -> Result<Self, Refusal> {
+        let name = &proved.scheme.table.name.value;
+        let SeriesOptions { grade, parts, digits, .. } = options;
+        let Some(parts) = parts else {
+            if proved.scheme.inner.is_some() {
+                return Err(Refusal::new(
+                    format!("{name} has multiple time steps, for slow forces, fast forces and T"),
+                    "ask for 3 parts: A for the slow forces, B for the fast ones, C for T",
+                ));
+            }
+            let (kinetic, word) = match options.quadratic || proved.scheme.has_gradient_kicks() {
+                true => (Kinetic::Quadratic, "quadratic"),
+                false => (Kinetic::Any, "any"),
+            };
+            let series = ModifiedHamiltonian::of(proved, kinetic, grade);
+            return Ok(SeriesRecord::with(name, (Some(word), 2), &series, digits));
+        };
+        if u64::from(parts).pow(grade + 1) > MOST_WORDS {
+            let message = format!("the series of {parts} parts up to h^{grade} has too many terms");
+            return Err(Refusal::new(message, "ask for fewer parts, or a lower grade"));
+        }
+        let series = ModifiedHamiltonian::of_parts(proved, parts as usize, grade)
+            .map_err(|not| Refusal::new(not.to_string(), "use a scheme such as yoshida4"))?;
+        Ok(SeriesRecord::with(name, (None, parts), &series, digits))
+    }
+
+    fn with<L: Letter>(
+        scheme: &str,
+        (kinetic, parts): (Option<&'static str>, u32),
+        series: &ModifiedHamiltonian<L>,
+        digits: usize,
+    ) -> Self {
+        let term = |(power, bracket, c): (u32, &shadowstep_analysis::bracket::Bracket<L>, &Rational)| SeriesTerm {
+            power,
+            bracket: bracket.to_string(),
+            coefficient: coefficient(c, digits),
+        };
+        let terms = series.all().map(term).collect();
+        SeriesRecord { scheme: scheme.to_owned(), kinetic, parts, exact: series.digits.is_none(), terms }
+    }
+}
+
+fn coefficient(c: &Rational, digits: usize) -> String {
+    let fraction = c.to_string();
+    let is_short = fraction.trim_start_matches('-').split('/').all(|part| part.len() <= SHORT);
+    if is_short { fraction } else { to_significant(c, digits) }
+}
+
+/// The formulas of a scheme's modified Hamiltonian for a system.
+#[derive(Clone, Debug, Serialize)]
+pub struct FormulaRecord {
+    /// The scheme.
+    pub scheme: String,
+    /// H
+    pub hamiltonian: String,
+    /// H_2, H_3, …, but those that are 0.
+    pub terms: Vec<FormulaTerm>,
+    /// The names of coordinates, momenta and parameters in them.
+    #[serde(skip)]
+    pub names: Vec<String>,
+    /// The highest power of h.
+    #[serde(skip)]
+    pub grade: u32,
+}
+
+/// The formula of a term.
+#[derive(Clone, Debug, Serialize)]
+pub struct FormulaTerm {
+    /// The power n of h, of H_(n+1).
+    pub power: u32,
+    /// H_(n+1)
+    pub formula: String,
+}
+
+impl FormulaRecord {
+    /// The formulas up to a power of h, in a notation; numbers that are no short fractions have this number of significant digits.
+    ///
+    /// # Errors
+    /// A system without formulas, a scheme that is not for it, formulas that are too long.
+    pub fn of(
+        system: &System,
+        scheme: &NamedScheme,
+        (grade, notation, digits): (u32, Notation, usize),
+    ) -> Result<Self, Refusal> {
+        let scheme = system.needs().scheme(scheme.clone(), &Default::default())?;
+        let mut symbolic = SymbolicHamiltonian::of(system)?;
+        let terms = symbolic.modified(scheme.scheme.proved(), grade)?;
+        let whole = symbolic.hamiltonian();
+        let nodes: Vec<_> = terms.iter().map(|term| term.formula).chain([whole]).collect();
+        let formula = |term: &super::SymbolicTerm| {
+            Ok(FormulaTerm { power: term.power, formula: symbolic.text(term.formula, notation, digits)? })
+        };
+        Ok(FormulaRecord {
+            scheme: scheme.scheme.proved().scheme.table.name.value.clone(),
+            hamiltonian: symbolic.text(whole, notation, digits)?,
+            terms: terms.iter().map(formula).collect::<Result<_, Refusal>>()?,
+            names: symbolic.names_in(&nodes).into_iter().map(str::to_owned).collect(),
+            grade,
+        })
+    }
+
+    /// H + h^2 H_3 + … + O(…)
+    pub fn title(&self) -> String {
+        sum_of(self.terms.iter().map(|term| term.power), self.grade)
+    }
+
+    /// A function of h, positions, momenta and parameters in the notation of the formulas, which is that of Rust or NumPy.
+    pub fn function(&self, title: &str, notation: Notation) -> String {
+        let FormulaRecord { hamiltonian, terms, names, .. } = self;
+        match notation {
+            Notation::Rust => {
+                let names: String = names.iter().map(|name| format!(", {name}: f64")).collect();
+                let lines: String = terms
+                    .iter()
+                    .map(|term| format!("    total += h.powi({})*({});\n", term.power, term.formula))
+                    .collect();
+                format!(
+                    "/// {title}\npub fn modified_hamiltonian(h: f64{names}) -> f64 {{\n    let mut total = {hamiltonian};\n{lines}    total\n}}\n"
+                )
+            }
+            _ => {
+                let lines: String =
+                    terms.iter().map(|term| format!("    total += h**{}*({})\n", term.power, term.formula)).collect();
+                let names = names.join(", ");
+                format!(
+                    "import numpy as np\n\n\ndef modified_hamiltonian(h, {names}):\n    \"\"\"{title}\"\"\"\n    total = {hamiltonian}\n{lines}    return total\n"
+                )
+            }
+        }
+    }
+}
+
+/// H + h^2 H_3 + … + O(…) with terms of these powers.
+pub fn sum_of(powers: impl Iterator<Item = u32>, grade: u32) -> String {
+    let term = |n: u32| if n == 1 { " + h H_2".to_owned() } else { format!(" + h^{n} H_{}", n + 1) };
+    format!("H{} + O(h^{})", powers.map(term).collect::<String>(), grade + 1)
+}
