@@ -13,7 +13,7 @@ True
 
 from .border import InternalError  # isort: skip, before all that takes functions from the compiled module
 from ._shadowstep import InputError, RunError, __version__
-from .chaos import Chaos, Indicators, chaos
+from .chaos import Chaos, Indicator, Indicators, chaos, lyapunov, megno
 from .command import command, sweep
 from .derivatives import Derivatives, Gradient, derivatives, gradient
 from .drift import drift
@@ -39,6 +39,7 @@ __all__ = [
     "Ensemble",
     "Flow",
     "Gradient",
+    "Indicator",
     "Indicators",
     "InputError",
     "InternalError",
@@ -64,6 +65,8 @@ __all__ = [
     "ensemble",
     "gradient",
     "integrate",
+    "lyapunov",
+    "megno",
     "modified_hamiltonian",
     "open",
     "run",

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 import os
 from dataclasses import dataclass
 from fractions import Fraction
@@ -35,7 +36,9 @@ class Indicators:
     megno: float
     """MEGNO, Y."""
     mean_megno: float
-    """Its mean: 2 on regular orbits, 0 where all frequencies are constant; it grows with the time on chaotic ones."""
+    """Its mean Ȳ: 2 on regular orbits, 0 where all frequencies are constant; it grows with the time on chaotic ones."""
+    mean_megno_error: float | None
+    """|Ȳ(t) − Ȳ(t/2)|; None of fewer than 64 measurements."""
     sali: float | None
     """SALI of the first two vectors: it tends to 0 exponentially on chaotic orbits."""
     gali: float | None
@@ -118,7 +121,110 @@ def chaos(
     return Chaos(found["conclusion"], records[0], records[1] if half else None)
 
 
+@dataclass(frozen=True)
+class Indicator:
+    """One indicator of chaos along a run."""
+
+    value: float
+    """Its value."""
+    uncertainty: float
+    """The error of the value; infinite of fewer than 64 measurements."""
+    verdict: str
+    """``"regular"``, ``"chaotic"`` or ``"undecided"``, as `Indicators.motion`."""
+
+
+def lyapunov(
+    problem: Union[Problem, str],
+    scheme: Union[Scheme, str, os.PathLike[str]],
+    h: Number,
+    until: Number | None = None,
+    *,
+    steps: int | None = None,
+    first: str | None = None,
+    gradient_kicks: str = "exact",
+    every: int = 1,
+    digits: Union[int, str] = "double",
+    mpfr: bool = False,
+    progress: bool | None = None,
+) -> Indicator:
+    """The largest Lyapunov exponent λ = lim log(|δ(t)|/|δ(0)|)/t of the trajectory from the problem's initial state, by one tangent vector δ.
+
+    The value is the growth over the last three quarters of the run, divided by their length, and its uncertainty twice the standard error from six
+    parts of them. Exponents of all vectors, and whether chaos is of the step size, are in `chaos`, which makes the run.
+
+    G. Benettin, L. Galgani, A. Giorgilli, J.-M. Strelcyn, Meccanica 15 (1980) 9.
+
+    Parameters
+    ----------
+    problem, scheme, h, until, steps, first, gradient_kicks, every, digits, mpfr, progress
+        As in `chaos`.
+
+    Raises
+    ------
+    InputError, RunError
+        As `chaos`.
+
+    Examples
+    --------
+    >>> import shadowstep
+    >>> star = shadowstep.Problem("(x^2 + y^2)/2 + x^2*y - y^3/3", q={"x": 0, "y": "-1/4"}, p=["0.42081", 0])
+    >>> found = shadowstep.lyapunov(star, "blanes-moan-srkn6b", h="1/5", until=2000)
+    >>> found.verdict, 0.02 < found.value - found.uncertainty, found.value + found.uncertainty < 0.09
+    ('chaotic', True, True)
+    """
+    options: dict[str, Any] = {"steps": steps, "first": first, "gradient_kicks": gradient_kicks, "every": every, "digits": digits, "mpfr": mpfr}
+    along = chaos(problem, scheme, h, until, vectors=1, half=False, progress=progress, **options).at
+    return _indicator(along.motion, along.lyapunov if along.exponent is None else along.exponent, along.exponent_error)
+
+
+def megno(
+    problem: Union[Problem, str],
+    scheme: Union[Scheme, str, os.PathLike[str]],
+    h: Number,
+    until: Number | None = None,
+    *,
+    steps: int | None = None,
+    first: str | None = None,
+    gradient_kicks: str = "exact",
+    every: int = 1,
+    digits: Union[int, str] = "double",
+    mpfr: bool = False,
+    progress: bool | None = None,
+) -> Indicator:
+    """The mean MEGNO, Ȳ(t) = (1/t) ∫ Y(s) ds of Y(t) = (2/t) ∫ L'(s) s ds, L(t) = log(|δ(t)|/|δ(0)|), of the trajectory from the problem's initial state.
+
+    On regular orbits it tends to 2, or to 0 where all frequencies are constant; on chaotic ones it grows as λt/2. The uncertainty is |Ȳ(t) − Ȳ(t/2)|,
+    which on a chaotic orbit is about half of the value, as there is no limit.
+
+    P. M. Cincotta, C. Simó, Astron. Astrophys. Suppl. 147 (2000) 205; P. M. Cincotta, C. M. Giordano, C. Simó, Physica D 182 (2003) 151.
+
+    Parameters
+    ----------
+    problem, scheme, h, until, steps, first, gradient_kicks, every, digits, mpfr, progress
+        As in `chaos`.
+
+    Raises
+    ------
+    InputError, RunError
+        As `chaos`.
+
+    Examples
+    --------
+    >>> import shadowstep
+    >>> found = shadowstep.megno("pendulum", "yoshida4", h="1/10", until=2000)
+    >>> found.verdict, abs(found.value - 2) < 0.05, found.uncertainty < 0.05
+    ('regular', True, True)
+    """
+    options: dict[str, Any] = {"steps": steps, "first": first, "gradient_kicks": gradient_kicks, "every": every, "digits": digits, "mpfr": mpfr}
+    along = chaos(problem, scheme, h, until, vectors=1, half=False, progress=progress, **options).at
+    return _indicator(along.motion, along.mean_megno, along.mean_megno_error)
+
+
+def _indicator(motion: str, value: float, uncertainty: float | None) -> Indicator:
+    return Indicator(value, math.inf if uncertainty is None else uncertainty, motion)
+
+
 def _indicators(record: dict[str, Any]) -> Indicators:
-    names = ("time", "motion", "exponent", "exponent_error", "lyapunov", "megno", "mean_megno", "sali", "gali", "exponents", "summary")
+    names = [name for name in Indicators.__dataclass_fields__ if name not in ("h", "steps")]
     values: dict[str, Any] = {name: record.get(name) for name in names}
     return Indicators(h=float(Fraction(record["step"])), steps=record["steps"], **values)

@@ -12,7 +12,7 @@ import numpy as np
 from . import _shadowstep
 from ._shadowstep import Given, InputError
 from .exact import Number, exact
-from .integration import integrate, run_of
+from .integration import integrate, run_of, vectors_of
 from .problem import Problem, problem_of
 from .progress import bar
 from .scheme import Scheme
@@ -86,8 +86,8 @@ def derivatives(
     Raises
     ------
     InputError
-        A name that the problem has not; a number that enters the steps otherwise than as a constant, as one of a part that is a quadratic form does; forces that the caller
-        computes, as they have no second derivatives.
+        A name that the problem has not; a number at which the formulas have another form than beside it, as a coefficient that is 0; forces that the caller computes, as they
+        have no second derivatives.
     RunError
         A state or a derivative that is not finite.
 
@@ -109,8 +109,8 @@ def derivatives(
         found = _shadowstep.derivatives(run, variables, progress=reach)
     states, rows = _array(found["states"]), len(found["n"])
     q, p = np.split(states.reshape(rows, -1), 2, axis=1)
-    columns = [np.split(_array(column).reshape(rows, -1), 2, axis=1) for column in found["by"]]
-    of_q, of_p = (np.stack([column[half] for column in columns], axis=-1) if columns else np.zeros((*q.shape, 0)) for half in (0, 1))
+    vectors = vectors_of(found["by"], rows) if names else np.zeros((rows, 0, 2 * q.shape[1]))
+    of_q, of_p = np.split(np.moveaxis(vectors, 1, 2), 2, axis=1)
     return Derivatives(names, found["n"], q, p, of_q, of_p)
 
 

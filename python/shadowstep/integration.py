@@ -5,12 +5,14 @@ from __future__ import annotations
 import json
 import os
 import warnings
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, Union
 
 import numpy as np
 
 from . import _shadowstep
+from ._shadowstep import InputError
 from .estimator import options
 from .exact import Number, count, exact
 from .problem import Problem, given_of
@@ -65,6 +67,8 @@ class Trajectory:
     """Of a file with `chaos`: lyapunov, megno, mean_megno and sali, each of shape (n,)."""
     values: dict[str, np.ndarray] = field(default_factory=dict)
     """Of a file with `values` or `elements`: each column, of shape (n,)."""
+    tangent: np.ndarray | None = None
+    """The tangent vectors (δq, δp) at the states, of shape (n, vectors, 2d), if first ones were given."""
 
     def mpmath(self, name: str, digits: int | None = None) -> list[Any]:
         """Numbers of more digits as those of mpmath: nested lists of `mpf` in the shape of the array.
@@ -119,6 +123,7 @@ def integrate(
     first: str | None = None,
     gradient_kicks: str = "exact",
     every: int = 1,
+    tangent: Sequence[Sequence[Number]] | np.ndarray | None = None,
     digits: Union[int, str] = "double",
     mpfr: bool = False,
     estimator: str | None = None,
@@ -153,7 +158,10 @@ def integrate(
         ``"exact"``, or ``"displaced"``, which needs no second derivatives.
     every
         The states 0, every, 2 every, … and the last one are kept.
-    digits
+    tangent
+        Tangent vectors (δq, δp) at t = 0, of 2d components each, which the derivative of each step takes along: δ ← DΦ δ, where a kick is
+        δp ← δp − h a_s U_qq δq and a drift δq ← δq + h b_s T_pp δp. They are neither normalised nor made orthogonal; each costs about twice a run.
+        In transformed time steps are given. See `derivatives` for derivatives by parameters, and `lyapunov` for growth.
         ``"double"``, ``"compensated"`` (double precision in which q and p are sums with remainders), ``"double-double"``, or a number of
         decimal digits.
     mpfr
@@ -184,6 +192,11 @@ def integrate(
     >>> precise = shadowstep.integrate(shadowstep.Problem("pendulum"), "yoshida4", h="1/10", steps=3, digits=50)
     >>> precise.t[-1]
     '0.3'
+    >>> nearby = shadowstep.integrate(shadowstep.Problem("pendulum"), "yoshida4", h="1/10", until=10, tangent=[[1, 0], [0, 1]])
+    >>> nearby.tangent.shape
+    (101, 2, 2)
+    >>> abs(float(np.linalg.det(nearby.tangent[-1])) - 1) < 1e-12  # steps are symplectic
+    True
     >>> turned = shadowstep.integrate(shadowstep.Problem("pendulum"), "yoshida4", h="1/10", until=100, end="p < 0")
     >>> float(turned.t[-1])
     1.7
@@ -191,7 +204,7 @@ def integrate(
     run = run_of(problem, scheme, h, until, steps, first, gradient_kicks, every, digits, mpfr)
     chosen = None if estimator is None else options(estimator, order, max_order, stop, rule, accuracy)
     with bar(run["steps"], "steps", progress) as reach:
-        found = _shadowstep.integrate(run, options=chosen, end=end, progress=reach)
+        found = _shadowstep.integrate(run, options=chosen, end=end, tangent=_texts(tangent), progress=reach)
     if found["planets"] is not None:
         found["planets"] = json.loads(found["planets"])
     for note in found["notes"]:
@@ -202,7 +215,22 @@ def integrate(
     rows = len(found["n"])
     for name in ("q", "p"):
         found[name] = found[name].reshape(rows, -1)
+    found["tangent"] = None if tangent is None else vectors_of(found["tangent"], rows)
     return Trajectory(**found)
+
+
+def _texts(tangent: Sequence[Sequence[Number]] | np.ndarray | None) -> list[list[str]]:
+    if tangent is None:
+        return []
+    if np.ndim(np.asarray(tangent, dtype=object)) != 2 or len(tangent) == 0:
+        raise InputError("`tangent` is not a list of vectors: tangent = [[1, 0], [0, 1]]")
+    return [[exact(x, "a component of a tangent vector") for x in vector] for vector in tangent]
+
+
+def vectors_of(columns: Sequence[Any], rows: int) -> np.ndarray:
+    """Tangent vectors at a number of states, of shape (rows, vectors, 2d), from the flat array or the list of texts of each."""
+    arrays = [column if isinstance(column, np.ndarray) else np.array(column, dtype=object) for column in columns]
+    return np.stack([array.reshape(rows, -1) for array in arrays], axis=1)
 
 
 def run_of(

@@ -5,17 +5,17 @@ use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
 use shadowstep::{Rational, StepSize};
 use shadowstep_scenes::arithmetic::Arithmetic;
-use shadowstep_scenes::derivatives::{Array, Differentiation, Parameter, Variable, distance, precise};
+use shadowstep_scenes::derivatives::{Array, Derivatives, Differentiation, Parameter, Variable, distance, precise};
 use shadowstep_scenes::run::Run;
 use shadowstep_scenes::{Error, Observer};
 
 use crate::errors::{exception, usage};
-use crate::given::{Given, arithmetic};
+use crate::given::{Given, arithmetic, number};
 use crate::given_run::{GivenRun, ReadRun};
 use crate::waiting::waiting;
 
-/// A variable: `q` or `p` with an index, `h`, or another name with the problem in which it is larger by the [distance].
-type By = (String, usize, Option<Py<Given>>);
+/// A variable as Python names it: `q` or `p` with an index, `h`, or another name with the problem in which it is larger by the [distance].
+type Named = (String, usize, Option<Py<Given>>);
 
 /// By how much numbers are larger in problems at nearby values, as a text.
 #[pyfunction]
@@ -29,21 +29,24 @@ pub(crate) fn distance_of(py: Python<'_>, digits: &str, mpfr: bool) -> PyResult<
 pub(crate) fn derivatives<'py>(
     py: Python<'py>,
     run: GivenRun,
-    by: Vec<By>,
+    by: Vec<Named>,
     progress: Option<&Bound<'py, PyAny>>,
 ) -> PyResult<Bound<'py, PyDict>> {
-    let request = Request::of(py, run, by)?;
-    let found = waiting(py, progress, move |watched| {
-        request.differentiate(&mut watched.observer(), |request, observer| request.forward(observer))
-    });
+    let request = Request::of(py, run.read(py)?, By::named(by))?;
+    let found = waiting(py, progress, move |watched| request.forward(&mut watched.observer()));
     let found = found?.map_err(|error| exception(py, error))?;
     let all = PyDict::new(py);
     let n = found.n.iter().map(|n| i64::try_from(*n).unwrap_or(i64::MAX));
     all.set_item("n", PyArray1::from_vec(py, n.collect()))?;
     all.set_item("states", array(py, found.states)?)?;
-    let by: Vec<_> = found.by.into_iter().map(|by| array(py, by)).collect::<PyResult<_>>()?;
-    all.set_item("by", PyList::new(py, by)?)?;
+    all.set_item("by", columns(py, found.by)?)?;
     Ok(all)
+}
+
+/// The derivatives by each variable.
+pub(crate) fn columns(py: Python<'_>, by: Vec<Array>) -> PyResult<Bound<'_, PyList>> {
+    let by: Vec<_> = by.into_iter().map(|by| array(py, by)).collect::<PyResult<_>>()?;
+    PyList::new(py, by)
 }
 
 /// The gradient of a function by each variable, and the error of the steps back. The covectors are the derivatives of the function by q and p of each state.
@@ -52,11 +55,11 @@ pub(crate) fn derivatives<'py>(
 pub(crate) fn gradient<'py>(
     py: Python<'py>,
     run: GivenRun,
-    by: Vec<By>,
+    by: Vec<Named>,
     covectors: PyReadonlyArray1<'py, f64>,
     progress: Option<&Bound<'py, PyAny>>,
 ) -> PyResult<(Bound<'py, PyAny>, f64)> {
-    let request = Request::of(py, run, by)?;
+    let request = Request::of(py, run.read(py)?, By::named(by))?;
     let covectors = covectors.as_array().to_vec();
     let found = waiting(py, progress, move |watched| {
         request.differentiate(&mut watched.observer(), |request, observer| request.backward(&covectors, observer))
@@ -72,21 +75,49 @@ fn array(py: Python<'_>, numbers: Array) -> PyResult<Bound<'_, PyAny>> {
     }
 }
 
+/// A variable.
+pub(crate) enum By {
+    Named(String, usize, Option<Given>),
+    Direction(Vec<Rational>),
+}
+
+impl By {
+    fn named(all: Vec<Named>) -> Vec<Self> {
+        let named = |(name, i, given): Named| By::Named(name, i, given.map(|given| given.get().clone()));
+        all.into_iter().map(named).collect()
+    }
+
+    /// Vectors (δq, δp).
+    pub(crate) fn directions(py: Python<'_>, vectors: &[Vec<String>]) -> PyResult<Vec<Self>> {
+        let direction = |vector: &Vec<String>| -> PyResult<By> {
+            let components = vector.iter().map(|component| number(py, component));
+            Ok(By::Direction(components.collect::<PyResult<_>>()?))
+        };
+        vectors.iter().map(direction).collect()
+    }
+}
+
 /// What is to be differentiated.
-struct Request {
-    run: ReadRun,
-    by: Vec<(String, usize, Option<Given>)>,
+pub(crate) struct Request {
+    pub(crate) run: ReadRun,
+    by: Vec<By>,
 }
 
 impl Request {
-    fn of(py: Python<'_>, run: GivenRun, by: Vec<By>) -> PyResult<Self> {
-        let run = run.read(py)?;
-        if run.times.physical_end.is_some() {
+    pub(crate) fn of(py: Python<'_>, run: ReadRun, by: Vec<By>) -> PyResult<Self> {
+        if !by.is_empty() && run.times.physical_end.is_some() {
             let hint = "steps = 1000; the derivatives are those at a fixed number of steps";
             return Err(usage(py, "in transformed time derivatives need the number of steps", hint));
         }
-        let by = by.into_iter().map(|(name, i, given)| (name, i, given.map(|given| given.get().clone()))).collect();
         Ok(Request { run, by })
+    }
+
+    pub(crate) fn has_variables(&self) -> bool {
+        !self.by.is_empty()
+    }
+
+    pub(crate) fn forward(&self, observer: &mut dyn Observer) -> Result<Derivatives, Error> {
+        self.differentiate(observer, |request, observer| request.forward(observer))
     }
 
     fn differentiate<T>(
@@ -97,7 +128,8 @@ impl Request {
         let ReadRun { ref problem, ref times, arithmetic, displaced, every, .. } = self.run;
         let posed = self.run.posed()?;
         // more digits are needed by parameters only
-        let has_parameters = self.by.iter().any(|(name, _, _)| !matches!(name.as_str(), "q" | "p"));
+        let is_parameter = |by: &By| matches!(by, By::Named(name, _, _) if !matches!(name.as_str(), "q" | "p"));
+        let has_parameters = self.by.iter().any(is_parameter);
         let precisely = if has_parameters { precise(arithmetic)? } else { arithmetic };
         let by = self.by.iter().map(|by| self.variable(by, precisely)).collect::<Result<Vec<_>, _>>()?;
         let precise = problem.system(precisely)?;
@@ -107,11 +139,11 @@ impl Request {
         work(Differentiation { system, precise, scheme, run, arithmetic, displaced, every, by }, observer)
     }
 
-    fn variable(
-        &self,
-        (name, index, given): &(String, usize, Option<Given>),
-        precise: Arithmetic,
-    ) -> Result<Variable, Error> {
+    fn variable(&self, by: &By, precise: Arithmetic) -> Result<Variable, Error> {
+        let (name, index, given) = match by {
+            By::Named(name, index, given) => (name, index, given),
+            By::Direction(components) => return Ok(Variable::Direction(components.clone())),
+        };
         let h = &self.run.times.h;
         let moved = |given: &Given, h: StepSize| -> Result<Variable, Error> {
             let system = Box::new(given.system(precise)?);

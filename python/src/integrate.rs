@@ -12,26 +12,30 @@ use shadowstep_scenes::run::{OrderSetting, Run};
 use shadowstep_scenes::stability::{few_kicks, resonant, unstable};
 use shadowstep_scenes::{Error, Note, Observer, estimator};
 
+use crate::derivatives::{By, Request, columns};
 use crate::errors::exception;
 use crate::estimator::Options;
 use crate::given_run::{GivenRun, SystemWithScheme, Times};
 use crate::waiting::waiting;
 
-/// Makes a run, and gives a dictionary of its states: arrays in double precision, else lists of decimal texts.
+/// Makes a run, and gives a dictionary of its states: arrays in double precision, else lists of decimal texts. With tangent vectors, each of which begins with
+/// components of `tangent`, it is made once more with these.
 #[pyfunction]
-#[pyo3(signature = (run, *, options, end, progress))]
+#[pyo3(signature = (run, *, options, end, tangent, progress))]
 pub(crate) fn integrate<'py>(
     py: Python<'py>,
     run: GivenRun,
     options: Option<Options>,
     end: Option<String>,
+    tangent: Vec<Vec<String>>,
     progress: Option<&Bound<'py, PyAny>>,
 ) -> PyResult<Bound<'py, PyDict>> {
     let estimator = options.map(|options| options.settings(py)).transpose()?;
     let is_between = estimator.as_ref().is_some_and(EstimatorSettings::is_between);
-    let run = run.read(py)?;
-    let given = run.problem.clone();
+    let mut request = Request::of(py, run.read(py)?, By::directions(py, &tangent)?)?;
+    let given = request.run.problem.clone();
     let found = waiting(py, progress, move |watched| {
+        let run = &request.run;
         let posed = run.posed()?;
         let runs = (&run.times, run.displaced);
         let (found, mut notes) = posed.run(
@@ -41,16 +45,23 @@ pub(crate) fn integrate<'py>(
             run.arithmetic,
             &mut watched.observer(),
         )?;
-        notes.extend(run.times.note);
-        Ok((found, notes, posed.system.problem))
+        notes.extend(run.times.note.clone());
+        let mut vectors = Vec::new();
+        if request.has_variables() {
+            // as far as the run went
+            request.run.times.steps = found.steps();
+            vectors = request.forward(&mut watched.observer())?.by;
+        }
+        Ok((found, vectors, notes, posed.system.problem))
     });
     given.raised(py)?;
-    let (found, notes, problem) = found?.map_err(|error| exception(py, error))?;
+    let (found, vectors, notes, problem) = found?.map_err(|error| exception(py, error))?;
     let dictionary = found.into_dictionary(py)?;
     dictionary.set_item("notes", PyList::new(py, notes.iter().map(Note::to_string))?)?;
     dictionary.set_item("coordinates", &problem.coordinates)?;
     dictionary.set_item("momenta", &problem.momenta)?;
     dictionary.set_item("is_between", is_between)?;
+    dictionary.set_item("tangent", columns(py, vectors)?)?;
     Ok(dictionary)
 }
 
@@ -104,6 +115,15 @@ enum Integrated {
 }
 
 impl Integrated {
+    /// The number of the last state.
+    fn steps(&self) -> u64 {
+        let n = match self {
+            Integrated::Doubles(samples) => &samples.n,
+            Integrated::Texts(samples) => &samples.n,
+        };
+        n.last().map_or(0, |last| last.unsigned_abs())
+    }
+
     fn into_dictionary(self, py: Python<'_>) -> PyResult<Bound<'_, PyDict>> {
         match self {
             Integrated::Doubles(samples) => {

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 import shadowstep
-from shadowstep import InputError, Monitor, Problem, advise, chaos, derivatives, drift, gradient, integrate, run, sweep, work_precision
+from shadowstep import InputError, Monitor, Problem, advise, chaos, derivatives, drift, gradient, integrate, lyapunov, megno, run, sweep, work_precision
 
 FOLDER = Path(__file__).resolve().parents[2] / "cli/tests/crosses"
 
@@ -107,6 +107,9 @@ def followed(system, way, folder):
     found = chaos(problem(system, folder), scheme(way), step(system, way), steps=STEPS, first=first(way), digits=digits(way), mpfr=mpfr)
     finite([found.at.lyapunov, found.at_half.lyapunov, found.at.sali])
     assert found.conclusion == "not decided: the run is too short"
+    for function, value in ((lyapunov, found.at.lyapunov), (megno, found.at.mean_megno)):
+        indicator = function(problem(system, folder), scheme(way), step(system, way), steps=STEPS, first=first(way), digits=digits(way), mpfr=mpfr)
+        assert (indicator.value, indicator.uncertainty, indicator.verdict) == (value, np.inf, "undecided")
 
 
 def differentiated(system, way, folder):
@@ -116,6 +119,11 @@ def differentiated(system, way, folder):
     options["by"] = [posed.coordinates[0], posed.momenta[-1]]
     found = derivatives(posed, scheme(way), step(system, way), **options)
     finite(found.of_p[-1].ravel())
+    del options["by"]
+    vectors = np.eye(2 * posed.dimension, dtype=int)[[0, -1]]
+    run = integrate(posed, scheme(way), step(system, way), tangent=vectors, **options)
+    assert np.array_equal(run.tangent, np.moveaxis(np.concatenate([found.of_q, found.of_p], axis=1), 2, 1))
+    options["by"] = found.by
 
     def first_at_end(q, p):
         of_q = np.zeros_like(q)

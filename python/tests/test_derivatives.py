@@ -16,6 +16,8 @@ SYSTEMS = {
     "formula": (Problem("k*x^2/2 + x^4/4", q={"x": 1}, p=["1/3"], k=2.5), ["x", "px", "k", "h"]),
     "masses": (Problem("x^2/2 + x^2*y^2 + y^4", q={"x": 1, "y": 0.3}, p=[0, 1], masses=[1, np.float64(2)]), ["masses[1]", "y"]),
     "a default": (Problem("kepler"), ["eccentricity", "x", "py"]),
+    "a matrix": (Problem(parts=["px^2/2 + k*x^2/2", "x^4/4"], coordinates=["x"], k=2, q=[1], p=[0]), ["k", "px", "h"]),
+    "a linear part": (Problem("k*x^2 + x^4/4", parts="linear", q={"x": 1}, p=[0], k=4, masses=["3/2"]), ["k", "masses[0]", "h"]),
     "pairs": (
         Problem(pair="-m_i*m_j/sqrt(r2)", dimensions=2, bodies={"m": np.array([1, 0.01])}, q=[0, 0, 1, 0], v=[0, 0, 0, 1]),
         ["m[1]", "q2_1"],
@@ -88,6 +90,40 @@ def test_derivatives_of_the_oscillator_are_those_of_its_closed_form():
     assert np.allclose([found.of_q[-1, 0], found.of_p[-1, 0]], exact, rtol=0, atol=1e-12)
 
 
+def test_tangent_vectors_of_a_run_are_derivatives_along_them():
+    problem = SYSTEMS["pairs"][0]
+    rng = np.random.default_rng(2)
+    vectors = rng.standard_normal((3, 2 * problem.dimension))
+    options = {"h": "1/20", "steps": 25, "every": 10}
+    run = integrate(problem, "yoshida4", tangent=vectors, **options)
+    all_columns = derivatives(problem, "yoshida4", **options)
+    expected = np.concatenate([all_columns.of_q, all_columns.of_p], axis=1) @ vectors.T
+    assert run.tangent.shape == (4, 3, 2 * problem.dimension)
+    assert np.array_equal(run.tangent[0], vectors)
+    assert np.allclose(run.tangent, np.moveaxis(expected, 2, 1), rtol=0, atol=1e-12)
+    assert integrate(problem, "yoshida4", **options).tangent is None
+    precise = integrate(problem, "yoshida4", tangent=vectors.tolist(), digits=30, **options)
+    assert np.allclose(precise.tangent.astype(float), run.tangent, rtol=1e-12, atol=1e-12)
+
+
+def test_tangent_vectors_go_as_far_as_the_run():
+    pendulum = Problem("pendulum")
+    run = integrate(pendulum, "yoshida4", "1/10", until=100, end="p < 0", every=5, tangent=[["1/3", 0]])
+    assert run.t[-1] == 1.7 and run.tangent.shape == (5, 1, 2)
+    assert np.array_equal(run.tangent[-1], integrate(pendulum, "yoshida4", "1/10", steps=17, tangent=[["1/3", 0]]).tangent[-1])
+    own = Problem(lambda q: (0.5 * q @ q, q), q=[1.0], p=[0.0])
+    transformed = Problem("kepler", time={"transform": "logarithmic"})
+    for problem, vectors, message in [
+        (pendulum, [[1, 0, 0]], "a tangent vector has 3 components, not 2"),
+        (pendulum, [1, 0], "`tangent` is not a list of vectors"),
+        (pendulum, [], "`tangent` is not a list of vectors"),
+        (own, [[1, 0]], "second derivatives"),
+        (transformed, [[1, 0, 0, 0]], "the number of steps"),
+    ]:
+        with pytest.raises(InputError, match=message):
+            integrate(problem, "yoshida4", "1/20", until=1, tangent=vectors)
+
+
 def test_more_digits_are_texts():
     found = derivatives("pendulum", "yoshida4", "1/10", steps=3, digits=30, by=["q"])
     assert found.of_q.dtype == object and len(found.of_q[-1, 0, 0]) > 25
@@ -95,12 +131,12 @@ def test_more_digits_are_texts():
 
 def test_what_is_not_known_is_refused():
     spring = Problem("k*x^2/2", q={"x": 1}, p=[0], k=4)
-    quadratic = Problem(parts=["px^2/2 + k*x^2/2", "x^4/4"], coordinates=["x"], k=2, q=[1], p=[0])
+    vanishing = Problem(parts=["px^2/2 + k*x^2/2", "x^4/4"], coordinates=["x"], k=0, q=[1], p=[0])
     own = Problem(lambda q: (0.5 * q @ q, q), q=[1.0], p=[0.0])
     for problem, by, message in [
         (spring, ["kk"], "'kk' is not a number of the problem; did you mean 'k'"),
         (spring, ["masses[3]"], r"'masses\[3\]' is not a number of the problem"),
-        (quadratic, ["k"], "derivatives by k are not known: it is no constant of the steps"),
+        (vanishing, ["k"], "derivatives by k are not known: the formulas have another form at a nearby value"),
         (own, None, "second derivatives"),
         (SYSTEMS["planets"][0], ["body.earth"], "several numbers; write one of them"),
     ]:

@@ -1,4 +1,4 @@
-//! What tangent vectors cost in `f64`: a step with one, and with four at once, beside a plain step.
+//! What tangent vectors cost in `f64`: a step with one, and with four at once, beside a plain step; by `yoshida4` where no scheme is named.
 
 mod timing;
 
@@ -15,6 +15,12 @@ use shadowstep::{
 };
 
 use timing::{Contestant, compare};
+
+/// What most systems are advanced by: the scheme and the step size.
+const YOSHIDA_4: (&str, &str) = ("yoshida4", "1/100");
+
+/// Of one drift and one kick, as WHFast's: `rivals/tangent.py` makes the same steps.
+const LEAPFROG: (&str, &str) = ("stormer-verlet", "3/10");
 
 /// A number with its vectors, of fixed components.
 trait Carrying: Number<Context = ()> + 'static {
@@ -37,13 +43,13 @@ fn state<N: Carrying>(numbers: &[f64], first: usize) -> Vec<N> {
     (first..).zip(numbers).map(|(index, x)| N::number(*x, index)).collect()
 }
 
-fn steps<M>(name: &'static str, mut system: M) -> Contestant<'static>
+fn steps<M>(name: &'static str, (scheme, h): (&str, &str), mut system: M) -> Contestant<'static>
 where
     M: System + 'static,
     M::Number: Carrying,
     TableScheme: ValidFor<M::Class>,
 {
-    let stepper = Stepper::with_context(shipped("yoshida4").expect("it is shipped"), "1/100", &());
+    let stepper = Stepper::with_context(shipped(scheme).expect("it is shipped"), h, &());
     let stepper: Stepper<TableScheme, M::Number> = stepper.expect("a step size");
     let run = move |repetitions: u32| {
         for _ in 0..repetitions {
@@ -60,7 +66,7 @@ fn motion<N: Carrying>(
     p: &[f64],
 ) -> Contestant<'static> {
     let (q, p) = (state(q, 0), state(p, q.len()));
-    steps(name, Motion::new(potential, UnitMasses, q, p).expect("the dimensions agree"))
+    steps(name, YOSHIDA_4, Motion::new(potential, UnitMasses, q, p).expect("the dimensions agree"))
 }
 
 potential! {
@@ -94,7 +100,7 @@ fn lennard_jones<N: Carrying>(name: &'static str, bodies: usize) -> Contestant<'
 }
 
 /// Planets of 10⁻⁵ of the star on nearly circular orbits.
-fn planets<N: Carrying>(name: &'static str, count: usize) -> Contestant<'static> {
+fn planets<N: Carrying>(name: &'static str, count: usize, scheme: (&str, &str)) -> Contestant<'static> {
     let masses = std::iter::once(Rational::one()).chain((0..count).map(|_| exact("1/100000").expect("a number")));
     let bodies = Bodies::new(Rational::one(), masses.collect()).expect("positive masses");
     let (mut q, mut p) = (vec![0.0; 3], vec![0.0; 3]);
@@ -105,14 +111,14 @@ fn planets<N: Carrying>(name: &'static str, count: usize) -> Contestant<'static>
         p.extend([-momentum * sin, momentum * cos, 0.0]);
     }
     let system = WisdomHolman::<N, Jacobi<N, 3>, 3>::new(&bodies, (&state(&q, 0), &state(&p, q.len())), &());
-    steps(name, system.expect("a state of these bodies"))
+    steps(name, scheme, system.expect("a state of these bodies"))
 }
 
 /// The plain step, and those with vectors, of a system that a macro writes in each number type.
 macro_rules! compared {
     ($title:expr, $repetitions:expr, $contestant:ident($($argument:expr),*)) => {
         compare(
-            concat!($title, ", `yoshida4`"),
+            $title,
             vec![
                 $contestant::<f64>("plain", $($argument),*),
                 $contestant::<Dual<f64>>("1 vector", $($argument),*),
@@ -130,6 +136,8 @@ fn main() {
     compared!("100 bodies in space", 50, gravity(100));
     compared!("100 bodies in space, softened", 50, softened(100));
     compared!("100 bodies in space, Lennard-Jones", 50, lennard_jones(100));
-    compared!("2 planets on Kepler orbits", 1_000, planets(2));
-    compared!("8 planets on Kepler orbits", 300, planets(8));
+    compared!("2 planets on Kepler orbits", 1_000, planets(2, YOSHIDA_4));
+    compared!("8 planets on Kepler orbits", 300, planets(8, YOSHIDA_4));
+    compared!("2 planets, `stormer-verlet`, h = 3/10", 3_000, planets(2, LEAPFROG));
+    compared!("8 planets, `stormer-verlet`, h = 3/10", 1_000, planets(8, LEAPFROG));
 }

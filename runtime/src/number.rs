@@ -55,6 +55,24 @@ use crate::Rational;
 use std::fmt;
 use std::ops::DerefMut;
 
+/// The [parts](Number::dual_parts) of a number that has no derivatives.
+macro_rules! without_derivatives {
+    () => {
+        type Plain = Self;
+
+        #[inline(always)]
+        fn dual_parts(&self) -> (&Self, &[Self]) {
+            (self, &[])
+        }
+
+        #[inline(always)]
+        fn dual_parts_mut(&mut self) -> (&mut Self, &mut [Self]) {
+            (self, &mut [])
+        }
+    };
+}
+pub(crate) use without_derivatives;
+
 /// A real number that computes in place.
 ///
 /// A big number owns memory, so `a * b + c` would allocate for each intermediate result.  Here
@@ -116,6 +134,18 @@ pub trait Number: Clone + fmt::Debug {
     /// For a number of which a system computes several at once, with the same bits, how they are put into [lanes](Number::InLanes).
     #[doc(hidden)]
     const LANE_ACCESS: Option<LaneAccess<Self, Self::InLanes>> = None;
+
+    /// What a [dual number](Dual) consists of; another number itself.
+    #[doc(hidden)]
+    type Plain: Number<Context = Self::Context>;
+
+    /// Its value, and its derivatives.
+    #[doc(hidden)]
+    fn dual_parts(&self) -> (&Self::Plain, &[Self::Plain]);
+
+    /// The same, to be changed.
+    #[doc(hidden)]
+    fn dual_parts_mut(&mut self) -> (&mut Self::Plain, &mut [Self::Plain]);
 
     /// Several of these numbers at once; the number itself where there are none.
     #[doc(hidden)]

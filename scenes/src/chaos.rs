@@ -51,6 +51,8 @@ pub struct ChaosRecord {
     pub megno: f64,
     /// The mean of MEGNO, Ȳ.
     pub mean_megno: f64,
+    /// Its error: see [`Growth::mean_megno_error`].
+    pub mean_megno_error: Option<f64>,
     /// SALI of the first two vectors, if there are two.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub sali: Option<f64>,
@@ -83,6 +85,7 @@ impl ChaosRecord {
             lyapunov: growth.lyapunov(),
             megno: growth.megno(),
             mean_megno: growth.mean_megno(),
+            mean_megno_error: growth.mean_megno_error(),
             sali: tangents.sali(),
             gali: tangents.gali(),
             exponents: orthonormal.then(|| growths.iter().map(each).collect()).flatten(),

@@ -53,6 +53,8 @@ pub enum Variable {
     Position(usize),
     /// A momentum at t = 0.
     Momentum(usize),
+    /// The initial state along (δq, δp), in the coordinates of the scene.
+    Direction(Vec<Rational>),
     /// A number in the text of the scene, or the step size at a fixed number of steps.
     Parameter(Parameter),
 }
@@ -165,6 +167,11 @@ impl Differentiation<'_> {
             None => {}
             Some(Variable::Position(i)) => q[*i].derivatives = one(),
             Some(Variable::Momentum(i)) => p[*i].derivatives = one(),
+            Some(Variable::Direction(components)) => {
+                for (x, component) in q.iter_mut().chain(&mut p).zip(components) {
+                    x.derivatives = [N::from_rational(component, context)];
+                }
+            }
             Some(Variable::Parameter(parameter)) => return self.begin_parameter(parameter, |state| state, context),
         }
         Ok(self.begin_at(self.system, self.run.h, (q, p))?)
@@ -211,8 +218,20 @@ impl Differentiation<'_> {
         crate::tangent::needs_second_derivatives(self.system)?;
         self.by.iter().try_for_each(|variable| match variable {
             Variable::Parameter(parameter) => self.check_first_step(parameter),
-            _ => Ok(()),
+            Variable::Direction(components) => self.check_direction(components.len()),
+            Variable::Position(_) | Variable::Momentum(_) => Ok(()),
         })
+    }
+
+    fn check_direction(&self, components: usize) -> Result<(), Error> {
+        let expected = 2 * self.system.q.len();
+        if components == expected {
+            return Ok(());
+        }
+        Err(Error::usage(
+            format!("a tangent vector has {components} components, not {expected}"),
+            "give one for each coordinate, and then one for each momentum",
+        ))
     }
 
     /// The run stopped, if a number is not finite.

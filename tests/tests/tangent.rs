@@ -1,11 +1,14 @@
 //! Protects tangent maps: symplectic for every shipped scheme, limits of differences at 70 digits, undone by the step back, beside q and p that have the
 //! bits they have alone; indicators beside closed forms.
 
-use shadowstep::number::{Dual, Lanes, Limbs, Number, Real};
+use shadowstep::number::{Dual, Lanes, Limbs, Number, Real, with_parameter};
 use shadowstep::problems::HenonHeiles;
 use shadowstep::systems::kinetic::Quadratic;
-use shadowstep::tangent::{Regularity, Tangents, gradient, vector, with_derivatives};
-use shadowstep::{Integrator as _, Motion, Scheme, Stepper, UnitMasses, ValidFor, potential};
+use shadowstep::tables::shipped;
+use shadowstep::tangent::{self, Regularity, Tangents, gradient, vector, with_derivatives};
+use shadowstep::{
+    Integrator as _, Motion, Rational, Scheme, StepSize, Stepper, System, UnitMasses, ValidFor, exact, potential,
+};
 use shadowstep_schemes::First;
 use shadowstep_tests::shipped::{Visitor, for_each};
 use shadowstep_tests::{numbers, stepper};
@@ -184,6 +187,54 @@ impl Visitor for Adjoint {
 #[test]
 fn gradients_backwards_are_those_of_vectors_forwards() {
     for_each(&mut Adjoint);
+}
+
+/// L = λ·(q, p) at the end of a chaotic orbit: its derivatives along a vector and by h, forwards and backwards, and whether the steps back end at the initial state.
+fn along_and_back<M>(sums: impl Fn(Star<Dual<f64>>) -> M, steps: u64) -> ([f64; 2], [f64; 2], bool)
+where
+    M: System<Number = Dual<f64>, Class = Quadratic>,
+{
+    let (along, covector) = ([0.3, -0.7, 0.2, 0.5], (vec![1.0, 0.5], vec![-0.3, 0.2]));
+    let orbit = |of: [f64; 4]| {
+        let dual = |x: [f64; 2], of: &[f64]| with_derivatives(&x, [of]).try_into().unwrap();
+        sums(star([dual([0.0, -0.25], &of[..2]), dual([0.42081, 0.0], &of[2..])]))
+    };
+    let with_h =
+        |h: &Rational| Stepper::new(shipped("yoshida4").unwrap(), StepSize::try_from(h.clone()).unwrap()).unwrap();
+    let (h, near) = (exact("1/5").unwrap(), exact("1/5 + 1e-30").unwrap());
+    let by_h = with_parameter(&exact("1e-30").unwrap(), |at| with_h([&h, &h, &near][at])).unwrap();
+    let product = |vector: &[f64]| covector.0.iter().chain(&covector.1).zip(vector).map(|(a, b)| a * b).sum::<f64>();
+    let forwards = [(with_h(&h), along), (by_h, [0.0; 4])].map(|(stepper, vector)| {
+        let mut integrator = stepper.into_integrator(orbit(vector));
+        integrator.steps(steps);
+        integrator
+    });
+    let found_forwards = [0, 1].map(|i| product(&vector(forwards[i].state(), 0)));
+    let [end, end_by_h] = forwards;
+    let mut adjoint = tangent::Adjoint::new(end);
+    adjoint.add_parameter(end_by_h);
+    adjoint.add(&covector);
+    (0..steps).for_each(|_| adjoint.step_back());
+    let (of_q, of_p) = adjoint.covector();
+    let found: f64 = of_q.iter().chain(&of_p).zip(along).map(|(a, b)| a * b).sum();
+    let values = |x: &[Dual<f64>]| x.iter().map(|x| x.value.to_bits()).collect::<Vec<_>>();
+    let (begun, integrator) = (orbit([0.0; 4]), adjoint.integrator());
+    let state = integrator.state();
+    let returned = (values(state.q()), values(state.p())) == (values(begun.q()), values(begun.p()));
+    (found_forwards, [found, adjoint.by_parameters()[0]], returned)
+}
+
+/// An error grows by 10¹⁷ on the way: with plain sums the steps back are those of another orbit.
+#[test]
+fn gradients_in_fixed_point_are_those_of_the_steps_on_chaotic_orbits() {
+    let (forwards, backwards, returned) =
+        along_and_back(|star| star.fixed_point(&[2.0; 2], &[2.0; 2]).unwrap(), 10_000);
+    assert!(returned);
+    for (forwards, backwards) in forwards.iter().zip(backwards) {
+        assert!(forwards.abs() > 1e17 && (backwards / forwards - 1.0).abs() < 1e-9, "{forwards} {backwards}");
+    }
+    let (forwards, backwards, returned) = along_and_back(|star| star, 10_000);
+    assert!(!returned && (backwards[0] / forwards[0] - 1.0).abs() > 1e-3, "{forwards:?} {backwards:?}");
 }
 
 // ---------------------------------------------------------------------------------------------------------------

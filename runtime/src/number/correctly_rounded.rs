@@ -10,6 +10,19 @@ pub trait CorrectlyRounded: Real {
 
     /// x ← the number nearest to a
     fn assign_rounded(&mut self, a: &impl HighPrecision);
+
+    /// How many derivatives it has: those of [dual numbers](super::Dual).
+    const DERIVATIVES: usize = 0;
+
+    /// The derivative k as a text, as [`Real::to_text`].
+    fn derivative_text(&self, k: usize) -> String {
+        unreachable!("it has no derivative {k}")
+    }
+
+    /// The derivative k ← the number nearest to a
+    fn assign_rounded_derivative(&mut self, k: usize, a: &impl HighPrecision) {
+        unreachable!("it has no derivative {k} for {}", a.to_f64())
+    }
 }
 
 impl CorrectlyRounded for f64 {

@@ -82,6 +82,8 @@ impl<N: Number> Number for Counting<N> {
     where
         N: 'a;
 
+    crate::number::without_derivatives!();
+
     fn register(&mut self) -> &mut Self {
         self
     }

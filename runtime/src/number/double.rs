@@ -40,6 +40,8 @@ impl Number for f64 {
     type InLanes = Lanes<8>;
     type Register<'a> = Copied<f64>;
 
+    crate::number::without_derivatives!();
+
     #[inline]
     fn register(&mut self) -> Copied<f64> {
         Copied(*self)

@@ -150,6 +150,18 @@ impl<N: Number, const K: usize> Number for Dual<N, K> {
     where
         N: 'a;
 
+    type Plain = N;
+
+    #[inline(always)]
+    fn dual_parts(&self) -> (&N, &[N]) {
+        (&self.value, &self.derivatives)
+    }
+
+    #[inline(always)]
+    fn dual_parts_mut(&mut self) -> (&mut N, &mut [N]) {
+        (&mut self.value, &mut self.derivatives)
+    }
+
     #[inline(always)]
     fn register(&mut self) -> &mut Self {
         self
@@ -484,7 +496,7 @@ impl<N: Real, const K: usize> Real for Dual<N, K> {
     }
 }
 
-/// What is rounded is a constant.
+/// What is rounded is a constant, until its derivatives are set.
 impl<N: CorrectlyRounded, const K: usize> CorrectlyRounded for Dual<N, K> {
     fn precision(context: &N::Context) -> Precision {
         N::precision(context)
@@ -493,6 +505,16 @@ impl<N: CorrectlyRounded, const K: usize> CorrectlyRounded for Dual<N, K> {
     fn assign_rounded(&mut self, a: &impl HighPrecision) {
         self.value.assign_rounded(a);
         self.derivatives.iter_mut().for_each(N::assign_zero);
+    }
+
+    const DERIVATIVES: usize = K;
+
+    fn derivative_text(&self, k: usize) -> String {
+        self.derivatives[k].to_text()
+    }
+
+    fn assign_rounded_derivative(&mut self, k: usize, a: &impl HighPrecision) {
+        self.derivatives[k].assign_rounded(a);
     }
 }
 

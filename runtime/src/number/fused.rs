@@ -74,6 +74,8 @@ impl Number for Fused {
     const IN_VECTORS: bool = true;
     type Register<'a> = Copied;
 
+    crate::number::without_derivatives!();
+
     #[inline(always)]
     fn register(&mut self) -> Copied {
         Copied(*self)

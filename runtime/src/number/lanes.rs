@@ -141,6 +141,8 @@ impl<const W: usize> Number for Lanes<W> {
         instructions::widest(work)
     }
 
+    crate::number::without_derivatives!();
+
     #[inline(always)]
     fn register(&mut self) -> Copied<W> {
         Copied(*self)

@@ -70,6 +70,8 @@ macro_rules! number_of_limbs {
                 assign_nan: |x| x.set_nan(),
             });
 
+            crate::number::without_derivatives!();
+
             #[inline]
             fn register(&mut self) -> &mut Self {
                 self

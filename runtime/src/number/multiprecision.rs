@@ -16,6 +16,8 @@ impl Number for Float {
     type InLanes = Self;
     type Register<'a> = &'a mut Float;
 
+    crate::number::without_derivatives!();
+
     fn register(&mut self) -> &mut Float {
         self
     }

@@ -1,5 +1,6 @@
 //! The exact flow of Kepler's problem, in every number type: the part A of Wisdom–Holman splittings.
 
+mod along;
 mod anomaly;
 mod equation;
 mod input;
@@ -7,6 +8,7 @@ mod passage;
 mod stumpff;
 
 use crate::number::Number;
+use along::Slopes;
 use equation::{Equation, value};
 pub use input::KeplerDriftError;
 use passage::Passage;
@@ -73,9 +75,12 @@ use passage::Passage;
 /// Sources: K. Stumpff, Himmelsmechanik I (1959); E. Everhart, E. T. Pitkin, Am. J. Phys. 51 (1983) 712; J. M. A. Danby, Fundamentals of
 /// Celestial Mechanics, 2nd ed. (1988), ch. 6; J. Wisdom, D. M. Hernandez, MNRAS 453 (2015) 3015; H. Rein, D. Tamayo, MNRAS 452 (2015) 376.
 #[derive(Clone, Debug)]
-pub struct KeplerDrift<N> {
-    equation: Equation<N>,
+pub struct KeplerDrift<N: Number> {
+    /// Of dual numbers that of their values: derivatives follow from its solution.
+    equation: Equation<N::Plain>,
     gauss: [N; 4],
+    /// s = ∫dt/r
+    anomaly: N,
     increment: [N; 2],
     /// The increments of all coordinates, where a lane passes the centre.
     increments: Vec<[N; 2]>,
@@ -91,6 +96,7 @@ impl<N: Number> KeplerDrift<N> {
         KeplerDrift {
             equation,
             gauss: [zero(), zero(), zero(), zero()],
+            anomaly: zero(),
             increment: [zero(), zero()],
             increments: Vec::with_capacity(3),
             passage,
@@ -145,8 +151,7 @@ impl<N: Number> KeplerDrift<N> {
         N::in_widest_instructions(
             #[inline(always)]
             || {
-                self.equation.solve(mu, t, q, v);
-                self.equation.assign_gauss(&mut self.gauss);
+                self.solve(mu, t, q, v);
                 if self.equation.cancels() {
                     self.pass_centre(mu, t, q, v);
                     for (i, [of_q, of_v]) in self.increments.iter().enumerate() {
@@ -165,7 +170,31 @@ impl<N: Number> KeplerDrift<N> {
                 }
             },
         );
-        self.equation.anomaly()
+        &self.anomaly
+    }
+
+    /// Gauss's functions and s.
+    #[inline(always)]
+    fn solve(&mut self, mu: &N, t: &N, q: &[N], v: &[N]) {
+        let KeplerDrift { equation, gauss, anomaly, .. } = self;
+        let ((mu, of_mu), (t, of_t)) = (mu.dual_parts(), t.dual_parts());
+        equation.solve(mu, t, q.iter().zip(v).map(|(q, v)| [q.dual_parts().0, v.dual_parts().0]));
+        equation.assign_gauss(gauss.each_mut().map(|number| number.dual_parts_mut().0));
+        anomaly.dual_parts_mut().0.assign(equation.anomaly());
+        if !N::HAS_DERIVATIVES {
+            return;
+        }
+        let slopes = Slopes::new(equation);
+        for k in 0..of_mu.len() {
+            let coordinates = q.iter().zip(v).map(|(q, v)| {
+                let ((q, of_q), (v, of_v)) = (q.dual_parts(), v.dual_parts());
+                [q, v, &of_q[k], &of_v[k]]
+            });
+            let values = gauss.each_ref().map(|number| number.dual_parts().0);
+            let along = slopes.along(equation, values, (&of_mu[k], &of_t[k]), coordinates);
+            gauss.iter_mut().zip(&along.gauss).for_each(|(own, of)| own.dual_parts_mut().1[k].assign(of));
+            anomaly.dual_parts_mut().1[k].assign(&along.anomaly);
+        }
     }
 
     /// Increments of all coordinates ← the ones by Gauss's functions, and in lanes where these have lost digits, the ones of more digits.
@@ -183,7 +212,9 @@ impl<N: Number> KeplerDrift<N> {
             }
             let state = q.iter().zip(v).map(|(q, v)| [value(q, lane), value(v, lane)]);
             let s = passage.solve(value(mu, lane), value(t, lane), state);
-            self.equation.set_anomaly(lane, s);
+            let generic = self.anomaly.clone();
+            self.anomaly.set_lane(lane, s, 0);
+            self.anomaly.assign_derivatives(&generic);
             for (i, of_both) in self.increments.iter_mut().enumerate() {
                 for (number, increment) in of_both.iter_mut().zip(passage.increments(i)) {
                     let generic = number.clone();

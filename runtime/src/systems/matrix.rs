@@ -2,8 +2,10 @@
 //!
 //! Functions are `inline`: a program without such flows compiles no numbers of limbs.
 
+use shadowstep_symbolic::decimal::from_text;
+
 use crate::Rational;
-use crate::number::{AnyLimbs, CorrectlyRounded, LimbCount, Number};
+use crate::number::{AnyLimbs, CorrectlyRounded, LimbCount, Number, Real};
 
 /// A matrix, row by row.
 pub(crate) type Matrix<N> = Vec<Vec<N>>;
@@ -63,6 +65,89 @@ pub(crate) fn scale(a: &mut Matrix<AnyLimbs>, by: i32) {
 pub(crate) fn add_to_diagonal(a: &mut Matrix<AnyLimbs>, number: u32, count: LimbCount) {
     let by = AnyLimbs::from_rational(&Rational::from_integer(number.into()), &count);
     a.iter_mut().enumerate().for_each(|(i, row)| row[i].add(&by));
+}
+
+/// e^A − 1: its series for A/2ⁿ, and then by doubling, E ← E² + 2E, which has no cancellation.
+pub(crate) fn exponential(mut argument: Matrix<AnyLimbs>, count: LimbCount) -> Matrix<AnyLimbs> {
+    let norm = argument.iter().map(|row| row.iter().map(|x| x.to_f64().abs()).sum::<f64>()).fold(0.0, f64::max);
+    let halvings = if norm.is_finite() { (norm * 16.0).max(1.0).log2().ceil() as u32 } else { 0 };
+    for _ in 0..halvings {
+        argument.iter_mut().flatten().for_each(|x| x.divide_integer(2));
+    }
+    let mut sum = argument.clone();
+    let mut term = argument.clone();
+    for k in 2..MOST_TERMS {
+        // a term is less than 1/16 of the one before
+        term = product(&term, &argument, count);
+        term.iter_mut().flatten().for_each(|x| x.divide_integer(k));
+        add(&mut sum, &term);
+        let largest = term.iter().flatten().map(AnyLimbs::log10_abs).fold(f64::NEG_INFINITY, f64::max);
+        if largest < -f64::from(count.bits()) * std::f64::consts::LOG10_2 {
+            break;
+        }
+    }
+    for _ in 0..halvings {
+        let square = product(&sum, &sum, count);
+        scale(&mut sum, 2);
+        add(&mut sum, &square);
+    }
+    sum
+}
+
+/// A quadratic form ½xᵀSx in x = (q, p): S exactly, and in numbers, which have the derivatives of S.
+#[derive(Clone, Debug)]
+pub(crate) struct Form<N> {
+    exact: Matrix<Rational>,
+    pub(crate) rounded: Matrix<N>,
+}
+
+impl<N: CorrectlyRounded> Form<N> {
+    pub(crate) fn new(exact: Matrix<Rational>, context: &N::Context) -> Self {
+        let number = |value: &Rational| N::from_rational(value, context);
+        Form { rounded: exact.iter().map(|row| row.iter().map(number).collect()).collect(), exact }
+    }
+
+    /// tJS: the rows of p, and then those of q with the other sign.
+    pub(crate) fn argument(&self, time: &Rational, count: LimbCount) -> Matrix<AnyLimbs> {
+        hamiltonian(&self.exact, |s| AnyLimbs::from_rational(&(s * time), &count))
+    }
+
+    /// The derivatives of e^{tJS} along the directions k in which t or S has one. The derivative of e^A along Ȧ is the upper right part of the exponential of
+    /// (A, Ȧ; 0, A).
+    ///
+    /// C. Van Loan, *Computing integrals involving the matrix exponential*, IEEE Trans. Automat. Contr. 23 (1978) 395.
+    pub(crate) fn derivatives_of_flow(&self, time: &N, count: LimbCount) -> Vec<(usize, Matrix<AnyLimbs>)> {
+        let along = |k| Some((k, self.derivative_of_flow(k, time, count)?));
+        (0..N::DERIVATIVES).filter_map(along).collect()
+    }
+
+    fn derivative_of_flow(&self, k: usize, time: &N, count: LimbCount) -> Option<Matrix<AnyLimbs>> {
+        let exact = |text: String| from_text(&text).ok();
+        let (t, of_t) = (exact(time.to_text())?, exact(time.derivative_text(k))?);
+        let entry = |s: &Rational, rounded: &N| Some(s * &of_t + exact(rounded.derivative_text(k))? * &t);
+        let rows = self.exact.iter().zip(&self.rounded);
+        let row =
+            |(exact, rounded): (&Vec<Rational>, &Vec<N>)| exact.iter().zip(rounded).map(|(s, r)| entry(s, r)).collect();
+        let form: Matrix<Rational> = rows.map(row).collect::<Option<_>>()?;
+        if form.iter().flatten().all(num_traits::Zero::is_zero) {
+            return None;
+        }
+        let along = hamiltonian(&form, |s| AnyLimbs::from_rational(s, &count));
+        let argument = self.argument(&t, count);
+        let zeros = vec![AnyLimbs::zero(count); argument.len()];
+        let upper = argument.iter().zip(&along).map(|(a, along)| [&a[..], &along[..]].concat());
+        let lower = argument.iter().map(|a| [&zeros[..], &a[..]].concat());
+        let mut both = exponential(upper.chain(lower).collect(), count);
+        both.truncate(argument.len());
+        Some(both.into_iter().map(|mut row| row.split_off(argument.len())).collect())
+    }
+}
+
+/// JS, each entry of S as a number.
+fn hamiltonian(form: &Matrix<Rational>, number: impl Fn(&Rational) -> AnyLimbs) -> Matrix<AnyLimbs> {
+    let (of_q, of_p) = form.split_at(form.len() / 2);
+    let rising = of_p.iter().map(|row| row.iter().map(&number).collect());
+    rising.chain(of_q.iter().map(|row| row.iter().map(|s| number(&-s)).collect())).collect()
 }
 
 #[cfg(test)]

@@ -18,7 +18,7 @@ use crate::systems::kinetic::{Kinetic, MassError};
 use crate::systems::matrix::QUADRATIC_FLOW_DIGITS;
 use crate::systems::potential::Potential;
 use crate::systems::state::State;
-use crate::systems::summation::{Compensated, FixedPoint, Plain, RangeError, Summation};
+use crate::systems::summation::{Compensated, FixedPoint, InDouble, Plain, RangeError, Summation};
 
 use gradient_kick_state::GradientKickState;
 use hamiltonian::{Evaluated, Hamiltonian};
@@ -160,13 +160,15 @@ where
     }
 }
 
-impl<V, P, K> Motion<f64, V, P, K>
+impl<N, V, P, K> Motion<N, V, P, K>
 where
-    V: Coordinates<f64>,
-    P: Potential<f64>,
-    K: Kinetic<f64>,
+    N: InDouble,
+    V: Coordinates<N>,
+    P: Potential<N>,
+    K: Kinetic<N>,
 {
-    /// The same system in fixed point: [`Stepper::step_back`](crate::Stepper::step_back) undoes a step to the last bit. See [`FixedPoint`].
+    /// The same system in fixed point, of `f64` or its dual numbers: [`Stepper::step_back`](crate::Stepper::step_back) undoes a step to the last bit. See
+    /// [`FixedPoint`].
     ///
     /// The ranges are the largest |q_i| and |p_i| that a run may reach; a coordinate that leaves its range by a factor of 2 becomes NaN. The
     /// state is rounded to 2⁻⁶² of the ranges.
@@ -189,7 +191,7 @@ where
         self,
         q_ranges: &[f64],
         p_ranges: &[f64],
-    ) -> Result<Motion<f64, V, P, K, FixedPoint<V>>, RangeError> {
+    ) -> Result<Motion<N, V, P, K, FixedPoint<V>>, RangeError> {
         let sums = FixedPoint::of((&self.at.state.q, &self.at.state.p), (q_ranges, p_ranges))?;
         let mut motion = self.with(|state| state.with_sums(sums));
         motion.at.state.settle();

@@ -260,18 +260,26 @@ impl<P, const D: usize> Pairs<P, D> {
         }
     }
 
+    /// Whether the gradient of dual numbers is summed over blocks: of fewer bodies than other sums.
+    fn has_blocks_of_dual<N: Number>(&self) -> bool {
+        N::HAS_DERIVATIVES && self.bodies >= BLOCK
+    }
+
     fn scratch_of_blocks<N: Number>(&self) -> usize {
-        let in_blocks = N::IN_VECTORS && self.which == Which::All && self.is_in_blocks();
+        let suit = self.is_in_blocks() || self.has_blocks_of_dual::<N>();
+        let in_blocks = N::IN_VECTORS && self.which == Which::All && suit;
         if in_blocks { blocks::scratch(self.bodies, D) } else { 0 }
     }
 
     /// The scratch space of blocks and of the pair, where the sum is over blocks.
     fn blocks<'a, N: Number>(&self, scratch: &'a mut [N]) -> Option<(&'a mut [N], &'a mut [N])> {
         let size = self.scratch_of_blocks::<N>();
-        (size > 0).then(|| {
-            let (others, axes) = scratch.split_at_mut(scratch.len() - size);
-            (axes, &mut others[own_scratch(D)..])
-        })
+        (size > 0 && self.is_in_blocks()).then(|| self.room_of_blocks(size, scratch))
+    }
+
+    fn room_of_blocks<'a, N: Number>(&self, size: usize, scratch: &'a mut [N]) -> (&'a mut [N], &'a mut [N]) {
+        let (others, axes) = scratch.split_at_mut(scratch.len() - size);
+        (axes, &mut others[own_scratch(D)..])
     }
 
     /// The sum over all pairs of a few bodies.
@@ -453,10 +461,13 @@ impl<N: Number, P: PairPotential<N>, const D: usize> Potential<N> for Pairs<P, D
     }
 
     fn gradient(&self, q: &[N], gradient: &mut [N], scratch: &mut [N]) {
+        let size = self.scratch_of_blocks::<N>();
+        if size > 0 && self.has_blocks_of_dual::<N>() {
+            let (axes, pair) = self.room_of_blocks(size, scratch);
+            let (bodies, in_order_of_blocks) = (self.bodies, self.is_in_blocks());
+            return DualBlocks::<_, D> { pair: &self.pair, bodies, in_order_of_blocks }.sum((q, gradient), axes, pair);
+        }
         if let Some((axes, pair)) = self.blocks(scratch) {
-            if N::HAS_DERIVATIVES {
-                return DualBlocks::<_, D> { pair: &self.pair, bodies: self.bodies }.sum((q, gradient), axes, pair);
-            }
             return self.all_blocks().sum((q, gradient), None, axes, pair);
         }
         if let Some(ends) = self.chain_in_blocks::<N>() {

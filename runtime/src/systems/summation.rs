@@ -13,7 +13,7 @@ mod compensated;
 mod fixed_point;
 
 pub use compensated::Compensated;
-pub use fixed_point::{FixedPoint, RangeError};
+pub use fixed_point::{FixedPoint, InDouble, RangeError};
 
 use crate::number::Number;
 use crate::systems::coordinates::for_each_two;

@@ -16,7 +16,8 @@ pub type Covector<N> = (Vec<N>, Vec<N>);
 /// with J = (0, 1; −1, 0), and M⁻¹ is the tangent map of the step back. A parameter costs one vector more: with z = Φ⁻¹(Φ(z)),
 /// DΦ⁻¹ ∂Φ/∂θ = −∂Φ⁻¹/∂θ.
 ///
-/// Steps back make the states of the steps up to round-off, so that on chaotic trajectories the gradient is as uncertain as the states; more digits help.
+/// Steps back make the states of the steps up to round-off, so that on chaotic trajectories the gradient is as uncertain as the states; more digits help. In
+/// [fixed point](crate::Motion::fixed_point) they make them to the last bit, and the gradient is that of the steps whatever their number.
 /// Gradient kicks by displaced forces are not exactly symplectic, nor are then the gradients exact.
 #[derive(Debug)]
 pub struct Adjoint<I: Integrator> {

@@ -116,6 +116,13 @@ impl Growth {
         self.integral / self.time
     }
 
+    /// The error of Ȳ as that of its limit: |Ȳ(t) − Ȳ(t/2)|, which is what is left of c/t; half of Ȳ and more along a chaotic trajectory, where it has no limit.
+    /// `None` of fewer than 64 observations.
+    pub fn mean_megno_error(&self) -> Option<f64> {
+        let [time, _, integral] = self.marks.near(self.time / 2.0)?;
+        Some((self.mean_megno() - integral / time).abs())
+    }
+
     /// The exponent over the last three quarters of the trajectory, where vectors have turned to the direction that grows fastest, with its error from
     /// six parts of them; `None` of fewer than 64 observations.
     pub fn exponent(&self) -> Option<Exponent> {
@@ -207,6 +214,7 @@ mod tests {
         assert!((found.lyapunov() - 0.3).abs() < 1e-12);
         assert!((found.megno() - 30.0).abs() < 1e-9); // λt
         assert!((found.mean_megno() - 15.0).abs() < 1e-3); // λt/2
+        assert!((found.mean_megno_error().unwrap() - 7.5).abs() < 0.1);
         let exponent = found.exponent().unwrap();
         assert!((exponent.value - 0.3).abs() < 1e-9 && exponent.error < 1e-9);
         assert_eq!(found.regularity(), Regularity::Chaotic);
@@ -218,6 +226,8 @@ mod tests {
         let found = growth(1000.0, 100_000, |t| (1.0 + t * t).ln() / 2.0);
         assert!((found.megno() - (2.0 - 2.0 * 1000_f64.atan() / 1000.0)).abs() < 1e-4);
         assert!((found.mean_megno() - 2.0).abs() < 0.05);
+        let error = found.mean_megno_error().unwrap();
+        assert!((found.mean_megno() - 2.0).abs() < 2.0 * error && error < 0.05, "{error}");
         assert_eq!(found.regularity(), Regularity::Regular);
         let exponent = found.exponent().unwrap();
         assert!(exponent.value.abs() < 0.005);
@@ -231,7 +241,7 @@ mod tests {
         assert_eq!(growth(100.0, 10_000, ended).regularity(), Regularity::Undecided);
         assert_eq!(growth(100.0, 63, |t| 0.3 * t).regularity(), Regularity::Undecided); // too few
         assert_eq!(growth(100.0, 10_000, |t| t.sin()).regularity(), Regularity::Regular); // no shear
-        assert!(growth(100.0, 10, |t| t).exponent().is_none());
+        assert!(growth(100.0, 10, |t| t).exponent().is_none() && growth(100.0, 10, |t| t).mean_megno_error().is_none());
     }
 
     #[test]

@@ -44,6 +44,7 @@ where
     let (of_q, of_p) = vector.split_at(state.q().len());
     state.q_mut().iter_mut().zip(of_q).for_each(|(x, own)| x.derivatives[k].assign(own));
     state.p_mut().iter_mut().zip(of_p).for_each(|(x, own)| x.derivatives[k].assign(own));
+    state.settle();
     remainders.q.iter_mut().chain(&mut remainders.p).for_each(|x| x.derivatives[k].assign_zero());
     state.set_remainders(&remainders);
 }

@@ -181,18 +181,40 @@ fn by_parameters_of_other_splits() {
     Case { text: formulas, scheme: "yoshida4", h: "1/20", theta: "6/5" }.check();
 }
 
-/// The flow of a quadratic part is a matrix that is computed from its coefficients otherwise.
+/// Their flows are matrices, computed in more digits than the numbers have.
+#[test]
+fn by_what_a_matrix_depends_on() {
+    let initial = "[initial]\nq = [\"1/5\", \"1/3\"]\np = [\"1/9\", \"1/7\"]\n";
+    let quadratic = format!(
+        "[problem]\ncoordinates = [\"x\", \"y\"]\nparts = [\"px^2/2 + py^2/2 + k*x^2/2 + x*py - k^2*y*px + y^2\", \"x^4/4 + k*sin(x)*y^2\"]\nparameters = {{ k = \"θ\" }}\n{initial}"
+    );
+    let linear = format!(
+        "[problem]\ncoordinates = [\"x\", \"y\"]\npotential = \"k*x^2 + x*y + 2*y^2 + k*x^2*y - y^3/3\"\nmasses = [1, \"m\"]\nparameters = {{ k = 5, m = 2 }}\nparts = \"linear\"\n{initial}"
+    );
+    for scheme in ["stormer-verlet", "yoshida4"] {
+        Case { text: quadratic.clone().leak(), scheme, h: "1/10", theta: "6/5" }.check();
+        // nilpotent at 0
+        let nilpotent = quadratic
+            .replace("k*x^2/2 + x*py - k^2*y*px + y^2", "k*x^2/2 + x*py")
+            .replace("py^2/2 + ", "")
+            .replace("k*sin", "sin");
+        Case { text: nilpotent.leak(), scheme, h: "1/100", theta: "0" }.check();
+        Case { text: quadratic.replace('θ', "6/5").leak(), scheme, h: "θ", theta: "1/10" }.check();
+        Case { text: linear.replace("k = 5", "k = \"θ\"").leak(), scheme, h: "1/4", theta: "5" }.check();
+        Case { text: linear.replace("m = 2", "m = \"θ\"").leak(), scheme, h: "1/4", theta: "2" }.check();
+        Case { text: linear.clone().leak(), scheme, h: "θ", theta: "1/4" }.check();
+    }
+}
+
 #[test]
 fn unknown_derivatives_are_refused() {
-    let quadratic = "[problem]\ncoordinates = [\"x\"]\nparts = [\"px^2/2 + k*x^2/2\", \"x^4/4\"]\nparameters = { k = \"θ\" }\n\
-                     [initial]\nq = [0]\np = [0]\n";
-    let case = Case { text: quadratic, scheme: "yoshida4", h: "1/20", theta: "6/5" };
-    let refused = case.with(Arithmetic::DOUBLE, |request| request.forward(&mut ()).unwrap_err().to_string());
-    assert!(refused.starts_with("derivatives by θ are not known: it is no constant of the steps"), "{refused}");
+    let commuting = OSCILLATOR
+        .replace("potential = \"k*x^2/2 + ", "parts = [\"px^2/2 + py^2/2 + k*x^2/2\", \"")
+        .replace("y^2\"", "y^2\"]");
+    let folded = Case { text: commuting.leak(), scheme: "yoshida4", h: "1/20", theta: "0" };
+    let refused = folded.with(Arithmetic::DOUBLE, |request| request.forward(&mut ()).unwrap_err().to_string());
+    assert!(refused.starts_with("derivatives by θ are not known: the formulas have another form"), "{refused}");
     let long = |digits| precise(Arithmetic::with_digits(digits).unwrap());
     let refused = long(139).unwrap_err().to_string();
     assert!(long(138).is_ok() && refused.contains("use 138 digits"), "{refused}");
-    let folded = Case { theta: "1", ..case };
-    let refused = folded.with(Arithmetic::DOUBLE, |request| request.forward(&mut ()).unwrap_err().to_string());
-    assert!(refused.starts_with("derivatives by θ are not known"), "{refused}");
 }

@@ -46,6 +46,8 @@ impl<T: Machine> Number for DoubleDouble<T> {
         T::in_widest_instructions(work)
     }
 
+    crate::number::without_derivatives!();
+
     #[inline(always)]
     fn register(&mut self) -> Copied<Self> {
         Copied(*self)

@@ -17,37 +17,39 @@ pub(super) struct Equation<N> {
     is_double: bool,
     /// The largest step, in units of the orbit's scales, after which nothing is left to refine.
     last_step: f64,
-    mu: N,
+    pub(super) mu: N,
     time: N,
-    r0: N,
+    pub(super) r0: N,
     /// μ/r₀
-    pull: N,
+    pub(super) pull: N,
     /// q·v
-    eta: N,
+    pub(super) eta: N,
     /// 2μ/r₀ − v²
-    alpha: N,
+    pub(super) alpha: N,
     /// μ − αr₀
-    zeta: N,
-    s: N,
-    stumpff: Stumpff<N>,
+    pub(super) zeta: N,
+    pub(super) s: N,
+    /// s before the last step, where Stumpff's functions are known.
+    pub(super) before: N,
+    pub(super) stumpff: Stumpff<N>,
     z: N,
-    g: [N; 3],
+    pub(super) g: [N; 3],
     f: N,
-    r: N,
+    pub(super) r: N,
     slope: N,
     /// Newton's step −f/r.
     newton: N,
     /// That with the next term.
-    step: N,
+    pub(super) step: N,
     /// Whole revolutions that the time is without.
-    revolutions: N,
-    has_revolutions: bool,
+    pub(super) revolutions: N,
+    pub(super) has_revolutions: bool,
     /// s with whole revolutions included.
     anomaly: N,
     /// Whether the step is long in some lane.
     is_long: bool,
-    pi: N,
-    one: N,
+    pub(super) pi: N,
+    pub(super) one: N,
     scratch: [N; 3],
 }
 
@@ -81,6 +83,7 @@ impl<N: Number> Equation<N> {
             alpha: zero(),
             zeta: zero(),
             s: zero(),
+            before: zero(),
             stumpff: Stumpff::new(bits, context),
             z: zero(),
             g: zeros(),
@@ -101,8 +104,11 @@ impl<N: Number> Equation<N> {
 
     /// Solves the equation of the orbit through q with the velocity v: s, G₁, G₂ and r at the time t.
     #[cfg_attr(not(debug_assertions), inline(always))]
-    pub(super) fn solve(&mut self, mu: &N, time: &N, q: &[N], v: &[N]) {
-        self.assign_orbit(mu, q, v);
+    pub(super) fn solve<'a>(&mut self, mu: &N, time: &N, coordinates: impl Iterator<Item = [&'a N; 2]>)
+    where
+        N: 'a,
+    {
+        self.assign_orbit(mu, coordinates);
         self.time.assign(time);
         self.has_revolutions = false;
         self.is_long = false;
@@ -120,7 +126,7 @@ impl<N: Number> Equation<N> {
             self.refine();
         }
         self.take_last_step();
-        // the last step from an error d leaves d³ in s and d² in its derivatives: of an f64, d is small enough for these too
+        // of numbers that are dual twice: the last step from an error d leaves d³ in s and d² in its derivatives; of an f64, d is small enough for these too
         if N::HAS_DERIVATIVES && !self.is_double {
             self.settle_derivatives();
         }
@@ -146,12 +152,15 @@ impl<N: Number> Equation<N> {
     }
 
     #[cfg_attr(not(debug_assertions), inline(always))]
-    fn assign_orbit(&mut self, mu: &N, q: &[N], v: &[N]) {
+    fn assign_orbit<'a>(&mut self, mu: &N, coordinates: impl Iterator<Item = [&'a N; 2]>)
+    where
+        N: 'a,
+    {
         let [square, ..] = &mut self.scratch;
         square.assign_zero();
         self.eta.assign_zero();
         self.alpha.assign_zero();
-        for (q, v) in q.iter().zip(v) {
+        for [q, v] in coordinates {
             square.add_product(q, q);
             self.eta.add_product(q, v);
             self.alpha.subtract_product(v, v);
@@ -362,6 +371,7 @@ impl<N: Number> Equation<N> {
     fn take_last_step(&mut self) {
         let [half, change, slope] = &mut self.scratch;
         let [g1, g2, _] = &mut self.g;
+        self.before.assign(&self.s);
         self.s.add(&self.step);
         half.assign(&self.step);
         half.divide_integer(2);
@@ -410,13 +420,6 @@ impl<N: Number> Equation<N> {
             && exponent(self.alpha.lane(lane)) < 250
     }
 
-    /// s of a lane ← an `f64`
-    pub(super) fn set_anomaly(&mut self, lane: usize, s: f64) {
-        let generic = self.anomaly.clone();
-        self.anomaly.set_lane(lane, s, 0);
-        self.anomaly.assign_derivatives(&generic);
-    }
-
     /// s = ∫dt/r
     #[inline(always)]
     pub(super) fn anomaly(&self) -> &N {
@@ -425,7 +428,7 @@ impl<N: Number> Equation<N> {
 
     /// f − 1 = −μG₂/r₀, g = r₀G₁ + ηG₂, ḟ = −μG₁/(r₀r), ġ − 1 = −μG₂/r
     #[cfg_attr(not(debug_assertions), inline(always))]
-    pub(super) fn assign_gauss(&self, [f, g, f_dot, g_dot]: &mut [N; 4]) {
+    pub(super) fn assign_gauss(&self, [f, g, f_dot, g_dot]: [&mut N; 4]) {
         let [g1, g2, _] = &self.g;
         f.assign_product(&self.pull, g2);
         f.negate();

@@ -31,8 +31,9 @@ impl Passage {
             self.q.push(q.into());
             self.v.push(v.into());
         }
-        self.equation.solve(&mu.into(), &t.into(), &self.q, &self.v);
-        self.equation.assign_gauss(&mut self.gauss);
+        let coordinates = self.q.iter().zip(&self.v).map(|(q, v)| [q, v]);
+        self.equation.solve(&mu.into(), &t.into(), coordinates);
+        self.equation.assign_gauss(self.gauss.each_mut());
         self.equation.anomaly().parts().0
     }
 

@@ -15,8 +15,10 @@ use crate::number::scaled;
 pub(super) struct Stumpff<N> {
     /// c₀ … c₃ of the last z.
     pub(super) c: [N; 4],
-    /// c₀ … c₃ of lanes that are done, while z of other lanes is divided more often.
-    done: [N; 4],
+    /// 24c₄ and 120c₅, for derivatives.
+    pub(super) longer: [N; 2],
+    /// c₀ … c₃ of lanes that are done, and 24c₄ and 120c₅, while z of other lanes is divided more often.
+    done: ([N; 4], [N; 2]),
     /// 120 (−1)ᵏ/(2k + 7)! of an even k and the next one, and 720 (−1)ᵏ/(2k + 8)! of both; the highest k first.
     coefficients: Vec<[N; 4]>,
     /// The largest |z| whose series are summed.
@@ -62,7 +64,19 @@ impl<N: Number> Stumpff<N> {
             coefficients.insert(0, group);
         }
         let one = rational(1, &Rational::from_integer(1.into()));
-        Stumpff { c: zeros(), done: zeros(), coefficients, largest, one, z: zero(), square: zero(), sums: zeros() }
+        let longer = || [zero(), zero()];
+        let done = (zeros(), longer());
+        Stumpff {
+            c: zeros(),
+            longer: longer(),
+            done,
+            coefficients,
+            largest,
+            one,
+            z: zero(),
+            square: zero(),
+            sums: zeros(),
+        }
     }
 
     /// Whether the series of z converge at once.
@@ -108,11 +122,13 @@ impl<N: Number> Stumpff<N> {
             self.assign_with(z, count, Terms::All);
             for other in lane..N::LANES {
                 if self.quarterings(z, other) == count {
-                    self.done.iter_mut().zip(&self.c).for_each(|(done, c)| done.assign_lane(other, c));
+                    let done = self.done.0.iter_mut().chain(&mut self.done.1);
+                    done.zip(self.c.iter().chain(&self.longer)).for_each(|(done, c)| done.assign_lane(other, c));
                 }
             }
         }
-        std::mem::swap(&mut self.c, &mut self.done);
+        std::mem::swap(&mut self.c, &mut self.done.0);
+        std::mem::swap(&mut self.longer, &mut self.done.1);
     }
 
     /// With z divided by 4 so often.
@@ -125,6 +141,17 @@ impl<N: Number> Stumpff<N> {
         self.sum_series(terms);
         let [c0, c1, c2, c3] = &mut self.c;
         for _ in 0..quarterings {
+            // c₅(4z) = (c₅ + c₄ + c₂c₃)/16, c₄(4z) = (1 + c₁)c₃/8
+            let [c4, c5] = &mut self.longer;
+            c4.multiply_integer(5);
+            c5.add(c4);
+            c4.assign_product(c2, c3);
+            c4.multiply_integer(120);
+            c5.add(c4);
+            c5.divide_integer(16);
+            c4.assign(c3);
+            c4.add_product(c1, c3);
+            c4.multiply_integer(3);
             c3.multiply(c0);
             c3.add(c2);
             c3.divide_integer(4);
@@ -146,11 +173,13 @@ impl<N: Number> Stumpff<N> {
         factor.divide_integer(20);
         one_minus(product, &self.one, &self.z, tail3);
         one_minus(c3, &self.one, factor, product);
+        self.longer[1].assign(product);
         c3.divide_integer(6);
         one_minus(product, &self.one, &self.z, tail2);
         factor.assign(&self.z);
         factor.divide_integer(30);
         one_minus(tail2, &self.one, factor, product);
+        self.longer[0].assign(tail2);
         factor.assign(&self.z);
         factor.divide_integer(12);
         one_minus(c2, &self.one, factor, tail2);

@@ -7,13 +7,17 @@ use shadowstep_symbolic::decimal::from_text;
 
 use crate::Rational;
 use crate::number::{AnyLimbs, CorrectlyRounded, LimbCount, Number, Real};
-use crate::systems::matrix::{MOST_KEPT, MOST_TERMS, Matrix, add, add_to_diagonal, precision, product, round, scale};
+use crate::systems::matrix::{
+    Form, MOST_KEPT, MOST_TERMS, Matrix, add, add_to_diagonal, precision, product, round, scale,
+};
 
 /// The flows over the times that have occurred: a scheme has a few.
 #[derive(Clone, Debug)]
 pub(super) struct Rotations<N> {
     masses: Vec<Rational>,
     stiffness: Matrix<Rational>,
+    /// A itself, for derivatives.
+    form: Option<Form<N>>,
     known: Vec<(N, Flow<N>)>,
     to_q: Vec<N>,
     to_p: Vec<N>,
@@ -36,6 +40,7 @@ impl<N: CorrectlyRounded> Rotations<N> {
         Rotations {
             masses: masses.to_vec(),
             stiffness: stiffness.to_vec(),
+            form: (N::DERIVATIVES > 0).then(|| Form::new(form(masses, stiffness), context)),
             known: Vec::new(),
             to_q: zeros(),
             to_p: zeros(),
@@ -49,7 +54,9 @@ impl<N: CorrectlyRounded> Rotations<N> {
             if self.known.len() == MOST_KEPT {
                 self.known.clear();
             }
-            self.known.push((time.clone(), Flow::new(&self.masses, &self.stiffness, time)));
+            let mut flow = Flow::new(&self.masses, &self.stiffness, time);
+            self.form.iter().for_each(|form| flow.add_derivatives(form, time));
+            self.known.push((time.clone(), flow));
             self.known.len() - 1
         });
         let Flow { versine, of_p, of_q } = &self.known[index].1;
@@ -102,11 +109,41 @@ impl<N: CorrectlyRounded> Flow<N> {
         Flow { versine: rounded(&versine), of_p: rounded(&sine), of_q: rounded(&of_q) }
     }
 
+    /// Sets the derivatives, of dual numbers.
+    fn add_derivatives(&mut self, form: &Form<N>, time: &N) {
+        let count = precision::<N>(&time.context()).expect("it was checked with the system");
+        let dimension = self.versine.len();
+        for (k, derivative) in form.derivatives_of_flow(time, count) {
+            let (of_rows_q, of_rows_p) = derivative.split_at(dimension);
+            let parts = [
+                (&mut self.versine, of_rows_q, 0),
+                (&mut self.of_p, of_rows_q, dimension),
+                (&mut self.of_q, of_rows_p, 0),
+            ];
+            for (own, rows, first) in parts {
+                let pairs = own.iter_mut().zip(rows).flat_map(|(own, row)| own.iter_mut().zip(&row[first..]));
+                pairs.for_each(|(x, derivative)| x.assign_rounded_derivative(k, derivative));
+            }
+        }
+    }
+
     /// Of a time that is infinite or NaN: so are all coordinates after it.
     fn of_no_time(time: &N, dimension: usize) -> Self {
         let matrix = vec![vec![time.clone(); dimension]; dimension];
         Flow { versine: matrix.clone(), of_p: matrix.clone(), of_q: matrix }
     }
+}
+
+/// The matrix of A: K, and 1/m along the diagonal.
+fn form(masses: &[Rational], stiffness: &[Vec<Rational>]) -> Matrix<Rational> {
+    let zeros = vec![num_traits::zero(); masses.len()];
+    let of_q = stiffness.iter().map(|row| [&row[..], &zeros[..]].concat());
+    let of_p = masses.iter().enumerate().map(|(i, mass)| {
+        let mut row = [&zeros[..], &zeros[..]].concat();
+        row[masses.len() + i] = mass.recip();
+        row
+    });
+    of_q.chain(of_p).collect()
 }
 
 /// How often t is halved, so that t²|W| is below 1/16 in a norm.

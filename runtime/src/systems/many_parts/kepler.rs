@@ -6,7 +6,7 @@ use crate::number::Number;
 use crate::systems::kepler_drift::KeplerDrift;
 
 /// Of one body and a centre at 0.
-pub(super) struct Kepler<N> {
+pub(super) struct Kepler<N: Number> {
     freedoms: Vec<usize>,
     drift: KeplerDrift<N>,
     mass: N,

@@ -1,6 +1,6 @@
 //! The sum over all pairs for dual numbers of a few bytes: of each body with a block of others, in one loop that the compiler makes vector operations of.
 //!
-//! It is added up in the order of [`Blocks`](super::blocks::Blocks), so that it has the same bits.
+//! It is added up in the order in which numbers are, of many bodies that of [`Blocks`](super::blocks::Blocks), so that it has the same bits.
 
 use std::hint::black_box;
 
@@ -13,7 +13,10 @@ use shadowstep_symbolic::Separation;
 /// A sum over all pairs of bodies in D dimensions.
 pub(super) struct DualBlocks<'a, P, const D: usize> {
     pub(super) pair: &'a P,
+    /// At least [`BLOCK`].
     pub(super) bodies: usize,
+    /// Else in the order of the plain loop over i < j.
+    pub(super) in_order_of_blocks: bool,
 }
 
 /// A number for each axis and place in a block.
@@ -53,6 +56,7 @@ impl<P, const D: usize> DualBlocks<'_, P, D> {
         let of_axes = || -> OfAxes<N, D> { std::array::from_fn(|_| zeros.clone()) };
         let (mut q_j, mut before, mut after, mut own) = (of_axes(), of_axes(), of_axes(), of_axes());
         let last = bodies - BLOCK;
+        let one_by_one = |i: usize| i >= last || !self.in_order_of_blocks;
         for i in 0..bodies {
             for own in &mut own {
                 own.clone_from(&zeros);
@@ -70,19 +74,24 @@ impl<P, const D: usize> DualBlocks<'_, P, D> {
                 for (axis, after) in after.iter().enumerate() {
                     after.write(gradient, axis * bodies + first);
                 }
+                if one_by_one(i) {
+                    for (axis, own) in own.iter_mut().enumerate() {
+                        let mut sum = N::Block::one_of_columns(gradient, axis * bodies + i);
+                        let forces = black_box(own.clone());
+                        (j - first..BLOCK).for_each(|l| sum.add(&forces.at(l)));
+                        N::Block::write_one(gradient, axis * bodies + i, &sum);
+                        own.clone_from(&zeros);
+                    }
+                }
                 j = first + BLOCK;
+            }
+            if one_by_one(i) {
+                continue;
             }
             for axis in 0..D {
                 let mut sum = N::Block::one_of_columns(gradient, axis * bodies + i);
                 let own = black_box(own[axis].clone());
-                if i < last {
-                    sum.add(sum_of_places(&mut std::array::from_fn(|l| own.at(l))));
-                } else {
-                    // one by one
-                    for l in i + 1 - last..BLOCK {
-                        sum.add(&own.at(l));
-                    }
-                }
+                sum.add(sum_of_places(&mut std::array::from_fn(|l| own.at(l))));
                 N::Block::write_one(gradient, axis * bodies + i, &sum);
             }
         }

@@ -230,7 +230,7 @@ where
 
 #[test]
 fn blocks_of_dual_numbers_have_the_bits_of_numbers_one_by_one() {
-    for bodies in [15, 16, 17, 23, 24, 25, 40] {
+    for bodies in [7, 8, 9, 12, 15, 16, 17, 23, 24, 25, 40] {
         let m: Vec<f64> = (0..bodies).map(|i| 1.0 + i as f64 / 8.0).collect();
         let dual_m = || (0..).zip(&m).map(|(i, m)| dual(f64::from, *m, i)).collect::<Vec<_>>();
         let [s, d] = [0.2, 1.5].map(|x| dual(f64::from, x, 3));

@@ -3,8 +3,53 @@
 use thiserror::Error;
 
 use super::{Half, Remainders, Summation};
+use crate::number::{Dual, Number};
 use crate::systems::coordinates::Coordinates;
 use crate::systems::kinetic::Kinetic;
+
+/// A number whose value is one of double precision: `f64`, and its [dual numbers](Dual).
+pub trait InDouble: Number {
+    /// x
+    fn double(&self) -> f64;
+
+    /// x ← the value; derivatives stay.
+    fn set_double(&mut self, value: f64);
+
+    /// Derivatives ← derivatives + those of a.
+    fn add_derivatives(&mut self, a: &Self);
+}
+
+impl InDouble for f64 {
+    #[inline(always)]
+    fn double(&self) -> f64 {
+        *self
+    }
+
+    #[inline(always)]
+    fn set_double(&mut self, value: f64) {
+        *self = value;
+    }
+
+    #[inline(always)]
+    fn add_derivatives(&mut self, _: &Self) {}
+}
+
+impl<const K: usize> InDouble for Dual<f64, K> {
+    #[inline(always)]
+    fn double(&self) -> f64 {
+        self.value
+    }
+
+    #[inline(always)]
+    fn set_double(&mut self, value: f64) {
+        self.value = value;
+    }
+
+    #[inline(always)]
+    fn add_derivatives(&mut self, a: &Self) {
+        self.derivatives.iter_mut().zip(a.derivatives).for_each(|(own, a)| *own += a);
+    }
+}
 
 /// q and p as whole multiples of powers of two, in 64 bits.
 ///
@@ -15,6 +60,9 @@ use crate::systems::kinetic::Kinetic;
 /// The coordinate i is a multiple of 2⁻⁶² times its range, rounded up to a power of two. Sums are as good as [`Compensated`](super::Compensated)
 /// ones where the coordinate is not much smaller than its range. A coordinate that exceeds twice its range, rounded up so, or gets an increment larger than
 /// that range, becomes NaN and stays so until it is set.
+///
+/// Derivatives of dual numbers are added plainly, and are undone up to round-off: a gradient by [steps back](crate::tangent::Adjoint) is then one along the very
+/// states of the steps.
 ///
 /// A step is undone only where the gradient depends on q alone: not on a list of neighbours that was made for earlier positions.
 ///
@@ -47,9 +95,12 @@ const ROUNDED: f64 = 2_251_799_813_685_248.0;
 /// The multiple at the end of the range, 2⁶²: the sum of two such multiples does not overflow.
 const LARGEST: f64 = 4_611_686_018_427_387_904.0;
 
-impl<V: Coordinates<f64>> FixedPoint<V> {
+impl<V> FixedPoint<V> {
     /// For coordinates q and p within these ranges.
-    pub(crate) fn of((q, p): (&V, &V), (q_ranges, p_ranges): (&[f64], &[f64])) -> Result<Self, RangeError> {
+    pub(crate) fn of<N: InDouble>((q, p): (&V, &V), (q_ranges, p_ranges): (&[f64], &[f64])) -> Result<Self, RangeError>
+    where
+        V: Coordinates<N>,
+    {
         let increment = q.clone();
         let [q, p] = [(q, q_ranges, "q"), (p, p_ranges, "p")]
             .map(|(values, ranges, name)| Multiples::of(values.as_ref(), ranges, name));
@@ -57,13 +108,18 @@ impl<V: Coordinates<f64>> FixedPoint<V> {
     }
 
     #[inline]
-    fn add_increment(&mut self, q: &mut [f64]) {
-        self.q.add(self.increment.as_ref().iter().copied(), q);
+    fn add_increment<N: InDouble>(&mut self, q: &mut [N])
+    where
+        V: Coordinates<N>,
+    {
+        let increment = self.increment.as_ref();
+        self.q.add(q, |i| increment[i].clone());
     }
 }
 
 impl Multiples {
-    fn of(values: &[f64], ranges: &[f64], name: &'static str) -> Result<Self, RangeError> {
+    fn of(values: &[impl InDouble], ranges: &[f64], name: &'static str) -> Result<Self, RangeError> {
+        let values: Vec<f64> = values.iter().map(InDouble::double).collect();
         if ranges.len() != values.len() {
             return Err(RangeError::Length { name, coordinates: values.len(), ranges: ranges.len() });
         }
@@ -81,52 +137,59 @@ impl Multiples {
 
     /// Takes coordinates that were set, and rounds them.
     #[inline]
-    fn settle(&mut self, coordinates: &mut [f64]) {
+    fn settle(&mut self, coordinates: &mut [impl InDouble]) {
         if !self.current {
             self.current = true;
             self.values.fill(0);
-            let set = coordinates.to_vec();
-            self.add(set.into_iter(), coordinates);
+            for (i, x) in coordinates.iter_mut().enumerate() {
+                let value = x.double();
+                self.add_double(i, value, x);
+            }
         }
     }
 
     /// Adds increments, each rounded, and sets the coordinates to the sums.
     #[inline]
-    fn add(&mut self, increments: impl Iterator<Item = f64>, coordinates: &mut [f64]) {
-        let Multiples { values, units, per_unit, .. } = self;
-        let places = values.iter_mut().zip(units).zip(per_unit).zip(coordinates);
-        for ((((value, unit), per_unit), x), increment) in places.zip(increments) {
-            add(value, (*unit, *per_unit), increment, x);
+    fn add<N: InDouble>(&mut self, coordinates: &mut [N], mut increment: impl FnMut(usize) -> N) {
+        for (i, x) in coordinates.iter_mut().enumerate() {
+            self.add_to(i, &increment(i), x);
         }
     }
 
     /// Adds an increment, rounded, to one coordinate.
-    fn add_to(&mut self, index: usize, increment: f64, x: &mut f64) {
-        add(&mut self.values[index], (self.units[index], self.per_unit[index]), increment, x);
+    #[inline]
+    fn add_to<N: InDouble>(&mut self, index: usize, increment: &N, x: &mut N) {
+        self.add_double(index, increment.double(), x);
+        x.add_derivatives(increment);
+    }
+
+    /// The same without derivatives.
+    #[inline(always)]
+    fn add_double(&mut self, index: usize, increment: f64, x: &mut impl InDouble) {
+        let value = &mut self.values[index];
+        *value = sum(*value, multiple(increment * self.per_unit[index]));
+        x.set_double(if *value == LOST { f64::NAN } else { *value as f64 * self.units[index] });
     }
 
     /// What the multiples are more than the coordinates, which are the multiples rounded.
-    fn remainders(&self, coordinates: &[f64]) -> Vec<f64> {
-        let remainder = |(i, x): (usize, &f64)| match self.values[i] {
-            LOST => 0.0,
-            value => (value - multiple(x * self.per_unit[i])) as f64 * self.units[i],
+    fn remainders<N: InDouble>(&self, coordinates: &[N]) -> Vec<N> {
+        let remainder = |(i, x): (usize, &N)| {
+            let mut remainder = N::zero(&x.context());
+            remainder.set_double(match self.values[i] {
+                LOST => 0.0,
+                value => (value - multiple(x.double() * self.per_unit[i])) as f64 * self.units[i],
+            });
+            remainder
         };
         coordinates.iter().enumerate().map(remainder).collect()
     }
 
     /// Adds remainders to multiples of the coordinates.
-    fn include(&mut self, remainders: &[f64]) {
+    fn include(&mut self, remainders: &[impl InDouble]) {
         for (i, remainder) in remainders.iter().enumerate() {
-            self.values[i] = sum(self.values[i], multiple(remainder * self.per_unit[i]));
+            self.values[i] = sum(self.values[i], multiple(remainder.double() * self.per_unit[i]));
         }
     }
-}
-
-/// Adds an increment, rounded, to a multiple, and sets the coordinate to the sum.
-#[inline(always)]
-fn add(value: &mut i64, (unit, per_unit): (f64, f64), increment: f64, x: &mut f64) {
-    *value = sum(*value, multiple(increment * per_unit));
-    *x = if *value == LOST { f64::NAN } else { *value as f64 * unit };
 }
 
 /// The smallest power of two from x on.
@@ -152,42 +215,47 @@ fn sum(a: i64, b: i64) -> i64 {
     if a == LOST || b == LOST { LOST } else { a.checked_add(b).unwrap_or(LOST) }
 }
 
-impl<V: Coordinates<f64>> Summation<f64> for FixedPoint<V> {
+impl<N: InDouble, V: Coordinates<N>> Summation<N> for FixedPoint<V> {
     #[inline]
-    fn kick(&mut self, weight: &f64, gradient: &[f64], p: &mut [f64]) {
-        self.p.add(gradient.iter().map(|gradient| -(weight * gradient)), p);
+    fn kick(&mut self, weight: &N, gradient: &[N], p: &mut [N]) {
+        let mut increment = weight.clone();
+        self.p.add(p, |i| {
+            increment.assign_product(weight, &gradient[i]);
+            increment.negate();
+            increment.clone()
+        });
     }
 
     #[inline]
-    fn drift<K: Kinetic<f64>>(&mut self, kinetic: &K, weight: &f64, p: &[f64], q: &mut [f64], scratch: &mut [f64]) {
-        self.increment.as_mut().fill(0.0);
+    fn drift<K: Kinetic<N>>(&mut self, kinetic: &K, weight: &N, p: &[N], q: &mut [N], scratch: &mut [N]) {
+        self.increment.as_mut().iter_mut().for_each(N::assign_zero);
         kinetic.drift(weight, p, self.increment.as_mut(), scratch);
         self.add_increment(q);
     }
 
     #[inline]
-    fn drift_augmented<K: Kinetic<f64>>(
+    fn drift_augmented<K: Kinetic<N>>(
         &mut self,
         kinetic: &K,
-        weight: &f64,
-        p: &[f64],
-        q: &mut [f64],
-        (added, beta): (&mut [f64], &mut f64),
-        scratch: &mut [f64],
+        weight: &N,
+        p: &[N],
+        q: &mut [N],
+        (added, beta): (&mut [N], &mut N),
+        scratch: &mut [N],
     ) {
-        self.increment.as_mut().fill(0.0);
+        self.increment.as_mut().iter_mut().for_each(N::assign_zero);
         kinetic.drift_augmented(weight, p, self.increment.as_mut(), beta, scratch);
-        added.iter_mut().zip(self.increment.as_ref()).for_each(|(own, increment)| *own += increment);
+        added.iter_mut().zip(self.increment.as_ref()).for_each(|(own, increment)| own.add(increment));
         self.add_increment(q);
     }
 
     #[inline]
-    fn change(&mut self, half: Half, index: usize, x: &mut f64, add: impl Fn(&mut f64)) {
-        let mut increment = 0.0;
+    fn change(&mut self, half: Half, index: usize, x: &mut N, add: impl Fn(&mut N)) {
+        let mut increment = N::zero(&x.context());
         add(&mut increment);
         match half {
-            Half::Positions => self.q.add_to(index, increment, x),
-            Half::Momenta => self.p.add_to(index, increment, x),
+            Half::Positions => self.q.add_to(index, &increment, x),
+            Half::Momenta => self.p.add_to(index, &increment, x),
         }
     }
 
@@ -200,16 +268,16 @@ impl<V: Coordinates<f64>> Summation<f64> for FixedPoint<V> {
     }
 
     #[inline]
-    fn settle(&mut self, q: &mut [f64], p: &mut [f64]) {
+    fn settle(&mut self, q: &mut [N], p: &mut [N]) {
         self.q.settle(q);
         self.p.settle(p);
     }
 
-    fn remainders(&self, q: &[f64], p: &[f64]) -> Remainders<f64> {
+    fn remainders(&self, q: &[N], p: &[N]) -> Remainders<N> {
         Remainders { q: self.q.remainders(q), p: self.p.remainders(p) }
     }
 
-    fn set_remainders(&mut self, remainders: &Remainders<f64>) {
+    fn set_remainders(&mut self, remainders: &Remainders<N>) {
         self.q.include(&remainders.q);
         self.p.include(&remainders.p);
     }
