@@ -105,13 +105,13 @@ fn near_error(scheme: &Proved, k: u32, times: i32) -> State {
     let start = vec![Float::with_val(bits, 0.7), Float::with_val(bits, 1.1)];
     let [mut q, mut p] = [start[0].clone(), start[1].clone()];
     for map in scheme.scheme.maps() {
-        let weight = Float::from_rational(&map.weight, &precision(NEAR_DIGITS)) * &h;
+        let power = Float::with_val(bits, rug::ops::Pow::pow(&h, map.kind.power()));
+        let weight = Float::from_rational(&map.weight, &precision(NEAR_DIGITS)) * power;
         match map.kind {
             MapKind::Kick => p -= q.clone().sin() * weight * &epsilon,
             MapKind::Drift => q += weight * &p,
-            MapKind::GradientKick => {
-                unreachable!("no shipped table claims near-integrable orders of a kernel with them")
-            }
+            // 2 U″U′
+            MapKind::GradientKick => p += (q.clone() * 2).sin() * weight * &epsilon * &epsilon,
         }
     }
     let system = Separable { velocity: &|p| p.to_vec(), gradient: &|q| vec![q[0].clone().sin() * &epsilon] };
