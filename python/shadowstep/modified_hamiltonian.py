@@ -41,7 +41,7 @@ class ModifiedHamiltonian:
         space: dict[str, Any] = {}
         exec(compile(self.function, "modified_hamiltonian", "exec"), space)  # noqa: S102: this package has written it
         function = space["modified_hamiltonian"]
-        values = {name: _number(value, name) for name, value in self._problem._given.parameters}
+        values: dict[str, Any] = {name: _number(value, name) for name, value in self._problem._given.parameters}
         for names, columns in ((self._problem.coordinates, q), (self._problem.momenta, p)):
             values.update(zip(names, np.moveaxis(np.asarray(columns, dtype=np.float64), -1, 0)))
         if t is not None:

@@ -111,7 +111,7 @@ fn near_error(scheme: &Proved, k: u32, times: i32) -> State {
             MapKind::Kick => p -= q.clone().sin() * weight * &epsilon,
             MapKind::Drift => q += weight * &p,
             // 2 U″U′
-            MapKind::GradientKick => p += (q.clone() * 2).sin() * weight * &epsilon * &epsilon,
+            MapKind::GradientKick => p += Float::with_val(bits, &q * 2).sin() * weight * &epsilon * &epsilon,
         }
     }
     let system = Separable { velocity: &|p| p.to_vec(), gradient: &|q| vec![q[0].clone().sin() * &epsilon] };

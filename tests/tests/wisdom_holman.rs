@@ -177,7 +177,7 @@ fn the_orders_are_those_proved() {
 type Fine = Limbs<12>;
 
 /// A scheme for every H = A + B.
-fn for_every_part(name: &str) -> TableScheme<General> {
+fn scheme(name: &str) -> TableScheme<General> {
     quadratic(name).for_every_kinetic().expect("it is for every H = A + B")
 }
 
@@ -266,7 +266,7 @@ fn the_orders_in_epsilon_are_those_proved() {
     let for_every_part: Vec<_> =
         names.into_iter().filter(|name| shipped_proved(name).is_some_and(Proved::holds_for_every_kinetic)).collect();
     assert!(for_every_part.len() > 10);
-    orders_in_epsilon::<DemocraticHeliocentric<_, 2>, _>(&for_every_part, self::for_every_part);
+    orders_in_epsilon::<DemocraticHeliocentric<_, 2>, _>(&for_every_part, scheme);
 }
 
 // ---------------------------------------------------------------------------------------------------------------
