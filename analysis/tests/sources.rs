@@ -276,6 +276,15 @@ fn a_digit_a_sign_and_a_missing_entry() {
 }
 
 /// Weights of thermostats with the root of 1/2 in place of that of 2: beside the right ones of order 6, and under a name.
+/// Five digits decide nothing beyond the sums; as exact numbers they have an order.
+#[test]
+fn decimals_of_few_digits_have_the_order_of_exact_numbers() {
+    let text = "# fourth order\nweights = [1.3512, -1.7024, 1.3512]";
+    let verdict =
+        assert_wrong(&["order 4 is claimed by the comment, order 2 holds", "the word KKD"], text, Language::Python);
+    assert_eq!((verdict.orders, verdict.digits), ([2, 2], None));
+}
+
 #[test]
 fn lists_beside_a_scheme_are_schemes() {
     let text = "def weights(self, count):\n    if count == 3:\n        self.list = [0.828981543588751, -0.657963087177502, 0.828981543588751]\n    if count == 7:\n        \

@@ -217,14 +217,18 @@ impl Try {
     }
 }
 
-/// The scheme with as many digits as the claims allow; `None` where they do not hold.
+/// Fewer digits than these decide no order beyond that of the sums.
+const FEW: u32 = 10;
+
+/// The scheme with as many digits as the claims allow; `None` where they do not hold. Decimals of few digits are also taken as exact numbers.
 fn proved(recognised: &Recognised<'_>, claims: Claims) -> Option<Proved> {
-    match recognised.digits() {
-        None => with_claims(recognised, claims, None).ok(),
-        Some(digits) => {
-            (digits / 2 + 1..=digits).rev().find_map(|digits| with_claims(recognised, claims, Some(digits)).ok())
-        }
-    }
+    let with = |digits| with_claims(recognised, claims, digits).ok();
+    let Some(digits) = recognised.digits() else { return with(None) };
+    let rounded = (digits / 2 + 1..=digits).rev().find_map(|digits| with(Some(digits)));
+    let exact = if digits < FEW { with(None) } else { None };
+    let order = |found: &Proved| found.proof.general.order.max(found.proof.quadratic.order);
+    // of equal orders the last one
+    exact.into_iter().chain(rounded).max_by_key(order)
 }
 
 /// The table of a list with these claims, proved.
