@@ -183,6 +183,6 @@ mod tests {
                 }
             }
         }
-        assert_eq!(count, 5959);
+        assert_eq!(count, 6040);
     }
 }

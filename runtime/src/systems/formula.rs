@@ -141,7 +141,10 @@ fn derive<N>(
         }
         let quadratic = role == Role::Kinetic && graph.is_at_most_quadratic(node, variables.len());
         let quadratic_form = quadratic && graph.is_quadratic(node, variables.len());
-        let programs = graph.potential(node, variables.len());
+        let programs = match role {
+            Role::Value => graph.value(node),
+            _ => graph.potential(node, variables.len()),
+        };
         Ok(Derived { programs, quadratic, quadratic_form, graph, node, second: OnceLock::new() })
     })
 }

@@ -28,6 +28,8 @@ pub(super) enum Role {
     Potential,
     Kinetic,
     Pair(Separation),
+    /// Without derivatives.
+    Value,
     /// The energy of a body: its last variable is the length of those before.
     Body,
 }

@@ -1,8 +1,9 @@
 //! The value of a formula, without derivatives.
 
-use shadowstep_symbolic::{Graph, Node, parse};
+use shadowstep_symbolic::{Graph, Node, PotentialPrograms};
 
-use super::{FormulaError, refuse_repeated};
+use super::newest::Role;
+use super::{FormulaError, derive};
 use crate::number::Number;
 use crate::systems::interpreter::Interpreter;
 
@@ -32,20 +33,18 @@ impl<N: Number> FormulaValue<N> {
         parameters: &[(&str, N)],
         context: &N::Context,
     ) -> Result<Self, FormulaError> {
-        let expression = parse(formula)?;
-        let [variables, names]: [Vec<String>; 2] =
-            [variables.to_vec(), parameters.iter().map(|(name, _)| *name).collect()]
-                .map(|names| names.into_iter().map(str::to_owned).collect());
-        refuse_repeated(variables.iter().chain(&names))?;
-        let mut graph = Graph::new();
-        let node = graph.build(&expression, &variables, &names).map_err(FormulaError::Meaning)?;
+        let derived = derive(Role::Value, formula, variables, parameters)?;
         let parameters = parameters.iter().map(|(_, value)| value.clone()).collect();
-        Ok(FormulaValue::of(&graph, node, parameters, context))
+        Ok(FormulaValue::with(&derived.programs, parameters, context))
     }
 
     /// The function of a node, whose coordinates are the variables, with the values of its parameters.
     pub fn of(graph: &Graph, node: Node, parameters: Vec<N>, context: &N::Context) -> Self {
-        let interpreter = Interpreter::new(&graph.value(node), parameters, 0);
+        FormulaValue::with(&graph.value(node), parameters, context)
+    }
+
+    fn with(programs: &PotentialPrograms, parameters: Vec<N>, context: &N::Context) -> Self {
+        let interpreter = Interpreter::new(programs, parameters, 0);
         let mut registers = vec![N::zero(context); interpreter.registers()];
         interpreter.prepare(&mut registers, context);
         FormulaValue { interpreter, registers }
