@@ -13,7 +13,6 @@
 //! III.4, III.5 and IX.
 
 use std::collections::HashMap;
-use std::hash::Hash;
 
 use num_bigint::BigInt;
 use num_integer::Integer;
@@ -109,7 +108,7 @@ impl<L: Letter> ModifiedHamiltonian<L> {
 }
 
 /// The logarithm of a product of exponentials, from the coefficients of all pieces of Lyndon words in it.
-fn series<L: Letter + Hash>(
+fn series<L: Letter>(
     words: &[Vec<L>],
     (weights, held): (&[&Rational], Held),
     grade: u32,
@@ -117,10 +116,11 @@ fn series<L: Letter + Hash>(
     kinetic: Kinetic,
 ) -> ModifiedHamiltonian<L> {
     let longest = grade + 1;
-    let grid = Grid::of(weights);
-    let exact = held == Held::Exactly && grid.of_length(longest).bits() <= MOST_BITS;
+    let denominator = weights.iter().fold(BigInt::one(), |lcm, weight| lcm.lcm(weight.denom()));
+    let bits = grid(&denominator, longest).bits();
+    let exact = held == Held::Exactly && bits <= MOST_BITS;
     let (arithmetic, digits) = match held {
-        _ if exact => (FixedPoint::with_bits(grid.of_length(longest).bits() as u32 + 128), None),
+        _ if exact => (FixedPoint::with_bits(bits as u32 + 128), None),
         Held::Exactly => (FixedPoint::new(DIGITS_OF_LONG + MORE_DIGITS), Some(DIGITS_OF_LONG)),
         Held::Digits(digits) => {
             (FixedPoint::new(digits + MORE_DIGITS), Some(digits.saturating_sub(DIGITS_LOST).max(1)))
@@ -136,7 +136,7 @@ fn series<L: Letter + Hash>(
         // exact values are multiples of 1/grid
         let (lyndon, unit): (Vec<_>, _) = match exact {
             true => {
-                let grid = grid.of_length(length);
+                let grid = grid(&denominator, length);
                 let multiple = |units: BigInt| nearest(units * &grid, &product.unit);
                 (logarithms.map(|(word, units)| (word, multiple(units))).collect(), grid)
             }
@@ -152,24 +152,12 @@ fn series<L: Letter + Hash>(
     ModifiedHamiltonian { terms: terms.collect(), digits }
 }
 
-/// What coefficients of words are multiples of, where weights are exact.
-struct Grid {
-    /// The common denominator of the weights.
-    denominator: BigInt,
-}
-
-impl Grid {
-    fn of(weights: &[&Rational]) -> Grid {
-        Grid { denominator: weights.iter().fold(BigInt::one(), |lcm, weight| lcm.lcm(weight.denom())) }
-    }
-
-    /// The coefficient of a word of n letters in a power X^r/r, r ≤ n, is a multiple of 1/(Dⁿ n! lcm(1, …, n)); a gradient kick's weight stands for
-    /// three letters.
-    fn of_length(&self, n: u32) -> BigInt {
-        let factorial: BigInt = (1..=n).map(BigInt::from).product();
-        let multiple = (1..=n).map(BigInt::from).fold(BigInt::one(), |lcm, k| lcm.lcm(&k));
-        self.denominator.pow(n) * factorial * multiple
-    }
+/// What the coefficient of a word of n letters in a power X^r/r, r ≤ n, is a multiple of 1 over, where weights are exact with the common denominator
+/// D: Dⁿ n! lcm(1, …, n). A gradient kick's weight stands for three letters.
+fn grid(denominator: &BigInt, n: u32) -> BigInt {
+    let factorial: BigInt = (1..=n).map(BigInt::from).product();
+    let multiple = (1..=n).map(BigInt::from).fold(BigInt::one(), |lcm, k| lcm.lcm(&k));
+    denominator.pow(n) * factorial * multiple
 }
 
 /// numerator/denominator, rounded; the denominator is positive.
@@ -185,7 +173,7 @@ struct Product<L> {
     unit: BigInt,
 }
 
-impl<L: Letter + Hash> Product<L> {
+impl<L: Letter> Product<L> {
     /// The coefficient of a word in log(1 + X) = X − X²/2 + X³/3 − …
     fn logarithm(&self, word: &[L]) -> BigInt {
         let n = word.len();

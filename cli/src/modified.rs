@@ -8,7 +8,9 @@ use shadowstep_analysis::modified::HIGHEST_GRADE;
 use shadowstep_scenes::Error;
 use shadowstep_scenes::arithmetic::Arithmetic;
 use shadowstep_scenes::library::{self, NamedScheme};
-use shadowstep_scenes::modified_hamiltonian::record::{FormulaRecord, SeriesOptions, SeriesRecord, SeriesTerm, sum_of};
+use shadowstep_scenes::modified_hamiltonian::record::{
+    FormulaRecord, Formulas, SeriesOptions, SeriesRecord, SeriesTerm, sum_of,
+};
 use shadowstep_schemes::Proved;
 use shadowstep_symbolic::Notation;
 
@@ -137,7 +139,8 @@ struct OfSystem<'a> {
 
 fn of_system(arguments: &Arguments, named: &NamedScheme, described: &Described) -> Result<String, Error> {
     let notation = arguments.to.notation();
-    let formulas = FormulaRecord::of(&described.system, named, (arguments.grade, notation, arguments.digits as usize))?;
+    let formulas = Formulas::of(&described.system, named, arguments.grade)?;
+    let formulas = formulas.written(notation, arguments.digits as usize)?;
     if arguments.json {
         return Ok(serde_json::to_string(&OfSystem { system: &described.name, formulas: &formulas })? + "\n");
     }

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from fractions import Fraction
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -38,9 +39,7 @@ class ModifiedHamiltonian:
         t
             The times, where H depends on t.
         """
-        space: dict[str, Any] = {}
-        exec(compile(self.function, "modified_hamiltonian", "exec"), space)  # noqa: S102: this package has written it
-        function = space["modified_hamiltonian"]
+        function = self._compiled
         values: dict[str, Any] = {name: _number(value, name) for name, value in self._problem._given.parameters}
         for names, columns in ((self._problem.coordinates, q), (self._problem.momenta, p)):
             values.update(zip(names, np.moveaxis(np.asarray(columns, dtype=np.float64), -1, 0)))
@@ -51,6 +50,12 @@ class ModifiedHamiltonian:
             if name not in values:
                 raise InputError(f"{name} is missing: H depends on it; give t, or positions and momenta of all coordinates")
         return np.asarray(function(_number(h, "h"), *(values[name] for name in names)))
+
+    @cached_property
+    def _compiled(self) -> Any:
+        space: dict[str, Any] = {}
+        exec(compile(self.function, "modified_hamiltonian", "exec"), space)  # noqa: S102: this package has written it
+        return space["modified_hamiltonian"]
 
     def __repr__(self) -> str:
         lines = [f"H = {self.hamiltonian}", *(f"H_{power + 1} = {formula}" for power, formula in self.terms.items())]

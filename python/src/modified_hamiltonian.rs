@@ -3,7 +3,7 @@
 use pyo3::prelude::*;
 use shadowstep_scenes::Error;
 use shadowstep_scenes::arithmetic::Arithmetic;
-use shadowstep_scenes::modified_hamiltonian::record::{FormulaRecord, SeriesOptions, SeriesRecord};
+use shadowstep_scenes::modified_hamiltonian::record::{Formulas, SeriesOptions, SeriesRecord};
 use shadowstep_symbolic::Notation;
 
 use crate::errors::{exception, usage};
@@ -29,7 +29,7 @@ pub(crate) fn modified_series(
 }
 
 /// H, the terms, a function.
-type Formulas = (String, Vec<(u32, String)>, String);
+type Texts = (String, Vec<(u32, String)>, String);
 
 /// H, the terms with their powers of h, and a function of them in Python.
 #[pyfunction]
@@ -40,7 +40,7 @@ pub(crate) fn modified_formulas(
     grade: u32,
     notation: &str,
     digits: usize,
-) -> PyResult<Formulas> {
+) -> PyResult<Texts> {
     let notation = match notation {
         "text" => Notation::Formula,
         "latex" => Notation::Latex,
@@ -54,10 +54,11 @@ pub(crate) fn modified_formulas(
     let system = problem.system(Arithmetic::DOUBLE).map_err(|error| exception(py, error))?;
     let scheme = scheme.0.clone();
     let found = waiting(py, None, move |_| {
-        let formulas = FormulaRecord::of(&system, &scheme, (grade, notation, digits))?;
+        let formulas = Formulas::of(&system, &scheme, grade)?;
         // numbers of double precision
-        let in_numpy = FormulaRecord::of(&system, &scheme, (grade, Notation::NumPy, 17))?;
+        let in_numpy = formulas.written(Notation::NumPy, 17)?;
         let function = in_numpy.function(&in_numpy.title(), Notation::NumPy);
+        let formulas = formulas.written(notation, digits)?;
         Ok((formulas, function))
     })?;
     let (formulas, function) =

@@ -1,6 +1,6 @@
 //! Text of a language → numbers, names, symbols and comments with their bytes.
 //!
-//! Only what lists of numbers need is told apart; what is not understood becomes a symbol, so that any text has tokens.
+//! Tokens are distinguished only as far as lists of numbers need it. Any other character is a symbol, so that every text has tokens.
 
 use std::ops::Range;
 

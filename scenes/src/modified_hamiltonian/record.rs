@@ -2,13 +2,13 @@
 
 use serde::Serialize;
 use shadowstep::tables::Proved;
-use shadowstep_analysis::bracket::Letter;
+use shadowstep_analysis::bracket::{Bracket, Letter};
 use shadowstep_analysis::modified::ModifiedHamiltonian;
 use shadowstep_schemes::Kinetic;
 use shadowstep_symbolic::decimal::to_significant;
-use shadowstep_symbolic::{Notation, Rational};
+use shadowstep_symbolic::{Node, Notation, Rational};
 
-use super::SymbolicHamiltonian;
+use super::{SymbolicHamiltonian, SymbolicTerm};
 use crate::library::NamedScheme;
 use crate::refusal::Refusal;
 use crate::scene::System;
@@ -95,7 +95,7 @@ impl SeriesRecord {
         series: &ModifiedHamiltonian<L>,
         digits: usize,
     ) -> Self {
-        let term = |(power, bracket, c): (u32, &shadowstep_analysis::bracket::Bracket<L>, &Rational)| SeriesTerm {
+        let term = |(power, bracket, c): (u32, &Bracket<L>, &Rational)| SeriesTerm {
             power,
             bracket: bracket.to_string(),
             coefficient: coefficient(c, digits),
@@ -137,33 +137,50 @@ pub struct FormulaTerm {
     pub formula: String,
 }
 
-impl FormulaRecord {
-    /// The formulas up to a power of h, in a notation; numbers that are no short fractions have this number of significant digits.
+/// The formulas of a scheme's modified Hamiltonian for a system, derived once, to be written in several notations.
+pub struct Formulas {
+    scheme: String,
+    symbolic: SymbolicHamiltonian,
+    hamiltonian: Node,
+    terms: Vec<SymbolicTerm>,
+    grade: u32,
+}
+
+impl Formulas {
+    /// The formulas up to a power of h.
     ///
     /// # Errors
-    /// A system without formulas, a scheme that is not for it, formulas that are too long.
-    pub fn of(
-        system: &System,
-        scheme: &NamedScheme,
-        (grade, notation, digits): (u32, Notation, usize),
-    ) -> Result<Self, Refusal> {
+    /// A system without formulas, a scheme that is not for it, too many parts of formulas.
+    pub fn of(system: &System, scheme: &NamedScheme, grade: u32) -> Result<Self, Refusal> {
         let scheme = system.needs().scheme(scheme.clone(), &Default::default())?;
         let mut symbolic = SymbolicHamiltonian::of(system)?;
         let terms = symbolic.modified(scheme.scheme.proved(), grade)?;
-        let whole = symbolic.hamiltonian();
-        let nodes: Vec<_> = terms.iter().map(|term| term.formula).chain([whole]).collect();
-        let formula = |term: &super::SymbolicTerm| {
+        let hamiltonian = symbolic.hamiltonian();
+        let scheme = scheme.scheme.proved().scheme.table.name.value.clone();
+        Ok(Formulas { scheme, symbolic, hamiltonian, terms, grade })
+    }
+
+    /// Their texts; numbers that are no short fractions have this number of significant digits.
+    ///
+    /// # Errors
+    /// A formula that is too long.
+    pub fn written(&self, notation: Notation, digits: usize) -> Result<FormulaRecord, Refusal> {
+        let Formulas { scheme, symbolic, hamiltonian, terms, grade } = self;
+        let nodes: Vec<_> = terms.iter().map(|term| term.formula).chain([*hamiltonian]).collect();
+        let formula = |term: &SymbolicTerm| {
             Ok(FormulaTerm { power: term.power, formula: symbolic.text(term.formula, notation, digits)? })
         };
         Ok(FormulaRecord {
-            scheme: scheme.scheme.proved().scheme.table.name.value.clone(),
-            hamiltonian: symbolic.text(whole, notation, digits)?,
+            scheme: scheme.clone(),
+            hamiltonian: symbolic.text(*hamiltonian, notation, digits)?,
             terms: terms.iter().map(formula).collect::<Result<_, Refusal>>()?,
             names: symbolic.names_in(&nodes).into_iter().map(str::to_owned).collect(),
-            grade,
+            grade: *grade,
         })
     }
+}
 
+impl FormulaRecord {
     /// H + h^2 H_3 + … + O(…)
     pub fn title(&self) -> String {
         sum_of(self.terms.iter().map(|term| term.power), self.grade)
