@@ -106,7 +106,7 @@ impl SymbolicHamiltonian {
             }
             Parts::TransformedTime(_) => {
                 let [potential, kinetic] = symbolic.potential_and_kinetic(problem)?;
-                symbolic.transform(system, potential, kinetic)?;
+                symbolic.transform(system, potential, kinetic);
             }
             Parts::SlowForces(slow) => {
                 let [potential, kinetic] = symbolic.potential_and_kinetic(problem)?;
@@ -132,7 +132,7 @@ impl SymbolicHamiltonian {
     }
 
     /// The parts −f(−U) and f(T + p_t) of transformed time, whose coordinates t and p_t stand after q and p.
-    fn transform(&mut self, system: &System, potential: Node, kinetic: Node) -> Result<(), Refusal> {
+    fn transform(&mut self, system: &System, potential: Node, kinetic: Node) {
         let freedoms = system.q.len();
         // p moves one place on
         let moved = (freedoms..2 * freedoms).map(|i| (self.graph.coordinate(i), self.graph.coordinate(i + 1)));
@@ -154,7 +154,6 @@ impl SymbolicHamiltonian {
         self.coordinates.insert(freedoms, TIME.to_owned());
         self.coordinates.push(MOMENTUM_OF_TIME.to_owned());
         self.has_transformed_time = true;
-        Ok(())
     }
 
     /// The formula of a text of the scene, which was read with it.
