@@ -3,7 +3,7 @@
 //! | file | what it computes |
 //! | --- | --- |
 //! | `analysis` | [`Analysis`]: everything below for one scheme, and the sizes of its weights |
-//! | [`error`](mod@error), [`bracket`] | the leading error: the terms of lowest order in the logarithm of a step |
+//! | [`error`](mod@error), [`bracket`], `logarithm` | the leading error: the terms of lowest order in the logarithm of a step |
 //! | [`modified`] | the whole logarithm up to a power of h: the modified Hamiltonian as a series in brackets |
 //! | [`trace`] | the trace of a step of the harmonic oscillator, and the leading error of its phase |
 //! | [`oscillator`] | trace and phase of a step of the harmonic oscillator at a given hω, in f64 |
@@ -26,6 +26,7 @@ pub mod bracket;
 pub mod certificate;
 pub mod error;
 mod known;
+mod logarithm;
 pub mod modified;
 pub mod oscillator;
 mod period;

@@ -70,13 +70,51 @@ pub fn word_conditions<A: Arithmetic>(
     maps: &[(MapKind, A::Value)],
     arithmetic: &A,
 ) -> Vec<(Condition, A::Value)> {
-    let mut prefixes = Vec::new();
-    let ends: Vec<_> = words.iter().map(|word| insert(&mut prefixes, word)).collect();
-    let coefficients = coefficients(maps, &prefixes, arithmetic);
-    let mut conditions: Vec<_> =
-        words.iter().zip(ends).map(|(word, end)| (condition(word), coefficients[end].clone())).collect();
-    conditions.sort_by_key(|(condition, _)| condition.order);
-    conditions
+    Words::of(words).conditions(maps, arithmetic)
+}
+
+/// Words that were prepared once, for many sequences of maps.
+pub struct Words {
+    prefixes: Vec<Prefix>,
+    /// Of each word, itself among the prefixes; words of few letters first.
+    ends: Vec<usize>,
+    conditions: Vec<Condition>,
+}
+
+impl Words {
+    /// Prepares some words.
+    pub fn of(words: &[Word]) -> Words {
+        let mut sorted: Vec<&Word> = words.iter().collect();
+        sorted.sort_by_key(|word| word.len());
+        let mut prefixes = Vec::new();
+        let ends = sorted.iter().map(|word| insert(&mut prefixes, word)).collect();
+        Words { prefixes, ends, conditions: sorted.into_iter().map(|word| condition(word)).collect() }
+    }
+
+    /// The conditions of the words, of low orders first, and their values.
+    pub fn conditions<A: Arithmetic>(
+        &self,
+        maps: &[(MapKind, A::Value)],
+        arithmetic: &A,
+    ) -> Vec<(Condition, A::Value)> {
+        let coefficients = self.coefficients(maps, arithmetic);
+        self.conditions.iter().cloned().zip(self.ends.iter().map(|&end| coefficients[end].clone())).collect()
+    }
+
+    /// The words and all their prefixes; a prefix stands before what it begins.
+    pub fn prefixes(&self) -> Vec<Word> {
+        let mut written: Vec<Word> = Vec::new();
+        for prefix in &self.prefixes {
+            let before = prefix.parent.map_or(&[][..], |parent| &written[parent]);
+            written.push([before, &[prefix.last]].concat());
+        }
+        written
+    }
+
+    /// The coefficients of the prefixes in the product of the exponentials of the maps.
+    pub fn coefficients<A: Arithmetic>(&self, maps: &[(MapKind, A::Value)], arithmetic: &A) -> Vec<A::Value> {
+        coefficients(maps, &self.prefixes, arithmetic)
+    }
 }
 
 fn condition(word: &[MapKind]) -> Condition {
@@ -99,17 +137,8 @@ pub fn letter(kind: MapKind) -> char {
 
 /// The coefficients of words and of all their prefixes in the product of the exponentials of the maps.
 pub fn prefix_coefficients<A: Arithmetic>(maps: &[Map], words: &[Word], arithmetic: &A) -> HashMap<Word, A::Value> {
-    let mut prefixes = Vec::new();
-    for word in words {
-        insert(&mut prefixes, word);
-    }
-    let values = coefficients(&weighed(maps, arithmetic), &prefixes, arithmetic);
-    let mut written: Vec<Word> = Vec::new();
-    for prefix in &prefixes {
-        let before = prefix.parent.map_or(&[][..], |parent| &written[parent]);
-        written.push([before, &[prefix.last]].concat());
-    }
-    written.into_iter().zip(values).collect()
+    let words = Words::of(words);
+    words.prefixes().into_iter().zip(words.coefficients(&weighed(maps, arithmetic), arithmetic)).collect()
 }
 
 /// The Lyndon words over K < D of at most `longest` letters (Duval's algorithm), in lexicographic order.
