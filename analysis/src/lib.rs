@@ -16,6 +16,7 @@
 //! | `better` | [`best_for_every_kinetic`]: the shipped scheme to use for a T(p) that is not quadratic |
 //! | [`sources`], `known` | source code → the schemes in it; which shipped scheme a scheme is, by its weights |
 //! | [`certificate`] | the proof of an order, for other programs to check |
+//! | [`search`] | what a scheme shall be → tables that meet the order conditions and make an error or another measure least |
 //! | [`polish`](mod@polish) | a table of printed decimals → one whose order conditions hold to more digits |
 //!
 //! Compiling a user's crate does not need any of this: the macros and the runtime depend on `shadowstep-schemes` only.
@@ -25,6 +26,7 @@ mod better;
 pub mod bracket;
 pub mod certificate;
 pub mod error;
+mod floats;
 mod known;
 mod logarithm;
 pub mod modified;
@@ -36,6 +38,7 @@ mod prime;
 pub mod resonance;
 mod roots;
 pub mod sampling;
+pub mod search;
 pub mod sources;
 mod squarefree;
 pub mod stability;

@@ -8,6 +8,12 @@ use shadowstep_schemes::MapKind;
 use shadowstep_schemes::map::Map;
 use shadowstep_symbolic::Rational;
 
+/// Steps by which the limit of stability is searched for.
+const STEPS_OF_LIMIT: u32 = 1000;
+
+/// Rounding of a trace that only touches ±2, with room.
+const TOUCHES: f64 = 1e-9;
+
 /// The step that some maps make for H = (p² + ω²q²)/2, with weights in f64.
 #[derive(Clone, Debug)]
 pub struct Oscillator {
@@ -18,6 +24,25 @@ impl Oscillator {
     /// The step of these maps; `nearest` rounds a weight to the nearest f64.
     pub fn of(maps: &[Map], nearest: impl Fn(&Rational) -> f64) -> Oscillator {
         Oscillator { maps: maps.iter().map(|map| (map.kind, nearest(&map.weight))).collect() }
+    }
+
+    /// The step of maps whose weights are in f64 already.
+    pub(crate) fn of_floats(maps: &[(MapKind, f64)]) -> Oscillator {
+        Oscillator { maps: maps.to_vec() }
+    }
+
+    /// The least hω up to `most` where the trace leaves [−2, 2], found by steps of 1/[`STEPS_OF_LIMIT`] of it and bisection: a narrow interval of
+    /// instability may be missed, which [`crate::stability`] does not.
+    pub(crate) fn limit(&self, most: f64) -> f64 {
+        let at = |n: u32| most * f64::from(n) / f64::from(STEPS_OF_LIMIT);
+        let is_unstable = |h_omega: f64| self.trace(h_omega).abs() > 2.0 + TOUCHES;
+        let Some(first) = (1..=STEPS_OF_LIMIT).find(|n| is_unstable(at(*n))) else { return most };
+        let (mut stable, mut unstable) = (at(first - 1), at(first));
+        while unstable - stable > 1e-12 * most {
+            let middle = (stable + unstable) / 2.0;
+            *(if is_unstable(middle) { &mut unstable } else { &mut stable }) = middle;
+        }
+        stable
     }
 
     /// The trace of the step's matrix: 2 cos φ for a step that turns by φ, larger than 2 in size where it is unstable.

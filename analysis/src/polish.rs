@@ -41,7 +41,7 @@ use std::collections::BTreeSet;
 use shadowstep_symbolic::{Rational, nearest, nearest_few};
 
 pub(crate) use composition::{conditions, lyndon_words};
-use equations::Equations;
+pub(crate) use equations::{Equations, OfUnknowns, maps};
 use new_table::NewTable;
 use newton::Problem;
 pub use numbers::{counted, power_of_ten};
@@ -51,7 +51,7 @@ use shadowstep_schemes::document::{Faults, Source};
 use shadowstep_schemes::exact::{self, DIGITS};
 use shadowstep_schemes::library::Library;
 use shadowstep_schemes::table::{Table, Weights};
-use unknowns::Model;
+pub(crate) use unknowns::{Cell, Model};
 use write::Written;
 
 /// The largest number of digits that can be requested: as many as a table may claim.
@@ -149,7 +149,7 @@ pub fn polish(source: &Source, library: Library<'_>, wanted: &Request<'_>) -> Re
 }
 
 /// The scheme and the base of a composition; the claims need not hold yet.
-fn readable(source: &Source, library: Library<'_>) -> Result<(ExactScheme, Option<ExactScheme>), NotPolished> {
+pub(crate) fn readable(source: &Source, library: Library<'_>) -> Result<(ExactScheme, Option<ExactScheme>), NotPolished> {
     let (scheme, faults) = exact::scheme(source, library);
     let Some(scheme) = scheme.filter(|_| faults.is_empty()) else {
         return Err(NotPolished::Faults(Faults::of(faults).expect("what is not a scheme has a fault")));

@@ -43,6 +43,11 @@ impl SamplingError {
     }
 }
 
+/// The largest ρ of a step of maps whose weights are in f64, over 0 < h < `range`, where it must be stable.
+pub(crate) fn largest_of(maps: &[(MapKind, f64)], range: f64) -> f64 {
+    largest(&Step(maps.to_vec()), range)
+}
+
 /// The maximum: the largest of many points, and a golden-section search around it.
 fn largest(step: &Step, range: f64) -> f64 {
     let width = range / f64::from(POINTS);

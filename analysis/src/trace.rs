@@ -112,6 +112,16 @@ impl PhaseError {
     }
 }
 
+/// The leading error of the phase of a step with weights in f64 and of the order `order` for quadratic T: the coefficient c and the power of hω,
+/// where higher terms count as none.
+pub(crate) fn leading_phase(maps: &[(MapKind, f64)], order: u32) -> (f64, u32) {
+    let m = order.div_ceil(2) as usize + 1;
+    let terms = trace(maps, m, &0.0, &1.0, |sum, a, b| *sum += a * b);
+    let sign = if m % 2 == 1 { -1.0 } else { 1.0 };
+    let difference = sign * terms.get(m).copied().unwrap_or(0.0) - cosine(m).to_f64().unwrap_or(f64::NAN);
+    (-difference / 2.0, 2 * m as u32 - 2)
+}
+
 /// The terms of the trace modulo the prime, if no denominator is divisible by it.
 pub(crate) fn residues(maps: &[Map]) -> Option<Vec<u64>> {
     if maps.iter().any(|map| residue(map.weight.denom()) == 0) {

@@ -20,9 +20,9 @@ use shadowstep_schemes::table::{self, Table, Weights};
 
 /// A printed decimal.
 #[derive(Clone, Debug)]
-pub(super) struct Unknown {
+pub(crate) struct Unknown {
     /// The constant's name, or the place in a list such as `kick[2]`.
-    pub(super) name: String,
+    pub(crate) name: String,
     /// Whether it is a constant with a name.
     pub(super) is_constant: bool,
     /// Where the decimal stands.
@@ -48,14 +48,14 @@ impl Unknown {
 
 /// A constant or a weight as a function of the unknowns.
 #[derive(Clone, Debug)]
-pub(super) enum Cell {
+pub(crate) enum Cell {
     Unknown(usize),
     Formula(Expression),
 }
 
 /// What is written in place of a decimal that mirrors another cell.
 #[derive(Clone, Debug)]
-pub(super) enum Mirrored {
+pub(crate) enum Mirrored {
     /// The unknown that both are.
     Unknown(usize),
     /// The formula of the other cell.
@@ -63,8 +63,8 @@ pub(super) enum Mirrored {
 }
 
 /// The weights of a table as functions of its unknowns.
-pub(super) struct Model {
-    pub(super) unknowns: Vec<Unknown>,
+pub(crate) struct Model {
+    pub(crate) unknowns: Vec<Unknown>,
     /// Decimals that follow from another cell, by the palindrome or because they are printed alike.
     pub(super) mirrored: Vec<(Range<usize>, Mirrored)>,
     /// Whether the cells are a palindrome.
@@ -72,7 +72,7 @@ pub(super) struct Model {
     /// The base of a composition.
     pub(super) base: Option<ExactScheme>,
     /// Lists of weights: kicks, drifts and gradient kicks, or γ's.
-    pub(super) lists: Vec<Vec<Cell>>,
+    pub(crate) lists: Vec<Vec<Cell>>,
     pub(super) constants: Vec<(String, Cell)>,
     /// Other names of unknowns, such as `kick[6]`.
     pub(super) names: BTreeMap<String, usize>,
@@ -84,7 +84,7 @@ pub(super) struct Model {
 
 impl Model {
     /// The unknowns of a table whose cells can be evaluated.
-    pub(super) fn of(table: &Table, base: Option<ExactScheme>) -> Result<Model, Faults> {
+    pub(crate) fn of(table: &Table, base: Option<ExactScheme>) -> Result<Model, Faults> {
         let mut model = Model {
             unknowns: Vec::new(),
             mirrored: Vec::new(),
@@ -141,7 +141,7 @@ impl Model {
     }
 
     /// The printed decimals.
-    pub(super) fn printed(&self) -> Vec<Rational> {
+    pub(crate) fn printed(&self) -> Vec<Rational> {
         self.unknowns.iter().map(|u| u.decimal.value.clone()).collect()
     }
 

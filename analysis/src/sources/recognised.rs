@@ -3,8 +3,7 @@
 use std::collections::BTreeSet;
 
 use shadowstep_schemes::MapKind;
-use shadowstep_schemes::Rational;
-use shadowstep_schemes::arithmetic::Arithmetic;
+use crate::floats::Floats;
 use shadowstep_schemes::order::{lyndon_words, word_conditions};
 
 use num_traits::ToPrimitive;
@@ -313,26 +312,4 @@ fn order(maps: &[f64]) -> usize {
         (value - condition.needed.to_f64().unwrap_or(f64::NAN)).abs() > CLOSE
     };
     conditions.iter().find(fails).map_or(HIGHEST, |(condition, _)| condition.order as usize - 1)
-}
-
-/// Conditions in f64.
-struct Floats;
-
-impl Arithmetic for Floats {
-    type Value = f64;
-    fn zero(&self) -> f64 {
-        0.0
-    }
-    fn one(&self) -> f64 {
-        1.0
-    }
-    fn weight(&self, weight: &Rational) -> f64 {
-        weight.to_f64().unwrap_or(f64::NAN)
-    }
-    fn add_product(&self, target: &mut f64, a: &f64, b: &f64) {
-        *target += a * b;
-    }
-    fn divide(&self, a: &f64, n: u32) -> f64 {
-        a / f64::from(n)
-    }
 }

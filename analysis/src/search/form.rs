@@ -1,0 +1,76 @@
+//! The table of a form: which weights there are, and which are the same.
+
+use shadowstep_schemes::{First, Kinetic, Source};
+
+use crate::search::request::Request;
+
+/// The names of the weights of a form, in the order of the table's text.
+pub(super) struct Form<'a> {
+    request: &'a Request,
+    lists: Vec<(&'static str, Vec<String>)>,
+    names: Vec<String>,
+}
+
+impl<'a> Form<'a> {
+    /// The form of a number of stages.
+    pub(super) fn of(request: &'a Request, stages: usize) -> Form<'a> {
+        let list = |letter: char, count: usize| -> Vec<String> {
+            let number = |i: usize| 1 + if request.symmetric { i.min(count - 1 - i) } else { i };
+            (0..count).map(|i| format!("{letter}{}", number(i))).collect()
+        };
+        let zero = || vec!["0".to_owned()];
+        let lists = match (&request.base, request.first) {
+            (Some(_), _) => vec![("gamma", list('g', stages))],
+            (None, First::Kick) => {
+                let gradient = ("gradient_kick", list('c', stages + 1));
+                let lists = [("kick", list('a', stages + 1)), ("drift", [list('b', stages), zero()].concat())];
+                lists.into_iter().chain(request.gradient_kicks.then_some(gradient)).collect()
+            }
+            (None, First::Drift) => {
+                let gradient = ("gradient_kick", [zero(), list('c', stages)].concat());
+                let lists = [("kick", [zero(), list('a', stages)].concat()), ("drift", list('b', stages + 1))];
+                lists.into_iter().chain(request.gradient_kicks.then_some(gradient)).collect()
+            }
+        };
+        let mut names: Vec<String> = Vec::new();
+        for name in lists.iter().flat_map(|(_, list)| list).filter(|name| *name != "0") {
+            if !names.contains(name) {
+                names.push(name.clone());
+            }
+        }
+        Form { request, lists, names }
+    }
+
+    /// The names of the weights that are different.
+    pub(super) fn names(&self) -> &[String] {
+        &self.names
+    }
+
+    /// The table with the weights' values as texts; those in `free` are its free parameters.
+    pub(super) fn table(&self, name: &str, values: &[String], free: &[&str]) -> Source {
+        let request = self.request;
+        let kinetic = if request.kinetic == Kinetic::Any { "any" } else { "quadratic" };
+        let mut text = format!("name = \"{name}\"\norder = {}\nkinetic = \"{kinetic}\"\n", request.order);
+        if !request.near_integrable.is_empty() {
+            text += &format!("near_integrable = {:?}\n", request.near_integrable);
+        }
+        text += &format!("symmetric = {}\n", request.symmetric);
+        if !free.is_empty() {
+            text += &format!("free = {free:?}\n");
+        }
+        text += "\n[constants]\n";
+        for (name, value) in self.names.iter().zip(values) {
+            text += &format!("{name} = \"{value}\"\n");
+        }
+        text += match &request.base {
+            Some(base) => format!("\n[composition]\nbase = \"{base}\"\n"),
+            None => "\n[stages]\n".to_owned(),
+        }
+        .as_str();
+        for (list, names) in &self.lists {
+            let cell = |name: &String| if name == "0" { name.clone() } else { format!("\"{name}\"") };
+            text += &format!("{list} = [{}]\n", names.iter().map(cell).collect::<Vec<_>>().join(", "));
+        }
+        Source { path: format!("{name}.toml"), text }
+    }
+}
