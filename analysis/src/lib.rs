@@ -8,6 +8,7 @@
 //! | [`trace`] | the trace of a step of the harmonic oscillator, and the leading error of its phase |
 //! | [`oscillator`] | trace and phase of a step of the harmonic oscillator at a given hω, in f64 |
 //! | [`sampling`] | the largest expected error of the energy of the harmonic oscillator, which schemes for Hamiltonian Monte Carlo minimise |
+//! | `closed_gaps` | conditions for weights whose step has no instability where it turns by a multiple of π |
 //! | `period` | the part that a step repeats: it is stable where the step is |
 //! | `powers` | double roots of the trace ∓ 2 that the repetitions within a step explain |
 //! | [`stability`], `roots`, `squarefree` | where the harmonic oscillator is stable: roots of integer polynomials |
@@ -25,6 +26,7 @@ mod analysis;
 mod better;
 pub mod bracket;
 pub mod certificate;
+mod closed_gaps;
 pub mod error;
 mod floats;
 mod known;

@@ -64,7 +64,7 @@ const MOST_DECIMALS: usize = 200;
 const NEARLY_SINGULAR: f64 = 1e12;
 
 /// What is requested.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 pub struct Request<'a> {
     /// Digits to which the conditions shall hold, from 1 to [`MOST_POLISHED_DIGITS`]; `None` for as many as can be.
     pub digits: Option<u32>,
@@ -74,6 +74,9 @@ pub struct Request<'a> {
     /// Whether Σ a_s³ = 0 is to hold too: where kicks are themselves split by a symmetric step of order 2, as in
     /// heliocentric coordinates, each leaves an error (a_s h)³ (Farrés et al., Celest. Mech. Dyn. Astron. 116 (2013) 141).
     pub split_kicks: bool,
+    /// Where about the step of the harmonic oscillator turns by a multiple of π, hω, and must not be unstable: each is one more unknown, with
+    /// two conditions.
+    pub closed_gaps: &'a [f64],
 }
 
 fn request(message: impl Into<String>, hint: impl Into<String>) -> NotPolished {
@@ -113,9 +116,9 @@ pub fn polish(source: &Source, library: Library<'_>, wanted: &Request<'_>) -> Re
         return Err(request("every decimal is held as printed, so there is nothing to solve for", hint));
     }
     let equations = Equations::of(&model, table, wanted.split_kicks);
-    let problem = Problem { model: &model, equations: &equations };
+    let problem = Problem { model: &model, equations: &equations, closed_gaps: wanted.closed_gaps };
     let printed_digits = model.unknowns.iter().map(|u| u.decimal.significant).max().unwrap_or(1);
-    let residual_printed = problem.residual(&model.printed(), printed_digits);
+    let residual_printed = problem.residual(&problem.printed(), printed_digits);
     let most_digits = wanted.digits.unwrap_or(MOST_POLISHED_DIGITS);
     let solution = problem.solve(&held, most_digits).map_err(|failure| {
         let (message, hint) = refusal::unsolved(&problem, &failure, residual_printed, &held);
@@ -129,7 +132,7 @@ pub fn polish(source: &Source, library: Library<'_>, wanted: &Request<'_>) -> Re
     }
     found.is_enough()?;
     let NewTable { x, written, text, proved, residual, .. } = found;
-    let weights = (0..x.len()).map(|u| weight(&model, u, &names[u], &x[u], &written[u], &held)).collect();
+    let weights = (0..names.len()).map(|u| weight(&model, u, &names[u], &x[u], &written[u], &held)).collect();
     let conditions = problem.rows(&x, 20).map_or(0, |(rows, _)| rows.len());
     let unused = model.unused.iter().map(|name| format!("`{name}` is used by no weight"));
     let higher = printed::higher_orders(table, &printed::proof(&scheme, &model));
@@ -149,7 +152,10 @@ pub fn polish(source: &Source, library: Library<'_>, wanted: &Request<'_>) -> Re
 }
 
 /// The scheme and the base of a composition; the claims need not hold yet.
-pub(crate) fn readable(source: &Source, library: Library<'_>) -> Result<(ExactScheme, Option<ExactScheme>), NotPolished> {
+pub(crate) fn readable(
+    source: &Source,
+    library: Library<'_>,
+) -> Result<(ExactScheme, Option<ExactScheme>), NotPolished> {
     let (scheme, faults) = exact::scheme(source, library);
     let Some(scheme) = scheme.filter(|_| faults.is_empty()) else {
         return Err(NotPolished::Faults(Faults::of(faults).expect("what is not a scheme has a fault")));

@@ -144,8 +144,19 @@ impl Search {
         &self.spaces[start / self.request.starts]
     }
 
+    /// A measure of a candidate.
+    pub fn value(&self, measure: Measure, candidate: &Candidate) -> f64 {
+        let space = self.space(candidate.start);
+        self.measures.value(measure, &space.maps(&candidate.weights), space.cost)
+    }
+
     /// What one start finds: the same for the same number and seed. `None` where the conditions are not met near any of some random weights.
     pub fn start(&self, start: usize) -> Option<Candidate> {
+        self.start_while(start, &|| true)
+    }
+
+    /// The same, as long as it may continue, which it asks many times.
+    pub fn start_while(&self, start: usize, continues: &dyn Fn() -> bool) -> Option<Candidate> {
         let space = self.space(start);
         // a large odd number keeps the seeds of starts apart
         let mut random = Pcg64Mcg::seed_from_u64(self.request.seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) ^ start as u64);
@@ -156,7 +167,7 @@ impl Search {
             for size in SIZES {
                 (x, best) = self.descent(start, (x, best), size, &mut random);
             }
-            if before - best <= NO_GAIN * before.abs() {
+            if before - best <= NO_GAIN * before.abs() || !continues() {
                 break;
             }
         }
@@ -219,7 +230,8 @@ impl Search {
     /// The best candidates, at most as many as the request keeps, each scheme once: for a sum those of the least goal, for a front those that no
     /// other surpasses in all measures, evenly along it.
     pub fn best<'c>(&self, candidates: &'c [Candidate]) -> Vec<&'c Candidate> {
-        let mut sorted: Vec<&Candidate> = candidates.iter().filter(|c| c.values.iter().all(|v| v.is_finite())).collect();
+        let mut sorted: Vec<&Candidate> =
+            candidates.iter().filter(|c| c.values.iter().all(|v| v.is_finite())).collect();
         let by = |candidate: &Candidate| match self.request.goal {
             Goal::Sum(_) => candidate.goal,
             Goal::Front(_) => candidate.values[0],

@@ -19,7 +19,7 @@ fn published(name: &str) -> Source {
 
 fn polished(source: &Source, digits: u32, free: &[&str]) -> Result<Polished, NotPolished> {
     let free: Vec<_> = free.iter().map(|name| (*name).to_owned()).collect();
-    let wanted = Request { digits: Some(digits), free: &free, split_kicks: false };
+    let wanted = Request { digits: Some(digits), free: &free, ..Request::default() };
     polish(source, &|name, _| shipped(name), &wanted)
 }
 
@@ -36,7 +36,7 @@ fn reproduce(name: &str, request: Option<&Table>) {
     let free = request.and_then(|request| request.get("free")?.as_array());
     let free: Vec<_> = free.into_iter().flatten().map(|name| name.as_str().unwrap().to_owned()).collect();
     let split_kicks = request.is_some_and(|request| request.get("split_kicks").is_some());
-    let wanted = Request { digits: Some(250), free: &free, split_kicks };
+    let wanted = Request { digits: Some(250), free: &free, split_kicks, ..Request::default() };
     let polished =
         polish(&published(name), &|name, _| shipped(name), &wanted).unwrap_or_else(|e| panic!("{name}: {e}"));
     assert!(polished.residual < -250.0, "{name}: {}", polished.residual);
@@ -401,7 +401,7 @@ fn a_base_of_few_digits_is_named_as_the_reason() {
     let lines =
         "[composition]\nbase = \"base\"\ngamma = [1.3512071919596577, -1.7024143839193153, 1.3512071919596577]\n";
     let base = Source { path: "base.toml".to_owned(), text: base.to_owned() };
-    let wanted = Request { digits: Some(50), free: &[], split_kicks: false };
+    let wanted = Request { digits: Some(50), free: &[], ..Request::default() };
     let Err(NotPolished::Unsolved { message, hint }) = polish(&table(4, lines), &|_, _| Some(base.clone()), &wanted)
     else {
         panic!("15 digits cannot become 50")
@@ -413,7 +413,7 @@ fn a_base_of_few_digits_is_named_as_the_reason() {
 fn as_many_digits_as_can_be_where_none_are_asked_for() {
     // the base has a closed form, rounded to 300 digits
     let lines = "[composition]\nbase = \"yoshida4\"\ngamma = [1.17467175808, -1.34934351616, 1.17467175808]\n";
-    let as_many = Request { digits: None, free: &[], split_kicks: false };
+    let as_many = Request { digits: None, free: &[], ..Request::default() };
     let found = polish(&table(6, lines), &|name, _| shipped(name), &as_many).unwrap();
     assert_eq!((found.proved.proof.general.order, found.proved.order().digits), (6, Some(299)));
     assert!(found.text.contains("\ndigits = 299\n"), "{}", found.text);

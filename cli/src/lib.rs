@@ -9,6 +9,7 @@
 //! | `run`, `scene` | runs that a file describes; such files |
 //! | `schemes`, `problems` | what can be run |
 //! | `modified` | the modified Hamiltonian of a scheme as a series and as a formula |
+//! | `search` | new schemes, from stages and an order |
 //! | `emit` | schemes as code for other ecosystems |
 //! | `work_precision`, `advise` | speed against error; a scheme and a step size for a tolerance |
 //! | `chaos` | indicators of chaos along a run |
@@ -33,6 +34,7 @@ mod problems;
 mod run;
 mod scene;
 mod schemes;
+mod search;
 mod stability;
 mod sweep;
 mod trace;
@@ -84,6 +86,7 @@ commands! {
     Scene: scene,
     Schemes: schemes,
     Modified: modified,
+    Search: search,
     Emit: emit,
     WorkPrecision: work_precision,
     Advise: advise,

@@ -272,7 +272,7 @@ fn an_exponent_with_the_wrong_sign() {
 /// Polished to 60 digits, the named decimals held.
 fn polished(text: &str, free: &[String]) -> Polished {
     let source = Source { path: "printed.toml".to_owned(), text: text.to_owned() };
-    let wanted = Request { digits: Some(60), free, split_kicks: false };
+    let wanted = Request { digits: Some(60), free, ..Request::default() };
     polish(&source, &|base, _| shipped(base), &wanted).unwrap_or_else(|refusal| panic!("{text}{refusal}"))
 }
 

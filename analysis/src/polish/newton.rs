@@ -5,10 +5,14 @@
 //! are more conditions than decimals, as for Nyström trees and for weights with more structure than their conditions
 //! use, the steps solve least-squares problems (Gauss–Newton), and all conditions must be met at the end.
 
+use shadowstep_schemes::MapKind;
+use shadowstep_schemes::arithmetic::Arithmetic;
+use shadowstep_schemes::order::{Condition, Functional};
 use shadowstep_symbolic::Rational;
 
-use crate::polish::dual::Duals;
-use crate::polish::equations::{Equations, Row};
+use crate::closed_gaps::beside_diagonal;
+use crate::polish::dual::{Dual, Duals};
+use crate::polish::equations::{Equations, Row, maps};
 use crate::polish::least_squares::{Factors, length, log10};
 use crate::polish::unknowns::Model;
 
@@ -63,6 +67,8 @@ pub(super) enum What {
 pub(super) struct Problem<'a> {
     pub(super) model: &'a Model,
     pub(super) equations: &'a Equations,
+    /// Where about closed intervals of instability are: their hω are unknowns after those of the model.
+    pub(super) closed_gaps: &'a [f64],
 }
 
 /// The conditions and their derivatives at a point, rows scaled to derivatives of length 1.
@@ -74,9 +80,15 @@ struct Linear {
 }
 
 impl Problem<'_> {
+    /// Where the iteration begins.
+    pub(super) fn printed(&self) -> Vec<Rational> {
+        let gaps = self.closed_gaps.iter().map(|gap| Rational::from_float(*gap).expect("a finite number"));
+        self.model.printed().into_iter().chain(gaps).collect()
+    }
+
     /// Solves for the unknowns that need it, with the unknowns in `held` as printed.
     pub(super) fn solve(&self, held: &[usize], digits: u32) -> Result<Solution, Failure> {
-        let printed = self.model.printed();
+        let printed = self.printed();
         let most_digits = self.model.unknowns.iter().map(|u| u.decimal.significant).max().unwrap_or(1);
         let first_digits = 2 * most_digits + GUARD_DIGITS;
         let failure = |what| Failure { residual: f64::INFINITY, condition_number: f64::NAN, moving: 0, what };
@@ -108,7 +120,27 @@ impl Problem<'_> {
     pub(super) fn rows(&self, x: &[Rational], digits: u32) -> Option<(Vec<Row>, u32)> {
         let arithmetic = Duals::digits(digits);
         let weights = self.model.duals(x, arithmetic).ok()?;
-        Some((self.equations.rows(self.model, &weights, x.len(), arithmetic), arithmetic.bits))
+        let mut rows = self.equations.rows(self.model, &weights, x.len(), arithmetic);
+        if !self.closed_gaps.is_empty() {
+            rows.extend(self.rows_of_gaps(&maps(self.model, &weights, &arithmetic), x, arithmetic));
+        }
+        Some((rows, arithmetic.bits))
+    }
+
+    /// What must be 0 where intervals of instability are closed.
+    fn rows_of_gaps(&self, maps: &[(MapKind, Dual)], x: &[Rational], arithmetic: Duals) -> Vec<Row> {
+        let of_gap = |unknown: usize| {
+            let name =
+                format!("the trace near hω = {:.3}", self.closed_gaps[unknown + self.closed_gaps.len() - x.len()]);
+            let condition =
+                Condition { order: 1, functional: Functional::Named(name), needed: Rational::from_integer(0.into()) };
+            let mut gap = arithmetic.weight(&x[unknown]);
+            gap.slopes = vec![0.into(); x.len()];
+            gap.slopes[unknown] = arithmetic.one().value;
+            let row = move |dual: Dual| Row { condition: condition.clone(), off: dual.value, slopes: dual.slopes };
+            beside_diagonal(maps, &gap, &arithmetic).map(row)
+        };
+        (x.len() - self.closed_gaps.len()..x.len()).flat_map(of_gap).collect()
     }
 
     fn linear(&self, x: &[Rational], digits: u32) -> Option<Linear> {
@@ -127,7 +159,7 @@ impl Problem<'_> {
 
     /// The `rank` unknowns to solve for.
     fn choose(&self, linear: &Linear, free: &[usize], factors: &Factors, rank: usize) -> Vec<usize> {
-        let digits = |unknown: usize| self.model.unknowns[unknown].decimal.significant;
+        let digits = |unknown: usize| self.model.unknowns.get(unknown).map_or(u32::MAX / 2, |u| u.decimal.significant);
         let most = free.iter().map(|&u| digits(u)).max().unwrap_or(1);
         let mut few_digits: Vec<usize> = free.iter().copied().filter(|&u| 2 * digits(u) <= most).collect();
         few_digits.sort_by_key(|&u| digits(u));

@@ -31,7 +31,7 @@ pub(super) fn unsolved(
     residual_printed: f64,
     held: &[usize],
 ) -> (String, String) {
-    let rows = problem.rows(&problem.model.printed(), 60).map_or_else(Vec::new, |(rows, _)| rows);
+    let rows = problem.rows(&problem.printed(), 60).map_or_else(Vec::new, |(rows, _)| rows);
     let worst = rows
         .iter()
         .max_by_key(|row| row.off.magnitude())

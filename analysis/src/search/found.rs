@@ -34,10 +34,11 @@ impl Search {
             true => format!("{:.decimals$}", x[n]),
             false => format!("{:.17}", x[n]),
         };
-        let values: Vec<_> = (0..x.len()).map(value).collect();
+        let values: Vec<_> = (0..form.names().len()).map(value).collect();
+        let gaps = &x[x.len() - space.closed_gaps..];
         let free: Vec<_> = free.iter().map(|&n| form.names()[n].as_str()).collect();
         let source = form.table(name, &values, &free);
-        polish::polish(&source, library, &polish::Request { digits, free: &[], split_kicks: false })
+        polish::polish(&source, library, &polish::Request { digits, closed_gaps: gaps, ..Default::default() })
     }
 
     /// The weights with free ones rounded to the fewest decimals that lose nothing, and that number.
@@ -57,4 +58,3 @@ impl Search {
         few.unwrap_or_else(|| (candidate.weights.clone(), MOST_DIGITS))
     }
 }
-

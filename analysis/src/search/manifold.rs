@@ -49,7 +49,8 @@ pub(super) fn nearest(space: &Space, from: &[f64], moving: &[usize]) -> Option<V
 /// Jᵀ(JJᵀ + μ)⁻¹c along some unknowns; μ is relative to the mean of the diagonal.
 fn shortest_step(slopes: &[Vec<f64>], off: &[f64], moving: &[usize], damping: f64) -> Option<Vec<f64>> {
     let dot = |a: &[f64], b: &[f64]| moving.iter().map(|&u| a[u] * b[u]).sum::<f64>();
-    let mut matrix: Vec<Vec<f64>> = slopes.iter().map(|row| slopes.iter().map(|other| dot(row, other)).collect()).collect();
+    let mut matrix: Vec<Vec<f64>> =
+        slopes.iter().map(|row| slopes.iter().map(|other| dot(row, other)).collect()).collect();
     let mean = (0..matrix.len()).map(|i| matrix[i][i]).sum::<f64>() / matrix.len() as f64;
     (0..matrix.len()).for_each(|i| matrix[i][i] += damping.max(1e-14) * mean);
     let multipliers = solve_positive(matrix, off)?;

@@ -22,7 +22,8 @@ pub enum Measure {
     Instability,
     /// s·|c|^{1/r} for the leading error c (hω)^r of the phase of the harmonic oscillator.
     PhaseError,
-    /// The largest expected error of the energy in sampling, see [`SamplingError`](crate::sampling::SamplingError); where a step
+    /// The largest expected error of the energy in sampling, see [`SamplingError`](crate::sampling::SamplingError), over 0 < hω < forces and
+    /// Hessian–vector products of a step; where a step
     /// is unstable in the range, 1 and how far the limit is from its end.
     SamplingError,
     /// max |w| over kicks and drifts.

@@ -1,8 +1,8 @@
 //! The file of a search: what the schemes shall be, and what shall be small.
 
-use shadowstep_schemes::{First, Source};
 use shadowstep_schemes::claims::{HIGHEST_ORDER, Kinetic};
 use shadowstep_schemes::document::{Faults, Key, Keys, Reader, Section, Value, document};
+use shadowstep_schemes::{First, Source};
 use toml::de::DeValue;
 
 use crate::search::measure::{MEASURES, Measure};
@@ -149,13 +149,15 @@ fn read(reader: &mut Reader<'_>, root: &Section<'_, '_>) -> Option<Request> {
         Some(orders.value.into_iter().map(|order| order.value).collect())
     });
     let closed_gaps = root.get("closed_gaps");
-    let closed_gaps = closed_gaps.map(|value| reader.whole(value, 0..=9, "a number of intervals").map(|gaps| Some(gaps.value)));
+    let closed_gaps =
+        closed_gaps.map(|value| reader.whole(value, 0..=9, "a number of intervals").map(|gaps| Some(gaps.value)));
     let largest_weight = root.get("largest_weight").map(|value| factor(reader, value, "the largest weight"));
     let seed = root.get("seed").map(|value| reader.whole(value, 0..=u64::MAX / 2, "a seed").map(|seed| seed.value));
     let mut number = |key: &str, most: usize, what: &str| {
         root.get(key).map(|value| reader.whole(value, 1..=most, what).map(|number| number.value))
     };
-    let (starts, keep) = (number("starts", MOST_STARTS, "a number of starts"), number("keep", 1000, "a number of schemes"));
+    let (starts, keep) =
+        (number("starts", MOST_STARTS, "a number of starts"), number("keep", 1000, "a number of schemes"));
     Some(Request {
         name: name.unwrap_or_else(|| Some(file_stem(&reader.source.path)))?,
         order: order?.value,
@@ -194,7 +196,9 @@ fn stages(reader: &mut Reader<'_>, value: &Value<'_>) -> Option<Vec<usize>> {
 
 fn goal(reader: &mut Reader<'_>, root: &Section<'_, '_>) -> Option<Goal> {
     match (root.get("minimise"), root.get("front")) {
-        (Some(_), Some(front)) => reader.wrong(&front.span(), "`minimise` and `front` are both given", "keep one of the two"),
+        (Some(_), Some(front)) => {
+            reader.wrong(&front.span(), "`minimise` and `front` are both given", "keep one of the two")
+        }
         (None, None) => {
             reader.missing(root, &["minimise", "front"]);
             None
@@ -217,7 +221,11 @@ fn goal(reader: &mut Reader<'_>, root: &Section<'_, '_>) -> Option<Goal> {
                 });
                 let weighed = weighed.collect::<Option<Vec<_>>>()?;
                 if weighed.is_empty() {
-                    return reader.wrong(&section.at, "`minimise` has no measure", "write one such as `effective-error = 1`");
+                    return reader.wrong(
+                        &section.at,
+                        "`minimise` has no measure",
+                        "write one such as `effective-error = 1`",
+                    );
                 }
                 Some(Goal::Sum(weighed))
             }
@@ -231,6 +239,10 @@ fn factor(reader: &mut Reader<'_>, value: &Value<'_>, what: &str) -> Option<f64>
     let text = reader.number(value, "1, 0.25")?;
     match text.value.parse::<f64>() {
         Ok(factor) if factor > 0.0 && factor.is_finite() => Some(factor),
-        _ => reader.wrong(&text.at, format!("{} is not a positive number", text.value), format!("write {what}, such as 0.25")),
+        _ => reader.wrong(
+            &text.at,
+            format!("{} is not a positive number", text.value),
+            format!("write {what}, such as 0.25"),
+        ),
     }
 }

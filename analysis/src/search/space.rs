@@ -1,13 +1,13 @@
 //! The weights that a search is among: a table whose decimals are unknowns, its conditions and its maps in f64.
 
 use num_traits::ToPrimitive;
-use shadowstep_schemes::arithmetic::Arithmetic;
 use shadowstep_schemes::document::Faults;
 use shadowstep_schemes::library::Library;
 use shadowstep_schemes::plan::StepPlan;
 use shadowstep_schemes::table::Table;
 use shadowstep_schemes::{MapKind, Source};
 
+use crate::closed_gaps::beside_diagonal;
 use crate::floats::{FloatDual, FloatDuals, Floats};
 use crate::polish::{Cell, Equations, Model, NotPolished, maps, readable};
 
@@ -59,7 +59,11 @@ impl Space {
     ///
     /// # Errors
     /// Faults of the table.
-    pub(super) fn of(source: &Source, closed_gaps: impl Fn(usize) -> usize, library: Library<'_>) -> Result<Space, Faults> {
+    pub(super) fn of(
+        source: &Source,
+        closed_gaps: impl Fn(usize) -> usize,
+        library: Library<'_>,
+    ) -> Result<Space, Faults> {
         let (scheme, base) = readable(source, library).map_err(|error| match error {
             NotPolished::Faults(faults) => faults,
             NotPolished::Request { message, hint } | NotPolished::Unsolved { message, hint } => {
@@ -89,7 +93,9 @@ impl Space {
         if self.closed_gaps > 0 {
             let maps = maps(&self.model, &weights, &FloatDuals);
             for gap in x.len() - self.closed_gaps..x.len() {
-                off_diagonal(&maps, &unknown(gap)).into_iter().for_each(|entry| linear.push(entry, 0.0));
+                beside_diagonal(&maps, &unknown(gap), &FloatDuals)
+                    .into_iter()
+                    .for_each(|entry| linear.push(entry, 0.0));
             }
         }
         linear.slopes.iter_mut().for_each(|slopes| slopes.resize(x.len(), 0.0));
@@ -109,26 +115,4 @@ impl Space {
         };
         self.model.lists.iter().map(|list| list.iter().map(value).collect()).collect()
     }
-}
-
-/// The entries beside the diagonal of the matrix of a step of the harmonic oscillator, in q and p/ω, with the step size h and ω = 1.
-fn off_diagonal(maps: &[(MapKind, FloatDual)], h: &FloatDual) -> [FloatDual; 2] {
-    let arithmetic = FloatDuals;
-    let mut columns = [[arithmetic.one(), arithmetic.zero()], [arithmetic.zero(), arithmetic.one()]];
-    let cube = arithmetic.product(&arithmetic.product(h, h), h);
-    for (kind, weight) in maps {
-        let factor = match kind {
-            MapKind::Kick => arithmetic.product(&arithmetic.product(weight, h), &arithmetic.integer(-1)),
-            MapKind::Drift => arithmetic.product(weight, h),
-            MapKind::GradientKick => arithmetic.product(&arithmetic.product(weight, &cube), &arithmetic.integer(2)),
-        };
-        for [q, p] in &mut columns {
-            match kind {
-                MapKind::Drift => arithmetic.add_product(q, &factor, &p.clone()),
-                _ => arithmetic.add_product(p, &factor, &q.clone()),
-            }
-        }
-    }
-    let [[_, c], [b, _]] = columns;
-    [b, c]
 }

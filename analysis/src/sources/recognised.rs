@@ -2,8 +2,8 @@
 
 use std::collections::BTreeSet;
 
-use shadowstep_schemes::MapKind;
 use crate::floats::Floats;
+use shadowstep_schemes::MapKind;
 use shadowstep_schemes::order::{lyndon_words, word_conditions};
 
 use num_traits::ToPrimitive;

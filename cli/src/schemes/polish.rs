@@ -41,8 +41,18 @@ pub(crate) struct Arguments {
     /// The cubes of the kicks must sum to 0 too: kicks are themselves split, as in heliocentric coordinates
     #[arg(long)]
     split_kicks: bool,
+    /// Where the harmonic oscillator must not be unstable: about the hω at which a step turns by a multiple of π, such as 2.98
+    #[arg(long, value_name = "HΩ,…", value_delimiter = ',', value_parser = positive)]
+    closed_gaps: Vec<f64>,
     #[command(flatten)]
     output: OutputArguments,
+}
+
+fn positive(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(value) if value > 0.0 && value.is_finite() => Ok(value),
+        _ => Err("write a positive number, such as 2.98".to_owned()),
+    }
 }
 
 /// The polished table to stdout or a file, the report to stderr.
@@ -50,7 +60,12 @@ pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
     let source = library::source(&arguments.file)?;
     let _interrupt = Interrupt::listen("schemes polish", "run the command again");
     let mut output = Output::of(&arguments.output)?;
-    let wanted = Request { digits: arguments.digits, free: &arguments.free, split_kicks: arguments.split_kicks };
+    let wanted = Request {
+        digits: arguments.digits,
+        free: &arguments.free,
+        split_kicks: arguments.split_kicks,
+        closed_gaps: &arguments.closed_gaps,
+    };
     let polished = match polish::polish(&source, &library::beside_or_shipped, &wanted) {
         Ok(polished) => polished,
         Err(NotPolished::Request { message, hint }) => return Err(Error::usage(message, hint)),

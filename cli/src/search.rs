@@ -1,0 +1,232 @@
+//! `shadowstep search`: from stages and an order to proved schemes that make an error, or another measure, least.
+
+mod files;
+
+use std::io::{ErrorKind, Write};
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+use serde::{Deserialize, Serialize};
+use shadowstep_analysis::polish::{MOST_POLISHED_DIGITS, NotPolished};
+use shadowstep_analysis::search::{Candidate, Goal, Measure, Request, Search};
+use shadowstep_scenes::Error;
+use shadowstep_schemes::document::{LARGEST_TABLE, read_text};
+use shadowstep_schemes::{Kinetic, Proved, Source, shipped, shipped_names, shipped_proved};
+use shadowstep_studies::{Calculation, Continues, Store};
+
+use crate::output::Output;
+use crate::quantity::whole;
+use crate::readable::table;
+use crate::report::{self, Status};
+use crate::terminal::{Terminal, study_in};
+
+const EXAMPLE: &str = "\
+Example: rkn4.toml has
+  order = 4
+  kinetic = \"quadratic\"            # or \"any\"
+  stages = [5, 6]                  # forces a step; with `base`, steps of the base
+  minimise = \"effective-error\"     # or { effective-error = 1, largest-weight = 0.1 }
+and shadowstep search rkn4.toml --out rkn4 writes rkn4-1.toml, rkn4-2.toml, …, the best first.
+
+Measures: effective-error, instability (forces per unit of hω at the limit of stability), phase-error, sampling-error, largest-weight,
+negative-weights. front = [\"effective-error\", \"instability\"] in place of `minimise` keeps the schemes that no other surpasses in all.
+Other keys: name, base = \"stormer-verlet\", first = \"drift\", symmetric = false, gradient_kicks = true, near_integrable = [8, 4],
+closed_gaps = 1 (intervals of instability near hω = π, 2π, …), largest_weight = 1, starts = 100, seed = 1, keep = 3.
+
+DIR gets the tables, search.csv with what each start found, search.svg with the shipped schemes beside them, report.html, and
+results.jsonl, in which starts are saved one by one: after Ctrl-C (exit code 3) the same command computes only what is missing.
+Exit code 1: no start met the conditions.";
+
+/// New schemes: weights that meet the order conditions and make an error least.
+#[derive(Debug, Args)]
+#[command(after_help = EXAMPLE)]
+pub(crate) struct Arguments {
+    /// What the schemes shall be, and what shall be small
+    #[arg(value_name = "FILE")]
+    file: String,
+    /// Random starts for each number of stages, in place of those of the file
+    #[arg(long, value_name = "N", value_parser = |text: &str| whole(text, 1..=1_000_000))]
+    starts: Option<u32>,
+    /// The seed of the random numbers, in place of that of the file
+    #[arg(long, value_name = "N")]
+    seed: Option<u64>,
+    /// Decimal digits of the tables [default: as many as can be, at most 300]
+    #[arg(long, value_name = "DIGITS", value_parser = |text: &str| whole(text, 20..=MOST_POLISHED_DIGITS))]
+    digits: Option<u32>,
+    /// The folder for tables, charts and results
+    #[arg(long, value_name = "DIR")]
+    out: PathBuf,
+    /// Replaces files of the folder that are not from this program
+    #[arg(long)]
+    force: bool,
+}
+
+/// A scheme of the results.
+struct Row {
+    name: String,
+    forces: usize,
+    values: Vec<f64>,
+    /// Whether its measures were minimised here.
+    is_new: bool,
+}
+
+/// Makes the starts that the folder lacks, writes the best tables, and what they are beside the shipped schemes.
+pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
+    let source = text(&arguments.file)?;
+    let mut request = Request::read(&source)?;
+    request.starts = arguments.starts.map_or(request.starts, |starts| starts as usize);
+    request.seed = arguments.seed.unwrap_or(request.seed);
+    let search = Search::new(request, &of_library)?;
+    let written = files::written(&search.request.name);
+    let starts = |folder: &Path, terminal: &mut Terminal| starts(&search, folder, terminal);
+    let (candidates, status) = study_in(Some(&arguments.out), arguments.force, written, starts)?;
+    let best = search.best(&candidates);
+    if best.is_empty() {
+        let message = format!("none of {} starts met the conditions", search.starts());
+        return Ok(report::negative_answer(message, "give more stages or more starts, or a larger largest_weight"));
+    }
+    let mut rows = Vec::new();
+    for (n, candidate) in (1..).zip(&best) {
+        let name = format!("{}-{n}", search.request.name);
+        match search.table(candidate, &name, arguments.digits, &of_library) {
+            Ok(polished) => {
+                files::table(&arguments.out, &name, &polished.text)?;
+                rows.push(Row { is_new: true, ..row(&search, name, &polished.proved) });
+            }
+            Err(NotPolished::Faults(faults)) => return Err(faults.into()),
+            Err(error @ (NotPolished::Request { .. } | NotPolished::Unsolved { .. })) => {
+                report::note(format_args!("{name} has no table: {error}"));
+            }
+        }
+    }
+    rows.extend(published(&search));
+    let report = files::write(&search, &candidates, &rows, &arguments.out)?;
+    let mut output = Output::stdout();
+    writeln!(output, "{}", readable(&search, &rows))?;
+    writeln!(output, "{}", report.display())?;
+    output.finish()?;
+    Ok(status)
+}
+
+/// The text of the file of a search.
+fn text(path: &str) -> Result<Source, Error> {
+    let hint = "give the path of a file of a search: shadowstep search --help shows one";
+    let text = read_text(path, LARGEST_TABLE).map_err(|error| match error.kind() {
+        ErrorKind::NotFound => Error::usage(format!("there is no file {path}"), hint),
+        ErrorKind::InvalidData => Error::usage(format!("{path} is not a text in UTF-8"), hint),
+        _ => Error::usage(format!("{path} cannot be read: {error}"), hint),
+    })?;
+    Ok(Source { path: path.to_owned(), text })
+}
+
+/// Bases are shipped: the tables are read in other folders too.
+fn of_library(base: &str, _: &Source) -> Option<Source> {
+    shipped(base)
+}
+
+/// What the starts found, those that met the conditions.
+fn starts(search: &Search, folder: &Path, terminal: &mut Terminal) -> Result<Vec<Candidate>, Error> {
+    let mut store = Store::open(folder, terminal)?;
+    let form = form(&search.request);
+    let all: Vec<_> = (0..search.starts()).map(|start| Start { form: &form, start, search }).collect();
+    let outcomes = store.compute(&all, terminal)?.into_iter().enumerate();
+    let candidate = |(start, found): (usize, Option<Option<Found>>)| {
+        let Found { weights, values, goal } = found??;
+        Some(Candidate { start, weights, values, goal })
+    };
+    Ok(outcomes.filter_map(candidate).collect())
+}
+
+/// What decides about what a start finds, as a text.
+fn form(request: &Request) -> String {
+    let Request { order, kinetic, stages, base, first, symmetric, gradient_kicks, near_integrable, .. } = request;
+    let Request { closed_gaps, largest_weight, goal, seed, starts, .. } = request;
+    let scheme = (order, kinetic, base, first, symmetric, gradient_kicks, near_integrable);
+    format!("{scheme:?} {:?}", (stages, closed_gaps, largest_weight, goal, seed, starts))
+}
+
+/// A random start.
+#[derive(Serialize)]
+struct Start<'a> {
+    form: &'a str,
+    start: usize,
+    #[serde(skip)]
+    search: &'a Search,
+}
+
+/// Where it ended.
+#[derive(Serialize, Deserialize)]
+struct Found {
+    weights: Vec<f64>,
+    values: Vec<f64>,
+    goal: f64,
+}
+
+impl Calculation for Start<'_> {
+    type Outcome = Option<Found>;
+    type Shared = ();
+
+    fn cost(&self) -> f64 {
+        (self.search.stages(self.start) as f64).powi(3)
+    }
+
+    fn compute(&self, (): &(), continues: Continues<'_>) -> Result<Option<Found>, Error> {
+        let found = self.search.start_while(self.start, &|| continues(0.5));
+        let is_finite =
+            |found: &Candidate| found.goal.is_finite() && found.values.iter().all(|value| value.is_finite());
+        Ok(found.filter(is_finite).map(|Candidate { weights, values, goal, .. }| Found { weights, values, goal }))
+    }
+}
+
+fn row(search: &Search, name: String, proved: &Proved) -> Row {
+    let values = measures(&search.request).into_iter().map(|measure| search.measure(measure, proved)).collect();
+    let forces = proved.plan.evaluations + proved.plan.hessian_products;
+    Row { name, forces, values, is_new: false }
+}
+
+/// The measures of the goal, and a second one for the picture.
+fn measures(request: &Request) -> Vec<Measure> {
+    let mut measures = request.goal.measures();
+    if measures.len() == 1 {
+        let other = if measures[0] == Measure::Instability { Measure::EffectiveError } else { Measure::Instability };
+        measures.push(other);
+    }
+    measures
+}
+
+/// The shipped schemes of the same order and class.
+fn published(search: &Search) -> Vec<Row> {
+    let request = &search.request;
+    let is_alike = |proved: &&Proved| {
+        let table = &proved.scheme.table;
+        let claims = table.near_integrable.iter().flat_map(|claim| &claim.orders).map(|order| order.value);
+        // what holds for every T(p) holds for a quadratic one
+        let kinetic = request.kinetic == Kinetic::Quadratic || table.kinetic == Kinetic::Any;
+        let order = match request.near_integrable.is_empty() {
+            true => table.order.value == request.order && table.near_integrable.is_none(),
+            false => claims.eq(request.near_integrable.iter().copied()),
+        };
+        kinetic && order && table.processor.is_none() && table.inner.is_none()
+    };
+    let schemes = shipped_names().into_iter().filter_map(shipped_proved).filter(is_alike);
+    let mut rows: Vec<Row> =
+        schemes.map(|proved| row(search, proved.scheme.table.name.value.clone(), proved)).collect();
+    let by = |row: &Row| match &request.goal {
+        Goal::Sum(weighed) => weighed.iter().zip(&row.values).map(|((_, factor), value)| factor * value).sum::<f64>(),
+        Goal::Front(_) => row.values[0],
+    };
+    rows.sort_by(|a, b| by(a).total_cmp(&by(b)));
+    rows
+}
+
+fn readable(search: &Search, rows: &[Row]) -> String {
+    let names = measures(&search.request).into_iter().map(Measure::name);
+    let header: Vec<_> = ["scheme", "forces"].into_iter().chain(names).collect();
+    let columns = header.len();
+    let cells = rows.iter().map(|row| {
+        let name = if row.is_new { row.name.clone() } else { format!("{} (shipped)", row.name) };
+        let values = row.values.iter().map(|value| files::short(*value));
+        [name, row.forces.to_string()].into_iter().chain(values).collect::<Vec<_>>()
+    });
+    table(header, cells.collect(), 1..columns)
+}
