@@ -179,7 +179,13 @@ impl Search {
         let space = self.space(start);
         let tangent = Tangent::at(space, &x);
         let dimension = tangent.directions.len();
-        let at = |y: &[f64]| self.nearest(space, &tangent.moved(&x, y));
+        let at = |y: &[f64]| {
+            let moved = tangent.moved(&x, y);
+            match tangent.nearest(space, &moved) {
+                Some(x) => self.are_small(space, &x).then_some(x),
+                None => self.nearest(space, &moved),
+            }
+        };
         let mut value = |y: &[f64]| at(y).map_or(f64::INFINITY, |x| self.goal(start, &x));
         let vector = |_| (0..dimension).map(|_| uniform(random)).collect::<Vec<_>>();
         let turned = orthonormal((0..dimension).map(vector).collect()).0;
@@ -192,8 +198,12 @@ impl Search {
     /// Weights near some that meet the conditions, and are not too large.
     fn nearest(&self, space: &Space, x: &[f64]) -> Option<Vec<f64>> {
         let all: Vec<usize> = (0..x.len()).collect();
-        let weights = space.names().len();
-        nearest(space, x, &all).filter(|x| x[..weights].iter().all(|w| w.abs() <= self.request.largest_weight))
+        nearest(space, x, &all).filter(|x| self.are_small(space, x))
+    }
+
+    /// Whether no weight is too large.
+    fn are_small(&self, space: &Space, x: &[f64]) -> bool {
+        x[..x.len() - space.closed_gaps].iter().all(|weight| weight.abs() <= self.request.largest_weight)
     }
 
     /// Equal shares, and something random beside them; of closed gaps, the places near which they are.

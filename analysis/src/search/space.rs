@@ -3,6 +3,7 @@
 use num_traits::ToPrimitive;
 use shadowstep_schemes::document::Faults;
 use shadowstep_schemes::library::Library;
+use shadowstep_schemes::order::Condition;
 use shadowstep_schemes::plan::StepPlan;
 use shadowstep_schemes::table::Table;
 use shadowstep_schemes::{MapKind, Source};
@@ -31,6 +32,8 @@ pub(super) struct Linear {
     pub(super) off: Vec<f64>,
     /// Of each condition, along all unknowns.
     pub(super) slopes: Vec<Vec<f64>>,
+    /// By what each condition was multiplied.
+    pub(super) scales: Vec<f64>,
 }
 
 impl Linear {
@@ -40,6 +43,7 @@ impl Linear {
         // a condition that depends on no unknown is met, or never
         let scale = if length > 0.0 { 1.0 / length } else { 1.0 };
         self.off.push((value.value - needed) * scale);
+        self.scales.push(scale);
         self.slopes.push(value.slopes.iter().map(|slope| slope * scale).collect());
     }
 
@@ -86,7 +90,7 @@ impl Space {
     pub(super) fn linear(&self, x: &[f64]) -> Linear {
         let unknown = |n: usize| FloatDual::unknown(x[n], n, x.len());
         let weights = self.weights(unknown, &|value| FloatDual { value, slopes: Vec::new() });
-        let mut linear = Linear { off: Vec::new(), slopes: Vec::new() };
+        let mut linear = Linear { off: Vec::new(), slopes: Vec::new(), scales: Vec::new() };
         for (condition, value) in self.equations.values(&self.model, &weights, &FloatDuals) {
             linear.push(value, condition.needed.to_f64().expect("a fraction of small numbers"));
         }
@@ -100,6 +104,20 @@ impl Space {
         }
         linear.slopes.iter_mut().for_each(|slopes| slopes.resize(x.len(), 0.0));
         linear
+    }
+
+    /// How far each condition is from what is needed, without slopes.
+    pub(super) fn off(&self, x: &[f64]) -> Vec<f64> {
+        let weights = self.weights(|n| x[n], &|value| value);
+        let conditions = self.equations.values(&self.model, &weights, &Floats).into_iter();
+        let needed = |condition: Condition| condition.needed.to_f64().expect("a fraction of small numbers");
+        let mut off: Vec<f64> = conditions.map(|(condition, value)| value - needed(condition)).collect();
+        if self.closed_gaps > 0 {
+            let maps = maps(&self.model, &weights, &Floats);
+            let gaps = &x[x.len() - self.closed_gaps..];
+            off.extend(gaps.iter().flat_map(|gap| beside_diagonal(&maps, gap, &Floats)));
+        }
+        off
     }
 
     /// The maps of a step.
