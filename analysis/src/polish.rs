@@ -41,7 +41,7 @@ use std::collections::BTreeSet;
 use shadowstep_symbolic::{Rational, nearest, nearest_few};
 
 pub(crate) use composition::{conditions, lyndon_words};
-pub(crate) use equations::{Equations, OfUnknowns, maps};
+pub(crate) use equations::{Equations, OfUnknowns, maps, processed_maps};
 use new_table::NewTable;
 use newton::Problem;
 pub use numbers::{counted, power_of_ten};
@@ -92,10 +92,6 @@ fn request(message: impl Into<String>, hint: impl Into<String>) -> NotPolished {
 pub fn polish(source: &Source, library: Library<'_>, wanted: &Request<'_>) -> Result<Polished, NotPolished> {
     let (scheme, base) = readable(source, library)?;
     let table = &scheme.table;
-    if table.processor.is_some() {
-        let hint = "the conditions of the kernel alone do not determine them: polish a table of the kernel without [processor]";
-        return Err(request(format!("{} has a processor, whose weights are not polished", source.path), hint));
-    }
     let model = Model::of(table, base)?;
     if model.unknowns.is_empty() {
         return Err(request(

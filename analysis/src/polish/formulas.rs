@@ -4,6 +4,7 @@ use std::collections::BTreeSet;
 
 use shadowstep_symbolic::{ExpressionKind, parse};
 
+use shadowstep_schemes::document::Placed;
 use shadowstep_schemes::table::{Cell, Table, Weights};
 
 /// The constants on which no weight depends.
@@ -57,18 +58,27 @@ pub(super) fn cells_with_decimals(table: &Table) -> Vec<String> {
     used.chain(weights(table)).filter(|(_, cell)| has_decimal(cell)).map(|(name, _)| name).collect()
 }
 
+/// The lists of weights by their names: those of the scheme, or of the kernel; and those of its processor.
+pub(super) fn lists(table: &Table) -> [Vec<(String, &Placed<Vec<Cell>>)>; 2] {
+    fn named<'t>(weights: Option<&'t Weights>, of: &str) -> Vec<(String, &'t Placed<Vec<Cell>>)> {
+        let lists = match weights {
+            Some(Weights::Stages { kick, gradient_kick, drift }) => {
+                let gradient_kick = gradient_kick.as_ref().map(|cells| ("gradient_kick", cells));
+                [Some(("kick", kick)), Some(("drift", drift)), gradient_kick].into_iter().flatten().collect()
+            }
+            Some(Weights::Composition { gamma, .. }) => vec![("gamma", gamma)],
+            None => Vec::new(),
+        };
+        lists.into_iter().map(|(name, cells)| (format!("{of}{name}"), cells)).collect()
+    }
+    let post = table.processor.as_ref().and_then(|processor| processor.post.as_ref());
+    [named(table.weights.as_ref(), ""), named(post, "processor.")]
+}
+
 /// The cells of the weights, with their places such as `kick[2]`.
 fn weights(table: &Table) -> Vec<(String, &Cell)> {
-    let lists = match &table.weights {
-        Some(Weights::Stages { kick, gradient_kick, drift }) => {
-            let gradient_kick = gradient_kick.as_ref().map(|cells| ("gradient_kick", cells));
-            [Some(("kick", kick)), Some(("drift", drift)), gradient_kick].into_iter().flatten().collect()
-        }
-        Some(Weights::Composition { gamma, .. }) => vec![("gamma", gamma)],
-        None => Vec::new(),
-    };
+    let lists = lists(table).into_iter().flatten();
     lists
-        .into_iter()
         .flat_map(|(list, cells)| {
             cells.value.iter().enumerate().map(move |(i, cell)| (format!("{list}[{}]", i + 1), cell))
         })

@@ -25,6 +25,9 @@ const MOST_STEPS: u32 = 60;
 /// Derivatives below this multiple of the residual (a power of ten) do not count for the rank.
 const RANK_MARGIN: f64 = 4.0;
 
+/// Slopes that are so many bits shorter than the longest ones vanish at the solution.
+const VANISHING: u64 = 40;
+
 /// A moved weight: farther away than this it is another scheme's (as a power of ten).
 const FARTHEST: f64 = -0.7;
 
@@ -147,10 +150,11 @@ impl Problem<'_> {
         let (rows, bits) = self.rows(x, digits)?;
         let residual = rows.iter().map(|row| log10(&row.off, bits)).fold(f64::NEG_INFINITY, f64::max);
         let mut linear = Linear { bits, off: Vec::new(), columns: vec![Vec::new(); x.len()], residual };
-        for row in rows {
-            let length = length(&row.slopes);
-            // a condition that does not depend on the decimals is not scaled
-            let scaled = |x| if length.bits() * 2 > u64::from(bits) { (x << bits) / &length } else { x };
+        let lengths: Vec<_> = rows.iter().map(|row| length(&row.slopes)).collect();
+        let longest = lengths.iter().max().map_or(0, |length| length.bits());
+        for (row, length) in rows.into_iter().zip(lengths) {
+            // a condition that does not depend on the decimals is not scaled, nor one that the others imply so that its slopes vanish with theirs
+            let scaled = |x| if length.bits() + VANISHING > longest.max(1) { (x << bits) / &length } else { x };
             linear.off.push(scaled(row.off));
             linear.columns.iter_mut().zip(row.slopes).for_each(|(column, slope)| column.push(scaled(slope)));
         }

@@ -38,7 +38,7 @@ impl Model {
         let values = self.weights(&self.printed(), digits).expect("the cells have been evaluated");
         let stages = self.lists[0].len();
         // gradient kicks act with the kicks, and mirror each other by themselves between the drifts
-        let sequences: &[&[usize]] = match self.lists.len() {
+        let sequences: &[&[usize]] = match self.kernel_lists {
             1 => &[&[0]],
             2 => &[&[0, 1]],
             _ => &[&[0, 1], &[2, 1]],

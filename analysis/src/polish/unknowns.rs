@@ -16,7 +16,7 @@ use crate::polish::formulas;
 use shadowstep_schemes::ExactScheme;
 use shadowstep_schemes::decimal::PrintedDecimal;
 use shadowstep_schemes::document::Faults;
-use shadowstep_schemes::table::{self, Table, Weights};
+use shadowstep_schemes::table::{self, Table};
 
 /// A printed decimal.
 #[derive(Clone, Debug)]
@@ -71,8 +71,10 @@ pub(crate) struct Model {
     pub(super) symmetric: bool,
     /// The base of a composition.
     pub(super) base: Option<ExactScheme>,
-    /// Lists of weights: kicks, drifts and gradient kicks, or γ's.
+    /// Lists of weights: kicks, drifts and gradient kicks, or γ's; then those of the processor, if there is one.
     pub(crate) lists: Vec<Vec<Cell>>,
+    /// How many of the lists are those of the scheme, or of the kernel.
+    pub(super) kernel_lists: usize,
     pub(super) constants: Vec<(String, Cell)>,
     /// Other names of unknowns, such as `kick[6]`.
     pub(super) names: BTreeMap<String, usize>,
@@ -91,6 +93,7 @@ impl Model {
             symmetric: false,
             base,
             lists: Vec::new(),
+            kernel_lists: 0,
             constants: Vec::new(),
             names: BTreeMap::new(),
             exact: Vec::new(),
@@ -104,21 +107,16 @@ impl Model {
             };
             model.constants.push((name.value.clone(), cell));
         }
-        let lists = match table.weights.as_ref().expect("what has a scheme has weights") {
-            Weights::Stages { kick, gradient_kick, drift } => {
-                let gradient_kick = gradient_kick.as_ref().map(|cells| ("gradient_kick", cells));
-                [Some(("kick", kick)), Some(("drift", drift)), gradient_kick].into_iter().flatten().collect()
-            }
-            Weights::Composition { gamma, .. } => vec![("gamma", gamma)],
-        };
-        for (list, cells) in &lists {
+        let [kernel, processor] = formulas::lists(table);
+        model.kernel_lists = kernel.len();
+        for (list, cells) in kernel.iter().chain(&processor) {
             let named = |i: usize| format!("{list}[{}]", i + 1);
             let cells = cells.value.iter().enumerate().map(|(i, cell)| model.cell(cell, &named(i), false)).collect();
             model.lists.push(cells);
         }
-        model.find_palindrome(table, &lists.iter().map(|(_, cells)| cells.value.as_slice()).collect::<Vec<_>>())?;
+        model.find_palindrome(table, &kernel.iter().map(|(_, cells)| cells.value.as_slice()).collect::<Vec<_>>())?;
         model.unite_alike(table);
-        for (list, (name, _)) in lists.iter().enumerate() {
+        for (list, (name, _)) in kernel.iter().chain(&processor).enumerate() {
             for (i, cell) in model.lists[list].iter().enumerate() {
                 let place = format!("{name}[{}]", i + 1);
                 match cell {
@@ -147,7 +145,7 @@ impl Model {
 
     /// How many lists of weights have the sum 1: kicks and drifts, not gradient kicks.
     pub(super) fn lists_of_weights(&self) -> usize {
-        self.lists.len().min(2)
+        self.kernel_lists.min(2)
     }
 
     /// The lists of weights at values of the unknowns; closed forms to `digits` digits.

@@ -29,9 +29,13 @@ pub(super) fn names(table: &Table, model: &Model) -> Vec<String> {
         if unknown.is_constant {
             return unknown.name.clone();
         }
-        let letter = match unknown.name.as_bytes()[0] {
-            b'k' => 'a',
-            b'd' => 'b',
+        let letter = match unknown.name.split('[').next().unwrap_or_default() {
+            "kick" => 'a',
+            "drift" => 'b',
+            "gradient_kick" => 'c',
+            "processor.kick" => 'y',
+            "processor.drift" => 'z',
+            "processor.gamma" => 'p',
             _ => 'g',
         };
         let index = unknown.name.trim_matches(|c: char| !c.is_ascii_digit());
