@@ -44,7 +44,9 @@ use rand_pcg::rand_core::{RngCore, SeedableRng};
 use shadowstep_schemes::Proved;
 use shadowstep_schemes::document::Faults;
 use shadowstep_schemes::library::Library;
+use shadowstep_schemes::order::weighed;
 
+use crate::floats::Floats;
 use form::Form;
 use manifold::{Tangent, nearest, orthonormal};
 use measure::Measures;
@@ -79,6 +81,9 @@ const SPREAD: f64 = 0.6;
 
 /// And a gradient kick's from 0.
 const SPREAD_OF_GRADIENT_KICKS: f64 = 0.02;
+
+/// And a processor's.
+const SPREAD_OF_PROCESSORS: f64 = 0.3;
 
 /// Attempts to reach the manifold at each start.
 const ATTEMPTS: usize = 20;
@@ -136,8 +141,11 @@ impl Search {
     /// A measure of a scheme, computed from its weights as those of candidates are.
     pub fn measure(&self, measure: Measure, proved: &Proved) -> f64 {
         let maps = proved.scheme.maps();
-        let maps: Vec<_> = shadowstep_schemes::order::weighed(&maps, &crate::floats::Floats);
-        self.measures.value(measure, &maps, proved.plan.evaluations + proved.plan.hessian_products)
+        let maps: Vec<_> = weighed(&maps, &Floats);
+        let processed = proved.scheme.processed_maps();
+        let processed = processed.map(|maps| weighed(&maps, &Floats));
+        let cost = proved.plan.evaluations + proved.plan.hessian_products;
+        self.measures.value(measure, (&maps, processed.as_deref()), cost)
     }
 
     fn space(&self, start: usize) -> &Space {
@@ -146,8 +154,7 @@ impl Search {
 
     /// A measure of a candidate.
     pub fn value(&self, measure: Measure, candidate: &Candidate) -> f64 {
-        let space = self.space(candidate.start);
-        self.measures.value(measure, &space.maps(&candidate.weights), space.cost)
+        self.measured(candidate.start, &candidate.weights, &[measure])[0]
     }
 
     /// What one start finds: the same for the same number and seed. `None` where the conditions are not met near any of some random weights.
@@ -211,6 +218,7 @@ impl Search {
         let names = space.names();
         let share = |name: &str| match name.as_bytes()[0] {
             b'c' => (0.0, SPREAD_OF_GRADIENT_KICKS),
+            b'p' | b'y' | b'z' => (0.0, SPREAD_OF_PROCESSORS),
             _ => (1.0 / space.cost as f64, SPREAD),
         };
         let gap = |n: usize| ((n + 1) as f64 * PI, SPREAD);
@@ -219,9 +227,14 @@ impl Search {
     }
 
     fn values(&self, start: usize, x: &[f64]) -> Vec<f64> {
-        let (space, measures) = (self.space(start), self.request.goal.measures());
-        let maps = space.maps(x);
-        measures.into_iter().map(|measure| self.measures.value(measure, &maps, space.cost)).collect()
+        self.measured(start, x, &self.request.goal.measures())
+    }
+
+    fn measured(&self, start: usize, x: &[f64], measures: &[Measure]) -> Vec<f64> {
+        let space = self.space(start);
+        let (maps, processed) = (space.maps(x), space.processed_maps(x));
+        let value = |measure: &Measure| self.measures.value(*measure, (&maps, processed.as_deref()), space.cost);
+        measures.iter().map(value).collect()
     }
 
     fn goal(&self, start: usize, x: &[f64]) -> f64 {

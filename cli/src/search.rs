@@ -31,6 +31,7 @@ and shadowstep search rkn4.toml --out rkn4 writes rkn4-1.toml, rkn4-2.toml, …,
 Measures: effective-error, instability (forces per unit of hω at the limit of stability), phase-error, sampling-error, largest-weight,
 negative-weights. front = [\"effective-error\", \"instability\"] in place of `minimise` keeps the schemes that no other surpasses in all.
 Other keys: name, base = \"stormer-verlet\", first = \"drift\", symmetric = false, gradient_kicks = true, near_integrable = [8, 4],
+processor = 6 (stages of the post-map of a processed scheme, whose order is that after processing),
 closed_gaps = 1 (intervals of instability near hω = π, 2π, …), largest_weight = 1, starts = 100, seed = 1, keep = 3.
 
 DIR gets the tables, search.csv with what each start found, search.svg with the shipped schemes beside them, report.html, and
@@ -140,8 +141,8 @@ fn starts(search: &Search, folder: &Path, terminal: &mut Terminal) -> Result<Vec
 /// What decides about what a start finds, as a text.
 fn form(request: &Request) -> String {
     let Request { order, kinetic, stages, base, first, symmetric, gradient_kicks, near_integrable, .. } = request;
-    let Request { closed_gaps, largest_weight, goal, seed, starts, .. } = request;
-    let scheme = (order, kinetic, base, first, symmetric, gradient_kicks, near_integrable);
+    let Request { processor, closed_gaps, largest_weight, goal, seed, starts, .. } = request;
+    let scheme = (order, kinetic, base, first, symmetric, gradient_kicks, near_integrable, processor);
     format!("{scheme:?} {:?}", (stages, closed_gaps, largest_weight, goal, seed, starts))
 }
 
@@ -199,14 +200,25 @@ fn published(search: &Search) -> Vec<Row> {
     let request = &search.request;
     let is_alike = |proved: &&Proved| {
         let table = &proved.scheme.table;
-        let claims = table.near_integrable.iter().flat_map(|claim| &claim.orders).map(|order| order.value);
+        // of a processed scheme the effective ones
+        let (order, claims) = match &table.processor {
+            Some(processor) => (processor.order.value, &processor.near_integrable),
+            None => (table.order.value, &table.near_integrable),
+        };
         // what holds for every T(p) holds for a quadratic one
         let kinetic = request.kinetic == Kinetic::Quadratic || table.kinetic == Kinetic::Any;
+        let mut claims = claims.iter().flat_map(|claim| &claim.orders).map(|order| order.value);
         let order = match request.near_integrable.is_empty() {
-            true => table.order.value == request.order && table.near_integrable.is_none(),
+            true => order == request.order && claims.next().is_none(),
             false => claims.eq(request.near_integrable.iter().copied()),
         };
-        kinetic && order && table.processor.is_none() && table.inner.is_none()
+        // one that is not symmetric has no sampling error
+        let measured = proved.proof.symmetric || !request.goal.measures().contains(&Measure::SamplingError);
+        kinetic
+            && order
+            && measured
+            && table.processor.is_some() == request.processor.is_some()
+            && table.inner.is_none()
     };
     let schemes = shipped_names().into_iter().filter_map(shipped_proved).filter(is_alike);
     let mut rows: Vec<Row> =

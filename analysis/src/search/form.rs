@@ -8,6 +8,8 @@ use crate::search::request::Request;
 pub(super) struct Form<'a> {
     request: &'a Request,
     lists: Vec<(&'static str, Vec<String>)>,
+    /// Those of the processor.
+    post: Vec<(&'static str, Vec<String>)>,
     names: Vec<String>,
 }
 
@@ -32,13 +34,19 @@ impl<'a> Form<'a> {
                 lists.into_iter().chain(request.gradient_kicks.then_some(gradient)).collect()
             }
         };
+        let different = |letter: char, count: usize| (1..=count).map(|n| format!("{letter}{n}")).collect::<Vec<_>>();
+        let post = match (request.processor, &request.base) {
+            (None, _) => Vec::new(),
+            (Some(stages), Some(_)) => vec![("gamma", different('p', stages))],
+            (Some(stages), None) => vec![("kick", different('y', stages)), ("drift", different('z', stages))],
+        };
         let mut names: Vec<String> = Vec::new();
-        for name in lists.iter().flat_map(|(_, list)| list).filter(|name| *name != "0") {
+        for name in lists.iter().chain(&post).flat_map(|(_, list)| list).filter(|name| *name != "0") {
             if !names.contains(name) {
                 names.push(name.clone());
             }
         }
-        Form { request, lists, names }
+        Form { request, lists, post, names }
     }
 
     /// The names of the weights that are different.
@@ -50,9 +58,16 @@ impl<'a> Form<'a> {
     pub(super) fn table(&self, name: &str, values: &[String], free: &[&str]) -> Source {
         let request = self.request;
         let kinetic = if request.kinetic == Kinetic::Any { "any" } else { "quadratic" };
-        let mut text = format!("name = \"{name}\"\norder = {}\nkinetic = \"{kinetic}\"\n", request.order);
-        if !request.near_integrable.is_empty() {
-            text += &format!("near_integrable = {:?}\n", request.near_integrable);
+        // a kernel needs no more than what every consistent step has
+        let of_kernel = 1 + u32::from(request.symmetric);
+        let order = if request.processor.is_some() { of_kernel } else { request.order };
+        let mut text = format!("name = \"{name}\"\norder = {order}\nkinetic = \"{kinetic}\"\n");
+        let near_integrable = match request.near_integrable.is_empty() {
+            true => String::new(),
+            false => format!("near_integrable = {:?}\n", request.near_integrable),
+        };
+        if request.processor.is_none() {
+            text += &near_integrable;
         }
         text += &format!("symmetric = {}\n", request.symmetric);
         if !free.is_empty() {
@@ -62,15 +77,23 @@ impl<'a> Form<'a> {
         for (name, value) in self.names.iter().zip(values) {
             text += &format!("{name} = \"{value}\"\n");
         }
-        text += match &request.base {
+        text += &match &request.base {
             Some(base) => format!("\n[composition]\nbase = \"{base}\"\n"),
             None => "\n[stages]\n".to_owned(),
-        }
-        .as_str();
-        for (list, names) in &self.lists {
-            let cell = |name: &String| if name == "0" { name.clone() } else { format!("\"{name}\"") };
-            text += &format!("{list} = [{}]\n", names.iter().map(cell).collect::<Vec<_>>().join(", "));
+        };
+        text += &written(&self.lists);
+        if request.processor.is_some() {
+            text += &format!("\n[processor]\norder = {}\n{near_integrable}{}", request.order, written(&self.post));
         }
         Source { path: format!("{name}.toml"), text }
     }
+}
+
+/// Lists of weights as lines of a table.
+fn written(lists: &[(&'static str, Vec<String>)]) -> String {
+    let cell = |name: &String| if name == "0" { name.clone() } else { format!("\"{name}\"") };
+    let line = |(list, names): &(&'static str, Vec<String>)| {
+        format!("{list} = [{}]\n", names.iter().map(cell).collect::<Vec<_>>().join(", "))
+    };
+    lists.iter().map(line).collect()
 }

@@ -16,7 +16,7 @@ use crate::trace::leading_phase;
 /// A measure of a scheme: the less, the better.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Measure {
-    /// s·‖E‖^{1/p}, see [`LeadingError::effective`](crate::error::LeadingError::effective); for A + εB that of the terms of ε², of the order claimed for them.
+    /// s·‖E‖^{1/p} after processing, if there is any, see [`LeadingError::effective`](crate::error::LeadingError::effective); for A + εB that of the terms of ε², of the order claimed for them.
     EffectiveError,
     /// Evaluations per unit of hω at the limit of stability: 1/2 for Störmer–Verlet, which no scheme is below.
     Instability,
@@ -66,13 +66,16 @@ struct LeadingTerms {
 impl Measures {
     /// For the class and the orders that a table claims.
     pub(super) fn of(table: &Table, symmetric: bool) -> Measures {
-        let order = table.order.value;
+        let (order, near_integrable) = match &table.processor {
+            Some(processor) => (processor.order.value, &processor.near_integrable),
+            None => (table.order.value, &table.near_integrable),
+        };
         let least = match table.kinetic {
             Kinetic::Any => order,
-            // that for every T(p), of which a consistent step has 1, and 2 if it is symmetric
-            Kinetic::Quadratic => 1 + u32::from(symmetric),
+            // that for every T(p), of which a consistent step has 1, and 2 if it is symmetric, which a processed one is not
+            Kinetic::Quadratic => 1 + u32::from(symmetric && table.processor.is_none()),
         };
-        let squares = table.near_integrable.as_ref().and_then(|claim| claim.powers().nth(1));
+        let squares = near_integrable.as_ref().and_then(|claim| claim.powers().nth(1));
         let error = match squares {
             Some((order, power)) => LeadingTerms::of(order.value, least, table.kinetic, |bracket| {
                 bracket.letters().iter().filter(|letter| **letter == power.perturbation).count() == power.count
@@ -82,12 +85,19 @@ impl Measures {
         Measures { order, error }
     }
 
-    /// A measure of a step of maps that costs so many evaluations.
-    pub(super) fn value(&self, measure: Measure, maps: &[(MapKind, f64)], cost: usize) -> f64 {
+    /// A measure of a step of maps, of a processed scheme those of the kernel and of the processed step. The step costs so many evaluations.
+    pub(super) fn value(
+        &self,
+        measure: Measure,
+        (maps, processed): (&[(MapKind, f64)], Option<&[(MapKind, f64)]>),
+        cost: usize,
+    ) -> f64 {
         let cost = cost as f64;
         let weights = || maps.iter().filter(|(kind, _)| *kind != MapKind::GradientKick).map(|(_, weight)| *weight);
         match measure {
-            Measure::EffectiveError => cost * self.error.norm(maps).powf(1.0 / f64::from(self.error.order)),
+            Measure::EffectiveError => {
+                cost * self.error.norm(processed.unwrap_or(maps)).powf(1.0 / f64::from(self.error.order))
+            }
             Measure::Instability => cost / Oscillator::of_floats(maps).limit(2.0 * cost),
             Measure::PhaseError => {
                 let (coefficient, power) = leading_phase(maps, self.order);

@@ -28,6 +28,8 @@ pub struct Request {
     pub gradient_kicks: bool,
     /// The orders for A + εB with the flow of A as drift, as they are written; empty for none.
     pub near_integrable: Vec<u32>,
+    /// The stages of the post-map of a processed scheme, whose orders are those after processing; `None` for no processor.
+    pub processor: Option<usize>,
     /// The intervals of instability near hω = π, 2π, … that are closed; `None` for those that the goal needs.
     pub closed_gaps: Option<usize>,
     /// No weight is larger.
@@ -61,7 +63,7 @@ impl Goal {
     }
 }
 
-const KEYS: [Key; 16] = [
+const KEYS: [Key; 17] = [
     Key::new("name", "\"rkn4\""),
     Key::new("order", "4"),
     Key::new("kinetic", "\"quadratic\""),
@@ -71,6 +73,7 @@ const KEYS: [Key; 16] = [
     Key::new("symmetric", "true"),
     Key::new("gradient_kicks", "false"),
     Key::new("near_integrable", "[8, 4]"),
+    Key::new("processor", "6"),
     Key::new("closed_gaps", "1"),
     Key::new("largest_weight", "1"),
     Key::new("minimise", "\"effective-error\""),
@@ -148,6 +151,9 @@ fn read(reader: &mut Reader<'_>, root: &Section<'_, '_>) -> Option<Request> {
         let orders = reader.list(value, "a list of orders, such as [8, 4]", order)?;
         Some(orders.value.into_iter().map(|order| order.value).collect())
     });
+    let processor = root.get("processor");
+    let processor = processor
+        .map(|value| reader.whole(value, 1..=MOST_STAGES, "a number of stages").map(|stages| Some(stages.value)));
     let closed_gaps = root.get("closed_gaps");
     let closed_gaps =
         closed_gaps.map(|value| reader.whole(value, 0..=9, "a number of intervals").map(|gaps| Some(gaps.value)));
@@ -168,6 +174,7 @@ fn read(reader: &mut Reader<'_>, root: &Section<'_, '_>) -> Option<Request> {
         symmetric: symmetric.unwrap_or(Some(true))?,
         gradient_kicks: gradient_kicks.unwrap_or(Some(false))?,
         near_integrable: near_integrable.unwrap_or(Some(Vec::new()))?,
+        processor: processor.unwrap_or(Some(None))?,
         closed_gaps: closed_gaps.unwrap_or(Some(None))?,
         largest_weight: largest_weight.unwrap_or(Some(1.0))?,
         goal: goal?,

@@ -10,7 +10,7 @@ use shadowstep_schemes::{MapKind, Source};
 
 use crate::closed_gaps::beside_diagonal;
 use crate::floats::{FloatDual, FloatDuals, Floats};
-use crate::polish::{Cell, Equations, Model, NotPolished, maps, readable};
+use crate::polish::{Cell, Equations, Model, NotPolished, maps, processed_maps, readable};
 
 /// Weights as functions of unknowns, and the conditions that they must meet.
 ///
@@ -123,6 +123,12 @@ impl Space {
     /// The maps of a step.
     pub(super) fn maps(&self, x: &[f64]) -> Vec<(MapKind, f64)> {
         maps(&self.model, &self.weights(|n| x[n], &|value| value), &Floats)
+    }
+
+    /// The maps of the processed step; `None` without a processor.
+    pub(super) fn processed_maps(&self, x: &[f64]) -> Option<Vec<(MapKind, f64)>> {
+        self.table.processor.as_ref()?;
+        Some(processed_maps(&self.model, &self.weights(|n| x[n], &|value| value), &Floats))
     }
 
     fn weights<V>(&self, unknown: impl Fn(usize) -> V, exact: &dyn Fn(f64) -> V) -> Vec<Vec<V>> {

@@ -26,6 +26,7 @@ mod scene_kinetic;
 mod scene_pairs;
 mod scenes;
 mod schemes;
+mod search;
 #[cfg(unix)]
 mod signals;
 #[cfg(unix)]
