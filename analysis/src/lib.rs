@@ -6,8 +6,10 @@
 //! | [`error`](mod@error), [`bracket`] | the leading error: the terms of lowest order in the logarithm of a step |
 //! | [`modified`] | the whole logarithm up to a power of h: the modified Hamiltonian as a series in brackets |
 //! | [`trace`] | the trace of a step of the harmonic oscillator, and the leading error of its phase |
-//! | [`oscillator`] | trace and phase of a step of the harmonic oscillator at a given hω, in f64 |
+//! | [`oscillator`] | matrix, trace and phase of a step of the harmonic oscillator at a given hω, in f64 |
 //! | [`sampling`] | the largest expected error of the energy of the harmonic oscillator, which schemes for Hamiltonian Monte Carlo minimise |
+//! | [`gaussian`] | Gaussian targets, and how often a proposal of Hamiltonian Monte Carlo is accepted |
+//! | [`proposals`] | the proposals of a scheme: error, acceptance, cost, and the steps for which it is least |
 //! | `period` | the part that a step repeats: it is stable where the step is |
 //! | `powers` | double roots of the trace ∓ 2 that the repetitions within a step explain |
 //! | [`stability`], `roots`, `squarefree` | where the harmonic oscillator is stable: roots of integer polynomials |
@@ -25,6 +27,7 @@ mod better;
 pub mod bracket;
 pub mod certificate;
 pub mod error;
+pub mod gaussian;
 mod known;
 pub mod modified;
 pub mod oscillator;
@@ -32,6 +35,7 @@ mod period;
 pub mod polish;
 mod powers;
 mod prime;
+pub mod proposals;
 pub mod resonance;
 mod roots;
 pub mod sampling;

@@ -9,10 +9,9 @@
 //! Their schemes minimise its maximum over 0 < h < h̄, where h̄ is the number of evaluations of the forces: a step of Störmer–Verlet per
 //! unit of time costs as much. For independent oscillators with frequencies ω, hω stands for h.
 
-use num_traits::ToPrimitive;
-use shadowstep_schemes::MapKind;
 use shadowstep_schemes::Proved;
 
+use crate::oscillator::Oscillator;
 use crate::stability::Stability;
 
 /// The largest ρ(h) over 0 < h < h̄.
@@ -38,13 +37,13 @@ impl SamplingError {
         }
         let range = proved.plan.evaluations as f64;
         let limit: f64 = stability?.limit.parse().ok()?;
-        let step = Step::of(proved);
+        let step = Oscillator::of_scheme(proved);
         Some(SamplingError { range, largest: (limit >= range).then(|| largest(&step, range)) })
     }
 }
 
 /// The maximum: the largest of many points, and a golden-section search around it.
-fn largest(step: &Step, range: f64) -> f64 {
+fn largest(step: &Oscillator, range: f64) -> f64 {
     let width = range / f64::from(POINTS);
     let at = |n: u32| f64::from(n) * width;
     let best = (1..=POINTS).max_by(|a, b| step.rho(at(*a)).total_cmp(&step.rho(at(*b)))).expect("there are points");
@@ -55,34 +54,6 @@ fn largest(step: &Step, range: f64) -> f64 {
         if step.rho(left) < step.rho(right) { from = left } else { to = right }
     }
     step.rho((from + to) / 2.0).max(step.rho(at(best)))
-}
-
-/// The maps of a step, with weights in f64.
-struct Step(Vec<(MapKind, f64)>);
-
-impl Step {
-    fn of(proved: &Proved) -> Step {
-        let weight = |weight: &shadowstep_symbolic::Rational| weight.to_f64().unwrap_or(f64::NAN);
-        Step(proved.scheme.maps().iter().map(|map| (map.kind, weight(&map.weight))).collect())
-    }
-
-    /// ρ(h); 0 where the step is a turn by a multiple of π, which has B = C = 0.
-    fn rho(&self, h: f64) -> f64 {
-        // where the step takes (q, p) = (1, 0) and (0, 1)
-        let mut columns = [[1.0, 0.0], [0.0, 1.0]];
-        for (kind, weight) in &self.0 {
-            for [q, p] in &mut columns {
-                match kind {
-                    MapKind::Kick => *p -= weight * h * *q,
-                    MapKind::Drift => *q += weight * h * *p,
-                    // U_qq M⁻¹U_q = q
-                    MapKind::GradientKick => *p += 2.0 * weight * h.powi(3) * *q,
-                }
-            }
-        }
-        let ([_, c], [b, _]) = (columns[0], columns[1]);
-        if b * c == 0.0 { 0.0 } else { (b + c) * (b + c) / (-2.0 * b * c) }
-    }
 }
 
 #[cfg(test)]
@@ -102,7 +73,7 @@ mod tests {
         assert!((found(verlet) - 1.0 / 24.0).abs() < 1e-12, "{}", found(verlet));
         for h in [0.1_f64, 0.7, 1.5] {
             let known = h.powi(4) / (32.0 - 8.0 * h * h);
-            assert!((Step::of(verlet).rho(h) / known - 1.0).abs() < 1e-9);
+            assert!((Oscillator::of_scheme(verlet).rho(h) / known - 1.0).abs() < 1e-9);
         }
     }
 
