@@ -26,9 +26,9 @@ pub enum Unsuited {
     /// Detailed balance needs proposals that are reversible in time.
     #[error("is not symmetric, so that its steps are not reversible in time, as Hamiltonian Monte Carlo needs them")]
     NotSymmetric,
-    /// A pre-map and its inverse at the ends are not each other's reversal in time.
+    /// A pre-map and its inverse at the ends are each other's reversal in time up to a power of h only.
     #[error(
-        "is a processed scheme, which between its pre-map and post-map is not reversible in time, as Hamiltonian Monte Carlo needs it"
+        "is a processed scheme, whose pre-map and post-map are not reversible in time, as Hamiltonian Monte Carlo needs them"
     )]
     Processed,
     /// It is not for T + U.

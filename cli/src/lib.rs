@@ -9,6 +9,7 @@
 //! | `run`, `scene` | runs that a file describes; such files |
 //! | `schemes`, `problems` | what can be run |
 //! | `modified` | the modified Hamiltonian of a scheme as a series and as a formula |
+//! | `sampling` | schemes for Hamiltonian Monte Carlo |
 //! | `emit` | schemes as code for other ecosystems |
 //! | `work_precision`, `advise` | speed against error; a scheme and a step size for a tolerance |
 //! | `chaos` | indicators of chaos along a run |
@@ -31,6 +32,7 @@ mod figures;
 mod modified;
 mod problems;
 mod run;
+mod sampling;
 mod scene;
 mod schemes;
 mod stability;
@@ -84,6 +86,7 @@ commands! {
     Scene: scene,
     Schemes: schemes,
     Modified: modified,
+    Sampling: sampling,
     Emit: emit,
     WorkPrecision: work_precision,
     Advise: advise,
