@@ -121,7 +121,7 @@ class Scheme:
         Parameters
         ----------
         target
-            ``"python"``, ``"jax"``, ``"c"``, ``"julia"``, ``"fortran"``, ``"openmm"``, ``"sundials"``, ``"petsc"`` or ``"latex"``.
+            ``"python"``, ``"jax"``, ``"c"``, ``"julia"``, ``"fortran"``, ``"openmm"``, ``"blackjax"``, ``"mici"``, ``"sundials"``, ``"petsc"`` or ``"latex"``.
 
         Raises
         ------
