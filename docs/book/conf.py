@@ -31,6 +31,7 @@ CHAPTERS = {
         "schemes/tables/README",
         "docs/gradient-kicks",
         "docs/processed-schemes",
+        "docs/sampling",
         "docs/errata-of-published-tables",
     ],
     "Systems": ["docs/planets", "docs/linear-part", "docs/many-parts", "docs/multiple-time-steps", "docs/transformed-time", "docs/explicit-time", "docs/magnetic-fields", "docs/liquids"],

@@ -139,12 +139,27 @@ def check_that_it_can_fail(target, ending, make, folder):
         raise Failed(f"yoshida4 with {weight[0]} changed in its sixth digit passes: {output}")
 
 
+def check_acceptance(scheme, acceptance):
+    """BlackJAX samples a Gaussian of dimension 100 with the acceptance that `shadowstep sampling` computes."""
+    with tempfile.TemporaryDirectory(prefix="shadowstep-emit-") as folder:
+        file = emitted(Path(folder), scheme, "blackjax", "py")
+        code, output, errors = outcome([PROGRAM, "sampling", scheme, "--json", "--acceptance", acceptance], folder)
+        if code == 0:
+            script = Path(__file__).with_name("sampling.py")
+            code, output, errors = outcome([python_packages("blackjax"), script, folder, file.stem, output], folder)
+        if code != 0:
+            raise Failed(f"the acceptance of {scheme}: {output}{errors}")
+
+
 def test(name):
     target, ending, make, schemes, bits = TESTS[name]
     farthest = 0
     for scheme in schemes:
         with tempfile.TemporaryDirectory(prefix="shadowstep-emit-") as folder:
             farthest = max(farthest, check(scheme, target, ending, make, bits, Path(folder)))
+    if name == "blackjax":
+        for scheme, acceptance in [("stormer-verlet", "0.65"), ("bcss3", "0.7"), ("omelyan-4mn5fp", "0.9")]:
+            check_acceptance(scheme, acceptance)
     if name == "latex":
         return f"{len(schemes)} schemes compile"
     with tempfile.TemporaryDirectory(prefix="shadowstep-emit-") as folder:
