@@ -49,12 +49,13 @@ impl Oscillator {
     }
 
     /// ρ(hω) = (B + C)²/(−2BC) of a symmetric step with matrix [[A, B], [C, A]], see [`crate::sampling`]: infinite where it is unstable, 0 where it turns by a
-    /// multiple of π, which has B = C = 0.
+    /// multiple of π, which has BC = A² − 1 = 0, up to rounding.
     pub fn rho(&self, h_omega: f64) -> f64 {
+        const ROUNDING: f64 = 1e-12;
         let [[_, c], [b, _]] = self.columns(h_omega);
         match b * c {
-            0.0 => 0.0,
             product if product < 0.0 => (b + c) * (b + c) / (-2.0 * product),
+            product if product < ROUNDING => 0.0,
             _ => f64::INFINITY,
         }
     }

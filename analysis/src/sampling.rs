@@ -77,6 +77,15 @@ mod tests {
         }
     }
 
+    /// Its trace touches −2 at hω = 3.043, where rounding decides on which side it is.
+    #[test]
+    fn a_turn_by_pi_is_no_instability() {
+        let bcss4 = shipped_proved("bcss4").unwrap();
+        assert!((found(bcss4) / 6.876e-7 - 1.0).abs() < 1e-3, "{}", found(bcss4));
+        assert!(Oscillator::of_scheme(bcss4).rho(3.043) < 1e-6);
+        assert_eq!(Oscillator::of_scheme(bcss4).rho(5.4), f64::INFINITY);
+    }
+
     /// The values were computed from the matrices of the steps in another program.
     #[test]
     fn the_free_parameter_of_the_schemes_for_sampling_is_where_it_is_least() {
