@@ -6,9 +6,11 @@
 //! | [`error`](mod@error), [`bracket`], `logarithm` | the leading error: the terms of lowest order in the logarithm of a step |
 //! | [`modified`] | the whole logarithm up to a power of h: the modified Hamiltonian as a series in brackets |
 //! | [`trace`] | the trace of a step of the harmonic oscillator, and the leading error of its phase |
-//! | [`oscillator`] | trace and phase of a step of the harmonic oscillator at a given hω, in f64 |
+//! | [`oscillator`] | matrix, trace and phase of a step of the harmonic oscillator at a given hω, in f64 |
 //! | [`sampling`] | the largest expected error of the energy of the harmonic oscillator, which schemes for Hamiltonian Monte Carlo minimise |
 //! | `closed_gaps` | conditions for weights whose step has no instability where it turns by a multiple of π |
+//! | [`gaussian`] | Gaussian targets, and how often a proposal of Hamiltonian Monte Carlo is accepted |
+//! | [`proposals`] | the proposals of a scheme: error, acceptance, cost, and the steps for which it is least |
 //! | `period` | the part that a step repeats: it is stable where the step is |
 //! | `powers` | double roots of the trace ∓ 2 that the repetitions within a step explain |
 //! | [`stability`], `roots`, `squarefree` | where the harmonic oscillator is stable: roots of integer polynomials |
@@ -29,6 +31,7 @@ pub mod certificate;
 mod closed_gaps;
 pub mod error;
 mod floats;
+pub mod gaussian;
 mod known;
 mod logarithm;
 pub mod modified;
@@ -37,6 +40,7 @@ mod period;
 pub mod polish;
 mod powers;
 mod prime;
+pub mod proposals;
 pub mod resonance;
 mod roots;
 pub mod sampling;

@@ -1,11 +1,12 @@
-//! A step of the harmonic oscillator in f64: its trace and its phase at a given hω.
+//! A step of the harmonic oscillator in f64: its matrix, trace and phase at a given hω.
 //!
 //! [`crate::trace`] has the trace as an exact polynomial, [`crate::stability`] decides where the step is stable.
 
 use std::f64::consts::TAU;
 
-use shadowstep_schemes::MapKind;
+use num_traits::ToPrimitive;
 use shadowstep_schemes::map::Map;
+use shadowstep_schemes::{MapKind, Proved};
 use shadowstep_symbolic::Rational;
 
 /// Points at which the limit of stability is looked for.
@@ -43,8 +44,11 @@ impl Oscillator {
         let (mut last, mut now) = (2.0, size(at(1)));
         for n in 1..=POINTS_OF_LIMIT {
             let next = size(at(n + 1));
-            let peak =
-                if now > NEAR_TWO && now >= last && now >= next { largest(size, at(n - 1), at(n + 1)) } else { at(n) };
+            let peak = if now > NEAR_TWO && now >= last && now >= next {
+                largest_between(size, at(n - 1), at(n + 1))
+            } else {
+                at(n)
+            };
             if is_unstable(peak) {
                 return bisected(is_unstable, at(n - 1), peak);
             }
@@ -53,20 +57,50 @@ impl Oscillator {
         most
     }
 
-    /// The trace of the step's matrix: 2 cos φ for a step that turns by φ, larger than 2 in size where it is unstable.
-    pub fn trace(&self, h_omega: f64) -> f64 {
-        // where the step takes (q, hp) = (1, 0) and (0, 1)
+    /// The step of a scheme with weights rounded to f64; of a processed one that of its kernel.
+    pub fn of_scheme(proved: &Proved) -> Oscillator {
+        Oscillator::of(&proved.scheme.maps(), |weight| weight.to_f64().unwrap_or(f64::NAN))
+    }
+
+    /// Where a step with ω = 1 takes (q, p) = (1, 0) and (0, 1): the columns of its matrix, which for every ω acts on (ωq, p).
+    pub fn columns(&self, h_omega: f64) -> [[f64; 2]; 2] {
         let mut columns = [[1.0, 0.0], [0.0, 1.0]];
         for (kind, weight) in &self.maps {
             for [q, p] in &mut columns {
                 match kind {
-                    MapKind::Kick => *p -= weight * h_omega * h_omega * *q,
-                    MapKind::Drift => *q += weight * *p,
-                    MapKind::GradientKick => *p += 2.0 * weight * h_omega.powi(4) * *q,
+                    MapKind::Kick => *p -= weight * h_omega * *q,
+                    MapKind::Drift => *q += weight * h_omega * *p,
+                    // U_qq M⁻¹U_q = q
+                    MapKind::GradientKick => *p += 2.0 * weight * h_omega.powi(3) * *q,
                 }
             }
         }
-        columns[0][0] + columns[1][1]
+        columns
+    }
+
+    /// The trace of the step's matrix: 2 cos φ for a step that turns by φ, larger than 2 in size where it is unstable.
+    pub fn trace(&self, h_omega: f64) -> f64 {
+        let [[a, _], [_, d]] = self.columns(h_omega);
+        a + d
+    }
+
+    /// ρ(hω) = (B + C)²/(−2BC) of a symmetric step with matrix [[A, B], [C, A]], see [`crate::sampling`]: infinite where it is unstable, 0 where it turns by a
+    /// multiple of π, which has BC = A² − 1 = 0, up to rounding.
+    pub fn rho(&self, h_omega: f64) -> f64 {
+        const ROUNDING: f64 = 1e-12;
+        let [[_, c], [b, _]] = self.columns(h_omega);
+        match b * c {
+            product if product < 0.0 => (b + c) * (b + c) / (-2.0 * product),
+            product if product < ROUNDING => 0.0,
+            _ => f64::INFINITY,
+        }
+    }
+
+    /// The expected error of the energy after a number of symmetric steps, ρ sin²(nφ), in units of the temperature: see [`crate::sampling`].
+    pub fn energy_error(&self, h_omega: f64, steps: u64) -> f64 {
+        let [[a, c], [b, d]] = self.columns(h_omega);
+        let turned = (-b * c).max(0.0).sqrt().atan2((a + d) / 2.0);
+        self.rho(h_omega) * (steps as f64 * turned).sin().powi(2)
     }
 
     /// The relative error of the phase (φ − hω)/hω, with the φ of 2 cos φ = tr for which it is nearest to `expected`; `None` where
@@ -93,7 +127,7 @@ impl Oscillator {
 }
 
 /// Where a function with one maximum between two points is largest, by golden sections.
-fn largest(function: impl Fn(f64) -> f64, mut from: f64, mut to: f64) -> f64 {
+pub(crate) fn largest_between(function: impl Fn(f64) -> f64, mut from: f64, mut to: f64) -> f64 {
     let golden = (5.0_f64.sqrt() - 1.0) / 2.0;
     // to the square root of the rounding, below which values near a maximum do not differ
     while to - from > 1e-9 * to {
@@ -114,14 +148,13 @@ fn bisected(is_unstable: impl Fn(f64) -> bool, mut stable: f64, mut unstable: f6
 
 #[cfg(test)]
 mod tests {
-    use num_traits::ToPrimitive;
     use shadowstep_schemes::shipped_proved;
 
     use super::*;
     use crate::Analysis;
 
     fn oscillator(name: &str) -> Oscillator {
-        Oscillator::of(&shipped_proved(name).unwrap().scheme.maps(), |weight| weight.to_f64().unwrap())
+        Oscillator::of_scheme(shipped_proved(name).unwrap())
     }
 
     #[test]

@@ -9,10 +9,9 @@
 //! Their schemes minimise its maximum over 0 < h < h̄, where h̄ is the number of evaluations of the forces: a step of Störmer–Verlet per
 //! unit of time costs as much. For independent oscillators with frequencies ω, hω stands for h.
 
-use num_traits::ToPrimitive;
-use shadowstep_schemes::MapKind;
 use shadowstep_schemes::Proved;
 
+use crate::oscillator::{Oscillator, largest_between};
 use crate::stability::Stability;
 
 /// The largest ρ(h) over 0 < h < h̄.
@@ -27,9 +26,6 @@ pub struct SamplingError {
 /// Points at which ρ is computed, before the largest is refined.
 const POINTS: u32 = 4000;
 
-/// Each refinement divides the distance to the maximum by about 1.6.
-const REFINEMENTS: u32 = 40;
-
 impl SamplingError {
     /// The error of a symmetric scheme; `None` for other ones, which are not reversible in time. For a processed scheme it is the kernel's.
     pub fn of(proved: &Proved, stability: Option<&Stability>) -> Option<SamplingError> {
@@ -38,56 +34,18 @@ impl SamplingError {
         }
         let range = proved.plan.evaluations as f64;
         let limit: f64 = stability?.limit.parse().ok()?;
-        let step = Step::of(proved);
+        let step = Oscillator::of_scheme(proved);
         Some(SamplingError { range, largest: (limit >= range).then(|| largest(&step, range)) })
     }
 }
 
-/// The largest ρ of a step of maps whose weights are in f64, over 0 < h < `range`, where it must be stable.
-pub(crate) fn largest_of(maps: &[(MapKind, f64)], range: f64) -> f64 {
-    largest(&Step(maps.to_vec()), range)
-}
-
-/// The maximum: the largest of many points, and a golden-section search around it.
-fn largest(step: &Step, range: f64) -> f64 {
+/// The largest ρ over 0 < h < `range`, where the step must be stable: that of many points, and a golden-section search around it.
+pub(crate) fn largest(step: &Oscillator, range: f64) -> f64 {
     let width = range / f64::from(POINTS);
     let at = |n: u32| f64::from(n) * width;
     let best = (1..=POINTS).max_by(|a, b| step.rho(at(*a)).total_cmp(&step.rho(at(*b)))).expect("there are points");
-    let golden = (5.0_f64.sqrt() - 1.0) / 2.0;
-    let (mut from, mut to) = (at(best - 1), at(best + 1).min(range));
-    for _ in 0..REFINEMENTS {
-        let (left, right) = (to - golden * (to - from), from + golden * (to - from));
-        if step.rho(left) < step.rho(right) { from = left } else { to = right }
-    }
-    step.rho((from + to) / 2.0).max(step.rho(at(best)))
-}
-
-/// The maps of a step, with weights in f64.
-struct Step(Vec<(MapKind, f64)>);
-
-impl Step {
-    fn of(proved: &Proved) -> Step {
-        let weight = |weight: &shadowstep_symbolic::Rational| weight.to_f64().unwrap_or(f64::NAN);
-        Step(proved.scheme.maps().iter().map(|map| (map.kind, weight(&map.weight))).collect())
-    }
-
-    /// ρ(h); 0 where the step is a turn by a multiple of π, which has B = C = 0.
-    fn rho(&self, h: f64) -> f64 {
-        // where the step takes (q, p) = (1, 0) and (0, 1)
-        let mut columns = [[1.0, 0.0], [0.0, 1.0]];
-        for (kind, weight) in &self.0 {
-            for [q, p] in &mut columns {
-                match kind {
-                    MapKind::Kick => *p -= weight * h * *q,
-                    MapKind::Drift => *q += weight * h * *p,
-                    // U_qq M⁻¹U_q = q
-                    MapKind::GradientKick => *p += 2.0 * weight * h.powi(3) * *q,
-                }
-            }
-        }
-        let ([_, c], [b, _]) = (columns[0], columns[1]);
-        if b * c == 0.0 { 0.0 } else { (b + c) * (b + c) / (-2.0 * b * c) }
-    }
+    let peak = largest_between(|h| step.rho(h), at(best - 1), at(best + 1).min(range));
+    step.rho(peak).max(step.rho(at(best)))
 }
 
 #[cfg(test)]
@@ -107,8 +65,17 @@ mod tests {
         assert!((found(verlet) - 1.0 / 24.0).abs() < 1e-12, "{}", found(verlet));
         for h in [0.1_f64, 0.7, 1.5] {
             let known = h.powi(4) / (32.0 - 8.0 * h * h);
-            assert!((Step::of(verlet).rho(h) / known - 1.0).abs() < 1e-9);
+            assert!((Oscillator::of_scheme(verlet).rho(h) / known - 1.0).abs() < 1e-9);
         }
+    }
+
+    /// Its trace touches −2 at hω = 3.043, where rounding decides on which side it is.
+    #[test]
+    fn a_turn_by_pi_is_no_instability() {
+        let bcss4 = shipped_proved("bcss4").unwrap();
+        assert!((found(bcss4) / 6.876e-7 - 1.0).abs() < 1e-3, "{}", found(bcss4));
+        assert!(Oscillator::of_scheme(bcss4).rho(3.043) < 1e-6);
+        assert_eq!(Oscillator::of_scheme(bcss4).rho(5.4), f64::INFINITY);
     }
 
     /// The values were computed from the matrices of the steps in another program.

@@ -22,8 +22,8 @@ Each file has its own self-test, and says how to run it. docs/emit.md has an exa
 pub(crate) struct Arguments {
     /// A shipped scheme, such as yoshida4, or the file of a table
     scheme: String,
-    /// What it is written for: a module for NumPy or JAX, a header of C, a module of Julia or Fortran, a CustomIntegrator of OpenMM, a table for
-    /// SUNDIALS or PETSc, or a table to print
+    /// What it is written for: a module for NumPy or JAX, a header of C, a module of Julia or Fortran, a CustomIntegrator of OpenMM, an
+    /// integrator of BlackJAX or mici, a table for SUNDIALS or PETSc, or a table to print
     #[arg(long, value_name = "TARGET", value_parser = PossibleValuesParser::new(Target::ALL.iter().map(|target| target.name())))]
     to: String,
     #[command(flatten)]

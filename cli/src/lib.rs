@@ -10,6 +10,7 @@
 //! | `schemes`, `problems` | what can be run |
 //! | `modified` | the modified Hamiltonian of a scheme as a series and as a formula |
 //! | `search` | new schemes, from stages and an order |
+//! | `sampling` | schemes for Hamiltonian Monte Carlo |
 //! | `emit` | schemes as code for other ecosystems |
 //! | `work_precision`, `advise` | speed against error; a scheme and a step size for a tolerance |
 //! | `chaos` | indicators of chaos along a run |
@@ -32,6 +33,7 @@ mod figures;
 mod modified;
 mod problems;
 mod run;
+mod sampling;
 mod scene;
 mod schemes;
 mod search;
@@ -87,6 +89,7 @@ commands! {
     Schemes: schemes,
     Modified: modified,
     Search: search,
+    Sampling: sampling,
     Emit: emit,
     WorkPrecision: work_precision,
     Advise: advise,

@@ -10,7 +10,7 @@ from sphinx.util.logging import getLogger
 
 logger = getLogger(__name__)
 ROOT = Path(__file__).resolve().parents[2]
-NOTEBOOKS = ["outer-planets", "molecular-dynamics", "drift-of-the-modified-energy", "scheme-of-ones-own", "chaos-and-derivatives", "precision"]
+NOTEBOOKS = ["outer-planets", "molecular-dynamics", "drift-of-the-modified-energy", "scheme-of-ones-own", "chaos-and-derivatives", "precision", "shadow-hamiltonian-monte-carlo"]
 
 # The chapters in the order in which they are read. A page of docs/ or a notebook that is in none of them is a warning, and so an error.
 CHAPTERS = {
@@ -31,6 +31,7 @@ CHAPTERS = {
         "schemes/tables/README",
         "docs/gradient-kicks",
         "docs/processed-schemes",
+        "docs/sampling",
         "docs/errata-of-published-tables",
     ],
     "Systems": ["docs/planets", "docs/linear-part", "docs/many-parts", "docs/multiple-time-steps", "docs/transformed-time", "docs/explicit-time", "docs/magnetic-fields", "docs/liquids"],

@@ -13,6 +13,7 @@
 //! | `text` | comments, wrapped lines |
 //! | `python`, `jax`, `julia`, `c`, `fortran` | a step, unrolled |
 //! | `openmm` | a `CustomIntegrator` |
+//! | `blackjax`, `mici` | coefficients for their integrators |
 //! | `sundials`, `petsc` | a table of coefficients |
 //! | `latex` | a table to print |
 //!
@@ -26,12 +27,14 @@
 //! assert!(refusal.to_string().starts_with("chin-4a has gradient kicks"));
 //! ```
 
+mod blackjax;
 mod c;
 mod fortran;
 mod jax;
 mod julia;
 mod language;
 mod latex;
+mod mici;
 mod openmm;
 mod petsc;
 mod provenance;
@@ -89,6 +92,10 @@ targets! {
     Fortran: "fortran", fortran::module;
     /// A Python function that makes a `CustomIntegrator`.
     Openmm: "openmm", openmm::module;
+    /// Coefficients for an integrator of BlackJAX.
+    Blackjax: "blackjax", blackjax::module;
+    /// Coefficients for an integrator of mici.
+    Mici: "mici", mici::module;
     /// A header with an `ARKodeSPRKTable` for ARKODE's SPRKStep.
     Sundials: "sundials", sundials::header;
     /// A header that registers a scheme for `TSBASICSYMPLECTIC`.
@@ -138,7 +145,7 @@ const EVERY_SCHEME: &str = "emit it to python, jax, c, julia or fortran";
 /// Emits a scheme.
 ///
 /// # Errors
-/// A scheme that the target cannot express: gradient kicks, processors, an order that holds for quadratic T only, three parts and more.
+/// A scheme that the target cannot express: gradient kicks, processors, steps that are not symmetric, an order that holds for quadratic T only, three parts and more.
 pub fn emit(scheme: &TableScheme, target: Target) -> Result<String, Refusal> {
     let proved = scheme.proved();
     if let Some((reason, hint)) = lacks(proved, target) {
@@ -159,15 +166,21 @@ fn lacks(proved: &Proved, target: Target) -> Option<(String, &'static str)> {
     }
     let place = match target {
         Target::Openmm => "a CustomIntegrator of OpenMM",
+        Target::Blackjax => "a list of coefficients of BlackJAX",
+        Target::Mici => "a SymmetricCompositionIntegrator of mici",
         Target::Sundials => "a table of SPRKStep",
         Target::Petsc => "a scheme of TSBASICSYMPLECTIC",
         _ => return None,
     };
+    let for_sampling = matches!(target, Target::Blackjax | Target::Mici);
+    let quadratic = for_sampling || target == Target::Openmm;
     let reason = if proved.scheme.has_gradient_kicks() {
         format!("has gradient kicks, which {place} cannot make")
     } else if proved.scheme.processor.is_some() {
         format!("is a processed scheme, whose pre-map and post-map {place} does not have")
-    } else if target != Target::Openmm && !proved.holds_for_every_kinetic() {
+    } else if for_sampling && !proved.proof.symmetric {
+        format!("is not symmetric, and {place} must be")
+    } else if !quadratic && !proved.holds_for_every_kinetic() {
         format!("has order {} for quadratic T only, and {place} is for every T(p)", proved.order().order)
     } else {
         return None;

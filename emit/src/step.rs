@@ -3,7 +3,7 @@
 use shadowstep::number::Number;
 use shadowstep::tables::TableScheme;
 use shadowstep_schemes::map::Stages;
-use shadowstep_schemes::{Map, MapKind, Proved, Rational, to_significant, to_text};
+use shadowstep_schemes::{First, Map, MapKind, Proved, Rational, to_significant, to_text};
 
 /// The most letters of an exact number that is written in a comment.
 const SHORT: usize = 24;
@@ -169,6 +169,22 @@ impl<'a> Step<'a> {
     pub(crate) fn order(&self) -> u32 {
         let proof = &self.proved.proof;
         proof.effective.as_ref().map_or(proof.quadratic.order, |effective| effective.quadratic.order)
+    }
+
+    /// The names of the weights of kicks and drifts, which are made in turn.
+    pub(crate) fn alternating(&self) -> Vec<&str> {
+        fn name(action: Action<'_>) -> Option<&str> {
+            match action {
+                Action::Kick(weight) | Action::Drift(weight) => Some(&weight.name),
+                _ => None,
+            }
+        }
+        self.actions().into_iter().filter_map(name).collect()
+    }
+
+    /// Whether its first map is a kick.
+    pub(crate) fn begins_with_kick(&self) -> bool {
+        self.proved.scheme.first() == First::Kick
     }
 
     /// The weights of kicks and drifts, stage by stage: in each the kick comes before the drift, and a missing one has weight 0.

@@ -74,3 +74,16 @@ fn fused_products_pass_with_their_distance() {
         assert!(output.status.success() && text(&output).contains(" from Shadowstep"), "{}", text(&output));
     }
 }
+
+/// Samplers in C++ include it.
+#[test]
+fn headers_are_c_plus_plus_too() {
+    for name in ["bcss3", "chin-4a", "blanes6-7"] {
+        let folder = tempfile::tempdir().unwrap();
+        let header = folder.path().join("scheme.h");
+        fs::write(&header, emit(&shipped(name).unwrap(), Target::C).unwrap()).unwrap();
+        let options = ["-std=c++11", "-Wall", "-Wextra", "-Wpedantic", "-Werror", "-fsyntax-only", "-x", "c++"];
+        let checked = Command::new("c++").args(options).arg(&header).output().unwrap();
+        assert!(checked.status.success(), "{name}: {}", String::from_utf8_lossy(&checked.stderr));
+    }
+}

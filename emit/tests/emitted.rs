@@ -18,6 +18,8 @@ fn texts() {
         ("chin-4a", Target::Fortran),
         ("blanes6-7", Target::Julia),
         ("blanes-moan-s6", Target::Openmm),
+        ("bcss3", Target::Blackjax),
+        ("omelyan-4mn5fp", Target::Mici),
         ("ruth3", Target::Sundials),
         ("saba2", Target::Petsc),
         ("bcr764", Target::Latex),
@@ -44,7 +46,8 @@ fn every_scheme_is_emitted_or_refused_in_a_sentence() {
                 }
                 Err(refusal) => {
                     let nested = scheme.proved().scheme.inner.is_some();
-                    let limited = nested || [Target::Openmm, Target::Sundials, Target::Petsc].contains(&target);
+                    let tables = [Target::Openmm, Target::Blackjax, Target::Mici, Target::Sundials, Target::Petsc];
+                    let limited = nested || tables.contains(&target);
                     assert!(limited && refusal.to_string().starts_with(name), "{refusal}");
                 }
             }
@@ -56,6 +59,8 @@ fn every_scheme_is_emitted_or_refused_in_a_sentence() {
 fn refusals() {
     let refusals = [
         ("chin-4a", Target::Openmm),
+        ("ruth3", Target::Blackjax),
+        ("takahashi-imada", Target::Mici),
         ("wisdom-corrector-3", Target::Sundials),
         ("blanes-moan-srkn11b", Target::Petsc),
         ("r-respa-4", Target::C),

@@ -26,7 +26,7 @@ from .monitor import Monitor, Report, Sample
 from .problem import Problem
 from .recorded import Diagnosis, Observer, ShadowEnergy, diagnose, shadow_energy
 from .scene import Outcome, run, scene
-from .scheme import Scheme, schemes
+from .scheme import Proposal, Scheme, schemes
 from .work_precision import Advice, Choice, Curve, Measurement, advise, work_precision
 
 __all__ = [
@@ -48,6 +48,7 @@ __all__ = [
     "Observer",
     "Outcome",
     "Problem",
+    "Proposal",
     "Report",
     "Measurement",
     "RunError",

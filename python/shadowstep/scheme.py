@@ -4,11 +4,35 @@ from __future__ import annotations
 
 import json
 import os
+from collections.abc import Iterable
+from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, Union
 
-from ._shadowstep import Table, emit, modified_series, shipped_names
+from ._shadowstep import Table, emit, modified_series, proposal, shipped_names
 from .exact import count
+
+
+@dataclass(frozen=True)
+class Proposal:
+    """A trajectory of Hamiltonian Monte Carlo on a Gaussian."""
+
+    steps: int
+    step: float
+    """The step size h."""
+    gradients: int
+    """Evaluations of the gradient, Hessian–vector products counted as such."""
+    error: float
+    """The mean of ΔH in equilibrium, in units of the temperature."""
+    largest_error: float
+    """Its maximum over all numbers of such steps."""
+    acceptance: float
+    """The mean of min(1, exp(−ΔH))."""
+
+    @property
+    def cost(self) -> float:
+        """Gradients per accepted trajectory."""
+        return self.gradients / self.acceptance
 
 
 class Scheme:
@@ -121,7 +145,7 @@ class Scheme:
         Parameters
         ----------
         target
-            ``"python"``, ``"jax"``, ``"c"``, ``"julia"``, ``"fortran"``, ``"openmm"``, ``"sundials"``, ``"petsc"`` or ``"latex"``.
+            ``"python"``, ``"jax"``, ``"c"``, ``"julia"``, ``"fortran"``, ``"openmm"``, ``"blackjax"``, ``"mici"``, ``"sundials"``, ``"petsc"`` or ``"latex"``.
 
         Raises
         ------
@@ -139,6 +163,46 @@ class Scheme:
         True
         """
         return emit(self._table, target)
+
+    def proposal(
+        self,
+        frequencies: Iterable[float],
+        time: float | None = None,
+        *,
+        acceptance: float | None = None,
+        steps: int | None = None,
+    ) -> Proposal:
+        """A trajectory of Hamiltonian Monte Carlo on a Gaussian: its step, expected error of the energy, acceptance and cost, computed exactly.
+
+        Without ``acceptance`` and ``steps`` that with the least cost per accepted trajectory.
+
+        Parameters
+        ----------
+        frequencies
+            Those of the oscillators that p²/2 − log(density) is: 1/σ of a direction with standard deviation σ, and unit masses.
+        time
+            The length of the trajectory; None is a quarter of the longest period.
+        acceptance
+            The least acceptance, between 0 and 1, for which the fewest steps are looked for.
+        steps
+            The number of steps.
+
+        Raises
+        ------
+        InputError
+            A scheme that is not symmetric, or is processed: its steps are not reversible in time. A number out of range.
+
+        Examples
+        --------
+        >>> frequencies = [j / 100 for j in range(1, 101)]
+        >>> verlet, bcss3 = (Scheme(name).proposal(frequencies) for name in ("stormer-verlet", "bcss3"))
+        >>> verlet.steps, round(verlet.acceptance, 3), round(verlet.cost)
+        (166, 0.702, 237)
+        >>> bcss3.steps, round(bcss3.acceptance, 3), round(bcss3.cost)
+        (42, 0.907, 139)
+        """
+        number = None if steps is None else count(steps, "steps", most=10**9)
+        return Proposal(*proposal(self._table, list(frequencies), time, acceptance, number))
 
     def modified(self, grade: int = 4, *, parts: int | None = None, quadratic: bool = False, digits: int = 17) -> dict[int, dict[str, str]]:
         """The series of the modified Hamiltonian in brackets: the coefficients by the power n of h, of H_(n+1), and the bracket.

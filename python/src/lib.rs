@@ -18,6 +18,7 @@
 //! | `work_precision` | speed against error, and advice |
 //! | `scene` | runs that a file describes |
 //! | `modified_hamiltonian` | the modified Hamiltonian as a series and as formulas |
+//! | `sampling` | schemes for Hamiltonian Monte Carlo |
 //! | `emit` | schemes as code of other ecosystems |
 //! | `command` | the program `shadowstep` |
 //! | `monitor` | the monitor of the modified energy, for loops |
@@ -40,6 +41,7 @@ mod modified_hamiltonian;
 mod monitor;
 mod own_forces;
 mod recorded;
+mod sampling;
 mod scene;
 mod scheme;
 mod waiting;
@@ -76,6 +78,8 @@ mod _shadowstep {
     use crate::recorded::{
         Observer, energies_of_log, energies_of_states, momenta_of_half_steps, momenta_with_forces, unwrapped,
     };
+    #[pymodule_export]
+    use crate::sampling::proposal;
     #[pymodule_export]
     use crate::scene::{run_scene, scene_text};
     #[pymodule_export]

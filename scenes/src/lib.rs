@@ -80,6 +80,7 @@
 //! | [`expression`], [`evaluator`] | formulas in the numbers of a state, and conditions on them |
 //! | [`library`] | schemes by their names: shipped ones and files |
 //! | [`scheme_record`] | everything that is known about a scheme |
+//! | [`sampling`] | schemes for Hamiltonian Monte Carlo on a Gaussian target, as records |
 //! | [`estimator`] | estimators of the modified energy with their settings |
 //! | [`run`], [`steps`], [`propagator`] | one run of a scheme or of the exact flow with one step size |
 //! | [`integrate`] | a run into memory |
@@ -133,6 +134,7 @@ mod refusal;
 mod results;
 pub mod run;
 mod run_number;
+pub mod sampling;
 mod saved_state;
 mod scene;
 pub mod scheme_record;

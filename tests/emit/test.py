@@ -25,6 +25,7 @@ PROGRAM = os.environ.get("SHADOWSTEP", BUILT / "debug/shadowstep")
 EVERY_KIND = ["stormer-verlet", "symplectic-euler", "yoshida4", "blanes-moan-srkn6b", "chin-4a", "omelyan-4mn3f3gv", "wisdom-kernel-3",
               "blanes6-7", "aba864", "sofroniou-spaletta10-35"]
 WITHOUT_GRADIENT_KICKS = ["stormer-verlet", "symplectic-euler", "yoshida4", "blanes-moan-srkn6b", "aba864", "sofroniou-spaletta10-35"]
+SYMMETRIC = ["stormer-verlet", "bcss3", "yoshida4", "blanes-moan-srkn6b", "aba864", "omelyan-4mn5fp", "sofroniou-spaletta10-35"]
 FOR_EVERY_KINETIC = ["stormer-verlet", "symplectic-euler", "ruth3", "yoshida4", "aba864", "sofroniou-spaletta10-35"]
 
 # the farthest a run may end from Shadowstep's, where the package may round otherwise
@@ -41,6 +42,14 @@ def jax(folder, file):
 
 def openmm(folder, file):
     return [python_packages("openmm"), file]
+
+
+def blackjax(folder, file):
+    return [python_packages("blackjax"), file]
+
+
+def mici(folder, file):
+    return [python_packages("mici"), file]
 
 
 def julia(folder, file):
@@ -79,6 +88,8 @@ TESTS = {
     "fortran": ("fortran", "F90", fortran, EVERY_KIND, True),
     "julia": ("julia", "jl", julia, EVERY_KIND, True),
     "openmm": ("openmm", "py", openmm, WITHOUT_GRADIENT_KICKS, False),
+    "blackjax": ("blackjax", "py", blackjax, SYMMETRIC, False),
+    "mici": ("mici", "py", mici, SYMMETRIC, False),
     "sundials": ("sundials", "h", arkode, FOR_EVERY_KINETIC, True),
     "petsc": ("petsc", "h", petsc, FOR_EVERY_KINETIC, False),
     "latex": ("latex", "tex", latex, EVERY_KIND, False),
@@ -128,12 +139,27 @@ def check_that_it_can_fail(target, ending, make, folder):
         raise Failed(f"yoshida4 with {weight[0]} changed in its sixth digit passes: {output}")
 
 
+def check_acceptance(scheme, acceptance):
+    """BlackJAX samples a Gaussian of dimension 100 with the acceptance that `shadowstep sampling` computes."""
+    with tempfile.TemporaryDirectory(prefix="shadowstep-emit-") as folder:
+        file = emitted(Path(folder), scheme, "blackjax", "py")
+        code, output, errors = outcome([PROGRAM, "sampling", scheme, "--json", "--acceptance", acceptance], folder)
+        if code == 0:
+            script = Path(__file__).with_name("sampling.py")
+            code, output, errors = outcome([python_packages("blackjax"), script, folder, file.stem, output], folder)
+        if code != 0:
+            raise Failed(f"the acceptance of {scheme}: {output}{errors}")
+
+
 def test(name):
     target, ending, make, schemes, bits = TESTS[name]
     farthest = 0
     for scheme in schemes:
         with tempfile.TemporaryDirectory(prefix="shadowstep-emit-") as folder:
             farthest = max(farthest, check(scheme, target, ending, make, bits, Path(folder)))
+    if name == "blackjax":
+        for scheme, acceptance in [("stormer-verlet", "0.65"), ("bcss3", "0.7"), ("omelyan-4mn5fp", "0.9")]:
+            check_acceptance(scheme, acceptance)
     if name == "latex":
         return f"{len(schemes)} schemes compile"
     with tempfile.TemporaryDirectory(prefix="shadowstep-emit-") as folder:

@@ -37,7 +37,7 @@ Everything on this page is computed from the tables: the orders are proved, none
 - *sampling*: `bcss2`, `bcss3`, `bcss4` and `predescu3` have order 2 and a small error of the energy in the mean over states in
   equilibrium, as Hamiltonian Monte Carlo needs. The *expected energy error* below is the largest ρ(h) of the harmonic oscillator over
   0 < hω < forces, where ρ(h) sin²(Lφ) is the mean of H − H(0) after L steps that turn by φ, in units of the temperature; the first three
-  were published to minimise it.
+  were published to minimise it. [*Hamiltonian Monte Carlo*](sampling.md) has their steps, acceptance and cost.
 - *first*: each scheme is listed in the roles of its publication. `first = \"drift\"` or `\"kick\"` exchanges the roles of kick and drift,
   so that every table for every T(p) has its twin, as velocity and position Verlet are; it is proved anew.
 - *forces*: evaluations of U_q a step, the first kick taking over what the last one of the step before evaluated.

@@ -1,6 +1,11 @@
 //! Protects the schemes for sampling: the properties for which their authors chose the free weights.
 
+use shadowstep::problems::HarmonicOscillator;
+use shadowstep::tables::shipped as shipped_scheme;
+use shadowstep::{Motion, Stepper, UnitMasses};
 use shadowstep_analysis::Analysis;
+use shadowstep_analysis::gaussian::{Gaussian, acceptance_of_many};
+use shadowstep_analysis::proposals::{Proposal, Proposals};
 use shadowstep_schemes::MapKind;
 use shadowstep_schemes::{First, Proved, Source, read, read_first, shipped, shipped_proved, to_significant};
 use shadowstep_tests::rational;
@@ -98,4 +103,107 @@ fn both_leading_errors_of_predescu_are_equal() {
     let error = Analysis::of(shipped_proved("predescu3").unwrap()).quadratic;
     let [(_, first), (_, second)] = &error.terms[..] else { panic!("{:?}", error.terms) };
     assert!((first / second - 1.0).abs() < 1e-13, "{first} {second}");
+}
+
+/// Of every kind of symmetric scheme: kick or drift first, gradient kicks, several orders.
+const SYMMETRIC: [&str; 6] =
+    ["stormer-verlet", "bcss3", "chin-4a", "omelyan-4mn5fp", "blanes-moan-srkn11b", "kahan-li8"];
+
+/// ΔH of steps from (q, p) of oscillators, made by the stepper of the library.
+struct Made {
+    frequencies: Vec<f64>,
+    stepper: Stepper<shadowstep::tables::TableScheme, f64>,
+    steps: u64,
+}
+
+impl Made {
+    fn of(scheme: &str, target: &Gaussian, proposal: &Proposal) -> Made {
+        let h = shadowstep::Rational::from_float(proposal.h).unwrap();
+        let stepper =
+            Stepper::new(shipped_scheme(scheme).unwrap(), shadowstep::StepSize::try_from(h).unwrap()).unwrap();
+        Made { frequencies: target.frequencies().to_vec(), stepper, steps: proposal.steps }
+    }
+
+    /// ΔH of an oscillator from ωq = x, p = y.
+    fn change(&self, omega: f64, [x, y]: [f64; 2]) -> f64 {
+        let mut motion = Motion::new(HarmonicOscillator { omega }, UnitMasses, vec![x / omega], vec![y]).unwrap();
+        for _ in 0..self.steps {
+            self.stepper.step(&mut motion);
+        }
+        let (x_end, y_end) = (motion.q()[0] * omega, motion.p()[0]);
+        (x_end * x_end + y_end * y_end - x * x - y * y) / 2.0
+    }
+}
+
+/// ΔH is a quadratic form, so that its mean over two normal variables is the sum of its values at (1, 0) and (0, 1).
+#[test]
+fn expected_errors_are_those_of_steps_that_are_made() {
+    let target = Gaussian::new(vec![0.3, 0.71, 1.0, 1.9]).unwrap();
+    for name in SYMMETRIC {
+        let proposals = Proposals::of(shipped_proved(name).unwrap()).unwrap();
+        for (time, steps) in [(3.0, 4), (7.0, 9), (40.0, 100)] {
+            let proposal = proposals.proposal(&target, time, steps).unwrap();
+            let made = Made::of(name, &target, &proposal);
+            let errors =
+                made.frequencies.iter().map(|omega| made.change(*omega, [1.0, 0.0]) + made.change(*omega, [0.0, 1.0]));
+            let found: f64 = errors.sum();
+            // what ΔH loses to rounding: some 1e-16 in each map
+            let allowed = 1e-9 * found + 1e-13;
+            assert!((proposal.error - found).abs() < allowed, "{name}: {} and {found}", proposal.error);
+        }
+    }
+}
+
+/// The acceptance of independent draws, within four standard errors.
+#[test]
+fn acceptances_are_those_of_proposals_that_are_made() {
+    const DRAWS: usize = 20_000;
+    let mut normal = normal_numbers();
+    for (name, frequencies, time, steps) in [
+        ("stormer-verlet", vec![1.0], 4.5, 3),
+        ("bcss3", vec![0.5, 1.0, 1.0, 1.3], 6.0, 2),
+        ("chin-4a", (1..=12).map(f64::from).collect(), 1.5, 7),
+    ] {
+        let target = Gaussian::new(frequencies).unwrap();
+        let proposal = Proposals::of(shipped_proved(name).unwrap()).unwrap().proposal(&target, time, steps).unwrap();
+        let made = Made::of(name, &target, &proposal);
+        let accepted = |_| {
+            let change: f64 = made.frequencies.iter().map(|omega| made.change(*omega, [normal(), normal()])).sum();
+            (-change).exp().min(1.0)
+        };
+        let draws: Vec<f64> = (0..DRAWS).map(accepted).collect();
+        let mean = draws.iter().sum::<f64>() / DRAWS as f64;
+        let variance = draws.iter().map(|value| (value - mean).powi(2)).sum::<f64>() / DRAWS as f64;
+        let deviations = (mean - proposal.acceptance) / (variance / DRAWS as f64).sqrt();
+        assert!(deviations.abs() < 4.0, "{name}: {mean} and {}, {deviations} standard errors", proposal.acceptance);
+        // with so few oscillators the limit of many is another number
+        let of_many = acceptance_of_many(proposal.error);
+        assert!(
+            proposal.acceptance < 0.97 && (mean - of_many).abs() > (mean - proposal.acceptance).abs(),
+            "{name}: {of_many}"
+        );
+    }
+}
+
+/// Normal numbers from a fixed sequence of uniform ones, by Box and Muller.
+fn normal_numbers() -> impl FnMut() -> f64 {
+    let mut state = 1_u64;
+    let mut uniform = move || {
+        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        ((state >> 11) as f64 + 0.5) / (1_u64 << 53) as f64
+    };
+    move || (-2.0 * uniform().ln()).sqrt() * (std::f64::consts::TAU * uniform()).cos()
+}
+
+/// Blanes, Casas and Sanz-Serna's bound: no number of steps has a larger error than ρ, and some come near it.
+#[test]
+fn no_length_has_a_larger_error_than_the_bound() {
+    let target = Gaussian::new(vec![1.0]).unwrap();
+    for name in SYMMETRIC {
+        let proposals = Proposals::of(shipped_proved(name).unwrap()).unwrap();
+        let of = |steps: u64| proposals.proposal(&target, 0.9 * steps as f64, steps).unwrap();
+        let errors: Vec<f64> = (1..=200).map(|steps| of(steps).error).collect();
+        let (largest, bound) = (errors.iter().copied().fold(0.0, f64::max), of(1).largest_error);
+        assert!(largest <= bound * (1.0 + 1e-9) && largest > 0.99 * bound, "{name}: {largest:e} {bound:e}");
+    }
 }

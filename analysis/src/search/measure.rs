@@ -103,10 +103,13 @@ impl Measures {
                 let (coefficient, power) = leading_phase(maps, self.order);
                 cost * coefficient.abs().powf(1.0 / f64::from(power))
             }
-            Measure::SamplingError => match Oscillator::of_floats(maps).limit(2.0 * cost) {
-                limit if limit < cost => 1.0 + cost - limit,
-                _ => sampling::largest_of(maps, cost),
-            },
+            Measure::SamplingError => {
+                let step = Oscillator::of_floats(maps);
+                match step.limit(2.0 * cost) {
+                    limit if limit < cost => 1.0 + cost - limit,
+                    _ => sampling::largest(&step, cost),
+                }
+            }
             Measure::LargestWeight => weights().fold(0.0, |most, weight| most.max(weight.abs())),
             Measure::NegativeWeights => weights().map(|weight| (-weight).max(0.0)).sum(),
         }

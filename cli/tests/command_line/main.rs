@@ -21,6 +21,7 @@ mod problems;
 mod processed;
 mod program;
 mod prove;
+mod sampling;
 mod scene_faults;
 mod scene_kinetic;
 mod scene_pairs;

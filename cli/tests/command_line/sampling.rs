@@ -1,0 +1,66 @@
+//! `shadowstep sampling`: what it lists, and what it refuses. The numbers are tested in `tests/tests/sampling.rs` and `analysis`.
+
+use std::fs;
+
+use crate::program::{objects, quietly, shadowstep, text};
+
+#[test]
+fn schemes_are_listed_by_their_cost() {
+    let all = objects(&quietly("sampling --json"));
+    let cost = |name: &str| all.iter().find(|row| text(row, "scheme") == name).unwrap()["cost"].as_f64().unwrap();
+    assert!(all.is_sorted_by_key(|row| row["cost"].as_f64().unwrap()));
+    // for which Blanes, Casas and Sanz-Serna made it
+    assert!(cost("bcss3") < 0.7 * cost("stormer-verlet"));
+    assert!(!all.iter().any(|row| ["ruth3", "blanes6-7", "r-respa-4"].contains(&text(row, "scheme"))));
+    let table = quietly("sampling --dimension 30");
+    assert_eq!(table.lines().filter(|line| line.contains("bcss")).count(), 3, "{table}");
+    assert!(table.contains("of 30 oscillators"), "{table}");
+}
+
+#[test]
+fn an_acceptance_or_a_number_of_steps_may_be_given() {
+    let of = |words: &str| objects(&quietly(&format!("sampling stormer-verlet --json {words}"))).remove(0);
+    let wanted = of("--acceptance 0.9");
+    let steps = wanted["steps"].as_u64().unwrap();
+    assert!(wanted["acceptance"].as_f64().unwrap() >= 0.9);
+    assert_eq!(of(&format!("--steps {steps}")), wanted);
+    assert!(of(&format!("--steps {}", steps - 1))["acceptance"].as_f64().unwrap() < 0.9);
+}
+
+#[test]
+fn frequencies_are_a_list_or_a_file() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("frequencies.txt");
+    fs::write(&path, "0.5 1\n\n2,3e0\n").unwrap();
+    let of = |words: &str| quietly(&format!("sampling bcss2 --time 3 --frequencies {words}"));
+    assert_eq!(of(&path.display().to_string()), of("1/2,1,2,3"));
+    fs::write(&path, "0.5 1\n 2, x\n").unwrap();
+    let refused = shadowstep(&format!("sampling --frequencies {}", path.display()));
+    assert!(refused.code == 2 && refused.err.contains("frequencies.txt:2:5: `x` is not a number"), "{}", refused.err);
+}
+
+#[test]
+fn wrong_requests_are_refused_in_a_sentence() {
+    for (words, sentence) in [
+        (
+            "ruth3",
+            "ruth3 is not symmetric, so that its steps are not reversible in time, as Hamiltonian Monte Carlo needs them",
+        ),
+        (
+            "bcm6-11",
+            "bcm6-11 is a processed scheme, whose pre-map and post-map are not reversible in time, as Hamiltonian Monte Carlo needs them",
+        ),
+        ("r-respa-4", "r-respa-4 is made for H of three parts and more, not for T + U"),
+        ("bcss3 --frequencies 1,0", "--frequencies 1,0: frequency 2 is 0, and must be positive and finite"),
+        ("bcss3 --frequencies 1,x", "--frequencies 1,x: `x` is not a number, and there is no file `1,x`"),
+        ("bcss3 --acceptance 1", "the acceptance 1 is not between 0 and 1"),
+        ("bcss3 --time 0", "the time 0 is not positive and finite"),
+        ("bcss3 --steps 5", "5 steps of bcss3 are not stable over the time 157.07963267948966"),
+        ("bcss3 --frequencies 1e-12,1", "trajectories of bcss3 need more than 1000000000 steps"),
+    ] {
+        let refused = shadowstep(&format!("sampling {words}"));
+        let first = refused.err.lines().next().unwrap();
+        assert_eq!((refused.code, first), (2, format!("error: {sentence}").as_str()), "{words}");
+        assert_eq!(refused.err.lines().count(), 2, "{}", refused.err);
+    }
+}
