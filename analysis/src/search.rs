@@ -116,7 +116,11 @@ impl Search {
             let form = Form::of(&request, stages);
             // any decimals that differ
             let values: Vec<_> = (0..form.names().len()).map(|n| format!("0.123456789{}", 1000 + n)).collect();
-            Space::of(&form.table(&request.name, &values, &[]), |cost| request.closed_gaps_at(cost), library)
+            Space::of(
+                &form.table(&request.name, &values, &[], form.least_order()),
+                |cost| request.closed_gaps_at(cost),
+                library,
+            )
         };
         let spaces = request.stages.iter().map(space).collect::<Result<Vec<_>, _>>()?;
         let measures = Measures::of(&spaces[0].table, request.symmetric);

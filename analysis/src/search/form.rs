@@ -49,18 +49,22 @@ impl<'a> Form<'a> {
         Form { request, lists, post, names }
     }
 
+    /// The order that every consistent step of the form has.
+    pub(super) fn least_order(&self) -> u32 {
+        1 + u32::from(self.request.symmetric)
+    }
+
     /// The names of the weights that are different.
     pub(super) fn names(&self) -> &[String] {
         &self.names
     }
 
     /// The table with the weights' values as texts; those in `free` are its free parameters.
-    pub(super) fn table(&self, name: &str, values: &[String], free: &[&str]) -> Source {
+    /// `kernel` is the order that is claimed of a kernel.
+    pub(super) fn table(&self, name: &str, values: &[String], free: &[&str], kernel: u32) -> Source {
         let request = self.request;
         let kinetic = if request.kinetic == Kinetic::Any { "any" } else { "quadratic" };
-        // a kernel needs no more than what every consistent step has
-        let of_kernel = 1 + u32::from(request.symmetric);
-        let order = if request.processor.is_some() { of_kernel } else { request.order };
+        let order = if request.processor.is_some() { kernel } else { request.order };
         let mut text = format!("name = \"{name}\"\norder = {order}\nkinetic = \"{kinetic}\"\n");
         let near_integrable = match request.near_integrable.is_empty() {
             true => String::new(),

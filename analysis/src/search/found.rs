@@ -28,7 +28,8 @@ impl Search {
         library: Library<'_>,
     ) -> Result<Polished, NotPolished> {
         let (space, form) = (self.space(candidate.start), Form::of(&self.request, self.stages(candidate.start)));
-        let free = Tangent::at(space, &candidate.weights).coordinates;
+        let mut free = Tangent::at(space, &candidate.weights).coordinates;
+        free.sort_unstable();
         let (x, decimals) = self.with_few_digits(candidate, &free);
         let value = |n: usize| match free.contains(&n) {
             true => format!("{:.decimals$}", x[n]),
@@ -37,8 +38,15 @@ impl Search {
         let values: Vec<_> = (0..form.names().len()).map(value).collect();
         let gaps = &x[x.len() - space.closed_gaps..];
         let free: Vec<_> = free.iter().map(|&n| form.names()[n].as_str()).collect();
-        let source = form.table(name, &values, &free);
-        polish::polish(&source, library, &polish::Request { digits, closed_gaps: gaps, ..Default::default() })
+        let polished = |kernel: u32| {
+            let source = form.table(name, &values, &free, kernel);
+            polish::polish(&source, library, &polish::Request { digits, closed_gaps: gaps, ..Default::default() })
+        };
+        let found = polished(form.least_order())?;
+        // the conditions of a processed step may imply more of its kernel
+        let of_kernel = found.proved.order().order;
+        let implies_more = self.request.processor.is_some() && of_kernel > form.least_order();
+        if implies_more { polished(of_kernel) } else { Ok(found) }
     }
 
     /// The weights with free ones rounded to the fewest decimals that lose nothing, and that number.
