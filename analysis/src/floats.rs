@@ -48,7 +48,7 @@ pub(crate) struct FloatDual {
 }
 
 impl FloatDual {
-    /// The unknown of this number among so many.
+    /// The unknown of this number among `unknowns`.
     pub(crate) fn unknown(value: f64, number: usize, unknowns: usize) -> FloatDual {
         FloatDual { value, slopes: (0..unknowns).map(|n| if n == number { 1.0 } else { 0.0 }).collect() }
     }

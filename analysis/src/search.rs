@@ -82,6 +82,9 @@ const SPREAD: f64 = 0.6;
 /// And a gradient kick's from 0.
 const SPREAD_OF_GRADIENT_KICKS: f64 = 0.02;
 
+/// What the names of processors' weights begin with.
+const PROCESSORS: [char; 3] = ['p', 'y', 'z'];
+
 /// And a processor's.
 const SPREAD_OF_PROCESSORS: f64 = 0.3;
 
@@ -222,7 +225,7 @@ impl Search {
         let names = space.names();
         let share = |name: &str| match name.as_bytes()[0] {
             b'c' => (0.0, SPREAD_OF_GRADIENT_KICKS),
-            b'p' | b'y' | b'z' => (0.0, SPREAD_OF_PROCESSORS),
+            _ if name.starts_with(PROCESSORS) => (0.0, SPREAD_OF_PROCESSORS),
             _ => (1.0 / space.cost as f64, SPREAD),
         };
         let gap = |n: usize| ((n + 1) as f64 * PI, SPREAD);
@@ -287,9 +290,12 @@ impl Search {
         kept
     }
 
+    /// Whether the weights of a step are the same, but for what starts end with. Of one kernel many processors are as good.
     fn are_same(&self, one: &Candidate, other: &Candidate) -> bool {
+        let names = self.space(one.start).names();
+        let of_step = names.iter().filter(|name| !name.starts_with(PROCESSORS)).count();
         self.stages(one.start) == self.stages(other.start)
-            && one.weights.iter().zip(&other.weights).all(|(a, b)| (a - b).abs() < SAME)
+            && one.weights[..of_step].iter().zip(&other.weights).all(|(a, b)| (a - b).abs() < SAME)
     }
 }
 

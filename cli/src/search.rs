@@ -1,6 +1,7 @@
 //! `shadowstep search`: from stages and an order to proved schemes that make an error, or another measure, least.
 
 mod files;
+mod rows;
 
 use std::io::{ErrorKind, Write};
 use std::path::{Path, PathBuf};
@@ -8,10 +9,10 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 use serde::{Deserialize, Serialize};
 use shadowstep_analysis::polish::{MOST_POLISHED_DIGITS, NotPolished};
-use shadowstep_analysis::search::{Candidate, Goal, Measure, Request, Search};
+use shadowstep_analysis::search::{Candidate, Request, Search};
 use shadowstep_scenes::Error;
 use shadowstep_schemes::document::{LARGEST_TABLE, read_text};
-use shadowstep_schemes::{Kinetic, Proved, Source, shipped, shipped_names, shipped_proved};
+use shadowstep_schemes::{Source, shipped};
 use shadowstep_studies::{Calculation, Continues, Store};
 
 use crate::output::Output;
@@ -19,6 +20,7 @@ use crate::quantity::whole;
 use crate::readable::table;
 use crate::report::{self, Status};
 use crate::terminal::{Terminal, study_in};
+use rows::{Row, header, published, row};
 
 const EXAMPLE: &str = "\
 Example: rkn4.toml has
@@ -62,15 +64,6 @@ pub(crate) struct Arguments {
     force: bool,
 }
 
-/// A scheme of the results.
-struct Row {
-    name: String,
-    forces: usize,
-    values: Vec<f64>,
-    /// Whether its measures were minimised here.
-    is_new: bool,
-}
-
 /// Makes the starts that the folder lacks, writes the best tables, and what they are beside the shipped schemes.
 pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
     let source = text(&arguments.file)?;
@@ -103,7 +96,9 @@ pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
     rows.extend(published(&search));
     let report = files::write(&search, &candidates, &rows, &arguments.out)?;
     let mut output = Output::stdout();
-    writeln!(output, "{}", readable(&search, &rows))?;
+    let header = header(&search.request);
+    let columns = header.len();
+    writeln!(output, "{}", table(header, rows.iter().map(Row::cells).collect(), 1..columns))?;
     writeln!(output, "{}", report.display())?;
     output.finish()?;
     Ok(status)
@@ -177,68 +172,4 @@ impl Calculation for Start<'_> {
             |found: &Candidate| found.goal.is_finite() && found.values.iter().all(|value| value.is_finite());
         Ok(found.filter(is_finite).map(|Candidate { weights, values, goal, .. }| Found { weights, values, goal }))
     }
-}
-
-fn row(search: &Search, name: String, proved: &Proved) -> Row {
-    let values = measures(&search.request).into_iter().map(|measure| search.measure(measure, proved)).collect();
-    let forces = proved.plan.evaluations + proved.plan.hessian_products;
-    Row { name, forces, values, is_new: false }
-}
-
-/// The measures of the goal, and a second one for the picture.
-fn measures(request: &Request) -> Vec<Measure> {
-    let mut measures = request.goal.measures();
-    if measures.len() == 1 {
-        let other = if measures[0] == Measure::Instability { Measure::EffectiveError } else { Measure::Instability };
-        measures.push(other);
-    }
-    measures
-}
-
-/// The shipped schemes of the same order and class.
-fn published(search: &Search) -> Vec<Row> {
-    let request = &search.request;
-    let is_alike = |proved: &&Proved| {
-        let table = &proved.scheme.table;
-        // of a processed scheme the effective ones
-        let (order, claims) = match &table.processor {
-            Some(processor) => (processor.order.value, &processor.near_integrable),
-            None => (table.order.value, &table.near_integrable),
-        };
-        // what holds for every T(p) holds for a quadratic one
-        let kinetic = request.kinetic == Kinetic::Quadratic || table.kinetic == Kinetic::Any;
-        let mut claims = claims.iter().flat_map(|claim| &claim.orders).map(|order| order.value);
-        let order = match request.near_integrable.is_empty() {
-            true => order == request.order && claims.next().is_none(),
-            false => claims.eq(request.near_integrable.iter().copied()),
-        };
-        // one that is not symmetric has no sampling error
-        let measured = proved.proof.symmetric || !request.goal.measures().contains(&Measure::SamplingError);
-        kinetic
-            && order
-            && measured
-            && table.processor.is_some() == request.processor.is_some()
-            && table.inner.is_none()
-    };
-    let schemes = shipped_names().into_iter().filter_map(shipped_proved).filter(is_alike);
-    let mut rows: Vec<Row> =
-        schemes.map(|proved| row(search, proved.scheme.table.name.value.clone(), proved)).collect();
-    let by = |row: &Row| match &request.goal {
-        Goal::Sum(weighed) => weighed.iter().zip(&row.values).map(|((_, factor), value)| factor * value).sum::<f64>(),
-        Goal::Front(_) => row.values[0],
-    };
-    rows.sort_by(|a, b| by(a).total_cmp(&by(b)));
-    rows
-}
-
-fn readable(search: &Search, rows: &[Row]) -> String {
-    let names = measures(&search.request).into_iter().map(Measure::name);
-    let header: Vec<_> = ["scheme", "forces"].into_iter().chain(names).collect();
-    let columns = header.len();
-    let cells = rows.iter().map(|row| {
-        let name = if row.is_new { row.name.clone() } else { format!("{} (shipped)", row.name) };
-        let values = row.values.iter().map(|value| files::short(*value));
-        [name, row.forces.to_string()].into_iter().chain(values).collect::<Vec<_>>()
-    });
-    table(header, cells.collect(), 1..columns)
 }

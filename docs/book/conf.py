@@ -31,6 +31,7 @@ CHAPTERS = {
         "schemes/tables/README",
         "docs/gradient-kicks",
         "docs/processed-schemes",
+        "docs/search",
         "docs/sampling",
         "docs/errata-of-published-tables",
     ],

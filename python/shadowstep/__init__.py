@@ -27,6 +27,7 @@ from .problem import Problem
 from .recorded import Diagnosis, Observer, ShadowEnergy, diagnose, shadow_energy
 from .scene import Outcome, run, scene
 from .scheme import Proposal, Scheme, schemes
+from .search import search
 from .work_precision import Advice, Choice, Curve, Measurement, advise, work_precision
 
 __all__ = [
@@ -73,6 +74,7 @@ __all__ = [
     "run",
     "scene",
     "schemes",
+    "search",
     "shadow_energy",
     "sweep",
     "work_precision",

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, Union
 
-from ._shadowstep import Table, emit, modified_series, proposal, shipped_names
+from ._shadowstep import Table, emit, modified_series, polished, proposal, shipped_names
 from .exact import count
 
 
@@ -75,6 +75,51 @@ class Scheme:
             raise TypeError(f"table must be the name of a scheme, the path of a table or its text, not {type(table).__name__}")
         text = os.fspath(table)
         self._table = Table.of_text(text, "table") if "\n" in text else Table.of_word(text)
+
+    @staticmethod
+    def polish(
+        table: Union[str, os.PathLike[str]],
+        digits: int | None = None,
+        *,
+        free: Iterable[str] = (),
+        split_kicks: bool = False,
+        closed_gaps: Iterable[float] = (),
+    ) -> Scheme:
+        """The scheme of a table of printed decimals, solved for from its order conditions to many digits; of a processed scheme with its processor.
+
+        Parameters
+        ----------
+        table
+            As for a scheme. Decimals that stand alone move; fractions and formulas stay as they are, and the claims need not hold yet.
+        digits
+            To which the conditions shall hold, at most 300; None for as many as can be.
+        free
+            Decimals that stay as printed: constants, or places such as ``"kick[2]"``.
+        split_kicks
+            The cubes of the kicks must sum to 0 too: kicks are themselves split, as in heliocentric coordinates.
+        closed_gaps
+            hω near which a step turns by a multiple of π, and must not be unstable.
+
+        Raises
+        ------
+        InputError
+            Faults of the table; conditions that no values near the printed ones meet, or that do not determine them.
+
+        Examples
+        --------
+        >>> ruth = Scheme.polish('''
+        ... name = "forest-ruth"
+        ... order = 4
+        ... kinetic = "any"
+        ... [stages]
+        ... kick = [0.6756, -0.1756, -0.1756, 0.6756]
+        ... drift = [1.3512, -1.7024, 1.3512, 0]
+        ... ''', 40)
+        >>> ruth.maps[1][1][:20]
+        '1.351207191959657634'
+        """
+        number = None if digits is None else count(digits, "digits", most=300)
+        return Scheme(polished(os.fspath(table), number, list(free), split_kicks, [float(gap) for gap in closed_gaps]))
 
     @property
     def name(self) -> str:

@@ -18,6 +18,7 @@
 //! | `work_precision` | speed against error, and advice |
 //! | `scene` | runs that a file describes |
 //! | `modified_hamiltonian` | the modified Hamiltonian as a series and as formulas |
+//! | `laboratory` | tables polished to more digits; searches for schemes |
 //! | `sampling` | schemes for Hamiltonian Monte Carlo |
 //! | `emit` | schemes as code of other ecosystems |
 //! | `command` | the program `shadowstep` |
@@ -37,6 +38,7 @@ mod estimator;
 mod given;
 mod given_run;
 mod integrate;
+mod laboratory;
 mod modified_hamiltonian;
 mod monitor;
 mod own_forces;
@@ -70,6 +72,8 @@ mod _shadowstep {
     use crate::given::{Given, problem_names};
     #[pymodule_export]
     use crate::integrate::integrate;
+    #[pymodule_export]
+    use crate::laboratory::{polished, searched};
     #[pymodule_export]
     use crate::modified_hamiltonian::{modified_formulas, modified_series};
     #[pymodule_export]

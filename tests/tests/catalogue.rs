@@ -83,6 +83,9 @@ sabac3                    -  4   4+1  yes  kick   6,4
 sbab2                     2  2   2  yes  kick   4,2
 sbab3                     2  2   3  yes  kick   6,2
 sbab4                     2  2   4  yes  kick   8,2
+shadowstep4-6             4  4   6  yes  kick   -
+shadowstep6-7p            4  4   7  yes  kick   -       6 6 -
+shadowstep6-9             6  6   9  yes  kick   -
 sofroniou-spaletta10-33  10 10  33  yes  kick   -
 sofroniou-spaletta10-35  10 10  35  yes  kick   -
 sofroniou-spaletta6-11    6  6  11  yes  kick   -

@@ -25,7 +25,7 @@ const MOST_STEPS: u32 = 60;
 /// Derivatives below this multiple of the residual (a power of ten) do not count for the rank.
 const RANK_MARGIN: f64 = 4.0;
 
-/// Slopes that are so many bits shorter than the longest ones vanish at the solution.
+/// Slopes that are shorter than the longest ones by this number of bits vanish at the solution.
 const VANISHING: u64 = 40;
 
 /// A moved weight: farther away than this it is another scheme's (as a power of ten).

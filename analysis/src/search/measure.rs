@@ -85,7 +85,7 @@ impl Measures {
         Measures { order, error }
     }
 
-    /// A measure of a step of maps, of a processed scheme those of the kernel and of the processed step. The step costs so many evaluations.
+    /// A measure of a step of maps, of a processed scheme those of the kernel and of the processed step. The step costs `cost` evaluations.
     pub(super) fn value(
         &self,
         measure: Measure,

@@ -89,7 +89,7 @@ const MOST_STAGES: usize = 40;
 const MOST_STARTS: usize = 1_000_000;
 
 impl Request {
-    /// How many intervals of instability are closed for a step of so many evaluations: the sampling error, a maximum over 0 < hω < evaluations, is
+    /// How many intervals of instability are closed for a step of this number of evaluations: the sampling error, a maximum over 0 < hω < evaluations, is
     /// infinite in those that are not.
     pub(super) fn closed_gaps_at(&self, evaluations: usize) -> usize {
         let needed = || match self.goal.measures().contains(&Measure::SamplingError) {

@@ -10,7 +10,7 @@ use shadowstep_studies::finding::Finding;
 use shadowstep_studies::page::{Report, Section};
 
 use crate::invocation;
-use crate::search::{Row, measures};
+use crate::search::rows::{Row, header, measures};
 
 const STARTS: &str = "search.csv";
 const PICTURE: &str = "search";
@@ -40,16 +40,10 @@ pub(super) fn write(search: &Search, candidates: &[Candidate], rows: &[Row], fol
     let mut finding = Finding { charts: chart.into(), ..Finding::default() };
     let met = candidates.len();
     finding.found(format!("{met} of {} random starts met the order conditions.", search.starts()));
-    let header: Vec<_> =
-        ["scheme", "forces"].into_iter().chain(measures(&search.request).into_iter().map(|m| m.name())).collect();
-    let cells = |row: &Row| {
-        let name = if row.is_new { row.name.clone() } else { format!("{} (shipped)", row.name) };
-        [name, row.forces.to_string()].into_iter().chain(row.values.iter().map(|value| short(*value))).collect()
-    };
     finding.table(
         "The schemes found, and those shipped of the same order and class.",
-        &header,
-        rows.iter().map(cells).collect(),
+        &header(&search.request),
+        rows.iter().map(Row::cells).collect(),
     );
     let tables = rows.iter().filter(|row| row.is_new).map(|row| format!("{}.toml", row.name));
     let files = pictures.into_iter().chain([STARTS.to_owned()]).chain(tables).collect();
@@ -108,9 +102,4 @@ fn picture(search: &Search, candidates: &[Candidate], rows: &[Row]) -> Chart {
     }
     let title = format!("{}: what {} starts found", search.request.name, search.starts());
     Chart::new(title, axis(0, logs.0), axis(1, logs.1), curves)
-}
-
-/// Five digits.
-pub(super) fn short(value: f64) -> String {
-    if value != 0.0 && value.abs() < 1e-3 { format!("{value:.4e}") } else { format!("{value:.5}") }
 }
