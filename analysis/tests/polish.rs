@@ -472,3 +472,20 @@ fn processed_schemes_are_polished_with_their_processors() {
         println!("{name:24} {:6.2} s, {} conditions", start.elapsed().as_secs_f64(), polished.conditions);
     }
 }
+
+/// bcss3 as its paper prints it: the condition that a step which turns by π is not unstable has a closed form, b1 = (1 − 2 a1)/(4 (1 − 3 a1)).
+#[test]
+fn intervals_of_instability_are_closed() {
+    let text = "name = \"printed\"\norder = 2\nkinetic = \"any\"\nsymmetric = true\nfree = [\"a1\"]\n[constants]\na1 = \"0.11888010966548\"\n\
+                a2 = \"1/2 - a1\"\nb1 = \"0.29619504261126\"\nb2 = \"1 - 2*b1\"\n[stages]\nkick = [\"a1\", \"a2\", \"a2\", \"a1\"]\n\
+                drift = [\"b1\", \"b2\", \"b1\", 0]\n";
+    let source = Source { path: "printed.toml".into(), text: text.into() };
+    let wanted = Request { digits: Some(200), closed_gaps: &[2.98], ..Request::default() };
+    let polished = polish(&source, &|name, _| shipped(name), &wanted).unwrap();
+    let a1 = exact("0.11888010966548").unwrap();
+    let two = Rational::from_integer(2.into());
+    let closed = (Rational::one() - &a1 * &two)
+        / (Rational::from_integer(4.into()) * (Rational::one() - &a1 * (&two + Rational::one())));
+    let found = polished.weights.iter().find(|weight| weight.name == "b1").unwrap();
+    assert!((&found.polished - closed).abs() < power(200), "{}", found.polished);
+}

@@ -1,8 +1,9 @@
 //! Searches find published schemes, or better ones of their class, from nothing but stages and order.
 
+use num_traits::One;
 use shadowstep_analysis::Analysis;
 use shadowstep_analysis::search::{Candidate, MEASURES, Measure, Request, Search};
-use shadowstep_schemes::{Kinetic, Proved, Source, read, shipped, shipped_names, shipped_proved};
+use shadowstep_schemes::{Kinetic, Proved, Rational, Source, read, shipped, shipped_names, shipped_proved};
 
 fn library(name: &str, _: &Source) -> Option<Source> {
     shipped(name)
@@ -58,6 +59,10 @@ fn no_published_scheme_is_better() {
         assert!(best.goal <= published * (1.0 + 1e-7), "{text}: {} and {published}", best.goal);
         let (found, order) = (proved(&search, &best), search.request.order);
         assert_eq!(found.order().order, order, "{text}");
+        let stages = &found.scheme.stages;
+        for weights in [&stages.kick, &stages.drift] {
+            assert!(weights.iter().sum::<Rational>().is_one(), "{text}: sums are exact");
+        }
         // free parameters of few digits lose nothing that matters
         let after = search.measure(measure, &found);
         assert!((after / best.goal - 1.0).abs() < 1e-6, "{text}: {after} and {}", best.goal);

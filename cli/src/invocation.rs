@@ -6,6 +6,8 @@ use std::io;
 use std::path::PathBuf;
 use std::sync::OnceLock;
 
+use shadowstep_scenes::shell_word;
+
 static INVOCATION: OnceLock<(Vec<OsString>, Option<PathBuf>)> = OnceLock::new();
 
 /// Keeps the arguments, the first of which is the name, and the path of the program where that is not the running one.
@@ -13,10 +15,11 @@ pub(crate) fn keep(arguments: &[OsString], program: Option<PathBuf>) {
     let _ = INVOCATION.set((arguments.to_vec(), program));
 }
 
-/// The arguments without the name.
-pub(crate) fn words() -> impl Iterator<Item = String> {
+/// The command line as it was given, for the head of files.
+pub(crate) fn command() -> String {
     let arguments = INVOCATION.get().map_or(&[][..], |(arguments, _)| arguments);
-    arguments.iter().skip(1).map(|word| word.to_string_lossy().into_owned())
+    let words = arguments.iter().skip(1).map(|word| shell_word(word));
+    format!("shadowstep {}", words.collect::<Vec<_>>().join(" "))
 }
 
 /// The path of the program.

@@ -10,7 +10,7 @@ use clap::Args;
 use shadowstep::Rational;
 use shadowstep_scenes::library::{NamedScheme, scheme_from};
 use shadowstep_scenes::propagator::for_system;
-use shadowstep_scenes::{Error, System, shell_word};
+use shadowstep_scenes::{Error, System};
 use shadowstep_symbolic::decimal::to_text;
 use shadowstep_work_precision::files::{Title, write, written};
 use shadowstep_work_precision::length::common_multiple;
@@ -78,7 +78,7 @@ pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
         Request::new(problem, &schemes, range, reference_time, folder).study(terminal)
     };
     let (study, status) = study_in(Some(&arguments.out), arguments.force, written(), study)?;
-    let (title, command) = (posed.title(), command());
+    let (title, command) = (posed.title(), invocation::command());
     let title = Title { title: &title, hamiltonian: &posed.described.hamiltonian, command: &command };
     let report = write(&study, title, &arguments.out)?;
     let mut output = Output::stdout();
@@ -86,11 +86,6 @@ pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
     writeln!(output, "{}", report.display())?;
     output.finish()?;
     Ok(status)
-}
-
-/// The command line as it was given, for the head of the files.
-fn command() -> String {
-    format!("shadowstep {}", invocation::words().map(shell_word).collect::<Vec<_>>().join(" "))
 }
 
 pub(crate) fn seconds(text: &str) -> Result<f64, String> {

@@ -151,10 +151,12 @@ impl Problem<'_> {
         let residual = rows.iter().map(|row| log10(&row.off, bits)).fold(f64::NEG_INFINITY, f64::max);
         let mut linear = Linear { bits, off: Vec::new(), columns: vec![Vec::new(); x.len()], residual };
         let lengths: Vec<_> = rows.iter().map(|row| length(&row.slopes)).collect();
-        let longest = lengths.iter().max().map_or(0, |length| length.bits());
+        let longest = lengths.iter().map(|length| length.bits()).max().unwrap_or(0);
+        // slopes that are shorter vanish, but for rounding
+        let shortest = (u64::from(bits) / 2).max(longest.saturating_sub(VANISHING));
         for (row, length) in rows.into_iter().zip(lengths) {
             // a condition that does not depend on the decimals is not scaled, nor one that the others imply so that its slopes vanish with theirs
-            let scaled = |x| if length.bits() + VANISHING > longest.max(1) { (x << bits) / &length } else { x };
+            let scaled = |x| if length.bits() > shortest { (x << bits) / &length } else { x };
             linear.off.push(scaled(row.off));
             linear.columns.iter_mut().zip(row.slopes).for_each(|(column, slope)| column.push(scaled(slope)));
         }

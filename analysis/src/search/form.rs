@@ -78,7 +78,10 @@ impl<'a> Form<'a> {
             text += &format!("free = {free:?}\n");
         }
         text += "\n[constants]\n";
-        for (name, value) in self.names.iter().zip(values) {
+        // of each list the free ones first: a formula that makes a sum exactly 1 uses what stands above it
+        let mut constants: Vec<_> = self.names.iter().zip(values).collect();
+        constants.sort_by_key(|(name, _)| (name.chars().next(), !free.contains(&name.as_str())));
+        for (name, value) in constants {
             text += &format!("{name} = \"{value}\"\n");
         }
         text += &match &request.base {

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use shadowstep_analysis::search::{Candidate, Search};
-use shadowstep_scenes::{Error, shell_word};
+use shadowstep_scenes::Error;
 use shadowstep_studies::chart::{Axis, Chart, Curve, Marker, log10_of};
 use shadowstep_studies::files::{PAGE, csv, write_charts, write_file, write_page};
 use shadowstep_studies::finding::Finding;
@@ -33,7 +33,7 @@ pub(super) fn table(folder: &Path, name: &str, text: &str) -> Result<(), Error> 
 
 /// Writes what the starts found, the picture and the page; the path of the page.
 pub(super) fn write(search: &Search, candidates: &[Candidate], rows: &[Row], folder: &Path) -> Result<PathBuf, Error> {
-    let command = format!("shadowstep {}", invocation::words().map(shell_word).collect::<Vec<_>>().join(" "));
+    let command = invocation::command();
     write_file(folder, STARTS, &starts(search, candidates, &command)?)?;
     let chart = [(picture(search, candidates, rows), CAPTION.to_owned())];
     let (svgs, pictures) = write_charts(folder, PICTURE, &chart)?;

@@ -87,7 +87,7 @@ fn a_scheme_for_quadratic_t_moves_no_other() {
     let result = run(refused.path(), "");
     assert_eq!((result.code, result.out.as_str()), (2, ""));
     let message = "scene.toml:10:10: nystrom has order 4 for quadratic T only, for a general T(p) order 3\n";
-    let hint = "hint: use a scheme such as blanes-moan-s6, which has order 4 for every T(p)";
+    let hint = "hint: use a scheme such as shadowstep4-6, which has order 4 for every T(p)";
     assert!(result.err.contains(message) && result.err.contains(hint), "{}", result.err);
     for quadratic in ["px^2/2", "px*px"] {
         let result = run(scene(quadratic).path(), "");
