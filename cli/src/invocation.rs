@@ -1,4 +1,4 @@
-//! How the program was called: by its arguments, and under which path others can call it again.
+//! How the program was called: by its arguments, and under which path others can call it again; and what can be called.
 
 use std::env;
 use std::ffi::OsString;
@@ -6,16 +6,27 @@ use std::io;
 use std::path::PathBuf;
 use std::sync::OnceLock;
 
-static INVOCATION: OnceLock<(Vec<OsString>, Option<PathBuf>)> = OnceLock::new();
+struct Invocation {
+    arguments: Vec<OsString>,
+    program: Option<PathBuf>,
+    commands: fn() -> clap::Command,
+}
 
-/// Keeps the arguments, the first of which is the name, and the path of the program where that is not the running one.
-pub(crate) fn keep(arguments: &[OsString], program: Option<PathBuf>) {
-    let _ = INVOCATION.set((arguments.to_vec(), program));
+static INVOCATION: OnceLock<Invocation> = OnceLock::new();
+
+/// Keeps the arguments, the first of which is the name, the path of the program where that is not the running one, and all commands.
+pub(crate) fn keep(arguments: &[OsString], program: Option<PathBuf>, commands: fn() -> clap::Command) {
+    let _ = INVOCATION.set(Invocation { arguments: arguments.to_vec(), program, commands });
+}
+
+/// All commands with their flags and help.
+pub(crate) fn commands() -> clap::Command {
+    INVOCATION.get().map(|invocation| (invocation.commands)()).unwrap_or_default()
 }
 
 /// The arguments without the name.
 pub(crate) fn words() -> impl Iterator<Item = String> {
-    let arguments = INVOCATION.get().map_or(&[][..], |(arguments, _)| arguments);
+    let arguments = INVOCATION.get().map_or(&[][..], |invocation| &invocation.arguments);
     arguments.iter().skip(1).map(|word| word.to_string_lossy().into_owned())
 }
 
@@ -24,7 +35,7 @@ pub(crate) fn words() -> impl Iterator<Item = String> {
 /// # Errors
 /// As [`env::current_exe`].
 pub(crate) fn program() -> io::Result<PathBuf> {
-    match INVOCATION.get().and_then(|(_, program)| program.clone()) {
+    match INVOCATION.get().and_then(|invocation| invocation.program.clone()) {
         Some(program) => Ok(program),
         None => env::current_exe(),
     }
