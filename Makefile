@@ -46,10 +46,10 @@ wheel: $(WHEEL)/tools/bin/maturin help-files
 	rm -f python/LICENSE-LGPL-3.0 python/LICENSE-GPL-3.0
 
 # Pages of man and completions of shells, which the wheel installs below `share`.
-HELP = python/shadowstep.data/data/share
+HELP = python/shadowstep._shadowstep.data/data/share
 help-files:
 	cargo build --profile quick --locked -p shadowstep-cli
-	rm -rf python/shadowstep.data
+	rm -rf python/shadowstep._shadowstep.data
 	mkdir -p $(HELP)/bash-completion/completions $(HELP)/zsh/site-functions $(HELP)/fish/vendor_completions.d
 	set -e; program=$(or $(CARGO_TARGET_DIR),target)/quick/shadowstep; \
 	    $$program man --out $(HELP)/man/man1; \
