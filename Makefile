@@ -1,6 +1,6 @@
 # The two commands: `make run` shows what this is for, `make test` checks everything and fetches what is missing.
 
-.PHONY: run test wasm wheel python-environment test-python book bench-python test-cluster test-emit deps format lint check docs bench stability rivals package fuzz valgrind
+.PHONY: run test wasm help-files wheel python-environment test-python book bench-python test-cluster test-emit deps format lint check docs bench stability rivals package fuzz valgrind
 
 # The paper's main job: the drift of the modified energy on Kepler's problem at 120 digits.
 run:
@@ -38,12 +38,24 @@ docs:
 PYTHON = python3
 WHEEL = $(abspath $(or $(CARGO_TARGET_DIR),target))/python
 MPFR_SOURCE = $(dir $(shell cargo metadata --locked --format-version 1 | grep -o '"manifest_path":"[^"]*gmp-mpfr-sys-[^"]*Cargo.toml' | cut -d'"' -f4))
-wheel: $(WHEEL)/tools/bin/maturin
+wheel: $(WHEEL)/tools/bin/maturin help-files
 	rm -f python/LICENSE-LGPL-3.0 python/LICENSE-GPL-3.0
 	$(if $(MPFR),cp $(MPFR_SOURCE)gmp-*-c/COPYING.LESSERv3 python/LICENSE-LGPL-3.0)
 	$(if $(MPFR),cp $(MPFR_SOURCE)gmp-*-c/COPYINGv3 python/LICENSE-GPL-3.0)
 	$(WHEEL)/tools/bin/maturin build --release --locked --manifest-path python/Cargo.toml --out target/wheels $(if $(MPFR),--features mpfr)
 	rm -f python/LICENSE-LGPL-3.0 python/LICENSE-GPL-3.0
+
+# Pages of man and completions of shells, which the wheel installs below `share`.
+HELP = python/shadowstep._shadowstep.data/data/share
+help-files:
+	cargo build --profile quick --locked -p shadowstep-cli
+	rm -rf python/shadowstep._shadowstep.data
+	mkdir -p $(HELP)/bash-completion/completions $(HELP)/zsh/site-functions $(HELP)/fish/vendor_completions.d
+	set -e; program=$(or $(CARGO_TARGET_DIR),target)/quick/shadowstep; \
+	    $$program man --out $(HELP)/man/man1; \
+	    $$program completions bash > $(HELP)/bash-completion/completions/shadowstep; \
+	    $$program completions zsh > $(HELP)/zsh/site-functions/_shadowstep; \
+	    $$program completions fish > $(HELP)/fish/vendor_completions.d/shadowstep.fish
 
 $(WHEEL)/tools/bin/maturin:
 	@$(PYTHON) -c 'import ensurepip, venv' 2>/dev/null || ./.ci/install-python

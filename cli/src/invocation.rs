@@ -1,4 +1,4 @@
-//! How the program was called: by its arguments, and under which path others can call it again.
+//! How the program was called: by its arguments, and under which path others can call it again; and what can be called.
 
 use std::env;
 use std::ffi::OsString;
@@ -8,17 +8,28 @@ use std::sync::OnceLock;
 
 use shadowstep_scenes::shell_word;
 
-static INVOCATION: OnceLock<(Vec<OsString>, Option<PathBuf>)> = OnceLock::new();
+struct Invocation {
+    arguments: Vec<OsString>,
+    program: Option<PathBuf>,
+    commands: fn() -> clap::Command,
+}
 
-/// Keeps the arguments, the first of which is the name, and the path of the program where that is not the running one.
-pub(crate) fn keep(arguments: &[OsString], program: Option<PathBuf>) {
-    let _ = INVOCATION.set((arguments.to_vec(), program));
+static INVOCATION: OnceLock<Invocation> = OnceLock::new();
+
+/// Keeps the arguments, the first of which is the name, the path of the program where that is not the running one, and all commands.
+pub(crate) fn keep(arguments: &[OsString], program: Option<PathBuf>, commands: fn() -> clap::Command) {
+    let _ = INVOCATION.set(Invocation { arguments: arguments.to_vec(), program, commands });
+}
+
+/// All commands with their flags and help.
+pub(crate) fn commands() -> clap::Command {
+    INVOCATION.get().map(|invocation| (invocation.commands)()).unwrap_or_default()
 }
 
 /// The command line as it was given, for the head of files.
 pub(crate) fn command() -> String {
-    let arguments = INVOCATION.get().map_or(&[][..], |(arguments, _)| arguments);
-    let words = arguments.iter().skip(1).map(|word| shell_word(word));
+    let arguments = INVOCATION.get().map_or(&[][..], |invocation| &invocation.arguments);
+    let words = arguments.iter().skip(1).map(shell_word);
     format!("shadowstep {}", words.collect::<Vec<_>>().join(" "))
 }
 
@@ -27,7 +38,7 @@ pub(crate) fn command() -> String {
 /// # Errors
 /// As [`env::current_exe`].
 pub(crate) fn program() -> io::Result<PathBuf> {
-    match INVOCATION.get().and_then(|(_, program)| program.clone()) {
+    match INVOCATION.get().and_then(|invocation| invocation.program.clone()) {
         Some(program) => Ok(program),
         None => env::current_exe(),
     }

@@ -17,6 +17,7 @@
 //! | `sweep`, `collect` | many runs of a scene; their results |
 //! | `stability` | hard cases |
 //! | `figures` | the figures of the paper, and additional ones |
+//! | `completions`, `man` | what shells complete; pages of man |
 //! | `run_arguments`, `quantity` | the flags of runs; exact numbers |
 //! | `selection`, `system`, `posed` | flags → schemes and steps; flags → the system; with end and number type |
 //! | `plot` | charts of runs |
@@ -27,9 +28,11 @@
 mod advise;
 mod chaos;
 mod collect;
+mod completions;
 mod drift;
 mod emit;
 mod figures;
+mod man;
 mod modified;
 mod problems;
 mod run;
@@ -60,7 +63,7 @@ mod terminal;
 use std::ffi::OsString;
 use std::path::PathBuf;
 
-use clap::{Parser, Subcommand};
+use clap::{CommandFactory, Parser, Subcommand};
 use shadowstep_scenes::Error;
 
 use report::Status;
@@ -99,6 +102,8 @@ commands! {
     Stability: stability,
     Figures: figures,
     Problems: problems,
+    Completions: completions,
+    Man: man,
 }
 
 const EXIT_CODES: &str = "\
@@ -109,9 +114,12 @@ Exit codes:
   2  usage error: an unknown flag, name or file, a number out of range, a fault in a scene
   3  a run failed: a state or an energy was not finite, the output could not be written, or it was interrupted";
 
+/// The version, with the commit where `build.rs` knows it.
+const VERSION: &str = env!("SHADOWSTEP_VERSION");
+
 /// Splitting schemes and their modified energy, in any precision.
 #[derive(Debug, Parser)]
-#[command(name = "shadowstep", version, max_term_width = 100, after_help = EXIT_CODES, arg_required_else_help = true)]
+#[command(name = "shadowstep", version = VERSION, max_term_width = 100, after_help = EXIT_CODES, arg_required_else_help = true)]
 struct Arguments {
     #[command(subcommand)]
     command: Command,
@@ -121,7 +129,7 @@ struct Arguments {
 /// process. `program` is its path, for job scripts, where another program contains it.
 pub fn main(arguments: impl IntoIterator<Item = OsString>, program: Option<PathBuf>) -> u8 {
     let arguments: Vec<OsString> = arguments.into_iter().collect();
-    invocation::keep(&arguments, program);
+    invocation::keep(&arguments, program, Arguments::command);
     let command = Arguments::parse_from(arguments).command;
     command.execute().unwrap_or_else(|error| report::error(&error)) as u8
 }

@@ -28,6 +28,7 @@ mod monitor;
 mod multiple_steps;
 mod order;
 mod own_system;
+mod packages;
 mod pairs;
 mod permanent_change;
 mod problems;

@@ -20,6 +20,7 @@ mod polish;
 mod problems;
 mod processed;
 mod program;
+mod program_itself;
 mod prove;
 mod sampling;
 mod scene_faults;

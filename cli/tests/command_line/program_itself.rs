@@ -1,0 +1,62 @@
+//! What the program reports of itself: its version, completions of shells, pages of man.
+
+use std::fs;
+use std::process::{Command, Stdio};
+
+use crate::program::{quietly, shadowstep};
+
+/// The names of all commands, of the help.
+fn commands() -> Vec<String> {
+    let help = quietly("--help");
+    let list = help.split("Commands:\n").nth(1).unwrap().split("\n\n").next().unwrap();
+    let names = list.lines().filter(|line| line.starts_with("  ") && !line.starts_with("   "));
+    names.filter_map(|line| line.split_whitespace().next()).map(str::to_owned).collect()
+}
+
+#[test]
+fn the_version_has_a_commit_or_stands_alone() {
+    let version = quietly("--version");
+    let after = version.strip_prefix(concat!("shadowstep ", env!("CARGO_PKG_VERSION"))).unwrap().trim_end();
+    let commit = after.strip_prefix(" (").and_then(|after| after.strip_suffix(')'));
+    let is_commit = |text: &str| text.len() == 12 && text.bytes().all(|byte| byte.is_ascii_hexdigit());
+    assert!(after.is_empty() || commit.is_some_and(is_commit), "{version}");
+}
+
+#[test]
+fn completions_have_all_commands_and_are_syntax_of_their_shells() {
+    for shell in ["bash", "zsh", "fish"] {
+        let script = quietly(&format!("completions {shell}"));
+        for command in commands() {
+            assert!(script.contains(&command), "{command} for {shell}");
+        }
+        for flag in ["max-order", "compensated"] {
+            assert!(script.contains(flag), "{flag} for {shell}");
+        }
+        let folder = tempfile::tempdir().unwrap();
+        let file = folder.path().join("script");
+        fs::write(&file, script).unwrap();
+        // a shell that is not installed cannot judge
+        if let Ok(status) = Command::new(shell).arg("-n").arg(&file).stderr(Stdio::inherit()).status() {
+            assert!(status.success(), "{shell}");
+        }
+    }
+    let other = shadowstep("completions tcsh");
+    assert_eq!(other.code, 2);
+    assert!(other.err.contains("possible values: bash"), "{}", other.err);
+}
+
+#[test]
+fn every_command_has_a_page_of_man() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("share/man1");
+    quietly(&format!("man --out {}", out.display()));
+    let first = fs::read_to_string(out.join("shadowstep.1")).unwrap();
+    assert!(first.contains(".TH shadowstep 1") && first.contains("Exit codes"), "{first}");
+    for command in commands().iter().filter(|&command| command != "help") {
+        let page = fs::read_to_string(out.join(format!("shadowstep-{command}.1"))).unwrap();
+        assert!(page.contains(".SH SYNOPSIS"), "{page}");
+    }
+    let taken = shadowstep(&format!("man --out {}", out.join("shadowstep.1").display()));
+    assert_eq!(taken.code, 3, "{}", taken.err);
+    assert!(taken.err.contains("shadowstep.1"), "{}", taken.err);
+}
