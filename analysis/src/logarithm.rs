@@ -26,7 +26,7 @@ impl Logarithm {
     pub(crate) fn of_length(length: usize, order: usize) -> Logarithm {
         let lyndon: Vec<_> = lyndon_words(length).into_iter().filter(|word| word.len() == length).collect();
         let least = order + 1;
-        let words = Words::of(&if length < 2 * least { lyndon.clone() } else { all_words(length) });
+        let words = if length < 2 * least { Words::of(&lyndon) } else { Words::of(&all_words(length)) };
         let places: HashMap<Word, usize> = words.prefixes().into_iter().zip(0..).collect();
         let places_in = |word: &Word| (1..=word.len()).map(|cut| places[&word[..cut]]).collect();
         let prefixes = words.prefixes().iter().map(places_in).collect();

@@ -58,9 +58,12 @@ pub(super) fn cells_with_decimals(table: &Table) -> Vec<String> {
     used.chain(weights(table)).filter(|(_, cell)| has_decimal(cell)).map(|(name, _)| name).collect()
 }
 
+/// A list of weights and its name.
+type List<'t> = (String, &'t Placed<Vec<Cell>>);
+
 /// The lists of weights by their names: those of the scheme, or of the kernel; and those of its processor.
-pub(super) fn lists(table: &Table) -> [Vec<(String, &Placed<Vec<Cell>>)>; 2] {
-    fn named<'t>(weights: Option<&'t Weights>, of: &str) -> Vec<(String, &'t Placed<Vec<Cell>>)> {
+pub(super) fn lists(table: &Table) -> [Vec<List<'_>>; 2] {
+    fn named<'t>(weights: Option<&'t Weights>, of: &str) -> Vec<List<'t>> {
         let lists = match weights {
             Some(Weights::Stages { kick, gradient_kick, drift }) => {
                 let gradient_kick = gradient_kick.as_ref().map(|cells| ("gradient_kick", cells));

@@ -122,7 +122,7 @@ impl Tangent {
             if largest < MET || largest < NEARLY_MET && largest > last / 2.0 {
                 return Some(x);
             }
-            if !(largest < last / 2.0) {
+            if largest.is_nan() || largest >= last / 2.0 {
                 return None;
             }
             last = largest;

@@ -49,6 +49,9 @@ impl Measure {
     }
 }
 
+/// The maps of a step.
+type Maps<'a> = &'a [(MapKind, f64)];
+
 /// The measures of the schemes of one class and order, prepared once.
 pub(super) struct Measures {
     order: u32,
@@ -86,12 +89,7 @@ impl Measures {
     }
 
     /// A measure of a step of maps, of a processed scheme those of the kernel and of the processed step. The step costs `cost` evaluations.
-    pub(super) fn value(
-        &self,
-        measure: Measure,
-        (maps, processed): (&[(MapKind, f64)], Option<&[(MapKind, f64)]>),
-        cost: usize,
-    ) -> f64 {
+    pub(super) fn value(&self, measure: Measure, (maps, processed): (Maps<'_>, Option<Maps<'_>>), cost: usize) -> f64 {
         let cost = cost as f64;
         let weights = || maps.iter().filter(|(kind, _)| *kind != MapKind::GradientKick).map(|(_, weight)| *weight);
         match measure {

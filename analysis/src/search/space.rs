@@ -38,7 +38,7 @@ pub(super) struct Linear {
 
 impl Linear {
     /// Adds a condition.
-    fn push(&mut self, value: FloatDual, needed: f64) {
+    fn push(&mut self, value: &FloatDual, needed: f64) {
         let length = value.slopes.iter().map(|slope| slope * slope).sum::<f64>().sqrt();
         // a condition that depends on no unknown is met, or never
         let scale = if length > 0.0 { 1.0 / length } else { 1.0 };
@@ -92,14 +92,14 @@ impl Space {
         let weights = self.weights(unknown, &|value| FloatDual { value, slopes: Vec::new() });
         let mut linear = Linear { off: Vec::new(), slopes: Vec::new(), scales: Vec::new() };
         for (condition, value) in self.equations.values(&self.model, &weights, &FloatDuals) {
-            linear.push(value, condition.needed.to_f64().expect("a fraction of small numbers"));
+            linear.push(&value, condition.needed.to_f64().expect("a fraction of small numbers"));
         }
         if self.closed_gaps > 0 {
             let maps = maps(&self.model, &weights, &FloatDuals);
             for gap in x.len() - self.closed_gaps..x.len() {
                 beside_diagonal(&maps, &unknown(gap), &FloatDuals)
                     .into_iter()
-                    .for_each(|entry| linear.push(entry, 0.0));
+                    .for_each(|entry| linear.push(&entry, 0.0));
             }
         }
         linear.slopes.iter_mut().for_each(|slopes| slopes.resize(x.len(), 0.0));
