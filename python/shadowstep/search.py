@@ -47,7 +47,7 @@ def search(
     ... minimise = "effective-error"
     ... ''', starts=4, digits=40)
     >>> found[0]
-    Scheme('search-1': order 2 for every T(p), 2 forces a step)
+    Scheme('search-1': order 2, 2 forces a step)
     """
     text = os.fspath(request)
     path = "search"
