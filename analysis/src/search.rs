@@ -140,11 +140,6 @@ impl Search {
         self.request.stages[start / self.request.starts]
     }
 
-    /// Evaluations of the gradient and Hessian–vector products of a step of a candidate.
-    pub fn cost(&self, candidate: &Candidate) -> usize {
-        self.space(candidate.start).cost
-    }
-
     /// A measure of a scheme, computed from its weights as those of candidates are.
     pub fn measure(&self, measure: Measure, proved: &Proved) -> f64 {
         let maps = proved.scheme.maps();

@@ -17,6 +17,9 @@ pub(crate) fn module(step: &Step<'_>) -> String {
         names.push("0.0");
     }
     let mut values = BLACKJAX.values(step);
-    values.text("coefficients", names.join(", ")).text("gradients", counted(names.len() / 2, "evaluation"));
-    values.fill(include_str!("templates/blackjax.py"))
+    values
+        .text("numpy", "jnp")
+        .text("coefficients", names.join(", "))
+        .text("gradients", counted(names.len() / 2, "evaluation"));
+    values.fill(concat!(include_str!("templates/blackjax.py"), include_str!("templates/self_test.py")))
 }

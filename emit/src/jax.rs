@@ -7,7 +7,9 @@ const JAX: Language = Language { comment: "#", constant: plain_constant, literal
 
 /// The module.
 pub(crate) fn module(step: &Step<'_>) -> String {
-    JAX.values(step).fill(include_str!("templates/jax.py"))
+    let mut values = JAX.values(step);
+    values.text("numpy", "jnp");
+    values.fill(concat!(include_str!("templates/jax.py"), include_str!("templates/self_test.py")))
 }
 
 fn action(action: Action<'_>, direction: Direction) -> String {

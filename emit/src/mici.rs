@@ -11,8 +11,9 @@ pub(crate) fn module(step: &Step<'_>) -> String {
     let free = (names.len() - 1) / 2 - 1;
     let mut values = MICI.values(step);
     values
+        .text("numpy", "np")
         .text("coefficients", names.join(", "))
         .text("free", free.to_string())
         .text("kick_first", if step.begins_with_kick() { "True" } else { "False" });
-    values.fill(include_str!("templates/mici.py"))
+    values.fill(concat!(include_str!("templates/mici.py"), include_str!("templates/self_test.py")))
 }

@@ -10,10 +10,11 @@ pub(crate) fn module(step: &Step<'_>) -> String {
     let mut values = PYTHON.values(step);
     let products = if step.has_gradient_kicks() { ", hessian_product" } else { "" };
     values
+        .text("numpy", "np")
         .text("parameters", format!("gradient{products}, velocity=unit_masses"))
         .text("arguments", format!("gradient{products}, velocity"))
         .text("test_arguments", format!("gradient{products}"));
-    values.fill(include_str!("templates/python.py"))
+    values.fill(concat!(include_str!("templates/python.py"), include_str!("templates/self_test.py")))
 }
 
 fn action(action: Action<'_>, direction: Direction) -> String {

@@ -64,7 +64,7 @@ impl SamplingTarget {
                 let message = format!("the acceptance {rate} is not between 0 and 1");
                 Err(Error::usage(message, "use an acceptance such as 0.65"))
             }
-            Wanted::Steps(0) => Err(Error::usage("a trajectory of 0 steps goes nowhere", "use at least 1 step")),
+            Wanted::Steps(0) => Err(Error::usage("the number of steps must be at least 1", "use a number such as 10")),
             _ => Ok(SamplingTarget { gaussian, time, wanted }),
         }
     }

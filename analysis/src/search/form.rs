@@ -92,7 +92,8 @@ impl<'a> Form<'a> {
         if request.processor.is_some() {
             text += &format!("\n[processor]\norder = {}\n{near_integrable}{}", request.order, written(&self.post));
         }
-        Source { path: format!("{name}.toml"), text }
+        // its lines are not those of the file of the search
+        Source { path: format!("the table of {name}"), text }
     }
 }
 

@@ -82,6 +82,7 @@ fn what_cannot_be_searched_for_is_refused() {
     assert!(few.err.contains("none of 2 starts met the conditions") && few.err.contains("more stages"), "{}", few.err);
     let base = refused(&format!("{class}stages = 3\nbase = \"leapfrogg\"\n"));
     assert!(base.code == 2 && base.err.contains("leapfrogg"), "{}", base.err);
+    assert!(base.err.contains("the table of found:"), "its lines are not those of the file: {}", base.err);
     let key = refused(&format!("{class}stages = 3\nstage = 4\n"));
     assert!(key.code == 2 && key.err.contains("found.toml:5:1"), "{}", key.err);
     let missing = shadowstep(&format!("search missing.toml --out {}", out.display()));
