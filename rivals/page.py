@@ -28,7 +28,7 @@ little. They are those of the bare integration: programs are started, imported a
   which is named. An error counts as reached only if the next two finer runs have no larger one; "–" means that no run reaches it.
 
 A sweep ends with the first run of more than {longest} s, so that slow contestants do not reach small errors. Every number and verdict is
-computed from the [results](../rivals/results) by the program that writes this page; [`rivals/`](../rivals/README.md) has the programs.
+computed from the [results](../rivals/results) by the program that writes this page; [*Measuring other programs again*](speed.md#measuring-other-programs-again) has the programs.
 
 {machine}
 """

@@ -28,7 +28,7 @@ pub(crate) struct PosedArguments {
     /// Decimal digits of all numbers, such as 50 [default: those of the scene, else double precision]
     #[arg(long, value_name = "DIGITS", value_parser = |text: &str| whole(text, 1..=MOST_DIGITS))]
     digits: Option<u32>,
-    /// MPFR's numbers, also for up to 307 digits, for which numbers of some limbs of 64 bits take less time
+    /// MPFR's numbers also for up to 307 digits, where the built-in ones are faster
     #[arg(long, requires = "digits")]
     mpfr: bool,
     #[command(flatten)]

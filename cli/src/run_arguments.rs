@@ -49,7 +49,7 @@ pub(crate) struct RunArguments {
     #[arg(long, value_name = "RULE", value_parser = words(SelectionRule::NAMES, SelectionRule::SUMMARIES).try_map(|word| word.parse::<SelectionRule>()))]
     pub(crate) rule: Option<SelectionRule>,
     /// Target error for --estimator bilinear --order auto, such as 1e-20: the least k of 2, 4, 8, 16, … and the largest one
-    /// that meets it is used, not every k between them. Where none does, the best of them is used, and the estimates show it
+    /// that meets it is used. If none meets it, the most accurate is used, and its estimated error is reported
     /// [default: the best of them for each state]
     #[arg(long, value_name = "ERROR", allow_hyphen_values = true)]
     pub(crate) accuracy: Option<String>,
@@ -100,8 +100,8 @@ pub(crate) struct SystemArguments {
     #[arg(long, value_name = "NAME|FILE", conflicts_with = "name")]
     problem: Option<String>,
     /// A parameter or initial value of a shipped problem, or a parameter of --potential, exact, such as eccentricity=1/3 or
-    /// "px=sqrt(2)/2"; may be repeated
-    #[arg(long, value_name = "NAME=VALUE")]
+    /// "px=sqrt(2)/2"
+    #[arg(long, value_name = "NAME=VALUE,…", value_delimiter = ',')]
     pub(crate) set: Vec<String>,
     /// U(q), a smooth formula in the coordinates of --q, in place of --problem: "-1/sqrt(x^2 + y^2)"
     #[arg(long, value_name = "FORMULA", conflicts_with_all = ["name", "problem"], requires_all = ["q", "p"], allow_hyphen_values = true)]

@@ -22,7 +22,7 @@ Examples:
   shadowstep schemes --order 4 --for quadratic --sort effective-error
   shadowstep schemes mine.toml --order 4";
 
-/// Lists the schemes that come along; shows one; checks a table of yours.
+/// Lists the shipped schemes; shows one; checks a table of your own.
 #[derive(Debug, Args)]
 #[command(args_conflicts_with_subcommands = true, after_help = EXAMPLE)]
 pub(crate) struct Arguments {

@@ -49,8 +49,8 @@ pub(crate) struct Arguments {
     /// catalogue that are valid for the kinetic energy, `near-integrable` those with orders for A + εB [default: a dozen that are]
     #[arg(long, value_name = "NAME|FILE,…", value_delimiter = ',')]
     schemes: Vec<String>,
-    /// Step sizes, exact, which the end of the runs must be multiples of, such as 1/10,1/20; in transformed time any steps of s [default: from the stability limit down to
-    /// round-off, at equal numbers of evaluations for all schemes]
+    /// Step sizes, exact, such as 1/10,1/20; the end time must be a multiple of each; in transformed time any steps of s [default:
+    /// from the stability limit down to round-off, at equal numbers of evaluations for all schemes]
     #[arg(long, value_name = "H,…", value_delimiter = ',', allow_hyphen_values = true)]
     steps: Vec<String>,
     /// The time for the runs of a scheme, in seconds, unless --steps are given

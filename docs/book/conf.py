@@ -10,48 +10,57 @@ from sphinx.util.logging import getLogger
 
 logger = getLogger(__name__)
 ROOT = Path(__file__).resolve().parents[2]
-NOTEBOOKS = ["outer-planets", "molecular-dynamics", "drift-of-the-modified-energy", "scheme-of-ones-own", "chaos-and-derivatives", "precision", "shadow-hamiltonian-monte-carlo"]
+def notebooks(*names):
+    return [f"python/notebooks/{name}" for name in names]
+
 
 # The chapters in the order in which they are read. A page of docs/ or a notebook that is in none of them is a warning, and so an error.
 CHAPTERS = {
-    "Python": ["docs/python", *(f"python/notebooks/{name}" for name in NOTEBOOKS), "docs/book/python-api"],
-    "Rust and the command line": [
-        "docs/library",
+    "Start": ["docs/start-here", "docs/gallery", "docs/glossary"],
+    "Tutorials": notebooks(
+        "outer-planets",
+        "molecular-dynamics",
+        "scheme-of-ones-own",
+        "chaos-and-derivatives",
+        "shadow-hamiltonian-monte-carlo",
+        "precision",
+        "drift-of-the-modified-energy",
+    ),
+    "How to": [f"docs/how-to/{name}" for name in ("which-scheme", "step-size", "undecided", "energy-drifts", "resume", "units")],
+    "Theory": ["docs/theory", "docs/modified-hamiltonian", "docs/gradient-kicks-and-processing"],
+    "Reference": [
+        "docs/python",
+        "docs/book/python-api",
         "docs/command-line",
-        "docs/ensembles",
-        "docs/sweeps",
-        "docs/clusters",
-        "docs/emit",
-        "docs/what-works-with-what",
+        "docs/scenes",
+        "docs/library",
         "docs/book/rust-api",
-    ],
-    "The modified energy, and chaos": ["docs/the-modified-energy", "docs/modified-hamiltonian", "docs/monitor", "docs/recorded-trajectories", "docs/chaos", "docs/derivatives"],
-    "Schemes": [
         "docs/schemes",
         "schemes/tables/README",
-        "docs/gradient-kicks",
-        "docs/processed-schemes",
-        "docs/search",
-        "docs/sampling",
-        "docs/errata-of-published-tables",
+        "docs/numbers",
+        "docs/round-off",
+        "docs/what-works-with-what",
     ],
-    "Systems": ["docs/planets", "docs/linear-part", "docs/many-parts", "docs/multiple-time-steps", "docs/transformed-time", "docs/explicit-time", "docs/magnetic-fields", "docs/liquids"],
-    "Numbers": ["docs/numbers", "docs/round-off"],
-    "Measurements": [
+    "Systems": ["docs/planets", "docs/liquids", "docs/magnetic-fields", "docs/explicit-time", "docs/transformed-time", "docs/linear-part", "docs/many-parts", "docs/multiple-time-steps"],
+    "Tasks": [
         "docs/work-precision",
-        "docs/speed-against-error",
-        "rivals/README",
-        "docs/speed",
-        "docs/benchmarks",
-        "docs/stability",
+        "docs/many-runs",
+        "docs/monitor",
+        "docs/recorded-trajectories",
+        "docs/chaos",
+        "docs/derivatives",
+        "docs/sampling",
+        "docs/search",
+        "docs/emit",
     ],
-    "The project": ["ARCHITECTURE", "CONTRIBUTING", "docs/language", "CHANGELOG"],
+    "Evidence": ["docs/the-modified-energy", "docs/stability", "docs/errata-of-published-tables", "docs/speed", "docs/benchmarks", "docs/speed-against-error"],
+    "Development": ["ARCHITECTURE", "CONTRIBUTING", "docs/language", "CHANGELOG"],
 }
 
 project = "Shadowstep"
-extensions = ["myst_nb", "sphinx.ext.autodoc", "sphinx.ext.napoleon", "sphinx.ext.mathjax", "sphinx-mathjax-offline"]
+extensions = ["myst_nb", "sphinx.ext.autodoc", "sphinx.ext.napoleon", "sphinx.ext.mathjax", "sphinx-mathjax-offline", "sphinx_design"]
 root_doc = "README"
-include_patterns = ["README.md", *(f"{page}.*" for pages in CHAPTERS.values() for page in pages), "docs/*.md", "python/notebooks/*.ipynb"]
+include_patterns = ["README.md", *(f"{page}.*" for pages in CHAPTERS.values() for page in pages), "docs/*.md", "docs/how-to/*.md", "python/notebooks/*.ipynb"]
 exclude_patterns = ["target", ".git", "**.rs", "**.py", "**.toml", "docs/pictures", "docs/sweeps"]
 
 html_theme = "furo"
@@ -62,7 +71,7 @@ html_static_path = ["style"]
 html_css_files = ["wide-tables.css"]
 
 # formulas are set in the browser, from files of the book
-myst_enable_extensions = ["dollarmath"]
+myst_enable_extensions = ["dollarmath", "colon_fence"]
 myst_heading_anchors = 4
 # a picture of a notebook is one of the book; widgets would need the network
 nb_ipywidgets_js = {}
@@ -82,6 +91,7 @@ napoleon_use_rtype = False
 def setup(app):
     app.connect("source-read", chapters)
     app.connect("source-read", sources_of_rust)
+    app.connect("source-read", tabs)
     app.connect("autodoc-process-docstring", bars)
     app.connect("autodoc-process-signature", names_of_types)
 
@@ -111,6 +121,17 @@ def sources_of_rust(app, name, source):
         return f'<a href="{"../" * len(folder.relative_to(ROOT).parts)}{page}">{link[1]}</a>'
 
     source[0] = re.sub(r"\[([^\[\]]*)\]\(([^)#:\s]+)\)", changed, source[0])
+
+
+def tabs(app, name, source):
+    """What is between two comments are tabs, each of which begins with its name in bold; GitHub shows them one below the other."""
+
+    def tab_set(found):
+        names_and_texts = re.split(r"^\*\*(.+)\*\*$", found[1], flags=re.MULTILINE)[1:]
+        items = [f":::{{tab-item}} {title}\n:sync: {title}\n{text.rstrip()}\n:::" for title, text in zip(names_and_texts[::2], names_and_texts[1::2])]
+        return "::::{tab-set}\n" + "\n".join(items) + "\n::::"
+
+    source[0] = re.sub(r"<!-- tabs -->\n(.*?)<!-- /tabs -->", tab_set, source[0], flags=re.DOTALL)
 
 
 def crate_name(folder):

@@ -115,13 +115,13 @@ const INTRODUCTION: [&str; 4] = [
      need, are computed by the scheme and its exact inverse. The paper's sign of the rate of β, printed −h a (qᵀU_q + 2U), is +h a (qᵀU_q − 2U).",
     "Each statement agrees, differs, or is not decided. A statement on a rate or a mean ratio agrees if its whole 95 % interval does, and differs if \
      no part of the interval does; the interval is Student's, over the step sizes, as if these were independent. A factor that the paper prints with one \
-     digit is what rounds to it. Drifts below 10⁻¹⁰⁸, where round-off of 120 digits may be visible, are left out. Other criteria are stated beside \
+     digit counts as every value that rounds to it. Drifts below 10⁻¹⁰⁸, where round-off of 120 digits may be visible, are left out. Other criteria are stated beside \
      their results.",
 ];
 
 /// What a quick report cannot decide.
-const QUICK: &str = "A quick report: with fewer step sizes, eccentricities and orders, a statement about all of them can be contradicted and not \
-     confirmed, and a statement that there is one can be confirmed and not contradicted. Without --quick more is decided.";
+const QUICK: &str = "A quick report: fewer step sizes, eccentricities and orders can refute a claim about all of them or confirm a claim that one \
+     exists, but not the reverse. Without --quick more is decided.";
 
 /// `earlier` are the figures that are not requested.
 fn report(request: &Request, sections: Vec<Section>, earlier: &[String]) -> Report {

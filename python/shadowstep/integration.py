@@ -67,6 +67,10 @@ class Trajectory:
     """Of a file with `chaos`: lyapunov, megno, mean_megno and sali, each of shape (n,)."""
     values: dict[str, np.ndarray] = field(default_factory=dict)
     """Of a file with `values` or `elements`: each column, of shape (n,)."""
+    summary: dict[str, Any] | None = None
+    """What the run has shown, if that was asked for: the verdict, the error of H, close encounters, …; see ``summary_text``."""
+    summary_text: str | None = None
+    """The same as lines."""
     tangent: np.ndarray | None = None
     """The tangent vectors (δq, δp) at the states, of shape (n, vectors, 2d), if first ones were given."""
 
@@ -132,6 +136,7 @@ def integrate(
     stop: str | None = None,
     rule: str | None = None,
     accuracy: Number | None = None,
+    summary: bool = False,
     progress: bool | None = None,
 ) -> Trajectory:
     """Makes a run of a scheme from the problem's initial state.
@@ -162,6 +167,7 @@ def integrate(
         Tangent vectors (δq, δp) at t = 0, of 2d components each, which the derivative of each step takes along: δ ← DΦ δ, where a kick is
         δp ← δp − h a_s U_qq δq and a drift δq ← δq + h b_s T_pp δp. They are neither normalised nor made orthogonal; each costs about twice a run.
         In transformed time steps are given. See `derivatives` for derivatives by parameters, and `lyapunov` for growth.
+    digits
         ``"double"``, ``"compensated"`` (double precision in which q and p are sums with remainders), ``"double-double"``, or a number of
         decimal digits.
     mpfr
@@ -171,6 +177,8 @@ def integrate(
     order
         Its k or m; by default the best one of each state up to ``max_order``. ``stop``, ``rule`` and ``accuracy`` say how that is found:
         see ``shadowstep drift --help``.
+    summary
+        Whether the run is followed for a summary with a verdict on the step size; `Trajectory.summary_text` is printed.
     progress
         Whether to show a progress bar, for which tqdm is needed; by default on a terminal or in a notebook, on runs of more than a second.
 
@@ -189,6 +197,8 @@ def integrate(
     Trajectory(101 states of 1 coordinates, t = 0.0 to 10.0)
     >>> run.q.shape, run.force_evaluations
     ((101, 1), 101)
+    >>> shadowstep.integrate(shadowstep.Problem("pendulum"), "stormer-verlet", h="1/10", until=100, summary=True).summary["verdict"]
+    'bounded'
     >>> precise = shadowstep.integrate(shadowstep.Problem("pendulum"), "yoshida4", h="1/10", steps=3, digits=50)
     >>> precise.t[-1]
     '0.3'
@@ -204,7 +214,10 @@ def integrate(
     run = run_of(problem, scheme, h, until, steps, first, gradient_kicks, every, digits, mpfr)
     chosen = None if estimator is None else options(estimator, order, max_order, stop, rule, accuracy)
     with bar(run["steps"], "steps", progress) as reach:
-        found = _shadowstep.integrate(run, options=chosen, end=end, tangent=_texts(tangent), progress=reach)
+        found = _shadowstep.integrate(run, options=chosen, end=end, tangent=_texts(tangent), summary=summary, progress=reach)
+    if found["summary"] is not None:
+        found["summary_text"], record = found["summary"]
+        found["summary"] = json.loads(record)
     if found["planets"] is not None:
         found["planets"] = json.loads(found["planets"])
     for note in found["notes"]:

@@ -16,18 +16,20 @@ use crate::derivatives::{By, Request, columns};
 use crate::errors::exception;
 use crate::estimator::Options;
 use crate::given_run::{GivenRun, SystemWithScheme, Times};
+use crate::scene::Summarising;
 use crate::waiting::waiting;
 
 /// Makes a run, and gives a dictionary of its states: arrays in double precision, else lists of decimal texts. With tangent vectors, each of which begins with
 /// components of `tangent`, it is made once more with these.
 #[pyfunction]
-#[pyo3(signature = (run, *, options, end, tangent, progress))]
+#[pyo3(signature = (run, *, options, end, tangent, summary, progress))]
 pub(crate) fn integrate<'py>(
     py: Python<'py>,
     run: GivenRun,
     options: Option<Options>,
     end: Option<String>,
     tangent: Vec<Vec<String>>,
+    summary: bool,
     progress: Option<&Bound<'py, PyAny>>,
 ) -> PyResult<Bound<'py, PyDict>> {
     let estimator = options.map(|options| options.settings(py)).transpose()?;
@@ -38,13 +40,11 @@ pub(crate) fn integrate<'py>(
         let run = &request.run;
         let posed = run.posed()?;
         let runs = (&run.times, run.displaced);
-        let (found, mut notes) = posed.run(
-            runs,
-            (run.every, end.as_deref()),
-            estimator.as_ref(),
-            run.arithmetic,
-            &mut watched.observer(),
-        )?;
+        let mut summarising = Summarising::new(watched, Vec::new());
+        let mut watching = watched.observer();
+        let observer: &mut dyn Observer = if summary { &mut summarising } else { &mut watching };
+        let rows = (run.every, end.as_deref());
+        let (found, mut notes) = posed.run(runs, rows, estimator.as_ref(), run.arithmetic, observer)?;
         notes.extend(run.times.note.clone());
         let mut vectors = Vec::new();
         if request.has_variables() {
@@ -52,15 +52,16 @@ pub(crate) fn integrate<'py>(
             request.run.times.steps = found.steps();
             vectors = request.forward(&mut watched.observer())?.by;
         }
-        Ok((found, vectors, notes, posed.system.problem))
+        Ok((found, vectors, notes, posed.system.problem, summarising.summary()?))
     });
     given.raised(py)?;
-    let (found, vectors, notes, problem) = found?.map_err(|error| exception(py, error))?;
+    let (found, vectors, notes, problem, summary) = found?.map_err(|error| exception(py, error))?;
     let dictionary = found.into_dictionary(py)?;
     dictionary.set_item("notes", PyList::new(py, notes.iter().map(Note::to_string))?)?;
     dictionary.set_item("coordinates", &problem.coordinates)?;
     dictionary.set_item("momenta", &problem.momenta)?;
     dictionary.set_item("is_between", is_between)?;
+    dictionary.set_item("summary", summary)?;
     dictionary.set_item("tangent", columns(py, vectors)?)?;
     Ok(dictionary)
 }

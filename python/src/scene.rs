@@ -47,7 +47,7 @@ fn run(source: Source, restart: bool, watched: &Watched) -> Result<SceneResult, 
         return Ok((text(rows), None, notes));
     }
     let scene = Scene::read(source)?;
-    let mut follower = SceneObserver { watched, notes: scene.notes.clone(), summary: None };
+    let mut follower = Summarising::new(watched, scene.notes.clone());
     let outcome = match &scene.output.file {
         Some(_) => scene.run_to_file(options, &mut follower)?,
         None => scene.run_into(&mut rows, &mut follower)?,
@@ -55,22 +55,33 @@ fn run(source: Source, restart: bool, watched: &Watched) -> Result<SceneResult, 
     if let Outcome::Stopped { n } = outcome {
         return Err(Error::run(format!("the run was interrupted at n = {n}"), "run the scene again"));
     }
-    let SceneObserver { notes, summary, .. } = follower;
-    let notes = notes.iter().map(Note::to_string).collect();
-    let summary = summary.map(|summary| -> Result<_, Error> {
-        let json = serde_json::to_string(&summary)?;
-        Ok((summary.to_string(), json))
-    });
-    Ok((scene.output.file.is_none().then(|| text(rows)).flatten(), summary.transpose()?, notes))
+    let notes = follower.notes.iter().map(Note::to_string).collect();
+    Ok((scene.output.file.is_none().then(|| text(rows)).flatten(), follower.summary()?, notes))
 }
 
-struct SceneObserver<'a> {
+/// Keeps the notes and the summary of a run.
+pub(crate) struct Summarising<'a> {
     watched: &'a Watched,
     notes: Vec<Note>,
     summary: Option<Summary>,
 }
 
-impl Observer for SceneObserver<'_> {
+impl<'a> Summarising<'a> {
+    pub(crate) fn new(watched: &'a Watched, notes: Vec<Note>) -> Self {
+        Summarising { watched, notes, summary: None }
+    }
+
+    /// The summary as text and JSON.
+    pub(crate) fn summary(&self) -> Result<Option<(String, String)>, Error> {
+        let texts = self
+            .summary
+            .as_ref()
+            .map(|summary| -> Result<_, Error> { Ok((summary.to_string(), serde_json::to_string(summary)?)) });
+        texts.transpose()
+    }
+}
+
+impl Observer for Summarising<'_> {
     fn progress(&mut self, n: i64) {
         self.watched.reaches(n);
     }

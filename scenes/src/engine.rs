@@ -27,8 +27,8 @@ use crate::snapshots::{Snapshot, Snapshots};
 use crate::start::Begin;
 use crate::tangent::{FollowingVectors, VECTORS_OF_ROWS, Vectors};
 use crate::values::{Extremes, ValuesOfRows};
+use crate::watch::Watch;
 use crate::watch::summary::Summary;
-use crate::watch::{Energies, Watch};
 
 /// How a run ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -204,12 +204,9 @@ impl<N: RunNumber> Recorder<'_, '_, N> {
         if !self.scene.summarises(self.observer) {
             return Ok(None);
         }
-        let (q, p) = self.scene.system.start(self.context);
-        let initial = integrator.system().energy_at(&q, &p);
-        let first = (self.from.unwrap_or(0), initial);
-        let watch = Watch::begin(integrator, self.run, first, Energies::Windows, true);
-        let watch = watch.map_err(|error| self.named(&error))?;
-        Ok(Some(watch.of_system(&self.scene.system, integrator)))
+        let run = (self.run, self.from.unwrap_or(0));
+        let watch = Watch::of_run(&self.scene.system, integrator, run, self.context);
+        watch.map(Some).map_err(|error| self.named(&error))
     }
 
     /// The error of the run, with the scene's names of coordinates and momenta.

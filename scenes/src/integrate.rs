@@ -24,11 +24,13 @@
 
 use std::ops::ControlFlow;
 
+use shadowstep::Carried;
 use shadowstep::Rational;
 use shadowstep::number::Number;
 use shadowstep::shadow::run::{NotFinite, Quantity, RunError};
 use shadowstep::shadow::{Estimate, EstimatorSettings};
 use shadowstep::steps::integrator::{VectorIntegrator, at_output};
+use shadowstep::systems::system::Visitor;
 use shadowstep::tables::{AtRunTime, TableScheme};
 
 use crate::computation::RunNumber;
@@ -43,7 +45,7 @@ use crate::scene::split::ShownCoordinates;
 use crate::scene::{self, EnergyAt};
 use crate::start::{Begin, Steps};
 use crate::steps::{End, MOST_STEPS};
-use crate::watch::{Approaches, Interactions};
+use crate::watch::{Approaches, Interactions, Watch};
 
 /// A run whose states are kept.
 #[derive(Clone, Copy)]
@@ -102,7 +104,7 @@ pub struct Modified<N> {
 }
 
 impl Integration<'_> {
-    /// Makes the run.
+    /// Makes the run, with a summary for an observer that [wants](Observer::summarises) one.
     ///
     /// # Errors
     /// A state or an energy that is not finite; settings of the estimator that are not valid; an observer that stops.
@@ -123,6 +125,8 @@ impl Integration<'_> {
         let until = until.filter(|_| !end.is_met);
         let run = Run { steps: end.steps, ..self.run };
         let mut integrator = at_start()?;
+        let named = |error: RunError| run.failed_naming(&error, &system.coordinates, &system.momenta);
+        let watch = observer.summarises().then(|| Watch::of_run(system, &mut *integrator, (run, 0), context));
         let mut keeper = Keeper {
             integration: Integration { run, ..self },
             context,
@@ -140,6 +144,7 @@ impl Integration<'_> {
                 interactions: None,
             },
             approaches: Approaches::of(system),
+            watch: watch.transpose().map_err(named)?,
             last: None,
             pace: Pace::new(0),
         };
@@ -157,6 +162,9 @@ impl Integration<'_> {
             }
         }
         keeper.samples.evaluations = integrator.state().evaluations();
+        if let Some(summary) = keeper.watch.take().and_then(|watch| watch.summary(run)) {
+            keeper.observer.summary(&summary);
+        }
         keeper.samples.interactions = keeper.approaches.map(|approaches| approaches.found().clone());
         Ok(keeper.samples)
     }
@@ -178,6 +186,8 @@ struct Keeper<'a, N: Number> {
     samples: Samples<N>,
     /// Of planets.
     approaches: Option<Approaches>,
+    /// Follows the run for a summary.
+    watch: Option<Watch<N>>,
     /// The last state, where estimates belong to the middles between states, or the run ends at a physical time.
     last: Option<(Vec<N>, Vec<N>)>,
     /// Of asking the observer.
@@ -237,17 +247,35 @@ impl<N: RunNumber> Keeper<'_, N> {
 }
 
 impl<N: RunNumber> Follower<N> for Keeper<'_, N> {
+    fn carried(&self) -> Carried {
+        self.watch.as_ref().map_or(Carried::Nothing, Watch::carried)
+    }
+
     fn next(&self, n: i64) -> i64 {
         let (n, every) = (n.unsigned_abs(), self.integration.every.max(1));
         let kept = (n / every + 1).saturating_mul(every);
-        i64::try_from(kept.min(self.pace.next(n))).unwrap_or(i64::MAX)
+        let watched = self.watch.as_ref().map_or(u64::MAX, |watch| n.saturating_add(watch.idle()).saturating_add(1));
+        i64::try_from(kept.min(watched).min(self.pace.next(n))).unwrap_or(i64::MAX)
+    }
+
+    fn visitor(&mut self) -> Option<&mut dyn Visitor<N>> {
+        self.watch.as_mut().map(|watch| -> &mut dyn Visitor<N> { watch })
     }
 
     fn state(&mut self, n: i64, integrator: &mut VectorIntegrator<'_, N>) {
         let Integration { estimator, run, until, .. } = self.integration;
         let wanted = estimator.is_some_and(EstimatorSettings::is_between) || until.is_some();
-        if wanted && n.unsigned_abs() == run.steps {
+        let is_last = n.unsigned_abs() == run.steps;
+        if wanted && is_last {
             self.last = Some((integrator.state().q().to_vec(), integrator.state().p().to_vec()));
+        }
+        // not of the states beyond both ends, which only the estimates need
+        let own = n > 0 && n.unsigned_abs() <= run.steps;
+        if let Some(watch) = self.watch.as_mut().filter(|_| own) {
+            watch.include(n, integrator);
+            if is_last {
+                watch.include_energy(n, &at_output(integrator, |integrator| integrator.system().energy()));
+            }
         }
     }
 
@@ -298,6 +326,53 @@ impl<N> Samples<N> {
             n: self.n,
             evaluations: self.evaluations,
             interactions: self.interactions,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Scene;
+    use crate::observer::KeptSummary;
+    use shadowstep::tables::Source;
+
+    /// Whatever a run computes besides, its summary is that of the scene; only H may be computed at other states.
+    #[test]
+    fn the_summary_is_that_of_the_scene() {
+        let kepler = "problem.name = \"kepler\"\nrun = { scheme = \"SCHEME\", step = \"1/20\", until = 100, digits = \"double\" }\n";
+        let planets = "problem = { name = \"outer-solar-system\", parts = \"wisdom-holman\" }\n\
+                       run = { scheme = \"saba4\", step = 100, until = 100000, digits = \"double\" }\n";
+        for (text, estimated) in [
+            (kepler.replace("SCHEME", "yoshida4"), false),
+            (kepler.replace("SCHEME", "yoshida4"), true),
+            (kepler.replace("SCHEME", "bcm6-13"), false),
+            (planets.to_owned(), false),
+        ] {
+            let rows = if estimated {
+                "output.modified_energy = { estimator = \"bilinear\", order = 8, every = 100 }\n"
+            } else {
+                "output.energy = { every = 100 }\n"
+            };
+            let scene = Scene::read(Source { path: "test.toml".to_owned(), text: text + rows }).unwrap();
+            let mut of_scene = KeptSummary::default();
+            scene.run_into(&mut Vec::new(), &mut of_scene).unwrap();
+            let integration = Integration {
+                system: &scene.system,
+                scheme: &scene.scheme.scheme,
+                run: scene.as_run(),
+                compensated: false,
+                displaced: false,
+                until: None,
+                ends: None,
+                every: 100,
+                estimator: scene.output.modified_energy.as_ref().map(|(settings, _)| settings),
+            };
+            let mut own = KeptSummary::default();
+            integration.run::<f64>(&(), &mut own).unwrap();
+            let [of_scene, own] = [of_scene, own].map(|kept| kept.0.unwrap());
+            assert_eq!(own.verdict_with_reason(), of_scene.verdict_with_reason());
+            assert_eq!((own.to, own.encounters), (of_scene.to, of_scene.encounters));
         }
     }
 }

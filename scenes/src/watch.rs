@@ -130,6 +130,22 @@ impl<N: RunNumber> Watch<N> {
         })
     }
 
+    /// Begins at the present state of a run of the system, which is number `from`, for a summary of the whole run.
+    ///
+    /// # Errors
+    /// A state or an energy that is not finite.
+    pub(crate) fn of_run(
+        system: &scene::System,
+        integrator: &mut VectorIntegrator<'_, N>,
+        (run, from): (Run<'_>, i64),
+        context: &N::Context,
+    ) -> Result<Self, RunError> {
+        let (q, p) = system.start(context);
+        let initial = integrator.system().energy_at(&q, &p);
+        let watch = Watch::begin(integrator, run, (from, initial), Energies::Windows, true)?;
+        Ok(watch.of_system(system, integrator))
+    }
+
     /// Follows the planets of a system that has some, too; in transformed time H is H'.
     #[must_use]
     pub(crate) fn of_system(mut self, system: &scene::System, integrator: &VectorIntegrator<'_, N>) -> Self {

@@ -4,7 +4,7 @@
 //! drift; the exact flow is exp(h (K + D)). Both are group-like elements of the algebra of words in K and D, so they
 //! agree up to order n if and only if the coefficients of the Lyndon words of at most n letters agree (the Lyndon
 //! words generate the shuffle algebra: Radford 1979; for splitting schemes Murua & Sanz-Serna, Phil. Trans. R. Soc.
-//! A 357 (1999) 957). The coefficient of a word of n letters in the exact flow is 1/n!.
+//! A 357 (1999) 1079). The coefficient of a word of n letters in the exact flow is 1/n!.
 //!
 //! A gradient kick is exp(h³ c C) with `C = [K,[D,K]]` = 2KDK − DKK − KKD: a sum of words of three letters in place of a letter.
 

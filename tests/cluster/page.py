@@ -1,18 +1,18 @@
-"""The page docs/clusters.md: its files and commands, which the tests use as they are written there."""
+"""The section of docs/many-runs.md on clusters: its files and commands, which the tests use as they are written there."""
 
 import re
 from pathlib import Path
 
 from processes import Failed
 
-PAGE = Path(__file__).parents[2] / "docs/clusters.md"
+PAGE = Path(__file__).parents[2] / "docs/many-runs.md"
 
 
 class Page:
-    """The blocks of code of the page; `command` notes what was used, `unused` is what no test has run."""
+    """The blocks of code of the section; `command` notes what was used, `unused` is what no test has run."""
 
     def __init__(self):
-        self.blocks = re.findall(r"^```(\w+)\n(.*?)^```$", PAGE.read_text(), re.MULTILINE | re.DOTALL)
+        self.blocks = re.findall(r"^```(\w+)\n(.*?)^```$", PAGE.read_text().partition("\n## On clusters\n")[2], re.MULTILINE | re.DOTALL)
         lines = "".join(text for kind, text in self.blocks if kind == "sh").replace("\\\n", "").splitlines()
         self.commands = [re.sub(r" +(# .*)?$", "", re.sub(r" {2,}", " ", line)) for line in lines if line.strip()]
         self.used = set()

@@ -30,10 +30,10 @@ Everything on this page is computed from the tables: the orders are proved, none
   quadratic T.
 - *A + εB*: the orders in the powers of ε for near-integrable systems: (8,6,4) has the local error O(εh⁹ + ε²h⁷ + ε³h⁵).
   They pay only if the drift solves A exactly and εB is small, as where drifts are Kepler motions and kicks the attractions of
-  planets: a `System` of your own. With H = T + U nothing is small, and such a scheme gains nothing over its order for T + U.
+  planets ([parts with flows of their own](planets.md)). With H = T + U nothing is small, and such a scheme gains nothing over its order for T + U.
   The drifts move by A. Blank where the table claims none.
 - *processed*: the steps are those of the kernel, whose orders these are; the effective orders are those of the trajectory, which is read
-  through the post-map: see [processed schemes](processed-schemes.md).
+  through the post-map: see [processed schemes](gradient-kicks-and-processing.md#processed-schemes).
 - *sampling*: `bcss2`, `bcss3`, `bcss4` and `predescu3` have order 2 and a small error of the energy in the mean over states in
   equilibrium, as Hamiltonian Monte Carlo needs. The *expected energy error* below is the largest ρ(h) of the harmonic oscillator over
   0 < hω < forces, where ρ(h) sin²(Lφ) is the mean of H − H(0) after L steps that turn by φ, in units of the temperature; the first three
@@ -43,7 +43,7 @@ Everything on this page is computed from the tables: the orders are proved, none
 - *forces*: evaluations of U_q a step, the first kick taking over what the last one of the step before evaluated.
 - *gradient kicks*: a stage with a weight c_s has also p += 2h³ c_s U_qq M⁻¹U_q, the flow of h³ c_s [B,[A,B]] for T = ½pᵀM⁻¹p and
   B = U(q). *forces* 2 + 1 means 2 evaluations of U_q and 1 Hessian–vector product U_qq M⁻¹U_q a step, which in the effective error
-  and the stability per force is counted as a force; [the formula of β](gradient-kicks.md) is on a page of its own. There is no order for
+  and the stability per force is counted as a force; [the formula of β](gradient-kicks-and-processing.md#gradient-kicks) is on a page of its own. There is no order for
   every T(p).
 - *operations*: products and additions a step and dimension besides these, one for each kick and each drift.
 - *effective error*: forces · ‖E‖^{1/order}, where h^{order+1} E is the leading error of the step's logarithm in

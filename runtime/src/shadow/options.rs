@@ -131,7 +131,7 @@ impl SelectionRule {
     /// What each of them selects.
     pub const SUMMARIES: &'static [&'static str] = &[
         "The smallest term |T_m - T_(m-1)|",
-        "The smallest maximum of ten neighbouring terms, none of which is small by chance; no worse on any orbit measured",
+        "The smallest maximum of ten neighbouring terms, which guards against a term that is small by chance",
     ];
 
     /// Its word.

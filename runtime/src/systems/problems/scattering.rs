@@ -29,7 +29,7 @@ impl Definition for Entry {
         initial: || Initial::new([("x", "-start"), ("y", "impact")], [("px", "speed"), ("py", "0")]),
         step: "1/20",
         until: "17",
-        source: "after Benettin & Giorgilli, J. Stat. Phys. 74 (1994) 569, quoted in Moan & Niesen, section 5",
+        source: "after Benettin & Giorgilli, J. Stat. Phys. 74 (1994) 1117, quoted in Moan & Niesen, section 5",
     };
 
     const HAS_FUNCTIONS: bool = true;
