@@ -30,7 +30,7 @@ wasm:
 	else echo "WebAssembly is skipped: rustup target add wasm32-unknown-unknown"; fi
 
 docs:
-	RUSTDOCFLAGS="-D warnings --html-in-header $(CURDIR)/runtime/katex.html" \
+	RUSTDOCFLAGS="-D warnings --html-in-header $(CURDIR)/runtime/formulas.html" \
 	    cargo doc --workspace --features mpfr --no-deps --locked
 
 # A wheel of the Python package in target/wheels, for CPython 3.10 and later, with the tools in a virtual environment of its own. It contains no LGPL

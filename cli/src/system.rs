@@ -103,7 +103,7 @@ fn by_formula(arguments: &SystemArguments, formula: &str, arithmetic: Arithmetic
     };
     let (system, notes) = System::read(&Source { path: "--potential".to_owned(), text }, arithmetic).map_err(wrong)?;
     notes.iter().for_each(report::note);
-    Ok(describe("formula".to_owned(), system))
+    Ok(Described { title: format!("U = {formula}"), ..describe("formula".to_owned(), system) })
 }
 
 /// The sections [problem] and [initial] of these flags.

@@ -49,6 +49,40 @@ use locate::Locator;
 /// are proved; a claim that does not hold is a compile error that names the condition which fails. The struct gets
 /// `shadowstep::Scheme`: `step`, `step_augmented` (carries β), `step_back` and `step_back_augmented`, written out map
 /// by map, and documentation with orders, cost and source. [`shadowstep_schemes::table`] describes the keys of a table.
+///
+/// # What is generated
+///
+/// Of `stormer-verlet.toml`, besides its properties, its exact weights and the sequence of its maps:
+///
+/// ```ignore
+/// /// Störmer–Verlet (leapfrog, Strang; kick first: velocity Verlet): `stormer-verlet`, meant for every kinetic energy T(p).
+/// ///
+/// /// - Order 2 (exactly) for every T(p), order 2 (exactly) for quadratic T: proved.
+/// /// - 2 stages: 2 kicks and 1 drift, symmetric.
+/// /// - A step costs 1 gradient (the gradient of the last kick serves the next step), …
+/// pub struct StormerVerlet;
+///
+/// impl Scheme for StormerVerlet {
+///     type Weights<N: Number> = Weights<[N; 1], [N; 1], [N; 0], [N; 0]>;
+///
+///     fn forward<F: Flows>(&self, weights: &Self::Weights<F::Number>, flows: &mut F) {
+///         let Weights { kicks: [kick_1], drifts: [drift_1], .. } = weights;
+///         flows.kick(kick_1);
+///         flows.drift(drift_1);
+///         flows.kick(kick_1);
+///     }
+///
+///     // the scheme is symmetric: steps back are steps with the weights of −h
+///     fn back<F: Flows>(&self, weights: &Self::Weights<F::Number>, flows: &mut F) {
+///         self.forward(weights, flows);
+///     }
+/// }
+///
+/// impl ValidFor<Quadratic> for StormerVerlet {}
+/// impl ValidFor<General> for StormerVerlet {}
+/// ```
+///
+/// `Flows` is what the maps of a step act on: a system alone, or with what a step carries along, such as increments and β.
 #[proc_macro_attribute]
 pub fn splitting_scheme(arguments: TokenStream, item: TokenStream) -> TokenStream {
     let arguments = parse_macro_input!(arguments as Arguments);
