@@ -36,6 +36,7 @@ CHAPTERS = {
         "docs/library",
         "docs/book/rust-api",
         "docs/schemes",
+        *(f"docs/schemes/{family}" for family in ("general", "quadratic", "gradient-kicks", "near-integrable", "processed", "multiple-time-steps")),
         "schemes/tables/README",
         "docs/numbers",
         "docs/round-off",
@@ -60,7 +61,7 @@ CHAPTERS = {
 project = "Shadowstep"
 extensions = ["myst_nb", "sphinx.ext.autodoc", "sphinx.ext.napoleon", "sphinx.ext.mathjax", "sphinx-mathjax-offline", "sphinx_design"]
 root_doc = "README"
-include_patterns = ["README.md", *(f"{page}.*" for pages in CHAPTERS.values() for page in pages), "docs/*.md", "docs/how-to/*.md", "python/notebooks/*.ipynb"]
+include_patterns = ["README.md", *(f"{page}.*" for pages in CHAPTERS.values() for page in pages), "docs/*.md", "docs/how-to/*.md", "docs/schemes/*.md", "python/notebooks/*.ipynb"]
 exclude_patterns = ["target", ".git", "**.rs", "**.py", "**.toml", "docs/pictures", "docs/sweeps"]
 
 html_theme = "furo"

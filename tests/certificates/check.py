@@ -2,14 +2,14 @@
 
 A step is a product of exponentials of kicks K and drifts D, with weights that the certificate has. It has order n for every T(p) if, for every
 Lyndon word in K and D of m <= n letters, the coefficient of the word in the product is 1/m!. This program makes the words and computes the coefficients
-with fractions only. Weights are polynomials in roots x1, x2, ..., x_i^k = r_i, and a condition has to hold modulo these equations: then it holds for
+with fractions only, or, where that is the same, with whole multiples of one. Weights are polynomials in roots x1, x2, ..., x_i^k = r_i, and a condition has to hold modulo these equations: then it holds for
 the roots themselves. For decimals it has to hold to within the bound that is stated; with an enclosure, there is one solution within a radius of them.
 """
 
 import json
 import sys
 from fractions import Fraction
-from math import factorial
+from math import factorial, lcm
 
 
 def add(a, b):
@@ -35,7 +35,7 @@ class Ring:
         self.roots = [(root["power"], polynomial(root["of"], self.count)) for root in roots]
         for place, (power, of) in enumerate(self.roots):
             assert power >= 2 and all(not any(e[place:]) for e in of), "a root of what comes before it"
-        self.one = {(0,) * self.count: Fraction(1)}
+        self.one = {(0,) * self.count: 1}
 
     def reduced(self, a):
         """The same number with powers of x_i below k_i."""
@@ -64,6 +64,15 @@ def lyndon_words(longest):
     return words
 
 
+def scaled(maps, ring, order):
+    """The maps with whole numbers in place of fractions, and their scale: a word of m letters has its coefficient times scale^m."""
+    if any(value.denominator != 1 for _, of in ring.roots for value in of.values()):
+        return maps, 1
+    ring.roots = [(power, {e: int(value) for e, value in of.items()}) for power, of in ring.roots]
+    scale = lcm(*(value.denominator for _, weight in maps for value in weight.values())) * factorial(order)
+    return [(letter, {e: int(value * scale) for e, value in weight.items()}) for letter, weight in maps], scale
+
+
 def coefficients(words, maps, ring):
     """The coefficients of the words and of all their beginnings in the product of the exponentials of the maps."""
     values = {word[:length]: {} for word in words for length in range(1, len(word) + 1)}
@@ -76,7 +85,8 @@ def coefficients(words, maps, ring):
                 taken += 1
                 if taken == len(powers):
                     powers.append(ring.product(powers[-1], weight))
-                share = {e: value / factorial(taken) for e, value in powers[taken].items()}
+                n = factorial(taken)  # whole numbers are multiples of it
+                share = {e: value / n if isinstance(value, Fraction) else value // n for e, value in powers[taken].items()}
                 total = add(total, ring.product(share, values[word[: len(word) - taken]]))
             values[word] = total
     return values
@@ -176,13 +186,15 @@ def check(certificate):
     assert 0 <= bound < Fraction(1, 1000 * factorial(order)), "a bound that decides"
     assert order >= 1 and (ring.count == 0) == (certificate["kind"] != "algebraic"), "roots are for algebraic numbers"
     words = lyndon_words(order)
-    values = coefficients(words, maps, ring)
+    in_scale, scale = scaled(maps, ring, order)
+    values = coefficients(words, in_scale, ring)
     for word in words:
-        off = add(values[word], {e: -value / factorial(len(word)) for e, value in ring.one.items()})
+        exact = Fraction(scale ** len(word), factorial(len(word)))
+        off = add(values[word], {e: -exact for e in ring.one})
         if bound == 0:
             assert off == {}, f"the word {word} is off"
         else:
-            assert abs(off.get((), Fraction(0))) <= bound, f"the word {word} is off by more than the bound"
+            assert abs(off.get((), 0)) <= bound * scale ** len(word), f"the word {word} is off by more than the bound"
     if certificate.get("enclosure"):
         check_enclosure(certificate["enclosure"], maps, order)
     return len(words)

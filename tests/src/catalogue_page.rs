@@ -1,4 +1,4 @@
-//! The page of the documentation on all shipped schemes, from their tables, proofs and analysis.
+//! The pages of the documentation on the shipped schemes, one of them all and one for each family, from their tables, proofs and analysis.
 
 use std::fmt::Write as _;
 
@@ -15,25 +15,27 @@ use crate::rational;
 /// Digits of a constant that a person reads.
 const SHOWN: usize = 25;
 
-const HEAD: &str = "\
-<!-- Generated from schemes/tables/*.toml; `UPDATE_DOCS=1 cargo test -p shadowstep-tests documentation` writes it. -->
+const GENERATED: &str = "<!-- Generated from schemes/tables/*.toml; `UPDATE_DOCS=1 cargo test -p shadowstep-tests documentation` writes it. -->\n\n";
 
+const HEAD: &str = "\
 # The shipped schemes
 
 A step makes, for each stage s in turn, the kick p −= h a_s U_q(q) and the drift q += h b_s T_p(p); weights that are 0 are
-left out. A composition makes steps γ_1 h, γ_2 h, … of another scheme. Constants are rounded to 25 digits here; the tables
-have 250 of them or closed forms, and `shadowstep schemes show NAME --json` writes every weight as an exact fraction.
+left out. A composition makes steps γ_1 h, γ_2 h, … of another scheme. The names lead to the pages with the weights.
 
 Everything on this page is computed from the tables: the orders are proved, none is copied from a publication.
+`shadowstep schemes --order 4 --for quadratic --sort effective-error` lists a part of it in another order.
+
+## The columns
 
 - *order*: for every T(p), and for quadratic T = ½pᵀM⁻¹p. A scheme whose table says `kinetic = \"quadratic\"` is meant for
   quadratic T.
-- *A + εB*: the orders in the powers of ε for near-integrable systems: (8,6,4) has the local error O(εh⁹ + ε²h⁷ + ε³h⁵).
+- *A + εB*: of near-integrable schemes, the orders in the powers of ε for near-integrable systems: (8,6,4) has the local error O(εh⁹ + ε²h⁷ + ε³h⁵).
   They pay only if the drift solves A exactly and εB is small, as where drifts are Kepler motions and kicks the attractions of
   planets ([parts with flows of their own](planets.md)). With H = T + U nothing is small, and such a scheme gains nothing over its order for T + U.
-  The drifts move by A. Blank where the table claims none.
-- *processed*: the steps are those of the kernel, whose orders these are; the effective orders are those of the trajectory, which is read
-  through the post-map: see [processed schemes](gradient-kicks-and-processing.md#processed-schemes).
+  The drifts move by A.
+- *effective*: of processed schemes, the orders of the trajectory, which is read through the post-map; all else is of the kernel. They are listed by
+  this order: see [processed schemes](gradient-kicks-and-processing.md#processed-schemes).
 - *sampling*: `bcss2`, `bcss3`, `bcss4` and `predescu3` have order 2 and a small error of the energy in the mean over states in
   equilibrium, as Hamiltonian Monte Carlo needs. The *expected energy error* below is the largest ρ(h) of the harmonic oscillator over
   0 < hω < forces, where ρ(h) sin²(Lφ) is the mean of H − H(0) after L steps that turn by φ, in units of the temperature; the first three
@@ -55,8 +57,89 @@ Everything on this page is computed from the tables: the orders are proved, none
 
 ";
 
-/// The page, in Markdown.
-pub fn catalogue_page() -> String {
+/// Schemes that are for the same.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Family {
+    General,
+    Quadratic,
+    GradientKicks,
+    NearIntegrable,
+    Processed,
+    MultipleSteps,
+}
+
+impl Family {
+    const ALL: [Family; 6] = [
+        Family::General,
+        Family::Quadratic,
+        Family::GradientKicks,
+        Family::NearIntegrable,
+        Family::Processed,
+        Family::MultipleSteps,
+    ];
+
+    fn of(proved: &Proved) -> Self {
+        match &proved.scheme {
+            scheme if scheme.inner.is_some() => Family::MultipleSteps,
+            scheme if scheme.processor.is_some() => Family::Processed,
+            _ if !proved.proof.near_integrable.is_empty() => Family::NearIntegrable,
+            scheme if scheme.has_gradient_kicks() => Family::GradientKicks,
+            scheme if scheme.table.kinetic == Kinetic::Quadratic => Family::Quadratic,
+            _ => Family::General,
+        }
+    }
+
+    fn title(self) -> &'static str {
+        match self {
+            Family::General => "For every T(p)",
+            Family::Quadratic => "For quadratic T",
+            Family::GradientKicks => "With gradient kicks",
+            Family::NearIntegrable => "For near-integrable systems",
+            Family::Processed => "Processed",
+            Family::MultipleSteps => "With multiple time steps",
+        }
+    }
+
+    /// The file of its page.
+    fn file(self) -> &'static str {
+        match self {
+            Family::General => "general",
+            Family::Quadratic => "quadratic",
+            Family::GradientKicks => "gradient-kicks",
+            Family::NearIntegrable => "near-integrable",
+            Family::Processed => "processed",
+            Family::MultipleSteps => "multiple-time-steps",
+        }
+    }
+
+    /// The column that only this family has.
+    fn column(self) -> Option<&'static str> {
+        match self {
+            Family::NearIntegrable => Some("A + εB"),
+            Family::Processed => Some("effective"),
+            _ => None,
+        }
+    }
+
+    fn link(self, name: &str) -> String {
+        format!("[{name}](schemes/{}.md#{name})", self.file())
+    }
+
+    fn head(self) -> String {
+        let Some(column) = self.column() else { return COLUMNS.join("\n") + "\n" };
+        let [titles, rules] = COLUMNS;
+        let titles = titles.replacen("quadratic T |", &format!("quadratic T | {column} |"), 1);
+        format!("{titles}\n{rules} --- |\n")
+    }
+}
+
+const COLUMNS: [&str; 2] = [
+    "| name | order | quadratic T | forces | operations | symmetric | effective error | for quadratic T | stable to hω | per force |",
+    "| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |",
+];
+
+/// The pages, each with its file in `docs/`, in Markdown.
+pub fn catalogue_pages() -> Vec<(String, String)> {
     let mut schemes: Vec<_> = shipped_names()
         .into_iter()
         .map(|name| {
@@ -65,29 +148,40 @@ pub fn catalogue_page() -> String {
         })
         .collect();
     schemes.sort_by_key(|(_, proved, _)| {
+        let quadratic =
+            proved.proof.effective.as_ref().map_or(&proved.proof.quadratic, |effective| &effective.quadratic);
         let order = proved.order_for_every_kinetic().unwrap_or(&proved.proof.quadratic).order;
-        (order, proved.proof.quadratic.order, proved.plan.degree())
+        let order = proved.proof.effective.as_ref().map_or(order, |effective| effective.quadratic.order);
+        (order, quadratic.order, proved.plan.degree())
     });
-    let mut page = HEAD.to_owned();
-    page += "| name | order | quadratic T | A + εB | forces | operations | symmetric | effective error | for quadratic T | stable to hω | per force |\n";
-    page += "| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |\n";
-    let (nested, schemes): (Vec<_>, Vec<_>) =
-        schemes.into_iter().partition(|(_, proved, _)| proved.scheme.inner.is_some());
-    for (name, proved, analysis) in &schemes {
-        page += &row(name, proved, analysis);
+    let mut all = format!("{GENERATED}{HEAD}");
+    let mut pages = Vec::new();
+    for family in Family::ALL {
+        let own = || schemes.iter().filter(move |(_, proved, _)| Family::of(proved) == family);
+        let title = family.title();
+        write!(all, "\n## {title}\n\n").expect("memory suffices");
+        let mut page = format!("{GENERATED}# {title}: weights\n\n{WEIGHTS}");
+        all += &if family == Family::MultipleSteps { MULTIPLE_STEPS.to_owned() } else { family.head() };
+        for (name, proved, analysis) in own() {
+            let (row, section) = match family {
+                Family::MultipleSteps => (nested_row(name, proved), nested_section(proved)),
+                _ => (row(family, name, proved, analysis), section(proved, analysis)),
+            };
+            all += &row;
+            write!(page, "\n## {name}\n\n{section}").expect("memory suffices");
+        }
+        pages.push((format!("schemes/{}.md", family.file()), page));
     }
-    page += MULTIPLE_STEPS;
-    nested.iter().for_each(|(name, proved, _)| page += &nested_row(name, proved));
-    for (name, proved, analysis) in &schemes {
-        write!(page, "\n## {name}\n\n{}", section(proved, analysis)).expect("memory suffices");
-    }
-    for (name, proved, _) in &nested {
-        write!(page, "\n## {name}\n\n{}", nested_section(proved)).expect("memory suffices");
-    }
-    page
+    pages.push(("schemes.md".to_owned(), all));
+    pages
 }
 
-const MULTIPLE_STEPS: &str = "
+const WEIGHTS: &str = "\
+[*The shipped schemes*](../schemes.md) compares them, and explains the terms. Constants are rounded to 25 digits here; the tables have 250 of them or closed
+forms, and `shadowstep schemes show NAME --json` writes every weight as an exact fraction.
+";
+
+const MULTIPLE_STEPS: &str = "\
 [Multiple time steps](multiple-time-steps.md), for slow forces, fast forces and T, whose orders are proved for these three parts. *resonance*: the first interval of hω in
 which an oscillation is unstable that has 1/100 of the stiffness of its fast forces in the slow ones.
 
@@ -104,7 +198,8 @@ fn nested_row(name: &str, proved: &Proved) -> String {
     let gaps = resonances(proved, &Rational::new(1.into(), 100.into())).expect("it has few maps").gaps;
     let end = |text: &str| to_significant(&rational(text), 5);
     format!(
-        "| [{name}](#{name}) | {} | {} | {} | {} | {} of {} | {} to {} |\n",
+        "| {} | {} | {} | {} | {} | {} of {} | {} to {} |\n",
+        Family::MultipleSteps.link(name),
         proved.order().order,
         plan.evaluations,
         plan.count(MapKind::Drift),
@@ -144,13 +239,12 @@ fn stability(analysis: &Analysis) -> &Stability {
     analysis.stability.as_ref().expect("shipped schemes have few maps")
 }
 
-fn row(name: &str, proved: &Proved, analysis: &Analysis) -> String {
+fn row(family: Family, name: &str, proved: &Proved, analysis: &Analysis) -> String {
     let limit: f64 = stability(analysis).limit.parse().expect("it is a number");
-    let cells = [
-        format!("[{name}](#{name})"),
+    let mut cells = vec![
+        family.link(name),
         proved.order_for_every_kinetic().map_or_else(|| "–".to_owned(), |order| order.order.to_string()),
         proved.proof.quadratic.order.to_string(),
-        processed_or_near_integrable(proved),
         match analysis.hessian_products {
             0 => analysis.evaluations.to_string(),
             products => format!("{} + {products}", analysis.evaluations),
@@ -165,6 +259,9 @@ fn row(name: &str, proved: &Proved, analysis: &Analysis) -> String {
         format!("{limit:.5}"),
         format!("{:.3}", limit / proved.plan.degree() as f64),
     ];
+    if family.column().is_some() {
+        cells.insert(3, effective_or_near_integrable(proved));
+    }
     format!("| {} |\n", cells.join(" | "))
 }
 
@@ -173,12 +270,12 @@ fn near_integrable(proved: &Proved) -> String {
     if orders.is_empty() { String::new() } else { format!("({})", orders.join(",")) }
 }
 
-fn processed_or_near_integrable(proved: &Proved) -> String {
+fn effective_or_near_integrable(proved: &Proved) -> String {
     let Some(effective) = &proved.proof.effective else { return near_integrable(proved) };
     let orders: Vec<_> = effective.near_integrable.iter().map(|order| order.order.to_string()).collect();
     match orders.is_empty() {
-        true => format!("processed: order {}", effective.general.order),
-        false => format!("processed: ({})", orders.join(",")),
+        true => effective.general.order.to_string(),
+        false => format!("({})", orders.join(",")),
     }
 }
 

@@ -60,7 +60,15 @@ pub(crate) fn unknown_name(name: &str, known: &[&str]) -> SemanticFault {
 /// The known functions, and the nearest of them.
 fn hint_at_functions(name: &str) -> String {
     let known: Vec<&str> = ROOTS.map(|(root, _)| root).into_iter().chain(Function::ALL.map(Function::name)).collect();
-    // `min` is not a misspelt `sin`
-    let misspelt = if NOT_SMOOTH.contains(&name) { "" } else { name };
+    let misspelt = match name {
+        // names of other programs
+        "ln" => "log",
+        "arcsin" => "asin",
+        "arccos" => "acos",
+        "arctan" => "atan",
+        // `min` is not a misspelt `sin`
+        _ if NOT_SMOOTH.contains(&name) => "",
+        _ => name,
+    };
     hint(misspelt, &known, &[], "known functions", "")
 }

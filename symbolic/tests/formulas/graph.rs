@@ -193,6 +193,13 @@ fn faults_have_a_message_and_a_place() {
              cosh, tanh, atan, asin, acos"
                 .into(),
         ),
+        (
+            "ln(x)",
+            0..5,
+            "unknown function `ln`; did you mean `log`? known functions: sqrt, cbrt, exp, log, sin, cos, tan, sinh, cosh, \
+             tanh, atan, asin, acos"
+                .into(),
+        ),
         ("sin(x, y)", 0..9, "`sin` takes one argument, not 2".into()),
         ("x + sqrt()", 4..10, "`sqrt` takes one argument, not 0".into()),
         ("2^x", 2..3, exponent.into()),

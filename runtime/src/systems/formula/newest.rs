@@ -6,11 +6,8 @@ use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 use crate::Rational;
 use shadowstep_symbolic::{Graph, Node, PotentialPrograms, Separation};
 
-/// How many are kept.
-const KEPT: usize = 32;
-
-/// Longer formulas are derived each time.
-const LONGEST: usize = 4096;
+/// The newest are kept up to this number of characters in all, as the programs are as long as the texts.
+const KEPT: usize = 1 << 17;
 
 /// What the programs depend on.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -20,6 +17,12 @@ pub(super) struct Text {
     pub(super) variables: Vec<String>,
     pub(super) parameters: Vec<String>,
     pub(super) role: Role,
+}
+
+impl Text {
+    fn length(&self) -> usize {
+        self.formula.len() + self.variables.iter().chain(&self.parameters).map(String::len).sum::<usize>()
+    }
 }
 
 /// What the formula is.
@@ -72,11 +75,14 @@ pub(super) fn derived<E>(text: Text, derive: impl FnOnce(&Text) -> Result<Derive
         return Ok(Arc::clone(derived));
     }
     let derived = Arc::new(derive(&text)?);
-    let length = text.formula.len() + text.variables.iter().chain(&text.parameters).map(String::len).sum::<usize>();
-    if length <= LONGEST {
-        let mut newest = newest();
-        newest.truncate(KEPT - 1);
-        newest.push_front((text, Arc::clone(&derived)));
-    }
+    let mut newest = newest();
+    newest.push_front((text, Arc::clone(&derived)));
+    let mut length = 0;
+    let kept = newest.iter().take_while(|(text, _)| {
+        length += text.length();
+        length <= KEPT
+    });
+    let kept = kept.count();
+    newest.truncate(kept);
     Ok(derived)
 }
