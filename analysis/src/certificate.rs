@@ -5,6 +5,7 @@
 //! | `ring` | polynomials in roots, with exact arithmetic |
 //! | `closed` | cells with roots → weights as such polynomials |
 //! | `enclosure` | decimals → a box in which there is one solution |
+//! | `whole_numbers` | conditions of rational weights in whole numbers |
 //!
 //! The conditions are those of [`order`](shadowstep_schemes::order): in the product of the exponentials of kicks and drifts, every Lyndon word of n
 //! letters up to the order has the coefficient 1/n!. A certificate has the weights; whoever checks it computes the coefficients.
@@ -12,16 +13,18 @@
 mod closed;
 mod enclosure;
 mod ring;
+mod whole_numbers;
 
 use num_traits::{Signed, Zero};
-use shadowstep_schemes::arithmetic::{Arithmetic, ExactArithmetic};
-use shadowstep_schemes::order::{lyndon_words, word_conditions};
+use shadowstep_schemes::arithmetic::Arithmetic;
+use shadowstep_schemes::order::{lyndon_words, weighed, word_conditions};
 use shadowstep_schemes::scheme::Held;
 use shadowstep_schemes::{Map, MapKind, Proved, Rational};
 
 pub use enclosure::Enclosure;
 pub use ring::{Polynomial, Root};
 use ring::{Ring, constant};
+use whole_numbers::WholeNumbers;
 
 /// What kind of proof an order has.
 #[derive(Clone, Debug, PartialEq)]
@@ -79,11 +82,11 @@ impl Certificate {
 
 /// How far the farthest condition up to an order is from what is needed.
 fn distance(maps: &[Map], order: u32) -> Rational {
-    let maps: Vec<_> = maps.iter().map(|map| (map.kind, map.weight.clone())).collect();
-    let conditions = word_conditions(&lyndon_words(order as usize), &maps, &ExactArithmetic);
+    let whole = WholeNumbers::new(maps.iter().map(|map| &map.weight), order);
+    let conditions = word_conditions(&lyndon_words(order as usize), &weighed(maps, &whole), &whole);
     conditions
         .into_iter()
-        .map(|(condition, value)| (value - condition.needed).abs())
+        .map(|(condition, value)| (whole.value(value, condition.order) - condition.needed).abs())
         .max()
         .unwrap_or_else(Rational::zero)
 }

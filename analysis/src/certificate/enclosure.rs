@@ -5,10 +5,11 @@
 //! only, if `|Y F(u)| + |1 − Y F′(X)| r < r` in every row (Krawczyk 1969). Here Y and r are proposed; whoever checks the certificate computes the bounds.
 
 use num_traits::{One, Signed, ToPrimitive, Zero};
-use shadowstep_schemes::arithmetic::{Arithmetic, ExactArithmetic};
+use shadowstep_schemes::arithmetic::Arithmetic;
 use shadowstep_schemes::table::Weights;
 use shadowstep_schemes::{ExactScheme, Rational, digits_of};
 
+use super::whole_numbers::WholeNumbers;
 use crate::polish::{conditions, lyndon_words};
 
 /// The proposal for a box.
@@ -45,7 +46,10 @@ impl Enclosure {
             .collect();
         let solved = columns(&rows, half.len())?;
         let inverse = inverse(rows.iter().map(|row| solved.iter().map(|place| row[*place]).collect()).collect())?;
-        let values: Vec<_> = conditions(&words, &gamma, &ExactArithmetic).into_iter().map(|(_, value)| value).collect();
+        let whole = WholeNumbers::new(gamma.iter(), order);
+        let scaled: Vec<_> = gamma.iter().map(|weight| whole.weight(weight)).collect();
+        let values = conditions(&words, &scaled, &whole).into_iter();
+        let values: Vec<_> = values.map(|(condition, value)| whole.value(value, condition.order)).collect();
         let size = |row: &Vec<f64>| {
             row.iter()
                 .zip(&values)
