@@ -115,5 +115,9 @@ pub fn same_bits<N: Bits>(a: &[N], b: &[N]) -> bool {
 struct Readme;
 
 #[cfg(doctest)]
+#[doc = include_str!("../../docs/start-here.md")]
+struct StartHere;
+
+#[cfg(doctest)]
 #[doc = include_str!("../../docs/library.md")]
 struct LibraryPage;
