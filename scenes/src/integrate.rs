@@ -26,7 +26,6 @@ use std::ops::ControlFlow;
 
 use shadowstep::Carried;
 use shadowstep::Rational;
-use shadowstep::number::Number;
 use shadowstep::shadow::run::{NotFinite, Quantity, RunError};
 use shadowstep::shadow::{Estimate, EstimatorSettings};
 use shadowstep::steps::integrator::{VectorIntegrator, at_output};
@@ -175,7 +174,7 @@ impl Integration<'_> {
 }
 
 /// Keeps the states of a run.
-struct Keeper<'a, N: Number> {
+struct Keeper<'a, N: RunNumber> {
     integration: Integration<'a>,
     context: &'a N::Context,
     observer: &'a mut dyn Observer,
