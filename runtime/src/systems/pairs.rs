@@ -446,7 +446,9 @@ impl<N: Number, P: PairPotential<N>, const D: usize> Potential<N> for Pairs<P, D
     }
 
     fn energy(&self, q: &[N], energy: &mut N, scratch: &mut [N]) {
-        if let Some((axes, pair)) = self.blocks(scratch) {
+        if N::IN_VECTORS
+            && let Some((axes, pair)) = self.blocks(scratch)
+        {
             return self.all_blocks().energy(q, energy, axes, pair);
         }
         energy.assign_zero();
@@ -461,20 +463,27 @@ impl<N: Number, P: PairPotential<N>, const D: usize> Potential<N> for Pairs<P, D
     }
 
     fn gradient(&self, q: &[N], gradient: &mut [N], scratch: &mut [N]) {
+        // what a number type does not have is not compiled for it, as its constants stand first in conditions
         let size = self.scratch_of_blocks::<N>();
-        if size > 0 && self.has_blocks_of_dual::<N>() {
+        if N::IN_VECTORS && N::HAS_DERIVATIVES && size > 0 && self.has_blocks_of_dual::<N>() {
             let (axes, pair) = self.room_of_blocks(size, scratch);
             let (bodies, in_order_of_blocks) = (self.bodies, self.is_in_blocks());
             return DualBlocks::<_, D> { pair: &self.pair, bodies, in_order_of_blocks }.sum((q, gradient), axes, pair);
         }
-        if let Some((axes, pair)) = self.blocks(scratch) {
+        if N::IN_VECTORS
+            && let Some((axes, pair)) = self.blocks(scratch)
+        {
             return self.all_blocks().sum((q, gradient), None, axes, pair);
         }
-        if let Some(ends) = self.chain_in_blocks::<N>() {
+        if N::IN_VECTORS
+            && let Some(ends) = self.chain_in_blocks::<N>()
+        {
             let chain = Chain { pair: &self.pair, ends };
             return chain.sum((q, gradient), None, &mut scratch[own_scratch(D)..]);
         }
-        if let Some(few) = self.few::<N>() {
+        if N::IN_VECTORS
+            && let Some(few) = self.few::<N>()
+        {
             return few.sum((q, gradient), None, &mut scratch[own_scratch(D)..]);
         }
         N::in_widest_instructions(
@@ -525,14 +534,20 @@ impl<P, const D: usize> Pairs<P, D> {
     where
         P: PairPotential<N>,
     {
-        if let Some((axes, pair)) = self.blocks(scratch) {
+        if N::IN_VECTORS
+            && let Some((axes, pair)) = self.blocks(scratch)
+        {
             return self.all_blocks().sum((q, gradient), Some(total), axes, pair);
         }
-        if let Some(ends) = self.chain_in_blocks::<N>() {
+        if N::IN_VECTORS
+            && let Some(ends) = self.chain_in_blocks::<N>()
+        {
             let chain = Chain { pair: &self.pair, ends };
             return chain.sum((q, gradient), Some(total), &mut scratch[own_scratch(D)..]);
         }
-        if let Some(few) = self.few::<N>() {
+        if N::IN_VECTORS
+            && let Some(few) = self.few::<N>()
+        {
             return few.sum((q, gradient), Some(total), &mut scratch[own_scratch(D)..]);
         }
         N::in_widest_instructions(
