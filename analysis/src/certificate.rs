@@ -1,6 +1,6 @@
 //! The proof of an order for every T(p) in a form that other programs can check: `shadowstep schemes prove`.
 //!
-//! | file | what it does |
+//! | module | what it does |
 //! | --- | --- |
 //! | `ring` | polynomials in roots, with exact arithmetic |
 //! | `closed` | cells with roots → weights as such polynomials |

@@ -1,6 +1,6 @@
 //! How good a proved splitting scheme is, and more digits for weights as papers print them.
 //!
-//! | file | what it computes |
+//! | module | what it computes |
 //! | --- | --- |
 //! | `analysis` | [`Analysis`]: everything below for one scheme, and the sizes of its weights |
 //! | [`error`](mod@error), [`bracket`], `logarithm` | the leading error: the terms of lowest order in the logarithm of a step |

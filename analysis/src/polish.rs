@@ -4,7 +4,7 @@
 //! the rounding of f64 hides weights that are off by a thousand times as much. [`polish`] takes the printed decimals for
 //! the beginning of Newton's iteration on the order conditions themselves.
 //!
-//! | file | what it does |
+//! | module | what it does |
 //! | --- | --- |
 //! | `unknowns`, `palindrome` | table → its decimals as unknowns, and the weights as functions of them |
 //! | `formulas` | what the cells name |

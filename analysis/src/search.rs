@@ -5,7 +5,7 @@
 //! iteration returns to. What is found in f64 gets as many digits as a table can claim, free parameters of few digits where they
 //! cost nothing, and a proof like any table.
 //!
-//! | file | what it is |
+//! | module | what it is |
 //! | --- | --- |
 //! | `request` | the file of a search |
 //! | `form` | the table of a form: which weights there are, and which are the same |

@@ -1,6 +1,6 @@
 //! Source code of others → the splitting schemes in it: which order each has, which shipped scheme it is, and what is wrong with it.
 //!
-//! | file | what it does |
+//! | module | what it does |
 //! | --- | --- |
 //! | `language` | the ending of a file → its language |
 //! | `token`, `cursor` | text → numbers, names, symbols, comments |

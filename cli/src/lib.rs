@@ -3,7 +3,7 @@
 //! A command is a file with its flags, `Arguments`, and its function, `execute`. It is registered by its `mod` line and its
 //! line of the list `commands!`.
 //!
-//! | file | what it is |
+//! | module | what it is |
 //! | --- | --- |
 //! | `drift`, `trace` | runs of problems: one line a run, or one line a step |
 //! | `run`, `scene` | runs that a file describes; such files |

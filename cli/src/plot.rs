@@ -3,7 +3,7 @@
 //! A [`RunLines`] takes the states of a run one by one and keeps what a picture can show of them; [`Plots`] has those of all runs,
 //! and writes the charts.
 //!
-//! | file | what it is |
+//! | module | what it is |
 //! | --- | --- |
 //! | `lines` | the curves of a run |
 //! | `thin` | points in time, and orbits, of which a run may have many |

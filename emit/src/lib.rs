@@ -4,7 +4,7 @@
 //! evaluations of the gradient as the plan of the scheme has; lines of provenance; and a self-test, which compares a run of Kepler's problem with the state
 //! that Shadowstep reaches and measures the order.
 //!
-//! | file | what it is |
+//! | module | what it is |
 //! | --- | --- |
 //! | `step` | the plan of a step → what is done one after the other, with names for the weights |
 //! | `provenance` | where a file comes from: table, version, hash, proved orders, reference |

@@ -15,7 +15,7 @@
 //!
 //! A figure is a file in `figures/` and its line in the list `FIGURES`; everything else walks that list.
 //!
-//! | file | what it is |
+//! | module | what it is |
 //! | --- | --- |
 //! | `reproduction` | from a request to the files |
 //! | `figures` | the list of all figures, and one file for each |

@@ -3,7 +3,7 @@
 //! The module `_shadowstep` takes and gives plain values; the package's own files in `shadowstep/` have the classes, docstrings and types
 //! that its users see.
 //!
-//! | file | what it is |
+//! | module | what it is |
 //! | --- | --- |
 //! | `errors` | Python's exceptions for the errors of scenes |
 //! | `waiting` | work without Python's lock, until Ctrl-C |

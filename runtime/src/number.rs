@@ -30,7 +30,7 @@ pub use correctly_rounded::CorrectlyRounded;
 pub use high_precision::{HighPrecision, ScaledInteger};
 pub use precision::{Precision, PrecisionError};
 
-/// Numbers of 64-bit limbs, whose number is part of the type or chosen at run time: [`shadowstep_limbs`].
+/// Numbers of 64-bit limbs, whose number is part of the type or chosen at run time: `shadowstep_limbs`.
 pub use shadowstep_limbs::{AnyLimbs, LimbCount, Limbs};
 
 /// MPFR's numbers, of the version that implements [`Number`].
@@ -164,7 +164,7 @@ pub trait Number: Clone + fmt::Debug {
     fn register(&mut self) -> Self::Register<'_>;
 
     /// Does some work, of numbers in lanes in the widest vector instructions that the processor has: of the whole loop, as all
-    /// that is not inlined into it is not compiled for them. See [`instructions`].
+    /// that is not inlined into it is not compiled for them. See `number::instructions`.
     #[inline(always)]
     fn in_widest_instructions<R>(work: impl FnOnce() -> R) -> R {
         work()

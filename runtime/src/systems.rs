@@ -1,6 +1,6 @@
 //! Hamiltonian systems, their states, and the exact flows of their parts.
 //!
-//! | file | what it is |
+//! | module | what it is |
 //! | --- | --- |
 //! | [`system`], `state`, `increments`, `coordinates` | a system, its state q and p with the remainders of their sums, and the increments of a step |
 //! | `maps`, [`summation`] | the maps that a scheme composes; how increments are added: plainly, compensated, in fixed point |

@@ -64,7 +64,7 @@
 //! # Ok::<(), shadowstep_scenes::Error>(())
 //! ```
 //!
-//! | file | what it is |
+//! | module | what it is |
 //! | --- | --- |
 //! | `scene` | the content of a scene: plain data |
 //! | [`keys`] | every key with its meaning; `explain` lists them, [`scene_text`] writes scenes with them |

@@ -48,7 +48,7 @@ use locate::Locator;
 /// The table is looked for beside the source file, then in the crate's root, then among the shipped ones. Its claims
 /// are proved; a claim that does not hold is a compile error that names the condition which fails. The struct gets
 /// `shadowstep::Scheme`: `step`, `step_augmented` (carries β), `step_back` and `step_back_augmented`, written out map
-/// by map, and documentation with orders, cost and source. [`shadowstep_schemes::table`] describes the keys of a table.
+/// by map, and documentation with orders, cost and source. `schemes/tables/README.md` describes the keys of a table.
 ///
 /// # What is generated
 ///

@@ -1,6 +1,6 @@
 //! TOML text → values with their places. Every fault is collected, with its place and what would be right.
 //!
-//! | file | what it has |
+//! | module | what it has |
 //! | --- | --- |
 //! | `file` | a file → its text, up to a stated size |
 //! | `fault` | a text with its name, and what is wrong at a place of it |

@@ -2,7 +2,7 @@
 //!
 //! The files are the pipeline; [`read_first`] in `pipeline` is the whole of it:
 //!
-//! | file | from → to |
+//! | module | from → to |
 //! | --- | --- |
 //! | [`document`] | TOML text → values with their places |
 //! | [`parse`], [`table`], [`claims`] | values → the cells and the claims of a table |

@@ -48,7 +48,7 @@ impl Proved {
         all_closed && matches!(self.scheme.held, Held::Digits(held) if held < digits)
     }
 
-    /// The same scheme with irrational weights rounded to this number of digits, up to [`MOST_EVALUATED_DIGITS`], and proved again.
+    /// The same scheme with irrational weights rounded to this number of digits, up to `MOST_EVALUATED_DIGITS`, and proved again.
     ///
     /// ```
     /// use shadowstep_schemes::{scheme::Held, shipped_proved};

@@ -17,7 +17,7 @@
 //!
 //! A case is a file in `cases/` that implements `Case`, and its line of the list `CASES`; everything else walks that list.
 //!
-//! | file | what it is |
+//! | module | what it is |
 //! | --- | --- |
 //! | `examination` | from a request to the findings |
 //! | [`Suite`], [`files`] | what is examined; the page, the charts and the table that are written |

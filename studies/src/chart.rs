@@ -26,7 +26,7 @@
 //! # Ok::<(), shadowstep_studies::Error>(())
 //! ```
 //!
-//! | file | what it is |
+//! | module | what it is |
 //! | --- | --- |
 //! | `draw` | the picture as a whole: title, axes, curves, labels, notes |
 //! | `layout` | what the axes show, and the sizes of all parts |

@@ -35,7 +35,7 @@
 //! of an escape map 0.08 MB. If the cells have different sizes, the image has four pixels for each unit of the picture, so
 //! that borders are exact to an eighth of a unit.
 //!
-//! | file | what it is |
+//! | module | what it is |
 //! | --- | --- |
 //! | `check` | what cannot be drawn |
 //! | `scale` | from a value to its place on the colour bar |

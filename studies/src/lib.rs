@@ -1,6 +1,6 @@
 //! Studies: calculations on all cores whose outcomes are saved one by one, and what is made of them: charts, verdicts, a page of HTML.
 //!
-//! | file | what it is |
+//! | module | what it is |
 //! | --- | --- |
 //! | `calculation` | what calculations are |
 //! | `store` | the file of outcomes, and the calculations that it lacks |

@@ -30,7 +30,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! | file | what it is |
+//! | module | what it is |
 //! | --- | --- |
 //! | `plan` | a sweep's text → its scene, axes, and what is kept; hashes of what determines the results |
 //! | `axes`, `axis` | names and their values; the values of a run from its number |

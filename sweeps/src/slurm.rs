@@ -3,7 +3,7 @@
 //! Two job scripts are written into the folder of the sweep and kept. Whoever needs other options of sbatch edits them: a script that is
 //! there is submitted as it is. Slurm starts the tasks, again if a node is lost; here is only what is submitted and what became of it.
 //!
-//! | file | what it is |
+//! | module | what it is |
 //! | --- | --- |
 //! | `tasks` | lists of tasks such as `3,7-9` |
 //! | `script` | the job scripts: their texts and their options |

@@ -34,7 +34,7 @@
 //!
 //! The files, each folder's from the ground up:
 //!
-//! | file | what it is |
+//! | module | what it is |
 //! | --- | --- |
 //! | `number` | **exact numbers** |
 //! | `number/divisor` | greatest common divisors of long numbers |
@@ -115,7 +115,7 @@ pub use text::syntax::{Expression, ExpressionKind, Operation, parse};
 /// Computes a formula without names; an irrational value is rounded to 300 significant digits.
 ///
 /// # Errors
-/// As [`parse`] and [`evaluate`].
+/// As `parse` and `evaluate`.
 pub fn exact(text: &str) -> Result<Rational, Error> {
     let expression = parse(text)?;
     Ok(evaluate(&expression, &BTreeMap::new(), 300)?.value)

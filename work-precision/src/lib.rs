@@ -1,6 +1,6 @@
 //! Speed against error: work–precision diagrams of splitting schemes, and advice on scheme and step size.
 //!
-//! | file | what it is |
+//! | module | what it is |
 //! | --- | --- |
 //! | [`study`], `calculation` | the runs of several schemes on a problem; what is computed and saved |
 //! | [`problem`] | a system, an interval of time, a number type |

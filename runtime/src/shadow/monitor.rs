@@ -1,6 +1,6 @@
 //! A monitor of the modified energy in a loop.
 //!
-//! | file | what it is |
+//! | module | what it is |
 //! | --- | --- |
 //! | `schedule` | which states belong to windows |
 //! | `energies` | H and T at the middles of windows |

@@ -7,7 +7,7 @@
 //! [`Recorded`] estimates along a log of velocity Verlet, [`Repeated`] along states of any scheme, and [`Observer`] state by state, with a
 //! [diagnosis](Diagnosis) of what moves the energy.
 //!
-//! | file | what it is |
+//! | module | what it is |
 //! | --- | --- |
 //! | `log` | the states of a log, and what is known of U there |
 //! | `half_steps` | momenta of leapfrog at the times of the positions |

@@ -1,6 +1,6 @@
 //! Trajectories with the states that an estimator needs on both sides, and the energy drift.
 //!
-//! | file | what it is |
+//! | module | what it is |
 //! | --- | --- |
 //! | `state` | a state, and the trait of all that gives states in the order of time |
 //! | `trajectory` | the states that a stepper makes |

@@ -68,7 +68,7 @@ impl Text {
     /// significant digits. All formulas of a document share a budget.
     ///
     /// # Errors
-    /// A text that is not a number or expression, or has no value; [`Error::range`] is a range of the text.
+    /// A text that is not a number or expression, or has no value; `Error::range` is a range of the text.
     pub fn evaluate(&self, known: &BTreeMap<String, Exact>, digits: u32, budget: &Budget) -> Result<Exact, Error> {
         // a number may be longer than a formula
         if let Ok(value) = from_text(&self.value) {

@@ -26,7 +26,7 @@ pub struct NotANumber {
 /// Writes a rational with all its digits, such as `3`, `-7/24` or `0.6756035959798288170238437`.
 ///
 /// Denominators up to 10000 stay fractions. Among the others, numbers with at most 400 decimal places
-/// become decimals. [`from_text`] reads the text back to the same number, and so does
+/// become decimals. `from_text` reads the text back to the same number, and so does
 /// [`exact`](crate::exact()) up to the length it allows.
 pub fn to_text(value: &Rational) -> String {
     let short = value.denom() <= &BigInt::from(LARGEST_SHORT_DENOMINATOR);
@@ -71,7 +71,7 @@ pub fn round_significant(value: &impl Ratio, digits: u32) -> Rational {
 
 /// Writes a number rounded to significant digits, for messages: `0.593812`, `6.3e-16`.
 ///
-/// Rounds as [`round_significant`] and omits zeros at the end; scientific outside 1e-4..1e9.
+/// Rounds as `round_significant` and omits zeros at the end; scientific outside 1e-4..1e9.
 pub fn to_significant(value: &impl Ratio, digits: usize) -> String {
     if value.numer().is_zero() {
         return "0".to_string();
