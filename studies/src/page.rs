@@ -13,7 +13,7 @@ use subscripts::set;
 pub struct Report {
     /// Its heading.
     pub title: String,
-    /// Paragraphs on how it was computed.
+    /// What it is of, which stands first, and further paragraphs on how it was computed.
     pub introduction: Vec<String>,
     /// A remark beside the counts of verdicts, on what they cannot decide.
     pub remark: Option<String>,
@@ -37,6 +37,9 @@ pub struct Section {
     /// Names of the files beside the page: SVG, CSV.
     pub files: Vec<String>,
 }
+
+/// Charts before the contents.
+const MOST_PICTURES: usize = 3;
 
 const STYLE: &str = include_str!("page.css");
 
@@ -67,12 +70,13 @@ impl Report {
                 }
                 body {
                     h1 { (self.title) }
+                    (paragraphs(&self.introduction[..self.introduction.len().min(1)]))
                     (self.highlights())
                     @if self.is_of_paper() { (self.counts()) } @else if self.count(false).all() > 0 { p { (self.count(false)) "." } }
                     @if let Some(remark) = &self.remark { p { (set(remark)) } }
                     @if self.sections.len() > 1 { nav aria-label="Figures" { (self.contents()) } }
                     h2 { "How it was computed" }
-                    (paragraphs(&self.introduction))
+                    (paragraphs(self.introduction.get(1..).unwrap_or_default()))
                     dl { @for (name, value) in &self.made_with { dt { (name) } dd { (value) } } }
                     main { @for (n, figure) in self.sections.iter().enumerate() { (figure.section(n + 1, self.is_of_paper())) } }
                 }
@@ -99,13 +103,22 @@ impl Report {
         Counts::of(sections.flat_map(|figure| &figure.finding.statements).map(|statement| statement.verdict))
     }
 
-    /// The results that matter most, each with a link to its section.
+    /// The results that matter most, each with a link to its section, and the first chart of each of these.
     fn highlights(&self) -> Markup {
+        let highlighted =
+            || self.sections.iter().enumerate().filter(|(_, figure)| !figure.finding.highlights.is_empty());
         html! {
-            @for (n, figure) in self.sections.iter().enumerate() {
+            @for (n, figure) in highlighted() {
                 @for highlight in &figure.finding.highlights {
                     p class="finding" {
                         (set(highlight)) " " a href={ "#figure-" (n + 1) } { "→ " (set(&figure.title)) }
+                    }
+                }
+            }
+            @if self.is_of_paper() && highlighted().next().is_some() {
+                div class="pictures" {
+                    @for (_, figure) in highlighted().take(MOST_PICTURES) {
+                        @if let (Some(svg), Some((_, caption))) = (figure.svgs.first(), figure.finding.charts.first()) { (picture(svg, caption)) }
                     }
                 }
             }
@@ -318,7 +331,8 @@ mod tests {
         assert_eq!(ids, ["figure-1", "figure-2", "figure-3", "figure-4", "figure-5"]);
         ids.retain(|id| !page.contains(&format!("href=\"#{id}\"")));
         assert!(ids.is_empty(), "no link to {ids:?}");
-        assert_eq!(page.matches("<svg ").count(), 6);
+        // two of them are also beside the results that matter most
+        assert_eq!(page.matches("<svg ").count(), 8);
     }
 
     #[test]
@@ -345,9 +359,9 @@ mod tests {
         }
         let html = page.html();
         assert!(!html.contains("<b>") && !html.contains("\"it\""));
-        // title and heading, introduction, name, value; contents, finding with its link, heading, stated, finding, link
+        // title and heading, introduction, name, value; contents, finding with its link, its picture, heading, stated, finding, link
         // twice; caption, header, cell, picture; statement, found
-        assert_eq!(html.matches("&lt;b&gt; &amp; &quot;it&quot;").count(), 19);
+        assert_eq!(html.matches("&lt;b&gt; &amp; &quot;it&quot;").count(), 20);
     }
 
     #[test]

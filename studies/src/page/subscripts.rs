@@ -1,11 +1,19 @@
-//! Texts with subscripts in HTML.
+//! Texts with subscripts and words of code in HTML.
 
 use maud::{Markup, html};
 
 use crate::indices::first_index;
 
-/// A text in which the indices are subscripts.
+/// A text in which the indices are subscripts, and what is between backticks is code.
 pub(super) fn set(text: &str) -> Markup {
+    html! {
+        @for (number, part) in text.split('`').enumerate() {
+            @if number % 2 == 1 { code { (part) } } @else { (with_subscripts(part)) }
+        }
+    }
+}
+
+fn with_subscripts(text: &str) -> Markup {
     let mut rest = text;
     let mut pieces = Vec::new();
     while let Some((before, index, after)) = first_index(rest) {
@@ -25,6 +33,7 @@ mod tests {
             ("|T_{m,m} − T_{m−1,m−1}|", "|T<sub>m,m</sub> − T<sub>m−1,m−1</sub>|"),
             ("E_k, of E_40.", "E<sub>k</sub>, of E<sub>40</sub>."),
             ("E_<b>", "E_&lt;b&gt;"),
+            ("`--stop <T_m>` of E_k", "<code>--stop &lt;T_m&gt;</code> of E<sub>k</sub>"),
             ("T_{<b>} & T_{m", "T<sub>&lt;b&gt;</sub> &amp; T_{m"),
             ("order_used MOST_STEPS STATE_k x_1 T_", "order_used MOST_STEPS STATE_k x_1 T_"),
         ] {
