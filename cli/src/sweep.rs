@@ -8,7 +8,9 @@ use std::path::PathBuf;
 
 use clap::Args;
 use shadowstep_scenes::Error;
-use shadowstep_sweeps::{Chunk, Computed, Manifest, SweepPlan, chunk_of_task, compute, explain, is_there};
+use shadowstep_sweeps::{
+    Chunk, Computed, Manifest, SweepPlan, chunk_of_task, compute, explain, is_there, refuse_foreign, remove_foreign,
+};
 
 use crate::collect::{Format, collected};
 use crate::headings::OUTPUT;
@@ -54,6 +56,11 @@ pub(crate) struct Arguments {
     /// Explains every key of a sweep
     #[arg(long, exclusive = true, help_heading = RUNS)]
     explain: bool,
+    /// Replaces files in --out that are not from this sweep
+    ///
+    /// They are results of another sweep, or of this one before it was changed, and files of other programs.
+    #[arg(long, help_heading = OUTPUT, conflicts_with = "status")]
+    force: bool,
     #[command(flatten)]
     slurm: SlurmArguments,
 }
@@ -70,21 +77,29 @@ fn chunk(text: &str) -> Result<Chunk, String> {
 
 /// Computes the runs that are asked for.
 pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
-    let Arguments { sweep: Some(sweep), out: Some(out), chunk, format, slurm, .. } = arguments else {
+    let Arguments { sweep: Some(sweep), out: Some(out), chunk, format, force, slurm, .. } = arguments else {
         let mut output = Output::stdout();
         write!(output, "{}", explain())?;
         output.finish()?;
         return Ok(Status::Success);
     };
-    if slurm.is_given() {
-        return slurm.execute(sweep, out);
+    if let Some(status) = slurm.asked(sweep, out) {
+        return status;
+    }
+    let plan = SweepPlan::open(sweep)?;
+    if *force {
+        remove_foreign(out, &plan)?
+    } else {
+        refuse_foreign(out)?
+    }
+    if slurm.submits() {
+        return slurm.submit(&plan, sweep, out);
     }
     let begun = Manifest::is_in(out).then(|| Manifest::read(out)).transpose()?;
     let chunk = match chunk {
         Some(chunk) => Some(*chunk),
         None => chunk_of_task(|name| env::var(name).ok(), begun.map(|manifest| manifest.chunks))?,
     };
-    let plan = SweepPlan::open(sweep)?;
     let mut terminal = Terminal::listen(SAVED);
     let manifest = Manifest::begin(out, &plan, chunk.map(|chunk| chunk.of))?;
     let Some(chunk) = chunk else {

@@ -56,19 +56,19 @@ pub(super) struct SlurmArguments {
 }
 
 impl SlurmArguments {
-    /// Whether the command is about jobs.
-    pub(super) fn is_given(&self) -> bool {
-        self.submit || self.status
+    /// Shows what has become of the sweep, if that is asked for.
+    pub(super) fn asked(&self, sweep: &Path, folder: &Path) -> Option<Result<Status, Error>> {
+        self.status.then(|| status(sweep, folder))
     }
 
-    /// Submits the sweep, or shows what has become of it.
-    pub(super) fn execute(&self, sweep: &Path, folder: &Path) -> Result<Status, Error> {
-        if self.status {
-            return status(sweep, folder);
-        }
-        let plan = SweepPlan::open(sweep)?;
+    pub(super) fn submits(&self) -> bool {
+        self.submit
+    }
+
+    /// Submits the sweep.
+    pub(super) fn submit(&self, plan: &SweepPlan, sweep: &Path, folder: &Path) -> Result<Status, Error> {
         let added = Added::to(folder);
-        let manifest = Manifest::begin(folder, &plan, self.chunks.map(u64::from))?;
+        let manifest = Manifest::begin(folder, plan, self.chunks.map(u64::from))?;
         let missing = missing(&manifest, folder);
         if missing.is_empty() && !self.dry_run {
             report::note(format_args!(
