@@ -40,7 +40,7 @@ Charts:
   distance=sun:jupiter  of these two bodies
 
 The changes are |H - H(0)| and |H̄ - H̄*|, where H̄* is the H̄ with the least estimated error. A chart of one run also shows the estimated error of \
-H̄. Bodies have coordinates such as x_sun, y_sun or x1, y1; orbit=x:y shows all bodies.";
+H̄. Without bodies, the distance is the one from the origin. Bodies have coordinates such as x_sun, y_sun or x1, y1; orbit=x:y shows all bodies.";
 
 /// The charts of `trace`.
 #[derive(Debug, Args)]
