@@ -14,6 +14,7 @@ use shadowstep_work_precision::size::Size;
 use shadowstep_work_precision::study::Cost;
 
 use crate::colour::{heading, on_stdout};
+use crate::headings::{OUTPUT, SCHEMES};
 use crate::output::Output;
 use crate::posed::{PosedArguments, PosedProblem};
 use crate::quantity;
@@ -21,42 +22,55 @@ use crate::report::Status;
 use crate::terminal::{Folder, NOT_SAVED, SAVED, Terminal};
 use crate::work_precision::{schemes, seconds};
 
-const EXAMPLE: &str = "\
+const EXAMPLES: &str = "\
 Examples:
   shadowstep advise kepler --until 100 --tolerance 1e-8
   shadowstep advise mine.toml --tolerance 1e-10 --of energy --cost time
-  shadowstep advise outer-solar-system --until 200000 --tolerance 1e-6 --schemes +mine.toml
+  shadowstep advise outer-solar-system --until 200000 --tolerance 1e-6 \\
+      --schemes +mine.toml";
 
-All schemes are run over a part of the time that --seconds allows; errors are extrapolated to all of it by their growth. The best choice is then verified by a run over
-all of the time, whose error is printed beside the prediction: to a tenth, or as `at most`. That of positions is the difference to the exact flow, or to
-runs of a scheme of order 10 whose own error is known from half the step. Exit code 1 if no scheme meets the tolerance.";
+const MORE: &str = "\
+All schemes are run over a part of the time that --seconds allows, and their errors are extrapolated to all of it by their growth. The best choice is then \
+verified by a run over all of the time. Its error is printed beside the prediction: to a tenth, or as `at most`.
 
-/// A scheme and a step size for a tolerance: predicted, and verified by a run.
+The error of positions is the difference to the exact flow, or to runs of a scheme of order 10 whose own error is known from half the step.
+
+The exit code is 1 if no scheme meets the tolerance.";
+
+/// A scheme and a step size for a tolerance, verified by a run.
+///
+/// They are predicted from shorter runs of many schemes.
 #[derive(Debug, Args)]
-#[command(after_help = EXAMPLE)]
+#[command(after_help = EXAMPLES, after_long_help = format!("{EXAMPLES}\n\n{MORE}"))]
 pub(crate) struct Arguments {
     #[command(flatten)]
     posed: PosedArguments,
     /// The largest error, such as 1e-8
-    #[arg(long, value_name = "ERROR")]
+    #[arg(long, value_name = "ERROR", help_heading = TOLERANCE)]
     tolerance: String,
     /// Which error
-    #[arg(long, value_name = "WHICH", default_value = "position")]
+    #[arg(long, value_name = "WHICH", default_value = "position", help_heading = TOLERANCE)]
     of: Which,
     /// What is to be small
-    #[arg(long, value_name = "WHAT", default_value = "forces")]
+    #[arg(long, value_name = "WHAT", default_value = "forces", help_heading = TOLERANCE)]
     cost: What,
-    /// The schemes to choose from, as in work-precision [default: a dozen; beside a dominant part, such as Kepler orbits, those for A + εB and kernels with
-    /// correctors too]
-    #[arg(long, value_name = "NAME|FILE,…", value_delimiter = ',')]
+    /// The schemes to choose from, as in work-precision [default: a dozen]
+    ///
+    /// Beside a dominant part, such as Kepler orbits, the default includes schemes for A + εB and kernels with correctors.
+    #[arg(long, value_name = "NAME|FILE,…", value_delimiter = ',', help_heading = SCHEMES)]
     schemes: Vec<String>,
-    /// The time of the search on all cores, in seconds; the runs that verify the choice take what they take
-    #[arg(long, value_name = "SECONDS", default_value = "30", value_parser = seconds)]
+    /// The time of the search on all cores
+    ///
+    /// The runs that verify the choice take additional time.
+    #[arg(long, value_name = "SECONDS", default_value = "30", value_parser = seconds, help_heading = SCHEMES)]
     seconds: f64,
     /// Keeps the results in a folder, for another tolerance
-    #[arg(long, value_name = "DIR")]
+    #[arg(long, value_name = "DIR", help_heading = OUTPUT)]
     out: Option<PathBuf>,
 }
+
+/// What the choice has to meet.
+const TOLERANCE: &str = "Tolerance and cost";
 
 #[derive(Clone, Copy, Debug, ValueEnum)]
 enum Which {
@@ -70,7 +84,7 @@ enum Which {
 
 #[derive(Clone, Copy, Debug, ValueEnum)]
 enum What {
-    /// Evaluations of the gradient, Hessian–vector products of gradient kicks, and flows of a dominant part such as Kepler orbits, one as the other
+    /// Evaluations of the gradient, Hessian–vector products of gradient kicks, and flows of a dominant part such as Kepler orbits, each counted as one
     Forces,
     /// Seconds on this machine
     Time,

@@ -9,6 +9,7 @@ use shadowstep_scenes::ensemble::Ensemble;
 use shadowstep_scenes::tangent::Vectors;
 use shadowstep_scenes::{Error, Observer, Scene};
 
+use crate::headings::OUTPUT;
 use crate::interrupt::Interrupt;
 use crate::output::{Output, OutputArguments};
 use crate::progress::Progress;
@@ -16,40 +17,50 @@ use crate::quantity::whole;
 use crate::readable::table;
 use crate::report::{self, Status};
 
-const EXAMPLE: &str = "\
+const EXAMPLES: &str = "\
 Examples:
   shadowstep scene kepler > scene.toml
   shadowstep chaos scene.toml
-  shadowstep chaos scene.toml --exponents 4 --json
+  shadowstep chaos scene.toml --exponents 4 --json";
 
-The run is made at the step size of the scene and at half of it, with tangent vectors: chaos that only the larger step has is of the step. The exponent is
-the largest Lyapunov exponent over the last three quarters of the run with twice its standard error. The mean of MEGNO tends to 2 on regular
-orbits, to 0 where all frequencies are constant, and grows with the time on chaotic ones; SALI tends to 0 exponentially on chaotic ones.";
+const MORE: &str = "\
+The run is made at the step size of the scene and at half of it, with tangent vectors. Chaos that only the larger step has is caused by that step.
+
+The exponent is the largest Lyapunov exponent over the last three quarters of the run, with twice its standard error. The mean of MEGNO tends to 2 on \
+regular orbits, to 0 where all frequencies are constant, and grows with the time on chaotic ones. SALI tends to 0 exponentially on chaotic ones.";
 
 /// What can be done after an interruption.
 const AGAIN: &str = "try a shorter run, or a larger --every";
 
-/// Whether a trajectory is chaotic: Lyapunov exponents, MEGNO, SALI and GALI.
+/// Whether a trajectory is chaotic.
+///
+/// The indicators are Lyapunov exponents, MEGNO, SALI and GALI.
 #[derive(Debug, Args)]
-#[command(after_help = EXAMPLE)]
+#[command(after_help = EXAMPLES, after_long_help = format!("{EXAMPLES}\n\n{MORE}"))]
 pub(crate) struct Arguments {
     /// The scene's file, such as scene.toml; its [output] is not used
     #[arg(value_name = "FILE")]
     scene: String,
-    /// The number of tangent vectors: 2 give SALI, more GALI of all of them
+    /// Tangent vectors: 2 give SALI, more give GALI of all
     #[arg(long, value_name = "N", default_value_t = 2, value_parser = |text: &str| whole(text, 1..=64))]
     vectors: u32,
-    /// This number of the largest Lyapunov exponents, of orthonormal vectors, in place of SALI
+    /// The N largest Lyapunov exponents, in place of SALI
+    ///
+    /// Their tangent vectors are orthonormal.
     #[arg(long, value_name = "N", conflicts_with = "vectors", value_parser = |text: &str| whole(text, 1..=64))]
     exponents: Option<u32>,
-    /// Vectors are measured, and made orthonormal, every N steps
+    /// Vectors are measured every N steps
+    ///
+    /// They are made orthonormal then.
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = |text: &str| whole(text, 1..=1_000_000))]
     every: u32,
     /// Only the step size of the scene, not half of it
     #[arg(long)]
     one: bool,
-    /// One JSON object per run, a line each, in place of the table
-    #[arg(long)]
+    /// One JSON object per run in place of the table
+    ///
+    /// Each object is a line.
+    #[arg(long, help_heading = OUTPUT)]
     json: bool,
     #[command(flatten)]
     output: OutputArguments,

@@ -12,10 +12,10 @@ use crate::report::{self, Status};
 use crate::terminal::Terminal;
 
 const EXAMPLE: &str = "\
-If chunks are missing, their numbers are on stdout, as `sbatch --array=` takes them, and the exit code is 1:
+If chunks are missing, the exit code is 1, and their numbers are written to stdout as `sbatch --array=` takes them:
   sbatch --array=$(shadowstep collect DIR) DIR/array.sbatch";
 
-/// Checks the chunks of a sweep, and writes its table and its picture.
+/// Checks the chunks of a sweep; writes its table and picture.
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLE)]
 pub(crate) struct Arguments {

@@ -12,11 +12,14 @@ use crate::report::Status;
 
 const EXAMPLE: &str = "\
 Examples:
-  shadowstep completions bash > ~/.local/share/bash-completion/completions/shadowstep
+  shadowstep completions bash \\
+      > ~/.local/share/bash-completion/completions/shadowstep
   shadowstep completions zsh > _shadowstep      # in a folder of $fpath
   shadowstep completions fish > ~/.config/fish/completions/shadowstep.fish";
 
-/// Writes the script by which a shell completes commands and flags of this program.
+/// Writes the script by which a shell completes commands.
+///
+/// It completes the commands and flags of this program.
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLE)]
 pub(crate) struct Arguments {

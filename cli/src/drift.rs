@@ -12,41 +12,52 @@ use shadowstep_scenes::readable::shortened;
 use shadowstep_scenes::run::Run;
 
 use crate::colour::on_stdout;
+use crate::headings::{ESTIMATOR, OUTPUT};
 use crate::interrupt::Interrupt;
 use crate::output::Output;
 use crate::progress::Progress;
 use crate::report::{self, Status};
-use crate::run_arguments::RunArguments;
+use crate::run_arguments::{RunArguments, usage};
 use crate::selection::Selection;
 use table::readable;
 
-const EXAMPLE: &str = "\
+const EXAMPLES: &str = "\
 Examples:
-  shadowstep drift --problem kepler --set eccentricity=0.3 --scheme stormer-verlet,yoshida4 \\
-      --step 1/10,1/20 --until 100 --digits 60 --order auto
-  shadowstep drift --problem mine.toml --scheme mine-4.toml --step 1/20 --until 100 --double
-  shadowstep drift --potential \"a*x^4 + x^2*y^2\" --set a=1/4 --q x=1,y=1/2 --p 0,0 --scheme yoshida4 \\
-      --step 1/20 --until 100
+  shadowstep drift --problem kepler --set eccentricity=0.3 --digits 60 \\
+      --scheme stormer-verlet,yoshida4 --step 1/10,1/20 --until 100
+  shadowstep drift mine.toml --scheme own.toml --step 1/8 --until 100 --double";
 
-The error of H is max |H(t) - H(0)| as a part of |H(0)|; the modified energy is what the scheme conserves in place of H.";
+const MORE: &str = "  \
+  shadowstep drift --potential \"a*x^4 + x^2*y^2\" --set a=1/4 \\
+      --q x=1,y=1/2 --p 0,0 --scheme yoshida4 --step 1/20 --until 100
+
+The error of H is max |H(t) - H(0)| as a part of |H(0)|. The modified energy is what the scheme conserves in place of H.";
 
 /// What can be done after an interruption.
 const NOT_RESUMED: &str = "the runs before it are complete; give --scheme and --step of the others to make them";
 
-/// The error of H and the drift of the modified energy: one run per scheme and step.
+/// The error of H and the drift of the modified energy.
+///
+/// One run is made for each scheme and each step.
 #[derive(Debug, Args)]
-#[command(after_help = EXAMPLE)]
+#[command(after_help = EXAMPLES, after_long_help = format!("{EXAMPLES}\n{MORE}"), override_usage = usage("drift"))]
 pub(crate) struct Arguments {
     #[command(flatten)]
     run: RunArguments,
-    /// Leaves out the estimate on the exact flow, where that is known
-    #[arg(long)]
+    /// No estimate on the exact flow
+    ///
+    /// It is made only where the exact flow is known.
+    #[arg(long, help_heading = ESTIMATOR)]
     no_control: bool,
-    /// Makes the estimate on the exact flow even if it takes longer than the run itself
-    #[arg(long, conflicts_with = "no_control")]
+    /// The estimate on the exact flow, however long it takes
+    ///
+    /// Without this flag it is left out if it takes longer than the run itself.
+    #[arg(long, conflicts_with = "no_control", help_heading = ESTIMATOR)]
     control: bool,
-    /// One JSON object per run, a line each, in place of the table
-    #[arg(long)]
+    /// One JSON object per run in place of the table
+    ///
+    /// Each object is a line.
+    #[arg(long, help_heading = OUTPUT)]
     json: bool,
 }
 

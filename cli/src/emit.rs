@@ -10,20 +10,24 @@ use shadowstep_scenes::{Error, library};
 use crate::output::{Output, OutputArguments};
 use crate::report::{self, Status};
 
-const EXAMPLE: &str = "\
+const EXAMPLES: &str = "\
 Examples:
   shadowstep emit yoshida4 --to c --output yoshida4.h
-  shadowstep emit mine.toml --to python > mine.py
-Each file has its own self-test, and says how to run it. docs/emit.md has an example of each.";
+  shadowstep emit mine.toml --to python > mine.py";
 
-/// Writes the proved step of a scheme as code of another ecosystem.
+const MORE: &str = "\
+Each file has its own self-test, and states how to run it. docs/emit.md has an example of each.";
+
+/// Writes the proved step of a scheme as code of other ecosystems.
 #[derive(Debug, Args)]
-#[command(after_help = EXAMPLE)]
+#[command(after_help = EXAMPLES, after_long_help = format!("{EXAMPLES}\n\n{MORE}"))]
 pub(crate) struct Arguments {
     /// A shipped scheme, such as yoshida4, or the file of a table
     scheme: String,
-    /// What it is written for: a module for NumPy or JAX, a header of C, a module of Julia or Fortran, a CustomIntegrator of OpenMM, an
-    /// integrator of BlackJAX or mici, a table for SUNDIALS or PETSc, or a table to print
+    /// What it is written for
+    ///
+    /// The targets are a module for NumPy or JAX, a header of C, a module of Julia or Fortran, a CustomIntegrator of OpenMM, an integrator of
+    /// BlackJAX or mici, a table for SUNDIALS or PETSc, and a table to print.
     #[arg(long, value_name = "TARGET", value_parser = PossibleValuesParser::new(Target::ALL.iter().map(|target| target.name())))]
     to: String,
     #[command(flatten)]

@@ -18,7 +18,7 @@
 //! | `stability` | hard cases |
 //! | `figures` | the figures of the paper, and additional ones |
 //! | `completions`, `man` | what shells complete; pages of man |
-//! | `run_arguments`, `quantity` | the flags of runs; exact numbers |
+//! | `headings`, `run_arguments`, `quantity` | the headings of help; the flags of runs; exact numbers |
 //! | `selection`, `system`, `posed` | flags → schemes and steps; flags → the system; with end and number type |
 //! | `plot` | charts of runs |
 //! | `readable`, `output`, `progress`, `terminal` | tables, lines and bars |
@@ -46,6 +46,7 @@ mod trace;
 mod work_precision;
 
 mod colour;
+mod headings;
 mod interrupt;
 mod invocation;
 mod output;
@@ -109,27 +110,36 @@ commands! {
 const EXIT_CODES: &str = "\
 Exit codes:
   0  success
-  1  negative answer: a checked table has faults, a table cannot be polished, no scheme meets a tolerance, chunks of a sweep are missing; with
+  1  negative answer: a checked table has faults, a table cannot be polished,
+     no scheme meets a tolerance, no start of a search meets the conditions, a
+     hard case differs from theory, chunks of a sweep are missing; with
      --strict, a verdict worse than fine
-  2  usage error: an unknown flag, name or file, a number out of range, a fault in a scene
-  3  a run failed: a state or an energy was not finite, the output could not be written, or it was interrupted";
+  2  usage error: an unknown flag, name or file, a number out of range, a
+     fault in a scene
+  3  a run failed: a state or an energy was not finite, the output could not
+     be written, or it was interrupted";
 
 /// The version, with the commit where `build.rs` knows it.
 const VERSION: &str = env!("SHADOWSTEP_VERSION");
 
 /// Splitting schemes and their modified energy, in any precision.
 #[derive(Debug, Parser)]
-#[command(name = "shadowstep", version = VERSION, max_term_width = 100, after_help = EXIT_CODES, arg_required_else_help = true)]
+#[command(name = "shadowstep", version = VERSION, max_term_width = 80, after_help = EXIT_CODES, arg_required_else_help = true)]
 struct Arguments {
     #[command(subcommand)]
     command: Command,
+}
+
+/// All commands with their flags and help.
+pub fn commands() -> clap::Command {
+    Arguments::command()
 }
 
 /// Runs the program with its arguments, of which the first is its name; gives its exit code. Wrong arguments, `--help` and `--version` end the
 /// process. `program` is its path, for job scripts, where another program contains it.
 pub fn main(arguments: impl IntoIterator<Item = OsString>, program: Option<PathBuf>) -> u8 {
     let arguments: Vec<OsString> = arguments.into_iter().collect();
-    invocation::keep(&arguments, program, Arguments::command);
+    invocation::keep(&arguments, program, commands);
     let command = Arguments::parse_from(arguments).command;
     command.execute().unwrap_or_else(|error| report::error(&error)) as u8
 }

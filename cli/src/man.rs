@@ -17,7 +17,9 @@ Example:
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLE)]
 pub(crate) struct Arguments {
-    /// The folder, which is made if it is missing; pages that are there are replaced
+    /// The folder of the pages
+    ///
+    /// It is made if it is missing. Pages that are there are replaced.
     #[arg(long, value_name = "DIR")]
     out: PathBuf,
 }

@@ -14,48 +14,60 @@ use shadowstep_scenes::modified_hamiltonian::record::{
 use shadowstep_schemes::Proved;
 use shadowstep_symbolic::Notation;
 
+use crate::headings::OUTPUT;
 use crate::output::{Output, OutputArguments};
 use crate::quantity::whole;
 use crate::report::{self, Status};
 use crate::run_arguments::SystemArguments;
 use crate::system::Described;
 
-const EXAMPLE: &str = "\
+const EXAMPLES: &str = "\
 Examples:
   shadowstep modified yoshida4
   shadowstep modified stormer-verlet kepler
-  shadowstep modified blanes-moan-s6 --grade 6 --potential \"x^4/4\" --q x=1 --p 0 --to numpy
-  shadowstep modified yoshida4 --parts 3
+  shadowstep modified yoshida4 --parts 3";
 
-A step of size h is the flow over h of H + h H_2 + h^2 H_3 + …, an asymptotic series: its terms become smaller up to a power that h sets. In brackets K
-stands for U and D for T, or A, B, C, … for parts, and [F,G] = F_p·G_q - F_q·G_p, so that [K,D] = -U_q·T_p.";
+const MORE: &str = "  \
+  shadowstep modified blanes-moan-s6 --grade 6 --potential \"x^4/4\" \\
+      --q x=1 --p 0 --to numpy
 
-/// The modified Hamiltonian of a scheme: its coefficients, and with a system its formula.
+A step of size h is the flow over h of H + h H_2 + h^2 H_3 + …. The series is asymptotic: its terms become smaller up to a power that h sets. In brackets K \
+stands for U and D for T, or A, B, C, … for parts. [F,G] = F_p·G_q - F_q·G_p, so that [K,D] = -U_q·T_p.";
+
+/// What is expanded, and how far.
+const SERIES: &str = "Scheme and series";
+
+/// The modified Hamiltonian of a scheme: its series, or a formula.
+///
+/// Without a system the coefficients of its series are written, with one its formula.
 #[derive(Debug, Args)]
 // no system is required: a scheme is always there
-#[command(after_help = EXAMPLE, mut_arg("name", |name| name.required_unless_present("scheme")))]
+#[command(after_help = EXAMPLES, after_long_help = format!("{EXAMPLES}\n{MORE}"), mut_arg("name", |name| name.required_unless_present("scheme")))]
 pub(crate) struct Arguments {
     /// A shipped scheme, such as yoshida4, or the file of a table
+    #[arg(display_order = 0, help_heading = SERIES)]
     scheme: String,
     #[command(flatten)]
     system: Option<SystemArguments>,
     /// The highest power of h
-    #[arg(long, value_name = "N", default_value_t = 4, value_parser = |text: &str| whole(text, 1..=HIGHEST_GRADE))]
+    #[arg(long, value_name = "N", default_value_t = 4, help_heading = SERIES, value_parser = |text: &str| whole(text, 1..=HIGHEST_GRADE))]
     grade: u32,
     /// For H of this number of parts, 3 to 9, in place of T + U
-    #[arg(long, value_name = "N", conflicts_with_all = ["name", "problem", "potential"], value_parser = |text: &str| whole(text, 3..=9))]
+    #[arg(long, value_name = "N", help_heading = SERIES, conflicts_with_all = ["name", "problem", "potential"], value_parser = |text: &str| whole(text, 3..=9))]
     parts: Option<u32>,
-    /// Leaves out the brackets that are 0 for every T quadratic in p
-    #[arg(long, conflicts_with_all = ["parts", "name", "problem", "potential"])]
+    /// Leaves out brackets that are 0 for T quadratic in p
+    #[arg(long, help_heading = SERIES, conflicts_with_all = ["parts", "name", "problem", "potential"])]
     quadratic: bool,
-    /// Significant digits of coefficients that are not short fractions
-    #[arg(long, value_name = "N", default_value_t = 17, value_parser = |text: &str| whole(text, 1..=300))]
+    /// Significant digits of coefficients
+    ///
+    /// Coefficients that are short fractions are exact.
+    #[arg(long, value_name = "N", default_value_t = 17, help_heading = SERIES, value_parser = |text: &str| whole(text, 1..=300))]
     digits: u32,
     /// The notation of the formula, or a function of it
-    #[arg(long, value_name = "NOTATION", value_enum, default_value_t = To::Text)]
+    #[arg(long, value_name = "NOTATION", value_enum, default_value_t = To::Text, help_heading = OUTPUT)]
     to: To,
     /// One JSON object
-    #[arg(long, conflicts_with = "to")]
+    #[arg(long, conflicts_with = "to", help_heading = OUTPUT)]
     json: bool,
     #[command(flatten)]
     output: OutputArguments,

@@ -7,10 +7,15 @@ use clap::Args;
 use serde::Serialize;
 use shadowstep_scenes::{Error, WholeFile};
 
+use crate::headings::OUTPUT;
+
 /// Where a command writes.
 #[derive(Debug, Args)]
+#[command(next_help_heading = OUTPUT)]
 pub(crate) struct OutputArguments {
-    /// Writes to a file, such as out.json, which gets its name when it is complete; a file that exists is not replaced
+    /// Writes to a new file, such as out.json
+    ///
+    /// The file gets its name when it is complete. A file that exists is not replaced without --force.
     #[arg(long, value_name = "FILE", group = "written")]
     pub(crate) output: Option<PathBuf>,
     /// Replaces files that exist

@@ -27,26 +27,33 @@ use shadowstep_scenes::plot::{MOST_CURVES, Picture};
 use shadowstep_scenes::{Error, System};
 use std::path::PathBuf;
 
+use crate::headings::CHARTS;
 use lines::RunOfChart;
 
 /// What can be drawn, for the help.
-pub(crate) const CHARTS: &str = "\
+pub(crate) const KINDS: &str = "\
 Charts:
-  energies              |H - H(0)|, |H̄ - H̄*| and the estimated error of H̄ in time, H̄* the one with the least error; of several runs
-                        without the error
-  orbit=x:y             a coordinate or momentum against another; where there are bodies, with coordinates such as x_sun, y_sun or
-                        x1, y1, also x:y for all of them
-  distance              of every two bodies in time, or without bodies from the origin
+  energies              the changes of H and of the modified energy H̄ in time
+  orbit=x:y             a coordinate or momentum against another
+  distance              of every two bodies in time, or from the origin
   distance=sun          of this body from the others
-  distance=sun:jupiter  of these two";
+  distance=sun:jupiter  of these two bodies
+
+The changes are |H - H(0)| and |H̄ - H̄*|, where H̄* is the H̄ with the least estimated error. A chart of one run also shows the estimated error of \
+H̄. Without bodies, the distance is the one from the origin. Bodies have coordinates such as x_sun, y_sun or x1, y1; orbit=x:y shows all bodies.";
 
 /// The charts of `trace`.
 #[derive(Debug, Args)]
+#[command(next_help_heading = CHARTS)]
 pub(crate) struct PlotArguments {
-    /// Draws a chart of the runs as SVG, such as trace.svg; rows are then written only with --json, --csv, --states or --output
+    /// Draws a chart of the runs as SVG, such as trace.svg
+    ///
+    /// Rows are then written only with --json, --csv, --states or --output.
     #[arg(long, value_name = "FILE.svg", group = "written")]
     plot: Option<PathBuf>,
-    /// The charts of --plot, see below. The first has the name FILE.svg, others such as FILE-orbit-x-y.svg
+    /// Its charts: energies,orbit=x:y
+    ///
+    /// All kinds of charts are listed below. The first has the name FILE.svg, others have names such as FILE-orbit-x-y.svg.
     #[arg(long, value_name = "CHART,…", value_delimiter = ',', default_value = "energies", requires = "plot")]
     plot_of: Vec<String>,
 }

@@ -13,6 +13,7 @@ use shadowstep_symbolic::decimal::to_text;
 use shadowstep_work_precision::length::length_of;
 use shadowstep_work_precision::problem::Problem;
 
+use crate::headings::{NUMBERS, SCHEMES};
 use crate::quantity::{self, whole};
 use crate::run_arguments::{NumberArguments, SystemArguments};
 use crate::system::{Described, is_file};
@@ -22,14 +23,20 @@ use crate::system::{Described, is_file};
 pub(crate) struct PosedArguments {
     #[command(flatten)]
     system: SystemArguments,
-    /// The time at which runs end, exact, such as 100; of a scene with [time] a physical time as well [default: that of the scene]
-    #[arg(long, value_name = "T", allow_hyphen_values = true)]
+    /// The time at which runs end [default: that of the scene]
+    ///
+    /// It is exact, such as 100. Of a scene with [time], it is a physical time as well.
+    #[arg(long, value_name = "T", allow_hyphen_values = true, help_heading = SCHEMES)]
     until: Option<String>,
-    /// Decimal digits of all numbers, such as 50 [default: those of the scene, else double precision]
-    #[arg(long, value_name = "DIGITS", value_parser = |text: &str| whole(text, 1..=MOST_DIGITS))]
+    /// Decimal digits [default: those of the scene, else double precision]
+    ///
+    /// All numbers of a run have them, such as 50.
+    #[arg(long, value_name = "DIGITS", value_parser = |text: &str| whole(text, 1..=MOST_DIGITS), help_heading = NUMBERS)]
     digits: Option<u32>,
-    /// MPFR's numbers also for up to 307 digits, where the built-in ones are faster
-    #[arg(long, requires = "digits")]
+    /// MPFR's numbers, also for up to 307 digits
+    ///
+    /// For up to 307 digits, numbers of 64-bit limbs are the default; they take less time.
+    #[arg(long, requires = "digits", help_heading = NUMBERS)]
     mpfr: bool,
     #[command(flatten)]
     numbers: NumberArguments,

@@ -63,7 +63,8 @@ pub(crate) fn whole(text: &str, range: RangeInclusive<u32>) -> Result<u32, Strin
 /// `name=expression` in two; the expression is evaluated where its names are known.
 pub(crate) fn assignment(text: &str) -> Result<(String, String), Error> {
     let Some((name, expression)) = text.split_once('=') else {
-        return Err(Error::usage(format!("--set {text} has no `=`"), "write a name and a value: --set x=1/2"));
+        let hint = "write a name and a value: --set x=1/2; a comma begins another one, and the decimal point is `.`";
+        return Err(Error::usage(format!("--set {text} has no `=`"), hint));
     };
     if name.trim().is_empty() {
         return Err(Error::usage(format!("--set {text} has no name before its `=`"), "write --set x=1/2"));

@@ -17,27 +17,32 @@ use crate::report::{self, Status};
 const EXAMPLE: &str = "\
 Example:
   shadowstep scene kepler > scene.toml
-  shadowstep run scene.toml
+  shadowstep run scene.toml";
 
+const MORE: &str = "\
 If a run is stopped, running its scene again resumes it from the last checkpoint. If its file is complete, nothing is done.
 
-The summary is on stderr: the error of H, the modified energy, close encounters, and a verdict on the step size. Rows of JSON on
-stdout have it there as one object with the metadata; beside a file of JSON lines, FILE.metadata.json has both.";
+The summary is written to stderr: the error of H, the modified energy, close encounters, and a verdict on the step size. If rows of JSON are written \
+to stdout, the summary on stderr is one object with the metadata. Beside a file of JSON lines, FILE.metadata.json has both.";
 
 /// Runs a scene: a file that describes a run and its output.
 #[derive(Debug, Args)]
-#[command(after_help = EXAMPLE)]
+#[command(after_help = EXAMPLE, after_long_help = format!("{EXAMPLE}\n\n{MORE}"))]
 pub(crate) struct Arguments {
     /// The scene's file, such as scene.toml
     #[arg(value_name = "FILE")]
     scene: String,
-    /// Begins again at t = 0 even if there is a checkpoint or the file is complete
+    /// Begins again at t = 0
+    ///
+    /// It does so even if there is a checkpoint or the file is complete.
     #[arg(long)]
     restart: bool,
     /// Replaces a file that is not from this scene
     #[arg(long)]
     force: bool,
-    /// No summary of the run: only what the scene asks for is computed
+    /// No summary of the run
+    ///
+    /// Only what the scene asks for is computed.
     #[arg(long)]
     no_summary: bool,
     /// Exit code 1 if the verdict on the run is worse than fine

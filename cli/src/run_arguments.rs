@@ -5,6 +5,7 @@ use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use shadowstep::shadow::{EstimatorSettings, HIGHEST_ORDER, SelectionRule, StoppingRule};
 use shadowstep_scenes::arithmetic::{Arithmetic, DEFAULT_DIGITS, MOST_DIGITS};
 
+use crate::headings::{ESTIMATOR, NUMBERS, OUTPUT, PROBLEM, SCHEMES};
 use crate::output::OutputArguments;
 use crate::quantity::whole;
 
@@ -13,66 +14,99 @@ use crate::quantity::whole;
 pub(crate) struct RunArguments {
     #[command(flatten)]
     pub(crate) system: SystemArguments,
-    /// Shipped schemes or files of tables, such as yoshida4,mine.toml; `shadowstep schemes` lists the shipped ones.
-    /// exact-flow is the exact solution, known for harmonic-oscillator, pendulum and kepler; on it an estimator shows its own
-    /// error
-    #[arg(long = "scheme", value_name = "NAME|FILE,…", required = true, value_delimiter = ',')]
+    /// Shipped or custom schemes: yoshida4,mine.toml
+    ///
+    /// `shadowstep schemes` lists the shipped ones; custom schemes are files of tables. exact-flow is the exact solution, known for
+    /// harmonic-oscillator, pendulum and kepler; on it an estimator shows its own error.
+    #[arg(long = "scheme", value_name = "NAME|FILE,…", required = true, value_delimiter = ',', help_heading = SCHEMES)]
     pub(crate) schemes: Vec<String>,
-    /// Step sizes, exact, such as 1/10,0.05; of a scene with [time], in the fictitious time s
-    #[arg(long = "step", value_name = "H,…", required = true, value_delimiter = ',', allow_hyphen_values = true)]
+    /// Exact step sizes, such as 1/10,0.05
+    ///
+    /// Of a scene with [time], they are steps of the fictitious time s.
+    #[arg(long = "step", value_name = "H,…", required = true, value_delimiter = ',', allow_hyphen_values = true, help_heading = SCHEMES)]
     pub(crate) steps: Vec<String>,
-    /// The time at which runs end, exact, such as 100; of a scene with [time], the fictitious time s
-    #[arg(long, value_name = "T", allow_hyphen_values = true)]
+    /// The exact time at which runs end, such as 100
+    ///
+    /// Of a scene with [time], it is the fictitious time s.
+    #[arg(long, value_name = "T", allow_hyphen_values = true, help_heading = SCHEMES)]
     pub(crate) until: String,
-    /// Decimal digits of all numbers, such as 50
-    #[arg(long, default_value_t = DEFAULT_DIGITS, value_name = "DIGITS", value_parser = |text: &str| whole(text, 1..=MOST_DIGITS))]
+    /// Decimal digits, such as 50
+    ///
+    /// All numbers of a run have them.
+    #[arg(long, default_value_t = DEFAULT_DIGITS, value_name = "DIGITS", value_parser = |text: &str| whole(text, 1..=MOST_DIGITS), help_heading = NUMBERS)]
     pub(crate) digits: u32,
-    /// MPFR's numbers, also for up to 307 digits, for which numbers of some limbs of 64 bits take less time
-    #[arg(long)]
+    /// MPFR's numbers, also for up to 307 digits
+    ///
+    /// For up to 307 digits, numbers of 64-bit limbs are the default; they take less time.
+    #[arg(long, help_heading = NUMBERS)]
     pub(crate) mpfr: bool,
     #[command(flatten)]
     pub(crate) numbers: NumberArguments,
-    /// How the modified energy is estimated
-    #[arg(long, value_name = "NAME", default_value = EstimatorSettings::NAMES[0], value_parser = words(EstimatorSettings::NAMES, EstimatorSettings::SUMMARIES))]
-    pub(crate) estimator: String,
-    /// The m of D_m, at most 1000, or the k of E_k, at most 256, such as 40; or auto for the best one of each state
-    #[arg(long, default_value = "auto", value_name = "M|K|auto", value_parser = order)]
-    pub(crate) order: OrderChoice,
-    /// The largest m or k that --order auto tries, such as 100 [default: 200 of m, 64 of k]
-    #[arg(long, value_name = "M|K", value_parser = |text: &str| whole(text, 2..=HIGHEST_ORDER))]
-    pub(crate) max_order: Option<u32>,
-    /// Where --order auto stops trying m. Moan and Niesen's rule for an early stop is printed with <=; `early` has < instead
-    /// [default: full]
-    #[arg(long, value_name = "WHEN", value_parser = words(StoppingRule::NAMES, StoppingRule::SUMMARIES).try_map(|word| word.parse::<StoppingRule>()))]
-    pub(crate) stop: Option<StoppingRule>,
-    /// Which m is the best for --order auto [default: least, which reproduces the results of Moan & Niesen]
-    #[arg(long, value_name = "RULE", value_parser = words(SelectionRule::NAMES, SelectionRule::SUMMARIES).try_map(|word| word.parse::<SelectionRule>()))]
-    pub(crate) rule: Option<SelectionRule>,
-    /// Target error for --estimator bilinear --order auto, such as 1e-20: the least k of 2, 4, 8, 16, … and the largest one
-    /// that meets it is used. If none meets it, the most accurate is used, and its estimated error is reported
-    /// [default: the best of them for each state]
-    #[arg(long, value_name = "ERROR", allow_hyphen_values = true)]
-    pub(crate) accuracy: Option<String>,
-    /// No summary of a run: the error of H, the modified energy, close encounters, the verdict on the step size
-    #[arg(long)]
+    #[command(flatten)]
+    pub(crate) estimator: EstimatorArguments,
+    /// No summary of a run
+    ///
+    /// A summary has the error of H, the modified energy, close encounters, and the verdict on the step size.
+    #[arg(long, help_heading = OUTPUT)]
     pub(crate) no_summary: bool,
     /// Exit code 1 if the verdict on a run is worse than fine
-    #[arg(long, conflicts_with = "no_summary")]
+    #[arg(long, conflicts_with = "no_summary", help_heading = OUTPUT)]
     pub(crate) strict: bool,
     #[command(flatten)]
     pub(crate) output: OutputArguments,
 }
 
+/// How the modified energy is estimated.
+#[derive(Debug, Args)]
+#[command(next_help_heading = ESTIMATOR)]
+pub(crate) struct EstimatorArguments {
+    /// How the modified energy is estimated
+    #[arg(long, value_name = "NAME", default_value = EstimatorSettings::NAMES[0], value_parser = words(EstimatorSettings::NAMES, EstimatorSettings::SUMMARIES))]
+    pub(crate) estimator: String,
+    /// The m of D_m or k of E_k, such as 40, or auto
+    ///
+    /// m is at most 1000, k at most 256. auto takes the best one for each state.
+    #[arg(long, default_value = "auto", value_name = "M|K|auto", value_parser = order)]
+    pub(crate) order: OrderChoice,
+    /// Largest m or k of auto [default: 200 of m, 64 of k]
+    ///
+    /// It is the largest that --order auto tries, such as 100.
+    #[arg(long, value_name = "M|K", value_parser = |text: &str| whole(text, 2..=HIGHEST_ORDER))]
+    pub(crate) max_order: Option<u32>,
+    /// Where --order auto stops trying m [default: full]
+    ///
+    /// Moan and Niesen's rule for an early stop is printed with <=; `early` has < instead.
+    #[arg(long, value_name = "WHEN", value_parser = words(StoppingRule::NAMES, StoppingRule::SUMMARIES).try_map(|word| word.parse::<StoppingRule>()))]
+    pub(crate) stop: Option<StoppingRule>,
+    /// Which m is the best for --order auto [default: least]
+    ///
+    /// `least` reproduces the results of Moan and Niesen.
+    #[arg(long, value_name = "RULE", value_parser = words(SelectionRule::NAMES, SelectionRule::SUMMARIES).try_map(|word| word.parse::<SelectionRule>()))]
+    pub(crate) rule: Option<SelectionRule>,
+    /// Target error of E_k with --order auto, such as 1e-20
+    ///
+    /// It requires --estimator bilinear --order auto. Of k = 2, 4, 8, 16, … and the largest k, the least one that meets the target error is
+    /// used. If none meets it, the most accurate is used, and its estimated error is reported. Without this flag the best of them is used
+    /// for each state.
+    #[arg(long, value_name = "ERROR", allow_hyphen_values = true)]
+    pub(crate) accuracy: Option<String>,
+}
+
 /// A number type that has a flag in place of digits.
 #[derive(Debug, Args)]
+#[command(next_help_heading = NUMBERS)]
 pub(crate) struct NumberArguments {
-    /// Double precision (f64) instead of the digits
+    /// Double precision (f64) in place of --digits
     #[arg(long, conflicts_with_all = ["digits", "mpfr"])]
     double: bool,
-    /// Double precision in which positions and momenta are sums with remainders: less round-off in long runs, for up to half more time
+    /// Double precision with less round-off in long runs
+    ///
+    /// Positions and momenta are sums with remainders. A run takes up to half more time.
     #[arg(long, conflicts_with_all = ["digits", "mpfr", "double"])]
     compensated: bool,
-    /// Numbers that are sums of two doubles, about 32 digits, for 4 to 9 times the time of double precision
+    /// Sums of two doubles, about 32 digits
+    ///
+    /// They take 4 to 9 times the time of double precision.
     #[arg(long, conflicts_with_all = ["digits", "mpfr", "double", "compensated"])]
     double_double: bool,
 }
@@ -91,22 +125,28 @@ impl NumberArguments {
 
 /// The system: a shipped problem, that of a scene, or a formula.
 #[derive(Debug, Args)]
+#[command(next_help_heading = PROBLEM)]
 pub(crate) struct SystemArguments {
-    /// A shipped problem, such as kepler, or a scene's file, such as mine.toml, of which [problem] and [initial] are used;
-    /// `shadowstep problems` lists the shipped ones
-    #[arg(value_name = "PROBLEM|SCENE", required_unless_present_any = ["problem", "potential"])]
+    /// A problem, such as kepler, or the file of a scene
+    ///
+    /// `shadowstep problems` lists the shipped problems. Of a scene, such as mine.toml, [problem] and [initial] are used.
+    #[arg(display_order = 0, value_name = "PROBLEM|SCENE", required_unless_present_any = ["problem", "potential"])]
     name: Option<String>,
     /// The same as PROBLEM|SCENE
-    #[arg(long, value_name = "NAME|FILE", conflicts_with = "name")]
+    #[arg(long, value_name = "NAME|FILE", conflicts_with = "name", display_order = 1)]
     problem: Option<String>,
-    /// A parameter or initial value of a shipped problem, or a parameter of --potential, exact, such as eccentricity=1/3 or
-    /// "px=sqrt(2)/2"
+    /// Parameters and initial values: eccentricity=1/3
+    ///
+    /// Values are exact, such as "px=sqrt(2)/2". They belong to parameters and initial values of a shipped problem, or to parameters of
+    /// --potential.
     #[arg(long, value_name = "NAME=VALUE,…", value_delimiter = ',')]
     pub(crate) set: Vec<String>,
-    /// U(q), a smooth formula in the coordinates of --q, in place of --problem: "-1/sqrt(x^2 + y^2)"
+    /// U(q) in place of a problem: "-1/sqrt(x^2 + y^2)"
+    ///
+    /// It is a smooth formula in the coordinates of --q.
     #[arg(long, value_name = "FORMULA", conflicts_with_all = ["name", "problem"], requires_all = ["q", "p"], allow_hyphen_values = true)]
     pub(crate) potential: Option<String>,
-    /// The coordinates of --potential at t = 0: x=0.4,y=0
+    /// Coordinates of --potential at t = 0: x=0.4,y=0
     #[arg(
         long,
         value_name = "NAME=VALUE,…",
@@ -115,7 +155,9 @@ pub(crate) struct SystemArguments {
         allow_hyphen_values = true
     )]
     pub(crate) q: Vec<String>,
-    /// The momenta at t = 0, in the order of the coordinates: 0,2 or px=0,py=2
+    /// Momenta of --potential: 0,2 or px=0,py=2
+    ///
+    /// They are those at t = 0, in the order of the coordinates.
     #[arg(
         long,
         value_name = "[NAME=]VALUE,…",
@@ -124,7 +166,7 @@ pub(crate) struct SystemArguments {
         allow_hyphen_values = true
     )]
     pub(crate) p: Vec<String>,
-    /// The masses of the coordinates [default: all are 1]
+    /// Masses of the coordinates [default: all are 1]
     #[arg(long, value_name = "VALUE,…", value_delimiter = ',', requires = "potential", allow_hyphen_values = true)]
     pub(crate) masses: Vec<String>,
 }
@@ -134,6 +176,13 @@ impl SystemArguments {
     pub(crate) fn problem(&self) -> Option<&String> {
         self.name.as_ref().or(self.problem.as_ref())
     }
+}
+
+/// The usage of a command with [`RunArguments`], in two lines.
+pub(crate) fn usage(command: &str) -> String {
+    format!(
+        "shadowstep {command} [OPTIONS] [PROBLEM|SCENE]\n           --scheme <NAME|FILE,…> --step <H,…> --until <T>"
+    )
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -18,35 +18,46 @@ use crate::quantity::{number, whole};
 use crate::readable::{rounded, table, wrapped_to};
 use crate::report::{self, Status};
 
-const EXAMPLE: &str = "\
+const EXAMPLES: &str = "\
 Examples:
   shadowstep sampling
   shadowstep sampling bcss3 mine.toml --dimension 1000 --acceptance 0.8
-  shadowstep sampling --frequencies 1/3,1,2.5 --time 4
+  shadowstep sampling --frequencies 1/3,1,2.5 --time 4";
 
-H = p^2/2 + U with a Gaussian exp(-U) is a sum of oscillators: along a direction with standard deviation σ, ω = 1/σ. What is computed of it is exact; other
-targets have other errors. docs/sampling.md describes it.";
+const MORE: &str = "\
+H = p^2/2 + U with a Gaussian exp(-U) is a sum of oscillators: along a direction with standard deviation σ, ω = 1/σ. Its results are exact; other \
+targets have other errors. docs/sampling.md describes them.";
 
-/// Schemes for Hamiltonian Monte Carlo: step, error of the energy, acceptance and cost on a Gaussian.
+/// Schemes for Hamiltonian Monte Carlo on a Gaussian.
+///
+/// Of each scheme: step, error of the energy, acceptance and cost.
 #[derive(Debug, Args)]
-#[command(after_help = EXAMPLE)]
+#[command(after_help = EXAMPLES, after_long_help = format!("{EXAMPLES}\n\n{MORE}"))]
 pub(crate) struct Arguments {
-    /// Shipped schemes, such as bcss3, or files of tables [default: all shipped ones that are symmetric and not processed]
+    /// Shipped schemes, such as bcss3, or files of tables
+    ///
+    /// The default is all shipped schemes that are symmetric and not processed.
     #[arg(value_name = "NAME|FILE")]
     schemes: Vec<String>,
-    /// A Gaussian of this dimension D, with the frequencies 1/D, 2/D, … 1
+    /// A Gaussian with the frequencies 1/D, 2/D, …, 1
+    ///
+    /// D is its dimension.
     #[arg(long, value_name = "D", default_value_t = 100, value_parser = |text: &str| whole(text, 1..=1_000_000))]
     dimension: u32,
-    /// A Gaussian with these frequencies: numbers with commas, or a file of numbers
-    #[arg(long, value_name = "LIST|FILE", conflicts_with = "dimension")]
+    /// A Gaussian with these frequencies: 1/3,1,2.5 or a file
+    ///
+    /// They are numbers with commas, or a file of numbers.
+    #[arg(long, value_name = "Ω,…|FILE", conflicts_with = "dimension")]
     frequencies: Option<String>,
     /// The length of trajectories [default: a quarter of the longest period]
     #[arg(long, value_name = "TIME")]
     time: Option<String>,
-    /// The acceptance that is wanted, such as 0.65 [default: the one with the least cost]
+    /// The acceptance, such as 0.65 [default: that of the least cost]
     #[arg(long, value_name = "RATE")]
     acceptance: Option<String>,
-    /// The number of steps in place of one that is looked for
+    /// The number of steps of a trajectory
+    ///
+    /// Without this flag, a number of steps is sought that gives the acceptance.
     #[arg(long, value_name = "N", conflicts_with = "acceptance", value_parser = |text: &str| whole(text, 1..=1_000_000_000))]
     steps: Option<u32>,
     /// One JSON object a line

@@ -14,11 +14,15 @@ const EXAMPLE: &str = "\
 Example:
   shadowstep scene kepler > scene.toml";
 
-/// Writes the scene of a problem, or a shipped one, lists all, or explains the keys of scenes.
+/// Writes a scene to begin with, or explains the keys of scenes.
+///
+/// The scene is that of a problem, or a shipped one. Without a name, all are listed.
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLE)]
 pub(crate) struct Arguments {
-    /// The problem or shipped scene, such as kepler, eight-planets or pythagorean-70
+    /// The problem or shipped scene, such as kepler
+    ///
+    /// Shipped scenes have names such as eight-planets or pythagorean-70.
     name: Option<String>,
     /// Explains every key of a scene
     #[arg(long, conflicts_with = "name")]

@@ -17,14 +17,14 @@ use clap::{Args, Subcommand};
 use crate::report::Status;
 use shadowstep_scenes::Error;
 
-const EXAMPLE: &str = "\
+const EXAMPLES: &str = "\
 Examples:
   shadowstep schemes --order 4 --for quadratic --sort effective-error
   shadowstep schemes mine.toml --order 4";
 
-/// Lists the shipped schemes; shows one; checks a table of your own.
+/// Lists the shipped schemes; shows one; checks a custom table.
 #[derive(Debug, Args)]
-#[command(args_conflicts_with_subcommands = true, after_help = EXAMPLE)]
+#[command(args_conflicts_with_subcommands = true, after_help = EXAMPLES)]
 pub(crate) struct Arguments {
     #[command(flatten)]
     list: list::Arguments,

@@ -25,41 +25,71 @@ use rows::{Row, header, published, row};
 const EXAMPLE: &str = "\
 Example: rkn4.toml has
   order = 4
-  kinetic = \"quadratic\"            # or \"any\"
-  stages = [5, 6]                  # forces a step; with `base`, steps of the base
-  minimise = \"effective-error\"     # or { effective-error = 1, largest-weight = 0.1 }
-and shadowstep search rkn4.toml --out rkn4 writes rkn4-1.toml, rkn4-2.toml, …, the best first.
+  kinetic = \"quadratic\"           # or \"any\"
+  stages = [5, 6]                 # forces a step, or steps of `base`
+  minimise = \"effective-error\"    # one measure, or several
 
-Measures: effective-error, instability (forces per unit of hω at the limit of stability), phase-error, sampling-error, largest-weight,
-negative-weights. front = [\"effective-error\", \"instability\"] in place of `minimise` keeps the schemes that no other surpasses in all.
-Other keys: name, base = \"stormer-verlet\", first = \"drift\", symmetric = false, gradient_kicks = true, near_integrable = [8, 4],
-processor = 6 (stages of the post-map of a processed scheme, whose order is that after processing),
-closed_gaps = 1 (intervals of instability near hω = π, 2π, …), largest_weight = 1, starts = 100, seed = 1, keep = 3.
+This command writes rkn4-1.toml, rkn4-2.toml, …, the best first:
+  shadowstep search rkn4.toml --out rkn4";
 
-DIR gets the tables, search.csv with what each start found, search.svg with the shipped schemes beside them, report.html, and
-results.jsonl, in which starts are saved one by one: after Ctrl-C (exit code 3) the same command computes only what is missing.
-Exit code 1: no start met the conditions.";
+const MORE: &str = "\
+Several measures are added with weights:
+  minimise = { effective-error = 1, largest-weight = 0.1 }
 
-/// New schemes: weights that meet the order conditions and make an error least.
+Measures:
+  effective-error
+  instability              forces per unit of hω at the limit of stability
+  phase-error
+  sampling-error
+  largest-weight
+  negative-weights
+
+Other keys:
+  front = [\"effective-error\", \"instability\"]
+                           in place of `minimise`: keeps the schemes that no
+                           other surpasses in all of these measures
+  name, base = \"stormer-verlet\", first = \"drift\", symmetric = false,
+  gradient_kicks = true, near_integrable = [8, 4], largest_weight = 1,
+  starts = 100, seed = 1, keep = 3
+  processor = 6            stages of the post-map of a processed scheme, whose
+                           order is the one after processing
+  closed_gaps = 1          intervals of instability near hω = π, 2π, …
+
+DIR gets the tables, search.csv with what each start found, search.svg with the shipped schemes beside them, and report.html. Starts are saved one by one \
+in results.jsonl: after Ctrl-C (exit code 3) the same command computes only what is missing.
+
+The exit code is 1 if no start met the conditions.";
+
+/// Searches for schemes of an order with the least error.
+///
+/// It finds weights that meet the order conditions and make an error, or another measure, least.
 #[derive(Debug, Args)]
-#[command(after_help = EXAMPLE)]
+#[command(after_help = EXAMPLE, after_long_help = format!("{EXAMPLE}\n\n{MORE}"))]
 pub(crate) struct Arguments {
-    /// What the schemes shall be, and what shall be small
+    /// The file of the search, such as rkn4.toml
+    ///
+    /// It states what the schemes shall be, and what shall be small.
     #[arg(value_name = "FILE")]
     file: String,
-    /// Random starts for each number of stages, in place of those of the file
+    /// Random starts for each number of stages
+    ///
+    /// This number is used in place of the one in the file.
     #[arg(long, value_name = "N", value_parser = |text: &str| whole(text, 1..=1_000_000))]
     starts: Option<u32>,
-    /// The seed of the random numbers, in place of that of the file
+    /// The seed of the random numbers
+    ///
+    /// This seed is used in place of the one in the file.
     #[arg(long, value_name = "N")]
     seed: Option<u64>,
-    /// Decimal digits of the tables [default: as many as can be, at most 300]
+    /// Decimal digits of the tables [default: up to 300]
+    ///
+    /// The default is as many as can be, at most 300.
     #[arg(long, value_name = "DIGITS", value_parser = |text: &str| whole(text, 20..=MOST_POLISHED_DIGITS))]
     digits: Option<u32>,
     /// The folder for tables, charts and results
     #[arg(long, value_name = "DIR")]
     out: PathBuf,
-    /// Replaces files of the folder that are not from this program
+    /// Replaces files in --out that are not from this program
     #[arg(long)]
     force: bool,
 }

@@ -8,7 +8,7 @@ use shadowstep_symbolic::decimal::to_text;
 
 use crate::quantity;
 use crate::report;
-use crate::run_arguments::{OrderChoice, RunArguments};
+use crate::run_arguments::{EstimatorArguments, OrderChoice, RunArguments};
 use crate::system::Described;
 use shadowstep_scenes::Error;
 use shadowstep_scenes::arithmetic::{Arithmetic, OTHER_SCHEME};
@@ -32,7 +32,7 @@ pub(crate) struct Selection {
 impl Selection {
     pub(crate) fn read(arguments: &RunArguments) -> Result<Self, Error> {
         let arithmetic = arithmetic(arguments)?;
-        let estimator = estimator(arguments)?;
+        let estimator = estimator(&arguments.estimator)?;
         let problem = Described::read(&arguments.system, arithmetic)?;
         let until = quantity::number("--until", &arguments.until)?;
         refuse_empty("--scheme", &arguments.schemes, "yoshida4,ruth3")?;
@@ -120,20 +120,20 @@ fn arithmetic(arguments: &RunArguments) -> Result<Arithmetic, Error> {
     }
 }
 
-fn estimator(arguments: &RunArguments) -> Result<EstimatorSettings, Error> {
+fn estimator(given: &EstimatorArguments) -> Result<EstimatorSettings, Error> {
     let options = EstimatorOptions {
-        order: match arguments.order {
+        order: match given.order {
             OrderChoice::Auto => None,
             OrderChoice::Fixed(order) => Some(order),
         },
-        max_order: arguments.max_order,
-        stop: arguments.stop,
-        rule: arguments.rule,
-        accuracy: arguments.accuracy.as_deref().map(accuracy).transpose()?,
+        max_order: given.max_order,
+        stop: given.stop,
+        rule: given.rule,
+        accuracy: given.accuracy.as_deref().map(accuracy).transpose()?,
     };
-    refuse_high_order(&arguments.estimator, "--order", options.order)?;
-    refuse_high_order(&arguments.estimator, "--max-order", options.max_order)?;
-    match EstimatorSettings::from_options(&arguments.estimator, options) {
+    refuse_high_order(&given.estimator, "--order", options.order)?;
+    refuse_high_order(&given.estimator, "--max-order", options.max_order)?;
+    match EstimatorSettings::from_options(&given.estimator, options) {
         Ok(settings) => Ok(settings.expect("only names of estimators are accepted")),
         Err(error) => {
             let flag = |name: &str| format!("--{}", name.replace('_', "-"));

@@ -20,27 +20,33 @@ use crate::readable::wrapped_to;
 use crate::report::{self, Status};
 use crate::terminal::{Terminal, study_in};
 
-const EXAMPLE: &str = "\
+const EXAMPLES: &str = "\
 Examples:
   shadowstep stability --quick
   shadowstep stability oscillator --schemes yoshida4,mine.toml
-  shadowstep stability --out stability
+  shadowstep stability --out stability";
 
-DIR gets report.html with charts, stability.md with all verdicts, and results.jsonl, in which results are saved one by one: after Ctrl-C
-(exit code 3) the same command computes only what is missing. Exit code 1: a row differs from theory.";
+const MORE: &str = "\
+DIR gets report.html with charts, and stability.md with all verdicts. Results are saved one by one in results.jsonl: after Ctrl-C (exit code 3) the same \
+command computes only what is missing.
 
-/// Hard cases: what theory predicts, what happens, and whether it agrees.
+The exit code is 1 if a row differs from theory.";
+
+/// Hard cases: what theory predicts, and whether it happens.
 #[derive(Debug, Args)]
-#[command(after_help = EXAMPLE)]
+#[command(after_help = EXAMPLES, after_long_help = format!("{EXAMPLES}\n\n{MORE}"))]
 pub(crate) struct Arguments {
     /// Only these cases; all, if none is named
     #[arg(value_name = "CASE", value_parser = PossibleValuesParser::new(names()))]
     cases: Vec<String>,
-    /// Shipped schemes or files of tables, such as yoshida4,mine.toml [default: those that each case needs; all shipped ones where
-    /// that is cheap]
+    /// Shipped or custom schemes: yoshida4,mine.toml
+    ///
+    /// Custom schemes are files of tables. The default is the schemes that each case needs, and all shipped ones where they are cheap.
     #[arg(long, value_name = "NAME|FILE,…", value_delimiter = ',')]
     schemes: Vec<String>,
-    /// Decimal digits of all numbers in cases that are not about a number type [default: double precision]
+    /// Decimal digits [default: double precision]
+    ///
+    /// All numbers have them, such as 50, except in cases that are about a number type.
     #[arg(long, value_name = "DIGITS", value_parser = |text: &str| whole(text, 1..=MOST_DIGITS))]
     digits: Option<u32>,
     /// Fewer and shorter trials
@@ -49,10 +55,10 @@ pub(crate) struct Arguments {
     /// One JSON object a line
     #[arg(long)]
     json: bool,
-    /// The folder for the report, its charts and the results
+    /// The folder for report, charts and results
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
-    /// Replaces files of the folder that are not from this program
+    /// Replaces files in --out that are not from this program
     #[arg(long, requires = "out")]
     force: bool,
 }

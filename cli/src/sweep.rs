@@ -8,44 +8,59 @@ use std::path::PathBuf;
 
 use clap::Args;
 use shadowstep_scenes::Error;
-use shadowstep_sweeps::{Chunk, Computed, Manifest, SweepPlan, chunk_of_task, compute, explain, is_there};
+use shadowstep_sweeps::{
+    Chunk, Computed, Manifest, SweepPlan, chunk_of_task, compute, explain, is_there, refuse_foreign, remove_foreign,
+};
 
 use crate::collect::{Format, collected};
+use crate::headings::OUTPUT;
 use crate::output::Output;
 use crate::report::{self, Status};
 use crate::terminal::{SAVED, Terminal};
 use slurm::SlurmArguments;
 
-const EXAMPLE: &str = "\
+const EXAMPLES: &str = "\
 Examples:
-  shadowstep sweep sweep.toml --out DIR                computes all runs on all cores and collects them
-  shadowstep sweep sweep.toml --out DIR --chunk 3/16   computes the third of 16 chunks
-  shadowstep sweep sweep.toml --out DIR --submit       submits the chunks to Slurm as a job array
-  shadowstep collect DIR                               collects chunks that were computed anywhere
+  shadowstep sweep sweep.toml --out DIR                # all runs on all cores
+  shadowstep sweep sweep.toml --out DIR --chunk 3/16   # chunk 3 of 16
+  shadowstep sweep sweep.toml --out DIR --submit       # a job array of Slurm
+  shadowstep collect DIR                               # chunks of any machine";
 
-After Ctrl-C (exit code 3), or a crash at any moment, the same command computes only what is missing. Results do not depend on the number
-of threads: all cores, or as many as RAYON_NUM_THREADS says. A run that fails is recorded and stops nothing.
-In a task of a Slurm array, the chunk is that of the task.";
+const MORE: &str = "\
+After Ctrl-C (exit code 3), or a crash at any moment, the same command computes only what is missing. Results do not depend on the number \
+of threads: all cores, or the number in RAYON_NUM_THREADS. A run that fails is recorded and stops nothing.
+
+In a task of a Slurm array, the chunk is the one of the task.";
+
+/// The sweep itself, beside its output and Slurm.
+const RUNS: &str = "Runs";
 
 /// Makes many runs of a scene, over axes of parameters.
 #[derive(Debug, Args)]
-#[command(after_help = EXAMPLE)]
+#[command(after_help = EXAMPLES, after_long_help = format!("{EXAMPLES}\n\n{MORE}"))]
 pub(crate) struct Arguments {
     /// The sweep's file, such as sweep.toml
-    #[arg(value_name = "FILE", required_unless_present = "explain")]
+    #[arg(value_name = "FILE", required_unless_present = "explain", help_heading = RUNS, display_order = 0)]
     sweep: Option<PathBuf>,
-    /// The folder for the chunks, and for the table and the picture of all runs
-    #[arg(long, value_name = "DIR", required_unless_present = "explain")]
+    /// The folder for chunks, table and picture
+    #[arg(long, value_name = "DIR", help_heading = OUTPUT, required_unless_present = "explain")]
     out: Option<PathBuf>,
-    /// Computes chunk I of N only, such as 3/16; if it is there already, nothing is done
-    #[arg(long, value_name = "I/N", value_parser = chunk)]
+    /// Computes chunk I of N only, such as 3/16
+    ///
+    /// If it is there already, nothing is done.
+    #[arg(long, value_name = "I/N", help_heading = RUNS, value_parser = chunk)]
     chunk: Option<Chunk>,
     /// The format of the table
-    #[arg(long, value_enum, default_value_t = Format::Csv, conflicts_with = "chunk")]
+    #[arg(long, value_enum, default_value_t = Format::Csv, help_heading = OUTPUT, conflicts_with = "chunk")]
     format: Format,
     /// Explains every key of a sweep
-    #[arg(long, exclusive = true)]
+    #[arg(long, exclusive = true, help_heading = RUNS)]
     explain: bool,
+    /// Replaces files in --out that are not from this sweep
+    ///
+    /// They are results of another sweep, or of this one before it was changed, and files of other programs.
+    #[arg(long, help_heading = OUTPUT, conflicts_with = "status")]
+    force: bool,
     #[command(flatten)]
     slurm: SlurmArguments,
 }
@@ -62,21 +77,29 @@ fn chunk(text: &str) -> Result<Chunk, String> {
 
 /// Computes the runs that are asked for.
 pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
-    let Arguments { sweep: Some(sweep), out: Some(out), chunk, format, slurm, .. } = arguments else {
+    let Arguments { sweep: Some(sweep), out: Some(out), chunk, format, force, slurm, .. } = arguments else {
         let mut output = Output::stdout();
         write!(output, "{}", explain())?;
         output.finish()?;
         return Ok(Status::Success);
     };
-    if slurm.is_given() {
-        return slurm.execute(sweep, out);
+    if let Some(status) = slurm.asked(sweep, out) {
+        return status;
+    }
+    let plan = SweepPlan::open(sweep)?;
+    if *force {
+        remove_foreign(out, &plan)?
+    } else {
+        refuse_foreign(out)?
+    }
+    if slurm.submits() {
+        return slurm.submit(&plan, sweep, out);
     }
     let begun = Manifest::is_in(out).then(|| Manifest::read(out)).transpose()?;
     let chunk = match chunk {
         Some(chunk) => Some(*chunk),
         None => chunk_of_task(|name| env::var(name).ok(), begun.map(|manifest| manifest.chunks))?,
     };
-    let plan = SweepPlan::open(sweep)?;
     let mut terminal = Terminal::listen(SAVED);
     let manifest = Manifest::begin(out, &plan, chunk.map(|chunk| chunk.of))?;
     let Some(chunk) = chunk else {

@@ -10,43 +10,48 @@ use shadowstep_scenes::run::Run;
 use shadowstep_scenes::{Error, Summary};
 use shadowstep_symbolic::decimal::to_text;
 
+use crate::headings::OUTPUT;
 use crate::interrupt::Interrupt;
 use crate::output::Output;
-use crate::plot::{CHARTS, PlotArguments, Plots, Values};
+use crate::plot::{KINDS, PlotArguments, Plots, Values};
 use crate::progress::Progress;
 use crate::report::{self, Status};
-use crate::run_arguments::RunArguments;
+use crate::run_arguments::{RunArguments, usage};
 use crate::selection::Selection;
 use rows::{Row, RunName, Writer, writer};
 
-const EXAMPLE: &str = "\
+const EXAMPLES: &str = "\
 Examples:
-  shadowstep trace --problem pendulum --scheme yoshida4 --step 1/10 --until 20 --digits 40 --csv > pendulum.csv
-  shadowstep trace kepler --scheme yoshida4 --step 1/20 --until 40 --plot kepler.svg --plot-of energies,orbit=x:y
+  shadowstep trace pendulum --scheme yoshida4 --step 1/10 --until 20 \\
+      --digits 40 --csv > pendulum.csv
+  shadowstep trace kepler --scheme yoshida4 --step 1/20 --until 40 \\
+      --plot kepler.svg --plot-of energies,orbit=x:y";
 
-A line has n, t, energy, modified_energy, estimate and order: the m or k used. The estimate is the estimated error of
-modified_energy, of the right size also near close encounters. With --order 1 there is no reliable estimate: it is empty, in
+const MORE: &str = "\
+A line has n, t, energy, modified_energy, estimate and order: the m or k used. The estimate is the estimated error of \
+modified_energy, of the right size also near close encounters. With --order 1 there is no reliable estimate: it is empty, in \
 JSON null. Lines of several runs begin with scheme and step.
 
-The summary of each run is on stderr: for CSV as text, for JSON as one object a line, {\"summary\": …}.";
+The summary of each run is written to stderr: for CSV as text, for JSON as one object a line, {\"summary\": …}.";
 
 /// What can be done after an interruption.
 const NOT_RESUMED: &str = "begin again; `shadowstep run` with a checkpoint in its scene can be resumed";
 
 /// Energy and modified energy at each step.
 #[derive(Debug, Args)]
-#[command(after_help = format!("{CHARTS}\n\n{EXAMPLE}"), group = ArgGroup::new("written").multiple(true))]
+#[command(after_help = EXAMPLES, after_long_help = format!("{EXAMPLES}\n\n{KINDS}\n\n{MORE}"), override_usage = usage("trace"))]
+#[command(group = ArgGroup::new("written").multiple(true))]
 pub(crate) struct Arguments {
     #[command(flatten)]
     run: RunArguments,
     /// One JSON object per step, one per line (the default)
-    #[arg(long)]
+    #[arg(long, help_heading = OUTPUT)]
     json: bool,
     /// CSV with a header
-    #[arg(long, conflicts_with = "json")]
+    #[arg(long, conflicts_with = "json", help_heading = OUTPUT)]
     csv: bool,
     /// Positions and momenta too
-    #[arg(long)]
+    #[arg(long, help_heading = OUTPUT)]
     states: bool,
     #[command(flatten)]
     plot: PlotArguments,

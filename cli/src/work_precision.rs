@@ -19,6 +19,7 @@ use shadowstep_work_precision::series::StepRange;
 use shadowstep_work_precision::study::Request;
 
 use crate::colour::on_stdout;
+use crate::headings::{OUTPUT, SCHEMES};
 use crate::invocation;
 use crate::output::Output;
 use crate::posed::{PosedArguments, PosedProblem, fitted};
@@ -27,40 +28,53 @@ use crate::report::{self, Status};
 use crate::terminal::{Terminal, study_in};
 use table::readable;
 
-const EXAMPLE: &str = "\
+const EXAMPLES: &str = "\
 Examples:
   shadowstep work-precision kepler --until 100 --out kepler
   shadowstep work-precision mine.toml --schemes +mine-4.toml --out mine
-  shadowstep work-precision --potential \"x^4/4\" --q x=1 --p 0 --until 50 --digits 40 --out quartic
-  shadowstep work-precision henon-heiles --until 100 --schemes all --out henon-heiles
+  shadowstep work-precision henon-heiles --until 100 --schemes all --out all";
 
-DIR gets work-precision.csv and .jsonl, charts as SVG, report.html, and plot.py, which makes PDF of the CSV by Matplotlib (PGF with xelatex).
+const MORE: &str = "  \
+  shadowstep work-precision --potential \"x^4/4\" --q x=1 --p 0 --until 50 \\
+      --digits 40 --out quartic
+
+DIR gets work-precision.csv and work-precision.jsonl, charts as SVG, report.html, and plot.py, which draws the CSV as PDF by Matplotlib (PGF with xelatex).
+
 Results are saved in DIR/results.jsonl one by one. After Ctrl-C (exit code 3) the same command computes only what is missing.
-Errors of positions are |q - q_ref|, beside the exact flow where it is known, else beside a scheme of order 10 with more digits, whose
+
+Errors of positions are |q - q_ref|. The reference q_ref is the exact flow where it is known, else a run of a scheme of order 10 with more digits, whose \
 own error is estimated. Times are those of the bare steps of tables that are read at run time, in one thread.";
 
-/// Speed against error: what each scheme pays for an error on a problem.
+/// Speed against error: what each scheme pays for an error.
+///
+/// The schemes run one problem, from their stability limit down to round-off.
 #[derive(Debug, Args)]
-#[command(after_help = EXAMPLE)]
+#[command(after_help = EXAMPLES, after_long_help = format!("{EXAMPLES}\n{MORE}"))]
 pub(crate) struct Arguments {
     #[command(flatten)]
     posed: PosedArguments,
-    /// Shipped schemes or files of tables, such as yoshida4,mine.toml; +mine.toml adds to the default ones, `all` are those of the
-    /// catalogue that are valid for the kinetic energy, `near-integrable` those with orders for A + εB [default: a dozen that are]
-    #[arg(long, value_name = "NAME|FILE,…", value_delimiter = ',')]
+    /// Shipped or custom schemes, such as +mine.toml [default: a dozen]
+    ///
+    /// Custom schemes are files of tables; +mine.toml adds one to the default schemes. `all` are those of the catalogue that are valid for the
+    /// kinetic energy, as the default ones are. `near-integrable` are those with orders for A + εB.
+    #[arg(long, value_name = "NAME|FILE,…", value_delimiter = ',', help_heading = SCHEMES)]
     schemes: Vec<String>,
-    /// Step sizes, exact, such as 1/10,1/20; the end time must be a multiple of each; in transformed time any steps of s [default:
-    /// from the stability limit down to round-off, at equal numbers of evaluations for all schemes]
-    #[arg(long, value_name = "H,…", value_delimiter = ',', allow_hyphen_values = true)]
+    /// Exact step sizes, such as 1/10,1/20 [default: a range for each scheme]
+    ///
+    /// The end time must be a multiple of each. In transformed time they are any steps of s. The default range goes from the stability limit down
+    /// to round-off, at equal numbers of evaluations for all schemes.
+    #[arg(long, value_name = "H,…", value_delimiter = ',', allow_hyphen_values = true, help_heading = SCHEMES)]
     steps: Vec<String>,
-    /// The time for the runs of a scheme, in seconds, unless --steps are given
-    #[arg(long, value_name = "SECONDS", default_value = "2", value_parser = seconds, conflicts_with = "steps")]
+    /// The time for the runs of a scheme
+    ///
+    /// It cannot be used with --steps.
+    #[arg(long, value_name = "SECONDS", default_value = "2", value_parser = seconds, conflicts_with = "steps", help_heading = SCHEMES)]
     seconds: f64,
     /// The folder for charts, data and results
-    #[arg(long, value_name = "DIR")]
+    #[arg(long, value_name = "DIR", help_heading = OUTPUT)]
     out: PathBuf,
-    /// Replaces files of the folder that are not from this program
-    #[arg(long)]
+    /// Replaces files in --out that are not from this program
+    #[arg(long, help_heading = OUTPUT)]
     force: bool,
 }
 

@@ -19,6 +19,9 @@ use crate::record::Record;
 /// The most runs of a chunk: they are sorted in memory.
 pub const MOST_RUNS_OF_CHUNK: u64 = 1 << 20;
 
+/// The folder of the chunks, in the one of the sweep.
+pub(crate) const CHUNKS_FOLDER: &str = "chunks";
+
 /// What helps when a chunk cannot be written.
 pub(crate) const AGAIN: &str = "run the command again: it computes what is not saved yet";
 
@@ -68,7 +71,7 @@ impl Chunk {
 
     /// `chunks/00003-of-00016` in the folder of a sweep.
     pub(crate) fn path(self, folder: &Path) -> PathBuf {
-        folder.join("chunks").join(self.name())
+        folder.join(CHUNKS_FOLDER).join(self.name())
     }
 
     /// The name of the file; those of temporary files begin with it and a dot.
@@ -114,7 +117,7 @@ pub(crate) fn remove_left(folder: &Path) {
         let name = path.file_name().unwrap_or_default().to_string_lossy();
         [".partial-", ".new-"].iter().any(|part| name.contains(part))
     };
-    let chunks = left(&folder.join("chunks"), "").into_iter().filter(is_left);
+    let chunks = left(&folder.join(CHUNKS_FOLDER), "").into_iter().filter(is_left);
     chunks.chain(left(folder, "plan.json.new-")).for_each(|path| drop(std::fs::remove_file(path)));
 }
 

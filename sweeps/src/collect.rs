@@ -21,6 +21,7 @@ use crate::picture::{Cells, Picture, double, number_of};
 use crate::plan;
 use crate::record::Record;
 use csv_table::CsvTable;
+pub(crate) use missing::header;
 pub use missing::{Missing, ranges};
 use parquet_table::ParquetTable;
 use table::{Cell, Head, Table, TableColumn};
@@ -61,6 +62,11 @@ const ROWS: &str = "rows.csv";
 const PICTURE: &str = "picture.svg";
 /// The tables, one for each format.
 pub(crate) const TABLES: [&str; 2] = [csv_table::NAME, parquet_table::NAME];
+
+/// The names of all files that are written.
+pub(crate) fn written() -> impl Iterator<Item = &'static str> {
+    TABLES.into_iter().chain([ROWS, PICTURE])
+}
 
 /// Checks all chunks in the folder of a sweep and writes its table and its picture there.
 ///
@@ -103,7 +109,7 @@ pub fn collect(folder: &Path, format: TableFormat, observer: &mut dyn Observer) 
 /// A table of an earlier collection would be taken for that of the chunks that are there now.
 fn incomplete(folder: &Path, missing: Missing) -> Result<Collected, Error> {
     let mut removed = Vec::new();
-    for path in TABLES.iter().chain(&[ROWS, PICTURE]).map(|name| folder.join(name)) {
+    for path in written().map(|name| folder.join(name)) {
         match fs::remove_file(&path) {
             Ok(()) => removed.push(path),
             Err(error) if error.kind() == io::ErrorKind::NotFound => {}

@@ -42,6 +42,7 @@
 //! | `manifest` | what the chunks in a folder are of |
 //! | `compute` | chunks on all cores |
 //! | `collect` | chunks → a table and a picture, or what is missing |
+//! | `foreign` | what a folder has that is not from a sweep |
 //! | `picture` | maps and curves |
 //! | [`slurm`] | sweeps as job arrays of Slurm |
 //! | `task` | which chunk a task of a Slurm array computes |
@@ -52,6 +53,7 @@ mod batch;
 mod chunk;
 mod collect;
 mod compute;
+mod foreign;
 mod keep;
 mod keys;
 mod manifest;
@@ -69,6 +71,7 @@ pub use axis::Axis;
 pub use chunk::{Chunk, MOST_RUNS_OF_CHUNK};
 pub use collect::{Collected, Missing, TableFormat, collect, ranges};
 pub use compute::{Computed, compute, is_there};
+pub use foreign::{refuse_foreign, remove_foreign};
 pub use keep::Column;
 pub use keys::explain;
 pub use manifest::Manifest;

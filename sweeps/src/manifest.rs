@@ -10,7 +10,7 @@ use shadowstep_scenes::{Error, not_written};
 use shadowstep_schemes::document::read_text;
 use tempfile::Builder;
 
-use crate::chunk::{AGAIN, Chunk, Header, MOST_RUNS_OF_CHUNK};
+use crate::chunk::{AGAIN, CHUNKS_FOLDER, Chunk, Header, MOST_RUNS_OF_CHUNK};
 use crate::keep::Column;
 use crate::plan::{Digests, SweepPlan, hash};
 
@@ -80,7 +80,7 @@ impl Manifest {
             path: plan.source().path.clone(),
             text: plan.source().text.clone(),
         };
-        let folder_of_chunks = folder.join("chunks");
+        let folder_of_chunks = folder.join(CHUNKS_FOLDER);
         fs::create_dir_all(&folder_of_chunks).map_err(|error| cannot(&folder_of_chunks, &error))?;
         own.write(folder, false)?;
         let there = Manifest::read(folder)?;
@@ -159,7 +159,7 @@ impl Manifest {
 
     fn check(&self, own: &Manifest, chunks_given: bool, folder: &Path) -> Result<(), Error> {
         let shown = folder.display();
-        let other = "give another folder, or remove this one";
+        let other = "give another folder, or replace what this one has with `force`";
         let differs = if self.shadowstep != own.shadowstep {
             Some(format!("{shown} is of version {} of shadowstep, not of {VERSION}", self.shadowstep))
         } else if self.digests.sweep != own.digests.sweep {

@@ -23,6 +23,7 @@ mod submission;
 mod tasks;
 
 pub use added::Added;
+pub(crate) use script::SCRIPTS;
 pub use script::{Resources, Scripts, SweepCommand};
 pub use status::Status;
 pub use submission::{Submitted, submit};

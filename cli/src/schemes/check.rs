@@ -16,19 +16,23 @@ use shadowstep_scenes::library::{self, NamedScheme};
 use shadowstep_scenes::readable::digits as in_digits;
 use shadowstep_scenes::scheme_record::{effective_near_integrable, near_integrable};
 
-const EXAMPLE: &str = "\
+const EXAMPLES: &str = "\
 Examples:
   shadowstep schemes check mine.toml
   shadowstep schemes check --from integrators.py src/*.c";
 
-/// Proves what tables claim, or finds the schemes in source code; exit code 1 if one has faults, or decimals that rounding does not explain.
+/// Proves what tables claim, or finds the schemes in source code.
+///
+/// The exit code is 1 if one has faults, or decimals that rounding does not explain.
 #[derive(Debug, Args)]
-#[command(after_help = EXAMPLE)]
+#[command(after_help = EXAMPLES)]
 pub(crate) struct Arguments {
     /// The tables
     #[arg(required_unless_present = "from", value_name = "FILE")]
     files: Vec<String>,
-    /// Reads lists of weights out of C, C++, Fortran, Python, Julia, Rust or JSON: which scheme each is, its order, and what is wrong with it
+    /// Reads the lists of weights in source code
+    ///
+    /// Of each list in C, C++, Fortran, Python, Julia, Rust or JSON: which scheme it is, its order, and what is wrong with it.
     #[arg(long, value_name = "FILE", num_args = 1.., conflicts_with = "files")]
     from: Vec<String>,
 }

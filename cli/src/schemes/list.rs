@@ -22,13 +22,17 @@ use shadowstep_scenes::library::{self, NamedScheme};
 #[derive(Debug, Args)]
 #[group(skip)]
 pub(crate) struct Arguments {
-    /// Files of tables, which are listed among the shipped schemes whatever their order, such as mine.toml
+    /// Files of tables to list too, such as mine.toml
+    ///
+    /// They are listed among the shipped schemes whatever their order.
     #[arg(value_name = "FILE")]
     tables: Vec<String>,
     /// Only schemes of this order, such as 6
     #[arg(long, value_name = "ORDER", value_parser = |text: &str| whole(text, 1..=HIGHEST_ORDER))]
     order: Option<u32>,
-    /// Only schemes for these kinetic energies, with the orders and effective errors for them in --order and --sort
+    /// Only schemes for these kinetic energies
+    ///
+    /// --order and --sort then use the orders and effective errors for them.
     #[arg(long = "for", value_name = "KINETIC")]
     kinetic: Option<KineticChoice>,
     /// What comes first

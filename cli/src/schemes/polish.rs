@@ -20,28 +20,41 @@ use shadowstep_scenes::scheme_record::near_integrable;
 
 const EXAMPLE: &str = "\
 Example:
-  shadowstep schemes polish printed.toml --digits 300 --output polished.toml
+  shadowstep schemes polish printed.toml --digits 300 --output polished.toml";
 
-Decimals that stand alone move, as constants or in the lists of weights; fractions and formulas stay as they are. If the
-conditions leave some decimals free, these stay as printed, and the report on stderr names them.";
+const MORE: &str = "\
+Decimals that stand alone are changed, as constants or in the lists of weights; fractions and formulas stay as they are. If the \
+conditions leave some decimals free, these stay as printed, and the report on stderr names them.
 
-/// Solves a table's order conditions from its printed decimals, to many digits; exit code 1 if that cannot be.
+The exit code is 1 if the conditions cannot be solved.";
+
+/// Solves a table's order conditions from its printed decimals.
+///
+/// The weights get many digits.
 #[derive(Debug, Args)]
-#[command(after_help = EXAMPLE)]
+#[command(after_help = EXAMPLE, after_long_help = format!("{EXAMPLE}\n\n{MORE}"))]
 pub(crate) struct Arguments {
     /// The table
     #[arg(value_name = "FILE")]
     file: String,
-    /// Decimal digits to which the conditions shall hold [default: as many as can be, at most 300]
+    /// Decimal digits of the weights [default: up to 300]
+    ///
+    /// The order conditions hold to these digits. The default is as many as can be, at most 300.
     #[arg(long, value_name = "DIGITS", value_parser = |text: &str| whole(text, 1..=polish::MOST_POLISHED_DIGITS))]
     digits: Option<u32>,
-    /// Decimals that stay as printed: constants, or places such as kick[2], drift[3], gamma[1]
+    /// Decimals that stay as printed, such as kick[2]
+    ///
+    /// They are constants, or places such as kick[2], drift[3], gamma[1].
     #[arg(long, value_name = "NAME", num_args = 1.., value_delimiter = ',')]
     free: Vec<String>,
-    /// The cubes of the kicks must sum to 0 too: kicks are themselves split, as in heliocentric coordinates
+    /// The cubes of the kicks must sum to 0 too
+    ///
+    /// It is for kicks that are themselves split, as in heliocentric coordinates.
     #[arg(long)]
     split_kicks: bool,
-    /// Where the harmonic oscillator must not be unstable: about the hω at which a step turns by a multiple of π, such as 2.98
+    /// Where the harmonic oscillator must be stable, such as 2.98
+    ///
+    /// They are about the hω at which a step turns by a multiple of π.
     #[arg(long, value_name = "HΩ,…", value_delimiter = ',', value_parser = positive)]
     closed_gaps: Vec<f64>,
     #[command(flatten)]

@@ -10,16 +10,18 @@ use shadowstep_symbolic::decimal::to_text;
 use crate::output::{Output, OutputArguments};
 use crate::report::Status;
 
-const EXAMPLE: &str = "\
+const EXAMPLES: &str = "\
 Examples:
   shadowstep schemes prove yoshida4 --to json > yoshida4.json
   python3 tests/certificates/check.py yoshida4.json";
 
-/// Writes the proof of the order for every T(p) as a certificate that other programs can check.
+/// Writes the proof of the order as a certificate.
+///
+/// The order is the one for every T(p). Other programs can check the certificate.
 #[derive(Debug, Args)]
-#[command(after_help = EXAMPLE)]
+#[command(after_help = EXAMPLES)]
 pub(crate) struct Arguments {
-    /// A shipped scheme, such as yoshida4, or a table's file, such as mine.toml
+    /// A shipped scheme, such as yoshida4, or the file of a table
     #[arg(value_name = "NAME|FILE")]
     name: String,
     /// The form of the certificate

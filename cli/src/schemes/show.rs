@@ -33,13 +33,15 @@ use shadowstep_scenes::{Error, WholeFile};
 /// Everything that is known about a scheme.
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
-    /// A shipped scheme, such as yoshida4, or a table's file, such as mine.toml
+    /// A shipped scheme, such as yoshida4, or the file of a table
     #[arg(value_name = "NAME|FILE")]
     name: String,
     /// One JSON object with every digit of the weights
     #[arg(long)]
     json: bool,
-    /// Draws the stages along the step, its stability and the error of its phase over hω into a new file, such as yoshida4.svg
+    /// Draws stages, stability and phase error into a new file
+    ///
+    /// The stages are drawn along the step, its stability and the error of its phase over hω. The file has a name such as yoshida4.svg.
     #[arg(long, value_name = "FILE")]
     plot: Option<PathBuf>,
     /// Replaces the file of --plot if it exists

@@ -17,48 +17,58 @@ use crate::report::{self, Status};
 #[derive(Debug, Args)]
 #[command(next_help_heading = "Slurm")]
 pub(super) struct SlurmArguments {
-    /// Submits the chunks that are missing as a job array, and a job that collects them; the job scripts DIR/array.sbatch and
-    /// DIR/collect.sbatch are written unless they are there, and shown
+    /// Submits the missing chunks as a job array
+    ///
+    /// Another job collects them. The job scripts DIR/array.sbatch and DIR/collect.sbatch are written unless they are there, and shown.
     #[arg(long, conflicts_with_all = ["chunk", "format"])]
     submit: bool,
     /// Writes and shows the job scripts, and submits nothing
     #[arg(long, requires = "submit")]
     dry_run: bool,
-    /// Shows what has become of the tasks, and what to do next; exit code 1 if chunks are missing that no task is going to compute
+    /// Shows the state of the tasks, and what to do next
+    ///
+    /// The exit code is 1 if chunks are missing that no task is going to compute.
     #[arg(long, conflicts_with_all = ["submit", "chunk", "format"])]
     status: bool,
-    /// The number of chunks, which is that of the tasks; it cannot be changed later [default: 16, more if there are more than 2^20
-    /// runs]
+    /// The number of chunks and tasks [default: 16]
+    ///
+    /// It cannot be changed later. The default is larger if there are more than 2^20 runs.
     #[arg(long, value_name = "N", requires = "submit", value_parser = |text: &str| whole(text, 1..=99_999))]
     chunks: Option<u32>,
     /// Option --partition of sbatch
     #[arg(long, value_name = "NAME", requires = "submit")]
     partition: Option<String>,
-    /// Option --time of sbatch: the longest time of a task, such as 30 (minutes), 2:00:00 or 1-12 (days-hours)
+    /// Option --time of sbatch, such as 2:00:00
+    ///
+    /// It is the longest time of a task: 30 (minutes), 2:00:00 or 1-12 (days-hours).
     #[arg(long, value_name = "TIME", requires = "submit")]
     time: Option<String>,
-    /// Option --mem of sbatch: the memory of a task, such as 2G
+    /// Option --mem of sbatch, such as 2G
+    ///
+    /// It is the memory of a task.
     #[arg(long, value_name = "SIZE", requires = "submit")]
     memory: Option<String>,
-    /// Option --cpus-per-task of sbatch: the threads of a task [default: 1]
+    /// Option --cpus-per-task of sbatch [default: 1]
+    ///
+    /// It is the number of threads of a task.
     #[arg(long, value_name = "N", requires = "submit", value_parser = |text: &str| whole(text, 1..=65_536))]
     cpus: Option<u32>,
 }
 
 impl SlurmArguments {
-    /// Whether the command is about jobs.
-    pub(super) fn is_given(&self) -> bool {
-        self.submit || self.status
+    /// Shows what has become of the sweep, if that is asked for.
+    pub(super) fn asked(&self, sweep: &Path, folder: &Path) -> Option<Result<Status, Error>> {
+        self.status.then(|| status(sweep, folder))
     }
 
-    /// Submits the sweep, or shows what has become of it.
-    pub(super) fn execute(&self, sweep: &Path, folder: &Path) -> Result<Status, Error> {
-        if self.status {
-            return status(sweep, folder);
-        }
-        let plan = SweepPlan::open(sweep)?;
+    pub(super) fn submits(&self) -> bool {
+        self.submit
+    }
+
+    /// Submits the sweep.
+    pub(super) fn submit(&self, plan: &SweepPlan, sweep: &Path, folder: &Path) -> Result<Status, Error> {
         let added = Added::to(folder);
-        let manifest = Manifest::begin(folder, &plan, self.chunks.map(u64::from))?;
+        let manifest = Manifest::begin(folder, plan, self.chunks.map(u64::from))?;
         let missing = missing(&manifest, folder);
         if missing.is_empty() && !self.dry_run {
             report::note(format_args!(

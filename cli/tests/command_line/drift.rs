@@ -395,6 +395,17 @@ fn round_off_is_not_resolved() {
     }
 }
 
+#[test]
+fn set_takes_several_values_with_commas() {
+    let trace = |set: &str| {
+        quietly(&format!(
+            "trace --potential depth*x^2+width*x^4 {set} --q x=1 --p 0 --scheme ruth3 --step 1/10 --until 1 --double --no-summary"
+        ))
+    };
+    assert_eq!(trace("--set depth=2,width=1/2"), trace("--set depth=2 --set width=1/2"));
+    assert_ne!(trace("--set depth=2,width=1/2"), trace("--set depth=2,width=1/3"));
+}
+
 /// A scene and a formula have the numbers of the shipped problem.
 #[test]
 fn a_scene_or_a_formula_may_be_the_problem() {

@@ -11,6 +11,7 @@ mod digits;
 mod drift;
 mod emit;
 mod figures;
+mod help;
 mod lost_energy;
 mod modified;
 mod output_files;

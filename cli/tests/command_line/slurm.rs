@@ -65,6 +65,19 @@ impl Site {
     }
 }
 
+/// The job scripts of another sweep are replaced with it.
+#[test]
+fn the_scripts_of_another_sweep_are_replaced_only_by_force() {
+    let site = Site::new(&[]);
+    assert_eq!(site.sweep("--submit --dry-run --chunks 5").code, 0);
+    fs::write(site.path("sweep.toml"), SWEEP.replace("until = 1", "until = 2")).unwrap();
+    let refused = site.sweep("--submit --dry-run --chunks 4");
+    assert!(refused.code == 2 && refused.err.contains("is of another sweep"), "{}", refused.err);
+    assert!(site.read("out/array.sbatch").contains("--array=1-5\n"));
+    assert_eq!(site.sweep("--submit --dry-run --chunks 4 --force").code, 0);
+    assert!(site.read("out/array.sbatch").contains("--array=1-4\n"));
+}
+
 #[test]
 fn chunks_are_submitted_and_then_those_that_are_missing() {
     let site = Site::new(&[("sbatch", SBATCH), ("squeue", "cat $SITE/queue")]);

@@ -21,7 +21,7 @@ impl Missing {
     pub fn find(manifest: &Manifest, folder: &Path) -> Missing {
         let mut missing = Missing::default();
         for chunk in manifest.all_chunks() {
-            match header(chunk, folder) {
+            match header(&chunk.path(folder)) {
                 None => missing.chunks.push(chunk.number),
                 Some(header) => {
                     let header = header.ok_or_else(|| "its first line is not a header".to_owned());
@@ -51,8 +51,8 @@ impl Missing {
 }
 
 /// The header of a chunk's file; `None` without a file.
-fn header(chunk: Chunk, folder: &Path) -> Option<Option<Header>> {
-    let file = File::open(chunk.path(folder)).ok()?;
+pub(crate) fn header(path: &Path) -> Option<Option<Header>> {
+    let file = File::open(path).ok()?;
     let mut line = String::new();
     let read = BufReader::new(file).read_line(&mut line);
     Some(read.ok().and_then(|_| serde_json::from_str(&line).ok()))

@@ -4,6 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use super::script::{ARRAY, COLLECT, LOGS};
+use crate::chunk::CHUNKS_FOLDER;
 use crate::manifest;
 
 /// The files and folders that are not there when a sweep is submitted. Unless they are kept, they are removed at the end.
@@ -13,7 +14,7 @@ pub struct Added(Vec<PathBuf>);
 impl Added {
     /// Those of the folder of a sweep, and the folder itself.
     pub fn to(folder: &Path) -> Added {
-        let within = [ARRAY, COLLECT, LOGS, "chunks", manifest::NAME].map(|name| folder.join(name));
+        let within = [ARRAY, COLLECT, LOGS, CHUNKS_FOLDER, manifest::NAME].map(|name| folder.join(name));
         let above = folder.ancestors().filter(|path| !path.as_os_str().is_empty());
         Added(within.into_iter().chain(above.map(Path::to_owned)).filter(|path| !path.exists()).collect())
     }

@@ -57,6 +57,7 @@ pub struct Script {
 /// The names of the scripts.
 pub(super) const ARRAY: &str = "array.sbatch";
 pub(super) const COLLECT: &str = "collect.sbatch";
+pub(crate) const SCRIPTS: [&str; 2] = [ARRAY, COLLECT];
 /// The folder of what tasks print.
 pub(super) const LOGS: &str = "slurm-logs";
 

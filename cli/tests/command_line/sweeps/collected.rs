@@ -179,6 +179,38 @@ fn comments_and_pictures_change_no_sweep_and_axes_do() {
     assert!(result.err.contains("out was made with other tables of schemes"), "{}", result.err);
 }
 
+#[test]
+fn what_is_not_from_the_sweep_is_replaced_only_by_force() {
+    let forced = |folder: &std::path::Path, sentence: &str| {
+        let before = files(&folder.join("out"));
+        let result = run(folder, "sweep sweep.toml --out out");
+        assert!(result.code == 2 && result.err.contains(sentence) && result.err.contains("--force"), "{}", result.err);
+        assert_same(&folder.join("out"), &before, sentence);
+        succeeds(folder, "sweep sweep.toml --out out --force");
+        assert_same(&folder.join("out"), &undisturbed(SWEEP), sentence);
+    };
+    for name in ["results.csv", "picture.svg"] {
+        let folder = folder(SWEEP);
+        fs::create_dir(folder.path().join("out")).unwrap();
+        fs::write(folder.path().join("out").join(name), "mine").unwrap();
+        forced(folder.path(), "exists, without results of this program beside it");
+    }
+    // chunks of another sweep, of which one is not complete
+    let folder = folder(&SWEEP.replace("until = 3", "until = 2"));
+    succeeds(folder.path(), "sweep sweep.toml --out out --chunk 3/8");
+    fs::rename(
+        folder.path().join("out/chunks/00003-of-00008"),
+        folder.path().join("out/chunks/00003-of-00008.partial-x"),
+    )
+    .unwrap();
+    succeeds(folder.path(), "sweep sweep.toml --out out --chunk 4/8");
+    fs::write(folder.path().join("sweep.toml"), SWEEP).unwrap();
+    forced(folder.path(), "out is of another sweep");
+    // what is from the sweep stays
+    let result = succeeds(folder.path(), "sweep sweep.toml --out out --force --chunk 3/16");
+    assert!(result.err.contains("is there already"), "{}", result.err);
+}
+
 /// The scene is in a file; a change there is a change of the sweep.
 #[test]
 fn a_scene_may_have_its_own_file() {

@@ -1,0 +1,49 @@
+//! What a folder has that is not from a sweep: it is refused, or removed where the user wants that.
+
+use std::fs;
+use std::io;
+use std::path::{Path, PathBuf};
+
+use shadowstep_scenes::Error;
+use shadowstep_studies::files;
+
+use crate::chunk::{CHUNKS_FOLDER, Header, left};
+use crate::collect::{header, written};
+use crate::manifest::{self, Manifest, VERSION};
+use crate::plan::SweepPlan;
+use crate::slurm::SCRIPTS;
+
+/// Refuses a folder with files that [`collect`](crate::collect()) would replace, and without a sweep beside them: others wrote them.
+///
+/// # Errors
+/// Such a file.
+pub fn refuse_foreign(folder: &Path) -> Result<(), Error> {
+    if Manifest::is_in(folder) || folder.join(CHUNKS_FOLDER).is_dir() {
+        return Ok(());
+    }
+    files::refuse_foreign(folder, written().map(str::to_owned))
+}
+
+/// Removes what is not from this plan, so that the sweep begins in the folder: files that [`collect`](crate::collect()) would replace, and the
+/// plan, chunks and job scripts of another sweep. A folder of this sweep stays as it is, as processes may be at work in it.
+///
+/// # Errors
+/// A file that cannot be removed.
+pub fn remove_foreign(folder: &Path, plan: &SweepPlan) -> Result<(), Error> {
+    if Manifest::read(folder).is_ok_and(|there| there.shadowstep == VERSION && there.digests == *plan.digests()) {
+        return Ok(());
+    }
+    let is_own = |header: Header| header.shadowstep == VERSION && header.digests == *plan.digests();
+    let is_foreign = |path: &PathBuf| header(path).flatten().is_some_and(|header| !is_own(header));
+    let named = written().chain(SCRIPTS).chain([manifest::NAME]).map(|name| folder.join(name));
+    for path in named.chain(left(&folder.join(CHUNKS_FOLDER), "").into_iter().filter(is_foreign)) {
+        match fs::remove_file(&path) {
+            Err(error) if error.kind() != io::ErrorKind::NotFound => {
+                let message = format!("{} cannot be removed: {error}", path.display());
+                return Err(Error::usage(message, "give another folder"));
+            }
+            _ => {}
+        }
+    }
+    Ok(())
+}
