@@ -108,14 +108,14 @@ impl<N: RunNumber> Watch<N> {
     ) -> Result<Self, RunError> {
         let energies = if run.steps <= SHORT_RUN { Energies::All } else { energies };
         let every = (run.steps.saturating_sub(from.unsigned_abs()) / WINDOWS).max(1);
-        let mut observed = None;
+        let (mut observed, massive) = (None, integrator.system().massive_coordinates());
         if summarised {
             let monitor = N::monitor(integrator, MONITOR_ORDER, every)?;
             observed = Some(Observed {
                 idle: monitor.idle(),
                 pass: 0,
                 monitor,
-                encounters: Encounters::new(integrator.state().p()),
+                encounters: Encounters::new(&integrator.state().p()[..massive]),
                 approaches: None,
             });
         }

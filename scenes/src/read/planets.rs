@@ -1,5 +1,6 @@
 //! [[body]]: the bodies of a planetary system, by Cartesian states or orbital elements.
 
+use std::collections::BTreeSet;
 use std::ops::Range;
 
 use num_traits::{One, Zero};
@@ -275,11 +276,21 @@ impl Settings {
 
 fn masses(reader: &mut Reader<'_>, bodies: &[GivenBody]) -> Option<Vec<Rational>> {
     let mut masses = Vec::new();
-    for body in bodies {
+    // the last body of mass 0 with its place
+    let mut particle = None;
+    for (index, body) in bodies.iter().enumerate() {
         let text = body.mass.as_ref();
         masses.push(text.and_then(|text| {
             let numbers = Numbers::List(Placed { value: vec![text.clone()], at: text.at.clone() });
             let value = reader.evaluate(text)?;
+            if value.value.is_zero() && index > 0 {
+                particle = Some(&text.at);
+                return Some(value.value);
+            }
+            if let Some(at) = particle.take() {
+                let help = "bodies of mass 0 come last: put them after all bodies with mass";
+                return reader.toml.wrong(at, "a body of mass 0 is before a body with mass", help);
+            }
             let before = reader.toml.faults.len();
             kinetic::masses(reader, &numbers, vec![value.clone()]);
             (reader.toml.faults.len() == before).then_some(value.value)
@@ -290,11 +301,11 @@ fn masses(reader: &mut Reader<'_>, bodies: &[GivenBody]) -> Option<Vec<Rational>
 
 /// The names of the bodies, or their numbers if one has no name.
 fn names(reader: &mut Reader<'_>, bodies: &[GivenBody]) -> Vec<String> {
-    let mut names: Vec<String> = Vec::new();
+    let (mut names, mut known): (Vec<String>, _) = (Vec::new(), BTreeSet::new());
     for body in bodies {
         let Some(name) = &body.name else { return (1..=bodies.len()).map(|body| body.to_string()).collect() };
         check_name(reader, name);
-        if names.contains(&name.value) {
+        if !known.insert(&name.value) {
             let message = format!("the body `{}` is named twice", name.value);
             reader.toml.fault(&name.at, message, "give it another name");
         }
@@ -304,6 +315,11 @@ fn names(reader: &mut Reader<'_>, bodies: &[GivenBody]) -> Vec<String> {
 }
 
 impl Placing {
+    /// How many bodies have a mass: those before the others.
+    fn massive(&self) -> usize {
+        self.masses.iter().take_while(|mass| !mass.is_zero()).count()
+    }
+
     fn origin(&self) -> [Vec<Rational>; 2] {
         [(); 2].map(|()| vec![Rational::zero(); self.dimensions])
     }
@@ -369,7 +385,7 @@ impl Placing {
         let elements = body.elements(reader)?;
         let inner = match self.centre {
             Centre::Body => 1,
-            Centre::Inner => index,
+            Centre::Inner => index.min(self.massive()),
         };
         let attracting: Rational = self.masses[..inner].iter().sum();
         let mu = &self.g * (&attracting + &self.masses[index]);
@@ -400,7 +416,7 @@ impl Placing {
     }
 
     fn move_to_barycentre(&mut self) {
-        let mean = self.mean(self.states.len(), &self.masses.iter().sum());
+        let mean = self.mean(self.massive(), &self.masses.iter().sum());
         for state in &mut self.states {
             for (own, by) in state.iter_mut().zip(&mean) {
                 own.iter_mut().zip(by).for_each(|(own, by)| *own -= by);
@@ -426,16 +442,19 @@ impl Placing {
             .iter()
             .flat_map(|name| axes[..dimensions].iter().map(move |(q, p)| (format!("{q}{name}"), format!("{p}{name}"))))
             .unzip();
-        let p = states.iter().zip(&masses).flat_map(|([_, v], mass)| v.iter().map(move |v| exact(v * mass)));
-        let of_coordinates: Vec<_> = masses.iter().flat_map(|mass| vec![exact(mass.clone()); dimensions]).collect();
+        // a momentum is v, if it is divided by a mass that is 0
+        let one = Rational::one();
+        let of_momenta = || masses.iter().map(|mass| if mass.is_zero() { &one } else { mass });
+        let p = states.iter().zip(of_momenta()).flat_map(|([_, v], mass)| v.iter().map(move |v| exact(v * mass)));
+        let of_coordinates: Vec<_> = of_momenta().flat_map(|mass| vec![exact(mass.clone()); dimensions]).collect();
         let unit = of_coordinates.iter().all(|mass| mass.value.is_one());
         let properties = vec![("m".to_owned(), masses.iter().cloned().map(exact).collect())];
         let formula = match Formula::pair(GRAVITY, Separation::SquaredDistance, &properties, &parameters) {
             Ok(formula) => formula,
             Err(error) => return reader.toml.wrong(at, error.to_string(), "give the parameters other names"),
         };
-        let count = masses.len();
-        let pairs = PairEnergy { formula, dimensions, bodies: count, properties, ends: None, cutoff: None, of_bodies };
+        let (count, particles) = (bodies.count(), bodies.particles());
+        let pairs = PairEnergy { formula, dimensions, bodies: count, particles, properties, ends: None, cutoff: None, of_bodies };
         let problem = InitialValueProblem {
             p: p.collect(),
             q: states.iter().flat_map(|[q, _]| q.iter().cloned().map(exact)).collect(),

@@ -98,8 +98,8 @@ impl Approaches {
             places[i].iter().zip(places[j]).map(|(a, b)| (a - b) * (a - b)).sum::<f64>().sqrt()
         };
         for j in 2..places.len() {
-            for i in 1..j {
-                let part = ((self.masses[i] + self.masses[j]) / (3.0 * self.masses[0])).cbrt();
+            for i in 1..j.min(self.masses.len()) {
+                let part = ((self.masses[i] + self.masses.get(j).unwrap_or(&0.0)) / (3.0 * self.masses[0])).cbrt();
                 let hill_radius = part * (distance(0, i) + distance(0, j)) / 2.0;
                 let hill_radii = distance(i, j) / hill_radius;
                 if self.found.closest.as_ref().is_none_or(|closest| hill_radii < closest.hill_radii) {

@@ -24,6 +24,8 @@ pub struct ShadowRun<T, E> {
     after: i64,
     /// How many states must still come before the one that completes the first estimate.
     missing: usize,
+    /// Of how many coordinates the modified energy is: the first ones.
+    massive: usize,
 }
 
 impl<I: Integrator<Number: Real>, E: Estimator<I::Number>> ShadowRun<Trajectory<I>, E> {
@@ -50,14 +52,15 @@ impl<I: Integrator<Number: Real>, E: Estimator<I::Number>> ShadowRun<Trajectory<
     /// # Errors
     /// An energy at `from` that is not finite; settings of the estimator that are not valid.
     pub fn resume(
-        integrator: I,
+        mut integrator: I,
         from: i64,
         steps: u64,
         settings: &impl BuildEstimator<I::Number, Estimator = E>,
     ) -> Result<Self, RunError> {
-        let (h, state) = (integrator.step_size().clone(), integrator.state());
-        let estimator = settings.build(&h, state.q().len(), &state.context())?;
+        let (h, dimension) = (integrator.step_size().clone(), integrator.system().massive_coordinates());
+        let estimator = settings.build(&h, dimension, &integrator.state().context())?;
         let mut run = ShadowRun::of(Trajectory::after(integrator, from)?, estimator, &h);
+        run.massive = dimension;
         run.states.extend(steps, run.reach as usize);
         Ok(run)
     }
@@ -76,7 +79,7 @@ impl<T: States, E: Estimator<T::Number>> ShadowRun<T, E> {
     pub fn of(states: T, estimator: E, h: &StepSize) -> Self {
         let missing = estimator.states() - 1;
         let reach = missing / 2;
-        ShadowRun { states, estimator, h: h.clone(), reach: reach as i64, after: (missing - reach) as i64, missing }
+        ShadowRun { states, estimator, h: h.clone(), reach: reach as i64, after: (missing - reach) as i64, missing, massive: usize::MAX }
     }
 
     /// Whether the states are from [compensated](crate::State::is_compensated) sums.
@@ -117,7 +120,9 @@ impl<T: States, E: Estimator<T::Number>> ShadowRun<T, E> {
         mut watch: impl FnMut(i64, &mut T),
     ) -> Result<Option<EstimatedAlong<'_, T>>, RunError> {
         loop {
-            let Some(TrajectoryState { n, q, p, increments }) = self.states.advance()? else { return Ok(None) };
+            let Some(state) = self.states.advance()? else { return Ok(None) };
+            let massive = self.massive.min(state.q.len());
+            let TrajectoryState { n, q, p, increments } = state.of_first(massive);
             if self.missing > 0 {
                 self.missing -= 1;
                 self.estimator.push(q, p, increments);
