@@ -284,7 +284,7 @@ def problem_of(problem: Any) -> Problem:
 # keys of [problem] and [initial]; every other keyword is a parameter
 _PROBLEM = ("coordinates", "momenta", "bodies", "dimensions", "neighbours", "cutoff", "box", "units", "elements", "barycentric", "encounters", "vector_potential", "hamiltonian", "slow", "parameters")
 # keys beside another one, without which they are names of parameters
-_BESIDE = {"coupling": "hamiltonian", "central": "body", "external": "body"}
+_BESIDE = {"coupling": "hamiltonian", "central": "body", "external": "body", "particles": "body"}
 
 
 def _sections(system: str | None, q: Values | None, p: Values | None, v: Values | None, others: Mapping[str, Any]) -> dict[str, Any]:

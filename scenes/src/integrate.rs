@@ -157,7 +157,7 @@ impl Integration<'_> {
             }
         }
         keeper.samples.evaluations = integrator.state().evaluations();
-        keeper.samples.interactions = keeper.approaches.map(|approaches| approaches.found().clone());
+        keeper.samples.interactions = keeper.approaches.map(|approaches| approaches.found());
         Ok(keeper.samples)
     }
 

@@ -3,6 +3,7 @@
 pub(crate) mod approaches;
 pub(crate) mod encounters;
 mod energy;
+pub(crate) mod particles;
 pub(crate) mod summary;
 
 use std::mem::take;
@@ -14,6 +15,7 @@ use shadowstep::systems::system::Visitor;
 use shadowstep::{Carried, Integrator as _, Real};
 
 pub use self::approaches::{Approach, Approaches, Interactions};
+pub use self::particles::ParticleApproach;
 pub use self::encounters::Encounter;
 use self::encounters::Encounters;
 use self::energy::EnergyError;
@@ -248,7 +250,7 @@ impl<N: RunNumber> Watch<N> {
             encounters,
             closest,
             extremes: Vec::new(),
-            interactions: approaches.map(|approaches| approaches.found().clone()),
+            interactions: approaches.map(|approaches| approaches.found()),
             fine: verdict.is_fine(),
             verdict: verdict.to_string(),
             conclusion: if verdict == report.verdict { report.conclusion() } else { verdict.to_string() },

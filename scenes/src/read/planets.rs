@@ -1,5 +1,7 @@
 //! [[body]]: the bodies of a planetary system, by Cartesian states or orbital elements.
 
+mod particles;
+
 use std::collections::BTreeSet;
 use std::ops::Range;
 
@@ -23,7 +25,7 @@ use super::units;
 use crate::scene::{
     EnergyOfBodies, Formula, GRAVITY, InitialValueProblem, KineticEnergy, PairEnergy, PotentialEnergy, System,
 };
-use shadowstep_schemes::document::{Placed, Section, Text};
+use shadowstep_schemes::document::{Fault, Placed, Section, Text};
 
 /// The name of the section.
 pub(super) const BODY: &str = "body";
@@ -45,6 +47,8 @@ pub(super) struct GivenBody {
     /// A table of Horizons that has the state, `None` inside if it cannot be read.
     horizons: Option<(Range<usize>, Option<HorizonsVector>)>,
     at: Range<usize>,
+    /// Of a file of particles: its name and the line.
+    line: Option<String>,
 }
 
 /// What the elements of a planet are relative to.
@@ -101,7 +105,13 @@ impl GivenBody {
             let file = reader.toml.text(value);
             (value.span(), file.and_then(|file| HorizonsVector::open(reader, &file)))
         });
-        GivenBody { name, mass, q, v, a, elements, horizons, at: section.at.clone() }
+        GivenBody { name, mass, q, v, a, elements, horizons, at: section.at.clone(), line: None }
+    }
+
+    /// Puts the line of a file before the faults that were found in it.
+    fn name_line(&self, faults: &mut [Fault]) {
+        let Some(line) = &self.line else { return };
+        faults.iter_mut().for_each(|fault| fault.message = format!("{line}: {}", fault.message));
     }
 
     fn element(&self, key: &str) -> Option<&Text> {
@@ -170,19 +180,39 @@ pub(super) fn system(
     }
     let mut parameters = given.own_parameters(reader);
     let constant = settings.constant(reader, problem, &parameters);
-    if bodies.len() < 2 {
-        let at = bodies.first().map_or(&given.problem, |body| &body.at);
-        return reader.toml.wrong(at, "a planetary system has a central body and at least one planet", "add [[body]]");
+    let mut particles = particles::of_file(reader, problem)?;
+    if bodies.iter().all(|body| body.name.is_some()) {
+        name_all(&mut particles);
     }
+    let bodies: Vec<&GivenBody> = bodies.iter().chain(&particles).collect();
+    let bodies = &bodies[..];
     let (g, centre, split) = (constant?, settings.centre?, settings.split?);
     let dimensions = bodies.iter().find_map(|body| body.q.as_ref()).map_or(3, |q| q.value.len());
     let masses = masses(reader, bodies)?;
+    if masses.iter().filter(|mass| !mass.is_zero()).count() < 2 {
+        let at = bodies.first().map_or(&given.problem, |body| &body.at);
+        let message = "a planetary system has a central body and at least one planet with mass";
+        return reader.toml.wrong(at, message, "add [[body]]");
+    }
+    if masses.last().is_some_and(Zero::is_zero) && (given.central.is_some() || given.external.is_some()) {
+        given.refuse(reader, &["central", "external"], |key| {
+            let message = format!("`{key}` is an energy, and bodies of mass 0 have none");
+            (message, format!("remove `{key}`, or give the bodies of mass 0 one that moves nothing, such as 1e-40"))
+        });
+        return None;
+    }
     let units = settings.units.as_ref().and_then(|units| units.as_ref()).map(|(_, units)| units.clone());
     let mut placing = Placing { g: g.clone(), units, dimensions, centre, masses, states: Vec::new() };
     let before = reader.toml.faults.len();
     agree(reader, bodies);
     for (index, body) in bodies.iter().enumerate() {
+        let known = reader.toml.faults.len();
         let state = placing.state(reader, index, body).unwrap_or_else(|| placing.origin());
+        body.name_line(&mut reader.toml.faults[known..]);
+        if body.line.is_some() && reader.toml.faults.len() > known {
+            // the other lines of a file may have the same fault
+            return None;
+        }
         placing.states.push(state);
     }
     let names = names(reader, bodies);
@@ -204,7 +234,7 @@ pub(super) fn system(
 }
 
 /// Refuses tables of Horizons of different centres, frames or epochs.
-fn agree(reader: &mut Reader<'_>, bodies: &[GivenBody]) {
+fn agree(reader: &mut Reader<'_>, bodies: &[&GivenBody]) {
     let tables = || {
         bodies.iter().filter_map(|body| body.horizons.as_ref()).filter_map(|(at, table)| Some((at, table.as_ref()?)))
     };
@@ -274,7 +304,7 @@ impl Settings {
     }
 }
 
-fn masses(reader: &mut Reader<'_>, bodies: &[GivenBody]) -> Option<Vec<Rational>> {
+fn masses(reader: &mut Reader<'_>, bodies: &[&GivenBody]) -> Option<Vec<Rational>> {
     let mut masses = Vec::new();
     // the last body of mass 0 with its place
     let mut particle = None;
@@ -299,12 +329,21 @@ fn masses(reader: &mut Reader<'_>, bodies: &[GivenBody]) -> Option<Vec<Rational>
     masses.into_iter().collect()
 }
 
+/// Names particle1, particle2, … for particles without names.
+fn name_all(particles: &mut [GivenBody]) {
+    for (index, particle) in particles.iter_mut().enumerate() {
+        particle.name.get_or_insert_with(|| Text::at(&format!("particle{}", index + 1), particle.at.clone()));
+    }
+}
+
 /// The names of the bodies, or their numbers if one has no name.
-fn names(reader: &mut Reader<'_>, bodies: &[GivenBody]) -> Vec<String> {
+fn names(reader: &mut Reader<'_>, bodies: &[&GivenBody]) -> Vec<String> {
     let (mut names, mut known): (Vec<String>, _) = (Vec::new(), BTreeSet::new());
     for body in bodies {
         let Some(name) = &body.name else { return (1..=bodies.len()).map(|body| body.to_string()).collect() };
+        let before = reader.toml.faults.len();
         check_name(reader, name);
+        body.name_line(&mut reader.toml.faults[before..]);
         if !known.insert(&name.value) {
             let message = format!("the body `{}` is named twice", name.value);
             reader.toml.fault(&name.at, message, "give it another name");

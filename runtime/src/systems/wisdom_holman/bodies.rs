@@ -46,6 +46,12 @@ impl Bodies {
         self.particles
     }
 
+    /// Those with mass.
+    #[must_use]
+    pub fn without_particles(&self) -> Self {
+        Bodies { particles: 0, ..self.clone() }
+    }
+
     /// The masses that are not 0, the central one first.
     pub fn masses(&self) -> &[Rational] {
         &self.masses
