@@ -69,7 +69,7 @@ pub(crate) const SECTIONS: [Section; 16] = [
 ];
 
 /// All keys, section by section.
-pub(crate) const KEYS: [Key; 89] = [
+pub(crate) const KEYS: [Key; 90] = [
     key(
         "problem",
         "name",

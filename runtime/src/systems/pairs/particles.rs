@@ -2,8 +2,8 @@
 //!
 //! A particle has an acceleration only, the limit of its force divided by its mass, and so has a momentum divided by its mass: both are those of a unit mass.
 
-use super::pair::{BLOCK, PairCurvature, PairPotential};
-use super::{Pairs, PairsError, Which, own_scratch, parts};
+use super::pair::{BLOCK, PairPotential};
+use super::{Pairs, PairsError, Which, parts};
 use crate::Rational;
 use crate::number::{Number, instructions};
 use crate::systems::potential::{HessianProduct, Potential};
