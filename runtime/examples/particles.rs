@@ -41,7 +41,9 @@ fn answer(file: &str, g: &str, h: &str, steps: u64) -> Result<String, Failure> {
 fn main() -> Result<(), Failure> {
     for line in stdin().lock().lines() {
         let line = line?;
-        let [file, g, h, steps] = line.split(' ').collect::<Vec<_>>()[..] else { return Err("four words a line".into()) };
+        let [file, g, h, steps] = line.split(' ').collect::<Vec<_>>()[..] else {
+            return Err("four words a line".into());
+        };
         println!("{}", answer(file, g, h, steps.parse()?)?);
     }
     Ok(())

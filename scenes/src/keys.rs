@@ -307,7 +307,13 @@ pub(crate) const KEYS: [Key; 90] = [
         "\"sun\"",
         Some("none; coordinates have the numbers of the bodies: x1, y1, …"),
     ),
-    key("body", "mass", "Its mass, positive, or 0 of bodies that come last: these are attracted by the others and attract nothing, and their momenta are velocities.", "\"1/1047.35\"", None),
+    key(
+        "body",
+        "mass",
+        "Its mass, positive, or 0 of bodies that come last: these are attracted by the others and attract nothing, and their momenta are velocities.",
+        "\"1/1047.35\"",
+        None,
+    ),
     key("body", "q", "Its position.", "[1, 0, 0]", Some("0 for the first body; otherwise elements are given instead")),
     key("body", "v", "Its velocity.", "[0, 1, 0]", Some("0 for the first body; otherwise elements are given instead")),
     key(

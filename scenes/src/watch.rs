@@ -15,10 +15,10 @@ use shadowstep::systems::system::Visitor;
 use shadowstep::{Carried, Integrator as _, Real};
 
 pub use self::approaches::{Approach, Approaches, Interactions};
-pub use self::particles::ParticleApproach;
 pub use self::encounters::Encounter;
 use self::encounters::Encounters;
 use self::energy::EnergyError;
+pub use self::particles::ParticleApproach;
 use crate::run::Run;
 use crate::run_number::{Monitoring, RunNumber};
 use crate::scene;

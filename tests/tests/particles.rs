@@ -5,13 +5,14 @@
 use shadowstep::number::{DoubleDouble, Limbs, Number, Real};
 use shadowstep::shadow::run::ShadowRun;
 use shadowstep::shadow::{Bilinear, Central, StoppingRule};
+use shadowstep::systems::formula::{FormulaOfBodies, RelativeTo};
 use shadowstep::systems::kinetic::{Quadratic, WithParticles};
 use shadowstep::systems::pairs::{Gravity, PairsAndParticles};
 use shadowstep::systems::wisdom_holman::{
     Bodies, BodiesError, DemocraticHeliocentric, Encounters, Jacobi, PlanetaryCoordinates, Shells, WisdomHolman,
 };
 use shadowstep::tables::{self, TableScheme};
-use shadowstep::{Carried, DiagonalMasses, Motion, Rational, Scheme, Stepper, System, ValidFor};
+use shadowstep::{Carried, DiagonalMasses, Motion, Potential, Rational, Scheme, Stepper, System, ValidFor};
 use shadowstep_tests::{log10_distance, log10_largest_distance, rational};
 
 /// 121 digits.
@@ -117,7 +118,11 @@ fn in_numbers<N: Real>(context: &N::Context) {
     for name in ["stormer-verlet", "saba4", "chin-4a", "wisdom-kernel-17"] {
         let jacobi = |particles| planets::<N, Jacobi<N, 3>>(particles, "0", context);
         bodies_have_the_bits_that_they_have_alone(quadratic(name), jacobi, context);
-        bodies_have_the_bits_that_they_have_alone(quadratic(name), |particles| motion::<N>(particles, context), context);
+        bodies_have_the_bits_that_they_have_alone(
+            quadratic(name),
+            |particles| motion::<N>(particles, context),
+            context,
+        );
     }
     let heliocentric = |particles| planets::<N, DemocraticHeliocentric<N, 3>>(particles, "0", context);
     let scheme = quadratic("saba4").for_every_kinetic().unwrap();
@@ -137,7 +142,18 @@ where
     C: PlanetaryCoordinates<Long, 3>,
     TableScheme<K>: Scheme + ValidFor<C::Class>,
 {
-    let mut system = planets::<Long, C>(3, mass, &());
+    after_steps(planets::<Long, C>(3, mass, &()), scheme, mass)
+}
+
+fn after_steps<C, K, P: Potential<Long>>(
+    mut system: WisdomHolman<Long, C, 3, P>,
+    scheme: TableScheme<K>,
+    mass: &str,
+) -> Vec<Long>
+where
+    C: PlanetaryCoordinates<Long, 3>,
+    TableScheme<K>: Scheme + ValidFor<C::Class>,
+{
     let stepper = Stepper::with_context(scheme, "1/5", &()).unwrap();
     (0..50).for_each(|_| stepper.step(&mut system));
     let (q, mut p) = system.inertial();
@@ -163,6 +179,26 @@ fn particles_move_as_bodies_of_a_mass_that_moves_nothing() {
     all.push(("heliocentric", log10_largest_distance(&none, &small)));
     println!("{all:?}");
     assert!(all.iter().all(|(_, distance)| (-43.0..-36.0).contains(distance)), "{all:?}");
+}
+
+/// An oblate central body and a tide, which are not small, with second derivatives in gradient kicks.
+#[test]
+fn energies_of_each_body_are_those_of_a_mass_that_moves_nothing() {
+    let energies =
+        [("g*m0*m/(50*r^3)*(3*z^2/r^2 - 1)", RelativeTo::FirstBody), ("m*(x^2 + 2*y*z)/100", RelativeTo::Origin)];
+    for (formula, relative_to) in energies {
+        let [none, small] = ["0", "1e-40"].map(|mass| {
+            let system = planets::<Long, Jacobi<_, 3>>(3, mass, &());
+            let (masses, particles) = if mass == "0" { ("1", 3) } else { (mass, 0) };
+            let masses = BODIES.iter().map(|(mass, ..)| *mass).chain([masses; 3]);
+            let masses: Vec<_> = masses.map(|mass| Long::from_rational(&rational(mass), &())).collect();
+            let g = [("g", Long::from_rational(&rational(G), &()))];
+            let energy = FormulaOfBodies::new(formula, relative_to, 3, &masses, &g).unwrap().with_particles(particles);
+            after_steps(system.beside(Some(energy)).unwrap(), quadratic("chin-4a"), mass)
+        });
+        let distance = log10_largest_distance(&none, &small);
+        assert!((-43.0..-36.0).contains(&distance), "{formula}: {distance}");
+    }
 }
 
 /// Kicks, gradient kicks and drifts of T + U beside those in a loop over bodies of 1e-40.

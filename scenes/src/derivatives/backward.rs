@@ -35,7 +35,8 @@ impl Differentiation<'_> {
     pub fn backward(&self, covectors: &[f64], observer: &mut dyn Observer) -> Result<Gradient, Error> {
         self.refuse()?;
         if self.system.particles() > 0 {
-            let message = "derivatives backwards are those of Hamiltonian systems, and bodies of mass 0 do not act on the others";
+            let message =
+                "derivatives backwards are those of Hamiltonian systems, and bodies of mass 0 do not act on the others";
             return Err(Error::usage(message, "use derivatives forwards, or remove the bodies of mass 0"));
         }
         let expected = self.rows().len() * 2 * self.system.q.len();

@@ -12,7 +12,7 @@ use shadowstep::systems::wisdom_holman::Bodies;
 use shadowstep_symbolic::Exact;
 use toml::de::{DeTable, DeValue};
 
-use super::elements::{Elements, Vector};
+use super::elements::{Elements, InLimbs, Vector};
 use super::given::Given;
 use super::horizons::{HorizonsVector, LengthAndTime};
 use super::kinetic;
@@ -160,6 +160,8 @@ struct Placing {
     masses: Vec<Rational>,
     /// Positions and velocities.
     states: Vec<[Vec<Rational>; 2]>,
+    /// For orbits of particles, of which there may be very many.
+    in_limbs: Option<InLimbs>,
 }
 
 /// The system of the bodies.
@@ -194,15 +196,9 @@ pub(super) fn system(
         let message = "a planetary system has a central body and at least one planet with mass";
         return reader.toml.wrong(at, message, "add [[body]]");
     }
-    if masses.last().is_some_and(Zero::is_zero) && (given.central.is_some() || given.external.is_some()) {
-        given.refuse(reader, &["central", "external"], |key| {
-            let message = format!("`{key}` is an energy, and bodies of mass 0 have none");
-            (message, format!("remove `{key}`, or give the bodies of mass 0 one that moves nothing, such as 1e-40"))
-        });
-        return None;
-    }
     let units = settings.units.as_ref().and_then(|units| units.as_ref()).map(|(_, units)| units.clone());
-    let mut placing = Placing { g: g.clone(), units, dimensions, centre, masses, states: Vec::new() };
+    let in_limbs = InLimbs::with_digits(reader.arithmetic.value_digits());
+    let mut placing = Placing { g: g.clone(), units, dimensions, centre, masses, states: Vec::new(), in_limbs };
     let before = reader.toml.faults.len();
     agree(reader, bodies);
     for (index, body) in bodies.iter().enumerate() {
@@ -228,7 +224,9 @@ pub(super) fn system(
     if has_names_of_energy(reader, given) {
         return None;
     }
-    let of_bodies = of_bodies::energies(reader, given, (bodies.len(), dimensions), &parameters)?;
+    let counts = (bodies.len(), bodies.len() - placing.massive(), dimensions);
+    let of_bodies = of_bodies::energies(reader, given, counts, &parameters)?;
+    placing.refuse_forces_on_particles(reader, given, &of_bodies, &parameters)?;
     let (problem, bodies) = placing.into_system(reader, (parameters, of_bodies), &names, &given.problem)?;
     parts::split(reader, given, problem, split, Some((bodies, dimensions)))
 }
@@ -364,7 +362,7 @@ impl Placing {
     }
 
     /// Position and velocity of a body.
-    fn state(&self, reader: &mut Reader<'_>, index: usize, body: &GivenBody) -> Option<[Vec<Rational>; 2]> {
+    fn state(&mut self, reader: &mut Reader<'_>, index: usize, body: &GivenBody) -> Option<[Vec<Rational>; 2]> {
         if let Some((at, table)) = &body.horizons {
             return self.of_horizons(reader, body, (at, table.as_ref()));
         }
@@ -420,7 +418,7 @@ impl Placing {
     }
 
     /// The state of a planet on its orbit.
-    fn on_orbit(&self, reader: &mut Reader<'_>, index: usize, body: &GivenBody) -> Option<[Vec<Rational>; 2]> {
+    fn on_orbit(&mut self, reader: &mut Reader<'_>, index: usize, body: &GivenBody) -> Option<[Vec<Rational>; 2]> {
         let elements = body.elements(reader)?;
         let inner = match self.centre {
             Centre::Body => 1,
@@ -428,7 +426,10 @@ impl Placing {
         };
         let attracting: Rational = self.masses[..inner].iter().sum();
         let mu = &self.g * (&attracting + &self.masses[index]);
-        let relative = match elements.state(&mu, reader.arithmetic.value_digits()) {
+        let digits = reader.arithmetic.value_digits();
+        let in_limbs = self.in_limbs.as_mut().filter(|_| self.masses[index].is_zero());
+        let known = in_limbs.and_then(|formulas| elements.state_by(&mu, digits, formulas).ok());
+        let relative = match known.map_or_else(|| elements.state(&mu, digits), Ok) {
             Ok(relative) => relative,
             Err(error) => return reader.toml.wrong(&body.at, error.to_string(), "choose other elements"),
         };
@@ -463,6 +464,29 @@ impl Placing {
         }
     }
 
+    /// Refuses energies that are not proportional to the mass, where there is a particle: the limit of force by mass is not that of a unit mass then.
+    fn refuse_forces_on_particles(
+        &self,
+        reader: &mut Reader<'_>,
+        given: &Given,
+        energies: &[EnergyOfBodies],
+        parameters: &[(String, Exact)],
+    ) -> Option<()> {
+        let Some([q, _]) = self.states.get(self.massive()) else { return Some(()) };
+        let double = |value: &Rational| <f64 as shadowstep::Number>::from_rational(value, &());
+        let (place, central) = (q.iter().map(double).collect::<Vec<_>>(), double(&self.masses[0]));
+        let Some(wrong) = energies.iter().find(|energy| !energy.is_proportional_to_mass(&place, central, parameters))
+        else {
+            return Some(());
+        };
+        let message = format!("with bodies of mass 0, `{}` must be proportional to m", wrong.key());
+        reader.toml.wrong(
+            given.place(wrong.key()).unwrap_or(&given.problem),
+            message,
+            "write the energy of a mass m as m times a formula without m",
+        )
+    }
+
     fn into_system(
         self,
         reader: &mut Reader<'_>,
@@ -493,7 +517,16 @@ impl Placing {
             Err(error) => return reader.toml.wrong(at, error.to_string(), "give the parameters other names"),
         };
         let (count, particles) = (bodies.count(), bodies.particles());
-        let pairs = PairEnergy { formula, dimensions, bodies: count, particles, properties, ends: None, cutoff: None, of_bodies };
+        let pairs = PairEnergy {
+            formula,
+            dimensions,
+            bodies: count,
+            particles,
+            properties,
+            ends: None,
+            cutoff: None,
+            of_bodies,
+        };
         let problem = InitialValueProblem {
             p: p.collect(),
             q: states.iter().flat_map(|[q, _]| q.iter().cloned().map(exact)).collect(),

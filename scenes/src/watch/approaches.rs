@@ -3,8 +3,8 @@
 use serde::Serialize;
 use shadowstep::Real;
 
-use crate::scene::System;
 use super::particles::{ParticleApproach, Particles};
+use crate::scene::System;
 use crate::scene::split::{CanonicalCoordinates, OfPlanets, Planets, ShownCoordinates};
 
 /// The closest approach of two planets.
@@ -52,10 +52,11 @@ impl Interactions {
         let closest = closest.as_ref().map_or(String::new(), |Approach { n, bodies: [i, j], hill_radii, .. }| {
             format!("; closest approach {hill_radii:.3} Hill radii, {i} and {j} at {}", time(*n))
         });
-        let particles = particles.as_ref().map_or(String::new(), |ParticleApproach { n, bodies: [i, j], hill_radii, within }| {
-            let of_all = if *within == 1 { "1 particle".to_owned() } else { format!("{within} particles") };
-            format!("; of a particle {hill_radii:.3} of {i}, {j} at {}, {of_all} within 1", time(*n))
-        });
+        let particles =
+            particles.as_ref().map_or(String::new(), |ParticleApproach { n, bodies: [i, j], hill_radii, within }| {
+                let of_all = if *within == 1 { "1 particle".to_owned() } else { format!("{within} particles") };
+                format!("; of a particle {hill_radii:.3} of {i}, {j} at {}, {of_all} within 1", time(*n))
+            });
         format!("interactions at most {epsilon:.1e} of the Kepler force ({of}){closest}{particles}")
     }
 }

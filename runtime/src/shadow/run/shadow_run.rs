@@ -79,7 +79,15 @@ impl<T: States, E: Estimator<T::Number>> ShadowRun<T, E> {
     pub fn of(states: T, estimator: E, h: &StepSize) -> Self {
         let missing = estimator.states() - 1;
         let reach = missing / 2;
-        ShadowRun { states, estimator, h: h.clone(), reach: reach as i64, after: (missing - reach) as i64, missing, massive: usize::MAX }
+        ShadowRun {
+            states,
+            estimator,
+            h: h.clone(),
+            reach: reach as i64,
+            after: (missing - reach) as i64,
+            missing,
+            massive: usize::MAX,
+        }
     }
 
     /// Whether the states are from [compensated](crate::State::is_compensated) sums.

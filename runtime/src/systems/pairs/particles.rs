@@ -63,8 +63,7 @@ impl<P, const D: usize> Field<'_, P, D> {
             #[inline(always)]
             || {
                 let mut room = Room::<N, BLOCK, D>::new(&context);
-                for (block, gradient) in
-                    blocks.as_chunks::<BLOCK>().0.iter().zip(of_blocks.as_chunks_mut::<BLOCK>().0)
+                for (block, gradient) in blocks.as_chunks::<BLOCK>().0.iter().zip(of_blocks.as_chunks_mut::<BLOCK>().0)
                 {
                     self.assign_block(bodies, block, gradient, &mut room, scratch);
                 }

@@ -24,7 +24,8 @@ impl<N: Number, const D: usize> Particles<N, D> {
         let number = |value: &Rational| N::from_rational(value, context);
         let zeros = |count| vec![N::zero(context); count];
         let gravity = Gravity { g: number(&bodies.g), m: with_a_particle(attracting.iter().map(number), context) };
-        let (mut scratch, mut curvature_scratch) = (zeros(gravity.scratch()), zeros(curved(&gravity).curvature_scratch()));
+        let (mut scratch, mut curvature_scratch) =
+            (zeros(gravity.scratch()), zeros(curved(&gravity).curvature_scratch()));
         gravity.prepare(&mut scratch, context);
         curved(&gravity).prepare_curvature(&mut curvature_scratch, context);
         let [bodies_at, directions] = [(); 2].map(|()| zeros(attracting.len() * D));

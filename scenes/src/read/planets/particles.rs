@@ -38,7 +38,12 @@ pub(super) fn of_file(reader: &mut Reader<'_>, problem: &Section<'_, '_>) -> Opt
 /// The bodies of a text, or the line of a fault.
 fn read(text: &str, file: &Text) -> Result<Vec<GivenBody>, (u64, String)> {
     let mut reader = csv::ReaderBuilder::new().comment(Some(b'#')).trim(csv::Trim::All).from_reader(text.as_bytes());
-    let unreadable = |error: csv::Error| (error.position().map_or(1, csv::Position::line), "this is not a line of CSV with as many cells as the first one".to_owned());
+    let unreadable = |error: csv::Error| {
+        (
+            error.position().map_or(1, csv::Position::line),
+            "this is not a line of CSV with as many cells as the first one".to_owned(),
+        )
+    };
     let names: Vec<String> = reader.headers().map_err(unreadable)?.iter().map(str::to_owned).collect();
     let known = || COORDINATES.iter().flatten().chain(&ANGLES_AND_SHAPE).chain(&["a", "name"]);
     if let Some(unknown) = names.iter().find(|name| !known().any(|known| known == name)) {
@@ -81,7 +86,8 @@ mod tests {
 
     use crate::Scene;
 
-    const BODIES: &str = "[[body]]\nname = \"sun\"\nmass = 1\n[[body]]\nname = \"jupiter\"\nmass = 0.001\na = 5\ne = 0.05\n";
+    const BODIES: &str =
+        "[[body]]\nname = \"sun\"\nmass = 1\n[[body]]\nname = \"jupiter\"\nmass = 0.001\na = 5\ne = 0.05\n";
     const RUN: &str = "[run]\nscheme = \"saba4\"\nstep = \"1/2\"\nsteps = 40\ndigits = \"double\"\n[output]\n\
                        trajectory = { every = 20 }\nmodified_energy = { order = 4, every = 20 }\nenergy = { every = 20 }\n";
 
@@ -103,14 +109,14 @@ mod tests {
         let mut rows = Vec::new();
         scene.run_into(&mut rows, &mut ()).unwrap();
         let text = String::from_utf8(rows).unwrap();
-        let mut lines = text.lines().filter(|line| !line.starts_with('#')).map(|line| line.split(',').map(str::to_owned));
+        let mut lines =
+            text.lines().filter(|line| !line.starts_with('#')).map(|line| line.split(',').map(str::to_owned));
         let names: Vec<String> = lines.next().unwrap().collect();
         let rows: Vec<Vec<String>> = lines.map(Iterator::collect).collect();
         names.into_iter().enumerate().map(|(c, name)| (name, rows.iter().map(|row| row[c].clone()).collect())).collect()
     }
 
-    const PARTS: [&str; 3] =
-        ["", "parts = \"wisdom-holman\"", "parts = \"wisdom-holman-heliocentric\""];
+    const PARTS: [&str; 3] = ["", "parts = \"wisdom-holman\"", "parts = \"wisdom-holman-heliocentric\""];
 
     #[test]
     fn particles_of_a_file_are_bodies_of_mass_0() {
@@ -129,7 +135,10 @@ mod tests {
         let file = "x,y,z,vx,vy,vz\n2.5,0,0.1,0,4,0\n0,2.5,0,\"-4\",0,0\n";
         let all = rows(&read("particles = \"particles.csv\"", "", file).unwrap());
         let first = |name: &str| all.iter().find(|(column, _)| column == name).map(|(_, rows)| rows[0].as_str());
-        assert_eq!((first("x_particle1"), first("py_particle1"), first("px_particle2")), (Some("2.5"), Some("4.0"), Some("-4.0")));
+        assert_eq!(
+            (first("x_particle1"), first("py_particle1"), first("px_particle2")),
+            (Some("2.5"), Some("4.0"), Some("-4.0"))
+        );
     }
 
     #[test]
@@ -139,9 +148,14 @@ mod tests {
         let planet = "[[body]]\nname = \"b\"\nmass = 1\na = 9\n";
         let file = "particles = \"particles.csv\"";
         for (problem, bodies, text, fault) in [
-            ("", format!("{particle}{planet}"), "", "13:8: a body of mass 0 is before a body with mass"),
-            ("", body("mass = -1\na = 2"), "", "13:8: a mass of -1.0 is not positive"),
-            ("central = \"m/r\"", particle.clone(), "", "3:11: `central` is an energy, and bodies of mass 0 have none"),
+            ("", format!("{particle}{planet}"), "", "14:8: a body of mass 0 is before a body with mass"),
+            ("", body("mass = -1\na = 2"), "", "14:8: a mass of -1.0 is not positive"),
+            (
+                "central = \"m^2/r\"",
+                particle.clone(),
+                "",
+                "3:11: with bodies of mass 0, `central` must be proportional to m",
+            ),
             (
                 "parts = \"wisdom-holman-heliocentric\"\nencounters = { within = 1 }",
                 particle.clone(),
@@ -160,7 +174,10 @@ mod tests {
             assert!(faults.len() == 1 && faults[0].starts_with(fault), "{faults:?} for {fault}");
         }
         let faults = read("", &format!("{particle}[time]\ntransform = \"logarithmic\"\n"), "").map(drop).unwrap_err();
-        assert!(faults[0].contains("transformed time is that of an H, which does not contain bodies of mass 0"), "{faults:?}");
+        assert!(
+            faults[0].contains("transformed time is that of an H, which does not contain bodies of mass 0"),
+            "{faults:?}"
+        );
     }
 
     /// Elements about the centre, the velocity for the momentum, and no orbit about a particle.
@@ -169,11 +186,15 @@ mod tests {
         let particle = "[[body]]\nname = \"a\"\nmass = 0\na = 2\ne = 0.3\nM = 40\n";
         for parts in PARTS {
             let text = |values: &str| {
-                let source = format!("[problem]\nparameters = {{ g = 40 }}\n{parts}\n{BODIES}{particle}{RUN}values = {{ {values} }}\n");
+                let source = format!(
+                    "[problem]\nparameters = {{ g = 40 }}\n{parts}\n{BODIES}{particle}{RUN}values = {{ {values} }}\n"
+                );
                 Scene::read(Source { path: "scene.toml".to_owned(), text: source })
             };
             let all = rows(&text("a = \"a(a)\", e = \"e(a, jacobi)\", m = \"M(a)\"").unwrap());
-            let first = |name: &str| all.iter().find(|(column, _)| column == name).map(|(_, rows)| rows[0].parse::<f64>().unwrap()).unwrap();
+            let first = |name: &str| {
+                all.iter().find(|(column, _)| column == name).map(|(_, rows)| rows[0].parse::<f64>().unwrap()).unwrap()
+            };
             assert!((first("a") - 2.0).abs() < 1e-14 && (first("m") - 40.0).abs() < 1e-12, "{parts}");
             // about the centre of mass of the Sun and Jupiter
             assert!((first("e") - 0.3).abs() < 0.05 && first("e") != 0.3, "{parts}");
