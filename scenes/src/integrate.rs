@@ -267,7 +267,11 @@ impl<N: RunNumber> Follower<N> for Keeper<'_, N> {
                 Some(found) => {
                     let (value, error) = (found.value.clone(), found.error.cloned());
                     self.samples.modified.push(Modified { value, error, order: found.order });
-                    self.keep_state(n, integrator, (found.q.to_vec(), found.p.to_vec()))?;
+                    self.keep_state(
+                        n,
+                        integrator,
+                        found.state().map(|numbers| numbers.cloned().collect::<Vec<_>>()).into(),
+                    )?;
                 }
             }
         }

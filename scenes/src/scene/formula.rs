@@ -2,12 +2,12 @@
 
 use std::fmt;
 
-use shadowstep::Rational;
 use shadowstep::systems::formula::{
     FormulaError, FormulaKinetic, FormulaOfBodies, FormulaPair, FormulaPotential, RelativeTo,
 };
 use shadowstep::systems::many_parts::{PartError, PartFormula};
 use shadowstep::systems::pairs::Separation;
+use shadowstep::{Potential as _, Rational};
 use shadowstep_symbolic::Exact;
 
 use crate::scene::parameters::{borrowed, rounded};

@@ -54,7 +54,7 @@ impl<N: Number, const D: usize> PlanetaryCoordinates<N, D> for DemocraticHelioce
                 planets: planets.iter().map(orbit).chain(of_particles).collect(),
                 particles: bodies.particles,
             },
-            particles: Particles::new(bodies, planets.to_vec(), context),
+            particles: Particles::new(bodies, planets, context),
             central_mass: number(central),
             shares: planets.iter().map(|mass| number(&(mass / &total))).collect(),
             interactions: Interactions::new(bodies, Vec::new(), context),

@@ -55,14 +55,14 @@ impl<N: Number, const D: usize> PlanetaryCoordinates<N, D> for Jacobi<N, D> {
         let zeros = || vec![N::zero(context); planets.len() * D];
         let total = &sums[masses.len() - 1];
         let of_particles = std::iter::repeat_n(Orbit::of_particle(&bodies.g, total, context), bodies.particles);
-        let attracting = [&masses[0], &-total].into_iter().chain(&masses[1..]).cloned().collect();
+        let attracting: Vec<_> = [&masses[0], &-total].into_iter().chain(&masses[1..]).cloned().collect();
         Jacobi {
             orbits: Orbits {
                 total_mass: number(total),
                 planets: planets.clone().map(planet).chain(of_particles).collect(),
                 particles: bodies.particles,
             },
-            particles: Particles::new(bodies, attracting, context),
+            particles: Particles::new(bodies, &attracting, context),
             shares: planets.clone().map(share).collect(),
             interactions: Interactions::new(bodies, inner, context),
             relative: zeros(),

@@ -20,7 +20,7 @@ pub(super) struct Particles<N, const D: usize> {
 
 impl<N: Number, const D: usize> Particles<N, D> {
     /// Those of the bodies, if there are any, attracted by these masses.
-    pub(super) fn new(bodies: &Bodies, attracting: Vec<Rational>, context: &N::Context) -> Option<Box<Self>> {
+    pub(super) fn new(bodies: &Bodies, attracting: &[Rational], context: &N::Context) -> Option<Box<Self>> {
         let number = |value: &Rational| N::from_rational(value, context);
         let zeros = |count| vec![N::zero(context); count];
         let gravity = Gravity { g: number(&bodies.g), m: with_a_particle(attracting.iter().map(number), context) };

@@ -93,10 +93,14 @@ mod tests {
 
     /// A scene in a folder, with these lines in [problem], more bodies, and a file.
     fn read(problem: &str, bodies: &str, file: &str) -> Result<Scene, Vec<String>> {
+        read_with(problem, bodies, file, RUN)
+    }
+
+    fn read_with(problem: &str, bodies: &str, file: &str, run: &str) -> Result<Scene, Vec<String>> {
         let folder = tempfile::tempdir().unwrap();
         std::fs::write(folder.path().join("particles.csv"), file).unwrap();
         let path = folder.path().join("scene.toml").display().to_string();
-        let text = format!("[problem]\nparameters = {{ g = 40 }}\n{problem}\n{BODIES}{bodies}{RUN}");
+        let text = format!("[problem]\nparameters = {{ g = 40 }}\n{problem}\n{BODIES}{bodies}{run}");
         Scene::read(Source { path, text }).map_err(|Faults(faults)| {
             let folder = format!("{}/", folder.path().display());
             let text = |message: &str| message.replace(&folder, "");
@@ -132,6 +136,10 @@ mod tests {
                 assert!(of_file.contains(column), "{parts}: {column:?}");
             }
         }
+        // rows that have estimates, which are of states before the present one
+        let run = RUN.replace("modified_energy = { order = 4, every = 20 }\n", "");
+        let [plain, estimated] = [&run, RUN].map(|run| rows(&read_with(PARTS[1], bodies, "", run).unwrap()));
+        assert!(plain.iter().all(|column| estimated.contains(column)) && plain.len() + 3 == estimated.len());
         let file = "x,y,z,vx,vy,vz\n2.5,0,0.1,0,4,0\n0,2.5,0,\"-4\",0,0\n";
         let all = rows(&read("particles = \"particles.csv\"", "", file).unwrap());
         let first = |name: &str| all.iter().find(|(column, _)| column == name).map(|(_, rows)| rows[0].as_str());
