@@ -189,8 +189,8 @@ const NAMES: [&str; 10] = ["i", "O", "w", "M", "a", "e", "mu", "E", "x", "y"];
 /// What is smaller is round-off of numbers in units that are not extreme, such as the sine of two right angles.
 const LEAST: f64 = -90.0;
 
-/// Computes formulas in numbers of limbs, in a small part of the time: for very many orbits. The results have the digits of [`Formulas`], but where the next forty
-/// digits are 0, or 9.
+/// Computes formulas in numbers of limbs, in a small part of the time: for very many orbits. The results have the digits of [`Formulas`] but the last ones, as
+/// these round what is in between.
 pub(super) struct InLimbs {
     digits: u32,
     values: [Long; NAMES.len()],
@@ -292,9 +292,11 @@ mod tests {
         ] {
             let found = elements(texts);
             let [q, v] = found.state(&mu, 50).unwrap();
-            // the same decimals in a part of the time
-            let in_limbs = found.state_by(&mu, 50, &mut InLimbs::with_digits(50).unwrap());
-            assert_eq!(in_limbs, Ok([q.clone(), v.clone()]), "{texts:?}");
+            // but for what the other rounds in between
+            let in_limbs = found.state_by(&mu, 50, &mut InLimbs::with_digits(50).unwrap()).unwrap();
+            for (one, other) in in_limbs.iter().flatten().zip(q.iter().chain(&v)) {
+                assert!(f64::from_rational(&(one - other), &()).abs() < 1e-46, "{texts:?}: {one} {other}");
+            }
             let number = |x: &Rational| f64::from_rational(x, &());
             let ([q, v], mu) = ([q, v].map(|vector| vector.map(|x| number(&x))), 2.0);
             let dot = |a: [f64; 3], b: [f64; 3]| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];

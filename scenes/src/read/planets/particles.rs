@@ -157,7 +157,7 @@ mod tests {
         let file = "particles = \"particles.csv\"";
         for (problem, bodies, text, fault) in [
             ("", format!("{particle}{planet}"), "", "14:8: a body of mass 0 is before a body with mass"),
-            ("", body("mass = -1\na = 2"), "", "14:8: a mass of -1.0 is not positive"),
+            ("", body("mass = -1\na = 2"), "", "14:8: a mass of -1 is not positive"),
             (
                 "central = \"m^2/r\"",
                 particle.clone(),
