@@ -49,7 +49,8 @@ class Problem:
     **others
         Parameters by their names, with numbers or texts. Other keys of [problem] are taken as they are: ``coordinates``, ``momenta``,
         ``bodies``, ``dimensions``, ``neighbours``, ``cutoff``, ``box``, ``units``, ``central``, ``slow``, ``encounters``, …; and ``body`` is a list of
-        mappings with the keys of [[body]], by elements, by ``q`` and ``v``, or by a table of Horizons.
+        mappings with the keys of [[body]], by elements, by ``q`` and ``v``, or by a table of Horizons; beside it ``particles`` is a file
+        with bodies of mass 0.
 
     Own forces
     ----------
