@@ -23,7 +23,7 @@ SYSTEMS = {
         ["m[1]", "q2_1"],
     ),
     "planets": (Problem(parts="wisdom-holman", body=[SUN, EARTH, JUPITER], g=1), ["body.earth.mass", "body[1].e", "body[2].q[1]", "g", "h"]),
-    "particles": (Problem(parts="wisdom-holman", body=[SUN, EARTH, JUPITER, {"name": "ceres", "mass": 0, "a": 2.8, "e": "1/13"}], g=1), ["body.earth.mass", "body[3].e", "x_earth", "px_ceres", "h"]),
+    "particles": (Problem(parts="wisdom-holman", body=[SUN, EARTH, JUPITER, {"name": "ceres", "mass": 0, "a": 2.8, "e": "1/13"}], g=1), ["body.earth.mass", "body[3].e", "body[2].q[1]", "g", "h"]),
 }
 # whose steps are symplectic
 HAMILTONIAN = [system for system in SYSTEMS if system != "particles"]
