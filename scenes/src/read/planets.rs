@@ -1,6 +1,9 @@
 //! [[body]]: the bodies of a planetary system, by Cartesian states or orbital elements.
 
+mod body;
 mod particles;
+
+pub(super) use body::GivenBody;
 
 use std::collections::BTreeSet;
 use std::ops::Range;
@@ -12,7 +15,7 @@ use shadowstep::systems::wisdom_holman::Bodies;
 use shadowstep_symbolic::Exact;
 use toml::de::{DeTable, DeValue};
 
-use super::elements::{Elements, InLimbs, Vector};
+use super::elements::{InLimbs, Vector};
 use super::given::Given;
 use super::horizons::{HorizonsVector, LengthAndTime};
 use super::kinetic;
@@ -25,31 +28,13 @@ use super::units;
 use crate::scene::{
     EnergyOfBodies, Formula, GRAVITY, InitialValueProblem, KineticEnergy, PairEnergy, PotentialEnergy, System,
 };
-use shadowstep_schemes::document::{Fault, Placed, Section, Text};
+use shadowstep_schemes::document::{Placed, Section, Text};
 
 /// The name of the section.
 pub(super) const BODY: &str = "body";
 
 /// The most bodies: what is read of each takes some milliseconds.
 const MOST_BODIES: usize = 1000;
-
-/// The keys of elements besides `a`, which all are 0 unless they are given.
-const ANGLES_AND_SHAPE: [&str; 6] = ["e", "i", "node", "pericentre", "M", "lambda"];
-
-/// What the text gives of a body.
-pub(super) struct GivenBody {
-    name: Option<Text>,
-    mass: Option<Text>,
-    q: Option<Placed<Vec<Text>>>,
-    v: Option<Placed<Vec<Text>>>,
-    a: Option<Text>,
-    elements: Vec<(&'static str, Text)>,
-    /// A table of Horizons that has the state, `None` inside if it cannot be read.
-    horizons: Option<(Range<usize>, Option<HorizonsVector>)>,
-    at: Range<usize>,
-    /// Of a file of particles: its name and the line.
-    line: Option<String>,
-}
 
 /// What the elements of a planet are relative to.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -87,67 +72,6 @@ pub(super) fn given(reader: &mut Reader<'_>, root: &DeTable<'_>) -> Vec<GivenBod
         }
     }
     bodies
-}
-
-impl GivenBody {
-    fn read(reader: &mut Reader<'_>, section: &Section<'_, '_>) -> GivenBody {
-        let mut number = |key: &str| section.get(key).and_then(|value| reader.number(value));
-        let (mass, a) = (number("mass"), number("a"));
-        let elements = ANGLES_AND_SHAPE.into_iter().filter_map(|key| Some((key, number(key)?))).collect();
-        let mut list =
-            |key: &str| section.get(key).and_then(|value| reader.numbers(value, "a list of numbers: [1, 0, 0]"));
-        let (q, v) = (list("q"), list("v"));
-        if section.get("mass").is_none() {
-            reader.toml.missing(section, &["mass"]);
-        }
-        let name = section.get("name").and_then(|value| reader.toml.text(value));
-        let horizons = section.get("horizons").map(|value| {
-            let file = reader.toml.text(value);
-            (value.span(), file.and_then(|file| HorizonsVector::open(reader, &file)))
-        });
-        GivenBody { name, mass, q, v, a, elements, horizons, at: section.at.clone(), line: None }
-    }
-
-    /// Puts the line of a file before the faults that were found in it.
-    fn name_line(&self, faults: &mut [Fault]) {
-        let Some(line) = &self.line else { return };
-        faults.iter_mut().for_each(|fault| fault.message = format!("{line}: {}", fault.message));
-    }
-
-    fn element(&self, key: &str) -> Option<&Text> {
-        self.elements.iter().find(|(name, _)| *name == key).map(|(_, text)| text)
-    }
-
-    fn is_by_elements(&self) -> bool {
-        self.a.is_some() || !self.elements.is_empty()
-    }
-
-    /// The elements; their faults are reported.
-    fn elements(&self, reader: &mut Reader<'_>) -> Option<Elements> {
-        let Some(a) = &self.a else {
-            let help = "add the semi-major axis, `a = 5.2`, or give q and v instead";
-            return reader.toml.wrong(&self.at, "the key `a` is missing", help);
-        };
-        if let (Some(_), Some(text)) = (self.element("M"), self.element("lambda")) {
-            return reader.toml.wrong(&text.at, "M and lambda are both given", "keep one of the two");
-        }
-        let zero = || Some(Exact { value: Rational::zero(), rounded: false });
-        let mut value = |key: &str| self.element(key).map_or_else(zero, |text| reader.evaluate(text));
-        let [e, i, node, pericentre, anomaly, longitude] = ANGLES_AND_SHAPE.map(|key| value(key).map(|e| e.value));
-        let (node, pericentre) = (node?, pericentre?);
-        let anomaly = match self.element("lambda") {
-            None => anomaly?,
-            Some(_) => longitude? - &node - &pericentre,
-        };
-        let elements = Elements { a: reader.evaluate(a)?.value, e: e?, i: i?, node, pericentre, anomaly };
-        match elements.fault() {
-            None => Some(elements),
-            Some((message, help)) => {
-                let at = self.element("e").map_or(&a.at, |text| &text.at);
-                reader.toml.wrong(at, message, help)
-            }
-        }
-    }
 }
 
 /// Bodies with their exact states so far.

@@ -2,7 +2,8 @@
 
 use shadowstep_schemes::document::{Placed, Section, Text, read_text};
 
-use super::{ANGLES_AND_SHAPE, GivenBody, Reader};
+use super::body::{ANGLES_AND_SHAPE, GivenBody};
+use crate::read::reader::Reader;
 
 /// The most bytes of a file.
 const LARGEST_FILE: u64 = 256 << 20;
