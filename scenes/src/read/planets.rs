@@ -106,7 +106,10 @@ pub(super) fn system(
     }
     let mut parameters = given.own_parameters(reader);
     let constant = settings.constant(reader, problem, &parameters);
-    let mut particles = particles::of_file(reader, problem)?;
+    let mut particles = match &settings.particles {
+        Some(file) => particles::of_file(reader, file.as_ref()?)?,
+        None => Vec::new(),
+    };
     if bodies.iter().all(|body| body.name.is_some()) {
         name_all(&mut particles);
     }
@@ -186,6 +189,8 @@ pub(super) struct Settings {
     units: Option<Option<(Rational, LengthAndTime)>>,
     centre: Option<Centre>,
     barycentric: Option<bool>,
+    /// The name of a file of particles, `None` inside if it cannot be read.
+    particles: Option<Option<Text>>,
 }
 
 impl Settings {
@@ -198,6 +203,7 @@ impl Settings {
             barycentric: problem
                 .get("barycentric")
                 .map_or(Some(false), |value| reader.toml.truth(value).map(|truth| truth.value)),
+            particles: problem.get("particles").map(|value| reader.toml.text(value)),
         }
     }
 

@@ -1,6 +1,6 @@
 //! `particles` in [problem]: bodies of mass 0, a line each of a file of CSV.
 
-use shadowstep_schemes::document::{Placed, Section, Text, read_text};
+use shadowstep_schemes::document::{Placed, Text, read_text};
 
 use super::body::{ANGLES_AND_SHAPE, GivenBody};
 use crate::read::reader::Reader;
@@ -16,17 +16,15 @@ const COORDINATES: [[&str; 3]; 2] = [["x", "y", "z"], ["vx", "vy", "vz"]];
 
 const HELP: &str = "the first line has the names of the columns: x, y, z, vx, vy, vz, or a, e, i, node, pericentre, and M or lambda; and name, if they have names";
 
-/// The particles of the file that the key names, its path relative to the folder of the scene; its faults are reported.
-pub(super) fn of_file(reader: &mut Reader<'_>, problem: &Section<'_, '_>) -> Option<Vec<GivenBody>> {
-    let Some(value) = problem.get("particles") else { return Some(Vec::new()) };
-    let name = reader.toml.text(value)?;
+/// The particles of a file of this name, its path relative to the folder of the scene; its faults are reported.
+pub(super) fn of_file(reader: &mut Reader<'_>, name: &Text) -> Option<Vec<GivenBody>> {
     let path = reader.toml.source.folder().join(&name.value);
     let shown = path.display().to_string();
     let text = match read_text(&path, LARGEST_FILE) {
         Ok(text) => text,
         Err(error) => return reader.toml.wrong(&name.at, format!("{shown} cannot be read: {error}"), HELP),
     };
-    match read(&text, &name) {
+    match read(&text, name) {
         Ok(mut bodies) => {
             bodies.iter_mut().for_each(|body| body.line.iter_mut().for_each(|line| *line = format!("{shown}:{line}")));
             reader.files.push(text);
