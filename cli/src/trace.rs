@@ -138,17 +138,18 @@ impl Computation for TraceRun<'_, '_> {
         let with_states = plots.as_ref().is_some_and(|plots| plots.needs_states());
         let mut lines = plots.as_ref().map(|plots| plots.run::<N>(run.name(), run.steps));
         let finished = estimates.take::<N>(context, &mut |n, found| {
-            let energy = (!between).then(|| energy_of(found.q, found.p));
+            let [own_q, own_p] = found.state().map(|numbers| numbers.cloned().collect::<Vec<_>>());
+            let energy = (!between).then(|| energy_of(&own_q, &own_p));
             if energy.as_ref().is_some_and(|energy| !energy.is_finite()) {
                 return Err(run.not_finite(&format!("the energy at n = {n}")));
             }
-            let t = match system.time_of(found.q) {
+            let t = match system.time_of(&own_q) {
                 Some(t) => t.clone(),
                 None => N::from_rational(&run.time_of_value(n, &selection.estimator), context),
             };
             let (q, p) = match &mut shown {
-                Some(shown) => shown.of_state(found.q, found.p),
-                None => (found.q, found.p),
+                Some(shown) => shown.of_state(&own_q, &own_p),
+                None => (&own_q[..], &own_p[..]),
             };
             if let Some(lines) = &mut lines {
                 let numbers = q.iter().chain(p).filter(|_| with_states);

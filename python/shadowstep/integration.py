@@ -56,7 +56,7 @@ class Trajectory:
     """The k of E_k or the m of D_m of each estimate."""
     planets: dict[str, Any] | None = None
     """Of planets: ``epsilon``, the largest part of a kick beside the force of the Kepler orbit, ``of`` which planet, and the ``closest`` approach
-    of two with their distance in Hill radii, over the states that are kept; None of other systems."""
+    of two with their distance in Hill radii, and that of ``particles`` of mass 0 to planets, over the states that are kept; None of other systems."""
     is_between: bool = False
     """Whether the modified energies belong to the times t + h/2; the last one is then NaN."""
     notes: list[str] = field(default_factory=list)

@@ -81,7 +81,7 @@ class Report:
     """0 for one oscillation, 1 for noise."""
     planets: dict[str, Any] | None
     """Of planets: ``epsilon``, the largest part of a kick beside the force of the Kepler orbit, ``of`` which planet, and the ``closest`` approach
-    of two with their distance in Hill radii, over all states; None of other systems."""
+    of two with their distance in Hill radii, and that of ``particles`` of mass 0 to planets, over all states; None of other systems."""
 
     def __str__(self) -> str:
         return self.text

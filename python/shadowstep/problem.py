@@ -49,7 +49,8 @@ class Problem:
     **others
         Parameters by their names, with numbers or texts. Other keys of [problem] are taken as they are: ``coordinates``, ``momenta``,
         ``bodies``, ``dimensions``, ``neighbours``, ``cutoff``, ``box``, ``units``, ``central``, ``slow``, ``encounters``, …; and ``body`` is a list of
-        mappings with the keys of [[body]], by elements, by ``q`` and ``v``, or by a table of Horizons.
+        mappings with the keys of [[body]], by elements, by ``q`` and ``v``, or by a table of Horizons; beside it ``particles`` is a file
+        with bodies of mass 0.
 
     Own forces
     ----------
@@ -284,7 +285,7 @@ def problem_of(problem: Any) -> Problem:
 # keys of [problem] and [initial]; every other keyword is a parameter
 _PROBLEM = ("coordinates", "momenta", "bodies", "dimensions", "neighbours", "cutoff", "box", "units", "elements", "barycentric", "encounters", "vector_potential", "hamiltonian", "slow", "parameters")
 # keys beside another one, without which they are names of parameters
-_BESIDE = {"coupling": "hamiltonian", "central": "body", "external": "body"}
+_BESIDE = {"coupling": "hamiltonian", "central": "body", "external": "body", "particles": "body"}
 
 
 def _sections(system: str | None, q: Values | None, p: Values | None, v: Values | None, others: Mapping[str, Any]) -> dict[str, Any]:

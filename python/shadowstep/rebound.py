@@ -30,7 +30,7 @@ def problem(simulation: Union[Any, str, os.PathLike[str]], snapshot: int = -1, p
     Raises
     ------
     InputError
-        A body of mass 0, softening, fewer than two bodies, an archive that cannot be read.
+        A body of mass 0 before one with mass, softening, fewer than two bodies with mass, an archive that cannot be read.
 
     Examples
     --------
@@ -50,9 +50,6 @@ def problem(simulation: Union[Any, str, os.PathLike[str]], snapshot: int = -1, p
             raise InputError(f"{path}: snapshot {snapshot} of a REBOUND archive cannot be read: {error}") from error
     if simulation.softening != 0:
         raise InputError(f"the simulation has a softening of {simulation.softening}: write the energy of two bodies as `pair`")
-    massless = [i for i, particle in enumerate(simulation.particles) if not particle.m > 0]
-    if massless:
-        raise InputError(f"particle {massless[0]} has mass 0: give it one that moves nothing, such as 1e-40 of the central mass")
     bodies = [
         {"mass": particle.m, "q": [particle.x, particle.y, particle.z], "v": [particle.vx, particle.vy, particle.vz]} for particle in simulation.particles
     ]

@@ -129,7 +129,7 @@ impl Monitor {
     /// The report on the run so far.
     fn report<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let (report, planets) = self.ask(py, |followed, _| {
-            (followed.monitor.report(), followed.approaches.as_ref().map(|approaches| approaches.found().clone()))
+            (followed.monitor.report(), followed.approaches.as_ref().map(|approaches| approaches.found()))
         })?;
         dictionary(py, &report, planets.as_ref())
     }

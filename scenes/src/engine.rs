@@ -252,8 +252,9 @@ impl<N: RunNumber> Recorder<'_, '_, N> {
         integrator: &mut VectorIntegrator<'_, N>,
     ) -> Result<(), Error> {
         let (mut q, mut p) = take(&mut self.state);
-        q.iter_mut().zip(found.q).for_each(|(own, q)| own.assign(q));
-        p.iter_mut().zip(found.p).for_each(|(own, p)| own.assign(p));
+        let [found_q, found_p] = found.state();
+        q.iter_mut().zip(found_q).for_each(|(own, q)| own.assign(q));
+        p.iter_mut().zip(found_p).for_each(|(own, p)| own.assign(p));
         let due = self.due_at(n);
         let every = self.scene.output.modified_energy.as_ref().map(|(_, every)| *every);
         let modified = self.is_due(every, n).then(|| ModifiedEnergy::of(found));

@@ -164,7 +164,7 @@ impl Integration<'_> {
         if let Some(summary) = keeper.watch.take().and_then(|watch| watch.summary(run)) {
             keeper.observer.summary(&summary);
         }
-        keeper.samples.interactions = keeper.approaches.map(|approaches| approaches.found().clone());
+        keeper.samples.interactions = keeper.approaches.map(|approaches| approaches.found());
         Ok(keeper.samples)
     }
 
@@ -294,7 +294,11 @@ impl<N: RunNumber> Follower<N> for Keeper<'_, N> {
                 Some(found) => {
                     let (value, error) = (found.value.clone(), found.error.cloned());
                     self.samples.modified.push(Modified { value, error, order: found.order });
-                    self.keep_state(n, integrator, (found.q.to_vec(), found.p.to_vec()))?;
+                    self.keep_state(
+                        n,
+                        integrator,
+                        found.state().map(|numbers| numbers.cloned().collect::<Vec<_>>()).into(),
+                    )?;
                 }
             }
         }

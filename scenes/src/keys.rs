@@ -69,7 +69,7 @@ pub(crate) const SECTIONS: [Section; 16] = [
 ];
 
 /// All keys, section by section.
-pub(crate) const KEYS: [Key; 89] = [
+pub(crate) const KEYS: [Key; 90] = [
     key(
         "problem",
         "name",
@@ -267,6 +267,13 @@ pub(crate) const KEYS: [Key; 89] = [
         "\"m*tide*z^2/2\"",
         Some("none; there are no other forces"),
     ),
+    key(
+        "problem",
+        "particles",
+        "For [[body]]: a file of CSV with bodies of mass 0, a line each, which the bodies attract; its path is relative to the scene's folder. The first line has the names of the          columns: x, y, z, vx, vy, vz or the elements a, e, i, node, pericentre, and M or lambda; name gives them names.",
+        "\"asteroids.csv\"",
+        Some("none; a [[body]] of mass 0 is a particle, too"),
+    ),
     key("problem.cutoff", "at", "The distance at which the energy is 0.", "\"5/2\"", None),
     key("problem.cutoff", "from", "The distance from which on it falls.", "2", None),
     key(
@@ -300,7 +307,13 @@ pub(crate) const KEYS: [Key; 89] = [
         "\"sun\"",
         Some("none; coordinates have the numbers of the bodies: x1, y1, …"),
     ),
-    key("body", "mass", "Its mass, positive.", "\"1/1047.35\"", None),
+    key(
+        "body",
+        "mass",
+        "Its mass, positive, or 0 of bodies that come last: these are attracted by the others and attract nothing, and their momenta are velocities.",
+        "\"1/1047.35\"",
+        None,
+    ),
     key("body", "q", "Its position.", "[1, 0, 0]", Some("0 for the first body; otherwise elements are given instead")),
     key("body", "v", "Its velocity.", "[0, 1, 0]", Some("0 for the first body; otherwise elements are given instead")),
     key(

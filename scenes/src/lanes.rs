@@ -172,7 +172,7 @@ fn have_one_form(a: &System, b: &System) -> bool {
 
 fn pairs_have_one_form(a: &PairEnergy, b: &PairEnergy) -> bool {
     let names = |pairs: &PairEnergy| pairs.properties.iter().map(|(name, _)| name.clone()).collect::<Vec<_>>();
-    let form = |pairs: &PairEnergy| (pairs.dimensions, pairs.bodies, pairs.ends);
+    let form = |pairs: &PairEnergy| (pairs.dimensions, pairs.bodies, pairs.particles, pairs.ends);
     let of_bodies = |pairs: &PairEnergy| {
         pairs.of_bodies.iter().map(|energy| (energy.key(), energy.text().to_owned())).collect::<Vec<_>>()
     };
@@ -218,7 +218,7 @@ fn of_pairs<N: OfLanes>(systems: &[&System; LANES], first: &PairEnergy) -> Box<d
 
 fn kinetic<N: OfLanes>(systems: &[&System; LANES]) -> ClassifiedKinetic<N> {
     let KineticEnergy::Formula(formula) = &systems[0].kinetic else {
-        return ClassifiedKinetic::Quadratic(of_masses(systems));
+        return of_masses(systems);
     };
     match formula.meaning().in_numbers(parameters(systems)).into_quadratic() {
         Ok(quadratic) => ClassifiedKinetic::Quadratic(Box::new(quadratic)),
@@ -226,10 +226,10 @@ fn kinetic<N: OfLanes>(systems: &[&System; LANES]) -> ClassifiedKinetic<N> {
     }
 }
 
-fn of_masses<N: OfLanes>(systems: &[&System; LANES]) -> Box<dyn Kinetic<N, Class = Quadratic>> {
+fn of_masses<N: OfLanes>(systems: &[&System; LANES]) -> ClassifiedKinetic<N> {
     if systems.iter().all(|system| matches!(system.kinetic, KineticEnergy::Masses(None))) {
-        return Box::new(UnitMasses);
+        return systems[0].of_masses(UnitMasses);
     }
     let each = systems.map(|system| DiagonalMasses::new(&system.exact_masses(), &()).expect(READ));
-    Box::new(DiagonalMasses::of_each(&each.each_ref()).expect(READ).into_numbers::<N>())
+    systems[0].of_masses(DiagonalMasses::of_each(&each.each_ref()).expect(READ).into_numbers::<N>())
 }

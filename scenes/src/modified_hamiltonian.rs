@@ -66,6 +66,12 @@ impl SymbolicHamiltonian {
     /// # Errors
     /// A system whose parts have no formulas in q and p.
     pub(crate) fn of(system: &System) -> Result<Self, Refusal> {
+        if system.particles() > 0 {
+            return Err(Refusal::new(
+                "the modified Hamiltonian is derived from formulas, and H does not contain bodies of mass 0",
+                "remove the bodies of mass 0, or write `modified_energy` for its values",
+            ));
+        }
         let mut coordinates = system.coordinates.clone();
         coordinates.extend(system.momenta.iter().cloned());
         let mut symbolic = SymbolicHamiltonian {

@@ -57,7 +57,7 @@ pub(crate) enum QuantityOfBodies {
 pub(crate) struct ElementOfBody {
     element: Element,
     body: Range<usize>,
-    /// The body's mass.
+    /// The body's mass, by which momenta are divided: 1 of a body of mass 0.
     mass: Rational,
     /// The coordinates of the bodies of the centre, with their masses as parts of its mass.
     centre: Vec<(Range<usize>, Rational)>,
@@ -85,14 +85,22 @@ impl ElementOfBody {
             let hint = "name a planet, or another centre: a(moon, earth), a(sun, barycentre)";
             return refuse(&format!("`{}` has no orbit about itself", bodies.names[body]), hint);
         }
-        let masses: Vec<Rational> = system.exact_masses().into_iter().step_by(bodies.dimensions).collect();
+        let mut masses: Vec<Rational> = system.exact_masses().into_iter().step_by(bodies.dimensions).collect();
+        let own_mass = masses[body].clone();
+        let massive = masses.len() - system.particles();
+        masses[massive..].iter_mut().for_each(Zero::set_zero);
+        if let Some(particle) = centre.iter().find(|own| centre.len() == 1 && **own >= massive) {
+            let message = format!("`{}` has mass 0, and nothing moves about it", bodies.names[*particle]);
+            return refuse(&message, "name a body with mass");
+        }
+        let centre: Vec<usize> = centre.iter().copied().filter(|own| *own < massive).collect();
         let centre_mass: Rational = centre.iter().map(|own| &masses[*own]).sum();
         let both = if centre.contains(&body) { centre_mass.clone() } else { &centre_mass + &masses[body] };
         let part = |own: &usize| (bodies.coordinates(*own), &masses[*own] / &centre_mass);
         Ok(ElementOfBody {
             element,
             body: bodies.coordinates(body),
-            mass: masses[body].clone(),
+            mass: own_mass,
             centre: centre.iter().map(part).collect(),
             parameter: g * both,
             centre_mass,

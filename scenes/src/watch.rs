@@ -3,6 +3,7 @@
 pub(crate) mod approaches;
 pub(crate) mod encounters;
 mod energy;
+pub(crate) mod particles;
 pub(crate) mod summary;
 
 use std::mem::take;
@@ -17,6 +18,7 @@ pub use self::approaches::{Approach, Approaches, Interactions};
 pub use self::encounters::Encounter;
 use self::encounters::Encounters;
 use self::energy::EnergyError;
+pub use self::particles::ParticleApproach;
 use crate::run::Run;
 use crate::run_number::{Monitoring, RunNumber};
 use crate::scene;
@@ -108,14 +110,14 @@ impl<N: RunNumber> Watch<N> {
     ) -> Result<Self, RunError> {
         let energies = if run.steps <= SHORT_RUN { Energies::All } else { energies };
         let every = (run.steps.saturating_sub(from.unsigned_abs()) / WINDOWS).max(1);
-        let mut observed = None;
+        let (mut observed, massive) = (None, integrator.system().massive_coordinates());
         if summarised {
             let monitor = N::monitor(integrator, MONITOR_ORDER, every)?;
             observed = Some(Observed {
                 idle: monitor.idle(),
                 pass: 0,
                 monitor,
-                encounters: Encounters::new(integrator.state().p()),
+                encounters: Encounters::new(&integrator.state().p()[..massive]),
                 approaches: None,
             });
         }
@@ -264,7 +266,7 @@ impl<N: RunNumber> Watch<N> {
             encounters,
             closest,
             extremes: Vec::new(),
-            interactions: approaches.map(|approaches| approaches.found().clone()),
+            interactions: approaches.map(|approaches| approaches.found()),
             fine: verdict.is_fine(),
             verdict: verdict.to_string(),
             conclusion: if verdict == report.verdict { report.conclusion() } else { verdict.to_string() },

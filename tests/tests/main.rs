@@ -30,6 +30,7 @@ mod order;
 mod own_system;
 mod packages;
 mod pairs;
+mod particles;
 mod permanent_change;
 mod problems;
 mod processed;

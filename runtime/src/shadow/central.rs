@@ -317,6 +317,7 @@ impl<N: Number> Estimator<N> for FixedCentralEstimator<N> {
             order: self.m as u32,
             q,
             p,
+            particles: (&[], &[]),
         })
     }
 }

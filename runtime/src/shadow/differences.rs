@@ -244,6 +244,6 @@ impl<N: Real> Estimator<N> for AllOrders<N> {
         let Point { value, last_term, order } = self.error_estimate.middle();
         let Place { q, p, .. } = &self.ring[(newest + 1) % size];
         let error = self.with_error.then(|| self.error_estimate.error());
-        Some(Estimate { value, last_term: Some(last_term), error, order: *order, q, p })
+        Some(Estimate { value, last_term: Some(last_term), error, order: *order, q, p, particles: (&[], &[]) })
     }
 }

@@ -189,7 +189,7 @@ impl Ensemble {
         let block = |first| Block { first, trajectories: self.trajectories };
         let systems: Result<Vec<M>, E> = (first..end).step_by(W).map(|first| system(block(first))).collect();
         let systems = systems.map_err(EnsembleError::System)?;
-        let dimension = systems.first().map_or(0, |system| system.q().len());
+        let dimension = systems.first().map_or(0, |system| system.massive_coordinates());
         let build = |k| FixedBilinear::new(k).build(stepper.step_size(), dimension, &());
         let estimator = self.modified_energy.map(build).transpose().map_err(EnsembleError::Estimator)?;
         let followed = follow(stepper, systems, (self.steps, self.every, self.merged), estimator.as_ref(), continues);

@@ -101,4 +101,13 @@ pub struct Estimate<'a, N> {
     pub q: &'a [N],
     /// Momenta of that state.
     pub p: &'a [N],
+    /// Positions and momenta of particles of mass 0 in it, which follow these and have no part in the estimate: of a [`ShadowRun`](crate::shadow::run::ShadowRun).
+    pub particles: (&'a [N], &'a [N]),
+}
+
+impl<'a, N> Estimate<'a, N> {
+    /// Positions of the state, those of particles last, and momenta.
+    pub fn state(&self) -> [impl Iterator<Item = &'a N> + use<'a, N>; 2] {
+        [self.q.iter().chain(self.particles.0), self.p.iter().chain(self.particles.1)]
+    }
 }

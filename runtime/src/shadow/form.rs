@@ -129,7 +129,7 @@ impl<N: Number> Form<N> {
         let Point { value, last_term, order } = self.error_estimate.middle();
         let known = self.has_error();
         let (last_term, error) = (known.then_some(last_term), known.then(|| self.error_estimate.error()));
-        Estimate { value, last_term, error, order: *order, q, p }
+        Estimate { value, last_term, error, order: *order, q, p, particles: (&[], &[]) }
     }
 
     /// The value from the k + 1 states that end `back` places before the newest one.

@@ -143,7 +143,7 @@ impl<N: Number> LaggedEstimator<N> {
         let (q, p) = self.states[oldest * length..][..length].split_at(dimension);
         if self.last_term.is_none() {
             let Point { value, order, .. } = &self.newest;
-            return Some(Estimate { value, last_term: None, error: None, order: *order, q, p });
+            return Some(Estimate { value, last_term: None, error: None, order: *order, q, p, particles: (&[], &[]) });
         }
         self.error_estimate.next().assign(&self.newest);
         if !self.error_estimate.update() {
@@ -151,7 +151,7 @@ impl<N: Number> LaggedEstimator<N> {
         }
         let Point { value, last_term, order } = self.error_estimate.middle();
         let error = Some(self.error_estimate.error());
-        Some(Estimate { value, last_term: Some(last_term), error, order: *order, q, p })
+        Some(Estimate { value, last_term: Some(last_term), error, order: *order, q, p, particles: (&[], &[]) })
     }
 }
 

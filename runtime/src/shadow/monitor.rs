@@ -132,7 +132,7 @@ impl<N: Real, E: Estimator<N>> Monitor<N, E> {
         system: &mut M,
         settings: &impl BuildEstimator<N, Estimator = E>,
     ) -> Result<Self, RunError> {
-        let (dimension, context) = (system.q().len(), system.state().context());
+        let (dimension, context) = (system.massive_coordinates(), system.state().context());
         let estimator = settings.build(h, dimension, &context)?;
         let states = estimator.states();
         let [mut energy, mut kinetic] = [N::zero(&context), N::zero(&context)];
@@ -249,7 +249,7 @@ impl<N: Real, E: Estimator<N>> Monitor<N, E> {
     /// Takes a state of a window; returns whether it ends one.
     #[inline(always)]
     fn take<M: System<Number = N> + ?Sized>(&mut self, system: &mut M) -> Result<bool, RunError> {
-        let (coordinates, begun) = (system.q().len(), self.fastest.dimension());
+        let (coordinates, begun) = (system.massive_coordinates(), self.fastest.dimension());
         if coordinates != begun {
             return Err(RunError::Dimension { coordinates, begun });
         }
@@ -261,9 +261,10 @@ impl<N: Real, E: Estimator<N>> Monitor<N, E> {
             }
         }
         let begins = self.schedule.begins(self.n);
-        let increments = if begins { Increments::of_beta(&self.unknown) } else { system.state().increments() };
-        let (q, p) = (system.q(), system.p());
-        TrajectoryState { n: number(self.n), q, p, increments }.check()?;
+        let state = TrajectoryState::massive(system, number(self.n));
+        let increments = if begins { Increments::of_beta(&self.unknown) } else { state.increments };
+        let TrajectoryState { q, p, .. } = state;
+        TrajectoryState { increments, ..state }.check()?;
         self.newest_states.push(system, !begins && self.n > 0);
         let states = self.schedule.states();
         let estimate = self.estimator.push(q, p, increments);

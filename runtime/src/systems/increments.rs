@@ -65,6 +65,12 @@ impl<'a, N: Number> Increments<'a, N> {
         !self.q.is_empty()
     }
 
+    /// Those of the first coordinates of q and p, where they are known.
+    pub(crate) fn of_first(self, coordinates: usize) -> Self {
+        let first = |all: &'a [N]| &all[..coordinates.min(all.len())];
+        Increments { q: first(self.q), p: first(self.p), beta: self.beta }
+    }
+
     /// A copy.
     pub fn to_owned(&self) -> OwnedIncrements<N> {
         OwnedIncrements { q: self.q.to_vec(), p: self.p.to_vec(), beta: self.beta.clone() }

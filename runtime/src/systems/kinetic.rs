@@ -2,6 +2,10 @@
 //!
 //! [`crate::kinetic!`] makes one from its formula, [`crate::systems::formula::FormulaKinetic`] from a text at run time.
 
+mod particles;
+
+pub use particles::WithParticles;
+
 use std::cmp::Ordering;
 
 use thiserror::Error;
@@ -101,6 +105,12 @@ pub trait Kinetic<N: Number> {
     fn has_linear_terms(&self) -> bool {
         false
     }
+
+    /// How many coordinates of a state of this dimension have an energy, the first ones: by default all. Those after them are of particles of
+    /// mass 0.
+    fn massive_coordinates(&self, dimension: usize) -> usize {
+        dimension
+    }
 }
 
 /// A diagonal M⁻¹.
@@ -160,6 +170,10 @@ impl<N: Number, K: Kinetic<N> + ?Sized> Kinetic<N> for Box<K> {
 
     fn has_linear_terms(&self) -> bool {
         (**self).has_linear_terms()
+    }
+
+    fn massive_coordinates(&self, dimension: usize) -> usize {
+        (**self).massive_coordinates(dimension)
     }
 }
 

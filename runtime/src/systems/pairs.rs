@@ -13,6 +13,7 @@ mod gravity;
 mod hessian;
 mod neighbours;
 mod pair;
+mod particles;
 mod shell;
 mod switch;
 #[cfg(test)]
@@ -22,6 +23,8 @@ pub use cutoff::{Cutoff, CutoffError, MOST_DERIVATIVES, Switch};
 pub use cutoff_pairs::CutoffPairs;
 pub use gravity::Gravity;
 pub use pair::{BLOCK, Ends, Pair, PairCurvature, PairPotential};
+pub use particles::PairsAndParticles;
+pub(crate) use particles::{Field, with_a_particle};
 pub use shadowstep_symbolic::{Separation, Summand};
 pub(crate) use shell::Shell;
 

@@ -111,6 +111,12 @@ pub trait System {
         kinetic: &mut Self::Number,
     );
 
+    /// How many of the first coordinates have an energy: by default all. Those after them are of particles of mass 0, which move in the field of the bodies
+    /// with mass and whose momenta are divided by their mass; the modified energy does not contain them.
+    fn massive_coordinates(&self) -> usize {
+        self.q().len()
+    }
+
     /// Positions.
     #[inline(always)]
     fn q(&self) -> &[Self::Number] {

@@ -13,6 +13,8 @@
 //! In Jacobi coordinates B depends on Q only, and of A only T = Σ P²/2m′ does not commute with it. So `[B,[A,B]]` is `[B,[T,B]]`, and a gradient kick
 //! is the flow of −½B_QᵀM′⁻¹B_Q as for H = T + U. With v = M′⁻¹B_Q its rate of β is −vᵀ∂(−3B)/∂Q = 3vᵀB_Q.
 //!
+//! Particles of mass 0 come after the bodies with mass. Their momenta are divided by their mass, and they have no energy.
+//!
 //! B may have a potential of the inertial positions beside the attraction, of any form ([`WisdomHolman::beside`]): relativity, an oblate body, a tide.
 
 mod beside;
@@ -23,6 +25,7 @@ mod heliocentric;
 mod interactions;
 mod jacobi;
 mod orbits;
+mod particles;
 pub mod secular;
 mod together;
 
@@ -265,14 +268,15 @@ impl<N: Number, C: PlanetaryCoordinates<N, D>, P: Potential<N>, const D: usize> 
         }
         let Some(rate) = rate else { return };
         rate.assign_zero();
-        v.iter().zip(at.gradient).for_each(|(v, gradient)| rate.add_product(v, gradient));
+        let massive = (self.coordinates.orbits().with_energy().len() + 1) * D;
+        v[..massive].iter().zip(at.gradient).for_each(|(v, gradient)| rate.add_product(v, gradient));
         match self.beside {
             // QᵀB_Q − 2B = −3B
             None => rate.multiply_integer(-3),
             // of any B: its derivative is QᵀB_QQ v − vᵀB_Q
             Some(_) => {
                 rate.negate();
-                at.q.iter().zip(product).for_each(|(q, product)| rate.add_product(q, product));
+                at.q[..massive].iter().zip(product).for_each(|(q, product)| rate.add_product(q, product));
             }
         }
     }
@@ -358,5 +362,9 @@ impl<N: Number, C: PlanetaryCoordinates<N, D>, const D: usize, P: Potential<N>> 
             beside.add_energy::<C, D>(coordinates, at.0, energy);
         }
         orbits.add_energies(coordinates.orbits(), at, energy, kinetic);
+    }
+
+    fn massive_coordinates(&self) -> usize {
+        (self.coordinates.orbits().with_energy().len() + 1) * D
     }
 }

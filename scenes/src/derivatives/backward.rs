@@ -34,6 +34,11 @@ impl Differentiation<'_> {
     /// As [`forward`](Differentiation::forward); numbers of covectors that do not fit, or are not finite.
     pub fn backward(&self, covectors: &[f64], observer: &mut dyn Observer) -> Result<Gradient, Error> {
         self.refuse()?;
+        if self.system.particles() > 0 {
+            let message =
+                "derivatives backwards are those of Hamiltonian systems, and bodies of mass 0 do not act on the others";
+            return Err(Error::usage(message, "use derivatives forwards, or remove the bodies of mass 0"));
+        }
         let expected = self.rows().len() * 2 * self.system.q.len();
         if covectors.len() != expected {
             let message = format!("there are {} derivatives of the function, not {expected}", covectors.len());

@@ -5,6 +5,7 @@ use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
 use std::thread;
 
 use shadowstep::shadow::ensemble::Outcome;
+use shadowstep::shadow::run::TrajectoryState;
 use shadowstep::shadow::{BuildEstimator, Estimator, FixedBilinear};
 use shadowstep::steps::integrator::{VectorIntegrator, at_output};
 use shadowstep::{Carried, Integrator as _, VectorState};
@@ -59,8 +60,8 @@ fn follow(
     Observed { every, modified_energy }: Observed,
     continues: &dyn Fn() -> bool,
 ) -> Result<Outcome, Error> {
-    let estimator =
-        modified_energy.map(|k| FixedBilinear::new(k).build(integrator.step_size(), integrator.state().q().len(), &()));
+    let dimension = integrator.system().massive_coordinates();
+    let estimator = modified_energy.map(|k| FixedBilinear::new(k).build(integrator.step_size(), dimension, &()));
     let estimator = estimator.transpose();
     let estimator = estimator.map_err(|error| Error::usage(error.to_string(), "give another order"))?;
     let mut seen = Seen::new(at_output(integrator, |integrator| integrator.system().energy()), estimator);
@@ -68,11 +69,11 @@ fn follow(
     for n in 0..steps {
         if n % every == 0 {
             // the states from here on up to the end of the window go to the estimator
-            window_end = seen.begin_window(integrator.state(), n, window_end);
+            window_end = seen.begin_window(integrator, n, window_end);
         }
         if n < window_end {
             integrator.step(Carried::Increments);
-            seen.push(integrator.state());
+            seen.push(integrator);
         } else {
             integrator.step(Carried::Nothing);
         }
@@ -133,19 +134,20 @@ impl Seen {
     }
 
     /// A window of states for the modified energy begins at the present one, or the present window goes on; the n at which it ends.
-    fn begin_window(&mut self, state: &VectorState<f64>, n: u64, window_end: u64) -> u64 {
+    fn begin_window(&mut self, integrator: &mut VectorIntegrator<'_, f64>, n: u64, window_end: u64) -> u64 {
         let Some(estimator) = &self.estimator else { return 0 };
         let states = estimator.states() as u64;
         if n >= window_end {
             self.window = Some(estimator.clone());
-            self.push(state);
+            self.push(integrator);
         }
         n + states - 1
     }
 
-    fn push(&mut self, state: &VectorState<f64>) {
+    fn push(&mut self, integrator: &mut VectorIntegrator<'_, f64>) {
         let Some(window) = &mut self.window else { return };
-        let Some(estimate) = window.push(state.q(), state.p(), state.increments()) else { return };
+        let TrajectoryState { q, p, increments, .. } = TrajectoryState::massive(integrator.system(), 0);
+        let Some(estimate) = window.push(q, p, increments) else { return };
         self.modified_ends[1] = *estimate.value;
         if estimate.value.is_finite() {
             if self.modified_ends[0].is_nan() {

@@ -2,9 +2,11 @@
 
 use std::collections::BTreeMap;
 
-use num_traits::{One, Signed};
+use num_traits::{One, Signed, Zero};
+use shadowstep::number::Limbs;
+use shadowstep::systems::formula::FormulaValue;
 use shadowstep::{Number, Rational, Real};
-use shadowstep_symbolic::decimal::to_significant;
+use shadowstep_symbolic::decimal::{from_text, round_significant, to_significant};
 use shadowstep_symbolic::{Budget, Error, Exact, evaluate_within, parse};
 
 /// The elements of an orbit, exact; angles are in degrees.
@@ -78,32 +80,75 @@ impl Elements {
     /// # Errors
     /// A computation that takes too long.
     pub(super) fn state(&self, mu: &Rational, digits: u32) -> Result<[Vector; 2], Error> {
+        self.state_by(mu, digits, &mut Formulas { known: BTreeMap::new(), digits, budget: Budget::default() })
+    }
+
+    /// The same by formulas that are computed in some way.
+    ///
+    /// # Errors
+    /// Theirs.
+    pub(super) fn state_by<C: Compute>(
+        &self,
+        mu: &Rational,
+        digits: u32,
+        formulas: &mut C,
+    ) -> Result<[Vector; 2], C::Error> {
         let ellipse = self.e < Rational::one();
-        let mut formulas = Formulas { known: BTreeMap::new(), digits, budget: Budget::default() };
         let turns = |degrees: &Rational| degrees / Rational::from_integer(360.into());
-        for (name, degrees) in [("i", &self.i), ("O", &self.node), ("w", &self.pericentre), ("M", &self.anomaly)] {
+        for (name, radians, degrees) in [
+            ("i", "2*pi*i", &self.i),
+            ("O", "2*pi*O", &self.node),
+            ("w", "2*pi*w", &self.pericentre),
+            ("M", "2*pi*M", &self.anomaly),
+        ] {
             // whole turns change no sine; of a hyperbola the mean anomaly is not an angle
             let whole = if name == "M" && !ellipse { 0.0 } else { f64::from_rational(&turns(degrees), &()).round() };
-            formulas.set(name, turns(degrees) - exact_value(whole));
-            let angle = formulas.value(&format!("2*pi*{name}"))?;
-            formulas.set(name, angle);
+            formulas.set(name, &(turns(degrees) - exact_value(whole)));
+            formulas.assign(name, radians)?;
         }
-        [("a", &self.a), ("e", &self.e), ("mu", mu)]
-            .into_iter()
-            .for_each(|(name, value)| formulas.set(name, value.clone()));
-        let [equation, in_plane @ ..] = if ellipse { ELLIPSE } else { HYPERBOLA };
-        formulas.solve(equation, ellipse)?;
-        let mut values = in_plane.map(|formula| formulas.value(formula)).into_iter();
-        let mut in_space = || {
-            for name in ["x", "y"] {
-                let value = values.next().expect("two each, of position and velocity")?;
-                formulas.set(name, value);
-            }
+        [("a", &self.a), ("e", &self.e), ("mu", mu)].into_iter().for_each(|(name, value)| formulas.set(name, value));
+        let [equation, x, y, u, v] = if ellipse { ELLIPSE } else { HYPERBOLA };
+        solve(equation, ellipse, digits, formulas)?;
+        let mut in_space = |x, y| {
+            // E is not changed
+            formulas.assign("x", x)?;
+            formulas.assign("y", y)?;
             let [x, y, z] = IN_SPACE.map(|formula| formulas.value(formula));
-            Ok::<Vector, Error>([x?, y?, z?])
+            Ok::<Vector, C::Error>([x?, y?, z?])
         };
-        Ok([in_space()?, in_space()?])
+        Ok([in_space(x, y)?, in_space(u, v)?])
     }
+}
+
+/// E by Newton's method from a solution in double precision: each step doubles the digits.
+fn solve<C: Compute>(equation: &'static str, ellipse: bool, wanted: u32, formulas: &mut C) -> Result<(), C::Error> {
+    let nearby = nearby(formulas.double("e"), formulas.double("M"), ellipse);
+    formulas.set("E", &exact_value(nearby));
+    // of E = 0 the terms of the equation cancel
+    let mut digits = if nearby == 0.0 { wanted } else { 7 };
+    while digits < wanted {
+        formulas.assign("E", equation)?;
+        digits *= 2;
+    }
+    Ok(())
+}
+
+/// Computes formulas of values with names.
+pub(super) trait Compute {
+    /// Why one has no value.
+    type Error;
+
+    /// Gives a name a value.
+    fn set(&mut self, name: &'static str, value: &Rational);
+
+    /// Gives a name the value of a formula.
+    fn assign(&mut self, name: &'static str, formula: &'static str) -> Result<(), Self::Error>;
+
+    /// The value of a formula.
+    fn value(&mut self, formula: &'static str) -> Result<Rational, Self::Error>;
+
+    /// The value of a name in double precision.
+    fn double(&self, name: &str) -> f64;
 }
 
 /// Evaluates formulas to some digits.
@@ -113,34 +158,94 @@ struct Formulas {
     budget: Budget,
 }
 
-impl Formulas {
-    fn set(&mut self, name: &str, value: Rational) {
-        self.known.insert(name.to_owned(), Exact { value, rounded: true });
+impl Compute for Formulas {
+    type Error = Error;
+
+    fn set(&mut self, name: &'static str, value: &Rational) {
+        self.known.insert(name.to_owned(), Exact { value: value.clone(), rounded: true });
     }
 
-    fn value(&self, formula: &str) -> Result<Rational, Error> {
+    fn assign(&mut self, name: &'static str, formula: &'static str) -> Result<(), Error> {
+        let value = self.value(formula)?;
+        self.set(name, &value);
+        Ok(())
+    }
+
+    fn value(&mut self, formula: &'static str) -> Result<Rational, Error> {
         Ok(evaluate_within(&parse(formula)?, &self.known, self.digits, &self.budget)?.value)
     }
 
-    /// E by Newton's method from a solution in double precision: each step doubles the digits.
-    fn solve(&mut self, equation: &str, ellipse: bool) -> Result<(), Error> {
-        let number = |name: &str| f64::from_rational(&self.known[name].value, &());
-        let nearby = nearby(number("e"), number("M"), ellipse);
-        self.set("E", exact_value(nearby));
-        // of E = 0 the terms of the equation cancel
-        let mut digits = if nearby == 0.0 { self.digits } else { 7 };
-        while digits < self.digits {
-            let better = self.value(equation)?;
-            self.set("E", better);
-            digits *= 2;
-        }
+    fn double(&self, name: &str) -> f64 {
+        f64::from_rational(&self.known[name].value, &())
+    }
+}
+
+/// 115 digits.
+type Long = Limbs<6>;
+
+/// The names in the formulas.
+const NAMES: [&str; 10] = ["i", "O", "w", "M", "a", "e", "mu", "E", "x", "y"];
+
+/// What is smaller is round-off of numbers in units that are not extreme, such as the sine of two right angles.
+const LEAST: f64 = -90.0;
+
+/// Computes formulas in numbers of limbs, in a small part of the time: for very many orbits. The results have the digits of [`Formulas`] but the last ones, as
+/// these round what is in between.
+pub(super) struct InLimbs {
+    digits: u32,
+    values: [Long; NAMES.len()],
+    formulas: BTreeMap<&'static str, FormulaValue<Long>>,
+}
+
+impl InLimbs {
+    /// To this number of digits, if numbers of limbs have enough.
+    pub(super) fn with_digits(digits: u32) -> Option<Self> {
+        let values = std::array::from_fn(|_| Long::zero(&()));
+        (digits <= 60).then(|| InLimbs { digits, values, formulas: BTreeMap::new() })
+    }
+
+    fn at(&mut self, formula: &'static str) -> &Long {
+        let known = self
+            .formulas
+            .entry(formula)
+            .or_insert_with(|| FormulaValue::new(formula, &NAMES, &[], &()).expect("it is a formula in these names"));
+        known.at(&self.values)
+    }
+
+    fn place(name: &str) -> usize {
+        NAMES.iter().position(|known| *known == name).expect("it is one of the names")
+    }
+}
+
+/// Without a value is what is not finite.
+impl Compute for InLimbs {
+    type Error = ();
+
+    fn set(&mut self, name: &'static str, value: &Rational) {
+        self.values[InLimbs::place(name)] = Long::from_rational(value, &());
+    }
+
+    fn assign(&mut self, name: &'static str, formula: &'static str) -> Result<(), ()> {
+        self.values[InLimbs::place(name)] = *self.at(formula);
         Ok(())
+    }
+
+    fn value(&mut self, formula: &'static str) -> Result<Rational, ()> {
+        let value = *self.at(formula);
+        match value.log10_abs() {
+            small if small < LEAST => Ok(Rational::zero()),
+            _ => Ok(round_significant(&from_text(&value.to_text()).map_err(drop)?, self.digits)),
+        }
+    }
+
+    fn double(&self, name: &str) -> f64 {
+        self.values[InLimbs::place(name)].to_f64()
     }
 }
 
 /// The double itself.
 fn exact_value(x: f64) -> Rational {
-    shadowstep_symbolic::decimal::from_text(&x.to_text()).expect("a finite number reads back")
+    from_text(&x.to_text()).expect("a finite number reads back")
 }
 
 /// E by bisection: E − e sin E and e sinh E − E grow with E.
@@ -187,6 +292,11 @@ mod tests {
         ] {
             let found = elements(texts);
             let [q, v] = found.state(&mu, 50).unwrap();
+            // but for what the other rounds in between
+            let in_limbs = found.state_by(&mu, 50, &mut InLimbs::with_digits(50).unwrap()).unwrap();
+            for (one, other) in in_limbs.iter().flatten().zip(q.iter().chain(&v)) {
+                assert!(f64::from_rational(&(one - other), &()).abs() < 1e-46, "{texts:?}: {one} {other}");
+            }
             let number = |x: &Rational| f64::from_rational(x, &());
             let ([q, v], mu) = ([q, v].map(|vector| vector.map(|x| number(&x))), 2.0);
             let dot = |a: [f64; 3], b: [f64; 3]| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];

@@ -12,11 +12,11 @@ use crate::scene::{EnergyOfBodies, Formula};
 /// The names in these formulas besides parameters: the coordinates come last, of which there may be fewer.
 const NAMES: [&str; 6] = ["m", "m0", "r", "x", "y", "z"];
 
-/// The energies of a number of bodies in a number of dimensions.
+/// The energies of a number of bodies, some of them particles of mass 0, in a number of dimensions.
 pub(super) fn energies(
     reader: &mut Reader<'_>,
     given: &Given,
-    bodies: (usize, usize),
+    bodies: (usize, usize, usize),
     parameters: &[(String, Exact)],
 ) -> Option<Vec<EnergyOfBodies>> {
     let texts = [&given.central, &given.external].map(Option::as_ref);
@@ -25,7 +25,7 @@ pub(super) fn energies(
     let mut energies = Vec::new();
     for (text, relative_to) in texts.into_iter().zip([RelativeTo::FirstBody, RelativeTo::Origin]) {
         let Some(text) = text else { continue };
-        let names = &NAMES[..NAMES.len() - 3 + bodies.1];
+        let names = &NAMES[..NAMES.len() - 3 + bodies.2];
         refuse_names(reader, given, (text, names), parameters);
         if reader.toml.faults.len() > before {
             return None;

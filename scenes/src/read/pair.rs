@@ -197,7 +197,16 @@ fn of_pairs(
         reader.notes.push(Note::AsymmetricPair { formula: pair.text.value.clone() });
     }
     let Bodies { count, properties } = bodies;
-    Some(PairEnergy { formula, dimensions, bodies: count, properties, ends, cutoff, of_bodies: Vec::new() })
+    Some(PairEnergy {
+        formula,
+        dimensions,
+        bodies: count,
+        particles: 0,
+        properties,
+        ends,
+        cutoff,
+        of_bodies: Vec::new(),
+    })
 }
 
 /// The number of dimensions; 1 for a formula in `d`.

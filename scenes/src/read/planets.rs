@@ -1,5 +1,11 @@
 //! [[body]]: the bodies of a planetary system, by Cartesian states or orbital elements.
 
+mod body;
+mod particles;
+
+pub(super) use body::GivenBody;
+
+use std::collections::BTreeSet;
 use std::ops::Range;
 
 use num_traits::{One, Zero};
@@ -9,7 +15,7 @@ use shadowstep::systems::wisdom_holman::Bodies;
 use shadowstep_symbolic::Exact;
 use toml::de::{DeTable, DeValue};
 
-use super::elements::{Elements, Vector};
+use super::elements::{InLimbs, Vector};
 use super::given::Given;
 use super::horizons::{HorizonsVector, LengthAndTime};
 use super::kinetic;
@@ -29,22 +35,6 @@ pub(super) const BODY: &str = "body";
 
 /// The most bodies: what is read of each takes some milliseconds.
 const MOST_BODIES: usize = 1000;
-
-/// The keys of elements besides `a`, which all are 0 unless they are given.
-const ANGLES_AND_SHAPE: [&str; 6] = ["e", "i", "node", "pericentre", "M", "lambda"];
-
-/// What the text gives of a body.
-pub(super) struct GivenBody {
-    name: Option<Text>,
-    mass: Option<Text>,
-    q: Option<Placed<Vec<Text>>>,
-    v: Option<Placed<Vec<Text>>>,
-    a: Option<Text>,
-    elements: Vec<(&'static str, Text)>,
-    /// A table of Horizons that has the state, `None` inside if it cannot be read.
-    horizons: Option<(Range<usize>, Option<HorizonsVector>)>,
-    at: Range<usize>,
-}
 
 /// What the elements of a planet are relative to.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -84,61 +74,6 @@ pub(super) fn given(reader: &mut Reader<'_>, root: &DeTable<'_>) -> Vec<GivenBod
     bodies
 }
 
-impl GivenBody {
-    fn read(reader: &mut Reader<'_>, section: &Section<'_, '_>) -> GivenBody {
-        let mut number = |key: &str| section.get(key).and_then(|value| reader.number(value));
-        let (mass, a) = (number("mass"), number("a"));
-        let elements = ANGLES_AND_SHAPE.into_iter().filter_map(|key| Some((key, number(key)?))).collect();
-        let mut list =
-            |key: &str| section.get(key).and_then(|value| reader.numbers(value, "a list of numbers: [1, 0, 0]"));
-        let (q, v) = (list("q"), list("v"));
-        if section.get("mass").is_none() {
-            reader.toml.missing(section, &["mass"]);
-        }
-        let name = section.get("name").and_then(|value| reader.toml.text(value));
-        let horizons = section.get("horizons").map(|value| {
-            let file = reader.toml.text(value);
-            (value.span(), file.and_then(|file| HorizonsVector::open(reader, &file)))
-        });
-        GivenBody { name, mass, q, v, a, elements, horizons, at: section.at.clone() }
-    }
-
-    fn element(&self, key: &str) -> Option<&Text> {
-        self.elements.iter().find(|(name, _)| *name == key).map(|(_, text)| text)
-    }
-
-    fn is_by_elements(&self) -> bool {
-        self.a.is_some() || !self.elements.is_empty()
-    }
-
-    /// The elements; their faults are reported.
-    fn elements(&self, reader: &mut Reader<'_>) -> Option<Elements> {
-        let Some(a) = &self.a else {
-            let help = "add the semi-major axis, `a = 5.2`, or give q and v instead";
-            return reader.toml.wrong(&self.at, "the key `a` is missing", help);
-        };
-        if let (Some(_), Some(text)) = (self.element("M"), self.element("lambda")) {
-            return reader.toml.wrong(&text.at, "M and lambda are both given", "keep one of the two");
-        }
-        let zero = || Some(Exact { value: Rational::zero(), rounded: false });
-        let mut value = |key: &str| self.element(key).map_or_else(zero, |text| reader.evaluate(text));
-        let [e, i, node, pericentre, anomaly, longitude] = ANGLES_AND_SHAPE.map(|key| value(key).map(|e| e.value));
-        let (node, pericentre) = (node?, pericentre?);
-        let anomaly = match self.element("lambda") {
-            None => anomaly?,
-            Some(_) => longitude? - &node - &pericentre,
-        };
-        let elements = Elements { a: reader.evaluate(a)?.value, e: e?, i: i?, node, pericentre, anomaly };
-        match elements.fault() {
-            None => Some(elements),
-            Some((message, help)) => {
-                let at = self.element("e").map_or(&a.at, |text| &text.at);
-                reader.toml.wrong(at, message, help)
-            }
-        }
-    }
-}
-
 /// Bodies with their exact states so far.
 struct Placing {
     g: Rational,
@@ -149,6 +84,8 @@ struct Placing {
     masses: Vec<Rational>,
     /// Positions and velocities.
     states: Vec<[Vec<Rational>; 2]>,
+    /// For orbits of particles, of which there may be very many.
+    in_limbs: Option<InLimbs>,
 }
 
 /// The system of the bodies.
@@ -169,19 +106,36 @@ pub(super) fn system(
     }
     let mut parameters = given.own_parameters(reader);
     let constant = settings.constant(reader, problem, &parameters);
-    if bodies.len() < 2 {
-        let at = bodies.first().map_or(&given.problem, |body| &body.at);
-        return reader.toml.wrong(at, "a planetary system has a central body and at least one planet", "add [[body]]");
+    let mut particles = match &settings.particles {
+        Some(file) => particles::of_file(reader, file.as_ref()?)?,
+        None => Vec::new(),
+    };
+    if bodies.iter().all(|body| body.name.is_some()) {
+        name_all(&mut particles);
     }
+    let bodies: Vec<&GivenBody> = bodies.iter().chain(&particles).collect();
+    let bodies = &bodies[..];
     let (g, centre, split) = (constant?, settings.centre?, settings.split?);
     let dimensions = bodies.iter().find_map(|body| body.q.as_ref()).map_or(3, |q| q.value.len());
     let masses = masses(reader, bodies)?;
+    if masses.iter().filter(|mass| !mass.is_zero()).count() < 2 {
+        let at = bodies.first().map_or(&given.problem, |body| &body.at);
+        let message = "a planetary system has a central body and at least one planet with mass";
+        return reader.toml.wrong(at, message, "add [[body]]");
+    }
     let units = settings.units.as_ref().and_then(|units| units.as_ref()).map(|(_, units)| units.clone());
-    let mut placing = Placing { g: g.clone(), units, dimensions, centre, masses, states: Vec::new() };
+    let in_limbs = InLimbs::with_digits(reader.arithmetic.value_digits());
+    let mut placing = Placing { g: g.clone(), units, dimensions, centre, masses, states: Vec::new(), in_limbs };
     let before = reader.toml.faults.len();
     agree(reader, bodies);
     for (index, body) in bodies.iter().enumerate() {
+        let known = reader.toml.faults.len();
         let state = placing.state(reader, index, body).unwrap_or_else(|| placing.origin());
+        body.name_line(&mut reader.toml.faults[known..]);
+        if body.line.is_some() && reader.toml.faults.len() > known {
+            // the other lines of a file may have the same fault
+            return None;
+        }
         placing.states.push(state);
     }
     let names = names(reader, bodies);
@@ -197,13 +151,15 @@ pub(super) fn system(
     if has_names_of_energy(reader, given) {
         return None;
     }
-    let of_bodies = of_bodies::energies(reader, given, (bodies.len(), dimensions), &parameters)?;
+    let counts = (bodies.len(), bodies.len() - placing.massive(), dimensions);
+    let of_bodies = of_bodies::energies(reader, given, counts, &parameters)?;
+    placing.refuse_forces_on_particles(reader, given, &of_bodies, &parameters)?;
     let (problem, bodies) = placing.into_system(reader, (parameters, of_bodies), &names, &given.problem)?;
     parts::split(reader, given, problem, split, Some((bodies, dimensions)))
 }
 
 /// Refuses tables of Horizons of different centres, frames or epochs.
-fn agree(reader: &mut Reader<'_>, bodies: &[GivenBody]) {
+fn agree(reader: &mut Reader<'_>, bodies: &[&GivenBody]) {
     let tables = || {
         bodies.iter().filter_map(|body| body.horizons.as_ref()).filter_map(|(at, table)| Some((at, table.as_ref()?)))
     };
@@ -233,6 +189,8 @@ pub(super) struct Settings {
     units: Option<Option<(Rational, LengthAndTime)>>,
     centre: Option<Centre>,
     barycentric: Option<bool>,
+    /// The name of a file of particles, `None` inside if it cannot be read.
+    particles: Option<Option<Text>>,
 }
 
 impl Settings {
@@ -245,6 +203,7 @@ impl Settings {
             barycentric: problem
                 .get("barycentric")
                 .map_or(Some(false), |value| reader.toml.truth(value).map(|truth| truth.value)),
+            particles: problem.get("particles").map(|value| reader.toml.text(value)),
         }
     }
 
@@ -273,13 +232,23 @@ impl Settings {
     }
 }
 
-fn masses(reader: &mut Reader<'_>, bodies: &[GivenBody]) -> Option<Vec<Rational>> {
+fn masses(reader: &mut Reader<'_>, bodies: &[&GivenBody]) -> Option<Vec<Rational>> {
     let mut masses = Vec::new();
-    for body in bodies {
+    // the last body of mass 0 with its place
+    let mut particle = None;
+    for (index, body) in bodies.iter().enumerate() {
         let text = body.mass.as_ref();
         masses.push(text.and_then(|text| {
             let numbers = Numbers::List(Placed { value: vec![text.clone()], at: text.at.clone() });
             let value = reader.evaluate(text)?;
+            if value.value.is_zero() && index > 0 {
+                particle = Some(&text.at);
+                return Some(value.value);
+            }
+            if let Some(at) = particle.take() {
+                let help = "bodies of mass 0 come last: put them after all bodies with mass";
+                return reader.toml.wrong(at, "a body of mass 0 is before a body with mass", help);
+            }
             let before = reader.toml.faults.len();
             kinetic::masses(reader, &numbers, vec![value.clone()]);
             (reader.toml.faults.len() == before).then_some(value.value)
@@ -288,13 +257,22 @@ fn masses(reader: &mut Reader<'_>, bodies: &[GivenBody]) -> Option<Vec<Rational>
     masses.into_iter().collect()
 }
 
+/// Names particle1, particle2, … for particles without names.
+fn name_all(particles: &mut [GivenBody]) {
+    for (index, particle) in particles.iter_mut().enumerate() {
+        particle.name.get_or_insert_with(|| Text::at(&format!("particle{}", index + 1), particle.at.clone()));
+    }
+}
+
 /// The names of the bodies, or their numbers if one has no name.
-fn names(reader: &mut Reader<'_>, bodies: &[GivenBody]) -> Vec<String> {
-    let mut names: Vec<String> = Vec::new();
+fn names(reader: &mut Reader<'_>, bodies: &[&GivenBody]) -> Vec<String> {
+    let (mut names, mut known): (Vec<String>, _) = (Vec::new(), BTreeSet::new());
     for body in bodies {
         let Some(name) = &body.name else { return (1..=bodies.len()).map(|body| body.to_string()).collect() };
+        let before = reader.toml.faults.len();
         check_name(reader, name);
-        if names.contains(&name.value) {
+        body.name_line(&mut reader.toml.faults[before..]);
+        if !known.insert(&name.value) {
             let message = format!("the body `{}` is named twice", name.value);
             reader.toml.fault(&name.at, message, "give it another name");
         }
@@ -304,12 +282,17 @@ fn names(reader: &mut Reader<'_>, bodies: &[GivenBody]) -> Vec<String> {
 }
 
 impl Placing {
+    /// How many bodies have a mass: those before the others.
+    fn massive(&self) -> usize {
+        self.masses.iter().take_while(|mass| !mass.is_zero()).count()
+    }
+
     fn origin(&self) -> [Vec<Rational>; 2] {
         [(); 2].map(|()| vec![Rational::zero(); self.dimensions])
     }
 
     /// Position and velocity of a body.
-    fn state(&self, reader: &mut Reader<'_>, index: usize, body: &GivenBody) -> Option<[Vec<Rational>; 2]> {
+    fn state(&mut self, reader: &mut Reader<'_>, index: usize, body: &GivenBody) -> Option<[Vec<Rational>; 2]> {
         if let Some((at, table)) = &body.horizons {
             return self.of_horizons(reader, body, (at, table.as_ref()));
         }
@@ -365,15 +348,18 @@ impl Placing {
     }
 
     /// The state of a planet on its orbit.
-    fn on_orbit(&self, reader: &mut Reader<'_>, index: usize, body: &GivenBody) -> Option<[Vec<Rational>; 2]> {
+    fn on_orbit(&mut self, reader: &mut Reader<'_>, index: usize, body: &GivenBody) -> Option<[Vec<Rational>; 2]> {
         let elements = body.elements(reader)?;
         let inner = match self.centre {
             Centre::Body => 1,
-            Centre::Inner => index,
+            Centre::Inner => index.min(self.massive()),
         };
         let attracting: Rational = self.masses[..inner].iter().sum();
         let mu = &self.g * (&attracting + &self.masses[index]);
-        let relative = match elements.state(&mu, reader.arithmetic.value_digits()) {
+        let digits = reader.arithmetic.value_digits();
+        let in_limbs = self.in_limbs.as_mut().filter(|_| self.masses[index].is_zero());
+        let known = in_limbs.and_then(|formulas| elements.state_by(&mu, digits, formulas).ok());
+        let relative = match known.map_or_else(|| elements.state(&mu, digits), Ok) {
             Ok(relative) => relative,
             Err(error) => return reader.toml.wrong(&body.at, error.to_string(), "choose other elements"),
         };
@@ -400,12 +386,35 @@ impl Placing {
     }
 
     fn move_to_barycentre(&mut self) {
-        let mean = self.mean(self.states.len(), &self.masses.iter().sum());
+        let mean = self.mean(self.massive(), &self.masses.iter().sum());
         for state in &mut self.states {
             for (own, by) in state.iter_mut().zip(&mean) {
                 own.iter_mut().zip(by).for_each(|(own, by)| *own -= by);
             }
         }
+    }
+
+    /// Refuses energies that are not proportional to the mass, where there is a particle: the limit of force by mass is not that of a unit mass then.
+    fn refuse_forces_on_particles(
+        &self,
+        reader: &mut Reader<'_>,
+        given: &Given,
+        energies: &[EnergyOfBodies],
+        parameters: &[(String, Exact)],
+    ) -> Option<()> {
+        let Some([q, _]) = self.states.get(self.massive()) else { return Some(()) };
+        let double = |value: &Rational| <f64 as shadowstep::Number>::from_rational(value, &());
+        let (place, central) = (q.iter().map(double).collect::<Vec<_>>(), double(&self.masses[0]));
+        let Some(wrong) = energies.iter().find(|energy| !energy.is_proportional_to_mass(&place, central, parameters))
+        else {
+            return Some(());
+        };
+        let message = format!("with bodies of mass 0, `{}` must be proportional to m", wrong.key());
+        reader.toml.wrong(
+            given.place(wrong.key()).unwrap_or(&given.problem),
+            message,
+            "write the energy of a mass m as m times a formula without m",
+        )
     }
 
     fn into_system(
@@ -426,16 +435,28 @@ impl Placing {
             .iter()
             .flat_map(|name| axes[..dimensions].iter().map(move |(q, p)| (format!("{q}{name}"), format!("{p}{name}"))))
             .unzip();
-        let p = states.iter().zip(&masses).flat_map(|([_, v], mass)| v.iter().map(move |v| exact(v * mass)));
-        let of_coordinates: Vec<_> = masses.iter().flat_map(|mass| vec![exact(mass.clone()); dimensions]).collect();
+        // a momentum is v, if it is divided by a mass that is 0
+        let one = Rational::one();
+        let of_momenta = || masses.iter().map(|mass| if mass.is_zero() { &one } else { mass });
+        let p = states.iter().zip(of_momenta()).flat_map(|([_, v], mass)| v.iter().map(move |v| exact(v * mass)));
+        let of_coordinates: Vec<_> = of_momenta().flat_map(|mass| vec![exact(mass.clone()); dimensions]).collect();
         let unit = of_coordinates.iter().all(|mass| mass.value.is_one());
         let properties = vec![("m".to_owned(), masses.iter().cloned().map(exact).collect())];
         let formula = match Formula::pair(GRAVITY, Separation::SquaredDistance, &properties, &parameters) {
             Ok(formula) => formula,
             Err(error) => return reader.toml.wrong(at, error.to_string(), "give the parameters other names"),
         };
-        let count = masses.len();
-        let pairs = PairEnergy { formula, dimensions, bodies: count, properties, ends: None, cutoff: None, of_bodies };
+        let (count, particles) = (bodies.count(), bodies.particles());
+        let pairs = PairEnergy {
+            formula,
+            dimensions,
+            bodies: count,
+            particles,
+            properties,
+            ends: None,
+            cutoff: None,
+            of_bodies,
+        };
         let problem = InitialValueProblem {
             p: p.collect(),
             q: states.iter().flat_map(|[q, _]| q.iter().cloned().map(exact)).collect(),

@@ -144,7 +144,7 @@ fn refuse_keys_of_others(reader: &mut Reader<'_>, given: &Given, ways: &[&str], 
 
 /// Refuses what only bodies can have.
 fn refuse_keys_of_bodies(reader: &mut Reader<'_>, given: &Given) {
-    given.refuse(reader, &["units", "elements", "barycentric", "central", "external"], |key| {
+    given.refuse(reader, &["units", "elements", "barycentric", "central", "external", "particles"], |key| {
         (format!("{key} requires bodies"), format!("remove `{key}`, or give the bodies in sections [[body]]"))
     });
 }

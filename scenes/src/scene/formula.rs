@@ -2,12 +2,12 @@
 
 use std::fmt;
 
-use shadowstep::Rational;
 use shadowstep::systems::formula::{
     FormulaError, FormulaKinetic, FormulaOfBodies, FormulaPair, FormulaPotential, RelativeTo,
 };
 use shadowstep::systems::many_parts::{PartError, PartFormula};
 use shadowstep::systems::pairs::Separation;
+use shadowstep::{Potential as _, Rational};
 use shadowstep_symbolic::Exact;
 
 use crate::scene::parameters::{borrowed, rounded};
@@ -88,13 +88,37 @@ impl Formula<FormulaOfBodies<f64>> {
     pub(crate) fn of_bodies(
         text: &str,
         relative_to: RelativeTo,
-        (bodies, dimensions): (usize, usize),
+        (bodies, particles, dimensions): (usize, usize, usize),
         parameters: &[(String, Exact)],
     ) -> Result<Self, FormulaError> {
         // the masses are those of the run
         let masses = vec![1.0; bodies];
         let meaning = FormulaOfBodies::new(text, relative_to, dimensions, &masses, &rounded(parameters, &()))?;
-        Ok(Formula { text: text.to_owned(), meaning })
+        Ok(Formula { text: text.to_owned(), meaning: meaning.with_particles(particles) })
+    }
+
+    /// Whether it is proportional to the mass of the body, as far as its values at the place of a body show.
+    pub(crate) fn is_proportional_to_mass(
+        &self,
+        place: &[f64],
+        central_mass: f64,
+        parameters: &[(String, Exact)],
+    ) -> bool {
+        let [half, one, two] = [0.5, 1.0, 2.0].map(|mass| {
+            let dimensions = place.len();
+            let parameters = rounded(parameters, &());
+            let masses = [central_mass, mass];
+            let of =
+                FormulaOfBodies::<f64>::new(&self.text, self.meaning.relative_to(), dimensions, &masses, &parameters);
+            let Ok(of) = of else { return f64::NAN };
+            let mut scratch = vec![0.0; of.scratch()];
+            of.prepare(&mut scratch, &());
+            let mut gradient = vec![0.0; 2 * dimensions];
+            of.gradient(&[&vec![0.0; dimensions], place].concat(), &mut gradient, &mut scratch);
+            gradient[dimensions..].iter().enumerate().map(|(axis, slope)| slope * (1.7 + axis as f64)).sum::<f64>()
+        });
+        let is_close = |a: f64, b: f64| (a - b).abs() <= 1e-9 * (a.abs() + b.abs());
+        is_close(half, one / 2.0) && is_close(two, 2.0 * one)
     }
 
     /// The key of the scene that gives it.

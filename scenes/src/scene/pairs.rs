@@ -1,7 +1,7 @@
 //! The energy of pairs of bodies by its formula.
 
 use shadowstep::systems::formula::{FormulaOfBodies, FormulaPair};
-use shadowstep::systems::pairs::{Cutoff, CutoffError, CutoffPairs, Ends, Pairs};
+use shadowstep::systems::pairs::{Cutoff, CutoffError, CutoffPairs, Ends, Pairs, PairsAndParticles};
 use shadowstep::systems::potential::Sum;
 use shadowstep::{Number, Potential};
 use shadowstep_symbolic::Exact;
@@ -23,6 +23,8 @@ pub struct PairEnergy {
     pub dimensions: usize,
     /// How many bodies there are.
     pub bodies: usize,
+    /// How many of them are of mass 0, which is their only property: the last ones.
+    pub particles: usize,
     /// Names, with a value for each body.
     pub properties: Vec<(String, Vec<Exact>)>,
     /// Those of a chain; none where all pairs interact.
@@ -106,11 +108,12 @@ impl PairEnergy {
         parameters: Vec<N>,
     ) -> Box<dyn Potential<N>> {
         let beside = self.beside_with(&properties, &parameters);
-        let pair = self.formula.meaning().in_numbers(properties, parameters);
         let of_pairs = match self.dimensions {
-            1 => self.sum::<N, 1>(pair),
-            2 => self.sum::<N, 2>(pair),
-            3 => self.sum::<N, 3>(pair),
+            2 if self.particles > 0 => self.sum_with_particles::<N, 2>(properties, parameters),
+            3 if self.particles > 0 => self.sum_with_particles::<N, 3>(properties, parameters),
+            1 => self.sum::<N, 1>(properties, parameters),
+            2 => self.sum::<N, 2>(properties, parameters),
+            3 => self.sum::<N, 3>(properties, parameters),
             more => unreachable!("{more} dimensions are refused"),
         };
         match beside {
@@ -140,7 +143,30 @@ impl PairEnergy {
         boxed.reduce(|one, other| Box::new(Sum(one, other)))
     }
 
-    fn sum<N: Number + 'static, const D: usize>(&self, pair: FormulaPair<N>) -> Box<dyn Potential<N>> {
+    /// The same of bodies and particles, which they attract.
+    fn sum_with_particles<N: Number + 'static, const D: usize>(
+        &self,
+        mut properties: Vec<Vec<N>>,
+        parameters: Vec<N>,
+    ) -> Box<dyn Potential<N>> {
+        let mut masses = properties.swap_remove(0);
+        masses.truncate(self.bodies - self.particles);
+        let (pair, context) = (self.formula.meaning(), masses[0].context());
+        let pairs = PairsAndParticles::<FormulaPair<N>, D>::new(
+            masses,
+            self.particles,
+            |masses| pair.in_numbers(vec![masses], parameters),
+            &context,
+        );
+        Box::new(pairs.expect(READ))
+    }
+
+    fn sum<N: Number + 'static, const D: usize>(
+        &self,
+        properties: Vec<Vec<N>>,
+        parameters: Vec<N>,
+    ) -> Box<dyn Potential<N>> {
+        let pair = self.formula.meaning().in_numbers(properties, parameters);
         if let Some(cutoff) = &self.cutoff {
             let cutoff = cutoff.cutoff::<D>().expect("the cutoff was read with the scene");
             return Box::new(CutoffPairs::new(self.bodies, pair, cutoff).expect(READ));

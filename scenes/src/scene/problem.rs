@@ -3,7 +3,7 @@
 use shadowstep::problems::Setup;
 use shadowstep::systems::explicit_time::WithTime;
 use shadowstep::systems::formula::{FormulaKinetic, FormulaPotential};
-use shadowstep::systems::kinetic::{General, Quadratic};
+use shadowstep::systems::kinetic::{General, Quadratic, WithParticles};
 use shadowstep::{DiagonalMasses, Kinetic, Motion, Number, Potential, Rational, UnitMasses};
 use shadowstep_symbolic::Exact;
 use shadowstep_symbolic::decimal::to_text;
@@ -124,11 +124,10 @@ impl InitialValueProblem {
 
     fn kinetic_without_time<N: Number + 'static>(&self, context: &N::Context) -> ClassifiedKinetic<N> {
         match &self.kinetic {
-            KineticEnergy::Masses(None) => ClassifiedKinetic::Quadratic(Box::new(UnitMasses)),
+            KineticEnergy::Masses(None) => self.of_masses(UnitMasses),
             KineticEnergy::Masses(Some(masses)) => {
                 let masses: Vec<Rational> = masses.iter().map(|mass| mass.value.clone()).collect();
-                let masses = DiagonalMasses::new(&masses, context);
-                ClassifiedKinetic::Quadratic(Box::new(masses.expect("the masses were read with the scene")))
+                self.of_masses(DiagonalMasses::new(&masses, context).expect("the masses were read with the scene"))
             }
             KineticEnergy::Formula(formula) => {
                 match formula.meaning().in_numbers(values(&self.parameters, context)).into_quadratic() {
@@ -136,6 +135,33 @@ impl InitialValueProblem {
                     Err(general) => ClassifiedKinetic::General(Box::new(general)),
                 }
             }
+        }
+    }
+
+    /// T by masses, in which particles have those of their momenta, 1.
+    pub(crate) fn of_masses<N: Number>(
+        &self,
+        kinetic: impl Kinetic<N, Class = Quadratic> + 'static,
+    ) -> ClassifiedKinetic<N> {
+        ClassifiedKinetic::Quadratic(match self.particles() {
+            0 => Box::new(kinetic),
+            _ => Box::new(WithParticles::new(kinetic, self.massive_coordinates())),
+        })
+    }
+
+    /// How many bodies are of mass 0: the last ones.
+    pub(crate) fn particles(&self) -> usize {
+        match &self.potential {
+            PotentialEnergy::Pairs(pairs) => pairs.particles,
+            _ => 0,
+        }
+    }
+
+    /// How many of the first coordinates have an energy.
+    pub(crate) fn massive_coordinates(&self) -> usize {
+        match &self.potential {
+            PotentialEnergy::Pairs(pairs) => self.q.len() - pairs.particles * pairs.dimensions,
+            _ => self.q.len(),
         }
     }
 
@@ -155,7 +181,7 @@ impl InitialValueProblem {
         self.coordinates.len() - usize::from(self.explicit_time)
     }
 
-    /// The masses of the coordinates, t excepted; of a system whose T is given by them.
+    /// The masses of the coordinates, t excepted; of a system whose T is given by them. Those of particles are 1, by which their momenta are velocities.
     pub(crate) fn exact_masses(&self) -> Vec<Rational> {
         match &self.kinetic {
             KineticEnergy::Masses(Some(masses)) => masses.iter().map(|mass| mass.value.clone()).collect(),

@@ -3,8 +3,9 @@
 use serde::Serialize;
 use shadowstep::Real;
 
+use super::particles::{ParticleApproach, Particles};
 use crate::scene::System;
-use crate::scene::split::{OfPlanets, Planets, ShownCoordinates};
+use crate::scene::split::{CanonicalCoordinates, OfPlanets, Planets, ShownCoordinates};
 
 /// The closest approach of two planets.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -28,6 +29,9 @@ pub struct Interactions {
     pub of: String,
     /// The closest approach; `None` of a single planet.
     pub closest: Option<Approach>,
+    /// The closest approach of a particle of mass 0; `None` where there is none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub particles: Option<ParticleApproach>,
     /// Whether planets that are near attract each other in drifts.
     #[serde(skip)]
     pub(crate) near_in_drifts: bool,
@@ -44,15 +48,20 @@ impl Interactions {
 
     /// In a line, with the times of states in words.
     pub fn text(&self, time: impl Fn(i64) -> String) -> String {
-        let Interactions { epsilon, of, closest, .. } = self;
+        let Interactions { epsilon, of, closest, particles, .. } = self;
         let closest = closest.as_ref().map_or(String::new(), |Approach { n, bodies: [i, j], hill_radii, .. }| {
             format!("; closest approach {hill_radii:.3} Hill radii, {i} and {j} at {}", time(*n))
         });
-        format!("interactions at most {epsilon:.1e} of the Kepler force ({of}){closest}")
+        let particles =
+            particles.as_ref().map_or(String::new(), |ParticleApproach { n, bodies: [i, j], hill_radii, within }| {
+                let of_all = if *within == 1 { "1 particle".to_owned() } else { format!("{within} particles") };
+                format!("; of a particle {hill_radii:.3} of {i}, {j} at {}, {of_all} within 1", time(*n))
+            });
+        format!("interactions at most {epsilon:.1e} of the Kepler force ({of}){closest}{particles}")
     }
 }
 
-/// Follows the planets of a run in double precision.
+/// Follows the planets of a run in double precision; ε and the closest approach of planets are those of bodies with mass.
 pub struct Approaches {
     planets: Planets,
     names: Vec<String>,
@@ -62,24 +71,34 @@ pub struct Approaches {
     q: Vec<f64>,
     p: Vec<f64>,
     found: Interactions,
+    particles: Option<Particles>,
 }
 
 impl Approaches {
     /// `None` of a system whose parts are T(p) and U(q).
     pub fn of(system: &System) -> Option<Approaches> {
-        let planets = system.parts.planets()?;
-        let masses = planets.bodies.masses().iter().map(|mass| <f64 as shadowstep::Number>::from_rational(mass, &()));
+        let (particles, planets) = (system.particles(), system.parts.planets()?.without_particles());
+        let number = |mass| <f64 as shadowstep::Number>::from_rational(mass, &());
+        let masses: Vec<f64> = planets.bodies.masses().iter().map(number).collect();
+        let zeros = || vec![0.0; masses.len() * planets.dimensions];
         let names = planets.names(&system.coordinates);
         let of = names[1].clone();
         Some(Approaches {
-            masses: masses.collect(),
+            q: zeros(),
+            p: zeros(),
+            particles: (particles > 0).then(|| Particles::new(&masses, particles)),
+            masses,
             names,
             shown: planets.inertial(&()),
             epsilon: planets.epsilon(system),
-            planets: planets.clone(),
-            q: vec![0.0; system.coordinates.len()],
-            p: vec![0.0; system.coordinates.len()],
-            found: Interactions { epsilon: 0.0, of, closest: None, near_in_drifts: planets.encounters.is_some() },
+            found: Interactions {
+                epsilon: 0.0,
+                of,
+                closest: None,
+                particles: None,
+                near_in_drifts: planets.encounters.is_some(),
+            },
+            planets,
         })
     }
 
@@ -92,8 +111,18 @@ impl Approaches {
                 (self.found.epsilon, self.found.of) = (epsilon, self.names[planet + 1].clone());
             }
         }
-        let (q, _) = self.shown.of_state(&self.q, &self.p);
-        let places: Vec<_> = q.chunks_exact(self.planets.dimensions).collect();
+        let (shown, _) = self.shown.of_state(&self.q, &self.p);
+        let dimensions = self.planets.dimensions;
+        if let Some(particles) = &mut self.particles {
+            // particles are relative to the centre of mass, or to the first body
+            let origin = match self.planets.coordinates {
+                CanonicalCoordinates::Jacobi => &self.q[..dimensions],
+                CanonicalCoordinates::DemocraticHeliocentric => &shown[..dimensions],
+            };
+            let relative: Vec<_> = shown.iter().zip(origin.iter().cycle()).map(|(x, origin)| x - origin).collect();
+            particles.include(n, &relative, &q[relative.len()..], dimensions);
+        }
+        let places: Vec<_> = shown.chunks_exact(dimensions).collect();
         let distance = |i: usize, j: usize| -> f64 {
             places[i].iter().zip(places[j]).map(|(a, b)| (a - b) * (a - b)).sum::<f64>().sqrt()
         };
@@ -111,7 +140,8 @@ impl Approaches {
     }
 
     /// What the states so far have shown.
-    pub fn found(&self) -> &Interactions {
-        &self.found
+    pub fn found(&self) -> Interactions {
+        let particles = self.particles.as_ref().and_then(|particles| particles.found(&self.names));
+        Interactions { particles, ..self.found.clone() }
     }
 }

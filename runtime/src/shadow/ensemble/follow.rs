@@ -138,7 +138,9 @@ impl<const W: usize> Seen<W> {
 
     fn push<M: System<Number = Lanes<W>>>(&mut self, system: &M) {
         let Some(estimator) = &mut self.estimator else { return };
-        let Some(estimate) = estimator.push(system.q(), system.p(), system.state().increments()) else { return };
+        let massive = system.massive_coordinates();
+        let (q, p, increments) = (system.q(), system.p(), system.state().increments().of_first(massive));
+        let Some(estimate) = estimator.push(&q[..massive], &p[..massive], increments) else { return };
         let ([least, most], [first, newest]) = (&mut self.modified, &mut self.modified_ends);
         newest.0 = estimate.value.0;
         for (((least, most), first), value) in least.0.iter_mut().zip(&mut most.0).zip(&mut first.0).zip(newest.0) {

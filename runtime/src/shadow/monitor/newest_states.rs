@@ -14,6 +14,7 @@ use crate::Rational;
 use crate::number::Real;
 use crate::number::instructions::{self, copy};
 use crate::shadow::estimator::EstimatorError;
+use crate::shadow::run::TrajectoryState;
 use crate::steps::step_size::StepSize;
 use crate::systems::system::System;
 
@@ -75,7 +76,7 @@ impl<N: Real> NewestStates<N> {
     /// Takes the next state of a window, to which an augmented step may have led.
     #[inline(always)]
     pub(super) fn push<M: System<Number = N> + ?Sized>(&mut self, system: &M, is_augmented: bool) {
-        let (q, p, added) = (system.q(), system.p(), system.state().increments());
+        let TrajectoryState { q, p, increments: added, .. } = TrajectoryState::massive(system, 0);
         self.newest = if self.newest + 1 < STATES_KEPT { self.newest + 1 } else { 0 };
         let [before, last, own] = in_order(&mut self.states, self.newest, q.len());
         copy(q, own.q);

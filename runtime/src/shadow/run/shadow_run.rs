@@ -1,5 +1,7 @@
 //! States with their modified energies.
 
+use std::collections::VecDeque;
+
 use crate::number::Real;
 use crate::shadow::run::error::{Quantity, RunError, check_value};
 use crate::shadow::run::state::{States, TrajectoryState};
@@ -15,7 +17,7 @@ pub type Estimated<'a, N> = (i64, Estimate<'a, N>);
 pub type EstimatedAlong<'a, T> = (i64, Estimate<'a, <T as States>::Number>, &'a mut T);
 
 /// States with the modified energies of n = 0, …, steps, or between them.
-pub struct ShadowRun<T, E> {
+pub struct ShadowRun<T: States, E> {
     states: T,
     estimator: E,
     h: StepSize,
@@ -24,6 +26,10 @@ pub struct ShadowRun<T, E> {
     after: i64,
     /// How many states must still come before the one that completes the first estimate.
     missing: usize,
+    /// Of how many coordinates the modified energy is: the first ones.
+    massive: usize,
+    /// Positions and momenta of the coordinates after these, from the state of the next estimate on.
+    particles: VecDeque<[Vec<T::Number>; 2]>,
 }
 
 impl<I: Integrator<Number: Real>, E: Estimator<I::Number>> ShadowRun<Trajectory<I>, E> {
@@ -50,14 +56,15 @@ impl<I: Integrator<Number: Real>, E: Estimator<I::Number>> ShadowRun<Trajectory<
     /// # Errors
     /// An energy at `from` that is not finite; settings of the estimator that are not valid.
     pub fn resume(
-        integrator: I,
+        mut integrator: I,
         from: i64,
         steps: u64,
         settings: &impl BuildEstimator<I::Number, Estimator = E>,
     ) -> Result<Self, RunError> {
-        let (h, state) = (integrator.step_size().clone(), integrator.state());
-        let estimator = settings.build(&h, state.q().len(), &state.context())?;
+        let (h, dimension) = (integrator.step_size().clone(), integrator.system().massive_coordinates());
+        let estimator = settings.build(&h, dimension, &integrator.state().context())?;
         let mut run = ShadowRun::of(Trajectory::after(integrator, from)?, estimator, &h);
+        run.massive = dimension;
         run.states.extend(steps, run.reach as usize);
         Ok(run)
     }
@@ -76,7 +83,16 @@ impl<T: States, E: Estimator<T::Number>> ShadowRun<T, E> {
     pub fn of(states: T, estimator: E, h: &StepSize) -> Self {
         let missing = estimator.states() - 1;
         let reach = missing / 2;
-        ShadowRun { states, estimator, h: h.clone(), reach: reach as i64, after: (missing - reach) as i64, missing }
+        ShadowRun {
+            states,
+            estimator,
+            h: h.clone(),
+            reach: reach as i64,
+            after: (missing - reach) as i64,
+            missing,
+            massive: usize::MAX,
+            particles: VecDeque::new(),
+        }
     }
 
     /// Whether the states are from [compensated](crate::State::is_compensated) sums.
@@ -117,7 +133,18 @@ impl<T: States, E: Estimator<T::Number>> ShadowRun<T, E> {
         mut watch: impl FnMut(i64, &mut T),
     ) -> Result<Option<EstimatedAlong<'_, T>>, RunError> {
         loop {
-            let Some(TrajectoryState { n, q, p, increments }) = self.states.advance()? else { return Ok(None) };
+            let Some(state) = self.states.advance()? else { return Ok(None) };
+            let massive = self.massive.min(state.q.len());
+            if massive < state.q.len() {
+                let recent = self.particles.len() as i64 > self.after;
+                let mut kept = recent.then(|| self.particles.pop_front()).flatten().unwrap_or_default();
+                for (kept, all) in kept.iter_mut().zip([state.q, state.p]) {
+                    kept.clear();
+                    kept.extend_from_slice(&all[massive..]);
+                }
+                self.particles.push_back(kept);
+            }
+            let TrajectoryState { n, q, p, increments } = state.of_first(massive);
             if self.missing > 0 {
                 self.missing -= 1;
                 self.estimator.push(q, p, increments);
@@ -129,7 +156,8 @@ impl<T: States, E: Estimator<T::Number>> ShadowRun<T, E> {
             let Some(estimate) = estimate else { return Ok(None) };
             let n = n - self.after;
             check_value(estimate.value, Quantity::ModifiedEnergy, n)?;
-            return Ok(Some((n, estimate, &mut self.states)));
+            let particles = self.particles.front().map_or((&[][..], &[][..]), |[q, p]| (q, p));
+            return Ok(Some((n, Estimate { particles, ..estimate }, &mut self.states)));
         }
     }
 }

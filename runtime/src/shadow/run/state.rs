@@ -7,6 +7,7 @@ use crate::systems::coordinates::Coordinates;
 use crate::systems::increments::Increments;
 use crate::systems::state::State;
 use crate::systems::summation::Summation;
+use crate::systems::system::System;
 
 /// A state of a trajectory.
 #[derive(Clone, Copy, Debug)]
@@ -26,6 +27,19 @@ impl<'a, N: Real> TrajectoryState<'a, N> {
     #[inline]
     pub(crate) fn of<V: Coordinates<N>, S: Summation<N>>(state: &'a State<N, V, S>, n: i64) -> Self {
         TrajectoryState { n, q: state.q(), p: state.p(), increments: state.increments() }
+    }
+
+    /// The first coordinates of the state.
+    #[inline(always)]
+    pub(crate) fn of_first(self, coordinates: usize) -> Self {
+        let TrajectoryState { n, q, p, increments } = self;
+        TrajectoryState { n, q: &q[..coordinates], p: &p[..coordinates], increments: increments.of_first(coordinates) }
+    }
+
+    /// The state without particles of mass 0, which have no part in the modified energy.
+    #[inline(always)]
+    pub fn massive<M: System<Number = N> + ?Sized>(system: &'a M, n: i64) -> Self {
+        TrajectoryState::of(system.state(), n).of_first(system.massive_coordinates())
     }
 
     /// Refuses a state with a value that is not finite.

@@ -48,6 +48,8 @@ pub struct FormulaOfBodies<N> {
     relative_to: RelativeTo,
     dimensions: usize,
     bodies: usize,
+    /// How many of them are of mass 0: the last ones.
+    particles: usize,
     /// Of each body, or of each but the first.
     formulas: Vec<FormulaPotential<N>>,
 }
@@ -82,25 +84,35 @@ impl<N: Number> FormulaOfBodies<N> {
             relative_to,
             dimensions,
             bodies: masses.len(),
+            particles: 0,
             formulas: masses[first..].iter().map(of).collect(),
         })
+    }
+
+    /// The same, where the last bodies are particles of mass 0, which are given as ones of mass 1: these have a force for a unit mass, that of an energy proportional to the mass, and no
+    /// energy, and do not react on the first body.
+    #[must_use]
+    pub fn with_particles(self, particles: usize) -> Self {
+        FormulaOfBodies { particles, ..self }
     }
 
     /// The same formula in other numbers, with the masses of the bodies and the values of parameters.
     ///
     /// # Panics
-    /// If there is not a mass for each body, and a value for each parameter.
+    /// If there is not a mass for each body, particles included, and a value for each parameter.
     pub fn in_numbers<M: Number>(&self, masses: &[M], parameters: &[M]) -> FormulaOfBodies<M> {
         assert_eq!(masses.len(), self.bodies, "each body has a mass");
-        let masses_of = &masses[self.first()..];
-        let of = |(formula, mass): (&FormulaPotential<N>, &M)| {
+        let one = M::from_rational(&Rational::from_integer(1.into()), &masses[0].context());
+        let of = |(body, formula): (usize, &FormulaPotential<N>)| {
+            let mass = if self.is_particle(body) { &one } else { &masses[body] };
             formula.in_numbers([parameters, &[mass.clone(), masses[0].clone()]].concat())
         };
         FormulaOfBodies {
             relative_to: self.relative_to,
             dimensions: self.dimensions,
             bodies: self.bodies,
-            formulas: self.formulas.iter().zip(masses_of).map(of).collect(),
+            particles: self.particles,
+            formulas: (self.first()..).zip(&self.formulas).map(of).collect(),
         }
     }
 
@@ -112,6 +124,10 @@ impl<N: Number> FormulaOfBodies<N> {
     /// The numbers in the formula.
     pub fn numbers(&self) -> Vec<&Rational> {
         self.formulas.first().map_or(Vec::new(), FormulaPotential::numbers)
+    }
+
+    fn is_particle(&self, body: usize) -> bool {
+        body >= self.bodies - self.particles
     }
 
     /// The first body that has an energy.
@@ -134,7 +150,7 @@ impl<N: Number> FormulaOfBodies<N> {
     fn add_slope(&self, body: usize, slope: &[N], gradient: &mut [N]) {
         let (first, others) = gradient.split_at_mut(body * self.dimensions);
         others.iter_mut().zip(slope).for_each(|(sum, slope)| sum.add(slope));
-        if self.relative_to == RelativeTo::FirstBody {
+        if self.relative_to == RelativeTo::FirstBody && !self.is_particle(body) {
             first.iter_mut().zip(slope).for_each(|(sum, slope)| sum.subtract(slope));
         }
     }
@@ -164,7 +180,7 @@ impl<N: Number> FormulaOfBodies<N> {
         gradient.iter_mut().chain(rate.as_deref_mut()).for_each(N::assign_zero);
         for (body, formula, scratch) in self.each(self.each_scratch(), parts) {
             self.assign_place(body, q, place);
-            match &mut rate {
+            match rate.as_deref_mut().filter(|_| !self.is_particle(body)) {
                 None => formula.gradient(place, slope, scratch),
                 Some(rate) => {
                     formula.gradient_and_rate(place, slope, number, scratch);
@@ -182,7 +198,7 @@ impl<N: Number> FormulaOfBodies<N> {
         for (body, formula, scratch) in self.each(self.each_hessian_scratch(), parts) {
             self.assign_place(body, q, place);
             self.assign_place(body, v, direction);
-            match &mut rate {
+            match rate.as_deref_mut().filter(|_| !self.is_particle(body)) {
                 None => formula.hessian_product(place, direction, slope, scratch),
                 Some(rate) => {
                     formula.hessian_product_and_rate(place, direction, slope, number, scratch);
@@ -226,7 +242,8 @@ impl<N: Number> Potential<N> for FormulaOfBodies<N> {
     fn energy(&self, q: &[N], energy: &mut N, scratch: &mut [N]) {
         let ([place, ..], [number], parts) = split(self.dimensions, scratch);
         energy.assign_zero();
-        for (body, formula, scratch) in self.each(self.each_scratch(), parts) {
+        let massive = self.formulas.len() - self.particles;
+        for (body, formula, scratch) in self.each(self.each_scratch(), parts).take(massive) {
             self.assign_place(body, q, place);
             formula.energy(place, number, scratch);
             energy.add(number);

@@ -149,6 +149,7 @@ impl<N: Number, P: Potential<N>, K: Kinetic<N>> Hamiltonian<N, P, K> {
         self.kinetic.energy(p, kinetic_energy, &mut self.kinetic_scratch);
         energy.add(kinetic_energy);
         self.kinetic.exchanged_energy(p, kinetic_energy, &mut self.kinetic_scratch);
+        let q = &q[..self.kinetic.massive_coordinates(q.len())];
         if N::KEEPS_INCREMENTS && q.len() >= LONG {
             let zero = N::zero(&energy.context());
             let mut overflows = zero.clone();

@@ -104,7 +104,8 @@ where
             return hamiltonian.assign_energies((q, p), energy, kinetic_energy);
         }
         energy.assign_zero();
-        add_sum(energy, [q, gradient.as_ref()], |[q, u], energy| energy.add_product(q, u));
+        let massive = hamiltonian.kinetic.massive_coordinates(q.len());
+        add_sum(energy, [&q[..massive], &gradient.as_ref()[..massive]], |[q, u], energy| energy.add_product(q, u));
         energy.subtract(rate);
         energy.divide_integer(2);
         hamiltonian.add_kinetic_energy((q, p), energy, kinetic_energy);
@@ -112,5 +113,9 @@ where
 
     fn energy(&mut self) -> N {
         Motion::energy(self)
+    }
+
+    fn massive_coordinates(&self) -> usize {
+        self.hamiltonian.kinetic.massive_coordinates(self.q().len())
     }
 }

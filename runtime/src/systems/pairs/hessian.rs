@@ -30,6 +30,11 @@ fn parts<N, const D: usize>(scratch: &mut [N]) -> Scratch<'_, N, D> {
     Scratch { difference, direction, along, squared, results, pair }
 }
 
+/// The pair's scratch space.
+pub(super) fn scratch_of_pair<N, const D: usize>(scratch: &mut [N]) -> &mut [N] {
+    parts::<N, D>(scratch).pair
+}
+
 impl<N: Number, P: PairPotential<N>, const D: usize> HessianProduct<N> for Pairs<P, D> {
     fn hessian_scratch(&self) -> usize {
         own_scratch(D) + self.pair.curved().map_or(0, PairCurvature::curvature_scratch)

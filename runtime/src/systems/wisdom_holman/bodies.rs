@@ -1,42 +1,58 @@
 //! The bodies of a planetary system: the gravitational constant and the masses.
 
-use num_traits::Signed;
+use num_traits::{Signed, Zero};
 use shadowstep_symbolic::decimal::to_significant;
 use thiserror::Error;
 
 use crate::Rational;
 
-/// The gravitational constant and the masses of the bodies, the central one first. All are exact.
+/// The gravitational constant and the masses of the bodies, the central one first. All are exact. Bodies of mass 0, *particles*, come last: they move in the
+/// field of the others.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Bodies {
     pub(super) g: Rational,
+    /// Of those that are not particles.
     pub(super) masses: Vec<Rational>,
+    pub(super) particles: usize,
 }
 
 impl Bodies {
     /// Bodies of these masses.
     ///
     /// # Errors
-    /// Fewer than two bodies; a mass or a gravitational constant that is not positive.
-    pub fn new(g: Rational, masses: Vec<Rational>) -> Result<Self, BodiesError> {
-        if masses.len() < 2 {
-            return Err(BodiesError::Count { found: masses.len() });
+    /// Fewer than two bodies with mass; a negative mass, or a body without mass before one with mass; a gravitational constant that is not positive.
+    pub fn new(g: Rational, mut masses: Vec<Rational>) -> Result<Self, BodiesError> {
+        let massive = masses.iter().rposition(|mass| !mass.is_zero()).map_or(0, |last| last + 1);
+        let particles = masses.split_off(massive).len();
+        if massive < 2 {
+            return Err(BodiesError::Count { found: massive });
         }
         if !g.is_positive() {
             return Err(BodiesError::Constant { found: to_significant(&g, 6) });
         }
         match masses.iter().position(|mass| !mass.is_positive()) {
             Some(body) => Err(BodiesError::Mass { body, found: to_significant(&masses[body], 6) }),
-            None => Ok(Bodies { g, masses }),
+            None => Ok(Bodies { g, masses, particles }),
         }
     }
 
     /// How many there are, the central one included.
     pub fn count(&self) -> usize {
-        self.masses.len()
+        self.masses.len() + self.particles
     }
 
-    /// The masses, the central one first.
+    /// How many have the mass 0: the last ones.
+    pub fn particles(&self) -> usize {
+        self.particles
+    }
+
+    /// Those with mass.
+    #[must_use]
+    pub fn without_particles(&self) -> Self {
+        Bodies { particles: 0, ..self.clone() }
+    }
+
+    /// The masses that are not 0, the central one first.
     pub fn masses(&self) -> &[Rational] {
         &self.masses
     }
@@ -64,7 +80,7 @@ pub enum BodiesError {
     #[error("the substep must be positive")]
     Substep,
     /// Fewer than two.
-    #[error("a planetary system needs a central body and at least one planet, not {found} bodies")]
+    #[error("a planetary system needs a central body and at least one planet with mass, not {found} bodies")]
     Count {
         /// How many there are.
         found: usize,
@@ -75,14 +91,17 @@ pub enum BodiesError {
         /// Its value.
         found: String,
     },
-    /// A mass is not positive.
-    #[error("the mass of body {body} must be positive, not {found}")]
+    /// A mass is negative, or 0 before one that is not.
+    #[error("the mass of body {body} must be positive, not {found}; bodies of mass 0 come last")]
     Mass {
         /// The body; the central one is 0.
         body: usize,
         /// Its mass.
         found: String,
     },
+    /// Bodies of mass 0 that may come close to planets.
+    #[error("close encounters are those of planets with mass, and there are bodies of mass 0")]
+    Particles,
     /// A potential of positions with more or fewer coordinates.
     #[error("a potential of {found} coordinates is not one of {bodies} bodies in {dimensions} dimensions")]
     Potential {

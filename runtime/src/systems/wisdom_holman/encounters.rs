@@ -156,7 +156,7 @@ impl<N: Number, const D: usize> Encounters<N, D> {
     /// The system at inertial positions and momenta, body after body, with drifts of substeps of at most `substep`.
     ///
     /// # Errors
-    /// A state of another number of bodies; an infinite q or p, or one that is NaN; a substep that is not positive.
+    /// A state of another number of bodies; an infinite q or p, or one that is NaN; a substep that is not positive; bodies of mass 0.
     pub fn new(
         bodies: &Bodies,
         state: (&[N], &[N]),
@@ -164,6 +164,9 @@ impl<N: Number, const D: usize> Encounters<N, D> {
         substep: &Rational,
         context: &N::Context,
     ) -> Result<Self, BodiesError> {
+        if bodies.particles > 0 {
+            return Err(BodiesError::Particles);
+        }
         let mut planets = WisdomHolman::<N, DemocraticHeliocentric<N, D>, D>::new(bodies, state, context)?;
         planets.coordinates.leave_near(bodies, &shells.cutoff(0), context);
         if !substep.is_positive() {

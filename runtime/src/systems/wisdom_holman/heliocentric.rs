@@ -9,6 +9,7 @@ use super::bodies::Bodies;
 use super::coordinates::PlanetaryCoordinates;
 use super::interactions::Interactions;
 use super::orbits::{Orbit, Orbits};
+use super::particles::Particles;
 
 /// Democratic heliocentric coordinates: Q_i = q_i − q_0 and P_i = p_i − (m_i/M) P₀, so that
 ///
@@ -30,6 +31,8 @@ pub struct DemocraticHeliocentric<N, const D: usize> {
     /// m_i/M of the planets
     shares: Vec<N>,
     interactions: Interactions<N, D>,
+    /// Particles, which the planets attract.
+    particles: Option<Box<Particles<N, D>>>,
     sum: [N; D],
     scratch: N,
 }
@@ -44,8 +47,14 @@ impl<N: Number, const D: usize> PlanetaryCoordinates<N, D> for DemocraticHelioce
         let (central, planets) = bodies.masses.split_first().expect("two bodies or more");
         let total: Rational = bodies.masses.iter().sum();
         let orbit = |mass| Orbit::new(mass, &(&bodies.g * central * mass), context);
+        let of_particles = std::iter::repeat_n(Orbit::of_particle(&bodies.g, central, context), bodies.particles);
         DemocraticHeliocentric {
-            orbits: Orbits { total_mass: number(&total), planets: planets.iter().map(orbit).collect() },
+            orbits: Orbits {
+                total_mass: number(&total),
+                planets: planets.iter().map(orbit).chain(of_particles).collect(),
+                particles: bodies.particles,
+            },
+            particles: Particles::new(bodies, planets, context),
             central_mass: number(central),
             shares: planets.iter().map(|mass| number(&(mass / &total))).collect(),
             interactions: Interactions::new(bodies, Vec::new(), context),
@@ -67,6 +76,9 @@ impl<N: Number, const D: usize> PlanetaryCoordinates<N, D> for DemocraticHelioce
                 own_q[i][axis].assign(&self.scratch);
                 own_q[0][axis].add_product(share, &self.scratch);
             }
+            for i in self.shares.len() + 1..q.len() {
+                own_q[i][axis].assign_difference(&q[i][axis], &q[0][axis]);
+            }
         }
     }
 
@@ -74,11 +86,16 @@ impl<N: Number, const D: usize> PlanetaryCoordinates<N, D> for DemocraticHelioce
         let ((p, _), (own_p, _)) = (p.as_chunks::<D>(), own.as_chunks_mut::<D>());
         for axis in 0..D {
             own_p[0][axis].assign_zero();
-            p.iter().for_each(|p| own_p[0][axis].add(&p[axis]));
+            p[..=self.shares.len()].iter().for_each(|p| own_p[0][axis].add(&p[axis]));
             for (i, share) in (1..).zip(&self.shares) {
                 self.scratch.assign(&p[i][axis]);
                 self.scratch.subtract_product(share, &own_p[0][axis]);
                 own_p[i][axis].assign(&self.scratch);
+            }
+            // the velocity of the centre of mass
+            self.scratch.assign_quotient(&own_p[0][axis], &self.orbits.total_mass);
+            for i in self.shares.len() + 1..p.len() {
+                own_p[i][axis].assign_difference(&p[i][axis], &self.scratch);
             }
         }
     }
@@ -90,7 +107,7 @@ impl<N: Number, const D: usize> PlanetaryCoordinates<N, D> for DemocraticHelioce
             for (q_i, share) in own_q[1..].iter().zip(&self.shares) {
                 q[0][axis].subtract_product(share, &q_i[axis]);
             }
-            for i in 1..=self.shares.len() {
+            for i in 1..own_q.len() {
                 self.scratch.assign_sum(&q[0][axis], &own_q[i][axis]);
                 q[i][axis].assign(&self.scratch);
             }
@@ -107,19 +124,36 @@ impl<N: Number, const D: usize> PlanetaryCoordinates<N, D> for DemocraticHelioce
                 p[i][axis].assign(&self.scratch);
                 p[0][axis].subtract(&self.scratch);
             }
+            self.scratch.assign_quotient(&own_p[0][axis], &self.orbits.total_mass);
+            for i in self.shares.len() + 1..p.len() {
+                p[i][axis].assign_sum(&self.scratch, &own_p[i][axis]);
+            }
         }
     }
 
     fn gradient_and_rate(&mut self, q: &[N], gradient: &mut [N], rate: Option<&mut N>) {
-        let (centre, planets) = gradient.split_at_mut(D);
+        let bodies = (self.shares.len() + 1) * D;
+        let (own, of_particles) = gradient.split_at_mut(bodies);
+        let (centre, planets) = own.split_at_mut(D);
         centre.iter_mut().for_each(N::assign_zero);
-        self.interactions.assign_gradient(&q[D..], planets, rate);
+        self.interactions.assign_gradient(&q[D..bodies], planets, rate);
+        if let Some(particles) = &mut self.particles {
+            particles.bodies().iter_mut().zip(&q[D..bodies]).for_each(|(own, q)| own.assign(q));
+            particles.assign_gradient(&q[bodies..], of_particles);
+        }
     }
 
     fn hessian_product(&mut self, q: &[N], v: &[N], product: &mut [N]) {
-        let (centre, planets) = product.split_at_mut(D);
+        let bodies = (self.shares.len() + 1) * D;
+        let (own, of_particles) = product.split_at_mut(bodies);
+        let (centre, planets) = own.split_at_mut(D);
         centre.iter_mut().for_each(N::assign_zero);
-        self.interactions.assign_hessian_product(&q[D..], &v[D..], planets);
+        self.interactions.assign_hessian_product(&q[D..bodies], &v[D..bodies], planets);
+        if let Some(particles) = &mut self.particles {
+            particles.bodies().iter_mut().zip(&q[D..bodies]).for_each(|(own, q)| own.assign(q));
+            particles.directions().iter_mut().zip(&v[D..bodies]).for_each(|(own, v)| own.assign(v));
+            particles.assign_product([q, v].map(|all| &all[bodies..]), of_particles);
+        }
     }
 
     fn jump(&mut self, p: &[N]) -> Option<&[N; D]> {
@@ -130,7 +164,7 @@ impl<N: Number, const D: usize> PlanetaryCoordinates<N, D> for DemocraticHelioce
 
     fn assign_interaction_energy(&mut self, (q, p): (&[N], &[N]), energy: &mut N) {
         self.assign_sum_of_momenta(p);
-        self.interactions.assign_energy(&q[D..], energy);
+        self.interactions.assign_energy(&q[D..(self.shares.len() + 1) * D], energy);
         self.scratch.assign_zero();
         self.sum.iter().for_each(|sum| self.scratch.add_product(sum, sum));
         self.scratch.divide(&self.central_mass);
@@ -148,7 +182,7 @@ impl<N: Number, const D: usize> DemocraticHeliocentric<N, D> {
     /// sum ← Σ P_i of the planets
     fn assign_sum_of_momenta(&mut self, p: &[N]) {
         self.sum.iter_mut().for_each(N::assign_zero);
-        for planet in &p.as_chunks::<D>().0[1..] {
+        for planet in &p.as_chunks::<D>().0[1..=self.shares.len()] {
             self.sum.iter_mut().zip(planet).for_each(|(sum, p)| sum.add(p));
         }
     }

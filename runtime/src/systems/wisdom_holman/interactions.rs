@@ -56,7 +56,7 @@ pub(super) fn scaled((m, n): (f64, i64)) -> f64 {
 }
 
 /// The formula of Newton's potential has second derivatives.
-fn curved<N: Number>(pair: &Gravity<N>) -> &dyn PairCurvature<N> {
+pub(super) fn curved<N: Number>(pair: &Gravity<N>) -> &dyn PairCurvature<N> {
     pair.curved().expect("they are derived with the formula")
 }
 
@@ -71,7 +71,7 @@ impl<N: Number, const D: usize> Interactions<N, D> {
     pub(super) fn new(bodies: &Bodies, masses: Vec<N>, context: &N::Context) -> Self {
         let planets: Gravity<N> = gravity_of_planets(bodies, context);
         let single = Gravity { g: planets.g.clone(), m: masses };
-        let planets = Pairs::all(bodies.count() - 1, planets).expect("a mass for each planet");
+        let planets = Pairs::all(bodies.masses.len() - 1, planets).expect("a mass for each planet");
         let zeros = |count| vec![N::zero(context); count];
         let mut scratch = zeros(Potential::<N>::scratch(&planets));
         planets.prepare(&mut scratch, context);
@@ -99,7 +99,7 @@ impl<N: Number, const D: usize> Interactions<N, D> {
     /// Leaves what a cutoff has of the attraction between the planets to others, which is switched.
     pub(super) fn leave_near(&mut self, bodies: &Bodies, cutoff: &Cutoff<D>, context: &N::Context) {
         let pair = Shell::new(gravity_of_planets(bodies, context), None, Some(cutoff));
-        let pairs = Pairs::all(bodies.count() - 1, pair).expect("a mass for each planet");
+        let pairs = Pairs::all(bodies.masses.len() - 1, pair).expect("a mass for each planet");
         let mut scratch = vec![N::zero(context); Potential::<N>::scratch(&pairs)];
         pairs.prepare(&mut scratch, context);
         let radius = <f64 as Number>::from_rational(cutoff.radius(), &());

@@ -8,6 +8,7 @@ use super::bodies::Bodies;
 use super::coordinates::PlanetaryCoordinates;
 use super::interactions::Interactions;
 use super::orbits::{Orbit, Orbits};
+use super::particles::Particles;
 
 /// Jacobi coordinates: Q_i is the position relative to the centre of mass of the bodies 0 … i−1, and with η_i = m_0 + … + m_i
 ///
@@ -32,6 +33,8 @@ pub struct Jacobi<N, const D: usize> {
     direction: Vec<N>,
     /// A running sum.
     sum: [N; D],
+    /// Particles, and what attracts them: the bodies, less the mass of all in their centre. Positions are relative to that.
+    particles: Option<Box<Particles<N, D>>>,
 }
 
 impl<N: Number, const D: usize> PlanetaryCoordinates<N, D> for Jacobi<N, D> {
@@ -50,11 +53,16 @@ impl<N: Number, const D: usize> PlanetaryCoordinates<N, D> for Jacobi<N, D> {
         let planets = 1..masses.len();
         let inner = masses.iter().chain(&sums).map(number).collect();
         let zeros = || vec![N::zero(context); planets.len() * D];
+        let total = &sums[masses.len() - 1];
+        let of_particles = std::iter::repeat_n(Orbit::of_particle(&bodies.g, total, context), bodies.particles);
+        let attracting: Vec<_> = [&masses[0], &-total].into_iter().chain(&masses[1..]).cloned().collect();
         Jacobi {
             orbits: Orbits {
-                total_mass: number(&sums[masses.len() - 1]),
-                planets: planets.clone().map(planet).collect(),
+                total_mass: number(total),
+                planets: planets.clone().map(planet).chain(of_particles).collect(),
+                particles: bodies.particles,
             },
+            particles: Particles::new(bodies, &attracting, context),
             shares: planets.clone().map(share).collect(),
             interactions: Interactions::new(bodies, inner, context),
             relative: zeros(),
@@ -77,6 +85,9 @@ impl<N: Number, const D: usize> PlanetaryCoordinates<N, D> for Jacobi<N, D> {
                 centre.add_product(own, &own_q[i][axis]);
             }
             own_q[0][axis].assign(&centre);
+            for i in self.shares.len() + 1..q.len() {
+                own_q[i][axis].assign_difference(&q[i][axis], &centre);
+            }
         }
     }
 
@@ -90,6 +101,11 @@ impl<N: Number, const D: usize> PlanetaryCoordinates<N, D> for Jacobi<N, D> {
                 momentum.add(&p[i][axis]);
             }
             own_p[0][axis].assign(&momentum);
+            // the velocity of the centre of mass
+            momentum.divide(&self.orbits.total_mass);
+            for i in self.shares.len() + 1..p.len() {
+                own_p[i][axis].assign_difference(&p[i][axis], &momentum);
+            }
         }
     }
 
@@ -103,6 +119,9 @@ impl<N: Number, const D: usize> PlanetaryCoordinates<N, D> for Jacobi<N, D> {
                 q[i][axis].assign_sum(&centre, &own_q[i][axis]);
             }
             q[0][axis].assign(&centre);
+            for i in self.shares.len() + 1..q.len() {
+                q[i][axis].assign_sum(&own_q[0][axis], &own_q[i][axis]);
+            }
         }
     }
 
@@ -117,14 +136,22 @@ impl<N: Number, const D: usize> PlanetaryCoordinates<N, D> for Jacobi<N, D> {
                 momentum.subtract(&p[i][axis]);
             }
             p[0][axis].assign(&momentum);
+            momentum.assign_quotient(&own_p[0][axis], &self.orbits.total_mass);
+            for i in self.shares.len() + 1..p.len() {
+                p[i][axis].assign_sum(&momentum, &own_p[i][axis]);
+            }
         }
     }
 
     fn gradient_and_rate(&mut self, q: &[N], gradient: &mut [N], mut rate: Option<&mut N>) {
-        let Jacobi { shares, interactions, relative, slopes, sum, .. } = self;
+        let Jacobi { shares, interactions, relative, slopes, sum, particles, .. } = self;
         assign_relative(shares, q, relative, sum);
-        interactions.assign_gradient(relative, slopes, rate.as_deref_mut());
         let bodies = shares.len() + 1;
+        if let Some(particles) = particles {
+            assign_attracting((relative, sum), particles.bodies());
+            particles.assign_gradient(&q[bodies * D..], &mut gradient[bodies * D..]);
+        }
+        interactions.assign_gradient(relative, slopes, rate.as_deref_mut());
         let ((relative, _), (slopes, _)) = (relative.as_chunks::<D>(), slopes.as_chunks_mut::<D>());
         let ((q, _), (gradient, _)) = (q.as_chunks::<D>(), gradient.as_chunks_mut::<D>());
         gradient[0].iter_mut().for_each(N::assign_zero);
@@ -143,11 +170,18 @@ impl<N: Number, const D: usize> PlanetaryCoordinates<N, D> for Jacobi<N, D> {
 
     /// By the chain rule: as the gradient, with second derivatives in the direction that v has in heliocentric positions.
     fn hessian_product(&mut self, q: &[N], v: &[N], product: &mut [N]) {
-        let Jacobi { shares, interactions, relative, slopes, direction, sum, .. } = self;
-        assign_relative(shares, q, relative, sum);
-        assign_relative(shares, v, direction, sum);
-        interactions.assign_hessian_product(relative, direction, slopes);
+        let Jacobi { shares, interactions, relative, slopes, direction, sum, particles, .. } = self;
         let bodies = shares.len() + 1;
+        assign_relative(shares, q, relative, sum);
+        if let Some(particles) = particles {
+            assign_attracting((relative, sum), particles.bodies());
+        }
+        assign_relative(shares, v, direction, sum);
+        if let Some(particles) = particles {
+            assign_attracting((direction, sum), particles.directions());
+            particles.assign_product([q, v].map(|all| &all[bodies * D..]), &mut product[bodies * D..]);
+        }
+        interactions.assign_hessian_product(relative, direction, slopes);
         let ((relative, _), (direction, _)) = (relative.as_chunks::<D>(), direction.as_chunks::<D>());
         let ((slopes, _), (product, _)) = (slopes.as_chunks_mut::<D>(), product.as_chunks_mut::<D>());
         let ((q, _), (v, _)) = (q.as_chunks::<D>(), v.as_chunks::<D>());
@@ -185,6 +219,23 @@ fn assign_relative<N: Number, const D: usize>(shares: &[[N; 2]], q: &[N], relati
         for ((relative, q), sum) in relative.iter_mut().zip(q).zip(&mut *sum) {
             relative.assign_sum(q, sum);
             sum.add_product(own, q);
+        }
+    }
+}
+
+/// attracting ← the positions of the central body, the centre of mass and the planets, relative to the second of these; from those of the centre and the planets relative to the
+/// first.
+fn assign_attracting<N: Number, const D: usize>((relative, centre): (&[N], &[N; D]), attracting: &mut [N]) {
+    let (fixed, planets) = attracting.split_at_mut(2 * D);
+    let (central, own) = fixed.split_at_mut(D);
+    own.iter_mut().for_each(N::assign_zero);
+    for (axis, centre) in centre.iter().enumerate() {
+        central[axis].assign(centre);
+        central[axis].negate();
+    }
+    for (planet, relative) in planets.as_chunks_mut::<D>().0.iter_mut().zip(relative.as_chunks::<D>().0) {
+        for axis in 0..D {
+            planet[axis].assign_difference(&relative[axis], &centre[axis]);
         }
     }
 }

@@ -14,8 +14,17 @@ use super::together::Together;
 pub struct Orbits<N> {
     /// M
     pub total_mass: N,
-    /// For each planet.
+    /// For each planet, and then for each particle of mass 0, whose numbers are those of a unit mass.
     pub planets: Vec<Orbit<N>>,
+    /// How many of them are particles.
+    pub particles: usize,
+}
+
+impl<N> Orbits<N> {
+    /// Those with an energy.
+    pub(super) fn with_energy(&self) -> &[Orbit<N>] {
+        &self.planets[..self.planets.len() - self.particles]
+    }
 }
 
 /// A Kepler orbit with H = P²/2m − κ/|Q|.
@@ -34,6 +43,11 @@ impl<N: Number> Orbit<N> {
     pub(super) fn new(mass: &Rational, attraction: &Rational, context: &N::Context) -> Self {
         let number = |value: &Rational| N::from_rational(value, context);
         Orbit { mass: number(mass), attraction: number(attraction), parameter: number(&(attraction / mass)) }
+    }
+
+    /// That of a particle about a mass.
+    pub(super) fn of_particle(g: &Rational, mass: &Rational, context: &N::Context) -> Self {
+        Orbit::new(&Rational::from_integer(1.into()), &(g * mass), context)
     }
 }
 
@@ -84,7 +98,9 @@ impl<N: Number, const D: usize> Advance<N, D> {
             for (axis, part) in self.to_v.iter().enumerate() {
                 state.change(Half::Momenta, first + axis, carried, |p| p.add_product(&orbit.mass, part));
             }
-            add_to_beta(orbit, &mut self.scratch, state, carried);
+            if planet <= orbits.with_energy().len() {
+                add_to_beta(orbit, &mut self.scratch, state, carried);
+            }
         }
     }
 
@@ -105,7 +121,7 @@ impl<N: Number, const D: usize> Advance<N, D> {
                 state.change(half, index, carried, |x| x.add(part));
             }
         }
-        for (orbit, s) in orbits.planets.iter().zip(&together.anomalies) {
+        for (orbit, s) in orbits.with_energy().iter().zip(&together.anomalies) {
             scratch.assign(s);
             add_to_beta(orbit, scratch, state, carried);
         }
@@ -126,7 +142,7 @@ impl<N: Number, const D: usize> Advance<N, D> {
     /// energy ← energy + A, and kinetic ← T
     pub(super) fn add_energies(&mut self, orbits: &Orbits<N>, (q, p): (&[N], &[N]), energy: &mut N, kinetic: &mut N) {
         let Advance { square, scratch, .. } = self;
-        let masses = std::iter::once(&orbits.total_mass).chain(orbits.planets.iter().map(|orbit| &orbit.mass));
+        let masses = std::iter::once(&orbits.total_mass).chain(orbits.with_energy().iter().map(|orbit| &orbit.mass));
         kinetic.assign_zero();
         for (mass, p) in masses.zip(p.as_chunks::<D>().0) {
             assign_square_sum(square, p);
@@ -135,7 +151,7 @@ impl<N: Number, const D: usize> Advance<N, D> {
         }
         kinetic.divide_integer(2);
         energy.add(kinetic);
-        for (orbit, q) in orbits.planets.iter().zip(&q.as_chunks::<D>().0[1..]) {
+        for (orbit, q) in orbits.with_energy().iter().zip(&q.as_chunks::<D>().0[1..]) {
             assign_square_sum(square, q);
             scratch.assign_reciprocal_sqrt(square);
             energy.subtract_product(&orbit.attraction, scratch);

@@ -103,6 +103,12 @@ impl TransformedTime {
     /// # Errors
     /// A system that is split in another way, or whose U is not negative at its initial state.
     pub fn of(time: TimeTransformation, problem: &InitialValueProblem, plain: bool) -> Result<Self, Refusal> {
+        if problem.particles() > 0 {
+            return Err(Refusal::new(
+                "transformed time is that of an H, which does not contain bodies of mass 0",
+                "remove [time], or the bodies of mass 0",
+            ));
+        }
         if !plain {
             return Err(Refusal::new(
                 "transformed time requires the parts T(p) and U(q): others have no explicit flows in it",

@@ -198,6 +198,11 @@ impl Planets {
         in_coordinates!(self, shown_by::<N>(context))
     }
 
+    /// The bodies with mass alone.
+    pub(crate) fn without_particles(&self) -> Self {
+        Planets { bodies: self.bodies.without_particles(), ..self.clone() }
+    }
+
     /// The names or numbers of the bodies, from those of their coordinates.
     pub(crate) fn names(&self, coordinates: &[String]) -> Vec<String> {
         let names = coordinates.iter().step_by(self.dimensions);

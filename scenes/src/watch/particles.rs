@@ -1,0 +1,67 @@
+//! Particles of mass 0 that come close to planets.
+
+use serde::Serialize;
+use shadowstep::Real;
+
+/// The closest approach of a particle to a planet.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct ParticleApproach {
+    /// The state at which it was found.
+    pub n: i64,
+    /// The names or numbers of the planet and the particle.
+    pub bodies: [String; 2],
+    /// The distance in Hill radii of the planet, (m/3m_0)^(1/3) r.
+    pub hill_radii: f64,
+    /// How many particles were closer than one Hill radius.
+    pub within: usize,
+}
+
+/// Follows the distances of particles from planets.
+pub(super) struct Particles {
+    /// (m/3m_0)^(2/3) of each planet.
+    parts: Vec<f64>,
+    /// Where each planet is, and 1/R² of its Hill radius R.
+    planets: Vec<([f64; 3], f64)>,
+    /// The least square of a distance in Hill radii, its state, planet and particle.
+    closest: (f64, i64, [usize; 2]),
+    within: Vec<bool>,
+}
+
+impl Particles {
+    pub(super) fn new(masses: &[f64], particles: usize) -> Self {
+        let parts = masses[1..].iter().map(|mass| (mass / (3.0 * masses[0])).powf(2.0 / 3.0)).collect();
+        Particles { parts, planets: Vec::new(), closest: (f64::INFINITY, 0, [0; 2]), within: vec![false; particles] }
+    }
+
+    /// Takes the state n: the places of the bodies with mass, and of particles, both relative to the same point.
+    pub(super) fn include<N: Real>(&mut self, n: i64, bodies: &[f64], particles: &[N], dimensions: usize) {
+        let Particles { parts, planets, closest, within } = self;
+        let place = |body: &[f64]| -> [f64; 3] { std::array::from_fn(|axis| body.get(axis).copied().unwrap_or(0.0)) };
+        let square = |a: [f64; 3], b: [f64; 3]| (0..3).map(|axis| (a[axis] - b[axis]).powi(2)).sum::<f64>();
+        let mut places = bodies.chunks_exact(dimensions).map(place);
+        let central = places.next().unwrap_or_default();
+        planets.clear();
+        planets.extend(places.zip(parts).map(|(planet, part)| (planet, 1.0 / (*part * square(planet, central)))));
+        for (k, (particle, within)) in particles.chunks_exact(dimensions).zip(within).enumerate() {
+            let x = std::array::from_fn(|axis| particle.get(axis).map_or(0.0, Real::to_f64));
+            for (j, (planet, inverse)) in planets.iter().enumerate() {
+                let found = square(x, *planet) * inverse;
+                *within |= found < 1.0;
+                if found < closest.0 {
+                    *closest = (found, n, [j, k]);
+                }
+            }
+        }
+    }
+
+    /// What was found, with the names of all bodies.
+    pub(super) fn found(&self, names: &[String]) -> Option<ParticleApproach> {
+        let (square, n, [planet, particle]) = self.closest;
+        square.is_finite().then(|| ParticleApproach {
+            n,
+            bodies: [planet + 1, self.parts.len() + 1 + particle].map(|body| names[body].clone()),
+            hill_radii: square.sqrt(),
+            within: self.within.iter().filter(|within| **within).count(),
+        })
+    }
+}
