@@ -55,7 +55,8 @@ impl Interactions {
         let particles =
             particles.as_ref().map_or(String::new(), |ParticleApproach { n, bodies: [i, j], hill_radii, within }| {
                 let of_all = if *within == 1 { "1 particle".to_owned() } else { format!("{within} particles") };
-                format!("; of a particle {hill_radii:.3} of {i}, {j} at {}, {of_all} within 1", time(*n))
+                let of_particle = format!("closest approach of a particle {hill_radii:.3} Hill radii, {j} to {i}");
+                format!("; {of_particle} at {}; within 1 Hill radius {of_all}", time(*n))
             });
         format!("interactions at most {epsilon:.1e} of the Kepler force ({of}){closest}{particles}")
     }
