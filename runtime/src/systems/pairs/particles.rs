@@ -57,18 +57,20 @@ impl<P, const D: usize> Field<'_, P, D> {
         let in_blocks = if N::IN_VECTORS { particles.len() - particles.len() % BLOCK } else { 0 };
         let (blocks, others) = particles.split_at(in_blocks);
         let (of_blocks, of_others) = gradient.split_at_mut(in_blocks);
-        instructions::widest_if_long(
-            N::IN_VECTORS,
-            blocks.len(),
-            #[inline(always)]
-            || {
-                let mut room = Room::<N, BLOCK, D>::new(&context);
-                for (block, gradient) in blocks.as_chunks::<BLOCK>().0.iter().zip(of_blocks.as_chunks_mut::<BLOCK>().0)
-                {
-                    self.assign_block(bodies, block, gradient, &mut room, scratch);
-                }
-            },
-        );
+        if N::IN_VECTORS {
+            instructions::widest_if_long(
+                true,
+                blocks.len(),
+                #[inline(always)]
+                || {
+                    let mut room = Room::<N, BLOCK, D>::new(&context);
+                    let blocks = blocks.as_chunks::<BLOCK>().0.iter().zip(of_blocks.as_chunks_mut::<BLOCK>().0);
+                    for (block, gradient) in blocks {
+                        self.assign_block(bodies, block, gradient, &mut room, scratch);
+                    }
+                },
+            );
+        }
         let mut room = Room::<N, 1, D>::new(&context);
         for (one, gradient) in others.as_chunks::<1>().0.iter().zip(of_others.as_chunks_mut::<1>().0) {
             self.assign_block(bodies, one, gradient, &mut room, scratch);
