@@ -31,7 +31,7 @@ pub(crate) fn add_sum<N: Number, const V: usize>(
             add(vectors.map(|vector| &vector[i]), sum);
         }
     };
-    if needs_drop::<N>() {
+    if const { needs_drop::<N>() } {
         return add_all(sum);
     }
     // a copy, in a register: memory would take twice as long as the addition, at each coordinate

@@ -175,7 +175,8 @@ impl<N: Number, P: Potential<N>, K: Kinetic<N>> Hamiltonian<N, P, K> {
         if self.advance_few(at, maps, count, None) {
             return;
         }
-        if std::mem::needs_drop::<Evaluated<N, V, S>>() {
+        // one of both is compiled
+        if const { std::mem::needs_drop::<Evaluated<N, V, S>>() } {
             self.advance_in_place(at, maps, count);
         } else {
             let mut copy = at.clone();
@@ -212,6 +213,9 @@ impl<N: Number, P: Potential<N>, K: Kinetic<N>> Hamiltonian<N, P, K> {
         count: u64,
         visitor: Option<&mut dyn Visitor<N>>,
     ) -> bool {
+        if !FewCoordinates::<N>::FIT {
+            return false;
+        }
         let Evaluated { state: State { q, p, sums, evaluations, .. }, gradient, kept, .. } = at;
         let [q, p, gradient] = [q, p, gradient].map(V::as_mut);
         let is_worth_it = P::is_boxed() && count >= FEW && FewCoordinates::<N>::can_hold(q.len());

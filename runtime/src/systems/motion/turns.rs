@@ -157,7 +157,7 @@ where
             hamiltonian.evaluate(at, false);
         }
         let Evaluated { state: State { q, p, sums, .. }, gradient, kept, .. } = at;
-        if needs_drop::<V>() {
+        if const { needs_drop::<V>() } {
             turn.advance(hamiltonian, sums, (q.as_mut(), p.as_mut()), gradient.as_ref());
         } else {
             // a copy, which the compiler can hold in registers
