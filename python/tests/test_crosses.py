@@ -112,25 +112,30 @@ def followed(system, way, folder):
         assert (indicator.value, indicator.uncertainty, indicator.verdict) == (value, np.inf, "undecided")
 
 
-def differentiated(system, way, folder):
-    mpfr = "--mpfr" in way.keys["numbers"]
-    options = {"steps": STEPS, "first": first(way), "digits": digits(way), "mpfr": mpfr, "every": STEPS}
+def differentiation(system, way, folder):
     posed = problem(system, folder)
-    options["by"] = [posed.coordinates[0], posed.momenta[-1]]
-    found = derivatives(posed, scheme(way), step(system, way), **options)
+    options = {"steps": STEPS, "first": first(way), "digits": digits(way), "mpfr": "--mpfr" in way.keys["numbers"], "every": STEPS}
+    by = [posed.coordinates[0], posed.momenta[-1]]
+    return (posed, scheme(way), step(system, way)), options, derivatives(posed, scheme(way), step(system, way), by=by, **options)
+
+
+def differentiated(system, way, folder):
+    run, options, found = differentiation(system, way, folder)
     finite(found.of_p[-1].ravel())
-    del options["by"]
-    vectors = np.eye(2 * posed.dimension, dtype=int)[[0, -1]]
-    run = integrate(posed, scheme(way), step(system, way), tangent=vectors, **options)
-    assert np.array_equal(run.tangent, np.moveaxis(np.concatenate([found.of_q, found.of_p], axis=1), 2, 1))
-    options["by"] = found.by
+    vectors = np.eye(2 * run[0].dimension, dtype=int)[[0, -1]]
+    tangent = integrate(*run, tangent=vectors, **options).tangent
+    assert np.array_equal(tangent, np.moveaxis(np.concatenate([found.of_q, found.of_p], axis=1), 2, 1))
+
+
+def differentiated_backwards(system, way, folder):
+    run, options, found = differentiation(system, way, folder)
 
     def first_at_end(q, p):
         of_q = np.zeros_like(q)
         of_q[-1, 0] = 1.0
         return q[-1, 0], of_q, None
 
-    by = gradient(first_at_end, posed, scheme(way), step(system, way), **options).by
+    by = gradient(first_at_end, *run, by=found.by, **options).by
     assert np.allclose([float(x) for x in by.values()], found.of_q[-1, 0].astype(float), rtol=1e-9, atol=1e-9)
 
 
@@ -172,13 +177,15 @@ def swept(system, way, folder):
     assert len(found["energy_error"]) == 2
 
 
-FUNCTIONS = {"integrate": integrated, "drift": drifted, "chaos": followed, "derivatives": differentiated, "Monitor": monitored, "work_precision": compared, "advise": advised, "run": ran, "sweep": swept}
+FUNCTIONS = {"integrate": integrated, "drift": drifted, "chaos": followed, "derivatives": differentiated, "gradient": differentiated_backwards, "Monitor": monitored, "work_precision": compared, "advise": advised, "run": ran, "sweep": swept}
 
 # Of [run] the first two of these read a scheme by its name or table only, and the last two no `mpfr`.
-OF_PROBLEMS = ["drift", "Monitor", "chaos", "derivatives", "integrate", "work_precision", "advise"]
+OF_PROBLEMS = ["drift", "Monitor", "chaos", "derivatives", "gradient", "integrate", "work_precision", "advise"]
 LONG = "double-double", "digits", "mpfr", "many-digits"
 REFUSED = {("ensemble", function) for function in [*OF_PROBLEMS, "sweep"]} | {(way, "Monitor") for way in LONG}
 REFUSED |= {("many-digits", function) for function in ("work_precision", "advise")}
+# particles do not act on bodies: the whole is not a Hamiltonian system
+REFUSED |= {(system, "gradient") for system in SYSTEMS if "particles" in system}
 # a formula has no slow forces
 NESTED = "multiple-steps"
 WITHOUT_MPFR = {"mpfr", "many-digits"}
