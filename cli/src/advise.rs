@@ -240,7 +240,7 @@ fn over(part: f64) -> String {
 /// Up to which step the modified energy is conserved, and from which on it is lost, as far as runs were made.
 fn conserved(best: &Choice<'_>) -> String {
     let size = |h: f64| format!("{h:.2e}, {:.1} times this one", h / best.size());
-    let conserved = best.conserved_up_to.map_or("not conserved at any step that was run".to_owned(), |largest| {
+    let conserved = best.conserved_up_to.map_or("no step that was run has the verdict fine".to_owned(), |largest| {
         format!("the verdict is fine up to steps of {}", size(largest))
     });
     let lost = best.lost_from.map_or("no step was run at which it is lost".to_owned(), |least| {

@@ -66,7 +66,7 @@ class Report:
     moved: float
     """How far H̄ moved beyond its errors."""
     permanent_bound: float | None
-    """A permanent change above this is excluded; None for fewer than 16 windows."""
+    """A net change of the energy, from the beginning to the end, is excluded above this; None for fewer than 16 windows."""
     permanent_change: float | None
     """A permanent change, where one was measured."""
     resolution: float | None

@@ -296,8 +296,11 @@ def _sections(system: str | None, q: Values | None, p: Values | None, v: Values 
         problem["parameters"] = {**problem.get("parameters", {}), **parameters}
     if system is not None:
         problem["name" if _is_name(system, q) else "potential"] = system
-    if isinstance(q, Mapping) and ("potential" in problem or "hamiltonian" in problem):
-        problem.setdefault("coordinates", list(q))
+    if "potential" in problem or "hamiltonian" in problem:
+        if isinstance(q, Mapping):
+            problem.setdefault("coordinates", list(q))
+        elif q is not None and "coordinates" not in problem:
+            raise _shadowstep.InputError('q must name the coordinates of the formula: q={"x": 1, "y": 0}')
     if isinstance(p, Mapping):
         problem.setdefault("momenta", list(p))
     initial = {"q": _list(q), "p": _list(p), "v": _list(v)}

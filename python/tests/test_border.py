@@ -196,6 +196,12 @@ def test_schemes_are_pickled_and_copied(tmp_path):
             assert repr(again) == repr(scheme) and again.name == scheme.name and again.maps == scheme.maps
 
 
+def test_coordinates_of_a_formula_have_names():
+    with pytest.raises(InputError, match=r'q must name the coordinates of the formula: q=\{"x": 1, "y": 0\}'):
+        Problem("x^2/2", q=[1], p=[0])
+    assert Problem("x^2/2", coordinates=["x"], q=[1], p=[0]).dimension == 1
+
+
 def test_names_of_problems_are_problems():
     kepler = Problem("kepler")
     assert np.array_equal(integrate("kepler", "yoshida4", h=0.1, steps=9).q, integrate(kepler, "yoshida4", h=0.1, steps=9).q)

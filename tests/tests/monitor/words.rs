@@ -122,7 +122,7 @@ fn verdicts_say_why() {
             "kepler",
             "stormer-verlet",
             "1/20",
-            "the energy error is 1.9 % of T; in 20000 steps a permanent change above",
+            "the energy error is 1.9 % of T; in 20000 steps a net change above",
             "per unit time is excluded",
         ),
         (

@@ -55,7 +55,7 @@ pub struct Report<N> {
     pub moved: N,
     /// How H̄ depends on time, from 16 accurate estimates on.
     pub trend: Option<Trend>,
-    /// A permanent change of the energy in these steps is excluded above this; `None` for fewer than 16 windows or parts of a run.
+    /// A net change of the energy, from the beginning to the end of these steps, is excluded above this; `None` for fewer than 16 windows or parts of a run.
     ///
     /// It is the least of three: the range of the accurate H̄ and three times their errors; and |a| + 3 s of the linear change a and its
     /// standard error s, for the means of H and for the means of all H̄, in 32 to 63 parts of the run. The means of H do not depend on the

@@ -29,12 +29,12 @@ impl<N: Real> Report<N> {
         format!("{of_kinetic} of T, {} of T per unit time", short(&rate))
     }
 
-    /// What is known of the permanent change of the energy.
+    /// What is known of the change of the energy from the beginning to the end.
     fn permanent(&self) -> String {
         match (&self.permanent_change, &self.permanent_bound) {
             (Some(change), _) => format!("a permanent change of {} was measured", self.per_time(change)),
-            (None, Some(bound)) => format!("a permanent change above {} is excluded", self.per_time(bound)),
-            (None, None) => "a permanent change is not excluded".to_owned(),
+            (None, Some(bound)) => format!("a net change above {} is excluded", self.per_time(bound)),
+            (None, None) => "a net change is not excluded".to_owned(),
         }
     }
 
@@ -164,7 +164,7 @@ impl<N: Real> Report<N> {
         let bound = self
             .permanent_bound
             .as_ref()
-            .map_or("no change".to_owned(), |bound| format!("a permanent change above {}", self.in_parts(bound)));
+            .map_or("no change".to_owned(), |bound| format!("a net change above {}", self.in_parts(bound)));
         let estimator = order.map_or(String::new(), |order| format!(", or an estimator of order {order}"));
         format!(
             "{}, but {resolved}, and {bound} is excluded: {windows} windows would tell, more often or in a \
