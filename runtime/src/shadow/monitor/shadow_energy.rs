@@ -55,7 +55,7 @@ use crate::systems::system::System;
 ///   it changed by      -1.23e-14  it moved by 3.73e-14 beyond its errors
 ///   it is known to      2.22e-16  2.4e-14 of the energy error
 ///   round-off           1.02e-14  1.1e-12 of the energy error, expected by Brouwer's law
-///   permanently         2.46e-14  2.6e-12 of the energy error, at most
+///   net change          2.46e-14  2.6e-12 of the energy error, at most
 ///   fastest motion          17.0  steps a turn
 ///   the energy error is 1.9 % of T; in 20000 steps a net change above 4.99e-14 of T, 4.99e-17 of T per unit time is excluded
 /// ```
