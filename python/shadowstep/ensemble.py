@@ -31,13 +31,13 @@ class Ensemble:
     energy_start: np.ndarray
     """H at the beginning, of shape (n,)."""
     energy_end: np.ndarray
-    """H at the end, of shape (n,): NaN of a trajectory that is not finite."""
+    """H at the end, of shape (n,), NaN of a trajectory that is not finite."""
     modified_drift: np.ndarray | None
     """max − min of the modified energy, of shape (n,), if it was asked for."""
     modified_start: np.ndarray | None
     """The first estimate of the modified energy, of shape (n,)."""
     modified_end: np.ndarray | None
-    """The last estimate, of shape (n,): NaN of a trajectory that is not finite."""
+    """The last estimate, of shape (n,), NaN of a trajectory that is not finite."""
     not_finite: np.ndarray
     """The first n at which a state was found not to be finite; −1 for none."""
 

@@ -544,7 +544,7 @@ fn a_bounded_error_is_named_with_its_size() {
     assert!(!out.contains("fine"), "{out}");
     let alone = shadowstep(&format!("{kepler} 1/40")).out.replace("\n    ", " ");
     assert!(
-        alone.contains("step 1/40: bounded: the energy error is 4.8e-3 of T; in 4000 steps a permanent"),
+        alone.contains("step 1/40: bounded: the energy error is 4.8e-3 of T; in 4000 steps a net change"),
         "{alone}"
     );
 }
