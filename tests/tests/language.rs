@@ -97,3 +97,24 @@ fn a_fault_is_found_where_it_stands() {
     assert_eq!(faults("So many\nhttps://so many", false, &list).len(), 2);
     assert!(faults("see https://example.org/so many", true, &list).is_empty());
 }
+
+/// Lines of rustdoc with formulas in which Markdown takes a backslash: `\,` would be a comma.
+fn lost_backslashes(text: &str) -> impl Iterator<Item = usize> {
+    let is_lost =
+        |line: &str| line.as_bytes().windows(2).any(|pair| pair[0] == b'\\' && b",;!:{}_|".contains(&pair[1]));
+    let of_docs = |line: &str| ["///", "//!"].iter().any(|mark| line.trim_start().starts_with(mark));
+    let lines = text.lines().enumerate();
+    lines.filter(move |(_, line)| of_docs(line) && line.contains('$') && is_lost(line)).map(|(number, _)| number + 1)
+}
+
+#[test]
+fn formulas_of_rustdoc_keep_their_backslashes() {
+    assert_eq!(lost_backslashes("//! $a \\, b$\n/// $a \\thinspace b$\nlet a = \"$\\,\";").collect::<Vec<_>>(), [1]);
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).parent().expect("the tests are in a folder of the project");
+    let mut all = Vec::new();
+    files(root, &mut all).unwrap();
+    for path in all.into_iter().filter(|path| path.extension().is_some_and(|ending| ending == "rs")) {
+        let lost: Vec<_> = lost_backslashes(&fs::read_to_string(&path).unwrap()).collect();
+        assert!(lost.is_empty(), "{}: lines {lost:?}: write \\thinspace in place of \\,", path.display());
+    }
+}
