@@ -241,11 +241,9 @@ impl<N: RunNumber> Watch<N> {
         report.fastest_coordinate = report.fastest_coordinate.filter(|(coordinate, _)| Some(*coordinate) != time);
         let of_windows = if transformed { f64::NAN } else { last_of_kinetic(&last, &report) };
         let (verdict, reason) = conclusion(&report, of_kinetic, of_windows);
-        // where the energy is lost, the modified energy does not bound it
-        let bounds = !matches!(verdict, Verdict::TooLarge(Criterion::EnergyError | Criterion::NotFinite));
         let (encounters, closest) = encounters.found(n);
         // what was measured is not excluded
-        let bound = report.permanent_bound.as_ref().filter(|_| bounds);
+        let bound = report.permanent_bound.as_ref().filter(|_| !verdict.loses_the_energy());
         let bound = bound.map(|bound| if *bound < report.range { &report.range } else { bound });
         let modified_energy = (report.windows > 0).then(|| ModifiedEnergySummary {
             method: report.method_rms.to_text(),

@@ -265,9 +265,7 @@ impl<N: Real> fmt::Display for Report<N> {
             line(f, "it is known to", resolution, &part(resolution))?;
         }
         line(f, "round-off", &self.round_off, &format!("{}, expected by Brouwer's law", part(&self.round_off)))?;
-        // where the energy is lost, the modified energy does not bound it
-        let is_lost = matches!(self.verdict, Verdict::TooLarge(Criterion::EnergyError | Criterion::NotFinite));
-        if let Some(bound) = self.permanent_bound.as_ref().filter(|_| !is_lost) {
+        if let Some(bound) = self.permanent_bound.as_ref().filter(|_| !self.verdict.loses_the_energy()) {
             line(f, "net change", bound, &format!("{}, at most", part(bound)))?;
         }
         if let Some(turn) = self.steps_per_turn {

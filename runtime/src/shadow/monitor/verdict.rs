@@ -80,6 +80,11 @@ impl Verdict {
         matches!(self, Verdict::Fine | Verdict::RoundOff)
     }
 
+    /// Whether the energy is lost: the error is as large as T, or not finite. The modified energy then bounds nothing.
+    pub fn loses_the_energy(self) -> bool {
+        matches!(self, Verdict::TooLarge(Criterion::EnergyError | Criterion::NotFinite))
+    }
+
     /// Its name, for other programs: `fine`, `near-resonance`, `drifts`, `not-the-gradient`, `not-smooth`, `not-conserved`, `inconsistent`,
     /// `too-large`, `round-off` or `undecided`.
     pub fn name(self) -> &'static str {
