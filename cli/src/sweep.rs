@@ -88,7 +88,7 @@ pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
     }
     let plan = SweepPlan::open(sweep)?;
     if *force {
-        remove_foreign(out, &plan)?
+        remove_foreign(out, &plan, chunk.map(|chunk| chunk.of).or(slurm.chunks.map(u64::from)))?
     } else {
         refuse_foreign(out)?
     }

@@ -9,7 +9,7 @@ use shadowstep_studies::files;
 
 use crate::chunk::{CHUNKS_FOLDER, Header, left};
 use crate::collect::{header, written};
-use crate::manifest::{self, Manifest, VERSION};
+use crate::manifest::{self, Manifest, VERSION, check_chunks};
 use crate::plan::SweepPlan;
 use crate::slurm::SCRIPTS;
 
@@ -28,8 +28,11 @@ pub fn refuse_foreign(folder: &Path) -> Result<(), Error> {
 /// plan, chunks and job scripts of another sweep. A folder of this sweep stays as it is, as processes may be at work in it.
 ///
 /// # Errors
-/// A file that cannot be removed.
-pub fn remove_foreign(folder: &Path, plan: &SweepPlan) -> Result<(), Error> {
+/// A number of chunks that the sweep cannot have, before anything is removed; a file that cannot be removed.
+pub fn remove_foreign(folder: &Path, plan: &SweepPlan, chunks: Option<u64>) -> Result<(), Error> {
+    if let Some(chunks) = chunks {
+        check_chunks(chunks, plan.axes().runs())?;
+    }
     if Manifest::read(folder).is_ok_and(|there| there.shadowstep == VERSION && there.digests == *plan.digests()) {
         return Ok(());
     }

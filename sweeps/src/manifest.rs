@@ -210,7 +210,7 @@ impl Manifest {
 }
 
 /// A number of chunks that a sweep can have.
-fn check_chunks(chunks: u64, runs: u64) -> Result<(), Error> {
+pub(crate) fn check_chunks(chunks: u64, runs: u64) -> Result<(), Error> {
     if chunks > runs {
         let message = format!("{runs} runs cannot be divided into {chunks} chunks");
         return Err(Error::usage(message, format!("use at most {runs} chunks")));

@@ -34,7 +34,7 @@ pub(super) struct SlurmArguments {
     ///
     /// It cannot be changed later. The default is larger if there are more than 2^20 runs.
     #[arg(long, value_name = "N", requires = "submit", value_parser = |text: &str| whole(text, 1..=99_999))]
-    chunks: Option<u32>,
+    pub(super) chunks: Option<u32>,
     /// Option --partition of sbatch
     #[arg(long, value_name = "NAME", requires = "submit")]
     partition: Option<String>,

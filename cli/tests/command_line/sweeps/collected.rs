@@ -205,6 +205,11 @@ fn what_is_not_from_the_sweep_is_replaced_only_by_force() {
     .unwrap();
     succeeds(folder.path(), "sweep sweep.toml --out out --chunk 4/8");
     fs::write(folder.path().join("sweep.toml"), SWEEP).unwrap();
+    // a number of chunks that cannot be is refused before anything is removed
+    let before = files(&folder.path().join("out"));
+    let result = run(folder.path(), "sweep sweep.toml --out out --force --chunk 1/1000000");
+    assert!(result.code == 2 && result.err.contains("cannot be divided into 1000000 chunks"), "{}", result.err);
+    assert_same(&folder.path().join("out"), &before, "nothing is removed");
     forced(folder.path(), "out is of another sweep");
     // what is from the sweep stays
     let result = succeeds(folder.path(), "sweep sweep.toml --out out --force --chunk 3/16");
