@@ -9,6 +9,7 @@ use shadowstep_scenes::Error;
 use shadowstep_scenes::readable::wrapped_to;
 use shadowstep_symbolic::decimal::to_text;
 use shadowstep_work_precision::advise::{Advice, AdviceRequest, Choice, Unfinished, Verified};
+use shadowstep_work_precision::no_advice::over;
 use shadowstep_work_precision::of::Of;
 use shadowstep_work_precision::size::Size;
 use shadowstep_work_precision::study::Cost;
@@ -143,38 +144,8 @@ fn readable(posed: &PosedProblem, request: &AdviceRequest<'_>, advice: &Advice<'
     let mut text = wrapped_to(&posed.title(), "", WIDTH);
     text += &wrapped_to(&format!("tolerance {}: {}", request.tolerance, request.of.name()), "", WIDTH);
     match advice {
-        Advice::OutOfReach { least, overflow, part, reference, in_time, missed, unfinished } => {
-            let runs = over(*part);
-            let limit = match in_time {
-                true => format!("in {}", posed.arithmetic.described()),
-                false => format!("in a search of {} s, which --seconds sets", request.seconds),
-            };
-            let found = match least {
-                _ if *missed > 0 => format!(
-                    "No advice: runs over all of the time, {missed} of them, were expected to meet the tolerance from runs {runs}, and missed it."
-                ),
-                _ if *overflow => format!(
-                    "No advice {limit}: a state, its energy or its error overflows in every run {runs}, as with steps that are too large, or numbers \
-                     that are."
-                ),
-                Some((error, name)) => {
-                    format!("No scheme meets the tolerance {limit}: the smallest error was {error}, of {name}, {runs}.")
-                }
-                None if *unfinished != Unfinished::default() => {
-                    format!("No advice: no error is known {limit}, {runs}.")
-                }
-                None if request.of == Of::Position && !reference.is_finite() => {
-                    format!(
-                        "No advice: there are no positions to compare with {limit}, {runs}. Use a shorter time, or more seconds."
-                    )
-                }
-                None if request.of == Of::Position => format!(
-                    "No advice: the positions of the reference change by {reference} with its step {runs}, as they do where the motion is \
-                     chaotic. Ask for --of energy, or for a shorter time."
-                ),
-                None => format!("No advice: no error is known {runs}."),
-            };
-            text += &wrapped_to(&found, "", WIDTH);
+        Advice::OutOfReach { overflow, unfinished, .. } => {
+            text += &wrapped_to(&advice.reason(request).expect("there is none"), "", WIDTH);
             if !overflow {
                 text += &not_finished(unfinished, request.seconds);
             }
@@ -227,14 +198,6 @@ fn evidence(best: &Choice<'_>, request: &AdviceRequest<'_>, verified: Verified, 
         format!("  {name:<18}{}", wrapped_to(&text, &" ".repeat(20), WIDTH).trim_start())
     };
     lines.into_iter().map(line).collect()
-}
-
-/// `over all of the time`, `over 1/8 of the time`
-fn over(part: f64) -> String {
-    match part {
-        1.0 => "over all of the time".to_owned(),
-        part => format!("over 1/{} of the time", (1.0 / part).round()),
-    }
 }
 
 /// Up to which step the modified energy is conserved, and from which on it is lost, as far as runs were made.

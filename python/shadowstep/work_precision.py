@@ -156,6 +156,8 @@ class Advice:
     """Whether ``verified`` is a bound instead: the reference resolves no more."""
     least: float | None
     """Where no scheme meets the tolerance: the smallest error that was found."""
+    reason: str | None
+    """Why there is no choice, in a sentence."""
     untried: list[str]
     """Schemes that the search had no time for."""
     extrapolated: list[str]
@@ -163,12 +165,12 @@ class Advice:
 
     def __str__(self) -> str:
         if not self.choices:
-            least = "none is known" if self.least is None else f"the smallest one that was found is {self.least:.2e}"
-            return f"no scheme has so small an error: {least}"
+            return str(self.reason)
+        bound = "at most " if self.at_most else ""
         rows = [["scheme", "h", "steps", "error", "forces", "seconds"], *([*choice._cells()] for choice in self.choices)]
         widths = [max(len(row[column]) for row in rows) for column in range(len(rows[0]))]
         lines = ["  ".join(f"{cell:<{width}}" if column == 0 else f"{cell:>{width}}" for column, (cell, width) in enumerate(zip(row, widths))) for row in rows]
-        return "\n".join([*lines, f"verified: a run of {self.choices[0].scheme} over all of the time has the error {self.verified:.2e}"])
+        return "\n".join([*lines, f"verified: a run of {self.choices[0].scheme} over all of the time has the error {bound}{self.verified:.2e}"])
 
 
 def advise(
@@ -237,6 +239,7 @@ def advise(
         verified=found.get("verified"),
         at_most=found.get("at_most", False),
         least=found.get("least"),
+        reason=found.get("reason"),
         untried=found["untried"],
         extrapolated=found["extrapolated"],
     )

@@ -199,13 +199,14 @@ pub(crate) fn advise(
             seconds,
             folder,
         };
-        request.run(&mut watched.observer_of_tasks()).map(|advice| of_advice(&advice, &compared.system))
+        request.run(&mut watched.observer_of_tasks()).map(|advice| of_advice(&advice, &request))
     });
     problem.raised(py)?;
     Ok(found?.map_err(|error| exception(py, error))?.to_string())
 }
 
-fn of_advice(advice: &Advice<'_>, system: &System) -> Value {
+fn of_advice(advice: &Advice<'_>, request: &AdviceRequest<'_>) -> Value {
+    let system = request.problem.system;
     match advice {
         Advice::Found { choices, verified, part, unfinished } => {
             let choices: Vec<Value> = choices.iter().map(|choice| of_choice(choice, system)).collect();
@@ -215,6 +216,7 @@ fn of_advice(advice: &Advice<'_>, system: &System) -> Value {
         }
         Advice::OutOfReach { least, part, in_time, unfinished, .. } => json!({
             "found": false,
+            "reason": advice.reason(request),
             "least": least.map(|(error, _)| number_of(error)),
             "scheme": least.map(|(_, name)| name),
             "part": part,

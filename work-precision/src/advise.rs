@@ -1,12 +1,14 @@
 //! Advice: a scheme and a step size for an error, from runs over a part of the time, verified by one run over all of it.
 
 use std::f64::consts::TAU;
+use std::ops::Range;
 use std::path::PathBuf;
 use std::time::Duration;
 
 use num_traits::ToPrimitive;
 use shadowstep::{Number, Rational, Scheme};
 use shadowstep_scenes::Error;
+use shadowstep_scenes::arithmetic::Arithmetic;
 use shadowstep_scenes::library::NamedScheme;
 use shadowstep_studies::{Observer, Store};
 
@@ -18,12 +20,11 @@ use crate::convenient::convenient_step;
 use crate::length::length_of;
 use crate::of::Of;
 use crate::problem::Problem;
-use crate::reference::{Reference, Resolution};
+use crate::reference::{Reference, Resolution, numbers_of_reference, seconds_of_reference};
 use crate::run::{Measurement, PositionError};
-use crate::series::{End, Series, StepRange, Target, stable_step};
+use crate::series::{End, Series, StepRange, Target, seconds_per_step, stable_step};
 use crate::size::Size;
 use crate::study::{Cost, Request, Studied, Study, proved_order};
-use crate::timing::time_of_steps;
 pub use crate::verified::Verified;
 
 /// What is wanted.
@@ -69,6 +70,8 @@ pub enum Advice<'a> {
         part: f64,
         /// The error of the reference.
         reference: Size,
+        /// Errors of positions are known above this, beside the reference.
+        resolved: Size,
         /// Whether the time was over before round-off was reached.
         in_time: bool,
         /// The schemes that the search had too little time for.
@@ -155,6 +158,7 @@ impl<'a> AdviceRequest<'a> {
             overflow,
             part,
             reference: study.reference.error(),
+            resolved: study.reference.resolved(),
             in_time: study.schemes.iter().all(|studied| studied.series.end != End::Time),
             unfinished,
             missed,
@@ -186,22 +190,50 @@ impl<'a> AdviceRequest<'a> {
         Duration::from_secs_f64(times * self.seconds / (16 * self.schemes.len()) as f64)
     }
 
-    /// How often the time is halved, so that runs over the part take a part of the time of a scheme.
+    /// How often the time is halved, so that the runs over the part and their reference have the time for it.
     fn halvings(&self) -> Result<i32, Error> {
         let Some(motion) = self.problem.system.fastest_motion().filter(|_| self.problem.length.is_none()) else {
             return Ok(0);
         };
         let evaluations = EVALUATIONS_PER_TURN * motion.omega * self.problem.duration() / TAU;
-        let steps = evaluations.to_u64().unwrap_or(u64::MAX).max(1);
         let first = &self.schemes[0];
-        let time = time_of_steps(self.problem, &[(first, steps)], self.shortest_repeat())?[0].median;
-        let seconds = time * evaluations / first.scheme.summary().evaluations as f64;
-        let most = (evaluations / (EVALUATIONS_PER_TURN * FEWEST_TURNS)).log2().floor();
-        Ok((seconds / (PART_OF_TIME * self.seconds_each())).log2().ceil().min(most).clamp(0.0, 40.0) as i32)
+        let steps = evaluations / first.scheme.summary().evaluations as f64;
+        let whole = steps.to_u64().unwrap_or(u64::MAX).max(1);
+        let seconds = steps * seconds_per_step(self.problem, first, whole, self.shortest_repeat())?;
+        let for_runs = seconds / (PART_OF_TIME * self.seconds_each());
+        let most = (evaluations / (EVALUATIONS_PER_TURN * FEWEST_TURNS)).log2().floor().clamp(0.0, 40.0) as i32;
+        let halvings = (for_runs.log2().ceil() as i32).clamp(0, most);
+        self.with_reference(halvings..most)?.map_or(Ok(most), Ok)
     }
 
-    /// Runs until the error over the part is small enough for the whole.
-    fn request<'b>(&'b self, problem: Problem<'b>, halvings: i32) -> Request<'b> {
+    /// The first of these numbers of halvings with a part whose reference has the time for it.
+    fn with_reference(&self, halvings: Range<i32>) -> Result<Option<i32>, Error> {
+        // over all of the time
+        let mut known: Option<(Arithmetic, f64)> = None;
+        for halvings in halvings {
+            // a shorter part needs a better reference, perhaps in more digits
+            let Some(numbers) = numbers_of_reference(self.problem, self.resolution(halvings))? else {
+                return Ok(Some(halvings));
+            };
+            let seconds = match known.filter(|(known, _)| *known == numbers) {
+                Some((_, seconds)) => seconds,
+                None => seconds_of_reference(self.problem, numbers, self.shortest_repeat())?,
+            };
+            if seconds <= self.seconds_for_reference() * 2_f64.powi(halvings) {
+                return Ok(Some(halvings));
+            }
+            known = Some((numbers, seconds));
+        }
+        Ok(None)
+    }
+
+    /// The time for the reference, in seconds.
+    fn seconds_for_reference(&self) -> f64 {
+        OF_SEARCH[0] * self.seconds
+    }
+
+    /// The error over the part that becomes the tolerance over all of the time.
+    fn error_over_part(&self, halvings: i32) -> Size {
         // positions err like the square of the time at most, where the motion is regular
         let growth = f64::from(halvings) * 2_f64.log10();
         let growth = match self.of {
@@ -209,15 +241,23 @@ impl<'a> AdviceRequest<'a> {
             Of::Energy => 0.5 * growth,
             Of::Permanent => growth,
         };
-        let error = self.tolerance.times_power_of_ten(MARGIN - growth);
-        let range = StepRange::Automatic { seconds: self.seconds_each(), target: Some(Target { of: self.of, error }) };
-        let [reference, _, _] = OF_SEARCH;
-        let reference_time = Duration::from_secs_f64(reference * self.seconds);
-        // energies need no positions of a reference
-        let resolution = match self.of {
-            Of::Position => Some(error.times_power_of_ten(-FINER.log10())),
-            Of::Energy | Of::Permanent => Some(Size::INFINITE),
-        };
+        self.tolerance.times_power_of_ten(MARGIN - growth)
+    }
+
+    /// The error of the reference; energies need no positions of one.
+    fn resolution(&self, halvings: i32) -> Size {
+        match self.of {
+            Of::Position => self.error_over_part(halvings).times_power_of_ten(-FINER.log10()),
+            Of::Energy | Of::Permanent => Size::INFINITE,
+        }
+    }
+
+    /// Runs until the error over the part is small enough for the whole.
+    fn request<'b>(&'b self, problem: Problem<'b>, halvings: i32) -> Request<'b> {
+        let target = Target { of: self.of, error: self.error_over_part(halvings) };
+        let range = StepRange::Automatic { seconds: self.seconds_each(), target: Some(target) };
+        let reference_time = Duration::from_secs_f64(self.seconds_for_reference());
+        let resolution = Some(self.resolution(halvings));
         let (schemes, folder, shortest_repeat) = (self.schemes, self.folder.clone(), self.shortest_repeat());
         Request { problem, schemes, range, reference_time, resolution, shortest_repeat, folder }
     }
@@ -225,7 +265,7 @@ impl<'a> AdviceRequest<'a> {
     /// The largest step of a scheme that is expected to meet the tolerance.
     fn choice(&self, study: &Study<'_>, studied: &Studied<'_>, halvings: i32) -> Option<Choice<'a>> {
         let whole = |run: &Measurement| {
-            let error = self.of.error(run)?;
+            let error = self.of.at_most(run)?;
             Some((run.steps as f64, error.log10() + f64::from(halvings) * self.of.growth(run).log10()))
         };
         let curve: Curve = studied.series.runs.iter().filter_map(whole).collect();
@@ -244,6 +284,7 @@ impl<'a> AdviceRequest<'a> {
             stable_step: stable_step(self.problem, studied.scheme),
             conserved_up_to: fine.map(size),
             lost_from: lost.map(size),
+            over_part: halvings > 0,
             curve,
             length,
             order: self.order(studied.scheme),

@@ -30,6 +30,8 @@ pub struct Choice<'a> {
     pub conserved_up_to: Option<f64>,
     /// The smallest step whose verdict was another one than fine or undecided.
     pub lost_from: Option<f64>,
+    /// Whether the runs were over a part of the time.
+    pub(crate) over_part: bool,
     /// Numbers of steps and predicted errors, log₁₀.
     pub(crate) curve: Curve,
     /// What the steps of the curve divide.
@@ -80,10 +82,18 @@ impl Choice<'_> {
         cost_of(&self.curve, error).map(|steps| self.length / steps)
     }
 
-    /// With the errors of all its runs multiplied, so that the prediction for its step is the error that was found.
+    /// With the error that the run of its steps had. Runs over a part of the time say how errors depend on the step: all are multiplied, so that the prediction
+    /// is this error. Those over all of the time are what they are beside one more: near a resonance of the step its error says nothing of theirs.
     pub(crate) fn corrected(&self, found: Size) -> Choice<'_> {
-        let shift = found.log10() - self.predicted(self.size());
-        let curve = self.curve.iter().map(|(steps, error)| (*steps, error + shift)).collect();
+        let mut curve = self.curve.clone();
+        if self.over_part {
+            let shift = found.log10() - self.predicted(self.size());
+            curve.iter_mut().for_each(|(_, error)| *error += shift);
+        } else {
+            let steps = self.length / self.size();
+            curve.retain(|(known, _)| *known != steps);
+            curve.insert(curve.partition_point(|(known, _)| *known < steps), (steps, found.log10()));
+        }
         Choice { curve, ..self.clone() }
     }
 }

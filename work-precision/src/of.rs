@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::run::Measurement;
+use crate::run::{Measurement, PositionError};
 use crate::size::Size;
 
 /// The error by which schemes are compared.
@@ -34,6 +34,14 @@ impl Of {
             Of::Permanent => run.modified?.bound?,
         };
         (run.failed.is_none() && error.is_finite()).then_some(error)
+    }
+
+    /// The error of a run, or what it is at most where the reference does not resolve it; `None` where it failed.
+    pub(crate) fn at_most(self, run: &Measurement) -> Option<Size> {
+        match (self, run.position, run.failed) {
+            (Of::Position, PositionError::Below(bound), None) if bound.is_finite() => Some(bound),
+            _ => self.error(run),
+        }
     }
 
     /// By which factor the error grows if the run is twice as long; 1 where that is not known.

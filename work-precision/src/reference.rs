@@ -20,7 +20,9 @@ use shadowstep_symbolic::decimal::from_text;
 
 use crate::positions::{ASKED, Ended, Sampler, square_distance};
 use crate::problem::Problem;
+use crate::run::resolved;
 use crate::size::Size;
+use crate::timing::time_of_steps;
 
 /// Of order 10 for every T(p); its weights have 250 digits.
 const SCHEME: &str = "sofroniou-spaletta10-35";
@@ -155,10 +157,8 @@ impl Reference {
         let steps = steps.unwrap_or_else(|| first_steps(problem, samples)).next_multiple_of(samples);
         let enough = |difference: f64, _: f64| difference <= error.log10();
         let request = |gain| Halving { samples, steps, time, gain, enough: &enough, continues };
-        let own = if problem.arithmetic == Arithmetic::DOUBLE { Arithmetic::COMPENSATED } else { problem.arithmetic };
-        let size = problem.system.start::<f64>(&()).0.into_iter().fold(f64::MIN_POSITIVE, |size, q| size.max(q.abs()));
         let mut found = None;
-        if error.log10() > size.log10() - f64::from(own.digits().saturating_sub(ROUND_OFF_DIGITS)) {
+        if let Some(own) = resolving_numbers(problem, error) {
             let of_own = of_scheme(problem, own, request(false)).ok().flatten();
             found = of_own.filter(|found| found.error().is_finite());
             if let Some(found) = found.as_ref().filter(|found| found.error() <= error) {
@@ -202,6 +202,11 @@ impl Reference {
     /// The largest of its estimated errors.
     pub fn error(&self) -> Size {
         self.errors.iter().copied().fold(Size::ZERO, |a, b| if b > a { b } else { a })
+    }
+
+    /// Errors of runs are known above this.
+    pub(crate) fn resolved(&self) -> Size {
+        resolved(self.error())
     }
 
     /// The largest coordinate of its positions.
@@ -302,6 +307,35 @@ fn more_digits(problem: Problem<'_>) -> Result<Arithmetic, Error> {
     precise(digits)
 }
 
+/// The numbers of the runs, with compensated sums, where they resolve an error.
+fn resolving_numbers(problem: Problem<'_>, error: Size) -> Option<Arithmetic> {
+    let own = if problem.arithmetic == Arithmetic::DOUBLE { Arithmetic::COMPENSATED } else { problem.arithmetic };
+    let size = problem.system.start::<f64>(&()).0.into_iter().fold(f64::MIN_POSITIVE, |size, q| size.max(q.abs()));
+    let resolved = size.log10() - f64::from(own.digits().saturating_sub(ROUND_OFF_DIGITS));
+    (error.log10() > resolved).then_some(own)
+}
+
+/// The numbers in which a reference with errors of about this size is computed; `None` where the flow is exact.
+pub(crate) fn numbers_of_reference(problem: Problem<'_>, error: Size) -> Result<Option<Arithmetic>, Error> {
+    if problem.exact_flow().is_some() || !error.is_finite() {
+        return Ok(None);
+    }
+    resolving_numbers(problem, error).map_or_else(|| more_digits(problem), Ok).map(Some)
+}
+
+/// The seconds of a reference in these numbers: of three runs, each with half the step of the one before.
+pub(crate) fn seconds_of_reference(
+    problem: Problem<'_>,
+    arithmetic: Arithmetic,
+    shortest: Duration,
+) -> Result<f64, Error> {
+    /// 1 + 2 + 4
+    const RUNS: f64 = 7.0;
+    let (named, steps) = (for_system(scheme(SCHEME)?, problem.system)?, first_steps(problem, 1));
+    let time = time_of_steps(Problem { arithmetic, ..problem }, &[(&named, steps)], shortest)?;
+    Ok(RUNS * steps as f64 * time[0].median)
+}
+
 /// `None` where the time is over before there are two runs.
 fn of_scheme(problem: Problem<'_>, arithmetic: Arithmetic, request: Halving<'_>) -> Result<Option<Reference>, Error> {
     let named = for_system(scheme(SCHEME)?, problem.system)?;
@@ -375,9 +409,9 @@ impl Computation for ByHalving<'_> {
     }
 }
 
-/// The number of steps for which the fastest oscillation turns by about a radian in each; one a sample where none is known.
+/// The number of steps for which the fastest motion turns by about a radian in each; one a sample where none is known.
 fn first_steps(problem: Problem<'_>, samples: u64) -> u64 {
-    let omega = problem.system.fastest_frequency().map_or(0.0, |frequency| frequency.omega);
+    let omega = problem.system.fastest_motion().map_or(0.0, |motion| motion.omega);
     let per_sample = (omega * problem.duration() / samples as f64).ceil().to_u64().unwrap_or(1);
     samples * per_sample.max(1)
 }

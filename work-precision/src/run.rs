@@ -201,9 +201,14 @@ impl<N: Real> EnergyError<N> {
     }
 }
 
+/// Errors beside a reference with this error are known if they are larger.
+pub(crate) fn resolved(error: Size) -> Size {
+    error.times_power_of_ten(KNOWN)
+}
+
 impl PositionError {
     fn of(distance: Size, error: Size) -> PositionError {
-        let bound = error.times_power_of_ten(KNOWN);
+        let bound = resolved(error);
         if distance >= bound { PositionError::Known(distance) } else { PositionError::Below(bound) }
     }
 

@@ -6,8 +6,8 @@ use std::time::Duration;
 
 use num_traits::ToPrimitive;
 use serde::{Deserialize, Serialize};
-use shadowstep::Scheme;
 use shadowstep::steps::scheme::MapKind;
+use shadowstep::{Rational, Scheme};
 use shadowstep_analysis::stability::Stability;
 use shadowstep_scenes::Error;
 use shadowstep_scenes::computation::{Computation, RunNumber};
@@ -31,6 +31,12 @@ const WITHOUT_GAIN: usize = 6;
 const SOME_PRECISION: f64 = -1.0;
 /// The most runs of a scheme.
 const MOST_RUNS: i32 = 80;
+/// A run that is timed has this number of steps: with fewer, windows of the monitor would be too close to each other.
+const FEWEST_TIMED: u64 = 256;
+/// Errors of two runs beside a target are close if they differ by less; log₁₀.
+const CLOSE: f64 = 0.7;
+/// The most runs between two runs beside a target.
+const MOST_REFINED: usize = 4;
 
 /// The runs of a scheme, the one with the fewest steps first.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -118,7 +124,8 @@ impl SeriesOf<'_> {
             let in_time = || target.is_none() || begin.elapsed().as_secs_f64() <= seconds;
             let Some(run) = self.measure(steps, &in_time)? else { break };
             runs.push(run);
-            if target.is_some_and(|target| target.is_met(&runs)) {
+            if let Some(target) = target.filter(|target| target.is_met(&runs)) {
+                self.refine(&mut runs, target, &in_time)?;
                 end = End::Complete;
                 break;
             }
@@ -131,6 +138,28 @@ impl SeriesOf<'_> {
             }
         }
         Ok(Series { runs, end })
+    }
+
+    /// Makes runs between the last one that misses the target and the first one that meets it, until their errors are close: where errors fall like
+    /// exponentials of the step, an error between two that are decades apart is not known.
+    fn refine(&self, runs: &mut Vec<Measurement>, target: Target, continues: &dyn Fn() -> bool) -> Result<(), Error> {
+        for _ in 0..MOST_REFINED {
+            let Some((at, steps)) = self.between(runs, target) else { break };
+            let Some(run) = self.measure(steps, continues)? else { break };
+            runs.insert(at, run);
+        }
+        Ok(())
+    }
+
+    /// Where a run is missing that meets the target or nearly so, and its number of steps.
+    fn between(&self, runs: &[Measurement], target: Target) -> Option<(usize, u64)> {
+        let error = |run: &Measurement| target.of.at_most(run).map_or(f64::INFINITY, Size::log10);
+        let at = 1 + runs.iter().rposition(|run| error(run) > target.error.log10())?;
+        let [before, after] = [runs.get(at - 1)?, runs.get(at)?];
+        let samples = self.reference.samples();
+        let mean = samples * ((before.steps as f64 * after.steps as f64).sqrt() / samples as f64).round().to_u64()?;
+        let is_new = before.steps < mean && mean < after.steps;
+        (error(before) - error(after) > CLOSE && is_new).then_some((at, mean))
     }
 
     /// The number of steps of the run with this index: the scheme's evaluations are about samples · 2^(index/2), and the samples are at states.
@@ -168,10 +197,31 @@ pub(crate) fn stable_step(problem: Problem<'_>, scheme: &NamedScheme) -> Option<
     problem.system.fastest_frequency().map(|frequency| limit / frequency.omega)
 }
 
+/// The seconds that a run of this number of steps takes for each of them with all that is measured, by the beginning of the run.
+pub(crate) fn seconds_per_step(
+    problem: Problem<'_>,
+    scheme: &NamedScheme,
+    steps: u64,
+    shortest: Duration,
+) -> Result<f64, Error> {
+    let mut made = FEWEST_TIMED.min(steps);
+    loop {
+        let until = problem.step_size(steps) * Rational::from_integer(made.into());
+        let problem = Problem { until: &until, ..problem };
+        let (reference, range) = (Reference::none(problem, 1), StepRange::Given(vec![made]));
+        let begin = CpuTime::begin();
+        SeriesOf { problem, scheme, reference: &reference, range: &range }.make(&|_| true)?;
+        if begin.elapsed() >= shortest || made == steps {
+            return Ok(begin.elapsed().as_secs_f64() / made as f64);
+        }
+        made = (2 * made).min(steps);
+    }
+}
+
 impl Target {
     /// Two successive runs meet it, as one alone may do so by accident.
     fn is_met(self, runs: &[Measurement]) -> bool {
-        let meets = |run: &Measurement| self.of.error(run).is_some_and(|error| error <= self.error);
+        let meets = |run: &Measurement| self.of.at_most(run).is_some_and(|error| error <= self.error);
         runs.len() > 1 && runs[runs.len() - 2..].iter().all(meets)
     }
 }
