@@ -188,11 +188,6 @@ impl Curve {
         Curve { look: Look::Points(marker), ..Curve::line(label, points, colour) }
     }
 
-    /// Points without a line, with the markers of their colour.
-    pub fn unjoined(label: impl Into<String>, points: Vec<(f64, f64)>, colour: usize) -> Self {
-        Curve::dots(label, points, colour, looks::marker(colour))
-    }
-
     /// The curve on the axis at the right.
     pub fn on_the_right(self) -> Self {
         Curve { side: Side::Second, ..self }

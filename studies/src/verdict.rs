@@ -14,7 +14,7 @@ pub enum Verdict {
 }
 
 /// Of values that a quick report does not compute.
-const PART: &str = "A quick report has a part of the values; without `--quick` all are computed.";
+const PART: &str = "Only some of the values are computed; without `--quick` all are.";
 
 /// Of an interval with values on both sides of a limit.
 pub const INTERVAL: &str =
