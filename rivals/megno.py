@@ -68,7 +68,7 @@ def of_rebound(steps):
 
 
 def draw(rebound_points, ours):
-    matplotlib.rcParams |= {"svg.hashsalt": "shadowstep", "svg.fonttype": "none", "font.family": "sans-serif", "font.size": 11}
+    matplotlib.rcParams |= {"svg.hashsalt": "shadowstep", "svg.fonttype": "none", "axes.unicode_minus": False, "font.family": "sans-serif", "font.size": 11}
     figure, axes = plt.subplots(figsize=(8, 4))
     n, total, mean = zip(*rebound_points)
     axes.plot(n, total, color="#D55E00", linewidth=1, label="REBOUND's sum")

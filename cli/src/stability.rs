@@ -150,11 +150,11 @@ const MARGIN: &str = "               ";
 fn readable(case: CaseEntry, finding: &Finding) -> String {
     let mut text = format!("{}: {}\n", case.name(), case.title());
     for row in &finding.statements {
-        let line = format!("{}: {}", row.statement, row.found);
+        let line = format!("{}: {}", row.statement, row.explained());
         let word = match row.verdict {
             Verdict::Agrees => "agrees",
             Verdict::Differs => "DIFFERS",
-            Verdict::NotDecided => "not decided",
+            Verdict::NotDecided(_) => "not decided",
         };
         let lines = wrapped_to(&line, MARGIN, WIDTH);
         text += &format!("  {word:<11}  {}\n", lines.trim());

@@ -69,7 +69,7 @@ html_title = "Shadowstep"
 html_show_sourcelink = False
 html_theme_options = {"navigation_with_keys": True}
 html_static_path = ["style"]
-html_css_files = ["wide-tables.css"]
+html_css_files = ["wide-tables.css", "pictures.css"]
 
 # formulas are set in the browser, from files of the book
 myst_enable_extensions = ["dollarmath", "colon_fence"]

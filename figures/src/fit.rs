@@ -96,7 +96,7 @@ impl ExponentialDecay {
         let line = match () {
             () if 2.0 * self.deviation <= self.power_law => Verdict::Agrees,
             () if 2.0 * self.power_law <= self.deviation => Verdict::Differs,
-            () => Verdict::NotDecided,
+            () => Verdict::NotDecided(NEITHER),
         };
         Verdict::of_all([line, self.rate().above(0.0)])
     }
@@ -171,6 +171,7 @@ pub(crate) const ROUND_OFF: f64 = -108.0;
 
 /// Rates with a smaller relative difference are called the same: those to be distinguished differ by a factor of two.
 const SAME_RATE: f64 = 0.1;
+const NEITHER: &str = "Neither law fits twice as well as the other; a wider range of step sizes would part them.";
 
 /// The rate of a drift over the step sizes up to `coarsest` at which it is above the round-off.
 pub(crate) fn decay(drifts: &[(f64, f64)], coarsest: f64) -> Option<ExponentialDecay> {
@@ -294,7 +295,7 @@ mod tests {
         };
         assert_eq!(fit(&|h| -1.0 / h), Verdict::Agrees);
         assert_eq!(fit(&|h| 8.0 * h.log10()), Verdict::Differs);
-        assert_eq!(fit(&|_| 0.0), Verdict::NotDecided);
+        assert_eq!(fit(&|_| 0.0), Verdict::NotDecided(NEITHER));
     }
 
     #[test]

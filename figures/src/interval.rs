@@ -3,7 +3,7 @@
 use std::fmt;
 
 use crate::numbers::decimal;
-use shadowstep_studies::verdict::Verdict;
+use shadowstep_studies::verdict::{INTERVAL, Verdict};
 
 /// A value with the interval that contains the true one with 95 % confidence.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -56,7 +56,7 @@ impl Interval {
         match () {
             () if self.low > limit => Verdict::Agrees,
             () if self.high < limit => Verdict::Differs,
-            () => Verdict::NotDecided,
+            () => Verdict::NotDecided(INTERVAL),
         }
     }
 
@@ -65,7 +65,7 @@ impl Interval {
         match () {
             () if self.low >= low && self.high <= high => Verdict::Agrees,
             () if self.high < low || self.low > high => Verdict::Differs,
-            () => Verdict::NotDecided,
+            () => Verdict::NotDecided(INTERVAL),
         }
     }
 }
@@ -91,7 +91,7 @@ mod tests {
         assert!((mean.value - 2.0).abs() < 1e-15 && (mean.high - 2.0 - 4.303 / 3.0f64.sqrt()).abs() < 1e-12);
         assert_eq!((mean.low + mean.high, mean.count), (4.0, 3));
         assert_eq!(Interval::of_mean(&[1.0, 2.0]), None);
-        assert_eq!(format!("{mean:.1}"), "2.0 (95 %: −0.5 to 4.5)");
+        assert_eq!(format!("{mean:.1}"), "2.0 (95 %: -0.5 to 4.5)");
     }
 
     #[test]
@@ -99,10 +99,10 @@ mod tests {
         let interval = Interval { value: 1.5, low: 1.0, high: 2.0, count: 3 };
         assert_eq!(
             [0.9, 1.5, 2.1].map(|limit| interval.above(limit)),
-            [Verdict::Agrees, Verdict::NotDecided, Verdict::Differs]
+            [Verdict::Agrees, Verdict::NotDecided(INTERVAL), Verdict::Differs]
         );
         assert_eq!(interval.within(0.5, 2.5), Verdict::Agrees);
-        assert_eq!(interval.within(1.5, 2.5), Verdict::NotDecided);
+        assert_eq!(interval.within(1.5, 2.5), Verdict::NotDecided(INTERVAL));
         assert_eq!(interval.within(2.5, 3.5), Verdict::Differs);
     }
 }

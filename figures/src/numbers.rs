@@ -31,7 +31,7 @@ pub(crate) fn scientific(value: f64) -> String {
     power(value.abs().log10())
 }
 
-/// A number with this number of decimals, and a minus sign.
+/// A number with this number of decimals.
 pub(crate) fn decimal(value: f64, decimals: usize) -> String {
-    format!("{value:.decimals$}").replace('-', "−")
+    format!("{value:.decimals$}")
 }

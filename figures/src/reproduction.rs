@@ -121,7 +121,7 @@ const INTRODUCTION: [&str; 4] = [
 
 /// What a quick report cannot decide.
 const QUICK: &str = "A quick report: fewer step sizes, eccentricities and orders can refute a claim about all of them or confirm a claim that one \
-     exists, but not the reverse. Without --quick more is decided.";
+     exists, but not the reverse. Without `--quick` more is decided.";
 
 /// `earlier` are the figures that are not requested.
 fn report(request: &Request, sections: Vec<Section>, earlier: &[String]) -> Report {

@@ -16,6 +16,14 @@ def test_there_are_notebooks():
 
 
 @pytest.mark.parametrize("path", NOTEBOOKS, ids=lambda path: path.stem)
+def test_a_cell_that_only_draws_is_collapsed_in_the_book(path):
+    for cell in nbformat.read(path, as_version=4).cells:
+        draws = cell.cell_type == "code" and "plt.subplots(" in cell.source
+        only = draws and not any(word in cell.source for word in ("shadowstep.", "compete(", "assert "))
+        assert only == ("hide-input" in cell.metadata.get("tags", [])), cell.source
+
+
+@pytest.mark.parametrize("path", NOTEBOOKS, ids=lambda path: path.stem)
 def test_a_notebook_runs_and_makes_its_pictures(path):
     notebook = nbformat.read(path, as_version=4)
     nbformat.validate(notebook)

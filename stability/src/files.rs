@@ -57,7 +57,7 @@ fn markdown(findings: &[(CaseEntry, Finding)], command: &str) -> String {
         }
         let _ = write!(page, "\n| | found | theory |\n| --- | --- | --- |\n");
         for row in &finding.statements {
-            let _ = writeln!(page, "| {} | {} | {} |", row.statement, row.found, row.verdict.word());
+            let _ = writeln!(page, "| {} | {} | {} |", row.statement, row.explained(), row.verdict.word());
         }
     }
     page

@@ -13,6 +13,7 @@ pub(crate) const MONITOR_ORDER: u32 = 8;
 const REPORTS: u64 = 50;
 /// Whether to continue is asked so often at most.
 const QUESTIONS: u64 = 64;
+const UNDECIDED: &str = "The monitor is undecided; more states, or a higher order of its estimator, may decide.";
 
 /// What a monitor reported of a run.
 #[derive(Clone, Debug, Serialize, Deserialize)]
@@ -38,7 +39,7 @@ impl Watched {
     pub(crate) fn is_fine(&self) -> Agreement {
         match (self.fine, self.undecided) {
             (true, _) => Agreement::Agrees,
-            (false, true) => Agreement::NotDecided,
+            (false, true) => Agreement::NotDecided(UNDECIDED),
             (false, false) => Agreement::Differs,
         }
     }

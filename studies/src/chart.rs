@@ -1,8 +1,8 @@
 //! Charts: curves over two or three axes, as SVG pictures.
 //!
 //! A [`Chart`] has a title, two axes and curves. A curve is recognised by its marker and, beyond the ninth, by its dashes as well as by
-//! its colour; the colours are those of Okabe and Ito, which people with any colour vision can distinguish. Labels stand at the right
-//! ends of the curves, without overlaps. [`Chart::svg`] follows `prefers-color-scheme`; [`Chart::svg_for_print`] has fixed
+//! its colour; the colours are those of Okabe and Ito, which people with any colour vision can distinguish. Labels have the colours of
+//! their curves and stand at the right ends of these, without overlaps, or are listed in their order. [`Chart::svg`] follows `prefers-color-scheme`; [`Chart::svg_for_print`] has fixed
 //! colours on white.
 //!
 //! Axes are linear, or logarithmic: then the points hold log₁₀ of the values, so that 1e-400 is −400 instead of 0.
@@ -67,6 +67,8 @@ pub struct Chart {
     pub notes: Vec<String>,
     /// Whether one unit is as long on both axes, unless the curves are much longer in one direction.
     pub equal_scales: bool,
+    /// Whether the labels are listed in the order of the curves, as for charts that are compared; else they stand where the curves end.
+    pub listed: bool,
 }
 
 impl Chart {
@@ -81,6 +83,7 @@ impl Chart {
             curves,
             notes: Vec::new(),
             equal_scales: false,
+            listed: false,
         }
     }
 }
@@ -97,8 +100,10 @@ pub fn log10_of(points: &[(f64, f64)], (x_is_log, y_is_log): (bool, bool)) -> Ve
 pub struct Mark {
     /// In the values of the axis.
     pub x: f64,
-    /// Beside the line.
+    /// Beside the line; without one, the line is all.
     pub label: String,
+    /// The values of y between which a curve jumps there: the label stands in the middle of the jump.
+    pub(crate) jump: Option<(f64, f64)>,
 }
 
 /// An axis along one side.
@@ -115,7 +120,12 @@ pub struct Axis {
 impl Mark {
     /// A line at x, in the values of the axis.
     pub fn at(x: f64, label: impl Into<String>) -> Self {
-        Mark { x, label: label.into() }
+        Mark { x, label: label.into(), jump: None }
+    }
+
+    /// The mark of a jump from one value of y to another.
+    pub fn of_jump(self, from: f64, to: f64) -> Self {
+        Mark { jump: Some((from, to)), ..self }
     }
 }
 

@@ -42,6 +42,15 @@ pub struct Table {
     pub rows: Vec<Vec<String>>,
 }
 
+impl Statement {
+    /// What was found, and why that does not decide.
+    pub fn explained(&self) -> String {
+        let reason = self.verdict.reason().map(|reason| format!(" Not decided: {reason}"));
+        let end = if reason.is_some() && !self.found.ends_with('.') { "." } else { "" };
+        format!("{}{end}{}", self.found, reason.unwrap_or_default())
+    }
+}
+
 impl Finding {
     /// On what is stated.
     pub fn on(stated: &[&str]) -> Self {

@@ -225,8 +225,7 @@ fn badge(word: &str) -> Markup {
 }
 
 fn picture(svg: &str, caption: &str) -> Markup {
-    // focusable, so that on a narrow screen it can be scrolled with keys
-    html! { figure { div class="scroll" tabindex="0" { (PreEscaped(svg)) } figcaption { (set(caption)) } } }
+    html! { figure { (PreEscaped(svg)) figcaption { (set(caption)) } } }
 }
 
 fn table(Table { caption, header, rows }: &Table) -> Markup {
@@ -248,8 +247,8 @@ fn statements(statements: &[Statement], whole: bool) -> Markup {
         table class="statements" {
             thead { tr { th scope="col" { @if whole { "statement" } } th scope="col" { "found" } th scope="col" { "verdict" } } }
             tbody {
-                @for Statement { statement, found, verdict } in statements {
-                    tr { td { (set(statement)) } td { (set(found)) } td { (badge(verdict.word())) } }
+                @for row in statements {
+                    tr { td { (set(&row.statement)) } td { (set(&row.found)) @if let Some(reason) = row.verdict.reason() { div class="reason" { (set(reason)) } } } td { (badge(row.verdict.word())) } }
                 }
             }
         }
@@ -299,7 +298,8 @@ mod tests {
     }
 
     fn report() -> Report {
-        use Verdict::{Agrees, Differs, NotDecided};
+        use Verdict::{Agrees, Differs};
+        let open = Verdict::NotDecided("More would decide.");
         Report {
             title: "Figures of a paper, computed again".to_owned(),
             remark: Some("A quick report.".to_owned()),
@@ -307,8 +307,8 @@ mod tests {
             made_with: vec![("digits".to_owned(), "120".to_owned())],
             sections: vec![
                 figure("Drifts", Some("figure 1"), &[Agrees, Agrees], 2),
-                figure("Steps", Some("figure 2"), &[Agrees, Differs, NotDecided], 1),
-                figure("Orders", Some("figure 3"), &[NotDecided, Agrees], 0),
+                figure("Steps", Some("figure 2"), &[Agrees, Differs, open], 1),
+                figure("Orders", Some("figure 3"), &[open, Agrees], 0),
                 figure("Phases", Some("figure 4"), &[], 0),
                 figure("Beyond the paper", None, &[Agrees], 3),
             ],

@@ -1,4 +1,5 @@
-//! What all pictures have in common: the sizes of their texts, raised and lowered characters, and colours on light and dark screens.
+//! What all pictures have in common: the sizes of their texts, raised and lowered characters, the minus sign, and colours on light and dark
+//! screens.
 
 use maud::{PreEscaped, html};
 
@@ -51,7 +52,8 @@ pub(crate) struct Frame<'a> {
 }
 
 impl Frame<'_> {
-    /// The whole picture, with a style and a background. It has no `id`s, so that one page can contain many pictures.
+    /// The whole picture, with a style and a background. It has no `id`s, so that one page can contain many pictures. A minus sign is that
+    /// of ASCII, so that numbers can be searched and copied.
     pub(crate) fn around(&self, content: &str, theme: Theme) -> String {
         let ((width, height), view) = (self.size, format!("0 0 {} {}", self.view.0, self.view.1));
         let svg = html! {
@@ -63,7 +65,7 @@ impl Frame<'_> {
                 (PreEscaped(lowered(&raised(content))))
             }
         };
-        svg.into_string()
+        svg.into_string().replace('−', "-")
     }
 }
 
@@ -80,7 +82,7 @@ fn raised(text: &str) -> String {
         ('⁷', '7'),
         ('⁸', '8'),
         ('⁹', '9'),
-        ('⁻', '−'),
+        ('⁻', '-'),
     ];
     let mut plain = String::with_capacity(text.len());
     let mut within = false;

@@ -9,9 +9,19 @@ pub enum Verdict {
     Agrees,
     /// They contradict it, with all of their uncertainty.
     Differs,
-    /// Their uncertainty, or what was computed, allows both.
-    NotDecided,
+    /// Their uncertainty, or what was computed, allows both: why, and what would decide it, in a sentence.
+    NotDecided(&'static str),
 }
+
+/// Of values that a quick report does not compute.
+const PART: &str = "Only some of the values are computed; without `--quick` all are.";
+
+/// Of an interval with values on both sides of a limit.
+pub const INTERVAL: &str =
+    "The 95 % interval allows both; more step sizes would narrow it, and `--quick` has the fewest.";
+
+/// Of nothing.
+const NOTHING: &str = "There is no value to compare; more step sizes, as without `--quick`, may give some.";
 
 impl Verdict {
     /// What several verdicts are together: one difference is one, and what is not decided leaves the whole so.
@@ -19,9 +29,15 @@ impl Verdict {
         let all: Vec<_> = all.into_iter().collect();
         match () {
             () if all.contains(&Verdict::Differs) => Verdict::Differs,
-            () if all.is_empty() || all.contains(&Verdict::NotDecided) => Verdict::NotDecided,
-            () => Verdict::Agrees,
+            () if all.is_empty() => Verdict::NotDecided(NOTHING),
+            // the first reason stands for all
+            () => all.into_iter().find(|verdict| verdict.reason().is_some()).unwrap_or(Verdict::Agrees),
         }
+    }
+
+    /// Why it is not decided, and what would decide it.
+    pub fn reason(self) -> Option<&'static str> {
+        if let Verdict::NotDecided(reason) = self { Some(reason) } else { None }
     }
 
     /// The word for it.
@@ -29,7 +45,7 @@ impl Verdict {
         match self {
             Verdict::Agrees => "agrees",
             Verdict::Differs => "differs",
-            Verdict::NotDecided => "not decided",
+            Verdict::NotDecided(_) => "not decided",
         }
     }
 }
@@ -65,7 +81,7 @@ impl Coverage {
 
     /// A statement that some of the values decide neither way.
     pub fn only_all(self, verdict: impl Into<Verdict>) -> Verdict {
-        if self == Coverage::All { verdict.into() } else { Verdict::NotDecided }
+        if self == Coverage::All { verdict.into() } else { Verdict::NotDecided(PART) }
     }
 
     /// The verdict, which is not decided if it is the one that needs all values.
@@ -94,7 +110,7 @@ impl Counts {
             match verdict {
                 Verdict::Agrees => counts.agree += 1,
                 Verdict::Differs => counts.differ += 1,
-                Verdict::NotDecided => counts.not_decided += 1,
+                Verdict::NotDecided(_) => counts.not_decided += 1,
             }
         }
         counts
@@ -132,22 +148,23 @@ mod tests {
                 (every(Coverage::Some, part), every(Coverage::All, whole)),
                 (any(Coverage::Some, part), any(Coverage::All, whole)),
             ] {
-                assert!(all != Verdict::NotDecided && (some == all || some == Verdict::NotDecided), "{set} {part}");
+                assert!(all.reason().is_none() && (some == all || some.reason() == Some(PART)), "{set} {part}");
                 decided += u32::from(some == all);
             }
         }
         assert!(decided > 0, "a part can decide");
-        assert_eq!(Coverage::Some.only_all(false), Verdict::NotDecided);
+        assert_eq!(Coverage::Some.only_all(false), Verdict::NotDecided(PART));
     }
 
     #[test]
     fn one_difference_is_one_and_nothing_decides_nothing() {
         use Verdict::{Agrees, Differs, NotDecided};
-        assert_eq!(Verdict::of_all([Agrees, NotDecided, Differs]), Differs);
-        assert_eq!(Verdict::of_all([Agrees, NotDecided]), NotDecided);
+        let open = NotDecided("a reason");
+        assert_eq!(Verdict::of_all([Agrees, open, Differs]), Differs);
+        assert_eq!(Verdict::of_all([Agrees, open, NotDecided(PART)]), open);
         assert_eq!(Verdict::of_all([Agrees, Agrees]), Agrees);
-        assert_eq!(Verdict::of_all([]), NotDecided);
-        assert_eq!(Counts::of([Agrees, NotDecided, Agrees]).to_string(), "2 agree, 0 differ, 1 not decided");
+        assert_eq!(Verdict::of_all([]), NotDecided(NOTHING));
+        assert_eq!(Counts::of([Agrees, open, Agrees]).to_string(), "2 agree, 0 differ, 1 not decided");
         assert_eq!(Counts::of([Agrees, Differs]).to_string(), "1 agrees, 1 differs, 0 not decided");
     }
 }

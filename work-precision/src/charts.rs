@@ -25,8 +25,9 @@ pub(crate) struct Picture {
 }
 
 impl Study<'_> {
-    /// The errors of the position and of H, against evaluations and against time.
-    pub(crate) fn pictures(&self, title: &str) -> Vec<Picture> {
+    /// The errors of the position and of H, against evaluations and against time: in all of them the same schemes, in one order and with the
+    /// same looks.
+    pub(crate) fn pictures(&self) -> Vec<Picture> {
         let each = [
             (
                 Of::Position,
@@ -42,27 +43,38 @@ impl Study<'_> {
             ),
             (Of::Energy, Cost::Seconds, "The same against the time of the steps alone."),
         ];
-        let picture = |(name, (of, cost, caption))| Picture { name, caption, chart: self.chart(title, of, cost) };
-        PICTURES.into_iter().zip(each).map(picture).collect()
+        let of_each: Vec<_> = each.iter().map(|(of, cost, _)| self.curves(*of, *cost)).collect();
+        let shown = shown(&of_each);
+        let pictures = PICTURES.into_iter().zip(each).zip(&of_each);
+        let picture = |((name, (of, cost, caption)), curves): (_, &Vec<_>)| {
+            let chart = self.chart(of, cost, curves, &shown);
+            Picture { name, caption, chart }
+        };
+        pictures.map(picture).collect()
     }
 
-    fn chart(&self, title: &str, of: Of, cost: Cost) -> Chart {
-        let x = Axis::log10(match cost {
-            Cost::Evaluations => "evaluations of the gradient",
-            Cost::Seconds => "time of the steps in seconds",
-        });
-        let y = Axis::log10(of.name());
+    /// A curve for each scheme.
+    fn curves(&self, of: Of, cost: Cost) -> Vec<best::Curve> {
         let mut curves: Vec<_> =
             self.schemes.iter().map(|studied| studied.curve(of, cost, self.problem.system)).collect();
         let largest = LARGEST + if of == Of::Position { self.reference.size().log10() } else { 0.0 };
         without_lost_runs(&mut curves, largest);
-        let shown = shown(&curves);
-        let named = shown.iter().map(|&place| (self.schemes[place].scheme.name.clone(), curves[place].clone()));
-        let curve = |(n, (name, curve)): (usize, (String, best::Curve))| {
-            let points = until_round_off(curve).map(|(cost, log10)| (cost.log10(), log10)).collect();
-            Curve::marked(name, points, n)
+        curves
+    }
+
+    fn chart(&self, of: Of, cost: Cost, curves: &[best::Curve], shown: &[usize]) -> Chart {
+        let (x, against) = match cost {
+            Cost::Evaluations => ("evaluations of the gradient", "evaluations"),
+            Cost::Seconds => ("time of the steps in seconds", "time"),
         };
-        let mut chart = Chart::new(title, x, y, named.enumerate().map(curve).collect());
+        let curve = |(n, &place): (usize, &usize)| {
+            let points = until_round_off(&curves[place]).map(|(cost, log10)| (cost.log10(), log10)).collect();
+            Curve::marked(self.schemes[place].scheme.name.clone(), points, n)
+        };
+        let curves_shown = shown.iter().enumerate().map(curve).collect();
+        let title = format!("The {} against {against}", of.name());
+        let mut chart = Chart::new(title, Axis::log10(x), Axis::log10(of.name()), curves_shown);
+        chart.listed = true;
         if shown.len() < curves.len() {
             chart.notes.push(format!("The {} of {} schemes that need the least.", shown.len(), curves.len()));
         }
@@ -78,12 +90,22 @@ fn without_lost_runs(curves: &mut [best::Curve], largest: f64) {
     }
 }
 
-/// The curves that are drawn, in their order: those that need the least for an error of 1e-1, 1e-2, …, then those that need the least
-/// more than these.
-fn shown(curves: &[best::Curve]) -> Vec<usize> {
+/// The schemes that are drawn, in their order: those that need the least for an error of 1e-1, 1e-2, … in any of the charts, then those that need
+/// the least more than these.
+fn shown(charts: &[Vec<best::Curve>]) -> Vec<usize> {
+    let schemes = charts.first().map_or(0, Vec::len);
+    let (mut extra, mut is_best) = (vec![0.0; schemes], vec![false; schemes]);
+    charts.iter().for_each(|curves| rank(curves, &mut extra, &mut is_best));
+    let mut places: Vec<usize> = (0..schemes).collect();
+    places.sort_by(|&a, &b| is_best[b].cmp(&is_best[a]).then(extra[a].total_cmp(&extra[b])));
+    places.truncate(MOST_CURVES);
+    places.sort_unstable();
+    places
+}
+
+/// Adds what each scheme needs more than the best ones in a chart, and which are the best.
+fn rank(curves: &[best::Curve], extra: &mut [f64], is_best: &mut [bool]) {
     let least = curves.iter().flatten().map(|(_, log10)| *log10).fold(0.0, f64::min);
-    let mut extra = vec![0.0; curves.len()];
-    let mut is_best = vec![false; curves.len()];
     for target in (1..=(-least) as u32).map(|decade| Size::power_of_ten(-f64::from(decade))) {
         let costs: Vec<Option<f64>> = curves.iter().map(|curve| cost_of(curve, target)).collect();
         let Some(lowest) = costs.iter().flatten().copied().reduce(f64::min) else { continue };
@@ -92,17 +114,12 @@ fn shown(curves: &[best::Curve]) -> Vec<usize> {
             is_best[place] |= cost == Some(lowest);
         }
     }
-    let mut places: Vec<usize> = (0..curves.len()).collect();
-    places.sort_by(|&a, &b| is_best[b].cmp(&is_best[a]).then(extra[a].total_cmp(&extra[b])));
-    places.truncate(MOST_CURVES);
-    places.sort_unstable();
-    places
 }
 
 /// Beyond the smallest error there is only round-off: two points show that.
-fn until_round_off(curve: Vec<(f64, f64)>) -> impl Iterator<Item = (f64, f64)> {
+fn until_round_off(curve: &best::Curve) -> impl Iterator<Item = (f64, f64)> {
     let least = (0..curve.len()).min_by(|&a, &b| curve[a].1.total_cmp(&curve[b].1)).unwrap_or(0);
-    curve.into_iter().take(least + 3)
+    curve.iter().copied().take(least + 3)
 }
 
 #[cfg(test)]
@@ -125,9 +142,10 @@ mod tests {
         let of_order =
             |order: f64, first: f64| (0..20).map(|i| (first * 2_f64.powi(i), -0.3 * order * f64::from(i))).collect();
         let mut curves: Vec<best::Curve> = (0..20).map(|n| of_order(2.0, 10.0 + f64::from(n))).collect();
-        assert_eq!(shown(&curves[..12]), (0..12).collect::<Vec<_>>());
+        assert_eq!(shown(&[curves[..12].to_vec()]), (0..12).collect::<Vec<_>>());
+        let others = curves.iter().cloned().chain([of_order(2.0, 100.0)]).collect();
         curves.push(of_order(8.0, 1e4));
-        let shown = shown(&curves);
-        assert_eq!(shown, (0..11).chain([20]).collect::<Vec<_>>());
+        // the best in one chart is drawn in all
+        assert_eq!(shown(&[curves, others]), (0..11).chain([20]).collect::<Vec<_>>());
     }
 }

@@ -42,7 +42,7 @@ pub fn write(study: &Study<'_>, title: Title<'_>, folder: &Path) -> Result<PathB
     write_file(folder, SCRIPT, PLOT)?;
     let (mut charts, mut svgs) = (Vec::new(), Vec::new());
     let mut files = [DATA, LINES, SCRIPT].map(str::to_owned).to_vec();
-    for Picture { name, caption, chart } in study.pictures(title.title) {
+    for Picture { name, caption, chart } in study.pictures() {
         let (chart, for_print) = ([(chart, caption.to_owned())], format!("{name}-print.svg"));
         let (svg, file) = write_charts(folder, name, &chart)?;
         write_file(folder, &for_print, &chart[0].0.svg_for_print()?)?;

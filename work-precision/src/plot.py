@@ -7,7 +7,7 @@
 import csv
 import pathlib
 import sys
-from math import inf, log
+from math import inf, log, nan
 
 import matplotlib
 
@@ -44,26 +44,28 @@ def cost_of(points, error):
     return next((cost for cost, found in points if found <= error), inf)
 
 
-def best(curves):
-    """Those that need the least for errors of 1e-1, 1e-2, ... in the mean."""
-    extra = dict.fromkeys(curves, 0.0)
-    for error in (10.0**-decade for decade in range(1, 300)):
-        costs = {name: cost_of(points, error) for name, points in curves.items()}
-        lowest = min(costs.values())
-        if lowest == inf:
-            break
-        for name, cost in costs.items():
-            extra[name] += log(min(cost / lowest, 100.0))
-    chosen = sorted(curves, key=extra.get)[:MOST_CURVES]
-    return {name: points for name, points in curves.items() if name in chosen}
+def best(charts):
+    """The schemes, in their order, that need the least for errors of 1e-1, 1e-2, ... in the mean of all charts."""
+    extra = dict.fromkeys(next(iter(charts.values())), 0.0)
+    for curves in charts.values():
+        for error in (10.0**-decade for decade in range(1, 300)):
+            costs = {name: cost_of(points, error) for name, points in curves.items()}
+            lowest = min(costs.values())
+            if lowest == inf:
+                break
+            for name, cost in costs.items():
+                extra[name] += log(min(cost / lowest, 100.0))
+    chosen = sorted(extra, key=extra.get)[:MOST_CURVES]
+    return [name for name in extra if name in chosen]
 
 
-def plot(schemes, cost, error, largest):
+def plot(curves, names, cost, error):
+    """A scheme looks the same in all charts."""
     figure, axes = plt.subplots(figsize=(6.3, 4.2))
-    curves = {name: curve(rows, cost, error, largest) for name, rows in schemes.items()}
-    for n, (name, points) in enumerate(best({name: points for name, points in curves.items() if points}).items()):
+    for n, name in enumerate(names):
         dashes = "-" if n < len(COLOURS) else "--"
         style = {"color": COLOURS[n % len(COLOURS)], "marker": MARKERS[n % len(MARKERS)], "linestyle": dashes}
+        points = curves[name] or [(nan, nan)]
         axes.plot(*zip(*points), label=name, markersize=4, linewidth=1, fillstyle="none", **style)
     axes.set(xscale="log", yscale="log", xlabel=COSTS[cost], ylabel=ERRORS[error])
     axes.grid(True, linewidth=0.3)
@@ -74,14 +76,16 @@ def plot(schemes, cost, error, largest):
 def main():
     folder = pathlib.Path(__file__).resolve().parent
     schemes, largest = read(folder / "work-precision.csv")
-    for cost in COSTS:
-        for error in ERRORS:
-            figure = plot(schemes, cost, error, largest[error])
-            for kind in sys.argv[1:] or ["pdf"]:
-                name = folder / f"{error.split('_')[0]}-{'forces' if cost == 'evaluations' else 'time'}.{kind}"
-                figure.savefig(name, bbox_inches="tight")
-                print(name)
-            plt.close(figure)
+    each = [(cost, error) for cost in COSTS for error in ERRORS]
+    charts = {(cost, error): {name: curve(rows, cost, error, largest[error]) for name, rows in schemes.items()} for cost, error in each}
+    names = best(charts)
+    for (cost, error), curves in charts.items():
+        figure = plot(curves, names, cost, error)
+        for kind in sys.argv[1:] or ["pdf"]:
+            name = folder / f"{error.split('_')[0]}-{'forces' if cost == 'evaluations' else 'time'}.{kind}"
+            figure.savefig(name, bbox_inches="tight")
+            print(name)
+        plt.close(figure)
 
 
 if __name__ == "__main__":

@@ -13,11 +13,11 @@ use shadowstep_studies::chart::{Axis, Chart, Curve, Mark, log10_of, stacked};
 /// Points of a curve over hω.
 const POINTS: usize = 1200;
 
-/// What is narrower has no mark, and an interval of stability that is narrower does not extend the axis.
+/// A gap that is narrower has one mark, and an interval of stability that is narrower does not extend the axis.
 const NARROW: f64 = 0.02;
 
-/// More marks than these cannot be read.
-const MOST_MARKS: usize = 8;
+/// More labels than these cannot be read.
+const MOST_LABELS: usize = 8;
 
 /// Where the axis of hω ends for a step whose stability is not analysed.
 const NOT_ANALYSED: f64 = 4.0;
@@ -71,7 +71,9 @@ fn trace(name: &str, oscillator: &Oscillator, gaps: &Gaps) -> Chart {
         curves,
     );
     chart.marks = gaps.marks();
-    chart.notes = gaps.notes();
+    if !gaps.is_analysed {
+        chart.notes.push("The limits are not analysed: the step has too many maps.".to_owned());
+    }
     chart
 }
 
@@ -140,34 +142,28 @@ impl Gaps {
         self.wide().next().map_or(self.end, |gap| gap.0)
     }
 
+    fn visible(&self) -> impl Iterator<Item = &(f64, Option<f64>)> {
+        self.gaps.iter().filter(|gap| gap.0 < self.end)
+    }
+
     fn wide(&self) -> impl Iterator<Item = &(f64, Option<f64>)> {
-        let visible = self.gaps.iter().filter(|gap| gap.0 < self.end);
-        visible.filter(|(from, to)| to.is_none_or(|to| to - from > NARROW))
+        self.visible().filter(|(from, to)| to.is_none_or(|to| to - from > NARROW))
     }
 
-    /// Where stability ends and begins again.
+    /// Where stability ends and begins again, and the narrow gaps, which the trace does not show; from the ninth on without labels.
     fn marks(&self) -> Vec<Mark> {
-        let mut marks = Vec::new();
-        for (from, to) in self.wide() {
-            marks.push(Mark::at(*from, format!("stable to {from:.4}")));
-            marks.extend(to.filter(|to| *to < self.end).map(|to| Mark::at(to, format!("again from {to:.4}"))));
-        }
-        marks.truncate(MOST_MARKS);
-        marks
-    }
-
-    fn notes(&self) -> Vec<String> {
-        if !self.is_analysed {
-            return vec!["The limits are not analysed: the step has too many maps.".to_owned()];
-        }
-        let is_narrow = |gap: &&(f64, Option<f64>)| gap.0 < self.end && gap.1.is_some_and(|to| to - gap.0 <= NARROW);
-        let narrow: Vec<_> = self.gaps.iter().filter(is_narrow).collect();
-        match narrow[..] {
-            [] => Vec::new(),
-            [(at, _)] => vec![format!("Unstable near {at:.4} as well, over less than {NARROW}.")],
-            [(first, _), ..] => {
-                vec![format!("Unstable in {} more intervals of less than {NARROW}, from {first:.4} on.", narrow.len())]
+        let (mut marks, mut stable) = (Vec::new(), "stable to");
+        for (from, to) in self.visible() {
+            if let Some(to) = to.filter(|to| to - from <= NARROW) {
+                marks.push(Mark::at(*from, format!("gap at {from:.4}, {:.0e} wide", to - from)));
+                stable = "but for gaps stable to";
+                continue;
             }
+            marks.push(Mark::at(*from, format!("{stable} {from:.4}")));
+            marks.extend(to.filter(|to| *to < self.end).map(|to| Mark::at(to, format!("again from {to:.4}"))));
+            stable = "stable to";
         }
+        marks.iter_mut().skip(MOST_LABELS).for_each(|mark| mark.label.clear());
+        marks
     }
 }

@@ -54,6 +54,12 @@ fn a_figure_is_charts_data_and_a_section_of_the_report() {
     for part in ["The paper states", "zero error", "increments of β", "scattering.csv", "--quick", "A quick report"] {
         assert!(report.contains(part), "{part}");
     }
+    // what is not decided has a reason in its row
+    assert_eq!(
+        (report.matches(">not decided</span></td>").count(), report.matches("class=\"reason\"").count()),
+        (2, 2)
+    );
+    assert!(!report.contains('`'), "backticks are set as code");
     let drifts = of("scattering.csv");
     assert_eq!(
         drifts.lines().take(3).collect::<Vec<_>>(),

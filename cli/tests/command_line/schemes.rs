@@ -299,10 +299,24 @@ fn stages_stability_and_phase_are_drawn() {
     {
         assert!(picture.contains(text), "{text} is missing");
     }
+    assert!(!picture.contains('−'), "numbers can be searched");
     let again = shadowstep(&plot);
     assert_eq!(again.code, 2, "a file that exists is not replaced");
     assert!(again.err.contains("--force"), "{}", again.err);
     quietly(&format!("{plot} --force"));
+}
+
+/// The trace hardly shows the gaps of 9e-4 and 1e-3 below the end at 9.0736, so that each has a mark.
+#[test]
+fn thin_gaps_of_stability_are_marked() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("thin.svg");
+    quietly(&format!("schemes show blanes-moan-srkn11b --plot {}", path.display()));
+    let picture = fs::read_to_string(&path).unwrap();
+    for text in ["gap at 3.1414, 9e-4 wide", "gap at 6.3479, 1e-3 wide", "but for gaps stable to 9.0736"] {
+        assert!(picture.contains(text), "{text} is missing");
+    }
+    assert!(!picture.contains(">stable to"), "it is not stable to there");
 }
 
 #[test]

@@ -1,5 +1,6 @@
 //! `shadowstep work-precision` and `shadowstep advise`.
 
+use std::collections::HashSet;
 use std::fs;
 
 use tempfile::TempDir;
@@ -33,6 +34,17 @@ fn a_study_is_data_charts_and_a_page() {
     for name in ["position-forces.svg", "energy-time-print.svg", "work-precision.csv", "plot.py"] {
         assert!(page.contains(name) && folder.path().join(name).exists(), "{name}");
     }
+    // the charts have titles of their own, and one order of their labels
+    let of_chart = |name: &str| {
+        let chart = fs::read_to_string(folder.path().join(format!("{name}.svg"))).unwrap();
+        let texts = chart.split("</text>").filter_map(|text| text.rsplit('>').next().map(str::to_owned));
+        let labels: Vec<_> = texts.filter(|text| ["stormer-verlet", "yoshida4"].contains(&text.as_str())).collect();
+        (labels, chart.split("</title>").next().unwrap().rsplit('>').next().unwrap().to_owned())
+    };
+    let charts = ["position-forces", "position-time", "energy-forces", "energy-time"].map(of_chart);
+    let titles: HashSet<_> = charts.iter().map(|(_, title)| title).collect();
+    assert_eq!(titles.len(), 4, "{titles:?}");
+    assert!(charts.iter().all(|(labels, _)| labels == &["stormer-verlet", "yoshida4"]), "{charts:?}");
     // nothing is computed again
     let results = fs::read(folder.path().join("results.jsonl")).unwrap();
     assert_eq!(quietly(&command), printed);

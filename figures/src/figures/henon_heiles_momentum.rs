@@ -7,7 +7,7 @@ use crate::figure::Figure;
 use crate::results::Results;
 use shadowstep_studies::chart::{Axis, Chart, Curve, Mark};
 use shadowstep_studies::finding::Finding;
-use shadowstep_studies::verdict::Verdict;
+use shadowstep_studies::verdict::{Coverage, Verdict};
 
 pub(super) const FIGURE: Figure = Figure {
     name: "henon-heiles-momentum",
@@ -62,10 +62,12 @@ fn check_change(finding: &mut Finding, n: u32, points: &[(f64, f64)]) {
     let (about, before) = (slopes(&|from, to| to > 0.36 && from < 0.46), slopes(&|_, to| to <= 0.36));
     let (across, below) = (steepest(&about), steepest(&before));
     let verdict = match () {
-        () if about.len() < 3 || before.len() < 3 => Verdict::NotDecided,
+        () if about.len() < 3 || before.len() < 3 => Coverage::Some.only_all(true),
         () if across <= below => Verdict::Agrees,
         () if across > 2.0 * below => Verdict::Differs,
-        () => Verdict::NotDecided,
+        () => Verdict::NotDecided(
+            "It is steeper than all changes below, which scatter, but by less than twice; closer p₁ would decide.",
+        ),
     };
     finding.check(
         format!("h = 1/{n}: no abrupt change about p₁ = 0.408."),

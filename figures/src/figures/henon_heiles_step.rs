@@ -98,7 +98,9 @@ fn round_off(finding: &mut Finding, points: &[(f64, f64)], fit: &ExponentialDeca
     let verdict = match () {
         () if first <= 20.0 => Verdict::Differs,
         () if last >= 20.0 => Verdict::Agrees,
-        () => Verdict::NotDecided,
+        () => Verdict::NotDecided(
+            "It begins between two step sizes, of which one is on either side of 1/20; steps between them would decide.",
+        ),
     };
     finding.check(
         "The effect of round-off error becomes visible when 1/h exceeds 20.",

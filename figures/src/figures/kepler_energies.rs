@@ -52,7 +52,9 @@ fn draw(results: &Results) -> Finding {
         let verdict = match () {
             () if lost < -2.0 => Verdict::Agrees,
             () if lost > -1.0 => Verdict::Differs,
-            () => Verdict::NotDecided,
+            () => Verdict::NotDecided(
+                "A difference that is 10 to 100 times smaller is neither; the statement has no number that would decide.",
+            ),
         };
         finding.check(
             "It essentially recovers its value after a close encounter (Störmer–Verlet, h = 1/20).",
@@ -111,7 +113,7 @@ fn compare_schemes(finding: &mut Finding, of: &Labelled) {
         match () {
             () if factor <= 2.0 => Verdict::Agrees,
             () if factor > 4.0 => Verdict::Differs,
-            () => Verdict::NotDecided,
+            () => Verdict::NotDecided("A factor from 2 to 4 counts as neither; the statement has no number that would decide."),
         },
     );
     finding.check(
@@ -172,7 +174,7 @@ fn staircase(finding: &mut Finding, (label, colour): (&str, usize), values: &[(f
     let middle = |n: usize| f64::midpoint(shown[n].0, shown[n + 1].0);
     let mut points = vec![(shown[0].0, 0.0)];
     for n in 0..shown.len() - 1 {
-        points.extend([(middle(n), relative(&shown[n].1)), (middle(n), relative(&shown[n + 1].1))]);
+        points.extend([n, n + 1].map(|side| (middle(n), relative(&shown[side].1))));
     }
     points.push((shown[shown.len() - 1].0, relative(&shown[shown.len() - 1].1)));
     let chart = finding.chart(
@@ -184,10 +186,12 @@ fn staircase(finding: &mut Finding, (label, colour): (&str, usize), values: &[(f
         ),
         "At the apocentres, by E_24; marks: the jumps at the encounters.",
     );
-    chart.marks = (0..shown.len() - 1).map(|n| Mark::at(middle(n), signed(&jumps[n]))).collect();
+    let of = |n: usize| relative(&shown[n].1);
+    let mark = |n: usize| Mark::at(middle(n), signed(&jumps[n])).of_jump(of(n), of(n + 1));
+    chart.marks = (0..shown.len() - 1).map(mark).collect();
 }
 
 /// +1.23e-9
 fn signed(value: &Wide) -> String {
-    format!("{}{}", if value.is_sign_negative() { "−" } else { "+" }, power(value.log10_abs()))
+    format!("{}{}", if value.is_sign_negative() { "-" } else { "+" }, power(value.log10_abs()))
 }

@@ -115,7 +115,7 @@ fn own_drift(finding: &mut Finding, of: &[(u32, Vec<(f64, f64)>)], control: &[(f
     let settled: Vec<_> = all.iter().filter(|(_, own)| *own).map(|(n, _)| format!("1/{n}")).collect();
     let verdict = match settled.len() {
         count if count == all.len() => coverage.every(true),
-        _ => Verdict::NotDecided,
+        _ => Verdict::NotDecided("Where it does not, E_k may show its own error; larger k would decide."),
     };
     finding.check(
         format!("What E_{k} shows of the scheme is a drift of the modified energy, and not the error of E_{k}."),

@@ -113,7 +113,7 @@ fn check_convergence(results: &Results, finding: &mut Finding) {
         let verdict = match () {
             () if last < 0.05 => Verdict::Agrees,
             () if changes.is_sorted() => Verdict::Differs,
-            () => Verdict::NotDecided,
+            () => Verdict::NotDecided("The changes neither end by m = 640 nor grow; a larger m would decide."),
         };
         finding.check(
             format!("h = 1/{n}: T_{{m,m}} converge as m → ∞."),

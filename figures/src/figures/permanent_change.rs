@@ -155,7 +155,7 @@ fn rank(finding: &mut Finding, equal_steps: &[Curve], equal_cost: &[Curve], cove
 
 /// A statement about several steps, of which one that contradicts it is enough; without any step it is not decided.
 fn of_counts(hold: usize, all: usize, coverage: Coverage) -> Verdict {
-    if all == 0 { Verdict::NotDecided } else { coverage.every(hold == all) }
+    if all == 0 { Verdict::of_all([]) } else { coverage.every(hold == all) }
 }
 
 /// Linear interpolation between points in the order of x.

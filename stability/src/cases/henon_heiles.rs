@@ -59,6 +59,7 @@ const BOUNDED: f64 = 1.5;
 const NEAR: f64 = 1e-10;
 /// The growth is kept at this number of times.
 const SAMPLES: u64 = 200;
+const STAYS: &str = "It may escape later; a longer run would decide.";
 impl OrbitKind {
     /// The initial state: H = 0.005; H = 1/8 from the chaotic sea; H = 0.2, above 1/6.
     fn start(self) -> [(&'static str, String); 4] {
@@ -142,7 +143,7 @@ impl Case for HenonHeiles {
             let bounded = second <= BOUNDED * first;
             let (found, verdict) = match (trial.kind, one.escaped) {
                 (OrbitKind::Escaping, Some(n)) => (format!("escapes at step {n}"), Verdict::Agrees),
-                (OrbitKind::Escaping, None) => ("does not escape".to_owned(), Verdict::NotDecided),
+                (OrbitKind::Escaping, None) => ("does not escape".to_owned(), Verdict::NotDecided(STAYS)),
                 (_, Some(n)) => (format!("escapes at step {n}"), Verdict::Differs),
                 (kind, None) => {
                     let chaotic = one.growth > CHAOTIC;

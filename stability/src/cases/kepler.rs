@@ -61,6 +61,7 @@ const PART: f64 = 0.25;
 const AS_LARGE: f64 = 0.4;
 /// The most alarms on orbits that are kept.
 const FALSE_ALARMS: f64 = 0.02;
+const FEW: &str = "Fewer than 20 orbits do not show that nothing is missed; a full examination has more.";
 const SCHEMES: [&str; 5] = ["stormer-verlet", "mclachlan-atela4", "yoshida4", "blanes-moan-srkn6b", "kahan-li8"];
 
 impl Case for Kepler {
@@ -272,7 +273,7 @@ impl Counts {
             () if self.not_reported > 0 => Verdict::Differs,
             () if self.false_alarms as f64 > FALSE_ALARMS * self.kept as f64 => Verdict::Differs,
             // a few orbits do not show that nothing is missed
-            () if all < 20 => Verdict::NotDecided,
+            () if all < 20 => Verdict::NotDecided(FEW),
             () => Verdict::Agrees,
         }
     }
@@ -349,6 +350,6 @@ mod tests {
         assert_eq!(Counts::of(kept.iter().chain([&lost])).verdict(), Verdict::Differs);
         let alarms = [(); 2].map(|()| orbit(None, Some(500), [1e-6; 2], 1e-3, false));
         assert_eq!(Counts::of(kept.iter().chain(&alarms)).verdict(), Verdict::Differs, "2 of 42");
-        assert_eq!(Counts::of(kept[..5].iter()).verdict(), Verdict::NotDecided);
+        assert_eq!(Counts::of(kept[..5].iter()).verdict(), Verdict::NotDecided(FEW));
     }
 }

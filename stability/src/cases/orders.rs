@@ -57,6 +57,7 @@ const DIGITS: u32 = 100;
 const TOLERANCE: f64 = 0.15;
 /// Errors within this number of digits of the errors of the weights decide nothing.
 const MARGIN: f64 = 4.0;
+const TOO_FEW_DIGITS: &str = "The weights have too few digits for these errors; weights with more would decide.";
 /// ε of A + εB: its square does not show.
 const EPSILON: &str = "1e-40";
 
@@ -150,7 +151,7 @@ impl Errors {
     fn verdict(&self, order: &Order) -> Verdict {
         let digits = order.digits.map_or(f64::from(DIGITS), |held| f64::from(held.min(DIGITS)));
         if self.0[2] < MARGIN - digits {
-            return Verdict::NotDecided;
+            return Verdict::NotDecided(TOO_FEW_DIGITS);
         }
         Verdict::from((self.order() - f64::from(order.order)).abs() <= TOLERANCE)
     }
@@ -295,6 +296,6 @@ mod tests {
         assert_eq!(errors(2.0).verdict(order), Verdict::Differs);
         assert_eq!(errors(5.0).verdict(order), Verdict::Differs);
         let few = Order { digits: Some(12), ..order.clone() };
-        assert_eq!(errors(2.0).verdict(&few), Verdict::NotDecided);
+        assert_eq!(errors(2.0).verdict(&few), Verdict::NotDecided(TOO_FEW_DIGITS));
     }
 }

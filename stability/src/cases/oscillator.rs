@@ -99,14 +99,15 @@ impl Case for Oscillator {
         }
         let curves = measured.iter().take(MOST_CURVES).enumerate().map(|(i, (trial, points))| {
             let growing = points.iter().filter(|point| point.predicted > 0.0 && !point.too_slow);
-            let points = growing.map(|point| (point.predicted.log10(), point.found.log10())).collect();
-            Curve::marked(suite.scheme(&trial.scheme).name.clone(), points, i)
+            let deviation = |point: &Point| (point.found / point.predicted - 1.0).abs();
+            let points = growing.map(|point| (point.predicted.log10(), deviation(point).log10())).collect();
+            Curve::unjoined(suite.scheme(&trial.scheme).name.clone(), points, i)
         });
-        let axes = ["growth per step, from the trace", "growth per step, found"].map(Axis::log10);
+        let axes = ["growth per step, from the trace", "|found / predicted − 1|"].map(Axis::log10);
         let [x, y] = axes;
         finding.chart(
-            Chart::new("Growth beyond the stability limit and in the gaps", x, y, curves.collect()),
-            "Each mark is a step size at which the trace is outside [−2, 2]; the first twelve schemes.",
+            Chart { listed: true, ..Chart::new("The deviation of the growth from that of the trace", x, y, curves.collect()) },
+            "Beyond the stability limit and in the gaps. Each mark is a step size at which the trace is outside [−2, 2]; without those that do not deviate; the first twelve schemes.",
         );
         finding
     }
@@ -174,7 +175,7 @@ fn compared(points: &[Point]) -> (String, Verdict) {
         parts.push(format!("{slow} grow too slowly to be seen"));
     }
     let verdict = match () {
-        () if points.is_empty() => Verdict::NotDecided,
+        () if points.is_empty() => Verdict::of_all([]),
         () => Verdict::from(off <= GROWTH_TOLERANCE && beyond <= BOUND_TOLERANCE),
     };
     (parts.join("; "), verdict)
@@ -195,7 +196,7 @@ mod tests {
         assert_eq!(compared(&right).1, Verdict::Agrees);
         assert_eq!(compared(&[point(0.0, 1e-3)]).1, Verdict::Differs, "beyond the ellipse");
         assert_eq!(compared(&[point(0.3, 0.301)]).1, Verdict::Differs, "another rate");
-        assert_eq!(compared(&[]).1, Verdict::NotDecided);
+        assert!(compared(&[]).1.reason().is_some());
     }
 
     /// The matrix of Störmer–Verlet is known: its trace is 2 − h².

@@ -48,6 +48,7 @@ const LOST: f64 = 3.0;
 const DIGITS: [u32; 9] = [16, 30, 60, 120, 250, 500, 1000, 2000, 5000];
 /// Weights that are fractions, algebraic numbers, and decimals of 250 digits.
 const SCHEMES: [&str; 4] = ["stormer-verlet", "yoshida4", "blanes-moan-srkn6b", "kahan-li8"];
+const REFUSED: &str = "Nothing was measured; weights with more digits would decide.";
 
 impl Case for Precision {
     const NAME: &'static str = "precision";
@@ -113,7 +114,11 @@ impl Case for Precision {
                 found += &format!("; {} digits are refused: {message}", trial.digits);
             }
             let holds = agree.iter().all(|(digits, agree)| *agree >= f64::from(*digits) - LOST);
-            finding.check(&named.name, found, if agree.is_empty() { Verdict::NotDecided } else { holds.into() });
+            finding.check(
+                &named.name,
+                found,
+                if agree.is_empty() { Verdict::NotDecided(REFUSED) } else { holds.into() },
+            );
             let points =
                 agree.iter().map(|(digits, agree)| (f64::from(*digits).log10(), f64::from(*digits) - agree)).collect();
             curves.push(Curve::marked(named.name.clone(), points, curves.len()));

@@ -58,6 +58,8 @@ const ORDER: u32 = 16;
 const WANDERS: (f64, f64) = (0.35, 0.65);
 /// Compensated sums wander less by this factor at least.
 const GAIN: f64 = 10.0;
+const GAIN_BETWEEN: &str = "With its uncertainty the gain is on both sides of 10; more phases would decide.";
+const LIKE_A_WANDER: &str = "What is seen is neither a wander alone nor a drift alone; longer runs would part them.";
 /// A drift of the mean over the phases is seen beyond this multiple of its standard error.
 const SEEN: f64 = 3.0;
 const SCHEMES: [&str; 3] = ["stormer-verlet", "blanes-moan-srkn6b", "kahan-li8"];
@@ -169,7 +171,7 @@ fn gained(gain: f64, uncertain: f64) -> Verdict {
     match () {
         () if gain * (1.0 - uncertain) >= GAIN => Verdict::Agrees,
         () if gain * (1.0 + uncertain) < GAIN => Verdict::Differs,
-        () => Verdict::NotDecided,
+        () => Verdict::NotDecided(GAIN_BETWEEN),
     }
 }
 
@@ -260,7 +262,7 @@ impl Wander {
         let (low, high) = (self.exponent - 2.0 * self.exponent_error, self.exponent + 2.0 * self.exponent_error);
         match () {
             () if self.drifts() && low > WANDERS.1 => Verdict::Differs,
-            () if self.drifts() || low > WANDERS.1 || high < WANDERS.0 => Verdict::NotDecided,
+            () if self.drifts() || low > WANDERS.1 || high < WANDERS.0 => Verdict::NotDecided(LIKE_A_WANDER),
             () => Verdict::Agrees,
         }
     }
@@ -292,14 +294,14 @@ mod tests {
         assert!(drift.drifts() && drift.exponent > 0.9, "{}", drift.described());
         assert_eq!(drift.verdict(), Verdict::Differs);
         // a drift that is as small as the wander does not decide
-        assert_eq!(Wander::of(&measured(1e-16, 3e-20)).unwrap().verdict(), Verdict::NotDecided);
+        assert_eq!(Wander::of(&measured(1e-16, 3e-20)).unwrap().verdict(), Verdict::NotDecided(LIKE_A_WANDER));
     }
 
     #[test]
     fn a_gain_is_decided_beyond_its_uncertainty() {
         assert_eq!(
             [20.0, 11.0, 5.0].map(|gain| gained(gain, 0.3)),
-            [Verdict::Agrees, Verdict::NotDecided, Verdict::Differs]
+            [Verdict::Agrees, Verdict::NotDecided(GAIN_BETWEEN), Verdict::Differs]
         );
     }
 

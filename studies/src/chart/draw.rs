@@ -115,7 +115,7 @@ impl Chart {
             let frame = Frame { x: x.range, y: span.range };
             ends.push(draw_curve(area, curve, n, self.curves.len() > 1, frame, place)?);
         }
-        self.label_marks(area, (x, y), &column, &rows)?;
+        self.label_marks(area, (x, y), &first, &rows)?;
         // left and bottom are the axes
         let (left, top, end, bottom) = (columns.start, rows.start, columns.end - 1, rows.end - 1);
         area.draw(&PathElement::new([(left, top), (end, top), (end, bottom)], stroke(Ink::Text, 1.0)))?;
@@ -148,40 +148,53 @@ impl Chart {
         Ok(())
     }
 
-    /// The labels of the marks one below the other, at the end and on the side where there is room, before the curves.
+    /// The labels of the marks, before the curves: in the middle of their jumps, or one below the other, at the end and on the side where
+    /// there is room.
     fn label_marks(
         &self,
         area: &Area<'_>,
         (x, y): (&Span, &Span),
-        place: &dyn Fn(f64) -> i32,
+        place: &dyn Fn((f64, f64)) -> Pixel,
         rows: &Range<i32>,
     ) -> DrawResult {
-        let visible = self.visible_marks(x);
+        let mut visible = self.visible_marks(x);
+        visible.retain(|mark| !mark.label.is_empty());
         let at_the_top = self.is_emptier_above(&visible, x, y);
         for (n, mark) in visible.into_iter().enumerate() {
-            let on_the_left = mark.x > f64::midpoint(x.range.0, x.range.1);
-            let (side, shift) = if on_the_left { (HPos::Right, -fine(5.0)) } else { (HPos::Left, fine(5.0)) };
+            let (side, shift) = match mark.jump {
+                Some(_) => (HPos::Center, 0),
+                None if mark.x > f64::midpoint(x.range.0, x.range.1) => (HPos::Right, -fine(5.0)),
+                None => (HPos::Left, fine(5.0)),
+            };
             let down = fine(LINE * (n as f64 + 0.6));
-            let row = if at_the_top { rows.start + down } else { rows.end - down };
+            let column = place((mark.x, y.range.0)).0;
+            let row = match mark.jump {
+                Some((from, to)) => at_a_jump([from, to].map(|value| place((mark.x, value)).1), rows),
+                None if at_the_top => rows.start + down,
+                None => rows.end - down,
+            };
             let style = text(TEXT * 0.9, (side, VPos::Center));
             let halo = TextStyle { color: Ink::Halo.placeholder().to_backend_color(), ..style.clone() };
             for style in [halo, style] {
-                area.draw(&Text::new(mark.label.clone(), (place(mark.x) + shift, row), style))?;
+                area.draw(&Text::new(mark.label.clone(), (column + shift, row), style))?;
             }
         }
         Ok(())
     }
 
-    /// At the right, each curve's label at the height where the curve ends, or as near as there is room.
+    /// At the right, each curve's label at the height where the curve ends, or as near as there is room; or one below the other.
     fn label_ends(&self, area: &Area<'_>, ends: &[Option<Pixel>], columns: Range<i32>, rows: Range<i32>) -> DrawResult {
         // curves without visible points are labelled below the others
         let wanted: Vec<_> = ends.iter().map(|end| f64::from(end.map_or(rows.end, |(_, y)| y))).collect();
         let range = (f64::from(rows.start + fine(LINE / 2.0)), f64::from(rows.end - fine(LINE / 2.0)));
-        let places = separate(&wanted, LINE * FINE, range);
+        let places = match self.listed {
+            true => separate(&vec![range.0; wanted.len()], LINE * FINE, (range.0, range.1)),
+            false => separate(&wanted, LINE * FINE, range),
+        };
         for ((curve, end), place) in self.curves.iter().zip(ends).zip(places) {
             let at = (columns.end + fine(GAP), place.round() as i32);
             // a longer leader would look like a curve
-            let near = end.filter(|(x, _)| columns.end - x < (columns.end - columns.start) / 4);
+            let near = end.filter(|(x, _)| !self.listed && columns.end - x < (columns.end - columns.start) / 4);
             if let Some(end) = near.filter(|(x, y)| (y - at.1).abs() > fine(1.0) || *x < columns.end - fine(8.0)) {
                 area.draw(&PathElement::new([end, (at.0 - fine(2.0), at.1)], stroke(Ink::Leader, 0.8)))?;
             }
@@ -206,6 +219,16 @@ impl Chart {
             area.draw(&Text::new(line.clone(), (fine(MARGIN), fine(y)), text(TEXT * 0.9, (HPos::Left, VPos::Top))))?;
         }
         Ok(())
+    }
+}
+
+/// The row of a label at a jump: in its middle, which it covers; but above a low jump, or below that at the top of the chart.
+fn at_a_jump([from, to]: [i32; 2], rows: &Range<i32>) -> i32 {
+    let half = fine(LINE * 0.6);
+    match (from - to).abs() > 4 * half {
+        true => i32::midpoint(from, to),
+        false if from.min(to) - 2 * half > rows.start => from.min(to) - half,
+        false => from.max(to) + half,
     }
 }
 
@@ -311,7 +334,8 @@ fn draw_label(area: &Area<'_>, curve: &Curve, marked: bool, (x, y): Pixel, label
     if let Some(marker) = marker {
         draw_marker(area, marker, curve.colour, (x + fine(SAMPLE / 2.0), y))?;
     }
-    let style = text(TEXT, (HPos::Left, VPos::Center));
+    let color = Ink::Curve(curve.colour).placeholder().to_backend_color();
+    let style = TextStyle { color, ..text(TEXT, (HPos::Left, VPos::Center)) };
     area.draw(&Text::new(label.to_owned(), (x + fine(SAMPLE + 5.0), y), style))?;
     Ok(())
 }

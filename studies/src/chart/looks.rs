@@ -1,6 +1,6 @@
 //! Colours, dashes and markers: a curve is recognised by more than its colour.
 
-use super::Marker;
+use super::{Curve, Marker};
 
 /// The colours of Okabe and Ito (2008), which people with any colour vision can distinguish, and a grey; the most
 /// different first. The yellow is darker here, because a thin yellow line is not visible on white.
@@ -49,6 +49,13 @@ pub(super) fn marker(index: usize) -> Marker {
         Marker::FilledDiamond,
     ];
     MARKERS[index % MARKERS.len()]
+}
+
+impl Curve {
+    /// Points without a line, with the markers of their colour.
+    pub fn unjoined(label: impl Into<String>, points: Vec<(f64, f64)>, colour: usize) -> Self {
+        Curve::dots(label, points, colour, marker(colour))
+    }
 }
 
 /// A shape about a point.

@@ -25,6 +25,7 @@ fn drifts() -> Chart {
         curves: curves.collect(),
         notes: vec!["120 digits; t = 0 to 100; estimator of the best order m.".to_owned()],
         equal_scales: false,
+        listed: false,
     }
 }
 
@@ -48,6 +49,7 @@ fn bumps() -> Chart {
         curves: curves.collect(),
         notes: Vec::new(),
         equal_scales: false,
+        listed: false,
     }
 }
 
@@ -70,6 +72,7 @@ fn orders() -> Chart {
         ],
         notes: Vec::new(),
         equal_scales: false,
+        listed: false,
     }
 }
 
@@ -92,7 +95,7 @@ pub(crate) fn samples_are_drawn_whole() {
         // one page contains many, so that ids would clash; all placeholders are replaced
         let ticks = ["drifts", "orders"]
             .contains(&name)
-            .then_some(">10<tspan dy=\"-0.4em\" font-size=\"0.75em\">−20</tspan></text>");
+            .then_some(">10<tspan dy=\"-0.4em\" font-size=\"0.75em\">-20</tspan></text>");
         assert!(ticks.is_none_or(|tick| svg.contains(tick)), "{name} lacks 10⁻²⁰");
         for wrong in [" id=", "<script", "NaN", "inf", "=\"#0100", "=\"#0200", "=\"#0201"] {
             assert!(!svg.contains(wrong), "{name} has {wrong}");
@@ -183,6 +186,75 @@ fn twelve_curves_differ_without_colours() {
     let svg = schemes().svg().unwrap();
     assert_eq!(svg.matches("stroke-dasharray").count(), 6, "three lines and their samples");
     assert_eq!(svg.matches("<polygon").count(), 3 * 8, "seven points and a sample");
+}
+
+/// The attributes and the content of each text of a picture.
+fn texts(svg: &str) -> impl Iterator<Item = (&str, &str)> {
+    svg.split("<text ").skip(1).filter_map(|text| text.split_once("</text>")?.0.split_once('>'))
+}
+
+/// The label of each curve has the colour of its line and of its markers, also where a style sheet changes it.
+#[test]
+fn labels_have_the_colours_of_their_curves() {
+    let kinds = [Curve::line, Curve::marked, Curve::thick, Curve::dashed, Curve::unjoined];
+    for (colour, kind) in (0..12).flat_map(|colour| kinds.map(|kind| (colour, kind))) {
+        let curves = vec![kind("this one", vec![(0.0, 0.0), (1.0, 1.0)], colour)];
+        let svg = Chart::new("", Axis::linear("x"), Axis::linear("y"), curves).svg().unwrap();
+        let (attributes, _) = texts(&svg).find(|(_, label)| *label == "this one").unwrap();
+        let as_curve = attributes.split(' ').filter(|part| part.starts_with("fill=") || part.starts_with("class="));
+        let as_curve = as_curve.collect::<Vec<_>>().join(" ");
+        assert!(as_curve.contains(looks::colour(colour)), "{colour}: {attributes}");
+        let of_line = as_curve.replace("fill", "stroke");
+        assert!(svg.contains(&of_line) || svg.matches(&as_curve).count() > 1, "{colour}: {as_curve}");
+    }
+}
+
+/// Charts that are compared have one order of labels, wherever the curves end, and no leaders.
+#[test]
+fn listed_labels_are_in_the_order_of_the_curves() {
+    let of = |listed: bool| {
+        let svg = Chart { listed, ..schemes() }.svg().unwrap();
+        let labels: Vec<_> = texts(&svg).filter(|(_, label)| label.starts_with("scheme ")).collect();
+        let row = |attributes: &str| attributes.split(" y=\"").nth(1)?.split('"').next()?.parse::<f64>().ok();
+        let rows: Vec<_> = labels.iter().map(|(attributes, _)| row(attributes).unwrap()).collect();
+        (rows.is_sorted(), svg.matches("#888888").count())
+    };
+    assert_eq!(of(true), (true, 0));
+    let (sorted, leaders) = of(false);
+    assert!(!sorted && leaders > 0);
+}
+
+/// Numbers of a picture can be searched and copied.
+#[test]
+fn the_minus_of_a_picture_is_that_of_ascii() {
+    let falling = (1..=40).map(|n| (f64::from(n), -f64::from(n))).collect::<Vec<_>>();
+    for y in [Axis::linear("max − min"), Axis::log10("max − min")] {
+        let svg = Chart::new("−1", Axis::linear("x"), y, vec![Curve::line("−2", falling.clone(), 0)]).svg().unwrap();
+        assert!(!svg.contains('−') && !svg.contains('⁻') && svg.contains("max - min"));
+        assert!(texts(&svg).any(|(_, text)| text == "-20" || text.contains(">-20<")), "{svg}");
+    }
+}
+
+/// The label of a jump is in its middle, or above one that is lower than the label.
+#[test]
+fn labels_of_jumps_stand_at_them() {
+    let row = |jump: (f64, f64)| {
+        let points = vec![(0.0, jump.0), (5.0, jump.0), (5.0, jump.1), (10.0, jump.1)];
+        let y = Axis::linear("y").over(0.0, 10.0);
+        let mut chart = Chart::new("", Axis::linear("x"), y, vec![Curve::line("step", points, 0)]);
+        chart.marks = vec![Mark::at(5.0, "up").of_jump(jump.0, jump.1)];
+        let svg = chart.svg().unwrap();
+        let line = polylines(&svg).into_iter().find(|line| line.len() == 4).unwrap();
+        let (attributes, _) = texts(&svg).find(|(_, label)| *label == "up").unwrap();
+        let row = attributes.split(" y=\"").nth(1).unwrap().split('"').next().unwrap().parse::<f64>().unwrap();
+        (row, line[0].1, line[3].1)
+    };
+    let (label, low, high) = row((2.0, 8.0));
+    assert!((label - f64::midpoint(low, high)).abs() < 1.0);
+    let (label, low, high) = row((5.0, 5.1));
+    assert!(label < high - 100.0 && high < low, "{label} {high}");
+    let (label, low, _) = row((9.9, 10.0));
+    assert!(label > low + 100.0, "{label} {low}");
 }
 
 #[test]
