@@ -68,7 +68,13 @@ class Observer:
     @property
     def window(self) -> int: ...
     def observe(
-        self, q: np.ndarray, p: np.ndarray, energy: float, forces: np.ndarray, half_step: bool
+        self,
+        q: np.ndarray,
+        p: np.ndarray,
+        energy: float,
+        forces: np.ndarray,
+        half_step: bool,
+        step: tuple[np.ndarray, np.ndarray, float] | None,
     ) -> tuple[int, float, float, float] | None: ...
     def values(self) -> tuple[list[int], tuple[list[float], list[float], list[float]]]: ...
     def diagnosis(self, units: tuple[str, str, float] | None) -> dict[str, Any]: ...

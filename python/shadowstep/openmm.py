@@ -15,16 +15,27 @@ from .recorded import Diagnosis, Observer
 
 _OTHER = ("CMMotionRemover", "AndersenThermostat", "MonteCarloBarostat", "MonteCarloAnisotropicBarostat", "MonteCarloMembraneBarostat", "MonteCarloFlexibleBarostat")
 
+_PER_DOF, _GLOBAL = ("shadow_dx", "shadow_dv"), "shadow_dbeta"
+
+
+def _sums_increments(integrator: Any) -> bool:
+    if not isinstance(integrator, openmm.CustomIntegrator):
+        return False
+    per_dof = {integrator.getPerDofVariableName(i) for i in range(integrator.getNumPerDofVariables())}
+    names = {integrator.getGlobalVariableName(i) for i in range(integrator.getNumGlobalVariables())}
+    return per_dof.issuperset(_PER_DOF) and _GLOBAL in names
+
 
 class ShadowReporter:
-    """A reporter that follows the modified energy of a simulation with OpenMM's `VerletIntegrator`, and says what moves the energy.
+    """A reporter that follows the modified energy of a simulation with OpenMM's `VerletIntegrator` or another splitting, and says what moves the energy.
 
-    OpenMM's momenta are those of leapfrog, half a step before the positions; they are converted exactly, by the forces.
+    Momenta of `VerletIntegrator` are those of leapfrog, half a step before the positions; they are converted exactly, by the forces. Another splitting is
+    a `CustomIntegrator` that sums the increments of its steps, as ``make_integrator(step_size, increments=True)`` of `Scheme.emit` does.
 
     Parameters
     ----------
     simulation
-        An `openmm.app.Simulation` with a `VerletIntegrator`; no constraints, virtual sites, thermostats, barostats or `CMMotionRemover`
+        An `openmm.app.Simulation` with such an integrator; no constraints, virtual sites, thermostats, barostats or `CMMotionRemover`
         (``createSystem(removeCMMotion=False)``). Particles of mass 0 do not move, and are left out. Append the reporter to its ``reporters``.
     every
         The number of steps from a window of successive states to the next; at ``window`` and below, all states.
@@ -34,9 +45,10 @@ class ShadowReporter:
 
     def __init__(self, simulation: Any, every: int = 1, window: int = 17) -> None:
         integrator, system = simulation.context.getIntegrator(), simulation.system
-        if not isinstance(integrator, openmm.VerletIntegrator):
-            found = type(integrator).__name__
-            raise InputError(f"the modified energy is that of leapfrog, and the integrator is {found}: use openmm.VerletIntegrator")
+        self._increments = integrator if _sums_increments(integrator) else None
+        if not (self._increments or isinstance(integrator, openmm.VerletIntegrator)):
+            found, use = type(integrator).__name__, "openmm.VerletIntegrator, or a splitting made by make_integrator(step_size, increments=True)"
+            raise InputError(f"the modified energy is that of a splitting whose increments are known, and the integrator is {found}: use {use}")
         if system.getNumConstraints():
             raise InputError(f"the system has {system.getNumConstraints()} constraints, with which the steps are no leapfrog: make it without")
         others = [type(force).__name__ for force in system.getForces() if type(force).__name__ in _OTHER]
@@ -75,7 +87,13 @@ class ShadowReporter:
         forces = number(state.getForces(asNumpy=True), unit.kilojoule_per_mole / unit.nanometer)
         energy = state.getPotentialEnergy().value_in_unit(unit.kilojoule_per_mole)
         q, v, forces = (of[self._free] for of in (q, v, forces))
-        sample = self._observer.observe(q, v.ravel() * self._masses, energy, forces, half_step=True)
+        p = v.ravel() * self._masses
+        if self._increments is None:
+            sample = self._observer.observe(q, p, energy, forces, half_step=True)
+        else:
+            dq, dv = (np.array(self._increments.getPerDofVariableByName(name))[self._free] for name in _PER_DOF)
+            step = (dq, dv.ravel() * self._masses, self._increments.getGlobalVariableByName(_GLOBAL))
+            sample = self._observer.observe(q, p, energy, forces, step=step)
         self.newest = sample or self.newest
 
     @property

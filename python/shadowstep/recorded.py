@@ -168,7 +168,7 @@ class Diagnosis:
 
 
 class Observer:
-    """Follows a trajectory that another program computes by velocity Verlet or leapfrog.
+    """Follows a trajectory that another program computes by velocity Verlet or leapfrog, or by another splitting whose increments it sums.
 
     Parameters
     ----------
@@ -206,7 +206,7 @@ class Observer:
         """A new window begins: the next state is the state n, which does not follow the newest by a step."""
         self._observer.begin(n)
 
-    def observe(self, q: Any, p: Any, energy: float, forces: Any, *, half_step: bool = False) -> Sample | None:
+    def observe(self, q: Any, p: Any, energy: float, forces: Any, *, half_step: bool = False, step: tuple[Any, Any, float] | None = None) -> Sample | None:
         """Takes the next state; gives the estimate that it completes.
 
         Parameters
@@ -217,8 +217,12 @@ class Observer:
             U(q)
         half_step
             Whether p is that of leapfrog, half a step before q.
+        step
+            Of another splitting than these two: what the step to the state added to q and p, and Σ h a ((q_s - q)ᵀU_q(q_s) - 2U(q_s)) over its kicks
+            by h a at q_s, q being that before the step. Of the first state it does not matter.
         """
-        found = self._observer.observe(_flat(q), _flat(p), float(energy), _flat(forces), half_step)
+        made = None if step is None else (_flat(step[0]), _flat(step[1]), float(step[2]))
+        found = self._observer.observe(_flat(q), _flat(p), float(energy), _flat(forces), half_step, made)
         return None if found is None else Sample(*found)
 
     @property

@@ -5,8 +5,8 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use shadowstep::StepSize;
 use shadowstep::shadow::recorded::{
-    Derivatives, Diagnosis, Log, Logged, Recorded, RecordedError, Repeated, Units, Unwrapping, Window, integer_momenta,
-    integer_momenta_with_gradients,
+    Derivatives, Diagnosis, Log, Logged, MadeStep, Recorded, RecordedError, Repeated, Units, Unwrapping, Window,
+    integer_momenta, integer_momenta_with_gradients,
 };
 use shadowstep::shadow::run::{ShadowRun, States};
 use shadowstep::shadow::{Bilinear, Estimator};
@@ -187,7 +187,8 @@ impl Observer {
         self.observer.states()
     }
 
-    /// Takes the next state; `half_step` if the momenta are leapfrog's, half a step before it.
+    /// Takes the next state; `half_step` if the momenta are leapfrog's, half a step before it; with what the step to it added, where that is of another splitting.
+    #[allow(clippy::too_many_arguments)] // the package's own function has the defaults
     fn observe(
         &mut self,
         py: Python<'_>,
@@ -196,8 +197,10 @@ impl Observer {
         energy: f64,
         forces: PyReadonlyArray1<'_, f64>,
         half_step: bool,
+        step: Option<(PyReadonlyArray1<'_, f64>, PyReadonlyArray1<'_, f64>, f64)>,
     ) -> PyResult<Option<(i64, f64, f64, f64)>> {
         let (q, mut p, gradient) = (q.to_vec()?, p.to_vec()?, negative(forces.to_vec()?));
+        let step = step.map(|(q, p, beta)| Ok::<_, PyErr>((q.to_vec()?, p.to_vec()?, beta))).transpose()?;
         let Observer { observer, h, unwrapping } = self;
         let observe = || -> Result<_, RecordedError> {
             if half_step {
@@ -207,7 +210,11 @@ impl Observer {
                 Some(unwrapping) => unwrapping.next(&q)?,
                 None => &q,
             };
-            observer.observe(&Logged { q, p: &p, energy, derivatives: Derivatives::Gradient(&gradient) })
+            let derivatives = match &step {
+                Some((q, p, beta)) => Derivatives::Step(&gradient, MadeStep { q, p, beta: *beta }),
+                None => Derivatives::Gradient(&gradient),
+            };
+            observer.observe(&Logged { q, p: &p, energy, derivatives })
         };
         let found = py.detach(observe).map_err(|error| refused(py, &error))?;
         Ok(found.map(|value| (value.n, value.modified, value.error, value.energy)))

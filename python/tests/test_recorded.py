@@ -275,12 +275,61 @@ def test_openmm_windows():
     assert reporter.values["n"].tolist() == [108, 208, 308]
 
 
+def made(scheme, femtoseconds, **options):
+    """A CustomIntegrator from the emitted module of a scheme."""
+    from openmm import unit
+
+    module = {"__name__": "emitted"}
+    exec(shadowstep.Scheme(scheme).emit("openmm"), module)
+    return module["make_integrator"](femtoseconds * unit.femtosecond, **options)
+
+
+@pytest.mark.parametrize("scheme, femtoseconds", [("stormer-verlet", 5), ("pefrl", 20), ("symplectic-euler", 1)])
+def test_openmm_with_emitted_integrators(scheme, femtoseconds):
+    """The values are those of H's order in h, and of Verlet those of OpenMM's own integrator."""
+    from_openmm = pytest.importorskip("shadowstep.openmm")
+    runs = {}
+    for increments in (True, False):
+        simulation = fluid("Reference", made(scheme, femtoseconds, increments=increments))
+        if increments:
+            reporter = from_openmm.ShadowReporter(simulation)
+            simulation.reporters.append(reporter)
+        simulation.step(200)
+        runs[increments] = simulation.context.getState(getPositions=True).getPositions(asNumpy=True)._value
+    # the sums change no bit of the states
+    assert (runs[True] == runs[False]).all()
+    found = reporter.diagnosis()
+    assert found.cause == "nothing" and max(found.off_q, found.off_p) < 1e-9, str(found)
+    values = reporter.values
+    assert np.ptp(values["modified_energy"]) < 0.02 * np.ptp(values["energy"])
+
+
+def test_openmm_verlet_with_increments_has_the_values_of_velocity_verlet():
+    from_openmm = pytest.importorskip("shadowstep.openmm")
+    found = []
+    for integrator in (made("stormer-verlet", 5, increments=True), None):
+        simulation = fluid("Reference", integrator)
+        if integrator is None:
+            # leapfrog begins half a step before
+            state = simulation.context.getState(getVelocities=True, getForces=True)
+            forces, masses = state.getForces(asNumpy=True)._value, np.array([simulation.system.getParticleMass(i)._value for i in range(108)])
+            simulation.context.setVelocities(state.getVelocities(asNumpy=True)._value - 0.0025 * forces / masses[:, None])
+        reporter = from_openmm.ShadowReporter(simulation)
+        simulation.reporters.append(reporter)
+        simulation.step(60)
+        found.append(reporter.values["modified_energy"])
+    # two orders of the same sums, in kJ/mol, over 60 chaotic steps
+    assert np.abs(found[0] - found[1]).max() < 1e-8
+
+
 def test_openmm_what_has_no_modified_energy_is_refused():
     openmm = pytest.importorskip("openmm")
     from shadowstep.openmm import ShadowReporter
 
     with pytest.raises(InputError, match="the integrator is LangevinMiddleIntegrator"):
         ShadowReporter(fluid("Reference", openmm.LangevinMiddleIntegrator(100, 1, 0.001)))
+    with pytest.raises(InputError, match=r"the integrator is CustomIntegrator: .*make_integrator\(step_size, increments=True\)"):
+        ShadowReporter(fluid("Reference", made("pefrl", 5)))
     with pytest.raises(InputError, match=r"CMMotionRemover.*createSystem\(removeCMMotion=False\)"):
         ShadowReporter(fluid("Reference", others=[openmm.CMMotionRemover()]))
 

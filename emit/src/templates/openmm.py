@@ -20,17 +20,34 @@ import openmm
 ‹weights›
 
 
-def make_integrator(step_size):
-    """A CustomIntegrator with this step size."""
+def make_integrator(step_size, increments=False):
+    """A CustomIntegrator with this step size.
+
+    With increments it sums what each step adds to x, v and beta (less x at its beginning times
+    the increment of p): shadowstep.openmm.ShadowReporter has the modified energy from these.
+    """
     integrator = openmm.CustomIntegrator(step_size)
 
     def kick(weight):
+        if increments:
+            integrator.addComputeSum("shadow_sum", "shadow_dx * f")
+            integrator.addComputeGlobal("shadow_dbeta", f"shadow_dbeta - {weight!r} * dt * (shadow_sum + 2 * energy)")
+            integrator.addComputePerDof("shadow_dv", f"shadow_dv + {weight!r} * dt * f / m")
         integrator.addComputePerDof("v", f"v + {weight!r} * dt * f / m")
 
     def drift(weight):
+        if increments:
+            integrator.addComputePerDof("shadow_dx", f"shadow_dx + {weight!r} * dt * v")
         integrator.addComputePerDof("x", f"x + {weight!r} * dt * v")
 
     integrator.addUpdateContextState()
+    if increments:
+        for name in "shadow_dbeta", "shadow_sum":
+            integrator.addGlobalVariable(name, 0)
+        for name in "shadow_dx", "shadow_dv":
+            integrator.addPerDofVariable(name, 0)
+            integrator.addComputePerDof(name, "0")
+        integrator.addComputeGlobal("shadow_dbeta", "0")
     ‹step›
     return integrator
 

@@ -12,7 +12,7 @@
 //! | `log` | the states of a log, and what is known of U there |
 //! | `half_steps` | momenta of leapfrog at the times of the positions |
 //! | `unwrap` | positions without jumps between the images of a periodic box |
-//! | `verlet` | what steps added to q, p and β |
+//! | `steps` | what steps added to q, p and β |
 //! | `misfit` | by how much logged states differ from that |
 //! | `source` | the states of a log as a source for estimators |
 //! | `repeated` | states of any scheme, with the steps between them made again |
@@ -37,11 +37,11 @@ mod observer;
 mod repeated;
 mod roughness;
 mod source;
+mod steps;
 mod text;
 mod units;
 mod unwrap;
 mod value;
-mod verlet;
 mod window;
 mod work;
 
@@ -50,7 +50,7 @@ pub use changes::Jump;
 pub use diagnosis::Diagnosis;
 pub use error::RecordedError;
 pub use half_steps::{integer_momenta, integer_momenta_with_gradients};
-pub use log::{Derivatives, Log, Logged};
+pub use log::{Derivatives, Log, Logged, MadeStep};
 pub use misfit::{Differences, Largest};
 pub use observer::Observer;
 pub use repeated::Repeated;

@@ -1,6 +1,9 @@
 //! Values of H̄.
 
-use shadowstep::shadow::recorded::{Repeated, Unwrapping, integer_momenta, integer_momenta_with_gradients};
+use shadowstep::shadow::recorded::{
+    Cause, Derivatives, Logged as LoggedState, MadeStep, Observer, Repeated, Unwrapping, Value, integer_momenta,
+    integer_momenta_with_gradients,
+};
 use shadowstep::shadow::run::Trajectory;
 
 use super::*;
@@ -90,6 +93,50 @@ fn repeated_steps_give_the_bits_of_the_run() {
     assert!((of_q.slope + 0.0099).abs() < 1e-4, "{of_q:?}");
     // after a drift that is too long, at other positions
     assert!((of_p.slope + 0.0099).abs() < 5e-3, "{of_p:?}");
+}
+
+/// Of any scheme, the increments that a program sums in its steps give the estimates of the run, and of the same states at other steps they do not.
+#[test]
+fn increments_of_any_splitting_give_the_estimates_of_the_run() {
+    let fluid = fluid();
+    let motion = || {
+        let [q, p] = fluid.start();
+        Motion::new(fluid, UnitMasses, q, p).unwrap()
+    };
+    let mut scratch = vec![0.0; fluid.scratch()];
+    fluid.prepare(&mut scratch, &());
+    for name in ["symplectic-euler", "pefrl", "blanes-moan-srkn6b"] {
+        let scheme = stepper::<f64>(name, "0.004", &());
+        let own = values(ShadowRun::new(scheme.with(motion()), 60, &Bilinear::with_error(8)).unwrap());
+        for factor in [1.0, 1.01] {
+            let mut observer = Observer::new(&step_size("0.004"), &[1.0; 81]).unwrap();
+            let mut before = vec![0.0; 81];
+            let mut trajectory = Trajectory::plain(scheme.with(motion()), 0, 60).unwrap();
+            trajectory.set_augmented(true);
+            while let Some(state) = trajectory.advance().unwrap() {
+                let (mut gradient, mut energy, mut rate) = (vec![0.0; 81], 0.0, 0.0);
+                fluid.gradient_and_rate(state.q, &mut gradient, &mut rate, &mut scratch);
+                fluid.energy(state.q, &mut energy, &mut scratch);
+                let zeros = [0.0; 81];
+                let [dq, dp] = if state.n == 0 { [&zeros[..]; 2] } else { [state.increments.q, state.increments.p] };
+                let beta = state.increments.beta + before.iter().zip(dp).map(|(q, dp)| q * dp).sum::<f64>();
+                let dq: Vec<f64> = dq.iter().map(|dq| factor * dq).collect();
+                let step = MadeStep { q: &dq, p: dp, beta };
+                let derivatives = Derivatives::Step(&gradient, step);
+                observer.observe(&LoggedState { q: state.q, p: state.p, energy, derivatives }).unwrap();
+                before.copy_from_slice(state.q);
+            }
+            let found = observer.values();
+            assert!(found.len() > 30, "{name}");
+            let is_own = |value: &Value| (value.modified - own[value.n as usize].1).abs() < 1e-11;
+            assert_eq!(found.iter().all(is_own), factor == 1.0, "{name}, {factor}");
+            assert_eq!(
+                observer.diagnosis().cause,
+                if factor == 1.0 { Cause::Nothing } else { Cause::OtherSteps },
+                "{name}"
+            );
+        }
+    }
 }
 
 /// Momenta of leapfrog, and positions in the box.

@@ -60,12 +60,12 @@ pub enum RecordedError {
     },
     /// States with gradients after states without them.
     #[error(
-        "state {n} has {found}, and the states before have not: all states of a log have gradients, or all have rates"
+        "state {n} has {found}, and the states before have not: all states of a log have gradients, or all have rates, or all have increments"
     )]
     Mixed {
         /// n of the state.
         n: i64,
-        /// A gradient or a rate.
+        /// A gradient, a rate or increments.
         found: &'static str,
     },
     /// A window that begins before the newest state.

@@ -22,6 +22,45 @@ pub enum Derivatives<'a> {
     Gradient(&'a [f64]),
     /// The rate qᵀU_q − 2U alone, of the logged q: not the virial by nearest images.
     Rate(f64),
+    /// The gradient U_q, and what the step to the state added: for every splitting.
+    Step(&'a [f64], MadeStep<'a>),
+}
+
+/// What a step of any splitting from a state q_n, p_n added, as the program has summed it along its kicks and drifts. Before the first step it is not read.
+///
+/// A kick by h a_s U_q, and a drift by h b_s M⁻¹p, add to
+///
+/// $$\Delta p = -\sum_s h a_s U_q(q_s), \quad \Delta q = \sum_s h b_s M^{-1} p_s, \quad
+/// \Delta\beta' = \sum_s h a_s \left( (q_s - q_n)^{\mathsf T} U_q(q_s) - 2U(q_s) \right),$$
+///
+/// so that q_s − q_n is what Δq has become before the kick: wherever q is counted from, and whatever image of a periodic box the program has of it.
+#[derive(Clone, Copy, Debug)]
+pub struct MadeStep<'a> {
+    /// Δq
+    pub q: &'a [f64],
+    /// Δp
+    pub p: &'a [f64],
+    /// Δβ'; β itself grows by Δβ' − q_nᵀΔp.
+    pub beta: f64,
+}
+
+impl<'a> Derivatives<'a> {
+    /// U_q, where it is known.
+    pub(super) fn gradient(&self) -> Option<&'a [f64]> {
+        match self {
+            Derivatives::Gradient(gradient) | Derivatives::Step(gradient, _) => Some(gradient),
+            Derivatives::Rate(_) => None,
+        }
+    }
+
+    /// What of them is known.
+    pub(super) fn name(&self) -> &'static str {
+        match self {
+            Derivatives::Gradient(_) => "a gradient",
+            Derivatives::Rate(_) => "a rate",
+            Derivatives::Step(..) => "increments",
+        }
+    }
 }
 
 /// A log in memory: arrays with a row for each of the states n = 0, 1, …, at equal distances h.

@@ -3,17 +3,17 @@
 use super::changes::{Changes, K};
 use super::diagnosis::{Diagnosis, Evidence};
 use super::error::RecordedError;
-use super::log::{Derivatives, Logged};
+use super::log::Logged;
 use super::roughness::Roughness;
+use super::steps::LoggedSteps;
 use super::value::Value;
-use super::verlet::VerletSteps;
 use super::window::Window;
 use crate::shadow::run::{Quantity, check_value};
 use crate::shadow::{Bilinear, BilinearEstimator, BuildEstimator, Estimator};
 use crate::steps::step_size::StepSize;
 
-/// Follows the modified energy H̄ of a trajectory that another program computes by velocity Verlet, or has computed, and says
-/// [what moves the energy](Diagnosis).
+/// Follows the modified energy H̄ of a trajectory that another program computes by velocity Verlet, or by another splitting whose [increments](super::MadeStep) it
+/// sums, and says [what moves the energy](Diagnosis).
 ///
 /// It takes states that follow each other by a step, or windows of such states with [gaps](Observer::begin) between them. From the 17th state of a window on
 /// each gives an estimate E_8 with its error, of the state eight before it; with [windows of nine](Window::Nine), from the ninth on, of the state four before
@@ -51,7 +51,7 @@ pub struct Observer {
     h: f64,
     window: Window,
     masses: Vec<f64>,
-    steps: VerletSteps,
+    steps: LoggedSteps,
     /// E_8
     estimator: BilinearEstimator<f64>,
     error: ErrorOf,
@@ -95,7 +95,7 @@ impl Observer {
     /// As [`Observer::new`].
     pub fn with_window(h: &StepSize, masses: &[f64], window: Window) -> Result<Self, RecordedError> {
         let dimension = masses.len();
-        let steps = VerletSteps::new(h, masses)?;
+        let steps = LoggedSteps::new(h, masses)?;
         let error = match window {
             Window::Nine => ErrorOf::LastTerm(Bilinear::new(K - 1).build(h, dimension, &())?, f64::NAN),
             Window::Seventeen => ErrorOf::Windows(Bilinear::with_error(K).build(h, dimension, &())?),
@@ -144,7 +144,7 @@ impl Observer {
         self.pushed += 1;
         let state = self.steps.state();
         let n = state.n;
-        if let Derivatives::Gradient(gradient) = logged.derivatives {
+        if let Some(gradient) = logged.derivatives.gradient() {
             self.forces.push(gradient, logged.p, &self.masses);
         }
         self.energy.push(&[logged.energy], &[0.0], &[1.0]);

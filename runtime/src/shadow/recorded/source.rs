@@ -4,8 +4,8 @@ use super::error::RecordedError;
 use super::judge::is_of_other_steps;
 use super::log::Log;
 use super::misfit::Differences;
+use super::steps::LoggedSteps;
 use super::text::other_steps;
-use super::verlet::VerletSteps;
 use crate::shadow::run::{RunError, ShadowRun, States, TrajectoryState};
 use crate::shadow::{BuildEstimator, Estimator};
 use crate::steps::step_size::StepSize;
@@ -53,7 +53,7 @@ use crate::steps::step_size::StepSize;
 pub struct Recorded<'a> {
     log: Log<'a>,
     next: usize,
-    steps: VerletSteps,
+    steps: LoggedSteps,
 }
 
 impl<'a> Recorded<'a> {
@@ -62,7 +62,7 @@ impl<'a> Recorded<'a> {
     /// # Errors
     /// Masses that are not one for each coordinate, positive and finite; a logged number that is not finite.
     pub fn new(log: Log<'a>, h: &StepSize, masses: &[f64]) -> Result<Self, RecordedError> {
-        let steps = VerletSteps::new(h, masses)?;
+        let steps = LoggedSteps::new(h, masses)?;
         for (n, state) in (0..).map_while(|n| log.state(n)).enumerate() {
             steps.check(n as i64, &state)?;
         }

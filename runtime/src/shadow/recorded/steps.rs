@@ -1,7 +1,7 @@
-//! The increments of velocity Verlet from one logged state to the next.
+//! The increments of steps from one logged state to the next: of velocity Verlet, or as they were logged.
 
 use super::error::RecordedError;
-use super::log::{Derivatives, Logged};
+use super::log::{Derivatives, Logged, MadeStep};
 use super::misfit::{Differences, Misfit};
 use super::work::Work;
 use crate::number::Number;
@@ -16,15 +16,17 @@ use crate::systems::increments::{Increments, OwnedIncrements};
 /// \Delta\beta = \tfrac h2 \left( r_n + r_{n+1} \right), \quad r = q^{\mathsf T} U_q - 2U.$$
 ///
 /// q is counted from the first state: a constant displacement of q is a canonical transformation, and changes H̄ by nothing but round-off. Where
-/// rates are logged and no gradients, Δq and Δp are differences of states, and q is as logged, as the rate belongs to it.
+/// rates are logged and no gradients, Δq and Δp are differences of states, and q is as logged, as the rate belongs to it. Where a [step](MadeStep) of another
+/// splitting is logged, its increments are these.
 #[derive(Clone, Debug)]
-pub(super) struct VerletSteps {
+pub(super) struct LoggedSteps {
     h: f64,
     half: f64,
     masses: Vec<f64>,
     /// The q of the first state, where gradients are logged.
     origin: Vec<f64>,
-    has_gradients: Option<bool>,
+    /// What is known of the derivatives.
+    known: Option<&'static str>,
     n: i64,
     /// Whether the next state follows the newest by a step, and whether that followed the one before.
     follows: [bool; 2],
@@ -45,7 +47,7 @@ const FAR_OFF: f64 = 10.0;
 /// it has, if q in ascending order differs from the step by less than this part of what it differs as it is.
 const SAME_NUMBERS: f64 = 0.01;
 
-impl VerletSteps {
+impl LoggedSteps {
     /// Steps of size h of coordinates with these masses.
     ///
     /// # Errors
@@ -60,12 +62,12 @@ impl VerletSteps {
         let dimension = masses.len();
         let h = f64::from_rational(h.exact(), &());
         let zeros = || vec![0.0; dimension];
-        Ok(VerletSteps {
+        Ok(LoggedSteps {
             h,
             half: h / 2.0,
             masses: masses.to_vec(),
             origin: zeros(),
-            has_gradients: None,
+            known: None,
             n: -1,
             follows: [false; 2],
             q: zeros(),
@@ -98,11 +100,15 @@ impl VerletSteps {
     /// Refuses a state that cannot be the state n of this log.
     pub(super) fn check(&self, n: i64, logged: &Logged<'_>) -> Result<(), RecordedError> {
         let dimension = self.masses.len();
-        let (gradient, rate, found) = match logged.derivatives {
-            Derivatives::Gradient(gradient) => (Some(gradient), None, "a gradient"),
-            Derivatives::Rate(rate) => (None, Some(rate), "a rate"),
+        let (rate, step) = match logged.derivatives {
+            Derivatives::Gradient(_) => (None, None),
+            Derivatives::Rate(rate) => (Some(rate), None),
+            Derivatives::Step(_, step) => (None, Some(step)),
         };
-        for (name, numbers) in [("q", Some(logged.q)), ("p", Some(logged.p)), ("the gradient", gradient)] {
+        let of_state = [("q", Some(logged.q)), ("p", Some(logged.p)), ("the gradient", logged.derivatives.gradient())];
+        let of_step =
+            [("the increment of q", step.map(|step| step.q)), ("the increment of p", step.map(|step| step.p))];
+        for (name, numbers) in of_state.into_iter().chain(of_step) {
             let Some(numbers) = numbers else { continue };
             if numbers.len() != dimension {
                 return Err(RecordedError::Dimension { name, n, found: numbers.len(), dimension });
@@ -112,13 +118,16 @@ impl VerletSteps {
                 return Err(RecordedError::NotFinite { name, n, coordinate, dimension, value });
             }
         }
-        for (name, value) in [("U", Some(logged.energy)), ("the rate", rate)] {
+        let of_beta = step.map(|step| step.beta);
+        for (name, value) in [("U", Some(logged.energy)), ("the rate", rate), ("the increment of β", of_beta)] {
             if let Some(value) = value.filter(|value| !value.is_finite()) {
                 return Err(RecordedError::NotFinite { name, n, coordinate: None, dimension, value });
             }
         }
-        match self.has_gradients {
-            Some(had) if had != gradient.is_some() => Err(RecordedError::Mixed { n, found }),
+        match self.known {
+            Some(known) if known != logged.derivatives.name() => {
+                Err(RecordedError::Mixed { n, found: logged.derivatives.name() })
+            }
             _ => Ok(()),
         }
     }
@@ -136,24 +145,32 @@ impl VerletSteps {
         self.n += 1;
         self.follows = [true, self.follows[0]];
         match logged.derivatives {
-            Derivatives::Gradient(gradient) => self.push_with_gradient(logged, gradient),
+            Derivatives::Gradient(gradient) => self.push_with_gradient(logged, gradient, None),
+            Derivatives::Step(gradient, step) => self.push_with_gradient(logged, gradient, Some(step)),
             Derivatives::Rate(rate) => self.push_with_rate(logged, rate),
         }
         self.state().check()
     }
 
-    fn push_with_gradient(&mut self, logged: &Logged<'_>, gradient: &[f64]) {
-        if self.has_gradients.replace(true).is_none() {
+    fn push_with_gradient(&mut self, logged: &Logged<'_>, gradient: &[f64], step: Option<MadeStep<'_>>) {
+        if self.known.replace(logged.derivatives.name()).is_none() {
             self.origin.copy_from_slice(logged.q);
         }
-        let VerletSteps { half, n, rate, increments: OwnedIncrements { q: dq, p: dp, beta }, .. } = self;
+        let LoggedSteps { half, n, rate, increments: OwnedIncrements { q: dq, p: dp, beta }, .. } = self;
         let [of_q, of_p] = &mut self.misfits;
         let rate_before = std::mem::replace(rate, -2.0 * logged.energy);
+        let mut of_origin = 0.0;
         for i in 0..self.masses.len() {
             let (q, p, gradient) = (logged.q[i] - self.origin[i], logged.p[i], gradient[i]);
             *rate += q * gradient;
-            dq[i] = self.h * ((self.p[i] - *half * self.gradient[i]) / self.masses[i]);
-            dp[i] = -*half * self.gradient[i] - *half * gradient;
+            (dq[i], dp[i]) = match step {
+                Some(step) => (step.q[i], step.p[i]),
+                None => {
+                    let dq = self.h * ((self.p[i] - *half * self.gradient[i]) / self.masses[i]);
+                    (dq, -*half * self.gradient[i] - *half * gradient)
+                }
+            };
+            of_origin += self.q[i] * dp[i];
             if self.follows[1] {
                 let by_q = of_q.add((*n, i), [self.q[i], q], dq[i], logged.q[i]);
                 self.predicted[i] = self.origin[i] + (self.q[i] + dq[i]);
@@ -163,7 +180,10 @@ impl VerletSteps {
             }
             (self.q[i], self.p[i], self.gradient[i]) = (q, p, gradient);
         }
-        *beta = *half * rate_before + *half * *rate;
+        *beta = match step {
+            Some(step) => step.beta - of_origin,
+            None => *half * rate_before + *half * *rate,
+        };
         if self.follows[1] {
             of_q.end();
             of_p.end();
@@ -190,7 +210,7 @@ impl VerletSteps {
     }
 
     fn push_with_rate(&mut self, logged: &Logged<'_>, rate: f64) {
-        self.has_gradients = Some(false);
+        self.known = Some(logged.derivatives.name());
         let OwnedIncrements { q: dq, p: dp, beta } = &mut self.increments;
         for (own, logged, added) in [(&mut self.q, logged.q, dq), (&mut self.p, logged.p, dp)] {
             for ((own, logged), added) in own.iter_mut().zip(logged).zip(added) {
