@@ -20,7 +20,6 @@ use shadowstep_symbolic::decimal::from_text;
 
 use crate::positions::{ASKED, Ended, Sampler, square_distance};
 use crate::problem::Problem;
-use crate::run::resolved;
 use crate::size::Size;
 use crate::timing::time_of_steps;
 
@@ -38,6 +37,8 @@ const GAIN: f64 = 256.0;
 
 /// Numbers of the runs resolve an error that is above their last digits by this number of digits.
 const ROUND_OFF_DIGITS: u32 = 4;
+/// An error of a run is known if it is larger than the error of the reference by this factor; log₁₀.
+const KNOWN: f64 = 0.7;
 /// No run goes on beyond this multiple of the time, which the first two may take.
 const LONGEST: u32 = 6;
 /// A difference that half the step improves by less than this has come to round-off, or the steps are still too large; log₁₀.
@@ -206,7 +207,7 @@ impl Reference {
 
     /// Errors of runs are known above this.
     pub(crate) fn resolved(&self) -> Size {
-        resolved(self.error())
+        self.error().times_power_of_ten(KNOWN)
     }
 
     /// The largest coordinate of its positions.
@@ -215,9 +216,9 @@ impl Reference {
         self.positions.iter().flatten().map(number).fold(0.0, f64::max)
     }
 
-    /// The estimated error of a sample.
-    pub(crate) fn error_at(&self, sample: usize) -> Size {
-        self.errors[sample]
+    /// Errors of runs at a sample are known above this.
+    pub(crate) fn resolved_at(&self, sample: usize) -> Size {
+        self.errors[sample].times_power_of_ten(KNOWN)
     }
 
     /// The number of samples.

@@ -17,8 +17,6 @@ use crate::size::Size;
 const MONITOR_ORDER: u32 = 8;
 /// The monitor has about this number of windows.
 const WINDOWS: u64 = 256;
-/// An error is known if it is larger than the error of the reference by this factor; log₁₀.
-const KNOWN: f64 = 0.7;
 
 /// What a run with some number of steps has shown.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -129,7 +127,7 @@ impl Measurement {
             if !distance.is_finite() || !energy.last.is_finite() {
                 return Ok(Some(failed(sample)));
             }
-            position = PositionError::of(distance, reference.error_at(sample));
+            position = PositionError::of(distance, reference.resolved_at(sample));
             largest_position = largest_position.or_larger(position);
             if 2 * (sample as u64 + 1) <= reference.samples() {
                 in_first_half = (largest_position, energy.relative(&energy.largest));
@@ -201,14 +199,8 @@ impl<N: Real> EnergyError<N> {
     }
 }
 
-/// Errors beside a reference with this error are known if they are larger.
-pub(crate) fn resolved(error: Size) -> Size {
-    error.times_power_of_ten(KNOWN)
-}
-
 impl PositionError {
-    fn of(distance: Size, error: Size) -> PositionError {
-        let bound = resolved(error);
+    fn of(distance: Size, bound: Size) -> PositionError {
         if distance >= bound { PositionError::Known(distance) } else { PositionError::Below(bound) }
     }
 
