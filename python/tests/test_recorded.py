@@ -284,9 +284,9 @@ def made(scheme, femtoseconds, **options):
     return module["make_integrator"](femtoseconds * unit.femtosecond, **options)
 
 
-@pytest.mark.parametrize("scheme, femtoseconds", [("stormer-verlet", 5), ("pefrl", 20), ("symplectic-euler", 1)])
+@pytest.mark.parametrize("scheme, femtoseconds", [("stormer-verlet", 5), ("pefrl", 10), ("symplectic-euler", 5)])
 def test_openmm_with_emitted_integrators(scheme, femtoseconds):
-    """The values are those of H's order in h, and of Verlet those of OpenMM's own integrator."""
+    """The modified energy is conserved to a small part of the energy error."""
     from_openmm = pytest.importorskip("shadowstep.openmm")
     runs = {}
     for increments in (True, False):
@@ -301,7 +301,7 @@ def test_openmm_with_emitted_integrators(scheme, femtoseconds):
     found = reporter.diagnosis()
     assert found.cause == "nothing" and max(found.off_q, found.off_p) < 1e-9, str(found)
     values = reporter.values
-    assert np.ptp(values["modified_energy"]) < 0.02 * np.ptp(values["energy"])
+    assert np.ptp(values["modified_energy"]) < 0.05 * np.ptp(values["energy"])
 
 
 def test_openmm_verlet_with_increments_has_the_values_of_velocity_verlet():

@@ -78,6 +78,8 @@ pub enum Advice<'a> {
         unfinished: Unfinished<'a>,
         /// How many runs over all of the time were expected to meet the tolerance, and missed it.
         missed: usize,
+        /// A choice that may meet it, and above what errors are known over all of the time.
+        unverified: Option<Box<(Choice<'a>, Size)>>,
     },
 }
 
@@ -112,6 +114,8 @@ const ATTEMPTS: usize = 4;
 const ROOM: f64 = -0.7;
 /// The reference at the end is to have a smaller error than is predicted by this factor: predictions are that accurate.
 const FINER: f64 = 60.0;
+/// Round-off leaves this number of digits of a position to the errors of runs.
+const ROUND_OFF: f64 = 2.0;
 /// It may take this multiple of the time of the run.
 const OF_RUN: f64 = 30.0;
 
@@ -131,12 +135,17 @@ impl<'a> AdviceRequest<'a> {
         let unfinished = self.unfinished(&study);
         let mut choices: Vec<Choice<'a>> =
             study.schemes.iter().filter_map(|studied| self.choice(&study, studied, halvings)).collect();
-        let mut missed = 0;
+        let (mut missed, mut unverified) = (0, None);
         let mut reference = (halvings == 0).then(|| study.reference.last());
         while missed < ATTEMPTS {
             choices.sort_by(|a, b| self.cost_of(a).total_cmp(&self.cost_of(b)));
             let Some(best) = choices.first_mut() else { break };
             let verified = self.verify(best, &mut reference, observer)?;
+            let resolved = reference.as_ref().map_or(Size::ZERO, Reference::resolved);
+            if resolved > self.tolerance && verified.is_some_and(|verified| verified.is_unresolved(resolved)) {
+                unverified = Some(Box::new((best.clone(), resolved)));
+                break;
+            }
             if let Some(mut verified) = verified.filter(|verified| verified.size() <= self.tolerance) {
                 if let Some(larger) = self.with_larger_step(best, verified.size())
                     && let Some(found) = self.verify(&larger, &mut reference, observer)?
@@ -162,6 +171,7 @@ impl<'a> AdviceRequest<'a> {
             in_time: study.schemes.iter().all(|studied| studied.series.end != End::Time),
             unfinished,
             missed,
+            unverified,
         })
     }
 
@@ -212,12 +222,13 @@ impl<'a> AdviceRequest<'a> {
         let mut known: Option<(Arithmetic, f64)> = None;
         for halvings in halvings {
             // a shorter part needs a better reference, perhaps in more digits
-            let Some(numbers) = numbers_of_reference(self.problem, self.resolution(halvings))? else {
+            let error = self.resolution(halvings);
+            let Some(numbers) = numbers_of_reference(self.problem, error)? else {
                 return Ok(Some(halvings));
             };
             let seconds = match known.filter(|(known, _)| *known == numbers) {
                 Some((_, seconds)) => seconds,
-                None => seconds_of_reference(self.problem, numbers, self.shortest_repeat())?,
+                None => seconds_of_reference(self.problem, (numbers, error), self.shortest_repeat())?,
             };
             if seconds <= self.seconds_for_reference() * 2_f64.powi(halvings) {
                 return Ok(Some(halvings));
@@ -241,7 +252,20 @@ impl<'a> AdviceRequest<'a> {
             Of::Energy => 0.5 * growth,
             Of::Permanent => growth,
         };
-        self.tolerance.times_power_of_ten(MARGIN - growth)
+        // runs have no smaller ones
+        let round_off = self.below_digits(ROUND_OFF);
+        let error = self.tolerance.times_power_of_ten(MARGIN - growth);
+        if halvings > 0 && error < round_off { round_off } else { error }
+    }
+
+    /// The last digit of a position, with this number of others; 0 for energies.
+    fn below_digits(&self, others: f64) -> Size {
+        match self.of {
+            Of::Position => {
+                self.problem.coordinates().times_power_of_ten(others - f64::from(self.problem.arithmetic.digits()))
+            }
+            Of::Energy | Of::Permanent => Size::ZERO,
+        }
     }
 
     /// The error of the reference; energies need no positions of one.
@@ -294,6 +318,9 @@ impl<'a> AdviceRequest<'a> {
 
     /// The number of steps for an error that no run had the time for.
     fn extrapolated(&self, studied: &Studied<'_>, curve: &Curve, error: Size) -> Option<f64> {
+        if error < self.below_digits(0.0) {
+            return None;
+        }
         let (steps, last) = curve.last().filter(|_| studied.series.end == End::Time)?;
         let more = 10_f64.powf((last - error.log10()) / last_order(curve, self.order(studied.scheme)));
         (1.0..=MOST_EXTRAPOLATED).contains(&more).then_some(steps * more)
@@ -386,7 +413,7 @@ impl<'a> AdviceRequest<'a> {
     fn at_end(&self, choice: &Choice<'a>) -> Calculation<'a> {
         let error = choice.error.times_power_of_ten(-FINER.log10());
         let seconds = self.seconds.max(OF_RUN * choice.seconds());
-        let steps = Some(Resolution::beside(choice.evaluations()));
+        let steps = Some(Resolution::beside(self.problem, error, choice.evaluations()));
         Calculation::resolving(self.problem, 1, Resolution { error, steps, seconds })
     }
 

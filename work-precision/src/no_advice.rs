@@ -1,12 +1,15 @@
 //! Why there is no advice, in a sentence.
 
-use crate::advise::{Advice, AdviceRequest, Unfinished};
+use shadowstep_symbolic::decimal::to_text;
+
+use crate::advise::{Advice, AdviceRequest, Choice, Unfinished};
 use crate::of::Of;
 
 impl Advice<'_> {
     /// Why no scheme is advised; `None` where one is.
     pub fn reason(&self, request: &AdviceRequest<'_>) -> Option<String> {
-        let Advice::OutOfReach { least, overflow, part, reference, resolved, in_time, missed, unfinished } = self
+        let Advice::OutOfReach { least, overflow, part, reference, resolved, in_time, missed, unverified, unfinished } =
+            self
         else {
             return None;
         };
@@ -16,6 +19,15 @@ impl Advice<'_> {
             false => format!("in a search of {} s", request.seconds),
         };
         let is_position = request.of == Of::Position;
+        if let Some((choice, resolved)) = unverified.as_deref() {
+            let Choice { scheme, step, error, .. } = choice;
+            return Some(format!(
+                "No advice is verified: {}, step {}, is expected to have the error {error} from runs {runs}; over all of the time errors are known above \
+                 {resolved} alone, as there was too little time for a better reference. Use more seconds, or a shorter time.",
+                scheme.name,
+                to_text(step)
+            ));
+        }
         Some(match least {
             _ if *missed > 0 => format!(
                 "No advice: runs over all of the time, {missed} of them, were expected to meet the tolerance from runs {runs}, and missed it."

@@ -23,17 +23,42 @@ use crate::problem::Problem;
 use crate::size::Size;
 use crate::timing::time_of_steps;
 
-/// Of order 10 for every T(p); its weights have 250 digits.
-const SCHEME: &str = "sofroniou-spaletta10-35";
-/// Its evaluations in a step.
-const EVALUATIONS: f64 = 35.0;
 /// Digits beyond those of the schemes' runs.
 const MORE_DIGITS: u32 = 12;
 /// The digits of the reference, which its scheme's weights must have.
 const MOST_REFERENCE_DIGITS: u32 = 240;
-/// Halving the step of a scheme of order 10 divides its error by 1024; where it divides the differences by this and more, the scheme shows
-/// its order, and the error is less than the last difference by this factor.
-const GAIN: f64 = 256.0;
+
+/// Errors above this part of the largest coordinate cost less by the scheme for planets; log₁₀.
+const LEAST_OF_PLANETS: f64 = -14.0;
+
+/// The scheme of a reference; its weights have 250 digits.
+#[derive(Clone, Copy)]
+struct Scheme {
+    name: &'static str,
+    /// Its evaluations in a step.
+    evaluations: f64,
+    /// Where half the step divides the differences by this and more, it shows its order, and the error is less than the last difference by this factor; log₁₀.
+    gain: f64,
+}
+
+impl Scheme {
+    /// Of order 10 for every T(p): half the step divides its error by 1024.
+    const ANY: Scheme = Scheme { name: "sofroniou-spaletta10-35", evaluations: 35.0, gain: 2.4 };
+    /// Beside Kepler orbits, of order (10, 6, 4), a quarter of the cost for errors above 1e-14: half the step divides its error by 16 at least.
+    const PLANETS: Scheme = Scheme { name: "abah1064", evaluations: 9.0, gain: 0.9 };
+
+    /// The one for positions with an error of about this size, with steps for the system.
+    fn of(problem: Problem<'_>, error: Size) -> Result<(Scheme, NamedScheme), Error> {
+        let system = problem.system;
+        if system.parts.planets().is_some()
+            && error > problem.coordinates().times_power_of_ten(LEAST_OF_PLANETS)
+            && let Ok(named) = for_system(scheme(Scheme::PLANETS.name)?, system)
+        {
+            return Ok((Scheme::PLANETS, named));
+        }
+        Ok((Scheme::ANY, for_system(scheme(Scheme::ANY.name)?, system)?))
+    }
+}
 
 /// Numbers of the runs resolve an error that is above their last digits by this number of digits.
 const ROUND_OFF_DIGITS: u32 = 4;
@@ -85,9 +110,10 @@ pub(crate) struct Resolution {
 }
 
 impl Resolution {
-    /// The reference for a run of this number of evaluations begins with as many.
-    pub(crate) fn beside(evaluations: f64) -> u64 {
-        (evaluations / EVALUATIONS).ceil().max(1.0).to_u64().unwrap_or(1)
+    /// The steps of a reference that begins with as many evaluations as a run.
+    pub(crate) fn beside(problem: Problem<'_>, error: Size, evaluations: f64) -> u64 {
+        let each = Scheme::of(problem, error).map_or(1.0, |(scheme, _)| scheme.evaluations);
+        (evaluations / each).ceil().max(1.0).to_u64().unwrap_or(1)
     }
 }
 
@@ -110,7 +136,7 @@ impl Reference {
                 let enough = |error: f64, size: f64| error <= size - target;
                 let steps = first_steps(problem, samples);
                 let request = Halving { samples, steps, time, gain: true, enough: &enough, continues };
-                let found = of_scheme(problem, arithmetic, request).transpose();
+                let found = of_scheme(problem, (arithmetic, Size::ZERO), request).transpose();
                 found.unwrap_or_else(|| {
                     let seconds = time.as_secs_f64();
                     let message =
@@ -160,13 +186,14 @@ impl Reference {
         let request = |gain| Halving { samples, steps, time, gain, enough: &enough, continues };
         let mut found = None;
         if let Some(own) = resolving_numbers(problem, error) {
-            let of_own = of_scheme(problem, own, request(false)).ok().flatten();
+            let of_own = of_scheme(problem, (own, error), request(false)).ok().flatten();
             found = of_own.filter(|found| found.error().is_finite());
             if let Some(found) = found.as_ref().filter(|found| found.error() <= error) {
                 return Ok(found.clone());
             }
         }
-        let precise = more_digits(problem).and_then(|arithmetic| of_scheme(problem, arithmetic, request(true)));
+        let precise =
+            more_digits(problem).and_then(|arithmetic| of_scheme(problem, (arithmetic, error), request(true)));
         let best = match (precise, found) {
             (Ok(Some(precise)), Some(found)) => {
                 if found.error() < precise.error() {
@@ -311,7 +338,7 @@ fn more_digits(problem: Problem<'_>) -> Result<Arithmetic, Error> {
 /// The numbers of the runs, with compensated sums, where they resolve an error.
 fn resolving_numbers(problem: Problem<'_>, error: Size) -> Option<Arithmetic> {
     let own = if problem.arithmetic == Arithmetic::DOUBLE { Arithmetic::COMPENSATED } else { problem.arithmetic };
-    let size = problem.system.start::<f64>(&()).0.into_iter().fold(f64::MIN_POSITIVE, |size, q| size.max(q.abs()));
+    let size = problem.coordinates();
     let resolved = size.log10() - f64::from(own.digits().saturating_sub(ROUND_OFF_DIGITS));
     (error.log10() > resolved).then_some(own)
 }
@@ -327,21 +354,26 @@ pub(crate) fn numbers_of_reference(problem: Problem<'_>, error: Size) -> Result<
 /// The seconds of a reference in these numbers: of three runs, each with half the step of the one before.
 pub(crate) fn seconds_of_reference(
     problem: Problem<'_>,
-    arithmetic: Arithmetic,
+    (arithmetic, error): (Arithmetic, Size),
     shortest: Duration,
 ) -> Result<f64, Error> {
     /// 1 + 2 + 4
     const RUNS: f64 = 7.0;
-    let (named, steps) = (for_system(scheme(SCHEME)?, problem.system)?, first_steps(problem, 1));
+    let (_, named) = Scheme::of(problem, error)?;
+    let steps = first_steps(problem, 1);
     let time = time_of_steps(Problem { arithmetic, ..problem }, &[(&named, steps)], shortest)?;
     Ok(RUNS * steps as f64 * time[0].median)
 }
 
 /// `None` where the time is over before there are two runs.
-fn of_scheme(problem: Problem<'_>, arithmetic: Arithmetic, request: Halving<'_>) -> Result<Option<Reference>, Error> {
-    let named = for_system(scheme(SCHEME)?, problem.system)?;
+fn of_scheme(
+    problem: Problem<'_>,
+    (arithmetic, error): (Arithmetic, Size),
+    request: Halving<'_>,
+) -> Result<Option<Reference>, Error> {
+    let (scheme, named) = Scheme::of(problem, error)?;
     let problem = Problem { arithmetic, ..problem };
-    arithmetic.compute(ByHalving { problem, named, request })
+    arithmetic.compute(ByHalving { problem, scheme, named, request })
 }
 
 /// How far the step is halved.
@@ -361,6 +393,7 @@ struct Halving<'a> {
 /// Halves the step until the error is small enough, or the time is over.
 struct ByHalving<'a> {
     problem: Problem<'a>,
+    scheme: Scheme,
     named: NamedScheme,
     request: Halving<'a>,
 }
@@ -369,7 +402,7 @@ impl Computation for ByHalving<'_> {
     type Output = Result<Option<Reference>, Error>;
 
     fn compute<N: RunNumber>(self, context: &N::Context) -> Self::Output {
-        let ByHalving { problem, named, request } = self;
+        let ByHalving { problem, scheme, named, request } = self;
         let Halving { samples, mut steps, time, continues, .. } = request;
         let begin = CpuTime::begin();
         let (mut last, mut last_difference): (Option<Vec<Vec<N>>>, f64) = (None, f64::INFINITY);
@@ -381,11 +414,12 @@ impl Computation for ByHalving<'_> {
             if let Some(before) = last.filter(|before| before.len() == found.len() && found.len() as u64 == samples) {
                 let differences = distances(&before, &found, context);
                 let difference = differences.iter().map(|size| size.log10()).fold(f64::NEG_INFINITY, f64::max);
-                let shows_order = last_difference - difference >= GAIN.log10();
-                let gain = if shows_order && request.gain { GAIN.log10() } else { 0.0 };
+                let shows_order = last_difference - difference >= scheme.gain;
+                let gain = if shows_order && request.gain { scheme.gain } else { 0.0 };
                 let errors = differences.iter().map(|size| size.times_power_of_ten(-gain)).collect();
                 let texts = |position: &Vec<N>| position.iter().map(Real::to_text).collect();
-                let origin = Origin::Scheme { name: SCHEME.to_owned(), steps, digits: problem.arithmetic.digits() };
+                let origin =
+                    Origin::Scheme { name: scheme.name.to_owned(), steps, digits: problem.arithmetic.digits() };
                 best = Some(Reference { positions: found.iter().map(texts).collect(), errors, origin });
                 stalled = if last_difference - difference < STALLED { stalled + 1 } else { 0 };
                 // with few digits that is round-off

@@ -25,6 +25,9 @@ use crate::work::Work;
 /// The coarsest run has this number of steps between samples, so that rounding to samples changes the number of steps little.
 const STEPS_PER_SAMPLE: u64 = 8;
 
+/// Errors of halves of a run are known from this number of samples on.
+const FEWEST_OF_GROWTH: u64 = 4;
+
 /// The samples of runs in transformed time.
 const SAMPLES_IN_TIME: u64 = 16;
 
@@ -150,9 +153,11 @@ impl<'a> Request<'a> {
                 let common = steps.iter().fold(0, |common: u64, steps| common.gcd(steps)).max(1);
                 most_samples(common)
             }
-            StepRange::Automatic { .. } => {
+            StepRange::Automatic { target, .. } => {
                 let steps = self.schemes.iter().map(|scheme| coarsest(self.problem, scheme)).fold(f64::MAX, f64::min);
-                (steps as u64 / STEPS_PER_SAMPLE).clamp(1, MOST_SAMPLES)
+                // advice needs the growth of errors
+                let least = if target.is_some() { FEWEST_OF_GROWTH } else { 1 };
+                (steps as u64 / STEPS_PER_SAMPLE).clamp(least, MOST_SAMPLES)
             }
         }
     }

@@ -6,6 +6,11 @@ use crate::size::Size;
 /// The error of a position is this multiple of that of the reference, where it is said to be known.
 const RESOLVED: f64 = 20.0;
 
+/// What errors are at most that are below five times the error of the reference, which adds one.
+fn at_most(resolved: Size) -> Size {
+    resolved.times_power_of_ten(1.2_f64.log10())
+}
+
 /// The error of a run over all of the time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Verified {
@@ -23,6 +28,11 @@ impl Verified {
         }
     }
 
+    /// Whether this is all that a reference says which resolves errors above a size.
+    pub(crate) fn is_unresolved(self, resolved: Size) -> bool {
+        matches!(self, Verified::AtMost(bound) if bound <= at_most(resolved))
+    }
+
     /// Of a position beside a reference with this error; `None` where it is not known, or the run failed.
     pub(crate) fn of_position(position: PositionError, error: Size) -> Option<Verified> {
         let ten = |size: Size| 10_f64.powf(size.log10());
@@ -33,9 +43,23 @@ impl Verified {
             PositionError::Known(size) => {
                 Some(Verified::AtMost(size.times_power_of_ten((1.0 + ten(error) / ten(size)).log10())))
             }
-            // below five times the error, of which one is that of the reference
-            PositionError::Below(size) => Some(Verified::AtMost(size.times_power_of_ten(1.2_f64.log10()))),
+            PositionError::Below(size) => Some(Verified::AtMost(at_most(size))),
             PositionError::None => None,
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_the_reference_does_not_resolve_is_told_from_an_error() {
+        let size = |x: f64| Size::of(&x);
+        let (error, resolved) = (size(1e-9), size(5e-9));
+        let verified = |position| Verified::of_position(position, error).unwrap();
+        assert!(verified(PositionError::Below(resolved)).is_unresolved(resolved));
+        assert!(!verified(PositionError::Known(size(5.1e-9))).is_unresolved(resolved));
+        assert_eq!(verified(PositionError::Known(size(2.1e-8))), Verified::Error(size(2.1e-8)));
     }
 }

@@ -79,7 +79,7 @@ impl Parts {
     }
 
     /// The planets, if these are the parts.
-    pub(crate) fn planets(&self) -> Option<&Planets> {
+    pub fn planets(&self) -> Option<&Planets> {
         match self {
             Parts::WisdomHolman(planets) => Some(planets),
             _ => None,
