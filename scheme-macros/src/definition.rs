@@ -1,6 +1,6 @@
 //! `/// … pub struct Well { depth, width } U(x, y) = …`: a struct with parameters, and a function by its formula.
 
-use proc_macro2::{Ident, TokenStream};
+use proc_macro2::{Ident, TokenStream, TokenTree};
 use quote::{format_ident, quote};
 use syn::parse::{Parse, ParseStream};
 use syn::punctuated::Punctuated;
@@ -25,6 +25,8 @@ pub(crate) struct Definition {
     /// What stands behind a semicolon: `m_i`, `m_j`.
     pub(crate) properties: Vec<Ident>,
     pub(crate) formula: Formula,
+    /// A parameter that is not in the formula.
+    unused: Option<Ident>,
 }
 
 /// A parameter, with the documentation that the user gives it.
@@ -69,8 +71,21 @@ impl Parse for Definition {
         }
         refuse_repeated(arguments.iter().chain(&properties).chain(parameters.iter().map(|p: &Parameter| &p.name)))?;
         let equals = input.parse::<Token![=]>()?;
-        let formula = Formula::new(input.parse()?, equals.span);
-        Ok(Definition { attributes, visibility, name, parameters, pair, function, arguments, properties, formula })
+        let tokens: TokenStream = input.parse()?;
+        let unused = parameters.iter().map(|parameter| &parameter.name).find(|name| !has(&tokens, name)).cloned();
+        let formula = Formula::new(tokens, equals.span);
+        Ok(Definition {
+            unused,
+            attributes,
+            visibility,
+            name,
+            parameters,
+            pair,
+            function,
+            arguments,
+            properties,
+            formula,
+        })
     }
 }
 
@@ -99,6 +114,15 @@ fn comma_separated(input: ParseStream<'_>) -> syn::Result<Vec<Ident>> {
     Ok(names)
 }
 
+/// Whether a name is among these tokens.
+fn has(tokens: &TokenStream, name: &Ident) -> bool {
+    tokens.clone().into_iter().any(|token| match token {
+        TokenTree::Ident(ident) => ident == *name,
+        TokenTree::Group(group) => has(&group.stream(), name),
+        TokenTree::Punct(_) | TokenTree::Literal(_) => false,
+    })
+}
+
 fn refuse_repeated<'a>(names: impl Iterator<Item = &'a Ident>) -> syn::Result<()> {
     let mut seen = Vec::new();
     for name in names {
@@ -123,6 +147,12 @@ pub(crate) fn texts(names: &[Ident]) -> Vec<String> {
 }
 
 impl Definition {
+    /// Refuses a parameter that is not in the formula. After other faults: a name that is unknown there may be meant for it.
+    pub(crate) fn check_parameters(&self) -> syn::Result<()> {
+        let Some(name) = &self.unused else { return Ok(()) };
+        Err(syn::Error::new(name.span(), format!("`{name}` is not in the formula; remove the parameter, or use it")))
+    }
+
     /// The struct with this documentation behind the user's, and its type. Beside the parameters it has for each of
     /// these properties the values of all bodies.
     pub(crate) fn structure(&self, documentation: &[String], properties: &[Ident]) -> (TokenStream, TokenStream) {

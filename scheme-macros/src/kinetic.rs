@@ -23,6 +23,7 @@ struct Derived {
 /// An invalid formula, at its tokens.
 pub(crate) fn emit(definition: &Definition) -> syn::Result<TokenStream> {
     let derived = derive(definition)?;
+    definition.check_parameters()?;
     let (structure, this) = definition.structure(&documentation(definition, &derived), &[]);
     let arguments = &definition.arguments;
     // hygienic names, different from those of the momenta

@@ -16,6 +16,7 @@ pub(crate) fn emit(definition: &Definition) -> syn::Result<TokenStream> {
     let separation = separation(definition)?;
     let properties = properties(definition)?;
     let (programs, second) = programs(definition, separation)?;
+    definition.check_parameters()?;
     let (structure, this) = definition.structure(&documentation(definition, separation, &programs), &properties);
     let curvature = curvature(definition, &this, &second);
     let generics = if definition.parameters().is_empty() && properties.is_empty() {

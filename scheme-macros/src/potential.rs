@@ -21,6 +21,7 @@ pub(crate) fn emit(definition: &Definition) -> syn::Result<TokenStream> {
         return pair::emit(definition);
     }
     let (programs, second) = programs(definition)?;
+    definition.check_parameters()?;
     let (structure, this) = definition.structure(&documentation(definition, &programs, &second), &[]);
     let arguments = &definition.arguments;
     // hygienic names, different from those of the coordinates

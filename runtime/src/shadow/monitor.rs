@@ -162,7 +162,7 @@ impl<N: Real, E: Estimator<N>> Monitor<N, E> {
     }
 
     /// One window every `steps` steps, of as many states as the estimator needs, at a place among these steps that changes from
-    /// window to window. If the windows leave no plain steps between them, all steps are augmented.
+    /// window to window. If the windows leave no plain steps between them, as with 0, all steps are augmented.
     #[must_use]
     pub fn every(mut self, steps: u64) -> Self {
         let states = self.schedule.states();
