@@ -4,6 +4,7 @@
 //! | --- | --- |
 //! | `ring` | polynomials in roots, with exact arithmetic |
 //! | `closed` | cells with roots → weights as such polynomials |
+//! | `cofactors` | a condition as a sum of the roots' equations |
 //! | `enclosure` | decimals → a box in which there is one solution |
 //! | `whole_numbers` | conditions of rational weights in whole numbers |
 //!
@@ -11,6 +12,7 @@
 //! letters up to the order has the coefficient 1/n!. A certificate has the weights; whoever checks it computes the coefficients.
 
 mod closed;
+mod cofactors;
 mod enclosure;
 mod ring;
 mod whole_numbers;

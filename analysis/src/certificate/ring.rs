@@ -56,19 +56,15 @@ impl Ring {
         let mut found = Polynomial::new();
         let mut left: Vec<(Vec<u32>, Rational)> = polynomial.into_iter().collect();
         while let Some((mut exponents, coefficient)) = left.pop() {
-            match (0..exponents.len()).rev().find(|i| exponents[*i] >= roots[*i].power) {
+            let is_high = |i: &usize| roots.get(*i).is_some_and(|root| exponents[*i] >= root.power);
+            match (0..exponents.len()).rev().find(is_high) {
                 Some(place) => {
                     exponents[place] -= roots[place].power;
                     left.extend(
                         roots[place].of.iter().map(|(other, factor)| (sum(&exponents, other), &coefficient * factor)),
                     );
                 }
-                None => {
-                    while exponents.last() == Some(&0) {
-                        exponents.pop();
-                    }
-                    add(&mut found, exponents, coefficient);
-                }
+                None => add(&mut found, exponents, coefficient),
             }
         }
         found
@@ -137,12 +133,16 @@ impl Ring {
 }
 
 /// The exponents of a product.
-fn sum(a: &[u32], b: &[u32]) -> Vec<u32> {
+pub(super) fn sum(a: &[u32], b: &[u32]) -> Vec<u32> {
     let at = |e: &[u32], i: usize| e.get(i).copied().unwrap_or(0);
     (0..a.len().max(b.len())).map(|i| at(a, i) + at(b, i)).collect()
 }
 
-fn add(polynomial: &mut Polynomial, exponents: Vec<u32>, value: Rational) {
+/// Adds a term.
+pub(super) fn add(polynomial: &mut Polynomial, mut exponents: Vec<u32>, value: Rational) {
+    while exponents.last() == Some(&0) {
+        exponents.pop();
+    }
     let sum = polynomial.remove(&exponents).map_or(value.clone(), |before| before + value);
     if !sum.is_zero() {
         polynomial.insert(exponents, sum);

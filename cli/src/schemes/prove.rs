@@ -1,5 +1,10 @@
 //! `shadowstep schemes prove`: the proof of an order as a certificate.
 
+mod formula;
+mod lean;
+
+use std::io::Write;
+
 use clap::{Args, ValueEnum};
 use serde_json::{Value, json};
 use shadowstep_analysis::certificate::{Certificate, Enclosure, Kind, Polynomial};
@@ -13,7 +18,8 @@ use crate::report::Status;
 const EXAMPLES: &str = "\
 Examples:
   shadowstep schemes prove yoshida4 --to json > yoshida4.json
-  python3 tests/certificates/check.py yoshida4.json";
+  python3 tests/certificates/check.py yoshida4.json
+  shadowstep schemes prove yoshida4 --to lean --output Yoshida4.lean";
 
 /// Writes the proof of the order as a certificate.
 ///
@@ -35,6 +41,8 @@ pub(crate) struct Arguments {
 enum Form {
     /// One JSON object: order, kind, roots, maps, bound
     Json,
+    /// A file of Lean 4 with Mathlib: a theorem for each condition; of rational weights and of polynomials in roots
+    Lean,
 }
 
 pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
@@ -46,9 +54,13 @@ pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
         );
         Error::usage(message, "certificates are of schemes of kicks and drifts")
     })?;
-    let Form::Json = arguments.to;
+    // what is refused writes no file
+    let text = match arguments.to {
+        Form::Json => serde_json::to_string(&record(&scheme.proved().scheme.table.name.value, &certificate))? + "\n",
+        Form::Lean => lean::text(scheme.proved(), &certificate)?,
+    };
     let mut output = Output::of(&arguments.output)?;
-    output.json(&record(&scheme.proved().scheme.table.name.value, &certificate))?;
+    write!(output, "{text}")?;
     output.finish()?;
     Ok(Status::Success)
 }
