@@ -23,7 +23,7 @@ use shadowstep_schemes::order::{lyndon_words, weighed, word_conditions};
 use shadowstep_schemes::scheme::Held;
 use shadowstep_schemes::{Map, MapKind, Proved, Rational};
 
-pub use enclosure::Enclosure;
+pub use enclosure::{Enclosure, Form};
 pub use ring::{Polynomial, Root};
 use ring::{Ring, constant};
 use whole_numbers::WholeNumbers;

@@ -94,7 +94,8 @@ fn enclosure(enclosure: &Enclosure) -> Value {
     let inverse: Vec<Vec<_>> =
         enclosure.inverse.iter().map(|row| row.iter().map(|y| format!("{y:e}")).collect()).collect();
     json!({
-        "half": enclosure.half.iter().map(to_text).collect::<Vec<_>>(),
+        "of": enclosure.of.to_string(),
+        "weights": enclosure.weights.iter().map(to_text).collect::<Vec<_>>(),
         "solved": enclosure.solved,
         "inverse": inverse,
         "radius": to_text(&enclosure.radius),
