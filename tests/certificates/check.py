@@ -11,6 +11,8 @@ import sys
 from fractions import Fraction
 from math import factorial, lcm
 
+from classes import lyndon_words, trees, word_conditions, words_of
+
 
 def add(a, b):
     """The sum of two polynomials: dictionaries of exponents and coefficients that are not 0."""
@@ -64,16 +66,6 @@ class Element:
 
     def __truediv__(self, n):  # whole numbers are multiples of n
         return Element(self.ring, {e: x / n if isinstance(x, Fraction) else x // n for e, x in self.terms.items()})
-
-
-def lyndon_words(longest):
-    """The words that are less than all their proper ends (Duval)."""
-    words, word = [], "K"
-    while word:
-        words.append(word)
-        word = "".join(word[i % len(word)] for i in range(longest)).rstrip("D")
-        word = word and word[:-1] + "D"
-    return words
 
 
 def scaled(maps, ring, order):
@@ -186,26 +178,33 @@ def check_enclosure(enclosure, maps, order):
         assert residual + spread * radius < radius, "the box need not have a solution"
 
 
+def check_claim(claim, maps, ring, is_exact):
+    """The number of conditions of a claim, all of which hold."""
+    order, bound, unit = max(claim.get("orders", [claim.get("order")])), Fraction(claim["bound"]), (0,) * ring.count
+    assert bound == 0 or not is_exact, "only decimals may be off"
+    assert order >= 1 and 0 <= bound < Fraction(1, 1000 * factorial(order)), "a bound that decides"
+    in_scale, scale = scaled(maps, ring, order)
+    weights = [(letter, Element(ring, weight)) for letter, weight in in_scale]
+    one, zero, words = Element(ring, {unit: 1}), Element(ring, {}), words_of(claim)
+    factors = [exponential(weight, {letter: 1}, order, one) for letter, weight in weights]
+    conditions = word_conditions(words, words and in_product(words, factors, one, zero)) or trees(weights, order, zero)
+    for name, degree, needed, value in conditions:
+        off = add(value.terms, {unit: -needed * scale**degree})
+        assert bound or not off, f"{name} is off"
+        assert not bound or abs(off.get((), 0)) <= bound * scale**degree, f"{name} is off by more than the bound"
+    return len(conditions)
+
+
 def check(certificate):
     """The number of conditions that hold, all of them; anything else is an error."""
-    ring, letters = Ring(certificate["roots"]), {"kick": "K", "drift": "D"}
+    ring, letters, kind = Ring(certificate["roots"]), {"kick": "K", "drift": "D"}, certificate["kind"]
     maps = [(letters[m["map"]], ring.reduced(polynomial(m["weight"], ring.count))) for m in certificate["maps"]]
-    order, bound = certificate["order"], Fraction(certificate["bound"])
-    assert bound == 0 or certificate["kind"] == "decimal", "only decimals may be off"
-    assert 0 <= bound < Fraction(1, 1000 * factorial(order)), "a bound that decides"
-    assert order >= 1 and (ring.count == 0) == (certificate["kind"] != "algebraic"), "roots are for algebraic numbers"
-    words, (in_scale, scale) = lyndon_words(order), scaled(maps, ring, order)
-    unit = (0,) * ring.count
-    one, zero = Element(ring, {unit: 1}), Element(ring, {})
-    factors = [exponential(Element(ring, weight), {letter: 1}, order, one) for letter, weight in in_scale]
-    for word, value in zip(words, in_product(words, factors, one, zero)):
-        exact = Fraction(scale ** len(word), factorial(len(word)))
-        off = add(value.terms, {unit: -exact})
-        assert bound or not off, f"the word {word} is off"
-        assert not bound or abs(off.get((), 0)) <= bound * scale ** len(word), f"the word {word} is off by more than the bound"
+    assert (ring.count == 0) == (kind != "algebraic"), "roots are for algebraic numbers"
+    assert certificate["for"] == "every T(p)", "the order for every T(p) first"
+    count = sum(check_claim(claim, maps, ring, kind != "decimal") for claim in [certificate, *certificate["also"]])
     if certificate.get("enclosure"):
-        check_enclosure(certificate["enclosure"], maps, order)
-    return len(words)
+        check_enclosure(certificate["enclosure"], maps, certificate["order"])
+    return count
 
 
 if __name__ == "__main__":
@@ -216,5 +215,6 @@ if __name__ == "__main__":
             count = check(certificate)
         except (AssertionError, KeyError, TypeError, ValueError) as error:
             sys.exit(f"{path}: not proved: {error}")
-        facts = f"order {certificate['order']}, {certificate['kind']}, {count} conditions"
+        also = "".join(f", {c.get('orders', c.get('order'))} for {c['for']}" for c in certificate["also"])
+        facts = f"order {certificate['order']}{also}, {certificate['kind']}, {count} conditions"
         print(f"{certificate['scheme']}: {facts}{', one solution enclosed' * bool(certificate.get('enclosure'))}")

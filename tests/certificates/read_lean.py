@@ -13,7 +13,8 @@ import sys
 from fractions import Fraction
 from math import factorial, prod
 
-from check import exponential, in_product, lyndon_words, polynomial
+from check import exponential, in_product, polynomial
+from classes import lyndon_words
 
 LETTERS = {"kick": "K", "drift": "D"}
 

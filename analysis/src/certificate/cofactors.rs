@@ -3,13 +3,13 @@
 use num_traits::One;
 use shadowstep_schemes::Rational;
 use shadowstep_schemes::arithmetic::Arithmetic;
-use shadowstep_schemes::order::{Condition, lyndon_words, word_conditions};
+use shadowstep_schemes::order::Condition;
 
 use super::ring::{Polynomial, Ring, Root, add, sum};
-use super::{Certificate, Kind};
+use super::{Certificate, Class, Kind};
 
 impl Certificate {
-    /// The conditions, each with the polynomials q₁, q₂, … in the roots x₁, x₂, … for which `value − needed = Σ q_i (x_i^k_i − r_i)`, by division with remainder
+    /// The conditions for every T(p), each with the polynomials q₁, q₂, … in the roots x₁, x₂, … for which `value − needed = Σ q_i (x_i^k_i − r_i)`, by division with remainder
     /// 0; `None` for decimals, which meet no equation.
     ///
     /// ```
@@ -29,7 +29,7 @@ impl Certificate {
         };
         // without equations no power is reduced
         let free = Ring::default();
-        let conditions = word_conditions(&lyndon_words(self.order as usize), &self.maps, &free);
+        let conditions = Class::EveryKinetic(self.order).conditions(&self.maps, &free);
         let of_condition = |(condition, value): (Condition, Polynomial)| {
             let off = Ring::sum(&value, &free.weight(&condition.needed), &-Rational::one());
             let (factors, remainder) = divided(off, roots);

@@ -6,8 +6,9 @@ mod lean;
 use std::io::Write;
 
 use clap::{Args, ValueEnum};
+use num_traits::Zero;
 use serde_json::{Value, json};
-use shadowstep_analysis::certificate::{Certificate, Enclosure, Kind, Polynomial};
+use shadowstep_analysis::certificate::{Certificate, Class, Enclosure, Kind, Polynomial};
 use shadowstep_scenes::{Error, library};
 use shadowstep_schemes::{Rational, to_significant};
 use shadowstep_symbolic::decimal::to_text;
@@ -85,8 +86,21 @@ fn record(name: &str, certificate: &Certificate) -> Value {
         "bound": bound,
         "roots": roots,
         "maps": maps,
+        "also": certificate.also.iter().map(|(class, bound)| also(class, bound)).collect::<Vec<_>>(),
         "enclosure": certificate.enclosure.as_ref().map(enclosure),
     })
+}
+
+/// Orders for a smaller class.
+fn also(class: &Class, bound: &Rational) -> Value {
+    let bound = if bound.is_zero() { "0".to_owned() } else { above(bound) };
+    match class {
+        Class::EveryKinetic(order) => json!({ "for": "every T(p)", "order": order, "bound": bound }),
+        Class::Quadratic(order) => json!({ "for": "quadratic T", "order": order, "bound": bound }),
+        Class::NearIntegrable { perturbation, orders } => {
+            json!({ "for": "A + εB", "perturbation": perturbation.to_string(), "orders": orders, "bound": bound })
+        }
+    }
 }
 
 /// The box and the matrix, as decimals that are exact.

@@ -38,7 +38,16 @@ fn every_certificate_is_verified() {
         let path = folder.path().join(format!("{name}.json")).display().to_string();
         fs::write(&path, &result.out).unwrap();
         let certificate: Value = serde_json::from_str(&result.out).unwrap();
-        lines.push(format!("{name}: order {}, {}", order.order, certificate["kind"].as_str().unwrap()));
+        let near: Vec<_> = proved.proof.near_integrable.iter().map(|order| order.order).collect();
+        let quadratic = Some(proved.proof.quadratic.order).filter(|quadratic| *quadratic > order.order);
+        let also: String = [
+            quadratic.map(|quadratic| format!(", {quadratic} for quadratic T")),
+            (!near.is_empty()).then(|| format!(", {near:?} for A + εB")),
+        ]
+        .into_iter()
+        .flatten()
+        .collect();
+        lines.push(format!("{name}: order {}{also}, {}", order.order, certificate["kind"].as_str().unwrap()));
         paths.push(path);
     }
     let (is_accepted, out) = accepted(CHECKER, &paths);
@@ -47,6 +56,8 @@ fn every_certificate_is_verified() {
         out.lines().zip(&lines).all(|(line, expected)| line.starts_with(&format!("{expected}, "))),
         "{out}\n{lines:?}"
     );
+    let beside = |class: &str| lines.iter().filter(|line| line.contains(class)).count();
+    assert!(beside(" for quadratic T") >= 6 && beside(" for A + εB") >= 12, "{lines:#?}");
     let kinds = |kind: &str| lines.iter().filter(|line| line.ends_with(kind)).count();
     let enclosed = out.lines().filter(|line| line.ends_with("one solution enclosed")).count();
     assert_eq!(enclosed, kinds("decimal"), "{out}");
@@ -90,6 +101,17 @@ fn wrong_certificates_are_refused() {
         refused(name, &|certificate| certificate["maps"][1]["weight"][0][0] = "1/3".into());
         refused(name, &|certificate| drop(certificate["maps"].as_array_mut().unwrap().pop()));
     }
+    for (name, class, changed) in [
+        ("calvo-sanzserna4", "the tree ", 5.into()),
+        ("aba864", "the word ", vec![9, 6, 4].into()),
+        ("saba3", "the word ", vec![6, 3].into()),
+        ("saba4", "the word ", vec![9, 2].into()),
+    ] {
+        let key = if class == "the tree " { "order" } else { "orders" };
+        let higher = refused(name, &|certificate: &mut Value| certificate["also"][0][key] = Value::clone(&changed));
+        assert!(higher.contains(class), "{higher}");
+    }
+    refused("aba864", &|certificate| certificate["also"][0]["perturbation"] = "drift".into());
     refused("yoshida4", &|certificate| certificate["roots"][0]["of"][0][0] = "3".into());
     // a composition, a palindrome of maps, maps
     for name in ["yoshida6-a", "blanes-moan-s10", "mclachlan-atela4"] {
