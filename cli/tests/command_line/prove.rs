@@ -82,6 +82,36 @@ fn show_names_the_kind_of_proof() {
     }
 }
 
+/// The box is as wide as the digits need, not only of those with 250 digits.
+#[test]
+fn a_table_of_sixteen_digits_is_enclosed() {
+    let folder = tempfile::tempdir().unwrap();
+    let [table, certificate] =
+        ["pefrl16.toml", "pefrl16.json"].map(|name| folder.path().join(name).display().to_string());
+    let text = r#"
+name = "pefrl16"
+order = 4
+kinetic = "any"
+digits = 16
+[constants]
+xi = "0.1786178958448091"
+lambda = "-0.2123418310626054"
+chi = "-0.06626458266981849"
+[stages]
+kick = [0, "1/2 - lambda", "lambda", "lambda", "1/2 - lambda"]
+drift = ["xi", "chi", "1 - 2*(chi + xi)", "chi", "xi"]
+"#;
+    fs::write(&table, text).unwrap();
+    let shown = quietly(&format!("schemes show {table}"));
+    assert!(
+        shown.contains("certified enclosure") && shown.contains("within 1e-14 of the weights, 1 of 5 held"),
+        "{shown}"
+    );
+    fs::write(&certificate, quietly(&format!("schemes prove {table}"))).unwrap();
+    let (is_accepted, out) = accepted(CHECKER, &[certificate]);
+    assert!(is_accepted && out.contains("one solution enclosed"), "{out}");
+}
+
 #[test]
 fn wrong_certificates_are_refused() {
     let folder = tempfile::tempdir().unwrap();

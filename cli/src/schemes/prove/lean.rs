@@ -93,7 +93,8 @@ fn head(proved: &Proved, certificate: &Certificate, roots: &[Root]) -> String {
             the first run has S^q/q! with all weights before the second. {of_roots}"
         ),
     ];
-    let wrapped: Vec<_> = paragraphs.iter().map(|text| wrapped_to(&text.replace("-/", "- /"), "", WIDTH)).collect();
+    let wrapped: Vec<_> =
+        paragraphs.iter().map(|text| wrapped_to(&text.replace("-/", "- /").replace("/-", "/ -"), "", WIDTH)).collect();
     format!("/-!\n{}-/\n", wrapped.join("\n"))
 }
 
