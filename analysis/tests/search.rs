@@ -1,5 +1,7 @@
 //! Searches find published schemes, or better ones of their class, from nothing but stages and order.
 
+use std::thread;
+
 use num_traits::One;
 use shadowstep_analysis::Analysis;
 use shadowstep_analysis::search::{Candidate, MEASURES, Measure, Request, Search};
@@ -16,7 +18,12 @@ fn search(text: &str) -> Search {
 
 /// What all starts find, the best first.
 fn candidates(search: &Search) -> Vec<Candidate> {
-    let mut all: Vec<_> = (0..search.starts()).filter_map(|start| search.start(start)).collect();
+    let threads = thread::available_parallelism().map_or(1, usize::from);
+    let every = |first: usize| (first..search.starts()).step_by(threads).filter_map(|start| search.start(start));
+    let mut all: Vec<_> = thread::scope(|scope| {
+        let running: Vec<_> = (0..threads).map(|first| scope.spawn(move || every(first).collect::<Vec<_>>())).collect();
+        running.into_iter().flat_map(|thread| thread.join().unwrap()).collect()
+    });
     all.sort_by(|a, b| a.goal.total_cmp(&b.goal));
     all
 }
@@ -30,6 +37,23 @@ fn proved(search: &Search, candidate: &Candidate) -> Proved {
 /// The distance of the different weights of a published scheme from a candidate's, whichever comes first in the table.
 fn distance(candidate: &Candidate, published: &[f64]) -> f64 {
     candidate.weights.iter().zip(published).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
+}
+
+/// Whether the best scheme of a search is at least as good as a published one, and is proved.
+fn is_not_better(text: &str, published: &str, measure: Measure) {
+    let search = search(&format!("{text}\nminimise = \"{}\"", measure.name()));
+    let best = candidates(&search).swap_remove(0);
+    let published = search.measure(measure, shipped_proved(published).unwrap());
+    assert!(best.goal <= published * (1.0 + 1e-7), "{text}: {} and {published}", best.goal);
+    let (found, order) = (proved(&search, &best), search.request.order);
+    assert_eq!(found.order().order, order, "{text}");
+    let stages = &found.scheme.stages;
+    for weights in [&stages.kick, &stages.drift] {
+        assert!(weights.iter().sum::<Rational>().is_one(), "{text}: sums are exact");
+    }
+    // free parameters of few digits lose nothing that matters
+    let after = search.measure(measure, &found);
+    assert!((after / best.goal - 1.0).abs() < 1e-6, "{text}: {after} and {}", best.goal);
 }
 
 /// Of each class one; the measure of the best is at most the published one's, to the digits that a start ends with.
@@ -50,23 +74,40 @@ fn no_published_scheme_is_better() {
             "mclachlan-ss5",
             Measure::EffectiveError,
         ),
+        (
+            "order = 4\nkinetic = \"quadratic\"\nstages = 3\ngradient_kicks = true\nstarts = 2",
+            "omelyan-4mn3f3gv",
+            Measure::EffectiveError,
+        ),
+        (
+            "order = 6\nkinetic = \"quadratic\"\nstages = 5\ngradient_kicks = true\nstarts = 8",
+            "omelyan-6mn5f5gv",
+            Measure::EffectiveError,
+        ),
+        (
+            "order = 2\nkinetic = \"any\"\nfirst = \"drift\"\nnear_integrable = [6, 2]\nstages = 3\nstarts = 2",
+            "saba3",
+            Measure::EffectiveError,
+        ),
+        // the start 18 is the first one that is better: 0.7560 beside 0.8220
+        (
+            "order = 6\nkinetic = \"quadratic\"\nstages = 11\nlargest_weight = 0.6\nstarts = 19",
+            "blanes-moan-srkn11b",
+            Measure::EffectiveError,
+        ),
         ("order = 2\nkinetic = \"any\"\nstages = 2\nstarts = 4", "bcss2", Measure::SamplingError),
         ("order = 2\nkinetic = \"any\"\nstages = 3\nstarts = 8", "bcss3", Measure::SamplingError),
     ] {
-        let search = search(&format!("{text}\nminimise = \"{}\"", measure.name()));
-        let best = candidates(&search).swap_remove(0);
-        let published = search.measure(measure, shipped_proved(published).unwrap());
-        assert!(best.goal <= published * (1.0 + 1e-7), "{text}: {} and {published}", best.goal);
-        let (found, order) = (proved(&search, &best), search.request.order);
-        assert_eq!(found.order().order, order, "{text}");
-        let stages = &found.scheme.stages;
-        for weights in [&stages.kick, &stages.drift] {
-            assert!(weights.iter().sum::<Rational>().is_one(), "{text}: sums are exact");
-        }
-        // free parameters of few digits lose nothing that matters
-        let after = search.measure(measure, &found);
-        assert!((after / best.goal - 1.0).abs() < 1e-6, "{text}: {after} and {}", best.goal);
+        is_not_better(text, published, measure);
     }
+}
+
+/// The start 581 is the first one that is better: 1.2292 beside 1.2794.
+#[test]
+#[ignore = "84 s of one core in a debug build"]
+fn ten_stages_of_order_six_are_not_better() {
+    let text = "order = 6\nkinetic = \"any\"\nstages = 10\nlargest_weight = 0.6\nstarts = 600";
+    is_not_better(text, "blanes-moan-s10", Measure::EffectiveError);
 }
 
 /// Schemes that are optimal by our measures too are found themselves; the others' authors had other norms of the same terms, and a start ends in

@@ -2,14 +2,16 @@
 
 A step is a product of exponentials of kicks K and drifts D, with weights that the certificate has. It has order n for every T(p) if, for every
 Lyndon word in K and D of m <= n letters, the coefficient of the word in the product is 1/m!. This program makes the words and computes the coefficients
-with fractions only, or, where that is the same, with whole multiples of one. Weights are polynomials in roots x1, x2, ..., x_i^k = r_i, and a condition has to hold modulo these equations: then it holds for
-the roots themselves. For decimals it has to hold to within the bound that is stated; with an enclosure, there is one solution within a radius of them.
+with fractions only, or, where that is the same, with whole multiples of one. Weights are polynomials in roots x1, x2, ..., x_i^k = r_i, and a condition
+has to hold modulo these equations: then it holds for the roots themselves. For decimals it has to hold to within the bound that is stated; with an enclosure, there is one solution within a radius of them.
 """
 
 import json
 import sys
 from fractions import Fraction
 from math import factorial, lcm
+
+from classes import lyndon_words, trees, word_conditions, words_of
 
 
 def add(a, b):
@@ -35,7 +37,6 @@ class Ring:
         self.roots = [(root["power"], polynomial(root["of"], self.count)) for root in roots]
         for place, (power, of) in enumerate(self.roots):
             assert power >= 2 and all(not any(e[place:]) for e in of), "a root of what comes before it"
-        self.one = {(0,) * self.count: 1}
 
     def reduced(self, a):
         """The same number with powers of x_i below k_i."""
@@ -47,21 +48,24 @@ class Ring:
                 a = add(a, {tuple(map(sum, zip(lower, f))): value * factor for f, factor in of.items()})
         return a
 
-    def product(self, a, b):
+
+class Element:
+    """A number of a ring."""
+
+    def __init__(self, ring, terms):
+        self.ring, self.terms = ring, ring.reduced(terms)
+
+    def __mul__(self, other):
         total = {}
-        for e, x in a.items():
-            total = add(total, {tuple(map(sum, zip(e, f))): x * y for f, y in b.items()})
-        return self.reduced(total)
+        for e, x in self.terms.items():
+            total = add(total, {tuple(map(sum, zip(e, f))): x * y for f, y in other.terms.items()})
+        return Element(self.ring, total)
 
+    def __add__(self, other):
+        return Element(self.ring, add(self.terms, other.terms))
 
-def lyndon_words(longest):
-    """The words that are less than all their proper ends (Duval)."""
-    words, word = [], "K"
-    while word:
-        words.append(word)
-        word = "".join(word[i % len(word)] for i in range(longest)).rstrip("D")
-        word = word and word[:-1] + "D"
-    return words
+    def __truediv__(self, n):  # whole numbers are multiples of n
+        return Element(self.ring, {e: x / n if isinstance(x, Fraction) else x // n for e, x in self.terms.items()})
 
 
 def scaled(maps, ring, order):
@@ -73,23 +77,26 @@ def scaled(maps, ring, order):
     return [(letter, {e: int(value * scale) for e, value in weight.items()}) for letter, weight in maps], scale
 
 
-def coefficients(words, maps, ring):
-    """The coefficients of the words and of all their beginnings in the product of the exponentials of the maps."""
-    values = {word[:length]: {} for word in words for length in range(1, len(word) + 1)}
-    values[""] = ring.one
-    for letter, weight in maps:
-        powers = [ring.one]
+def exponential(weight, degrees, highest, one):
+    """The coefficient of a word in exp(sum of weight^d Y_d), with the degrees d of the letters; none of a word with other letters."""
+    powers = [one]
+    while len(powers) <= highest:
+        powers.append(powers[-1] * weight)
+    known = lambda word: all(letter in degrees for letter in word)
+    return lambda word: powers[sum(degrees[letter] for letter in word)] / factorial(len(word)) if known(word) else None
+
+
+def in_product(words, factors, one, zero):
+    """The coefficients of words in a product, from those of words in its factors."""
+    values = {word[:length]: zero for word in words for length in range(1, len(word) + 1)}
+    values[words[0][:0]] = one
+    for factor in factors:
         for word in sorted(values, key=len, reverse=True):
-            total, taken = values[word], 0
-            while word[: len(word) - taken].endswith(letter):
-                taken += 1
-                if taken == len(powers):
-                    powers.append(ring.product(powers[-1], weight))
-                n = factorial(taken)  # whole numbers are multiples of it
-                share = {e: value / n if isinstance(value, Fraction) else value // n for e, value in powers[taken].items()}
-                total = add(total, ring.product(share, values[word[: len(word) - taken]]))
-            values[word] = total
-    return values
+            for taken in range(1, len(word) + 1):
+                if (share := factor(word[-taken:])) is None:
+                    break
+                values[word] = values[word] + share * values[word[: len(word) - taken]]
+    return [values[word] for word in words]
 
 
 UNIT = 1 << 200  # intervals are pairs of whole multiples of 1/UNIT
@@ -121,40 +128,32 @@ class Number:
 
 def odd_words(highest):
     """Lyndon words in the letters 1, 3, 5, ... whose sum is odd, 3 at least, by their sums."""
-
-    def grow(word, left):
-        yield word
-        for letter in range(1, left + 1, 2):
-            yield from grow(word + (letter,), left - letter)
-
-    odd = [word for word in grow((), highest) if sum(word) % 2 == 1 and word != (1,)]
-    return sorted([word for word in odd if all(word < word[i:] for i in range(1, len(word)))], key=sum)
-
-
-def error_terms(words, steps, one, zero):
-    """The coefficients of words in the product of exp(g Y1 + g^3 Y3 + ...) over the steps g."""
-    values = {word[:length]: zero for word in words for length in range(1, len(word) + 1)}
-    values[()] = one
-    for step in steps:
-        powers = [one]
-        while len(powers) <= max(map(sum, words)):
-            powers.append(powers[-1] * step)
-        for word in sorted(values, key=len, reverse=True):
-            for taken in range(1, len(word) + 1):
-                power = powers[sum(word[-taken:])] / factorial(taken)
-                values[word] = values[word] + power * values[word[: len(word) - taken]]
-    return [values[word] for word in words]
+    words = [()]
+    for word in words:
+        words += [word + (letter,) for letter in range(1, highest - sum(word) + 1, 2)]
+    odd = [word for word in words if sum(word) % 2 == 1 and word != (1,)]
+    return sorted([word for word in odd if all(word < word[i:] for i in range(1, len(word)))], key=lambda word: (sum(word), word))
 
 
 def check_enclosure(enclosure, maps, order):
     """One solution is in the box (Krawczyk): |Y F(u)| + |1 - Y F'(X)| r < r in every row."""
-    half, solved = [Fraction(g) for g in enclosure["half"]], enclosure["solved"]
+    u, solved, of = [Fraction(weight) for weight in enclosure["weights"]], enclosure["solved"], enclosure["of"]
     radius, inverse = Fraction(enclosure["radius"]), [[*map(Fraction, row)] for row in enclosure["inverse"]]
-    gamma = half + [1 - 2 * sum(half)] + half[::-1]
-    steps = [(a + b) / 2 if half_way else b for a, b in zip([0] + gamma, gamma + [0]) for half_way in (True, False)][:-1]
-    assert [weight.get((), 0) for _, weight in maps] == steps, "the half is not that of the maps"
-    words, count = odd_words(order - 1), len(solved)
-    assert radius > 0 and order % 2 == 0 and sorted({*solved} & {*range(len(half))}) == solved, "the box"
+    letters, middle, count = [letter for letter, _ in maps], 1 - 2 * sum(u), len(solved)
+    if of == "composition":  # steps of a kick of half a step, a drift, a kick: even degrees hold by symmetry
+        words, every = odd_words(order - 1), lambda half, middle: half + [middle] + half[::-1]
+        gamma = every(u, middle)
+        ends = zip([0] + gamma, gamma + [0])
+        weights = [(a + b) / 2 if is_kick else b for a, b in ends for is_kick in (True, False)][:-1]
+        of_letters, letters = [{d: d for d in range(1, order, 2)}] * len(gamma), ["KD"[i % 2] for i in range(len(weights))]
+    else:  # of a palindrome of maps even degrees hold by symmetry
+        is_half = {"palindrome": True, "maps": False}[of]
+        words = sorted([word for word in lyndon_words(order) if len(word) % 2 or not is_half], key=len)
+        every = lambda some, _: some + some[-2::-1] * is_half
+        weights, of_letters = every(u, None), [{letter: 1} for letter in letters]
+        assert not is_half or letters == letters[::-1], "a palindrome"
+    assert [(letter, weight.get((), 0)) for letter, weight in maps] == [*zip(letters, weights)], "the weights are not those of the maps"
+    assert radius > 0 and sorted({*solved} & {*range(len(u))}) == solved and (of == "maps" or order % 2 == 0), "the box"
     assert len(words) == count == len(inverse) and all(len(row) == count for row in inverse), "a square matrix"
 
     def number(value, moves, by):
@@ -163,41 +162,49 @@ def check_enclosure(enclosure, maps, order):
         ends = ((value - radius_of) * UNIT // 1, -(-(value + radius_of) * UNIT // 1))
         return Number(ends, [(factor * UNIT, factor * UNIT) for factor in by])
 
-    weights = [number(g, i in solved, [int(i == j) for j in solved]) for i, g in enumerate(half)]
-    middle = number(1 - 2 * sum(half), True, [-2] * count)
-    one, zero = number(1, False, [0] * count), number(0, False, [0] * count)
-    at_u = error_terms(words, gamma, Fraction(1), Fraction(0))
-    in_box = [value.slopes for value in error_terms(words, weights + [middle] + weights[::-1], one, zero)]
+    def values(all_weights, one, zero):
+        return in_product(words, [exponential(w, d, order, one) for w, d in zip(all_weights, of_letters)], one, zero)
+
+    box = [number(weight, i in solved, [int(i == j) for j in solved]) for i, weight in enumerate(u)]
+    one, zero = (number(value, False, [0] * count) for value in (1, 0))
+    in_box = [value.slopes for value in values(every(box, number(middle, True, [-2] * count)), one, zero)]
+    needed = [Fraction(of != "composition", factorial(len(word))) for word in words]
+    at_u = [value - need for value, need in zip(values(every(u, middle), Fraction(1), Fraction(0)), needed)]
     for i, row in enumerate(inverse):
-        residual = abs(sum(y * value for y, value in zip(row, at_u)))
-        spread = 0
+        residual, spread = abs(sum(y * value for y, value in zip(row, at_u))), 0
         for j in range(count):
             ends = [sorted(y * Fraction(end, UNIT) for end in slopes[j]) for y, slopes in zip(row, in_box)]
             spread += max(abs((i == j) - sum(column)) for column in zip(*ends))
         assert residual + spread * radius < radius, "the box need not have a solution"
 
 
+def check_claim(claim, maps, ring, is_exact):
+    """The number of conditions of a claim, all of which hold."""
+    order, bound, unit = max(claim.get("orders", [claim.get("order")])), Fraction(claim["bound"]), (0,) * ring.count
+    assert bound == 0 or not is_exact, "only decimals may be off"
+    assert order >= 1 and 0 <= bound < Fraction(1, 1000 * factorial(order)), "a bound that decides"
+    in_scale, scale = scaled(maps, ring, order)
+    weights = [(letter, Element(ring, weight)) for letter, weight in in_scale]
+    one, zero, words = Element(ring, {unit: 1}), Element(ring, {}), words_of(claim)
+    factors = [exponential(weight, {letter: 1}, order, one) for letter, weight in weights]
+    conditions = word_conditions(words, words and in_product(words, factors, one, zero)) or trees(weights, order, zero)
+    for name, degree, needed, value in conditions:
+        off = add(value.terms, {unit: -needed * scale**degree})
+        assert bound or not off, f"{name} is off"
+        assert not bound or abs(off.get((), 0)) <= bound * scale**degree, f"{name} is off by more than the bound"
+    return len(conditions)
+
+
 def check(certificate):
     """The number of conditions that hold, all of them; anything else is an error."""
-    ring, letters = Ring(certificate["roots"]), {"kick": "K", "drift": "D"}
+    ring, letters, kind = Ring(certificate["roots"]), {"kick": "K", "drift": "D"}, certificate["kind"]
     maps = [(letters[m["map"]], ring.reduced(polynomial(m["weight"], ring.count))) for m in certificate["maps"]]
-    order, bound = certificate["order"], Fraction(certificate["bound"])
-    assert bound == 0 or certificate["kind"] == "decimal", "only decimals may be off"
-    assert 0 <= bound < Fraction(1, 1000 * factorial(order)), "a bound that decides"
-    assert order >= 1 and (ring.count == 0) == (certificate["kind"] != "algebraic"), "roots are for algebraic numbers"
-    words = lyndon_words(order)
-    in_scale, scale = scaled(maps, ring, order)
-    values = coefficients(words, in_scale, ring)
-    for word in words:
-        exact = Fraction(scale ** len(word), factorial(len(word)))
-        off = add(values[word], {e: -exact for e in ring.one})
-        if bound == 0:
-            assert off == {}, f"the word {word} is off"
-        else:
-            assert abs(off.get((), 0)) <= bound * scale ** len(word), f"the word {word} is off by more than the bound"
+    assert (ring.count == 0) == (kind != "algebraic"), "roots are for algebraic numbers"
+    assert certificate["for"] == "every T(p)", "the order for every T(p) first"
+    count = sum(check_claim(claim, maps, ring, kind != "decimal") for claim in [certificate, *certificate["also"]])
     if certificate.get("enclosure"):
-        check_enclosure(certificate["enclosure"], maps, order)
-    return len(words)
+        check_enclosure(certificate["enclosure"], maps, certificate["order"])
+    return count
 
 
 if __name__ == "__main__":
@@ -208,5 +215,6 @@ if __name__ == "__main__":
             count = check(certificate)
         except (AssertionError, KeyError, TypeError, ValueError) as error:
             sys.exit(f"{path}: not proved: {error}")
-        facts = f"order {certificate['order']}, {certificate['kind']}, {count} conditions"
+        also = "".join(f", {c.get('orders', c.get('order'))} for {c['for']}" for c in certificate["also"])
+        facts = f"order {certificate['order']}{also}, {certificate['kind']}, {count} conditions"
         print(f"{certificate['scheme']}: {facts}{', one solution enclosed' * bool(certificate.get('enclosure'))}")

@@ -1,13 +1,15 @@
 //! Boxes around decimals in which there is one solution of the order conditions, by Newton's method with bounds.
 //!
-//! For palindromic compositions of Störmer–Verlet: with the middle weight given by the sum, the conditions F are those of the words of odd degree in the
-//! errors of a step; even degrees hold by symmetry. With Y near the inverse of F′ and the box X of radius r about the decimals u, a solution is in X, and one
-//! only, if `|Y F(u)| + |1 − Y F′(X)| r < r` in every row (Krawczyk 1969). Here Y and r are proposed; whoever checks the certificate computes the bounds.
+//! The conditions F are as many as weights are solved for; the other weights are held. Of palindromes they are those of odd degree: even degrees hold by
+//! symmetry. With Y near the inverse of F′ and the box X of radius r about the decimals u, a solution is in X, and one only, if
+//! `|Y F(u)| + |1 − Y F′(X)| r < r` in every row (Krawczyk 1969). Here Y and r are proposed; whoever checks the certificate computes the bounds.
+
+use std::fmt;
 
 use num_traits::{One, Signed, ToPrimitive, Zero};
 use shadowstep_schemes::arithmetic::Arithmetic;
-use shadowstep_schemes::table::Weights;
-use shadowstep_schemes::{ExactScheme, Rational, digits_of};
+use shadowstep_schemes::order::{self, Condition, Words};
+use shadowstep_schemes::{ExactScheme, Map, MapKind, Rational, digits_of};
 
 use super::whole_numbers::WholeNumbers;
 use crate::polish::{conditions, lyndon_words};
@@ -15,9 +17,11 @@ use crate::polish::{conditions, lyndon_words};
 /// The proposal for a box.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Enclosure {
-    /// γ₁, …, of the first half without the middle one.
-    pub half: Vec<Rational>,
-    /// The places in `half` that are solved for; the others are what they are.
+    /// What the weights are.
+    pub of: Form,
+    /// The weights, without those that follow from them.
+    pub weights: Vec<Rational>,
+    /// The places in `weights` that are solved for; the others are what they are.
     pub solved: Vec<usize>,
     /// Y: a row for each place.
     pub inverse: Vec<Vec<f64>>,
@@ -25,46 +29,127 @@ pub struct Enclosure {
     pub radius: Rational,
 }
 
+/// The weights of an enclosure.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Form {
+    /// γ₁, … of a palindromic composition of Störmer–Verlet, its first half without the middle one, which the sum gives. The conditions are those of the
+    /// words in the errors of a step.
+    Composition,
+    /// Kicks and drifts of a palindrome, its first half with the middle one.
+    Palindrome,
+    /// All kicks and drifts.
+    Maps,
+}
+
+impl fmt::Display for Form {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Form::Composition => "composition",
+            Form::Palindrome => "palindrome",
+            Form::Maps => "maps",
+        })
+    }
+}
+
 impl Enclosure {
-    /// The box of a scheme of this order; `None` where it is not such a composition, or its decimals are not determined.
+    /// The box of a scheme of this order; `None` where its decimals are not determined by the conditions.
     pub(super) fn of(scheme: &ExactScheme, order: u32) -> Option<Enclosure> {
-        let is_composition =
-            matches!(&scheme.table.weights, Some(Weights::Composition { base, .. }) if base.value == "stormer-verlet");
-        let gamma: Vec<_> = scheme.maps().into_iter().skip(1).step_by(2).map(|map| map.weight).collect();
-        let sum: Rational = gamma.iter().sum();
-        if !is_composition || !scheme.is_symmetric() || gamma.len().is_multiple_of(2) || order < 4 || !sum.is_one() {
-            return None;
-        }
-        let half = gamma[..gamma.len() / 2].to_vec();
-        let words: Vec<_> = lyndon_words(2, order - 1)
-            .into_iter()
-            .filter(|word| word.iter().sum::<u32>() % 2 == 1 && word != &[1])
-            .collect();
-        let rows: Vec<Vec<f64>> = conditions(&words, &duals(&half), &Duals { count: half.len() })
+        let maps = scheme.maps();
+        let is_palindrome = scheme.is_symmetric() && order.is_multiple_of(2);
+        let (of, weights) = match steps(&maps).filter(|_| is_palindrome && order >= 4) {
+            Some(gamma) => (Form::Composition, gamma[..gamma.len() / 2].to_vec()),
+            None => {
+                let (of, count) =
+                    if is_palindrome { (Form::Palindrome, maps.len().div_ceil(2)) } else { (Form::Maps, maps.len()) };
+                (of, maps[..count].iter().map(|map| map.weight.clone()).collect())
+            }
+        };
+        let system = System { of, kinds: maps.iter().map(|map| map.kind).collect(), order };
+        let rows: Vec<Vec<f64>> = system
+            .conditions(&system.all(&duals(&weights), middle_dual(&weights)), &Duals { count: weights.len() })
             .into_iter()
             .map(|(_, value)| value.slopes)
             .collect();
-        let solved = columns(&rows, half.len())?;
+        let solved = columns(&rows, weights.len())?;
         let inverse = inverse(rows.iter().map(|row| solved.iter().map(|place| row[*place]).collect()).collect())?;
-        let whole = WholeNumbers::new(gamma.iter(), order);
-        let scaled: Vec<_> = gamma.iter().map(|weight| whole.weight(weight)).collect();
-        let values = conditions(&words, &scaled, &whole).into_iter();
-        let values: Vec<_> = values.map(|(condition, value)| whole.value(value, condition.order)).collect();
+        let off = system.off(&weights);
         let size = |row: &Vec<f64>| {
-            row.iter()
-                .zip(&values)
-                .map(|(y, value)| (Rational::from_float(*y).unwrap_or_else(Rational::zero) * value).abs())
-                .sum::<Rational>()
+            let product = |(y, off): (&f64, &Rational)| Rational::from_float(*y).unwrap_or_else(Rational::zero) * off;
+            row.iter().zip(&off).map(product).map(|product| product.abs()).sum::<Rational>()
         };
         let farthest = inverse.iter().map(size).max()?;
         // a few times what is needed
         let digits = digits_of(&farthest).map_or(300, |digits| digits.saturating_sub(1));
         let radius = Rational::new(1.into(), num_bigint::BigInt::from(10).pow(digits));
-        Some(Enclosure { half, solved, inverse, radius })
+        // F′ moves by some r over the box: beside 1/Y that has to be little
+        let largest = inverse.iter().map(|row| row.iter().map(|y| y.abs()).sum::<f64>()).fold(0.0, f64::max);
+        (largest * float(&radius) < 1e-6).then_some(Enclosure { of, weights, solved, inverse, radius })
+    }
+
+    /// How many of the weights are held.
+    pub fn held(&self) -> usize {
+        self.weights.len() - self.solved.len()
     }
 }
 
-/// A number and its derivatives by γ₁, ….
+/// γ₁, γ₂, … where the maps are their steps of Störmer–Verlet: an odd number, with the sum 1.
+fn steps(maps: &[Map]) -> Option<Vec<Rational>> {
+    let begins = maps.first()?.kind == MapKind::Kick && maps.len() % 4 == 3;
+    let gamma: Vec<_> = maps.iter().skip(1).step_by(2).map(|map| map.weight.clone()).collect();
+    let half = Rational::new(1.into(), 2.into());
+    let at = |place: usize| gamma.get(place).cloned().unwrap_or_else(Rational::zero);
+    let before = |place: usize| if place == 0 { Rational::zero() } else { at(place - 1) };
+    let are_means = || (0..=gamma.len()).all(|place| maps[2 * place].weight == (before(place) + at(place)) * &half);
+    (begins && are_means() && gamma.iter().sum::<Rational>().is_one()).then_some(gamma)
+}
+
+/// The conditions of an enclosure.
+struct System {
+    of: Form,
+    kinds: Vec<MapKind>,
+    order: u32,
+}
+
+impl System {
+    /// All weights of a step.
+    fn all<T: Clone>(&self, weights: &[T], middle: T) -> Vec<T> {
+        let mirrored = |count: usize| weights[..count].iter().rev().cloned();
+        match self.of {
+            Form::Composition => weights.iter().cloned().chain([middle]).chain(mirrored(weights.len())).collect(),
+            Form::Palindrome => weights.iter().cloned().chain(mirrored(weights.len() - 1)).collect(),
+            Form::Maps => weights.to_vec(),
+        }
+    }
+
+    /// The conditions and their values at all weights.
+    fn conditions<A: Arithmetic>(&self, all: &[A::Value], arithmetic: &A) -> Vec<(Condition, A::Value)> {
+        if self.of == Form::Composition {
+            let mut words = lyndon_words(2, self.order - 1);
+            words.retain(|word| word.iter().sum::<u32>() % 2 == 1 && word != &[1]);
+            return conditions(&words, all, arithmetic);
+        }
+        let mut words = order::lyndon_words(self.order as usize);
+        words.retain(|word| self.of == Form::Maps || word.len() % 2 == 1);
+        let maps: Vec<_> = self.kinds.iter().copied().zip(all.iter().cloned()).collect();
+        Words::of(&words).conditions(&maps, arithmetic)
+    }
+
+    /// How far the conditions are from what is needed.
+    fn off(&self, weights: &[Rational]) -> Vec<Rational> {
+        let all = self.all(weights, middle(weights));
+        let whole = WholeNumbers::new(all.iter(), self.order);
+        let scaled: Vec<_> = all.iter().map(|weight| whole.weight(weight)).collect();
+        let values = self.conditions(&scaled, &whole).into_iter();
+        values.map(|(condition, value)| whole.value(value, condition.order) - condition.needed).collect()
+    }
+}
+
+/// The middle one of a palindrome with the sum 1.
+fn middle(half: &[Rational]) -> Rational {
+    Rational::one() - Rational::from_integer(2.into()) * half.iter().sum::<Rational>()
+}
+
+/// A number and its derivatives by the weights.
 #[derive(Clone)]
 struct Dual {
     value: f64,
@@ -75,17 +160,19 @@ struct Duals {
     count: usize,
 }
 
-/// All γ's of the palindrome, its middle by the sum.
-fn duals(half: &[Rational]) -> Vec<Dual> {
-    let count = half.len();
-    let unit = |place: usize| (0..count).map(|i| f64::from(u8::from(i == place))).collect();
-    let mut all: Vec<_> =
-        half.iter().enumerate().map(|(i, g)| Dual { value: g.to_f64().unwrap_or(f64::NAN), slopes: unit(i) }).collect();
-    let middle = 1.0 - 2.0 * all.iter().map(|dual| dual.value).sum::<f64>();
-    let mirrored: Vec<_> = all.iter().rev().cloned().collect();
-    all.push(Dual { value: middle, slopes: vec![-2.0; count] });
-    all.extend(mirrored);
-    all
+/// The weights with their derivatives.
+fn duals(weights: &[Rational]) -> Vec<Dual> {
+    let unit = |place: usize| (0..weights.len()).map(|i| f64::from(u8::from(i == place))).collect();
+    let dual = |(place, weight): (usize, &Rational)| Dual { value: float(weight), slopes: unit(place) };
+    weights.iter().enumerate().map(dual).collect()
+}
+
+fn middle_dual(half: &[Rational]) -> Dual {
+    Dual { value: float(&middle(half)), slopes: vec![-2.0; half.len()] }
+}
+
+fn float(value: &Rational) -> f64 {
+    value.to_f64().unwrap_or(f64::NAN)
 }
 
 impl Arithmetic for Duals {
@@ -97,7 +184,7 @@ impl Arithmetic for Duals {
         Dual { value: 1.0, ..self.zero() }
     }
     fn weight(&self, weight: &Rational) -> Dual {
-        Dual { value: weight.to_f64().unwrap_or(f64::NAN), ..self.zero() }
+        Dual { value: float(weight), ..self.zero() }
     }
     fn add_product(&self, target: &mut Dual, a: &Dual, b: &Dual) {
         target.value += a.value * b.value;

@@ -5,7 +5,7 @@
 use std::cell::RefCell;
 use std::collections::BTreeMap;
 
-use num_traits::{One, Zero};
+use num_traits::{One, Signed, Zero};
 use shadowstep_schemes::Rational;
 use shadowstep_schemes::arithmetic::Arithmetic;
 
@@ -19,6 +19,19 @@ pub struct Root {
     pub power: u32,
     /// r, in the roots before it.
     pub of: Polynomial,
+}
+
+impl Root {
+    /// The rational number that this root is another one times, such as 5 of √30 over √(6/5): without it, identities between them would not hold.
+    fn over(&self, other: &Root) -> Option<Rational> {
+        let ((_, numerator), (_, denominator)) = (self.of.first_key_value()?, other.of.first_key_value()?);
+        let ratio = numerator / denominator;
+        let scaled = other.of.iter().map(|(exponents, value)| (exponents.clone(), value * &ratio)).collect();
+        let root = Rational::new(ratio.numer().nth_root(self.power), ratio.denom().nth_root(self.power));
+        let is_root = |exponent: i32| root.pow(exponent) == ratio;
+        (ratio.is_positive() && self.power == other.power && self.of == scaled && is_root(self.power as i32))
+            .then_some(root)
+    }
 }
 
 /// The most products of powers of roots: the inverse of a polynomial solves as many linear equations.
@@ -36,18 +49,19 @@ pub(super) fn constant(value: Rational) -> Polynomial {
 }
 
 impl Ring {
-    /// The root of a polynomial: an earlier one, or a new one; `None` where there are too many.
+    /// The root of a polynomial: a rational multiple of an earlier one, or a new one; `None` where there are too many.
     pub(super) fn root(&self, power: u32, of: Polynomial) -> Option<Polynomial> {
         let mut roots = self.roots.borrow_mut();
         let root = Root { power, of };
-        let place = roots.iter().position(|known| *known == root).unwrap_or(roots.len());
+        let known = roots.iter().enumerate().find_map(|(place, known)| Some((place, root.over(known)?)));
+        let (place, multiple) = known.unwrap_or((roots.len(), Rational::one()));
         if place == roots.len() {
             roots.push(root);
         }
         let size: usize = roots.iter().map(|root| root.power as usize).product();
         let mut exponents = vec![0; place];
         exponents.push(1);
-        (size <= LARGEST).then(|| Polynomial::from([(exponents, Rational::one())]))
+        (size <= LARGEST).then(|| Polynomial::from([(exponents, multiple)]))
     }
 
     /// The polynomial in which no power of a root reaches that of its equation.
@@ -56,19 +70,15 @@ impl Ring {
         let mut found = Polynomial::new();
         let mut left: Vec<(Vec<u32>, Rational)> = polynomial.into_iter().collect();
         while let Some((mut exponents, coefficient)) = left.pop() {
-            match (0..exponents.len()).rev().find(|i| exponents[*i] >= roots[*i].power) {
+            let is_high = |i: &usize| roots.get(*i).is_some_and(|root| exponents[*i] >= root.power);
+            match (0..exponents.len()).rev().find(is_high) {
                 Some(place) => {
                     exponents[place] -= roots[place].power;
                     left.extend(
                         roots[place].of.iter().map(|(other, factor)| (sum(&exponents, other), &coefficient * factor)),
                     );
                 }
-                None => {
-                    while exponents.last() == Some(&0) {
-                        exponents.pop();
-                    }
-                    add(&mut found, exponents, coefficient);
-                }
+                None => add(&mut found, exponents, coefficient),
             }
         }
         found
@@ -137,12 +147,16 @@ impl Ring {
 }
 
 /// The exponents of a product.
-fn sum(a: &[u32], b: &[u32]) -> Vec<u32> {
+pub(super) fn sum(a: &[u32], b: &[u32]) -> Vec<u32> {
     let at = |e: &[u32], i: usize| e.get(i).copied().unwrap_or(0);
     (0..a.len().max(b.len())).map(|i| at(a, i) + at(b, i)).collect()
 }
 
-fn add(polynomial: &mut Polynomial, exponents: Vec<u32>, value: Rational) {
+/// Adds a term.
+pub(super) fn add(polynomial: &mut Polynomial, mut exponents: Vec<u32>, value: Rational) {
+    while exponents.last() == Some(&0) {
+        exponents.pop();
+    }
     let sum = polynomial.remove(&exponents).map_or(value.clone(), |before| before + value);
     if !sum.is_zero() {
         polynomial.insert(exponents, sum);
@@ -189,6 +203,8 @@ mod tests {
         let b = Ring::sum(&ring.root(2, number(3)).unwrap(), &x, &Rational::one());
         assert_eq!(ring.product(&b, &ring.inverse(&b).unwrap()), number(1));
         assert_eq!(ring.power(&x, 7), ring.product(&number(4), &x));
+        let twice = ring.root(3, number(16)).unwrap();
+        assert_eq!(twice, Ring::sum(&x, &x, &Rational::one()), "16^(1/3) is no root of its own");
         assert!(ring.inverse(&Polynomial::new()).is_none() && ring.root(7, number(5)).is_none());
     }
 }

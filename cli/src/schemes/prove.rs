@@ -1,8 +1,14 @@
 //! `shadowstep schemes prove`: the proof of an order as a certificate.
 
+mod formula;
+mod lean;
+
+use std::io::Write;
+
 use clap::{Args, ValueEnum};
+use num_traits::Zero;
 use serde_json::{Value, json};
-use shadowstep_analysis::certificate::{Certificate, Enclosure, Kind, Polynomial};
+use shadowstep_analysis::certificate::{Certificate, Class, Enclosure, Kind, Polynomial};
 use shadowstep_scenes::{Error, library};
 use shadowstep_schemes::{Rational, to_significant};
 use shadowstep_symbolic::decimal::to_text;
@@ -13,7 +19,8 @@ use crate::report::Status;
 const EXAMPLES: &str = "\
 Examples:
   shadowstep schemes prove yoshida4 --to json > yoshida4.json
-  python3 tests/certificates/check.py yoshida4.json";
+  python3 tests/certificates/check.py yoshida4.json
+  shadowstep schemes prove yoshida4 --to lean --output Yoshida4.lean";
 
 /// Writes the proof of the order as a certificate.
 ///
@@ -35,6 +42,8 @@ pub(crate) struct Arguments {
 enum Form {
     /// One JSON object: order, kind, roots, maps, bound
     Json,
+    /// A file of Lean 4 with Mathlib: a theorem for each condition; of rational weights and of polynomials in roots
+    Lean,
 }
 
 pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
@@ -46,9 +55,13 @@ pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
         );
         Error::usage(message, "certificates are of schemes of kicks and drifts")
     })?;
-    let Form::Json = arguments.to;
+    // what is refused writes no file
+    let text = match arguments.to {
+        Form::Json => serde_json::to_string(&record(&scheme.proved().scheme.table.name.value, &certificate))? + "\n",
+        Form::Lean => lean::text(scheme.proved(), &certificate)?,
+    };
     let mut output = Output::of(&arguments.output)?;
-    output.json(&record(&scheme.proved().scheme.table.name.value, &certificate))?;
+    write!(output, "{text}")?;
     output.finish()?;
     Ok(Status::Success)
 }
@@ -73,8 +86,21 @@ fn record(name: &str, certificate: &Certificate) -> Value {
         "bound": bound,
         "roots": roots,
         "maps": maps,
+        "also": certificate.also.iter().map(|(class, bound)| also(class, bound)).collect::<Vec<_>>(),
         "enclosure": certificate.enclosure.as_ref().map(enclosure),
     })
+}
+
+/// Orders for a smaller class.
+fn also(class: &Class, bound: &Rational) -> Value {
+    let bound = if bound.is_zero() { "0".to_owned() } else { above(bound) };
+    match class {
+        Class::EveryKinetic(order) => json!({ "for": "every T(p)", "order": order, "bound": bound }),
+        Class::Quadratic(order) => json!({ "for": "quadratic T", "order": order, "bound": bound }),
+        Class::NearIntegrable { perturbation, orders } => {
+            json!({ "for": "A + εB", "perturbation": perturbation.to_string(), "orders": orders, "bound": bound })
+        }
+    }
 }
 
 /// The box and the matrix, as decimals that are exact.
@@ -82,7 +108,8 @@ fn enclosure(enclosure: &Enclosure) -> Value {
     let inverse: Vec<Vec<_>> =
         enclosure.inverse.iter().map(|row| row.iter().map(|y| format!("{y:e}")).collect()).collect();
     json!({
-        "half": enclosure.half.iter().map(to_text).collect::<Vec<_>>(),
+        "of": enclosure.of.to_string(),
+        "weights": enclosure.weights.iter().map(to_text).collect::<Vec<_>>(),
         "solved": enclosure.solved,
         "inverse": inverse,
         "radius": to_text(&enclosure.radius),

@@ -288,9 +288,13 @@ fn proof_text(proved: &Proved) -> String {
             format!("algebraic: exact in the weights as polynomials in {} roots", roots.len())
         }
         (Kind::Decimal(_), Some(enclosure)) => {
+            let held = match enclosure.held() {
+                0 => String::new(),
+                held => format!(", {held} of {} held", enclosure.weights.len()),
+            };
+            let radius = to_significant(&enclosure.radius, 2);
             format!(
-                "certified enclosure: one solution of the order conditions within {} of the weights",
-                to_significant(&enclosure.radius, 2)
+                "certified enclosure: one solution of the conditions for every T(p) within {radius} of the weights{held}"
             )
         }
         (Kind::Decimal(_), None) => "decimal: the conditions hold to the digits of the weights".to_owned(),

@@ -4,15 +4,18 @@ use std::fs;
 use std::process::Command;
 
 use serde_json::Value;
+use shadowstep_analysis::certificate::{Certificate, Kind};
 use shadowstep_schemes::{shipped_names, shipped_proved};
 
 use crate::program::{objects, quietly, shadowstep};
 
 const CHECKER: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../tests/certificates/check.py");
 
-/// Whether the checker accepts certificates in files, and what it writes.
-fn checked(paths: &[String]) -> (bool, String) {
-    let output = Command::new("python3").arg(CHECKER).args(paths).output().expect("python3 runs");
+const READER: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../tests/certificates/read_lean.py");
+
+/// Whether a program accepts files, and what it writes.
+fn accepted(program: &str, paths: &[String]) -> (bool, String) {
+    let output = Command::new("python3").arg("-B").arg(program).args(paths).output().expect("python3 runs");
     (output.status.success(), String::from_utf8(output.stdout).unwrap() + &String::from_utf8(output.stderr).unwrap())
 }
 
@@ -35,18 +38,29 @@ fn every_certificate_is_verified() {
         let path = folder.path().join(format!("{name}.json")).display().to_string();
         fs::write(&path, &result.out).unwrap();
         let certificate: Value = serde_json::from_str(&result.out).unwrap();
-        lines.push(format!("{name}: order {}, {}", order.order, certificate["kind"].as_str().unwrap()));
+        let near: Vec<_> = proved.proof.near_integrable.iter().map(|order| order.order).collect();
+        let quadratic = Some(proved.proof.quadratic.order).filter(|quadratic| *quadratic > order.order);
+        let also: String = [
+            quadratic.map(|quadratic| format!(", {quadratic} for quadratic T")),
+            (!near.is_empty()).then(|| format!(", {near:?} for A + εB")),
+        ]
+        .into_iter()
+        .flatten()
+        .collect();
+        lines.push(format!("{name}: order {}{also}, {}", order.order, certificate["kind"].as_str().unwrap()));
         paths.push(path);
     }
-    let (accepted, out) = checked(&paths);
-    assert!(accepted, "{out}");
+    let (is_accepted, out) = accepted(CHECKER, &paths);
+    assert!(is_accepted, "{out}");
     assert!(
         out.lines().zip(&lines).all(|(line, expected)| line.starts_with(&format!("{expected}, "))),
         "{out}\n{lines:?}"
     );
+    let beside = |class: &str| lines.iter().filter(|line| line.contains(class)).count();
+    assert!(beside(" for quadratic T") >= 6 && beside(" for A + εB") >= 12, "{lines:#?}");
     let kinds = |kind: &str| lines.iter().filter(|line| line.ends_with(kind)).count();
-    let enclosed: Vec<_> = out.lines().filter(|line| line.ends_with("one solution enclosed")).collect();
-    assert!(enclosed.len() >= 20, "{enclosed:#?}");
+    let enclosed = out.lines().filter(|line| line.ends_with("one solution enclosed")).count();
+    assert_eq!(enclosed, kinds("decimal"), "{out}");
     assert!(kinds("exact") >= 10 && kinds("algebraic") >= 10 && kinds("decimal") >= 40, "{lines:#?}");
 }
 
@@ -56,13 +70,46 @@ fn show_names_the_kind_of_proof() {
     for (name, kind) in [
         ("ruth3", "exact: rational weights"),
         ("yoshida4", "algebraic: exact in the weights as polynomials in a root"),
-        ("pefrl", "decimal: the conditions hold to the digits of the weights"),
-        ("yoshida8-d", "certified enclosure: one solution of the order conditions within 1e-2"),
+        (
+            "pefrl",
+            "certified enclosure: one solution of the conditions for every T(p) within 1e-248 of the weights, 1 of 5 held",
+        ),
+        ("yoshida8-d", "certified enclosure: one solution of the conditions for every T(p) within 1e-2"),
     ] {
         let shown = quietly(&format!("schemes show {name}"));
         let words = shown.split_whitespace().collect::<Vec<_>>().join(" ");
         assert!(words.contains(&format!("proof: {kind}")), "{shown}");
     }
+}
+
+/// The box is as wide as the digits need, not only of those with 250 digits.
+#[test]
+fn a_table_of_sixteen_digits_is_enclosed() {
+    let folder = tempfile::tempdir().unwrap();
+    let [table, certificate] =
+        ["pefrl16.toml", "pefrl16.json"].map(|name| folder.path().join(name).display().to_string());
+    let text = r#"
+name = "pefrl16"
+order = 4
+kinetic = "any"
+digits = 16
+[constants]
+xi = "0.1786178958448091"
+lambda = "-0.2123418310626054"
+chi = "-0.06626458266981849"
+[stages]
+kick = [0, "1/2 - lambda", "lambda", "lambda", "1/2 - lambda"]
+drift = ["xi", "chi", "1 - 2*(chi + xi)", "chi", "xi"]
+"#;
+    fs::write(&table, text).unwrap();
+    let shown = quietly(&format!("schemes show {table}"));
+    assert!(
+        shown.contains("certified enclosure") && shown.contains("within 1e-14 of the weights, 1 of 5 held"),
+        "{shown}"
+    );
+    fs::write(&certificate, quietly(&format!("schemes prove {table}"))).unwrap();
+    let (is_accepted, out) = accepted(CHECKER, &[certificate]);
+    assert!(is_accepted && out.contains("one solution enclosed"), "{out}");
 }
 
 #[test]
@@ -73,8 +120,8 @@ fn wrong_certificates_are_refused() {
         change(&mut certificate);
         let path = folder.path().join("wrong.json").display().to_string();
         fs::write(&path, certificate.to_string()).unwrap();
-        let (accepted, out) = checked(&[path]);
-        assert!(!accepted && out.contains("not proved: "), "{out}");
+        let (is_accepted, out) = accepted(CHECKER, &[path]);
+        assert!(!is_accepted && out.contains("not proved: "), "{out}");
         out
     };
     for name in ["ruth3", "yoshida4", "pefrl"] {
@@ -84,17 +131,94 @@ fn wrong_certificates_are_refused() {
         refused(name, &|certificate| certificate["maps"][1]["weight"][0][0] = "1/3".into());
         refused(name, &|certificate| drop(certificate["maps"].as_array_mut().unwrap().pop()));
     }
-    refused("yoshida4", &|certificate| certificate["roots"][0]["of"][0][0] = "3".into());
-    for radius in ["1e-290", "1/10"] {
-        let small = refused("yoshida6-a", &|certificate| certificate["enclosure"]["radius"] = radius.into());
-        assert!(small.contains("the box need not have a solution"), "{small}");
+    for (name, class, changed) in [
+        ("calvo-sanzserna4", "the tree ", 5.into()),
+        ("aba864", "the word ", vec![9, 6, 4].into()),
+        ("saba3", "the word ", vec![6, 3].into()),
+        ("saba4", "the word ", vec![9, 2].into()),
+    ] {
+        let key = if class == "the tree " { "order" } else { "orders" };
+        let higher = refused(name, &|certificate: &mut Value| certificate["also"][0][key] = Value::clone(&changed));
+        assert!(higher.contains(class), "{higher}");
     }
-    refused("yoshida6-a", &|certificate| certificate["enclosure"]["inverse"][0][0] = "1".into());
-    refused("yoshida6-a", &|certificate| certificate["enclosure"]["half"][0] = "1/2".into());
+    refused("aba864", &|certificate| certificate["also"][0]["perturbation"] = "drift".into());
+    refused("yoshida4", &|certificate| certificate["roots"][0]["of"][0][0] = "3".into());
+    // a composition, a palindrome of maps, maps
+    for name in ["yoshida6-a", "blanes-moan-s10", "mclachlan-atela4"] {
+        for radius in ["1e-290", "1/10"] {
+            let small = refused(name, &|certificate| certificate["enclosure"]["radius"] = radius.into());
+            assert!(small.contains("the box need not have a solution"), "{small}");
+        }
+        refused(name, &|certificate| certificate["enclosure"]["inverse"][0][0] = "1".into());
+        refused(name, &|certificate| certificate["enclosure"]["weights"][0] = "1/2".into());
+        refused(name, &|certificate| drop(certificate["enclosure"]["solved"].as_array_mut().unwrap().pop()));
+    }
+    refused("mclachlan-atela4", &|certificate| certificate["enclosure"]["of"] = "palindrome".into());
     let loose = refused("pefrl", &|certificate| certificate["bound"] = "1/10".into());
     assert!(loose.contains("a bound that decides"), "{loose}");
     assert!(
         refused("ruth3", &|certificate| certificate["bound"] = "1/100000000".into())
             .contains("only decimals may be off")
     );
+}
+
+/// The files of Lean of a scheme and of its certificate, in a folder.
+fn lean_and_json(name: &str, folder: &std::path::Path) -> [String; 2] {
+    [("lean", "lean"), ("json", "json")].map(|(form, end)| {
+        let path = folder.join(format!("{name}.{end}"));
+        fs::write(&path, quietly(&format!("schemes prove {name} --to {form}"))).unwrap();
+        path.display().to_string()
+    })
+}
+
+/// What Lean would check, parsed and evaluated by a program that shares no code with this one.
+#[test]
+fn lean_has_the_conditions_of_rational_weights_and_of_roots() {
+    let folder = tempfile::tempdir().unwrap();
+    let (mut paths, mut refused) = (Vec::new(), Vec::new());
+    for name in shipped_names() {
+        let Some(certificate) = Certificate::of(shipped_proved(name).unwrap()) else { continue };
+        let what = match (&certificate.kind, &certificate.enclosure) {
+            (Kind::Decimal(_), Some(_)) => "is an enclosure of a solution",
+            (Kind::Decimal(_), None) => "is a bound for decimals",
+            _ if ["suzuki6", "triplejump6"].contains(&name) => "products of weights",
+            _ => {
+                paths.extend(lean_and_json(name, folder.path()));
+                continue;
+            }
+        };
+        let result = shadowstep(&format!("schemes prove {name} --to lean"));
+        assert!(result.code == 2 && result.err.contains(what) && result.err.contains("--to json"), "{}", result.err);
+        refused.push(name);
+    }
+    assert!(paths.len() >= 2 * 28 && refused.len() >= 50, "{paths:?} {refused:?}");
+    let (is_accepted, out) = accepted(READER, &paths);
+    assert!(is_accepted && out.lines().count() == paths.len() / 2, "{out}");
+    assert!(out.contains("yoshida4: 8 theorems"), "{out}");
+}
+
+#[test]
+fn the_reader_of_lean_refuses_what_is_wrong() {
+    let folder = tempfile::tempdir().unwrap();
+    for (name, from, to, says) in [
+        ("ruth3", "def a1 : ℚ := 7/24", "def a1 : ℚ := 5/24", "the weight a1"),
+        ("ruth3", "coefficient_KD = 1/2 := by", "coefficient_KD = 1/3 := by", "what is needed of KD"),
+        ("ruth3", "a1 ^ 2 / 2 * b1", "a1 ^ 2 / 3 * b1", "the formula of KKD"),
+        ("ruth3", "    condition_KKD,\n", "", "KKD in the order"),
+        ("yoshida4", "1/864 * x ^ 3", "1/865 * x ^ 3", "the condition of KKD"),
+        ("yoshida4", "(hx : x ^ 3 = 2) : coefficient_KKD", ": coefficient_KKD", "the hypotheses of KKD"),
+        (
+            "yoshida4",
+            "(hx : x ^ 3 = 2) : coefficient_KKD",
+            "(hx : x ^ 3 = 3) : coefficient_KKD",
+            "the condition of KKD",
+        ),
+    ] {
+        let paths = lean_and_json(name, folder.path());
+        let text = fs::read_to_string(&paths[0]).unwrap();
+        assert!(text.contains(from), "{name} has no {from}: {text}");
+        fs::write(&paths[0], text.replacen(from, to, 1)).unwrap();
+        let (is_accepted, out) = accepted(READER, &paths);
+        assert!(!is_accepted && out.contains(says), "{from}: {out}");
+    }
 }
