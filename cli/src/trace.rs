@@ -47,7 +47,7 @@ pub(crate) struct Arguments {
     /// One JSON object per step, one per line (the default)
     #[arg(long, help_heading = OUTPUT)]
     json: bool,
-    /// CSV with a header
+    /// CSV with a header (the default for a file whose name ends in .csv)
     #[arg(long, conflicts_with = "json", help_heading = OUTPUT)]
     csv: bool,
     /// Positions and momenta too
@@ -61,6 +61,13 @@ impl Arguments {
     /// A plot alone is without rows.
     fn writes_rows(&self) -> bool {
         !self.plot.is_given() || self.json || self.csv || self.states || self.run.output.output.is_some()
+    }
+
+    /// Whether rows are CSV.
+    fn writes_csv(&self) -> bool {
+        let is_named_so =
+            |path: &std::path::PathBuf| path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("csv"));
+        self.writes_rows() && (self.csv || !self.json && self.run.output.output.as_ref().is_some_and(is_named_so))
     }
 }
 
@@ -80,8 +87,7 @@ pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
     let mut output = Output::of(&arguments.run.output)?;
     let bar = arguments.run.output.output.is_some() || !arguments.writes_rows();
     let several = selection.count() > 1;
-    let csv = arguments.csv && arguments.writes_rows();
-    let mut write = writer(&selection, csv, arguments.states, &mut output)?;
+    let mut write = writer(&selection, arguments.writes_csv(), arguments.states, &mut output)?;
     let mut summaries = Vec::new();
     for (number, (propagator, run)) in (1..).zip(selection.runs()) {
         let progress = Progress::new(bar, selection.numbered(number, run), run.steps);
@@ -95,7 +101,7 @@ pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
     if let Some((plots, files)) = &plots {
         files.write(&plots.svgs()?)?;
     }
-    let json = arguments.writes_rows() && !arguments.csv;
+    let json = arguments.writes_rows() && !arguments.writes_csv();
     summaries.iter().for_each(|summary| report::summary(summary, json));
     let fine = !arguments.run.strict || summaries.iter().all(Summary::is_fine);
     Ok(if fine { Status::Success } else { Status::NegativeAnswer })

@@ -89,7 +89,7 @@ def _csv(name: str) -> tuple[dict[str, Any], list[dict[str, str]], list[str]]:
         reader = csv.DictReader(lines)
         columns = reader.fieldnames
         if columns is None or list(columns[:2]) != ["n", "t"] or "coordinates" not in metadata:
-            raise InputError(f"{name}: this is no file of a run: it begins with lines of metadata, and columns n, t, …")
+            raise InputError(f"{name} is no file of `shadowstep run`, which begins with lines of metadata and has columns n, t, …: read a file of `trace` with pandas.read_csv")
         rows = list(reader)
     for key in ("coordinates", "values"):
         if key in metadata:

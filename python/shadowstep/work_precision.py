@@ -167,7 +167,7 @@ class Advice:
         if not self.choices:
             return str(self.reason)
         bound = "at most " if self.at_most else ""
-        rows = [["scheme", "h", "steps", "error", "forces", "seconds"], *([*choice._cells()] for choice in self.choices)]
+        rows = [["scheme", "h", "steps", "predicted", "forces", "seconds"], *([*choice._cells()] for choice in self.choices)]
         widths = [max(len(row[column]) for row in rows) for column in range(len(rows[0]))]
         lines = ["  ".join(f"{cell:<{width}}" if column == 0 else f"{cell:>{width}}" for column, (cell, width) in enumerate(zip(row, widths))) for row in rows]
         return "\n".join([*lines, f"verified: a run of {self.choices[0].scheme} over all of the time has the error {bound}{self.verified:.2e}"])

@@ -263,7 +263,7 @@ def test_rows_at_the_ends_have_no_shadow_energy():
 def test_advice_is_printed_as_a_table():
     advice = shadowstep.advise("pendulum", 50, 1e-6, seconds=0.2)
     head, *rows, verified = str(advice).splitlines()
-    assert head.split() == ["scheme", "h", "steps", "error", "forces", "seconds"] and len(rows) == len(advice.choices)
+    assert head.split() == ["scheme", "h", "steps", "predicted", "forces", "seconds"] and len(rows) == len(advice.choices)
     assert rows[0].split()[0] == advice.choices[0].scheme and verified.startswith("verified: ")
     assert len({len(line) for line in (head, *rows)}) == 1
     none = shadowstep.advise("pendulum", 50, 1e-30, seconds=0.2)

@@ -17,6 +17,7 @@ pub use crate::number::{Number, Real};
 pub use crate::shadow::run::{Trajectory, energy_drift};
 pub use crate::shadow::{Bilinear, Central, ShadowEnergy, Verdict};
 pub use crate::steps::integrator::Integrator;
+pub use crate::steps::scheme::{Scheme, ValidFor};
 pub use crate::steps::step_size::StepSize;
 pub use crate::steps::stepper::Stepper;
 #[cfg(feature = "tables")]

@@ -30,6 +30,7 @@ mod shipped;
 mod slow;
 mod time;
 mod units;
+mod unused;
 mod values;
 
 use std::io::ErrorKind;
@@ -228,6 +229,7 @@ fn system(
     let bodies = planets::given(reader, root);
     let time = time::section(reader, root);
     let system = problem::system(reader, problem, initial, &bodies);
+    unused::refuse_unused_parameters(reader, root, problem);
     time::transformed(reader, &time, system)
 }
 

@@ -37,7 +37,13 @@ struct Parameter {
 
 impl Parse for Parameter {
     fn parse(input: ParseStream<'_>) -> syn::Result<Parameter> {
-        Ok(Parameter { documentation: input.call(Attribute::parse_outer)?, name: input.parse()? })
+        let parameter = Parameter { documentation: input.call(Attribute::parse_outer)?, name: input.parse()? };
+        if input.peek(Token![:]) {
+            return Err(
+                input.error(format!("parameters have no types, which are added: write `{}` alone", parameter.name))
+            );
+        }
+        Ok(parameter)
     }
 }
 

@@ -216,3 +216,19 @@ fn compensated_sums_are_a_number_type() {
         assert_eq!(shadowstep(&format!("{drift} {other}")).code, 2, "{other}");
     }
 }
+
+#[test]
+fn a_file_whose_name_ends_in_csv_is_csv() {
+    let folder = tempfile::TempDir::new().unwrap();
+    for (name, option, begins) in [
+        ("run.csv", "", "n,t,"),
+        ("run.csv", "--json", "{\"n\":0"),
+        ("run.jsonl", "", "{\"n\":0"),
+        ("run", "--csv", "n,t,"),
+    ] {
+        let file = folder.path().join(name);
+        quietly(&format!("{RUN} {option} --force --output {}", file.display()));
+        let written = std::fs::read_to_string(file).unwrap();
+        assert!(written.starts_with(begins), "{name} {option}: {}", &written[..40]);
+    }
+}

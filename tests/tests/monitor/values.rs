@@ -202,3 +202,23 @@ fn a_steady_push_is_a_drift() {
     assert_eq!(report.trend, Some(Trend::Linear));
     assert!(report.change > 1e3 * report.round_off, "{report:?}");
 }
+
+/// Of an oscillator H̄ is conserved to the last digits of 60: no bound is below the effect of round-off.
+#[test]
+fn no_change_is_excluded_above_less_than_round_off() {
+    let context = precision(60);
+    for steps in [400, 1000] {
+        let (q, p) = (numbers::<Float>(&["1"], &context), numbers(&["0"], &context));
+        let spring = HarmonicOscillator { omega: number("1", 60) };
+        let mut motion = Motion::new(spring, UnitMasses, q, p).unwrap();
+        let stepper = stepper("stormer-verlet", "1/10", &context);
+        let mut monitor = ShadowEnergy::new(stepper, &mut motion, &Bilinear::with_error(24)).unwrap();
+        for _ in 0..steps {
+            monitor.step(&mut motion).unwrap();
+        }
+        let report = monitor.report();
+        let bound = report.permanent_bound.clone().unwrap();
+        assert!(bound >= report.round_off && report.verdict == Verdict::Fine, "{report}");
+        assert!(bound.log10_abs() < -55.0, "{report}");
+    }
+}

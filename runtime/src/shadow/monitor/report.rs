@@ -59,7 +59,7 @@ pub struct Report<N> {
     ///
     /// It is the least of three: the range of the accurate H̄ and three times their errors; and |a| + 3 s of the linear change a and its
     /// standard error s, for the means of H and for the means of all H̄, in 32 to 63 parts of the run. The means of H do not depend on the
-    /// estimator.
+    /// estimator. It is not below the effect of round-off.
     pub permanent_bound: Option<N>,
     /// How far H̄ moved where that is a permanent change: beyond errors and round-off, and not back and forth.
     pub permanent_change: Option<N>,

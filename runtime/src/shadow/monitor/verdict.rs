@@ -288,7 +288,10 @@ impl Evidence {
         }
         let of_estimates = self.range + ERROR_FACTOR * self.resolution;
         let of_means = [self.energy_change, self.modified_change].into_iter().flatten().map(Change::bound);
-        of_means.chain([of_estimates]).filter(|bound| bound.is_finite()).reduce(f64::min)
+        // means are parts of the energy error in double precision, whatever the digits of the run are
+        let of_means = of_means.map(|bound| bound.max(f64::EPSILON));
+        let least = of_means.chain([of_estimates]).filter(|bound| bound.is_finite()).reduce(f64::min);
+        least.map(|bound| bound.max(self.round_off))
     }
 
     /// How far H̄ moved permanently, where that is resolved.

@@ -8,11 +8,20 @@ use crate::number::Real;
 use crate::shadow::EstimatorError;
 use crate::steps::MismatchError;
 
+/// What may help: at the start no step has been made.
+fn remedy(step: i64) -> &'static str {
+    if step == 0 {
+        "choose other initial values or parameters"
+    } else {
+        "try a smaller step size or other initial values"
+    }
+}
+
 /// A run that cannot begin or cannot continue.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 pub enum RunError {
     /// A value is infinite or NaN.
-    #[error("the run stopped at step {step}: {value}; try a smaller step size or other initial values")]
+    #[error("the run stopped at step {step}: {value}; {}", remedy(*step))]
     NotFinite {
         /// n of the state that is not finite (negative before the start).
         step: i64,

@@ -1,0 +1,71 @@
+//! Parameters that nothing contains.
+
+use shadowstep_symbolic::nearest;
+use toml::de::{DeTable, DeValue};
+
+use super::reader::Reader;
+use crate::keys;
+use shadowstep_schemes::document::{Section, Text};
+
+/// Refuses parameters of a problem's own formulas that are in no text of the scene: `masss = 2` changes nothing. Those of shipped problems are known.
+pub(super) fn refuse_unused_parameters(reader: &mut Reader<'_>, root: &DeTable<'_>, problem: &Section<'_, '_>) {
+    let Some(DeValue::Table(parameters)) = problem.get("parameters").map(|value| value.get_ref()) else { return };
+    if problem.get("name").is_some() {
+        return;
+    }
+    // of [[body]]
+    let of_gravity = |name: &str| name == "g" && root.contains_key("body");
+    for (key, _) in parameters {
+        let name = Text::of_key(key);
+        if of_gravity(&name.value) || root.values().any(|value| has(value.get_ref(), &name.value)) {
+            continue;
+        }
+        let known = keys::of("problem").map(|key| key.name).filter(|key| *key != "parameters");
+        let others = parameters.keys().map(|key| key.get_ref().as_ref()).filter(|other| *other != name.value);
+        let near =
+            nearest(&name.value, known.chain(others)).map_or(String::new(), |near| format!("did you mean `{near}`? "));
+        let message = format!("the parameter `{}` is in no formula", name.value);
+        reader.toml.fault(&name.at, message, format!("{near}Remove it, or write it where it is meant"));
+    }
+}
+
+/// Whether a text in a value contains a name.
+fn has(value: &DeValue<'_>, name: &str) -> bool {
+    match value {
+        DeValue::String(text) => text.split(|c: char| !c.is_alphanumeric() && c != '_').any(|word| word == name),
+        DeValue::Array(values) => values.iter().any(|value| has(value.get_ref(), name)),
+        DeValue::Table(table) => table.values().any(|value| has(value.get_ref(), name)),
+        _ => false,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use shadowstep::tables::Source;
+
+    use crate::arithmetic::Arithmetic;
+    use crate::scene::System;
+
+    #[test]
+    fn parameters_that_are_in_no_formula_are_refused() {
+        let read = |parameters: &str| {
+            let text = format!(
+                "[problem]\npotential = \"depth*x^2/width\"\ncoordinates = [\"x\"]\nparameters = {{ {parameters} }}\n[initial]\nq = [\"a\"]\np = [0]"
+            );
+            System::read(&Source { path: "test.toml".to_owned(), text }, Arithmetic::DOUBLE).map(drop)
+        };
+        // also by a value of another parameter, and of the initial state
+        read("depth = 2, width = \"3*a\", a = 1").unwrap();
+        let faults = read("depth = 2, width = 3, widht = 4, masss = 2, a = 1").unwrap_err();
+        let said: Vec<_> =
+            faults.0.iter().map(|fault| (fault.message.as_str(), fault.hint.as_deref().unwrap())).collect();
+        let remove = |near: &str| format!("did you mean `{near}`? Remove it, or write it where it is meant");
+        assert_eq!(
+            said,
+            [
+                ("the parameter `widht` is in no formula", remove("width").as_str()),
+                ("the parameter `masss` is in no formula", remove("masses").as_str())
+            ]
+        );
+    }
+}
