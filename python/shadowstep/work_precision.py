@@ -212,7 +212,7 @@ def advise(
     >>> advice.verified <= 1e-6, len(advice.choices) > 0
     (True, True)
     >>> str(advice).split()[:6]
-    ['scheme', 'h', 'steps', 'error', 'forces', 'seconds']
+    ['scheme', 'h', 'steps', 'predicted', 'forces', 'seconds']
     """
     group, tables = _tables(schemes)
     _check_seconds(seconds)

@@ -190,5 +190,5 @@ def test_files_of_runs_are_opened(tmp_path, ending, digits):
 
 def test_a_file_of_something_else_is_refused(tmp_path):
     (tmp_path / "table.csv").write_text("a,b\n1,2\n")
-    with pytest.raises(shadowstep.InputError, match="this is no file of a run"):
+    with pytest.raises(shadowstep.InputError, match="is no file of `shadowstep run`"):
         shadowstep.open(tmp_path / "table.csv")
