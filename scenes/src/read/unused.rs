@@ -10,7 +10,8 @@ use shadowstep_schemes::document::{Section, Text};
 /// Refuses parameters of a problem's own formulas that are in no text of the scene: `masss = 2` changes nothing. Those of shipped problems are known.
 pub(super) fn refuse_unused_parameters(reader: &mut Reader<'_>, root: &DeTable<'_>, problem: &Section<'_, '_>) {
     let Some(DeValue::Table(parameters)) = problem.get("parameters").map(|value| value.get_ref()) else { return };
-    if problem.get("name").is_some() {
+    // after other faults: a name that is unknown in a formula may be meant for it
+    if problem.get("name").is_some() || !reader.toml.faults.is_empty() {
         return;
     }
     // of [[body]]
@@ -55,8 +56,8 @@ mod tests {
             System::read(&Source { path: "test.toml".to_owned(), text }, Arithmetic::DOUBLE).map(drop)
         };
         // also by a value of another parameter, and of the initial state
-        read("depth = 2, width = \"3*a\", a = 1").unwrap();
-        let faults = read("depth = 2, width = 3, widht = 4, masss = 2, a = 1").unwrap_err();
+        read("a = 1, depth = 2, width = \"3*a\"").unwrap();
+        let faults = read("a = 1, depth = 2, width = 3, widht = 4, masss = 2").unwrap_err();
         let said: Vec<_> =
             faults.0.iter().map(|fault| (fault.message.as_str(), fault.hint.as_deref().unwrap())).collect();
         let remove = |near: &str| format!("did you mean `{near}`? Remove it, or write it where it is meant");
