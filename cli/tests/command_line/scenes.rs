@@ -484,7 +484,7 @@ fn numbers_of_a_formula_that_overflow_in_double_precision_are_refused() {
     let scene = |potential: &str, digits: &str| {
         format!(
             "[problem]\npotential = \"{potential}\"\ncoordinates = [\"x\"]\nparameters = {{ k = 1e300 }}\n\
-             [initial]\nq = [1e100]\np = [0]\n[run]\nscheme = \"stormer-verlet\"\nstep = \"1/10\"\nsteps = 2\n\
+             [initial]\nq = [\"k*1e-200\"]\np = [0]\n[run]\nscheme = \"stormer-verlet\"\nstep = \"1/10\"\nsteps = 2\n\
              digits = {digits}\n[output]\nenergy = true\n"
         )
     };
