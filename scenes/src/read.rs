@@ -187,6 +187,7 @@ impl System {
         refuse_unknown_sections(&mut reader, &document, &["problem"], &[]);
         let (problem, initial) = (reader.section(&document, "problem"), reader.section(&document, "initial"));
         let system = system(&mut reader, &document, &problem, &initial);
+        unused::refuse_unused_parameters(&mut reader, &document, &problem);
         match (Faults::of(reader.toml.faults), system) {
             (None, Some(system)) => Ok((system, reader.notes)),
             (Some(faults), _) => Err(faults),
@@ -229,7 +230,6 @@ fn system(
     let bodies = planets::given(reader, root);
     let time = time::section(reader, root);
     let system = problem::system(reader, problem, initial, &bodies);
-    unused::refuse_unused_parameters(reader, root, problem);
     time::transformed(reader, &time, system)
 }
 
@@ -247,6 +247,7 @@ fn sections(
     let arithmetic = run::arithmetic(reader, &run);
     reader.arithmetic = arithmetic.unwrap_or(Arithmetic::DOUBLE);
     let system = system(reader, root, &problem, &initial);
+    unused::refuse_unused_parameters(reader, root, &problem);
     let steps = run::Steps::read(reader, &run, (system.as_ref(), root.contains_key(time::TIME)), schemes);
     let output = output::read(reader, &output, system.as_ref(), steps.as_ref());
     if let (Some(run::Steps { displaced: true, .. }), Some(Outputs { section: Some(_), .. })) = (&steps, &output) {

@@ -8,7 +8,6 @@ use std::time::Duration;
 use num_traits::ToPrimitive;
 use shadowstep::{Number, Rational, Scheme};
 use shadowstep_scenes::Error;
-use shadowstep_scenes::arithmetic::Arithmetic;
 use shadowstep_scenes::library::NamedScheme;
 use shadowstep_studies::{Observer, Store};
 
@@ -20,7 +19,7 @@ use crate::convenient::convenient_step;
 use crate::length::length_of;
 use crate::of::Of;
 use crate::problem::Problem;
-use crate::reference::{Reference, Resolution, numbers_of_reference, seconds_of_reference};
+use crate::reference::{Reference, Resolution, method_of_reference, seconds_of_reference};
 use crate::run::{Measurement, PositionError};
 use crate::series::{End, Series, StepRange, Target, seconds_per_step, stable_step};
 use crate::size::Size;
@@ -219,21 +218,20 @@ impl<'a> AdviceRequest<'a> {
     /// The first of these numbers of halvings with a part whose reference has the time for it.
     fn with_reference(&self, halvings: Range<i32>) -> Result<Option<i32>, Error> {
         // over all of the time
-        let mut known: Option<(Arithmetic, f64)> = None;
+        let mut known = None;
         for halvings in halvings {
-            // a shorter part needs a better reference, perhaps in more digits
-            let error = self.resolution(halvings);
-            let Some(numbers) = numbers_of_reference(self.problem, error)? else {
+            // a shorter part needs a better reference, perhaps in more digits or by another scheme
+            let Some(method) = method_of_reference(self.problem, self.resolution(halvings))? else {
                 return Ok(Some(halvings));
             };
-            let seconds = match known.filter(|(known, _)| *known == numbers) {
+            let seconds = match known.filter(|(known, _)| *known == method) {
                 Some((_, seconds)) => seconds,
-                None => seconds_of_reference(self.problem, (numbers, error), self.shortest_repeat())?,
+                None => seconds_of_reference(self.problem, method, self.shortest_repeat())?,
             };
             if seconds <= self.seconds_for_reference() * 2_f64.powi(halvings) {
                 return Ok(Some(halvings));
             }
-            known = Some((numbers, seconds));
+            known = Some((method, seconds));
         }
         Ok(None)
     }

@@ -343,23 +343,28 @@ fn resolving_numbers(problem: Problem<'_>, error: Size) -> Option<Arithmetic> {
     (error.log10() > resolved).then_some(own)
 }
 
-/// The numbers in which a reference with errors of about this size is computed; `None` where the flow is exact.
-pub(crate) fn numbers_of_reference(problem: Problem<'_>, error: Size) -> Result<Option<Arithmetic>, Error> {
+/// The numbers in which a reference with errors of about this size is computed, and its scheme; `None` where the flow is exact.
+pub(crate) fn method_of_reference(
+    problem: Problem<'_>,
+    error: Size,
+) -> Result<Option<(Arithmetic, &'static str)>, Error> {
     if problem.exact_flow().is_some() || !error.is_finite() {
         return Ok(None);
     }
-    resolving_numbers(problem, error).map_or_else(|| more_digits(problem), Ok).map(Some)
+    let arithmetic = resolving_numbers(problem, error).map_or_else(|| more_digits(problem), Ok)?;
+    let (scheme, _) = Scheme::of(problem, error)?;
+    Ok(Some((arithmetic, scheme.name)))
 }
 
-/// The seconds of a reference in these numbers: of three runs, each with half the step of the one before.
+/// The seconds of a reference by this method: of three runs, each with half the step of the one before.
 pub(crate) fn seconds_of_reference(
     problem: Problem<'_>,
-    (arithmetic, error): (Arithmetic, Size),
+    (arithmetic, name): (Arithmetic, &str),
     shortest: Duration,
 ) -> Result<f64, Error> {
     /// 1 + 2 + 4
     const RUNS: f64 = 7.0;
-    let (_, named) = Scheme::of(problem, error)?;
+    let named = for_system(scheme(name)?, problem.system)?;
     let steps = first_steps(problem, 1);
     let time = time_of_steps(Problem { arithmetic, ..problem }, &[(&named, steps)], shortest)?;
     Ok(RUNS * steps as f64 * time[0].median)

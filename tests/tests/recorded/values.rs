@@ -8,6 +8,11 @@ use shadowstep::shadow::run::Trajectory;
 
 use super::*;
 
+fn motion(fluid: Fluid) -> Motion<f64, Vec<f64>, Fluid, UnitMasses> {
+    let [q, p] = fluid.start();
+    Motion::new(fluid, UnitMasses, q, p).unwrap()
+}
+
 /// The same estimates of the same trajectory, from its own increments and from what was logged of it. They differ by the round-off of rates:
 /// of some multiples of ε Σ|q_i U_qi|, which is 1e-12 here.
 #[test]
@@ -61,10 +66,7 @@ fn of_an_oscillator_they_are_what_theory_says() {
 #[test]
 fn repeated_steps_give_the_bits_of_the_run() {
     let fluid = fluid();
-    let motion = || {
-        let [q, p] = fluid.start();
-        Motion::new(fluid, UnitMasses, q, p).unwrap()
-    };
+    let motion = || motion(fluid);
     let settings = Bilinear::with_error(6);
     for name in ["stormer-verlet", "symplectic-euler", "yoshida4"] {
         let scheme = stepper::<f64>(name, "0.004", &());
@@ -99,10 +101,7 @@ fn repeated_steps_give_the_bits_of_the_run() {
 #[test]
 fn increments_of_any_splitting_give_the_estimates_of_the_run() {
     let fluid = fluid();
-    let motion = || {
-        let [q, p] = fluid.start();
-        Motion::new(fluid, UnitMasses, q, p).unwrap()
-    };
+    let motion = || motion(fluid);
     let mut scratch = vec![0.0; fluid.scratch()];
     fluid.prepare(&mut scratch, &());
     for name in ["symplectic-euler", "pefrl", "blanes-moan-srkn6b"] {
