@@ -59,7 +59,8 @@ fn a_head_on_collision_names_its_step() {
 /// r² overflows, so 1/r is 0: the energy would be a free body's.
 #[test]
 fn positions_whose_squares_overflow_are_refused() {
-    let start = |x: &str| state::<_, f64>(Kepler, &[x, "0"], &["0", "1"], &());
+    let start =
+        |x: &str| Motion::of_any_energy(Kepler, UnitMasses, vec![x.parse().unwrap(), 0.0], vec![0.0, 1.0]).unwrap();
     let error = drift("stormer-verlet", start("-1e160"), "1/10", 5, 2).unwrap_err().to_string();
     let sentence =
         "the run stopped at step 0: q1 = -1e160, whose square overflows; choose other initial values or parameters";
@@ -273,8 +274,14 @@ fn long_runs_keep_the_digits_of_beta() {
 
 /// At the singularity already.
 #[test]
-fn a_start_that_is_not_finite_is_refused() {
-    let start = state::<_, f64>(Kepler, &["0", "0"], &["1", "0"], &());
+fn starts_of_infinite_energy_are_refused() {
+    for q in [[0.0; 2], [1e160, 0.0]] {
+        let error = Motion::new(Kepler, UnitMasses, q, [1.0, 0.0]).map(drop).unwrap_err();
+        assert_eq!(error, MotionError::Energy);
+        let sentence = "the energy is not finite at the initial values; choose other initial values or parameters";
+        assert_eq!(error.to_string(), sentence);
+    }
+    let start = Motion::of_any_energy(Kepler, UnitMasses, vec![0.0; 2], vec![1.0, 0.0]).unwrap();
     assert!(matches!(drift("stormer-verlet", start, "1/10", 10, 3), Err(RunError::NotFinite { step: 0, .. })));
 }
 

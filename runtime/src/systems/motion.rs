@@ -46,8 +46,18 @@ where
     ///
     /// # Errors
     /// q, p, the potential and the kinetic energy that do not have the same dimension, at least 1; numbers of q and p of different
-    /// precision; an infinite q or p, or one that is NaN. U is not evaluated: where it is infinite, [`Motion::energy`] shows it, and a run ends with an error.
+    /// precision; an infinite q or p, or one that is NaN; an energy that is, as at a collision. In lanes, trajectories of finite energy go on without the others.
     pub fn new(potential: P, kinetic: K, q: V, p: V) -> Result<Self, MotionError> {
+        let mut motion = Motion::of_any_energy(potential, kinetic, q, p)?;
+        if N::LANES > 1 || motion.energy().is_finite() { Ok(motion) } else { Err(MotionError::Energy) }
+    }
+
+    /// The system at q, p, where U may be infinite and is not evaluated: for a state that is set later. A run from there ends with an error, which names the
+    /// value.
+    ///
+    /// # Errors
+    /// As [`Motion::new`], but for the energy.
+    pub fn of_any_energy(potential: P, kinetic: K, q: V, p: V) -> Result<Self, MotionError> {
         let context = check(&potential, &kinetic, q.as_ref(), p.as_ref())?;
         let hamiltonian = Hamiltonian::new(potential, kinetic, &context);
         let (gradient, rate) = (p.clone(), N::zero(&context));
@@ -267,7 +277,8 @@ where
     }
 
     /// H = T(p) + U(q) at the present state; NaN where squares of distances overflow, a coordinate above 3.8e153 in `f64`:
-    /// there a potential such as −1/r would be 0.
+    /// there a potential such as −1/r would be 0. A potential may renew what it keeps, such as a list of neighbours, and so needs `&mut`; of a motion that is
+    /// shared, `motion.clone().energy()` is the same.
     pub fn energy(&mut self) -> N {
         let [mut energy, mut kinetic_energy] = [self.beta().clone(), self.beta().clone()];
         let state = &self.at.state;
@@ -352,6 +363,9 @@ pub enum MotionError {
         /// Such as q1, counted from 1.
         name: String,
     },
+    /// H is infinite or NaN at the initial values.
+    #[error("the energy is not finite at the initial values; choose other initial values or parameters")]
+    Energy,
     /// The numbers have different precisions.
     #[error("the numbers of q and p must have the same precision")]
     Precision,

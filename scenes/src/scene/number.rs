@@ -145,7 +145,7 @@ fn springs<N: SceneNumber>(
     // in the types of shipped problems, which are compiled anyway
     let potential: Box<dyn Potential<N>> = Box::new(chain);
     let kinetic: Box<dyn Kinetic<N, Class = Quadratic>> = Box::new(UnitMasses);
-    let motion = Motion::new(potential, kinetic, q, p)?.compensated_if(steps.compensated);
+    let motion = Motion::of_any_energy(potential, kinetic, q, p)?.compensated_if(steps.compensated);
     Ok(steps.integrator(steps.quadratic(), motion, context))
 }
 

@@ -197,11 +197,11 @@ impl InitialValueProblem {
         let potential = self.potential(context);
         match self.kinetic(context) {
             ClassifiedKinetic::Quadratic(kinetic) => {
-                let mut motion = Motion::new(potential, kinetic, q, p).expect(READ);
+                let mut motion = Motion::of_any_energy(potential, kinetic, q, p).expect(READ);
                 Box::new(move |q, p| motion.energy_at(q, p))
             }
             ClassifiedKinetic::General(kinetic) => {
-                let mut motion = Motion::new(potential, kinetic, q, p).expect(READ);
+                let mut motion = Motion::of_any_energy(potential, kinetic, q, p).expect(READ);
                 Box::new(move |q, p| motion.energy_at(q, p))
             }
         }

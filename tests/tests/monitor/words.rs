@@ -89,7 +89,7 @@ fn what_is_not_finite_has_its_step() {
 
 #[test]
 fn a_start_that_is_not_finite_is_refused() {
-    let mut centre = Motion::new(Kepler, UnitMasses, vec![0.0, 0.0], vec![0.0, 1.0]).unwrap();
+    let mut centre = Motion::of_any_energy(Kepler, UnitMasses, vec![0.0, 0.0], vec![0.0, 1.0]).unwrap();
     let verlet = stepper("stormer-verlet", "1", &());
     let error = ShadowEnergy::new(verlet, &mut centre, &Bilinear::new(4)).map(drop).unwrap_err();
     assert!(matches!(error, RunError::NotFinite { step: 0, .. }), "{error}");

@@ -40,14 +40,14 @@ impl Split for KineticAndPotential {
         let (potential, displacements) = (problem.potential(context), steps.displacements(context));
         Ok(match problem.kinetic(context) {
             ClassifiedKinetic::Quadratic(kinetic) => {
-                let mut motion = Motion::new(potential, kinetic, q, p)?;
+                let mut motion = Motion::of_any_energy(potential, kinetic, q, p)?;
                 if let Some(displacements) = displacements {
                     motion = motion.displaced(displacements);
                 }
                 steps.integrator(steps.quadratic(), motion.compensated_if(steps.compensated), context)
             }
             ClassifiedKinetic::General(kinetic) => {
-                let motion = Motion::new(potential, kinetic, q, p)?.compensated_if(steps.compensated);
+                let motion = Motion::of_any_energy(potential, kinetic, q, p)?.compensated_if(steps.compensated);
                 steps.integrator(steps.for_every_kinetic(), motion, context)
             }
         })

@@ -132,7 +132,7 @@ impl TransformedTime {
         (q, p): State<N>,
         context: &N::Context,
     ) -> Result<SceneIntegrator<N>, MotionError> {
-        let motion = Motion::new(potential, TransformedKinetic::new(self.0, kinetic), q, p)?;
+        let motion = Motion::of_any_energy(potential, TransformedKinetic::new(self.0, kinetic), q, p)?;
         Ok(steps.integrator(steps.for_every_kinetic(), motion.compensated_if(steps.compensated), context))
     }
 }
