@@ -307,6 +307,7 @@ impl<'a> AdviceRequest<'a> {
             conserved_up_to: fine.map(size),
             lost_from: lost.map(size),
             over_part: halvings > 0,
+            missed: false,
             curve,
             length,
             order: self.order(studied.scheme),
@@ -344,7 +345,7 @@ impl<'a> AdviceRequest<'a> {
         let by_order = choice.size() * 10_f64.powf((target.log10() - error.log10()) / choice.order);
         let h = corrected.largest_step(target).unwrap_or(by_order);
         let h = h.clamp(choice.size() / MOST_REFINED, 0.89 * choice.size());
-        self.with_step(&Choice { curve: corrected.curve, ..choice.clone() }, h)
+        self.with_step(&Choice { curve: corrected.curve, missed: true, ..choice.clone() }, h)
     }
 
     /// A larger step, where a run had an error that leaves room for one.

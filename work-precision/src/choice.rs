@@ -10,6 +10,8 @@ use crate::work::Work;
 
 /// The highest order by which errors are extrapolated, where the proved one is lower.
 const MOST_ORDER: f64 = 10.0;
+/// An error above the prediction by more than this is a resonance of the step, not the growth of errors in time, log₁₀.
+const RESONANCE: f64 = 1.0;
 
 /// A scheme and a step size with what is expected of them.
 #[derive(Clone, Debug)]
@@ -32,6 +34,8 @@ pub struct Choice<'a> {
     pub lost_from: Option<f64>,
     /// Whether the runs were over a part of the time.
     pub(crate) over_part: bool,
+    /// Whether a larger step of the scheme missed the tolerance.
+    pub(crate) missed: bool,
     /// Numbers of steps and predicted errors, log₁₀.
     pub(crate) curve: Curve,
     /// What the steps of the curve divide.
@@ -83,11 +87,13 @@ impl Choice<'_> {
     }
 
     /// With the error that the run of its steps had. Runs over a part of the time say how errors depend on the step: all are multiplied, so that the prediction
-    /// is this error. Those over all of the time are what they are beside one more: near a resonance of the step its error says nothing of theirs.
+    /// is this error. Those over all of the time are what they are beside one more: near a resonance of the step its error says nothing of theirs. A part of the
+    /// time may not show a resonance: an error far above the prediction is one, if it is the first.
     pub(crate) fn corrected(&self, found: Size) -> Choice<'_> {
+        let shift = found.log10() - self.predicted(self.size());
+        let is_resonance = shift > RESONANCE && !self.missed;
         let mut curve = self.curve.clone();
-        if self.over_part {
-            let shift = found.log10() - self.predicted(self.size());
+        if self.over_part && !is_resonance {
             curve.iter_mut().for_each(|(_, error)| *error += shift);
         } else {
             let steps = self.length / self.size();
