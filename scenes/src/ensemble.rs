@@ -38,6 +38,7 @@ mod settings;
 
 use std::io::Write;
 
+use rayon::prelude::*;
 use shadowstep::number::Lanes;
 use shadowstep::shadow::ensemble::{self, Block, EnsembleError, Outcome};
 use shadowstep::tables::{Faults, Source};
@@ -155,7 +156,8 @@ impl Ensemble {
         let parsed = self.family.parsed()?;
         if !self.has_lanes() {
             let one = |t| alone::outcome(&self.scene(&parsed, t)?, self.observed, &continues);
-            return alone::on_all_cores(self.columns.trajectories(), one);
+            let outcomes: Vec<_> = (0..self.columns.trajectories()).into_par_iter().map(one).collect();
+            return outcomes.into_iter().collect();
         }
         let compensated = self.first.arithmetic.is_compensated();
         let steps = self.first.steps_from(Begin::InitialState);

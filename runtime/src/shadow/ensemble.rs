@@ -28,6 +28,7 @@
 //! ```
 
 mod follow;
+mod seen;
 
 use std::num::NonZero;
 use std::sync::Mutex;
@@ -42,7 +43,7 @@ use crate::steps::stepper::Stepper;
 use crate::systems::system::System;
 use follow::follow;
 
-pub use follow::Outcome;
+pub use seen::{Outcome, Seen};
 
 /// What is computed of each of a number of trajectories.
 ///
