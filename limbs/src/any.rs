@@ -107,7 +107,7 @@ macro_rules! same_size {
 
 #[cold]
 fn different_sizes() -> ! {
-    panic!("the numbers of an operation have different numbers of limbs")
+    panic!("the numbers of an operation have different numbers of limbs: make them with one context")
 }
 
 /// Methods of [`Limbs`] with the same meaning: those that change the number, that give another, and that describe it.

@@ -4,12 +4,21 @@ from __future__ import annotations
 
 from typing import Any
 
+from ._shadowstep import InputError
 from .exact import Number, count, exact
 
 
 def order_of(value: Any, what: str = "order") -> int:
     """The k or m of an estimator; its largest depends on the estimator."""
     return count(value, what, most=2**32 - 1)
+
+
+def options_if_any(name: str | None, **others: Any) -> dict[str, Any] | None:
+    """The same where an estimator may be left out, with all its options."""
+    given = next((f"{option}={value!r}" for option, value in others.items() if value is not None), None)
+    if name is None and given is not None:
+        raise InputError(f'{given} is an option of an estimator: give one, such as estimator="bilinear"')
+    return None if name is None else options(name, **others)
 
 
 def options(

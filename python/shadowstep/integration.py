@@ -13,7 +13,7 @@ import numpy as np
 
 from . import _shadowstep
 from ._shadowstep import InputError
-from .estimator import options
+from .estimator import options_if_any
 from .exact import Number, count, exact
 from .problem import Problem, given_of
 from .progress import bar
@@ -212,7 +212,7 @@ def integrate(
     1.7
     """
     run = run_of(problem, scheme, h, until, steps, first, gradient_kicks, every, digits, mpfr)
-    chosen = None if estimator is None else options(estimator, order, max_order, stop, rule, accuracy)
+    chosen = options_if_any(estimator, order=order, max_order=max_order, stop=stop, rule=rule, accuracy=accuracy)
     with bar(run["steps"], "steps", progress) as reach:
         found = _shadowstep.integrate(run, options=chosen, end=end, tangent=_texts(tangent), summary=summary, progress=reach)
     if found["summary"] is not None:

@@ -172,6 +172,7 @@ def test_what_a_function_raises_comes_out():
         (lambda: integrate(Problem("kepler"), "yoshida4", h=0.1, until=1, estimator="trilinear"), "no estimator `trilinear`", "bilinear"),
         (lambda: integrate(Problem("kepler"), "yoshida4", h=0.1, until=1, estimator="bilinear", order=8, max_order=9), "max_order", "order"),
         (lambda: integrate(Problem("kepler"), "yoshida4", h=0.1, until=1, estimator="bilinear", order=0), "order = 0 is too small", "give 1 or more"),
+        (lambda: integrate(Problem("kepler"), "yoshida4", h=0.1, until=1, order=8), "order=8 is an option of an estimator", "bilinear"),
         (lambda: integrate(Problem("kepler"), "yoshida4", h=0.1, until=1, every=-1), "every = -1 is too small", "give 1 or more"),
         (lambda: integrate(Problem("kepler"), "yoshida4", h=0.1, steps=10**20), "steps = 100000000000000000000 is too large", "or less"),
         (lambda: Monitor(Problem("kepler"), "yoshida4", h=0.1).step(-1), "steps = -1 is too small", "give 0 or more"),

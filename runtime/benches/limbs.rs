@@ -6,7 +6,7 @@ mod timing;
 
 use std::hint::black_box;
 
-use shadowstep::number::{AnyLimbs, Float, LimbCount, Limbs, Precision};
+use shadowstep::number::{AnyLimbs, Float, Limbs, Precision};
 use shadowstep::problems::{HenonHeiles, Kepler, Pendulum};
 use shadowstep::{Motion, Number, Potential, Real, Stepper, UnitMasses, exact, splitting_scheme};
 
@@ -54,7 +54,7 @@ fn functions<'a, N: Real + 'a>(name: &'static str, context: &N::Context, apply: 
 
 fn main() {
     let digits = Precision::digits(120).expect("120 digits are allowed");
-    let any = LimbCount::of_bits(digits.in_bits()).expect("few enough");
+    let any = digits.limbs().expect("few enough");
     type Seven = Limbs<7>;
     for (title, augmented) in [("Step", false), ("Step with β", true)] {
         let state = (["0.4", "0"], ["0", "2"]);

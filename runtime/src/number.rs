@@ -109,6 +109,10 @@ pub(crate) use without_derivatives;
 ///
 /// There is no order, and no text: a number may be several at once, as in lanes. What compares, searches or prints needs an
 /// [`Real`] number; potentials, kinetic energies and steps do not.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` is not a type of numbers that systems and steps have",
+    note = "write `[1.0, 0.0]` for `f64`; many digits are those of `Motion::exact`"
+)]
 pub trait Number: Clone + fmt::Debug {
     /// What a new number needs: `()` for `f64` and [`Limbs`], the number of limbs for [`AnyLimbs`], the precision for MPFR.
     type Context: Clone + PartialEq + fmt::Debug;

@@ -2,6 +2,7 @@
 
 use std::f64::consts::{LOG2_10, LOG10_2};
 
+use shadowstep_limbs::LimbCount;
 use thiserror::Error;
 
 /// The precision of a number in bits, and in the decimal digits that it holds.
@@ -68,6 +69,18 @@ impl Precision {
     /// The size of the significand in bits.
     pub fn in_bits(self) -> u32 {
         self.bits
+    }
+
+    /// The fewest limbs of 64 bits with this precision; none beyond [`LimbCount::MOST`], 327 digits.
+    ///
+    /// ```
+    /// use shadowstep::number::Precision;
+    ///
+    /// assert_eq!(Precision::digits(120)?.limbs().unwrap().get(), 7);
+    /// # Ok::<(), shadowstep::number::PrecisionError>(())
+    /// ```
+    pub fn limbs(self) -> Option<LimbCount> {
+        LimbCount::of_bits(self.bits)
     }
 
     /// How many decimal digits of a text survive: ⌊(bits − 1) log₁₀2⌋.

@@ -12,6 +12,10 @@ pub use crate::systems::maps::{Flows, MapKind, MapSequence, PartOrder, Sequence}
 ///
 /// A scheme with a step size is a [`Stepper`](crate::Stepper), which makes the steps: it alone has the weights of a step and the flows of a system, so
 /// weights of another scheme or step size cannot be used by mistake.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` is not a splitting scheme",
+    note = "a scheme is a struct with `#[splitting_scheme(\"yoshida4.toml\")]`, or a table: `tables::shipped(\"yoshida4\").unwrap()`"
+)]
 pub trait Scheme {
     /// Whether [`forward`](Scheme::forward) is inlined wherever it is called, as generated code of a short step: then many steps are made by it, else by
     /// a loop over the [`sequence`](Scheme::sequence).

@@ -25,6 +25,7 @@ use crate::{Rational, exact};
 /// let exact = StepSize::try_from("1/20")?;
 /// assert_eq!(exact, StepSize::try_from("0.05")?);
 /// assert_ne!(exact, StepSize::try_from(0.05)?);
+/// assert_eq!(StepSize::try_from(2)?, StepSize::try_from("2")?);
 /// assert_eq!(StepSize::try_from(0.0).unwrap_err().to_string(), "the step size must be nonzero");
 /// # Ok::<(), shadowstep::StepSizeError>(())
 /// ```
@@ -99,6 +100,13 @@ impl TryFrom<f64> for StepSize {
     type Error = StepSizeError;
     fn try_from(h: f64) -> Result<Self, StepSizeError> {
         Rational::from_float(h).ok_or_else(|| StepSizeError::NotFinite(h.to_string()))?.try_into()
+    }
+}
+
+impl TryFrom<i32> for StepSize {
+    type Error = StepSizeError;
+    fn try_from(h: i32) -> Result<Self, StepSizeError> {
+        Rational::from_integer(h.into()).try_into()
     }
 }
 

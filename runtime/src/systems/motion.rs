@@ -154,8 +154,7 @@ where
     /// # Errors
     /// Values that are not exact numbers; more digits than 17 limbs hold, 327; as [`Motion::new`].
     pub fn exact(potential: P, kinetic: K, q: [&str; D], p: [&str; D], digits: u32) -> Result<Self, MotionError> {
-        let precision = Precision::digits(digits).ok();
-        let context = precision.and_then(|precision| LimbCount::of_bits(precision.in_bits()));
+        let context = Precision::digits(digits).ok().and_then(Precision::limbs);
         let context = context.ok_or(MotionError::NumberOfDigits { digits })?;
         let number = |name: &str, index: usize, text: &str| match exact(text) {
             Ok(value) => Ok(AnyLimbs::from_rational(&value, &context)),
