@@ -184,7 +184,7 @@ fn not_finished(unfinished: &Unfinished<'_>, seconds: f64) -> String {
 fn evidence(best: &Choice<'_>, request: &AdviceRequest<'_>, verified: Verified, part: f64) -> String {
     let verified = match verified {
         Verified::Error(error) => error.to_string(),
-        Verified::AtMost(bound) => format!("at most {bound}"),
+        Verified::AtMost(bound) | Verified::Unresolved(bound) => format!("at most {bound}"),
     };
     let mut lines = vec![
         ("predicted", format!("{}, from runs {}", best.error, over(part))),

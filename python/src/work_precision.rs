@@ -210,7 +210,7 @@ fn of_advice(advice: &Advice<'_>, request: &AdviceRequest<'_>) -> Value {
     match advice {
         Advice::Found { choices, verified, part, unfinished } => {
             let choices: Vec<Value> = choices.iter().map(|choice| of_choice(choice, system)).collect();
-            let at_most = matches!(verified, Verified::AtMost(_));
+            let at_most = !matches!(verified, Verified::Error(_));
             json!({ "found": true, "choices": choices, "verified": number_of(verified.size()), "at_most": at_most, "part": part,
                 "untried": unfinished.untried, "extrapolated": unfinished.extrapolated })
         }

@@ -89,7 +89,7 @@ const KEYS: [Key; 24] = [
     key(
         "keep",
         "first_time",
-        "Conditions, one comparison each. RunValue is the time of the first state that meets it, and nothing where no state does.",
+        "Conditions, one comparison each. The value is the time of the first state that meets it, and nothing where no state does.",
         "{ escape = \"x^2 + y^2 > 100\" }",
         Some("none"),
     ),

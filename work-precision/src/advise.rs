@@ -141,7 +141,7 @@ impl<'a> AdviceRequest<'a> {
             let Some(best) = choices.first_mut() else { break };
             let verified = self.verify(best, &mut reference, observer)?;
             let resolved = reference.as_ref().map_or(Size::ZERO, Reference::resolved);
-            if resolved > self.tolerance && verified.is_some_and(|verified| verified.is_unresolved(resolved)) {
+            if resolved > self.tolerance && matches!(verified, Some(Verified::Unresolved(_))) {
                 unverified = Some(Box::new((best.clone(), resolved)));
                 break;
             }

@@ -6,31 +6,26 @@ use crate::size::Size;
 /// The error of a position is this multiple of that of the reference, where it is said to be known.
 const RESOLVED: f64 = 20.0;
 
-/// What errors are at most that are below five times the error of the reference, which adds one.
-fn at_most(resolved: Size) -> Size {
-    resolved.times_power_of_ten(1.2_f64.log10())
-}
+/// Of what an error is at most where it is below five times the error of the reference, which adds one.
+const WITH_REFERENCE: f64 = 1.2;
 
 /// The error of a run over all of the time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Verified {
     /// This, to a tenth: the error of the reference is less than a 20th of it.
     Error(Size),
-    /// At most this: the reference resolves no more.
+    /// At most this: the error of the reference is a part of it.
     AtMost(Size),
+    /// At most this, which is all that the reference resolves.
+    Unresolved(Size),
 }
 
 impl Verified {
     /// The error, or what it is at most.
     pub fn size(self) -> Size {
         match self {
-            Verified::Error(size) | Verified::AtMost(size) => size,
+            Verified::Error(size) | Verified::AtMost(size) | Verified::Unresolved(size) => size,
         }
-    }
-
-    /// Whether this is all that a reference says which resolves errors above a size.
-    pub(crate) fn is_unresolved(self, resolved: Size) -> bool {
-        matches!(self, Verified::AtMost(bound) if bound <= at_most(resolved))
     }
 
     /// Of a position beside a reference with this error; `None` where it is not known, or the run failed.
@@ -43,7 +38,7 @@ impl Verified {
             PositionError::Known(size) => {
                 Some(Verified::AtMost(size.times_power_of_ten((1.0 + ten(error) / ten(size)).log10())))
             }
-            PositionError::Below(size) => Some(Verified::AtMost(at_most(size))),
+            PositionError::Below(size) => Some(Verified::Unresolved(size.times_power_of_ten(WITH_REFERENCE.log10()))),
             PositionError::None => None,
         }
     }
@@ -58,8 +53,8 @@ mod tests {
         let size = |x: f64| Size::of(&x);
         let (error, resolved) = (size(1e-9), size(5e-9));
         let verified = |position| Verified::of_position(position, error).unwrap();
-        assert!(verified(PositionError::Below(resolved)).is_unresolved(resolved));
-        assert!(!verified(PositionError::Known(size(5.1e-9))).is_unresolved(resolved));
+        assert!(matches!(verified(PositionError::Below(resolved)), Verified::Unresolved(_)));
+        assert!(matches!(verified(PositionError::Known(size(5.1e-9))), Verified::AtMost(_)));
         assert_eq!(verified(PositionError::Known(size(2.1e-8))), Verified::Error(size(2.1e-8)));
     }
 }
