@@ -31,7 +31,7 @@ pub struct PredictedFrequency {
 /// The errors are of second order in the masses, where near resonances have small divisors, of order e², and of the next power of h.
 /// `None` unless there are two planets on elliptic orbits.
 ///
-/// Source: C. D. Murray & S. F. Dermott, *Solar System Dynamics*, 7.1–7.3; H. Rein, D. Tamayo & G. Brown, Mon. Not. R. Astron. Soc. 490 (2019) 5122.
+/// Source: C. D. Murray & S. F. Dermott, *Solar System Dynamics*, 7.1–7.3; H. Rein, G. Brown & D. Tamayo, Mon. Not. R. Astron. Soc. 490 (2019) 5122.
 pub fn predicted_frequencies<const D: usize>(
     system: &WisdomHolman<f64, Jacobi<f64, D>, D>,
     factor: f64,

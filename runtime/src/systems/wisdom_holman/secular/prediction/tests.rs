@@ -5,16 +5,16 @@ use crate::exact;
 use crate::systems::increments::Carried;
 use crate::systems::wisdom_holman::Bodies;
 
-/// Two planets of this part of a central mass of 1 with G = 1, at the pericentres of orbits of 1 and 1.8 with these eccentricities, the second pericentre
-/// opposite.
-fn planets(mass: &str, e: [f64; 2]) -> WisdomHolman<f64, Jacobi<f64, 2>, 2> {
+/// Two planets of this part of a central mass of 1 with G = 1, at the pericentres of orbits of 1 and `outer` with these eccentricities, the second
+/// pericentre opposite.
+fn planets(mass: &str, outer: f64, e: [f64; 2]) -> WisdomHolman<f64, Jacobi<f64, 2>, 2> {
     let masses = ["1", mass, mass].map(|mass| exact(mass).unwrap());
     let bodies = Bodies::new(exact("1").unwrap(), masses.to_vec()).unwrap();
     let zeros = [0.0; 6];
     let mut planets = WisdomHolman::<f64, Jacobi<f64, 2>, 2>::new(&bodies, (&zeros, &zeros), &()).unwrap();
     let orbits = planets.coordinates().orbits().planets.clone();
     let (mut q, mut p) = (zeros, zeros);
-    for (i, (orbit, (a, sign))) in (1..).zip(orbits.iter().zip([(1.0, 1.0), (1.8, -1.0)])) {
+    for (i, (orbit, (a, sign))) in (1..).zip(orbits.iter().zip([(1.0, 1.0), (outer, -1.0)])) {
         let e = e[i - 1];
         q[2 * i] = sign * a * (1.0 - e);
         p[2 * i + 1] = sign * orbit.mass * (orbit.parameter / a * (1.0 + e) / (1.0 - e)).sqrt();
@@ -29,7 +29,7 @@ fn planets(mass: &str, e: [f64; 2]) -> WisdomHolman<f64, Jacobi<f64, 2>, 2> {
 /// The flow of A with incommensurable periods reaches all pairs of places equally often.
 #[test]
 fn means_are_those_along_kepler_orbits() {
-    let mut planets = planets("1/1000", [0.1, 0.2]);
+    let mut planets = planets("1/1000", 1.8, [0.1, 0.2]);
     let mut means = Means::of(&planets).unwrap();
     let expected = means.at([0.1, -0.2]);
     let mut sums = [0.0; 2];
@@ -58,7 +58,7 @@ fn laplace(j: f64, alpha: f64) -> f64 {
 #[test]
 fn frequencies_are_those_of_laplace_and_lagrange() {
     let (mass, alpha) = (1e-5, 1.0 / 1.8);
-    let found = predicted_frequencies(&planets("1/100000", [0.0, 0.0]), 0.0).unwrap();
+    let found = predicted_frequencies(&planets("1/100000", 1.8, [0.0, 0.0]), 0.0).unwrap();
     let [inner, outer] = [(1.0, alpha), (1.8f64.powf(-1.5), 1.0)].map(|(n, ratio)| n * mass / 4.0 * alpha * ratio);
     let [diagonal, other] = [1.0, 2.0].map(|j| laplace(j, alpha));
     let (sum, product) = ((inner + outer) * diagonal, inner * outer * (diagonal * diagonal - other * other));
@@ -72,4 +72,16 @@ fn frequencies_are_those_of_laplace_and_lagrange() {
         assert!((found.omega / expected - 1.0).abs() < 1e-4, "{found:?} is not {expected:e}");
         assert_eq!(found.change, 0.0);
     }
+}
+
+/// Far from the other planet B_Q of the inner one is the tide, and the mean of its square 5/2 m²a²(1 + 3e²/2)/a_2⁶ times m′.
+#[test]
+fn the_change_is_that_of_the_tide_squared() {
+    let (mass, outer, factor) = (1e-3, 40.0_f64, 0.1);
+    let [inner, _] = predicted_frequencies(&planets("1/1000", outer, [0.0, 0.0]), factor).unwrap();
+    let expected = -7.5 * mass * mass * outer.powi(-6) * factor;
+    // the next terms of the tide are some 20 times 1/40²
+    assert!((inner.change / expected - 1.0).abs() < 0.02, "{inner:?} is not {expected:e}");
+    // the tide of a ring: 3/4 n m (a/a_2)³
+    assert!((inner.omega / (0.75 * mass * outer.powi(-3)) - 1.0).abs() < 0.02, "{inner:?}");
 }
