@@ -84,7 +84,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         let found = frequencies(map, &setting)?;
         let errors = found.iter().zip(&exact).zip(predicted(map, &setting)?).map(|((found, exact), predicted)| {
             let (error, uncertainty) = (found.omega / exact.omega - 1.0, found.uncertainty / exact.omega.abs());
-            format!("{error:+.2e} ± {uncertainty:.0e} | {:.2e}", predicted.change / predicted.omega)
+            format!("{error:+.2e} ± {uncertainty:.0e} | {:+.2e}", predicted.change / predicted.omega + 0.0)
         });
         let errors = errors.collect::<Vec<_>>().join(" | ");
         println!("| {} | {of_h:.1e} | {of_modified:.1e} | {mean:+.1e} | {errors} |", map.name);
