@@ -9,6 +9,7 @@ use crate::estimator;
 use crate::measured::{Drift, Energies, Measure, Orbit};
 use crate::noise::{self, Block, Differences};
 use crate::run::{EXACT_FLOW, Run};
+use crate::series;
 use crate::states::Recorded;
 use shadowstep_studies::{self as studies, Continues};
 
@@ -38,6 +39,8 @@ pub(crate) enum Quantity {
     CoordinateError { run: Run },
     /// H at the end less H at the start.
     Transit { run: Run },
+    /// max − min of the modified Hamiltonian as a series, up to several powers of h.
+    Series { run: Run },
     /// The scatter and the wander of the modified energy in double precision.
     Noise { steps: u64, differences: Differences },
 }
@@ -51,6 +54,7 @@ pub(crate) enum Outcome {
     Escape(Escape),
     Orbit(Orbit),
     Number(String),
+    Numbers(Vec<String>),
     Blocks(Vec<Block>),
 }
 
@@ -95,6 +99,8 @@ impl Quantity {
             | Quantity::Orbit { run }
             | Quantity::CoordinateError { run }
             | Quantity::Transit { run } => run.steps() as f64 * run.step_cost(),
+            // a formula takes about as long as an estimate
+            Quantity::Series { run } => run.steps() as f64 * (run.step_cost() + 300.0 * run.digits_cost()),
             Quantity::Noise { steps, .. } => *steps as f64 * 0.3,
         }
     }
@@ -110,6 +116,7 @@ impl Quantity {
             Quantity::Orbit { run } => of(run).orbit().map(Outcome::Orbit),
             Quantity::CoordinateError { run } => of(run).coordinate_error().map(Outcome::Number),
             Quantity::Transit { run } => of(run).transit().map(Outcome::Number),
+            Quantity::Series { run } => series::variations(run, continues).map(Outcome::Numbers),
             Quantity::Noise { steps, differences } => {
                 noise::blocks(*steps, *differences, continues).map(Outcome::Blocks)
             }

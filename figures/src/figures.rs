@@ -17,6 +17,7 @@ mod kepler_energies;
 mod kepler_orders;
 mod kepler_schemes;
 mod kepler_step;
+mod modified_hamiltonian;
 mod pendulum_bilinear;
 mod pendulum_momentum;
 mod pendulum_step;
@@ -46,4 +47,5 @@ pub(crate) const FIGURES: &[Figure] = &[
     henon_heiles_bilinear::FIGURE,
     double_precision::FIGURE,
     reliability::FIGURE,
+    modified_hamiltonian::FIGURE,
 ];

@@ -23,6 +23,7 @@
 //! | `results` | the results that figures request |
 //! | `calculation`, `run`, `estimator` | the calculations, and the runs and estimators that they are of |
 //! | `measured`, `states`, `escape`, `noise` | what is measured along runs at many digits, and in double precision |
+//! | `series` | how much the modified Hamiltonian varies as a series |
 //! | `fit`, `interval` | lines through points, intervals of confidence, and what they decide |
 //! | `numbers` | numbers in texts |
 //! | `data` | results → CSV |
@@ -42,6 +43,7 @@ mod numbers;
 mod reproduction;
 mod results;
 mod run;
+mod series;
 mod states;
 
 pub use reproduction::{Reproduction, Request, reproduce, written};

@@ -16,6 +16,7 @@ use crate::measured::{Drift, Energies, Orbit};
 use crate::noise::{Block, Differences};
 use crate::numbers::{Wide, log10, number};
 use crate::run::Run;
+use crate::series::GRADES;
 use crate::{Error, Observer};
 use shadowstep_studies::Store;
 use shadowstep_studies::verdict::Coverage;
@@ -153,6 +154,17 @@ impl Results {
         let change = self.number(Quantity::Transit { run: run.clone() })?;
         self.using(Used::Number(run.clone(), "change of H", change.clone()));
         Some(number(&change))
+    }
+
+    /// log₁₀ of max − min of the modified Hamiltonian along a run, as a series up to each of the [`GRADES`].
+    pub(crate) fn series(&self, run: &Run) -> Option<Vec<f64>> {
+        let Outcome::Numbers(found) = self.request(Quantity::Series { run: run.clone() })? else {
+            unreachable!("a series was requested")
+        };
+        for ((_, what), value) in GRADES.iter().zip(&found) {
+            self.using(Used::Number(run.clone(), what, value.clone()));
+        }
+        Some(found.iter().map(|value| log10(value)).collect())
     }
 
     fn number(&self, quantity: Quantity) -> Option<String> {

@@ -4,7 +4,12 @@
 //! largest of them is found by frequency analysis: the ω at which |∫ z(t) exp(−iωt) w(t) dt| is largest, w being a power of Hann's window
 //! (Laskar, Icarus 88 (1990) 266). Of a system that is regular its error falls with a high power of the time.
 //!
-//! Conjugate maps have the same frequencies, so that those of a processed scheme are the frequencies of its kernel.
+//! Conjugate maps have the same frequencies, so that those of a processed scheme are the frequencies of its kernel. Of two planets the modified
+//! Hamiltonian [predicts](predicted_frequencies) how wrong they are.
+
+mod prediction;
+
+pub use prediction::{PredictedFrequency, predicted_frequencies};
 
 use super::{Jacobi, PlanetaryCoordinates, WisdomHolman};
 use crate::number::Real;
