@@ -7,7 +7,6 @@ use clap::{Args, ValueEnum};
 use shadowstep::number::{Limbs, Number, Real};
 use shadowstep_scenes::Error;
 use shadowstep_scenes::readable::wrapped_to;
-use shadowstep_symbolic::decimal::to_text;
 use shadowstep_work_precision::advise::{Advice, AdviceRequest, Choice, Unfinished, Verified};
 use shadowstep_work_precision::no_advice::over;
 use shadowstep_work_precision::of::Of;
@@ -153,14 +152,17 @@ fn readable(posed: &PosedProblem, request: &AdviceRequest<'_>, advice: &Advice<'
         Advice::Found { choices, verified, part, unfinished } => {
             let best = &choices[0];
             let of_time = if request.problem.length.is_some() { " of s" } else { "" };
-            let name = format!("{}, step {}{of_time}", best.scheme.name, to_text(&best.step));
+            let name = format!("{}, step {}{of_time}", best.scheme.name, best.step_text());
             text += &format!("{}\n", if coloured { heading(&name) } else { name });
             text += &evidence(best, request, *verified, *part);
             for other in &choices[1..] {
-                let Choice { scheme, step, error, .. } = other;
+                let Choice { scheme, error, .. } = other;
                 let (work, seconds) = (other.work(request.problem.system).described(), other.seconds());
-                let line =
-                    format!("or {}, step {}: predicted {error}, {work}, {seconds:.2e} s", scheme.name, to_text(step));
+                let line = format!(
+                    "or {}, step {}: predicted {error}, {work}, {seconds:.2e} s",
+                    scheme.name,
+                    other.step_text()
+                );
                 text += &wrapped_to(&line, "    ", WIDTH);
             }
             text += &not_finished(unfinished, request.seconds);

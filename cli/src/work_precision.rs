@@ -10,6 +10,7 @@ use clap::Args;
 use shadowstep::Rational;
 use shadowstep_scenes::library::{NamedScheme, scheme_from};
 use shadowstep_scenes::propagator::for_system;
+use shadowstep_scenes::steps::nearly_equal;
 use shadowstep_scenes::{Error, System};
 use shadowstep_symbolic::decimal::to_text;
 use shadowstep_work_precision::files::{Title, write, written};
@@ -154,7 +155,7 @@ fn range(arguments: &Arguments, posed: &mut PosedProblem) -> Result<StepRange, E
     let count = |text: &String| {
         let h = quantity::step_size("--steps", text)?;
         let count = quantity::steps((&h, text), until)?;
-        if &(h.exact() * Rational::from_integer(count.into())) != until {
+        if !nearly_equal(&(h.exact() * Rational::from_integer(count.into())), until) {
             let message = format!(
                 "--until {} is not a multiple of the step {text}, so that runs would end at other times",
                 to_text(until)

@@ -85,7 +85,7 @@ def open(path: Union[str, os.PathLike[str]]) -> Trajectory:
 def _csv(name: str) -> tuple[dict[str, Any], list[dict[str, str]], list[str]]:
     metadata: dict[str, Any] = {}
     with builtins.open(name, newline="") as file:
-        lines = _without_head(file, metadata)
+        lines = _without_head(name, file, metadata)
         reader = csv.DictReader(lines)
         columns = reader.fieldnames
         if columns is None or list(columns[:2]) != ["n", "t"] or "coordinates" not in metadata:
@@ -99,8 +99,10 @@ def _csv(name: str) -> tuple[dict[str, Any], list[dict[str, str]], list[str]]:
     return metadata, rows, state[len(written) :] or [f"p{name}" for name in metadata["coordinates"]]
 
 
-def _without_head(file: Any, metadata: dict[str, Any]) -> Iterator[str]:
-    for line in file:
+def _without_head(name: str, file: Any, metadata: dict[str, Any]) -> Iterator[str]:
+    for number, line in enumerate(file, 1):
+        if not line.endswith("\n"):
+            raise InputError(f"{name}:{number}: the line is incomplete, and what follows is missing: copy the file again, or run its scene again")
         if not line.startswith("#"):
             yield line
             continue
@@ -110,7 +112,10 @@ def _without_head(file: Any, metadata: dict[str, Any]) -> Iterator[str]:
 
 def _numpy(name: str) -> Trajectory:
     metadata = _metadata(name)
-    rows = np.load(name, mmap_mode="r", max_header_size=1 << 24)
+    try:
+        rows = np.load(name, mmap_mode="r", max_header_size=1 << 24)
+    except ValueError as error:
+        raise InputError(f"{name}: the records are incomplete ({error}): copy the file again, or run its scene again") from None
     fields = rows.dtype.names or ()
 
     def field(column: str, *shape: int) -> np.ndarray:

@@ -141,7 +141,7 @@ class Choice:
     """The smallest step at which the modified energy was lost."""
 
     def _cells(self) -> tuple[str, ...]:
-        return self.scheme, self.h, str(self.steps), f"{self.predicted:.2e}", f"{self.evaluations:.0f}", f"{self.seconds:.3g}"
+        return self.scheme, self.h if len(self.h) <= 40 else f"until/{self.steps}", str(self.steps), f"{self.predicted:.2e}", f"{self.evaluations:.0f}", f"{self.seconds:.3g}"
 
 
 @dataclass(frozen=True)

@@ -5,6 +5,7 @@ import math
 import signal
 import threading
 import time
+import warnings
 from fractions import Fraction
 
 import numpy as np
@@ -156,6 +157,32 @@ def test_what_a_function_raises_comes_out():
         integrate(Problem(lambda q: q, q=[1.0], p=[0.0]), "stormer-verlet", h=0.1, steps=1)
     with pytest.raises(ValueError, match="the gradient has 2 numbers, and q has 1"):
         integrate(Problem(lambda q: (0.0, np.zeros(2)), q=[1.0], p=[0.0]), "stormer-verlet", h=0.1, steps=1)
+
+
+def henon_heiles(wrong=lambda x, y: np.zeros(2)):
+    def forces(q):
+        x, y = q
+        return (x**2 + y**2) / 2 + x**2 * y - y**3 / 3, np.array([x + 2 * x * y, y + x**2 - y**2]) + wrong(x, y)
+
+    return forces
+
+
+@pytest.mark.parametrize(
+    "wrong",
+    [lambda x, y: np.array([0, -2 * x**2]), lambda x, y: np.array([0, y**2]), lambda x, y: np.array([0.1 * x, 0.1 * y]), lambda x, y: np.array([-2 * x, -2 * y])],
+)
+def test_own_forces_with_a_wrong_gradient_are_warned_of(wrong):
+    state = {"q": [0.4, -0.3], "p": [0.1, 0.2]}
+    with pytest.warns(UserWarning, match="the gradient is not that of U: at t = 0"):
+        Problem(henon_heiles(wrong), **state)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        Problem(henon_heiles(), **state)
+        # at rest, with noise, in single precision, at a large energy: no warning
+        Problem(henon_heiles(), q=[0, 0], p=[0.1, 0.2])
+        Problem(lambda q: (1e6 + q @ q / 2 + 1e-6 * np.random.default_rng().standard_normal(), q), q=[1.0, 2.0], p=[0, 0])
+        Problem(lambda q: (float(np.float32(q @ q / 2)), q.astype(np.float32).astype(float)), q=[1.0, 2.0], p=[0, 0])
+        Problem(lambda q: (-1 / np.linalg.norm(q), q / np.linalg.norm(q) ** 3), q=[1e-3, 1e-4], p=[0, 1])
 
 
 @pytest.mark.parametrize(

@@ -186,6 +186,10 @@ def test_files_of_runs_are_opened(tmp_path, ending, digits):
     assert read.metadata["scheme"] == "yoshida4" and read.metadata["values"] == {"r": "x^2 + y^2"}
     r = read.values["r"].astype(float)
     assert np.allclose(r[::4], (made.q[::4].astype(float) ** 2).sum(axis=1), rtol=1e-15) and np.isnan(r[1])
+    file = tmp_path / f"kepler.{ending}"
+    file.write_bytes(file.read_bytes()[:-6])
+    with pytest.raises(shadowstep.InputError, match=f"kepler.{ending}"):
+        shadowstep.open(file)
 
 
 def test_a_file_of_something_else_is_refused(tmp_path):

@@ -7,6 +7,7 @@ use shadowstep::Rational;
 use shadowstep_symbolic::decimal::{from_text, to_significant};
 
 use crate::readable::{digits as digits_of, shortened};
+use crate::steps::nearly_equal;
 
 /// Something the user should know; it is not an error.
 #[derive(Clone, Debug, PartialEq)]
@@ -134,7 +135,7 @@ pub enum Note {
 impl Note {
     /// Where a run ends that does not end at `until`; `None` if it does.
     pub fn of_end(h: &Rational, steps: u64, until: &Rational) -> Option<Note> {
-        (end(h, steps) != *until).then(|| Note::EndsEarly { until: until.clone(), h: h.clone(), steps })
+        (!nearly_equal(&end(h, steps), until)).then(|| Note::EndsEarly { until: until.clone(), h: h.clone(), steps })
     }
 }
 

@@ -73,6 +73,20 @@ impl StepsError {
     }
 }
 
+/// The digits to which an irrational value, such as 2π, is known; it is rounded to some more.
+const KNOWN_DIGITS: usize = 250;
+
+/// The nearest whole number.
+fn whole(x: &Rational) -> Rational {
+    (x + Rational::new(1.into(), 2.into())).floor()
+}
+
+/// Whether two values are the same, as far as irrational ones are known: 60 times 2π/60 and 2π, which are rounded.
+pub fn nearly_equal(a: &Rational, b: &Rational) -> bool {
+    let known = num_traits::pow(Rational::from_integer(10.into()), KNOWN_DIGITS);
+    a == b || (a - b).abs() * known <= b.abs()
+}
+
 /// The number of steps of size h that end at or before `until`, both with their texts for messages.
 ///
 /// ```
@@ -81,6 +95,8 @@ impl StepsError {
 ///
 /// let (h, until) = (StepSize::try_from("1/10").unwrap(), exact("1.25").unwrap());
 /// assert_eq!(count((&h, "1/10"), (&until, "1.25")).unwrap(), 12);
+/// let (h, until) = (StepSize::try_from("2*pi/60").unwrap(), exact("2*pi").unwrap());
+/// assert_eq!(count((&h, "2*pi/60"), (&until, "2*pi")).unwrap(), 60);
 /// ```
 ///
 /// # Errors
@@ -89,7 +105,9 @@ pub fn count((h, step): (&StepSize, &str), (until, end): (&Rational, &str)) -> R
     if until.is_zero() {
         return Err(StepsError::NoTime { until: end.to_owned() });
     }
-    let count = (until / h.exact()).floor();
+    let quotient = until / h.exact();
+    let whole = whole(&quotient);
+    let count = if nearly_equal(&whole, &quotient) { whole } else { quotient.floor() };
     let steps = count.to_u64();
     if let Some(steps @ 1..=MOST_STEPS) = steps {
         return Ok(steps);

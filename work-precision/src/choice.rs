@@ -3,11 +3,14 @@
 use shadowstep::{Number, Rational, Scheme};
 use shadowstep_scenes::System;
 use shadowstep_scenes::library::NamedScheme;
+use shadowstep_symbolic::decimal::to_text;
 
 use crate::best::{Curve, cost_of};
 use crate::size::Size;
 use crate::work::Work;
 
+/// The longest text of a step size.
+const LONGEST: usize = 40;
 /// The highest order by which errors are extrapolated, where the proved one is lower.
 const MOST_ORDER: f64 = 10.0;
 /// An error above the prediction by more than this is a resonance of the step, not the growth of errors in time, log₁₀.
@@ -45,6 +48,12 @@ pub struct Choice<'a> {
 }
 
 impl Choice<'_> {
+    /// The step size; the time divided by the number of steps, where the time is irrational and the fraction long.
+    pub fn step_text(&self) -> String {
+        let exact = to_text(&self.step);
+        if exact.len() <= LONGEST { exact } else { format!("until/{}", self.steps) }
+    }
+
     /// What the run costs beside its time.
     pub fn work(&self, system: &System) -> Work {
         Work::of_step(self.scheme, system).times(self.steps)

@@ -1,7 +1,5 @@
 //! Why there is no advice, in a sentence.
 
-use shadowstep_symbolic::decimal::to_text;
-
 use crate::advise::{Advice, AdviceRequest, Choice, Unfinished};
 use crate::of::Of;
 
@@ -20,12 +18,12 @@ impl Advice<'_> {
         };
         let is_position = request.of == Of::Position;
         if let Some((choice, resolved)) = unverified.as_deref() {
-            let Choice { scheme, step, error, .. } = choice;
+            let Choice { scheme, error, .. } = choice;
             return Some(format!(
                 "No advice is verified: {}, step {}, is expected to have the error {error} from runs {runs}; over all of the time errors are known above \
                  {resolved} alone, as there was too little time for a better reference. Use more seconds, or a shorter time.",
                 scheme.name,
-                to_text(step)
+                choice.step_text()
             ));
         }
         Some(match least {

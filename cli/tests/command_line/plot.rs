@@ -101,7 +101,11 @@ fn wrong_plots_are_refused_before_the_run() {
     let folder = tempfile::tempdir().unwrap();
     for (flags, message, hint) in [
         ("--plot-of energy", "--plot-of: `energy` cannot be plotted", "write energies, orbit=x:y"),
-        ("--plot-of orbit=x:z", "--plot-of: there is no coordinate or momentum `z`", "did you mean `x`?"),
+        (
+            "--plot-of orbit=x:z",
+            "--plot-of: there is no coordinate or momentum `z`",
+            "the coordinates and momenta are x, y, px, py",
+        ),
         ("--plot-of distance=1:2", "--plot-of: this system has no bodies", "write `distance`"),
         ("--plot-of distance,distance", "--plot-of distance is given twice", "keep one"),
         ("--estimator bilinear --order 7 --plot-of distance", "between the states", "--plot-of energies"),

@@ -93,6 +93,7 @@ const WRONG: &[(&str, &str, &str, &str)] = &[
     ),
     ("digits = 30", "digits = 0", "13:10: 0 is out of range", "from 1 to 100000"),
     ("digits = 30", "digits = \"single\"", "13:10: `single` is not known here", "write \"double\""),
+    ("digits = 30", "digits = \"30\"", "13:10: the number of digits is in quotes", "write digits = 30"),
     (
         "digits = 30",
         "digits = \"double\"\n[initial.extra]",

@@ -58,6 +58,9 @@ fn advice_is_verified() {
     let verified = printed.lines().find(|line| line.trim_start().starts_with("verified")).unwrap();
     let error: f64 = verified.split_whitespace().nth(1).unwrap().trim_end_matches(',').parse().unwrap();
     assert!(error <= 1e-6 && error > 1e-9, "{printed}");
+    // a part of an irrational time has 300 digits
+    let printed = quietly("advise pendulum --until 6*pi --tolerance 1e-3 --schemes yoshida4");
+    assert!(printed.contains("yoshida4, step until/") && printed.lines().all(|line| line.len() < 400), "{printed}");
 }
 
 #[test]

@@ -20,7 +20,7 @@ const WRONG: &[(&str, &str, &str)] = &[
     ("--scheme ,", "--scheme , has an empty value", "--scheme yoshida4,ruth3"),
     ("--scheme ruth3,", "--scheme ruth3, has an empty value", "--scheme yoshida4,ruth3"),
     ("--step 1/10,", "--step 1/10, has an empty value", "--step 1/10,1/20"),
-    ("--step 0.1x", "--step `0.1x`, character 1: `0.1x`: an operator is missing", "1/10"),
+    ("--step 0.1x", "--step `0.1x`, character 1: an operator is missing", "1/10"),
     ("--step 1/10,*2", "--step `*2`, character 1", "1/10"),
     ("--step 0", "--step 0: the step size must be nonzero", "such as 1/10"),
     ("--step -1/10", "steps of -1/10 never reach the time 2: the signs differ", "positive values for both"),

@@ -184,7 +184,7 @@ mod tests {
             [
                 "3:21: this component of A depends on x, its own coordinate",
                 "3:20: this list needs a component for each coordinate",
-                "3:36: unknown name `c`; did you mean `x`? known names: x, y, t, b",
+                "3:36: unknown name `c`; known names: x, y, t, b",
                 "6:11: kinetic cannot be set with `vector_potential`",
             ]
         );

@@ -209,7 +209,7 @@ mod tests {
             [
                 "",
                 "2:10: the flow of this part has no formula: it couples x and px",
-                "2:25: unknown name `z`; did you mean `x`? known names: x, y, px, py",
+                "2:25: unknown name `z`; known names: x, y, px, py",
                 "2:9: H needs two parts at least, not 1",
                 "4:10: masses has no meaning beside formulas of parts",
                 "2:9: potential and formulas of parts are both given",

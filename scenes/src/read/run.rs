@@ -22,15 +22,24 @@ use shadowstep_schemes::document::{Section, Text, Value};
 pub(super) fn arithmetic(reader: &mut Reader<'_>, run: &Section<'_, '_>) -> Option<Arithmetic> {
     let digits = match run.get("digits") {
         None => DEFAULT_DIGITS,
-        Some(value) if matches!(value.get_ref(), DeValue::String(_)) => {
-            return reader.word(value, Arithmetic::NAMED);
-        }
+        Some(value) if matches!(value.get_ref(), DeValue::String(_)) => return named_or_quoted(reader, value),
         Some(value) => u32::try_from(reader.whole(value, 1..=MOST_DIGITS.into())?).ok()?,
     };
     let mpfr = run.get("mpfr").map(|value| reader.toml.truth(value));
     match Arithmetic::of_digits(digits, mpfr.is_some_and(|mpfr| mpfr.is_some_and(|mpfr| mpfr.value))) {
         Ok(arithmetic) => Some(arithmetic),
         Err(error) => reader.toml.wrong(&run.at, error.to_string(), "write digits = 120"),
+    }
+}
+
+/// The number type that a text names.
+fn named_or_quoted(reader: &mut Reader<'_>, value: &Value<'_>) -> Option<Arithmetic> {
+    match value.get_ref().as_str().filter(|text| text.parse::<u32>().is_ok()) {
+        Some(digits) => {
+            let hint = format!("write digits = {digits}");
+            reader.toml.wrong(&value.span(), "the number of digits is in quotes", hint)
+        }
+        None => reader.word(value, Arithmetic::NAMED),
     }
 }
 

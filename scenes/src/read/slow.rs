@@ -119,7 +119,7 @@ mod tests {
             [
                 "8:10: r-respa-4 has multiple time steps, for slow forces, fast forces and T; here H has 2 parts",
                 "8:10: r-respa-4 has multiple time steps, for slow forces, fast forces and T; here H has 4 parts",
-                "4:13: unknown name `z`; did you mean `x`? known names: x, y",
+                "4:13: unknown name `z`; known names: x, y",
                 "5:9: parts cannot be set with `slow`",
                 "4:8: slow cannot be set with vector_potential",
                 "3:8: slow requires `potential` or `pair`",

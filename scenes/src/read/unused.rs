@@ -24,10 +24,9 @@ pub(super) fn refuse_unused_parameters(reader: &mut Reader<'_>, root: &DeTable<'
         let known = keys::of("problem").map(|key| key.name).filter(|key| *key != "parameters");
         let others = parameters.keys().map(|key| key.get_ref().as_ref()).filter(|other| *other != name.value);
         let near = nearest(&name.value, known.chain(others))
-            .filter(|_| name.value.len() > 1)
-            .map_or(String::new(), |near| format!("did you mean `{near}`? "));
+            .map_or("remove".to_owned(), |near| format!("did you mean `{near}`? Remove"));
         let message = format!("the parameter `{}` is in no formula", name.value);
-        reader.toml.fault(&name.at, message, format!("{near}Remove it, or write it where it is meant"));
+        reader.toml.fault(&name.at, message, format!("{near} it, or write it where it is meant"));
     }
 }
 

@@ -3,7 +3,7 @@
 use strsim::osa_distance;
 
 /// The known word with the smallest distance from `word`; `None` if the distance exceeds a third of the word's letters
-/// and 1.
+/// and 1, or the words have no letter in common, as two of one letter.
 ///
 /// The distance is the number of typing errors: letters missing, added, replaced, or swapped with their neighbours
 /// (optimal string alignment). Case does not matter. Among equally near words the first is chosen.
@@ -11,7 +11,7 @@ pub fn nearest<'a>(word: &str, known: impl IntoIterator<Item = &'a str>) -> Opti
     let allowed = (word.chars().count() / 3).max(1);
     let with_distance = known.into_iter().map(|other| (distance(word, other), other));
     let (errors, found) = with_distance.min_by_key(|(errors, _)| *errors)?;
-    (errors <= allowed).then_some(found)
+    (errors <= allowed && errors < word.chars().count().max(found.chars().count())).then_some(found)
 }
 
 /// A hint for an unknown word: the nearest known word, or a list of all of them.
@@ -76,6 +76,7 @@ mod tests {
         assert_eq!(nearest("leapfrog", known), None);
         assert_eq!(nearest("rxxh", known), None);
         assert_eq!(nearest("strang", []), None);
+        assert_eq!((nearest("q", ["x", "y"]), nearest("z", ["x", "pz"])), (None, Some("pz")));
     }
 
     #[test]

@@ -279,8 +279,8 @@ impl Parser<'_> {
             _ => {
                 let before = self.before().unwrap_or(here.clone());
                 let both = before.start..here.end;
-                let [pair, left, right] = [both.clone(), before, here].map(|range| &self.text[range]);
-                (format!("`{pair}`: an operator is missing between `{left}` and `{right}`"), both)
+                let [left, right] = [before, here].map(|range| &self.text[range]);
+                (format!("an operator is missing between `{left}` and `{right}`"), both)
             }
         };
         SyntaxError { message, range }

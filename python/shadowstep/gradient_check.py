@@ -1,0 +1,64 @@
+"""Whether the gradient that own forces return is that of their U."""
+
+from __future__ import annotations
+
+import ctypes
+import warnings
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+
+# Differences are taken over these parts of the largest coordinate: round-off of U spoils the near ones, its curvature the far ones.
+_DISTANCES = (1e-3, 1e-5, 1e-7)
+# A slope may be off by this part of the gradient: U in single precision, or with noise.
+_LARGEST_ERROR = 0.03
+
+_POINTER = ctypes.POINTER(ctypes.c_double)
+
+
+def warn_of_gradient(forces: Any, q: np.ndarray) -> None:
+    """Compares the gradient with differences of U at one state, along the gradient and along one direction that is drawn; warns where they differ.
+
+    That takes 13 calls. What a call raises is left to the run.
+    """
+    evaluate = _of_address(int(forces)) if not callable(forces) else forces
+    try:
+        found = _difference(evaluate, q)
+    except Exception:  # noqa: BLE001, as it comes again
+        return
+    if found is not None:
+        slope, difference = found
+        warnings.warn(
+            f"the gradient is not that of U: at t = 0 it says that U changes by {slope:.4g} a unit along a direction, and differences of U say {difference:.4g}; "
+            "check the sign and the terms of both",
+            stacklevel=3,
+        )
+
+
+def _difference(evaluate: Callable[[np.ndarray], Any], q: np.ndarray) -> tuple[float, float] | None:
+    gradient = np.array(evaluate(q.copy())[1], dtype=float)
+    size = float(np.linalg.norm(gradient))
+    if not 0 < size < np.inf or gradient.shape != q.shape:
+        return None
+    scale = float(np.abs(q).max()) or 1.0
+    drawn = np.random.default_rng(1).standard_normal(q.size)
+    for direction in (gradient / size, drawn / np.linalg.norm(drawn)):
+        slope = float(gradient @ direction)
+        steps = [distance * scale * direction for distance in _DISTANCES]
+        rises = [float(evaluate(q + step)[0]) - float(evaluate(q - step)[0]) for step in steps]
+        found = [rise / (2 * distance * scale) for rise, distance in zip(rises, _DISTANCES)]
+        nearest = min(found, key=lambda difference: abs(difference - slope))
+        if abs(nearest - slope) > _LARGEST_ERROR * size:
+            return slope, nearest
+    return None
+
+
+def _of_address(address: int) -> Callable[[np.ndarray], Any]:
+    function = ctypes.CFUNCTYPE(ctypes.c_double, _POINTER, _POINTER)(address)
+
+    def evaluate(q: np.ndarray) -> tuple[float, np.ndarray]:
+        q, gradient = np.ascontiguousarray(q), np.zeros_like(q)
+        return function(q.ctypes.data_as(_POINTER), gradient.ctypes.data_as(_POINTER)), gradient
+
+    return evaluate
