@@ -115,7 +115,7 @@ mine.toml:13:19: even root of the negative number -3: it has no real value
 mine.toml:13:37: unexpected end: this `(` has no `)`
   13 | kick = ["gama1", "(-3)^(1/4)", "1 - (2", "2 3"]
      |                                     ^
-mine.toml:13:43: `2 3`: an operator is missing between `2` and `3`
+mine.toml:13:43: an operator is missing between `2` and `3`
   13 | kick = ["gama1", "(-3)^(1/4)", "1 - (2", "2 3"]
      |                                           ^^^
 mine.toml:14:11: the exponent of this number is out of range: -10000 to 10000 is allowed

@@ -10,8 +10,9 @@ use strsim::osa_distance;
 pub fn nearest<'a>(word: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     let allowed = (word.chars().count() / 3).max(1);
     let with_distance = known.into_iter().map(|other| (distance(word, other), other));
-    let (errors, found) = with_distance.min_by_key(|(errors, _)| *errors)?;
-    (errors <= allowed && errors < word.chars().count().max(found.chars().count())).then_some(found)
+    let length = |other: &str| word.chars().count().max(other.chars().count());
+    let near = with_distance.filter(|(errors, other)| *errors <= allowed && *errors < length(other));
+    near.min_by_key(|(errors, _)| *errors).map(|(_, found)| found)
 }
 
 /// A hint for an unknown word: the nearest known word, or a list of all of them.
