@@ -136,14 +136,14 @@ class _Columns:
     def of_parameter(self, name: str, values: Any) -> str:
         values = np.asarray(values, dtype=float)
         if values.ndim != 1:
-            raise ValueError(f"{name} must have the shape (n,), not {values.shape}")
+            raise _shadowstep.InputError(f"{name} must have the shape (n,), not {values.shape}")
         _refuse_infinite(name, values)
         self.named[f"ensemble_{name}"] = values
         return f"ensemble_{name}"
 
     def of_states(self, name: str, values: np.ndarray, dimension: int) -> list[str]:
         if values.ndim != 2 or values.shape[1] != dimension:
-            raise ValueError(f"{name} must have the shape (n, {dimension}), not {values.shape}")
+            raise _shadowstep.InputError(f"{name} must have the shape (n, {dimension}), not {values.shape}")
         _refuse_infinite(name, values)
         names = [f"ensemble_{name}{i + 1}" for i in range(dimension)]
         self.named.update(zip(names, values.T))
@@ -151,17 +151,17 @@ class _Columns:
 
     def all(self) -> tuple[list[str], list[np.ndarray]]:
         if not self.named:
-            raise ValueError("an ensemble needs q, p or parameters with a value for each trajectory")
+            raise _shadowstep.InputError("an ensemble needs q, p or parameters with a value for each trajectory")
         lengths = {len(column) for column in self.named.values()}
         if len(lengths) > 1:
-            raise ValueError(f"q, p and parameters must have values for the same number of trajectories, not {sorted(lengths)}")
+            raise _shadowstep.InputError(f"q, p and parameters must have values for the same number of trajectories, not {sorted(lengths)}")
         return list(self.named), [np.ascontiguousarray(column) for column in self.named.values()]
 
 
 def _refuse_infinite(name: str, values: np.ndarray) -> None:
     wrong = np.argwhere(~np.isfinite(values))
     if len(wrong) > 0:
-        raise ValueError(f"{name} of trajectory {wrong[0][0]} is {values[tuple(wrong[0])]}: give finite numbers")
+        raise _shadowstep.InputError(f"{name} of trajectory {wrong[0][0]} is {values[tuple(wrong[0])]}: give finite numbers")
 
 
 def _with_parameters(problem: Mapping[str, Any], columns: _Columns, parameters: Mapping[str, Any]) -> dict[str, Any]:

@@ -30,7 +30,7 @@ def exact(value: Any, what: str = "the number") -> str:
     ('1/3', '0.1', '1/3', '2')
     >>> exact(float("nan"), "h")
     Traceback (most recent call last):
-    ValueError: h must be finite, not nan
+    shadowstep.InputError: h must be finite, not nan
     """
     if isinstance(value, str):
         return value
@@ -73,5 +73,5 @@ def count(value: Any, what: str, least: int = 1, most: int = 2**63 - 1) -> int:
 
 def _finite(value: Any, what: str) -> Any:
     if value != value or value in (float("inf"), float("-inf")):
-        raise ValueError(f"{what} must be finite, not {value}")
+        raise _shadowstep.InputError(f"{what} must be finite, not {value}")
     return value

@@ -251,7 +251,7 @@ def _real(value: Any, what: str) -> float:
     try:
         return float(value)
     except ValueError:
-        raise ValueError(f"{what} must be a number such as 1e-8, not {value!r}") from None
+        raise _shadowstep.InputError(f"{what} must be a number such as 1e-8, not {value!r}") from None
 
 
 def _check_seconds(seconds: float) -> None:

@@ -276,6 +276,10 @@ fn dictionary<'py>(py: Python<'py>, found: &Diagnosis) -> PyResult<Bound<'py, Py
 fn refused(py: Python<'_>, error: &RecordedError) -> PyErr {
     match error {
         RecordedError::Run(error) => exception(py, Error::run(error.to_string(), "check the log there")),
+        RecordedError::NotFinite { .. } => {
+            usage(py, error.to_string(), "give the states before it; a run that overflows has steps that are too large")
+        }
+        RecordedError::Mass { .. } => usage(py, error.to_string(), "give the mass of each coordinate or particle"),
         _ => usage(py, error.to_string(), "give arrays with a row for each state"),
     }
 }

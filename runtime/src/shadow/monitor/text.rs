@@ -32,7 +32,7 @@ impl<N: Real> Report<N> {
     /// What is known of the change of the energy from the beginning to the end.
     fn permanent(&self) -> String {
         match (&self.permanent_change, &self.permanent_bound) {
-            (Some(change), _) => format!("a permanent change of {} was measured", self.per_time(change)),
+            (Some(change), _) => format!("a net change of {} was measured", self.per_time(change)),
             (None, Some(bound)) => format!("a net change above {} is excluded", self.per_time(bound)),
             (None, None) => "a net change is not excluded".to_owned(),
         }

@@ -116,8 +116,8 @@ pub(super) fn other_steps(reordered: Option<i64>, differences: Option<[Differenc
     let [of_q, of_p] = differences.map_or([f64::NAN; 2], |differences| differences.map(|of| of.of_increments));
     format!(
         "the states are not those of velocity Verlet with these masses, forces and step size: the steps differ by {of_q:.1e} (q) and {of_p:.1e} \
-         (p) of themselves, as with a thermostat, a constraint, another integrator or step size, velocities in place of momenta, wrapped positions, \
-         or momenta at half steps"
+         (p) of themselves, as with other masses or units of time, a thermostat, a constraint, another integrator or step size, velocities in place of \
+         momenta, wrapped positions, or momenta at half steps"
     )
 }
 
@@ -130,6 +130,9 @@ const LATE: &str = "A list of neighbours that is renewed too late does that, or 
 impl fmt::Display for Diagnosis {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         writeln!(f, "{} ({} states, {} estimates)", self.cause, self.states, self.estimates)?;
+        if self.estimates == 0 {
+            return write!(f, "  {}", self.reason());
+        }
         writeln!(
             f,
             "  energy error     {:9.2e}{}  max − min of H; {:.1e} of T",
@@ -145,7 +148,7 @@ impl fmt::Display for Diagnosis {
         )?;
         writeln!(
             f,
-            "  H̄ ranges over    {:9.2e}  {:.2e} beyond its errors; from begin to end {:+.2e}",
+            "  H̄ ranges over    {:9.2e}  {:.2e} beyond its errors; from beginning to end {:+.2e}",
             self.range, self.moved, self.change
         )?;
         writeln!(f, "  it is known to   {:9.2e}", self.known_to)?;
