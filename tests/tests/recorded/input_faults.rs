@@ -100,3 +100,15 @@ fn states_in_another_order_of_atoms_are_other_steps() {
         assert_eq!((found.cause, found.reordered), (Cause::Nothing, None), "{found}");
     }
 }
+
+/// As many particles leave the box on one side as on the other: sorted, their coordinates are nearly those of the step.
+#[test]
+fn positions_in_a_periodic_box_are_not_another_order() {
+    const SIDE: f64 = 50.0;
+    let mut logged = oscillators(0.2, false);
+    logged.q.iter_mut().for_each(|q| *q = q.rem_euclid(SIDE));
+    for found in diagnoses(&logged, 0.2) {
+        assert_eq!((found.cause, found.reordered), (Cause::OtherSteps, None), "{found}");
+        assert!(found.reason().contains("wrapped positions"), "{found}");
+    }
+}

@@ -46,6 +46,8 @@ pub(super) struct LoggedSteps {
 const FAR_OFF: f64 = 10.0;
 /// it has, if q in ascending order differs from the step by less than this part of what it differs as it is.
 const SAME_NUMBERS: f64 = 0.01;
+/// Coordinates that are off by more than this part of the largest difference have jumped.
+const FAR_PART: f64 = 0.1;
 
 impl LoggedSteps {
     /// Steps of size h of coordinates with these masses.
@@ -206,7 +208,16 @@ impl LoggedSteps {
             x.sort_by(f64::total_cmp);
             x
         };
-        square(&ascending(q), &ascending(&self.predicted)) < SAME_NUMBERS * SAME_NUMBERS * off
+        square(&ascending(q), &ascending(&self.predicted)) < SAME_NUMBERS * SAME_NUMBERS * off && !self.is_wrapped(q)
+    }
+
+    /// Whether more than two coordinates are off by one length, as where particles leave a periodic box on both sides.
+    fn is_wrapped(&self, q: &[f64]) -> bool {
+        let sizes = q.iter().zip(&self.predicted).map(|(q, predicted)| (q - predicted).abs());
+        let largest = sizes.clone().fold(0.0, f64::max);
+        let [far, alike] =
+            [FAR_PART, 1.0 - SAME_NUMBERS].map(|part| sizes.clone().filter(|size| *size > part * largest).count());
+        far > 2 && far == alike
     }
 
     fn push_with_rate(&mut self, logged: &Logged<'_>, rate: f64) {
