@@ -57,7 +57,7 @@ def test_wrong_inputs() -> None:
     with pytest.raises(InputError, match="there is no notation `tex`"):
         modified_hamiltonian("pendulum", "stormer-verlet", notation="tex")
     with pytest.raises(InputError, match="a function has none"):
-        modified_hamiltonian(Problem(lambda q: (q @ q / 2, -q), q=[1.0], p=[0.0]), "stormer-verlet")
+        modified_hamiltonian(Problem(lambda q: (q @ q / 2, q), q=[1.0], p=[0.0]), "stormer-verlet")
     with pytest.raises(InputError, match="t is missing"):
         modified_hamiltonian(DRIVEN, "stormer-verlet", 2)([0.5], [0.3, 0.0], "1/10")
     with pytest.raises(InputError, match="grade = 11 is too large"):
