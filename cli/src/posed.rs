@@ -7,9 +7,9 @@ use shadowstep::Rational;
 use shadowstep::tables::First;
 use shadowstep_scenes::arithmetic::{Arithmetic, MOST_DIGITS};
 use shadowstep_scenes::library::NamedScheme;
+use shadowstep_scenes::readable::shortened;
 use shadowstep_scenes::{Error, Scene, first_map, source};
 use shadowstep_schemes::document::document;
-use shadowstep_symbolic::decimal::to_text;
 use shadowstep_work_precision::length::length_of;
 use shadowstep_work_precision::problem::Problem;
 
@@ -110,7 +110,7 @@ impl PosedProblem {
             Some(First::Kick) => ", kicks first",
             None => "",
         };
-        format!("{}, t = 0 to {}, {}{first}", described.title, to_text(until), arithmetic.described())
+        format!("{}, t = 0 to {}, {}{first}", described.title, shortened(until, 20), arithmetic.described())
     }
 }
 
