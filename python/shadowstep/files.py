@@ -115,7 +115,7 @@ def _numpy(name: str) -> Trajectory:
     try:
         rows = np.load(name, mmap_mode="r", max_header_size=1 << 24)
     except ValueError as error:
-        raise InputError(f"{name}: the records are incomplete ({error}): copy the file again, or run its scene again") from None
+        raise InputError(f"{name} cannot be read as records of NumPy ({error}): if it is incomplete, copy it again, or run its scene again") from None
     fields = rows.dtype.names or ()
 
     def field(column: str, *shape: int) -> np.ndarray:
