@@ -50,18 +50,21 @@ impl<E: Clone> Seen<E> {
         let energy = system.energy();
         let lane = |lane| Lane::from_energy(energy.lane(lane).0);
         let mut seen = Seen { lanes: (0..M::Number::LANES).map(lane).collect(), estimator, window: None };
-        seen.look(system, 0);
+        seen.include(&energy, system, 0);
         seen
     }
 
     /// Looks at the states after n steps.
     pub fn look<M: System + ?Sized>(&mut self, system: &mut M, n: u64) {
         let energy = system.energy();
+        self.include(&energy, system, n);
+    }
+
+    fn include<M: System + ?Sized>(&mut self, energy: &M::Number, system: &M, n: u64) {
         for (index, lane) in self.lanes.iter_mut().enumerate() {
             let is_finite = |x: &M::Number| x.lane(index).0.is_finite();
             lane.newest = energy.lane(index).0;
-            if lane.not_finite.is_none() && !(is_finite(&energy) && system.q().iter().chain(system.p()).all(is_finite))
-            {
+            if lane.not_finite.is_none() && !(is_finite(energy) && system.q().iter().chain(system.p()).all(is_finite)) {
                 lane.not_finite = Some(n);
             }
             if lane.not_finite.is_none() {
