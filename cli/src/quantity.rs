@@ -81,10 +81,10 @@ pub(crate) fn problem_error(error: ProblemError) -> Error {
     match error {
         ProblemError::UnknownProblem { name, hint } => Error::usage(format!("there is no problem `{name}`"), hint),
         ProblemError::UnknownParameter { problem, name, hint } => {
-            let hint = match hint.strip_suffix('?') {
-                Some(_) => format!("{hint} `shadowstep problems {problem}` lists what can be set"),
-                None => hint,
-            };
+            // a list of known names needs no other one
+            let is_guess = hint.ends_with('?');
+            let list = format!("`shadowstep problems {problem}` lists what can be set");
+            let hint = if is_guess { format!("{hint} {list}") } else { hint };
             Error::usage(format!("{problem} has no parameter or initial value `{name}`"), hint)
         }
         ProblemError::SetTwice { name } => Error::usage(format!("`{name}` is set twice"), "keep one"),
