@@ -3,13 +3,13 @@
 use std::collections::BTreeMap;
 use std::sync::{Mutex, PoisonError};
 
+use shadowstep::steps::scheme::Sequence;
 use shadowstep::systems::kinetic::{General, Quadratic};
 use shadowstep::tables::{self, TableScheme};
-use shadowstep::{Rational, Scheme, SchemeProperties, ValidFor, splitting_scheme};
+use shadowstep::{Number, Rational, Scheme, SchemeProperties, ValidFor, splitting_scheme};
 use shadowstep_schemes::First;
 use shadowstep_schemes::scheme::Held;
 
-use crate::Bits;
 use crate::steps::Steps;
 
 /// Does something with every shipped scheme that is valid for a class of kinetic energies.
@@ -26,6 +26,8 @@ pub struct Shipped<N: 'static, C: 'static = Quadratic> {
     pub name: String,
     /// What the generated code states of itself.
     pub summary: SchemeProperties<'static>,
+    /// The maps of a step, as it lists them.
+    pub sequence: Sequence<'static>,
     /// What the attribute wrote.
     pub generated: Steps<N, C>,
     /// The same table read at run time.
@@ -47,14 +49,14 @@ impl<N, C> Shipped<N, C> {
     }
 }
 
-struct Collect<'a, N: Bits, C: 'static> {
+struct Collect<'a, N: Number + 'static, C: 'static> {
     found: Vec<Shipped<N, C>>,
     h: &'a Rational,
     context: &'a N::Context,
     twin: fn(&str, Option<First>) -> TableScheme<C>,
 }
 
-impl<N: Bits, C: 'static> Visitor<C> for Collect<'_, N, C> {
+impl<N: Number + 'static, C: 'static> Visitor<C> for Collect<'_, N, C> {
     fn visit<S: Scheme + ValidFor<C> + Copy + 'static>(
         &mut self,
         name: &str,
@@ -64,6 +66,7 @@ impl<N: Bits, C: 'static> Visitor<C> for Collect<'_, N, C> {
         self.found.push(Shipped {
             name: format!("{name} (first: {first:?})"),
             summary: scheme.summary(),
+            sequence: scheme.sequence(),
             generated: Steps::of(*scheme, self.h, self.context),
             twin: (self.twin)(name, first),
         });
@@ -71,18 +74,23 @@ impl<N: Bits, C: 'static> Visitor<C> for Collect<'_, N, C> {
 }
 
 /// All shipped schemes with steps of size h. The order of `first = "drift"` ones was proved again.
-pub fn all<N: Bits>(h: &Rational, context: &N::Context) -> Vec<Shipped<N>> {
+pub fn all<N: Number + 'static>(h: &Rational, context: &N::Context) -> Vec<Shipped<N>> {
     let mut collect = Collect { found: Vec::new(), h, context, twin };
     for_each(&mut collect);
     collect.found
 }
 
 /// Those whose order holds for every T(p), as schemes that are valid for any.
-pub fn all_for_every_kinetic<N: Bits>(h: &Rational, context: &N::Context) -> Vec<Shipped<N, General>> {
+pub fn all_for_every_kinetic<N: Number + 'static>(h: &Rational, context: &N::Context) -> Vec<Shipped<N, General>> {
     let twin = |name: &str, first| twin(name, first).for_every_kinetic().expect("it is listed");
     let mut collect = Collect { found: Vec::new(), h, context, twin };
     for_each_for_every_kinetic(&mut collect);
     collect.found
+}
+
+/// All shipped schemes, read at run time. What the generated code does is compared with them.
+pub fn twins() -> impl Iterator<Item = (String, TableScheme)> {
+    NAMES.iter().map(|&(name, first)| (format!("{name} (first: {first:?})"), twin(name, first)))
 }
 
 /// A shipped table, read at run time; proved once for all tests of a program.

@@ -9,7 +9,7 @@ use shadowstep::systems::kinetic::Quadratic;
 use shadowstep::systems::potential::HessianProduct;
 use shadowstep::{Motion, Number, Potential, Rational, Real, Scheme, Stepper, UnitMasses, ValidFor};
 use shadowstep_schemes::scheme::Held;
-use shadowstep_tests::shipped::{all, for_each};
+use shadowstep_tests::shipped::{all, for_each_kind_of_step};
 use shadowstep_tests::steps::Steps;
 use shadowstep_tests::systems::{AnyMotion, systems};
 use shadowstep_tests::{Bits, log10_distance, log10_largest_distance, numbers, precision, rational, same_bits};
@@ -59,6 +59,8 @@ fn unrolled_steps_have_the_bits_of_their_twins<N: Bits>(context: &N::Context) {
         assert!(same_bits(&scheme.generated.forward, &twin.forward), "{}", scheme.name);
         assert!(same_bits(&scheme.generated.backward, &twin.backward), "{}", scheme.name);
         assert_eq!(scheme.summary, scheme.twin.summary());
+        let (sequence, of_twin) = (scheme.sequence, scheme.twin.sequence());
+        assert_eq!((sequence.maps, sequence.middle_parts), (of_twin.maps, of_twin.middle_parts), "{}", scheme.name);
         for system in systems::<N>(context) {
             let (mut one, mut other) = (system.clone(), system);
             for (i, (name, step)) in mixed_steps().into_iter().enumerate() {
@@ -117,7 +119,7 @@ fn arrays_and_vectors_have_the_same_bits() {
             assert!(arrays.beta().same_bits(vectors.beta()), "{name}");
         }
     }
-    for_each(&mut Storages);
+    for_each_kind_of_step(&mut Storages);
 }
 
 fn a_step_back_undoes_a_step<N: Bits>(context: &N::Context) {
@@ -277,42 +279,33 @@ impl<N: Number> HessianProduct<N> for Free {
 /// What the documentation of the generated struct states, counted by numbers that count.
 #[test]
 fn a_step_costs_what_its_documentation_says() {
-    struct Costs;
-    impl shadowstep_tests::shipped::Visitor for Costs {
-        fn visit<S: Scheme + ValidFor<Quadratic> + Copy>(
-            &mut self,
-            name: &str,
-            first: Option<shadowstep_schemes::First>,
-            scheme: &'static S,
-        ) {
-            let cost = shadowstep_tests::shipped::twin(name, first).plan().cost();
-            for dimension in 1..=3 {
-                let state = || vec![Counting(0.5); dimension];
-                let mut motion = Motion::new(Free(dimension), UnitMasses, state(), state()).unwrap();
-                let stepper = Stepper::new(*scheme, STEP).unwrap();
-                let products =
-                    |n: usize| Operations { additions: n as u64, multiplications: n as u64, ..Operations::default() };
-                let plain = cost.products_per_dimension * dimension;
-                let augmented = plain + cost.products_for_beta;
-                type Counted = Counting<f64>;
-                type OneStep<S> = fn(&Stepper<S, Counted>, &mut Motion<Counted, Vec<Counted>, Free, UnitMasses>);
-                let steps: [(usize, OneStep<S>); 4] = [
-                    (plain, |s, m| s.step(m)),
-                    (augmented, |s, m| s.step_augmented(m)),
-                    (plain, |s, m| s.step_back(m)),
-                    (augmented, |s, m| s.step_back_augmented(m)),
-                ];
-                for (expected, step) in steps.into_iter().cycle().take(8) {
-                    let before = motion.hessian_products();
-                    let counted = count(|| step(&stepper, &mut motion)).1;
-                    // each Hessian–vector product has M⁻¹U_q
-                    let velocities = (motion.hessian_products() - before) as usize * dimension;
-                    assert_eq!(counted, products(expected + velocities), "{name}");
-                }
+    type Counted = Counting<f64>;
+    type FreeMotion = Motion<Counted, Vec<Counted>, Free, UnitMasses>;
+    type OneStep = fn(&Steps<Counted>, &mut FreeMotion);
+    for scheme in all::<Counted>(&rational(STEP), &()) {
+        let cost = scheme.twin.plan().cost();
+        for dimension in 1..=3 {
+            let state = || vec![Counting(0.5); dimension];
+            let mut motion = Motion::new(Free(dimension), UnitMasses, state(), state()).unwrap();
+            let products =
+                |n: usize| Operations { additions: n as u64, multiplications: n as u64, ..Operations::default() };
+            let plain = cost.products_per_dimension * dimension;
+            let augmented = plain + cost.products_for_beta;
+            let steps: [(usize, OneStep); 4] = [
+                (plain, |s, m| s.step(m)),
+                (augmented, |s, m| s.step_augmented(m)),
+                (plain, |s, m| s.step_back(m)),
+                (augmented, |s, m| s.step_back_augmented(m)),
+            ];
+            for (expected, step) in steps.into_iter().cycle().take(8) {
+                let before = motion.hessian_products();
+                let counted = count(|| step(&scheme.generated, &mut motion)).1;
+                // each Hessian–vector product has M⁻¹U_q
+                let velocities = (motion.hessian_products() - before) as usize * dimension;
+                assert_eq!(counted, products(expected + velocities), "{}", scheme.name);
             }
         }
     }
-    for_each(&mut Costs);
 }
 
 fn weights_back_are_the_negatives<N: Bits>(context: &N::Context) {

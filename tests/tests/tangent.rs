@@ -10,7 +10,7 @@ use shadowstep::{
     Integrator as _, Motion, Rational, Scheme, StepSize, Stepper, System, UnitMasses, ValidFor, exact, potential,
 };
 use shadowstep_schemes::First;
-use shadowstep_tests::shipped::{Visitor, for_each};
+use shadowstep_tests::shipped::{Visitor, for_each_kind_of_step, twins};
 use shadowstep_tests::{numbers, stepper};
 
 const START: [[&str; 2]; 2] = [["1/10", "-1/5"], ["3/10", "1/20"]];
@@ -53,78 +53,83 @@ fn columns(star: &Star<Dual<f64, 4>>) -> [Vec<f64>; 4] {
     std::array::from_fn(|k| vector(star.state(), k))
 }
 
-struct Symplectic(usize);
+fn assert_symplectic_and_undone<S: Scheme + ValidFor<Quadratic> + Clone>(name: &str, scheme: &S) {
+    let stepper = Stepper::new(scheme.clone(), "1/20").unwrap();
+    let mut carried = star(with_unit_vectors::<f64>(&()));
+    let start: [[f64; 2]; 2] = START.map(|half| numbers(&half, &()).try_into().unwrap());
+    let plain_stepper = Stepper::new(scheme.clone(), "1/20").unwrap();
+    let mut plain = star(start);
+    for _ in 0..100 {
+        stepper.step(&mut carried);
+        plain_stepper.step(&mut plain);
+    }
+    let values = |numbers: &[Dual<f64, 4>]| numbers.iter().map(|x| x.value.to_bits()).collect::<Vec<_>>();
+    let bits = |numbers: &[f64]| numbers.iter().map(|x| x.to_bits()).collect::<Vec<_>>();
+    assert_eq!(values(carried.q()), bits(plain.q()), "{name}");
+    assert_eq!(values(carried.p()), bits(plain.p()), "{name}");
+    // round-off of 100 steps of up to some 30 stages, of entries up to 10
+    let error = symplectic_error(&columns(&carried));
+    assert!(error < 1e-12, "{name}: {error}");
+    for _ in 0..100 {
+        stepper.step_back(&mut carried);
+    }
+    for (column, unit) in columns(&carried).iter().zip(unit_vectors::<f64>(&())) {
+        column.iter().zip(&unit).for_each(|(a, b)| assert!((a - b).abs() < 1e-12, "{name}: {a}"));
+    }
+}
 
-impl Visitor for Symplectic {
-    fn visit<S: Scheme + ValidFor<Quadratic> + Copy>(&mut self, name: &str, first: Option<First>, scheme: &'static S) {
-        self.0 += 1;
-        let stepper = Stepper::new(*scheme, "1/20").unwrap();
-        let mut carried = star(with_unit_vectors::<f64>(&()));
-        let start: [[f64; 2]; 2] = START.map(|half| numbers(&half, &()).try_into().unwrap());
-        let plain_stepper = Stepper::new(*scheme, "1/20").unwrap();
-        let mut plain = star(start);
-        for _ in 0..100 {
-            stepper.step(&mut carried);
-            plain_stepper.step(&mut plain);
-        }
-        let values = |numbers: &[Dual<f64, 4>]| numbers.iter().map(|x| x.value.to_bits()).collect::<Vec<_>>();
-        let bits = |numbers: &[f64]| numbers.iter().map(|x| x.to_bits()).collect::<Vec<_>>();
-        assert_eq!(values(carried.q()), bits(plain.q()), "{name}, {first:?}");
-        assert_eq!(values(carried.p()), bits(plain.p()), "{name}, {first:?}");
-        // round-off of 100 steps of up to some 30 stages, of entries up to 10
-        let error = symplectic_error(&columns(&carried));
-        assert!(error < 1e-12, "{name}, {first:?}: {error}");
-        for _ in 0..100 {
-            stepper.step_back(&mut carried);
-        }
-        for (column, unit) in columns(&carried).iter().zip(unit_vectors::<f64>(&())) {
-            column.iter().zip(&unit).for_each(|(a, b)| assert!((a - b).abs() < 1e-12, "{name}, {first:?}: {a}"));
-        }
+/// Central differences of 10⁻²⁵ in 77 digits: an error of the size 10⁻⁵⁰.
+fn assert_limit_of_differences<S: Scheme + ValidFor<Quadratic> + Clone>(name: &str, scheme: &S) {
+    type Long = Limbs<4>;
+    let direction: Vec<Long> = numbers(&["3/5", "-1/3", "1/7", "2/3"], &());
+    let stepper = Stepper::new(scheme.clone(), "1/20").unwrap();
+    let [q, p] = START.map(|half| numbers::<Long>(&half, &()));
+    let dual = |x: &[Long], of: &[Long]| with_derivatives(x, [of]).try_into().unwrap();
+    let mut carried: Star<Dual<Long>> = star([dual(&q, &direction[..2]), dual(&p, &direction[2..])]);
+    Stepper::new(scheme.clone(), "1/20").unwrap().steps(std::slice::from_mut(&mut carried), 3);
+    let moved = |distance: &str| {
+        let distance = &numbers::<Long>(&[distance], &())[0];
+        let mut state = [q.clone(), p.clone()].concat();
+        state.iter_mut().zip(&direction).for_each(|(x, direction)| x.add_product(distance, direction));
+        let mut moved: Star<Long> = star([[state[0], state[1]], [state[2], state[3]]]);
+        (0..3).for_each(|_| stepper.step(&mut moved));
+        [moved.q(), moved.p()].concat()
+    };
+    let (plus, minus) = (moved("1e-25"), moved("-1e-25"));
+    for ((plus, minus), derivative) in plus.iter().zip(&minus).zip(vector(carried.state(), 0)) {
+        let mut difference = *plus;
+        difference.subtract(minus);
+        difference.multiply(&numbers::<Long>(&["5e24"], &())[0]);
+        difference.subtract(&derivative);
+        assert!(difference.log10_abs() < -47.0, "{name}: 1e{}", difference.log10_abs());
+    }
+}
+
+struct TangentMaps;
+
+impl Visitor for TangentMaps {
+    fn visit<S: Scheme + ValidFor<Quadratic> + Copy>(&mut self, name: &str, _: Option<First>, scheme: &'static S) {
+        assert_symplectic_and_undone(name, scheme);
+        assert_limit_of_differences(name, scheme);
+        assert_adjoint(name, scheme);
     }
 }
 
 #[test]
 fn tangent_maps_of_all_schemes_are_symplectic_and_undone() {
-    let mut visitor = Symplectic(0);
-    for_each(&mut visitor);
-    assert!(visitor.0 > 90, "{}", visitor.0);
-}
-
-/// Central differences of 10⁻²⁵ in 77 digits: an error of the size 10⁻⁵⁰.
-struct Limits;
-
-type Long = Limbs<4>;
-
-impl Visitor for Limits {
-    fn visit<S: Scheme + ValidFor<Quadratic> + Copy>(&mut self, name: &str, first: Option<First>, scheme: &'static S) {
-        let direction: Vec<Long> = numbers(&["3/5", "-1/3", "1/7", "2/3"], &());
-        let stepper = Stepper::new(*scheme, "1/20").unwrap();
-        let [q, p] = START.map(|half| numbers::<Long>(&half, &()));
-        let dual = |x: &[Long], of: &[Long]| with_derivatives(x, [of]).try_into().unwrap();
-        let mut carried: Star<Dual<Long>> = star([dual(&q, &direction[..2]), dual(&p, &direction[2..])]);
-        Stepper::new(*scheme, "1/20").unwrap().steps(std::slice::from_mut(&mut carried), 3);
-        let moved = |distance: &str| {
-            let distance = &numbers::<Long>(&[distance], &())[0];
-            let mut state = [q.clone(), p.clone()].concat();
-            state.iter_mut().zip(&direction).for_each(|(x, direction)| x.add_product(distance, direction));
-            let mut moved: Star<Long> = star([[state[0], state[1]], [state[2], state[3]]]);
-            (0..3).for_each(|_| stepper.step(&mut moved));
-            [moved.q(), moved.p()].concat()
-        };
-        let (plus, minus) = (moved("1e-25"), moved("-1e-25"));
-        for ((plus, minus), derivative) in plus.iter().zip(&minus).zip(vector(carried.state(), 0)) {
-            let mut difference = *plus;
-            difference.subtract(minus);
-            difference.multiply(&numbers::<Long>(&["5e24"], &())[0]);
-            difference.subtract(&derivative);
-            assert!(difference.log10_abs() < -47.0, "{name}, {first:?}: 1e{}", difference.log10_abs());
-        }
-    }
+    let schemes: Vec<_> = twins().collect();
+    assert!(schemes.len() > 90, "{}", schemes.len());
+    schemes.iter().for_each(|(name, scheme)| assert_symplectic_and_undone(name, scheme));
 }
 
 #[test]
 fn derivatives_are_limits_of_differences() {
-    for_each(&mut Limits);
+    twins().for_each(|(name, scheme)| assert_limit_of_differences(&name, &scheme));
+}
+
+#[test]
+fn tangent_maps_of_generated_steps_are_those_of_tables() {
+    for_each_kind_of_step(&mut TangentMaps);
 }
 
 /// Lanes, and compensated sums.
@@ -160,33 +165,29 @@ impl MapLanes for Vec<f64> {
 }
 
 /// λᵀMδ by steps back with λ, and by steps with δ.
-struct Adjoint;
-
-impl Visitor for Adjoint {
-    fn visit<S: Scheme + ValidFor<Quadratic> + Copy>(&mut self, name: &str, first: Option<First>, scheme: &'static S) {
-        let stepper = Stepper::new(*scheme, "1/20").unwrap();
-        let [q, p] = START.map(|half| numbers::<f64>(&half, &()));
-        let dual = |x: &[f64], of: &[f64]| with_derivatives(x, [of]).try_into().unwrap();
-        let (of_q, of_p) = ([0.3, -0.7], [0.2, 0.5]);
-        let mut carried: Star<Dual<f64>> = star([dual(&q, &of_q), dual(&p, &of_p)]);
-        (0..50).for_each(|_| stepper.step(&mut carried));
-        stepper.postprocess(&mut carried);
-        let forward = vector(carried.state(), 0);
-        let values = |numbers: &[Dual<f64>]| numbers.iter().map(|x| x.value).collect::<Vec<_>>();
-        let covector = |q: &[f64], p: &[f64]| (vec![q[0], q[1] * p[1]], vec![p[0].cos(), 1.0]);
-        let (by_q, by_p) = covector(&values(carried.q()), &values(carried.p()));
-        let product = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
-        let expected = product(&by_q, &forward[..2]) + product(&by_p, &forward[2..]);
-        let zero: Star<Dual<f64>> = star([dual(&q, &[0.0; 2]), dual(&p, &[0.0; 2])]);
-        let (by_q, by_p) = gradient(&mut stepper.with(zero), 50, covector);
-        let found = product(&by_q, &of_q) + product(&by_p, &of_p);
-        assert!((found - expected).abs() < 1e-12, "{name}, {first:?}: {found} and {expected}");
-    }
+fn assert_adjoint<S: Scheme + ValidFor<Quadratic> + Clone>(name: &str, scheme: &S) {
+    let stepper = Stepper::new(scheme.clone(), "1/20").unwrap();
+    let [q, p] = START.map(|half| numbers::<f64>(&half, &()));
+    let dual = |x: &[f64], of: &[f64]| with_derivatives(x, [of]).try_into().unwrap();
+    let (of_q, of_p) = ([0.3, -0.7], [0.2, 0.5]);
+    let mut carried: Star<Dual<f64>> = star([dual(&q, &of_q), dual(&p, &of_p)]);
+    (0..50).for_each(|_| stepper.step(&mut carried));
+    stepper.postprocess(&mut carried);
+    let forward = vector(carried.state(), 0);
+    let values = |numbers: &[Dual<f64>]| numbers.iter().map(|x| x.value).collect::<Vec<_>>();
+    let covector = |q: &[f64], p: &[f64]| (vec![q[0], q[1] * p[1]], vec![p[0].cos(), 1.0]);
+    let (by_q, by_p) = covector(&values(carried.q()), &values(carried.p()));
+    let product = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
+    let expected = product(&by_q, &forward[..2]) + product(&by_p, &forward[2..]);
+    let zero: Star<Dual<f64>> = star([dual(&q, &[0.0; 2]), dual(&p, &[0.0; 2])]);
+    let (by_q, by_p) = gradient(&mut stepper.with(zero), 50, covector);
+    let found = product(&by_q, &of_q) + product(&by_p, &of_p);
+    assert!((found - expected).abs() < 1e-12, "{name}: {found} and {expected}");
 }
 
 #[test]
 fn gradients_backwards_are_those_of_vectors_forwards() {
-    for_each(&mut Adjoint);
+    twins().for_each(|(name, scheme)| assert_adjoint(&name, &scheme));
 }
 
 /// L = λ·(q, p) at the end of a chaotic orbit: its derivatives along a vector and by h, forwards and backwards, and whether the steps back end at the initial state.
