@@ -65,13 +65,13 @@ $(WHEEL)/tools/bin/maturin:
 # A new virtual environment with a wheel that is built in little time, and with what tests, notebooks and the book need.
 python-environment: $(WHEEL)/tools/bin/maturin
 	rm -rf $(WHEEL)/wheels $(WHEEL)/test
-	RUSTFLAGS="$$RUSTFLAGS -D warnings" $(WHEEL)/tools/bin/maturin build --profile wheel --locked --compatibility linux --manifest-path python/Cargo.toml --out $(WHEEL)/wheels
+	RUSTFLAGS="$$RUSTFLAGS -D warnings" $(WHEEL)/tools/bin/maturin build --profile quick --locked --compatibility linux --manifest-path python/Cargo.toml --out $(WHEEL)/wheels
 	$(PYTHON) -m venv $(WHEEL)/test
 	$(WHEEL)/test/bin/pip install --quiet "$$(echo $(WHEEL)/wheels/*.whl)[$(or $(EXTRAS),test)]"
 
-# The Python package in that environment: its tests, doctests, types and notebooks. PyTorch, which is large, is tested where it is installed.
+# The Python package in that environment, on all cores: its tests, doctests, types and notebooks. PyTorch, which is large, is tested where it is installed.
 test-python: python-environment
-	cd python/tests && TQDM_DISABLE=1 $(WHEEL)/test/bin/python -m pytest --quiet --doctest-modules --doctest-ignore-import-errors --pyargs shadowstep .
+	cd python/tests && TQDM_DISABLE=1 $(WHEEL)/test/bin/python -m pytest --numprocesses auto --maxprocesses 8 --dist worksteal --quiet --doctest-modules --doctest-ignore-import-errors --pyargs shadowstep .
 
 # The documentation as pages in target/book, which need no network: texts, notebooks with their outputs, the Python package, and rustdoc's pages beside them.
 # Outputs of notebooks are kept until one of them or the package changes.

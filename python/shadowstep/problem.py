@@ -64,6 +64,8 @@ class Problem:
     --------
     >>> Problem("kepler", eccentricity=0.3)
     Problem('kepler', coordinates x, y)
+    >>> Problem(pair="d^2/2", dimensions=1, bodies={"m": [1, 2]}, q=[0, 1], v=[0, 0])
+    Problem(pair='d^2/2', coordinates q1, q2)
     >>> Problem("-1/sqrt(x^2 + y^2)", q={"x": "2/5", "y": 0}, p=[0, 2]).energy
     -0.5
     >>> Problem("k*x^2/2", q={"x": 1}, p=[0], k=4).energy
@@ -264,7 +266,20 @@ class Problem:
     def __repr__(self) -> str:
         names = self.coordinates
         shown = ", ".join(names if len(names) <= 6 else [*names[:3], "…", names[-1]])
-        return f"Problem({self._system!r}, coordinates {shown})"
+        return f"Problem({self._shown()}, coordinates {shown})"
+
+    def _shown(self) -> str:
+        """What the system is, as its argument is written."""
+        if isinstance(self._system, str):
+            return repr(self._system)
+        if isinstance(self._system, Integral):
+            return "a C function"
+        if self._system is not None:
+            return getattr(self._system, "__name__", None) or f"forces of type {type(self._system).__name__}"
+        problem = self.sections["problem"]
+        shown = (f"{key}={problem[key]!r}" for key in ("pair", "parts", "hamiltonian") if problem.get(key) is not None)
+        bodies = self.sections.get("body")
+        return ", ".join([*shown, *([f"{len(bodies)} bodies"] if bodies else [])])
 
 
 def given_of(problem: Any) -> Given:
