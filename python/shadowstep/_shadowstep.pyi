@@ -101,6 +101,7 @@ def integrate(
     *,
     options: Mapping[str, Any] | None,
     end: str | None,
+    section: tuple[str, str] | None,
     tangent: Sequence[Sequence[str]],
     summary: bool,
     progress: Progress,

@@ -33,7 +33,7 @@ class Trajectory:
     """
 
     n: np.ndarray
-    """The numbers of the states, of shape (n,)."""
+    """The numbers of the states, of shape (n,); at a surface of section those of the states before."""
     t: np.ndarray
     """Their times t = n h, of shape (n,); in transformed time the physical ones."""
     q: np.ndarray
@@ -113,7 +113,8 @@ class Trajectory:
 
     def __repr__(self) -> str:
         modified = "" if self.modified_energy is None else ", with modified energies"
-        return f"Trajectory({len(self)} states of {self.q.shape[1]} coordinates, t = {self.t[0]} to {self.t[-1]}{modified})"
+        times = f", t = {self.t[0]} to {self.t[-1]}" if len(self) else ""
+        return f"Trajectory({len(self)} states of {self.q.shape[1]} coordinates{times}{modified})"
 
 
 def integrate(
@@ -124,9 +125,11 @@ def integrate(
     *,
     steps: int | None = None,
     end: str | None = None,
+    section: str | None = None,
+    direction: str | None = None,
     first: str | None = None,
     gradient_kicks: str = "exact",
-    every: int = 1,
+    every: int | None = None,
     tangent: Sequence[Sequence[Number]] | np.ndarray | None = None,
     digits: Union[int, str] = "double",
     mpfr: bool = False,
@@ -157,12 +160,17 @@ def integrate(
     end
         A condition that ends the run before, at the first state after t = 0 that meets it: one comparison of formulas in the coordinates, momenta,
         parameters, t and the energy E, such as ``"x^2 + y^2 > 100"``. The steps are made twice, as the end is looked for first.
+    section, direction
+        A surface of section: in place of states at equal times those are kept at which this formula in the coordinates, momenta and parameters becomes
+        0, ``direction="up"`` growing (the default), ``"down"`` falling, or ``"both"``. Each is found by a step of a part of h from the state before, so it is
+        a point of the trajectory with the error of one step (M. Hénon, Physica D 5 (1982) 412); `Trajectory.n` is the number of the state before. Two crossings
+        within a step are not found.
     first
         ``"kick"`` or ``"drift"``: what steps begin with, in place of what the table has.
     gradient_kicks
         ``"exact"``, or ``"displaced"``, which needs no second derivatives.
     every
-        The states 0, every, 2 every, … and the last one are kept.
+        The states 0, every, 2 every, … and the last one are kept; all by default.
     tangent
         Tangent vectors (δq, δp) at t = 0, of 2d components each, which the derivative of each step takes along: δ ← DΦ δ, where a kick is
         δp ← δp − h a_s U_qq δq and a drift δq ← δq + h b_s T_pp δp. They are neither normalised nor made orthogonal; each costs about twice a run.
@@ -210,11 +218,23 @@ def integrate(
     >>> turned = shadowstep.integrate(shadowstep.Problem("pendulum"), "yoshida4", h="1/10", until=100, end="p < 0")
     >>> float(turned.t[-1])
     1.7
+    >>> galaxy = shadowstep.Problem("henon-heiles")
+    >>> cut = shadowstep.integrate(galaxy, "blanes-moan-srkn11b", h="1/10", until=1000, section="x")
+    >>> cut.q.shape, bool(abs(cut.q[:, 0]).max() < 1e-14), bool((cut.p[:, 0] > 0).all())
+    ((158, 2), True, True)
     """
-    run = run_of(problem, scheme, h, until, steps, first, gradient_kicks, every, digits, mpfr)
+    if section is None and direction is not None:
+        raise InputError(f'direction={direction!r} requires a section: section="x"')
+    for what, value in (("every", every), ("estimator", estimator), ("tangent", tangent)):
+        if section is not None and value is not None:
+            raise InputError(f"{what} is given beside a section, whose states are the crossings only; remove one of the two")
+    run = run_of(problem, scheme, h, until, steps, first, gradient_kicks, 1 if every is None else every, digits, mpfr)
     chosen = options_if_any(estimator, order=order, max_order=max_order, stop=stop, rule=rule, accuracy=accuracy)
     with bar(run["steps"], "steps", progress) as reach:
-        found = _shadowstep.integrate(run, options=chosen, end=end, tangent=_texts(tangent), summary=summary, progress=reach)
+        surface = None if section is None else (section, direction or "up")
+        found = _shadowstep.integrate(
+            run, options=chosen, end=end, section=surface, tangent=_texts(tangent), summary=summary, progress=reach
+        )
     if found["summary"] is not None:
         found["summary_text"], record = found["summary"]
         found["summary"] = json.loads(record)
@@ -227,7 +247,7 @@ def integrate(
             found[name] = np.array(found[name], dtype=object)
     rows = len(found["n"])
     for name in ("q", "p"):
-        found[name] = found[name].reshape(rows, -1)
+        found[name] = found[name].reshape(rows, -1 if rows else len(found["coordinates"]))
     found["tangent"] = None if tangent is None else vectors_of(found["tangent"], rows)
     return Trajectory(**found)
 

@@ -7,14 +7,15 @@ use serde_json::json;
 use shadowstep::shadow::EstimatorSettings;
 use shadowstep_scenes::arithmetic::Arithmetic;
 use shadowstep_scenes::computation::{Computation, RunNumber};
-use shadowstep_scenes::integrate::{Integration, Samples};
+use shadowstep_scenes::integrate::{Integration, KeptStates, Samples};
 use shadowstep_scenes::run::{OrderSetting, Run};
 use shadowstep_scenes::stability::{few_kicks, resonant, unstable};
-use shadowstep_scenes::{Error, Note, Observer, estimator};
+use shadowstep_scenes::{Direction, Error, Note, Observer, estimator};
 
 use crate::derivatives::{By, Request, columns};
 use crate::errors::exception;
 use crate::estimator::Options;
+use crate::given::word;
 use crate::given_run::{GivenRun, SystemWithScheme, Times};
 use crate::scene::Summarising;
 use crate::waiting::waiting;
@@ -22,16 +23,19 @@ use crate::waiting::waiting;
 /// Makes a run, and gives a dictionary of its states: arrays in double precision, else lists of decimal texts. With tangent vectors, each of which begins with
 /// components of `tangent`, it is made once more with these.
 #[pyfunction]
-#[pyo3(signature = (run, *, options, end, tangent, summary, progress))]
+#[pyo3(signature = (run, *, options, end, section, tangent, summary, progress))]
 pub(crate) fn integrate<'py>(
     py: Python<'py>,
     run: GivenRun,
     options: Option<Options>,
     end: Option<String>,
+    section: Option<(String, String)>,
     tangent: Vec<Vec<String>>,
     summary: bool,
     progress: Option<&Bound<'py, PyAny>>,
 ) -> PyResult<Bound<'py, PyDict>> {
+    let section = section.map(|(text, name)| Ok::<_, PyErr>((text, word(py, "direction", &name, &Direction::NAMES)?)));
+    let section = section.transpose()?;
     let estimator = options.map(|options| options.settings(py)).transpose()?;
     let is_between = estimator.as_ref().is_some_and(EstimatorSettings::is_between);
     let mut request = Request::of(py, run.read(py)?, By::directions(py, &tangent)?)?;
@@ -43,7 +47,7 @@ pub(crate) fn integrate<'py>(
         let mut summarising = Summarising::new(watched, Vec::new());
         let mut watching = watched.observer();
         let observer: &mut dyn Observer = if summary { &mut summarising } else { &mut watching };
-        let rows = (run.every, end.as_deref());
+        let rows = (run.every, section.as_ref(), end.as_deref());
         let (found, mut notes) = posed.run(runs, rows, estimator.as_ref(), run.arithmetic, observer)?;
         notes.extend(run.times.note.clone());
         let mut vectors = Vec::new();
@@ -70,7 +74,7 @@ impl SystemWithScheme {
     fn run(
         &self,
         (times, displaced): (&Times, bool),
-        (every, end): (u64, Option<&str>),
+        (every, section, end): (u64, Option<&(String, Direction)>, Option<&str>),
         estimator: Option<&EstimatorSettings>,
         arithmetic: Arithmetic,
         observer: &mut dyn Observer,
@@ -83,7 +87,9 @@ impl SystemWithScheme {
         let until = times.physical_end.as_ref();
         let ends = end.map(|text| system.condition("end", text)).transpose()?;
         let ends = ends.as_ref();
-        let integration = Integration { system, scheme, run, compensated, displaced, until, ends, every, estimator };
+        let surface = section.map(|(text, direction)| system.section("section", text, *direction)).transpose()?;
+        let kept = surface.as_ref().map_or(KeptStates::Every(every), KeptStates::Crossings);
+        let integration = Integration { system, scheme, run, compensated, displaced, until, ends, kept, estimator };
         let found = match arithmetic.is_longer_than_double() {
             false => Integrated::Doubles(integration.run::<f64>(&(), observer)?),
             true => Integrated::Texts(arithmetic.compute(InTexts { integration, observer })?),

@@ -13,6 +13,7 @@ import pytest
 
 import shadowstep
 from shadowstep import InputError, Monitor, Problem, RunError, Scheme, integrate
+from shadowstep.document import document
 
 
 def verlet(q, p, gradient, h, steps):
@@ -201,6 +202,10 @@ def test_own_forces_with_a_wrong_gradient_are_warned_of(wrong):
         (lambda: integrate(Problem("kepler"), "yoshida4", h=0.1, until=1, estimator="bilinear", order=0), "order = 0 is too small", "give 1 or more"),
         (lambda: integrate(Problem("kepler"), "yoshida4", h=0.1, until=1, order=8), "order=8 is an option of an estimator", "bilinear"),
         (lambda: integrate(Problem("kepler"), "yoshida4", h=0.1, until=1, every=-1), "every = -1 is too small", "give 1 or more"),
+        (lambda: integrate(Problem("kepler"), "yoshida4", h=0.1, until=1, direction="up"), "direction='up' requires a section", 'section="x"'),
+        (lambda: integrate(Problem("kepler"), "yoshida4", h=0.1, until=1, section="x", direction="to"), 'direction = "to" is not known', '"both"'),
+        (lambda: integrate(Problem("kepler"), "yoshida4", h=0.1, until=1, section="x", every=2), "every is given beside a section", "remove one"),
+        (lambda: integrate(Problem("kepler"), "yoshida4", h=0.1, until=1, section="t"), "t is no coordinate here", "every"),
         (lambda: integrate(Problem("kepler"), "yoshida4", h=0.1, steps=10**20), "steps = 100000000000000000000 is too large", "or less"),
         (lambda: Monitor(Problem("kepler"), "yoshida4", h=0.1).step(-1), "steps = -1 is too small", "give 0 or more"),
         (
@@ -391,3 +396,51 @@ def test_magnetic_fields_and_ends():
     assert run.q[-1, 1] < -1 <= run.q[:-1, 1].min() and run.t[-1] == 1.5
     with pytest.raises(InputError, match="end:1:1: unknown name `z`"):
         integrate(charge, "stormer-verlet", h="1/2", until=10, end="y < z")
+
+
+# with a processor, in transformed time, in decimal digits, of planets whose steps have other coordinates
+@pytest.mark.parametrize(
+    ("problem", "scheme", "h", "until", "section", "digits"),
+    [
+        (Problem("henon-heiles"), "blanes-moan-srkn11b", "1/10", 300, "x", "double"),
+        (Problem("henon-heiles"), "bcm6-13", "1/10", 100, "y", "compensated"),
+        (Problem("kepler"), "yoshida4", "1/40", 20, "px", 40),
+        (Problem("kepler", time={"transform": "logarithmic"}), "yoshida4", "1/40", 20, "y", "double"),
+        (Problem("outer-solar-system", parts="wisdom-holman"), "saba4", 100, 40000, "y_jupiter", "double"),
+    ],
+)
+def test_crossings_have_the_bits_of_a_scene(problem, scheme, h, until, section, digits, tmp_path):
+    cut = integrate(problem, scheme, h=h, until=until, section=section, direction="both", digits=digits)
+    run = {"scheme": scheme, "step": h, "until": until, "digits": digits}
+    output = {"trajectory": {"section": section, "direction": "both"}, "file": "cut.csv"}
+    text = document({**problem.sections, "run": run, "output": output})
+    (tmp_path / "scene.toml").write_text(text)
+    shadowstep.run(tmp_path / "scene.toml", progress=False)
+    scene = shadowstep.open(tmp_path / "cut.csv")
+    assert len(cut) == len(scene) > 3
+    for name in ("n", "t", "q", "p"):
+        assert np.array_equal(getattr(cut, name), getattr(scene, name)), name
+
+
+def test_crossings_are_those_of_another_program():
+    scipy = pytest.importorskip("scipy.integrate")
+    galaxy = Problem("henon-heiles")
+    cut = integrate(galaxy, "blanes-moan-srkn11b", h="1/100", until=200, section="x")
+
+    def crossing(_, state):
+        return state[0]
+
+    crossing.direction = 1
+    found = scipy.solve_ivp(
+        lambda _, s: [s[2], s[3], -s[0] - 2 * s[0] * s[1], -s[1] - s[0] ** 2 + s[1] ** 2],
+        (0, 200), np.concatenate(galaxy.initial), events=crossing, method="DOP853", rtol=1e-12, atol=1e-13,
+    )  # fmt: skip
+    times = found.t_events[0][1:]  # without the start, where x = 0
+    # scipy's errors, of which 200 units of time make some 1e-11
+    assert np.allclose(times, cut.t, rtol=0, atol=1e-9)
+
+
+def test_a_section_that_is_never_crossed_has_no_states():
+    nothing = integrate("henon-heiles", "yoshida4", h="1/10", until=10, section="x - 100")
+    assert repr(nothing) == "Trajectory(0 states of 2 coordinates)" and nothing.q.shape == (0, 2)
+    assert integrate("henon-heiles", "yoshida4", h="1/10", until=10, section="x - 100", digits=40).q.shape == (0, 2)

@@ -6,7 +6,8 @@ use shadowstep::steps::step_to_zero;
 
 use crate::computation::RunNumber;
 use crate::evaluator::Evaluator;
-use crate::scene::{Direction, Scene, Surface};
+use crate::run::Run;
+use crate::scene::{Direction, Surface, System};
 use crate::snapshots::Snapshot;
 
 /// Finds the crossings of a run, whose states it takes one after the other.
@@ -18,9 +19,9 @@ pub(crate) struct Crossings<N: RunNumber> {
 }
 
 impl<N: RunNumber> Crossings<N> {
-    /// Of the surface that the scene was read with.
-    pub(crate) fn new(Surface { expression, direction }: &Surface, scene: &Scene, context: &N::Context) -> Self {
-        let value = Evaluator::of_run(expression, &scene.system, context).expect("it was checked with the scene");
+    /// Of a surface that was checked for the system.
+    pub(crate) fn new(Surface { expression, direction }: &Surface, system: &System, context: &N::Context) -> Self {
+        let value = Evaluator::of_run(expression, system, context).expect("it was checked for the system");
         Crossings { value, direction: *direction, before: None }
     }
 
@@ -53,7 +54,21 @@ impl<N: RunNumber> Crossings<N> {
     }
 }
 
+impl Run<'_> {
+    /// The time of a crossing, a part of a step after the state n.
+    pub(crate) fn time_of_crossing<N: RunNumber>(&self, n: i64, part: &N, context: &N::Context) -> N {
+        let mut time = N::from_rational(self.h.exact(), context);
+        time.multiply(part);
+        time.add(&N::from_rational(&self.time(n), context));
+        time
+    }
+}
+
 impl Direction {
+    /// The directions by their names.
+    pub const NAMES: [(&'static str, Direction); 3] =
+        [("up", Direction::Up), ("down", Direction::Down), ("both", Direction::Both)];
+
     /// Whether g goes through 0 in this direction between two states.
     fn is_of<N: Real>(self, before: &N, now: &N) -> bool {
         let zero = N::zero(&now.context());
@@ -69,6 +84,7 @@ impl Direction {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::scene::Scene;
     use shadowstep::tables::{Faults, Source};
 
     fn read(step: &str, trajectory: &str, more: &str) -> Result<Scene, Faults> {

@@ -95,7 +95,7 @@ pub(crate) fn run<N: RunNumber>(
         energy_of: scene.system.energy_of_rows(context),
         watch: None,
         vectors,
-        crossings: scene.output.section.as_ref().map(|surface| Crossings::new(surface, scene, context)),
+        crossings: scene.output.section.as_ref().map(|surface| Crossings::new(surface, &scene.system, context)),
         snapshots: Snapshots::new(0),
         state: (integrator.state().q().to_vec(), integrator.state().p().to_vec()),
         n: from.unwrap_or(0),
@@ -389,9 +389,7 @@ impl<N: RunNumber> Recorder<'_, '_, N> {
             if n <= self.written {
                 return Ok(());
             }
-            let mut time = N::from_rational(self.run.h.exact(), self.context);
-            time.multiply(part);
-            time.add(&N::from_rational(&self.run.time(n - 1), self.context));
+            let time = self.run.time_of_crossing(n - 1, part, self.context);
             at_output(integrator, |integrator| {
                 let (q, p) = (integrator.state().q().to_vec(), integrator.state().p().to_vec());
                 let time = self.scene.system.time_of(&q).unwrap_or(&time).clone();

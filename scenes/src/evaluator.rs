@@ -17,7 +17,7 @@ use crate::lanes::LANES;
 use crate::quantity::Quantity;
 use crate::quantity_of_bodies::{Compute, NoQuantity, QuantityOfBodies};
 use crate::scene::split::ShownCoordinates;
-use crate::scene::{EnergyAt, System};
+use crate::scene::{Direction, EnergyAt, Surface, System};
 
 impl System {
     /// The condition of a text that stands alone.
@@ -36,6 +36,33 @@ impl System {
             (Some(faults), _) => Err(faults.into()),
             (None, None) => unreachable!("what cannot be read is a fault"),
         }
+    }
+
+    /// The surface of section of a text that stands alone: where the formula is 0.
+    ///
+    /// # Errors
+    /// A text that is not a formula in the numbers of the system's states, with the column of the fault.
+    pub fn section(&self, name: &str, text: &str, direction: Direction) -> Result<Surface, Error> {
+        let source = Source { path: name.to_owned(), text: text.to_owned() };
+        let mut reader = Reader::new(&source, Vec::new());
+        let surface = self.surface(Text::alone(text), direction, &mut reader);
+        match Faults::of(reader.faults) {
+            Some(faults) => Err(faults.into()),
+            None => Ok(surface.expect("what cannot be read is a fault")),
+        }
+    }
+
+    /// The surface where a formula is 0, or faults.
+    pub(crate) fn surface(&self, text: Text, direction: Direction, reader: &mut Reader<'_>) -> Option<Surface> {
+        let expression = Expression::new(text);
+        if expression.has_time && !self.explicit_time && self.transformed_time().is_none() {
+            let help = "write `every` for states at times that are known, or a formula in positions and momenta";
+            let message = "a section is a function of q and p, and t is no coordinate here";
+            return reader.wrong(&expression.text.at, message, help);
+        }
+        let before = reader.faults.len();
+        self.check(&expression, reader);
+        (reader.faults.len() == before).then_some(Surface { expression, direction })
     }
 
     /// Checks an expression for the system; a fault has its place.

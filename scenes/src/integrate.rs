@@ -4,7 +4,7 @@
 //! use shadowstep::StepSize;
 //! use shadowstep::tables::Source;
 //! use shadowstep_scenes::arithmetic::Arithmetic;
-//! use shadowstep_scenes::integrate::Integration;
+//! use shadowstep_scenes::integrate::{Integration, KeptStates};
 //! use shadowstep_scenes::propagator::for_system;
 //! use shadowstep_scenes::run::Run;
 //! use shadowstep_scenes::{System, library};
@@ -15,7 +15,8 @@
 //! let h = StepSize::try_from("1/20").unwrap();
 //! let run = Run { propagator: &scheme.name, h: &h, steps: 1000, order: None };
 //! let integration =
-//!     Integration { system: &system, scheme: &scheme.scheme, run, compensated: false, displaced: false, until: None, ends: None, every: 100, estimator: None };
+//!     Integration { system: &system, scheme: &scheme.scheme, run, compensated: false, displaced: false, until: None, ends: None, kept: KeptStates::Every(100),
+//!     estimator: None };
 //! let samples = integration.run::<f64>(&(), &mut ())?;
 //! assert_eq!(samples.n, (0..=10).map(|i| 100 * i).collect::<Vec<_>>());
 //! assert!(samples.energy.iter().all(|energy| (energy + 0.5).abs() < 1e-3));
@@ -33,6 +34,7 @@ use shadowstep::systems::system::Visitor;
 use shadowstep::tables::{AtRunTime, TableScheme};
 
 use crate::computation::RunNumber;
+use crate::crossings::Crossings;
 use crate::error::Error;
 use crate::expression::Condition;
 use crate::follow::Follower;
@@ -64,16 +66,25 @@ pub struct Integration<'a> {
     pub until: Option<&'a Rational>,
     /// The condition that ends the run before, checked for the system.
     pub ends: Option<&'a Condition>,
-    /// The states n = 0, `every`, 2 `every`, … are kept, and the last one.
-    pub every: u64,
-    /// The estimator of the modified energy, if that is wanted.
+    /// Which states are kept.
+    pub kept: KeptStates<'a>,
+    /// The estimator of the modified energy, if that is wanted; crossings have none.
     pub estimator: Option<&'a EstimatorSettings>,
+}
+
+/// Which states of a run are kept.
+#[derive(Clone, Copy, Debug)]
+pub enum KeptStates<'a> {
+    /// The states n = 0, m, 2m, …, and the last one.
+    Every(u64),
+    /// Where the trajectory crosses a surface that was [checked](scene::System::section) for the system: each is a part of a step after the state n.
+    Crossings(&'a scene::Surface),
 }
 
 /// The states of a run.
 #[derive(Clone, Debug, Default)]
 pub struct Samples<N> {
-    /// The numbers of the states: t = n h.
+    /// The numbers of the states: t = n h; of a crossing that of the state before.
     pub n: Vec<i64>,
     /// Their physical times.
     pub t: Vec<N>,
@@ -143,6 +154,10 @@ impl Integration<'_> {
                 interactions: None,
             },
             approaches: Approaches::of(system),
+            crossings: match self.kept {
+                KeptStates::Every(_) => None,
+                KeptStates::Crossings(surface) => Some(Crossings::new(surface, system, context)),
+            },
             watch: watch.transpose().map_err(named)?,
             last: None,
             pace: Pace::new(0),
@@ -155,6 +170,7 @@ impl Integration<'_> {
                 keeper.keep_state(run.steps, &mut *integrator, last.clone())?;
             }
             if let Some(until) = until
+                && keeper.crossings.is_none()
                 && last_step(&mut *integrator, (&last.0, &last.1), (run, until))?
             {
                 keeper.keep(run.steps + 1, &mut *integrator)?;
@@ -169,7 +185,18 @@ impl Integration<'_> {
     }
 
     fn keeps(&self, n: u64) -> bool {
-        n.is_multiple_of(self.every.max(1)) || n == self.run.steps
+        match self.kept {
+            KeptStates::Every(every) => n.is_multiple_of(every.max(1)) || n == self.run.steps,
+            KeptStates::Crossings(_) => false,
+        }
+    }
+
+    /// The n of the first state after n that is kept, or is needed to find a crossing.
+    fn next(&self, n: u64) -> u64 {
+        match self.kept {
+            KeptStates::Every(every) => (n / every.max(1) + 1).saturating_mul(every.max(1)),
+            KeptStates::Crossings(_) => n + 1,
+        }
     }
 }
 
@@ -185,6 +212,8 @@ struct Keeper<'a, N: RunNumber> {
     samples: Samples<N>,
     /// Of planets.
     approaches: Option<Approaches>,
+    /// Finds the crossings of a surface of section.
+    crossings: Option<Crossings<N>>,
     /// Follows the run for a summary.
     watch: Option<Watch<N>>,
     /// The last state, where estimates belong to the middles between states, or the run ends at a physical time.
@@ -196,11 +225,31 @@ struct Keeper<'a, N: RunNumber> {
 impl<N: RunNumber> Keeper<'_, N> {
     /// Keeps the present state.
     fn keep(&mut self, n: u64, integrator: &mut VectorIntegrator<'_, N>) -> Result<(), Error> {
-        let energy = match &mut self.energy_of {
+        let energy = self.energy(integrator);
+        self.push(n, (integrator.state().q(), integrator.state().p()), energy, None)
+    }
+
+    /// H of the present state.
+    fn energy(&mut self, integrator: &mut VectorIntegrator<'_, N>) -> N {
+        match &mut self.energy_of {
             Some(energy_of) => energy_of(integrator.state().q(), integrator.state().p()),
             None => integrator.system().energy(),
-        };
-        self.push(n, (integrator.state().q(), integrator.state().p()), energy)
+        }
+    }
+
+    /// Keeps the crossing between the state n, which is the present one, and the state before, if there is one.
+    fn keep_crossing(&mut self, n: u64, integrator: &mut VectorIntegrator<'_, N>) -> Result<(), Error> {
+        let Some(mut crossings) = self.crossings.take() else { return Ok(()) };
+        let number = i64::try_from(n).unwrap_or(i64::MAX);
+        let kept = crossings.state(number, integrator, |integrator, part| {
+            let time = self.integration.run.time_of_crossing(number - 1, part, self.context);
+            at_output(integrator, |integrator| {
+                let energy = self.energy(integrator);
+                self.push(n - 1, (integrator.state().q(), integrator.state().p()), energy, Some(time))
+            })
+        });
+        self.crossings = Some(crossings);
+        kept.unwrap_or(Ok(()))
     }
 
     /// Keeps a state that is not the present one of the system.
@@ -215,10 +264,11 @@ impl<N: RunNumber> Keeper<'_, N> {
             Some(energy_of) => energy_of(&q, &p),
             None => integrator.system().energy_at(&q, &p),
         };
-        self.push(n, (&q, &p), energy)
+        self.push(n, (&q, &p), energy, None)
     }
 
-    fn push(&mut self, n: u64, (q, p): (&[N], &[N]), energy: N) -> Result<(), Error> {
+    /// `time` is that of a state that is not at t = n h.
+    fn push(&mut self, n: u64, (q, p): (&[N], &[N]), energy: N, time: Option<N>) -> Result<(), Error> {
         let Integration { run, system, .. } = self.integration;
         let number = i64::try_from(n).unwrap_or(i64::MAX);
         let quantities = (0..q.len()).map(Quantity::Position).chain((0..p.len()).map(Quantity::Momentum));
@@ -233,7 +283,8 @@ impl<N: RunNumber> Keeper<'_, N> {
         }
         let samples = &mut self.samples;
         samples.n.push(number);
-        samples.t.push(system.time_of(q).cloned().unwrap_or_else(|| N::from_rational(&run.time(number), self.context)));
+        let time = time.unwrap_or_else(|| N::from_rational(&run.time(number), self.context));
+        samples.t.push(system.time_of(q).cloned().unwrap_or(time));
         samples.energy.push(energy);
         let (q, p) = match &mut self.shown {
             Some(shown) => shown.of_state(q, p),
@@ -251,8 +302,8 @@ impl<N: RunNumber> Follower<N> for Keeper<'_, N> {
     }
 
     fn next(&self, n: i64) -> i64 {
-        let (n, every) = (n.unsigned_abs(), self.integration.every.max(1));
-        let kept = (n / every + 1).saturating_mul(every);
+        let n = n.unsigned_abs();
+        let kept = self.integration.next(n);
         let watched = self.watch.as_ref().map_or(u64::MAX, |watch| n.saturating_add(watch.idle()).saturating_add(1));
         i64::try_from(kept.min(watched).min(self.pace.next(n))).unwrap_or(i64::MAX)
     }
@@ -287,6 +338,9 @@ impl<N: RunNumber> Follower<N> for Keeper<'_, N> {
         let n = n.unsigned_abs();
         if self.pace.looks_up(n) {
             report(self.observer, self.integration.run, n)?;
+        }
+        if estimate.is_none() {
+            self.keep_crossing(n, integrator)?;
         }
         if self.integration.keeps(n) {
             match estimate {
@@ -368,7 +422,7 @@ mod tests {
                 displaced: false,
                 until: None,
                 ends: None,
-                every: 100,
+                kept: KeptStates::Every(100),
                 estimator: scene.output.modified_energy.as_ref().map(|(settings, _)| settings),
             };
             let mut own = KeptSummary::default();

@@ -7,7 +7,7 @@ use shadowstep::{Number, Rational, StepSize, exact};
 use shadowstep_scenes::System;
 use shadowstep_scenes::arithmetic::Arithmetic;
 use shadowstep_scenes::computation::{Computation, RunNumber};
-use shadowstep_scenes::integrate::Integration;
+use shadowstep_scenes::integrate::{Integration, KeptStates};
 use shadowstep_scenes::library::{NamedScheme, scheme};
 use shadowstep_scenes::run::Run;
 use shadowstep_work_precision::advise::{Advice, AdviceRequest, Choice, Verified};
@@ -61,7 +61,7 @@ impl Computation for Final<'_> {
             displaced,
             until,
             ends: None,
-            every: steps,
+            kept: KeptStates::Every(steps),
             estimator: None,
         };
         let samples = integration.run::<N>(context, &mut ()).unwrap();

@@ -14,7 +14,6 @@ use super::reader::Reader;
 use super::run::Steps;
 use super::values;
 use crate::estimator::{ACCURACY_HINT, conflict};
-use crate::expression::Expression;
 use crate::scene::{CheckpointInterval, Direction, Format, Outputs, Surface, System};
 use crate::steps::MOST_STEPS;
 use shadowstep_schemes::document::{Section, Value};
@@ -105,9 +104,8 @@ fn trajectory(
     system: Option<&System>,
 ) -> (Option<u64>, Option<Surface>) {
     let Some((every, table)) = every(reader, output, "trajectory", "output.trajectory") else { return (None, None) };
-    let directions = [("up", Direction::Up), ("down", Direction::Down), ("both", Direction::Both)];
     let direction = table.as_ref().and_then(|table| table.get("direction"));
-    let direction = direction.map(|value| (value.span(), reader.word(value, &directions)));
+    let direction = direction.map(|value| (value.span(), reader.word(value, &Direction::NAMES)));
     let Some((table, value)) = table.as_ref().and_then(|table| Some((table, table.get("section")?))) else {
         if let Some((at, Some(_))) = direction {
             reader.toml.fault(&at, "a direction requires a section", "add `section = \"x\"`");
@@ -132,15 +130,7 @@ fn surface(
     system: Option<&System>,
 ) -> Option<Surface> {
     let text = reader.toml.text(value)?;
-    let expression = Expression::new(text.clone());
-    let system = system?;
-    if expression.has_time && !system.explicit_time && system.transformed_time().is_none() {
-        let help = "write `every` for states at times that are known, or a formula in positions and momenta";
-        return reader.toml.wrong(&text.at, "a section is a function of q and p, and t is no coordinate here", help);
-    }
-    let before = reader.toml.faults.len();
-    system.check(&expression, &mut reader.toml);
-    (reader.toml.faults.len() == before).then_some(Surface { expression, direction })
+    system?.surface(text, direction, &mut reader.toml)
 }
 
 fn modified_energy(reader: &mut Reader<'_>, output: &Section<'_, '_>) -> Option<(EstimatorSettings, u64)> {
