@@ -83,7 +83,6 @@ impl Direction {
 
 #[cfg(test)]
 mod tests {
-    use super::*;
     use crate::scene::Scene;
     use shadowstep::tables::{Faults, Source};
 
