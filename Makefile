@@ -6,7 +6,7 @@
 run:
 	cargo run --profile quick --locked -p shadowstep-cli -- drift --problem kepler \
 	    --scheme stormer-verlet,yoshida4,blanes-moan-s6,blanes-moan-srkn6b \
-	    --step 1/10,1/20,1/40 --until 100 --digits 120 --order auto
+	    --step 1/10,1/20,1/40 --until 100 --digits 120 --estimator central --order auto
 
 test: deps format lint check wasm test-python docs
 

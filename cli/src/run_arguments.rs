@@ -63,29 +63,29 @@ pub(crate) struct EstimatorArguments {
     /// How the modified energy is estimated
     #[arg(long, value_name = "NAME", default_value = EstimatorSettings::NAMES[0], value_parser = words(EstimatorSettings::NAMES, EstimatorSettings::SUMMARIES))]
     pub(crate) estimator: String,
-    /// The m of D_m or k of E_k, such as 40, or auto
+    /// The k of E_k or m of D_m, such as 24, or auto
     ///
-    /// m is at most 1000, k at most 256. auto takes the best one for each state.
-    #[arg(long, default_value = "auto", value_name = "M|K|auto", value_parser = order)]
+    /// k is at most 256, m at most 1000. auto takes the best one for each state.
+    #[arg(long, default_value = "auto", value_name = "K|M|auto", value_parser = order)]
     pub(crate) order: OrderChoice,
-    /// Largest m or k of auto [default: 200 of m, 64 of k]
+    /// Largest k or m of auto [default: 64 of k, 200 of m]
     ///
     /// It is the largest that --order auto tries, such as 100.
-    #[arg(long, value_name = "M|K", value_parser = |text: &str| whole(text, 2..=HIGHEST_ORDER))]
+    #[arg(long, value_name = "K|M", value_parser = |text: &str| whole(text, 2..=HIGHEST_ORDER))]
     pub(crate) max_order: Option<u32>,
     /// Where --order auto stops trying m [default: full]
     ///
-    /// Moan and Niesen's rule for an early stop is printed with <=; `early` has < instead.
+    /// It requires --estimator central. Moan and Niesen's rule for an early stop is printed with <=; `early` has < instead.
     #[arg(long, value_name = "WHEN", value_parser = words(StoppingRule::NAMES, StoppingRule::SUMMARIES).try_map(|word| word.parse::<StoppingRule>()))]
     pub(crate) stop: Option<StoppingRule>,
     /// Which m is the best for --order auto [default: least]
     ///
-    /// `least` reproduces the results of Moan and Niesen.
+    /// It requires --estimator central. `least` reproduces the results of Moan and Niesen.
     #[arg(long, value_name = "RULE", value_parser = words(SelectionRule::NAMES, SelectionRule::SUMMARIES).try_map(|word| word.parse::<SelectionRule>()))]
     pub(crate) rule: Option<SelectionRule>,
     /// Target error of E_k with --order auto, such as 1e-20
     ///
-    /// It requires --estimator bilinear --order auto. Of k = 2, 4, 8, 16, … and the largest k, the least one that meets the target error is
+    /// Of k = 2, 4, 8, 16, … and the largest k, the least one that meets the target error is
     /// used. If none meets it, the most accurate is used, and its estimated error is reported. Without this flag the best of them is used
     /// for each state.
     #[arg(long, value_name = "ERROR", allow_hyphen_values = true)]

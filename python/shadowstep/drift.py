@@ -22,7 +22,7 @@ def drift(
     *,
     digits: Union[int, str] = 120,
     mpfr: bool = False,
-    estimator: str = "central",
+    estimator: str = "bilinear",
     order: int | None = None,
     max_order: int | None = None,
     stop: str | None = None,
@@ -38,7 +38,7 @@ def drift(
     scheme
         A scheme, or ``"exact-flow"`` for the exact flow of a shipped problem, on which the drift is the estimator's own error.
     estimator, order, max_order, stop, rule, accuracy
-        As in `integrate`; by default central differences with the best m of each state.
+        As in `integrate`; by default the best E_k of each state. ``estimator="central"`` is that of Moan and Niesen.
     control
         Whether the same is computed on the exact flow, where that is known.
 

@@ -87,21 +87,22 @@ class Trajectory:
         return convert(getattr(self, name)).tolist()
 
     def to_dataframe(self) -> pandas.DataFrame:
-        """A row for each state, with columns n, t, those of the coordinates and momenta, energy, modified_energy and its error."""
+        """A row for each state, with columns n, t, those of the coordinates and momenta, energy, modified_energy and its error, and of a file its values and
+        indicators of chaos."""
         import pandas
 
         columns = {"n": self.n, "t": self.t}
         columns |= {name: self.q[:, i] for i, name in enumerate(self.coordinates)}
         columns |= {name: self.p[:, i] for i, name in enumerate(self.momenta)}
-        columns |= dict(self._energies())
+        columns |= {**dict(self._energies()), **self.values, **self.indicators}
         return pandas.DataFrame(columns)
 
     def to_xarray(self) -> xarray.Dataset:
-        """q and p over time and coordinates, energies over time."""
+        """q and p over time and coordinates; energies, values and indicators over time."""
         import xarray
 
         data: dict[str, Any] = {"q": (("time", "coordinate"), self.q), "p": (("time", "coordinate"), self.p)}
-        data |= {name: (("time",), values) for name, values in self._energies()}
+        data |= {name: (("time",), values) for name, values in [*self._energies(), *self.values.items(), *self.indicators.items()]}
         return xarray.Dataset(data, coords={"time": self.t, "n": (("time",), self.n), "coordinate": self.coordinates})
 
     def _energies(self) -> list[tuple[str, np.ndarray]]:

@@ -177,7 +177,7 @@ def test_files_of_runs_are_opened(tmp_path, ending, digits):
     scene.write_text(f'problem.name = "kepler"\nrun = {{ scheme = "yoshida4", step = "1/10", steps = 20, digits = {digits} }}\noutput = {output}')
     shadowstep.run(scene)
     read = shadowstep.open(tmp_path / f"kepler.{ending}")
-    made = shadowstep.integrate("kepler", "yoshida4", "1/10", steps=20, digits=digits.strip('"') if "double" in digits else 30, estimator="central", order=4)
+    made = shadowstep.integrate("kepler", "yoshida4", "1/10", steps=20, digits=digits.strip('"') if "double" in digits else 30, estimator="bilinear", order=4)
     assert np.array_equal(read.q[::2], made.q[::2]) and np.array_equal(read.p[::2], made.p[::2]) and np.array_equal(read.t, made.t)
     assert np.array_equal(read.energy, made.energy) and np.array_equal(read.n, made.n)
     assert np.array_equal(read.modified_energy[::5], made.modified_energy[::5]) and read.order[5] == 4
@@ -186,6 +186,7 @@ def test_files_of_runs_are_opened(tmp_path, ending, digits):
     assert read.metadata["scheme"] == "yoshida4" and read.metadata["values"] == {"r": "x^2 + y^2"}
     r = read.values["r"].astype(float)
     assert np.allclose(r[::4], (made.q[::4].astype(float) ** 2).sum(axis=1), rtol=1e-15) and np.isnan(r[1])
+    assert list(read.to_dataframe().columns)[-1] == "r" and "r" in read.to_xarray()
     file = tmp_path / f"kepler.{ending}"
     file.write_bytes(file.read_bytes()[:-6])
     with pytest.raises(shadowstep.InputError, match=f"kepler.{ending}"):

@@ -203,11 +203,11 @@ mod tests {
         for output in [
             "trajectory = true",
             "energy = { every = 3 }\ntrajectory = { every = 2 }",
-            "modified_energy = { order = 1 }",
+            "modified_energy = { estimator = \"central\", order = 1 }",
             "modified_energy = { order = 4, every = 3 }\nenergy = true",
             "modified_energy = { max_order = 6 }\ntrajectory = { every = 5 }",
             "modified_energy = { max_order = 30 }",
-            "modified_energy = { max_order = 6, rule = \"robust\" }\nenergy = { every = 4 }",
+            "modified_energy = { estimator = \"central\", max_order = 6, rule = \"robust\" }\nenergy = { every = 4 }",
             "modified_energy = { estimator = \"bilinear\", order = 6 }",
             "modified_energy = { estimator = \"bilinear\", max_order = 8, accuracy = \"1e-9\", every = 2 }",
             "chaos = true",
@@ -457,7 +457,7 @@ mod tests {
     #[test]
     fn a_resumed_run_repeats_only_the_steps_that_an_estimate_needs() {
         let folder = tempfile::tempdir().unwrap();
-        let scene = scene(folder.path(), KEPLER, "modified_energy = { order = 2 }");
+        let scene = scene(folder.path(), KEPLER, "modified_energy = { estimator = \"central\", order = 2 }");
         // each fifth state is kept, and the estimates after n need one at or before n - 5: D_2, and three states for its
         // error
         let mut first = 0;

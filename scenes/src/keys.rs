@@ -546,15 +546,15 @@ pub(crate) const KEYS: [Key; 90] = [
     key(
         "output.modified_energy",
         "estimator",
-        "\"central\" for central differences D_m of 2m + 1 states, or \"bilinear\" for products of k + 1 states in pairs, \
-         which needs fewer states for the same order.",
-        "\"bilinear\"",
-        Some("\"central\""),
+        "\"bilinear\" for products of k + 1 states in pairs, or \"central\" for central differences D_m of 2m + 1 states, the \
+         estimator of Moan and Niesen, which needs more states for the same error.",
+        "\"central\"",
+        Some("\"bilinear\""),
     ),
     key(
         "output.modified_energy",
         "order",
-        "The m of D_m, at most 1000, or the k of the bilinear estimator, which must be even and at most 256; or \"auto\" for the \
+        "The k of the bilinear estimator, which must be even and at most 256, or the m of D_m, at most 1000; or \"auto\" for the \
          best one of each state.",
         "40",
         Some("\"auto\""),
@@ -562,14 +562,14 @@ pub(crate) const KEYS: [Key; 90] = [
     key(
         "output.modified_energy",
         "max_order",
-        "The largest m or k that \"auto\" tries.",
+        "The largest k or m that \"auto\" tries.",
         "100",
-        Some("200 for central differences, 64 for the bilinear estimator"),
+        Some("64 for the bilinear estimator, 200 for central differences"),
     ),
     key(
         "output.modified_energy",
         "stop",
-        "Where \"auto\" stops trying m: \"full\" at the largest m; \"early\" at the first m >= 13 whose term is larger than the eleven \
+        "For estimator = \"central\": where \"auto\" stops trying m: \"full\" at the largest m; \"early\" at the first m >= 13 whose term is larger than the eleven \
          before it, which is the rule of Moan and Niesen with < where they print <=; \"printed\" with <=, at the first ripple.",
         "\"early\"",
         Some("\"full\""),
@@ -577,7 +577,7 @@ pub(crate) const KEYS: [Key; 90] = [
     key(
         "output.modified_energy",
         "rule",
-        "Which m \"auto\" uses: \"least\" minimises the term |T_m - T_(m-1)|; \"robust\" minimises the maximum of ten \
+        "For estimator = \"central\": which m \"auto\" uses: \"least\" minimises the term |T_m - T_(m-1)|; \"robust\" minimises the maximum of ten \
          neighbouring terms, so that no single term can be small by chance.",
         "\"robust\"",
         Some("\"least\""),
@@ -585,7 +585,7 @@ pub(crate) const KEYS: [Key; 90] = [
     key(
         "output.modified_energy",
         "accuracy",
-        "For estimator = \"bilinear\": target error; \"auto\" uses the least k of 2, 4, 8, 16, … and max_order that meets it, or the \
+        "Of the bilinear estimator: a target error; \"auto\" uses the least k of 2, 4, 8, 16, … and max_order that meets it, or the \
          best of them if none does. The column `estimate` has the estimated errors.",
         "1e-20",
         Some("none; the best k of each state"),

@@ -56,7 +56,7 @@ fn a_record_has_its_fields_in_order() {
 #[test]
 fn a_record_contains_the_run() {
     let words = "drift --problem kepler --set eccentricity=1/3 --scheme ruth3 --step 0.05 --until 4/2 --digits 20 \
-                 --order 3 --json";
+                 --estimator central --order 3 --json";
     let record = &objects(&quietly(words))[0];
     assert_eq!(text(record, "problem"), "kepler");
     assert_eq!(text(record, "scheme"), "ruth3");
@@ -84,13 +84,13 @@ fn a_record_contains_how_the_order_was_chosen() {
     };
     let (word, none) = (|word: &str| Value::from(word), Value::Null);
     assert_eq!(settings("--order 4"), [const { Value::Null }; 4]);
-    assert_eq!(settings(""), [200.into(), word("full"), word("least"), none.clone()]);
+    assert_eq!(settings("--estimator central"), [200.into(), word("full"), word("least"), none.clone()]);
     assert_eq!(
-        settings("--max-order 20 --stop early --rule robust"),
+        settings("--estimator central --max-order 20 --stop early --rule robust"),
         [20.into(), word("early"), word("robust"), none.clone()]
     );
-    assert_eq!(settings("--estimator bilinear"), [64.into(), none.clone(), none.clone(), none.clone()]);
-    let bilinear = settings("--estimator bilinear --max-order 8 --accuracy 1/1000000000");
+    assert_eq!(settings(""), [64.into(), none.clone(), none.clone(), none.clone()]);
+    let bilinear = settings("--max-order 8 --accuracy 1/1000000000");
     assert_eq!(bilinear, [8.into(), none.clone(), none, word("0.000000001")]);
 }
 
@@ -134,8 +134,7 @@ fn auto_chooses_among_the_orders_allowed() {
 
 #[test]
 fn the_early_stop_uses_lower_orders_with_almost_the_same_error() {
-    let words =
-        "drift --problem kepler --scheme stormer-verlet --step 1/10 --until 14 --digits 60 --max-order 100 --json";
+    let words = "drift --problem kepler --scheme stormer-verlet --step 1/10 --until 14 --digits 60 --estimator central --max-order 100 --json";
     let record = |stop: &str| objects(&quietly(&format!("{words} --stop {stop}"))).remove(0);
     let (full, early) = (record("full"), record("early"));
     let least = |record: &serde_json::Value| record["order_least"].as_u64().unwrap();
@@ -148,8 +147,7 @@ fn the_early_stop_uses_lower_orders_with_almost_the_same_error() {
 /// With ≤, as the paper prints it, the search ends at the first ripple.
 #[test]
 fn the_printed_stop_is_worse_than_the_early_one() {
-    let words =
-        "drift --problem kepler --scheme stormer-verlet --step 1/20 --until 7 --digits 60 --max-order 100 --json";
+    let words = "drift --problem kepler --scheme stormer-verlet --step 1/20 --until 7 --digits 60 --estimator central --max-order 100 --json";
     let record = |stop: &str| objects(&quietly(&format!("{words} --stop {stop}"))).remove(0);
     let [early, printed] = ["early", "printed"].map(record);
     assert_eq!(printed["stop"], "printed");
@@ -159,7 +157,7 @@ fn the_printed_stop_is_worse_than_the_early_one() {
 
 #[test]
 fn the_robust_rule_is_another_one() {
-    let words = "drift --problem kepler --scheme stormer-verlet --step 1/20 --until 7 --digits 60 --max-order 60";
+    let words = "drift --problem kepler --scheme stormer-verlet --step 1/20 --until 7 --digits 60 --estimator central --max-order 60";
     let drift = |rule: &str| objects(&quietly(&format!("{words} --json {rule}"))).remove(0);
     let [least, paper, robust] = ["", "--rule least", "--rule robust"].map(drift);
     assert_eq!((text(&least, "minimum"), text(&least, "drift")), (text(&paper, "minimum"), text(&paper, "drift")));
@@ -185,7 +183,7 @@ fn a_scene_can_run_backwards_in_time() {
 
 #[test]
 fn people_get_a_table() {
-    let words = "drift --problem kepler --scheme stormer-verlet,yoshida4 --step 1/10 --until 10 --digits 30 --order 4";
+    let words = "drift --problem kepler --scheme stormer-verlet,yoshida4 --step 1/10 --until 10 --digits 30 --estimator central --order 4";
     let table = quietly(words);
     let [title, values, how, rest, ..] = table.lines().collect::<Vec<_>>()[..] else { panic!("{table}") };
     assert!(title.contains("Kepler") && title.contains("1/sqrt(x^2 + y^2)"), "{title}");
@@ -260,7 +258,9 @@ fn where_only_the_estimators_states_fail_a_lower_order_is_the_hint() {
         ("--set y=1.1", "--order 150", before, "--order (here 150)"),
         ("--set y=1 --set py=1", "--order 40", after, "--order (here 40)"),
     ] {
-        let words = format!("drift --problem henon-heiles --scheme stormer-verlet --step 1/10 --until 3 {start}");
+        let words = format!(
+            "drift --problem henon-heiles --scheme stormer-verlet --step 1/10 --until 3 --estimator central {start}"
+        );
         let result = shadowstep(&format!("{words} {order}"));
         assert_eq!((result.code, result.out.as_str()), (3, ""), "{start} {order}");
         let expected =

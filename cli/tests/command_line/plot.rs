@@ -6,7 +6,8 @@ use std::path::Path;
 use crate::program::{Finished, quietly, shadowstep};
 use crate::scenes::{folder, names, run};
 
-const RUN: &str = "trace kepler --scheme stormer-verlet --step 1/32 --until 4 --digits 30 --order 5 --no-summary";
+const RUN: &str =
+    "trace kepler --scheme stormer-verlet --step 1/32 --until 4 --digits 30 --estimator central --order 5 --no-summary";
 
 /// The pictures of a scene like [`RUN`].
 const SCENE: &str = r#"
@@ -19,7 +20,7 @@ until = 4
 digits = 30
 [output]
 energy = true
-modified_energy = { order = 5 }
+modified_energy = { estimator = "central", order = 5 }
 trajectory = true
 file = "rows.csv"
 plot = { file = "kepler.svg", of = ["energies", "orbit=x:y", "distance"] }
@@ -110,8 +111,10 @@ fn wrong_plots_are_refused_before_the_run() {
         ("--plot-of distance,distance", "--plot-of distance is given twice", "keep one"),
         ("--estimator bilinear --order 7 --plot-of distance", "between the states", "--plot-of energies"),
     ] {
-        let result =
-            plot(folder.path(), &format!("{} {flags}", RUN.replace(" --order 5", "").replace("until 4", "until 4000")));
+        let result = plot(
+            folder.path(),
+            &format!("{} {flags}", RUN.replace(" --estimator central --order 5", "").replace("until 4", "until 4000")),
+        );
         assert_eq!(result.code, 2, "{flags}");
         assert!(result.err.contains(message) && result.err.contains(hint), "{flags}: {}", result.err);
     }
@@ -182,8 +185,9 @@ fn records_of_numpy_have_the_charts_of_csv() {
 
 #[test]
 fn rows_that_are_not_at_every_step_are_drawn() {
-    let scene =
-        SCENE.replace("energy = true\n", "energy = { every = 4 }\n").replace("modified_energy = { order = 5 }\n", "");
+    let scene = SCENE
+        .replace("energy = true\n", "energy = { every = 4 }\n")
+        .replace("modified_energy = { estimator = \"central\", order = 5 }\n", "");
     let folder = folder(&scene.replace("trajectory = true", "trajectory = { every = 2 }"));
     assert_eq!(run(folder.path(), "").code, 0);
     let points = |name: &str| {

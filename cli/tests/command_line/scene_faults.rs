@@ -107,7 +107,7 @@ const WRONG: &[(&str, &str, &str, &str)] = &[
     ("energy = true", "energy = { evry = 2 }", "15:12: unknown key `evry`", "did you mean `every`?"),
     ("energy = true", "energy = { every = 0 }", "15:20: 0 is out of range", "from 1"),
     ("energy = true", "energy = \"yes\"", "15:10: this value is of the wrong kind", "needed true, or a table"),
-    ("energy = true", "modified_energy = { order = 0 }", "15:29: 0 is out of range", "from 1 to 1000"),
+    ("energy = true", "modified_energy = { order = 0 }", "15:29: 0 is out of range", "from 1 to 256"),
     ("energy = true", "modified_energy = { order = \"best\" }", "15:29: `best` is not known", "write \"auto\""),
     (
         "energy = true",
@@ -115,7 +115,7 @@ const WRONG: &[(&str, &str, &str, &str)] = &[
         "15:53: 1000 is out of range",
         "from 1 to 256",
     ),
-    ("energy = true", "modified_energy = { max_order = 1 }", "15:33: 1 is out of range", "from 2 to 1000"),
+    ("energy = true", "modified_energy = { max_order = 1 }", "15:33: 1 is out of range", "from 2 to 256"),
     (
         "energy = true",
         "modified_energy = { order = 4, stop = \"early\" }",
@@ -125,14 +125,14 @@ const WRONG: &[(&str, &str, &str, &str)] = &[
     ("energy = true", "modified_energy = { order = 4, rule = \"robust\" }", "15:39: rule requires order", "remove it"),
     (
         "energy = true",
-        "modified_energy = { accuracy = 1e-9 }",
-        "15:32: accuracy requires estimator = \"bilinear\", not estimator = \"central\"",
+        "modified_energy = { estimator = \"central\", accuracy = 1e-9 }",
+        "15:55: accuracy requires estimator = \"bilinear\", not estimator = \"central\"",
         "write estimator = \"bilinear\"",
     ),
     (
         "energy = true",
-        "modified_energy = { estimator = \"bilinear\", rule = \"least\" }",
-        "15:52: rule requires estimator = \"central\"",
+        "modified_energy = { rule = \"least\" }",
+        "15:28: rule requires estimator = \"central\"",
         "remove it",
     ),
     (

@@ -93,11 +93,12 @@ fn the_numbers_are_those_of_trace() {
     let trace =
         "trace --problem kepler --set eccentricity=1/3 --scheme ruth3 --step 1/20 --until 1 --digits 30 --states";
     for (keys, flags, described) in [
-        ("order = 5", "--order 5", "central differences, m = 5"),
-        ("order = 1", "--order 1", "central differences, m = 1"),
+        ("order = 4", "--order 4", "products of 5 states, k = 4"),
+        ("estimator = \"central\", order = 5", "--estimator central --order 5", "central differences, m = 5"),
+        ("estimator = \"central\", order = 1", "--estimator central --order 1", "central differences, m = 1"),
         (
-            "max_order = 30, rule = \"robust\", stop = \"early\"",
-            "--max-order 30 --rule robust --stop early",
+            "estimator = \"central\", max_order = 30, rule = \"robust\", stop = \"early\"",
+            "--estimator central --max-order 30 --rule robust --stop early",
             "central differences, the best m of 2–30 by the robust rule before errors rise",
         ),
         ("estimator = \"bilinear\", order = 6", "--estimator bilinear --order 6", "products of 7 states, k = 6"),
@@ -249,9 +250,10 @@ fn where_only_the_estimators_states_fail_a_lower_order_is_the_hint() {
              step = 0.1\nuntil = 3\n[output]\nmodified_energy = {modified}\n"
         )
     };
-    for (modified, hint) in
-        [("true", "a lower max_order (here 200) "), ("{ order = 150 }", "a lower order (here 150) ")]
-    {
+    for (modified, hint) in [
+        ("{ estimator = \"central\" }", "a lower max_order (here 200) "),
+        ("{ order = 150 }", "a lower order (here 150) "),
+    ] {
         let result = run(folder(&scene(modified)).path(), "");
         assert_eq!(result.code, 3);
         assert!(result.err.contains(&format!("\n  hint: {hint}needs fewer of them; ")), "{}", result.err);

@@ -2,8 +2,7 @@
 
 use crate::program::{objects, quietly, shadowstep, text};
 
-const RUN: &str =
-    "trace --problem kepler --scheme stormer-verlet --step 1/32 --until 1/2 --digits 30 --order 5 --no-summary";
+const RUN: &str = "trace --problem kepler --scheme stormer-verlet --step 1/32 --until 1/2 --digits 30 --estimator central --order 5 --no-summary";
 
 #[test]
 fn there_is_a_line_per_state() {
@@ -105,7 +104,7 @@ fn a_reader_may_stop_reading() {
 /// An even k has its values at the states, an odd one between them.
 #[test]
 fn the_bilinear_estimator_belongs_to_the_middle_of_its_states() {
-    let run = |k: &str| RUN.replace("--order 5", &format!("--estimator bilinear --order {k}"));
+    let run = |k: &str| RUN.replace("--estimator central --order 5", &format!("--order {k}"));
     let [even, odd] = ["8", "7"].map(|k| objects(&quietly(&run(k))));
     assert_eq!((even.len(), odd.len()), (17, 16));
     let times = |lines: &[serde_json::Value]| -> Vec<f64> {
@@ -146,7 +145,7 @@ fn the_best_k_is_the_least_one_for_an_accuracy() {
 
 #[test]
 fn drift_names_its_estimator() {
-    let run = RUN.replace("trace", "drift").replace("--order 5", "--estimator bilinear --order 8");
+    let run = RUN.replace("trace", "drift").replace("--estimator central --order 5", "--order 8");
     let record = &objects(&quietly(&format!("{run} --json")))[0];
     assert_eq!((text(record, "estimator"), &record["order"]), ("bilinear", &8.into()));
     assert!(quietly(&run).replace('\n', " ").contains("modified energy by products of 9 states, k = 8"));
@@ -161,7 +160,13 @@ fn drift_names_its_estimator() {
 #[test]
 fn estimates_are_of_the_error() {
     let run = "trace --problem kepler --scheme exact-flow --step 1/20 --until 6 --digits 40";
-    for flags in ["--order 8", "--max-order 30", "--max-order 30 --rule robust", "--estimator bilinear --order 6"] {
+    for flags in [
+        "--estimator central --order 8",
+        "--estimator central --max-order 30",
+        "--estimator central --max-order 30 --rule robust",
+        "--order 6",
+        "",
+    ] {
         for line in objects(&quietly(&format!("{run} {flags}"))) {
             let number = |field| text(&line, field).parse::<f64>().unwrap();
             let error = (number("modified_energy") + 0.5).abs();
@@ -173,8 +178,9 @@ fn estimates_are_of_the_error() {
 
 #[test]
 fn without_a_reliable_estimate_the_estimate_is_empty() {
-    for order in ["1", "1 --estimator bilinear"] {
-        let result = shadowstep(&RUN.replace("--order 5", &format!("--order {order}")));
+    for estimator in ["central", "bilinear"] {
+        let other = format!("--estimator {estimator} --order 1");
+        let result = shadowstep(&RUN.replace("--estimator central --order 5", &other));
         assert_eq!(result.code, 0);
         assert!(result.err.starts_with("note: no error estimate at --order 1"), "{}", result.err);
         assert!(objects(&result.out).iter().all(|line| line["estimate"].is_null() && line["order"] == 1));
@@ -185,14 +191,14 @@ fn without_a_reliable_estimate_the_estimate_is_empty() {
 /// Its numbers are those of 50 digits to about 30.
 #[test]
 fn double_double_is_a_number_type() {
-    const RUN: &str = "trace kepler --scheme yoshida4 --step 1/20 --until 10 --order 5 --no-summary --states";
+    const RUN: &str =
+        "trace kepler --scheme yoshida4 --step 1/20 --until 10 --estimator central --order 5 --no-summary --states";
     let last = |flags: &str| objects(&quietly(&format!("{RUN} {flags}"))).pop().unwrap();
     let x = |line: &serde_json::Value| shadowstep::exact(line["q"][0].as_str().unwrap()).unwrap();
     let error = x(&last("--double-double")) - x(&last("--digits 50"));
     let error = <f64 as shadowstep::Number>::from_rational(&error, &());
     assert!(error != 0.0 && error.abs() < 1e-28, "{error:e}");
-    let drift =
-        "drift kepler --scheme yoshida4 --step 1/20 --until 10 --no-control --no-summary --json --double-double";
+    let drift = "drift kepler --scheme yoshida4 --step 1/20 --until 10 --estimator central --no-control --no-summary --json --double-double";
     assert_eq!(objects(&quietly(drift))[0]["digits"], "double-double");
     for other in ["--double", "--digits 30", "--compensated"] {
         assert_eq!(shadowstep(&format!("{drift} {other}")).code, 2, "{other}");
@@ -201,7 +207,8 @@ fn double_double_is_a_number_type() {
 
 #[test]
 fn compensated_sums_are_a_number_type() {
-    const RUN: &str = "trace kepler --scheme yoshida4 --step 1/20 --until 10 --order 5 --no-summary --states";
+    const RUN: &str =
+        "trace kepler --scheme yoshida4 --step 1/20 --until 10 --estimator central --order 5 --no-summary --states";
     let last = |flags: &str| objects(&quietly(&format!("{RUN} {flags}"))).pop().unwrap();
     let [plain, compensated] = [last("--double"), last("--compensated")];
     let x = |line: &serde_json::Value| line["q"][0].to_string().replace('"', "").parse::<f64>().unwrap();
@@ -210,7 +217,7 @@ fn compensated_sums_are_a_number_type() {
     // the same as at 40 digits, but for less
     let precise = x(&last("--digits 40"));
     assert!((x(&compensated) - precise).abs() < 0.5 * (x(&plain) - precise).abs(), "{plain}, {compensated}, {precise}");
-    let drift = "drift kepler --scheme yoshida4 --step 1/20 --until 10 --no-control --no-summary --json --compensated";
+    let drift = "drift kepler --scheme yoshida4 --step 1/20 --until 10 --estimator central --no-control --no-summary --json --compensated";
     assert_eq!(objects(&quietly(drift))[0]["digits"], "compensated");
     for other in ["--double", "--digits 30"] {
         assert_eq!(shadowstep(&format!("{drift} {other}")).code, 2, "{other}");

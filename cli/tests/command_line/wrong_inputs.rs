@@ -60,7 +60,7 @@ const COMMANDS: &[&str] = &[
     "drift kepler --scheme yoshida4 --step 1/10 --until 2 --order 4 --stop early",
     "drift kepler --scheme yoshida4 --step 1/10 --until 2 --estimator bilinear --order 1000",
     "drift kepler --scheme yoshida4 --step 1/10 --until 2 --estimator linear",
-    "drift kepler --scheme yoshida4 --step 1/10 --until 2 --accuracy 1e-9",
+    "drift kepler --scheme yoshida4 --step 1/10 --until 2 --estimator central --accuracy 1e-9",
     "drift kepler --scheme yoshida4 --step 1/10 --until 2 --estimator bilinear --accuracy 0",
     "drift kepler --scheme yoshida4 --step 1/10 --until 2 --set eccentricity=1",
     "drift kepler --scheme yoshida4 --step 1/10 --until 2 --set eccentricity=0,5",

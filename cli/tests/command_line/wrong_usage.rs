@@ -45,7 +45,7 @@ const WRONG: &[(&str, &str, &str)] = &[
     ("--order 4 --rule robust", "--rule requires --order auto, not --order 4", "remove it"),
     ("--order 4 --estimator bilinear --accuracy 1e-9", "--accuracy requires --order auto, not --order 4", "remove it"),
     (
-        "--accuracy 1e-9 --order auto",
+        "--estimator central --accuracy 1e-9 --order auto",
         "--accuracy requires --estimator bilinear, not --estimator central",
         "write --estimator bilinear",
     ),

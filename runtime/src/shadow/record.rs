@@ -118,7 +118,7 @@ mod tests {
     #[test]
     fn records_that_are_not_valid_are_refused() {
         for (text, message) in [
-            (r#"{"estimator":"hermite","order":4}"#, "unknown estimator `hermite`; expected central or bilinear"),
+            (r#"{"estimator":"hermite","order":4}"#, "unknown estimator `hermite`; expected bilinear or central"),
             (r#"{"estimator":"bilinear","order":4,"rule":"least"}"#, "rule requires order = auto, not order = 4"),
             (
                 r#"{"estimator":"central","order":"auto","stop":"late"}"#,

@@ -123,10 +123,10 @@ macro_rules! estimators {
 }
 
 estimators! {
-    /// Central differences D_m.
-    Central,
     /// The bilinear estimator E_k.
     Bilinear,
+    /// Central differences D_m.
+    Central,
 }
 
 impl EstimatorSettings {
