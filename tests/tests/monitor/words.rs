@@ -141,4 +141,6 @@ fn verdicts_say_why() {
     }
     let few = watch("kepler", &[], "stormer-verlet", "1/20", 100);
     assert_eq!(few.reason(), "a verdict needs 16 windows, and there are 5");
+    let none = watch("kepler", &[], "stormer-verlet", "1/20", 1).to_string();
+    assert_eq!(none, "undecided (1 steps, 0 windows)\n  a verdict needs 16 windows, and there are 0");
 }

@@ -240,6 +240,9 @@ impl<N: Real> fmt::Display for Report<N> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Report { steps, windows, .. } = self;
         writeln!(f, "{} ({steps} steps, {windows} windows)", self.conclusion())?;
+        if *windows == 0 {
+            return write!(f, "  {}", self.reason());
+        }
         let part = |energy: &N| match self.part(energy) {
             part if part.is_finite() => format!("{part:.1e} of the energy error"),
             _ if self.has_no_energy_error() => "where the energy error is 0".to_owned(),
