@@ -1,7 +1,7 @@
 //! Trajectories one by one: of systems that are not computed in lanes.
 
 use shadowstep::shadow::ensemble::{Outcome, Seen};
-use shadowstep::shadow::{BuildEstimator, Estimator, FixedBilinear};
+use shadowstep::shadow::{BuildEstimator, FixedBilinear};
 use shadowstep::steps::integrator::{VectorIntegrator, at_output};
 use shadowstep::{Carried, Integrator as _};
 
@@ -34,22 +34,12 @@ fn follow(
     let build = |k| BuildEstimator::<f64>::build(&FixedBilinear::new(k), integrator.step_size(), dimension, &());
     let estimator = modified_energy.map(build).transpose();
     let estimator = estimator.map_err(|error| Error::usage(error.to_string(), "give another order"))?;
-    let window = estimator.as_ref().map_or(0, |estimator| estimator.states() as u64 - 1);
     let mut seen = at_output(integrator, |integrator| Seen::new(integrator.system(), estimator));
-    // up to here each state goes to the estimator
-    let mut window_end = 0;
     for n in 0..steps {
-        if n % every == 0 {
-            if n >= window_end {
-                seen.begin_window(integrator.system());
-            }
-            window_end = n + window;
-        }
-        if n < window_end {
-            integrator.step(Carried::Increments);
+        let carried = seen.carried(n, every, integrator.system());
+        integrator.step(carried);
+        if carried == Carried::Increments {
             seen.push(integrator.system());
-        } else {
-            integrator.step(Carried::Nothing);
         }
         let made = n + 1;
         if made % every == 0 || made == steps {

@@ -4,6 +4,7 @@ use crate::number::Lanes;
 use crate::shadow::Estimator;
 use crate::steps::scheme::{Scheme, ValidFor};
 use crate::steps::stepper::Stepper;
+use crate::systems::increments::Carried;
 use crate::systems::system::System;
 
 use super::seen::{Outcome, Seen};
@@ -27,19 +28,13 @@ where
 {
     let mut seen: Vec<_> = systems.iter_mut().map(|system| Seen::new(system, estimator.cloned())).collect();
     systems.iter_mut().for_each(|system| stepper.preprocess(system));
-    let window = estimator.map_or(0, |estimator| estimator.states() as u64 - 1);
     let mut n = 0;
-    // up to here each state goes to the estimator
-    let mut window_end = 0;
     while n < steps {
-        if n % every == 0 {
-            if n >= window_end {
-                seen.iter_mut().zip(&systems).for_each(|(seen, system)| seen.begin_window(system));
-            }
-            window_end = n + window;
-        }
+        // all have their windows at the same states
+        let carried = seen.iter_mut().zip(&systems).map(|(seen, system)| seen.carried(n, every, system));
+        let carried = carried.last();
         let next = steps.min(n - n % every + every);
-        if n < window_end {
+        if carried == Some(Carried::Increments) {
             stepper.step_each_augmented(&mut systems);
             seen.iter_mut().zip(&systems).for_each(|(seen, system)| seen.push(system));
             n += 1;

@@ -2,6 +2,7 @@
 
 use crate::number::Number;
 use crate::shadow::Estimator;
+use crate::systems::increments::Carried;
 use crate::systems::system::System;
 
 /// What became of a trajectory.
@@ -29,6 +30,8 @@ pub struct Seen<E> {
     /// Without states, and with those of the present window.
     estimator: Option<E>,
     window: Option<E>,
+    /// Up to here each state goes to the estimator.
+    window_end: u64,
 }
 
 /// What is seen of a trajectory.
@@ -49,7 +52,8 @@ impl<E: Clone> Seen<E> {
     pub fn new<M: System + ?Sized>(system: &mut M, estimator: Option<E>) -> Self {
         let energy = system.energy();
         let lane = |lane| Lane::from_energy(energy.lane(lane).0);
-        let mut seen = Seen { lanes: (0..M::Number::LANES).map(lane).collect(), estimator, window: None };
+        let mut seen =
+            Seen { lanes: (0..M::Number::LANES).map(lane).collect(), estimator, window: None, window_end: 0 };
         seen.include(&energy, system, 0);
         seen
     }
@@ -73,13 +77,21 @@ impl<E: Clone> Seen<E> {
         }
     }
 
-    /// A window of states for the modified energy begins at the present one.
-    pub fn begin_window<M: System + ?Sized>(&mut self, system: &M)
+    /// What the step from the present state, the n-th one, carries along: increments in a window of states for the modified energy. One begins every
+    /// `every` steps, where it does not prolong the one before.
+    pub fn carried<M: System + ?Sized>(&mut self, n: u64, every: u64, system: &M) -> Carried
     where
         E: Estimator<M::Number>,
     {
-        self.window.clone_from(&self.estimator);
-        self.push(system);
+        if let Some(estimator) = self.estimator.as_ref().filter(|_| n.is_multiple_of(every)) {
+            let window_end = n + estimator.states() as u64 - 1;
+            if n >= self.window_end {
+                self.window.clone_from(&self.estimator);
+                self.push(system);
+            }
+            self.window_end = window_end;
+        }
+        if n < self.window_end { Carried::Increments } else { Carried::Nothing }
     }
 
     /// Gives the present state, after an augmented step, to the window.
