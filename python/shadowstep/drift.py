@@ -38,7 +38,7 @@ def drift(
     scheme
         A scheme, or ``"exact-flow"`` for the exact flow of a shipped problem, on which the drift is the estimator's own error.
     estimator, order, max_order, stop, rule, accuracy
-        As in `integrate`; by default the best E_k of each state. ``estimator="central"`` is that of Moan and Niesen.
+        As in `integrate`; by default the best of E_2, E_4, E_8, …, E_64 for each state. ``estimator="central"`` is that of Moan and Niesen.
     control
         Whether the same is computed on the exact flow, where that is known.
 

@@ -162,10 +162,10 @@ def integrate(
         A condition that ends the run before, at the first state after t = 0 that meets it: one comparison of formulas in the coordinates, momenta,
         parameters, t and the energy E, such as ``"x^2 + y^2 > 100"``. The steps are made twice, as the end is looked for first.
     section, direction
-        A surface of section: in place of states at equal times those are kept at which this formula in the coordinates, momenta and parameters becomes
+        A surface of section: in place of states at equal times those are kept at which this formula in the coordinates, momenta, parameters and the energy E becomes
         0, ``direction="up"`` growing (the default), ``"down"`` falling, or ``"both"``. Each is found by a step of a part of h from the state before, so it is
-        a point of the trajectory with the error of one step (M. Hénon, Physica D 5 (1982) 412); `Trajectory.n` is the number of the state before. Two crossings
-        within a step are not found.
+        a point of the trajectory with the error of one step (M. Hénon, Physica D 5 (1982) 412); `Trajectory.n` is the number of the state before. Up and down
+        are in the order of the steps. Not found are two crossings within a step and zeros without a change of sign; a pole is no crossing.
     first
         ``"kick"`` or ``"drift"``: what steps begin with, in place of what the table has.
     gradient_kicks
@@ -184,7 +184,7 @@ def integrate(
     estimator
         ``"bilinear"`` (E_k) or ``"central"`` (D_m), for the modified energies of the states that are kept; None for none.
     order
-        Its k or m; by default the best one of each state up to ``max_order``. ``stop``, ``rule`` and ``accuracy`` say how that is found:
+        Its k or m; by default for each state the best of k = 2, 4, 8, … and ``max_order``, or of all m up to it. ``stop``, ``rule`` and ``accuracy`` say how that is found:
         see ``shadowstep drift --help``.
     summary
         Whether the run is followed for a summary with a verdict on the step size; `Trajectory.summary_text` is printed.
@@ -243,6 +243,8 @@ def integrate(
         found["planets"] = json.loads(found["planets"])
     for note in found["notes"]:
         warnings.warn(note, stacklevel=2)
+    if section is not None and not len(found["n"]):
+        warnings.warn(f"the trajectory does not cross section={section!r}, direction={direction or 'up'!r}", stacklevel=2)
     for name in ("t", "q", "p", "energy", "modified_energy", "modified_energy_error"):
         if name in found and isinstance(found[name], list):
             found[name] = np.array(found[name], dtype=object)

@@ -205,6 +205,11 @@ def test_own_forces_with_a_wrong_gradient_are_warned_of(wrong):
         (lambda: integrate(Problem("kepler"), "yoshida4", h=0.1, until=1, direction="up"), "direction='up' requires a section", 'section="x"'),
         (lambda: integrate(Problem("kepler"), "yoshida4", h=0.1, until=1, section="x", direction="to"), 'direction = "to" is not known', '"both"'),
         (lambda: integrate(Problem("kepler"), "yoshida4", h=0.1, until=1, section="x", every=2), "every is given beside a section", "remove one"),
+        (
+            lambda: integrate("henon-heiles", "chin-4a", h=0.1, until=1, section="x", gradient_kicks="displaced"),
+            "displaced forces belong to whole steps",
+            "remove the section",
+        ),
         (lambda: integrate(Problem("kepler"), "yoshida4", h=0.1, until=1, section="t"), "t is no coordinate here", "every"),
         (lambda: integrate(Problem("kepler"), "yoshida4", h=0.1, steps=10**20), "steps = 100000000000000000000 is too large", "or less"),
         (lambda: Monitor(Problem("kepler"), "yoshida4", h=0.1).step(-1), "steps = -1 is too small", "give 0 or more"),
@@ -441,6 +446,7 @@ def test_crossings_are_those_of_another_program():
 
 
 def test_a_section_that_is_never_crossed_has_no_states():
-    nothing = integrate("henon-heiles", "yoshida4", h="1/10", until=10, section="x - 100")
-    assert repr(nothing) == "Trajectory(0 states of 2 coordinates)" and nothing.q.shape == (0, 2)
-    assert integrate("henon-heiles", "yoshida4", h="1/10", until=10, section="x - 100", digits=40).q.shape == (0, 2)
+    for digits in ("double", 40):
+        with pytest.warns(UserWarning, match="does not cross section='x - 100', direction='up'"):
+            nothing = integrate("henon-heiles", "yoshida4", h="1/10", until=10, section="x - 100", digits=digits)
+        assert repr(nothing) == "Trajectory(0 states of 2 coordinates)" and nothing.q.shape == (0, 2)

@@ -92,6 +92,12 @@ impl ChaosRecord {
             summary,
         }
     }
+
+    /// Whether the motion is undecided, although the run was long enough, and vectors grew far more than along a regular orbit, where MEGNO is 2.
+    fn grows_unsteadily(&self) -> bool {
+        const FAR_MORE: f64 = 20.0;
+        self.motion == Regularity::Undecided && self.mean_megno_error.is_some() && self.megno > FAR_MORE
+    }
 }
 
 fn displayed<S: Serializer>(regularity: &Regularity, serializer: S) -> Result<S::Ok, S::Error> {
@@ -115,6 +121,9 @@ pub fn conclusion(whole: &ChaosRecord, half: &ChaosRecord) -> String {
         (Regular, Regular) => "regular at both step sizes; slower chaos than the run shows is possible".to_owned(),
         (Chaotic, Regular) => format!("chaotic at {h} and regular at {half_step}: of the step size"),
         (Regular, Chaotic) => format!("regular at {h} and chaotic at {half_step}: not decided; try smaller steps"),
+        _ if [whole, half].iter().any(|record| record.grows_unsteadily()) => {
+            "not decided: vectors grew more than along a regular orbit, but not at all times; a longer run shows whether they go on".to_owned()
+        }
         _ => "not decided: the run is too short".to_owned(),
     }
 }

@@ -10,6 +10,10 @@ use crate::run::Run;
 use crate::scene::{Direction, Surface, System};
 use crate::snapshots::Snapshot;
 
+/// Why displaced forces have no crossings.
+pub(crate) const NEEDS_PARTS_OF_STEPS: &str =
+    "displaced forces belong to whole steps, and a section needs parts of a step";
+
 /// Finds the crossings of a run, whose states it takes one after the other.
 pub(crate) struct Crossings<N: RunNumber> {
     value: Evaluator<N>,
@@ -25,7 +29,7 @@ impl<N: RunNumber> Crossings<N> {
         Crossings { value, direction: *direction, before: None }
     }
 
-    /// Takes the state n, the next one, at which the integrator is. If the surface lies between it and the state before, `take` sees the integrator at the
+    /// Takes the state n, the next one, at which the integrator is. If g has a zero between it and the state before, `take` sees the integrator at the
     /// crossing and the part of a step from the state before; the integrator is then at its state again, to the last bit.
     pub(crate) fn state<T>(
         &mut self,
@@ -36,10 +40,12 @@ impl<N: RunNumber> Crossings<N> {
         let now = self.value_at(integrator);
         let state = Snapshot::of(n, integrator.state());
         let before = self.before.take().filter(|(value, _)| self.direction.is_of(value, &now));
-        let found = before.and_then(|(_, before)| {
+        let found = before.and_then(|(value, before)| {
             before.restore(integrator);
             let part = step_to_zero(integrator, |integrator| self.value_at(integrator));
-            let taken = part.map(|part| take(integrator, &part));
+            let taken = part
+                .filter(|_| is_zero(&self.value_at(integrator), [&value, &now]))
+                .map(|part| take(integrator, &part));
             // only here: a state that is set has its gradient evaluated again
             state.restore(integrator);
             taken
@@ -52,6 +58,16 @@ impl<N: RunNumber> Crossings<N> {
         let no_time = || unreachable!("g does not depend on t, unless t is a coordinate");
         at_output(integrator, |integrator| self.value.value(integrator.system(), no_time).clone())
     }
+}
+
+/// Whether a value is 0 beside those at both ends of the step. Where the sign changes at a pole or at the turn of an angle, the least value that is
+/// found is that of an end, or has its size; where there is a zero, it is the round-off of the formula, as that of an end may be.
+fn is_zero<N: Real>(value: &N, ends: [&N; 2]) -> bool {
+    const SMALL: f64 = 3.0;
+    const ROUND_OFF: f64 = 9.0;
+    let [before, now] = ends.map(Real::log10_abs);
+    let (least, largest, value) = (before.min(now), before.max(now), value.log10_abs());
+    value < least - SMALL || (least < largest - ROUND_OFF && value < largest - SMALL)
 }
 
 impl Run<'_> {
@@ -124,6 +140,21 @@ mod tests {
         };
         let slope = (difference(last[0], last[1]) / difference(last[1], last[2])).log2();
         assert!((slope - 6.0).abs() < 0.1, "{slope}");
+    }
+
+    /// A pole and the turn of an angle change the sign, and are no zeros.
+    #[test]
+    fn a_jump_is_no_crossing() {
+        // an orbit on which x and y are not 0 in one step
+        let start = "[initial]\nq = [\"1/10\", \"1/5\"]\np = [\"3/10\", \"-1/10\"]\n";
+        let count = |section: &str| {
+            rows(&read("1/10", &format!("{{ section = \"{section}\", direction = \"both\" }}"), start).unwrap()).len()
+        };
+        assert!(count("x") > 10 && count("y") > 10);
+        assert_eq!(count("y/x"), count("y"));
+        assert_eq!(count("atan(y/x)"), count("y"));
+        // 1/y has no zero
+        assert_eq!(count("1/y"), 0);
     }
 
     /// Up and down are both together, x = 0 at the start being no crossing, and the run itself goes on as without a section.

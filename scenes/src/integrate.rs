@@ -34,7 +34,7 @@ use shadowstep::systems::system::Visitor;
 use shadowstep::tables::{AtRunTime, TableScheme};
 
 use crate::computation::RunNumber;
-use crate::crossings::Crossings;
+use crate::crossings::{Crossings, NEEDS_PARTS_OF_STEPS};
 use crate::error::Error;
 use crate::expression::Condition;
 use crate::follow::Follower;
@@ -117,12 +117,15 @@ impl Integration<'_> {
     /// Makes the run, with a summary for an observer that [wants](Observer::summarises) one.
     ///
     /// # Errors
-    /// A state or an energy that is not finite; settings of the estimator that are not valid; an observer that stops.
+    /// Crossings with displaced forces; a state or an energy that is not finite; settings of the estimator that are not valid; an observer that stops.
     ///
     /// # Panics
     /// If the scheme is not valid for the system.
     pub fn run<N: RunNumber>(self, context: &N::Context, observer: &mut dyn Observer) -> Result<Samples<N>, Error> {
         let Integration { system, scheme, compensated, displaced, until, .. } = self;
+        if displaced && matches!(self.kept, KeptStates::Crossings(_)) {
+            return Err(Error::usage(NEEDS_PARTS_OF_STEPS, "write gradient_kicks = \"exact\", or remove the section"));
+        }
         let steps = Steps { scheme, h: self.run.h, compensated, displaced, begin: Begin::InitialState };
         let at_start = || system.integrator(steps, system.start(context), context);
         let end = match (Ends { until, condition: self.ends }) {

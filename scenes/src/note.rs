@@ -148,7 +148,8 @@ impl fmt::Display for Note {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Note::EndsEarly { until, h, steps } => {
-                let end = to_significant(&end(h, *steps), 12);
+                // all digits of a double: 30 of 0.3333333333333333 do not end at 10
+                let end = to_significant(&end(h, *steps), 16);
                 let (until, h) = (shortened(until, 20), shortened(h, 20));
                 write!(f, "{until} is not a multiple of {h}: the run ends at n = {steps}, t = {end}")
             }

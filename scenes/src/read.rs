@@ -252,7 +252,7 @@ fn sections(
     let output = output::read(reader, &output, system.as_ref(), steps.as_ref());
     if let (Some(run::Steps { displaced: true, .. }), Some(Outputs { section: Some(_), .. })) = (&steps, &output) {
         let help = "write gradient_kicks = \"exact\", or write states with `every`";
-        reader.toml.fault(&run.at, "displaced forces belong to whole steps, and a section needs parts of a step", help);
+        reader.toml.fault(&run.at, crate::crossings::NEEDS_PARTS_OF_STEPS, help);
     }
     arithmetic?;
     Some((system?, steps?, output?))

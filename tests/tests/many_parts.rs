@@ -250,6 +250,29 @@ fn the_modified_energy_converges() {
     assert!((order(1) - 16.0).abs() < 1.0, "{found:?}");
 }
 
+/// T of T(p) + U(q), whatever is added to U: a half of pᵀH_p, by a difference whose error is 1e-6 of it.
+#[test]
+fn the_energy_that_errors_are_compared_with_has_no_constants() {
+    let kinetic_of = |formulas: &[&str]| {
+        let parts = parts::<f64>(formulas, (&["x", "y"], &["p", "r"]), &[], &()).unwrap();
+        let mut system = SystemOfParts::new(parts, &[0.3, -0.2], &[0.7, 1.1]).unwrap();
+        let [mut energy, mut kinetic] = [0.0; 2];
+        system.assign_energies(None, &mut energy, &mut kinetic);
+        assert_eq!(energy, system.energy());
+        kinetic
+    };
+    let t = (0.7_f64.powi(2) + 1.1 * 1.1) / 2.0;
+    for constant in ["", " + 1000", " - 3"] {
+        let potential = format!("x^4 + cos(y){constant}");
+        assert!((kinetic_of(&["(p^2 + r^2)/2", &potential]) / t - 1.0).abs() < 1e-8, "{potential}");
+    }
+    // a quarter of each for exponents 4: pᵀH_p/2 = 2p⁴
+    assert!((kinetic_of(&["p^4", "x^2/2", "cos(y)"]) / (2.0 * 0.7_f64.powi(4)) - 1.0).abs() < 1e-5);
+    // a rotating frame, where p is not the velocity
+    let rotating = kinetic_of(&["(p^2 + r^2)/2", "y*p - x*r", "x^2*y^2 - 50"]);
+    assert!((rotating / (t + (-0.2 * 0.7 - 0.3 * 1.1) / 2.0) - 1.0).abs() < 1e-8, "{rotating}");
+}
+
 #[test]
 fn the_monitor_follows_a_run() {
     let stepper = Stepper::new(many("suzuki4"), "1/20").unwrap();

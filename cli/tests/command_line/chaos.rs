@@ -52,6 +52,20 @@ fn chaos_of_the_step_size_is_told_from_that_of_the_problem() {
     assert_eq!(text(&whole["summary"], "verdict"), "the step size is too large");
 }
 
+/// A hill until t = 60, and then a well: vectors grow like e^t at first, which is no short run.
+#[test]
+fn growth_that_ends_is_not_called_a_short_run() {
+    let hill = "[problem]\npotential = \"x^2/2*tanh(t - 60)\"\ncoordinates = [\"x\"]\n[initial]\nq = [1e-30]\np = [0]\n\
+                [run]\nscheme = \"yoshida4\"\nstep = \"1/10\"\nuntil = 120\ndigits = \"double\"\n[output]\nenergy = true\n";
+    let end = |until: &str| {
+        let (_folder, scene) = in_folder(&hill.replace("until = 120", until));
+        quietly(&format!("chaos {scene}")).replace('\n', " ")
+    };
+    let (grown, short) = (end("until = 120"), end("until = 4"));
+    assert!(grown.contains("vectors grew more than along a regular orbit, but not at all times"), "{grown}");
+    assert!(short.contains("not decided: the run is too short"), "{short}");
+}
+
 #[test]
 fn a_sweep_keeps_the_values_of_the_command() {
     let (folder, scene) = in_folder(PENDULUM);

@@ -76,7 +76,8 @@ pub struct SystemOfParts<N> {
     current: Vec<bool>,
     /// Which parts are functions of q only.
     potentials: Vec<bool>,
-    of_part: N,
+    /// Momenta times a number near 1.
+    scaled: Vec<N>,
 }
 
 impl<N: Number> SystemOfParts<N> {
@@ -102,7 +103,7 @@ impl<N: Number> SystemOfParts<N> {
             parts,
             state: State::new(q.to_vec(), p.to_vec(), &context).compensated_if(false),
             last: None,
-            of_part: N::zero(&context),
+            scaled: p.to_vec(),
         })
     }
 
@@ -127,6 +128,12 @@ impl<N: Number> SystemOfParts<N> {
         others.for_each(|(current, potential)| *current &= is_potential && *potential);
         self.current[index] = true;
     }
+}
+
+/// energy ← the sum of the parts at a state.
+fn assign_sum<N: Number>(parts: &mut [Box<dyn Part<N>>], (q, p): (&[N], &[N]), energy: &mut N) {
+    energy.assign_zero();
+    parts.iter_mut().for_each(|part| part.add_energy(q, p, energy));
 }
 
 impl<N: Number> System for SystemOfParts<N> {
@@ -172,18 +179,37 @@ impl<N: Number> System for SystemOfParts<N> {
         }
     }
 
-    /// `kinetic` ← √ΣH_i², the root of the sum of the squares of the parts.
+    /// `kinetic` ← |½ pᵀH_p|, which is T for H = T(p) + U(q), and does not depend on constants in H. It is a difference of H at momenta that are
+    /// 1/1024 longer and shorter: the monitor needs its size only.
     fn assign_energies(&mut self, at: Option<(&[N], &[N])>, energy: &mut N, kinetic: &mut N) {
-        let (q, p) = at.unwrap_or((&self.state.q, &self.state.p));
-        energy.assign_zero();
-        kinetic.assign_zero();
-        for part in &mut self.parts {
-            self.of_part.assign_zero();
-            part.add_energy(q, p, &mut self.of_part);
-            energy.add(&self.of_part);
-            kinetic.add_product(&self.of_part, &self.of_part);
+        const PARTS: i32 = 1024;
+        let SystemOfParts { parts, state, scaled, .. } = self;
+        let (q, p) = at.unwrap_or((&state.q, &state.p));
+        for (by, of_scaled) in [(PARTS - 1, &mut *energy), (PARTS + 1, &mut *kinetic)] {
+            for (scaled, p) in scaled.iter_mut().zip(p) {
+                scaled.assign(p);
+                scaled.multiply_integer(by);
+                scaled.divide_integer(PARTS);
+            }
+            assign_sum(parts, (q, scaled), of_scaled);
         }
-        self.of_part.assign_sqrt(kinetic);
-        kinetic.assign(&self.of_part);
+        // 2/PARTS of pᵀH_p, of which a half is wanted
+        kinetic.subtract(energy);
+        kinetic.multiply_integer(PARTS / 4);
+        energy.assign_square(kinetic);
+        kinetic.assign_sqrt(energy);
+        assign_sum(parts, (q, p), energy);
+    }
+
+    fn energy(&mut self) -> N {
+        let mut energy = N::zero(&self.state.q[0].context());
+        assign_sum(&mut self.parts, (&self.state.q, &self.state.p), &mut energy);
+        energy
+    }
+
+    fn energy_at(&mut self, q: &[N], p: &[N]) -> N {
+        let mut energy = N::zero(&self.state.q[0].context());
+        assign_sum(&mut self.parts, (q, p), &mut energy);
+        energy
     }
 }

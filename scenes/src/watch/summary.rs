@@ -83,7 +83,7 @@ pub struct ModifiedEnergySummary {
     /// max − min of H̄ over states with small estimated errors, as [`PermanentChange`](shadowstep::shadow::run::PermanentChange) of all states:
     /// here of the half of 32 to 64 parts of the run with the smaller errors, one state each.
     pub permanent_change: String,
-    /// A permanent change of the energy in the run is excluded above this; `None` where nothing is excluded.
+    /// A net change of the energy, from the beginning of the run to its end, is excluded above this; `None` where nothing is excluded.
     pub permanent_bound: Option<String>,
     /// To what H̄ is known.
     pub resolution: Option<String>,
@@ -173,6 +173,14 @@ impl Summary {
         }
     }
 
+    /// A remark on a passage of so few steps that the states between which H was compared do not show what it does.
+    fn unresolved_text(&self) -> &'static str {
+        match self.closest.first().is_some_and(|encounter| encounter.steps < RESOLVED) {
+            true => ": too few, the energy may have changed by more than the states that were looked at show",
+            false => "",
+        }
+    }
+
     /// What a run of planets has shown of their interactions.
     pub fn interactions(&self) -> Option<&Interactions> {
         self.interactions.as_ref()
@@ -219,9 +227,9 @@ impl Summary {
         };
         let ModifiedEnergySummary { method, round_off, permanent_change, permanent_bound, resolution, .. } = modified;
         let known = resolution.as_ref().map_or(String::new(), |error| format!(", known to {}", short(error)));
-        let excluded = permanent_bound.as_ref().map_or(String::new(), |bound| {
-            format!("; a permanent change of the energy above {} is excluded", short(bound))
-        });
+        let excluded = permanent_bound
+            .as_ref()
+            .map_or(String::new(), |bound| format!("; a net change above {} is excluded", short(bound)));
         format!(
             "method's part of H {} rms; round-off {} expected; permanent change {}{known}{excluded}",
             short(method),
@@ -230,6 +238,9 @@ impl Summary {
         )
     }
 }
+
+/// A passage of fewer steps is not resolved: on a Kepler orbit with 4 H changed in it by more than the monitor's states excluded.
+const RESOLVED: i64 = 6;
 
 /// How many of the closest encounters the text has.
 const SHOWN: usize = 3;
@@ -260,7 +271,7 @@ impl fmt::Display for Summary {
         let facts = [
             (if self.transformed { "error of H'" } else { "error of H" }, self.energy_text()),
             ("modified energy", self.modified_energy_text()),
-            ("close encounters", self.encounters_text(SHOWN)),
+            ("close encounters", self.encounters_text(SHOWN) + self.unresolved_text()),
         ];
         let extremes = self.extremes_text().map(|text| ("values", text));
         let facts = facts.into_iter().chain(planets).chain(extremes).chain([("verdict", self.verdict_with_reason())]);

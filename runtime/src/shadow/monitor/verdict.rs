@@ -281,7 +281,7 @@ impl Evidence {
         }
     }
 
-    /// What a permanent change of the energy is excluded above.
+    /// What a net change of the energy is excluded above.
     pub(super) fn bound(&self) -> Option<f64> {
         if self.windows < LEAST_WINDOWS {
             return None;
