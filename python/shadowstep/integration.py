@@ -224,6 +224,9 @@ def integrate(
     >>> cut.q.shape, bool(abs(cut.q[:, 0]).max() < 1e-14), bool((cut.p[:, 0] > 0).all())
     ((158, 2), True, True)
     """
+    for what, text in (("end", end), ("section", section), ("direction", direction)):
+        if text is not None and not isinstance(text, str):
+            raise TypeError(f"{what} must be a text, not {type(text).__name__}")
     if section is None and direction is not None:
         raise InputError(f'direction={direction!r} requires a section: section="x"')
     for what, value in (("every", every), ("estimator", estimator), ("tangent", tangent)):
@@ -232,10 +235,8 @@ def integrate(
     run = run_of(problem, scheme, h, until, steps, first, gradient_kicks, 1 if every is None else every, digits, mpfr)
     chosen = options_if_any(estimator, order=order, max_order=max_order, stop=stop, rule=rule, accuracy=accuracy)
     with bar(run["steps"], "steps", progress) as reach:
-        surface = None if section is None else (section, direction or "up")
-        found = _shadowstep.integrate(
-            run, options=chosen, end=end, section=surface, tangent=_texts(tangent), summary=summary, progress=reach
-        )
+        events = {"end": end, "section": None if section is None else (section, direction or "up")}
+        found = _shadowstep.integrate(run, options=chosen, events=events, tangent=_texts(tangent), summary=summary, progress=reach)
     if found["summary"] is not None:
         found["summary_text"], record = found["summary"]
         found["summary"] = json.loads(record)

@@ -20,20 +20,28 @@ use crate::given_run::{GivenRun, SystemWithScheme, Times};
 use crate::scene::Summarising;
 use crate::waiting::waiting;
 
+/// What happens on the way: a condition that ends the run, and a surface of section with the name of its direction.
+#[derive(FromPyObject)]
+#[pyo3(from_item_all)]
+pub(crate) struct Events {
+    end: Option<String>,
+    section: Option<(String, String)>,
+}
+
 /// Makes a run, and gives a dictionary of its states: arrays in double precision, else lists of decimal texts. With tangent vectors, each of which begins with
 /// components of `tangent`, it is made once more with these.
 #[pyfunction]
-#[pyo3(signature = (run, *, options, end, section, tangent, summary, progress))]
+#[pyo3(signature = (run, *, options, events, tangent, summary, progress))]
 pub(crate) fn integrate<'py>(
     py: Python<'py>,
     run: GivenRun,
     options: Option<Options>,
-    end: Option<String>,
-    section: Option<(String, String)>,
+    events: Events,
     tangent: Vec<Vec<String>>,
     summary: bool,
     progress: Option<&Bound<'py, PyAny>>,
 ) -> PyResult<Bound<'py, PyDict>> {
+    let Events { end, section } = events;
     let section = section.map(|(text, name)| Ok::<_, PyErr>((text, word(py, "direction", &name, &Direction::NAMES)?)));
     let section = section.transpose()?;
     let estimator = options.map(|options| options.settings(py)).transpose()?;
