@@ -65,7 +65,7 @@ pub(crate) struct EstimatorArguments {
     pub(crate) estimator: String,
     /// The k of E_k or m of D_m, such as 24, or auto
     ///
-    /// k is at most 256, m at most 1000. auto takes the best one for each state.
+    /// k is at most 256, m at most 1000. auto takes for each state the best of k = 2, 4, 8, …, or of all m.
     #[arg(long, default_value = "auto", value_name = "K|M|auto", value_parser = order)]
     pub(crate) order: OrderChoice,
     /// Largest k or m of auto [default: 64 of k, 200 of m]
