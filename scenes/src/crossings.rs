@@ -63,6 +63,7 @@ impl<N: RunNumber> Crossings<N> {
 /// Whether a value is 0 beside those at both ends of the step. Where the sign changes at a pole or at the turn of an angle, the least value that is
 /// found is that of an end, or has its size; where there is a zero, it is the round-off of the formula, as that of an end may be.
 fn is_zero<N: Real>(value: &N, ends: [&N; 2]) -> bool {
+    // in decades
     const SMALL: f64 = 3.0;
     const ROUND_OFF: f64 = 9.0;
     let [before, now] = ends.map(Real::log10_abs);
