@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use std::path::Path;
 use std::{env, fs};
 
-use shadowstep_schemes::{First, MapKind, Proved, read, read_first, shipped, shipped_names};
+use shadowstep_schemes::{First, MapKind, Proved, StepPlan, read, read_first, shipped, shipped_names};
 
 fn main() {
     println!("cargo::rerun-if-changed=build.rs"); // a change of the tables rebuilds the crate that lists them
@@ -69,7 +69,8 @@ fn proved(name: &str, drift_first: bool) -> Option<Proved> {
 fn kind_of_step(proved: &Proved) -> (BTreeSet<MapKind>, MapKind, [bool; 3]) {
     let maps = &proved.plan.maps;
     let kinds = maps.iter().map(|&(kind, _)| kind).collect();
-    (kinds, maps[0].0, [proved.scheme.is_symmetric(), maps.len() <= 8, proved.scheme.processor.is_some()])
+    let is_inlined = maps.len() <= StepPlan::MOST_INLINED;
+    (kinds, maps[0].0, [proved.scheme.is_symmetric(), is_inlined, proved.scheme.processor.is_some()])
 }
 
 fn camel(name: &str) -> String {

@@ -94,7 +94,7 @@ class Trajectory:
         columns = {"n": self.n, "t": self.t}
         columns |= {name: self.q[:, i] for i, name in enumerate(self.coordinates)}
         columns |= {name: self.p[:, i] for i, name in enumerate(self.momenta)}
-        columns |= {**dict(self._energies()), **self.values, **self.indicators}
+        columns |= self._functions()
         return pandas.DataFrame(columns)
 
     def to_xarray(self) -> xarray.Dataset:
@@ -102,12 +102,13 @@ class Trajectory:
         import xarray
 
         data: dict[str, Any] = {"q": (("time", "coordinate"), self.q), "p": (("time", "coordinate"), self.p)}
-        data |= {name: (("time",), values) for name, values in [*self._energies(), *self.values.items(), *self.indicators.items()]}
+        data |= {name: (("time",), values) for name, values in self._functions().items()}
         return xarray.Dataset(data, coords={"time": self.t, "n": (("time",), self.n), "coordinate": self.coordinates})
 
-    def _energies(self) -> list[tuple[str, np.ndarray]]:
-        named = [("energy", self.energy), ("modified_energy", self.modified_energy), ("modified_energy_error", self.modified_energy_error)]
-        return [(name, values) for name, values in named if values is not None]
+    def _functions(self) -> dict[str, np.ndarray]:
+        """What has one number at each state: energies, values and indicators."""
+        energies = {"energy": self.energy, "modified_energy": self.modified_energy, "modified_energy_error": self.modified_energy_error}
+        return {**{name: numbers for name, numbers in energies.items() if numbers is not None}, **self.values, **self.indicators}
 
     def __len__(self) -> int:
         return len(self.n)
@@ -251,7 +252,7 @@ def integrate(
             found[name] = np.array(found[name], dtype=object)
     rows = len(found["n"])
     for name in ("q", "p"):
-        found[name] = found[name].reshape(rows, -1 if rows else len(found["coordinates"]))
+        found[name] = found[name].reshape(rows, len(found["coordinates"]))
     found["tangent"] = None if tangent is None else vectors_of(found["tangent"], rows)
     return Trajectory(**found)
 

@@ -19,23 +19,28 @@ use crate::quantity_of_bodies::{Compute, NoQuantity, QuantityOfBodies};
 use crate::scene::split::ShownCoordinates;
 use crate::scene::{Direction, EnergyAt, Surface, System};
 
+/// What is read of a text that stands alone, which has this name in its faults.
+fn alone<T>(name: &str, text: &str, read: impl FnOnce(Text, &mut Reader<'_>) -> Option<T>) -> Result<T, Error> {
+    let source = Source { path: name.to_owned(), text: text.to_owned() };
+    let mut reader = Reader::new(&source, Vec::new());
+    let found = read(Text::alone(text), &mut reader);
+    match Faults::of(reader.faults) {
+        Some(faults) => Err(faults.into()),
+        None => Ok(found.expect("what cannot be read is a fault")),
+    }
+}
+
 impl System {
     /// The condition of a text that stands alone.
     ///
     /// # Errors
     /// A text that is not one comparison of formulas in the numbers of the system's states, with the column of the fault.
     pub fn condition(&self, name: &str, text: &str) -> Result<Condition, Error> {
-        let source = Source { path: name.to_owned(), text: text.to_owned() };
-        let mut reader = Reader::new(&source, Vec::new());
-        let condition = Condition::read(&mut reader, &Text::alone(text));
-        if let Some(condition) = &condition {
-            self.check(condition.difference(), &mut reader);
-        }
-        match (Faults::of(reader.faults), condition) {
-            (None, Some(condition)) => Ok(condition),
-            (Some(faults), _) => Err(faults.into()),
-            (None, None) => unreachable!("what cannot be read is a fault"),
-        }
+        alone(name, text, |text, reader| {
+            let condition = Condition::read(reader, &text)?;
+            self.check(condition.difference(), reader);
+            Some(condition)
+        })
     }
 
     /// The surface of section of a text that stands alone: where the formula is 0.
@@ -43,13 +48,7 @@ impl System {
     /// # Errors
     /// A text that is not a formula in the numbers of the system's states, with the column of the fault.
     pub fn section(&self, name: &str, text: &str, direction: Direction) -> Result<Surface, Error> {
-        let source = Source { path: name.to_owned(), text: text.to_owned() };
-        let mut reader = Reader::new(&source, Vec::new());
-        let surface = self.surface(Text::alone(text), direction, &mut reader);
-        match Faults::of(reader.faults) {
-            Some(faults) => Err(faults.into()),
-            None => Ok(surface.expect("what cannot be read is a fault")),
-        }
+        alone(name, text, |text, reader| self.surface(text, direction, reader))
     }
 
     /// The surface where a formula is 0, or faults.

@@ -43,6 +43,7 @@ use shadowstep_symbolic::{Exact, nearest};
 use toml::de::DeTable;
 
 use crate::arithmetic::Arithmetic;
+use crate::crossings::NEEDS_PARTS_OF_STEPS;
 use crate::error::Error;
 use crate::keys::{self, ENSEMBLE, SECTIONS};
 use crate::library::Schemes;
@@ -252,7 +253,7 @@ fn sections(
     let output = output::read(reader, &output, system.as_ref(), steps.as_ref());
     if let (Some(run::Steps { displaced: true, .. }), Some(Outputs { section: Some(_), .. })) = (&steps, &output) {
         let help = "write gradient_kicks = \"exact\", or write states with `every`";
-        reader.toml.fault(&run.at, crate::crossings::NEEDS_PARTS_OF_STEPS, help);
+        reader.toml.fault(&run.at, NEEDS_PARTS_OF_STEPS, help);
     }
     arithmetic?;
     Some((system?, steps?, output?))

@@ -11,9 +11,6 @@ use shadowstep_schemes::{Kinetic, Map, MapKind, Proved, StepPlan, to_text};
 use shadowstep_symbolic::Rational;
 use syn::{DeriveInput, Ident, LitStr};
 
-/// The most kicks and drifts of a step that is inlined wherever it is called: 7 are those of Yoshida's scheme of order 4.
-const MOST_INLINED: usize = 8;
-
 /// The struct with its documentation and its steps.
 pub(crate) fn scheme(item: &DeriveInput, proved: &Proved, files: &[PathBuf]) -> TokenStream {
     let DeriveInput { attrs, vis, ident, .. } = item;
@@ -212,7 +209,7 @@ struct Maps {
 
 impl Maps {
     fn are_few(&self) -> bool {
-        self.maps.len() + self.middle.len() <= MOST_INLINED
+        self.maps.len() + self.middle.len() <= StepPlan::MOST_INLINED
     }
 
     /// The maps in the opposite order; for a symmetric scheme these are the same, and are not written twice.

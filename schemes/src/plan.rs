@@ -43,6 +43,9 @@ pub struct StepCost {
 }
 
 impl StepPlan {
+    /// The most maps of a step that generated code inlines wherever it is called: 7 are those of Yoshida's scheme of order 4.
+    pub const MOST_INLINED: usize = 8;
+
     /// The plan of a scheme's step.
     pub fn of(scheme: &ExactScheme) -> StepPlan {
         StepPlan::of_maps(&scheme.maps())

@@ -250,7 +250,7 @@ fn the_modified_energy_converges() {
     assert!((order(1) - 16.0).abs() < 1.0, "{found:?}");
 }
 
-/// T of T(p) + U(q), whatever is added to U: a half of pᵀH_p, by a difference whose error is 1e-6 of it.
+/// A half of pᵀH_p, whatever is added to U; its difference is exact but for round-off where T is quadratic, and off by some 1e-6 of T elsewhere.
 #[test]
 fn the_energy_that_errors_are_compared_with_has_no_constants() {
     let kinetic_of = |formulas: &[&str]| {
@@ -266,7 +266,7 @@ fn the_energy_that_errors_are_compared_with_has_no_constants() {
         let potential = format!("x^4 + cos(y){constant}");
         assert!((kinetic_of(&["(p^2 + r^2)/2", &potential]) / t - 1.0).abs() < 1e-8, "{potential}");
     }
-    // a quarter of each for exponents 4: pᵀH_p/2 = 2p⁴
+    // pᵀT_p/2 = 2p⁴ of T = p⁴
     assert!((kinetic_of(&["p^4", "x^2/2", "cos(y)"]) / (2.0 * 0.7_f64.powi(4)) - 1.0).abs() < 1e-5);
     // a rotating frame, where p is not the velocity
     let rotating = kinetic_of(&["(p^2 + r^2)/2", "y*p - x*r", "x^2*y^2 - 50"]);

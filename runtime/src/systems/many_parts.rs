@@ -130,10 +130,11 @@ impl<N: Number> SystemOfParts<N> {
     }
 }
 
-/// energy ← the sum of the parts at a state.
-fn assign_sum<N: Number>(parts: &mut [Box<dyn Part<N>>], (q, p): (&[N], &[N]), energy: &mut N) {
-    energy.assign_zero();
-    parts.iter_mut().for_each(|part| part.add_energy(q, p, energy));
+/// H, the sum of the parts, at a state.
+fn sum<N: Number>(parts: &mut [Box<dyn Part<N>>], q: &[N], p: &[N]) -> N {
+    let mut energy = N::zero(&q[0].context());
+    parts.iter_mut().for_each(|part| part.add_energy(q, p, &mut energy));
+    energy
 }
 
 impl<N: Number> System for SystemOfParts<N> {
@@ -179,37 +180,35 @@ impl<N: Number> System for SystemOfParts<N> {
         }
     }
 
-    /// `kinetic` ← |½ pᵀH_p|, which is T for H = T(p) + U(q), and does not depend on constants in H. It is a difference of H at momenta that are
-    /// 1/1024 longer and shorter: the monitor needs its size only.
+    /// `kinetic` ← |½ pᵀH_p|, which is T for a quadratic T(p) + U(q), and does not depend on constants in H. It is a difference of H at momenta that
+    /// are 1/1024 longer and shorter: the monitor needs its size only.
     fn assign_energies(&mut self, at: Option<(&[N], &[N])>, energy: &mut N, kinetic: &mut N) {
         const PARTS: i32 = 1024;
         let SystemOfParts { parts, state, scaled, .. } = self;
         let (q, p) = at.unwrap_or((&state.q, &state.p));
-        for (by, of_scaled) in [(PARTS - 1, &mut *energy), (PARTS + 1, &mut *kinetic)] {
+        let [shorter, mut longer] = [PARTS - 1, PARTS + 1].map(|by| {
             for (scaled, p) in scaled.iter_mut().zip(p) {
                 scaled.assign(p);
                 scaled.multiply_integer(by);
                 scaled.divide_integer(PARTS);
             }
-            assign_sum(parts, (q, scaled), of_scaled);
-        }
+            sum(parts, q, scaled)
+        });
         // 2/PARTS of pᵀH_p, of which a half is wanted
-        kinetic.subtract(energy);
-        kinetic.multiply_integer(PARTS / 4);
-        energy.assign_square(kinetic);
+        longer.subtract(&shorter);
+        longer.multiply_integer(PARTS / 4);
+        energy.assign_square(&longer);
         kinetic.assign_sqrt(energy);
-        assign_sum(parts, (q, p), energy);
+        energy.assign(&sum(parts, q, p));
     }
 
+    // without T, which needs two more energies
+
     fn energy(&mut self) -> N {
-        let mut energy = N::zero(&self.state.q[0].context());
-        assign_sum(&mut self.parts, (&self.state.q, &self.state.p), &mut energy);
-        energy
+        sum(&mut self.parts, &self.state.q, &self.state.p)
     }
 
     fn energy_at(&mut self, q: &[N], p: &[N]) -> N {
-        let mut energy = N::zero(&self.state.q[0].context());
-        assign_sum(&mut self.parts, (q, p), &mut energy);
-        energy
+        sum(&mut self.parts, q, p)
     }
 }
