@@ -14,6 +14,7 @@ import numpy as np
 
 from . import _shadowstep
 from ._shadowstep import Given, problem_names
+from .by_name import in_order, names_of
 from .document import document
 from .exact import Number, exact
 from .gradient_check import warn_of_gradient
@@ -34,8 +35,9 @@ class Problem:
         A shipped problem, such as ``"kepler"``; or U(q) as a formula in the coordinates and parameters; or the forces: the address of a C
         function, or a Python function (see below). None where ``pair`` or ``parts`` is given.
     q, p
-        Positions and momenta at t = 0, each of d numbers; a mapping has the names of the coordinates with their values. Velocities can be given
-        as ``v`` in place of ``p``. A shipped problem has its own.
+        Positions and momenta at t = 0, each of d numbers. A mapping has names with values: ``q={"x": 1, "y": 0}``, ``p={"px": 0, "py": 2}`` or
+        ``p={"x": 0, "y": 2}``, in any order; other names in ``p`` become those of the momenta of a formula. Velocities can be given as ``v`` in place
+        of ``p``. A shipped problem has its own.
     masses
         Those of the coordinates, d numbers; 1 by default. T = Σ p_i²/(2 m_i).
     kinetic
@@ -193,8 +195,9 @@ class Problem:
             if sections.get("body"):
                 raise _shadowstep.InputError("the state of this problem is in its bodies: replace numbers such as 'body[1].a'")
             now = self.initial
-            halves = {"q": q if q is not None else now[0], "p": p if p is not None else now[1]}
-            sections["initial"] = {name: _list(half) for name, half in halves.items()}
+            q = now[0] if q is None else in_order(q, self.coordinates, "q")
+            p = now[1] if p is None else in_order(p, names_of(p, self.momenta, self.coordinates), "p")
+            sections["initial"] = {"q": q, "p": p}
         problem = self.__class__.__new__(self.__class__)
         problem.__dict__.update(self.__dict__, _sections=sections, _given=Given.of_text(document(sections), "problem"))
         return problem
@@ -314,15 +317,32 @@ def _sections(system: str | None, q: Values | None, p: Values | None, v: Values 
         problem["parameters"] = {**problem.get("parameters", {}), **parameters}
     if system is not None:
         problem["name" if _is_name(system, q) else "potential"] = system
-    if "potential" in problem or "hamiltonian" in problem:
-        if isinstance(q, Mapping):
-            problem.setdefault("coordinates", list(q))
-        elif q is not None and "coordinates" not in problem:
+    if ("potential" in problem or "hamiltonian" in problem) and "coordinates" not in problem and q is not None:
+        if not isinstance(q, Mapping):
             raise _shadowstep.InputError('q must name the coordinates of the formula: q={"x": 1, "y": 0}')
-    if isinstance(p, Mapping):
-        problem.setdefault("momenta", list(p))
-    initial = {"q": _list(q), "p": _list(p), "v": _list(v)}
+        problem["coordinates"] = list(q)
+    if any(isinstance(values, Mapping) for values in (q, p, v)):
+        q, p, v = _by_name(problem, q, p, v)
+    initial = {"q": q, "p": p, "v": v}
     return {"problem": problem, "body": others.get("body"), "initial": {key: value for key, value in initial.items() if value is not None}}
+
+
+def _by_name(problem: dict[str, Any], q: Any, p: Any, v: Any) -> tuple[Any, Any, Any]:
+    """Positions, momenta and velocities in the order of the coordinates; momenta of a formula may have names of their own."""
+    coordinates, momenta = problem.get("coordinates"), problem.get("momenta")
+    if "name" in problem:
+        shipped = Given.of_text(document({"problem": {key: problem[key] for key in ("name", "parameters") if key in problem}}), "problem")
+        coordinates, momenta = shipped.coordinates, shipped.momenta
+    if coordinates is None:
+        raise _shadowstep.InputError("q, p and v have no names of coordinates here; write them as lists")
+    default = [f"p{name}" for name in coordinates]
+    if momenta is None and isinstance(p, Mapping) and not any(name in (*default, *coordinates) for name in p):
+        momenta = problem["momenta"] = list(p)
+    return (
+        in_order(q, coordinates, "q"),
+        in_order(p, names_of(p, momenta or default, coordinates), "p"),
+        in_order(v, names_of(v, coordinates, [f"v{name}" for name in coordinates]), "v"),
+    )
 
 
 def _is_name(system: str, q: Values | None) -> bool:
@@ -339,16 +359,14 @@ def _copied(content: Any) -> Any:
     return [_copied(value) for value in content] if isinstance(content, (list, tuple)) else content
 
 
-def _list(values: Values | None) -> Sequence[Number] | np.ndarray | None:
-    return list(values.values()) if isinstance(values, Mapping) else values
-
-
 def _of_forces(forces: Forces, q: Values | None, p: Values | None, v: Values | None, masses: Any, others: Mapping[str, Any]) -> tuple[Any, ...]:
     given = [name for name, value in others.items() if value is not None]
     if given:
         raise TypeError(f"`{given[0]}` goes with a formula or a shipped problem, not with a function for the forces")
     if q is None or p is None:
         raise TypeError("a function for the forces needs q and p, the state at t = 0" + ("; give p = m v in place of v" if v is not None else ""))
+    if any(isinstance(values, Mapping) for values in (q, p)):
+        raise TypeError("q and p of a function for the forces are lists, in the order in which the function has the coordinates")
     texts = None if masses is None else _texts(masses, "masses")
     return forces, _texts(q, "q"), _texts(p, "p"), texts
 
@@ -356,4 +374,4 @@ def _of_forces(forces: Forces, q: Values | None, p: Values | None, v: Values | N
 def _texts(values: Values, name: str) -> list[str]:
     if isinstance(values, str) or not isinstance(values, Iterable):
         raise TypeError(f"{name} must be numbers, such as [1, 0], not {values!r}")
-    return [exact(value, name) for value in (values.values() if isinstance(values, Mapping) else values)]
+    return [exact(value, name) for value in values]

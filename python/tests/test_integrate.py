@@ -221,6 +221,10 @@ def test_own_forces_with_a_wrong_gradient_are_warned_of(wrong):
         (lambda: integrate(Problem(kepler_force, q=[1.0, 0], p=[0, 1]), "yoshida4", h=0.1, until=1, digits=50), "double precision", "formula"),
         (lambda: integrate(Problem(kepler_force, q=[1.0, 0], p=[0, 1]), "chin-4a", h=0.1, until=1), "gradient kicks", "formula"),
         (lambda: Problem(kepler_force, q=[1.0, 0], p=[0]), "2 coordinates and 1 momenta", "one for each coordinate"),
+        (lambda: Problem("x^2 + y^2", q={"x": 1, "y": 0}, p={"px": 0}), "p has no 'py'", 'p={"px": …, "py": …}'),
+        (lambda: Problem("x^2 + y^2", q={"x": 1, "y": 0}, v={"x": 0, "z": 0}), "v has no 'y'", 'v={"x": …, "y": …}'),
+        (lambda: Problem("kepler", q={"x": 1, "y": 0, "z": 0}), "q has 'z'", 'q={"x": …, "y": …}'),
+        (lambda: Problem(pair="d^2", dimensions=1, bodies={"m": [1, 1]}, q={"a": 0, "b": 1}, v=[0, 0]), "no names of coordinates", "lists"),
     ],
 )
 def test_wrong_input_has_a_sentence_and_a_hint(call, message, hint):
@@ -229,6 +233,21 @@ def test_wrong_input_has_a_sentence_and_a_hint(call, message, hint):
     assert message in str(error.value), error.value
     assert hint in str(error.value), error.value
     assert isinstance(error.value, ValueError)
+
+
+def test_names_are_taken_in_any_order():
+    for system in ("kepler", "-1/sqrt(x^2 + y^2)"):
+        for q in ({"x": 1, "y": 2}, {"y": 2, "x": 1}):
+            # the order of q is that of the coordinates of a formula
+            names = [*q] if "/" in system else ["x", "y"]
+            for halves in ({"p": {"py": 4, "px": 3}}, {"p": {"y": 4, "x": 3}}, {"v": {"y": 4, "x": 3}}, {"v": {"vx": 3, "vy": 4}}):
+                problem = Problem(system, q=q, **halves)
+                assert problem.coordinates == names
+                found = {name: (x, p) for name, x, p in zip(names, *problem.initial)}
+                assert found == {"x": (1, 3), "y": (2, 4)}, halves
+    own = Problem("-1/sqrt(x^2 + y^2)", q={"x": 1, "y": 2}, p={"u": 3, "w": 4})
+    assert (own.momenta, [*own.initial[1]]) == (["u", "w"], [3, 4])
+    assert [*own.replaced(q={"y": 5, "x": 6}).initial[0]] == [6, 5]
 
 
 def test_a_fault_has_its_place():
