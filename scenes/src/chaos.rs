@@ -22,8 +22,8 @@ use crate::scene::{Scene, System};
 use crate::start::{Begin, Steps};
 use crate::steps::MOST_STEPS;
 use crate::tangent::{FollowingVectors, TangentRun, Vectors};
-use crate::watch::Watch;
 use crate::watch::summary::Summary;
+use crate::watch::{Energies, Watch};
 
 /// Indicators of chaos along a trajectory. Numbers that are not defined, as of too few observations, are `None`.
 #[derive(Clone, Debug, Serialize)]
@@ -205,7 +205,7 @@ impl Computation for Following<'_, '_> {
         let tangents = FollowingVectors::new(request.arithmetic, system, request.steps(), vectors)?;
         let run = request.run;
         let failed = |error: RunError| run.failed_naming(&error, &system.coordinates, &system.momenta);
-        let watch = Watch::of_run(system, &mut *integrator, (run, 0), context).map_err(failed)?;
+        let watch = Watch::of_run(system, &mut *integrator, (run, 0), Energies::Windows, context).map_err(failed)?;
         let mut follower = ChaosFollower { run, system, tangents, watch, observer };
         if N::follow(&mut *integrator, (None, run.steps), None, &mut follower)?.is_break() {
             return Ok(None);

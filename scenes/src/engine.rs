@@ -27,8 +27,8 @@ use crate::snapshots::{Snapshot, Snapshots};
 use crate::start::Begin;
 use crate::tangent::{FollowingVectors, VECTORS_OF_ROWS, Vectors};
 use crate::values::{Extremes, ValuesOfRows};
-use crate::watch::Watch;
 use crate::watch::summary::Summary;
+use crate::watch::{Energies, Watch};
 
 /// How a run ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -205,7 +205,11 @@ impl<N: RunNumber> Recorder<'_, '_, N> {
             return Ok(None);
         }
         let run = (self.run, self.from.unwrap_or(0));
-        let watch = Watch::of_run(&self.scene.system, integrator, run, self.context);
+        let energies = match (self.scene.output.energy, &self.energy_of) {
+            (Some(every), None) => Energies::Given(every),
+            _ => Energies::Windows,
+        };
+        let watch = Watch::of_run(&self.scene.system, integrator, run, energies, self.context);
         watch.map(Some).map_err(|error| self.named(&error))
     }
 
@@ -367,6 +371,9 @@ impl<N: RunNumber> Recorder<'_, '_, N> {
         self.observer.progress(n);
         if let Some(energy) = energy.filter(|energy| !energy.is_finite()) {
             return Err(self.run.not_finite(&format!("the energy at n = {n}, {},", energy.to_text())));
+        }
+        if let (Some(watch), Some(energy), None) = (&mut self.watch, energy.filter(|_| due.energy), &self.energy_of) {
+            watch.include_energy(n, energy);
         }
         let chaos = self.indicators(n);
         if due == Due::NOTHING && modified.is_none() && chaos.is_none() {

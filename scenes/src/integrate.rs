@@ -46,7 +46,7 @@ use crate::scene::split::ShownCoordinates;
 use crate::scene::{self, EnergyAt};
 use crate::start::{Begin, Steps};
 use crate::steps::{End, MOST_STEPS};
-use crate::watch::{Approaches, Interactions, Watch};
+use crate::watch::{Approaches, Energies, Interactions, Watch};
 
 /// A run whose states are kept.
 #[derive(Clone, Copy)]
@@ -139,13 +139,18 @@ impl Integration<'_> {
         let run = Run { steps: end.steps, ..self.run };
         let mut integrator = at_start()?;
         let named = |error: RunError| run.failed_naming(&error, &system.coordinates, &system.momenta);
-        let watch = observer.summarises().then(|| Watch::of_run(system, &mut *integrator, (run, 0), context));
+        let energy_of = system.energy_of_rows(context);
+        let energies = match (self.kept, &energy_of) {
+            (KeptStates::Every(every), None) => Energies::Given(every.max(1)),
+            _ => Energies::Windows,
+        };
+        let watch = observer.summarises().then(|| Watch::of_run(system, &mut *integrator, (run, 0), energies, context));
         let mut keeper = Keeper {
             integration: Integration { run, ..self },
             context,
             observer,
             shown: system.shown(context),
-            energy_of: system.energy_of_rows(context),
+            energy_of,
             samples: Samples {
                 n: Vec::new(),
                 t: Vec::new(),
@@ -284,6 +289,11 @@ impl<N: RunNumber> Keeper<'_, N> {
         if let Some(approaches) = &mut self.approaches {
             approaches.include(number, (q, p));
         }
+        if let (Some(watch), None, None) = (&mut self.watch, &self.energy_of, &time)
+            && n <= run.steps
+        {
+            watch.include_energy(number, &energy);
+        }
         let samples = &mut self.samples;
         samples.n.push(number);
         let time = time.unwrap_or_else(|| N::from_rational(&run.time(number), self.context));
@@ -397,6 +407,20 @@ mod tests {
     use crate::observer::KeptSummary;
     use shadowstep::tables::Source;
 
+    fn integration(scene: &Scene, every: u64) -> Integration<'_> {
+        Integration {
+            system: &scene.system,
+            scheme: &scene.scheme.scheme,
+            run: scene.as_run(),
+            compensated: false,
+            displaced: false,
+            until: None,
+            ends: None,
+            kept: KeptStates::Every(every),
+            estimator: scene.output.modified_energy.as_ref().map(|(settings, _)| settings),
+        }
+    }
+
     /// Whatever a run computes besides, its summary is that of the scene; only H may be computed at other states.
     #[test]
     fn the_summary_is_that_of_the_scene() {
@@ -417,22 +441,35 @@ mod tests {
             let scene = Scene::read(Source { path: "test.toml".to_owned(), text: text + rows }).unwrap();
             let mut of_scene = KeptSummary::default();
             scene.run_into(&mut Vec::new(), &mut of_scene).unwrap();
-            let integration = Integration {
-                system: &scene.system,
-                scheme: &scene.scheme.scheme,
-                run: scene.as_run(),
-                compensated: false,
-                displaced: false,
-                until: None,
-                ends: None,
-                kept: KeptStates::Every(100),
-                estimator: scene.output.modified_energy.as_ref().map(|(settings, _)| settings),
-            };
             let mut own = KeptSummary::default();
-            integration.run::<f64>(&(), &mut own).unwrap();
+            integration(&scene, 100).run::<f64>(&(), &mut own).unwrap();
             let [of_scene, own] = [of_scene, own].map(|kept| kept.0.unwrap());
             assert_eq!(own.verdict_with_reason(), of_scene.verdict_with_reason());
             assert_eq!((own.to, own.encounters), (of_scene.to, of_scene.encounters));
+        }
+    }
+
+    /// H of the states that are kept is in the summary, each once, whether windows or estimates are there before.
+    #[test]
+    fn the_error_of_h_is_over_all_states_that_are_kept() {
+        let kepler = "problem.name = \"kepler\"\nrun = { scheme = \"SCHEME\", step = \"1/20\", until = \"UNTIL\", digits = \"double\" }\n";
+        let estimates = "output.modified_energy = { estimator = \"bilinear\", order = 8 }\n";
+        for (scheme, until) in [("yoshida4", "100"), ("yoshida4", "2"), ("bcm6-13", "100"), ("bcm6-13", "2")] {
+            for rows in ["output.energy = true\n", estimates] {
+                let text = kepler.replace("SCHEME", scheme).replace("UNTIL", until) + rows;
+                let scene = Scene::read(Source { path: "test.toml".to_owned(), text }).unwrap();
+                let mut kept = KeptSummary::default();
+                let samples = integration(&scene, 1).run::<f64>(&(), &mut kept).unwrap();
+                let found = kept.0.unwrap().energy;
+                // of a processed scheme the kernel's first state is H(0) but for round-off
+                let initial: f64 = found.initial.parse().unwrap();
+                let errors: Vec<f64> = samples.energy.iter().map(|energy| (energy - initial).abs()).collect();
+                let largest = errors.iter().copied().fold(0.0, f64::max);
+                assert_eq!(found.states, errors.len() as u64, "{scheme} {until} {rows}");
+                assert_eq!(found.largest.parse::<f64>().unwrap(), largest);
+                assert_eq!(errors[usize::try_from(found.at).unwrap()], largest);
+                assert_eq!(found.last.parse::<f64>().unwrap().abs(), *errors.last().unwrap());
+            }
         }
     }
 }

@@ -38,8 +38,10 @@ const SHORT_RUN: u64 = 64;
 pub enum Energies {
     /// Those of all states.
     All,
-    /// Those of the monitor's windows, and those that the run offers.
+    /// Those of the monitor's windows, and that of the last state.
     Windows,
+    /// Those that the run [gives](Watch::include_energy), of the states whose n is a multiple of this number, and those of windows between.
+    Given(u64),
 }
 
 /// Follows the states of a run in the order of time.
@@ -140,11 +142,12 @@ impl<N: RunNumber> Watch<N> {
         system: &scene::System,
         integrator: &mut VectorIntegrator<'_, N>,
         (run, from): (Run<'_>, i64),
+        energies: Energies,
         context: &N::Context,
     ) -> Result<Self, RunError> {
         let (q, p) = system.start(context);
         let initial = integrator.system().energy_at(&q, &p);
-        let watch = Watch::begin(integrator, run, (from, initial), Energies::Windows, true)?;
+        let watch = Watch::begin(integrator, run, (from, initial), energies, true)?;
         Ok(watch.of_system(system, integrator))
     }
 
@@ -173,7 +176,7 @@ impl<N: RunNumber> Watch<N> {
     /// How many of the next states need not be [included](Watch::include): it is enough that they are visited.
     pub fn idle(&self) -> u64 {
         match &self.observed {
-            Some(observed) if self.energies == Energies::Windows => observed.idle,
+            Some(observed) if self.energies != Energies::All => observed.idle,
             _ => 0,
         }
     }
@@ -196,21 +199,31 @@ impl<N: RunNumber> Watch<N> {
         let Observed { monitor, idle, .. } = observed;
         // what is not finite is found by the run as well, or by the verdict
         let found = monitor.observe(integrator);
-        if let Ok(Some(sample)) = found
-            && self.energies == Energies::Windows
-        {
-            if integrator.is_processed() {
-                self.energy.include(n, &at_output(integrator, |integrator| integrator.system().energy()));
-            } else {
-                self.energy.include(self.from + i64::try_from(sample.n).unwrap_or(i64::MAX), sample.energy);
+        if let Ok(Some(sample)) = found {
+            // of a processed scheme the trajectory is known at the present state only
+            let processed = integrator.is_processed();
+            let of = if processed { n } else { self.from + i64::try_from(sample.n).unwrap_or(i64::MAX) };
+            let wanted = match self.energies {
+                Energies::All => false,
+                Energies::Windows => true,
+                Energies::Given(every) => !of.unsigned_abs().is_multiple_of(every),
+            };
+            match wanted {
+                true if processed => {
+                    self.energy.include(of, &at_output(integrator, |integrator| integrator.system().energy()));
+                }
+                true => self.energy.include(of, sample.energy),
+                false => {}
             }
         }
         *idle = monitor.idle();
     }
 
-    /// Takes H of a state that the run has computed.
+    /// Takes H of a state of the run, which has it.
     pub(crate) fn include_energy(&mut self, n: i64, energy: &N) {
-        self.energy.include(n, energy);
+        if self.energies != Energies::All {
+            self.energy.include(n, energy);
+        }
     }
 
     /// The error of H.
@@ -231,13 +244,19 @@ impl<N: RunNumber> Watch<N> {
 
     /// What has been found, if a summary is made.
     pub fn summary(self, run: Run<'_>) -> Option<Summary> {
-        let energy = self.energy();
+        let mut energy = self.energy();
+        let mut initial = self.energy.initial.clone();
+        initial.make_absolute();
         let of_kinetic = self.energy.of_kinetic();
         let last = self.energy.last.clone();
         let Watch { observed, from, n, transformed, time, .. } = self;
         let Observed { mut monitor, pass, encounters, approaches, .. } = observed?;
         monitor.pass(pass);
         let mut report = monitor.report();
+        // parts of an H(0) that is round-off say nothing
+        if report.windows > 0 && initial <= report.round_off {
+            (energy.largest_relative, energy.last_relative) = (None, None);
+        }
         report.fastest_coordinate = report.fastest_coordinate.filter(|(coordinate, _)| Some(*coordinate) != time);
         let of_windows = if transformed { f64::NAN } else { last_of_kinetic(&last, &report) };
         let (verdict, reason) = conclusion(&report, of_kinetic, of_windows);

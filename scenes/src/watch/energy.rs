@@ -9,6 +9,8 @@ pub(super) struct EnergyError<N> {
     pub(super) largest: N,
     pub(super) at: i64,
     pub(super) last: N,
+    /// The n of the last one.
+    last_n: i64,
     /// At how many states H was computed.
     pub(super) states: u64,
     size: N,
@@ -25,6 +27,7 @@ impl<N: Real> EnergyError<N> {
             largest: zero.clone(),
             at: 0,
             last: zero.clone(),
+            last_n: 0,
             states: 1,
             size: zero.clone(),
             sum_of_kinetic: zero,
@@ -45,11 +48,17 @@ impl<N: Real> EnergyError<N> {
         part.to_f64() * self.states_of_kinetic as f64
     }
 
-    /// Takes H of the state n.
+    /// Takes H of the state n, which may come after those of later states; that of the last state may come again.
     pub(super) fn include(&mut self, n: i64, energy: &N) {
+        if n == self.last_n {
+            return;
+        }
         self.states += 1;
-        self.last.assign_difference(energy, &self.initial);
-        self.size.assign(&self.last);
+        self.size.assign_difference(energy, &self.initial);
+        if n > self.last_n {
+            self.last.assign(&self.size);
+            self.last_n = n;
+        }
         self.size.make_absolute();
         if self.size > self.largest || !self.size.is_finite() {
             self.largest.assign(&self.size);

@@ -2,6 +2,7 @@
 
 use std::fmt;
 
+use num_traits::Zero as _;
 use serde::ser::SerializeStruct;
 use serde::{Serialize, Serializer};
 use serde_json::json;
@@ -61,7 +62,7 @@ pub struct EnergySummary {
     pub initial: String,
     /// The largest |H(t) − H(0)| of [these states](EnergySummary::states).
     pub largest: String,
-    /// The same as a part of |H(0)|; `None` if that is 0.
+    /// The same as a part of |H(0)|; `None` if that is 0, or round-off.
     pub largest_relative: Option<String>,
     /// The n of the state that has it.
     pub at: i64,
@@ -207,11 +208,12 @@ impl Summary {
     }
 
     fn energy_text(&self) -> String {
-        let EnergySummary { largest, largest_relative, last, last_relative, at, states, .. } = &self.energy;
+        let EnergySummary { initial, largest, largest_relative, last, last_relative, at, states } = &self.energy;
+        let zero = if from_text(initial).is_ok_and(|initial| initial.is_zero()) { "0" } else { "round-off" };
         let part = |relative: &Option<String>, absolute: &str| match relative {
             Some(relative) => format!("{} of |H(0)|", short(relative)),
             None if self.transformed => short(absolute.trim_start_matches('-')),
-            None => format!("{} (H(0) is 0)", short(absolute.trim_start_matches('-'))),
+            None => format!("{} (H(0) is {zero})", short(absolute.trim_start_matches('-'))),
         };
         let (largest, time) = (part(largest_relative, largest), self.time(*at));
         let last = format!("{} at the end", part(last_relative, last));
