@@ -85,7 +85,7 @@ pub(crate) const ENCOUNTERS: [ShippedScene; 2] = [
     },
 ];
 
-pub(crate) const MANY_PARTS: [ShippedScene; 3] = [
+pub(crate) const MANY_PARTS: [ShippedScene; 4] = [
     ShippedScene {
         name: "disordered-chain",
         title: "A wave packet in the disordered nonlinear Schrödinger chain",
@@ -95,6 +95,11 @@ pub(crate) const MANY_PARTS: [ShippedScene; 3] = [
         name: "arenstorf",
         title: "Arenstorf's orbit in the frame of the Earth and the Moon: three bodies, one without mass",
         text: include_str!("../many-parts/arenstorf.toml"),
+    },
+    ShippedScene {
+        name: "kerr",
+        title: "A geodesic around a spinning black hole, in five parts",
+        text: include_str!("../many-parts/kerr.toml"),
     },
     ShippedScene {
         name: "not-separable",

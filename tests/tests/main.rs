@@ -18,6 +18,7 @@ mod gradient_kicks;
 mod gradient_kicks_of_parts;
 mod grammar;
 mod hard_cases;
+mod kerr;
 mod language;
 mod licences;
 mod linear_part;

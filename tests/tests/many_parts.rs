@@ -138,6 +138,10 @@ fn flows_solve_the_equations_of_their_formulas() {
         ("(x*px)^2 + exp(x*px)", "1/5"),
         ("(px^2 + py^2)/(3*e) - 2/sqrt(x^2 + y^2)", "1/4"),
         ("(x^2 + px^2)^2 + y*py + 1", "1/5"),
+        ("-px^2/x", "1/7"),
+        ("3*px^2/(2*x^2) + e*y*py^3", "1/9"),
+        ("x*px^2 - y^5*py^2/7", "-1/8"),
+        ("e*x^3*px + y^3*py^-2", "1/10"),
     ] {
         let (q, p) = (numbers::<Float>(&["0.8", "-0.5"], &context), numbers::<Float>(&["0.3", "0.9"], &context));
         let mut part = FormulaPart::<Float>::new(formula, names, &parameters(), &context).unwrap();

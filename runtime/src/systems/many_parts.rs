@@ -14,6 +14,7 @@
 //! | a quadratic form ½xᵀSx in x = (q, p), at most 64 coordinates | e^{tJS}, once for each t | 0 |
 //! | f(I), I = ½(a q² + 2b q p + c p²) > 0 of one pair | a rotation by f′(I) √(ac − b²) t | t (2I f′ − 2f) |
 //! | f(q p) of one pair | q e^{t f′}, p e^{−t f′} | t (2q p f′ − 2f) |
+//! | c q^α p^β of one pair, α ≠ β whole numbers | q y^β, p y^{−α}, y^{β−α} = 1 + (β − α) t A/(q p) | t (α + β − 2) A |
 //! | any [`Potential`](crate::Potential) or [`Kinetic`](crate::Kinetic): [`OfPotential`], [`OfKinetic`] | p − t U_q, q + t T_p | as above |
 //! | p²/(2m) − κ/r | [Kepler's](crate::systems::kepler_drift) | 3κ ∫dt/r |
 //! | sums of these in different coordinates | all of them | the sum |
@@ -45,6 +46,8 @@ mod formula;
 mod functions;
 #[cfg(feature = "formulas")]
 mod kepler;
+#[cfg(feature = "formulas")]
+mod monomial;
 mod part;
 #[cfg(feature = "formulas")]
 mod quadratic;

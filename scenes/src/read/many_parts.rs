@@ -171,11 +171,11 @@ mod tests {
     }
 
     #[test]
-    fn the_shipped_scenes_are_of_three_parts() {
+    fn the_shipped_scenes_are_of_three_parts_or_more() {
         for shipped in &MANY_PARTS {
             let scene = read(shipped.text).unwrap_or_else(|faults| panic!("{}: {faults}", shipped.name));
             let hamiltonian = scene.system.parts.hamiltonian().unwrap_or_else(|| panic!("{}", shipped.name));
-            assert_eq!(hamiltonian.split(") + (").count(), 3);
+            assert!(hamiltonian.split(") + (").count() >= 3);
             assert!(scene.scheme.scheme.proved().proof.many_parts.is_some());
         }
     }

@@ -46,6 +46,15 @@ pub enum ExplicitFlow {
         /// f, in the coordinate 0.
         function: Node,
     },
+    /// c q^α p^β with α ≠ β, both not 0.
+    Monomial {
+        /// The degree of freedom.
+        freedom: usize,
+        /// α, β
+        exponents: [i32; 2],
+        /// c q^(α−1) p^(β−1), with q and p as the coordinates 0 and 1.
+        quotient: Node,
+    },
     /// |p|²/(2m) − κ/|q| with m, κ > 0.
     Kepler {
         /// The degrees of freedom.
@@ -84,6 +93,7 @@ impl Graph {
     /// assert!(matches!(flows("x*py + x^4").unwrap()[..], [ExplicitFlow::Commuting { .. }]));
     /// assert!(matches!(flows("x*py - y*px").unwrap()[..], [ExplicitFlow::Quadratic { .. }]));
     /// assert!(matches!(flows("(x^2 + px^2)^2").unwrap()[..], [ExplicitFlow::Rotation { .. }]));
+    /// assert!(matches!(flows("-px^2/x").unwrap()[..], [ExplicitFlow::Monomial { exponents: [-1, 2], .. }]));
     /// assert!(matches!(flows("(px^2 + py^2)/2 - 1/sqrt(x^2 + y^2)").unwrap()[..], [ExplicitFlow::Kepler { .. }]));
     /// assert_eq!(flows("px^2/2 + x^4").unwrap_err().freedoms, [0]);
     /// ```
@@ -169,7 +179,7 @@ impl Graph {
             return Ok(ExplicitFlow::Quadratic { freedoms: of, matrix });
         }
         let found = match of[..] {
-            [freedom] => self.of_one_pair(node, freedom, freedoms),
+            [freedom] => self.of_one_pair(node, freedom, freedoms).or_else(|| self.monomial(node, freedom, freedoms)),
             _ => None,
         };
         found.or_else(|| self.kepler(node, &of, freedoms)).ok_or(NoFlow { freedoms: of })
@@ -258,6 +268,26 @@ impl Graph {
         })
     }
 
+    /// The flow, if the node is c q^α p^β with whole exponents.
+    fn monomial(&mut self, node: Node, freedom: usize, freedoms: usize) -> Option<ExplicitFlow> {
+        let (q, p) = (self.coordinate(freedom), self.coordinate(freedom + freedoms));
+        let product = match self.form(node) {
+            Form::Sum { constant, terms } if constant.is_zero() && terms.len() == 1 => terms[0].0,
+            _ => node,
+        };
+        let Form::Product(factors) = self.form(product) else { return None };
+        let of = |variable: Node| factors.iter().find(|(factor, _)| *factor == variable).map(|(_, exponent)| exponent);
+        let exponents = [of(q)?, of(p)?];
+        if factors.len() != 2 || !exponents.iter().all(|exponent| exponent.is_integer()) {
+            return None;
+        }
+        let exponents = [exponents[0].numer().try_into().ok()?, exponents[1].numer().try_into().ok()?];
+        let inverse = -Rational::one();
+        let quotient = self.product(&[(node, Rational::one()), (q, inverse.clone()), (p, inverse)]);
+        let renamed = HashMap::from([(q, self.coordinate(0)), (p, self.coordinate(1))]);
+        Some(ExplicitFlow::Monomial { freedom, exponents, quotient: self.replaced(&[quotient], renamed)[0] })
+    }
+
     /// The flow, if the node is |p|²/(2m) − κ/|q|.
     fn kepler(&mut self, node: Node, of: &[usize], freedoms: usize) -> Option<ExplicitFlow> {
         let one = Rational::one;
@@ -306,6 +336,7 @@ mod tests {
             ExplicitFlow::Quadratic { .. } => "quadratic",
             ExplicitFlow::Rotation { .. } => "rotation",
             ExplicitFlow::Squeeze { .. } => "squeeze",
+            ExplicitFlow::Monomial { .. } => "monomial",
             ExplicitFlow::Kepler { .. } => "kepler",
         };
         flows(text).unwrap_or_else(|refused| panic!("{text}: {refused:?}")).iter().map(kind).collect()
@@ -325,6 +356,9 @@ mod tests {
             ("sin(x^2 + x*px + px^2)", &["rotation"]),
             ("(x*px)^2", &["squeeze"]),
             ("exp(x*px)", &["squeeze"]),
+            ("-px^2/x", &["monomial"]),
+            ("3*px^2/(2*x^2) + y*py^3", &["monomial", "monomial"]),
+            ("x*px^2", &["monomial"]),
             ("(px^2 + py^2 + pz^2)/6 - 4/sqrt(x^2 + y^2 + z^2)", &["kepler"]),
             ("px^2/2 - 1/sqrt(x^2)", &["kepler"]),
             ("(x^2 + px^2)^2 + py*y + pz^2", &["rotation", "quadratic", "commuting"]),
@@ -344,6 +378,9 @@ mod tests {
             ("px^2/2 + x^4", vec![0]),
             ("py^2/2 + sin(y) + x", vec![1]),
             ("(x*px)^2 + x^2 + px^2", vec![0]),
+            ("px^2/x + px^2/x^2", vec![0]),
+            ("px^2/sqrt(x)", vec![0]),
+            ("px^2*sin(x)", vec![0]),
             ("(px^2 + py^2)/2 + 1/sqrt(x^2 + y^2)", vec![0, 1]),
             ("(px^2 + 2*py^2)/2 - 1/sqrt(x^2 + y^2)", vec![0, 1]),
             ("(x^2 - px^2)^2", vec![0]),

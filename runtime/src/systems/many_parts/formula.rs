@@ -8,6 +8,7 @@ use thiserror::Error;
 use super::action::{Rotation, Squeeze};
 use super::commuting::Commuting;
 use super::kepler::Kepler;
+use super::monomial::Monomial;
 use super::part::{FlowState, Part};
 use super::quadratic::Quadratic;
 use crate::Rational;
@@ -136,6 +137,9 @@ fn part<N: CorrectlyRounded + 'static>(
             Box::new(Rotation::new(freedom, &form, &programs(function, 1), context))
         }
         ExplicitFlow::Squeeze { freedom, function } => Box::new(Squeeze::new(freedom, &programs(function, 1), context)),
+        ExplicitFlow::Monomial { freedom, exponents, quotient } => {
+            Box::new(Monomial::new(freedom, exponents, &programs(quotient, 2), context))
+        }
         ExplicitFlow::Kepler { freedoms, mass, attraction } => {
             Box::new(Kepler::new(freedoms, &mass, &attraction, context))
         }
