@@ -1,7 +1,7 @@
 //! Ensembles: a scene with a section \[ensemble\], whose columns have a number for each trajectory.
 //!
 //! All numbers of the scene can contain the names of the columns, as they contain parameters. The trajectories are computed on all cores, those of
-//! T(p) and U(q) in lanes ([`shadowstep::shadow::ensemble`]): each has the bits that it has alone, but for exp, log, sin and cos.
+//! T(p) and U(q), and those of planets with the same masses, in lanes ([`shadowstep::shadow::ensemble`]): each has the bits that it has alone, but for exp, log, sin and cos.
 //!
 //! ```
 //! use shadowstep::tables::Source;
@@ -33,6 +33,7 @@
 
 mod alone;
 mod columns;
+mod planets;
 mod rows;
 mod settings;
 
@@ -154,6 +155,11 @@ impl Ensemble {
     /// Values of a trajectory that the scene cannot have; an end.
     pub fn outcomes(&self, continues: impl Fn() -> bool + Sync) -> Result<Vec<Outcome>, Error> {
         let parsed = self.family.parsed()?;
+        if let Some(planets) = planets::in_lanes_of(&self.first.system).filter(|_| !self.first.displaced)
+            && let Some(outcomes) = planets::outcomes(self, planets, &parsed, &continues)?
+        {
+            return Ok(outcomes);
+        }
         if !self.has_lanes() {
             let one = |t| alone::outcome(&self.scene(&parsed, t)?, self.observed, &continues);
             let outcomes: Vec<_> = (0..self.columns.trajectories()).into_par_iter().map(one).collect();
@@ -170,11 +176,7 @@ impl Ensemble {
             let system = |block| Ok(self.together(&parsed, &block)?.quadratic(compensated));
             self.trajectories().run_while(&stepper, system, continues)
         };
-        outcomes.map_err(|error| match error {
-            EnsembleError::System(error) => error,
-            EnsembleError::Stopped => Error::run("the ensemble was interrupted", "run it again"),
-            other => Error::usage(other.to_string(), "give another order of the estimator"),
-        })
+        outcomes.map_err(|error| error_of(error, |error| error))
     }
 
     /// Whether there are steps in lanes.
@@ -228,6 +230,18 @@ impl Ensemble {
         let message = format!("trajectory {t} has another step size, number of steps or scheme than trajectory 0");
         let hint = "use the names of columns in [problem] and [initial] only; a sweep can have different steps";
         Err(Faults(vec![self.columns.fault(self.family.source(), message).hint(hint)]).into())
+    }
+}
+
+/// What is said of an ensemble that cannot be computed.
+fn error_of<E>(error: EnsembleError<E>, of_system: impl FnOnce(E) -> Error) -> Error {
+    match error {
+        EnsembleError::System(error) => of_system(error),
+        EnsembleError::Stopped => Error::run("the ensemble was interrupted", "run it again"),
+        EnsembleError::Estimator(error) => {
+            Error::usage(format!("the modified energy: {error}"), "give another order of the estimator")
+        }
+        EnsembleError::EveryZero => unreachable!("`every` was read as positive"),
     }
 }
 

@@ -185,7 +185,7 @@ fn lanes_of<'a>(exact: impl Fn(usize) -> &'a Exact) -> Lanes<LANES> {
 }
 
 /// The same for a list of each system.
-fn in_lanes<'a, N: OfLanes>(list: impl Fn(usize) -> &'a [Exact]) -> Vec<N> {
+pub(crate) fn in_lanes<'a, N: OfLanes>(list: impl Fn(usize) -> &'a [Exact]) -> Vec<N> {
     (0..list(0).len()).map(|i| lanes_of(|lane| &list(lane)[i]).into()).collect()
 }
 
