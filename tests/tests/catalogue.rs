@@ -32,6 +32,10 @@ blanes-moan-srkn14a       4  6  14  yes  drift  -
 blanes-moan-srkn6b        4  4   6  yes  kick   -
 blanes6-7                 4  4   7  yes  kick   -       6 6 -
 calvo-sanzserna4          3  4   4  no   kick   -
+casas-escorihuela4-4      4  4   4  yes  kick   -
+casas-escorihuela4-5      4  4   5  yes  kick   -
+casas-escorihuela4-5-b    4  4   5  yes  kick   -
+casas-escorihuela4-6      4  4   6  yes  kick   -
 chin-4a                   -  4   2+1  yes  kick   -
 chin-4b                   -  4   2+2  yes  drift  -
 chin-4c                   -  4   3+1  yes  drift  -
