@@ -17,6 +17,9 @@ abah1064                  4  4   9  yes  drift  10,6,4
 abah844                   4  4   6  yes  drift  8,4
 abah864                   4  4   8  yes  drift  8,6,4
 bce-rkn8-17               4  8  17  yes  drift  -
+bce-rkn8-19               4  8  19  yes  drift  -
+bcm-rkn4-2                1  1   2  no   drift  -       3 4 6,4,3
+bcm-rkn6-4                2  2   4  yes  kick   -       4 6 7,6,5,4
 bcm10-23                  4  4  23  yes  kick   -       10 10 -
 bcm6-11                   4  4  11  yes  kick   -       6 6 -
 bcm6-13                   4  4  13  yes  kick   -       6 6 -
@@ -206,13 +209,16 @@ fn exchanging_kick_and_drift() {
         }
     }
     let orders = refused.iter().map(|(name, fault)| {
-        let left = fault.split(" is claimed, order ").nth(1).and_then(|rest| rest.split(' ').next());
+        let left = fault.split(" is claimed, ").nth(1).and_then(|rest| rest.split("order ").nth(1)?.split(' ').next());
         (*name, left.unwrap_or_else(|| panic!("{name}: {fault}")))
     });
     assert_eq!(
         orders.collect::<Vec<_>>(),
         [
             ("bce-rkn8-17", "4"),
+            ("bce-rkn8-19", "4"),
+            ("bcm-rkn4-2", "3"),
+            ("bcm-rkn6-4", "4"),
             ("blanes-moan-srkn11b", "4"),
             ("blanes-moan-srkn14a", "4"),
             ("calvo-sanzserna4", "3"),
