@@ -16,6 +16,8 @@ aba864                    4  4   7  yes  drift  8,6,4
 abah1064                  4  4   9  yes  drift  10,6,4
 abah844                   4  4   6  yes  drift  8,4
 abah864                   4  4   8  yes  drift  8,6,4
+auzinger5-7               5  5   7  no   kick   -
+auzinger5-8               5  5   8  no   kick   -
 bce-rkn8-17               4  8  17  yes  drift  -
 bce-rkn8-19               4  8  19  yes  drift  -
 bcm-rkn4-2                1  1   2  no   drift  -       3 4 6,4,3
