@@ -45,6 +45,7 @@ chin-4a                   -  4   2+1  yes  kick   -
 chin-4b                   -  4   2+2  yes  drift  -
 chin-4c                   -  4   3+1  yes  drift  -
 efrl                      4  4   4  yes  drift  -
+escorihuela4-6            2  2   6  yes  kick   -       4 4 -
 hairer10-33              10 10  33  yes  kick   -
 kahan-li6                 6  6   9  yes  kick   -
 kahan-li6-gni             6  6   9  yes  kick   -
