@@ -62,7 +62,7 @@ fn no_published_scheme_is_better() {
     for (text, published, measure) in [
         ("order = 4\nkinetic = \"any\"\nstages = 6\nstarts = 12", "blanes-moan-s6", Measure::EffectiveError),
         ("order = 4\nkinetic = \"quadratic\"\nstages = 6\nstarts = 20", "blanes-moan-srkn6b", Measure::EffectiveError),
-        ("order = 4\nkinetic = \"any\"\nstages = 5\nstarts = 12", "mclachlan-s5", Measure::EffectiveError),
+        ("order = 4\nkinetic = \"any\"\nstages = 5\nstarts = 12", "casas-escorihuela4-5", Measure::EffectiveError),
         ("order = 4\nkinetic = \"any\"\nstages = 4\nfirst = \"drift\"\nstarts = 8", "pefrl", Measure::EffectiveError),
         (
             "order = 6\nkinetic = \"any\"\nstages = 9\nbase = \"stormer-verlet\"\nstarts = 8",

@@ -21,7 +21,7 @@ auzinger5-8               5  5   8  no   kick   -
 bce-rkn8-17               4  8  17  yes  drift  -
 bce-rkn8-19               4  8  19  yes  drift  -
 bcm-rkn4-2                1  1   2  no   drift  -       3 4 6,4,3
-bcm-rkn6-4                2  2   4  yes  kick   -       4 6 7,6,5,4
+bcm-rkn6-4                2  2   4  yes  kick   -       4 6 7,6,4
 bcm10-23                  4  4  23  yes  kick   -       10 10 -
 bcm6-11                   4  4  11  yes  kick   -       6 6 -
 bcm6-13                   4  4  13  yes  kick   -       6 6 -
