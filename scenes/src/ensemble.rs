@@ -55,6 +55,7 @@ use crate::scene::{KineticEnergy, Scene, System};
 use crate::start::Begin;
 use crate::whole_file::WholeFile;
 use columns::Columns;
+use planets::Apart;
 use settings::{Observed, settings};
 
 /// Whether \[run\] and \[output\] are the same in all trajectories: they contain no names whose values may differ, and each T(p) has the class of the first.
@@ -155,9 +156,7 @@ impl Ensemble {
     /// Values of a trajectory that the scene cannot have; an end.
     pub fn outcomes(&self, continues: impl Fn() -> bool + Sync) -> Result<Vec<Outcome>, Error> {
         let parsed = self.family.parsed()?;
-        if let Some(planets) = planets::in_lanes_of(&self.first.system).filter(|_| !self.first.displaced)
-            && let Some(outcomes) = planets::outcomes(self, planets, &parsed, &continues)?
-        {
+        if let Some(outcomes) = self.of_planets(&parsed, &continues)? {
             return Ok(outcomes);
         }
         if !self.has_lanes() {
@@ -177,6 +176,26 @@ impl Ensemble {
             self.trajectories().run_while(&stepper, system, continues)
         };
         outcomes.map_err(|error| error_of(error, |error| error))
+    }
+
+    /// All trajectories, if they are of planets with the same masses.
+    fn of_planets(
+        &self,
+        parsed: &Parsed<'_>,
+        continues: &(impl Fn() -> bool + Sync),
+    ) -> Result<Option<Vec<Outcome>>, Error> {
+        let planets = planets::in_lanes_of(&self.first.system).filter(|_| !self.first.displaced);
+        let Some(planets) = planets else { return Ok(None) };
+        let steps = self.first.steps_from(Begin::InitialState);
+        let system = |t| self.system(parsed, t);
+        match planets::outcomes(&self.trajectories(), planets, steps, system, continues) {
+            Ok(outcomes) => Ok(Some(outcomes)),
+            Err(EnsembleError::System(Apart::Masses)) => Ok(None),
+            Err(error) => Err(error_of(error, |apart| match apart {
+                Apart::Scene(error) => error,
+                Apart::Masses => unreachable!("it is no error"),
+            })),
+        }
     }
 
     /// Whether there are steps in lanes.
@@ -293,5 +312,52 @@ mod tests {
             let [one_run, read_each] = [one_run, read_each].map(|ensemble| ensemble.outcomes(|| true).unwrap());
             assert_eq!(one_run, read_each);
         }
+    }
+
+    /// A star and planets, which all trajectories have at other places; of the mass 1/1000 times `mass`.
+    fn of_planets(parts: &str, digits: &str, planets: usize, mass: &str) -> Ensemble {
+        let body = |i| {
+            format!(
+                "[[body]]\nname = \"p{i}\"\nmass = \"{mass}/{i}\"\na = \"{i} + s/10\"\ne = \"1/5 + s/9\"\ni = \"20 + 10*s\"\nM = \"{i}0 + 100*s\"\n"
+            )
+        };
+        let bodies: String = (1..=planets).map(body).collect();
+        let values = (-10..=10).map(|i| format!("\"{i}/20\"")).collect::<Vec<_>>().join(", ");
+        let text = format!(
+            "[problem]\nparts = \"{parts}\"\nparameters = {{ g = 1 }}\n[[body]]\nname = \"star\"\nmass = 1\n{bodies}\
+             [run]\nscheme = \"saba2\"\nstep = \"1/4\"\nsteps = 60\ndigits = \"{digits}\"\n\
+             [output]\nmodified_energy = {{ estimator = \"bilinear\", order = 8, every = 20 }}\n\
+             [ensemble]\ncolumns = {{ s = [{values}] }}\n"
+        );
+        Ensemble::read(Source { path: "scene.toml".to_owned(), text }).unwrap_or_else(|error| panic!("{error}"))
+    }
+
+    fn together(ensemble: &Ensemble) -> Option<Vec<Outcome>> {
+        ensemble.of_planets(&ensemble.family.parsed().unwrap(), &|| true).unwrap()
+    }
+
+    #[test]
+    fn planets_in_lanes_have_the_bits_of_planets_alone() {
+        for parts in ["wisdom-holman", "wisdom-holman-heliocentric"] {
+            for (planets, digits) in [(1, "double"), (2, "compensated"), (9, "double")] {
+                let ensemble = of_planets(parts, digits, planets, "1/1000");
+                let found = together(&ensemble).expect("the masses are the same");
+                let parsed = ensemble.family.parsed().unwrap();
+                assert_eq!(found.len(), 21);
+                for (t, found) in found.iter().enumerate() {
+                    let scene = ensemble.scene(&parsed, t).unwrap();
+                    let alone = alone::outcome(&scene, ensemble.observed, &|| true).unwrap();
+                    assert!(alone.not_finite.is_none() && alone.modified_drift.is_some());
+                    assert_eq!(*found, alone, "{parts}, {planets} planets, trajectory {t}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn other_masses_are_computed_alone() {
+        let ensemble = of_planets("wisdom-holman", "double", 2, "(1 + s)/1000");
+        assert!(together(&ensemble).is_none());
+        assert_eq!(ensemble.outcomes(|| true).unwrap().len(), 21);
     }
 }
