@@ -114,7 +114,7 @@ fn scene_of(arguments: &SystemArguments, formula: &str) -> Result<String, Error>
     } else {
         Vec::new()
     };
-    let p = if momenta.is_empty() { arguments.p.clone() } else { values(&momenta) };
+    let p = if momenta.is_empty() { arguments.p.clone() } else { in_order(&momenta, &positions)? };
     if p.len() != positions.len() {
         let values = |count: usize| if count == 1 { "1 value".to_owned() } else { format!("{count} values") };
         let message = format!("--q has {} and --p has {}", values(positions.len()), values(p.len()));
@@ -124,9 +124,6 @@ fn scene_of(arguments: &SystemArguments, formula: &str) -> Result<String, Error>
     let parameters = parameters.iter().map(|(name, value)| format!("{name} = {}", quoted(value)));
     let mut text = format!("[problem]\npotential = {}\ncoordinates = {}\n", quoted(formula), list(&names(&positions)));
     text += &format!("parameters = {{ {} }}\n", parameters.collect::<Vec<_>>().join(", "));
-    if !momenta.is_empty() {
-        text += &format!("momenta = {}\n", list(&names(&momenta)));
-    }
     if !arguments.masses.is_empty() {
         text += &format!("masses = {}\n", list(&arguments.masses));
     }
@@ -138,6 +135,22 @@ fn named(flag: &str, text: &str, example: &str) -> Result<(String, String), Erro
         Some((name, value)) if !name.trim().is_empty() => Ok((name.trim().to_owned(), value.trim().to_owned())),
         _ => Err(Error::usage(format!("{flag} `{text}` has no name"), format!("write {flag} {example}"))),
     }
+}
+
+/// The momenta in the order of the coordinates, whatever order they are given in.
+fn in_order(momenta: &[(String, String)], positions: &[(String, String)]) -> Result<Vec<String>, Error> {
+    let wanted: Vec<String> = names(positions).iter().map(|name| format!("p{name}")).collect();
+    let value = |name: &String| momenta.iter().find(|(own, _)| own == name).map(|(_, value)| value.clone());
+    let all: Vec<String> = wanted.iter().map_while(value).collect();
+    if all.len() == wanted.len() && momenta.len() == wanted.len() {
+        return Ok(all);
+    }
+    let fault = match momenta.iter().find(|(name, _)| !wanted.contains(name)) {
+        Some((other, _)) => format!("--p has `{other}`, which is no momentum of --q"),
+        None => "--p does not have each momentum once".to_owned(),
+    };
+    let example: Vec<_> = wanted.iter().map(|name| format!("{name}=…")).collect();
+    Err(Error::usage(fault, format!("write --p {}", example.join(","))))
 }
 
 fn names(pairs: &[(String, String)]) -> Vec<String> {

@@ -18,10 +18,12 @@ def in_order(values: Any, names: Sequence[str], argument: str) -> Any:
     """
     if not isinstance(values, Mapping):
         return values
-    faults = [f"has no {name!r}" for name in names if name not in values] + [f"has {name!r}" for name in values if name not in names]
-    if faults:
+    others = [name for name in values if name not in names]
+    missing = [name for name in names if name not in values]
+    if others or missing:
+        fault = f"has {others[0]!r}, which is none of its names" if others else f"has no {missing[0]!r}"
         example = ", ".join(f'"{name}": …' for name in names)
-        raise _shadowstep.InputError(f"{argument} {faults[0]}; write {argument}={{{example}}}")
+        raise _shadowstep.InputError(f"{argument} {fault}; write {argument}={{{example}}}")
     return [values[name] for name in names]
 
 

@@ -36,8 +36,8 @@ class Problem:
         function, or a Python function (see below). None where ``pair`` or ``parts`` is given.
     q, p
         Positions and momenta at t = 0, each of d numbers. A mapping has names with values: ``q={"x": 1, "y": 0}``, ``p={"px": 0, "py": 2}`` or
-        ``p={"x": 0, "y": 2}``, in any order; other names in ``p`` become those of the momenta of a formula. Velocities can be given as ``v`` in place
-        of ``p``. A shipped problem has its own.
+        ``p={"x": 0, "y": 2}``, in any order; with ``momenta=["u", "w"]`` those names. Velocities can be given as ``v`` in place of ``p``. A shipped
+        problem has its own.
     masses
         Those of the coordinates, d numbers; 1 by default. T = Σ p_i²/(2 m_i).
     kinetic
@@ -313,6 +313,11 @@ def _sections(system: str | None, q: Values | None, p: Values | None, v: Values 
     keys = (*_PROBLEM, *(key for key, other in _BESIDE.items() if other in others))
     problem: dict[str, Any] = {key: others[key] for key in keys if key in others}
     parameters = {key: value for key, value in others.items() if key not in (*keys, "body")}
+    for key, value in parameters.items():
+        if isinstance(value, (Mapping, Sequence, np.ndarray)) and not isinstance(value, str):
+            near = get_close_matches(key, ("q", "p", "v", "masses", "kinetic", "pair", "parts", "time", "body", *_PROBLEM), n=1)
+            hint = f"did you mean {near[0]!r}?" if near else "a parameter is a number"
+            raise _shadowstep.InputError(f"{key!r} is no argument of Problem that has several values; {hint}")
     if parameters:
         problem["parameters"] = {**problem.get("parameters", {}), **parameters}
     if system is not None:
@@ -328,19 +333,16 @@ def _sections(system: str | None, q: Values | None, p: Values | None, v: Values 
 
 
 def _by_name(problem: dict[str, Any], q: Any, p: Any, v: Any) -> tuple[Any, Any, Any]:
-    """Positions, momenta and velocities in the order of the coordinates; momenta of a formula may have names of their own."""
+    """Positions, momenta and velocities in the order of the coordinates."""
     coordinates, momenta = problem.get("coordinates"), problem.get("momenta")
     if "name" in problem:
         shipped = Given.of_text(document({"problem": {key: problem[key] for key in ("name", "parameters") if key in problem}}), "problem")
         coordinates, momenta = shipped.coordinates, shipped.momenta
     if coordinates is None:
         raise _shadowstep.InputError("q, p and v have no names of coordinates here; write them as lists")
-    default = [f"p{name}" for name in coordinates]
-    if momenta is None and isinstance(p, Mapping) and not any(name in (*default, *coordinates) for name in p):
-        momenta = problem["momenta"] = list(p)
     return (
         in_order(q, coordinates, "q"),
-        in_order(p, names_of(p, momenta or default, coordinates), "p"),
+        in_order(p, names_of(p, momenta or [f"p{name}" for name in coordinates], coordinates), "p"),
         in_order(v, names_of(v, coordinates, [f"v{name}" for name in coordinates]), "v"),
     )
 

@@ -222,7 +222,9 @@ def test_own_forces_with_a_wrong_gradient_are_warned_of(wrong):
         (lambda: integrate(Problem(kepler_force, q=[1.0, 0], p=[0, 1]), "chin-4a", h=0.1, until=1), "gradient kicks", "formula"),
         (lambda: Problem(kepler_force, q=[1.0, 0], p=[0]), "2 coordinates and 1 momenta", "one for each coordinate"),
         (lambda: Problem("x^2 + y^2", q={"x": 1, "y": 0}, p={"px": 0}), "p has no 'py'", 'p={"px": …, "py": …}'),
-        (lambda: Problem("x^2 + y^2", q={"x": 1, "y": 0}, v={"x": 0, "z": 0}), "v has no 'y'", 'v={"x": …, "y": …}'),
+        (lambda: Problem("x^2 + y^2", q={"x": 1, "y": 0}, v={"x": 0, "z": 0}), "v has 'z', which is none of its names", 'v={"x": …, "y": …}'),
+        (lambda: Problem("x^2 + y^2", q={"x": 1, "y": 0}, p={"vy": 2, "vx": 0}), "p has 'vy', which is none of its names", 'p={"px": …, "py": …}'),
+        (lambda: Problem("x^2 + y^2", q={"x": 1, "y": 0}, p=[0, 1], masess=[1, 2]), "'masess' is no argument", "did you mean 'masses'?"),
         (lambda: Problem("kepler", q={"x": 1, "y": 0, "z": 0}), "q has 'z'", 'q={"x": …, "y": …}'),
         (lambda: Problem(pair="d^2", dimensions=1, bodies={"m": [1, 1]}, q={"a": 0, "b": 1}, v=[0, 0]), "no names of coordinates", "lists"),
     ],
@@ -245,7 +247,7 @@ def test_names_are_taken_in_any_order():
                 assert problem.coordinates == names
                 found = {name: (x, p) for name, x, p in zip(names, *problem.initial)}
                 assert found == {"x": (1, 3), "y": (2, 4)}, halves
-    own = Problem("-1/sqrt(x^2 + y^2)", q={"x": 1, "y": 2}, p={"u": 3, "w": 4})
+    own = Problem("-1/sqrt(x^2 + y^2)", q={"x": 1, "y": 2}, p={"w": 4, "u": 3}, momenta=["u", "w"])
     assert (own.momenta, [*own.initial[1]]) == (["u", "w"], [3, 4])
     assert [*own.replaced(q={"y": 5, "x": 6}).initial[0]] == [6, 5]
 

@@ -419,7 +419,8 @@ fn a_scene_or_a_formula_may_be_the_problem() {
     let words = "--scheme yoshida4,ruth3 --step 1/20 --until 5 --digits 30 --order 4 --no-control --no-summary --json";
     let expected = objects(&quietly(&format!("drift --problem kepler {words}")));
     let formula = "--potential -a/sqrt(x^2+y^2) --set a=1 --q x=2/5,y=0 --p px=0,py=2";
-    for problem in [format!("--problem {}", scene.display()), formula.to_owned()] {
+    let exchanged = formula.replace("px=0,py=2", "py=2,px=0");
+    for problem in [format!("--problem {}", scene.display()), formula.to_owned(), exchanged] {
         let found = objects(&quietly(&format!("drift {problem} {words}")));
         for (found, expected) in found.iter().zip(&expected) {
             assert_eq!((&found["drift"], &found["scheme"]), (&expected["drift"], &expected["scheme"]), "{problem}");
@@ -430,6 +431,8 @@ fn a_scene_or_a_formula_may_be_the_problem() {
         ("--potential sqrt(1+x --q x=1 --p 0", "--potential \"sqrt(1+x\": unexpected end"),
         ("--potential x^2 --q x=1 --p 0,1", "--q has 1 value and --p has 2 values"),
         ("--potential x^2 --q 1 --p 0", "--q `1` has no name"),
+        ("--potential x^2 --q x=1 --p vx=0", "--p has `vx`, which is no momentum of --q"),
+        ("--potential x^2+y^2 --q x=1,y=0 --p px=0,px=1", "--p does not have each momentum once"),
         ("--problem missing.toml", "there is no file missing.toml"),
     ] {
         let result = shadowstep(&format!("drift {wrong} {words}"));
