@@ -70,6 +70,7 @@ html_show_sourcelink = False
 html_theme_options = {"navigation_with_keys": True}
 html_static_path = ["style"]
 html_css_files = ["wide-tables.css", "pictures.css"]
+html_js_files = ["filters.js"]
 
 # formulas are set in the browser, from files of the book
 myst_enable_extensions = ["dollarmath", "colon_fence"]

@@ -24,7 +24,8 @@ A step makes, for each stage s in turn, the kick p −= h a_s U_q(q) and the dri
 left out. A composition makes steps γ_1 h, γ_2 h, … of another scheme. The names lead to the pages with the weights.
 
 Everything on this page is computed from the tables: the orders are proved, none is copied from a publication.
-`shadowstep schemes --order 4 --for quadratic --sort effective-error` lists a part of it in another order.
+`shadowstep schemes --order 4 --for quadratic --sort effective-error` lists a part of it in another order. In the book, a
+field above each long table chooses rows: a word, or conditions such as `order=4 forces<=5 symmetric=yes`.
 
 ## The columns
 
