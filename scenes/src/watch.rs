@@ -40,7 +40,7 @@ pub enum Energies {
     All,
     /// Those of the monitor's windows, and that of the last state.
     Windows,
-    /// Those that the run [gives](Watch::include_energy), of the states whose n is a multiple of this number, and those of windows between.
+    /// Those that the run gives, of the states whose n is a multiple of this number, and those of windows between.
     Given(u64),
 }
 
