@@ -38,14 +38,17 @@ blanes-moan-srkn6b        4  4   6  yes  kick   -
 blanes6-7                 4  4   7  yes  kick   -       6 6 -
 calvo-sanzserna4          3  4   4  no   kick   -
 casas-escorihuela4-4      4  4   4  yes  kick   -
+casas-escorihuela4-4-a    4  4   4  yes  kick   -
 casas-escorihuela4-5      4  4   5  yes  kick   -
 casas-escorihuela4-5-b    4  4   5  yes  kick   -
 casas-escorihuela4-6      4  4   6  yes  kick   -
+casas-escorihuela4-6-a    4  4   6  yes  kick   -
 chin-4a                   -  4   2+1  yes  kick   -
 chin-4b                   -  4   2+2  yes  drift  -
 chin-4c                   -  4   3+1  yes  drift  -
 efrl                      4  4   4  yes  drift  -
 escorihuela4-6            2  2   6  yes  kick   -       4 4 -
+escorihuela6-8            2  2   8  yes  kick   -       6 6 -
 hairer10-33              10 10  33  yes  kick   -
 kahan-li6                 6  6   9  yes  kick   -
 kahan-li6-gni             6  6   9  yes  kick   -
