@@ -157,7 +157,7 @@ pub(crate) struct SystemArguments {
     pub(crate) q: Vec<String>,
     /// Momenta of --potential: 0,2 or px=0,py=2
     ///
-    /// They are those at t = 0, in the order of the coordinates.
+    /// They are those at t = 0, in the order of the coordinates, or with names in any order.
     #[arg(
         long,
         value_name = "[NAME=]VALUE,…",

@@ -14,7 +14,7 @@ use crate::start::Steps;
 /// The planets of a system, if there are steps of them in lanes: kicks by the attraction of the bodies alone, and no close encounters.
 pub(super) fn in_lanes_of(system: &System) -> Option<&Planets> {
     let planets = system.parts.planets()?;
-    (planets.encounters.is_none() && system.problem.beside::<f64>(&()).is_none()).then_some(planets)
+    (planets.encounters.is_none() && !system.problem.has_energies_of_bodies()).then_some(planets)
 }
 
 /// Why trajectories are not computed together.
@@ -77,13 +77,13 @@ impl<R: Fn(usize) -> Result<System, Error> + Sync, C: Fn() -> bool + Sync> InLan
     ) -> Result<WisdomHolman<Lanes<LANES>, K, D>, Apart> {
         let systems = block.trajectories().map(&self.read).collect::<Result<Vec<System>, Error>>();
         let systems = systems.map_err(Apart::Scene)?;
-        let bodies = |system: &System| in_lanes_of(system).map(|planets| planets.bodies.clone());
-        let first = bodies(&systems[0]).ok_or(Apart::Masses)?;
-        if !systems.iter().all(|system| bodies(system).as_ref() == Some(&first)) {
+        let planets = systems.iter().map(in_lanes_of).collect::<Option<Vec<&Planets>>>().ok_or(Apart::Masses)?;
+        let first = &planets[0].bodies;
+        if planets.iter().any(|own| own.bodies != *first) {
             return Err(Apart::Masses);
         }
         let (q, p): (Vec<_>, Vec<_>) = (in_lanes(|lane| &systems[lane].q), in_lanes(|lane| &systems[lane].p));
-        let system = WisdomHolman::new(&first, (&q, &p), &()).expect("exact numbers are finite");
+        let system = WisdomHolman::new(first, (&q, &p), &()).expect("exact numbers are finite");
         Ok(if self.steps.compensated { system.compensated() } else { system })
     }
 }

@@ -108,6 +108,11 @@ impl InitialValueProblem {
         }
     }
 
+    /// Whether each body has energies beside those of pairs.
+    pub(crate) fn has_energies_of_bodies(&self) -> bool {
+        matches!(&self.potential, PotentialEnergy::Pairs(pairs) if !pairs.of_bodies.is_empty())
+    }
+
     /// The part of U beside the attraction of bodies, if there is one.
     pub(crate) fn beside<N: Number + 'static>(&self, context: &N::Context) -> Option<Box<dyn Potential<N>>> {
         match &self.potential {

@@ -13,6 +13,9 @@ use crate::number::rational::Rational;
 /// The most degrees of freedom of a quadratic form: the time for its flow grows with their third power.
 const MOST_COUPLED: usize = 64;
 
+/// The largest size of an exponent of a monomial: its flow sums as many powers.
+const MOST_EXPONENT: u32 = 64;
+
 /// A Hamiltonian, or a part of one, whose flow is known.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum ExplicitFlow {
@@ -46,7 +49,7 @@ pub enum ExplicitFlow {
         /// f, in the coordinate 0.
         function: Node,
     },
-    /// c q^α p^β with α ≠ β, both not 0.
+    /// c q^α p^β with α ≠ β, both not 0 and at most 64 in size.
     Monomial {
         /// The degree of freedom.
         freedom: usize,
@@ -281,7 +284,10 @@ impl Graph {
         if factors.len() != 2 || !exponents.iter().all(|exponent| exponent.is_integer()) {
             return None;
         }
-        let exponents = [exponents[0].numer().try_into().ok()?, exponents[1].numer().try_into().ok()?];
+        let exponents: [i32; 2] = [exponents[0].numer().try_into().ok()?, exponents[1].numer().try_into().ok()?];
+        if exponents.iter().any(|exponent| exponent.unsigned_abs() > MOST_EXPONENT) {
+            return None;
+        }
         let inverse = -Rational::one();
         let quotient = self.product(&[(node, Rational::one()), (q, inverse.clone()), (p, inverse)]);
         let renamed = HashMap::from([(q, self.coordinate(0)), (p, self.coordinate(1))]);
@@ -381,6 +387,7 @@ mod tests {
             ("px^2/x + px^2/x^2", vec![0]),
             ("px^2/sqrt(x)", vec![0]),
             ("px^2*sin(x)", vec![0]),
+            ("x^65*px^2", vec![0]),
             ("(px^2 + py^2)/2 + 1/sqrt(x^2 + y^2)", vec![0, 1]),
             ("(px^2 + 2*py^2)/2 - 1/sqrt(x^2 + y^2)", vec![0, 1]),
             ("(x^2 - px^2)^2", vec![0]),

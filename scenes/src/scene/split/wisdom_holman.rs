@@ -15,7 +15,7 @@ use shadowstep_symbolic::decimal::to_text;
 
 use super::{Class, Needs, ShownCoordinates, Split, State};
 use crate::refusal::{NoGradientKicks, Refusal};
-use crate::scene::{EnergyAt, InitialValueProblem, PotentialEnergy};
+use crate::scene::{EnergyAt, InitialValueProblem};
 use crate::start::{SceneIntegrator, Steps};
 
 /// A planetary system of point masses, the central body first.
@@ -179,7 +179,7 @@ impl Planets {
         problem: &InitialValueProblem,
         bodies: Option<(Bodies, usize)>,
     ) -> Result<Self, Refusal> {
-        let has_more = matches!(&problem.potential, PotentialEnergy::Pairs(pairs) if !pairs.of_bodies.is_empty());
+        let has_more = problem.has_energies_of_bodies();
         match bodies {
             Some(_) if has_more && coordinates == CanonicalCoordinates::DemocraticHeliocentric => Err(Refusal::new(
                 "in heliocentric coordinates kicks move the planets, so that `central` and `external` have no exact flow with them",
