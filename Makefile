@@ -62,11 +62,15 @@ $(WHEEL)/tools/bin/maturin:
 	$(PYTHON) -m venv $(WHEEL)/tools
 	$(WHEEL)/tools/bin/pip install --quiet 'maturin>=1.9,<2'
 
-# A new virtual environment with a wheel that is built in little time, and with what tests, notebooks and the book need.
+# A new virtual environment with a wheel that is built in little time, and with what tests, notebooks and the book need, which comes while the wheel is built.
 python-environment: $(WHEEL)/tools/bin/maturin
 	rm -rf $(WHEEL)/wheels $(WHEEL)/test
-	RUSTFLAGS="$$RUSTFLAGS -D warnings" $(WHEEL)/tools/bin/maturin build --profile quick --locked --compatibility linux --manifest-path python/Cargo.toml --out $(WHEEL)/wheels
 	$(PYTHON) -m venv $(WHEEL)/test
+	$(PYTHON) -c 'import sys, tomllib; all = tomllib.load(open("python/pyproject.toml", "rb"))["project"]; names = sys.argv[1].split(","); \
+	    print(*all["dependencies"], *sum((all["optional-dependencies"][name] for name in names), []), sep="\n")' $(or $(EXTRAS),test) > $(WHEEL)/needed.txt
+	$(WHEEL)/test/bin/pip install --quiet --requirement $(WHEEL)/needed.txt & \
+	RUSTFLAGS="$$RUSTFLAGS -D warnings" $(WHEEL)/tools/bin/maturin build --profile quick --locked --compatibility linux --manifest-path python/Cargo.toml --out $(WHEEL)/wheels; \
+	built=$$?; wait $$! && exit $$built
 	$(WHEEL)/test/bin/pip install --quiet "$$(echo $(WHEEL)/wheels/*.whl)[$(or $(EXTRAS),test)]"
 
 # The Python package in that environment, on all cores: its tests, doctests, types and notebooks. PyTorch, which is large, is tested where it is installed.
