@@ -227,13 +227,10 @@ impl Summary {
         let Some(modified) = &self.modified_energy else {
             return "the run is too short for an estimate".to_owned();
         };
-        let ModifiedEnergySummary { method, round_off, permanent_change, permanent_bound, resolution, .. } = modified;
+        let ModifiedEnergySummary { method, round_off, permanent_change, resolution, .. } = modified;
         let known = resolution.as_ref().map_or(String::new(), |error| format!(", known to {}", short(error)));
-        let excluded = permanent_bound
-            .as_ref()
-            .map_or(String::new(), |bound| format!("; a net change above {} is excluded", short(bound)));
         format!(
-            "method's part of H {} rms; round-off {} expected; permanent change {}{known}{excluded}",
+            "method's part of H {} rms; round-off {} expected; permanent change {}{known}",
             short(method),
             short(round_off),
             short(permanent_change)
