@@ -14,8 +14,8 @@ use crate::computation::RunNumber;
 use crate::error::Error;
 use crate::expression::{Comparison, Condition, ENERGY, Expression, TIME, name_of_quantity};
 use crate::lanes::LANES;
-use crate::quantity::Quantity;
-use crate::quantity_of_bodies::{Compute, NoQuantity, QuantityOfBodies};
+use crate::quantity::{NoQuantity, Quantity};
+use crate::quantity_of_bodies::{Compute, QuantityOfBodies};
 use crate::scene::split::ShownCoordinates;
 use crate::scene::{Direction, EnergyAt, Surface, System};
 
@@ -142,7 +142,8 @@ impl<N: RunNumber> Evaluator<N> {
     pub fn new(expression: &Expression, system: &System, context: &N::Context) -> Result<Self, NotOfSystem> {
         let number = |exact: &Exact| N::from_rational(&exact.value, context);
         let parameters = system.parameters.iter().map(|(name, exact)| (name.as_str(), number(exact))).collect();
-        let quantities = quantities(expression, system)?.iter().map(|quantity| quantity.in_numbers(context)).collect();
+        let quantities = quantities(expression, system)?;
+        let quantities = quantities.iter().map(|quantity| quantity.in_numbers(system, context)).collect();
         Evaluator::with(expression, system, (parameters, quantities), context)
     }
 }
@@ -266,15 +267,17 @@ impl Evaluator<Lanes<LANES>> {
         for system in systems {
             of_systems.push(quantities(expression, system)?);
         }
-        let in_lanes = |number: usize| in_lanes(of_systems.iter().map(|of_system| &of_system[number]));
+        let in_lanes = |number: usize| {
+            in_lanes(of_systems.iter().zip(systems).map(|(of_system, system)| (&of_system[number], *system)))
+        };
         let quantities = (0..expression.quantities.len()).map(in_lanes).collect();
         Evaluator::with(expression, systems[0], (System::parameters_of_each(systems), quantities), &())
     }
 }
 
 /// A quantity of a system in each lane.
-fn in_lanes<'a>(quantities: impl Iterator<Item = &'a QuantityOfBodies>) -> Compute<Lanes<LANES>> {
-    let mut each: Vec<Compute<f64>> = quantities.map(|quantity| quantity.in_numbers(&())).collect();
+fn in_lanes<'a>(quantities: impl Iterator<Item = (&'a QuantityOfBodies, &'a System)>) -> Compute<Lanes<LANES>> {
+    let mut each: Vec<Compute<f64>> = quantities.map(|(quantity, system)| quantity.in_numbers(system, &())).collect();
     Box::new(move |q, p| {
         let mut values = Lanes::all(0.0);
         for (lane, (value, compute)) in values.0.iter_mut().zip(&mut each).enumerate() {

@@ -472,7 +472,7 @@ pub(crate) const KEYS: [Key; 90] = [
         "output",
         "values",
         "Writes formulas in the coordinates, momenta, parameters, t and E as columns of these names, all of them at every n that is a multiple of `every`. A formula \
-         can have distance(sun, earth), and an element of a body's orbit about the first body or another one, the bodies before, or all: e(earth), a(moon, earth), \
+         can have `kinetic`, the kinetic energy T(p), and `virial`, -q U_q, in a periodic box of the nearest images; distance(sun, earth), and an element of a body's orbit about the first body or another one, the bodies before, or all: e(earth), a(moon, earth), \
          i(earth, jacobi), M(earth, barycentre), with the names of [[body]].",
         "{ r = \"sqrt(x^2 + y^2)\", every = 10 }",
         Some("none"),

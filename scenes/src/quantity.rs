@@ -1,4 +1,4 @@
-//! Quantities of bodies as expressions have them: distances, and elements of orbits.
+//! Quantities as expressions have them: the kinetic energy and the virial of a system, distances of its bodies, and elements of their orbits.
 
 use std::ops::Range;
 
@@ -6,6 +6,10 @@ use shadowstep_symbolic::{Expression as Syntax, ExpressionKind};
 
 /// The function of a distance.
 const DISTANCE: &str = "distance";
+
+/// The names of sums over all bodies.
+pub(crate) const KINETIC: &str = "kinetic";
+pub(crate) const VIRIAL: &str = "virial";
 
 /// An element of an orbit; angles are in degrees.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -30,7 +34,7 @@ pub(crate) const ELEMENTS: [(&str, Element); 7] = [
     ("lambda", Element::MeanLongitude),
 ];
 
-/// A function call in an expression, as written: `distance(earth, moon)`, `e(earth)`, `a(earth, jacobi)`.
+/// A name or a function call in an expression, as written: `kinetic`, `distance(earth, moon)`, `e(earth)`, `a(earth, jacobi)`.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Quantity {
     pub(crate) function: Function,
@@ -41,16 +45,50 @@ pub(crate) struct Quantity {
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Function {
+    /// T(p)
+    Kinetic,
+    /// −qᵀU_q; in a periodic box of the nearest images.
+    Virial,
     Distance,
     Element(Element),
+}
+
+/// Why a system does not have a quantity.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct NoQuantity {
+    /// What is wrong, one sentence.
+    pub message: String,
+    /// What would be right.
+    pub hint: String,
+}
+
+/// A system does not have a quantity.
+pub(crate) fn refuse<T>(message: &str, hint: &str) -> Result<T, NoQuantity> {
+    Err(NoQuantity { message: message.to_owned(), hint: hint.to_owned() })
 }
 
 impl Quantity {
     /// The quantities in a formula, in the order of the text.
     pub(crate) fn all(formula: &str, syntax: &Syntax) -> Vec<Quantity> {
-        let mut found = Vec::new();
+        let mut found: Vec<Quantity> = Vec::new();
         syntax.visit(&mut |part| {
-            let ExpressionKind::Call { function, arguments } = &part.kind else { return };
+            // the name of a body
+            if found.last().is_some_and(|call| part.range.start < call.range.end) {
+                return;
+            }
+            let (function, arguments) = match &part.kind {
+                ExpressionKind::Call { function, arguments } => (function, &arguments[..]),
+                ExpressionKind::Name(name) => {
+                    let function = match name.as_str() {
+                        KINETIC => Function::Kinetic,
+                        VIRIAL => Function::Virial,
+                        _ => return,
+                    };
+                    found.push(Quantity { function, arguments: Vec::new(), range: part.range.clone() });
+                    return;
+                }
+                _ => return,
+            };
             let element = ELEMENTS.iter().find(|(name, _)| name == function).map(|(_, element)| *element);
             let function = match element {
                 Some(element) => Function::Element(element),

@@ -1,6 +1,7 @@
-//! Quantities of bodies in the numbers of a run: distances, and the elements of osculating Kepler orbits.
+//! Quantities of bodies in the numbers of a run: the kinetic energy and the virial of all, distances, and the elements of osculating Kepler orbits.
 
 mod orbit;
+mod sums;
 
 use std::ops::Range;
 
@@ -8,22 +9,13 @@ use num_traits::Zero;
 use shadowstep::{Rational, Real};
 
 use self::orbit::Orbit;
-use crate::quantity::{ELEMENTS, Element, Function, Quantity};
+use crate::quantity::{ELEMENTS, Element, Function, KINETIC, NoQuantity, Quantity, VIRIAL, refuse};
 use crate::scene::bodies::Bodies;
 use crate::scene::{GRAVITY, PotentialEnergy, System};
 
 /// The centre of mass of the bodies before, and of all bodies.
 pub(crate) const JACOBI: &str = "jacobi";
 pub(crate) const BARYCENTRE: &str = "barycentre";
-
-/// Why a system does not have a quantity.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct NoQuantity {
-    /// What is wrong, one sentence.
-    pub message: String,
-    /// What would be right.
-    pub hint: String,
-}
 
 /// The elements of every body about a centre, as names of columns with formulas: those of the first body about the barycentre only, and those of
 /// a plane without `i` and `node`; none without bodies.
@@ -47,6 +39,10 @@ pub(crate) fn elements_of(system: &System, centre: Option<&str>) -> Vec<(String,
 /// A quantity of bodies by their numbers.
 #[derive(Clone, Debug)]
 pub(crate) enum QuantityOfBodies {
+    /// T(p)
+    Kinetic,
+    /// −qᵀU_q
+    Virial,
     /// Between the points with these coordinates.
     Distance([Range<usize>; 2]),
     Element(Box<ElementOfBody>),
@@ -128,16 +124,18 @@ fn refuse_box(system: &System) -> Result<(), NoQuantity> {
     }
 }
 
-fn refuse<T>(message: &str, hint: &str) -> Result<T, NoQuantity> {
-    Err(NoQuantity { message: message.to_owned(), hint: hint.to_owned() })
-}
-
 /// Computes a quantity from positions and momenta.
 pub(crate) type Compute<N> = Box<dyn FnMut(&[N], &[N]) -> N>;
 
 impl QuantityOfBodies {
     /// Of the bodies of a system.
     pub(crate) fn new(quantity: &Quantity, system: &System) -> Result<QuantityOfBodies, NoQuantity> {
+        let element = match quantity.function {
+            Function::Kinetic => return sums::check(KINETIC, system).map(|()| QuantityOfBodies::Kinetic),
+            Function::Virial => return sums::check(VIRIAL, system).map(|()| QuantityOfBodies::Virial),
+            Function::Distance => None,
+            Function::Element(element) => Some(element),
+        };
         let bodies = Bodies::of(system).filter(|bodies| bodies.names.len() > 1).ok_or_else(|| NoQuantity {
             message: "this system has no bodies".to_owned(),
             hint: "write a formula in its coordinates and momenta".to_owned(),
@@ -145,17 +143,17 @@ impl QuantityOfBodies {
         let number = |name: &String| {
             bodies.number(name).map_err(|hint| NoQuantity { message: format!("there is no body `{name}`"), hint })
         };
-        match (quantity.function, &quantity.arguments[..]) {
-            (Function::Distance, [one, other]) => {
+        match (element, &quantity.arguments[..]) {
+            (None, [one, other]) => {
                 let of = [number(one)?, number(other)?].map(|body| bodies.coordinates(body));
                 refuse_box(system).map(|()| QuantityOfBodies::Distance(of))
             }
-            (Function::Element(element), [body]) => {
+            (Some(element), [body]) => {
                 let body = number(body)?;
                 ElementOfBody::new(system, &bodies, (element, body), &[0])
                     .map(|of| QuantityOfBodies::Element(Box::new(of)))
             }
-            (Function::Element(element), [body, centre]) => {
+            (Some(element), [body, centre]) => {
                 let (body, is_body) = (number(body)?, bodies.names.contains(centre));
                 let centre: Vec<usize> = match centre.as_str() {
                     JACOBI if !is_body => (0..body).collect(),
@@ -165,17 +163,19 @@ impl QuantityOfBodies {
                 ElementOfBody::new(system, &bodies, (element, body), &centre)
                     .map(|of| QuantityOfBodies::Element(Box::new(of)))
             }
-            (Function::Distance, _) => refuse("a distance is one of two bodies", "write distance(earth, moon)"),
-            (Function::Element(_), _) => refuse(
+            (None, _) => refuse("a distance is one of two bodies", "write distance(earth, moon)"),
+            (Some(_), _) => refuse(
                 "an element is one of a body, about the first body or another centre",
                 "write a(earth), a(moon, earth), a(earth, jacobi) or a(earth, barycentre)",
             ),
         }
     }
 
-    /// In the numbers of a run.
-    pub(crate) fn in_numbers<N: Real + 'static>(&self, context: &N::Context) -> Compute<N> {
+    /// Of this system, in the numbers of a run.
+    pub(crate) fn in_numbers<N: Real + 'static>(&self, system: &System, context: &N::Context) -> Compute<N> {
         match self {
+            QuantityOfBodies::Kinetic => sums::kinetic(system, context),
+            QuantityOfBodies::Virial => sums::virial(system, context),
             QuantityOfBodies::Distance([one, other]) => {
                 let (one, other) = (one.clone(), other.clone());
                 Box::new(move |q, _| {

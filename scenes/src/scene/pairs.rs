@@ -11,6 +11,9 @@ use crate::scene::parameters::values;
 
 const READ: &str = "the numbers of bodies and properties were read with the scene";
 
+/// A function of the positions.
+pub(crate) type OfPositions<N> = Box<dyn FnMut(&[N]) -> N>;
+
 /// The energy of two bodies of [[body]].
 pub(crate) const GRAVITY: &str = "-g*m_i*m_j/sqrt(r2)";
 
@@ -166,15 +169,54 @@ impl PairEnergy {
         properties: Vec<Vec<N>>,
         parameters: Vec<N>,
     ) -> Box<dyn Potential<N>> {
-        let pair = self.formula.meaning().in_numbers(properties, parameters);
         if let Some(cutoff) = &self.cutoff {
-            let cutoff = cutoff.cutoff::<D>().expect("the cutoff was read with the scene");
-            return Box::new(CutoffPairs::new(self.bodies, pair, cutoff).expect(READ));
+            return Box::new(self.up_to::<N, D>(cutoff, properties, parameters));
         }
+        let pair = self.formula.meaning().in_numbers(properties, parameters);
         let pairs = match self.ends {
             None => Pairs::<_, D>::all(self.bodies, pair),
             Some(ends) => Pairs::<_, D>::neighbours(self.bodies, pair, ends),
         };
         Box::new(pairs.expect(READ))
     }
+
+    fn up_to<N: Number, const D: usize>(
+        &self,
+        cutoff: &PairCutoff,
+        properties: Vec<Vec<N>>,
+        parameters: Vec<N>,
+    ) -> CutoffPairs<FormulaPair<N>, D> {
+        let pair = self.formula.meaning().in_numbers(properties, parameters);
+        let cutoff = cutoff.cutoff::<D>().expect("the cutoff was read with the scene");
+        CutoffPairs::new(self.bodies, pair, cutoff).expect(READ)
+    }
+
+    /// Computes the virial of bodies in a box, from positions; none in open space, where it is −qᵀU_q.
+    pub(crate) fn virial_in_box<N: Number + 'static>(
+        &self,
+        parameters: &[(String, Exact)],
+        context: &N::Context,
+    ) -> Option<OfPositions<N>> {
+        let cutoff = self.cutoff.as_ref().filter(|_| self.is_in_box())?;
+        let (properties, parameters) = (self.numbers(context), values(parameters, context));
+        Some(match self.dimensions {
+            1 => virial_of(self.up_to::<N, 1>(cutoff, properties, parameters), context),
+            2 => virial_of(self.up_to::<N, 2>(cutoff, properties, parameters), context),
+            _ => virial_of(self.up_to::<N, 3>(cutoff, properties, parameters), context),
+        })
+    }
+}
+
+fn virial_of<N: Number + 'static, const D: usize>(
+    mut pairs: CutoffPairs<FormulaPair<N>, D>,
+    context: &N::Context,
+) -> OfPositions<N> {
+    let zero = N::zero(context);
+    let mut scratch = vec![zero.clone(); pairs.scratch()];
+    pairs.prepare(&mut scratch, context);
+    Box::new(move |q| {
+        let mut virial = zero.clone();
+        pairs.virial(q, &mut virial, &mut scratch);
+        virial
+    })
 }

@@ -127,7 +127,8 @@ impl InitialValueProblem {
         if self.explicit_time { kinetic.with_time() } else { kinetic }
     }
 
-    fn kinetic_without_time<N: Number + 'static>(&self, context: &N::Context) -> ClassifiedKinetic<N> {
+    /// T(p)
+    pub(crate) fn kinetic_without_time<N: Number + 'static>(&self, context: &N::Context) -> ClassifiedKinetic<N> {
         match &self.kinetic {
             KineticEnergy::Masses(None) => self.of_masses(UnitMasses),
             KineticEnergy::Masses(Some(masses)) => {

@@ -211,17 +211,31 @@ pub(super) fn is_below<N: Number>(a: &N, b: &N) -> bool {
     (0..N::LANES).any(|lane| difference.lane(lane).0 > 0.0)
 }
 
-/// A body and its own sums.
+/// A body with its gradient and its part of the other sum.
 struct Own<N, const D: usize> {
     body: usize,
     gradient: [N; D],
-    energy: N,
+    /// Of energies, or of r·∂u/∂r.
+    sum: N,
 }
 
 impl<P, const D: usize> CutoffPairs<P, D> {
     /// The reciprocals of the sides of the box.
     pub(super) fn reciprocal_sides(&self) -> Option<[f64; D]> {
         self.sides.map(|sides| sides.map(|side| 1.0 / side))
+    }
+
+    /// virial ← −Σ r·∂u/∂r over the pairs, where r is from a body to the nearest image of the other: Clausius' virial, with which (2T + virial)/(DV) is the
+    /// pressure in the box. In open space it is −qᵀU_q. It is minus the derivative by λ, at λ = 1, of U(λq) in a box of λ times the sides.
+    pub fn virial<N: Number>(&mut self, q: &[N], virial: &mut N, scratch: &mut [N])
+    where
+        P: PairPotential<N>,
+    {
+        self.neighbours.update::<N, D>(q, self.sides.as_ref());
+        virial.assign_zero();
+        // for rows, not for steps: compiled once, without vectors
+        self.sum_in_blocks::<N, 1, false, false, true>(q, &mut [], virial, scratch);
+        virial.negate();
     }
 
     /// Adds U_q to the gradient and U to the energy, as these are wanted.
@@ -237,20 +251,20 @@ impl<P, const D: usize> CutoffPairs<P, D> {
         if N::IN_VECTORS {
             instructions::widest(
                 #[inline(always)]
-                || self.sum_in_blocks::<N, BLOCK, FORCES, ENERGY>(q, gradient, energy, scratch),
+                || self.sum_in_blocks::<N, BLOCK, FORCES, ENERGY, false>(q, gradient, energy, scratch),
             );
         } else {
-            self.sum_in_blocks::<N, 1, FORCES, ENERGY>(q, gradient, energy, scratch);
+            self.sum_in_blocks::<N, 1, FORCES, ENERGY, false>(q, gradient, energy, scratch);
         }
     }
 
-    /// The same in blocks of W pairs of a body, added one after the other, so that sums do not depend on W.
+    /// The same in blocks of W pairs of a body, added one after the other, so that sums do not depend on W; in place of U the sum of r·∂u/∂r for the virial.
     #[inline(always)]
-    fn sum_in_blocks<N: Number, const W: usize, const FORCES: bool, const ENERGY: bool>(
+    fn sum_in_blocks<N: Number, const W: usize, const FORCES: bool, const ENERGY: bool, const VIRIAL: bool>(
         &self,
         q: &[N],
         gradient: &mut [N],
-        energy: &mut N,
+        sum: &mut N,
         scratch: &mut [N],
     ) where
         P: PairPotential<N>,
@@ -262,30 +276,31 @@ impl<P, const D: usize> CutoffPairs<P, D> {
         let zero = N::zero(&constants.squares[0].context());
         let mut near = Near::<N, D, W>::new(&zero);
         for body in 0..self.bodies {
-            let mut own = Own { body, gradient: std::array::from_fn(|_| zero.clone()), energy: zero.clone() };
+            let mut own = Own { body, gradient: std::array::from_fn(|_| zero.clone()), sum: zero.clone() };
             for others in self.neighbours.of(body).chunks(W) {
                 near.add(others, &q[body], q, &constants, reciprocal_sides.as_ref());
                 if near.count >= W {
-                    self.add_block::<N, W, FORCES, ENERGY>(&near, W, &constants, (gradient, &mut own), pair);
+                    self.add_block::<N, W, FORCES, ENERGY, VIRIAL>(&near, W, &constants, (gradient, &mut own), pair);
                     near.drop_block();
                 }
             }
             if near.count > 0 {
-                self.add_block::<N, W, FORCES, ENERGY>(&near, near.count, &constants, (gradient, &mut own), pair);
+                let own = (&mut *gradient, &mut own);
+                self.add_block::<N, W, FORCES, ENERGY, VIRIAL>(&near, near.count, &constants, own, pair);
                 near.count = 0;
             }
             if FORCES {
                 gradient[body].iter_mut().zip(&own.gradient).for_each(|(gradient, own)| gradient.add(own));
             }
-            if ENERGY {
-                energy.add(&own.energy);
+            if ENERGY || VIRIAL {
+                sum.add(&own.sum);
             }
         }
     }
 
     /// Adds the first pairs that are near.
     #[inline(always)]
-    fn add_block<N: Number, const W: usize, const FORCES: bool, const ENERGY: bool>(
+    fn add_block<N: Number, const W: usize, const FORCES: bool, const ENERGY: bool, const VIRIAL: bool>(
         &self,
         near: &Near<N, D, W>,
         count: usize,
@@ -300,7 +315,7 @@ impl<P, const D: usize> CutoffPairs<P, D> {
         let switch = self.switch.filter(|_| (0..count).any(|l| is_below(from, &x[l])));
         let (mut slopes, mut energies) = (x.clone(), x.clone());
         self.evaluate::<N, W>(
-            (FORCES, ENERGY || switch.is_some()),
+            (FORCES || VIRIAL, ENERGY || switch.is_some()),
             (own.body, others),
             x,
             (&mut slopes, &mut energies),
@@ -342,8 +357,11 @@ impl<P, const D: usize> CutoffPairs<P, D> {
                 }
             }
         }
+        if VIRIAL {
+            slopes[..count].iter().zip(x).for_each(|(slope, x)| own.sum.add_product(slope, x));
+        }
         if ENERGY {
-            energies[..count].iter().for_each(|of_pair| own.energy.add(of_pair));
+            energies[..count].iter().for_each(|of_pair| own.sum.add(of_pair));
         }
     }
 

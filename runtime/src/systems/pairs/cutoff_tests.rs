@@ -3,7 +3,7 @@
 use super::{BLOCK, Cutoff, CutoffPairs};
 use crate::number::counting::Counting;
 use crate::number::instructions::Instructions;
-use crate::number::{Lanes, Limbs, Number};
+use crate::number::{Lanes, Limbs, Number, Real};
 use crate::systems::formula::FormulaPair;
 use crate::systems::pairs::{PairPotential, Separation};
 use crate::systems::potential::Potential;
@@ -168,11 +168,14 @@ fn sums_are_those_over_all_pairs_and_images() {
 const BODIES: usize = 512;
 
 fn fluid<N: Number<Context = ()>>(switched: bool) -> CutoffPairs<LennardJones<N>, 3> {
+    fluid_in_box(switched, rational(83, 10))
+}
+
+fn fluid_in_box<N: Number<Context = ()>>(switched: bool, side: Rational) -> CutoffPairs<LennardJones<N>, 3> {
     let mut cutoff = Cutoff::at(rational(9, 4)).unwrap();
     if switched {
         cutoff = cutoff.switched(rational(2, 1), 3).unwrap();
     }
-    let side = rational(83, 10);
     let one = || N::from_rational(&rational(1, 1), &());
     let pair = LennardJones { epsilon: one(), sigma: one() };
     CutoffPairs::new(BODIES, pair, cutoff.in_box([side.clone(), side.clone(), side]).unwrap()).unwrap()
@@ -271,6 +274,49 @@ fn derivatives_are_those_of_the_energy() {
 }
 
 /// In fixed point steps back undo steps to the last bit, though other lists are made on the way back.
+/// The virial is minus the derivative of U under a scaling of the positions and of the box; without a box it is −qᵀU_q.
+#[test]
+fn virials_are_derivatives_by_the_scale() {
+    type N = Limbs<3>;
+    let q = places(BODIES, 8, 3, 11);
+    let mut pairs = fluid::<N>(true);
+    let exact: Vec<N> = q.iter().copied().map(limbs).collect();
+    let mut scratch = vec![N::ZERO; Potential::<N>::scratch(&pairs)];
+    pairs.prepare(&mut scratch, &());
+    let mut found = N::ZERO;
+    pairs.virial(&exact, &mut found, &mut scratch);
+    let tiny = rational(1, 1_000_000_000_000);
+    let scaled = |scale: Rational| {
+        let of_scale = N::from_rational(&scale, &());
+        let mut q = exact.clone();
+        q.iter_mut().for_each(|x| x.multiply(&of_scale));
+        evaluated(&mut fluid_in_box::<N>(true, rational(83, 10) * scale), &q).2[1]
+    };
+    let mut expected = scaled(rational(1, 1) - &tiny);
+    expected.subtract(&scaled(rational(1, 1) + &tiny));
+    expected.divide(&N::from_rational(&(tiny * rational(2, 1)), &()));
+    expected.subtract(&found);
+    // the difference quotient has an error of the size of 1e-24 in 57 digits, of which 12 are lost
+    assert!(expected.log10_abs() < found.log10_abs() - 20.0, "{} {}", expected.log10_abs(), found.log10_abs());
+
+    let mut open = CutoffPairs::<_, 3>::new(
+        BODIES,
+        LennardJones { epsilon: 1.0, sigma: 1.0 },
+        Cutoff::at(rational(9, 4)).unwrap(),
+    )
+    .unwrap();
+    let mut scratch = vec![0.0; Potential::<f64>::scratch(&open)];
+    Potential::<f64>::prepare(&open, &mut scratch, &());
+    let mut found = 0.0;
+    open.virial(&q, &mut found, &mut scratch);
+    let gradient = evaluated(&mut open, &q).0;
+    let sizes: Vec<f64> = q.iter().zip(&gradient).map(|(q, slope)| q * slope).collect();
+    let expected = -sizes.iter().sum::<f64>();
+    // some thousand sums, each with a round-off of the size of its terms
+    let round_off = 1e-15 * BODIES as f64 * sizes.iter().fold(0.0, |size: f64, x| size.max(x.abs()));
+    assert!((found - expected).abs() < round_off, "{found} {expected} {round_off}");
+}
+
 #[test]
 fn steps_back_undo_steps() {
     let (q, p) = (places(BODIES, 8, 3, 12), places(BODIES, 8, 3, 13).iter().map(|x| x.sin()).collect::<Vec<_>>());
