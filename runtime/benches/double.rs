@@ -97,6 +97,27 @@ where
     (name, Box::new(run))
 }
 
+/// With a window in 100 steps, those between by one call.
+fn watched_between<'a, A, V, P>(
+    name: &'static str,
+    (scheme, h): (A, &str),
+    mut motion: Run<V, P>,
+    settings: &Bilinear,
+) -> Contestant<'a>
+where
+    A: Scheme + ValidFor<Quadratic> + 'a,
+    V: Coordinates<f64> + 'a,
+    P: System<V> + 'a,
+{
+    let stepper = Stepper::new(scheme, h).expect("h is not 0");
+    let mut monitor = ShadowEnergy::new(stepper, &mut motion, settings).expect("a finite state").every(100);
+    let run = move |repetitions: u32| {
+        monitor.steps(&mut motion, repetitions.into()).expect("finite states");
+        black_box(motion.q());
+    };
+    (name, Box::new(run))
+}
+
 /// Plain steps, steps with β, and a monitor with E_8.
 fn compare_all<A: Scheme + ValidFor<Quadratic> + Copy, V: Coordinates<f64>, P: System<V>>(
     title: &str,
@@ -112,6 +133,7 @@ fn compare_all<A: Scheme + ValidFor<Quadratic> + Copy, V: Coordinates<f64>, P: S
         watched("with E_8 at each step", scheme, start(), (value, 1)),
         watched("with E_8 and its error at each step", scheme, start(), (with_error, 1)),
         watched("with E_8, a window in 100 steps", scheme, start(), (value, 100)),
+        watched_between("the same, those between by `steps`", scheme, start(), value),
     ];
     compare(title, contestants, repetitions);
 }

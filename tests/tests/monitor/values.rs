@@ -55,6 +55,26 @@ fn steps_between_windows_cost_what_plain_steps_cost() {
     }
 }
 
+/// Steps at once are steps one by one: their states, their evaluations and their report.
+#[test]
+fn steps_at_once_have_the_report_of_steps_one_by_one() {
+    for (name, every) in [("stormer-verlet", 100), ("yoshida4", 17), ("blanes-moan-srkn6b", 3), ("bcm6-13", 100)] {
+        let stepper = stepper(name, "1/10", &());
+        let begin =
+            |motion: &mut _| ShadowEnergy::new(stepper.clone(), motion, &Bilinear::with_error(8)).unwrap().every(every);
+        let (mut one, mut all) = (henon_heiles::<f64>(&()), henon_heiles::<f64>(&()));
+        let (mut one_by_one, mut at_once) = (begin(&mut one), begin(&mut all));
+        for count in [0, 1, 2, 90, 107, 1000, 3000] {
+            (0..count).for_each(|_| drop(one_by_one.step(&mut one).unwrap()));
+            at_once.steps(&mut all, count).unwrap();
+            assert_eq!((at_once.n(), all.q(), all.p()), (one_by_one.n(), one.q(), one.p()), "{name}, {every}");
+        }
+        assert_eq!(all.evaluations(), one.evaluations(), "{name}, {every}");
+        let [found, expected] = [&at_once, &one_by_one].map(|monitor| format!("{:?}", monitor.report()));
+        assert_eq!(found, expected, "{name}, {every}");
+    }
+}
+
 // ---------------------------------------------------------------------------------------------------------------
 // Values
 

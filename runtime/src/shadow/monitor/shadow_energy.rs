@@ -60,7 +60,7 @@ use crate::systems::system::System;
 ///   the energy error is 1.9 % of T; in 20000 steps a net change above 4.99e-14 of T, 4.99e-17 of T per unit time is excluded
 /// ```
 ///
-/// Where a loop does more than steps, it can make them itself: with increments where
+/// A loop that does nothing else is `monitor.steps(&mut comet, 20_000)?`. Where a loop does more than steps, it can make them itself: with increments where
 /// [`needs_increments`](Monitor::needs_increments) is true, and with [`observe`](Monitor::observe) after each.
 ///
 /// ```
@@ -144,6 +144,28 @@ impl<S: Scheme, N: Real, E: Estimator<N>> ShadowEnergy<S, N, E> {
     {
         self.stepper.step_carrying(system, self.monitor.carried());
         self.monitor.observe(system)
+    }
+
+    /// `count` steps with the bits and the report that [`step`](ShadowEnergy::step) gives, those between the windows as
+    /// [`Stepper::steps`]: less time where forces cost little and windows are rare, for loops that do not look at each state.
+    ///
+    /// # Errors
+    /// As [`observe`](Monitor::observe).
+    pub fn steps<M: System<Number = N>>(&mut self, system: &mut M, count: u64) -> Result<(), RunError>
+    where
+        S: ValidFor<M::Class>,
+    {
+        let end = self.monitor.n() + count;
+        while self.monitor.n() < end {
+            let idle = self.monitor.idle().min(end - self.monitor.n());
+            if idle > 0 {
+                self.stepper.steps(std::slice::from_mut(system), idle);
+                self.monitor.pass(idle);
+            } else {
+                self.step(system)?;
+            }
+        }
+        Ok(())
     }
 
     /// As [`Monitor::observe`].
