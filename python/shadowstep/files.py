@@ -6,6 +6,7 @@ import builtins
 import csv
 import json
 import os
+import warnings
 from collections.abc import Iterator
 from typing import Any, Union
 
@@ -49,6 +50,7 @@ def open(path: Union[str, os.PathLike[str]]) -> Trajectory:
     if name.endswith(".npy"):
         return _numpy(name)
     metadata, rows, momenta = _json_lines(name) if name.endswith(".jsonl") else _csv(name)
+    _warn_of_missing(name, metadata, [int(row["n"]) for row in rows])
     coordinates = metadata["coordinates"]
     doubles = metadata.get("digits") in ("double", "compensated")
 
@@ -80,6 +82,15 @@ def open(path: Union[str, os.PathLike[str]]) -> Trajectory:
         indicators={name: array(name) for name in _INDICATORS if there(name)},
         values={name: array(name, texts=True) for name in metadata.get("values", {})},
     )
+
+
+def _warn_of_missing(name: str, metadata: dict[str, Any], n: list[int]) -> None:
+    """Warns where rows have been cut off at the end of a line: from n = 0 on, rows are never farther from each other than the first two."""
+    if len(n) < 2 or n[0] != 0 or "section" in metadata:
+        return
+    if n[-1] + n[1] <= int(metadata["steps"]):
+        message = f"{name} ends at n = {n[-1]}, and its run has {metadata['steps']} steps: copy the file again, or run its scene again"
+        warnings.warn(message, stacklevel=3)
 
 
 def _csv(name: str) -> tuple[dict[str, Any], list[dict[str, str]], list[str]]:

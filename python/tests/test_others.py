@@ -2,6 +2,7 @@
 
 import subprocess
 import sys
+import warnings
 from pathlib import Path
 
 import numpy as np
@@ -197,3 +198,26 @@ def test_a_file_of_something_else_is_refused(tmp_path):
     (tmp_path / "table.csv").write_text("a,b\n1,2\n")
     with pytest.raises(shadowstep.InputError, match="is no file of `shadowstep run`"):
         shadowstep.open(tmp_path / "table.csv")
+
+
+def test_files_that_end_too_early_are_noticed(tmp_path):
+    scene = """
+    problem.name = "kepler"
+    run = {{ scheme = "yoshida4", step = "1/10", steps = {steps}, digits = "double" }}
+    output = {{ file = "kepler.csv", {columns}, summary = false }}
+    """
+    for columns in ("trajectory = true", "trajectory = { every = 7 }, energy = { every = 10 }", "trajectory.section = 'y'"):
+        for steps in (66, 70, 71):
+            (tmp_path / "kepler.toml").write_text(scene.format(steps=steps, columns=columns))
+            (tmp_path / "kepler.csv").unlink(missing_ok=True)
+            shadowstep.run(tmp_path / "kepler.toml", progress=False)
+            with warnings.catch_warnings():
+                warnings.simplefilter("error")
+                shadowstep.open(tmp_path / "kepler.csv")
+    (tmp_path / "kepler.toml").write_text(scene.format(steps=66, columns="trajectory = { every = 7 }, energy = { every = 10 }"))
+    (tmp_path / "kepler.csv").unlink()
+    shadowstep.run(tmp_path / "kepler.toml", progress=False)
+    lines = (tmp_path / "kepler.csv").read_text().splitlines(keepends=True)
+    (tmp_path / "kepler.csv").write_text("".join(lines[:-4]))
+    with pytest.warns(UserWarning, match="kepler.csv ends at n = 49, and its run has 66 steps: copy the file again"):
+        shadowstep.open(tmp_path / "kepler.csv")

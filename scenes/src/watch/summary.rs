@@ -176,9 +176,12 @@ impl Summary {
 
     /// A remark on a passage of so few steps that the states between which H was compared do not show what it does.
     fn unresolved_text(&self) -> &'static str {
-        match self.closest.first().is_some_and(|encounter| encounter.steps < RESOLVED) {
-            true => ": too few, the energy may have changed by more than the states that were looked at show",
-            false => "",
+        match self.closest.first() {
+            Some(Encounter { steps, .. }) if *steps < RESOLVED && self.has_all_states() => ": too few to resolve them",
+            Some(Encounter { steps, .. }) if *steps < RESOLVED => {
+                ": too few, the energy may have changed by more than the states that were looked at show"
+            }
+            _ => "",
         }
     }
 
@@ -217,10 +220,15 @@ impl Summary {
         };
         let (largest, time) = (part(largest_relative, largest), self.time(*at));
         let last = format!("{} at the end", part(last_relative, last));
-        match u64::try_from(self.to - self.from + 1).is_ok_and(|all| *states >= all) {
+        match self.has_all_states() {
             true => format!("at most {largest} ({time}), {last}"),
             false => format!("{largest} ({time}) is the largest of {states} states, {last}"),
         }
+    }
+
+    /// Whether H was compared at every state.
+    fn has_all_states(&self) -> bool {
+        u64::try_from(self.to - self.from + 1).is_ok_and(|all| self.energy.states >= all)
     }
 
     fn modified_energy_text(&self) -> String {
