@@ -65,7 +65,9 @@ fn steps_at_once_have_the_report_of_steps_one_by_one() {
         let (mut one, mut all) = (henon_heiles::<f64>(&()), henon_heiles::<f64>(&()));
         let (mut one_by_one, mut at_once) = (begin(&mut one), begin(&mut all));
         for count in [0, 1, 2, 90, 107, 1000, 3000] {
-            (0..count).for_each(|_| drop(one_by_one.step(&mut one).unwrap()));
+            for _ in 0..count {
+                one_by_one.step(&mut one).unwrap();
+            }
             at_once.steps(&mut all, count).unwrap();
             assert_eq!((at_once.n(), all.q(), all.p()), (one_by_one.n(), one.q(), one.p()), "{name}, {every}");
         }
