@@ -412,7 +412,7 @@ impl<N: RunNumber> Recorder<'_, '_, N> {
     /// The time of the state n.
     fn time(&self, n: i64, q: &[N]) -> N {
         let time = self.scene.system.time_of(q);
-        time.cloned().unwrap_or_else(|| N::from_rational(&self.run.time(n), self.context))
+        time.cloned().unwrap_or_else(|| self.run.time_in(n, self.context))
     }
 
     /// Writes a row; `energy` is H where it is needed.

@@ -296,7 +296,7 @@ impl<N: RunNumber> Keeper<'_, N> {
         }
         let samples = &mut self.samples;
         samples.n.push(number);
-        let time = time.unwrap_or_else(|| N::from_rational(&run.time(number), self.context));
+        let time = time.unwrap_or_else(|| run.time_in(number, self.context));
         samples.t.push(system.time_of(q).cloned().unwrap_or(time));
         samples.energy.push(energy);
         let (q, p) = match &mut self.shown {

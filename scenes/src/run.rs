@@ -1,9 +1,12 @@
 //! One run: a scheme, or the exact flow, and a step size.
 
+use std::any::Any;
+
+use num_traits::ToPrimitive;
 use shadowstep::shadow::EstimatorSettings;
 use shadowstep::shadow::exact_flow::ExactFlowError;
 use shadowstep::shadow::run::{NotFinite, Quantity, RunError};
-use shadowstep::{Rational, StepSize};
+use shadowstep::{Number, Rational, StepSize};
 
 use crate::error::Error;
 use crate::readable::shortened;
@@ -32,10 +35,27 @@ pub struct OrderSetting {
     pub value: u32,
 }
 
+/// n h where both parts of the fraction are doubles without rounding, so that their quotient is rounded once: a run that keeps each state takes a
+/// third less time than with fractions.
+fn double_multiple(h: &Rational, n: i64) -> Option<f64> {
+    const EXACT: i64 = 1 << f64::MANTISSA_DIGITS;
+    let is_exact = |x: &i64| (-EXACT..=EXACT).contains(x);
+    let numerator = h.numer().to_i64()?.checked_mul(n).filter(is_exact)?;
+    let denominator = h.denom().to_i64().filter(is_exact)?;
+    Some(numerator as f64 / denominator as f64)
+}
+
 impl Run<'_> {
     /// t = n h
     pub fn time(&self, n: i64) -> Rational {
         self.h.exact() * Rational::from_integer(n.into())
+    }
+
+    /// The same in a number of the run, rounded once.
+    pub(crate) fn time_in<N: Number + 'static>(&self, n: i64, context: &N::Context) -> N {
+        let of_doubles = double_multiple(self.h.exact(), n);
+        let own = of_doubles.and_then(|time| (&time as &dyn Any).downcast_ref::<N>().cloned());
+        own.unwrap_or_else(|| N::from_rational(&self.time(n), context))
     }
 
     /// The time of the last state.
@@ -109,4 +129,35 @@ fn named(value: &NotFinite, coordinates: &[String], momenta: &[String]) -> Strin
         _ => None,
     };
     name.map_or_else(|| value.to_string(), |name| format!("{name} = {}", value.value))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn times_are_rounded_once() {
+        let steps = [
+            "1/10",
+            "1/3",
+            "-7/1000",
+            "100",
+            "0.30000000000000004",
+            "9007199254740993",
+            "1/9007199254740993",
+            "1e-300",
+        ];
+        for h in steps {
+            let h = StepSize::try_from(h).unwrap();
+            let run = Run { propagator: "yoshida4", h: &h, steps: 1, order: None };
+            for n in [0, 1, -1, 3, 10, 12345, 1 << 40, i64::MAX, i64::MIN] {
+                let expected = f64::from_rational(&run.time(n), &());
+                assert_eq!(run.time_in::<f64>(n, &()).to_bits(), expected.to_bits(), "{n} * {h:?}");
+            }
+        }
+        assert_eq!(
+            [1, i64::MAX].map(|n| double_multiple(&Rational::new(1.into(), 3.into()), n)),
+            [Some(1.0 / 3.0), None]
+        );
+    }
 }
