@@ -62,7 +62,7 @@ $(WHEEL)/tools/bin/maturin:
 	$(PYTHON) -m venv $(WHEEL)/tools
 	$(WHEEL)/tools/bin/pip install --quiet 'maturin>=1.9,<2'
 
-# A new virtual environment with a wheel that is built in little time, and with what tests, notebooks and the book need, which comes while the wheel is built.
+# A new virtual environment with a wheel that is built in little time, and with the packages that tests, notebooks and the book need. They are downloaded while the wheel is built.
 python-environment: $(WHEEL)/tools/bin/maturin
 	rm -rf $(WHEEL)/wheels $(WHEEL)/test
 	$(PYTHON) -m venv $(WHEEL)/test

@@ -50,7 +50,7 @@ def open(path: Union[str, os.PathLike[str]]) -> Trajectory:
     if name.endswith(".npy"):
         return _numpy(name)
     metadata, rows, momenta = _json_lines(name) if name.endswith(".jsonl") else _csv(name)
-    _warn_of_missing(name, metadata, [int(row["n"]) for row in rows])
+    _warn_of_missing(name, metadata, rows)
     coordinates = metadata["coordinates"]
     doubles = metadata.get("digits") in ("double", "compensated")
 
@@ -84,12 +84,13 @@ def open(path: Union[str, os.PathLike[str]]) -> Trajectory:
     )
 
 
-def _warn_of_missing(name: str, metadata: dict[str, Any], n: list[int]) -> None:
+def _warn_of_missing(name: str, metadata: dict[str, Any], rows: list[dict[str, str]]) -> None:
     """Warns where rows have been cut off at the end of a line: from n = 0 on, rows are never farther from each other than the first two."""
-    if len(n) < 2 or n[0] != 0 or "section" in metadata:
+    if len(rows) < 2 or "section" in metadata:
         return
-    if n[-1] + n[1] <= int(metadata["steps"]):
-        message = f"{name} ends at n = {n[-1]}, and its run has {metadata['steps']} steps: copy the file again, or run its scene again"
+    first, second, last = (int(rows[i]["n"]) for i in (0, 1, -1))
+    if first == 0 and last + second <= int(metadata["steps"]):
+        message = f"{name} ends at n = {last}, and its run has {metadata['steps']} steps: copy the file again, or run its scene again"
         warnings.warn(message, stacklevel=3)
 
 

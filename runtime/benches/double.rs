@@ -79,7 +79,7 @@ fn watched<'a, A, V, P>(
     name: &'static str,
     (scheme, h): (A, &str),
     mut motion: Run<V, P>,
-    (settings, every): (&Bilinear, u64),
+    (settings, every, between_at_once): (&Bilinear, u64, bool),
 ) -> Contestant<'a>
 where
     A: Scheme + ValidFor<Quadratic> + 'a,
@@ -88,31 +88,17 @@ where
 {
     let stepper = Stepper::new(scheme, h).expect("h is not 0");
     let mut monitor = ShadowEnergy::new(stepper, &mut motion, settings).expect("a finite state").every(every);
+    if between_at_once {
+        let run = move |repetitions: u32| {
+            monitor.steps(&mut motion, repetitions.into()).expect("finite states");
+            black_box(motion.q());
+        };
+        return (name, Box::new(run));
+    }
     let run = move |repetitions| {
         for _ in 0..repetitions {
             monitor.step(&mut motion).expect("finite states");
         }
-        black_box(motion.q());
-    };
-    (name, Box::new(run))
-}
-
-/// With a window in 100 steps, those between by one call.
-fn watched_between<'a, A, V, P>(
-    name: &'static str,
-    (scheme, h): (A, &str),
-    mut motion: Run<V, P>,
-    settings: &Bilinear,
-) -> Contestant<'a>
-where
-    A: Scheme + ValidFor<Quadratic> + 'a,
-    V: Coordinates<f64> + 'a,
-    P: System<V> + 'a,
-{
-    let stepper = Stepper::new(scheme, h).expect("h is not 0");
-    let mut monitor = ShadowEnergy::new(stepper, &mut motion, settings).expect("a finite state").every(100);
-    let run = move |repetitions: u32| {
-        monitor.steps(&mut motion, repetitions.into()).expect("finite states");
         black_box(motion.q());
     };
     (name, Box::new(run))
@@ -130,10 +116,10 @@ fn compare_all<A: Scheme + ValidFor<Quadratic> + Copy, V: Coordinates<f64>, P: S
     let contestants = vec![
         steps("steps", scheme, start()),
         augmented("steps with β", scheme, start()),
-        watched("with E_8 at each step", scheme, start(), (value, 1)),
-        watched("with E_8 and its error at each step", scheme, start(), (with_error, 1)),
-        watched("with E_8, a window in 100 steps", scheme, start(), (value, 100)),
-        watched_between("the same, those between by `steps`", scheme, start(), value),
+        watched("with E_8 at each step", scheme, start(), (value, 1, false)),
+        watched("with E_8 and its error at each step", scheme, start(), (with_error, 1, false)),
+        watched("with E_8, a window in 100 steps", scheme, start(), (value, 100, false)),
+        watched("the same, those between by `steps`", scheme, start(), (value, 100, true)),
     ];
     compare(title, contestants, repetitions);
 }

@@ -76,7 +76,7 @@ impl Run<'_> {
     pub(crate) fn time_of_crossing<N: RunNumber>(&self, n: i64, part: &N, context: &N::Context) -> N {
         let mut time = N::from_rational(self.h.exact(), context);
         time.multiply(part);
-        time.add(&N::from_rational(&self.time(n), context));
+        time.add(&self.time_in(n, context));
         time
     }
 }

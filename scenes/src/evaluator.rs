@@ -14,8 +14,8 @@ use crate::computation::RunNumber;
 use crate::error::Error;
 use crate::expression::{Comparison, Condition, ENERGY, Expression, TIME, name_of_quantity};
 use crate::lanes::LANES;
-use crate::quantity::{NoQuantity, Quantity};
-use crate::quantity_of_bodies::{Compute, QuantityOfBodies};
+use crate::quantity::{Compute, NoQuantity, Quantity};
+use crate::quantity_of_bodies::QuantityOfBodies;
 use crate::scene::split::ShownCoordinates;
 use crate::scene::{Direction, EnergyAt, Surface, System};
 

@@ -53,6 +53,9 @@ pub(crate) enum Function {
     Element(Element),
 }
 
+/// Computes a quantity from positions and momenta.
+pub(crate) type Compute<N> = Box<dyn FnMut(&[N], &[N]) -> N>;
+
 /// Why a system does not have a quantity.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct NoQuantity {

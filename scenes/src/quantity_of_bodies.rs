@@ -9,7 +9,7 @@ use num_traits::Zero;
 use shadowstep::{Rational, Real};
 
 use self::orbit::Orbit;
-use crate::quantity::{ELEMENTS, Element, Function, KINETIC, NoQuantity, Quantity, VIRIAL, refuse};
+use crate::quantity::{Compute, ELEMENTS, Element, Function, KINETIC, NoQuantity, Quantity, VIRIAL, refuse};
 use crate::scene::bodies::Bodies;
 use crate::scene::{GRAVITY, PotentialEnergy, System};
 
@@ -123,9 +123,6 @@ fn refuse_box(system: &System) -> Result<(), NoQuantity> {
         _ => Ok(()),
     }
 }
-
-/// Computes a quantity from positions and momenta.
-pub(crate) type Compute<N> = Box<dyn FnMut(&[N], &[N]) -> N>;
 
 impl QuantityOfBodies {
     /// Of the bodies of a system.

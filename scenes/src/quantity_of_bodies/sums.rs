@@ -2,9 +2,9 @@
 
 use shadowstep::{Kinetic, Number};
 
-use crate::quantity::{NoQuantity, refuse};
+use crate::quantity::{Compute, NoQuantity, refuse};
 use crate::scene::OfPositions;
-use crate::scene::{ClassifiedKinetic, EnergyAt, PotentialEnergy, System};
+use crate::scene::{ClassifiedKinetic, PotentialEnergy, System};
 
 /// Refuses a system that is not T(p) + U(q), or that has the name already.
 pub(super) fn check(name: &str, system: &System) -> Result<(), NoQuantity> {
@@ -25,7 +25,7 @@ pub(super) fn check(name: &str, system: &System) -> Result<(), NoQuantity> {
 }
 
 /// T(p)
-pub(super) fn kinetic<N: Number + 'static>(system: &System, context: &N::Context) -> EnergyAt<N> {
+pub(super) fn kinetic<N: Number + 'static>(system: &System, context: &N::Context) -> Compute<N> {
     let coordinates = system.coordinates_of_columns();
     match system.kinetic_without_time(context) {
         ClassifiedKinetic::Quadratic(kinetic) => energy_of(kinetic, coordinates, context),
@@ -37,7 +37,7 @@ fn energy_of<N: Number + 'static>(
     kinetic: impl Kinetic<N> + 'static,
     coordinates: usize,
     context: &N::Context,
-) -> EnergyAt<N> {
+) -> Compute<N> {
     let zero = N::zero(context);
     let mut scratch = vec![zero.clone(); kinetic.scratch()];
     kinetic.prepare(&mut scratch, context);
@@ -49,7 +49,7 @@ fn energy_of<N: Number + 'static>(
 }
 
 /// −qᵀU_q of bodies with mass, in a periodic box of the nearest images; slow forces are added.
-pub(super) fn virial<N: Number + 'static>(system: &System, context: &N::Context) -> EnergyAt<N> {
+pub(super) fn virial<N: Number + 'static>(system: &System, context: &N::Context) -> Compute<N> {
     let slow = system.parts.slow_forces().map(|slow| slow.potential());
     let mut sums: Vec<_> =
         [Some(&system.potential), slow].into_iter().flatten().map(|of| virial_of(of, system, context)).collect();

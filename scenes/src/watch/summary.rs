@@ -177,7 +177,9 @@ impl Summary {
     /// A remark on a passage of so few steps that the states between which H was compared do not show what it does.
     fn unresolved_text(&self) -> &'static str {
         match self.closest.first() {
-            Some(Encounter { steps, .. }) if *steps < RESOLVED && self.has_all_states() => ": too few to resolve them",
+            Some(Encounter { steps, .. }) if *steps < RESOLVED && self.has_all_states() => {
+                ": too few to resolve the motion there"
+            }
             Some(Encounter { steps, .. }) if *steps < RESOLVED => {
                 ": too few, the energy may have changed by more than the states that were looked at show"
             }

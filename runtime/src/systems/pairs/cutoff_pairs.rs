@@ -227,6 +227,7 @@ impl<P, const D: usize> CutoffPairs<P, D> {
 
     /// virial ← −Σ r·∂u/∂r over the pairs, where r is from a body to the nearest image of the other: Clausius' virial, with which (2T + virial)/(DV) is the
     /// pressure in the box. In open space it is −qᵀU_q. It is minus the derivative by λ, at λ = 1, of U(λq) in a box of λ times the sides.
+    /// The scratch space is one that [`prepare`](Potential::prepare) has prepared.
     pub fn virial<N: Number>(&mut self, q: &[N], virial: &mut N, scratch: &mut [N])
     where
         P: PairPotential<N>,

@@ -273,7 +273,6 @@ fn derivatives_are_those_of_the_energy() {
     assert!(check.agrees() && check.hessian.is_some(), "{check}");
 }
 
-/// In fixed point steps back undo steps to the last bit, though other lists are made on the way back.
 /// The virial is minus the derivative of U under a scaling of the positions and of the box; without a box it is −qᵀU_q.
 #[test]
 fn virials_are_derivatives_by_the_scale() {
@@ -317,6 +316,7 @@ fn virials_are_derivatives_by_the_scale() {
     assert!((found - expected).abs() < round_off, "{found} {expected} {round_off}");
 }
 
+/// In fixed point steps back undo steps to the last bit, though other lists are made on the way back.
 #[test]
 fn steps_back_undo_steps() {
     let (q, p) = (places(BODIES, 8, 3, 12), places(BODIES, 8, 3, 13).iter().map(|x| x.sin()).collect::<Vec<_>>());
