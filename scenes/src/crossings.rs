@@ -211,6 +211,9 @@ mod tests {
             format!("{}:{}: {}", faults[0].line, faults[0].column, faults[0].message)
         };
         assert_eq!(fault("{ section = \"z\" }", ""), "8:27: unknown name `z`; known names: x, y, px, py, t, E");
+        // what stands for a quantity is not shown
+        let unknown = "8:27: unknown name `kinetik`; known names: x, y, px, py, t, E";
+        assert_eq!(fault("{ section = \"kinetik - virial\" }", ""), unknown);
         assert_eq!(
             fault("{ section = \"t\" }", ""),
             "8:26: a section is a function of q and p, and t is no coordinate here"

@@ -78,7 +78,8 @@ impl System {
             NotOfSystem::Formula(error) => {
                 let known =
                     self.coordinates.iter().chain(&self.momenta).take(6).cloned().collect::<Vec<_>>().join(", ");
-                let hint = format!("it is a formula in {known}, t, E and the parameters, in a sweep also the axes");
+                let sums: String = QuantityOfBodies::sums(self).map(|sum| format!(", {sum}")).collect();
+                let hint = format!("it is a formula in {known}, t, E{sums} and the parameters, in a sweep also the axes");
                 let (message, hint) = match error.to_string().split_once(" is not smooth") {
                     Some((name, _)) => (
                         format!("{name} is not known here"),

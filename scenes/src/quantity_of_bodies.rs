@@ -125,6 +125,11 @@ fn refuse_box(system: &System) -> Result<(), NoQuantity> {
 }
 
 impl QuantityOfBodies {
+    /// The names of the sums that a system has.
+    pub(crate) fn sums(system: &System) -> impl Iterator<Item = &'static str> {
+        [KINETIC, VIRIAL].into_iter().filter(|name| sums::check(name, system).is_ok())
+    }
+
     /// Of the bodies of a system.
     pub(crate) fn new(quantity: &Quantity, system: &System) -> Result<QuantityOfBodies, NoQuantity> {
         let element = match quantity.function {

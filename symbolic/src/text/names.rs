@@ -51,9 +51,10 @@ pub(crate) fn callee<'a>(name: &str, arguments: &'a [Expression]) -> Result<(Cal
     }
 }
 
-/// The fault of a name that is neither known nor `pi`.
+/// The fault of a name that is neither known nor `pi`. Known names that begin with `__` stand for parts of a formula: no one can write them.
 pub(crate) fn unknown_name(name: &str, known: &[&str]) -> SemanticFault {
-    let hint = hint(name, known, &[PI], "known names", "the only known name is `pi`");
+    let known: Vec<&str> = known.iter().copied().filter(|known| !known.starts_with("__")).collect();
+    let hint = hint(name, &known, &[PI], "known names", "the only known name is `pi`");
     SemanticFault::UnknownName { name: name.to_string(), hint }
 }
 
