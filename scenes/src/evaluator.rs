@@ -14,8 +14,9 @@ use crate::computation::RunNumber;
 use crate::error::Error;
 use crate::expression::{Comparison, Condition, ENERGY, Expression, TIME, name_of_quantity};
 use crate::lanes::LANES;
-use crate::quantity::{Compute, NoQuantity, Quantity};
+use crate::quantity::{Compute, Quantity};
 use crate::quantity_of_bodies::QuantityOfBodies;
+use crate::refusal::Refusal;
 use crate::scene::split::ShownCoordinates;
 use crate::scene::{Direction, EnergyAt, Surface, System};
 
@@ -74,12 +75,13 @@ impl System {
         };
         let Err(error) = Evaluator::<f64>::new(expression, self, &()) else { return };
         let (message, hint, range) = match error {
-            NotOfSystem::Quantity { no: NoQuantity { message, hint }, range } => (message, hint, range),
+            NotOfSystem::Quantity { no: Refusal { message, hint }, range } => (message, hint, range),
             NotOfSystem::Formula(error) => {
                 let known =
                     self.coordinates.iter().chain(&self.momenta).take(6).cloned().collect::<Vec<_>>().join(", ");
                 let sums: String = QuantityOfBodies::sums(self).map(|sum| format!(", {sum}")).collect();
-                let hint = format!("it is a formula in {known}, t, E{sums} and the parameters, in a sweep also the axes");
+                let hint =
+                    format!("it is a formula in {known}, t, E{sums} and the parameters, in a sweep also the axes");
                 let (message, hint) = match error.to_string().split_once(" is not smooth") {
                     Some((name, _)) => (
                         format!("{name} is not known here"),
@@ -104,7 +106,7 @@ pub enum NotOfSystem {
     #[error("{}", .no.message)]
     Quantity {
         /// Why, and what would be right.
-        no: NoQuantity,
+        no: Refusal,
         /// Its bytes in the formula.
         range: Range<usize>,
     },

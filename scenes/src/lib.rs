@@ -158,7 +158,7 @@ pub use frequency::Frequency;
 pub use note::Note;
 pub use observer::Observer;
 pub use read::{first_map, source};
-pub use refusal::{NoGradientKicks, NoProcessor, Refusal};
+pub use refusal::{Refusal, Unsupported};
 pub use results::{FileOptions, elementary_functions, hexadecimal};
 pub use scene::plot;
 pub use scene::split::{

@@ -18,7 +18,7 @@ use thiserror::Error;
 use crate::arithmetic::{Arithmetic, GUARD_DIGITS, MOST_VALUE_DIGITS, TooManyDigits};
 use crate::error::Error;
 use crate::note::Note;
-use crate::refusal::{NoGradientKicks, NoProcessor, Refusal};
+use crate::refusal::{Refusal, Unsupported};
 
 /// The name of the exact flow in place of a scheme.
 pub const EXACT_FLOW: &str = "exact-flow";
@@ -266,7 +266,7 @@ pub fn check_displaced(named: &NamedScheme) -> Result<(), Refusal> {
 ///
 /// # Errors
 /// A scheme with gradient kicks for such a system.
-pub(crate) fn check_gradient_kicks(named: &NamedScheme, none: Option<NoGradientKicks>) -> Result<(), Refusal> {
+pub(crate) fn check_gradient_kicks(named: &NamedScheme, none: Option<Unsupported>) -> Result<(), Refusal> {
     match none.filter(|_| named.scheme.proved().scheme.has_gradient_kicks()) {
         None => Ok(()),
         Some(none) => Err(Refusal::new(format!("{} has gradient kicks, {}", named.name, none.reason), none.hint)),
@@ -290,7 +290,7 @@ fn for_many_parts(named: &NamedScheme) -> Result<NamedScheme, Refusal> {
 ///
 /// # Errors
 /// A processed scheme for such a system.
-pub(crate) fn check_processor(named: &NamedScheme, none: Option<NoProcessor>) -> Result<(), Refusal> {
+pub(crate) fn check_processor(named: &NamedScheme, none: Option<Unsupported>) -> Result<(), Refusal> {
     match none.filter(|_| !named.scheme.processor().is_empty()) {
         None => Ok(()),
         Some(none) => {

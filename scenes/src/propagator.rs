@@ -90,7 +90,7 @@ impl Propagator {
 }
 
 /// The shipped problem at its initial state, if its exact flow is known at the times of the steps; not in transformed time, whose steps end at others.
-pub fn with_exact_flow(system: &System) -> Option<Setup> {
+pub(crate) fn with_exact_flow(system: &System) -> Option<Setup> {
     in_ordinary_time(system).filter(|setup| exact_flow::has_exact_flow(setup).is_ok())
 }
 

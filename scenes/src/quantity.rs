@@ -56,20 +56,6 @@ pub(crate) enum Function {
 /// Computes a quantity from positions and momenta.
 pub(crate) type Compute<N> = Box<dyn FnMut(&[N], &[N]) -> N>;
 
-/// Why a system does not have a quantity.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct NoQuantity {
-    /// What is wrong, one sentence.
-    pub message: String,
-    /// What would be right.
-    pub hint: String,
-}
-
-/// A system does not have a quantity.
-pub(crate) fn refuse<T>(message: &str, hint: &str) -> Result<T, NoQuantity> {
-    Err(NoQuantity { message: message.to_owned(), hint: hint.to_owned() })
-}
-
 impl Quantity {
     /// The quantities in a formula, in the order of the text.
     pub(crate) fn all(formula: &str, syntax: &Syntax) -> Vec<Quantity> {

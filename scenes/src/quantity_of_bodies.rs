@@ -9,7 +9,8 @@ use num_traits::Zero;
 use shadowstep::{Rational, Real};
 
 use self::orbit::Orbit;
-use crate::quantity::{Compute, ELEMENTS, Element, Function, KINETIC, NoQuantity, Quantity, VIRIAL, refuse};
+use crate::quantity::{Compute, ELEMENTS, Element, Function, KINETIC, Quantity, VIRIAL};
+use crate::refusal::{Refusal, refuse};
 use crate::scene::bodies::Bodies;
 use crate::scene::{GRAVITY, PotentialEnergy, System};
 
@@ -69,7 +70,7 @@ impl ElementOfBody {
         bodies: &Bodies,
         (element, body): (Element, usize),
         centre: &[usize],
-    ) -> Result<Self, NoQuantity> {
+    ) -> Result<Self, Refusal> {
         let g = gravitational_constant(system).filter(|_| bodies.dimensions > 1);
         let Some(g) = g else {
             return refuse(
@@ -79,7 +80,7 @@ impl ElementOfBody {
         };
         if centre == [body] || centre.is_empty() {
             let hint = "name a planet, or another centre: a(moon, earth), a(sun, barycentre)";
-            return refuse(&format!("`{}` has no orbit about itself", bodies.names[body]), hint);
+            return refuse(format!("`{}` has no orbit about itself", bodies.names[body]), hint);
         }
         let mut masses: Vec<Rational> = system.exact_masses().into_iter().step_by(bodies.dimensions).collect();
         let own_mass = masses[body].clone();
@@ -115,7 +116,7 @@ fn gravitational_constant(system: &System) -> Option<Rational> {
     g.map(|(_, g)| g.value.clone())
 }
 
-fn refuse_box(system: &System) -> Result<(), NoQuantity> {
+fn refuse_box(system: &System) -> Result<(), Refusal> {
     match &system.potential {
         PotentialEnergy::Pairs(pairs) if pairs.is_in_box() => {
             refuse("bodies in a periodic box have many distances", "write a formula in the coordinates")
@@ -131,19 +132,19 @@ impl QuantityOfBodies {
     }
 
     /// Of the bodies of a system.
-    pub(crate) fn new(quantity: &Quantity, system: &System) -> Result<QuantityOfBodies, NoQuantity> {
+    pub(crate) fn new(quantity: &Quantity, system: &System) -> Result<QuantityOfBodies, Refusal> {
         let element = match quantity.function {
             Function::Kinetic => return sums::check(KINETIC, system).map(|()| QuantityOfBodies::Kinetic),
             Function::Virial => return sums::check(VIRIAL, system).map(|()| QuantityOfBodies::Virial),
             Function::Distance => None,
             Function::Element(element) => Some(element),
         };
-        let bodies = Bodies::of(system).filter(|bodies| bodies.names.len() > 1).ok_or_else(|| NoQuantity {
+        let bodies = Bodies::of(system).filter(|bodies| bodies.names.len() > 1).ok_or_else(|| Refusal {
             message: "this system has no bodies".to_owned(),
             hint: "write a formula in its coordinates and momenta".to_owned(),
         })?;
         let number = |name: &String| {
-            bodies.number(name).map_err(|hint| NoQuantity { message: format!("there is no body `{name}`"), hint })
+            bodies.number(name).map_err(|hint| Refusal { message: format!("there is no body `{name}`"), hint })
         };
         match (element, &quantity.arguments[..]) {
             (None, [one, other]) => {

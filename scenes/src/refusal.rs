@@ -11,22 +11,18 @@ pub struct Refusal {
     pub hint: String,
 }
 
-/// Why a system has no gradient kicks, and what would be right.
+/// Why a system does not take a kind of scheme, and what would be right.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct NoGradientKicks {
-    /// What follows "the scheme has gradient kicks".
+pub struct Unsupported {
+    /// What follows "the scheme has gradient kicks" or "the scheme is a processed scheme, which".
     pub reason: &'static str,
     /// What would be right.
     pub hint: &'static str,
 }
 
-/// Why schemes are not processed.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct NoProcessor {
-    /// What follows "the scheme is a processed scheme, which".
-    pub reason: &'static str,
-    /// What would be right.
-    pub hint: &'static str,
+/// Refuses something.
+pub(crate) fn refuse<T>(message: impl Into<String>, hint: impl Into<String>) -> Result<T, Refusal> {
+    Err(Refusal::new(message, hint))
 }
 
 impl Refusal {

@@ -17,7 +17,7 @@ use crate::plan::Digests;
 use crate::record::Record;
 
 /// The most runs of a chunk: they are sorted in memory.
-pub const MOST_RUNS_OF_CHUNK: u64 = 1 << 20;
+pub(crate) const MOST_RUNS_OF_CHUNK: u64 = 1 << 20;
 
 /// The folder of the chunks, in the one of the sweep.
 pub(crate) const CHUNKS_FOLDER: &str = "chunks";

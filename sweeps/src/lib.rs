@@ -68,7 +68,7 @@ mod values;
 
 pub use axes::{Axes, MOST_RUNS};
 pub use axis::Axis;
-pub use chunk::{Chunk, MOST_RUNS_OF_CHUNK};
+pub use chunk::Chunk;
 pub use collect::{Collected, Missing, TableFormat, collect, ranges};
 pub use compute::{Computed, compute, is_there};
 pub use foreign::{refuse_foreign, remove_foreign};

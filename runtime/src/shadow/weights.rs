@@ -87,7 +87,7 @@ fn computed(m: u32) -> Arc<[Rational]> {
 }
 
 /// c_1, …, c_m of Stirling's series.
-pub fn stirling(m: u32) -> Vec<Rational> {
+pub(crate) fn stirling(m: u32) -> Vec<Rational> {
     let mut coefficient = Rational::from_integer(1.into());
     (1..=u64::from(m))
         .map(|k| {

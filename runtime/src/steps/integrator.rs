@@ -107,9 +107,6 @@ pub trait Integrator {
 pub type VectorIntegrator<'a, N> =
     dyn Integrator<Number = N, Coordinates = Vec<N>, Summation = Option<Compensated<N, Vec<N>>>> + 'a;
 
-/// A system of any class in vectors, whose sums are plain or compensated.
-pub type VectorSystem<'a, N> = AnySystem<'a, N, Vec<N>, Option<Compensated<N, Vec<N>>>>;
-
 /// Reads the system at the state of the trajectory that belongs to the present one of the kernel: see [`Stepper::at_output`].
 pub fn at_output<I: Integrator + ?Sized, R>(integrator: &mut I, read: impl FnOnce(&mut I) -> R) -> R {
     if !integrator.is_processed() {

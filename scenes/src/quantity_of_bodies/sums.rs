@@ -2,22 +2,23 @@
 
 use shadowstep::{Kinetic, Number};
 
-use crate::quantity::{Compute, NoQuantity, refuse};
+use crate::quantity::Compute;
+use crate::refusal::{Refusal, refuse};
 use crate::scene::OfPositions;
 use crate::scene::{ClassifiedKinetic, PotentialEnergy, System};
 
 /// Refuses a system that is not T(p) + U(q), or that has the name already.
-pub(super) fn check(name: &str, system: &System) -> Result<(), NoQuantity> {
+pub(super) fn check(name: &str, system: &System) -> Result<(), Refusal> {
     let of_system = system.parameters.iter().map(|(known, _)| known).chain(&system.coordinates).chain(&system.momenta);
     if of_system.clone().any(|known| known == name) {
         return refuse(
-            &format!("`{name}` is a name of the system, and a sum over its bodies"),
+            format!("`{name}` is a name of the system, and a sum over its bodies"),
             "give the parameter or coordinate another name",
         );
     }
     match system.potential {
         PotentialEnergy::OfParts => refuse(
-            &format!("`{name}` is of systems T(p) + U(q), and H is not given so"),
+            format!("`{name}` is of systems T(p) + U(q), and H is not given so"),
             "write a formula in its coordinates and momenta",
         ),
         _ => Ok(()),

@@ -3,7 +3,8 @@
 use toml::de::DeValue;
 
 use super::reader::Reader;
-use crate::scene::plot::{Content, Picture, PictureError, Plot};
+use crate::refusal::Refusal;
+use crate::scene::plot::{Content, Picture, Plot};
 use crate::scene::{Outputs, System};
 use shadowstep_schemes::document::{self, Placed, Section, Text};
 
@@ -72,14 +73,14 @@ fn pictures(
                 return reader.toml.wrong(at, format!("`{text}` is given twice"), "keep one");
             }
             Ok(picture) => pictures.push(picture),
-            Err(PictureError { message, hint }) => return reader.toml.wrong(at, message, hint),
+            Err(Refusal { message, hint }) => return reader.toml.wrong(at, message, hint),
         }
     }
     Some(pictures)
 }
 
 /// The fault if the rows do not have what the chart shows.
-fn missing(picture: &Picture, outputs: &Outputs) -> Option<PictureError> {
+fn missing(picture: &Picture, outputs: &Outputs) -> Option<Refusal> {
     let Picture { text, content } = picture;
     let (is_there, message, hint) = match content {
         Content::Energies => (
@@ -98,5 +99,5 @@ fn missing(picture: &Picture, outputs: &Outputs) -> Option<PictureError> {
             "add `trajectory = true`",
         ),
     };
-    (!is_there).then(|| PictureError { message, hint: hint.to_owned() })
+    (!is_there).then(|| Refusal { message, hint: hint.to_owned() })
 }

@@ -4,8 +4,8 @@ use std::ops::Range;
 use std::path::PathBuf;
 
 use shadowstep_symbolic::nearest;
-use thiserror::Error;
 
+use crate::refusal::{Refusal, refuse};
 use crate::scene::System;
 use crate::scene::bodies::Bodies;
 
@@ -74,22 +74,12 @@ pub struct Distance {
     pub to: Option<Range<usize>>,
 }
 
-/// A text that is not of a chart of the system.
-#[derive(Clone, Debug, PartialEq, Eq, Error)]
-#[error("{message}\n  hint: {hint}")]
-pub struct PictureError {
-    /// What is wrong, one sentence.
-    pub message: String,
-    /// What would be right.
-    pub hint: String,
-}
-
 impl Picture {
     /// Reads `energies`, `orbit=x:y`, `distance`, `distance=sun` or `distance=sun:jupiter`.
     ///
     /// # Errors
     /// Another word, a name that the system does not have, more than [`MOST_CURVES`] curves.
-    pub fn read(text: &str, system: &System) -> Result<Picture, PictureError> {
+    pub fn read(text: &str, system: &System) -> Result<Picture, Refusal> {
         let text = text.replace(' ', "");
         let (kind, names) = text.split_once('=').map_or((&*text, None), |(kind, names)| (kind, Some(names)));
         let names: Vec<&str> = names.map_or(Vec::new(), |names| names.split(':').collect());
@@ -132,12 +122,8 @@ impl Content {
     }
 }
 
-fn refuse<T>(message: String, hint: impl Into<String>) -> Result<T, PictureError> {
-    Err(PictureError { message, hint: hint.into() })
-}
-
 /// Two coordinates or momenta, or the same axes of all bodies.
-fn orbit(system: &System, names: [&str; 2]) -> Result<Content, PictureError> {
+fn orbit(system: &System, names: [&str; 2]) -> Result<Content, Refusal> {
     let axes = names.map(str::to_owned);
     let dimension = system.coordinates.len();
     let all: Vec<&String> = system.coordinates.iter().chain(&system.momenta).collect();
@@ -173,12 +159,12 @@ fn some_of(names: &[&String]) -> String {
     format!("{}{more}", shown.join(", "))
 }
 
-fn number(bodies: &Bodies, name: &str) -> Result<usize, PictureError> {
-    bodies.number(name).map_err(|hint| PictureError { message: format!("there is no body `{name}`"), hint })
+fn number(bodies: &Bodies, name: &str) -> Result<usize, Refusal> {
+    bodies.number(name).map_err(|hint| Refusal { message: format!("there is no body `{name}`"), hint })
 }
 
 /// Of the origin, of every two bodies, of one from the others, or of two.
-fn distances(system: &System, names: &[&str]) -> Result<Content, PictureError> {
+fn distances(system: &System, names: &[&str]) -> Result<Content, Refusal> {
     let Some(bodies) = Bodies::of(system) else {
         return match names {
             [] => {
@@ -212,13 +198,14 @@ mod tests {
 
     use super::*;
 
-    fn read(name: &str, text: &str) -> Result<Content, PictureError> {
+    fn read(name: &str, text: &str) -> Result<Content, Refusal> {
         let setup = problem(name).unwrap().setup(&[], 20).unwrap();
         Picture::read(text, &System::of_setup(setup)).map(|picture| picture.content)
     }
 
     fn message(name: &str, text: &str) -> String {
-        read(name, text).unwrap_err().to_string()
+        let Refusal { message, hint } = read(name, text).unwrap_err();
+        format!("{message}\n  hint: {hint}")
     }
 
     #[test]

@@ -5,7 +5,7 @@ use shadowstep::number::CorrectlyRounded;
 use shadowstep::{Motion, MotionError};
 
 use super::{Class, Needs, Split, State};
-use crate::refusal::NoGradientKicks;
+use crate::refusal::Unsupported;
 use crate::scene::{ClassifiedKinetic, InitialValueProblem, PotentialEnergy};
 use crate::start::{SceneIntegrator, Steps};
 
@@ -18,7 +18,7 @@ impl Split for KineticAndPotential {
         let own = matches!(problem.potential, PotentialEnergy::Own(_));
         let class = if problem.has_quadratic_kinetic() { Class::Quadratic } else { Class::EveryKinetic };
         Needs {
-            no_gradient_kicks: own.then_some(NoGradientKicks {
+            no_gradient_kicks: own.then_some(Unsupported {
                 reason: "and a function that computes forces has no second derivatives",
                 hint: "use a scheme without gradient kicks, such as blanes-moan-srkn6b, or write the potential as a formula",
             }),

@@ -1,7 +1,7 @@
 //! What a kind of split needs of a scheme and of a run, and why something else is refused.
 
 use crate::library::{self, NamedScheme, Schemes};
-use crate::refusal::{NoGradientKicks, NoProcessor, Refusal};
+use crate::refusal::{Refusal, Unsupported};
 
 /// What a split needs of a scheme and of a run.
 #[derive(Clone, Debug)]
@@ -11,9 +11,9 @@ pub struct Needs {
     /// How many parts H has.
     pub parts: usize,
     /// Why it has no gradient kicks; `None` where it has them, or the class has none.
-    pub no_gradient_kicks: Option<NoGradientKicks>,
+    pub no_gradient_kicks: Option<Unsupported>,
     /// Why its schemes are not processed, if they are not.
-    pub no_processor: Option<NoProcessor>,
+    pub no_processor: Option<Unsupported>,
     /// Why there are no ensembles of it, if there are none.
     pub no_ensembles: Option<Refusal>,
 }

@@ -6,7 +6,7 @@ use shadowstep::systems::transformed_time::{TimeTransformation, TransformedKinet
 use shadowstep::{Kinetic, Motion, MotionError, Number, Potential, Real};
 
 use super::{Class, Needs, ShownCoordinates, Split, State};
-use crate::refusal::{NoGradientKicks, NoProcessor, Refusal};
+use crate::refusal::{Refusal, Unsupported};
 use crate::scene::{ClassifiedKinetic, EnergyAt, InitialValueProblem};
 use crate::start::{SceneIntegrator, Steps};
 
@@ -20,12 +20,12 @@ const COMPOSITION: &str = "use a composition of the leapfrog, such as sofroniou-
 impl Split for TransformedTime {
     fn needs(&self, _: &InitialValueProblem) -> Needs {
         Needs {
-            no_gradient_kicks: Some(NoGradientKicks {
+            no_gradient_kicks: Some(Unsupported {
                 reason: "but in transformed time no part of H is a quadratic form of the momenta",
                 hint: COMPOSITION,
             }),
             // the last step to a physical time is one of the kernel
-            no_processor: Some(NoProcessor { reason: "transformed time does not have", hint: COMPOSITION }),
+            no_processor: Some(Unsupported { reason: "transformed time does not have", hint: COMPOSITION }),
             no_ensembles: Some(Refusal::new(
                 "an ensemble has no transformed time: its steps end at different times",
                 "remove [time]",

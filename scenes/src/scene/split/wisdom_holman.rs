@@ -14,7 +14,7 @@ use shadowstep::{MotionError, Number, Potential, Rational, Real, Scheme, System 
 use shadowstep_symbolic::decimal::to_text;
 
 use super::{Class, Needs, ShownCoordinates, Split, State};
-use crate::refusal::{NoGradientKicks, Refusal};
+use crate::refusal::{Refusal, Unsupported};
 use crate::scene::{EnergyAt, InitialValueProblem};
 use crate::start::{SceneIntegrator, Steps};
 
@@ -83,7 +83,7 @@ impl Split for Planets {
         match self.coordinates {
             CanonicalCoordinates::Jacobi => Needs::of_class(Class::Quadratic),
             CanonicalCoordinates::DemocraticHeliocentric => Needs {
-                no_gradient_kicks: Some(NoGradientKicks {
+                no_gradient_kicks: Some(Unsupported {
                     reason: "but in heliocentric coordinates the kicks depend on the momenta, so that [B,[A,B]] is no kick",
                     hint: "write parts = \"wisdom-holman\" for Jacobi coordinates, or use a scheme such as abah864",
                 }),
