@@ -102,7 +102,7 @@ def integrate(
     options: Mapping[str, Any] | None,
     events: Mapping[str, Any],
     tangent: Sequence[Sequence[str]],
-    summary: bool,
+    windows: int | None,
     progress: Progress,
 ) -> dict[str, Any]: ...
 def ensemble(text: str, names: Sequence[str], columns: Sequence[np.ndarray], *, progress: Progress) -> dict[str, Any]: ...

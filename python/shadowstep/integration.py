@@ -142,6 +142,7 @@ def integrate(
     rule: str | None = None,
     accuracy: Number | None = None,
     summary: bool = False,
+    windows: int | None = None,
     progress: bool | None = None,
 ) -> Trajectory:
     """Makes a run of a scheme from the problem's initial state.
@@ -189,6 +190,9 @@ def integrate(
         see ``shadowstep drift --help``.
     summary
         Whether the run is followed for a summary with a verdict on the step size; `Trajectory.summary_text` is printed.
+    windows
+        In about how many windows of 17 states, spread over the run, the summary compares modified energies: 256 if none is given, at least 16. An undecided verdict says how many would
+        tell.
     progress
         Whether to show a progress bar, for which tqdm is needed; by default on a terminal or in a notebook, on runs of more than a second.
 
@@ -233,11 +237,13 @@ def integrate(
     for what, value in (("every", every), ("estimator", estimator), ("tangent", tangent)):
         if section is not None and value is not None:
             raise InputError(f"{what} is given beside a section, whose states are the crossings only; remove one of the two")
+    if windows is not None and (not summary or windows < 16):
+        raise InputError(f"windows={windows} requires summary=True, and is at least 16")
     run = run_of(problem, scheme, h, until, steps, first, gradient_kicks, 1 if every is None else every, digits, mpfr)
     chosen = options_if_any(estimator, order=order, max_order=max_order, stop=stop, rule=rule, accuracy=accuracy)
     with bar(run["steps"], "steps", progress) as reach:
         events = {"end": end, "section": None if section is None else (section, direction or "up")}
-        found = _shadowstep.integrate(run, options=chosen, events=events, tangent=_texts(tangent), summary=summary, progress=reach)
+        found = _shadowstep.integrate(run, options=chosen, events=events, tangent=_texts(tangent), windows=(windows or 256) if summary else None, progress=reach)
     if found["summary"] is not None:
         found["summary_text"], record = found["summary"]
         found["summary"] = json.loads(record)

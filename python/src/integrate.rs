@@ -8,7 +8,7 @@ use shadowstep::shadow::EstimatorSettings;
 use shadowstep_scenes::arithmetic::Arithmetic;
 use shadowstep_scenes::computation::{Computation, RunNumber};
 use shadowstep_scenes::integrate::{Integration, KeptStates, Samples};
-use shadowstep_scenes::run::{OrderSetting, Run};
+use shadowstep_scenes::run::{OrderSetting, Run, WINDOWS};
 use shadowstep_scenes::stability::{few_kicks, resonant, unstable};
 use shadowstep_scenes::{Direction, Error, Note, Observer, estimator};
 
@@ -29,16 +29,17 @@ pub(crate) struct Events {
 }
 
 /// Makes a run, and gives a dictionary of its states: arrays in double precision, else lists of decimal texts. With tangent vectors, each of which begins with
-/// components of `tangent`, it is made once more with these.
+/// components of `tangent`, it is made once more with these. With a
+/// number of windows it has a summary, which compares modified energies in as many.
 #[pyfunction]
-#[pyo3(signature = (run, *, options, events, tangent, summary, progress))]
+#[pyo3(signature = (run, *, options, events, tangent, windows, progress))]
 pub(crate) fn integrate<'py>(
     py: Python<'py>,
     run: GivenRun,
     options: Option<Options>,
     events: Events,
     tangent: Vec<Vec<String>>,
-    summary: bool,
+    windows: Option<u64>,
     progress: Option<&Bound<'py, PyAny>>,
 ) -> PyResult<Bound<'py, PyDict>> {
     let Events { end, section } = events;
@@ -54,8 +55,8 @@ pub(crate) fn integrate<'py>(
         let runs = (&run.times, run.displaced);
         let mut summarising = Summarising::new(watched, Vec::new());
         let mut watching = watched.observer();
-        let observer: &mut dyn Observer = if summary { &mut summarising } else { &mut watching };
-        let rows = (run.every, section.as_ref(), end.as_deref());
+        let observer: &mut dyn Observer = if windows.is_some() { &mut summarising } else { &mut watching };
+        let rows = (run.every, section.as_ref(), end.as_deref(), windows.unwrap_or(WINDOWS));
         let (found, mut notes) = posed.run(runs, rows, estimator.as_ref(), run.arithmetic, observer)?;
         notes.extend(run.times.note.clone());
         let mut vectors = Vec::new();
@@ -82,14 +83,14 @@ impl SystemWithScheme {
     fn run(
         &self,
         (times, displaced): (&Times, bool),
-        (every, section, end): (u64, Option<&(String, Direction)>, Option<&str>),
+        (every, section, end, windows): (u64, Option<&(String, Direction)>, Option<&str>, u64),
         estimator: Option<&EstimatorSettings>,
         arithmetic: Arithmetic,
         observer: &mut dyn Observer,
     ) -> Result<(Integrated, Vec<Note>), Error> {
         let setting = estimator.and_then(estimator::order_setting);
         let order = setting.map(|(name, value)| OrderSetting { name, value });
-        let run = Run { propagator: &self.scheme.name, h: &times.h, steps: times.steps, order };
+        let run = Run { propagator: &self.scheme.name, h: &times.h, steps: times.steps, order, windows };
         let compensated = arithmetic.is_compensated();
         let (system, scheme) = (&self.system, &self.scheme.scheme);
         let until = times.physical_end.as_ref();

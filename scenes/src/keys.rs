@@ -69,7 +69,7 @@ pub(crate) const SECTIONS: [Section; 16] = [
 ];
 
 /// All keys, section by section.
-pub(crate) const KEYS: [Key; 90] = [
+pub(crate) const KEYS: [Key; 91] = [
     key(
         "problem",
         "name",
@@ -524,6 +524,14 @@ pub(crate) const KEYS: [Key; 90] = [
         "Whether a summary of the run is made, with its verdict. With hundreds of digits and more it may take longer than the steps.",
         "false",
         Some("true"),
+    ),
+    key(
+        "output",
+        "windows",
+        "In about how many windows of 17 states the summary compares modified energies, spread over the run. More windows exclude smaller changes, \
+         and cost more: where a verdict says that it is not decided and how many windows would tell, write that number here.",
+        "2000",
+        Some("256"),
     ),
     key(
         "output",

@@ -93,6 +93,6 @@ impl Scene {
     pub fn as_run(&self) -> Run<'_> {
         let setting = self.output.modified_energy.as_ref().and_then(|(settings, _)| order_setting(settings));
         let order = setting.map(|(name, value)| OrderSetting { name, value });
-        Run { propagator: &self.scheme.name, h: &self.h, steps: self.steps(), order }
+        Run { propagator: &self.scheme.name, h: &self.h, steps: self.steps(), order, windows: self.output.windows }
     }
 }

@@ -27,9 +27,6 @@ use crate::watch::summary::{EnergySummary, ModifiedEnergySummary, Summary};
 /// The monitor's estimator is E_16 with its error: 17 states a window.
 const MONITOR_ORDER: u32 = 16;
 
-/// The monitor has one window in this part of a run, so that it costs the same however long the run is.
-const WINDOWS: u64 = 256;
-
 /// In runs of at most this many steps H is computed at each: the monitor has no verdict on the shortest ones.
 const SHORT_RUN: u64 = 64;
 
@@ -111,7 +108,7 @@ impl<N: RunNumber> Watch<N> {
         summarised: bool,
     ) -> Result<Self, RunError> {
         let energies = if run.steps <= SHORT_RUN { Energies::All } else { energies };
-        let every = (run.steps.saturating_sub(from.unsigned_abs()) / WINDOWS).max(1);
+        let every = (run.steps.saturating_sub(from.unsigned_abs()) / run.windows).max(1);
         let (mut observed, massive) = (None, integrator.system().massive_coordinates());
         if summarised {
             let monitor = N::monitor(integrator, MONITOR_ORDER, every)?;

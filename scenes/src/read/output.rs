@@ -14,9 +14,13 @@ use super::reader::Reader;
 use super::run::Steps;
 use super::values;
 use crate::estimator::{ACCURACY_HINT, conflict};
+use crate::run::WINDOWS;
 use crate::scene::{CheckpointInterval, Direction, Format, Outputs, Surface, System};
 use crate::steps::MOST_STEPS;
 use shadowstep_schemes::document::{Section, Value};
+
+/// A verdict needs as many windows.
+const LEAST_WINDOWS: u64 = 16;
 
 /// What is to be written, and where.
 pub(super) fn read(
@@ -37,6 +41,7 @@ pub(super) fn read(
     let extremes = values::extremes(reader, output, system);
     let chaos = every(reader, output, "chaos", "output.chaos").map(|(every, _)| every);
     let summary = output.get("summary").and_then(|value| reader.toml.truth(value)).is_none_or(|truth| truth.value);
+    let windows = output.get("windows").map_or(Some(WINDOWS), |value| reader.whole(value, LEAST_WINDOWS..=MOST_STEPS));
     let checkpoint = output.get("checkpoint").map(|value| (value.span(), interval(reader, value)));
     if let (Some((at, _)), None) = (&checkpoint, output.get("file")) {
         reader.toml.fault(at, "a checkpoint requires a file", "add `file = \"out.csv\"`");
@@ -71,14 +76,18 @@ pub(super) fn read(
         chaos,
         checkpoint,
         summary,
+        windows: windows.unwrap_or(WINDOWS),
         plot: None,
     };
     if !outputs.has_rows() && outputs.extremes.is_empty() && reader.toml.faults.len() == before && output.is_there() {
         let help = "add `energy = true`, `modified_energy = true` or `trajectory = true`";
         reader.toml.fault(&output.at, "no output is selected", help);
     }
-    if let (false, Some(value)) = (summary, output.get("extremes")) {
-        reader.toml.fault(&value.span(), "extremes are in the summary, and `summary = false`", "remove one of the two");
+    for (key, are) in [("extremes", "extremes are"), ("windows", "windows are")] {
+        if let (false, Some(value)) = (summary, output.get(key)) {
+            let message = format!("{are} in the summary, and `summary = false`");
+            reader.toml.fault(&value.span(), message, "remove one of the two");
+        }
     }
     outputs.plot = plot::read(reader, output, system, &outputs);
     Some(outputs)
@@ -236,6 +245,37 @@ fn duration(text: &str) -> Option<Duration> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::Scene;
+    use shadowstep::tables::{Faults, Source};
+
+    fn with(output: &str) -> Result<Scene, Faults> {
+        let text = format!(
+            "problem.name = \"pendulum\"\nrun = {{ scheme = \"yoshida4\", step = \"1/10\", steps = 9000 }}\n[output]\nenergy = {{ every = 100 }}\n{output}\n"
+        );
+        Scene::read(Source { path: "test.toml".to_owned(), text })
+    }
+
+    #[test]
+    fn a_summary_has_the_windows_that_are_wanted() {
+        // each 35, 562 and 3 steps; the last 8 states end no window of 17
+        for (output, expected) in [("", 257), ("windows = 16", 16), ("windows = 3000", 2992)] {
+            struct Windows(u64);
+            impl crate::Observer for Windows {
+                fn summarises(&self) -> bool {
+                    true
+                }
+                fn summary(&mut self, summary: &crate::Summary) {
+                    self.0 = summary.modified_energy().map_or(0, |found| found.windows);
+                }
+            }
+            let mut windows = Windows(0);
+            with(output).unwrap().run_into(&mut Vec::new(), &mut windows).unwrap();
+            assert_eq!(windows.0, expected, "{output}");
+        }
+        let message = |output: &str| with(output).unwrap_err().0[0].message.clone();
+        assert_eq!(message("windows = 15"), "15 is out of range");
+        assert_eq!(message("windows = 100\nsummary = false"), "windows are in the summary, and `summary = false`");
+    }
 
     #[test]
     fn durations() {

@@ -35,6 +35,8 @@ pub struct Outputs {
     pub checkpoint: Option<CheckpointInterval>,
     /// Whether a summary of the run is made.
     pub summary: bool,
+    /// In about how many windows it compares modified energies.
+    pub windows: u64,
     /// Charts of the run, drawn from the rows of the file.
     pub plot: Option<Plot>,
 }
