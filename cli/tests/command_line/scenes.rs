@@ -708,6 +708,7 @@ fn wrong_ensembles_have_a_sentence_each() {
             "scene.toml:13:10: an ensemble is computed in double",
         ),
         (format!("{ENSEMBLE}trajectory = true\n{columns}"), "scene.toml:17:14: an ensemble has no `trajectory`"),
+        (format!("{ENSEMBLE}windows = 500\n{columns}"), "scene.toml:17:11: an ensemble has no `windows`"),
         (format!("{ENSEMBLE}{columns}").replace("1/20", "1/20 + x0"), "trajectory 1 has another step size"),
         (
             format!("{ENSEMBLE}{columns}").replace("q = [\"x0\", 0]", "q = [\"1/(2 - x0)\", 0]"),
