@@ -26,6 +26,18 @@ def verlet(q, p, gradient, h, steps):
     return q, p
 
 
+def test_a_summary_has_the_windows_that_are_wanted():
+    def windows(**wanted):
+        run = integrate(Problem("pendulum"), "yoshida4", h="1/10", steps=9000, every=9000, summary=True, **wanted)
+        return run.summary["modified_energy"]["windows"]
+
+    # each 35 and 3 steps; the last 8 states end no window of 17
+    assert [windows(), windows(windows=3000)] == [257, 2992]
+    for wrong in ({"summary": True, "windows": 15}, {"windows": 1000}):
+        with pytest.raises(InputError, match="windows=.* requires summary=True, and is at least 16"):
+            integrate(Problem("pendulum"), "yoshida4", h="1/10", steps=10, **wrong)
+
+
 def test_a_run_has_the_bits_of_a_loop_in_python():
     found = integrate(Problem("-cos(x)", q={"x": "1/2"}, p=["1/4"]), "stormer-verlet", h=0.125, steps=50)
     q, p = verlet([0.5], [0.25], np.sin, 0.125, 50)
