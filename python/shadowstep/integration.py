@@ -237,8 +237,10 @@ def integrate(
     for what, value in (("every", every), ("estimator", estimator), ("tangent", tangent)):
         if section is not None and value is not None:
             raise InputError(f"{what} is given beside a section, whose states are the crossings only; remove one of the two")
-    if windows is not None and (not summary or windows < 16):
-        raise InputError(f"windows={windows} requires summary=True, and is at least 16")
+    if windows is not None and not summary:
+        raise InputError("windows are of a summary: add summary=True")
+    if windows is not None and windows < 16:
+        raise InputError(f"windows must be at least 16, not {windows}")
     run = run_of(problem, scheme, h, until, steps, first, gradient_kicks, 1 if every is None else every, digits, mpfr)
     chosen = options_if_any(estimator, order=order, max_order=max_order, stop=stop, rule=rule, accuracy=accuracy)
     with bar(run["steps"], "steps", progress) as reach:
