@@ -29,8 +29,8 @@ pub(crate) struct Events {
 }
 
 /// Makes a run, and gives a dictionary of its states: arrays in double precision, else lists of decimal texts. With tangent vectors, each of which begins with
-/// components of `tangent`, it is made once more with these. With a
-/// number of windows it has a summary, which compares modified energies in as many.
+/// components of `tangent`, it is made once more with these. With a number of windows it has a summary, which compares modified energies
+/// in about as many.
 #[pyfunction]
 #[pyo3(signature = (run, *, options, events, tangent, windows, progress))]
 pub(crate) fn integrate<'py>(
