@@ -15,7 +15,7 @@ use shadowstep_scenes::arithmetic::{Arithmetic, OTHER_SCHEME};
 use shadowstep_scenes::estimator::{ACCURACY_HINT, conflict, order_setting};
 use shadowstep_scenes::library::NamedScheme;
 use shadowstep_scenes::propagator::Propagator;
-use shadowstep_scenes::run::{OrderSetting, Run, WINDOWS};
+use shadowstep_scenes::run::{OrderSetting, Run};
 use shadowstep_scenes::stability::{few_kicks, resonant, unstable};
 
 /// Everything that is to be run.
@@ -66,7 +66,7 @@ impl Selection {
         self.propagators.iter().flat_map(move |propagator| {
             let name = propagator.name();
             self.steps.iter().map(move |(h, steps)| {
-                (propagator, Run { propagator: name, h, steps: *steps, order, windows: WINDOWS })
+                (propagator, Run { propagator: name, h, steps: *steps, order, windows: Run::WINDOWS })
             })
         })
     }

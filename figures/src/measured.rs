@@ -10,7 +10,7 @@ use shadowstep::shadow::run::{Finding, RunError, ShadowRun, States, Trajectory};
 use shadowstep::shadow::{BuildEstimator, Estimate, Estimator, EstimatorSettings};
 use shadowstep::{Integrator as _, Rational};
 use shadowstep_scenes::propagator::{Propagator, motion, stepper};
-use shadowstep_scenes::run::{Run as Steps, WINDOWS};
+use shadowstep_scenes::run::Run as Steps;
 
 use crate::Error;
 use crate::escape::Escape;
@@ -173,7 +173,8 @@ impl Measure<'_> {
         measure: &mut dyn FnMut(&mut dyn States<Number = AnyLimbs>) -> Result<T, RunError>,
     ) -> Result<T, Error> {
         let (run, setup, h) = (self.run, self.run.setup(), self.run.h());
-        let steps = Steps { propagator: run.propagator, h: &h, steps: run.steps(), order: None, windows: WINDOWS };
+        let steps =
+            Steps { propagator: run.propagator, h: &h, steps: run.steps(), order: None, windows: Steps::WINDOWS };
         let failed = |error| steps.failed(&error);
         let watch = |from: i64| self.watch(from, run.steps() as f64 + reach as f64);
         let limbs = run.limbs();
@@ -208,7 +209,8 @@ impl Measure<'_> {
     /// Gives q and p of each state of a scheme to `take`, without increments; returns the last q and p.
     fn states(&self, mut take: impl FnMut(&[AnyLimbs], &[AnyLimbs])) -> Result<(Vec<AnyLimbs>, Vec<AnyLimbs>), Error> {
         let (run, setup, h) = (self.run, self.run.setup(), self.run.h());
-        let steps = Steps { propagator: run.propagator, h: &h, steps: run.steps(), order: None, windows: WINDOWS };
+        let steps =
+            Steps { propagator: run.propagator, h: &h, steps: run.steps(), order: None, windows: Steps::WINDOWS };
         let failed = |error| steps.failed(&error);
         let propagator = Propagator::read(run.propagator, &setup)?;
         let stepper = stepper(propagator.scheme().expect("it is a scheme"), steps, &run.limbs());

@@ -7,6 +7,8 @@ from typing import Any
 import numpy as np
 
 __version__: str
+WINDOWS: int
+LEAST_WINDOWS: int
 
 class InputError(ValueError):
     hint: str | None

@@ -4,7 +4,7 @@ use pyo3::prelude::*;
 use serde_json::json;
 use shadowstep_scenes::Error;
 use shadowstep_scenes::chaos::{ChaosRequest, conclusion};
-use shadowstep_scenes::run::{Run, WINDOWS};
+use shadowstep_scenes::run::Run;
 use shadowstep_scenes::tangent::Vectors;
 
 use crate::errors::exception;
@@ -28,7 +28,7 @@ pub(crate) fn chaos(
     let found = waiting(py, progress, move |watched| -> Result<String, Error> {
         let posed = given.posed()?;
         let Times { h, steps, physical_end, .. } = &given.times;
-        let run = Run { propagator: &posed.scheme.name, h, steps: *steps, order: None, windows: WINDOWS };
+        let run = Run { propagator: &posed.scheme.name, h, steps: *steps, order: None, windows: Run::WINDOWS };
         let (system, scheme, until) = (&posed.system, &posed.scheme.scheme, physical_end.as_ref());
         let (arithmetic, displaced, every) = (given.arithmetic, given.displaced, given.every);
         let request = ChaosRequest { system, scheme, run, arithmetic, displaced, until, vectors, every };

@@ -6,7 +6,7 @@ use pyo3::types::{PyDict, PyList};
 use shadowstep::{Rational, StepSize};
 use shadowstep_scenes::arithmetic::Arithmetic;
 use shadowstep_scenes::derivatives::{Array, Derivatives, Differentiation, Parameter, Variable, distance, precise};
-use shadowstep_scenes::run::{Run, WINDOWS};
+use shadowstep_scenes::run::Run;
 use shadowstep_scenes::{Error, Observer};
 
 use crate::errors::{exception, usage};
@@ -134,7 +134,7 @@ impl Request {
         let by = self.by.iter().map(|by| self.variable(by, precisely)).collect::<Result<Vec<_>, _>>()?;
         let precise = problem.system(precisely)?;
         let run =
-            Run { propagator: &posed.scheme.name, h: &times.h, steps: times.steps, order: None, windows: WINDOWS };
+            Run { propagator: &posed.scheme.name, h: &times.h, steps: times.steps, order: None, windows: Run::WINDOWS };
         let (system, scheme) = (&posed.system, &posed.scheme.scheme);
         let (precise, by) = (&precise, &by[..]);
         work(Differentiation { system, precise, scheme, run, arithmetic, displaced, every, by }, observer)

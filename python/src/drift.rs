@@ -6,7 +6,7 @@ use shadowstep_scenes::drift::{Controls, DriftRequest, Follower, Record, Wanted}
 use shadowstep_scenes::estimator::order_setting;
 use shadowstep_scenes::library::EXACT_FLOW;
 use shadowstep_scenes::propagator::Propagator;
-use shadowstep_scenes::run::{OrderSetting, Run, WINDOWS};
+use shadowstep_scenes::run::{OrderSetting, Run};
 
 use crate::errors::exception;
 use crate::estimator::Options;
@@ -50,7 +50,7 @@ pub(crate) fn drift(
             }
         };
         let order = order_setting(&estimator).map(|(name, value)| OrderSetting { name, value });
-        let run = Run { propagator: propagator.name(), h: &times.h, steps: times.steps, order, windows: WINDOWS };
+        let run = Run { propagator: propagator.name(), h: &times.h, steps: times.steps, order, windows: Run::WINDOWS };
         let request = DriftRequest {
             problem: &name,
             system: &system,

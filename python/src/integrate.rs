@@ -8,7 +8,7 @@ use shadowstep::shadow::EstimatorSettings;
 use shadowstep_scenes::arithmetic::Arithmetic;
 use shadowstep_scenes::computation::{Computation, RunNumber};
 use shadowstep_scenes::integrate::{Integration, KeptStates, Samples};
-use shadowstep_scenes::run::{OrderSetting, Run, WINDOWS};
+use shadowstep_scenes::run::{OrderSetting, Run};
 use shadowstep_scenes::stability::{few_kicks, resonant, unstable};
 use shadowstep_scenes::{Direction, Error, Note, Observer, estimator};
 
@@ -56,7 +56,7 @@ pub(crate) fn integrate<'py>(
         let mut summarising = Summarising::new(watched, Vec::new());
         let mut watching = watched.observer();
         let observer: &mut dyn Observer = if windows.is_some() { &mut summarising } else { &mut watching };
-        let rows = (run.every, section.as_ref(), end.as_deref(), windows.unwrap_or(WINDOWS));
+        let rows = (run.every, section.as_ref(), end.as_deref(), windows.unwrap_or(Run::WINDOWS));
         let (found, mut notes) = posed.run(runs, rows, estimator.as_ref(), run.arithmetic, observer)?;
         notes.extend(run.times.note.clone());
         let mut vectors = Vec::new();

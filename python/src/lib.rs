@@ -94,4 +94,8 @@ mod _shadowstep {
     #[pymodule_export]
     #[allow(non_upper_case_globals)] // as Python names it
     const __version__: &str = env!("CARGO_PKG_VERSION");
+    #[pymodule_export]
+    const WINDOWS: u64 = shadowstep_scenes::run::Run::WINDOWS;
+    #[pymodule_export]
+    const LEAST_WINDOWS: u64 = shadowstep::shadow::Verdict::LEAST_WINDOWS;
 }

@@ -8,7 +8,7 @@
 //! use shadowstep_scenes::arithmetic::Arithmetic;
 //! use shadowstep_scenes::drift::{Controls, DriftRequest, Wanted};
 //! use shadowstep_scenes::propagator::Propagator;
-//! use shadowstep_scenes::run::{Run, WINDOWS};
+//! use shadowstep_scenes::run::Run;
 //!
 //! let text = "[problem]\nname = \"kepler\"".to_owned();
 //! let (system, _) = System::read(&Source { path: "kepler".to_owned(), text }, Arithmetic::DOUBLE)?;
@@ -17,7 +17,7 @@
 //! let (arithmetic, summarised) = (Arithmetic::DOUBLE, true);
 //! let request = DriftRequest { problem: "kepler", system: &system, until: &until, arithmetic, estimator: &estimator, summarised };
 //! let propagator = Propagator::of_system("yoshida4", &system)?;
-//! let run = Run { propagator: propagator.name(), h: &h, steps: 1000, order: None, windows: WINDOWS };
+//! let run = Run { propagator: propagator.name(), h: &h, steps: 1000, order: None, windows: Run::WINDOWS };
 //! let record = request.run(&propagator, run, &mut Controls::new(Wanted::Never), &mut ())?;
 //! assert!(record.drift.parse::<f64>().unwrap() < 1e-4);
 //! # Ok::<(), shadowstep_scenes::Error>(())

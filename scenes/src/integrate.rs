@@ -6,14 +6,14 @@
 //! use shadowstep_scenes::arithmetic::Arithmetic;
 //! use shadowstep_scenes::integrate::{Integration, KeptStates};
 //! use shadowstep_scenes::propagator::for_system;
-//! use shadowstep_scenes::run::{Run, WINDOWS};
+//! use shadowstep_scenes::run::Run;
 //! use shadowstep_scenes::{System, library};
 //!
 //! let text = "[problem]\nname = \"kepler\"".to_owned();
 //! let (system, _) = System::read(&Source { path: "kepler".to_owned(), text }, Arithmetic::DOUBLE)?;
 //! let scheme = for_system(library::scheme("yoshida4")?, &system)?;
 //! let h = StepSize::try_from("1/20").unwrap();
-//! let run = Run { propagator: &scheme.name, h: &h, steps: 1000, order: None, windows: WINDOWS };
+//! let run = Run { propagator: &scheme.name, h: &h, steps: 1000, order: None, windows: Run::WINDOWS };
 //! let integration =
 //!     Integration { system: &system, scheme: &scheme.scheme, run, compensated: false, displaced: false, until: None, ends: None, kept: KeptStates::Every(100),
 //!     estimator: None };

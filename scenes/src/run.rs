@@ -24,12 +24,9 @@ pub struct Run<'a> {
     pub steps: u64,
     /// The option that sets the order of the estimator, if there is one.
     pub order: Option<OrderSetting>,
-    /// In about how many windows a summary compares modified energies, [`WINDOWS`] where nothing else is wanted.
+    /// In about how many windows a summary compares modified energies, [`Run::WINDOWS`] where nothing else is wanted.
     pub windows: u64,
 }
-
-/// The windows of a summary: the same number however long the run is, so that it costs the same.
-pub const WINDOWS: u64 = 256;
 
 /// The option that sets the order of the estimator or its largest order, as it is spelt by the caller.
 #[derive(Clone, Copy, Debug)]
@@ -51,6 +48,9 @@ fn double_multiple(h: &Rational, n: i64) -> Option<f64> {
 }
 
 impl Run<'_> {
+    /// The windows of a summary: the same number however long the run is, so that it costs the same.
+    pub const WINDOWS: u64 = 256;
+
     /// t = n h
     pub fn time(&self, n: i64) -> Rational {
         self.h.exact() * Rational::from_integer(n.into())
@@ -154,7 +154,7 @@ mod tests {
         ];
         for h in steps {
             let h = StepSize::try_from(h).unwrap();
-            let run = Run { propagator: "yoshida4", h: &h, steps: 1, order: None, windows: WINDOWS };
+            let run = Run { propagator: "yoshida4", h: &h, steps: 1, order: None, windows: Run::WINDOWS };
             for n in [0, 1, -1, 3, 10, 12345, 1 << 40, i64::MAX, i64::MIN] {
                 let expected = f64::from_rational(&run.time(n), &());
                 assert_eq!(run.time_in::<f64>(n, &()).to_bits(), expected.to_bits(), "{n} * {h:?}");

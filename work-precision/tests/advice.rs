@@ -9,7 +9,7 @@ use shadowstep_scenes::arithmetic::Arithmetic;
 use shadowstep_scenes::computation::{Computation, RunNumber};
 use shadowstep_scenes::integrate::{Integration, KeptStates};
 use shadowstep_scenes::library::{NamedScheme, scheme};
-use shadowstep_scenes::run::{Run, WINDOWS};
+use shadowstep_scenes::run::Run;
 use shadowstep_work_precision::advise::{Advice, AdviceRequest, Choice, Verified};
 use shadowstep_work_precision::of::Of;
 use shadowstep_work_precision::problem::Problem;
@@ -50,7 +50,7 @@ impl Computation for Final<'_> {
     fn compute<N: RunNumber>(self, context: &N::Context) -> Vec<Rational> {
         let Final { system, scheme, h, steps } = self;
         let h = StepSize::try_from(h).unwrap();
-        let run = Run { propagator: &scheme.name, h: &h, steps, order: None, windows: WINDOWS };
+        let run = Run { propagator: &scheme.name, h: &h, steps, order: None, windows: Run::WINDOWS };
         let scheme = &scheme.scheme;
         let (compensated, displaced, until) = (false, false, None);
         let integration = Integration {

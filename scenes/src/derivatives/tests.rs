@@ -7,7 +7,6 @@ use shadowstep::{Rational, StepSize};
 use super::*;
 use crate::library;
 use crate::propagator::for_system;
-use crate::run::WINDOWS;
 use crate::scene::System;
 
 const STEPS: u64 = 25;
@@ -43,7 +42,7 @@ impl Case {
         let scheme = for_system(library::scheme(self.scheme).unwrap(), &posed).unwrap();
         let parameter = Parameter { name: "θ".to_owned(), system: Box::new(system(&moved, precise)), h: moved_h };
         let by = [Variable::Position(0), Variable::Momentum(posed.p.len() - 1), Variable::Parameter(parameter)];
-        let run = Run { propagator: &scheme.name, h: &h, steps: STEPS, order: None, windows: WINDOWS };
+        let run = Run { propagator: &scheme.name, h: &h, steps: STEPS, order: None, windows: Run::WINDOWS };
         use_it(Differentiation {
             system: &posed,
             precise: &system(&text, precise),
@@ -73,7 +72,7 @@ impl Case {
             let (text, h) = self.at(theta);
             let posed = system(&text, arithmetic);
             let scheme = for_system(library::scheme(self.scheme).unwrap(), &posed).unwrap();
-            let run = Run { propagator: &scheme.name, h: &h, steps: STEPS, order: None, windows: WINDOWS };
+            let run = Run { propagator: &scheme.name, h: &h, steps: STEPS, order: None, windows: Run::WINDOWS };
             let (precise, scheme, displaced) = (&posed, &scheme.scheme, false);
             let request =
                 Differentiation { system: &posed, precise, scheme, run, arithmetic, displaced, every: EVERY, by: &[] };

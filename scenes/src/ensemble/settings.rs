@@ -7,7 +7,7 @@ use shadowstep::tables::{Faults, Source};
 use shadowstep_schemes::document::{Reader, document};
 
 use crate::error::Error;
-use crate::run::WINDOWS;
+use crate::run::Run;
 use crate::scene::{Format, Scene};
 
 /// Energies of the trajectories.
@@ -58,7 +58,7 @@ fn refuse_outputs(reader: &mut Reader<'_>, scene: &Scene) {
         ("chaos", output.chaos.is_some(), "a sweep keeps indicators of chaos of many runs"),
         ("values", output.named_values().count() > 0, "a sweep keeps formulas at the end of many runs"),
         ("extremes", !output.extremes.is_empty(), "a sweep keeps the least and greatest values of many runs"),
-        ("windows", output.windows != WINDOWS, "it has no summary"),
+        ("windows", output.windows != Run::WINDOWS, "it has no summary"),
         ("plot", output.plot.is_some(), "draw its rows with another program"),
         ("checkpoint", output.checkpoint.is_some(), "a run that is stopped begins again"),
     ];

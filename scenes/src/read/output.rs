@@ -4,7 +4,7 @@ use std::time::Duration;
 
 use shadowstep::Rational;
 use shadowstep::shadow::{
-    EstimatorOptions, EstimatorSettings, HIGHEST_ORDER, SelectionRule, StoppingRule, check_accuracy,
+    EstimatorOptions, EstimatorSettings, HIGHEST_ORDER, SelectionRule, StoppingRule, Verdict, check_accuracy,
 };
 use toml::de::DeValue;
 
@@ -14,13 +14,10 @@ use super::reader::Reader;
 use super::run::Steps;
 use super::values;
 use crate::estimator::{ACCURACY_HINT, conflict};
-use crate::run::WINDOWS;
+use crate::run::Run;
 use crate::scene::{CheckpointInterval, Direction, Format, Outputs, Surface, System};
 use crate::steps::MOST_STEPS;
 use shadowstep_schemes::document::{Section, Value};
-
-/// A verdict needs as many windows.
-const LEAST_WINDOWS: u64 = 16;
 
 /// What is to be written, and where.
 pub(super) fn read(
@@ -41,7 +38,9 @@ pub(super) fn read(
     let extremes = values::extremes(reader, output, system);
     let chaos = every(reader, output, "chaos", "output.chaos").map(|(every, _)| every);
     let summary = output.get("summary").and_then(|value| reader.toml.truth(value)).is_none_or(|truth| truth.value);
-    let windows = output.get("windows").map_or(Some(WINDOWS), |value| reader.whole(value, LEAST_WINDOWS..=MOST_STEPS));
+    let windows = output
+        .get("windows")
+        .map_or(Some(Run::WINDOWS), |value| reader.whole(value, Verdict::LEAST_WINDOWS..=MOST_STEPS));
     let checkpoint = output.get("checkpoint").map(|value| (value.span(), interval(reader, value)));
     if let (Some((at, _)), None) = (&checkpoint, output.get("file")) {
         reader.toml.fault(at, "a checkpoint requires a file", "add `file = \"out.csv\"`");
@@ -76,16 +75,16 @@ pub(super) fn read(
         chaos,
         checkpoint,
         summary,
-        windows: windows.unwrap_or(WINDOWS),
+        windows: windows.unwrap_or(Run::WINDOWS),
         plot: None,
     };
     if !outputs.has_rows() && outputs.extremes.is_empty() && reader.toml.faults.len() == before && output.is_there() {
         let help = "add `energy = true`, `modified_energy = true` or `trajectory = true`";
         reader.toml.fault(&output.at, "no output is selected", help);
     }
-    for (key, are) in [("extremes", "extremes are"), ("windows", "windows are")] {
+    for key in ["extremes", "windows"] {
         if let (false, Some(value)) = (summary, output.get(key)) {
-            let message = format!("{are} in the summary, and `summary = false`");
+            let message = format!("{key} are in the summary, and `summary = false`");
             reader.toml.fault(&value.span(), message, "remove one of the two");
         }
     }

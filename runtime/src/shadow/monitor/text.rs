@@ -5,7 +5,7 @@ use std::fmt;
 use super::report::Report;
 use super::roughness::Rough;
 use super::trend::Trend;
-use super::verdict::{Advice, Criterion, LEAST_WINDOWS, Missing, PERMANENT_LIMIT, Verdict};
+use super::verdict::{Advice, Criterion, Missing, PERMANENT_LIMIT, Verdict};
 use crate::number::Real;
 
 /// A coordinate that turns once in fewer steps is hardly resolved.
@@ -62,7 +62,7 @@ impl<N: Real> Report<N> {
         let check = "check_potential compares gradient, energy and rate";
         match self.verdict {
             Verdict::Undecided(Missing::Windows) => {
-                format!("a verdict needs {LEAST_WINDOWS} windows, and there are {}", self.windows)
+                format!("a verdict needs {} windows, and there are {}", Verdict::LEAST_WINDOWS, self.windows)
             }
             Verdict::Undecided(Missing::Resolution) => self.what_would_decide(),
             Verdict::Inconsistent => self.why_inconsistent(),

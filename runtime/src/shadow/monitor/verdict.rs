@@ -74,6 +74,9 @@ pub enum Verdict {
 }
 
 impl Verdict {
+    /// Windows that a verdict needs.
+    pub const LEAST_WINDOWS: u64 = 16;
+
     /// Whether the energy error is bounded, as far as the run shows: [`Fine`](Verdict::Fine) or [`RoundOff`](Verdict::RoundOff). Whether its
     /// [size](super::Report::relative_error) is small enough is for the user to decide.
     pub fn is_fine(self) -> bool {
@@ -135,8 +138,6 @@ pub struct Advice {
     pub order: Option<u32>,
 }
 
-/// Windows that a verdict needs.
-pub(super) const LEAST_WINDOWS: u64 = 16;
 /// A step size is fine if a permanent change is excluded from this part of the energy error on.
 pub(super) const PERMANENT_LIMIT: f64 = 0.25;
 /// It is too large if a permanent change of this part or more is resolved.
@@ -253,7 +254,7 @@ impl Evidence {
     fn of_energy(&self) -> Verdict {
         if !self.finite {
             Verdict::TooLarge(Criterion::NotFinite)
-        } else if self.windows < LEAST_WINDOWS {
+        } else if self.windows < Verdict::LEAST_WINDOWS {
             Verdict::Undecided(Missing::Windows)
         } else if self.is_inconsistent() {
             Verdict::Inconsistent
@@ -283,7 +284,7 @@ impl Evidence {
 
     /// What a net change of the energy is excluded above.
     pub(super) fn bound(&self) -> Option<f64> {
-        if self.windows < LEAST_WINDOWS {
+        if self.windows < Verdict::LEAST_WINDOWS {
             return None;
         }
         let of_estimates = self.range + ERROR_FACTOR * self.resolution;
@@ -454,7 +455,7 @@ mod tests {
         mismatches: false,
         wrong_rate: false,
         finite: true,
-        windows: LEAST_WINDOWS,
+        windows: Verdict::LEAST_WINDOWS,
     };
 
     const MOVES: Verdict = Verdict::TooLarge(Criterion::Moved);
