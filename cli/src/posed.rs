@@ -116,9 +116,5 @@ impl PosedProblem {
 
 /// The scheme with weights that have the digits of the runs.
 pub(crate) fn fitted(scheme: NamedScheme, arithmetic: Arithmetic) -> Result<NamedScheme, Error> {
-    let fitted = scheme.fitted(arithmetic);
-    fitted.map(|(scheme, _)| scheme).map_err(|error| {
-        let hint = format!("use --digits {}", error.most);
-        Error::usage(error.to_string(), hint)
-    })
+    Ok(scheme.fitted(arithmetic)?.0)
 }

@@ -11,7 +11,7 @@ use crate::report;
 use crate::run_arguments::{EstimatorArguments, OrderChoice, RunArguments};
 use crate::system::Described;
 use shadowstep_scenes::Error;
-use shadowstep_scenes::arithmetic::{Arithmetic, OTHER_SCHEME};
+use shadowstep_scenes::arithmetic::Arithmetic;
 use shadowstep_scenes::estimator::{ACCURACY_HINT, conflict, order_setting};
 use shadowstep_scenes::library::NamedScheme;
 use shadowstep_scenes::propagator::Propagator;
@@ -43,9 +43,7 @@ impl Selection {
             words.iter().map(|word| Propagator::of_system(word, &problem.system)).collect::<Result<_, _>>()?;
         steps = each_once(&steps, |(h, _)| to_text(h.exact()), "step");
         let fitted = |propagator: Propagator| {
-            let (propagator, note) = propagator.fitted(arithmetic).map_err(|error| {
-                Error::usage(error.to_string(), format!("use --digits {}, or {OTHER_SCHEME}", error.most))
-            })?;
+            let (propagator, note) = propagator.fitted(arithmetic)?;
             let of_name = propagator.scheme().and_then(NamedScheme::note);
             of_name.iter().chain(&note).for_each(report::note);
             Ok(propagator)

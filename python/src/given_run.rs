@@ -144,12 +144,7 @@ impl SystemWithScheme {
     pub(crate) fn of(problem: &Given, scheme: &NamedScheme, arithmetic: Arithmetic) -> Result<Self, Error> {
         let system = problem.system(arithmetic)?;
         let scheme = for_system(scheme.clone(), &system)?;
-        let (scheme, note) = scheme.fitted(arithmetic).map_err(|error| {
-            Error::usage(
-                error.to_string(),
-                format!("use {} digits or fewer, or a scheme whose weights are fractions", error.most),
-            )
-        })?;
+        let (scheme, note) = scheme.fitted(arithmetic)?;
         Ok(SystemWithScheme { system, scheme, note })
     }
 }

@@ -23,7 +23,7 @@ pub const DEFAULT_DIGITS: u32 = 120;
 pub const NUMBER_EXAMPLES: &str = "write an exact number, such as 1/10, 0.05, 1e-3 or sqrt(2)/20";
 
 /// What else helps where a scheme's weights have too few digits.
-pub const OTHER_SCHEME: &str = "a scheme whose weights are fractions";
+pub(crate) const OTHER_SCHEME: &str = "a scheme whose weights are fractions";
 
 /// The digits of a run in words or numbers, as records and metadata have them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
@@ -235,18 +235,6 @@ pub enum DigitsError {
         most = Precision::of_limbs(MOST_LIMBS).in_digits()
     )]
     NeedsMpfr(u32),
-}
-
-/// A run with more digits than a scheme's weights can have.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("{scheme} has irrational weights, computed to at most {most} digits; the run has {digits}")]
-pub struct TooManyDigits {
-    /// The scheme.
-    pub scheme: String,
-    /// The most digits of its weights.
-    pub most: u32,
-    /// The digits of the run.
-    pub digits: u32,
 }
 
 #[cfg(test)]

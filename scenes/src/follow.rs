@@ -140,7 +140,7 @@ fn estimated<N: Real + 'static, F: Follower<N> + ?Sized>(
     follower.begin(run.reach(), *run.integrator());
     loop {
         let next = run.advance_with(|n, trajectory| follower.state(n, *trajectory.integrator()))?;
-        let Some((n, estimate, trajectory)) = next else { return Ok(Continue(())) };
+        let Some(((n, estimate), trajectory)) = next else { return Ok(Continue(())) };
         if follower.output(n, Some(&estimate), *trajectory.integrator())?.is_break() {
             return Ok(Break(()));
         }

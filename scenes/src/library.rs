@@ -15,7 +15,7 @@ use shadowstep_schemes::{First, Map, shipped, shipped_hint};
 use shadowstep_symbolic::decimal::to_text;
 use thiserror::Error;
 
-use crate::arithmetic::{Arithmetic, GUARD_DIGITS, MOST_VALUE_DIGITS, TooManyDigits};
+use crate::arithmetic::{Arithmetic, GUARD_DIGITS, MOST_VALUE_DIGITS, OTHER_SCHEME};
 use crate::error::Error;
 use crate::note::Note;
 use crate::refusal::{Refusal, Unsupported};
@@ -66,12 +66,18 @@ impl NamedScheme {
     ///
     /// # Errors
     /// Irrational weights of these digits cannot be computed.
-    pub fn fitted(self, arithmetic: Arithmetic) -> Result<(NamedScheme, Option<Note>), TooManyDigits> {
+    pub fn fitted(self, arithmetic: Arithmetic) -> Result<(NamedScheme, Option<Note>), Refusal> {
         const MOST: u32 = MOST_VALUE_DIGITS - GUARD_DIGITS;
         let NamedScheme { name, scheme } = self;
         let digits = arithmetic.digits();
         let closed_forms = scheme.proved().lacks_digits(u32::MAX);
-        let too_many = || TooManyDigits { scheme: name.clone(), most: MOST, digits };
+        let too_many = || {
+            let most = format!("{name} has irrational weights, computed to at most {MOST} digits");
+            Refusal::new(
+                format!("{most}; the run has {digits}"),
+                format!("use at most {MOST} digits, or {OTHER_SCHEME}"),
+            )
+        };
         let scheme = if (TABLE_DIGITS + 1..=MOST).contains(&digits) {
             scheme.to_digits(digits + GUARD_DIGITS).map_err(|_| too_many())?
         } else if closed_forms && digits > MOST {
@@ -207,7 +213,7 @@ impl Schemes {
     ///
     /// # Errors
     /// As [`NamedScheme::fitted`].
-    pub(crate) fn fitted(&self, arithmetic: Arithmetic, named: NamedScheme) -> Result<Fitted, TooManyDigits> {
+    pub(crate) fn fitted(&self, arithmetic: Arithmetic, named: NamedScheme) -> Result<Fitted, Refusal> {
         let digits = arithmetic.digits();
         if !named.scheme.proved().lacks_digits(digits) {
             return named.fitted(arithmetic);

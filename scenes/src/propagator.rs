@@ -8,10 +8,11 @@ use shadowstep::shadow::run::ShadowRun;
 use shadowstep::shadow::{Estimator, EstimatorSettings};
 use shadowstep::tables::TableScheme;
 
-use crate::arithmetic::{Arithmetic, TooManyDigits};
+use crate::arithmetic::Arithmetic;
 use crate::error::Error;
 use crate::library::{self, EXACT_FLOW, NamedScheme, Schemes};
 use crate::note::Note;
+use crate::refusal::Refusal;
 use crate::run::Run;
 use crate::run_number::RunNumber;
 use crate::scene::{SceneNumber, System};
@@ -66,7 +67,7 @@ impl Propagator {
     ///
     /// # Errors
     /// As [`NamedScheme::fitted`].
-    pub fn fitted(self, arithmetic: Arithmetic) -> Result<(Self, Option<Note>), TooManyDigits> {
+    pub fn fitted(self, arithmetic: Arithmetic) -> Result<(Self, Option<Note>), Refusal> {
         let Propagator::Scheme(scheme) = self else { return Ok((self, None)) };
         let (scheme, note) = scheme.fitted(arithmetic)?;
         Ok((Propagator::Scheme(Box::new(scheme)), note))

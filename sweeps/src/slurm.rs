@@ -27,7 +27,7 @@ pub(crate) use script::SCRIPTS;
 pub use script::{Resources, Scripts, SweepCommand};
 pub use status::Status;
 pub use submission::{Submitted, submit};
-pub use tasks::{NotATaskList, TaskList};
+pub use tasks::TaskList;
 
 use std::path::Path;
 

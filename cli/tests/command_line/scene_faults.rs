@@ -89,7 +89,7 @@ const WRONG: &[(&str, &str, &str, &str)] = &[
         "digits = 30",
         "digits = 5001",
         "10:10: yoshida4 has irrational weights, computed to at most 4980 digits",
-        "digits = 4980",
+        "use at most 4980 digits",
     ),
     ("digits = 30", "digits = 0", "13:10: 0 is out of range", "from 1 to 100000"),
     ("digits = 30", "digits = \"single\"", "13:10: `single` is not known here", "write \"double\""),

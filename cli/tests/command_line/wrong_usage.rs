@@ -32,7 +32,7 @@ const WRONG: &[(&str, &str, &str)] = &[
     (
         "--digits 5001 --scheme yoshida4",
         "yoshida4 has irrational weights, computed to at most 4980 digits; the run has 5001",
-        "--digits 4980",
+        "use at most 4980 digits",
     ),
     ("--digits 6000 --set py=sqrt(2)", "py is irrational and computed to 5000 digits", "--digits 4980"),
     (

@@ -21,7 +21,7 @@ pub use drift::{DriftRecorder, EnergyDrift, energy_drift};
 pub use error::{NotFinite, Quantity, RunError};
 pub(crate) use error::{check_energy, check_value};
 pub use permanent::{Finding, LowErrorStates, PermanentChange};
-pub use shadow_run::{Estimated, EstimatedAlong, ShadowRun};
+pub use shadow_run::{Estimated, ShadowRun};
 pub(crate) use state::last;
 pub use state::{States, TrajectoryState};
 pub use trajectory::Trajectory;

@@ -31,10 +31,10 @@ pub trait System {
     type Summation: Summation<Self::Number>;
 
     /// The state.
-    fn state(&self) -> &StateOf<Self>;
+    fn state(&self) -> &State<Self::Number, Self::Coordinates, Self::Summation>;
 
     /// The state, to be set: the system has to drop all that it keeps of it, such as a gradient.
-    fn state_mut(&mut self) -> &mut StateOf<Self>;
+    fn state_mut(&mut self) -> &mut State<Self::Number, Self::Coordinates, Self::Summation>;
 
     /// The increments of the state ← 0, with [`State::clear_increments`]; what is kept of the state stays.
     fn clear_increments(&mut self);
@@ -155,9 +155,6 @@ pub type Point<'a, N> = (&'a [N], &'a [N]);
 
 /// A system of any class: it has energies and a state, and only a stepper that is valid for it makes steps.
 pub type AnySystem<'a, N, V, S> = dyn System<Number = N, Coordinates = V, Summation = S> + 'a;
-
-/// The state of a system.
-pub type StateOf<M> = State<<M as System>::Number, <M as System>::Coordinates, <M as System>::Summation>;
 
 /// The flows of a system, with what they carry along.
 pub(crate) struct Carrying<'a, M: ?Sized> {

@@ -8,7 +8,7 @@ use shadowstep_symbolic::decimal::to_text;
 use toml::de::DeValue;
 
 use super::reader::Reader;
-use crate::arithmetic::{Arithmetic, DEFAULT_DIGITS, MOST_DIGITS, OTHER_SCHEME};
+use crate::arithmetic::{Arithmetic, DEFAULT_DIGITS, MOST_DIGITS};
 use crate::expression::Condition;
 use crate::library::{LibraryError, NamedScheme, Schemes, check_displaced};
 use crate::note::Note;
@@ -138,10 +138,7 @@ fn scheme(
             reader.notes.extend(note);
             Some(named)
         }
-        Err(error) => {
-            let help = format!("write digits = {}, or use {OTHER_SCHEME}", error.most);
-            reader.toml.wrong(&word.at, error.to_string(), help)
-        }
+        Err(Refusal { message, hint }) => reader.toml.wrong(&word.at, message, hint),
     }
 }
 

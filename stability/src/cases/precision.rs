@@ -84,7 +84,7 @@ impl Case for Precision {
         let [Ok(few), Ok(many)] = arithmetics else { return Ok(Agreement::NotMeasured) };
         let few = if trial.digits == 16 { Arithmetic::DOUBLE } else { few };
         let [short, long] = match [few, many].map(|arithmetic| scheme.clone().fitted(arithmetic)) {
-            [Err(refused), _] => return Ok(Agreement::Refused(refused.to_string())),
+            [Err(refused), _] => return Ok(Agreement::Refused(refused.message)),
             [_, Err(_)] => return Ok(Agreement::NotMeasured),
             [Ok((of_few, _)), Ok((of_many, _))] => {
                 [few.compute(Run { scheme: &of_few }), many.compute(Run { scheme: &of_many })]

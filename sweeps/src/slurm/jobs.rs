@@ -33,7 +33,7 @@ impl Job {
 
     /// The tasks of an array; `None` for the job that collects.
     pub(super) fn tasks(&self) -> Option<TaskList> {
-        self.tasks.as_ref().and_then(|tasks| tasks.parse().ok())
+        self.tasks.as_deref().and_then(TaskList::read)
     }
 }
 
@@ -76,7 +76,7 @@ mod tests {
 
     #[test]
     fn what_sbatch_prints_is_read() {
-        let tasks: TaskList = "3,7-9".parse().unwrap();
+        let tasks = TaskList::read("3,7-9").unwrap();
         let job = Job::read("123\n", Some(&tasks)).unwrap();
         assert_eq!((job.job, job.cluster.as_deref(), job.tasks()), (123, None, Some(tasks)));
         let job = Job::read("a note of the site\n124;north\n", None).unwrap();

@@ -170,7 +170,7 @@ mod tests {
             tasks: tasks.iter().cloned().collect(),
             collect: Some((13, collect)),
             count: 16,
-            missing: missing.parse().unwrap_or_default(),
+            missing: TaskList::read(missing).unwrap_or_default(),
             submit: "shadowstep sweep map.toml --out map --submit".to_owned(),
             collects: "shadowstep collect map".to_owned(),
             has_results: false,
@@ -229,7 +229,7 @@ mod tests {
 
     #[test]
     fn the_last_array_of_a_task_counts() {
-        let job = |number: u64, tasks: &str| Job::read(&number.to_string(), Some(&tasks.parse().unwrap())).unwrap();
+        let job = |number: u64, tasks: &str| Job::read(&number.to_string(), TaskList::read(tasks).as_ref()).unwrap();
         let states = BTreeMap::from([
             ((5, Some(1)), State::Done),
             ((5, Some(2)), State::Failed("TIMEOUT".to_owned())),

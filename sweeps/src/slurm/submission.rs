@@ -129,7 +129,7 @@ mod tests {
     use super::*;
 
     fn job(number: u64, tasks: Option<&str>) -> Job {
-        Job::read(&number.to_string(), tasks.map(|tasks| tasks.parse().unwrap()).as_ref()).unwrap()
+        Job::read(&number.to_string(), tasks.and_then(TaskList::read).as_ref()).unwrap()
     }
 
     #[test]

@@ -2,7 +2,6 @@
 
 use std::collections::BTreeSet;
 use std::fmt;
-use std::str::FromStr;
 
 use crate::collect::ranges;
 
@@ -13,7 +12,6 @@ use crate::collect::ranges;
 ///
 /// let tasks: TaskList = [9, 3, 8, 7].into_iter().collect();
 /// assert_eq!(tasks.to_string(), "3,7-9");
-/// assert_eq!("3,7-9".parse(), Ok(tasks));
 /// ```
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct TaskList(BTreeSet<u64>);
@@ -23,6 +21,20 @@ impl TaskList {
     #[cfg(test)]
     pub(crate) fn all(count: u64) -> Self {
         (1..=count).collect()
+    }
+
+    /// The tasks of a text such as `3,7-9`; `None` of other texts.
+    pub(crate) fn read(text: &str) -> Option<Self> {
+        let mut tasks = BTreeSet::new();
+        for part in text.split(',') {
+            let (first, last) = part.split_once('-').unwrap_or((part, part));
+            let (first, last) = (first.parse::<u64>().ok()?, last.parse::<u64>().ok()?);
+            if first > last || last - first > MOST_TASKS {
+                return None;
+            }
+            tasks.extend(first..=last);
+        }
+        Some(TaskList(tasks))
     }
 
     /// The numbers in order.
@@ -64,29 +76,6 @@ impl fmt::Display for TaskList {
     }
 }
 
-/// A text that is not a list of tasks.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("not a list of tasks such as 3,7-9")]
-pub struct NotATaskList;
-
-impl FromStr for TaskList {
-    type Err = NotATaskList;
-
-    fn from_str(text: &str) -> Result<Self, NotATaskList> {
-        let number = |text: &str| text.parse::<u64>().map_err(|_| NotATaskList);
-        let mut tasks = BTreeSet::new();
-        for part in text.split(',') {
-            let (first, last) = part.split_once('-').unwrap_or((part, part));
-            let (first, last) = (number(first)?, number(last)?);
-            if first > last || last - first > MOST_TASKS {
-                return Err(NotATaskList);
-            }
-            tasks.extend(first..=last);
-        }
-        Ok(TaskList(tasks))
-    }
-}
-
 /// More tasks than Slurm allows in an array, 4 000 000.
 const MOST_TASKS: u64 = 4_000_001;
 
@@ -97,7 +86,7 @@ mod tests {
     #[test]
     fn runs_of_numbers_are_ranges() {
         for text in ["1", "1-16", "3,7-9", "1-2", "1,3,5", "2-4,6-7,9-12"] {
-            assert_eq!(text.parse::<TaskList>().unwrap().to_string(), text);
+            assert_eq!(TaskList::read(text).unwrap().to_string(), text);
         }
         assert_eq!(TaskList::default().to_string(), "");
     }
@@ -105,13 +94,13 @@ mod tests {
     #[test]
     fn other_texts_are_refused() {
         for text in ["", "a", "1-", "-1", "9-3", "1-16%4", "1-16:2", "1,,2", "0-99999999999"] {
-            assert_eq!(text.parse::<TaskList>(), Err(NotATaskList), "{text}");
+            assert_eq!(TaskList::read(text), None, "{text}");
         }
     }
 
     #[test]
     fn tasks_are_taken_out() {
-        let rest = TaskList::all(16).without(&"3,7-9".parse().unwrap());
+        let rest = TaskList::all(16).without(&TaskList::read("3,7-9").unwrap());
         assert_eq!(rest.to_string(), "1-2,4-6,10-16");
         assert_eq!(rest.len(), 12);
         assert!(rest.contains(16) && !rest.contains(8));

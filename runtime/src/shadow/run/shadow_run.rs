@@ -13,8 +13,8 @@ use crate::steps::step_size::StepSize;
 /// An estimate and its n: the state n, or the middle between it and the next one.
 pub type Estimated<'a, N> = (i64, Estimate<'a, N>);
 
-/// An estimate, its n, and the source of states.
-pub type EstimatedAlong<'a, T> = (i64, Estimate<'a, <T as States>::Number>, &'a mut T);
+/// The same with the source of states.
+type EstimatedAlong<'a, T> = (Estimated<'a, <T as States>::Number>, &'a mut T);
 
 /// States with the modified energies of n = 0, …, steps, or between them.
 pub struct ShadowRun<T: States, E> {
@@ -120,7 +120,7 @@ impl<T: States, E: Estimator<T::Number>> ShadowRun<T, E> {
     /// # Errors
     /// A state that is not finite, up to the last one that the estimator needs, or a modified energy that is not.
     pub fn advance(&mut self) -> Result<Option<Estimated<'_, T::Number>>, RunError> {
-        Ok(self.advance_with(|_, _| ())?.map(|(n, estimate, _)| (n, estimate)))
+        Ok(self.advance_with(|_, _| ())?.map(|(estimated, _)| estimated))
     }
 
     /// As [`advance`](Self::advance), and calls `watch` with the n of each state on the way and the source of states, which is
@@ -157,7 +157,7 @@ impl<T: States, E: Estimator<T::Number>> ShadowRun<T, E> {
             let n = n - self.after;
             check_value(estimate.value, Quantity::ModifiedEnergy, n)?;
             let particles = self.particles.front().map_or((&[][..], &[][..]), |[q, p]| (q, p));
-            return Ok(Some((n, Estimate { particles, ..estimate }, &mut self.states)));
+            return Ok(Some(((n, Estimate { particles, ..estimate }), &mut self.states)));
         }
     }
 }
