@@ -176,11 +176,10 @@ fn not_finished(unfinished: &Unfinished<'_>, seconds: f64) -> String {
     let Unfinished { untried, extrapolated } = unfinished;
     let line = |what: &str, names: &[&str]| match names {
         [] => String::new(),
-        names => {
-            wrapped_to(&format!("{what} its part of the {seconds} s of --seconds: {}", names.join(", ")), "", WIDTH)
-        }
+        names => wrapped_to(&format!("{what} within --seconds {seconds}: {}", names.join(", ")), "", WIDTH),
     };
-    line("without a result in", untried) + &line("extrapolated from the larger errors of runs in", extrapolated)
+    line("no result", untried)
+        + &line("less certain, extrapolated from larger errors, as no run reached the tolerance", extrapolated)
 }
 
 fn evidence(best: &Choice<'_>, request: &AdviceRequest<'_>, verified: Verified, part: f64) -> String {

@@ -11,7 +11,9 @@ import numpy as np
 
 # Differences are taken over these parts of the largest coordinate: round-off of U spoils the near ones, its curvature the far ones.
 _DISTANCES = (1e-3, 1e-5, 1e-7)
-# A slope may be off by this part of the gradient: U in single precision, or with noise.
+# A slope may be off by this part of the gradient, and by ten times what the differences differ among themselves; where U is in single precision or has noise,
+# by the larger part.
+_ALLOWED_ERROR = 1e-3
 _LARGEST_ERROR = 0.03
 
 _POINTER = ctypes.POINTER(ctypes.c_double)
@@ -31,7 +33,7 @@ def warn_of_gradient(forces: Any, q: np.ndarray) -> None:
         slope, difference = found
         warnings.warn(
             f"the gradient is not that of U: at t = 0 it says that U changes by {slope:.4g} a unit along a direction, and differences of U say {difference:.4g}; "
-            "check the sign and the terms of both",
+            "check the sign, the terms and the constants of both",
             stacklevel=3,
         )
 
@@ -49,9 +51,17 @@ def _difference(evaluate: Callable[[np.ndarray], Any], q: np.ndarray) -> tuple[f
         rises = [float(evaluate(q + step)[0]) - float(evaluate(q - step)[0]) for step in steps]
         found = [rise / (2 * distance * scale) for rise, distance in zip(rises, _DISTANCES)]
         nearest = min(found, key=lambda difference: abs(difference - slope))
-        if abs(nearest - slope) > _LARGEST_ERROR * size:
+        if abs(nearest - slope) > _allowed(found, size):
             return slope, nearest
     return None
+
+
+def _allowed(found: list[float], size: float) -> float:
+    far, middle, near = found
+    if middle == near:  # both are 0 where q is rounded to single precision
+        return _LARGEST_ERROR * size
+    uncertainty = min(abs(far - middle), abs(middle - near))
+    return min(_LARGEST_ERROR * size, _ALLOWED_ERROR * size + 10 * uncertainty)
 
 
 def _of_address(address: int) -> Callable[[np.ndarray], Any]:

@@ -60,7 +60,7 @@ class Problem:
     A C function ``double f(const double *q, double *gradient)`` returns U(q) and writes the gradient U_q(q); q and the gradient have d numbers.
     Its address comes from numba (``cfunc(…).address``), ctypes or cffi. The function must live as long as the problem. A Python function gets q
     as an array of shape (d,) and returns (U, gradient). Both compute in double precision. The gradient is compared with differences of U at t = 0, by 13 calls, and
-    a warning says where they differ.
+    a warning says where they differ by more than a thousandth of it, or a few hundredths where U has noise.
 
     Examples
     --------
@@ -317,7 +317,7 @@ def _sections(system: str | None, q: Values | None, p: Values | None, v: Values 
         if isinstance(value, (Mapping, Sequence, np.ndarray)) and not isinstance(value, str):
             near = get_close_matches(key, ("q", "p", "v", "masses", "kinetic", "pair", "parts", "time", "body", *_PROBLEM), n=1)
             hint = f"did you mean {near[0]!r}?" if near else "a parameter is a number"
-            raise _shadowstep.InputError(f"{key!r} is no argument of Problem that has several values; {hint}")
+            raise _shadowstep.InputError(f"Problem has no argument {key!r} with several values; {hint}")
     if parameters:
         problem["parameters"] = {**problem.get("parameters", {}), **parameters}
     if system is not None:

@@ -192,10 +192,10 @@ def advise(
     Parameters
     ----------
     tolerance
-        The largest error.
+        The largest error, in the units of ``of``.
     of
-        Which error: ``"position"`` at the end, ``"energy"``, the largest |H(t) − H(0)|, or ``"permanent"``, the permanent change of the
-        modified energy.
+        Which error: ``"position"`` at the end, a distance in the units of q; ``"energy"``, the largest |H(t) − H(0)|, or ``"permanent"``, the permanent
+        change of the modified energy, as parts of |H(0)| unless that is 0.
     cost
         What is to be small: ``"forces"``, with which Hessian–vector products and flows of a dominant part are counted, or ``"time"``.
     schemes

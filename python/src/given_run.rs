@@ -114,7 +114,8 @@ impl Times {
                 Times::until(py, (size, h), (until, &format!("{count} h")))
             }
             (None, Some(text)) => Times::until(py, (size, h), (number(py, text)?, text)),
-            _ => Err(usage(py, "give either `until` or `steps`", "until = 100, the time, or steps = 1000")),
+            (Some(_), Some(_)) => Err(usage(py, "`until` and `steps` are both given", "remove one of the two")),
+            (None, None) => Err(usage(py, "give either `until` or `steps`", "until = 100, the time, or steps = 1000")),
         }
     }
 

@@ -37,6 +37,8 @@ struct Followed {
     newest: Option<Newest>,
     /// Of planets.
     approaches: Option<Approaches>,
+    /// The names of the coordinates.
+    names: Vec<String>,
 }
 
 /// What the thread does next.
@@ -129,7 +131,9 @@ impl Monitor {
     /// The report on the run so far.
     fn report<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let (report, planets) = self.ask(py, |followed, _| {
-            (followed.monitor.report(), followed.approaches.as_ref().map(|approaches| approaches.found()))
+            let mut report = followed.monitor.report();
+            report.coordinate_names.clone_from(&followed.names);
+            (report, followed.approaches.as_ref().map(|approaches| approaches.found()))
         })?;
         dictionary(py, &report, planets.as_ref())
     }
@@ -191,7 +195,7 @@ impl Followed {
         if let Some(approaches) = &mut approaches {
             approaches.include(0, (integrator.state().q(), integrator.state().p()));
         }
-        Ok(Followed { integrator, monitor, newest: None, approaches })
+        Ok(Followed { integrator, monitor, newest: None, approaches, names: posed.system.coordinates.clone() })
     }
 
     /// Steps until there are as many, or Python asks to end.

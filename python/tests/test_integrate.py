@@ -182,7 +182,7 @@ def henon_heiles(wrong=lambda x, y: np.zeros(2)):
 
 @pytest.mark.parametrize(
     "wrong",
-    [lambda x, y: np.array([0, -2 * x**2]), lambda x, y: np.array([0, y**2]), lambda x, y: np.array([0.1 * x, 0.1 * y]), lambda x, y: np.array([-2 * x, -2 * y])],
+    [lambda x, y: np.array([0, -2 * x**2]), lambda x, y: np.array([0, y**2]), lambda x, y: np.array([0.1 * x, 0.1 * y]), lambda x, y: np.array([-2 * x, -2 * y]), lambda x, y: np.array([0.005 * x, 0])],
 )
 def test_own_forces_with_a_wrong_gradient_are_warned_of(wrong):
     state = {"q": [0.4, -0.3], "p": [0.1, 0.2]}

@@ -49,6 +49,8 @@ pub struct Watch<N: RunNumber> {
     transformed: bool,
     /// The coordinate that is t, which does not turn, whatever its momentum does.
     time: Option<usize>,
+    /// The names of the coordinates.
+    names: Vec<String>,
     /// What a summary needs besides H; `None` where there is none.
     observed: Option<Observed<N>>,
     /// The n of the first state and of the last one so far.
@@ -125,6 +127,7 @@ impl<N: RunNumber> Watch<N> {
             energy: EnergyError::new(initial),
             transformed: false,
             time: None,
+            names: Vec::new(),
             observed,
             from,
             n: from,
@@ -152,6 +155,7 @@ impl<N: RunNumber> Watch<N> {
     #[must_use]
     pub(crate) fn of_system(mut self, system: &scene::System, integrator: &VectorIntegrator<'_, N>) -> Self {
         self.transformed = system.transformed_time().is_some();
+        self.names.clone_from(&system.coordinates);
         self.time = system.explicit_time.then(|| system.q.len() - 1);
         if let Some(observed) = &mut self.observed {
             observed.approaches = Approaches::of(system);
@@ -246,7 +250,7 @@ impl<N: RunNumber> Watch<N> {
         initial.make_absolute();
         let of_kinetic = self.energy.of_kinetic();
         let last = self.energy.last.clone();
-        let Watch { observed, from, n, transformed, time, .. } = self;
+        let Watch { observed, from, n, transformed, time, names, .. } = self;
         let Observed { mut monitor, pass, encounters, approaches, .. } = observed?;
         monitor.pass(pass);
         let mut report = monitor.report();
@@ -254,6 +258,7 @@ impl<N: RunNumber> Watch<N> {
         if report.windows > 0 && initial <= report.round_off {
             (energy.largest_relative, energy.last_relative) = (None, None);
         }
+        report.coordinate_names = names;
         report.fastest_coordinate = report.fastest_coordinate.filter(|(coordinate, _)| Some(*coordinate) != time);
         let of_windows = if transformed { f64::NAN } else { last_of_kinetic(&last, &report) };
         let (verdict, reason) = conclusion(&report, of_kinetic, of_windows);

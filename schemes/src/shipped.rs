@@ -44,7 +44,8 @@ pub fn shipped_hint(name: &str) -> String {
     }
     let begins = |known: &&&str| word.len() >= LEAST_BEGINNING && spelling(known).starts_with(&word);
     let beginning: Vec<_> = names.iter().filter(begins).map(|name| format!("`{name}`")).collect();
-    match nearest(name, names.iter().copied()) {
+    let of_alias = || Some(SHIPPED[NAMES[nearest(&word, NAMES.keys().map(String::as_str))?]].0);
+    match nearest(name, names.iter().copied()).or_else(of_alias) {
         _ if !beginning.is_empty() => format!("did you mean {}?", beginning.join(", ")),
         Some(near) => format!("did you mean `{near}`?"),
         None => "no shipped table has a name like that".to_owned(),

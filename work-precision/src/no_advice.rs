@@ -28,7 +28,12 @@ impl Advice<'_> {
         }
         Some(match least {
             _ if *missed > 0 => format!(
-                "No advice: runs over all of the time, {missed} of them, were expected to meet the tolerance from runs {runs}, and missed it."
+                "No advice: runs over all of the time, {missed} of them, were expected to meet the tolerance from runs {runs}, and missed it.{}",
+                if is_position {
+                    ""
+                } else {
+                    " Errors are parts of |H(0)|: if H(0) is nearly 0, add a constant to the potential."
+                }
             ),
             _ if *overflow => format!(
                 "No advice {limit}: a state, its energy or its error overflows in every run {runs}, as with steps that are too large, or numbers that are."

@@ -120,8 +120,13 @@ fn table_of(word: &str) -> Result<NamedScheme, Error> {
         return Ok(library::scheme(word)?);
     }
     let message = format!("`{word}` is not the file of a table");
-    let hint =
-        "the name of a custom table ends in .toml; the subcommands show, check and polish stand before all flags";
+    let hint = match library::scheme(word) {
+        Ok(_) => format!("for a shipped scheme write: shadowstep schemes show {word}"),
+        Err(_) => {
+            "the name of a custom table ends in .toml; the subcommands show, check and polish stand before all flags"
+                .to_owned()
+        }
+    };
     Err(Error::usage(message, hint))
 }
 

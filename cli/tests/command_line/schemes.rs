@@ -113,6 +113,8 @@ fn a_custom_table_is_listed_among_the_shipped_ones() {
     let result = shadowstep("schemes shwo yoshida4");
     assert_eq!(result.code, 2);
     assert!(result.err.contains("the subcommands show, check and polish"), "{}", result.err);
+    let result = shadowstep("schemes yoshida4");
+    assert!(result.err.contains("write: shadowstep schemes show yoshida4"), "{}", result.err);
 }
 
 #[test]

@@ -87,6 +87,8 @@ pub struct Report<N> {
     /// δ⁴p = −4 sin²(θ/2) δ²p; by least squares over all coordinates and windows. Steps so short that a fourth difference is a few last
     /// places of p leave the angle uncertain.
     pub steps_per_turn: Option<f64>,
+    /// The names of the coordinates in texts; without them they are numbered from 1.
+    pub coordinate_names: Vec<String>,
     /// The coordinate that turns fastest, counted from 0, and in how many steps it turns once: each coordinate by itself, in the first five
     /// states and in the windows. A light body may turn faster than all that has energy.
     pub fastest_coordinate: Option<(usize, f64)>,
@@ -152,6 +154,7 @@ impl<N: Real, E: Estimator<N>> Monitor<N, E> {
             kick,
             round_off,
             steps_per_turn: turning.map(Turning::steps),
+            coordinate_names: Vec::new(),
             fastest_coordinate: self.fastest.found().map(|(i, turning)| (i, turning.steps())),
             lost_coordinate: self.lost(turning),
             irregular: turning.map(|turning| turning.irregular),

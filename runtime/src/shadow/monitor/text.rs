@@ -59,7 +59,7 @@ impl<N: Real> Report<N> {
     pub fn reason(&self) -> String {
         let steps = self.steps;
         let moved = format!("the modified energy moved by {} in {steps} steps", self.in_parts(&self.moved));
-        let check = "check_potential compares gradient, energy and rate";
+        let check = "compare gradient, energy and rate (in Rust with check_potential)";
         match self.verdict {
             Verdict::Undecided(Missing::Windows) => {
                 format!("a verdict needs {} windows, and there are {}", Verdict::LEAST_WINDOWS, self.windows)
@@ -108,10 +108,15 @@ impl<N: Real> Report<N> {
         }
     }
 
+    /// A coordinate by its name, or its number from 1.
+    fn coordinate(&self, i: usize) -> String {
+        self.coordinate_names.get(i).cloned().unwrap_or_else(|| format!("coordinate {}", i + 1))
+    }
+
     /// What a larger step has to resolve: light bodies have no part in the energy.
     fn resolved_coordinate(&self) -> String {
         self.fastest_coordinate.map_or(String::new(), |(i, steps)| {
-            format!(" where it resolves coordinate {}, which turns once in {steps:.1} steps", i + 1)
+            format!(" where it resolves {}, which turns once in {steps:.1} steps", self.coordinate(i))
         })
     }
 
@@ -121,9 +126,9 @@ impl<N: Real> Report<N> {
         let light = self.fastest_coordinate.filter(|(_, steps)| *steps < FEW_STEPS && 2.0 * steps < others);
         light.map_or(String::new(), |(i, steps)| {
             format!(
-                ". Coordinate {} turns, or turned at the start, once in {steps:.1} steps, with too little energy to be seen in this verdict: \
+                ". A motion with too little energy to be seen in this verdict, {}, turns, or turned at the start, once in {steps:.1} steps: \
                  it may be lost",
-                i + 1
+                self.coordinate(i)
             )
         })
     }
@@ -192,12 +197,12 @@ impl<N: Real> Report<N> {
         }
         if self.wrong_rates > 0 {
             return format!(
-                "in {} windows the rate is not qᵀU_q − 2U: check_potential compares them. A virial by nearest images is not qᵀU_q",
+                "in {} windows the rate is not qᵀU_q − 2U: compare them (in Rust with check_potential). A virial by nearest images is not qᵀU_q",
                 self.wrong_rates
             );
         }
         format!(
-            "the states do not belong to the increments, or the rate is not qᵀU_q − 2U (check_potential compares them): H − H̄ is {} rms, \
+            "the states do not belong to the increments, or the rate is not qᵀU_q − 2U (compare them, in Rust with check_potential): H − H̄ is {} rms, \
              and H̄ moved by {}, too much beside an energy error of {}",
             short(&self.method_rms),
             short(&self.moved),
@@ -223,9 +228,9 @@ impl<N: Real> Report<N> {
             Criterion::Lost => {
                 let (i, steps) = self.lost_coordinate.expect("the verdict follows from it");
                 format!(
-                    "coordinate {} turned once in {steps:.1} steps at the start, and no longer does: the steps do not resolve it, however little \
+                    "{} turned once in {steps:.1} steps at the start, and no longer does: the steps do not resolve it, however little \
                      of the energy it has",
-                    i + 1
+                    self.coordinate(i)
                 )
             }
             Criterion::NotFinite => match self.not_finite {
