@@ -236,7 +236,7 @@ def test_own_forces_with_a_wrong_gradient_are_warned_of(wrong):
         (lambda: Problem("x^2 + y^2", q={"x": 1, "y": 0}, p={"px": 0}), "p has no 'py'", 'p={"px": …, "py": …}'),
         (lambda: Problem("x^2 + y^2", q={"x": 1, "y": 0}, v={"x": 0, "z": 0}), "v has 'z', which is none of its names", 'v={"x": …, "y": …}'),
         (lambda: Problem("x^2 + y^2", q={"x": 1, "y": 0}, p={"vy": 2, "vx": 0}), "p has 'vy', which is none of its names", 'p={"px": …, "py": …}'),
-        (lambda: Problem("x^2 + y^2", q={"x": 1, "y": 0}, p=[0, 1], masess=[1, 2]), "'masess' is no argument", "did you mean 'masses'?"),
+        (lambda: Problem("x^2 + y^2", q={"x": 1, "y": 0}, p=[0, 1], masess=[1, 2]), "Problem has no argument 'masess'", "did you mean 'masses'?"),
         (lambda: Problem("kepler", q={"x": 1, "y": 0, "z": 0}), "q has 'z'", 'q={"x": …, "y": …}'),
         (lambda: Problem(pair="d^2", dimensions=1, bodies={"m": [1, 1]}, q={"a": 0, "b": 1}, v=[0, 0]), "no names of coordinates", "lists"),
     ],

@@ -22,7 +22,7 @@ def blocks(page):
     return re.findall(r"^```(\w+)\n(.*?)^```$", (ROOT / page).read_text(), re.MULTILINE | re.DOTALL)
 
 
-@pytest.mark.parametrize("page", PAGES)
+@pytest.mark.parametrize("page", [*PAGES, "docs/liquids.md"])
 def test_python_blocks_run_one_after_the_other(page):
     names, printed = {}, io.StringIO()
     for kind, text in blocks(page):
