@@ -29,9 +29,9 @@ wasm:
 	    cargo check --target wasm32-unknown-unknown -p shadowstep -p shadowstep-scenes --locked; \
 	else echo "WebAssembly is skipped: rustup target add wasm32-unknown-unknown"; fi
 
+RUSTDOC = RUSTDOCFLAGS="-D warnings --html-in-header $(CURDIR)/runtime/formulas.html" cargo doc --no-deps --locked
 docs:
-	RUSTDOCFLAGS="-D warnings --html-in-header $(CURDIR)/runtime/formulas.html" \
-	    cargo doc --workspace --features mpfr --no-deps --locked
+	$(RUSTDOC) --workspace --features mpfr
 
 # A wheel of the Python package in target/wheels, for CPython 3.10 and later, with the tools in a virtual environment of its own. It contains no LGPL
 # code. `make wheel MPFR=1` adds MPFR, for more than 307 digits, and its licence texts.
@@ -60,7 +60,7 @@ help-files:
 $(WHEEL)/tools/bin/maturin:
 	@$(PYTHON) -c 'import ensurepip, venv' 2>/dev/null || ./.ci/install-python
 	$(PYTHON) -m venv $(WHEEL)/tools
-	$(WHEEL)/tools/bin/pip install --quiet 'maturin>=1.9,<2'
+	$(WHEEL)/tools/bin/pip install --quiet --no-compile 'maturin>=1.9,<2'
 
 # A new virtual environment with a wheel that is built in little time, and with the packages that tests, notebooks and the book need. They are downloaded while the wheel is built.
 python-environment: $(WHEEL)/tools/bin/maturin
@@ -68,19 +68,20 @@ python-environment: $(WHEEL)/tools/bin/maturin
 	$(PYTHON) -m venv $(WHEEL)/test
 	$(PYTHON) -c 'import sys, tomllib; all = tomllib.load(open("python/pyproject.toml", "rb"))["project"]; names = sys.argv[1].split(","); \
 	    print(*all["dependencies"], *sum((all["optional-dependencies"][name] for name in names), []), sep="\n")' $(or $(EXTRAS),test) > $(WHEEL)/needed.txt
-	$(WHEEL)/test/bin/pip install --quiet --requirement $(WHEEL)/needed.txt & \
+	$(WHEEL)/test/bin/pip install --quiet --no-compile --requirement $(WHEEL)/needed.txt & \
 	RUSTFLAGS="$$RUSTFLAGS -D warnings" $(WHEEL)/tools/bin/maturin build --profile quick --locked --compatibility linux --manifest-path python/Cargo.toml --out $(WHEEL)/wheels; \
 	built=$$?; wait $$! && exit $$built
-	$(WHEEL)/test/bin/pip install --quiet "$$(echo $(WHEEL)/wheels/*.whl)[$(or $(EXTRAS),test)]"
+	$(WHEEL)/test/bin/pip install --quiet --no-compile "$$(echo $(WHEEL)/wheels/*.whl)[$(or $(EXTRAS),test)]"
 
 # The Python package in that environment, on all cores: its tests, doctests, types and notebooks. PyTorch, which is large, is tested where it is installed.
 test-python: python-environment
 	cd python/tests && TQDM_DISABLE=1 $(WHEEL)/test/bin/python -m pytest --numprocesses auto --maxprocesses 8 --dist worksteal --quiet --doctest-modules --doctest-ignore-import-errors --pyargs shadowstep .
 
-# The documentation as pages in target/book, which need no network: texts, notebooks with their outputs, the Python package, and rustdoc's pages beside them.
-# Outputs of notebooks are kept until one of them or the package changes.
-book: EXTRAS = test,book
-book: docs python-environment
+# The documentation as pages in target/book, which need no network: texts, notebooks with their outputs, the Python package, and beside them rustdoc's pages of
+# the crates in docs/book/rust-api.md. Outputs of notebooks are kept until one of them or the package changes.
+book: EXTRAS = book
+book: python-environment
+	$(RUSTDOC) --profile quick --features shadowstep/mpfr,shadowstep-scenes/mpfr $$(sed -n 's/^| \[\(shadowstep[a-z-]*\)\].*/-p \1/p' docs/book/rust-api.md)
 	rm -rf target/book
 	mkdir -p target/book
 	cp -r $(or $(CARGO_TARGET_DIR),target)/doc target/book/rust

@@ -60,6 +60,7 @@ CHAPTERS = {
 
 project = "Shadowstep"
 extensions = ["myst_nb", "sphinx.ext.autodoc", "sphinx.ext.napoleon", "sphinx.ext.mathjax", "sphinx-mathjax-offline", "sphinx_design"]
+autodoc_mock_imports = ["jax", "openmm", "rebound"]  # large, and imported by one module each
 root_doc = "README"
 include_patterns = ["README.md", *(f"{page}.*" for pages in CHAPTERS.values() for page in pages), "docs/*.md", "docs/how-to/*.md", "docs/schemes/*.md", "python/notebooks/*.ipynb"]
 exclude_patterns = ["target", ".git", "**.rs", "**.py", "**.toml", "docs/pictures", "docs/sweeps"]
