@@ -1,33 +1,37 @@
-//! `shadowstep chaos`: whether the trajectory of a scene is chaotic, and whether its step size makes it so.
+//! `shadowstep chaos`: whether a trajectory is chaotic, and whether its step size makes it so.
+
+mod subject;
 
 use std::io::{IsTerminal, Write};
-use std::path::Path;
 
 use clap::Args;
 use shadowstep_scenes::chaos::{ChaosRecord, conclusion};
-use shadowstep_scenes::ensemble::Ensemble;
 use shadowstep_scenes::tangent::Vectors;
-use shadowstep_scenes::{Error, Observer, Scene};
+use shadowstep_scenes::{Error, Observer};
 
-use crate::headings::OUTPUT;
+use crate::headings::{OUTPUT, SCHEMES};
 use crate::interrupt::Interrupt;
 use crate::output::{Output, OutputArguments};
+use crate::posed::PosedArguments;
 use crate::progress::Progress;
 use crate::quantity::whole;
 use crate::readable::table;
-use crate::report::{self, Status};
+use crate::report::Status;
+use subject::Subject;
 
 const EXAMPLES: &str = "\
 Examples:
-  shadowstep scene kepler > scene.toml
   shadowstep chaos scene.toml
-  shadowstep chaos scene.toml --exponents 4 --json";
+  shadowstep chaos scene.toml --exponents 4 --json
+  shadowstep chaos henon-heiles --scheme yoshida4 --step 1/10 --until 1000";
 
 const MORE: &str = "\
-The run is made at the step size of the scene and at half of it, with tangent vectors. Chaos that only the larger step has is caused by that step.
+The run is made at the step size and at half of it, with tangent vectors. Chaos that only the larger step has is caused by that step.
 
 The exponent is the largest Lyapunov exponent over the last three quarters of the run, with twice its standard error. The mean of MEGNO tends to 2 on \
 regular orbits, to 0 where all frequencies are constant, and grows with the time on chaotic ones. SALI tends to 0 exponentially on chaotic ones.";
+
+const VECTORS: &str = "Tangent vectors";
 
 /// What can be done after an interruption.
 const AGAIN: &str = "try a shorter run, or a larger --every";
@@ -38,24 +42,31 @@ const AGAIN: &str = "try a shorter run, or a larger --every";
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES, after_long_help = format!("{EXAMPLES}\n\n{MORE}"))]
 pub(crate) struct Arguments {
-    /// The scene's file, such as scene.toml; its [output] is not used
-    #[arg(value_name = "FILE")]
-    scene: String,
+    #[command(flatten)]
+    posed: PosedArguments,
+    /// A shipped or custom scheme [default: that of the scene]
+    #[arg(long, value_name = "NAME|FILE", help_heading = SCHEMES)]
+    scheme: Option<String>,
+    /// The exact step size [default: that of the scene]
+    ///
+    /// Of a scene with [time], it is a step of the fictitious time s.
+    #[arg(long, alias = "h", value_name = "H", allow_hyphen_values = true, help_heading = SCHEMES)]
+    step: Option<String>,
     /// Tangent vectors: 2 give SALI, more give GALI of all
-    #[arg(long, value_name = "N", default_value_t = 2, value_parser = |text: &str| whole(text, 1..=64))]
+    #[arg(long, value_name = "N", default_value_t = 2, help_heading = VECTORS, value_parser = |text: &str| whole(text, 1..=64))]
     vectors: u32,
     /// The N largest Lyapunov exponents, in place of SALI
     ///
     /// Their tangent vectors are orthonormal.
-    #[arg(long, value_name = "N", conflicts_with = "vectors", value_parser = |text: &str| whole(text, 1..=64))]
+    #[arg(long, value_name = "N", conflicts_with = "vectors", help_heading = VECTORS, value_parser = |text: &str| whole(text, 1..=64))]
     exponents: Option<u32>,
     /// Vectors are measured every N steps
     ///
     /// They are made orthonormal then.
-    #[arg(long, value_name = "N", default_value_t = 1, value_parser = |text: &str| whole(text, 1..=1_000_000))]
+    #[arg(long, value_name = "N", default_value_t = 1, help_heading = VECTORS, value_parser = |text: &str| whole(text, 1..=1_000_000))]
     every: u32,
-    /// Only the step size of the scene, not half of it
-    #[arg(long)]
+    /// Only this step size, not half of it
+    #[arg(long, help_heading = SCHEMES)]
     one: bool,
     /// One JSON object per run in place of the table
     ///
@@ -76,25 +87,18 @@ impl Arguments {
 }
 
 pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
-    let source = shadowstep_scenes::source(Path::new(&arguments.scene))?;
-    if Ensemble::is_in(&source) {
-        Ensemble::read(source)?; // its own faults come first
-        let message = format!("{} is an ensemble, and chaos follows one trajectory", arguments.scene);
-        return Err(Error::usage(message, "remove [ensemble]; a sweep with keep = [\"megno\"] follows many"));
-    }
-    let scene = Scene::read(source)?;
-    scene.notes.iter().for_each(report::note);
-    let steps = scene.steps();
-    let interrupt = Interrupt::listen(&scene.source.path, AGAIN);
+    let subject = Subject::read(arguments)?;
+    let interrupt = Interrupt::listen(&subject.title, AGAIN);
     let mut output = Output::of(&arguments.output)?;
     let bar = arguments.output.output.is_some() || !std::io::stdout().is_terminal();
     let mut records = Vec::new();
     for parts in if arguments.one { 1..=1 } else { 1..=2 } {
-        let name = format!("{}, part {parts}", scene.as_run().name());
-        let progress = Progress::new(bar, name, steps * u64::from(parts));
+        let request = subject.request(arguments.vectors(), arguments.every.into());
+        let name = format!("{}, part {parts}", request.run.name());
+        let progress = Progress::new(bar, name, request.run.steps * u64::from(parts));
         let mut terminal = Terminal { progress, interrupt: &interrupt };
-        let found = scene.chaos(arguments.vectors(), arguments.every.into()).run(parts, &mut terminal)?;
-        let record = found.ok_or_else(|| Error::run(format!("{}: interrupted", scene.source.path), AGAIN))?;
+        let found = request.run(parts, &mut terminal)?;
+        let record = found.ok_or_else(|| Error::run(format!("{}: interrupted", subject.title), AGAIN))?;
         if arguments.json {
             output.json(&record)?;
         }

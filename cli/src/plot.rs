@@ -34,7 +34,8 @@ use lines::RunOfChart;
 pub(crate) const KINDS: &str = "\
 Charts:
   energies              the changes of H and of the modified energy H̄ in time
-  orbit=x:y             a coordinate or momentum against another; orbit=x:px is a phase portrait
+  orbit=x:y             a coordinate or momentum against another
+  orbit=x:px            the same, as a phase portrait
   distance              of every two bodies in time, or from the origin
   distance=sun          of this body from the others
   distance=sun:jupiter  of these two bodies

@@ -42,8 +42,21 @@ pub(crate) struct PosedArguments {
     numbers: NumberArguments,
 }
 
+impl PosedArguments {
+    /// The path of a scene.
+    pub(crate) fn scene(&self) -> Option<&String> {
+        self.system.problem().filter(|word| is_file(word))
+    }
+
+    /// Whether there is anything besides the problem.
+    pub(crate) fn is_changed(&self) -> bool {
+        let PosedArguments { system, until, digits, numbers, .. } = self;
+        until.is_some() || digits.is_some() || numbers.arithmetic().is_some() || !system.set.is_empty()
+    }
+}
+
 /// Whether the scene has a section [run], whose number type is that of the runs.
-fn has_run(path: &str) -> Result<bool, Error> {
+pub(crate) fn has_run(path: &str) -> Result<bool, Error> {
     Ok(document(&source(Path::new(path))?).0.is_some_and(|document| document.contains_key("run")))
 }
 
@@ -61,7 +74,7 @@ pub(crate) struct PosedProblem {
 
 impl PosedProblem {
     pub(crate) fn read(arguments: &PosedArguments) -> Result<Self, Error> {
-        let path = arguments.system.problem().filter(|word| is_file(word));
+        let path = arguments.scene();
         let named = arguments.numbers.arithmetic();
         let is_complete = arguments.until.is_some() && (named.is_some() || arguments.digits.is_some());
         let scene = match path.filter(|_| !is_complete) {

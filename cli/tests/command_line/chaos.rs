@@ -88,6 +88,24 @@ fn a_sweep_keeps_the_values_of_the_command() {
 }
 
 #[test]
+fn a_problem_with_flags_is_followed_as_a_scene_is() {
+    let (folder, scene) = in_folder(&PENDULUM.replace("q = [3]\np = [0]", "q = [0]\np = [1]"));
+    let of_scene = quietly(&format!("chaos {scene} --json"));
+    assert_eq!(quietly("chaos pendulum --scheme stormer-verlet --step 1 --until 5000 --json"), of_scene);
+    // what no flag gives is that of the scene; without [run] it is only a system
+    let half = objects(&of_scene)[1].clone();
+    assert_eq!(objects(&quietly(&format!("chaos {scene} --step 1/2 --one --json")))[0], half);
+    let system = folder.path().join("system.toml");
+    fs::write(&system, "problem.name = \"pendulum\"\ninitial = { q = [0], p = [1] }\n").unwrap();
+    let flags = "--scheme stormer-verlet --step 1/2 --until 5000 --one --json";
+    assert_eq!(objects(&quietly(&format!("chaos {} {flags}", system.display())))[0], half);
+    for (missing, words) in [("--scheme", "--step 1"), ("--step", "--scheme yoshida4")] {
+        let refused = shadowstep(&format!("chaos pendulum --until 10 {words}"));
+        assert!(refused.code == 2 && refused.err.contains(&format!("{missing} is missing")), "{}", refused.err);
+    }
+}
+
+#[test]
 fn what_has_no_vectors_is_refused() {
     let (_folder, scene) = in_folder(PENDULUM);
     let refused = shadowstep(&format!("chaos {scene} --vectors 3"));

@@ -112,13 +112,13 @@ fn long_lists_of_arguments_have_headings() {
 #[test]
 fn an_argument_has_the_same_heading_in_all_commands() {
     const HEADINGS: [(&str, &str, usize); 13] = [
-        ("problem", "Problem", 5),
-        ("masses", "Problem", 5),
-        ("scheme", "Schemes and steps", 2),
+        ("problem", "Problem", 6),
+        ("masses", "Problem", 6),
+        ("scheme", "Schemes and steps", 3),
         ("schemes", "Schemes and steps", 2),
-        ("until", "Schemes and steps", 4),
-        ("mpfr", "Numbers", 4),
-        ("double-double", "Numbers", 4),
+        ("until", "Schemes and steps", 5),
+        ("mpfr", "Numbers", 5),
+        ("double-double", "Numbers", 5),
         ("estimator", "Estimator of the modified energy", 2),
         ("accuracy", "Estimator of the modified energy", 2),
         ("control", "Estimator of the modified energy", 1),

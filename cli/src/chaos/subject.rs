@@ -1,0 +1,101 @@
+//! Arguments → the run that is followed: that of a scene, or of a problem with a scheme and a step size.
+
+use std::path::Path;
+
+use shadowstep::{Rational, StepSize};
+use shadowstep_scenes::arithmetic::Arithmetic;
+use shadowstep_scenes::chaos::ChaosRequest;
+use shadowstep_scenes::ensemble::Ensemble;
+use shadowstep_scenes::library::{self, NamedScheme};
+use shadowstep_scenes::propagator::for_system;
+use shadowstep_scenes::run::Run;
+use shadowstep_scenes::tangent::Vectors;
+use shadowstep_scenes::{Error, Scene, System};
+use shadowstep_symbolic::decimal::to_text;
+
+use super::Arguments;
+use crate::posed::{PosedProblem, fitted, has_run};
+use crate::{quantity, report};
+
+/// The run.
+pub(super) struct Subject {
+    /// The path of the scene, or the name of the problem.
+    pub(super) title: String,
+    system: System,
+    scheme: NamedScheme,
+    displaced: bool,
+    h: StepSize,
+    steps: u64,
+    windows: u64,
+    arithmetic: Arithmetic,
+    /// The physical end, where time is transformed and the steps are not known.
+    until: Option<Rational>,
+}
+
+impl Subject {
+    pub(super) fn read(arguments: &Arguments) -> Result<Self, Error> {
+        let scene = arguments.posed.scene().map(|path| scene_with_run(path)).transpose()?.flatten();
+        match scene {
+            Some(scene) if !arguments.posed.is_changed() && arguments.scheme.is_none() && arguments.step.is_none() => {
+                Ok(Subject::of_scene(scene))
+            }
+            scene => Subject::of_flags(arguments, scene),
+        }
+    }
+
+    fn of_scene(scene: Scene) -> Self {
+        scene.notes.iter().for_each(report::note);
+        let (steps, windows, title) = (scene.steps(), scene.output.windows, scene.source.path);
+        let Scene { system, scheme, displaced, h, arithmetic, .. } = scene;
+        Subject { title, system, scheme, displaced, h, steps, windows, arithmetic, until: None }
+    }
+
+    /// What no flag gives is that of the scene.
+    fn of_flags(arguments: &Arguments, scene: Option<Scene>) -> Result<Self, Error> {
+        let PosedProblem { described, until, arithmetic, first, .. } = PosedProblem::read(&arguments.posed)?;
+        let system = described.system;
+        let displaced = scene.as_ref().is_some_and(|scene| scene.displaced);
+        let scheme = match (&arguments.scheme, &scene) {
+            (Some(word), _) => {
+                let named = for_system(library::scheme(word)?, &system)?;
+                first.map_or(Ok(named.clone()), |first| named.beginning_with(first))?
+            }
+            (None, Some(scene)) => scene.scheme.clone(),
+            (None, None) => return Err(Error::usage("--scheme is missing", "give a scheme: --scheme yoshida4")),
+        };
+        let h = match (&arguments.step, scene) {
+            (Some(text), _) => quantity::step_size("--step", text)?,
+            (None, Some(scene)) => scene.h,
+            (None, None) => return Err(Error::usage("--step is missing", "give a step size: --step 1/10")),
+        };
+        let scheme = fitted(scheme, arithmetic)?;
+        let (steps, until) = match system.transformed_time() {
+            Some(_) => (0, Some(until)),
+            None => (quantity::steps((&h, &to_text(h.exact())), &until)?, None),
+        };
+        let (title, windows) = (described.name, Run::WINDOWS);
+        Ok(Subject { title, system, scheme, displaced, h, steps, windows, arithmetic, until })
+    }
+
+    /// The run with these vectors, measured every `every` steps.
+    pub(super) fn request(&self, vectors: Vectors, every: u64) -> ChaosRequest<'_> {
+        let Subject { system, scheme, displaced, h, steps, windows, arithmetic, until, .. } = self;
+        let run = Run { propagator: &scheme.name, h, steps: *steps, order: None, windows: *windows };
+        let (scheme, displaced, arithmetic) = (&scheme.scheme, *displaced, *arithmetic);
+        ChaosRequest { system, scheme, run, arithmetic, displaced, until: until.as_ref(), vectors, every }
+    }
+}
+
+/// The scene of a file; `None` if it is only a system, without [run].
+fn scene_with_run(path: &str) -> Result<Option<Scene>, Error> {
+    let source = shadowstep_scenes::source(Path::new(path))?;
+    if Ensemble::is_in(&source) {
+        Ensemble::read(source)?; // its own faults come first
+        let message = format!("{path} is an ensemble, and chaos follows one trajectory");
+        return Err(Error::usage(message, "remove [ensemble]; a sweep with keep = [\"megno\"] follows many"));
+    }
+    if !has_run(path)? {
+        return Ok(None);
+    }
+    Ok(Some(Scene::read(source)?))
+}
