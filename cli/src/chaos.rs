@@ -12,12 +12,11 @@ use shadowstep_scenes::{Error, Observer};
 use crate::headings::{OUTPUT, SCHEMES};
 use crate::interrupt::Interrupt;
 use crate::output::{Output, OutputArguments};
-use crate::posed::PosedArguments;
 use crate::progress::Progress;
 use crate::quantity::whole;
 use crate::readable::table;
 use crate::report::Status;
-use subject::Subject;
+use subject::{Subject, SubjectArguments};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -43,15 +42,7 @@ const AGAIN: &str = "try a shorter run, or a larger --every";
 #[command(after_help = EXAMPLES, after_long_help = format!("{EXAMPLES}\n\n{MORE}"))]
 pub(crate) struct Arguments {
     #[command(flatten)]
-    posed: PosedArguments,
-    /// A shipped or custom scheme [default: that of the scene]
-    #[arg(long, value_name = "NAME|FILE", help_heading = SCHEMES)]
-    scheme: Option<String>,
-    /// The exact step size [default: that of the scene]
-    ///
-    /// Of a scene with [time], it is a step of the fictitious time s.
-    #[arg(long, alias = "h", value_name = "H", allow_hyphen_values = true, help_heading = SCHEMES)]
-    step: Option<String>,
+    subject: SubjectArguments,
     /// Tangent vectors: 2 give SALI, more give GALI of all
     #[arg(long, value_name = "N", default_value_t = 2, help_heading = VECTORS, value_parser = |text: &str| whole(text, 1..=64))]
     vectors: u32,
@@ -87,7 +78,7 @@ impl Arguments {
 }
 
 pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
-    let subject = Subject::read(arguments)?;
+    let subject = Subject::read(&arguments.subject)?;
     let interrupt = Interrupt::listen(&subject.title, AGAIN);
     let mut output = Output::of(&arguments.output)?;
     let bar = arguments.output.output.is_some() || !std::io::stdout().is_terminal();

@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use clap::Args;
 use shadowstep::{Rational, StepSize};
 use shadowstep_scenes::arithmetic::Arithmetic;
 use shadowstep_scenes::chaos::ChaosRequest;
@@ -13,9 +14,24 @@ use shadowstep_scenes::tangent::Vectors;
 use shadowstep_scenes::{Error, Scene, System};
 use shadowstep_symbolic::decimal::to_text;
 
-use super::Arguments;
-use crate::posed::{PosedProblem, fitted, has_run};
+use crate::headings::SCHEMES;
+use crate::posed::{PosedArguments, PosedProblem, fitted, has_run};
 use crate::{quantity, report};
+
+/// What is followed.
+#[derive(Debug, Args)]
+pub(super) struct SubjectArguments {
+    #[command(flatten)]
+    posed: PosedArguments,
+    /// A shipped or custom scheme [default: that of the scene]
+    #[arg(long, value_name = "NAME|FILE", help_heading = SCHEMES)]
+    scheme: Option<String>,
+    /// The exact step size [default: that of the scene]
+    ///
+    /// Of a scene with [time], it is a step of the fictitious time s.
+    #[arg(long, alias = "h", value_name = "H", allow_hyphen_values = true, help_heading = SCHEMES)]
+    step: Option<String>,
+}
 
 /// The run.
 pub(super) struct Subject {
@@ -33,7 +49,7 @@ pub(super) struct Subject {
 }
 
 impl Subject {
-    pub(super) fn read(arguments: &Arguments) -> Result<Self, Error> {
+    pub(super) fn read(arguments: &SubjectArguments) -> Result<Self, Error> {
         let scene = arguments.posed.scene().map(|path| scene_with_run(path)).transpose()?.flatten();
         match scene {
             Some(scene) if !arguments.posed.is_changed() && arguments.scheme.is_none() && arguments.step.is_none() => {
@@ -51,7 +67,7 @@ impl Subject {
     }
 
     /// What no flag gives is that of the scene.
-    fn of_flags(arguments: &Arguments, scene: Option<Scene>) -> Result<Self, Error> {
+    fn of_flags(arguments: &SubjectArguments, scene: Option<Scene>) -> Result<Self, Error> {
         let PosedProblem { described, until, arithmetic, first, .. } = PosedProblem::read(&arguments.posed)?;
         let system = described.system;
         let displaced = scene.as_ref().is_some_and(|scene| scene.displaced);
