@@ -78,7 +78,9 @@ impl PosedProblem {
         let named = arguments.numbers.arithmetic();
         let is_complete = arguments.until.is_some() && (named.is_some() || arguments.digits.is_some());
         let scene = match path.filter(|_| !is_complete) {
-            Some(path) if arguments.until.is_none() || has_run(path)? => Some(Scene::open(Path::new(path))?),
+            Some(path) if arguments.until.is_none() || has_run(path)? => {
+                Some(Scene::read_without_output(source(Path::new(path))?)?)
+            }
             // without [run], a scene is only a system
             _ => None,
         };

@@ -81,10 +81,21 @@ impl Scene {
     /// # Errors
     /// All faults of the text, each with its place.
     pub fn read(source: Source) -> Result<Scene, Faults> {
+        Scene::read_with(source, &[])
+    }
+
+    /// As [`read`](Scene::read) for what writes no rows: \[output\] can be left out.
+    ///
+    /// # Errors
+    /// As [`read`](Scene::read).
+    pub fn read_without_output(source: Source) -> Result<Scene, Faults> {
+        Scene::read_with(source, &["output"])
+    }
+
+    fn read_with(source: Source, others: &'static [&'static str]) -> Result<Scene, Faults> {
         let (document, faults) = document(&source);
         let Some(document) = document.filter(|_| faults.is_empty()) else { return Err(Faults(faults)) };
-        let names = Names { numbers: Vec::new(), others: &[], schemes: &Schemes::default() };
-        let scene = read(&source, &document, names)?;
+        let scene = read(&source, &document, Names { numbers: Vec::new(), others, schemes: &Schemes::default() })?;
         Ok(Scene { source, ..scene })
     }
 }
@@ -93,7 +104,7 @@ impl Scene {
 pub(crate) struct Names<'a> {
     /// Names that its numbers can contain, with their values.
     pub(crate) numbers: Vec<(String, Exact)>,
-    /// Sections that are not of the scene; with them, [output] can be left out.
+    /// Sections that need not be there, or are not of the scene; with them, [output] can be left out.
     pub(crate) others: &'static [&'static str],
     /// The schemes that have been read.
     pub(crate) schemes: &'a Schemes,

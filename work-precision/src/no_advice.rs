@@ -28,7 +28,7 @@ impl Advice<'_> {
         }
         Some(match least {
             _ if *missed > 0 => format!(
-                "No advice: runs over all of the time, {missed} of them, were expected to meet the tolerance from runs {runs}, and missed it.{}",
+                "No advice: runs over all of the time, {missed} of them, were expected to meet the tolerance from runs {runs}, and missed it. Use more seconds.{}",
                 if is_position {
                     ""
                 } else {

@@ -113,5 +113,5 @@ fn scene_with_run(path: &str) -> Result<Option<Scene>, Error> {
     if !has_run(path)? {
         return Ok(None);
     }
-    Ok(Some(Scene::read(source)?))
+    Ok(Some(Scene::read_without_output(source)?))
 }

@@ -48,7 +48,8 @@ impl PlotFiles {
             };
             if path.is_file() && !force && !is_own(path) {
                 let message = format!("{} already exists and is not from this unchanged scene", path.display());
-                let hint = "use another name, move the file, or replace it with --force";
+                let hint =
+                    "use another name, move the file, or replace it with --force, which also prolongs a complete run";
                 return Err(at_place(Error::usage(message, hint)));
             }
             if !path.is_file() {

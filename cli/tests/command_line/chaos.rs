@@ -95,6 +95,8 @@ fn a_problem_with_flags_is_followed_as_a_scene_is() {
     // what no flag gives is that of the scene; without [run] it is only a system
     let half = objects(&of_scene)[1].clone();
     assert_eq!(objects(&quietly(&format!("chaos {scene} --step 1/2 --one --json")))[0], half);
+    fs::write(&scene, fs::read_to_string(&scene).unwrap().replace("[output]\nenergy = true\n", "")).unwrap();
+    assert_eq!(quietly(&format!("chaos {scene} --json")), of_scene);
     let system = folder.path().join("system.toml");
     fs::write(&system, "problem.name = \"pendulum\"\ninitial = { q = [0], p = [1] }\n").unwrap();
     let flags = "--scheme stormer-verlet --step 1/2 --until 5000 --one --json";

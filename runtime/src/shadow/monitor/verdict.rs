@@ -324,7 +324,8 @@ impl Evidence {
         let second = 2.0 * self.turning?.angle;
         let factor = (second / 2.0).sin().powi(2);
         let more = (self.worst_error / (PERMANENT_LIMIT / 5.0)).ln().max(1.0) / -factor.ln();
-        let sufficient = f64::from(order) + more.ceil();
+        // an even one, whose estimates belong to the states
+        let sufficient = 2.0 * ((f64::from(order) + more) / 2.0).ceil();
         (self.worst_error > PERMANENT_LIMIT / 5.0 && second < std::f64::consts::PI && sufficient <= LARGEST_ORDER)
             .then_some(sufficient as u32)
     }
