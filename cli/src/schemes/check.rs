@@ -96,7 +96,10 @@ fn verdict(path: &str, proved: &Proved) -> String {
     // with an inner scheme, the maps are those of the outer one
     let likeness = Likeness::of(&proved.scheme.maps())
         .filter(|known| proved.scheme.inner.is_none() && known.known.name != proved.scheme.table.name.value);
-    let known = likeness.map_or_else(String::new, |known| format!("; is {}", known.text()));
+    // of symmetric schemes the text does not say which map comes first
+    let other =
+        |known: &Likeness| if known.exchanged && proved.proof.symmetric { ", with the other map first" } else { "" };
+    let known = likeness.map_or_else(String::new, |known| format!("; is {}{}", known.text(), other(&known)));
     let mut text = format!(
         "{path}: proved: {effective}order {} for {class}{near}, {digits}{symmetric}{refused}{known}\n",
         order.order

@@ -557,3 +557,13 @@ fn a_scheme_of_multiple_time_steps_is_shown_as_one() {
     assert!(unwrapped(quietly("schemes --order 2")).contains("r-respa-4, r-respa-8: multiple time steps"));
     assert!(!quietly("schemes --order 8").contains("multiple time steps"));
 }
+
+#[test]
+fn a_scheme_with_the_other_map_first_is_called_so() {
+    let folder = tempfile::tempdir().unwrap();
+    let table = "name = \"mine\"\ntitle = \"drifts first\"\norder = 4\nkinetic = \"any\"\n[constants]\nw = \"1/(2 - 2^(1/3))\"\nv = \"1 - 2*w\"\n\
+                 [stages]\nkick = [\"0\", \"w\", \"v\", \"w\"]\ndrift = [\"w/2\", \"(w + v)/2\", \"(w + v)/2\", \"w/2\"]\n";
+    let path = write(folder.path(), "mine.toml", table);
+    let checked = shadowstep(&format!("schemes check {path}"));
+    assert!(checked.out.ends_with("; is yoshida4 exactly, with the other map first\n"), "{}", checked.out);
+}

@@ -13,6 +13,7 @@ const WRONG: &[(&str, &str, &str)] = &[
     ("--set eccentricity", "--set eccentricity has no `=`", "--set x=1/2"),
     ("--set x=1 --set x=2", "`x` is set twice", "keep one"),
     ("--scheme stormer-velet", "there is no scheme `stormer-velet`", "did you mean `stormer-verlet`?"),
+    ("--scheme aba1046", "there is no scheme `aba1046`", "did you mean `aba1064`?"),
     ("--scheme verlett", "there is no scheme `verlett`", "did you mean `stormer-verlet`?"),
     ("--scheme yoshida8", "there is no scheme `yoshida8`", "did you mean `yoshida8-a`, `yoshida8-b`, "),
     ("--scheme zzzzzzzzzzzz", "there is no scheme `zzzzzzzzzzzz`", "no shipped table has a name like that (`"),

@@ -12,7 +12,13 @@ pub fn nearest<'a>(word: &str, known: impl IntoIterator<Item = &'a str>) -> Opti
     let with_distance = known.into_iter().map(|other| (distance(word, other), other));
     let length = |other: &str| word.chars().count().max(other.chars().count());
     let near = with_distance.filter(|(errors, other)| *errors <= allowed && *errors < length(other));
-    near.min_by_key(|(errors, _)| *errors).map(|(_, found)| found)
+    // exchanged letters are likelier than a missing one
+    let letters = |text: &str| {
+        let mut letters: Vec<char> = text.to_lowercase().chars().collect();
+        letters.sort_unstable();
+        letters
+    };
+    near.min_by_key(|(errors, other)| (*errors, letters(other) != letters(word))).map(|(_, found)| found)
 }
 
 /// A hint for an unknown word: the nearest known word, or a list of all of them.
