@@ -529,7 +529,7 @@ pub(crate) const KEYS: [Key; 91] = [
         "output",
         "windows",
         "In about how many windows of 17 states the summary compares modified energies, spread over the run. More windows exclude smaller changes, \
-         and cost more: where a verdict says that it is not decided and how many windows would tell, write that number here.",
+         and cost more: where a verdict says that it is not decided and how many windows may tell, write that number here.",
         "2000",
         Some("256"),
     ),

@@ -172,8 +172,8 @@ impl<N: Real> Report<N> {
             .map_or("no change".to_owned(), |bound| format!("a net change above {}", self.in_parts(bound)));
         let estimator = order.map_or(String::new(), |order| format!(", or an estimator of order {order}"));
         format!(
-            "{}, but {resolved}, and {bound} is excluded: {windows} windows would tell, more often or in a \
-             longer run{estimator}",
+            "{}, but {resolved}, and {bound} is excluded: {windows} windows may tell, more often or in a \
+             longer run, or a smaller step{estimator}",
             self.size()
         )
     }
