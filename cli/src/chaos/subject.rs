@@ -71,10 +71,14 @@ impl Subject {
         let PosedProblem { described, until, arithmetic, first, .. } = PosedProblem::read(&arguments.posed)?;
         let system = described.system;
         let displaced = scene.as_ref().is_some_and(|scene| scene.displaced);
+        let windows = scene.as_ref().map_or(Run::WINDOWS, |scene| scene.output.windows);
         let scheme = match (&arguments.scheme, &scene) {
             (Some(word), _) => {
                 let named = for_system(library::scheme(word)?, &system)?;
-                first.map_or(Ok(named.clone()), |first| named.beginning_with(first))?
+                match first {
+                    Some(first) => named.beginning_with(first)?,
+                    None => named,
+                }
             }
             (None, Some(scene)) => scene.scheme.clone(),
             (None, None) => return Err(Error::usage("--scheme is missing", "give a scheme: --scheme yoshida4")),
@@ -89,8 +93,7 @@ impl Subject {
             Some(_) => (0, Some(until)),
             None => (quantity::steps((&h, &to_text(h.exact())), &until)?, None),
         };
-        let (title, windows) = (described.name, Run::WINDOWS);
-        Ok(Subject { title, system, scheme, displaced, h, steps, windows, arithmetic, until })
+        Ok(Subject { title: described.name, system, scheme, displaced, h, steps, windows, arithmetic, until })
     }
 
     /// The run with these vectors, measured every `every` steps.
