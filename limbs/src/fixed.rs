@@ -163,9 +163,9 @@ pub fn subtract_product_limb<const N: usize>(x: &mut [u64; N], a: &[u64; N], n: 
     carry
 }
 
-/// x ← ⌊x / n⌋ of a number x ≥ 0; the remainder.  Panics where n = 0.
+/// x ← ⌊x / n⌋ of a number x ≥ 0; the limb of the quotient below that, and whether more follows.  Panics where n = 0.
 #[inline]
-pub fn divide_limb<const N: usize>(x: &mut [u64; N], n: u64) -> u64 {
+pub fn divide_limb<const N: usize>(x: &mut [u64; N], n: u64) -> (u64, bool) {
     let shift = n.leading_zeros();
     let divisor = Divisor::new(n << shift);
     let upper = |limb: u64| limb >> 1 >> (63 - shift);
@@ -174,7 +174,8 @@ pub fn divide_limb<const N: usize>(x: &mut [u64; N], n: u64) -> u64 {
         let next = if i > 0 { upper(x[i - 1]) } else { 0 };
         (x[i], remainder) = divisor.divide(remainder, x[i] << shift | next);
     }
-    remainder >> shift
+    let (below, remainder) = divisor.divide(remainder, 0);
+    (below, remainder != 0)
 }
 
 /// A limb whose highest bit is 1, and its reciprocal ⌊(2^128 − 1)/d⌋ − 2^64, with which the division of two limbs is two

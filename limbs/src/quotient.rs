@@ -47,10 +47,8 @@ impl<const L: usize> Limbs<L> {
             return Limbs { negative, ..*self }.times_power_of_two(-(n.trailing_zeros() as i32));
         }
         let mut quotient = self.mantissa;
-        let remainder = fixed::divide_limb(&mut quotient, n.into());
-        let mut rest = [0, remainder];
-        let last = fixed::divide_limb(&mut rest, n.into());
-        let below = rest[0] | u64::from(last != 0);
+        let (below, more) = fixed::divide_limb(&mut quotient, n.into());
+        let below = below | u64::from(more);
         let zeros = quotient[L - 1].leading_zeros(); // 1 to 31
         for i in (1..L).rev() {
             quotient[i] = quotient[i] << zeros | quotient[i - 1] >> (64 - zeros);

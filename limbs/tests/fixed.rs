@@ -47,8 +47,9 @@ fn check<const N: usize>(random: &mut Random) {
     let below = fixed::subtract_product_limb(&mut product, &a, n);
     assert_eq!(integer(&product) - Integer::from(below) * &one, &y - Integer::from(&x * n));
     let mut quotient = a;
-    let remainder = fixed::divide_limb(&mut quotient, n.max(1));
-    assert_eq!((integer(&quotient), Integer::from(remainder)), x.clone().div_rem(Integer::from(n.max(1))));
+    let (below, more) = fixed::divide_limb(&mut quotient, n.max(1));
+    let (exact, remainder) = Integer::from(&x << 64).div_rem(Integer::from(n.max(1)));
+    assert_eq!(((integer(&quotient) << 64) + below, more), (exact, remainder != 0));
 
     let shift = random.below(64 * N as u64 + 70) as u32;
     assert_eq!(integer(&fixed::shift_down(&a, shift)), Integer::from(&x >> shift));

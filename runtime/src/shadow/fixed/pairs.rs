@@ -91,6 +91,8 @@ impl IntegerWeights {
 pub(in crate::shadow) struct Sums<'a> {
     rows: &'a Rows,
     weights: [Option<&'a IntegerWeights>; 2],
+    /// Whether no weight has more than a limb.
+    weights_are_limbs: bool,
     /// `low` of the coarsest row, which the limb 1 is for.
     low: i64,
     limbs: [[u64; MOST_OF_SUM]; 2],
@@ -99,7 +101,8 @@ pub(in crate::shadow) struct Sums<'a> {
 impl<'a> Sums<'a> {
     /// Without rows.
     pub(in crate::shadow) fn new(rows: &'a Rows, weights: [Option<&'a IntegerWeights>; 2]) -> Self {
-        Sums { rows, weights, low: ZERO, limbs: [[0; MOST_OF_SUM]; 2] }
+        let weights_are_limbs = weights.into_iter().flatten().all(|weights| weights.width == 1);
+        Sums { rows, weights, weights_are_limbs, low: ZERO, limbs: [[0; MOST_OF_SUM]; 2] }
     }
 
     /// Adds the rows of a lag with the weights of each kind; those at the same distance from both ends have the same weight.
@@ -154,6 +157,10 @@ fn add_rows(len: usize, sums: &mut Sums<'_>, of_lag: OfLag) {
     for j in 0..=last / 2 {
         let ((a, a_low), (b, b_low)) = (rows.row(of_lag.place(j)), rows.row(of_lag.place(last - j)));
         let both = last - j != j;
+        if both && sums.weights_are_limbs && a_low == sums.low && b_low == sums.low {
+            add_pair(len, sums, [a, b], (lag, j));
+            continue;
+        }
         if both && a_low == b_low {
             add_limbs(&mut row[..len], &a[..len], &b[..len]);
         } else {
@@ -163,6 +170,19 @@ fn add_rows(len: usize, sums: &mut Sums<'_>, of_lag: OfLag) {
         if both && a_low != b_low {
             row[..len].copy_from_slice(&b[..len]);
             add_row(len, sums, (&mut row, b_low), (lag, j));
+        }
+    }
+}
+
+/// Adds two rows at the place of the sum, where weights have one limb: what nearly all are. Nothing is called, so that the limbs stay in registers.
+#[inline(always)]
+fn add_pair(len: usize, sums: &mut Sums<'_>, [a, b]: [&[u64]; 2], (lag, j): (usize, usize)) {
+    let mut row = [0; MOST_OF_ROW];
+    add_limbs(&mut row[..len], &a[..len], &b[..len]);
+    for (limbs, weights) in sums.limbs.iter_mut().zip(sums.weights) {
+        if let Some(IntegerWeights { of_lags, negative, .. }) = weights {
+            let (low, high) = limbs[1..len + 3].split_at_mut(len);
+            add_multiple_of_limb(len, low, high, &row[..len], of_lags[lag - 1][j], negative[lag - 1][j]);
         }
     }
 }
@@ -192,22 +212,28 @@ fn add_row(len: usize, sums: &mut Sums<'_>, (row, low): (&mut [u64], i64), (lag,
 /// sum ← sum ± n row
 #[inline(always)]
 fn add_multiple(len: usize, sum: &mut [u64], row: &[u64], n: &[u64], minus: bool) {
-    let opposite = if minus { u64::MAX } else { 0 };
-    let negative = sign(row[len - 1]) ^ opposite;
     for (at, n) in n.iter().enumerate() {
         let (low, high) = sum[at..].split_at_mut(len);
-        // −row is the complement and 1; n times that is carried in
-        let mut carry = n & opposite;
-        for i in 0..len {
-            (low[i], carry) = (row[i] ^ opposite).carrying_mul_add(*n, low[i], carry);
-        }
-        // as an unsigned number, a row below 0 is too large by 2^(64 len)
-        let (mut more, less) = carry.overflowing_sub(n & negative);
-        let above = if less { u64::MAX } else { 0 };
-        let mut carry = false;
-        for limb in high {
-            (*limb, carry) = limb.carrying_add(more, carry);
-            more = above;
-        }
+        add_multiple_of_limb(len, low, high, row, *n, minus);
+    }
+}
+
+/// The same for one limb n; the sum in two parts.
+#[inline(always)]
+fn add_multiple_of_limb(len: usize, low: &mut [u64], high: &mut [u64], row: &[u64], n: u64, minus: bool) {
+    let opposite = if minus { u64::MAX } else { 0 };
+    let negative = sign(row[len - 1]) ^ opposite;
+    // −row is the complement and 1; n times that is carried in
+    let mut carry = n & opposite;
+    for i in 0..len {
+        (low[i], carry) = (row[i] ^ opposite).carrying_mul_add(n, low[i], carry);
+    }
+    // as an unsigned number, a row below 0 is too large by 2^(64 len)
+    let (mut more, less) = carry.overflowing_sub(n & negative);
+    let above = if less { u64::MAX } else { 0 };
+    let mut carry = false;
+    for limb in high {
+        (*limb, carry) = limb.carrying_add(more, carry);
+        more = above;
     }
 }
