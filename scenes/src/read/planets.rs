@@ -4,6 +4,7 @@ mod body;
 mod particles;
 
 pub(super) use body::GivenBody;
+use body::missing;
 
 use std::collections::BTreeSet;
 use std::ops::Range;
@@ -312,7 +313,7 @@ impl Placing {
             (Some(given), None) | (None, Some(given)) => {
                 let key = if body.q.is_some() { "v" } else { "q" };
                 let help = "give both q and v, or orbital elements";
-                reader.toml.wrong(&given.at, format!("the key `{key}` is missing"), help)
+                reader.toml.wrong(&given.at, missing(key, body.name.as_ref()), help)
             }
             (None, None) if index == 0 => match body.is_by_elements() {
                 false => Some(self.origin()),
@@ -529,7 +530,7 @@ mod tests {
             (G, "a = 4\ne = 1", "12:5: a parabola has no semi-major axis"),
             (G, "a = 4\ne = 2", "12:5: with e = 2 the orbit is a hyperbola, whose a is negative"),
             (G, "a = 4\ne = -0.1", "12:5: the eccentricity -0.1 is negative"),
-            (G, "e = 0.1", "9:1: the key `a` is missing"),
+            (G, "name = \"inner\"\ne = 0.1", "9:1: the key `a` of the body `inner` is missing"),
             (G, "a = 4\ni = 10", "9:1: this orbit is not in the plane of the other bodies"),
             (G, "q = [1, 0]", "11:5: the key `v` is missing"),
             (G, "q = [1, 0, 0]\nv = [0, 0]", "11:5: this list needs a number for each dimension"),

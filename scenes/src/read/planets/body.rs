@@ -29,6 +29,12 @@ pub(in crate::read) struct GivenBody {
     pub(super) line: Option<String>,
 }
 
+/// The message about a key that a body lacks, with its name if it has one.
+pub(super) fn missing(key: &str, body: Option<&Text>) -> String {
+    let body = body.map_or(String::new(), |name| format!(" of the body `{}`", name.value));
+    format!("the key `{key}`{body} is missing")
+}
+
 impl GivenBody {
     pub(super) fn read(reader: &mut Reader<'_>, section: &Section<'_, '_>) -> GivenBody {
         let mut number = |key: &str| section.get(key).and_then(|value| reader.number(value));
@@ -37,10 +43,11 @@ impl GivenBody {
         let mut list =
             |key: &str| section.get(key).and_then(|value| reader.numbers(value, "a list of numbers: [1, 0, 0]"));
         let (q, v) = (list("q"), list("v"));
-        if section.get("mass").is_none() {
-            reader.toml.missing(section, &["mass"]);
-        }
         let name = section.get("name").and_then(|value| reader.toml.text(value));
+        if section.get("mass").is_none() {
+            let help = "add `mass = 3e-6`, for example, or `mass = 0` where the body attracts nothing";
+            reader.toml.fault(&section.at, missing("mass", name.as_ref()), help);
+        }
         let horizons = section.get("horizons").map(|value| {
             let file = reader.toml.text(value);
             (value.span(), file.and_then(|file| HorizonsVector::open(reader, &file)))
@@ -66,7 +73,7 @@ impl GivenBody {
     pub(super) fn elements(&self, reader: &mut Reader<'_>) -> Option<Elements> {
         let Some(a) = &self.a else {
             let help = "add the semi-major axis, `a = 5.2`, or give q and v instead";
-            return reader.toml.wrong(&self.at, "the key `a` is missing", help);
+            return reader.toml.wrong(&self.at, missing("a", self.name.as_ref()), help);
         };
         if let (Some(_), Some(text)) = (self.element("M"), self.element("lambda")) {
             return reader.toml.wrong(&text.at, "M and lambda are both given", "keep one of the two");

@@ -172,7 +172,12 @@ mod tests {
             (file, String::new(), "a,e\n2,0\n3,-1\n", "3:13: particles.csv:3: the eccentricity -1 is negative"),
             (file, String::new(), "a,w\n2,0\n", "3:13: particles.csv:1: `w` is not a column of particles"),
             (file, String::new(), "a\n2\n3,4\n", "3:13: particles.csv:3: this is not a line of CSV with as many cells"),
-            (file, String::new(), "x,y,z\n1,2,3\n", "3:13: particles.csv:2: the key `v` is missing"),
+            (
+                file,
+                String::new(),
+                "x,y,z\n1,2,3\n",
+                "3:13: particles.csv:2: the key `v` of the body `particle1` is missing",
+            ),
             (file, String::new(), "name,a\nsun,2\n", "3:13: the body `sun` is named twice"),
             (file, String::new(), "a\n", "3:13: particles.csv:1: there is no particle"),
             ("particles = \"none.csv\"", String::new(), "", "3:13: none.csv cannot be read"),
