@@ -191,8 +191,7 @@ def integrate(
     summary
         Whether the run is followed for a summary with a verdict on the step size; `Trajectory.summary_text` is printed.
     windows
-        In about how many windows of 17 states, spread over the run, the summary compares modified energies: 256 if none is given, at least 16. An undecided verdict says how many would
-        tell.
+        In about how many windows of 17 states, spread over the run, the summary compares modified energies: 256 if none is given, at least 16.
     progress
         Whether to show a progress bar, for which tqdm is needed; by default on a terminal or in a notebook, on runs of more than a second.
 

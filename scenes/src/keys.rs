@@ -528,8 +528,8 @@ pub(crate) const KEYS: [Key; 91] = [
     key(
         "output",
         "windows",
-        "In about how many windows of 17 states the summary compares modified energies, spread over the run. More windows exclude smaller changes, \
-         and cost more: where a verdict says that it is not decided and how many windows may tell, write that number here.",
+        "In about how many windows of 17 states the summary compares modified energies, spread over the run. More windows exclude smaller changes \
+         where H varies like noise from window to window, and cost more; an undecided verdict is more often decided by a longer run.",
         "2000",
         Some("256"),
     ),

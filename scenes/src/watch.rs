@@ -3,6 +3,7 @@
 pub(crate) mod approaches;
 pub(crate) mod encounters;
 mod energy;
+mod lasting_change;
 pub(crate) mod particles;
 pub(crate) mod summary;
 
@@ -12,7 +13,7 @@ use shadowstep::shadow::run::RunError;
 use shadowstep::shadow::{Criterion, KINETIC_LIMIT, Missing, Report, Verdict};
 use shadowstep::steps::integrator::{VectorIntegrator, at_output};
 use shadowstep::systems::system::Visitor;
-use shadowstep::{Carried, Integrator as _, Real};
+use shadowstep::{Carried, Integrator as _, Rational, Real};
 
 pub use self::approaches::{Approach, Approaches, Interactions};
 pub use self::encounters::Encounter;
@@ -122,16 +123,11 @@ impl<N: RunNumber> Watch<N> {
                 approaches: None,
             });
         }
-        Ok(Watch {
-            energies,
-            energy: EnergyError::new(initial),
-            transformed: false,
-            time: None,
-            names: Vec::new(),
-            observed,
-            from,
-            n: from,
-        })
+        let mut energy = EnergyError::new(initial);
+        if from == 0 {
+            energy.lasting.include(0, 0.0);
+        }
+        Ok(Watch { energies, energy, transformed: false, time: None, names: Vec::new(), observed, from, n: from })
     }
 
     /// Begins at the present state of a run of the system, which is number `from`, for a summary of the whole run.
@@ -259,12 +255,20 @@ impl<N: RunNumber> Watch<N> {
             (energy.largest_relative, energy.last_relative) = (None, None);
         }
         report.coordinate_names = names;
+        // the estimator of summaries is always the same
+        if let Some(advice) = &mut report.advice {
+            advice.order = None;
+        }
         report.fastest_coordinate = report.fastest_coordinate.filter(|(coordinate, _)| Some(*coordinate) != time);
+        if report.verdict == Verdict::Fine {
+            report.energy_error = larger(report.energy_error, self.energy.lasting.range());
+        }
         let of_windows = if transformed { f64::NAN } else { last_of_kinetic(&last, &report) };
         let (verdict, reason) = conclusion(&report, of_kinetic, of_windows);
+        let lasting = self.energy.lasting.found().filter(|_| may_have_been_missed(verdict));
         let (encounters, closest) = encounters.found(n);
         // what was measured is not excluded
-        let bound = report.permanent_bound.as_ref().filter(|_| !verdict.loses_the_energy());
+        let bound = report.permanent_bound.as_ref().filter(|_| !verdict.loses_the_energy() && lasting.is_none());
         let bound = bound.map(|bound| if *bound < report.range { &report.range } else { bound });
         let modified_energy = (report.windows > 0).then(|| ModifiedEnergySummary {
             method: report.method_rms.to_text(),
@@ -291,11 +295,25 @@ impl<N: RunNumber> Watch<N> {
             conclusion: if verdict == report.verdict { report.conclusion() } else { verdict.to_string() },
             reason,
         };
-        if changes(&report, verdict) {
+        if let Some(change) = &lasting {
+            summary.name_lasting_change(change, report.kinetic.to_f64());
+        }
+        if lasting.is_some() || changes(&report, verdict) {
             summary.name_close_planets();
         }
         Some(summary)
     }
+}
+
+/// Whether a monitor that saw no lasting change of H may have missed one between its windows, or before them.
+fn may_have_been_missed(verdict: Verdict) -> bool {
+    matches!(verdict, Verdict::Fine | Verdict::Undecided(Missing::Resolution))
+}
+
+/// The larger of two.
+fn larger<N: Real>(number: N, other: f64) -> N {
+    let rational = (other > number.to_f64()).then(|| Rational::from_float(other)).flatten();
+    rational.map_or_else(|| number.clone(), |rational| N::from_rational(&rational, &number.context()))
 }
 
 /// Whether a cause is to be named: H or the modified energy changes in a way that the scheme does not explain.
@@ -360,5 +378,30 @@ mod tests {
             assert!(found.reason().starts_with("at the end the energy error is"), "{}", found.reason());
         }
         assert!(summary("t > 5", "double").is_fine());
+    }
+
+    /// Planets with steps of many revolutions: one is thrown out after 34 of 5000 steps, before the third window of the monitor. Then two that meet
+    /// after 25 of 5000.
+    #[test]
+    fn an_energy_that_changes_before_the_windows_is_not_bounded() {
+        let planets = |bodies: &str, step: &str, rows: &str| {
+            let text = format!(
+                "problem = {{ parts = \"wisdom-holman\", units = {{ length = \"AU\", time = \"year\", mass = \"solar\" }} }}\n\
+                 body = [{{ mass = 1 }}, {bodies}]\nrun = {{ scheme = \"stormer-verlet\", step = {step}, steps = 5000, digits = \"double\" }}\n\
+                 output.energy = {rows}"
+            );
+            let mut keep = KeptSummary::default();
+            let scene = Scene::read(Source { path: "test.toml".to_owned(), text }).unwrap();
+            scene.run_into(&mut Vec::new(), &mut keep).unwrap();
+            keep.0.unwrap()
+        };
+        let thrown = "{ mass = 1e-3, a = 5.2, e = 0.05 }, { mass = 3e-4, a = 9.5, M = 100 }";
+        let met = "{ mass = 0.00042, a = 1 }, { mass = 0.00042, a = 1.147, M = 151 }";
+        let found = planets(thrown, "100", "true");
+        assert!(!found.is_fine() && found.reason().contains("and did not come back"), "{found}");
+        for rows in ["true", "{ every = 5 }"] {
+            let found = planets(met, "\"1/10\"", rows);
+            assert_eq!(found.verdict(), "the splitting is not valid in a close encounter", "{rows}: {found}");
+        }
     }
 }

@@ -2,6 +2,8 @@
 
 use shadowstep::Real;
 
+use super::lasting_change::LastingChange;
+
 /// H(t) − H(0), the largest and the last one.
 #[derive(Clone, Debug)]
 pub(super) struct EnergyError<N> {
@@ -14,6 +16,7 @@ pub(super) struct EnergyError<N> {
     /// At how many states H was computed.
     pub(super) states: u64,
     size: N,
+    pub(super) lasting: LastingChange,
     /// Over the states of which T is known.
     sum_of_kinetic: N,
     states_of_kinetic: u64,
@@ -30,6 +33,7 @@ impl<N: Real> EnergyError<N> {
             last_n: 0,
             states: 1,
             size: zero.clone(),
+            lasting: LastingChange::default(),
             sum_of_kinetic: zero,
             states_of_kinetic: 0,
         }
@@ -59,6 +63,7 @@ impl<N: Real> EnergyError<N> {
             self.last.assign(&self.size);
             self.last_n = n;
         }
+        self.lasting.include(n, self.size.to_f64());
         self.size.make_absolute();
         if self.size > self.largest || !self.size.is_finite() {
             self.largest.assign(&self.size);

@@ -12,6 +12,7 @@ use shadowstep_symbolic::decimal::{from_text, to_significant, to_text};
 
 use crate::readable::wrapped_to;
 use crate::watch::encounters::Encounter;
+use crate::watch::lasting_change::Found as LastingChange;
 use crate::watch::{Approach, Interactions};
 
 /// What a run, or the part of it since it was resumed, has shown.
@@ -92,6 +93,14 @@ pub struct ModifiedEnergySummary {
     pub windows: u64,
 }
 
+impl ModifiedEnergySummary {
+    /// Whether H − H̄ is larger than the errors of H̄.
+    fn resolves_the_method(&self) -> bool {
+        let [method, error] = [Some(&self.method), self.resolution.as_ref()].map(|text| from_text(text?).ok());
+        method.zip(error).is_none_or(|(method, error)| method >= error)
+    }
+}
+
 impl Summary {
     /// Whether the error is bounded, or round-off: whether it is small enough is not decided here.
     pub fn is_fine(&self) -> bool {
@@ -121,6 +130,19 @@ impl Summary {
     /// What the monitor found of the modified energy; `None` without an estimate.
     pub fn modified_energy(&self) -> Option<&ModifiedEnergySummary> {
         self.modified_energy.as_ref()
+    }
+
+    /// Replaces a verdict on windows that do not show that H changed for good; `kinetic` is the mean T.
+    pub(super) fn name_lasting_change(&mut self, change: &LastingChange, kinetic: f64) {
+        let part = change.gap / kinetic;
+        let [before, after] = change.between.map(|n| self.time(n));
+        self.reason = format!(
+            "H changed by {part:.1e} of T between {before} and {after}, and did not come back: a step that is too \
+             large there, forces that are not smooth, or something other than the scheme that changed the state have such effects"
+        );
+        self.verdict = Verdict::NotConserved.to_string();
+        self.conclusion.clone_from(&self.verdict);
+        self.fine = false;
     }
 
     /// Replaces a verdict that is worse than bounded where planets came so close that the splitting is not valid: that is the cause then.
@@ -239,8 +261,10 @@ impl Summary {
         };
         let ModifiedEnergySummary { method, round_off, permanent_change, resolution, .. } = modified;
         let known = resolution.as_ref().map_or(String::new(), |error| format!(", known to {}", short(error)));
+        // H − H̄ then shows no more than the errors of H̄
+        let resolved = if modified.resolves_the_method() { "" } else { " (not resolved: H̄ is not known so well)" };
         format!(
-            "method's part of H {} rms; round-off {} expected; permanent change {}{known}",
+            "method's part of H {} rms{resolved}; round-off {} expected; permanent change {}{known}",
             short(method),
             short(round_off),
             short(permanent_change)

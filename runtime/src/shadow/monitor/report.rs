@@ -9,7 +9,7 @@ use super::arithmetic::{difference, integer, quotient, root};
 use super::change::Change;
 use super::estimated::Estimated;
 use super::roughness::Rough;
-use super::statistics::Range;
+use super::statistics::{ERROR_FACTOR, Range};
 use super::trend::{Trend, TrendRatio, trend_ratio};
 use super::turning::Turning;
 use super::verdict::{Advice, Evidence, Missing, Verdict};
@@ -59,7 +59,8 @@ pub struct Report<N> {
     ///
     /// It is the least of three: the range of the accurate H̄ and three times their errors; and |a| + 3 s of the linear change a and its
     /// standard error s, for the means of H and for the means of all H̄, in 32 to 63 parts of the run. The means of H do not depend on the
-    /// estimator. It is not below the effect of round-off.
+    /// estimator. It is not below the effect of round-off, nor below how far the first and the last H̄ are from accurate ones, beyond three times their
+    /// errors.
     pub permanent_bound: Option<N>,
     /// How far H̄ moved where that is a permanent change: beyond errors and round-off, and not back and forth.
     pub permanent_change: Option<N>,
@@ -173,6 +174,22 @@ impl<N: Real, E: Estimator<N>> Monitor<N, E> {
         self.fastest.lost().map(|(i, angle)| (i, TAU / angle)).filter(|(_, steps)| SLOWER * steps <= shown)
     }
 
+    /// What is excluded between accurate estimates, or how far the first and the newest estimate of all are from these, where that is beyond errors.
+    fn with_ends(&self, mut bound: N) -> N {
+        let accurate = self.blocks.accurate();
+        for (end, nearest) in [(self.blocks.first(), accurate.first()), (&self.newest.modified, accurate.last())] {
+            let Some(nearest) = nearest else { continue };
+            let (mut distance, mut error) = (difference(&end.value, &nearest.value), end.error.clone());
+            distance.make_absolute();
+            error.add(&nearest.error);
+            error.multiply_integer(ERROR_FACTOR);
+            if self.newest.has_error && distance > error && distance > bound {
+                bound = distance;
+            }
+        }
+        bound
+    }
+
     fn judge(&self, report: &mut Report<N>, turning: Option<Turning>, trend_ratio: Option<TrendRatio>) {
         let [energy_change, modified_change] = self.blocks.means(&report.energy_error).map(|means| Change::of(&means));
         let evidence = Evidence {
@@ -188,7 +205,8 @@ impl<N: Real, E: Estimator<N>> Monitor<N, E> {
             ..report.evidence()
         };
         report.verdict = evidence.verdict();
-        report.permanent_bound = evidence.bound().map(|part| report.of_energy_error(part));
+        report.permanent_bound =
+            evidence.bound().map(|part| report.of_energy_error(part)).map(|bound| self.with_ends(bound));
         report.permanent_change = evidence.permanent_move().map(|part| report.of_energy_error(part));
         if matches!(report.verdict, Verdict::NotTheGradient | Verdict::Inconsistent) {
             report.rough = None;

@@ -5,7 +5,7 @@ use super::estimated::Estimated;
 use crate::number::Real;
 
 /// An estimate may be wrong by this many times its error.
-const ERROR_FACTOR: i32 = 3;
+pub(super) const ERROR_FACTOR: i32 = 3;
 
 /// The least and the largest number so far.
 #[derive(Clone, Debug)]

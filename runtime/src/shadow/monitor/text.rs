@@ -136,10 +136,9 @@ impl<N: Real> Report<N> {
     /// A remark where the verdict does not follow from the modified energy.
     fn unresolved(&self) -> String {
         match &self.worst_error {
-            Some(error) if self.part(error) >= PERMANENT_LIMIT => format!(
-                ". H̄ is known to {} only: its estimator needs more states, or increments are missing",
-                self.in_parts(error)
-            ),
+            Some(error) if self.part(error) >= PERMANENT_LIMIT => {
+                format!(". Where H̄ is known least, it is known to {} only", self.in_parts(error))
+            }
             None if self.part(&self.range) >= PERMANENT_LIMIT => {
                 ". H̄ ranges over more than that, but this estimator gives no errors".to_owned()
             }
@@ -148,7 +147,7 @@ impl<N: Real> Report<N> {
     }
 
     fn what_would_decide(&self) -> String {
-        let Some(Advice { windows, order }) = self.advice else { return "not decided".to_owned() };
+        let Some(Advice { length, order }) = self.advice else { return "not decided".to_owned() };
         if let Some(change) = &self.permanent_change {
             let turns = self
                 .steps_per_turn
@@ -170,10 +169,10 @@ impl<N: Real> Report<N> {
             .permanent_bound
             .as_ref()
             .map_or("no change".to_owned(), |bound| format!("a net change above {}", self.in_parts(bound)));
-        let estimator = order.map_or(String::new(), |order| format!(", or an estimator of order {order}"));
+        let estimator = order.map_or(String::new(), |order| format!(", or the estimator E_{order} or D_{order}"));
         format!(
-            "{}, but {resolved}, and {bound} is excluded: {windows} windows may tell, more often or in a \
-             longer run, or a smaller step{estimator}",
+            "{}, but {resolved}, and {bound} is excluded: a run {length} times as long may tell, or a \
+             smaller step{estimator}",
             self.size()
         )
     }
@@ -263,8 +262,11 @@ impl<N: Real> fmt::Display for Report<N> {
             _ => format!("T is {}", short(&self.kinetic)),
         };
         line(f, "energy error", &self.energy_error, &format!("max − min of H; {of_kinetic}"))?;
-        let range =
-            format!("rms of H − H̄, which is from {} to {}", short(&self.method_least), short(&self.method_largest));
+        // H − H̄ then shows no more than the errors of H̄
+        let is_resolved = self.resolution.as_ref().is_none_or(|resolution| self.method_rms >= *resolution);
+        let resolved = if is_resolved { "" } else { "; not resolved" };
+        let [least, largest] = [&self.method_least, &self.method_largest].map(short);
+        let range = format!("rms of H − H̄, which is from {least} to {largest}{resolved}");
         line(f, "the method's part", &self.method_rms, &range)?;
         let trend = self.trend.map_or(String::new(), |trend| format!(", {trend}"));
         line(f, "H̄ ranges over", &self.range, &format!("{}{trend}", part(&self.range)))?;

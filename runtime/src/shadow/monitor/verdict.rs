@@ -124,15 +124,15 @@ pub enum Criterion {
 pub enum Missing {
     /// At least 16 windows.
     Windows,
-    /// A better resolution of the modified energy, or more windows.
+    /// A better resolution of the modified energy, or a longer run.
     Resolution,
 }
 
 /// What would decide an undecided verdict.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Advice {
-    /// At least this number of windows, in a longer run or more often.
-    pub windows: u64,
+    /// How many times as long a run may decide: its means of H exclude smaller changes, as those of independent numbers do.
+    pub length: u64,
     /// An estimator of this order k or m: from the fall of its errors with the order where the second harmonic of the fastest
     /// motion dominates. `None` where no order up to 64 would do.
     pub order: Option<u32>,
@@ -314,9 +314,9 @@ impl Evidence {
             return None;
         }
         let bound = self.energy_change.map_or(f64::NAN, Change::bound) / PERMANENT_LIMIT;
-        // standard errors fall like 1/√windows; a fifth more to be below the limit
-        let windows = (1.2 * self.windows as f64 * bound.max(1.1).powi(2)).ceil() as u64;
-        Some(Advice { windows, order: self.sufficient_order(order) })
+        // standard errors fall like 1/√length; a fifth more to be below the limit
+        let length = (1.2 * bound.max(1.1).powi(2)).ceil() as u64;
+        Some(Advice { length, order: self.sufficient_order(order) })
     }
 
     /// Errors fall by sin²(φ/2) from order to order, φ the angle of a harmonic.
@@ -505,9 +505,9 @@ mod tests {
         let by = |value, error| Evidence { energy_change: Some(Change { value, error }), ..blind };
         assert_eq!([by(0.02, 0.05).verdict(), by(0.02, 0.09).verdict()], [Verdict::Fine, UNRESOLVED]);
         assert_eq!(by(0.02, 0.05).bound(), Some(0.02 + 3.0 * 0.05));
-        let advice = Evidence { turning: turning(20.0, 0.0), windows: 200, ..by(0.0, 0.1) }.advice(8).unwrap();
-        // 1.2 · 200 · (0.3/0.25)²; sin²(π/10) = 1/10.5, and ln(500 · 20)/ln 10.5 is 3.9
-        assert_eq!(advice, Advice { windows: 346, order: Some(12) });
+        let advice = Evidence { turning: turning(20.0, 0.0), ..by(0.0, 0.1) }.advice(8).unwrap();
+        // 1.2 (0.3/0.25)² is 1.7; sin²(π/10) = 1/10.5, and ln(500 · 20)/ln 10.5 is 3.9
+        assert_eq!(advice, Advice { length: 2, order: Some(12) });
         assert_eq!(Evidence { turning: turning(3.9, 0.0), ..by(0.0, 0.1) }.advice(8).unwrap().order, None);
         assert_eq!(by(0.02, 0.05).advice(8), None);
     }
