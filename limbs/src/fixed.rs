@@ -14,6 +14,7 @@
 //! ```
 
 use std::cmp::Ordering;
+use std::hint::select_unpredictable;
 
 /// x ← x + a; whether it carries.
 #[inline(always)]
@@ -204,10 +205,10 @@ impl Divisor {
         let (q_low, q_high) = self.reciprocal.carrying_mul(high, low);
         let mut quotient = q_high.wrapping_add(high).wrapping_add(1);
         let mut remainder = low.wrapping_sub(quotient.wrapping_mul(self.limb));
-        if remainder > q_low {
-            quotient = quotient.wrapping_sub(1);
-            remainder = remainder.wrapping_add(self.limb);
-        }
+        // as often as not, so without a branch
+        let above = remainder > q_low;
+        quotient = quotient.wrapping_sub(u64::from(above));
+        remainder = select_unpredictable(above, remainder.wrapping_add(self.limb), remainder);
         if remainder >= self.limb {
             quotient += 1;
             remainder -= self.limb;
