@@ -46,7 +46,7 @@ pub(crate) struct Arguments {
     #[command(flatten)]
     posed: PosedArguments,
     /// The largest error, such as 1e-8
-    #[arg(long, value_name = "ERROR", help_heading = TOLERANCE)]
+    #[arg(long, value_name = "ERROR", allow_hyphen_values = true, help_heading = TOLERANCE)]
     tolerance: String,
     /// Which error
     #[arg(long, value_name = "WHICH", default_value = "position", help_heading = TOLERANCE)]
@@ -206,11 +206,12 @@ fn evidence(best: &Choice<'_>, request: &AdviceRequest<'_>, verified: Verified, 
 /// Up to which step the modified energy is conserved, and from which on it is lost, as far as runs were made.
 fn conserved(best: &Choice<'_>) -> String {
     let size = |h: f64| format!("{h:.2e}, {:.1} times this one", h / best.size());
-    let conserved = best.conserved_up_to.map_or("no step that was run has the verdict fine".to_owned(), |largest| {
-        format!("the verdict is fine up to steps of {}", size(largest))
+    let bounded = best.conserved_up_to.map_or("bounded in none of the runs".to_owned(), |largest| {
+        format!("bounded in runs with steps up to {}", size(largest))
     });
-    let lost = best.lost_from.map_or("no step was run at which it is lost".to_owned(), |least| {
-        format!("it is lost at steps of {}", size(least))
-    });
-    format!("{conserved}; {lost}")
+    let lost =
+        best.lost_from.map_or("lost in none".to_owned(), |least| format!("lost from steps of {} on", size(least)));
+    let is_between = best.conserved_up_to.is_none_or(|largest| largest < best.size())
+        && best.lost_from.is_none_or(|least| best.size() < least);
+    format!("{bounded}; {lost}{}", if is_between { "; not decided with this one" } else { "" })
 }

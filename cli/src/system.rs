@@ -95,10 +95,20 @@ fn of_scene(arguments: &SystemArguments, path: &str, arithmetic: Arithmetic) -> 
 fn by_formula(arguments: &SystemArguments, formula: &str, arithmetic: Arithmetic) -> Result<Described, Error> {
     let text = scene_of(arguments, formula)?;
     let wrong = |Faults(faults): Faults| match faults.first() {
-        Some(fault) => Error::usage(
-            format!("--potential \"{formula}\": {}", fault.message),
-            fault.hint.clone().unwrap_or_else(|| "compare --q, --p and --set".to_owned()),
-        ),
+        Some(fault) => {
+            // the text below has a line for each flag
+            let flag = match fault.source_line.split(' ').next() {
+                Some("coordinates" | "q") => "--q".to_owned(),
+                Some("p") => "--p".to_owned(),
+                Some("parameters") => "--set".to_owned(),
+                Some("masses") => "--masses".to_owned(),
+                _ => format!("--potential \"{formula}\""),
+            };
+            let hint = fault.hint.clone().unwrap_or_else(|| "compare --q, --p, --masses and --set".to_owned());
+            let values = fault.values.as_ref();
+            let values = values.map_or(String::new(), |(found, needed)| format!(": found {found}, needed {needed}"));
+            Error::usage(format!("{flag}: {}{values}", fault.message), hint)
+        }
         None => Error::usage("--potential is not valid", "write a smooth formula such as \"x^2/2\""),
     };
     let (system, notes) = System::read(&Source { path: "--potential".to_owned(), text }, arithmetic).map_err(wrong)?;

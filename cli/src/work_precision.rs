@@ -13,6 +13,7 @@ use shadowstep_scenes::propagator::for_system;
 use shadowstep_scenes::steps::nearly_equal;
 use shadowstep_scenes::{Error, System};
 use shadowstep_symbolic::decimal::to_text;
+use shadowstep_symbolic::nearest;
 use shadowstep_work_precision::files::{Title, write, written};
 use shadowstep_work_precision::length::common_multiple;
 use shadowstep_work_precision::schemes::Group;
@@ -130,10 +131,24 @@ pub(crate) fn schemes(words: &[String], posed: &PosedProblem) -> Result<Vec<Name
         }
         match Group::of_word(word) {
             Some(group) => group.schemes(system, posed.arithmetic, posed.first)?.into_iter().for_each(&mut add),
-            None => add(valid(scheme_from(word, Path::new(""), posed.first)?, system, posed)?),
+            None => {
+                let scheme =
+                    scheme_from(word, Path::new(""), posed.first).map_err(|error| near_group(word, error.into()))?;
+                add(valid(scheme, system, posed)?);
+            }
         }
     }
     Ok(found)
+}
+
+/// An unknown scheme may be a misspelt group.
+fn near_group(word: &str, error: Error) -> Error {
+    match nearest(word, Group::NAMED.map(|(name, _)| name)) {
+        Some(group) => {
+            Error::usage(format!("there is no scheme `{word}`"), format!("did you mean the group `{group}`?"))
+        }
+        None => error,
+    }
 }
 
 /// The scheme with steps for the system, whose weights have the digits of the runs.

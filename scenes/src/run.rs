@@ -93,7 +93,7 @@ impl Run<'_> {
         } else if step.unsigned_abs() > self.steps {
             self.ended_beyond(*step, &value, "states after the last one are made for the modified energies near it")
         } else {
-            let hint = if *step == 0 { "choose another initial state" } else { OTHER_START };
+            let hint = if *step == 0 { "choose another initial state, or other parameters" } else { OTHER_START };
             Error::run(format!("{}: the run stopped at n = {step}: {value}", self.name()), hint)
         }
     }

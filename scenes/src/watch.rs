@@ -380,28 +380,42 @@ mod tests {
         assert!(summary("t > 5", "double").is_fine());
     }
 
+    const PARTS: &str = "parts = \"wisdom-holman\"";
+
+    fn planets(parts: &str, bodies: &str, run: &str, rows: &str) -> Summary {
+        let text = format!(
+            "problem = {{ {parts}, units = {{ length = \"AU\", time = \"year\", mass = \"solar\" }} }}\n\
+             body = [{{ mass = 1 }}, {bodies}]\nrun = {{ scheme = \"stormer-verlet\", {run}, digits = \"double\" }}\noutput.energy = {rows}"
+        );
+        let mut keep = KeptSummary::default();
+        let scene = Scene::read(Source { path: "test.toml".to_owned(), text }).unwrap();
+        scene.run_into(&mut Vec::new(), &mut keep).unwrap();
+        keep.0.unwrap()
+    }
+
     /// Planets with steps of many revolutions: one is thrown out after 34 of 5000 steps, before the third window of the monitor. Then two that meet
     /// after 25 of 5000.
     #[test]
     fn an_energy_that_changes_before_the_windows_is_not_bounded() {
-        let planets = |bodies: &str, step: &str, rows: &str| {
-            let text = format!(
-                "problem = {{ parts = \"wisdom-holman\", units = {{ length = \"AU\", time = \"year\", mass = \"solar\" }} }}\n\
-                 body = [{{ mass = 1 }}, {bodies}]\nrun = {{ scheme = \"stormer-verlet\", step = {step}, steps = 5000, digits = \"double\" }}\n\
-                 output.energy = {rows}"
-            );
-            let mut keep = KeptSummary::default();
-            let scene = Scene::read(Source { path: "test.toml".to_owned(), text }).unwrap();
-            scene.run_into(&mut Vec::new(), &mut keep).unwrap();
-            keep.0.unwrap()
-        };
         let thrown = "{ mass = 1e-3, a = 5.2, e = 0.05 }, { mass = 3e-4, a = 9.5, M = 100 }";
         let met = "{ mass = 0.00042, a = 1 }, { mass = 0.00042, a = 1.147, M = 151 }";
-        let found = planets(thrown, "100", "true");
+        let found = planets(PARTS, thrown, "step = 100, steps = 5000", "true");
         assert!(!found.is_fine() && found.reason().contains("and did not come back"), "{found}");
         for rows in ["true", "{ every = 5 }"] {
-            let found = planets(met, "\"1/10\"", rows);
+            let found = planets(PARTS, met, "step = \"1/10\", steps = 5000", rows);
             assert_eq!(found.verdict(), "the splitting is not valid in a close encounter", "{rows}: {found}");
         }
+    }
+
+    /// The attraction of planets that come near goes from kicks to drifts, within as few steps as there are in the shell.
+    #[test]
+    fn shells_with_too_few_steps_are_not_forces_that_are_not_smooth() {
+        let parts = "parts = \"wisdom-holman-heliocentric\", encounters = { within = 0.2 }";
+        let bodies = "{ mass = 0.000264, a = 1 }, { mass = 0.000264, a = 1.207, M = 278 }";
+        let [coarse, fine] =
+            ["1/40", "1/80"].map(|h| planets(parts, bodies, &format!("step = \"{h}\", until = 200"), "true"));
+        assert_eq!(coarse.verdict(), "the step size is too large", "{coarse}");
+        assert!(coarse.reason().contains("goes from kicks to drifts within too few steps"), "{coarse}");
+        assert!(fine.is_fine(), "{fine}");
     }
 }

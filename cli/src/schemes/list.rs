@@ -17,6 +17,7 @@ use crate::schemes::facts::{NEAR_INTEGRABLE, nested_text};
 use crate::schemes::record::Record;
 use shadowstep_scenes::Error;
 use shadowstep_scenes::library::{self, NamedScheme};
+use shadowstep_symbolic::nearest;
 
 /// Which schemes are listed, and in which order.
 #[derive(Debug, Args)]
@@ -122,10 +123,10 @@ fn table_of(word: &str) -> Result<NamedScheme, Error> {
     let message = format!("`{word}` is not the file of a table");
     let hint = match library::scheme(word) {
         Ok(_) => format!("for a shipped scheme write: shadowstep schemes show {word}"),
-        Err(_) => {
-            "the name of a custom table ends in .toml; the subcommands show, check and polish stand before all flags"
-                .to_owned()
-        }
+        Err(_) => match nearest(word, ["show", "check", "polish", "prove"]) {
+            Some(command) => format!("did you mean `shadowstep schemes {command}`?"),
+            None => "the name of a custom table ends in .toml; subcommands stand before all flags".to_owned(),
+        },
     };
     Err(Error::usage(message, hint))
 }

@@ -115,6 +115,34 @@ fn invalid_values_of_flags_are_refused() {
     assert_eq!(shadowstep("drift").code, 2);
 }
 
+/// Of a formula and of other commands: what is wrong is named by its flag.
+#[test]
+fn each_wrong_word_has_its_message_and_hint() {
+    let trace = |flags: &str| format!("trace --scheme yoshida4 --step 1/10 --until 1 {flags}");
+    for (command, sentence, hint) in [
+        (trace("--potential c*x*y --q x=1,y=2 --p 0,0"), "--potential \"c*x*y\": unknown name `c`", "a value: c = 1"),
+        (trace("--potential x*px --q x=1 --p 0"), "unknown name `px`", "U(q) has no momenta in it"),
+        (trace("--potential x^2 --q x=two --p 0"), "--q: unknown name `two`", "write an exact number"),
+        (trace("--potential x^2 --q x=1 --p 0 --masses 1,2"), "--masses: this list needs a number", "compare --q, --p"),
+        (trace("--potential x^2/k --set k=0 --q x=1 --p 0"), "the energy is inf", "or other parameters"),
+        (
+            "advise kepler --until 9 --tolerance -1".to_owned(),
+            "--tolerance -1: the tolerance must be",
+            "--tolerance 1e-8",
+        ),
+        ("schemes chek mine.toml".to_owned(), "`chek` is not the file of a table", "`shadowstep schemes check`?"),
+        (
+            "work-precision kepler --until 9 --out nowhere --schemes near-integrabel".to_owned(),
+            "there is no scheme `near-integrabel`",
+            "did you mean the group `near-integrable`?",
+        ),
+    ] {
+        let result = shadowstep(&command);
+        assert!(matches!(result.code, 2 | 3), "{command}: {}", result.err);
+        assert!(result.err.contains(sentence) && result.err.contains(hint), "{command}: {}", result.err);
+    }
+}
+
 /// A command line that is valid except for these flags.
 fn completed(flags: &str) -> String {
     let good = ["--problem kepler", "--scheme stormer-verlet", "--step 1/10", "--until 2"];

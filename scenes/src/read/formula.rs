@@ -1,7 +1,7 @@
 //! A custom potential, with its coordinates and momenta.
 
-use shadowstep::systems::formula::FormulaPotential;
-use shadowstep_symbolic::Exact;
+use shadowstep::systems::formula::{FormulaError, FormulaPotential};
+use shadowstep_symbolic::{Exact, SemanticFault};
 
 use super::explicit_time;
 use super::given::Given;
@@ -84,9 +84,24 @@ pub(super) fn potential(
             Some(formula)
         }
         Err(error) => {
-            let help = "a potential is a smooth formula such as \"-1/sqrt(x^2 + y^2)\"";
+            let help = what_a_potential_is(&text.value[error.range()], &error, coordinates);
             reader.toml.wrong(&text.place(&error.range()), error.to_string(), help)
         }
+    }
+}
+
+/// A hint for the wrong part of the text of a potential.
+fn what_a_potential_is(wrong: &str, error: &FormulaError, coordinates: &[String]) -> String {
+    let is_unknown =
+        matches!(error, FormulaError::Meaning(error) if matches!(error.fault, SemanticFault::UnknownName { .. }));
+    let is_momentum =
+        wrong.strip_prefix('p').is_some_and(|name| coordinates.iter().any(|coordinate| coordinate == name));
+    if is_unknown && is_momentum {
+        "U(q) has no momenta in it; T is p²/2m, or the formula `kinetic`".to_owned()
+    } else if is_unknown {
+        format!("a name in U is a coordinate, which q has, or a parameter with a value: {wrong} = 1")
+    } else {
+        "a potential is a smooth formula such as \"-1/sqrt(x^2 + y^2)\"".to_owned()
     }
 }
 

@@ -32,18 +32,21 @@ pub struct Interactions {
     /// The closest approach of a particle of mass 0; `None` where there is none.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub particles: Option<ParticleApproach>,
-    /// Whether planets that are near attract each other in drifts.
+    /// Planets that are nearer than this attract each other in drifts; `None` where none do.
     #[serde(skip)]
-    pub(crate) near_in_drifts: bool,
+    pub(crate) in_drifts_within: Option<f64>,
 }
 
 /// Planets that are nearer, in mutual Hill radii, attract each other more than the central body's tide separates them.
 const CLOSE: f64 = 1.0;
 
 impl Interactions {
-    /// The approach in which H was not a sum of Kepler orbits and small interactions.
+    /// The approach in which H was not a sum of Kepler orbits and small interactions, or in which attraction went from kicks to drifts.
     pub(crate) fn encounter(&self) -> Option<&Approach> {
-        self.closest.as_ref().filter(|closest| closest.hill_radii < CLOSE)
+        let is_in_drifts = |Approach { hill_radii, hill_radius, .. }: &Approach| {
+            self.in_drifts_within.is_some_and(|within| hill_radii * hill_radius < within)
+        };
+        self.closest.as_ref().filter(|closest| closest.hill_radii < CLOSE || is_in_drifts(closest))
     }
 
     /// In a line, with the times of states in words.
@@ -97,7 +100,7 @@ impl Approaches {
                 of,
                 closest: None,
                 particles: None,
-                near_in_drifts: planets.encounters.is_some(),
+                in_drifts_within: planets.encounters.as_ref().map(|near| number(near.shells.radius())),
             },
             planets,
         })

@@ -155,10 +155,12 @@ impl Summary {
         let within = format!("{:.1e}", 3.0 * hill_radius);
         let within = from_text(&within).map_or(within, |exact| to_significant(&exact, 2));
         let time = self.time(*n);
-        if self.interactions.as_ref().is_some_and(|found| found.near_in_drifts) {
+        if let Some(given) = self.interactions.as_ref().and_then(|found| found.in_drifts_within) {
+            let larger =
+                if given < 3.0 * hill_radius { format!(", {within} is 3 of these radii") } else { String::new() };
             self.reason = format!(
                 "{i} and {j} came within {hill_radii:.2} Hill radii of each other at {time}, and their attraction goes from kicks to drifts within \
-                 too few steps: use a smaller step size, or a larger distance in encounters = {{ within = … }}, {within} is 3 of these radii"
+                 too few steps: use a smaller step size, or a larger distance in encounters = {{ within = … }}{larger}"
             );
             self.verdict = Verdict::TooLarge(Criterion::EnergyError).to_string();
         } else {
