@@ -175,8 +175,17 @@ impl<N: Real> Fastest<N> {
             let [before, second, after] = [0, 1, 2].map(|n| self.second_differences(n));
             all.add([&before, &second, &after], &self.start[2]);
         }
-        let turnings = (0..all.dimension()).map(|i| turning(&all.sums(i), &mut quotient)).enumerate();
-        let regular = turnings.filter_map(|(i, turning)| Some((i, turning?)));
+        // the momentum of a centre of mass at rest is the round-off of the others
+        let mut round_off = N::zero(&self.x.context());
+        for squares in &all.sums[..all.dimension()] {
+            if *squares > round_off {
+                round_off.assign(squares);
+            }
+        }
+        round_off.multiply(&self.rounding);
+        round_off.multiply(&self.rounding);
+        let moving = (0..all.dimension()).filter(|i| all.sums[*i] > round_off).collect::<Vec<_>>();
+        let regular = moving.into_iter().filter_map(|i| Some((i, turning(&all.sums(i), &mut quotient)?)));
         regular
             .filter(|(_, turning)| turning.irregular <= LARGEST_IRREGULARITY)
             .reduce(|fastest, other| if other.1.angle > fastest.1.angle { other } else { fastest })
