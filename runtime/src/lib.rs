@@ -78,6 +78,9 @@
 //! | [`shadow`] | estimators of the modified energy, the [monitor](shadow::ShadowEnergy), trajectories and [energy drifts](shadow::run) |
 //! | the root | what most programs need; with its traits in the [`prelude`] |
 
+// links to what a feature adds are resolved in documentation with that feature, as docs.rs has it
+#![cfg_attr(not(all(feature = "tables", feature = "formulas")), allow(rustdoc::broken_intra_doc_links))]
+
 // generated code refers to `::shadowstep`, in this crate too
 extern crate self as shadowstep;
 
