@@ -17,7 +17,7 @@ mod lines;
 mod rows;
 mod thin;
 
-pub(crate) use files::PlotFiles;
+pub(crate) use files::{PlotFiles, check_ending};
 pub(crate) use lines::{RunLines, Values};
 pub(crate) use rows::of_rows;
 

@@ -40,10 +40,14 @@ impl Advice<'_> {
             ),
             Some((error, name)) if is_position && *resolved > request.tolerance => format!(
                 "No advice: errors are known above {resolved} alone {runs}, as there was too little time for a better reference; the smallest one was {error}, \
-                 of {name}. Use more seconds, or a shorter time."
+                 of {name}. Use more seconds, a shorter time, or more digits."
             ),
             Some((error, name)) => {
-                format!("No scheme meets the tolerance {limit}: the smallest error was {error}, of {name}, {runs}.")
+                let more =
+                    if *in_time { "more digits" } else { "more seconds, or more digits where round-off is the limit" };
+                format!(
+                    "No scheme meets the tolerance {limit}: the smallest error was {error}, of {name}, {runs}. Use {more}."
+                )
             }
             None if *unfinished != Unfinished::default() => format!("No advice: no error is known {limit}, {runs}."),
             None if is_position && !reference.is_finite() => format!(

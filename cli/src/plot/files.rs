@@ -8,6 +8,17 @@ use shadowstep::tables::Faults;
 use shadowstep_scenes::plot::{Picture, Plot};
 use shadowstep_scenes::{Error, Scene, WholeFile};
 
+/// Refuses a file of `--plot` whose name does not end in .svg.
+pub(crate) fn check_ending(path: &Path, example: &str) -> Result<(), Error> {
+    match path.extension() {
+        Some(ending) if ending == "svg" => Ok(()),
+        _ => {
+            let message = format!("--plot {} is not the name of an SVG file", path.display());
+            Err(Error::usage(message, format!("give a name such as {example}")))
+        }
+    }
+}
+
 /// The files of charts, and what is written into them beside the pictures.
 #[derive(Debug)]
 pub(crate) struct PlotFiles {
@@ -22,10 +33,7 @@ pub(crate) struct PlotFiles {
 impl PlotFiles {
     /// The files of `--plot`, none of which may exist without `--force`.
     pub(super) fn of_flag(path: &Path, pictures: &[Picture], force: bool) -> Result<Self, Error> {
-        if path.extension().is_none_or(|ending| ending != "svg") {
-            let message = format!("--plot {} is not the name of an SVG file", path.display());
-            return Err(Error::usage(message, "give a name such as trace.svg"));
-        }
+        check_ending(path, "trace.svg")?;
         let files = PlotFiles { paths: paths(path, pictures), named: "--plot", head: String::new(), replaces: force };
         files.paths.iter().try_for_each(|path| files.open(path).map(drop))?;
         Ok(files)

@@ -18,6 +18,7 @@ use shadowstep_schemes::{Kinetic, MapKind, Proof, Proved, StepPlan, to_significa
 
 use crate::interrupt::Interrupt;
 use crate::output::Output;
+use crate::plot::check_ending;
 use crate::readable::{shortened, table, wrapped};
 use crate::report::{self, Status};
 use crate::schemes::analysis;
@@ -78,6 +79,7 @@ pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
 
 /// Draws into a file, which gets its name when it is complete.
 fn draw(path: &Path, force: bool, scheme: &TableScheme, analysis: &Analysis) -> Result<(), Error> {
+    check_ending(path, "scheme.svg")?;
     let proved = scheme.proved();
     let picture = plot::picture(&proved.scheme.table.name.value, proved, analysis)?;
     let _interrupt = Interrupt::listen("schemes show", "run the command again");

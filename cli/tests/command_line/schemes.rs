@@ -112,7 +112,7 @@ fn a_custom_table_is_listed_among_the_shipped_ones() {
     assert_eq!((custom.len(), text(custom[0], "name"), &custom[0]["order"]), (1, path.as_str(), &1.into()));
     let result = shadowstep("schemes shwo yoshida4");
     assert_eq!(result.code, 2);
-    assert!(result.err.contains("the subcommands show, check and polish"), "{}", result.err);
+    assert!(result.err.contains("did you mean `shadowstep schemes show`?"), "{}", result.err);
     let result = shadowstep("schemes yoshida4");
     assert!(result.err.contains("write: shadowstep schemes show yoshida4"), "{}", result.err);
 }

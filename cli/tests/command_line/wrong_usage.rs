@@ -130,6 +130,7 @@ fn each_wrong_word_has_its_message_and_hint() {
             "--tolerance -1: the tolerance must be",
             "--tolerance 1e-8",
         ),
+        ("schemes show pefrl --plot a.png".to_owned(), "--plot a.png is not the name of an SVG file", "scheme.svg"),
         ("schemes chek mine.toml".to_owned(), "`chek` is not the file of a table", "`shadowstep schemes check`?"),
         (
             "work-precision kepler --until 9 --out nowhere --schemes near-integrabel".to_owned(),
