@@ -23,7 +23,7 @@ pub(crate) struct RunArguments {
     /// Exact step sizes, such as 1/10,0.05
     ///
     /// Of a scene with [time], they are steps of the fictitious time s.
-    #[arg(long = "step", alias = "h", value_name = "H,…", required = true, value_delimiter = ',', allow_hyphen_values = true, help_heading = SCHEMES)]
+    #[arg(long = "step", aliases = ["h", "dt"], value_name = "H,…", required = true, value_delimiter = ',', allow_hyphen_values = true, help_heading = SCHEMES)]
     pub(crate) steps: Vec<String>,
     /// The exact time at which runs end, such as 100
     ///

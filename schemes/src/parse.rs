@@ -10,7 +10,7 @@ use crate::spelling::spelling;
 use crate::table::{Cell, Inner, MOST_STAGES, Processor, Table, Weights};
 
 const TABLE: [Key; 17] = [
-    Key::new("name", "\"yoshida4\""),
+    Key::new("name", "\"my-scheme\""),
     Key::new("title", "\"Yoshida's triple jump of order 4\""),
     Key::new("aliases", "[\"Forest-Ruth\"]"),
     Key::new("order", "4"),

@@ -29,7 +29,7 @@ pub(super) struct SubjectArguments {
     /// The exact step size [default: that of the scene]
     ///
     /// Of a scene with [time], it is a step of the fictitious time s.
-    #[arg(long, alias = "h", value_name = "H", allow_hyphen_values = true, help_heading = SCHEMES)]
+    #[arg(long, aliases = ["h", "dt"], value_name = "H", allow_hyphen_values = true, help_heading = SCHEMES)]
     step: Option<String>,
 }
 

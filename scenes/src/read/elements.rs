@@ -63,6 +63,9 @@ impl Elements {
             () if self.e == one => {
                 Some(("a parabola has no semi-major axis".to_owned(), "give q and v of this body instead"))
             }
+            () if self.a.is_zero() => {
+                Some(("the semi-major axis is 0".to_owned(), "give its length, positive of an ellipse"))
+            }
             () if self.e < one && !self.a.is_positive() => Some((
                 "the semi-major axis of an ellipse must be positive".to_owned(),
                 "change the sign of a, or give an e above 1",

@@ -143,6 +143,7 @@ pub(super) fn system(
     if reader.toml.faults.len() > before {
         return None;
     }
+    placing.refuse_one_place(reader, bodies)?;
     if settings.barycentric? {
         placing.move_to_barycentre();
     }
@@ -283,6 +284,25 @@ fn names(reader: &mut Reader<'_>, bodies: &[&GivenBody]) -> Vec<String> {
 }
 
 impl Placing {
+    /// Refuses two bodies with mass at one place, whose energy is infinite.
+    fn refuse_one_place(&self, reader: &mut Reader<'_>, bodies: &[&GivenBody]) -> Option<()> {
+        let states = &self.states[..self.massive()];
+        for (j, [place, _]) in states.iter().enumerate() {
+            if let Some(i) = states[..j].iter().position(|[other, _]| other == place) {
+                let other = bodies[i]
+                    .name
+                    .as_ref()
+                    .map_or_else(|| format!("body {}", i + 1), |name| format!("`{}`", name.value));
+                return reader.toml.wrong(
+                    &bodies[j].at,
+                    format!("this body is at the place of {other}"),
+                    "give it another place",
+                );
+            }
+        }
+        Some(())
+    }
+
     /// How many bodies have a mass: those before the others.
     fn massive(&self) -> usize {
         self.masses.iter().take_while(|mass| !mass.is_zero()).count()
@@ -527,6 +547,8 @@ mod tests {
         for (problem, second, fault) in [
             (G, "a = 4\nM = 1\nlambda = 2", "13:10: M and lambda are both given"),
             (G, "a = -4", "11:5: the semi-major axis of an ellipse must be positive"),
+            (G, "q = [0, 0]\nv = [0, 0]", "9:1: this body is at the place of body 1"),
+            (G, "a = 0", "11:5: the semi-major axis is 0"),
             (G, "a = 4\ne = 1", "12:5: a parabola has no semi-major axis"),
             (G, "a = 4\ne = 2", "12:5: with e = 2 the orbit is a hyperbola, whose a is negative"),
             (G, "a = 4\ne = -0.1", "12:5: the eccentricity -0.1 is negative"),
