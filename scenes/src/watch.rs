@@ -261,7 +261,7 @@ impl<N: RunNumber> Watch<N> {
         }
         report.fastest_coordinate = report.fastest_coordinate.filter(|(coordinate, _)| Some(*coordinate) != time);
         if report.verdict == Verdict::Fine {
-            report.energy_error = larger(report.energy_error, self.energy.lasting.range());
+            report.energy_error = larger(&report.energy_error, self.energy.lasting.range());
         }
         let of_windows = if transformed { f64::NAN } else { last_of_kinetic(&last, &report) };
         let (verdict, reason) = conclusion(&report, of_kinetic, of_windows);
@@ -311,7 +311,7 @@ fn may_have_been_missed(verdict: Verdict) -> bool {
 }
 
 /// The larger of two.
-fn larger<N: Real>(number: N, other: f64) -> N {
+fn larger<N: Real>(number: &N, other: f64) -> N {
     let rational = (other > number.to_f64()).then(|| Rational::from_float(other)).flatten();
     rational.map_or_else(|| number.clone(), |rational| N::from_rational(&rational, &number.context()))
 }
