@@ -120,7 +120,11 @@ fn invalid_values_of_flags_are_refused() {
 fn each_wrong_word_has_its_message_and_hint() {
     let trace = |flags: &str| format!("trace --scheme yoshida4 --step 1/10 --until 1 {flags}");
     for (command, sentence, hint) in [
-        (trace("--potential c*x*y --q x=1,y=2 --p 0,0"), "--potential \"c*x*y\": unknown name `c`", "a value: c = 1"),
+        (
+            trace("--potential c*x*y --q x=1,y=2 --p 0,0"),
+            "--potential \"c*x*y\": unknown name `c`",
+            "with values, such as c = 1",
+        ),
         (trace("--potential x*px --q x=1 --p 0"), "unknown name `px`", "U(q) has no momenta in it"),
         (trace("--potential x^2 --q x=two --p 0"), "--q: unknown name `two`", "write an exact number"),
         (trace("--potential x^2 --q x=1 --p 0 --masses 1,2"), "--masses: this list needs a number", "compare --q, --p"),

@@ -99,7 +99,7 @@ fn what_a_potential_is(wrong: &str, error: &FormulaError, coordinates: &[String]
     if is_unknown && is_momentum {
         "U(q) has no momenta in it; T is p²/2m, or the formula `kinetic`".to_owned()
     } else if is_unknown {
-        format!("a name in U is a coordinate, which q has, or a parameter with a value: {wrong} = 1")
+        format!("U is a smooth formula of coordinates, which q has, and of parameters with values, such as {wrong} = 1")
     } else {
         "a potential is a smooth formula such as \"-1/sqrt(x^2 + y^2)\"".to_owned()
     }
