@@ -284,7 +284,7 @@ fn an_empty_text() {
 mine.toml:1:1: the key `name` is missing
   1 | 
     | ^
-  hint: add `name = "yoshida4"`
+  hint: add `name = "my-scheme"`
 mine.toml:1:1: the key `order` is missing
   1 | 
     | ^
