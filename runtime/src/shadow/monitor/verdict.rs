@@ -36,7 +36,8 @@ use super::turning::Turning;
 /// - what happens later: a slow instability, or an encounter that has not come yet;
 /// - resonances of slow motions, and of oscillations with a small part of the momentum: the angle θ is computed from the second
 ///   differences of p, over all coordinates at once;
-/// - what happens between windows without a lasting effect;
+/// - what happens between windows without a lasting effect, and what happens before the first windows whose estimates are accurate, such as a body that is
+///   thrown out by the first steps;
 /// - whether a light body is resolved, unless it turned fast in the first five states and no longer does: its energy is a negligible part of the whole.
 ///   The report names [the coordinate that turns fastest](super::Report::fastest_coordinate) where the steps hardly resolve it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
