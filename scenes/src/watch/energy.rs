@@ -2,7 +2,7 @@
 
 use shadowstep::Real;
 
-use super::lasting_change::LastingChange;
+use super::lasting_change::LastingChanges;
 
 /// H(t) − H(0), the largest and the last one.
 #[derive(Clone, Debug)]
@@ -16,7 +16,7 @@ pub(super) struct EnergyError<N> {
     /// At how many states H was computed.
     pub(super) states: u64,
     size: N,
-    pub(super) lasting: LastingChange,
+    pub(super) lasting: LastingChanges,
     /// Over the states of which T is known.
     sum_of_kinetic: N,
     states_of_kinetic: u64,
@@ -33,7 +33,7 @@ impl<N: Real> EnergyError<N> {
             last_n: 0,
             states: 1,
             size: zero.clone(),
-            lasting: LastingChange::default(),
+            lasting: LastingChanges::default(),
             sum_of_kinetic: zero,
             states_of_kinetic: 0,
         }

@@ -39,7 +39,7 @@ impl Range {
 
 /// The largest gap so far between the H of all states before some n and of all since then.
 #[derive(Clone, Debug, Default)]
-pub(super) struct LastingChange {
+pub(super) struct LastingChanges {
     before: Option<Range>,
     since: Option<Range>,
 }
@@ -57,19 +57,19 @@ const MOST_OF_IT: f64 = 0.6;
 
 /// A change of H that lasts.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Found {
+pub(super) struct LastingChange {
     /// How far H since then is from H before it, at least.
     pub(super) gap: f64,
     /// The n of the last state before it, and of the first one after it.
     pub(super) between: [i64; 2],
 }
 
-impl LastingChange {
+impl LastingChanges {
     /// Takes H, less a constant, of the next state; of one that comes after later states it takes nothing.
     pub(super) fn include(&mut self, n: i64, energy: f64) {
         let new = Range::of(n, energy);
         let (Some(before), Some(since)) = (self.before, self.since) else {
-            *self = LastingChange { before: self.before.or(Some(new)), since: self.before.and(Some(new)) };
+            *self = LastingChanges { before: self.before.or(Some(new)), since: self.before.and(Some(new)) };
             return;
         };
         if n <= since.to {
@@ -93,12 +93,12 @@ impl LastingChange {
     }
 
     /// The change, if there is one.
-    pub(super) fn found(&self) -> Option<Found> {
+    pub(super) fn found(&self) -> Option<LastingChange> {
         let (before, since) = self.before.zip(self.since)?;
         let all = before.joined(since);
         let gap = before.gap(since);
         let lasts = before.states.min(since.states) >= LEAST_STATES && all.states >= LEAST_OF_ALL;
-        (lasts && gap >= LEAST_PART * all.width()).then_some(Found { gap, between: [before.to, since.from] })
+        (lasts && gap >= LEAST_PART * all.width()).then_some(LastingChange { gap, between: [before.to, since.from] })
     }
 }
 
@@ -106,8 +106,8 @@ impl LastingChange {
 mod tests {
     use super::*;
 
-    fn change(energies: impl IntoIterator<Item = f64>) -> Option<Found> {
-        let mut lasting = LastingChange::default();
+    fn change(energies: impl IntoIterator<Item = f64>) -> Option<LastingChange> {
+        let mut lasting = LastingChanges::default();
         (0..).zip(energies).for_each(|(n, energy)| lasting.include(n, energy));
         lasting.found()
     }
@@ -136,7 +136,7 @@ mod tests {
         for at in [3, 10, 1000, 1990] {
             for size in [1.0, -3.0] {
                 let energies = (0..2000).map(|n| f64::from(n).sin() / 2.0 + if n < at { 0.0 } else { 2.0 * size });
-                let Some(Found { gap, between }) = change(energies) else { panic!("{size} at {at}") };
+                let Some(LastingChange { gap, between }) = change(energies) else { panic!("{size} at {at}") };
                 let at = i64::from(at);
                 assert!(between[0] == at - 1 && (at..at + 4).contains(&between[1]), "{size} at {at}: {between:?}");
                 assert!((gap - (2.0 * size.abs() - 1.0)).abs() < 0.6, "{size} at {at}: {gap}");
@@ -149,11 +149,11 @@ mod tests {
 
     #[test]
     fn late_states_are_no_new_ones() {
-        let mut lasting = LastingChange::default();
+        let mut lasting = LastingChanges::default();
         for n in 0..200_i64 {
             lasting.include(10 * n, f64::from(n >= 5));
             lasting.include(10 * n - 5, f64::from(n > 5));
         }
-        assert_eq!(lasting.found(), Some(Found { gap: 1.0, between: [40, 50] }));
+        assert_eq!(lasting.found(), Some(LastingChange { gap: 1.0, between: [40, 50] }));
     }
 }

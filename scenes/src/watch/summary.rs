@@ -12,7 +12,7 @@ use shadowstep_symbolic::decimal::{from_text, to_significant, to_text};
 
 use crate::readable::wrapped_to;
 use crate::watch::encounters::Encounter;
-use crate::watch::lasting_change::Found as LastingChange;
+use crate::watch::lasting_change::LastingChange;
 use crate::watch::{Approach, Interactions};
 
 /// What a run, or the part of it since it was resumed, has shown.
