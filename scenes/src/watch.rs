@@ -46,6 +46,8 @@ pub enum Energies {
 pub struct Watch<N: RunNumber> {
     energies: Energies,
     energy: EnergyError<N>,
+    /// Whether H is that of the trajectory of a processed scheme, while the monitor follows the kernel.
+    processed: bool,
     /// Whether H is that of transformed time, which is 0 but for round-off.
     transformed: bool,
     /// The coordinate that is t, which does not turn, whatever its momentum does.
@@ -127,7 +129,18 @@ impl<N: RunNumber> Watch<N> {
         if from == 0 {
             energy.lasting.include(0, 0.0);
         }
-        Ok(Watch { energies, energy, transformed: false, time: None, names: Vec::new(), observed, from, n: from })
+        let processed = integrator.is_processed();
+        Ok(Watch {
+            energies,
+            energy,
+            processed,
+            transformed: false,
+            time: None,
+            names: Vec::new(),
+            observed,
+            from,
+            n: from,
+        })
     }
 
     /// Begins at the present state of a run of the system, which is number `from`, for a summary of the whole run.
@@ -246,7 +259,7 @@ impl<N: RunNumber> Watch<N> {
         initial.make_absolute();
         let of_kinetic = self.energy.of_kinetic();
         let last = self.energy.last.clone();
-        let Watch { observed, from, n, transformed, time, names, .. } = self;
+        let Watch { observed, from, n, transformed, processed, time, names, .. } = self;
         let Observed { mut monitor, pass, encounters, approaches, .. } = observed?;
         monitor.pass(pass);
         let mut report = monitor.report();
@@ -260,11 +273,10 @@ impl<N: RunNumber> Watch<N> {
             advice.order = None;
         }
         report.fastest_coordinate = report.fastest_coordinate.filter(|(coordinate, _)| Some(*coordinate) != time);
-        if report.verdict == Verdict::Fine {
-            report.energy_error = larger(&report.energy_error, self.energy.lasting.range());
-        }
+        let unresolved = if processed { None } else { judge_by_all(&mut report, self.energy.lasting.range()) };
         let of_windows = if transformed { f64::NAN } else { last_of_kinetic(&last, &report) };
         let (verdict, reason) = conclusion(&report, of_kinetic, of_windows);
+        let reason = unresolved.unwrap_or(reason);
         let lasting = self.energy.lasting.found().filter(|_| may_have_been_missed(verdict));
         let (encounters, closest) = encounters.found(n);
         // what was measured is not excluded
@@ -310,11 +322,36 @@ fn may_have_been_missed(verdict: Verdict) -> bool {
     matches!(verdict, Verdict::Fine | Verdict::Undecided(Missing::Resolution))
 }
 
-/// The larger of two.
-fn larger<N: Real>(number: &N, other: f64) -> N {
-    let rational = (other > number.to_f64()).then(|| Rational::from_float(other)).flatten();
-    rational.map_or_else(|| number.clone(), |rational| N::from_rational(&rational, &number.context()))
+/// Judges what the windows show by max − min of H over all states at which it was computed; a reason where they then decide nothing.
+fn judge_by_all<N: Real>(report: &mut Report<N>, range: f64) -> Option<String> {
+    if !range.is_finite() || range <= report.energy_error.to_f64() {
+        return None;
+    }
+    let permanent = report.permanent_change.as_ref().map_or(0.0, N::to_f64);
+    match report.verdict {
+        Verdict::RoundOff if report.round_off.to_f64() < ROUND_OFF_PART * range => report.verdict = Verdict::Fine,
+        Verdict::NotConserved | Verdict::TooLarge(Criterion::Moved) if permanent < PERMANENT_PART * range => {
+            report.verdict = Verdict::Undecided(Missing::Resolution);
+            let kinetic = report.kinetic.to_f64();
+            return Some(format!(
+                "the energy error is {:.1e} of T, of which in {} steps {:.1} % were a permanent change: a longer run may tell",
+                range / kinetic,
+                report.steps,
+                100.0 * permanent / range
+            ));
+        }
+        _ => {}
+    }
+    if report.verdict == Verdict::Fine {
+        let error = Rational::from_float(range).expect("a finite range");
+        report.energy_error = N::from_rational(&error, &report.energy_error.context());
+    }
+    None
 }
+
+/// A permanent change is a part of the energy error, this or more, where it is one at all; and round-off is, as for the monitor.
+const PERMANENT_PART: f64 = 0.25;
+const ROUND_OFF_PART: f64 = 0.5;
 
 /// Whether a cause is to be named: H or the modified energy changes in a way that the scheme does not explain.
 fn changes<N: Real>(report: &Report<N>, verdict: Verdict) -> bool {

@@ -49,7 +49,7 @@ const LEAST_PART: f64 = 0.25;
 /// On both sides of it: a run may begin at a pericentre, of which no other of its states has the energy.
 const LEAST_STATES: u64 = 3;
 /// Fewer states may be on both sides of a gap by chance.
-const LEAST_OF_ALL: u64 = 64;
+const LEAST_OF_ALL: u64 = 32;
 /// A change takes no more states than this.
 const LONGEST: u64 = 4;
 /// A step by this part of a change or more begins it anew.

@@ -7,7 +7,7 @@ use serde::ser::SerializeStruct;
 use serde::{Serialize, Serializer};
 use serde_json::json;
 use shadowstep::Rational;
-use shadowstep::shadow::{Criterion, Verdict};
+use shadowstep::shadow::{Criterion, Missing, Verdict};
 use shadowstep_symbolic::decimal::{from_text, to_significant, to_text};
 
 use crate::readable::wrapped_to;
@@ -137,10 +137,10 @@ impl Summary {
         let part = change.gap / kinetic;
         let [before, after] = change.between.map(|n| self.time(n));
         self.reason = format!(
-            "H changed by {part:.1e} of T between {before} and {after}, and did not come back: a step that is too \
+            "H changed by {part:.1e} of T between {before} and {after}, and did not come back in this run: a step that is too \
              large there, forces that are not smooth, or something other than the scheme that changed the state have such effects"
         );
-        self.verdict = Verdict::NotConserved.to_string();
+        self.verdict = Verdict::Undecided(Missing::Resolution).to_string();
         self.conclusion.clone_from(&self.verdict);
         self.fine = false;
     }

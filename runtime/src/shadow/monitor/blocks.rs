@@ -33,8 +33,6 @@ impl<N: Real> Block<N> {
 pub(super) struct Blocks<N> {
     /// `full` complete ones, then the one that grows.
     blocks: Vec<Block<N>>,
-    /// The first estimate of all.
-    first: Estimated<N>,
     /// H_0
     origin: N,
     difference: N,
@@ -51,7 +49,6 @@ impl<N: Real> Blocks<N> {
         let context = origin.context();
         Blocks {
             blocks: vec![Block::zero(&context); BLOCKS + 1],
-            first: Estimated::zero(&context),
             origin: origin.clone(),
             difference: N::zero(&context),
             full: 0,
@@ -65,9 +62,6 @@ impl<N: Real> Blocks<N> {
     pub(super) fn push(&mut self, energy: &N, newest: &Estimated<N>) -> &Estimated<N> {
         let place = self.full;
         let block = &mut self.blocks[place];
-        if place == 0 && self.count == 0 {
-            self.first.assign(newest);
-        }
         if self.count == 0 {
             block.energy.assign_zero();
             block.modified.assign_zero();
@@ -111,10 +105,6 @@ impl<N: Real> Blocks<N> {
     pub(super) fn best(&self) -> impl Iterator<Item = &Estimated<N>> + Clone {
         let growing = usize::from(2 * self.count >= self.size && self.count > 0);
         self.blocks[..self.full + growing].iter().map(|block| &block.best)
-    }
-
-    pub(super) fn first(&self) -> &Estimated<N> {
-        &self.first
     }
 
     /// The half of these with the smaller errors, in the order of time.

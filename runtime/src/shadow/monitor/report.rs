@@ -57,10 +57,9 @@ pub struct Report<N> {
     pub trend: Option<Trend>,
     /// A net change of the energy, from the beginning to the end of these steps, is excluded above this; `None` for fewer than 16 windows or parts of a run.
     ///
-    /// It is the least of three: the range of the accurate H̄ and three times their errors; and |a| + 3 s of the linear change a and its
+    /// It is the least of three: the range of the accurate H̄ and of those of the first and the last part of the run, and three times their errors; and |a| + 3 s of the linear change a and its
     /// standard error s, for the means of H and for the means of all H̄, in 32 to 63 parts of the run. The means of H do not depend on the
-    /// estimator. It is not below the effect of round-off, nor below how far the first and the last H̄ are from accurate ones, beyond three times their
-    /// errors.
+    /// estimator. It is not below the effect of round-off.
     pub permanent_bound: Option<N>,
     /// How far H̄ moved where that is a permanent change: beyond errors and round-off, and not back and forth.
     pub permanent_change: Option<N>,
@@ -174,20 +173,17 @@ impl<N: Real, E: Estimator<N>> Monitor<N, E> {
         self.fastest.lost().map(|(i, angle)| (i, TAU / angle)).filter(|(_, steps)| SLOWER * steps <= shown)
     }
 
-    /// What is excluded between accurate estimates, or how far the first and the newest estimate of all are from these, where that is beyond errors.
-    fn with_ends(&self, mut bound: N) -> N {
-        let accurate = self.blocks.accurate();
-        for (end, nearest) in [(self.blocks.first(), accurate.first()), (&self.newest.modified, accurate.last())] {
-            let Some(nearest) = nearest else { continue };
-            let (mut distance, mut error) = (difference(&end.value, &nearest.value), end.error.clone());
-            distance.make_absolute();
-            error.add(&nearest.error);
-            error.multiply_integer(ERROR_FACTOR);
-            if self.newest.has_error && distance > error && distance > bound {
-                bound = distance;
-            }
-        }
-        bound
+    /// What a net change is excluded above by estimates: the range of the accurate ones and of those of the first and the last part of the run, and
+    /// three times the largest error of these.
+    fn excluded(&self) -> N {
+        let (mut best, mut accurate) = (self.blocks.best(), self.blocks.accurate());
+        accurate.extend(best.next().into_iter().chain(best.last()));
+        let mut values = Range::of(accurate.first().map_or(&self.newest.modified.value, |first| &first.value));
+        accurate.iter().for_each(|estimate| values.include(&estimate.value));
+        let mut error = largest_error(accurate.iter().copied(), &self.method.context());
+        error.multiply_integer(ERROR_FACTOR);
+        error.add(&values.width());
+        error
     }
 
     fn judge(&self, report: &mut Report<N>, turning: Option<Turning>, trend_ratio: Option<TrendRatio>) {
@@ -202,11 +198,11 @@ impl<N: Real, E: Estimator<N>> Monitor<N, E> {
             distance: self.statistics.distance_of_error(),
             last_term: quotient(&self.newest_states.last_term(), &self.statistics.error_rms()).to_f64(),
             error_rms: report.part(&self.statistics.error_rms()),
+            excluded: report.part(&self.excluded()),
             ..report.evidence()
         };
         report.verdict = evidence.verdict();
-        report.permanent_bound =
-            evidence.bound().map(|part| report.of_energy_error(part)).map(|bound| self.with_ends(bound));
+        report.permanent_bound = evidence.bound().map(|part| report.of_energy_error(part));
         report.permanent_change = evidence.permanent_move().map(|part| report.of_energy_error(part));
         if matches!(report.verdict, Verdict::NotTheGradient | Verdict::Inconsistent) {
             report.rough = None;
@@ -240,8 +236,8 @@ impl<N: Real> Report<N> {
             fastest_angle: self.fastest_coordinate.map(|(_, steps)| TAU / steps),
             lost: self.lost_coordinate.is_some(),
             straight: false,
-            range: self.part(&self.range),
             resolution: self.resolution.as_ref().map_or(0.0, |resolution| self.part(resolution)),
+            excluded: f64::NAN,
             trend: self.trend,
             energy_change: None,
             modified_change: None,

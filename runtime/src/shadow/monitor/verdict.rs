@@ -196,9 +196,10 @@ const LARGEST_ORDER: f64 = 64.0;
 pub(super) struct Evidence {
     /// How far H̄ moved beyond its errors.
     pub(super) moved: f64,
-    /// The range of the accurate H̄, and their largest error.
-    pub(super) range: f64,
+    /// The largest error of the accurate H̄.
     pub(super) resolution: f64,
+    /// What a net change is excluded above by estimates, those of both ends of the run included.
+    pub(super) excluded: f64,
     /// The largest error of the most accurate estimate of a block.
     pub(super) worst_error: f64,
     /// The linear change of the means of H, and of all H̄.
@@ -288,11 +289,10 @@ impl Evidence {
         if self.windows < Verdict::LEAST_WINDOWS {
             return None;
         }
-        let of_estimates = self.range + ERROR_FACTOR * self.resolution;
         let of_means = [self.energy_change, self.modified_change].into_iter().flatten().map(Change::bound);
         // means are parts of the energy error in double precision, whatever the digits of the run are
         let of_means = of_means.map(|bound| bound.max(f64::EPSILON));
-        let least = of_means.chain([of_estimates]).filter(|bound| bound.is_finite()).reduce(f64::min);
+        let least = of_means.chain([self.excluded]).filter(|bound| bound.is_finite()).reduce(f64::min);
         least.map(|bound| bound.max(self.round_off))
     }
 
@@ -432,8 +432,8 @@ mod tests {
 
     const FINE: Evidence = Evidence {
         moved: 1e-9,
-        range: 1e-9,
         resolution: 1e-9,
+        excluded: 4e-9,
         worst_error: 1e-9,
         energy_change: None,
         modified_change: None,
@@ -469,14 +469,14 @@ mod tests {
 
     #[test]
     fn each_threshold_decides() {
-        let moved = |moved| Evidence { moved, range: moved, ..FINE }.verdict();
+        let moved = |moved| Evidence { moved, excluded: moved + 3e-9, ..FINE }.verdict();
         assert_eq!(FINE.verdict(), Verdict::Fine);
         assert_eq!(Evidence { windows: 15, ..FINE }.verdict(), Verdict::Undecided(Missing::Windows));
         assert_eq!([0.24, 0.26, 0.49, 0.5, 1.6].map(moved), [Verdict::Fine, UNRESOLVED, UNRESOLVED, MOVES, UNRESOLVED]);
         assert_eq!(Evidence { of_kinetic: 0.4, ..FINE }.verdict(), Verdict::TooLarge(Criterion::EnergyError));
-        let small = Evidence { moved: 0.5, range: 0.5, of_kinetic: 0.04, ..FINE };
+        let small = Evidence { moved: 0.5, excluded: 0.5, of_kinetic: 0.04, ..FINE };
         assert_eq!(small.verdict(), Verdict::NotConserved);
-        let moves = Evidence { moved: 0.6, range: 0.6, ..FINE };
+        let moves = Evidence { moved: 0.6, excluded: 0.6, ..FINE };
         let others = [
             Evidence { worst_error: 0.3, ..moves },
             Evidence { has_errors: false, ..moves },
@@ -502,7 +502,7 @@ mod tests {
     /// What no estimate resolves the means of H may exclude, whichever estimator there is.
     #[test]
     fn the_means_of_the_energy_decide_what_estimates_do_not() {
-        let blind = Evidence { moved: 0.0, range: 400.0, resolution: 500.0, worst_error: 500.0, ..FINE };
+        let blind = Evidence { moved: 0.0, resolution: 500.0, excluded: 1900.0, worst_error: 500.0, ..FINE };
         let by = |value, error| Evidence { energy_change: Some(Change { value, error }), ..blind };
         assert_eq!([by(0.02, 0.05).verdict(), by(0.02, 0.09).verdict()], [Verdict::Fine, UNRESOLVED]);
         assert_eq!(by(0.02, 0.05).bound(), Some(0.02 + 3.0 * 0.05));
@@ -515,7 +515,7 @@ mod tests {
 
     #[test]
     fn a_move_that_round_off_explains_is_round_off() {
-        let of = |moved, round_off| Evidence { moved, range: moved, round_off, ..FINE }.verdict();
+        let of = |moved, round_off| Evidence { moved, excluded: moved + 3e-9, round_off, ..FINE }.verdict();
         assert_eq!(of(0.6, 0.1), Verdict::RoundOff);
         assert_eq!(of(0.2, 0.1), Verdict::Fine, "the energy error is the method's, mostly");
         assert_eq!(of(0.6, 0.05), MOVES);
@@ -526,7 +526,7 @@ mod tests {
 
     #[test]
     fn a_resonance_is_a_move_and_a_regular_turn() {
-        let of = |moved, turning| Evidence { moved, range: moved, turning, ..FINE }.verdict();
+        let of = |moved, turning| Evidence { moved, excluded: moved + 3e-9, turning, ..FINE }.verdict();
         assert_eq!(of(0.3, turning(4.05, 0.0)), Verdict::NearResonance { turns: 1, steps: 4 });
         assert_eq!(of(0.3, turning(2.52, 0.0)), Verdict::NearResonance { turns: 2, steps: 5 });
         assert_eq!(of(1e-9, turning(4.05, 0.0)), Verdict::Fine);
@@ -552,7 +552,7 @@ mod tests {
         assert_eq!([rough(2.9, 1e-2).verdict(), rough(3.1, 1e-2).verdict()], [FINE.verdict(), Verdict::Inconsistent]);
         assert_eq!([rough(16.0, 1e-3).verdict(), rough(17.0, 1e-3).verdict()], [FINE.verdict(), Verdict::Inconsistent]);
         assert_eq!(Evidence { turns: 0.9, ..rough(17.0, 1e-3) }.verdict(), FINE.verdict());
-        assert_eq!(Evidence { resolution: 0.6, ..off(1.7) }.verdict(), UNRESOLVED);
+        assert_eq!(Evidence { resolution: 0.6, excluded: 1.8, ..off(1.7) }.verdict(), UNRESOLVED);
         assert_eq!(
             Evidence { action: 0.3, ..off(1.7) }.verdict(),
             FINE.verdict(),
