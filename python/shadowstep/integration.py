@@ -69,7 +69,7 @@ class Trajectory:
     """Of a file with `values` or `elements`: each column, of shape (n,)."""
     summary: dict[str, Any] | None = None
     """What the run has shown, if that was asked for: the verdict, the error of H, close encounters, …; see ``summary_text``."""
-    summary_text: str = "There is no summary: integrate(…, summary=True) makes one."
+    summary_text: str = "There is no summary: integrate(…, summary=True) makes one, and run(…).summary is that of a scene."
     """The same as lines."""
     tangent: np.ndarray | None = None
     """The tangent vectors (δq, δp) at the states, of shape (n, vectors, 2d), if first ones were given."""

@@ -59,7 +59,7 @@ class Problem:
     ----------
     A C function ``double f(const double *q, double *gradient)`` returns U(q) and writes the gradient U_q(q); q and the gradient have d numbers.
     Its address comes from numba (``cfunc(…).address``), ctypes or cffi. The function must live as long as the problem. A Python function gets q
-    as an array of shape (d,) and returns (U, gradient). Both compute in double precision. The gradient is compared with differences of U at t = 0, by 13 calls, and
+    as an array of shape (d,) and returns (U, gradient). Both compute in double precision. The gradient is compared with differences of U at t = 0, by 13 or 14 calls, and
     a warning says where they differ by more than a thousandth of it, or a few hundredths where U has noise.
 
     Examples

@@ -7,7 +7,7 @@ use shadowstep::StepSize;
 use shadowstep::problems::PROBLEMS;
 use shadowstep::tables::Source;
 use shadowstep_scenes::arithmetic::{Arithmetic, DigitsError, MOST_DIGITS};
-use shadowstep_scenes::{Error, System, source};
+use shadowstep_scenes::{Error, Note, System, source};
 use shadowstep_symbolic::Exact;
 
 use crate::errors::{exception, usage};
@@ -118,6 +118,14 @@ impl Given {
         };
         system.check_digits(arithmetic)?;
         Ok(system)
+    }
+
+    /// What the user should know about it.
+    pub(crate) fn notes(&self, arithmetic: Arithmetic) -> Result<Vec<Note>, Error> {
+        match &*self.0 {
+            ProblemSource::Scene(source) => Ok(System::read(source, arithmetic)?.1),
+            ProblemSource::Own { .. } => Ok(Vec::new()),
+        }
     }
 
     /// What the function for the forces has raised since it was asked last.

@@ -59,6 +59,7 @@ pub(crate) fn integrate<'py>(
         let rows = (run.every, section.as_ref(), end.as_deref(), windows.unwrap_or(Run::WINDOWS));
         let (found, mut notes) = posed.run(runs, rows, estimator.as_ref(), run.arithmetic, observer)?;
         notes.extend(run.times.note.clone());
+        notes.splice(..0, run.problem.notes(run.arithmetic)?);
         let mut vectors = Vec::new();
         if request.has_variables() {
             // as far as the run went

@@ -180,6 +180,19 @@ def henon_heiles(wrong=lambda x, y: np.zeros(2)):
     return forces
 
 
+def chain(sign):
+    """Bodies 0.1 apart between which there are springs of this length."""
+
+    def forces(q):
+        stretched = np.diff(q) - 0.1
+        gradient = np.zeros_like(q)
+        gradient[1:] += stretched
+        gradient[:-1] -= stretched
+        return (stretched @ stretched) / 2 - 1000.0, sign * gradient
+
+    return forces
+
+
 @pytest.mark.parametrize(
     "wrong",
     [lambda x, y: np.array([0, -2 * x**2]), lambda x, y: np.array([0, y**2]), lambda x, y: np.array([0.1 * x, 0.1 * y]), lambda x, y: np.array([-2 * x, -2 * y]), lambda x, y: np.array([0.005 * x, 0])],
@@ -188,9 +201,13 @@ def test_own_forces_with_a_wrong_gradient_are_warned_of(wrong):
     state = {"q": [0.4, -0.3], "p": [0.1, 0.2]}
     with pytest.warns(UserWarning, match="the gradient is not that of U: at t = 0"):
         Problem(henon_heiles(wrong), **state)
+    with pytest.warns(UserWarning, match="the gradient is not that of U: at t = 0"):
+        Problem(chain(-1.0), q=[0.1 * i for i in range(10)], p=[0] * 10)
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         Problem(henon_heiles(), **state)
+        # a chain at rest, whose forces are round-off: the state beside it decides
+        Problem(chain(1.0), q=[0.1 * i for i in range(10)], p=[0] * 10)
         # at rest, with noise, in single precision, at a large energy: no warning
         Problem(henon_heiles(), q=[0, 0], p=[0.1, 0.2])
         Problem(lambda q: (1e6 + q @ q / 2 + 1e-6 * np.random.default_rng().standard_normal(), q), q=[1.0, 2.0], p=[0, 0])
@@ -483,3 +500,10 @@ def test_a_section_that_is_never_crossed_has_no_states():
         with pytest.warns(UserWarning, match="does not cross section='x - 100', direction='up'"):
             nothing = integrate("henon-heiles", "yoshida4", h="1/10", until=10, section="x - 100", digits=digits)
         assert repr(nothing) == "Trajectory(0 states of 2 coordinates)" and nothing.q.shape == (0, 2)
+
+
+def test_notes_of_the_problem_are_warnings():
+    pair = Problem(pair="4*(r2^-6 - r2^-3)", dimensions=1, bodies=2, cutoff=2.5, q=[0, 1.5], p=[0, 0])
+    with pytest.warns(UserWarning, match="jumps at the cutoff"):
+        run = integrate(pair, "stormer-verlet", h=0.01, steps=2)
+    assert any("jumps at the cutoff" in note for note in run.notes)
