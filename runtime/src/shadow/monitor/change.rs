@@ -5,6 +5,8 @@
 pub(super) struct Change {
     pub(super) value: f64,
     pub(super) error: f64,
+    /// The last mean less the first one: a straight line underestimates a jump near an end of the run.
+    pub(super) of_ends: f64,
 }
 
 /// A change is excluded above its value and this many standard errors.
@@ -33,12 +35,12 @@ impl Change {
         let correlation = if squares > 0.0 { (products / squares).clamp(0.0, LARGEST_CORRELATION) } else { 0.0 };
         let inflation = ((1.0 + correlation) / (1.0 - correlation)).sqrt();
         let error = (squares / (count - 2.0) / times).sqrt() * inflation;
-        Some(Change { value: slope, error })
+        Some(Change { value: slope, error, of_ends: series[series.len() - 1] - series[0] })
     }
 
     /// What a change is excluded above.
     pub(super) fn bound(self) -> f64 {
-        self.value.abs() + CONFIDENCE * self.error
+        (self.value.abs() + CONFIDENCE * self.error).max(self.of_ends.abs())
     }
 }
 
@@ -59,11 +61,20 @@ mod tests {
     #[test]
     fn a_line_is_its_own_change() {
         let line: Vec<f64> = (0..50).map(|i| 3.0 + 2.0 * f64::from(i) / 50.0).collect();
-        let Change { value, error } = Change::of(&line).unwrap();
+        let Change { value, error, of_ends } = Change::of(&line).unwrap();
         // sums of 50 numbers of size 1
         assert!((value - 2.0).abs() < 1e-13 && error < 1e-13, "{value} {error}");
-        assert_eq!(Change::of(&[1.0; 20]), Some(Change { value: 0.0, error: 0.0 }));
+        assert!((of_ends - 2.0 * 49.0 / 50.0).abs() < 1e-13, "{of_ends}");
+        assert_eq!(Change::of(&[1.0; 20]), Some(Change { value: 0.0, error: 0.0, of_ends: 0.0 }));
         assert_eq!((Change::of(&line[..15]), Change::of(&[f64::NAN; 20])), (None, None));
+    }
+
+    /// A jump in the first of many parts: a line through it changes by a fifth of it.
+    #[test]
+    fn a_jump_near_an_end_is_not_excluded() {
+        let jump: Vec<f64> = (0..32).map(|i| f64::from(i > 0)).collect();
+        let found = Change::of(&jump).unwrap();
+        assert!(found.value + 3.0 * found.error < 0.5 && found.bound() >= 1.0, "{found:?}");
     }
 
     /// The bounds hold; for noise they are of the size that theory gives, 3 √(12/64) σ.

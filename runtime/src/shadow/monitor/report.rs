@@ -58,7 +58,7 @@ pub struct Report<N> {
     /// A net change of the energy, from the beginning to the end of these steps, is excluded above this; `None` for fewer than 16 windows or parts of a run.
     ///
     /// It is the least of three: the range of the accurate H̄ and of those of the first and the last part of the run, and three times their errors; and |a| + 3 s of the linear change a and its
-    /// standard error s, for the means of H and for the means of all H̄, in 32 to 63 parts of the run. The means of H do not depend on the
+    /// standard error s, or the last mean less the first one where that is more, for the means of H and for those of all H̄, in 32 to 63 parts of the run. The means of H do not depend on the
     /// estimator. It is not below the effect of round-off.
     pub permanent_bound: Option<N>,
     /// How far H̄ moved where that is a permanent change: beyond errors and round-off, and not back and forth.

@@ -503,7 +503,7 @@ mod tests {
     #[test]
     fn the_means_of_the_energy_decide_what_estimates_do_not() {
         let blind = Evidence { moved: 0.0, resolution: 500.0, excluded: 1900.0, worst_error: 500.0, ..FINE };
-        let by = |value, error| Evidence { energy_change: Some(Change { value, error }), ..blind };
+        let by = |value, error| Evidence { energy_change: Some(Change { value, error, of_ends: 0.0 }), ..blind };
         assert_eq!([by(0.02, 0.05).verdict(), by(0.02, 0.09).verdict()], [Verdict::Fine, UNRESOLVED]);
         assert_eq!(by(0.02, 0.05).bound(), Some(0.02 + 3.0 * 0.05));
         let advice = Evidence { turning: turning(20.0, 0.0), ..by(0.0, 0.1) }.advice(8).unwrap();
