@@ -55,9 +55,9 @@ use crate::systems::system::System;
 ///   it changed by      -1.23e-14  it moved by 3.73e-14 beyond its errors
 ///   it is known to      2.22e-16  2.4e-14 of the energy error
 ///   round-off           1.02e-14  1.1e-12 of the energy error, expected by Brouwer's law
-///   net change          2.46e-14  2.6e-12 of the energy error, at most
+///   net change          2.74e-14  2.9e-12 of the energy error, at most
 ///   fastest motion          17.0  steps a turn
-///   the energy error is 1.9 % of T; in 20000 steps a net change above 4.99e-14 of T, 4.99e-17 of T per unit time is excluded
+///   the energy error is 1.9 % of T; in 20000 steps a net change above 5.56e-14 of T, 5.56e-17 of T per unit time is excluded
 /// ```
 ///
 /// A loop that does nothing else is `monitor.steps(&mut comet, 20_000)?`. Where a loop does more than steps, it can make them itself: with increments where
