@@ -115,6 +115,11 @@ impl<N: Real> Blocks<N> {
         self.best().filter(|estimate| estimate.error <= *median).collect()
     }
 
+    /// How many estimates a full block has.
+    pub(super) fn size(&self) -> u64 {
+        self.size
+    }
+
     /// The means of H and of H̄ in the full blocks, less H_0, as parts of `unit`.
     pub(super) fn means(&self, unit: &N) -> [Vec<f64>; 2] {
         let mut size: N = integer(self.size, &unit.context());

@@ -187,7 +187,8 @@ impl<N: Real, E: Estimator<N>> Monitor<N, E> {
     }
 
     fn judge(&self, report: &mut Report<N>, turning: Option<Turning>, trend_ratio: Option<TrendRatio>) {
-        let [energy_change, modified_change] = self.blocks.means(&report.energy_error).map(|means| Change::of(&means));
+        let [energy_change, modified_change] =
+            self.blocks.means(&report.energy_error).map(|means| Change::of(&means, self.blocks.size()));
         let evidence = Evidence {
             straight: trend_ratio.is_some_and(TrendRatio::is_straight),
             turning,
