@@ -394,15 +394,19 @@ mod tests {
     use crate::observer::KeptSummary;
     use shadowstep::tables::Source;
 
+    fn summary_of(text: String) -> Summary {
+        let mut keep = KeptSummary::default();
+        let scene = Scene::read(Source { path: "test.toml".to_owned(), text }).unwrap();
+        scene.run_into(&mut Vec::new(), &mut keep).unwrap();
+        keep.0.unwrap()
+    }
+
     fn summary(end: &str, digits: &str) -> Summary {
         let text = format!(
             "problem.name = \"henon-heiles\"\ninitial = {{ q = [0, \"7/10\"], p = [\"9/10\", 0] }}\n\
              run = {{ scheme = \"yoshida4\", step = \"1/10\", until = 1000, end = \"{end}\", digits = \"{digits}\" }}\noutput.energy = true"
         );
-        let mut keep = KeptSummary::default();
-        let scene = Scene::read(Source { path: "test.toml".to_owned(), text }).unwrap();
-        scene.run_into(&mut Vec::new(), &mut keep).unwrap();
-        keep.0.unwrap()
+        summary_of(text)
     }
 
     /// The run leaves the well, and its energy is lost in the last steps, which are in no window of the monitor.
@@ -425,10 +429,7 @@ mod tests {
             "problem = {{ {parts}, units = {{ length = \"AU\", time = \"year\", mass = \"solar\" }} }}\n\
              body = [{{ mass = 1 }}, {bodies}]\nrun = {{ scheme = \"stormer-verlet\", {run}, digits = \"double\" }}\noutput.energy = {rows}"
         );
-        let mut keep = KeptSummary::default();
-        let scene = Scene::read(Source { path: "test.toml".to_owned(), text }).unwrap();
-        scene.run_into(&mut Vec::new(), &mut keep).unwrap();
-        keep.0.unwrap()
+        summary_of(text)
     }
 
     /// Planets with steps of many revolutions: one is thrown out after 34 of 5000 steps, before the third window of the monitor. Then two that meet
@@ -461,10 +462,7 @@ mod tests {
     #[test]
     fn a_centre_of_mass_at_rest_is_not_lost() {
         let text = crate::shipped::scene_text("relativity").unwrap().replace("365.25*10000", "365.25*100");
-        let mut keep = KeptSummary::default();
-        let scene = Scene::read(Source { path: "relativity.toml".to_owned(), text }).unwrap();
-        scene.run_into(&mut Vec::new(), &mut keep).unwrap();
-        let found = keep.0.unwrap();
+        let found = summary_of(text);
         assert!(found.is_fine() && !found.reason().contains("may be lost"), "{found}");
     }
 
@@ -476,10 +474,7 @@ mod tests {
                 "problem = {{ potential = \"-1/sqrt(x^2 + y^2)\", coordinates = [\"x\", \"y\"] }}\ninitial = {{ q = {q}, p = {p} }}\n\
                  run = {{ {run}, digits = \"double\" }}\noutput.energy = true"
             );
-            let mut keep = KeptSummary::default();
-            let scene = Scene::read(Source { path: "test.toml".to_owned(), text }).unwrap();
-            scene.run_into(&mut Vec::new(), &mut keep).unwrap();
-            keep.0.unwrap()
+            summary_of(text)
         };
         let run = "scheme = \"omelyan-8s11f11gp\", step = 0.00544636, steps = 3975";
         let found = kepler("[-1.9548, 0]", "[0, -0.152061]", run);
