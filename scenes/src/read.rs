@@ -342,6 +342,22 @@ mod tests {
     }
 
     #[test]
+    fn words_of_other_programs_are_translated() {
+        for (section, word, key) in
+            [("run", "dt", "step"), ("body", "inc", "i"), ("problem", "mass", "masses"), ("body", "m", "mass")]
+        {
+            let heading = if section == "body" { "[[body]]" } else { &format!("[{section}]") };
+            let source = Source { path: "test.toml".to_owned(), text: format!("{heading}\n{word} = 1") };
+            let Faults(faults) = Scene::read(source).unwrap_err();
+            let hint = Some(format!("did you mean `{key}`?"));
+            assert!(
+                faults.iter().any(|fault| fault.message.contains(word) && fault.hint == hint),
+                "{word}: {faults:?}"
+            );
+        }
+    }
+
+    #[test]
     fn every_section_is_explained() {
         for key in &KEYS {
             assert!(SECTIONS.iter().any(|section| section.name == key.section), "{}", key.section);

@@ -17,6 +17,7 @@ use crate::near_integrable::Power;
 use crate::order::{Condition, Functional};
 use crate::rounding::{Linearised, Unexplained};
 use crate::scheme::{ExactInner, ExactScheme, Held};
+use crate::table::Weights;
 
 /// Digits that sums of products of good weights lose without a note, where the decimals themselves are not examined; the
 /// worst of the shipped tables loses 3.
@@ -236,7 +237,7 @@ fn order_finding<'a>(scheme: &'a ExactScheme, proof: &'a Proof) -> Vec<Finding<'
     }
 }
 
-/// The conditions of order 1 that fail.
+/// The conditions of order 1 that fail: of a composition, whose kicks and drifts have the sum of gamma, one.
 fn sum_findings(scheme: &ExactScheme) -> Vec<Finding<'_>> {
     let sums = evaluated(&scheme.maps(), scheme.held, Family::Kinetic(Kinetic::Any), 1);
     let finding = |sum: Evaluated| match sum.condition.functional {
@@ -245,7 +246,8 @@ fn sum_findings(scheme: &ExactScheme) -> Vec<Finding<'_>> {
         }
         Functional::Named(_) => unreachable!("the conditions for every T(p) are words"),
     };
-    sums.into_iter().filter(|sum| !sum.is_met()).map(finding).collect()
+    let most = if matches!(scheme.table.weights, Some(Weights::Composition { .. })) { 1 } else { sums.len() };
+    sums.into_iter().filter(|sum| !sum.is_met()).map(finding).take(most).collect()
 }
 
 /// The claims of the processor.

@@ -87,14 +87,14 @@ impl fmt::Display for Of {
 }
 
 fn wrong_sum(table: &Table, kind: MapKind, found: &Rational, needed: &Rational) -> Fault {
-    let at = match (&table.weights, kind) {
-        (Some(Weights::Stages { kick, .. }), MapKind::Kick) => &kick.at,
-        (Some(Weights::Stages { drift, .. }), MapKind::Drift) => &drift.at,
-        (Some(Weights::Composition { gamma, .. }), _) => &gamma.at,
+    let (what, at) = match (&table.weights, kind) {
+        (Some(Weights::Stages { kick, .. }), MapKind::Kick) => ("kicks", &kick.at),
+        (Some(Weights::Stages { drift, .. }), MapKind::Drift) => ("drifts", &drift.at),
+        (Some(Weights::Composition { gamma, .. }), _) => ("weights gamma", &gamma.at),
         (Some(Weights::Stages { .. }), MapKind::GradientKick) => unreachable!("no sum of gradient kicks is needed"),
         (None, _) => unreachable!("a scheme has weights"),
     };
-    let message = format!("the {kind}s do not sum to 1, so not even order 1 holds");
+    let message = format!("the {what} do not sum to 1, so not even order 1 holds");
     let fault = table.source.fault(at, message).values(beside(found, needed), "1");
     with_rounding_hint(fault, table, &(found - needed))
 }

@@ -2,6 +2,24 @@
 
 use shadowstep_symbolic::nearest;
 
+/// Words of other programs, and the keys that they are here.
+const ELSEWHERE: [(&str, &str); 14] = [
+    ("dt", "step"),
+    ("timestep", "step"),
+    ("time_step", "step"),
+    ("integrator", "scheme"),
+    ("method", "scheme"),
+    ("mass", "masses"),
+    ("m", "mass"),
+    ("sma", "a"),
+    ("ecc", "e"),
+    ("eccentricity", "e"),
+    ("inc", "i"),
+    ("inclination", "i"),
+    ("Omega", "node"),
+    ("omega", "pericentre"),
+];
+
 /// A key of a table.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Key {
@@ -58,7 +76,8 @@ impl Keys {
     }
 
     fn nearest(&self, word: &str) -> Option<&'static str> {
-        nearest(word, self.names())
+        let translated = ELSEWHERE.iter().find(|(other, key)| *other == word && self.find(key).is_some());
+        translated.map(|(_, key)| *key).or_else(|| nearest(word, self.names()))
     }
 
     fn names(&self) -> impl Iterator<Item = &'static str> {

@@ -25,7 +25,7 @@ pub fn nearest<'a>(word: &str, known: impl IntoIterator<Item = &'a str>) -> Opti
 pub fn suggestion(word: &str, known: &[&str]) -> String {
     match nearest(word, known.iter().copied()) {
         Some(near) => format!("did you mean `{near}`?"),
-        None => format!("known: {}", known.join(", ")),
+        None => format!("known: {}", list(known)),
     }
 }
 
@@ -39,10 +39,19 @@ pub fn nearest_few<'a>(word: &str, known: impl IntoIterator<Item = &'a str>, cou
 
 /// A list of the known words after the nearest one, which may also be one of the `unlisted`.
 pub(crate) fn hint(word: &str, known: &[&str], unlisted: &[&str], title: &str, none: &str) -> String {
-    let list = if known.is_empty() { none.to_string() } else { format!("{title}: {}", known.join(", ")) };
+    let list = if known.is_empty() { none.to_string() } else { format!("{title}: {}", list(known)) };
     match nearest(word, known.iter().chain(unlisted).copied()) {
         Some(near) => format!("did you mean `{near}`? {list}"),
         None => list,
+    }
+}
+
+/// The words, or the first of them where they would fill a screen, as the coordinates of a hundred bodies do.
+fn list(words: &[&str]) -> String {
+    const MOST: usize = 40;
+    match words.get(MOST..).map(<[_]>::len) {
+        Some(more @ 1..) => format!("{}, … and {more} more", words[..MOST].join(", ")),
+        _ => words.join(", "),
     }
 }
 
@@ -90,6 +99,15 @@ mod tests {
     fn of_equally_near_words_the_first_wins() {
         assert_eq!(nearest("g3", ["g1", "g0"]), Some("g1"));
         assert_eq!(nearest_few("g3", ["long", "g1", "g0", "g3"], 3), ["g3", "g1", "g0"]);
+    }
+
+    #[test]
+    fn a_long_list_is_cut() {
+        let names: Vec<String> = (1..=41).map(|i| format!("x{i}")).collect();
+        let names: Vec<&str> = names.iter().map(String::as_str).collect();
+        let known = |count: usize| suggestion("energy", &names[..count]);
+        assert!(known(40).ends_with(", x39, x40"), "{}", known(40));
+        assert!(known(41).ends_with(", x39, x40, … and 1 more"), "{}", known(41));
     }
 
     #[test]

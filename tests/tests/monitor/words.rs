@@ -61,7 +61,7 @@ fn what_is_not_finite_has_its_step() {
     // at q = 2 the kick makes p = −7/4 − 1/4 = −2, and the drift ends in q = 0: the force of step 2 is 0/0
     let start = || Motion::new(Kepler, UnitMasses, vec![2.0, 0.0], vec![-1.75, 0.0]).unwrap();
     let euler = stepper("symplectic-euler", "1", &());
-    for every in [1, 50] {
+    for every in [1, 8] {
         let mut motion = start();
         let mut monitor = ShadowEnergy::new(euler.clone(), &mut motion, &Bilinear::new(4)).unwrap().every(every);
         let error = (0..200).find_map(|_| monitor.step(&mut motion).map(drop).err());
@@ -69,13 +69,13 @@ fn what_is_not_finite_has_its_step() {
         let is_of_state = matches!(value.quantity, Quantity::Position(_) | Quantity::Momentum(_) | Quantity::Beta);
         assert!(step == 2 && is_of_state && value.to_string().contains(" = "), "step {step}: {value}");
     }
-    // between windows it is found by the next one: here after the first window, of the states 0 to 4
+    // between windows it is found by the next one: here after the first window, of the states 12 to 16
     let mut motion = start();
     motion.q_mut()[0] = 20.0;
     let mut monitor = ShadowEnergy::new(euler, &mut motion, &Bilinear::new(4)).unwrap().every(50);
     let mut error = None;
     for n in 1..200 {
-        if n == 10 {
+        if n == 20 {
             motion.q_mut()[1] = f64::NAN;
         }
         if let Err(found) = monitor.step(&mut motion) {

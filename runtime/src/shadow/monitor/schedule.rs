@@ -9,15 +9,15 @@ fn spread(n: u64, count: u64) -> u64 {
     ((u128::from(n.wrapping_mul(GOLDEN)) * u128::from(count)) >> 64) as u64
 }
 
-/// Windows of up to this many states have their middles at the same states, where `every` is larger.
+/// Windows of up to this many states have their middles at the same states, where they are far enough apart.
 ///
 /// The energies that are compared are taken at the middles, so that they do not depend on the estimator.
 const RESERVED: u64 = 64;
 
 /// One window of `states` states in every `every` steps.
 ///
-/// A window begins at a place among its steps that changes from window to window: windows at equal distances would see an oscillation whose
-/// period divides the distance always in the same phase, and take it for a constant.
+/// A window begins at another one of its steps each time, at any of them where no two windows can then overlap: windows at equal distances would
+/// see an oscillation whose period divides the distance always in the same phase, and take it for a constant.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Schedule {
     states: u64,
@@ -103,13 +103,18 @@ impl Schedule {
             self.end += 1;
             return;
         }
-        let places = if self.overlaps() { self.every } else { self.every - self.reserved() + 1 };
-        self.end = self.last_of_first_place() + self.window * self.every + spread(self.window, places);
+        self.end = self.last_of_first_place() + self.window * self.every + spread(self.window, self.places());
     }
 
-    /// The steps among which a window has one place: its states, or more of them.
-    fn reserved(&self) -> u64 {
-        if self.every > RESERVED { self.states.max(RESERVED) } else { self.states }
+    /// At how many of its steps a window may begin.
+    fn places(&self) -> u64 {
+        if self.overlaps() || self.states <= self.least_distance() { self.every } else { self.every - self.states + 1 }
+    }
+
+    /// The least distance of the first states of successive windows that begin at any of their steps: successive multiples of the golden section
+    /// mod 1 differ by 0.618… or by −0.382….
+    fn least_distance(&self) -> u64 {
+        (self.every * 618 / 1000).saturating_sub(1)
     }
 
     /// The last state of a window at the first place, counted from the first of its steps.
@@ -118,8 +123,8 @@ impl Schedule {
             return self.states - 1;
         }
         // the middle, or the state before it, is the same for all windows that have as much room
-        let middle = (self.reserved() - 1) / 2;
-        middle + self.states / 2
+        let room = self.least_distance().min(RESERVED).max(self.states);
+        (room - 1) / 2 + self.states / 2
     }
 }
 
@@ -146,12 +151,18 @@ mod tests {
 
     #[test]
     fn one_window_in_every_so_many_steps() {
-        for (states, every) in [(9, 100), (17, 100), (9, 10), (3, 1000)] {
-            let all = windows(states, every, 1000 * every - 1);
-            assert_eq!(all.len(), 1000);
+        for (states, every) in [(9, 10), (9, 17), (9, 100), (17, 30), (17, 100), (65, 108), (3, 1000)] {
+            let all = windows(states, every, 1001 * every);
+            assert!(all.len() >= 1000);
+            let (begin, mut free) = (all[0].0, 0);
             for (i, (first, last)) in (0..).zip(all) {
                 assert_eq!(last - first + 1, states as u64);
-                assert!(i * every <= first && last < (i + 1) * every, "{states}, {every}: {first}–{last}");
+                assert!(free <= first, "{states}, {every}: {first}–{last} has a state of the window before");
+                free = last + 1;
+                assert!(
+                    (begin + i * every..begin + (i + 1) * every).contains(&first),
+                    "{states}, {every}: {first}–{last}"
+                );
             }
         }
     }
@@ -190,11 +201,27 @@ mod tests {
         }
     }
 
-    /// A period that divides the distance of the windows is seen in all its phases.
+    /// A period that divides the distance of the windows, or is equal to it, is seen in all its phases.
     #[test]
     fn places_change() {
-        let mut phases = [0; 4];
-        windows(9, 100, 100_000).iter().for_each(|(first, _)| phases[(first % 4) as usize] += 1);
-        assert!(phases.iter().all(|count| *count > 200), "{phases:?}");
+        for (every, period) in [(9, 9), (20, 20), (35, 35), (100, 4), (100, 50), (100, 100), (200, 200)] {
+            let mut phases = vec![0; period];
+            windows(9, every, 1000 * every).iter().for_each(|(first, _)| phases[*first as usize % period] += 1);
+            assert!(phases.iter().all(|count| *count >= 900 / period), "{every}, {period}: {phases:?}");
+        }
+    }
+
+    /// The middles do not depend on the number of states.
+    #[test]
+    fn middles_are_the_same() {
+        let middles = |states: usize, every| {
+            let all = windows(states, every, 100 * every);
+            all.iter().map(|(_, last)| last - states as u64 / 2).take(98).collect::<Vec<_>>()
+        };
+        for (most, every) in [(17, 30), (51, 90), (64, 106), (64, 1000)] {
+            for states in [3, 9, 17] {
+                assert_eq!(middles(states, every), middles(most, every), "{states}, {every}");
+            }
+        }
     }
 }

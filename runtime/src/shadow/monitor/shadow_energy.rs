@@ -48,16 +48,16 @@ use crate::systems::system::System;
 /// prints
 ///
 /// ```text
-/// bounded: the energy error is 1.9 % of T (20000 steps, 200 windows)
-///   energy error         9.38e-3  max − min of H; 1.9e-2 of T
-///   the method's part    1.58e-3  rms of H − H̄, which is from -8.68e-3 to 3.27e-4
-///   H̄ ranges over       2.40e-14  2.6e-12 of the energy error, a random walk
-///   it changed by      -1.23e-14  it moved by 3.73e-14 beyond its errors
+/// bounded: the energy error is 1.9 % of T (20000 steps, 199 windows)
+///   energy error         9.39e-3  max − min of H; 1.9e-2 of T
+///   the method's part    1.63e-3  rms of H − H̄, which is from -9.04e-3 to 3.31e-4
+///   H̄ ranges over       3.60e-14  3.8e-12 of the energy error, a random walk
+///   it changed by      -1.15e-14  it moved by 3.70e-14 beyond its errors
 ///   it is known to      2.22e-16  2.4e-14 of the energy error
 ///   round-off           1.02e-14  1.1e-12 of the energy error, expected by Brouwer's law
-///   net change          2.74e-14  2.9e-12 of the energy error, at most
-///   fastest motion          17.0  steps a turn
-///   the energy error is 1.9 % of T; in 20000 steps a net change above 5.56e-14 of T, 5.56e-17 of T per unit time is excluded
+///   net change          3.68e-14  3.9e-12 of the energy error, at most
+///   fastest motion          16.7  steps a turn
+///   the energy error is 1.9 % of T; in 20000 steps a net change above 7.59e-14 of T, 7.59e-17 of T per unit time is excluded
 /// ```
 ///
 /// A loop that does nothing else is `monitor.steps(&mut comet, 20_000)?`. Where a loop does more than steps, it can make them itself: with increments where
