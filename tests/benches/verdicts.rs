@@ -197,7 +197,7 @@ fn table<'a>(outcomes: impl Iterator<Item = &'a Outcome>) -> String {
         outcome.conclusions.iter().for_each(|&conclusion| *counts.entry((outcome.truth, conclusion)).or_default() += 1);
     }
     let mut text =
-        "| the error of H | fine | round-off | undecided | not smooth | other forces | not conserved | too large |\n"
+        "| the error of H | fine | round-off | undecided | not smooth | other causes | not conserved | too large |\n"
             .to_owned();
     text += "| --- | --- | --- | --- | --- | --- | --- | --- |\n";
     for (truth, name) in [

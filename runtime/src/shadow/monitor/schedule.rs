@@ -18,6 +18,10 @@ const RESERVED: u64 = 64;
 ///
 /// A window begins at another one of its steps each time, at any of them where no two windows can then overlap: windows at equal distances would
 /// see an oscillation whose period divides the distance always in the same phase, and take it for a constant.
+///
+/// Places by the golden section spread phases evenly, so that means over few windows are accurate, but for some ratios of `every` and the period, such
+/// as 1.382, 1.764 and 3.146, part of the phases is not seen: more than a tenth for 3 of 100 ratios, in 200 windows. Irregular places would
+/// leave no ratio, but the means of parts of runs are then known less well, and more verdicts are undecided: in 314 of 2634, in place of 256.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Schedule {
     states: u64,

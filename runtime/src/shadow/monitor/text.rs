@@ -83,8 +83,8 @@ impl<N: Real> Report<N> {
                 short(&self.round_off)
             ),
             Verdict::NotTheGradient => format!(
-                "the modified energy changes from state to state as the energy does, which no scheme does: the gradient does not belong to \
-                 the energy, or something else acts; {check}"
+                "the modified energy changes from state to state as the energy does, which no scheme does: the forces are not its gradient, or \
+                 something else acts; {check}"
             ),
             Verdict::NotSmooth => self.why_not_smooth(),
             Verdict::NotConserved => format!(

@@ -415,7 +415,7 @@ impl fmt::Display for Verdict {
                 write!(f, "the step size is near the resonance {turns}/{steps}")
             }
             Verdict::Drifts => f.write_str("the modified energy drifts"),
-            Verdict::NotTheGradient => f.write_str("the forces do not belong to the energy"),
+            Verdict::NotTheGradient => f.write_str("the forces are not the gradient of the energy"),
             Verdict::NotSmooth => f.write_str("the forces are not smooth"),
             Verdict::NotConserved => f.write_str("the modified energy is not conserved"),
             Verdict::Inconsistent => f.write_str("the states do not belong to the increments"),
