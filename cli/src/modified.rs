@@ -9,7 +9,7 @@ use shadowstep_scenes::Error;
 use shadowstep_scenes::arithmetic::Arithmetic;
 use shadowstep_scenes::library::{self, NamedScheme};
 use shadowstep_scenes::modified_hamiltonian::record::{
-    FormulaRecord, Formulas, SeriesOptions, SeriesRecord, SeriesTerm, sum_of,
+    FormulaRecord, Formulas, SeriesOptions, SeriesRecord, SeriesTerm, remainder, sum_of,
 };
 use shadowstep_schemes::Proved;
 use shadowstep_symbolic::Notation;
@@ -130,7 +130,8 @@ fn of_brackets(arguments: &Arguments, proved: &Proved) -> Result<String, Error> 
         Some(_) => "T + U".to_owned(),
         None => format!("a sum of {} parts", series.parts),
     };
-    let mut text = format!("{}: H = {of} becomes {}\n", series.scheme, sum_of(powers.iter().copied(), grade));
+    let remainder = if parts.is_none() { remainder(proved, grade) } else { grade + 1 };
+    let mut text = format!("{}: H = {of} becomes {}\n", series.scheme, sum_of(powers.iter().copied(), remainder));
     let width = terms.iter().map(|term| term.coefficient.len()).max().unwrap_or(0);
     for power in powers {
         text += &format!("\nH_{}\n", power + 1);

@@ -13,7 +13,7 @@ fn out(command: &str) -> String {
 fn series_have_exact_coefficients_and_rounded_ones() {
     assert_eq!(
         out("modified stormer-verlet --grade 2"),
-        "stormer-verlet: H = T + U becomes H + h^2 H_3 + O(h^3)\n\nH_3\n  -1/24  [K,[K,D]]\n   1/12  [D,[D,K]]\n"
+        "stormer-verlet: H = T + U becomes H + h^2 H_3 + O(h^4)\n\nH_3\n  -1/24  [K,[K,D]]\n   1/12  [D,[D,K]]\n"
     );
     let yoshida = out("modified yoshida4 --digits 5");
     assert!(yoshida.contains("  -0.00041376  [K,[K,[K,[K,D]]]]\n"), "{yoshida}");
@@ -33,7 +33,7 @@ fn formulas_are_written_in_all_notations() {
     let with = |flags: &str| out(&format!("modified stormer-verlet pendulum --grade 2 {flags}"));
     assert_eq!(
         with(""),
-        "stormer-verlet, pendulum: H + h^2 H_3 + O(h^3)\n\nH = p^2/2 - cos(q)\n\nH_3 = -sin(q)^2/24 + p^2*cos(q)/12\n"
+        "stormer-verlet, pendulum: H + h^2 H_3 + O(h^4)\n\nH = p^2/2 - cos(q)\n\nH_3 = -sin(q)^2/24 + p^2*cos(q)/12\n"
     );
     let latex = with("--to latex");
     assert!(latex.contains(r"H_{3} &= -\frac{\sin\left(q\right)^{2}}{24}"), "{latex}");

@@ -123,9 +123,9 @@ pub struct FormulaRecord {
     /// The names of coordinates, momenta and parameters in them.
     #[serde(skip)]
     pub names: Vec<String>,
-    /// The highest power of h.
+    /// The lowest power of h whose term may not be 0 and is left out.
     #[serde(skip)]
-    pub grade: u32,
+    pub remainder: u32,
 }
 
 /// The formula of a term.
@@ -143,7 +143,7 @@ pub struct Formulas {
     symbolic: SymbolicHamiltonian,
     hamiltonian: Node,
     terms: Vec<SymbolicTerm>,
-    grade: u32,
+    remainder: u32,
 }
 
 impl Formulas {
@@ -156,8 +156,9 @@ impl Formulas {
         let mut symbolic = SymbolicHamiltonian::of(system)?;
         let terms = symbolic.modified(scheme.scheme.proved(), grade)?;
         let hamiltonian = symbolic.hamiltonian();
+        let remainder = remainder(scheme.scheme.proved(), grade);
         let scheme = scheme.scheme.proved().scheme.table.name.value.clone();
-        Ok(Formulas { scheme, symbolic, hamiltonian, terms, grade })
+        Ok(Formulas { scheme, symbolic, hamiltonian, terms, remainder })
     }
 
     /// Their texts; numbers that are no short fractions have this number of significant digits.
@@ -165,7 +166,7 @@ impl Formulas {
     /// # Errors
     /// A formula that is too long.
     pub fn written(&self, notation: Notation, digits: usize) -> Result<FormulaRecord, Refusal> {
-        let Formulas { scheme, symbolic, hamiltonian, terms, grade } = self;
+        let Formulas { scheme, symbolic, hamiltonian, terms, remainder } = self;
         let nodes: Vec<_> = terms.iter().map(|term| term.formula).chain([*hamiltonian]).collect();
         let formula = |term: &SymbolicTerm| {
             Ok(FormulaTerm { power: term.power, formula: symbolic.text(term.formula, notation, digits)? })
@@ -175,7 +176,7 @@ impl Formulas {
             hamiltonian: symbolic.text(*hamiltonian, notation, digits)?,
             terms: terms.iter().map(formula).collect::<Result<_, Refusal>>()?,
             names: symbolic.names_in(&nodes).into_iter().map(str::to_owned).collect(),
-            grade: *grade,
+            remainder: *remainder,
         })
     }
 }
@@ -183,7 +184,7 @@ impl Formulas {
 impl FormulaRecord {
     /// H + h^2 H_3 + … + O(…)
     pub fn title(&self) -> String {
-        sum_of(self.terms.iter().map(|term| term.power), self.grade)
+        sum_of(self.terms.iter().map(|term| term.power), self.remainder)
     }
 
     /// A function of h, positions, momenta and parameters in the notation of the formulas, which is that of Rust or NumPy.
@@ -212,8 +213,14 @@ impl FormulaRecord {
     }
 }
 
+/// The lowest power of h whose term may not be 0, of those above `grade`: of a symmetric scheme odd powers are 0.
+pub fn remainder(proved: &Proved, grade: u32) -> u32 {
+    let is_even = proved.proof.symmetric && proved.scheme.table.processor.is_none();
+    if is_even { (grade + 2) / 2 * 2 } else { grade + 1 }
+}
+
 /// H + h^2 H_3 + … + O(…) with terms of these powers.
-pub fn sum_of(powers: impl Iterator<Item = u32>, grade: u32) -> String {
+pub fn sum_of(powers: impl Iterator<Item = u32>, remainder: u32) -> String {
     let term = |n: u32| if n == 1 { " + h H_2".to_owned() } else { format!(" + h^{n} H_{}", n + 1) };
-    format!("H{} + O(h^{})", powers.map(term).collect::<String>(), grade + 1)
+    format!("H{} + O(h^{remainder})", powers.map(term).collect::<String>())
 }
