@@ -130,8 +130,8 @@ fn of_brackets(arguments: &Arguments, proved: &Proved) -> Result<String, Error> 
         Some(_) => "T + U".to_owned(),
         None => format!("a sum of {} parts", series.parts),
     };
-    let remainder = if parts.is_none() { remainder(proved, grade) } else { grade + 1 };
-    let mut text = format!("{}: H = {of} becomes {}\n", series.scheme, sum_of(powers.iter().copied(), remainder));
+    let sum = sum_of(powers.iter().copied(), remainder(proved, grade));
+    let mut text = format!("{}: H = {of} becomes {sum}\n", series.scheme);
     let width = terms.iter().map(|term| term.coefficient.len()).max().unwrap_or(0);
     for power in powers {
         text += &format!("\nH_{}\n", power + 1);

@@ -3,7 +3,7 @@
 use shadowstep_symbolic::nearest;
 
 /// Words of other programs, and the keys that they are here.
-const ELSEWHERE: [(&str, &str); 14] = [
+const TRANSLATED: [(&str, &str); 14] = [
     ("dt", "step"),
     ("timestep", "step"),
     ("time_step", "step"),
@@ -76,7 +76,7 @@ impl Keys {
     }
 
     fn nearest(&self, word: &str) -> Option<&'static str> {
-        let translated = ELSEWHERE.iter().find(|(other, key)| *other == word && self.find(key).is_some());
+        let translated = TRANSLATED.iter().find(|(other, key)| *other == word && self.find(key).is_some());
         translated.map(|(_, key)| *key).or_else(|| nearest(word, self.names()))
     }
 

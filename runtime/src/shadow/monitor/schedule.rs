@@ -21,7 +21,7 @@ const RESERVED: u64 = 64;
 ///
 /// Places by the golden section spread phases evenly, so that means over few windows are accurate, but for some ratios of `every` and the period, such
 /// as 1.382, 1.764 and 3.146, part of the phases is not seen: more than a tenth for 3 of 100 ratios, in 200 windows. Irregular places would
-/// leave no ratio, but the means of parts of runs are then known less well, and more verdicts are undecided: in 314 of 2634, in place of 256.
+/// leave no ratio, but the means of parts of runs are then known less well, and more verdicts are undecided: 314 of 2634, in place of 256 of 2628.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Schedule {
     states: u64,
