@@ -113,7 +113,7 @@ Exit codes:
   1  negative answer: a checked table has faults, a table cannot be polished,
      no scheme meets a tolerance, no start of a search meets the conditions, a
      hard case differs from theory, chunks of a sweep are missing; with
-     --strict, a verdict worse than fine
+     --strict, a verdict other than bounded and round-off
   2  usage error: an unknown flag, name or file, a number out of range, a
      fault in a scene
   3  a run failed: a state or an energy was not finite, the output could not

@@ -45,7 +45,7 @@ pub(crate) struct Arguments {
     /// Only what the scene asks for is computed.
     #[arg(long)]
     no_summary: bool,
-    /// Exit code 1 if the verdict on the run is worse than fine
+    /// Exit code 1 unless bounded or round-off
     #[arg(long, conflicts_with = "no_summary")]
     strict: bool,
 }

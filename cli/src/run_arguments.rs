@@ -49,7 +49,7 @@ pub(crate) struct RunArguments {
     /// A summary has the error of H, the modified energy, close encounters, and the verdict on the step size.
     #[arg(long, help_heading = OUTPUT)]
     pub(crate) no_summary: bool,
-    /// Exit code 1 if the verdict on a run is worse than fine
+    /// Exit code 1 unless bounded or round-off
     #[arg(long, conflicts_with = "no_summary", help_heading = OUTPUT)]
     pub(crate) strict: bool,
     #[command(flatten)]

@@ -34,7 +34,7 @@ field above each long table chooses rows: a word, or conditions such as `order=4
 - *A + εB*: of near-integrable schemes, the orders in the powers of ε for near-integrable systems: (8,6,4) has the local error O(εh⁹ + ε²h⁷ + ε³h⁵).
   They pay only if the drift solves A exactly and εB is small, as where drifts are Kepler motions and kicks the attractions of
   planets ([parts with flows of their own](planets.md)). With H = T + U nothing is small, and such a scheme gains nothing over its order for T + U.
-  The drifts move by A.
+  In these tables drifts are the flow of A, and kicks that of εB.
 - *effective*: of processed schemes, the orders of the trajectory, which is read through the post-map; all else is of the kernel. They are listed by
   this order: see [processed schemes](gradient-kicks-and-processing.md#processed-schemes).
 - *sampling*: `bcss2`, `bcss3`, `bcss4` and `predescu3` have order 2 and a small error of the energy in the mean over states in
@@ -53,7 +53,7 @@ field above each long table chooses rows: a word, or conditions such as `order=4
   right-nested brackets of kick and drift and ‖E‖ the Euclidean norm. At equal cost the smaller one is more accurate, if
   the orders are the same; schemes of different orders are not compared by it.
 - *stable to hω*: up to there a step of the harmonic oscillator is stable; per force it is the second number. Beyond it
-  some schemes are stable again for a while; what is narrower than 0.01 or beyond hω = 2·forces is not mentioned.
+  some schemes are stable again for a while: `shadowstep schemes show` lists the unstable gaps.
 - *phase error*: how much too fast the harmonic oscillator turns, to the leading power of hω.
 
 ";

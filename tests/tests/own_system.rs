@@ -43,7 +43,8 @@ impl<N: Number> Rotor<N> {
     fn energies(&mut self) -> [N; 2] {
         let zero = N::zero(&self.state.context());
         let [mut energy, mut kinetic] = [zero.clone(), zero];
-        self.assign_energies(None, &mut energy, &mut kinetic);
+        self.assign_energy(None, &mut energy);
+        self.assign_kinetic_energy(None, &mut kinetic);
         [energy, kinetic]
     }
 
@@ -129,15 +130,21 @@ impl<N: Number> System for Rotor<N> {
         state.add_to_beta(carried, weight, rate);
     }
 
+    fn assign_energy(&mut self, at: Option<(&[N], &[N])>, energy: &mut N) {
+        let mut kinetic = N::zero(&energy.context());
+        self.assign_kinetic_energy(at, &mut kinetic);
+        let (q, _) = at.unwrap_or((self.state.q(), self.state.p()));
+        assign_b(energy, &q[0]);
+        energy.add(&kinetic);
+    }
+
     /// A is taken for the kinetic energy.
-    fn assign_energies(&mut self, at: Option<(&[N], &[N])>, energy: &mut N, kinetic: &mut N) {
+    fn assign_kinetic_energy(&mut self, at: Option<(&[N], &[N])>, kinetic: &mut N) {
         let Rotor { state, scratch: [square, ..], .. } = self;
         let (q, p) = at.unwrap_or((state.q(), state.p()));
         assign_squared_radius(square, &q[0], &p[0]);
         kinetic.assign_square(square);
         kinetic.divide_integer(4);
-        assign_b(energy, &q[0]);
-        energy.add(kinetic);
     }
 }
 

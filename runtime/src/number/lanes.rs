@@ -11,7 +11,7 @@ use std::ops::{Deref, DerefMut};
 /// W numbers of a kind, `f64`, on which every operation works at once: W trajectories of one system, one a lane.
 ///
 /// Steps, potentials, kinetic energies, sums and the estimators of a fixed order work on lanes as on any [`Number`]. The
-/// compiler makes vector operations of them, the widest that a function may use: see [`instructions`](crate::number::instructions).
+/// compiler makes vector operations of them, the widest that a function may use.
 ///
 /// **Bits.** A lane has the bits that `f64` has in its place, for arithmetic and roots and for tan, sinh, cosh, tanh, arctan, arcsin and arccos, which are the
 /// platform's. exp, log, sin and cos are functions of vectors of this crate: they have the same bits on every processor, but not always the bits of

@@ -4,6 +4,7 @@
 //! | --- | --- |
 //! | `schedule` | which states belong to windows |
 //! | `energies` | H and T at the middles of windows |
+//! | `kinetic` | the mean of T |
 //! | `blocks` | the most accurate estimates and the means of the parts of a run, in fixed memory |
 //! | `change`, `trend` | what these show: a permanent change and its uncertainty; constant, random walk or line |
 //! | `statistics` | extremes and sums over the windows |
@@ -24,6 +25,7 @@ mod energies;
 mod estimated;
 mod fastest;
 mod kicks;
+mod kinetic;
 mod newest_states;
 mod rate;
 mod report;
@@ -48,6 +50,7 @@ use self::blocks::Blocks;
 use self::energies::Energies;
 use self::estimated::Estimated;
 use self::fastest::Fastest;
+use self::kinetic::MeanKinetic;
 use self::newest_states::NewestStates;
 use self::rate::RateCheck;
 use self::schedule::Schedule;
@@ -69,6 +72,7 @@ pub struct Monitor<N: Real, E> {
     estimator: E,
     schedule: Schedule,
     energies: Energies<N>,
+    kinetic: MeanKinetic<N>,
     /// The number of the present state.
     n: u64,
     /// The result of the newest window.
@@ -136,12 +140,14 @@ impl<N: Real, E: Estimator<N>> Monitor<N, E> {
         let estimator = settings.build(h, dimension, &context)?;
         let states = estimator.states();
         let [mut energy, mut kinetic] = [N::zero(&context), N::zero(&context)];
-        system.assign_energies(None, &mut energy, &mut kinetic);
+        system.assign_energy(None, &mut energy);
+        system.assign_kinetic_energy(None, &mut kinetic);
         check_energy(&energy, system.q(), 0)?;
         let schedule = Schedule::new(states, 1);
         let mut monitor = Monitor {
             schedule,
             energies: Energies::new(schedule, states, &context),
+            kinetic: MeanKinetic::new(1, &kinetic),
             estimator,
             n: 0,
             statistics: Statistics::new(&energy),
@@ -168,6 +174,7 @@ impl<N: Real, E: Estimator<N>> Monitor<N, E> {
         let states = self.schedule.states();
         self.schedule = Schedule::new(states, steps);
         self.energies = Energies::new(self.schedule, states, &self.method.context());
+        self.kinetic = MeanKinetic::new(steps, &self.newest.kinetic);
         // the state 0 has come already
         if let Some(([energy, kinetic], _)) = self.energies.at_middle(0) {
             energy.assign(&self.newest.energy);
@@ -183,7 +190,8 @@ impl<N: Real, E: Estimator<N>> Monitor<N, E> {
 
     /// How many of the following states it takes nothing of: they may [`pass`](Monitor::pass) by plain steps, and need not be observed.
     pub fn idle(&self) -> u64 {
-        if self.fastest.begins(self.n + 1) { 0 } else { self.schedule.idle(self.n + 1) }
+        let next = self.n + 1;
+        if self.fastest.begins(next) { 0 } else { self.schedule.idle(next).min(self.kinetic.idle(next)) }
     }
 
     /// This number of states passes unobserved, [`idle`](Monitor::idle) at most.
@@ -232,6 +240,7 @@ impl<N: Real, E: Estimator<N>> Monitor<N, E> {
     ) -> Result<Option<Sample<'_, N>>, RunError> {
         self.n += 1;
         self.fastest.begin(self.n, system.p());
+        self.kinetic.observe(self.n, system);
         if !self.schedule.takes(self.n) {
             return Ok(None);
         }
@@ -255,7 +264,8 @@ impl<N: Real, E: Estimator<N>> Monitor<N, E> {
         }
         if let Some(([energy, kinetic], is_checked)) = self.energies.at_middle(self.n) {
             // while the gradient is kept from which the energy follows
-            system.assign_energies(None, energy, kinetic);
+            system.assign_energy(None, energy);
+            self.kinetic.assign(kinetic, self.n, system);
             if is_checked {
                 self.rate.compare(system, energy);
             }
@@ -299,7 +309,7 @@ impl<N: Real, E: Estimator<N>> Monitor<N, E> {
         self.newest_states.end(&self.schedule, kinetic, &mut self.fastest);
         let best = self.blocks.push(energy, modified);
         self.method.assign_difference(energy, &best.value);
-        self.statistics.add(energy, kinetic, &self.method, modified);
+        self.statistics.add(energy, &self.method, modified);
         Ok(())
     }
 

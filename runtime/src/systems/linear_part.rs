@@ -59,6 +59,8 @@ pub struct LinearPart<N, P> {
     /// Once there was a gradient kick, with the potential's scratch space; what it keeps belongs to the q of the last evaluation.
     gradient_kicks: Option<Box<(GradientKicks<N>, Vec<N>)>>,
     scratch_of_kinetic: Vec<N>,
+    /// T of an energy.
+    kinetic_energy: N,
 }
 
 impl<N: CorrectlyRounded, P: Potential<N>> LinearPart<N, P> {
@@ -114,7 +116,8 @@ impl<N: CorrectlyRounded, P: Potential<N>> LinearPart<N, P> {
             rate: zero.clone(),
             kept: false,
             gradient_kicks: None,
-            scratch_of_kinetic: vec![zero; of_kinetic],
+            scratch_of_kinetic: vec![zero.clone(); of_kinetic],
+            kinetic_energy: zero,
         })
     }
 
@@ -270,12 +273,17 @@ impl<N: CorrectlyRounded, P: Potential<N>> System for LinearPart<N, P> {
         }
     }
 
-    fn assign_energies(&mut self, at: Option<(&[N], &[N])>, energy: &mut N, kinetic: &mut N) {
+    fn assign_energy(&mut self, at: Option<(&[N], &[N])>, energy: &mut N) {
         let (q, p) = at.unwrap_or((&self.state.q, &self.state.p));
         self.potential.update(q);
         self.potential.energy(q, energy, &mut self.scratch);
-        Kinetic::energy(&self.kinetic, p, kinetic, &mut self.scratch_of_kinetic);
-        energy.add(kinetic);
+        Kinetic::energy(&self.kinetic, p, &mut self.kinetic_energy, &mut self.scratch_of_kinetic);
+        energy.add(&self.kinetic_energy);
         self.kept &= at.is_none();
+    }
+
+    fn assign_kinetic_energy(&mut self, at: Option<(&[N], &[N])>, kinetic: &mut N) {
+        let (_, p) = at.unwrap_or((&self.state.q, &self.state.p));
+        Kinetic::energy(&self.kinetic, p, kinetic, &mut self.scratch_of_kinetic);
     }
 }

@@ -183,13 +183,19 @@ impl<N: Number> System for SystemOfParts<N> {
         }
     }
 
+    fn assign_energy(&mut self, at: Option<(&[N], &[N])>, energy: &mut N) {
+        let SystemOfParts { parts, state, .. } = self;
+        let (q, p) = at.unwrap_or((&state.q, &state.p));
+        energy.assign(&sum(parts, q, p));
+    }
+
     /// `kinetic` ← |½ pᵀH_p|, which is T for a quadratic T(p) + U(q), and does not depend on constants in H. It is a difference of H at momenta that
     /// are 1/1024 longer and shorter: the monitor needs its size only.
-    fn assign_energies(&mut self, at: Option<(&[N], &[N])>, energy: &mut N, kinetic: &mut N) {
+    fn assign_kinetic_energy(&mut self, at: Option<(&[N], &[N])>, kinetic: &mut N) {
         const PARTS: i32 = 1024;
         let SystemOfParts { parts, state, scaled, .. } = self;
         let (q, p) = at.unwrap_or((&state.q, &state.p));
-        let [shorter, mut longer] = [PARTS - 1, PARTS + 1].map(|by| {
+        let [mut shorter, mut longer] = [PARTS - 1, PARTS + 1].map(|by| {
             for (scaled, p) in scaled.iter_mut().zip(p) {
                 scaled.assign(p);
                 scaled.multiply_integer(by);
@@ -200,18 +206,7 @@ impl<N: Number> System for SystemOfParts<N> {
         // 2/PARTS of pᵀH_p, of which a half is wanted
         longer.subtract(&shorter);
         longer.multiply_integer(PARTS / 4);
-        energy.assign_square(&longer);
-        kinetic.assign_sqrt(energy);
-        energy.assign(&sum(parts, q, p));
-    }
-
-    // without T, which needs two more energies
-
-    fn energy(&mut self) -> N {
-        sum(&mut self.parts, &self.state.q, &self.state.p)
-    }
-
-    fn energy_at(&mut self, q: &[N], p: &[N]) -> N {
-        sum(&mut self.parts, q, p)
+        shorter.assign_square(&longer);
+        kinetic.assign_sqrt(&shorter);
     }
 }

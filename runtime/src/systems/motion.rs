@@ -279,16 +279,16 @@ where
     /// there a potential such as −1/r would be 0. A potential may renew what it keeps, such as a list of neighbours, and so needs `&mut`; of a motion that is
     /// shared, `motion.clone().energy()` is the same.
     pub fn energy(&mut self) -> N {
-        let [mut energy, mut kinetic_energy] = [self.beta().clone(), self.beta().clone()];
+        let mut energy = self.beta().clone();
         let state = &self.at.state;
-        self.hamiltonian.assign_energies((state.q(), state.p()), &mut energy, &mut kinetic_energy);
+        self.hamiltonian.assign_energy((state.q(), state.p()), &mut energy);
         energy
     }
 
     /// H = T(p) + U(q) at another state of the same system.
     pub fn energy_at(&mut self, q: &[N], p: &[N]) -> N {
-        let [mut energy, mut kinetic_energy] = [self.beta().clone(), self.beta().clone()];
-        self.hamiltonian.assign_energies((q, p), &mut energy, &mut kinetic_energy);
+        let mut energy = self.beta().clone();
+        self.hamiltonian.assign_energy((q, p), &mut energy);
         energy
     }
 

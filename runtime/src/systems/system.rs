@@ -100,16 +100,14 @@ pub trait System {
         }
     }
 
-    /// energy ← H, and kinetic ← T, at another state q, p of the same system, or at the present one.
+    /// energy ← H at another state q, p of the same system, or at the present one.
+    fn assign_energy(&mut self, at: Option<Point<'_, Self::Number>>, energy: &mut Self::Number);
+
+    /// kinetic ← T, there as well.
     ///
     /// The monitor compares the error of H with T: for an A that is not a kinetic energy, `kinetic` is any energy of the size of
     /// those exchanged in the motion.
-    fn assign_energies(
-        &mut self,
-        at: Option<Point<'_, Self::Number>>,
-        energy: &mut Self::Number,
-        kinetic: &mut Self::Number,
-    );
+    fn assign_kinetic_energy(&mut self, at: Option<Point<'_, Self::Number>>, kinetic: &mut Self::Number);
 
     /// How many of the first coordinates have an energy: by default all. Those after them are of particles of mass 0, which move in the field of the bodies
     /// with mass and whose momenta are divided by their mass; the modified energy does not contain them.
@@ -131,15 +129,15 @@ pub trait System {
 
     /// H at the present state.
     fn energy(&mut self) -> Self::Number {
-        let [mut energy, mut kinetic] = [self.state().increments.beta.clone(), self.state().increments.beta.clone()];
-        self.assign_energies(None, &mut energy, &mut kinetic);
+        let mut energy = self.state().increments.beta.clone();
+        self.assign_energy(None, &mut energy);
         energy
     }
 
     /// H at another state of the same system.
     fn energy_at(&mut self, q: &[Self::Number], p: &[Self::Number]) -> Self::Number {
-        let [mut energy, mut kinetic] = [self.state().increments.beta.clone(), self.state().increments.beta.clone()];
-        self.assign_energies(Some((q, p)), &mut energy, &mut kinetic);
+        let mut energy = self.state().increments.beta.clone();
+        self.assign_energy(Some((q, p)), &mut energy);
         energy
     }
 }

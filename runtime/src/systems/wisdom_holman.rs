@@ -353,15 +353,21 @@ impl<N: Number, C: PlanetaryCoordinates<N, D>, const D: usize, P: Potential<N>> 
         }
     }
 
-    /// H is the same as in inertial coordinates; `kinetic` is T.
-    fn assign_energies(&mut self, at: Option<(&[N], &[N])>, energy: &mut N, kinetic: &mut N) {
+    /// H is the same as in inertial coordinates.
+    fn assign_energy(&mut self, at: Option<(&[N], &[N])>, energy: &mut N) {
         let WisdomHolman { coordinates, beside, state, orbits, .. } = self;
         let at = at.unwrap_or((&state.q, &state.p));
         coordinates.assign_interaction_energy(at, energy);
         if let Some(beside) = beside {
             beside.add_energy::<C, D>(coordinates, at.0, energy);
         }
-        orbits.add_energies(coordinates.orbits(), at, energy, kinetic);
+        orbits.add_energy(coordinates.orbits(), at, energy);
+    }
+
+    fn assign_kinetic_energy(&mut self, at: Option<(&[N], &[N])>, kinetic: &mut N) {
+        let WisdomHolman { coordinates, state, orbits, .. } = self;
+        let (_, p) = at.unwrap_or((&state.q, &state.p));
+        orbits.assign_kinetic_energy(coordinates.orbits(), p, kinetic);
     }
 
     fn massive_coordinates(&self) -> usize {

@@ -17,9 +17,6 @@ pub(super) struct EnergyError<N> {
     pub(super) states: u64,
     size: N,
     pub(super) lasting: LastingChanges,
-    /// Over the states of which T is known.
-    sum_of_kinetic: N,
-    states_of_kinetic: u64,
 }
 
 impl<N: Real> EnergyError<N> {
@@ -32,24 +29,9 @@ impl<N: Real> EnergyError<N> {
             last: zero.clone(),
             last_n: 0,
             states: 1,
-            size: zero.clone(),
+            size: zero,
             lasting: LastingChanges::default(),
-            sum_of_kinetic: zero,
-            states_of_kinetic: 0,
         }
-    }
-
-    /// Takes T of a state.
-    pub(super) fn include_kinetic(&mut self, kinetic: &N) {
-        self.sum_of_kinetic.add(kinetic);
-        self.states_of_kinetic += 1;
-    }
-
-    /// The largest error as a part of the mean T; not finite where no T is known or all are 0.
-    pub(super) fn of_kinetic(&self) -> f64 {
-        let mut part = self.largest.clone();
-        part.divide(&self.sum_of_kinetic);
-        part.to_f64() * self.states_of_kinetic as f64
     }
 
     /// Takes H of the state n, which may come after those of later states; that of the last state may come again.

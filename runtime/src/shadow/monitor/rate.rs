@@ -33,7 +33,8 @@ impl<N: Real> RateCheck<N> {
     pub(super) fn compare<M: System<Number = N> + ?Sized>(&mut self, system: &mut M, energy: &N) {
         self.q.iter_mut().zip(system.q()).for_each(|(own, q)| own.assign(q));
         self.p.iter_mut().zip(system.p()).for_each(|(own, p)| own.assign(p));
-        system.assign_energies(Some((&self.q, &self.p)), &mut self.energy, &mut self.kinetic);
+        system.assign_energy(Some((&self.q, &self.p)), &mut self.energy);
+        system.assign_kinetic_energy(Some((&self.q, &self.p)), &mut self.kinetic);
         self.size.assign(energy);
         self.size.make_absolute();
         self.size.add(&self.kinetic);

@@ -36,7 +36,7 @@ pub struct Report<N> {
     pub windows: u64,
     /// The energy error: max − min of H, over the first state and the middles of the windows.
     pub energy_error: N,
-    /// The mean kinetic energy, over the middles of the windows.
+    /// The mean kinetic energy, over four states in the distance of windows, at irregular places, or all states.
     pub kinetic: N,
     /// The least H − H̄, with the most accurate H̄ so far of the same part of the run.
     pub method_least: N,
@@ -136,7 +136,7 @@ impl<N: Real, E: Estimator<N>> Monitor<N, E> {
             time,
             windows: statistics.windows,
             energy_error: statistics.energy.width(),
-            kinetic: statistics.kinetic(),
+            kinetic: self.kinetic.mean(),
             method_least: statistics.method.least.clone(),
             method_largest: statistics.method.largest.clone(),
             method_rms: statistics.method_rms(),

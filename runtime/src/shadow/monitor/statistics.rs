@@ -34,7 +34,7 @@ impl<N: Real> Range<N> {
     }
 }
 
-/// H, H − H̄ and T over the windows.
+/// H and H − H̄ over the windows.
 #[derive(Clone, Debug)]
 pub(super) struct Statistics<N> {
     pub(super) windows: u64,
@@ -46,7 +46,6 @@ pub(super) struct Statistics<N> {
     beyond_errors: Range<N>,
     bound: N,
     sum_of_squares: N,
-    sum_of_kinetic: N,
     /// Σ of squares of the errors, and of H − H̄ with the H̄ of the same window.
     errors: N,
     distances: N,
@@ -62,15 +61,14 @@ impl<N: Real> Statistics<N> {
             beyond_errors: Range::of(&zero),
             bound: zero.clone(),
             sum_of_squares: zero.clone(),
-            sum_of_kinetic: zero.clone(),
             errors: zero.clone(),
             distances: zero,
         }
     }
 
-    /// Takes a window: H, T, H − H̄ and H̄.
+    /// Takes a window: H, H − H̄ and H̄.
     #[inline]
-    pub(super) fn add(&mut self, energy: &N, kinetic: &N, method: &N, modified: &Estimated<N>) {
+    pub(super) fn add(&mut self, energy: &N, method: &N, modified: &Estimated<N>) {
         self.energy.include(energy);
         self.include_bounds(modified);
         if self.windows == 0 {
@@ -79,7 +77,6 @@ impl<N: Real> Statistics<N> {
         }
         self.method.include(method);
         self.sum_of_squares.add_product(method, method);
-        self.sum_of_kinetic.add(kinetic);
         self.errors.add_product(&modified.error, &modified.error);
         self.bound.assign_difference(energy, &modified.value);
         self.distances.add_product(&self.bound, &self.bound);
@@ -128,10 +125,5 @@ impl<N: Real> Statistics<N> {
     /// √⟨(H − H̄)²⟩
     pub(super) fn method_rms(&self) -> N {
         root(&quotient(&self.sum_of_squares, &self.count()))
-    }
-
-    /// ⟨T⟩
-    pub(super) fn kinetic(&self) -> N {
-        quotient(&self.sum_of_kinetic, &self.count())
     }
 }

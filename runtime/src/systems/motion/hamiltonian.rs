@@ -33,6 +33,8 @@ pub(super) struct Hamiltonian<N, P, K> {
     scratch: Vec<N>,
     /// The kinetic energy's, with what it keeps there.
     pub(super) kinetic_scratch: Vec<N>,
+    /// T of an energy.
+    kinetic_energy: N,
     /// Of gradient kicks, once there was one; what it keeps belongs to the q of the last evaluation of the gradient.
     pub(super) gradient_kicks: Option<Box<GradientKickState<N>>>,
 }
@@ -44,7 +46,8 @@ impl<N: Number, P: Potential<N>, K: Kinetic<N>> Hamiltonian<N, P, K> {
         potential.prepare(&mut scratch, context);
         let mut kinetic_scratch = vec![N::zero(context); kinetic.scratch()];
         kinetic.prepare(&mut kinetic_scratch, context);
-        Hamiltonian { potential, kinetic, scratch, kinetic_scratch, gradient_kicks: None }
+        let kinetic_energy = N::zero(context);
+        Hamiltonian { potential, kinetic, scratch, kinetic_scratch, kinetic_energy, gradient_kicks: None }
     }
 
     /// Evaluates the gradient at the present q, with the rate where that is wanted.
@@ -104,7 +107,7 @@ impl<N: Number, P: Potential<N>, K: Kinetic<N>> Hamiltonian<N, P, K> {
         if at.kept == KeptForce::Nothing || is_displaced && !at.kept.suffices(with_rate) {
             self.evaluate(at, with_rate);
         }
-        let Hamiltonian { potential, kinetic, scratch, kinetic_scratch, gradient_kicks } = self;
+        let Hamiltonian { potential, kinetic, scratch, kinetic_scratch, gradient_kicks, .. } = self;
         let kicks =
             gradient_kicks.get_or_insert_with(|| Box::new(GradientKickState::new(potential, &weight.context())));
         let place = Place { q: at.state.q.as_ref(), gradient: at.gradient.as_ref(), rate: &at.rate };
@@ -135,20 +138,18 @@ impl<N: Number, P: Potential<N>, K: Kinetic<N>> Hamiltonian<N, P, K> {
         at.kept = KeptForce::Nothing;
     }
 
-    /// energy ← T(p) + U(q), kinetic_energy ← T(p)
-    pub(super) fn assign_energies(&mut self, (q, p): (&[N], &[N]), energy: &mut N, kinetic_energy: &mut N) {
+    /// energy ← T(p) + U(q)
+    pub(super) fn assign_energy(&mut self, (q, p): (&[N], &[N]), energy: &mut N) {
         self.potential.update(q);
         self.potential.energy(q, energy, &mut self.scratch);
-        self.add_kinetic_energy((q, p), energy, kinetic_energy);
+        self.add_kinetic_energy((q, p), energy);
     }
 
-    /// Of an energy U(q), energy ← T(p) + U(q) and kinetic_energy ← T(p); NaN where U is finite though squares of positions overflow: an
-    /// infinite r² makes 0 of 1/r.
+    /// Of an energy U(q), energy ← T(p) + U(q); NaN where U is finite though squares of positions overflow: an infinite r² makes 0 of 1/r.
     #[inline(always)]
-    pub(super) fn add_kinetic_energy(&mut self, (q, p): (&[N], &[N]), energy: &mut N, kinetic_energy: &mut N) {
-        self.kinetic.energy(p, kinetic_energy, &mut self.kinetic_scratch);
-        energy.add(kinetic_energy);
-        self.kinetic.exchanged_energy(p, kinetic_energy, &mut self.kinetic_scratch);
+    pub(super) fn add_kinetic_energy(&mut self, (q, p): (&[N], &[N]), energy: &mut N) {
+        self.kinetic.energy(p, &mut self.kinetic_energy, &mut self.kinetic_scratch);
+        energy.add(&self.kinetic_energy);
         let q = &q[..self.kinetic.massive_coordinates(q.len())];
         if N::KEEPS_INCREMENTS && q.len() >= LONG {
             let zero = N::zero(&energy.context());

@@ -97,18 +97,26 @@ where
 
     /// Where the gradient and the rate are kept, U = ½(qᵀU_q − rate) costs no evaluation.
     #[inline]
-    fn assign_energies(&mut self, at: Option<(&[N], &[N])>, energy: &mut N, kinetic_energy: &mut N) {
+    fn assign_energy(&mut self, at: Option<(&[N], &[N])>, energy: &mut N) {
         let Motion { hamiltonian, at: Evaluated { state, gradient, rate, kept } } = self;
         let (q, p) = at.unwrap_or((state.q(), state.p()));
         if at.is_some() || *kept != KeptForce::GradientAndRate {
-            return hamiltonian.assign_energies((q, p), energy, kinetic_energy);
+            return hamiltonian.assign_energy((q, p), energy);
         }
         energy.assign_zero();
         let massive = hamiltonian.kinetic.massive_coordinates(q.len());
         add_sum(energy, [&q[..massive], &gradient.as_ref()[..massive]], |[q, u], energy| energy.add_product(q, u));
         energy.subtract(rate);
         energy.divide_integer(2);
-        hamiltonian.add_kinetic_energy((q, p), energy, kinetic_energy);
+        hamiltonian.add_kinetic_energy((q, p), energy);
+    }
+
+    #[inline]
+    fn assign_kinetic_energy(&mut self, at: Option<(&[N], &[N])>, kinetic: &mut N) {
+        let Motion { hamiltonian, at: Evaluated { state, .. } } = self;
+        let (_, p) = at.unwrap_or((state.q(), state.p()));
+        hamiltonian.kinetic.energy(p, kinetic, &mut hamiltonian.kinetic_scratch);
+        hamiltonian.kinetic.exchanged_energy(p, kinetic, &mut hamiltonian.kinetic_scratch);
     }
 
     fn energy(&mut self) -> N {

@@ -3,8 +3,8 @@
 use super::{HessianProduct, Potential};
 use crate::number::Number;
 
-/// A potential behind a `dyn`, for [lanes](crate::number::Lanes): each call is compiled for the [widest
-/// instructions](crate::number::instructions) that the processor has.
+/// A potential behind a `dyn`, for [lanes](crate::number::Lanes): each call is compiled for the widest
+/// instructions that the processor has.
 ///
 /// A call of a `dyn Potential` is not inlined into the loop of steps, and so not compiled together with it. A potential whose type is known is,
 /// and does not need this. Other numbers than lanes are computed as without it.

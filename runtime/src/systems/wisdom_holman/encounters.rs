@@ -360,8 +360,12 @@ impl<N: Number, const D: usize> System for Encounters<N, D> {
         self.drift_in(0, weight, count.max(1), carried);
     }
 
-    fn assign_energies(&mut self, at: Option<(&[N], &[N])>, energy: &mut N, kinetic: &mut N) {
-        self.planets.assign_energies(at, energy, kinetic);
+    fn assign_energy(&mut self, at: Option<(&[N], &[N])>, energy: &mut N) {
+        self.planets.assign_energy(at, energy);
+    }
+
+    fn assign_kinetic_energy(&mut self, at: Option<(&[N], &[N])>, kinetic: &mut N) {
+        self.planets.assign_kinetic_energy(at, kinetic);
     }
 }
 

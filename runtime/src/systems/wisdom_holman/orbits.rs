@@ -64,6 +64,8 @@ pub(super) struct Advance<N: Number, const D: usize> {
     to_v: [N; D],
     square: N,
     scratch: N,
+    /// T of an energy.
+    kinetic_energy: N,
 }
 
 impl<N: Number, const D: usize> Advance<N, D> {
@@ -79,6 +81,7 @@ impl<N: Number, const D: usize> Advance<N, D> {
             to_v: zeros(),
             square: N::zero(context),
             scratch: N::zero(context),
+            kinetic_energy: N::zero(context),
         }
     }
 
@@ -139,24 +142,39 @@ impl<N: Number, const D: usize> Advance<N, D> {
         scratch.assign(kepler.advance_augmented(&orbit.parameter, time, place, velocity, to_q, to_v));
     }
 
-    /// energy ← energy + A, and kinetic ← T
-    pub(super) fn add_energies(&mut self, orbits: &Orbits<N>, (q, p): (&[N], &[N]), energy: &mut N, kinetic: &mut N) {
-        let Advance { square, scratch, .. } = self;
-        let masses = std::iter::once(&orbits.total_mass).chain(orbits.with_energy().iter().map(|orbit| &orbit.mass));
-        kinetic.assign_zero();
-        for (mass, p) in masses.zip(p.as_chunks::<D>().0) {
-            assign_square_sum(square, p);
-            scratch.assign_quotient(square, mass);
-            kinetic.add(scratch);
-        }
-        kinetic.divide_integer(2);
-        energy.add(kinetic);
+    /// kinetic ← T
+    pub(super) fn assign_kinetic_energy(&mut self, orbits: &Orbits<N>, p: &[N], kinetic: &mut N) {
+        assign_kinetic_energy::<N, D>([&mut self.square, &mut self.scratch], orbits, p, kinetic);
+    }
+
+    /// energy ← energy + A
+    pub(super) fn add_energy(&mut self, orbits: &Orbits<N>, (q, p): (&[N], &[N]), energy: &mut N) {
+        let Advance { square, scratch, kinetic_energy, .. } = self;
+        assign_kinetic_energy::<N, D>([square, scratch], orbits, p, kinetic_energy);
+        energy.add(kinetic_energy);
         for (orbit, q) in orbits.with_energy().iter().zip(&q.as_chunks::<D>().0[1..]) {
             assign_square_sum(square, q);
             scratch.assign_reciprocal_sqrt(square);
             energy.subtract_product(&orbit.attraction, scratch);
         }
     }
+}
+
+/// kinetic ← T
+fn assign_kinetic_energy<N: Number, const D: usize>(
+    [square, scratch]: [&mut N; 2],
+    orbits: &Orbits<N>,
+    p: &[N],
+    kinetic: &mut N,
+) {
+    let masses = std::iter::once(&orbits.total_mass).chain(orbits.with_energy().iter().map(|orbit| &orbit.mass));
+    kinetic.assign_zero();
+    for (mass, p) in masses.zip(p.as_chunks::<D>().0) {
+        assign_square_sum(square, p);
+        scratch.assign_quotient(square, mass);
+        kinetic.add(scratch);
+    }
+    kinetic.divide_integer(2);
 }
 
 /// β ← β + 3κ s, if increments are carried along; s is lost.

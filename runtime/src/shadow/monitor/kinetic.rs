@@ -1,0 +1,86 @@
+//! The mean kinetic energy T of a run.
+
+use super::arithmetic::{integer, quotient};
+use crate::number::Real;
+use crate::systems::system::System;
+
+/// In the distance of windows T is computed this many times. It needs no forces.
+const STATES_IN_A_DISTANCE: u64 = 4;
+
+/// T at one state of each stretch of some steps.
+///
+/// Its place there is irregular: middles of windows, which are spread evenly, do not see all phases of a motion whose period has one of some ratios to
+/// their distance, and their mean of T was up to a factor of 2 off.
+#[derive(Clone, Debug)]
+pub(super) struct MeanKinetic<N> {
+    /// The steps of a stretch.
+    stretch: u64,
+    /// How many states have been taken, one of each stretch so far.
+    count: u64,
+    /// The state of the present stretch.
+    next: u64,
+    /// The newest one, and its T.
+    newest: (u64, N),
+    sum: N,
+}
+
+impl<N: Real> MeanKinetic<N> {
+    /// At the state 0, whose T is `kinetic`, where there is a window every `every` steps.
+    pub(super) fn new(every: u64, kinetic: &N) -> Self {
+        let stretch = (every / STATES_IN_A_DISTANCE).max(1);
+        let sum = N::zero(&kinetic.context());
+        let mut mean = MeanKinetic { stretch, count: 0, next: place(0, stretch), newest: (0, kinetic.clone()), sum };
+        if mean.next == 0 {
+            mean.include();
+        }
+        mean
+    }
+
+    /// How many states from n on are not taken.
+    pub(super) fn idle(&self, n: u64) -> u64 {
+        self.next.saturating_sub(n)
+    }
+
+    /// Takes T of the state n, at which the system is, if it is one of the states.
+    #[inline]
+    pub(super) fn observe<M: System<Number = N> + ?Sized>(&mut self, n: u64, system: &mut M) {
+        if n < self.next {
+            return;
+        }
+        system.assign_kinetic_energy(None, &mut self.newest.1);
+        self.newest.0 = n;
+        self.include();
+    }
+
+    /// Adds T of the newest state, and goes on to the next stretch.
+    #[inline]
+    fn include(&mut self) {
+        self.sum.add(&self.newest.1);
+        self.count += 1;
+        self.next = self.count.saturating_mul(self.stretch).saturating_add(place(self.count, self.stretch));
+    }
+
+    /// kinetic ← T of the state n, at which the system is which has been observed.
+    #[inline]
+    pub(super) fn assign<M: System<Number = N> + ?Sized>(&self, kinetic: &mut N, n: u64, system: &mut M) {
+        match &self.newest {
+            (newest, value) if *newest == n => kinetic.assign(value),
+            _ => system.assign_kinetic_energy(None, kinetic),
+        }
+    }
+
+    /// ⟨T⟩, or 0 before the first state.
+    pub(super) fn mean(&self) -> N {
+        quotient(&self.sum, &integer(self.count.max(1), &self.sum.context()))
+    }
+}
+
+/// One of the numbers below `count`, for each n an independent one: the finaliser of SplitMix64 (Steele, Lea and Flood 2014), scaled.
+#[inline]
+fn place(n: u64, count: u64) -> u64 {
+    let mut bits = n.wrapping_add(1).wrapping_mul(0x9E37_79B9_7F4A_7C15);
+    bits = (bits ^ (bits >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+    bits = (bits ^ (bits >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+    bits ^= bits >> 31;
+    ((u128::from(bits) * u128::from(count)) >> 64) as u64
+}
