@@ -78,11 +78,15 @@ test-python: python-environment
 	cd python/tests && TQDM_DISABLE=1 $(WHEEL)/test/bin/python -m pytest --numprocesses auto --maxprocesses 8 --dist worksteal --quiet --doctest-modules --doctest-ignore-import-errors --pyargs shadowstep .
 
 # The documentation as pages in target/book, which need no network: texts, notebooks with their outputs, the Python package, and beside them rustdoc's pages of
-# the crates in docs/book/rust-api.md. Outputs of notebooks are kept until one of them or the package changes.
+# the crates in docs/book/rust-api.md, one after the other, as rustdoc makes links to crates that have pages. Outputs of notebooks are kept until one of
+# them or the package changes.
 book: EXTRAS = book
 book: python-environment
-	$(RUSTDOC) --profile quick --features shadowstep/mpfr,shadowstep-scenes/mpfr $$(sed -n 's/^| \[\(shadowstep[a-z-]*\)\].*/-p \1/p' docs/book/rust-api.md)
-	rm -rf target/book
+	rm -rf $(or $(CARGO_TARGET_DIR),target)/doc target/book
+	set -e; for crate in -symbolic -limbs -schemes -analysis -macros '' -scenes -sweeps -work-precision; do \
+	    $(RUSTDOC) --profile quick --all-features -p shadowstep$$crate; \
+	done
+	! grep -rlE --include='*.html' '\[<code>[^<]*</code>\]|href="[a-z_]*::' $(or $(CARGO_TARGET_DIR),target)/doc
 	mkdir -p target/book
 	cp -r $(or $(CARGO_TARGET_DIR),target)/doc target/book/rust
 	TQDM_DISABLE=1 $(WHEEL)/test/bin/python -m sphinx --fail-on-warning --keep-going --quiet -b html -c docs/book -d $(WHEEL)/book \
