@@ -20,6 +20,8 @@ matplotlib.use("svg")
 import matplotlib.pyplot as plt
 import rebound
 
+from picture import save
+
 EARTH = 3.0034893488507934e-06
 STAR, MASSES, AXES, ECCENTRICITIES = 0.12, [mass * EARTH / math.sin(133.0) for mass in (0.26, 1.07)], (0.029, 0.049), (0.61, 0.36)
 SAMPLES, EVERY, POINTS = 20, 100, 800
@@ -77,7 +79,7 @@ def draw(rebound_points, ours):
     axes.set(xlabel="steps", ylabel="mean MEGNO", ylim=(-10, 30))
     axes.grid(True, color="#DDDDDD", linewidth=0.6)
     axes.legend(loc="upper left", frameon=False)
-    figure.savefig(PICTURE, metadata={"Date": None}, bbox_inches="tight", facecolor="white")
+    save(figure, PICTURE)
 
 
 def series(program, folder, steps):

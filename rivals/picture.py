@@ -12,6 +12,7 @@ matplotlib.rcParams |= {"svg.hashsalt": "shadowstep", "svg.fonttype": "none", "f
 # the colours of Okabe and Ito, which the colour blind can tell apart, and a marker for each rival; Shadowstep's other ways have its colour and hollow markers
 COLOURS = ["#D55E00", "#D55E00", "#D55E00", "#D55E00", "#000000", "#0072B2", "#009E73", "#56B4E9", "#CC79A7", "#E69F00", "#7F7F7F", "#8B4513", "#5D3A9B", "#0072B2", "#009E73"]
 MARKERS = "ovDosD^v<>PX*hd"
+DARK = "@media screen and (prefers-color-scheme: dark) { svg { filter: invert(0.93) hue-rotate(180deg); } }"
 HOLLOW = ("Shadowstep, planets", "Shadowstep, logarithmic time", "Shadowstep, lanes")
 
 
@@ -29,6 +30,13 @@ def label_of(value, _):
     """1e-3, 2e-3 and 5e-3 as in the tables, with the minus of ASCII."""
     digit, exponent = f"{value:.0e}".split("e")
     return f"{digit}e{int(exponent)}" if digit in "125" else ""
+
+
+def save(figure, path):
+    """Writes a picture on white, which on dark screens has light and dark exchanged and keeps its hues."""
+    figure.savefig(path, metadata={"Date": None}, bbox_inches="tight", facecolor="white")
+    before, metadata, after = path.read_text().partition(" <metadata>")
+    path.write_text(f"{before} <style>{DARK}</style>\n{metadata}{after}")
 
 
 def draw(results, error, label):
@@ -50,6 +58,6 @@ def draw(results, error, label):
     axes.set_title(results.problem.title)
     axes.legend(loc="upper left", bbox_to_anchor=(1.01, 1), frameon=False)
     path = HERE.parent / "docs" / "pictures" / f"rivals-{results.problem.key}.svg"
-    figure.savefig(path, metadata={"Date": None}, bbox_inches="tight", facecolor="white")
+    save(figure, path)
     plt.close(figure)
     return path.name

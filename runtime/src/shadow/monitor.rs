@@ -3,7 +3,7 @@
 //! | module | what it is |
 //! | --- | --- |
 //! | `schedule` | which states belong to windows |
-//! | `energies` | H and T at the middles of windows |
+//! | `energies` | H at the middles of windows |
 //! | `kinetic` | the mean of T |
 //! | `blocks` | the most accurate estimates and the means of the parts of a run, in fixed memory |
 //! | `change`, `trend` | what these show: a permanent change and its uncertainty; constant, random walk or line |
@@ -98,7 +98,6 @@ struct Newest<N> {
     /// k or m
     order: u32,
     energy: N,
-    kinetic: N,
 }
 
 /// The result of a window.
@@ -152,7 +151,7 @@ impl<N: Real, E: Estimator<N>> Monitor<N, E> {
             n: 0,
             statistics: Statistics::new(&energy),
             blocks: Blocks::new(&energy),
-            newest: Newest { n: 0, modified: Estimated::zero(&context), has_error: false, order: 0, energy, kinetic },
+            newest: Newest { n: 0, modified: Estimated::zero(&context), has_error: false, order: 0, energy },
             newest_states: NewestStates::new(states, h, dimension, &context)?
                 .with_most_stages(stages.unwrap_or(u64::MAX)),
             fastest: Fastest::new(dimension, &context),
@@ -174,11 +173,10 @@ impl<N: Real, E: Estimator<N>> Monitor<N, E> {
         let states = self.schedule.states();
         self.schedule = Schedule::new(states, steps);
         self.energies = Energies::new(self.schedule, states, &self.method.context());
-        self.kinetic = MeanKinetic::new(steps, &self.newest.kinetic);
+        self.kinetic = self.kinetic.every(steps);
         // the state 0 has come already
-        if let Some(([energy, kinetic], _)) = self.energies.at_middle(0) {
+        if let Some((energy, _)) = self.energies.at_middle(0) {
             energy.assign(&self.newest.energy);
-            kinetic.assign(&self.newest.kinetic);
         }
         self
     }
@@ -262,10 +260,9 @@ impl<N: Real, E: Estimator<N>> Monitor<N, E> {
         if coordinates != begun {
             return Err(RunError::Dimension { coordinates, begun });
         }
-        if let Some(([energy, kinetic], is_checked)) = self.energies.at_middle(self.n) {
+        if let Some((energy, is_checked)) = self.energies.at_middle(self.n) {
             // while the gradient is kept from which the energy follows
             system.assign_energy(None, energy);
-            self.kinetic.assign(kinetic, self.n, system);
             if is_checked {
                 self.rate.compare(system, energy);
             }
@@ -283,7 +280,7 @@ impl<N: Real, E: Estimator<N>> Monitor<N, E> {
             return Ok(false);
         }
         let Some(estimate) = estimate else { return Ok(false) };
-        let Newest { n, modified, has_error, order, energy, kinetic } = &mut self.newest;
+        let Newest { n, modified, has_error, order, energy } = &mut self.newest;
         *n = self.n - (states as u64 / 2);
         modified.value.assign(estimate.value);
         *has_error = estimate.error.is_some();
@@ -292,21 +289,19 @@ impl<N: Real, E: Estimator<N>> Monitor<N, E> {
             Some(error) => modified.error.assign(error),
             None => modified.error.assign_zero(),
         }
-        let [of_middle, kinetic_of_middle] = self.energies.at_end();
-        energy.assign(of_middle);
-        kinetic.assign(kinetic_of_middle);
+        energy.assign(self.energies.at_end());
         self.schedule.advance();
-        self.end_window()?;
+        self.end_window(system)?;
         Ok(true)
     }
 
     #[inline(always)]
-    fn end_window(&mut self) -> Result<(), RunError> {
-        let Newest { n, modified, energy, kinetic, .. } = &self.newest;
+    fn end_window<M: System<Number = N> + ?Sized>(&mut self, system: &mut M) -> Result<(), RunError> {
+        let Newest { n, modified, energy, .. } = &self.newest;
         check_value(energy, Quantity::Energy, number(*n))?;
         check_value(&modified.value, Quantity::ModifiedEnergy, number(*n))?;
         check_value(&modified.error, Quantity::ModifiedEnergyError, number(*n))?;
-        self.newest_states.end(&self.schedule, kinetic, &mut self.fastest);
+        self.newest_states.end(&self.schedule, system, &mut self.fastest);
         let best = self.blocks.push(energy, modified);
         self.method.assign_difference(energy, &best.value);
         self.statistics.add(energy, &self.method, modified);

@@ -1,17 +1,17 @@
-//! H and T at the states in the middles of windows, until the windows end.
+//! H at the states in the middles of windows, until the windows end.
 
 use super::schedule::Schedule;
 use crate::number::Number;
 
-/// The energies of the windows whose middle has come, but not yet their end.
+/// H of the windows whose middle has come, but not yet their end.
 ///
 /// They are found at the middle itself, where the gradient of the last kick is known, from which H follows without an evaluation.
 #[derive(Clone, Debug)]
 pub(super) struct Energies<N> {
     /// Where the next middle is.
     schedule: Schedule,
-    /// H and T, each window in turn.
-    ring: Vec<[N; 2]>,
+    /// H, each window in turn.
+    ring: Vec<N>,
     /// Places of the next window whose middle comes, and of the next one that ends.
     next: usize,
     oldest: usize,
@@ -30,13 +30,12 @@ const CHECKS_OF_OVERLAPPING: u64 = 64;
 impl<N: Number> Energies<N> {
     /// For windows of `states` states.
     pub(super) fn new(schedule: Schedule, states: usize, context: &N::Context) -> Self {
-        let place = [N::zero(context), N::zero(context)];
-        Energies { schedule, ring: vec![place; states], next: 0, oldest: 0, count: 0, checked: 0, checks: 0 }
+        Energies { schedule, ring: vec![N::zero(context); states], next: 0, oldest: 0, count: 0, checked: 0, checks: 0 }
     }
 
-    /// The room for the energies of the state n, if it is the middle of a window, and whether the rate is checked there.
+    /// The room for H of the state n, if it is the middle of a window, and whether the rate is checked there.
     #[inline]
-    pub(super) fn at_middle(&mut self, n: u64) -> Option<(&mut [N; 2], bool)> {
+    pub(super) fn at_middle(&mut self, n: u64) -> Option<(&mut N, bool)> {
         if !self.schedule.is_middle(n) {
             return None;
         }
@@ -53,9 +52,9 @@ impl<N: Number> Energies<N> {
         Some((&mut self.ring[place], is_checked))
     }
 
-    /// The energies of the window that ends.
+    /// H of the window that ends.
     #[inline]
-    pub(super) fn at_end(&mut self) -> &[N; 2] {
+    pub(super) fn at_end(&mut self) -> &N {
         let place = self.oldest;
         self.oldest = self.after(place);
         &self.ring[place]

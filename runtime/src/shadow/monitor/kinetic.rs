@@ -19,8 +19,8 @@ pub(super) struct MeanKinetic<N> {
     count: u64,
     /// The state of the present stretch.
     next: u64,
-    /// The newest one, and its T.
-    newest: (u64, N),
+    /// T of the newest one.
+    newest: N,
     sum: N,
 }
 
@@ -29,11 +29,16 @@ impl<N: Real> MeanKinetic<N> {
     pub(super) fn new(every: u64, kinetic: &N) -> Self {
         let stretch = (every / STATES_IN_A_DISTANCE).max(1);
         let sum = N::zero(&kinetic.context());
-        let mut mean = MeanKinetic { stretch, count: 0, next: place(0, stretch), newest: (0, kinetic.clone()), sum };
+        let mut mean = MeanKinetic { stretch, count: 0, next: place(0, stretch), newest: kinetic.clone(), sum };
         if mean.next == 0 {
             mean.include();
         }
         mean
+    }
+
+    /// The same where there is a window every `every` steps; the system is still at the state 0.
+    pub(super) fn every(&self, every: u64) -> Self {
+        Self::new(every, &self.newest)
     }
 
     /// How many states from n on are not taken.
@@ -47,26 +52,19 @@ impl<N: Real> MeanKinetic<N> {
         if n < self.next {
             return;
         }
-        system.assign_kinetic_energy(None, &mut self.newest.1);
-        self.newest.0 = n;
+        system.assign_kinetic_energy(None, &mut self.newest);
         self.include();
     }
 
     /// Adds T of the newest state, and goes on to the next stretch.
     #[inline]
     fn include(&mut self) {
-        self.sum.add(&self.newest.1);
+        self.sum.add(&self.newest);
         self.count += 1;
-        self.next = self.count.saturating_mul(self.stretch).saturating_add(place(self.count, self.stretch));
-    }
-
-    /// kinetic ← T of the state n, at which the system is which has been observed.
-    #[inline]
-    pub(super) fn assign<M: System<Number = N> + ?Sized>(&self, kinetic: &mut N, n: u64, system: &mut M) {
-        match &self.newest {
-            (newest, value) if *newest == n => kinetic.assign(value),
-            _ => system.assign_kinetic_energy(None, kinetic),
-        }
+        self.next = match self.stretch {
+            1 => self.count,
+            stretch => self.count.saturating_mul(stretch).saturating_add(place(self.count, stretch)),
+        };
     }
 
     /// ⟨T⟩, or 0 before the first state.

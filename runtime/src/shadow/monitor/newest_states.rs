@@ -34,7 +34,7 @@ pub(super) struct NewestStates<N> {
     /// Windows that ended, and how many of them were not skipped; all sums are over the latter.
     ended: u64,
     windows: u64,
-    /// Σ T
+    /// Σ T of their last states
     kinetic: N,
     consistency: Consistency<N>,
     kicks: Kicks<N>,
@@ -106,9 +106,14 @@ impl<N: Real> NewestStates<N> {
         }
     }
 
-    /// Ends a window of this schedule with the kinetic energy T in its middle.
+    /// Ends a window of this schedule, at whose last state the system is.
     #[inline(always)]
-    pub(super) fn end(&mut self, schedule: &Schedule, kinetic: &N, fastest: &mut Fastest<N>) {
+    pub(super) fn end<M: System<Number = N> + ?Sized>(
+        &mut self,
+        schedule: &Schedule,
+        system: &mut M,
+        fastest: &mut Fastest<N>,
+    ) {
         self.ended += 1;
         self.consistency.end();
         let states = schedule.states();
@@ -116,7 +121,8 @@ impl<N: Real> NewestStates<N> {
             return;
         }
         self.windows += 1;
-        self.kinetic.add(kinetic);
+        system.assign_kinetic_energy(None, &mut self.angle);
+        self.kinetic.add(&self.angle);
         self.add_sums(states, fastest);
         if self.ended > ALL_WINDOWS {
             self.skipped = schedule.pause(self.windows);
