@@ -6,9 +6,11 @@
 //! meets one with a larger `low`, the limbs below that are dropped: an error of one unit of the coarser row.
 
 mod pairs;
+mod products;
 mod table;
 
 pub(super) use pairs::{IntegerWeights, OfLag, Rows, Sums};
+pub(super) use products::StateRows;
 pub(super) use table::FixedTable;
 
 use crate::number::{LimbAccess, Parts};

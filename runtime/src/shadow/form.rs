@@ -6,7 +6,7 @@ use crate::Rational;
 use crate::number::{LimbAccess, Number};
 use crate::shadow::error_estimate::{ErrorEstimate, Point, around};
 use crate::shadow::estimator::Estimate;
-use crate::shadow::fixed::{IntegerWeights, OfLag, Rows, Sums};
+use crate::shadow::fixed::{IntegerWeights, OfLag, Rows, StateRows, Sums};
 use crate::shadow::weights::BilinearWeights;
 use crate::shadow::window::Window;
 use crate::systems::increments::Increments;
@@ -27,8 +27,8 @@ pub(super) struct Products<N> {
 #[derive(Clone, Debug)]
 enum Pairs<N> {
     Numbers(Vec<N>),
-    /// In fixed point, divided by (−1)^i i.
-    Rows(LimbAccess<N>, Rows),
+    /// In fixed point, divided by (−1)^i i, from states that may be so, too.
+    Rows(LimbAccess<N>, Rows, Option<StateRows>),
 }
 
 impl<N: Number> Products<N> {
@@ -39,7 +39,10 @@ impl<N: Number> Products<N> {
             window: Window::new(states, dimension, context),
             states,
             pairs: match N::LIMBS {
-                Some(access) => Pairs::Rows(access, Rows::new((access.limbs)(&zero), lags * states)),
+                Some(access) => {
+                    let limbs = (access.limbs)(&zero);
+                    Pairs::Rows(access, Rows::new(limbs, lags * states), StateRows::new(limbs, states, dimension))
+                }
                 None => Pairs::Numbers(vec![zero.clone(); lags * states]),
             },
             of_newest: vec![zero; lags],
@@ -49,11 +52,18 @@ impl<N: Number> Products<N> {
     pub(super) fn push(&mut self, q: &[N], p: &[N], increments: Increments<'_, N>) {
         self.window.push(q, p, increments);
         let newest = self.window.place(0);
+        if let (Pairs::Rows(access, rows, Some(states)), Some((q, p, beta))) =
+            (&mut self.pairs, self.window.newest_with_beta())
+        {
+            states.set(newest, q.iter().chain(p).map(access.parts), (access.parts)(beta));
+            states.write_pairs(newest, self.window.reach(self.of_newest.len()), rows);
+            return;
+        }
         let count = self.window.pairs(&mut self.of_newest);
         let places = (0..count).map(|i| i * self.states + newest);
         match &mut self.pairs {
             Pairs::Numbers(pairs) => places.zip(&self.of_newest).for_each(|(place, pair)| pairs[place].assign(pair)),
-            Pairs::Rows(access, rows) => {
+            Pairs::Rows(access, rows, _) => {
                 for ((place, pair), lag) in places.zip(&mut self.of_newest).zip(1..) {
                     pair.divide_integer(if lag % 2 == 0 { lag } else { -lag });
                     rows.set(place, (access.parts)(pair));
@@ -153,7 +163,7 @@ impl<N: Number> Form<N> {
                     add_row(&mut sums, pairs, of_lag, sum);
                 }
             }
-            (Weights::Integers { value: of_value, last_term: of_term }, Pairs::Rows(access, rows)) => {
+            (Weights::Integers { value: of_value, last_term: of_term }, Pairs::Rows(access, rows, _)) => {
                 let kinds = [Some(&*of_value), of_term.as_ref()];
                 let weights = kinds.map(|kind| kind.map(|(weights, _)| weights));
                 let mut sums = Sums::new(rows, weights);

@@ -66,8 +66,7 @@ impl<N: Number> Window<N> {
     /// The first terms are also q_i·(p − p_i) − p_i·(q − q_i), and are computed so where the differences are known as sums
     /// of increments.
     pub(super) fn pairs(&mut self, pairs: &mut [N]) -> usize {
-        let count = (self.pushed - 1).min(self.ring.len() - 1).min(pairs.len());
-        let count = (0..count).position(|back| self.begins_anew(back)).unwrap_or(count);
+        let count = self.reach(pairs.len());
         self.sum.assign_zero();
         let (groups, rest) = pairs[..count].as_chunks_mut::<AT_ONCE>();
         for (group, pairs) in groups.iter_mut().enumerate() {
@@ -78,6 +77,18 @@ impl<N: Number> Window<N> {
             self.add_pairs(i, std::array::from_mut(one));
         }
         count
+    }
+
+    /// How many states before the newest one have a product with it, of at most `most`.
+    pub(super) fn reach(&self, most: usize) -> usize {
+        let count = (self.pushed - 1).min(self.ring.len() - 1).min(most);
+        (0..count).position(|back| self.begins_anew(back)).unwrap_or(count)
+    }
+
+    /// q, p and the increment of β of the newest state, of which no other increments are known; `None` where they are.
+    pub(super) fn newest_with_beta(&self) -> Option<(&[N], &[N], &N)> {
+        let Stored { q, p, increments } = &self.ring[self.place(0)];
+        (!increments.view().has_vectors()).then_some((q, p, &increments.beta))
     }
 
     /// Whether a state has no increments, while the state before it or the newest one has.

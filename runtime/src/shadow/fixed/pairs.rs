@@ -12,7 +12,7 @@ use super::{MOST_LIMBS, MOST_OF_ROW, NOT_FINITE, Offset, ZERO, by_limbs, move_ro
 use crate::number::{LimbAccess, Parts};
 
 /// Pairs are numbers about 1 in most units.
-const OFFSET: Offset = 32;
+pub(super) const OFFSET: Offset = 32;
 
 /// The most limbs of a sum: the limbs of a row, one below, and one more than weights have, which is 9 for k ≤ 256.
 const MOST_OF_SUM: usize = MOST_LIMBS + 1 + 11;
@@ -37,8 +37,15 @@ impl Rows {
         self.low[place] = write_number(number, OFFSET, &mut self.limbs[place * self.size..][..self.size]);
     }
 
-    fn row(&self, place: usize) -> (&[u64], i64) {
+    #[inline(always)]
+    pub(super) fn row(&self, place: usize) -> (&[u64], i64) {
         (&self.limbs[place * self.size..][..self.size], self.low[place])
+    }
+
+    #[inline(always)]
+    pub(super) fn set_row(&mut self, place: usize, row: &[u64], low: i64) {
+        self.limbs[place * self.size..][..self.size].copy_from_slice(row);
+        self.low[place] = low;
     }
 }
 
