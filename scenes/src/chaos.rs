@@ -3,8 +3,8 @@
 use std::ops::ControlFlow::{self, Break, Continue};
 
 use serde::{Serialize, Serializer};
-use shadowstep::shadow::Estimate;
 use shadowstep::shadow::run::RunError;
+use shadowstep::shadow::{Criterion, Estimate, Verdict};
 use shadowstep::steps::integrator::VectorIntegrator;
 use shadowstep::tables::{AtRunTime, TableScheme};
 use shadowstep::tangent::{Exponent, Growth, Regularity};
@@ -111,7 +111,11 @@ fn displayed<S: Serializer>(regularity: &Regularity, serializer: S) -> Result<S:
 pub fn conclusion(whole: &ChaosRecord, half: &ChaosRecord) -> String {
     use Regularity::{Chaotic, Regular};
     let (h, half_step) = (&whole.step, &half.step);
+    let too_large = Verdict::TooLarge(Criterion::EnergyError).to_string();
     match (whole.motion, half.motion) {
+        (Chaotic, Chaotic) if [whole, half].iter().all(|record| record.summary.verdict == too_large) => {
+            "chaotic at both step sizes, which are too large: not decided; try smaller steps".to_owned()
+        }
         (Chaotic, Chaotic) if exponents_agree(whole, half) => {
             "chaotic at both step sizes with the same exponent: of the problem".to_owned()
         }

@@ -85,6 +85,9 @@ pub trait Monitoring<N: RunNumber> {
     /// [`Monitor::idle`]
     fn idle(&self) -> u64;
 
+    /// [`Monitor::takes_kinetic`]
+    fn takes_kinetic(&self, n: u64) -> bool;
+
     /// [`Monitor::pass`]
     fn pass(&mut self, states: u64);
 
@@ -110,6 +113,10 @@ impl<N: RunNumber> Monitoring<N> for Monitor<N, <Bilinear as BuildEstimator<N>>:
 
     fn idle(&self) -> u64 {
         Monitor::idle(self)
+    }
+
+    fn takes_kinetic(&self, n: u64) -> bool {
+        Monitor::takes_kinetic(self, n)
     }
 
     fn pass(&mut self, states: u64) {

@@ -214,23 +214,23 @@ impl<N: RunNumber> Watch<N> {
             return;
         }
         let Observed { monitor, idle, .. } = observed;
-        let follows_plain_step = !monitor.needs_increments();
         // what is not finite is found by the run as well, or by the verdict
         let found = monitor.observe(integrator).ok().flatten();
         // of a processed scheme the trajectory is known at the present state only
         let processed = integrator.is_processed();
-        let of = match found {
-            Some(sample) if !processed => {
-                Some((self.from + i64::try_from(sample.n).unwrap_or(i64::MAX), Some(sample.energy.clone())))
-            }
-            Some(_) => Some((n, None)),
-            // between windows, at one of the states of T
-            None => (follows_plain_step && !monitor.needs_increments()).then_some((n, None)),
-        };
+        let ends = found.is_some();
+        let middle = found.filter(|_| !processed).map(|sample| (sample.n, sample.energy.clone()));
+        let is_own = (processed && ends) || monitor.takes_kinetic(monitor.n());
+        let middle = middle.filter(|(n, _)| !monitor.takes_kinetic(*n));
         *idle = monitor.idle();
-        if let Some((n, energy)) = of.filter(|(n, _)| self.energies.wants(*n)) {
-            let energy = energy.unwrap_or_else(|| at_output(integrator, |integrator| integrator.system().energy()));
-            self.energy.include(n, &energy);
+        if let Some((middle, energy)) = middle {
+            let n = self.from + i64::try_from(middle).unwrap_or(i64::MAX);
+            if self.energies.wants(n) {
+                self.energy.include(n, &energy);
+            }
+        }
+        if is_own && self.energies.wants(n) {
+            self.energy.include(n, &at_output(integrator, |integrator| integrator.system().energy()));
         }
     }
 

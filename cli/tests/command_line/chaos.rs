@@ -50,6 +50,13 @@ fn chaos_of_the_step_size_is_told_from_that_of_the_problem() {
     assert!(largest > 0.1 && (largest + smallest).abs() < 1e-12, "{pair:?}");
     assert!((number(half, "mean_megno") - 2.0).abs() < 0.1, "{half}");
     assert_eq!(text(&whole["summary"], "verdict"), "the step size is too large");
+    // where the energy is lost at both step sizes, they say nothing of the problem
+    let (_folder, coarser) = in_folder(&PENDULUM.replace("step = 1", "step = 3"));
+    let printed = quietly(&format!("chaos {coarser}"));
+    assert!(
+        printed.ends_with("\nchaotic at both step sizes, which are too large: not decided; try smaller steps\n"),
+        "{printed}"
+    );
 }
 
 /// A hill until t = 60, and then a well: vectors grow like e^t at first, which is no short run.

@@ -28,7 +28,7 @@ pub(super) struct Products<N> {
 enum Pairs<N> {
     Numbers(Vec<N>),
     /// In fixed point, divided by (−1)^i i, from states that may be so, too.
-    Rows(LimbAccess<N>, Rows, Option<StateRows>),
+    Rows(LimbAccess<N>, Rows, Option<Box<StateRows>>),
 }
 
 impl<N: Number> Products<N> {
@@ -41,7 +41,11 @@ impl<N: Number> Products<N> {
             pairs: match N::LIMBS {
                 Some(access) => {
                     let limbs = (access.limbs)(&zero);
-                    Pairs::Rows(access, Rows::new(limbs, lags * states), StateRows::new(limbs, states, dimension))
+                    Pairs::Rows(
+                        access,
+                        Rows::new(limbs, lags * states),
+                        StateRows::new(limbs, states, dimension).map(Box::new),
+                    )
                 }
                 None => Pairs::Numbers(vec![zero.clone(); lags * states]),
             },

@@ -192,6 +192,11 @@ impl<N: Real, E: Estimator<N>> Monitor<N, E> {
         if self.fastest.begins(next) { 0 } else { self.schedule.idle(next).min(self.kinetic.idle(next)) }
     }
 
+    /// Whether the state n is one of those over which [T](Report::kinetic) is a mean.
+    pub fn takes_kinetic(&self, n: u64) -> bool {
+        self.kinetic.takes(n)
+    }
+
     /// This number of states passes unobserved, [`idle`](Monitor::idle) at most.
     pub fn pass(&mut self, states: u64) {
         self.n += states;

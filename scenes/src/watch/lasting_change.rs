@@ -17,6 +17,11 @@ impl Range {
         Range { least: energy, largest: energy, states: 1, from: n, to: n }
     }
 
+    /// With H of a state within it.
+    fn with(self, energy: f64) -> Self {
+        Range { least: self.least.min(energy), largest: self.largest.max(energy), ..self }
+    }
+
     fn joined(self, other: Range) -> Range {
         Range {
             least: self.least.min(other.least),
@@ -65,7 +70,7 @@ pub(super) struct LastingChange {
 }
 
 impl LastingChanges {
-    /// Takes H, less a constant, of the next state; of one that comes after later states it takes nothing.
+    /// Takes H, less a constant, of the next state, or of one that comes after later states.
     pub(super) fn include(&mut self, n: i64, energy: f64) {
         let new = Range::of(n, energy);
         let (Some(before), Some(since)) = (self.before, self.since) else {
@@ -73,6 +78,8 @@ impl LastingChanges {
             return;
         };
         if n <= since.to {
+            let side = if n < since.from { &mut self.before } else { &mut self.since };
+            *side = side.map(|range| range.with(energy));
             return;
         }
         let gap = before.gap(since);
@@ -148,7 +155,7 @@ mod tests {
     }
 
     #[test]
-    fn late_states_are_no_new_ones() {
+    fn late_states_are_within_others() {
         let mut lasting = LastingChanges::default();
         for n in 0..200_i64 {
             lasting.include(10 * n, f64::from(n >= 5));

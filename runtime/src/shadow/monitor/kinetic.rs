@@ -61,10 +61,13 @@ impl<N: Real> MeanKinetic<N> {
     fn include(&mut self) {
         self.sum.add(&self.newest);
         self.count += 1;
-        self.next = match self.stretch {
-            1 => self.count,
-            stretch => self.count.saturating_mul(stretch).saturating_add(place(self.count, stretch)),
-        };
+        self.next = self.count.saturating_mul(self.stretch).saturating_add(place(self.count, self.stretch));
+    }
+
+    /// Whether n is the number of one of the states.
+    pub(super) fn takes(&self, n: u64) -> bool {
+        let number = n / self.stretch;
+        n == number * self.stretch + place(number, self.stretch)
     }
 
     /// ⟨T⟩, or 0 before the first state.
@@ -76,6 +79,9 @@ impl<N: Real> MeanKinetic<N> {
 /// One of the numbers below `count`, for each n an independent one: the finaliser of SplitMix64 (Steele, Lea and Flood 2014), scaled.
 #[inline]
 fn place(n: u64, count: u64) -> u64 {
+    if count == 1 {
+        return 0;
+    }
     let mut bits = n.wrapping_add(1).wrapping_mul(0x9E37_79B9_7F4A_7C15);
     bits = (bits ^ (bits >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
     bits = (bits ^ (bits >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
