@@ -463,7 +463,7 @@ fn an_error_of_some_states_is_not_called_the_largest_of_all() {
         summarised(folder(&scene).path(), "").err.split_whitespace().collect::<Vec<_>>().join(" ")
     };
     let (long, short) = (kepler(20_000), kepler(60));
-    assert!(long.contains("error of H 0.0188 of |H(0)| (t = 102.8) is the largest of 1480 states,"), "{long}");
+    assert!(long.contains("error of H 0.0188 of |H(0)| (t = 742) is the largest of 1480 states,"), "{long}");
     assert!(!long.contains("at most 0.0188"), "{long}");
     assert!(short.contains("error of H at most 0.0") && !short.contains("the largest of"), "{short}");
 }
