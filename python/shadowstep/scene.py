@@ -53,11 +53,11 @@ def run(scene: Union[str, os.PathLike[str]], *, restart: bool = False, progress:
     >>> import shadowstep
     >>> outcome = shadowstep.run('''
     ... problem.name = "kepler"
-    ... run = { scheme = "yoshida4", step = "1/20", steps = 100, digits = "double" }
-    ... output = { trajectory = { every = 50 }, energy = { every = 50 } }
+    ... run = { scheme = "yoshida4", step = "1/20", steps = 400, digits = "double" }
+    ... output = { trajectory = { every = 200 }, energy = { every = 200 } }
     ... ''')
     >>> list(outcome.columns), outcome.columns["t"].tolist()
-    (['n', 't', 'energy', 'x', 'y', 'px', 'py'], [0.0, 2.5, 5.0])
+    (['n', 't', 'energy', 'x', 'y', 'px', 'py'], [0.0, 10.0, 20.0])
     >>> outcome.summary["verdict"]
     'bounded'
     """
