@@ -260,8 +260,10 @@ fn the_energy_that_errors_are_compared_with_has_no_constants() {
     let kinetic_of = |formulas: &[&str]| {
         let parts = parts::<f64>(formulas, (&["x", "y"], &["p", "r"]), &[], &()).unwrap();
         let mut system = SystemOfParts::new(parts, &[0.3, -0.2], &[0.7, 1.1]).unwrap();
-        let mut kinetic = 0.0;
+        let [mut energy, mut kinetic] = [0.0; 2];
+        system.assign_energy(None, &mut energy);
         system.assign_kinetic_energy(None, &mut kinetic);
+        assert_eq!(energy, system.energy());
         kinetic
     };
     let t = (0.7_f64.powi(2) + 1.1 * 1.1) / 2.0;

@@ -187,10 +187,8 @@ impl<const L: usize> Pair<L> {
     #[cold]
     fn shift_down_half(&mut self) {
         self.below = self.below >> 32 | self.row[0] << 32;
-        for i in 0..L - 1 {
-            self.row[i] = self.row[i] >> 32 | self.row[i + 1] << 32;
-        }
-        self.row[L - 1] = self.row[L - 1] >> 32 | self.above << 32;
+        self.row = fixed::shift_down(&self.row, 32);
+        self.row[L - 1] |= self.above << 32;
     }
 
     /// Moves the row so that it has two free bits above, and no more than it needs.
@@ -200,7 +198,7 @@ impl<const L: usize> Pair<L> {
         if !free(self.row[L - 1]) {
             self.move_to(self.low.saturating_add(1));
         } else if self.row[L - 1] == self.above && free(self.row[L - 2]) && self.low != NOT_FINITE {
-            self.row.copy_within(..L - 1, 1);
+            self.row = fixed::limb_up(&self.row);
             self.row[0] = self.below;
             (self.below, self.low) = (0, self.low.saturating_sub(1));
         }

@@ -29,7 +29,7 @@ impl<N: Real> MeanKinetic<N> {
     pub(super) fn new(every: u64, kinetic: &N) -> Self {
         let stretch = (every / STATES_IN_A_DISTANCE).max(1);
         let sum = N::zero(&kinetic.context());
-        let mut mean = MeanKinetic { stretch, count: 0, next: place(0, stretch), newest: kinetic.clone(), sum };
+        let mut mean = MeanKinetic { stretch, count: 0, next: state_of(0, stretch), newest: kinetic.clone(), sum };
         if mean.next == 0 {
             mean.include();
         }
@@ -61,13 +61,12 @@ impl<N: Real> MeanKinetic<N> {
     fn include(&mut self) {
         self.sum.add(&self.newest);
         self.count += 1;
-        self.next = self.count.saturating_mul(self.stretch).saturating_add(place(self.count, self.stretch));
+        self.next = state_of(self.count, self.stretch);
     }
 
     /// Whether n is the number of one of the states.
     pub(super) fn takes(&self, n: u64) -> bool {
-        let number = n / self.stretch;
-        n == number * self.stretch + place(number, self.stretch)
+        n == state_of(n / self.stretch, self.stretch)
     }
 
     /// ⟨T⟩, or 0 before the first state.
@@ -76,15 +75,16 @@ impl<N: Real> MeanKinetic<N> {
     }
 }
 
-/// One of the numbers below `count`, for each n an independent one: the finaliser of SplitMix64 (Steele, Lea and Flood 2014), scaled.
+/// The state of a stretch of so many steps, at an independent place of each: the finaliser of SplitMix64 (Steele, Lea and Flood 2014), scaled.
 #[inline]
-fn place(n: u64, count: u64) -> u64 {
-    if count == 1 {
-        return 0;
+fn state_of(number: u64, stretch: u64) -> u64 {
+    if stretch == 1 {
+        return number;
     }
-    let mut bits = n.wrapping_add(1).wrapping_mul(0x9E37_79B9_7F4A_7C15);
+    let mut bits = number.wrapping_add(1).wrapping_mul(0x9E37_79B9_7F4A_7C15);
     bits = (bits ^ (bits >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
     bits = (bits ^ (bits >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
     bits ^= bits >> 31;
-    ((u128::from(bits) * u128::from(count)) >> 64) as u64
+    let place = ((u128::from(bits) * u128::from(stretch)) >> 64) as u64;
+    number.saturating_mul(stretch).saturating_add(place)
 }
