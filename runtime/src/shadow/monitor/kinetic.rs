@@ -75,7 +75,7 @@ impl<N: Real> MeanKinetic<N> {
     }
 }
 
-/// The state of a stretch of so many steps, at an independent place of each: the finaliser of SplitMix64 (Steele, Lea and Flood 2014), scaled.
+/// The state in a stretch, which is at an independent place in each: the finaliser of SplitMix64 (Steele, Lea and Flood 2014), scaled.
 #[inline]
 fn state_of(number: u64, stretch: u64) -> u64 {
     if stretch == 1 {
