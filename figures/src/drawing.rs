@@ -13,10 +13,10 @@ pub(crate) fn additional(what: &str) -> Finding {
     Finding { found: vec![what.to_owned()], ..Finding::default() }
 }
 
-/// How many decimals of a result are the same when it is computed with 200 digits.
+/// By how much a result changes when it is computed with 200 digits.
 pub(crate) fn digits_held(finding: &mut Finding, what: &str, held: Option<f64>) {
     if let Some(held) = held {
-        let held = if held.is_finite() { format!("to {held:.0} decimals") } else { "in all digits".to_owned() };
-        finding.found(format!("Recomputed with 200 digits, {what} is the same {held}."));
+        let change = if held.is_finite() { format!("changes by 1e-{held:.0}") } else { "does not change".to_owned() };
+        finding.found(format!("Recomputed with 200 digits, {what} {change}."));
     }
 }

@@ -17,8 +17,7 @@ pub enum Verdict {
 const PART: &str = "Only some of the values are computed; without `--quick` all are.";
 
 /// Of an interval with values on both sides of a limit.
-pub const INTERVAL: &str =
-    "The 95 % interval allows both; more step sizes would narrow it, and `--quick` has the fewest.";
+pub const INTERVAL: &str = "The 95 % interval allows both; more step sizes would narrow it.";
 
 /// Of nothing.
 const NOTHING: &str = "There is no value to compare; more step sizes, as without `--quick`, may give some.";

@@ -96,9 +96,12 @@ fn draw(results: &Results) -> Finding {
     let steps = results.grid(&all, &[5, 7, 10, 14, 20, 30, 40]);
     let (equal_steps, equal_cost) = (changes(results, steps, |n, _| n), changes(results, steps, |n, cost| n * cost));
     let y = || Axis::log10("permanent change over [0, 100]");
-    finding.chart(Chart::new("At equal step sizes", Axis::linear("1/h"), y(), equal_steps.clone()), "Lower is better.");
+    finding.chart(
+        Chart::new("Kepler, e = 0.6, at equal step sizes", Axis::linear("1/h"), y(), equal_steps.clone()),
+        "Lower is better.",
+    );
     let per_time = Axis::linear("force evaluations per unit of time");
-    finding.chart(Chart::new("At equal cost", per_time, y(), equal_cost.clone()), "Lower is better.");
+    finding.chart(Chart::new("Kepler, e = 0.6, at equal cost", per_time, y(), equal_cost.clone()), "Lower is better.");
     drift_and_change(results, &mut finding, &equal_steps);
     rank(&mut finding, &equal_steps, &equal_cost, results.coverage());
     let shown = |(change, jump)| format!("{} ({})", power(change), power(jump));

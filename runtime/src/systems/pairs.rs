@@ -28,6 +28,8 @@ pub(crate) use particles::{Field, with_a_particle};
 pub use shadowstep_symbolic::{Separation, Summand};
 pub(crate) use shell::Shell;
 
+use std::marker::PhantomData;
+
 use thiserror::Error;
 
 use crate::number::Number;
@@ -68,6 +70,15 @@ pub struct Pairs<P, const D: usize> {
 
 /// Sums of this number of bodies and more have blocks.
 const LEAST_BODIES: usize = 2 * BLOCK;
+
+/// What is compiled for a number type: what its constants exclude in a condition is not.
+struct HasVectors<N>(PhantomData<N>);
+
+impl<N: Number> HasVectors<N> {
+    /// Numbers without derivatives, in vectors. Dual numbers have blocks of their own for the gradient, and for the energy and β none, which are not followed
+    /// along many steps of theirs.
+    const PLAIN: bool = N::IN_VECTORS && !N::HAS_DERIVATIVES;
+}
 
 /// The pairs that interact.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -449,7 +460,7 @@ impl<N: Number, P: PairPotential<N>, const D: usize> Potential<N> for Pairs<P, D
     }
 
     fn energy(&self, q: &[N], energy: &mut N, scratch: &mut [N]) {
-        if N::IN_VECTORS
+        if HasVectors::<N>::PLAIN
             && let Some((axes, pair)) = self.blocks(scratch)
         {
             return self.all_blocks().energy(q, energy, axes, pair);
@@ -466,14 +477,13 @@ impl<N: Number, P: PairPotential<N>, const D: usize> Potential<N> for Pairs<P, D
     }
 
     fn gradient(&self, q: &[N], gradient: &mut [N], scratch: &mut [N]) {
-        // what a number type does not have is not compiled for it, as its constants stand first in conditions
         let size = self.scratch_of_blocks::<N>();
         if N::IN_VECTORS && N::HAS_DERIVATIVES && size > 0 && self.has_blocks_of_dual::<N>() {
             let (axes, pair) = self.room_of_blocks(size, scratch);
             let (bodies, in_order_of_blocks) = (self.bodies, self.is_in_blocks());
             return DualBlocks::<_, D> { pair: &self.pair, bodies, in_order_of_blocks }.sum((q, gradient), axes, pair);
         }
-        if N::IN_VECTORS
+        if HasVectors::<N>::PLAIN
             && let Some((axes, pair)) = self.blocks(scratch)
         {
             return self.all_blocks().sum((q, gradient), None, axes, pair);
@@ -537,18 +547,18 @@ impl<P, const D: usize> Pairs<P, D> {
     where
         P: PairPotential<N>,
     {
-        if N::IN_VECTORS
+        if HasVectors::<N>::PLAIN
             && let Some((axes, pair)) = self.blocks(scratch)
         {
             return self.all_blocks().sum((q, gradient), Some(total), axes, pair);
         }
-        if N::IN_VECTORS
+        if HasVectors::<N>::PLAIN
             && let Some(ends) = self.chain_in_blocks::<N>()
         {
             let chain = Chain { pair: &self.pair, ends };
             return chain.sum((q, gradient), Some(total), &mut scratch[own_scratch(D)..]);
         }
-        if N::IN_VECTORS
+        if HasVectors::<N>::PLAIN
             && let Some(few) = self.few::<N>()
         {
             return few.sum((q, gradient), Some(total), &mut scratch[own_scratch(D)..]);

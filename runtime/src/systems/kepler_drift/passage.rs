@@ -31,6 +31,12 @@ impl Passage {
             self.q.push(q.into());
             self.v.push(v.into());
         }
+        self.solve_from_state(mu, t)
+    }
+
+    /// Compiled once, not for each number type whose lanes are states.
+    #[inline(never)]
+    fn solve_from_state(&mut self, mu: f64, t: f64) -> f64 {
         let coordinates = self.q.iter().zip(&self.v).map(|(q, v)| [q, v]);
         self.equation.solve(&mu.into(), &t.into(), coordinates);
         self.equation.assign_gauss(self.gauss.each_mut());

@@ -240,6 +240,7 @@ impl<P, const D: usize> CutoffPairs<P, D> {
     }
 
     /// Adds U_q to the gradient and U to the energy, as these are wanted.
+    #[inline(never)] // each of three callers would have a copy of the loop
     fn sum<N: Number, const FORCES: bool, const ENERGY: bool>(
         &self,
         q: &[N],
@@ -249,7 +250,8 @@ impl<P, const D: usize> CutoffPairs<P, D> {
     ) where
         P: PairPotential<N>,
     {
-        if N::IN_VECTORS {
+        // of dual numbers no energies are followed: their sum is compiled once, without vectors
+        if N::IN_VECTORS && !(N::HAS_DERIVATIVES && ENERGY) {
             instructions::widest(
                 #[inline(always)]
                 || self.sum_in_blocks::<N, BLOCK, FORCES, ENERGY, false>(q, gradient, energy, scratch),

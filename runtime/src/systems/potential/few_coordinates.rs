@@ -44,7 +44,7 @@ const MOST: usize = 3;
 
 impl<N: Number> FewCoordinates<'_, N> {
     /// Whether registers hold such numbers: of others these steps are not even compiled.
-    pub(crate) const FIT: bool = size_of::<N>() <= 16 && !needs_drop::<N>();
+    pub(crate) const FIT: bool = size_of::<N>() <= size_of::<f64>() && !needs_drop::<N>();
 
     /// Whether this makes the steps of a system of this dimension.
     pub(crate) fn can_hold(dimension: usize) -> bool {
