@@ -94,7 +94,7 @@ pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
         );
         match measured {
             Ok(record) => {
-                if arguments.run.strict && !record.is_fine() {
+                if arguments.run.strict && !record.is_bounded() {
                     status = status.max(Status::NegativeAnswer);
                 }
                 records.take(run, record)?;

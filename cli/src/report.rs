@@ -60,7 +60,7 @@ pub(crate) fn summary(summary: &Summary, json: bool) {
     if json {
         write(serde_json::json!({ "summary": summary }));
     } else {
-        let verdict = styled(summary.verdict(), of_verdict(summary.is_fine()));
+        let verdict = styled(summary.verdict(), of_verdict(summary.is_bounded()));
         write(summary.to_string().replacen(summary.verdict(), &verdict, 1));
     }
 }

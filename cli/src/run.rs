@@ -153,7 +153,7 @@ fn concluded(scene: &Scene, summary: Option<&Summary>, strict: bool) -> Status {
         (_, _, Some(summary)) => report::summary(summary, false),
         _ => {}
     }
-    let fine = !strict || summary.is_none_or(Summary::is_fine);
+    let fine = !strict || summary.is_none_or(Summary::is_bounded);
     if fine { Status::Success } else { Status::NegativeAnswer }
 }
 

@@ -34,9 +34,9 @@ class Report:
     """What a run has shown so far, with a verdict on the step size. Printed, it is some lines with the numbers."""
 
     verdict: str
-    """``fine``, ``near-resonance``, ``drifts``, ``not-the-gradient``, ``not-smooth``, ``not-conserved``, ``inconsistent``, ``too-large``,
+    """``bounded``, ``near-resonance``, ``drifts``, ``not-the-gradient``, ``not-smooth``, ``not-conserved``, ``inconsistent``, ``too-large``,
     ``round-off`` or ``undecided``."""
-    is_fine: bool
+    is_bounded: bool
     """Whether the energy error is bounded, or round-off; ``energy_error / kinetic`` is its size."""
     reason: str
     """The reason, a sentence with numbers."""
@@ -112,7 +112,7 @@ class Monitor:
     ...     monitor.step(100)
     >>> report = monitor.report()
     >>> report.verdict, report.steps
-    ('fine', 10000)
+    ('bounded', 10000)
     >>> report.permanent_bound < 1e-3 * report.energy_error
     True
     """

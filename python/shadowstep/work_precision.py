@@ -136,7 +136,7 @@ class Choice:
     stable_step: float | None
     """The largest stable step for the fastest oscillation at the start."""
     conserved_up_to: float | None
-    """The largest step up to which the verdict was fine."""
+    """The largest step up to which the verdict was bounded or round-off."""
     lost_from: float | None
     """The smallest step at which the modified energy was lost."""
 

@@ -224,7 +224,7 @@ fn dictionary<'py>(
 ) -> PyResult<Bound<'py, PyDict>> {
     let all = PyDict::new(py);
     all.set_item("verdict", report.verdict.name())?;
-    all.set_item("is_fine", report.verdict.is_fine())?;
+    all.set_item("is_bounded", report.verdict.is_bounded())?;
     all.set_item("reason", report.reason())?;
     let line = planets.map(|found| format!("\n  planets: {}", found.text(|n| format!("n = {n}"))));
     all.set_item("text", format!("{report}{}", line.unwrap_or_default()))?;

@@ -411,7 +411,7 @@ def test_monitor_of_a_loop():
         farthest = max(farthest, float(np.hypot(*q)))
     report = monitor.report()
     assert monitor.n == 10_000 and abs(farthest - 1.6) < 0.1
-    assert report.verdict == "fine" and report.is_fine and str(report).startswith("bounded: the energy error is ")
+    assert report.verdict == "bounded" and report.is_bounded and str(report).startswith("bounded: the energy error is ")
     assert abs(monitor.newest.modified_energy + 0.5) < 1e-2
 
 

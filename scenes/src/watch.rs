@@ -306,7 +306,7 @@ impl<N: RunNumber> Watch<N> {
             closest,
             extremes: Vec::new(),
             interactions: approaches.map(|approaches| approaches.found()),
-            fine: verdict.is_fine(),
+            bounded: verdict.is_bounded(),
             verdict: verdict.to_string(),
             conclusion: if verdict == report.verdict { report.conclusion() } else { verdict.to_string() },
             reason,
@@ -323,7 +323,7 @@ impl<N: RunNumber> Watch<N> {
 
 /// Whether a monitor that saw no lasting change of H may have missed one between its windows, or before them.
 fn may_have_been_missed(verdict: Verdict) -> bool {
-    matches!(verdict, Verdict::Fine | Verdict::Undecided(Missing::Resolution))
+    matches!(verdict, Verdict::Bounded | Verdict::Undecided(Missing::Resolution))
 }
 
 /// Judges what the windows show by max − min of H over all states at which it was computed; a reason where they then decide nothing.
@@ -333,7 +333,7 @@ fn judge_by_all<N: Real>(report: &mut Report<N>, range: f64) -> Option<String> {
     }
     let permanent = report.permanent_change.as_ref().map_or(0.0, N::to_f64);
     match report.verdict {
-        Verdict::RoundOff if ROUND_OFF_FACTOR * report.round_off.to_f64() < range => report.verdict = Verdict::Fine,
+        Verdict::RoundOff if ROUND_OFF_FACTOR * report.round_off.to_f64() < range => report.verdict = Verdict::Bounded,
         Verdict::NotConserved | Verdict::TooLarge(Criterion::Moved) if permanent < PERMANENT_PART * range => {
             report.verdict = Verdict::Undecided(Missing::Resolution);
             let kinetic = report.kinetic.to_f64();
@@ -346,7 +346,7 @@ fn judge_by_all<N: Real>(report: &mut Report<N>, range: f64) -> Option<String> {
         }
         _ => {}
     }
-    if matches!(report.verdict, Verdict::Fine | Verdict::TooLarge(Criterion::EnergyError)) {
+    if matches!(report.verdict, Verdict::Bounded | Verdict::TooLarge(Criterion::EnergyError)) {
         let error = Rational::from_float(range).expect("a finite range");
         report.energy_error = N::from_rational(&error, &report.energy_error.context());
     }
@@ -363,7 +363,7 @@ fn changes<N: Real>(report: &Report<N>, verdict: Verdict) -> bool {
     match verdict {
         Verdict::Undecided(_) => report.permanent_change.is_some(),
         Verdict::TooLarge(Criterion::NotFinite) => false,
-        verdict => !verdict.is_fine(),
+        verdict => !verdict.is_bounded(),
     }
 }
 
@@ -375,11 +375,11 @@ fn conclusion<N: Real>(report: &Report<N>, [largest, last]: [f64; 2], transforme
         Verdict::Undecided(Missing::Windows) if is_large(largest) => {
             format!("the energy error is {largest:.1e} of the mean kinetic energy")
         }
-        verdict if verdict.is_fine() && !transformed && is_large(last) => {
+        verdict if verdict.is_bounded() && !transformed && is_large(last) => {
             format!("at the end the energy error is {last:.1e} of the mean kinetic energy before")
         }
         // over all states
-        verdict if verdict.is_fine() && is_large(report.relative_error()) => {
+        verdict if verdict.is_bounded() && is_large(report.relative_error()) => {
             format!("the energy error is {:.1e} of the mean kinetic energy", report.relative_error())
         }
         verdict => return (verdict, report.reason()),
@@ -440,10 +440,10 @@ mod tests {
             [("x^2 + y^2 > 1e3", "double"), ("x^2 + y^2 > 1e20", "double"), ("x^2 + y^2 > 1e6", "double-double")]
         {
             let found = summary(end, digits);
-            assert!(!found.is_fine(), "{end}: {}", found.verdict_with_reason());
+            assert!(!found.is_bounded(), "{end}: {}", found.verdict_with_reason());
             assert!(found.reason().starts_with("at the end the energy error is"), "{}", found.reason());
         }
-        assert!(summary("t > 5", "double").is_fine());
+        assert!(summary("t > 5", "double").is_bounded());
     }
 
     const PARTS: &str = "parts = \"wisdom-holman\"";
@@ -463,7 +463,7 @@ mod tests {
         let thrown = "{ mass = 1e-3, a = 5.2, e = 0.05 }, { mass = 3e-4, a = 9.5, M = 100 }";
         let met = "{ mass = 0.00042, a = 1 }, { mass = 0.00042, a = 1.147, M = 151 }";
         let found = planets(PARTS, thrown, "step = 100, steps = 5000", "true");
-        assert!(!found.is_fine() && found.reason().contains("and did not come back"), "{found}");
+        assert!(!found.is_bounded() && found.reason().contains("and did not come back"), "{found}");
         for rows in ["true", "{ every = 5 }"] {
             let found = planets(PARTS, met, "step = \"1/10\", steps = 5000", rows);
             assert_eq!(found.verdict(), "the splitting is not valid in a close encounter", "{rows}: {found}");
@@ -479,7 +479,7 @@ mod tests {
             ["1/40", "1/80"].map(|h| planets(parts, bodies, &format!("step = \"{h}\", until = 200"), "true"));
         assert_eq!(coarse.verdict(), "the step size is too large", "{coarse}");
         assert!(coarse.reason().contains("goes from kicks to drifts within too few steps"), "{coarse}");
-        assert!(fine.is_fine(), "{fine}");
+        assert!(fine.is_bounded(), "{fine}");
     }
 
     /// The centre of mass is at rest: its momentum is round-off of the others, which does not turn.
@@ -487,7 +487,7 @@ mod tests {
     fn a_centre_of_mass_at_rest_is_not_lost() {
         let text = crate::shipped::scene_text("relativity").unwrap().replace("365.25*10000", "365.25*100");
         let found = summary_of(text);
-        assert!(found.is_fine() && !found.reason().contains("may be lost"), "{found}");
+        assert!(found.is_bounded() && !found.reason().contains("may be lost"), "{found}");
     }
 
     /// Kepler orbits whose pericentre is in no window: what windows take for a permanent change, or for round-off, is little of the error of H.

@@ -97,7 +97,7 @@ impl Observer for Watching<'_> {
             // JSON has no infinity
             energy: energy.unwrap_or(f64::MAX).abs().min(f64::MAX),
             verdict: summary.verdict().to_owned(),
-            fine: summary.is_fine(),
+            fine: summary.is_bounded(),
             encounters: summary.encounters(),
             closest: summary.encounters_text(1),
             hill_radii: summary.interactions().and_then(|found| Some(found.closest.as_ref()?.hill_radii)),

@@ -95,7 +95,7 @@ pub(crate) fn watched(
         finite,
         energy_error: energy_error.is_finite().then_some(energy_error),
         verdict: said.verdict.to_string(),
-        fine: said.verdict.is_fine(),
+        fine: said.verdict.is_bounded(),
         undecided: matches!(said.verdict, Verdict::Undecided(_)),
         alarm,
         alarmed,

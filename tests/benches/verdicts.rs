@@ -40,7 +40,7 @@ enum Truth {
 /// What a monitor reports.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 enum Conclusion {
-    Fine,
+    Bounded,
     RoundOff,
     Undecided,
     Forces,
@@ -52,7 +52,7 @@ enum Conclusion {
 impl From<Verdict> for Conclusion {
     fn from(verdict: Verdict) -> Self {
         match verdict {
-            Verdict::Fine => Conclusion::Fine,
+            Verdict::Bounded => Conclusion::Bounded,
             Verdict::RoundOff => Conclusion::RoundOff,
             Verdict::Undecided(_) => Conclusion::Undecided,
             Verdict::NotSmooth => Conclusion::NotSmooth,
@@ -184,7 +184,7 @@ fn outcomes(matrix: fn() -> Matrix, filter: &[String]) -> Vec<Outcome> {
 /// Truths in rows, verdicts in columns.
 fn table<'a>(outcomes: impl Iterator<Item = &'a Outcome>) -> String {
     const COLUMNS: [Conclusion; 7] = [
-        Conclusion::Fine,
+        Conclusion::Bounded,
         Conclusion::RoundOff,
         Conclusion::Undecided,
         Conclusion::NotSmooth,
@@ -197,7 +197,7 @@ fn table<'a>(outcomes: impl Iterator<Item = &'a Outcome>) -> String {
         outcome.conclusions.iter().for_each(|&conclusion| *counts.entry((outcome.truth, conclusion)).or_default() += 1);
     }
     let mut text =
-        "| the error of H | fine | round-off | undecided | not smooth | other causes | not conserved | too large |\n"
+        "| the error of H | bounded | round-off | undecided | not smooth | other causes | not conserved | too large |\n"
             .to_owned();
     text += "| --- | --- | --- | --- | --- | --- | --- | --- |\n";
     for (truth, name) in [
@@ -220,8 +220,8 @@ fn faults(outcomes: &[Outcome]) -> Vec<String> {
         let grows = has(Conclusion::TooLarge) || has(Conclusion::NotConserved);
         let too_large = grows || has(Conclusion::Forces) || (outcome.smooth && has(Conclusion::NotSmooth));
         let false_alarm = too_large && matches!(outcome.truth, Truth::Bounded | Truth::RoundOff);
-        let missed = has(Conclusion::Fine) && outcome.truth == Truth::Grows;
-        false_alarm || missed || (has(Conclusion::Fine) && too_large)
+        let missed = has(Conclusion::Bounded) && outcome.truth == Truth::Grows;
+        false_alarm || missed || (has(Conclusion::Bounded) && too_large)
     };
     let mut faults: Vec<String> = outcomes
         .iter()

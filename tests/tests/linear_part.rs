@@ -133,14 +133,14 @@ fn stiff() -> (StiffFput<f64>, Vec<f64>, Vec<f64>) {
 
 /// Above hω = 2 Störmer–Verlet with T(p) and U(q) is unstable, and the monitor reports it; with the oscillations solved exactly it is not.
 #[test]
-fn a_step_above_the_limit_of_the_stiff_springs_is_fine() {
+fn a_step_above_the_limit_of_the_stiff_springs_is_bounded() {
     let stepper = stepper::<f64>("stormer-verlet", "1/20", &());
     let settings = Bilinear::with_error(8);
     let (potential, q, p) = stiff();
     let mut motion = Motion::new(potential.clone(), UnitMasses, q.clone(), p.clone()).expect("six dimensions");
     let mut monitor = ShadowEnergy::new(stepper.clone(), &mut motion, &settings).expect("it is finite");
     let stable = (0..2000).all(|_| monitor.step(&mut motion).is_ok());
-    assert!(!stable || !monitor.report().verdict.is_fine());
+    assert!(!stable || !monitor.report().verdict.is_bounded());
 
     // the soft springs are of degree 4
     let stiffness = diagonal(&["0", "0", "0", "2500", "2500", "2500"]);
@@ -182,11 +182,11 @@ fn the_resonances_move() {
         verdict(scheme, part, Motion::new(potential.clone(), UnitMasses, q.clone(), p.clone()).expect("six dimensions"))
     };
     for part in ["0.7", "0.9", "1.1", "1.3"] {
-        assert!(linear(part).is_fine(), "{part}: {:?}", linear(part));
+        assert!(linear(part).is_bounded(), "{part}: {:?}", linear(part));
         assert!(matches!(plain("stormer-verlet", part), Verdict::TooLarge(_)), "{part}");
     }
     assert!(matches!(linear("1"), Verdict::TooLarge(_)), "{:?}", linear("1"));
-    assert!(plain("pefrl", "0.7").is_fine());
+    assert!(plain("pefrl", "0.7").is_bounded());
     for part in ["0.9", "1", "1.1", "1.3"] {
         assert!(matches!(plain("pefrl", part), Verdict::TooLarge(_)), "{part}");
     }

@@ -42,7 +42,7 @@ fn watch_by(settings: &Bilinear, name: &str, set: &[(&str, &str)], scheme: &str,
     monitor.report()
 }
 
-const FINE: Verdict = Verdict::Fine;
+const BOUNDED: Verdict = Verdict::Bounded;
 const ENERGY_ERROR: Verdict = Verdict::TooLarge(Criterion::EnergyError);
 
 /// Steps of the size h, which `step` makes, watched by a monitor with a stepper of the size `monitored`; `step` gets whether the

@@ -364,8 +364,8 @@ fn the_monitor_judges_a_step_size() {
         println!("h = {h}: {}", monitor.report().reason());
         monitor.report().verdict
     };
-    assert!(verdict("1/4", 4000).is_fine());
-    assert!(!verdict("5", 2000).is_fine());
+    assert!(verdict("1/4", 4000).is_bounded());
+    assert!(!verdict("5", 2000).is_bounded());
 }
 
 #[test]

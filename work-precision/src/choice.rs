@@ -31,9 +31,9 @@ pub struct Choice<'a> {
     pub seconds_per_step: f64,
     /// The largest stable step for the fastest oscillation, linearised at the start; `None` where nothing oscillates.
     pub stable_step: Option<f64>,
-    /// The largest step of the scheme up to which the monitor's verdict was fine; `None` if it was at no step.
+    /// The largest step of the scheme up to which the monitor's verdict was bounded or round-off; `None` if it was at no step.
     pub conserved_up_to: Option<f64>,
-    /// The smallest step whose verdict was another one than fine or undecided.
+    /// The smallest step whose verdict was none of bounded, round-off and undecided.
     pub lost_from: Option<f64>,
     /// Whether the runs were over a part of the time.
     pub(crate) over_part: bool,

@@ -39,7 +39,7 @@ pub struct Measurement {
     pub modified: Option<Modified>,
     /// The verdict of the monitor on the step size.
     pub verdict: String,
-    /// Whether that is fine, or round-off.
+    /// Whether that is bounded or round-off.
     pub fine: bool,
     /// Whether it is undecided.
     pub undecided: bool,
@@ -149,7 +149,7 @@ impl Measurement {
             in_first_half,
             modified,
             verdict: report.verdict.to_string(),
-            fine: report.verdict.is_fine(),
+            fine: report.verdict.is_bounded(),
             undecided: matches!(report.verdict, Verdict::Undecided(_)),
             failed: None,
         }))

@@ -176,11 +176,11 @@ fn in_groups(table: &str, records: &[(Run<'_>, Record)], coloured: bool) -> Stri
     text + lines[lines.len() - 1] + "\n"
 }
 
-/// The verdict on each run, and its close encounters; of several runs, the reason only where the verdict is worse than fine.
+/// The verdict on each run, and its close encounters; of several runs, the reason only where the verdict is neither bounded nor round-off.
 fn verdicts(records: &[(Run<'_>, Record)], coloured: bool) -> String {
     let line = |(run, record): &(Run<'_>, Record)| {
         let summary: &Summary = record.summary.as_ref()?;
-        let verdict = match summary.is_fine() && records.len() > 1 {
+        let verdict = match summary.is_bounded() && records.len() > 1 {
             true => summary.conclusion().to_owned(),
             false => summary.verdict_with_reason(),
         };
@@ -191,7 +191,7 @@ fn verdicts(records: &[(Run<'_>, Record)], coloured: bool) -> String {
         // lines after the first are indented
         let text = wrapped_to(&format!("{}: {verdict}{encounters}", run.name()), "    ", WIDTH);
         let text = if coloured {
-            let verdict = styled(summary.verdict(), of_verdict(summary.is_fine()));
+            let verdict = styled(summary.verdict(), of_verdict(summary.is_bounded()));
             text.replacen(summary.verdict(), &verdict, 1)
         } else {
             text

@@ -470,7 +470,7 @@ fn the_error_of_the_energy_stands_beside_the_drift() {
     let error = |record: &Value| text_as_f64(&record["energy_error"]["largest_relative"]);
     assert!(error(&records[0]) > 1e-3 && error(&records[1]) < 1e-6, "{records:?}");
     assert_eq!((&records[1]["forces_per_step"], &records[1]["own_force_evaluations"]), (&6.into(), &6001.into()));
-    assert!(records.iter().all(|record| record["summary"]["fine"] == true), "{records:?}");
+    assert!(records.iter().all(|record| record["summary"]["bounded"] == true), "{records:?}");
 }
 
 #[test]
@@ -492,7 +492,7 @@ fn strict_makes_a_bad_verdict_a_negative_answer() {
     let result = shadowstep(planets);
     let record = &objects(&result.out)[0];
     assert!(text_as_f64(&record["energy_error"]["largest_relative"]) > 1.0, "{record}");
-    assert_eq!((result.code, &record["summary"]["fine"]), (1, &false.into()), "{record}");
+    assert_eq!((result.code, &record["summary"]["bounded"]), (1, &false.into()), "{record}");
 }
 
 #[test]

@@ -35,7 +35,7 @@ fn a_drift_reports_it() {
         assert_eq!(json.code, 1, "{case:?}");
         let summary = &objects(&json.out)[0]["summary"];
         assert_eq!(summary["verdict"], TOO_LARGE, "{case:?}");
-        assert_eq!((&summary["fine"], &summary["modified_energy"]["permanent_bound"]), (&false.into(), &().into()));
+        assert_eq!((&summary["bounded"], &summary["modified_energy"]["permanent_bound"]), (&false.into(), &().into()));
     }
 }
 

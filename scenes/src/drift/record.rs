@@ -75,9 +75,9 @@ pub struct Record {
 }
 
 impl Record {
-    /// Whether the verdict, if there is one, is not worse than fine.
-    pub fn is_fine(&self) -> bool {
-        self.summary.as_ref().is_none_or(Summary::is_fine)
+    /// Whether the verdict, if there is one, is bounded or round-off.
+    pub fn is_bounded(&self) -> bool {
+        self.summary.as_ref().is_none_or(Summary::is_bounded)
     }
 }
 

@@ -103,9 +103,9 @@ mod tests {
     fn a_run_says_when_planets_need_it() {
         let without = summary(HELIOCENTRIC);
         let hint = "write parts = \"wisdom-holman-heliocentric\" with encounters = { within = 0.1";
-        assert!(!without.is_fine() && without.reason().contains(hint), "{}", without.reason());
+        assert!(!without.is_bounded() && without.reason().contains(hint), "{}", without.reason());
         let with = summary(&format!("{HELIOCENTRIC}\nencounters = {{ within = \"0.14\" }}"));
-        assert!(with.is_fine(), "{}", with.verdict_with_reason());
+        assert!(with.is_bounded(), "{}", with.verdict_with_reason());
         // long steps through a narrow changeover
         let narrow = summary(&format!("{HELIOCENTRIC}\nencounters = {{ within = \"0.01\" }}"));
         assert_eq!(narrow.verdict(), "the step size is too large");

@@ -38,7 +38,7 @@ pub struct Summary {
     pub(crate) interactions: Option<Interactions>,
     /// The least and the greatest values of expressions.
     pub(crate) extremes: Vec<Extreme>,
-    pub(crate) fine: bool,
+    pub(crate) bounded: bool,
     pub(crate) verdict: String,
     /// The verdict, with the size of a bounded error.
     pub(crate) conclusion: String,
@@ -103,8 +103,8 @@ impl ModifiedEnergySummary {
 
 impl Summary {
     /// Whether the error is bounded, or round-off: whether it is small enough is not decided here.
-    pub fn is_fine(&self) -> bool {
-        self.fine
+    pub fn is_bounded(&self) -> bool {
+        self.bounded
     }
 
     /// The error of H.
@@ -142,7 +142,7 @@ impl Summary {
         );
         self.verdict = Verdict::Undecided(Missing::Resolution).to_string();
         self.conclusion.clone_from(&self.verdict);
-        self.fine = false;
+        self.bounded = false;
     }
 
     /// Replaces a verdict that is worse than bounded where planets came so close that the splitting is not valid: that is the cause then.
@@ -355,7 +355,7 @@ impl Serialize for Summary {
         }
         object.serialize_field("verdict", &self.verdict)?;
         object.serialize_field("reason", &self.reason)?;
-        object.serialize_field("fine", &self.fine)?;
+        object.serialize_field("bounded", &self.bounded)?;
         object.end()
     }
 }

@@ -199,7 +199,7 @@ fn vary(scheme: &NamedScheme, (h, cubic): (f64, bool), steps: u64, arithmetic: A
     Variation {
         ratio: Some(ratio),
         verdict: said.to_string(),
-        fine: said.is_fine(),
+        fine: said.is_bounded(),
         resonance: matches!(said, MonitorVerdict::NearResonance { .. }),
     }
 }

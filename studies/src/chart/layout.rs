@@ -5,7 +5,7 @@ use std::ops::Range;
 use plotters::coord::ranged1d::{KeyPointHint, NoDefaultFormatting, Ranged, ValueFormatter};
 
 use super::{Axis, Chart, Curve, Scale, Side};
-use crate::labels::{lines, width};
+use crate::labels::{BOLD, lines, width};
 use crate::picture::{LINE, MARGIN, TEXT, TICK, TITLE};
 use crate::ticks::{SMALLEST, Ticks, has_ticks, largest};
 
@@ -126,7 +126,7 @@ impl Layout {
             }
         };
         let picture = WIDTH.max(MARGIN + y.room() + LEAST_PLOT_WIDTH + beside + right);
-        let title = lines(&chart.title, picture - 2.0 * MARGIN, TITLE * 1.08);
+        let title = lines(&chart.title, picture - 2.0 * MARGIN, TITLE * BOLD);
         let notes: Vec<_> =
             chart.notes.iter().flat_map(|note| lines(note, picture - 2.0 * MARGIN, TEXT * 0.9)).collect();
         let top = MARGIN + title.len() as f64 * (LINE + 2.0) + 4.0;

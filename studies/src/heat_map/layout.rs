@@ -5,7 +5,7 @@ use super::shades::Shades;
 use super::strip::{Labels, Strip};
 use super::svg::{NEAR, Place};
 use super::{CellAxis, HeatMap, Values};
-use crate::labels::{lines, width};
+use crate::labels::{BOLD, lines, width};
 use crate::picture::{LINE, MARGIN, TEXT, TICK, TITLE};
 
 /// The least width of the legend, if the picture is so wide.
@@ -65,7 +65,7 @@ impl Layout {
         let left = MARGIN + beside(&x, &y, size.0);
         let grid_width = columns as f64 * size.0 + (columns - 1) as f64 * GAP;
         let picture = (left + grid_width + RIGHT).max(LEAST_WIDTH);
-        let title = lines(&map.title, picture - 2.0 * MARGIN, TITLE * 1.08);
+        let title = lines(&map.title, picture - 2.0 * MARGIN, TITLE * BOLD);
         let top = MARGIN + title.len() as f64 * (LINE + 2.0) + 8.0;
         let (panels, bottom) = panels(map, columns, size, (left, top), TICK + NEAR + x.height());
         let grid = Place { left, top, width: grid_width, height: panels[panels.len() - 1].cells.bottom() - top };

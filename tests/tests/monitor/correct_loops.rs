@@ -30,8 +30,8 @@ where
     report
 }
 
-fn is_fine_or_undecided(report: &Report<f64>) -> bool {
-    report.verdict.is_fine() || report.verdict == Verdict::Undecided(Missing::Resolution)
+fn is_bounded_or_undecided(report: &Report<f64>) -> bool {
+    report.verdict.is_bounded() || report.verdict == Verdict::Undecided(Missing::Resolution)
 }
 
 /// From the perihelion.
@@ -57,7 +57,8 @@ fn circular_orbits_and_nearly_circular_ones() {
                 let report = watch_correct(kepler(eccentricity), (scheme, h), windows);
                 let case = format!("{scheme}, {h}, {eccentricity}, {windows:?}: {report}");
                 // of the others the energy error is round-off, or nearly
-                let expected = report.verdict == FINE || (scheme != "stormer-verlet" && is_fine_or_undecided(&report));
+                let expected =
+                    report.verdict == BOUNDED || (scheme != "stormer-verlet" && is_bounded_or_undecided(&report));
                 assert!(expected && report.rough.is_none(), "{case}");
             }
         }
@@ -78,7 +79,7 @@ fn circles_in_space_and_of_an_oscillator() {
                 let inclined = watch_correct(inclined.unwrap(), by, windows);
                 let oscillator = watch_correct(oscillator.unwrap(), by, windows);
                 for report in [inclined, oscillator] {
-                    assert!(is_fine_or_undecided(&report), "{by:?}, {eccentricity}, {windows:?}: {report}");
+                    assert!(is_bounded_or_undecided(&report), "{by:?}, {eccentricity}, {windows:?}: {report}");
                 }
             }
         }
@@ -155,7 +156,7 @@ fn short_arcs() {
             for _ in 0..1000 {
                 monitor.step(&mut motion).unwrap();
             }
-            assert!(monitor.report().verdict.is_fine(), "{name}, h = {h}: {}", monitor.report());
+            assert!(monitor.report().verdict.is_bounded(), "{name}, h = {h}: {}", monitor.report());
         }
     }
     // of a scheme of order 1 H − H̄ may be of one sign for more than half a turn

@@ -28,8 +28,8 @@ fn a_cutoff_is_found() {
                 let jumps = if kind == Cutoff::Shifted { 1 } else { 2 };
                 let found = report.rough.is_some_and(|Rough { least, most }| (least..=most).contains(&jumps));
                 assert!(found, "{kind:?}, {scheme}, k = {k}: {report}");
-                let is_fine_or_forces = report.verdict.is_fine() || report.verdict == Verdict::NotSmooth;
-                assert!(is_fine_or_forces, "{kind:?}, {scheme}, k = {k}: {report}");
+                let is_bounded_or_forces = report.verdict.is_bounded() || report.verdict == Verdict::NotSmooth;
+                assert!(is_bounded_or_forces, "{kind:?}, {scheme}, k = {k}: {report}");
                 assert!(report.to_string().contains("schemes gain up to order"), "{report}");
             }
         }
@@ -38,7 +38,7 @@ fn a_cutoff_is_found() {
     let short = watch_fluid(Cutoff::ForceShifted, "blanes-moan-s6", "0.004", 6);
     assert!(!matches!(short.verdict, Verdict::TooLarge(_)), "{short}");
     let smooth = watch_fluid(Cutoff::Smooth, "blanes-moan-srkn6b", "0.003", 8);
-    assert_eq!((smooth.rough, smooth.verdict), (None, FINE), "{smooth}");
+    assert_eq!((smooth.rough, smooth.verdict), (None, BOUNDED), "{smooth}");
 }
 
 /// Forces that are 1 % too large, of a potential that is not homogeneous.
@@ -56,7 +56,7 @@ fn a_wrong_force_is_found() {
     let report = watch_with(1.01);
     assert_eq!(report.verdict, Verdict::NotTheGradient, "{report}");
     assert!(report.reason().contains("check_potential"), "{report}");
-    assert_eq!(watch_with(1.0).verdict, FINE);
+    assert_eq!(watch_with(1.0).verdict, BOUNDED);
 }
 
 /// qᵀU_q by the distances of nearest images.

@@ -59,7 +59,7 @@ fn verdicts_hold_for_the_trajectory() {
                 match report.verdict {
                     Verdict::Undecided(_) => continue,
                     // 3 times the length; windows are a sample of the states, so that H may range over a third more
-                    Verdict::Fine => assert!(growth < 1.5 && later < 0.6 * report.kinetic, "{case}"),
+                    Verdict::Bounded => assert!(growth < 1.5 && later < 0.6 * report.kinetic, "{case}"),
                     Verdict::TooLarge(_) | Verdict::NotConserved => {
                         assert!(growth > 1.5 || later > 0.3 * report.kinetic || later.is_nan(), "{case}")
                     }
@@ -69,7 +69,7 @@ fn verdicts_hold_for_the_trajectory() {
             }
             let has = |is: fn(Verdict) -> bool| reports.iter().any(|report| is(report.verdict));
             let grows = has(|verdict| matches!(verdict, Verdict::TooLarge(_) | Verdict::NotConserved));
-            let contradicts = has(Verdict::is_fine) && grows;
+            let contradicts = has(Verdict::is_bounded) && grows;
             assert!(
                 !contradicts,
                 "{name}, {scheme}, {part}: {:?}",

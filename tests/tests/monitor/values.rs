@@ -221,7 +221,7 @@ fn round_off_walks_as_expected() {
         // a walk ranges over 1.6 √n in the mean; measured are 0.6 to 6.5
         assert!((0.5..7.0).contains(&ratio), "{name} {set}, {h}: {ratio}");
         assert_ne!(report.trend, Some(Trend::Linear), "{name} {set}, {h}");
-        assert_eq!(report.verdict, Verdict::Fine);
+        assert_eq!(report.verdict, Verdict::Bounded);
     }
 }
 
@@ -259,7 +259,7 @@ fn no_change_is_excluded_above_less_than_round_off() {
         }
         let report = monitor.report();
         let bound = report.permanent_bound.clone().unwrap();
-        assert!(bound >= report.round_off && report.verdict == Verdict::Fine, "{report}");
+        assert!(bound >= report.round_off && report.verdict == Verdict::Bounded, "{report}");
         assert!(bound.log10_abs() < -55.0, "{report}");
     }
 }

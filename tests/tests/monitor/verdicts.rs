@@ -11,7 +11,7 @@ fn verdicts(expected: Verdict, name: &str, cases: &[(&[(&str, &str)], &str)]) {
 
 #[test]
 fn the_oscillator() {
-    verdicts(FINE, "harmonic-oscillator", &[(&[], "0.1"), (&[], "0.5"), (&[], "0.8")]);
+    verdicts(BOUNDED, "harmonic-oscillator", &[(&[], "0.1"), (&[], "0.5"), (&[], "0.8")]);
     // 2 sin(π/5), 2 sin(π/4), 2 sin(π/3): a linear oscillator has no resonances, but large errors
     let large = ["1.1755705", "1.41421356", "1.7320508", "1.9", "1.99"];
     verdicts(ENERGY_ERROR, "harmonic-oscillator", &large.map(|h| (&[] as &[_], h)));
@@ -20,7 +20,7 @@ fn the_oscillator() {
 #[test]
 fn the_pendulum_and_its_resonances() {
     let of = |p| [("p", p)];
-    verdicts(FINE, "pendulum", &[(&of("0.3"), "0.8"), (&of("1"), "0.5"), (&of("2"), "0.1"), (&of("2.5"), "0.3")]);
+    verdicts(BOUNDED, "pendulum", &[(&of("0.3"), "0.8"), (&of("1"), "0.5"), (&of("2"), "0.1"), (&of("2.5"), "0.3")]);
     verdicts(Verdict::NearResonance { turns: 1, steps: 4 }, "pendulum", &[(&of("0.3"), "1.42")]);
     verdicts(ENERGY_ERROR, "pendulum", &[(&of("0.3"), "0.95"), (&of("0.3"), "1.2"), (&of("0.3"), "1.73")]);
     verdicts(ENERGY_ERROR, "pendulum", &[(&of("1"), "1.25"), (&of("1"), "1.5"), (&of("2.5"), "1.5")]);
@@ -37,7 +37,7 @@ fn kepler() {
         (&of("0.9"), "1/200"),
         (&of("0.9"), "1/2000"),
     ];
-    verdicts(FINE, "kepler", &fine);
+    verdicts(BOUNDED, "kepler", &fine);
     // thrown out, by the first steps or later
     verdicts(
         ENERGY_ERROR,
@@ -46,7 +46,7 @@ fn kepler() {
     );
     verdicts(Verdict::RoundOff, "kepler", &[(&of("0"), "1/2000")]);
     for (scheme, h, expected) in
-        [("yoshida4", "1/20", FINE), ("yoshida4", "1/5", ENERGY_ERROR), ("blanes-moan-s6", "1/200", FINE)]
+        [("yoshida4", "1/20", BOUNDED), ("yoshida4", "1/5", ENERGY_ERROR), ("blanes-moan-s6", "1/200", BOUNDED)]
     {
         assert_eq!(watch("kepler", &[], scheme, h, 20_000).verdict, expected, "{scheme}, h = {h}");
     }
@@ -55,7 +55,7 @@ fn kepler() {
 #[test]
 fn henon_heiles_regular_and_chaotic() {
     let (regular, chaotic) = ([("px", "0.1")], [("px", "0.5"), ("py", "0.2")]);
-    verdicts(FINE, "henon-heiles", &[(&regular, "1/10"), (&regular, "1/2"), (&chaotic, "1/10"), (&chaotic, "1/2")]);
+    verdicts(BOUNDED, "henon-heiles", &[(&regular, "1/10"), (&regular, "1/2"), (&chaotic, "1/10"), (&chaotic, "1/2")]);
     verdicts(ENERGY_ERROR, "henon-heiles", &[(&regular, "1")]);
     let more = [("px", "0.3"), ("py", "0.3")];
     let report = watch("henon-heiles", &more, "stormer-verlet", "0.9", 50_000);
@@ -64,13 +64,13 @@ fn henon_heiles_regular_and_chaotic() {
 
 #[test]
 fn many_bodies() {
-    verdicts(FINE, "pythagorean", &[(&[], "1/10000")]);
+    verdicts(BOUNDED, "pythagorean", &[(&[], "1/10000")]);
     verdicts(ENERGY_ERROR, "pythagorean", &[(&[], "1/1000"), (&[], "1/100")]);
-    verdicts(FINE, "fput-stiff", &[(&[], "0.001"), (&[], "0.02")]);
+    verdicts(BOUNDED, "fput-stiff", &[(&[], "0.001"), (&[], "0.02")]);
     verdicts(ENERGY_ERROR, "fput-stiff", &[(&[], "0.03")]);
-    verdicts(FINE, "outer-solar-system", &[(&[], "100"), (&[], "200")]);
+    verdicts(BOUNDED, "outer-solar-system", &[(&[], "100"), (&[], "200")]);
     verdicts(ENERGY_ERROR, "outer-solar-system", &[(&[], "800")]);
-    verdicts(FINE, "argon-crystal", &[(&[], "4e-5")]);
+    verdicts(BOUNDED, "argon-crystal", &[(&[], "4e-5")]);
     verdicts(ENERGY_ERROR, "argon-crystal", &[(&[], "1e-4")]);
     // the energy error is small, and grows
     for (scheme, h) in [("blanes-moan-srkn6b", "7.125e-5"), ("yoshida6-a", "8.3125e-5")] {
@@ -80,7 +80,7 @@ fn many_bodies() {
 
 /// A body without forces has an energy error of 0, so that nothing can be compared with it.
 #[test]
-fn free_motion_is_fine() {
+fn free_motion_is_bounded() {
     potential! { struct Nothing; U(x) = 0*x }
     let mut motion = Motion::new(Nothing, UnitMasses, [0.0], [1.0]).unwrap();
     let verlet = stepper("stormer-verlet", "1/4", &());
@@ -92,7 +92,7 @@ fn free_motion_is_fine() {
         assert_eq!(report.verdict == Verdict::Undecided(Missing::Windows), n < 25, "n = {n}");
         assert!(!report.to_string().is_empty());
     }
-    assert_eq!(monitor.report().verdict, Verdict::Fine);
+    assert_eq!(monitor.report().verdict, Verdict::Bounded);
 }
 
 /// A kinetic energy of any kind, by a scheme for it.
@@ -107,7 +107,7 @@ fn any_kinetic_energy() {
         monitor.step(&mut motion).unwrap();
     }
     let report = monitor.report();
-    assert!(report.verdict == Verdict::Fine && report.moved < 1e-4 * report.energy_error, "{report}");
+    assert!(report.verdict == Verdict::Bounded && report.moved < 1e-4 * report.energy_error, "{report}");
 }
 
 /// Beyond the stability limit hω = 3.1635 of the scheme, in the gap.
@@ -156,12 +156,12 @@ fn a_light_planet_is_reported() {
         // a coordinate of the planet, or of its star, which it moves
         let (coordinate, steps) = lost.fastest_coordinate.unwrap();
         assert!([0, 1, 4, 5].contains(&coordinate) && steps < 6.0, "{coordinate}, {steps}: {lost}");
-        assert!(!lost.verdict.is_fine() && lost.lost_coordinate.is_some(), "{lost}");
+        assert!(!lost.verdict.is_bounded() && lost.lost_coordinate.is_some(), "{lost}");
     }
     // with a planet that its steps do not resolve, H̄ may be anything, and the loop is correct all the same
     for every in [9, 20, 50] {
         let unresolved = watch_every(every, 1e-12, "0.0452", 20_000);
-        assert!(unresolved.verdict != Verdict::Inconsistent && !unresolved.verdict.is_fine(), "{unresolved}");
+        assert!(unresolved.verdict != Verdict::Inconsistent && !unresolved.verdict.is_bounded(), "{unresolved}");
     }
     // with steps so short that the second differences of p are below the last place of an f64
     let mut slow: ProblemMotion<Float> =
@@ -173,5 +173,5 @@ fn a_light_planet_is_reported() {
     }
     assert_eq!(monitor.report().lost_coordinate, None, "{}", monitor.report());
     let resolved = watch(1e-3, "0.00316", 4000);
-    assert!(resolved.verdict == FINE && !resolved.reason().contains("it may be lost"), "{resolved}");
+    assert!(resolved.verdict == BOUNDED && !resolved.reason().contains("it may be lost"), "{resolved}");
 }

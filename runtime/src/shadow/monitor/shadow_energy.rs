@@ -39,7 +39,7 @@ use crate::systems::system::System;
 ///
 /// let report = monitor.report();
 /// println!("{report}");
-/// assert_eq!(report.verdict, Verdict::Fine);
+/// assert_eq!(report.verdict, Verdict::Bounded);
 /// assert!(report.energy_error > 5e-3 && report.moved < 1e-12);
 /// # assert!((farthest - 1.6).abs() < 0.1);
 /// # Ok::<(), Box<dyn std::error::Error>>(())

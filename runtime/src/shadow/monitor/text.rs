@@ -49,8 +49,8 @@ impl<N: Real> Report<N> {
     /// The verdict in a line; a bounded energy error has its size, as the user decides whether that is small enough.
     pub fn conclusion(&self) -> String {
         match self.verdict {
-            Verdict::Fine if self.has_no_energy_error() => format!("{}: the energy error is 0", self.verdict),
-            Verdict::Fine => format!("{}: {}", self.verdict, self.size()),
+            Verdict::Bounded if self.has_no_energy_error() => format!("{}: the energy error is 0", self.verdict),
+            Verdict::Bounded => format!("{}: {}", self.verdict, self.size()),
             verdict => verdict.to_string(),
         }
     }
@@ -95,10 +95,10 @@ impl<N: Real> Report<N> {
                 self.in_parts(&self.round_off)
             ),
             Verdict::TooLarge(criterion) => self.why_too_large(criterion, &moved),
-            Verdict::Fine if self.has_no_energy_error() => {
+            Verdict::Bounded if self.has_no_energy_error() => {
                 format!("the energy is the same in all windows of {steps} steps")
             }
-            Verdict::Fine => format!(
+            Verdict::Bounded => format!(
                 "{}; in {steps} steps {}{}{}",
                 self.size(),
                 self.permanent(),

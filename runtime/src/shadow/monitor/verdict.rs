@@ -22,11 +22,11 @@ use super::turning::Turning;
 /// | too large: energy error | the energy error is 0.4 of T or more; or T is 0 in all windows, and q changes |
 /// | drifts | H̄ moved by 1e-3 or more in a straight line |
 /// | not the gradient | a permanent change of a quarter is excluded, but H̄ changes from state to state as H does: they differ by 0.3 of what H̄ changes in a window, whose last terms are 0.004 of that, and the fastest motion turns once in 10 steps or more |
-/// | fine | a permanent change of a quarter is excluded, H̄ did not move by a quarter between any two windows as far as that is resolved, and the one above does not apply |
+/// | bounded | a permanent change of a quarter is excluded, H̄ did not move by a quarter between any two windows as far as that is resolved, and the one above does not apply |
 /// | not smooth | forces are [not smooth](super::Report::rough) in a quarter of the windows |
 /// | not conserved | H̄ moved permanently by half or more, its errors are a quarter or less, and the fastest motion turns once in 18 steps or less; but the energy error is below 0.05 of T |
 /// | too large: moves | the same, and the energy error is 0.05 of T or more |
-/// | too large: lost | in place of fine and round-off: a coordinate turned once in 6 steps or fewer in the first five states, ten times as fast as the fastest motion that the energy shows, and turns at most a third as fast in the windows |
+/// | too large: lost | in place of bounded and round-off: a coordinate turned once in 6 steps or fewer in the first five states, ten times as fast as the fastest motion that the energy shows, and turns at most a third as fast in the windows |
 /// | undecided: resolution | none of these: the [advice](super::Report::advice) is what would decide |
 ///
 /// The thresholds come from a matrix of runs, and were tested with others: `docs/monitor.md`.
@@ -44,7 +44,7 @@ use super::turning::Turning;
 pub enum Verdict {
     /// The energy error is the method's, and a permanent change is excluded: see
     /// [`relative_error`](super::Report::relative_error) and [`permanent_bound`](super::Report::permanent_bound).
-    Fine,
+    Bounded,
     /// The modified energy changes, and the fastest oscillation turns nearly `turns` times in `steps` steps.
     NearResonance {
         /// m of m/n: 1 or 2.
@@ -78,10 +78,10 @@ impl Verdict {
     /// Windows that a verdict needs.
     pub const LEAST_WINDOWS: u64 = 16;
 
-    /// Whether the energy error is bounded, as far as the run shows: [`Fine`](Verdict::Fine) or [`RoundOff`](Verdict::RoundOff). Whether its
+    /// Whether the energy error is bounded, as far as the run shows: [`Bounded`](Verdict::Bounded) or [`RoundOff`](Verdict::RoundOff). Whether its
     /// [size](super::Report::relative_error) is small enough is for the user to decide.
-    pub fn is_fine(self) -> bool {
-        matches!(self, Verdict::Fine | Verdict::RoundOff)
+    pub fn is_bounded(self) -> bool {
+        matches!(self, Verdict::Bounded | Verdict::RoundOff)
     }
 
     /// Whether the energy is lost: the error is as large as T, or not finite. The modified energy then bounds nothing.
@@ -89,11 +89,11 @@ impl Verdict {
         matches!(self, Verdict::TooLarge(Criterion::EnergyError | Criterion::NotFinite))
     }
 
-    /// Its name, for other programs: `fine`, `near-resonance`, `drifts`, `not-the-gradient`, `not-smooth`, `not-conserved`, `inconsistent`,
+    /// Its name, for other programs: `bounded`, `near-resonance`, `drifts`, `not-the-gradient`, `not-smooth`, `not-conserved`, `inconsistent`,
     /// `too-large`, `round-off` or `undecided`.
     pub fn name(self) -> &'static str {
         match self {
-            Verdict::Fine => "fine",
+            Verdict::Bounded => "bounded",
             Verdict::NearResonance { .. } => "near-resonance",
             Verdict::Drifts => "drifts",
             Verdict::NotTheGradient => "not-the-gradient",
@@ -249,7 +249,7 @@ impl Evidence {
     /// The verdict on the energy, unless that is fine and a coordinate is lost that has no visible part in it.
     pub(super) fn verdict(&self) -> Verdict {
         let verdict = self.of_energy();
-        if verdict.is_fine() && self.lost { Verdict::TooLarge(Criterion::Lost) } else { verdict }
+        if verdict.is_bounded() && self.lost { Verdict::TooLarge(Criterion::Lost) } else { verdict }
     }
 
     /// The first verdict whose condition holds; an energy error of 0 has no parts.
@@ -261,10 +261,10 @@ impl Evidence {
         } else if self.is_inconsistent() {
             Verdict::Inconsistent
         } else if self.of_kinetic == 0.0 {
-            Verdict::Fine
+            Verdict::Bounded
         } else if self.of_kinetic.is_nan() {
             // 0 of 0: at rest, or from one turning point to the next
-            if self.moves { Verdict::TooLarge(Criterion::EnergyError) } else { Verdict::Fine }
+            if self.moves { Verdict::TooLarge(Criterion::EnergyError) } else { Verdict::Bounded }
         } else if self.is_round_off() {
             Verdict::RoundOff
         } else if let Some((turns, steps)) = self.resonance() {
@@ -274,7 +274,7 @@ impl Evidence {
         } else if self.straight && self.has_errors && self.moved_beyond_round_off() >= LINEAR_MOVE {
             Verdict::Drifts
         } else if self.excludes_a_permanent_change() {
-            if self.follows_the_energy() { Verdict::NotTheGradient } else { Verdict::Fine }
+            if self.follows_the_energy() { Verdict::NotTheGradient } else { Verdict::Bounded }
         } else if self.rough {
             Verdict::NotSmooth
         } else if self.turns_fast() && self.permanent_move().is_some_and(|moved| moved >= PERMANENT_MOVE) {
@@ -410,7 +410,7 @@ impl Evidence {
 impl fmt::Display for Verdict {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Verdict::Fine => f.write_str("bounded"),
+            Verdict::Bounded => f.write_str("bounded"),
             Verdict::NearResonance { turns, steps } => {
                 write!(f, "the step size is near the resonance {turns}/{steps}")
             }
@@ -430,7 +430,7 @@ impl fmt::Display for Verdict {
 mod tests {
     use super::*;
 
-    const FINE: Evidence = Evidence {
+    const BOUNDED: Evidence = Evidence {
         moved: 1e-9,
         resolution: 1e-9,
         excluded: 4e-9,
@@ -469,14 +469,17 @@ mod tests {
 
     #[test]
     fn each_threshold_decides() {
-        let moved = |moved| Evidence { moved, excluded: moved + 3e-9, ..FINE }.verdict();
-        assert_eq!(FINE.verdict(), Verdict::Fine);
-        assert_eq!(Evidence { windows: 15, ..FINE }.verdict(), Verdict::Undecided(Missing::Windows));
-        assert_eq!([0.24, 0.26, 0.49, 0.5, 1.6].map(moved), [Verdict::Fine, UNRESOLVED, UNRESOLVED, MOVES, UNRESOLVED]);
-        assert_eq!(Evidence { of_kinetic: 0.4, ..FINE }.verdict(), Verdict::TooLarge(Criterion::EnergyError));
-        let small = Evidence { moved: 0.5, excluded: 0.5, of_kinetic: 0.04, ..FINE };
+        let moved = |moved| Evidence { moved, excluded: moved + 3e-9, ..BOUNDED }.verdict();
+        assert_eq!(BOUNDED.verdict(), Verdict::Bounded);
+        assert_eq!(Evidence { windows: 15, ..BOUNDED }.verdict(), Verdict::Undecided(Missing::Windows));
+        assert_eq!(
+            [0.24, 0.26, 0.49, 0.5, 1.6].map(moved),
+            [Verdict::Bounded, UNRESOLVED, UNRESOLVED, MOVES, UNRESOLVED]
+        );
+        assert_eq!(Evidence { of_kinetic: 0.4, ..BOUNDED }.verdict(), Verdict::TooLarge(Criterion::EnergyError));
+        let small = Evidence { moved: 0.5, excluded: 0.5, of_kinetic: 0.04, ..BOUNDED };
         assert_eq!(small.verdict(), Verdict::NotConserved);
-        let moves = Evidence { moved: 0.6, excluded: 0.6, ..FINE };
+        let moves = Evidence { moved: 0.6, excluded: 0.6, ..BOUNDED };
         let others = [
             Evidence { worst_error: 0.3, ..moves },
             Evidence { has_errors: false, ..moves },
@@ -492,7 +495,7 @@ mod tests {
                 error_rms: 0.1,
                 rough: true,
                 turning: turning(20.0, 0.0),
-                ..FINE
+                ..BOUNDED
             }
             .verdict(),
             Verdict::NotTheGradient
@@ -502,9 +505,9 @@ mod tests {
     /// What no estimate resolves the means of H may exclude, whichever estimator there is.
     #[test]
     fn the_means_of_the_energy_decide_what_estimates_do_not() {
-        let blind = Evidence { moved: 0.0, resolution: 500.0, excluded: 1900.0, worst_error: 500.0, ..FINE };
+        let blind = Evidence { moved: 0.0, resolution: 500.0, excluded: 1900.0, worst_error: 500.0, ..BOUNDED };
         let by = |value, error| Evidence { energy_change: Some(Change { value, error, of_ends: 0.0 }), ..blind };
-        assert_eq!([by(0.02, 0.05).verdict(), by(0.02, 0.09).verdict()], [Verdict::Fine, UNRESOLVED]);
+        assert_eq!([by(0.02, 0.05).verdict(), by(0.02, 0.09).verdict()], [Verdict::Bounded, UNRESOLVED]);
         assert_eq!(by(0.02, 0.05).bound(), Some(0.02 + 3.0 * 0.05));
         let advice = Evidence { turning: turning(20.0, 0.0), ..by(0.0, 0.1) }.advice(8).unwrap();
         // 1.2 (0.3/0.25)² is 1.7; sin²(π/10) = 1/10.5, and ln(500 · 20)/ln 10.5 is 3.9
@@ -515,63 +518,78 @@ mod tests {
 
     #[test]
     fn a_move_that_round_off_explains_is_round_off() {
-        let of = |moved, round_off| Evidence { moved, excluded: moved + 3e-9, round_off, ..FINE }.verdict();
+        let of = |moved, round_off| Evidence { moved, excluded: moved + 3e-9, round_off, ..BOUNDED }.verdict();
         assert_eq!(of(0.6, 0.1), Verdict::RoundOff);
-        assert_eq!(of(0.2, 0.1), Verdict::Fine, "the energy error is the method's, mostly");
+        assert_eq!(of(0.2, 0.1), Verdict::Bounded, "the energy error is the method's, mostly");
         assert_eq!(of(0.6, 0.05), MOVES);
         // a short run: estimates are off by several kicks, while few have moved the energy
-        let short = Evidence { worst_error: 0.6, kick: 0.1, round_off: 0.3, ..FINE };
+        let short = Evidence { worst_error: 0.6, kick: 0.1, round_off: 0.3, ..BOUNDED };
         assert_eq!(short.verdict(), Verdict::RoundOff);
     }
 
     #[test]
     fn a_resonance_is_a_move_and_a_regular_turn() {
-        let of = |moved, turning| Evidence { moved, excluded: moved + 3e-9, turning, ..FINE }.verdict();
+        let of = |moved, turning| Evidence { moved, excluded: moved + 3e-9, turning, ..BOUNDED }.verdict();
         assert_eq!(of(0.3, turning(4.05, 0.0)), Verdict::NearResonance { turns: 1, steps: 4 });
         assert_eq!(of(0.3, turning(2.52, 0.0)), Verdict::NearResonance { turns: 2, steps: 5 });
-        assert_eq!(of(1e-9, turning(4.05, 0.0)), Verdict::Fine);
+        assert_eq!(of(1e-9, turning(4.05, 0.0)), Verdict::Bounded);
         assert_eq!(of(0.6, turning(4.05, 0.3)), MOVES);
         assert_eq!(of(0.6, turning(4.5, 0.0)), MOVES);
     }
 
     #[test]
     fn what_the_scheme_cannot_have_done() {
-        assert_eq!(Evidence { finite: false, windows: 3, ..FINE }.verdict(), Verdict::TooLarge(Criterion::NotFinite));
-        assert_eq!(Evidence { mismatches: true, ..FINE }.verdict(), Verdict::Inconsistent);
-        assert_eq!(Evidence { moved: 1001.0, turning: turning(20.0, 0.0), ..FINE }.verdict(), Verdict::Inconsistent);
+        assert_eq!(
+            Evidence { finite: false, windows: 3, ..BOUNDED }.verdict(),
+            Verdict::TooLarge(Criterion::NotFinite)
+        );
+        assert_eq!(Evidence { mismatches: true, ..BOUNDED }.verdict(), Verdict::Inconsistent);
+        assert_eq!(Evidence { moved: 1001.0, turning: turning(20.0, 0.0), ..BOUNDED }.verdict(), Verdict::Inconsistent);
         // of a circle in 20 steps θ²T/12 is some 0.8 of this energy error
-        let off = |offset| Evidence { offset, of_kinetic: 1e-2, turning: turning(20.0, 0.0), ..FINE };
-        assert_eq!([off(1.6).verdict(), off(1.7).verdict()], [FINE.verdict(), Verdict::Inconsistent]);
-        assert_eq!(Evidence { turns: 0.9, ..off(1.7) }.verdict(), FINE.verdict(), "H has not come back yet");
+        let off = |offset| Evidence { offset, of_kinetic: 1e-2, turning: turning(20.0, 0.0), ..BOUNDED };
+        assert_eq!([off(1.6).verdict(), off(1.7).verdict()], [BOUNDED.verdict(), Verdict::Inconsistent]);
+        assert_eq!(Evidence { turns: 0.9, ..off(1.7) }.verdict(), BOUNDED.verdict(), "H has not come back yet");
         // round-off of p may have made θ² smaller by as much as it is
         let unsure = off(1.7).turning.map(|turning| Turning { round_off: turning.angle.powi(2), ..turning });
         let unsure = |offset| Evidence { turning: unsure, ..off(offset) };
-        assert_eq!([unsure(3.2).verdict(), unsure(3.4).verdict()], [FINE.verdict(), Verdict::Inconsistent]);
+        assert_eq!([unsure(3.2).verdict(), unsure(3.4).verdict()], [BOUNDED.verdict(), Verdict::Inconsistent]);
         // H − H̄ of forces that are not smooth; θ²T/6 is 16 of an energy error of 1e-3
         let rough = |distance, of_kinetic| Evidence { rough: true, distance, error_rms: 1.0, of_kinetic, ..off(0.0) };
-        assert_eq!([rough(2.9, 1e-2).verdict(), rough(3.1, 1e-2).verdict()], [FINE.verdict(), Verdict::Inconsistent]);
-        assert_eq!([rough(16.0, 1e-3).verdict(), rough(17.0, 1e-3).verdict()], [FINE.verdict(), Verdict::Inconsistent]);
-        assert_eq!(Evidence { turns: 0.9, ..rough(17.0, 1e-3) }.verdict(), FINE.verdict());
+        assert_eq!(
+            [rough(2.9, 1e-2).verdict(), rough(3.1, 1e-2).verdict()],
+            [BOUNDED.verdict(), Verdict::Inconsistent]
+        );
+        assert_eq!(
+            [rough(16.0, 1e-3).verdict(), rough(17.0, 1e-3).verdict()],
+            [BOUNDED.verdict(), Verdict::Inconsistent]
+        );
+        assert_eq!(Evidence { turns: 0.9, ..rough(17.0, 1e-3) }.verdict(), BOUNDED.verdict());
         assert_eq!(Evidence { resolution: 0.6, excluded: 1.8, ..off(1.7) }.verdict(), UNRESOLVED);
         assert_eq!(
             Evidence { action: 0.3, ..off(1.7) }.verdict(),
-            FINE.verdict(),
+            BOUNDED.verdict(),
             "more than a third of a turn a step"
         );
-        let drift = |moved| Evidence { moved, straight: true, ..FINE }.verdict();
-        assert_eq!([drift(1e-4), drift(1e-2), drift(0.2)], [Verdict::Fine, Verdict::Drifts, Verdict::Drifts]);
+        let drift = |moved| Evidence { moved, straight: true, ..BOUNDED }.verdict();
+        assert_eq!([drift(1e-4), drift(1e-2), drift(0.2)], [Verdict::Bounded, Verdict::Drifts, Verdict::Drifts]);
     }
 
     #[test]
-    fn no_energy_error_at_all_is_fine() {
+    fn no_energy_error_at_all_is_bounded() {
         let infinite = f64::INFINITY;
-        let free = Evidence { moved: infinite, kick: infinite, round_off: infinite, of_kinetic: 0.0, ..FINE };
-        assert_eq!(free.verdict(), Verdict::Fine);
+        let free = Evidence { moved: infinite, kick: infinite, round_off: infinite, of_kinetic: 0.0, ..BOUNDED };
+        assert_eq!(free.verdict(), Verdict::Bounded);
         // at rest: 0 of 0
         let nothing = f64::NAN;
-        let rest =
-            Evidence { moved: nothing, kick: nothing, round_off: nothing, of_kinetic: nothing, moves: false, ..FINE };
-        assert_eq!(rest.verdict(), Verdict::Fine);
+        let rest = Evidence {
+            moved: nothing,
+            kick: nothing,
+            round_off: nothing,
+            of_kinetic: nothing,
+            moves: false,
+            ..BOUNDED
+        };
+        assert_eq!(rest.verdict(), Verdict::Bounded);
         assert_eq!(Evidence { moves: true, ..rest }.verdict(), Verdict::TooLarge(Criterion::EnergyError));
     }
 }
