@@ -267,10 +267,6 @@ impl<N: RunNumber> Watch<N> {
         let Observed { mut monitor, pass, encounters, approaches, .. } = observed?;
         monitor.pass(pass);
         let mut report = monitor.report();
-        // parts of an H(0) that is round-off say nothing
-        if report.windows > 0 && initial <= report.round_off {
-            (energy.largest_relative, energy.last_relative) = (None, None);
-        }
         report.coordinate_names = names;
         // the estimator of summaries is always the same
         if let Some(advice) = &mut report.advice {
@@ -280,6 +276,10 @@ impl<N: RunNumber> Watch<N> {
         let unresolved = if processed { None } else { judge_by_all(&mut report, self.energy.lasting.range()) };
         let of_kinetic = [&largest, &last].map(|error| part_of_kinetic(error, &report));
         let (verdict, reason) = conclusion(&report, of_kinetic, transformed);
+        // parts of an H(0) that is round-off say nothing
+        if report.windows > 0 && initial <= report.round_off && !verdict.loses_the_energy() {
+            (energy.largest_relative, energy.last_relative) = (None, None);
+        }
         let reason = unresolved.unwrap_or(reason);
         let lasting = self.energy.lasting.found().filter(|_| may_have_been_missed(verdict));
         let (encounters, closest) = encounters.found(n);
@@ -346,7 +346,7 @@ fn judge_by_all<N: Real>(report: &mut Report<N>, range: f64) -> Option<String> {
         }
         _ => {}
     }
-    if matches!(report.verdict, Verdict::Bounded | Verdict::TooLarge(Criterion::EnergyError)) {
+    if matches!(report.verdict, Verdict::Bounded | Verdict::TooLarge(Criterion::EnergyError | Criterion::Lost)) {
         let error = Rational::from_float(range).expect("a finite range");
         report.energy_error = N::from_rational(&error, &report.energy_error.context());
     }
@@ -371,15 +371,17 @@ fn changes<N: Real>(report: &Report<N>, verdict: Verdict) -> bool {
 /// monitor's last window, one on the error at the end.
 fn conclusion<N: Real>(report: &Report<N>, [largest, last]: [f64; 2], transformed: bool) -> (Verdict, String) {
     let is_large = |part: f64| part.is_finite() && part >= KINETIC_LIMIT;
+    // one with a lost coordinate is a verdict on an energy that is bounded in the windows
+    let is_bounded = report.verdict.is_bounded() || report.verdict == Verdict::TooLarge(Criterion::Lost);
     let reason = match report.verdict {
         Verdict::Undecided(Missing::Windows) if is_large(largest) => {
             format!("the energy error is {largest:.1e} of the mean kinetic energy")
         }
-        verdict if verdict.is_bounded() && !transformed && is_large(last) => {
+        _ if is_bounded && !transformed && is_large(last) => {
             format!("at the end the energy error is {last:.1e} of the mean kinetic energy before")
         }
         // over all states
-        verdict if verdict.is_bounded() && is_large(report.relative_error()) => {
+        _ if is_bounded && is_large(report.relative_error()) => {
             format!("the energy error is {:.1e} of the mean kinetic energy", report.relative_error())
         }
         verdict => return (verdict, report.reason()),

@@ -139,7 +139,7 @@ pub struct Advice {
     pub order: Option<u32>,
 }
 
-/// A step size is fine if a permanent change is excluded from this part of the energy error on.
+/// The verdict is bounded if a permanent change is excluded from this part of the energy error on.
 pub(super) const PERMANENT_LIMIT: f64 = 0.25;
 /// It is too large if a permanent change of this part or more is resolved.
 const PERMANENT_MOVE: f64 = 0.5;
@@ -246,10 +246,16 @@ pub(super) struct Evidence {
 }
 
 impl Evidence {
-    /// The verdict on the energy, unless that is fine and a coordinate is lost that has no visible part in it.
+    /// The verdict on the energy, unless that is bounded or round-off and a coordinate is lost that has no visible part in it.
     pub(super) fn verdict(&self) -> Verdict {
-        let verdict = self.of_energy();
-        if verdict.is_bounded() && self.lost { Verdict::TooLarge(Criterion::Lost) } else { verdict }
+        match self.of_energy() {
+            // where the energy grows without limit, its round-off does
+            Verdict::RoundOff if self.lost && self.of_kinetic >= KINETIC_LIMIT => {
+                Verdict::TooLarge(Criterion::EnergyError)
+            }
+            verdict if verdict.is_bounded() && self.lost => Verdict::TooLarge(Criterion::Lost),
+            verdict => verdict,
+        }
     }
 
     /// The first verdict whose condition holds; an energy error of 0 has no parts.
@@ -525,6 +531,9 @@ mod tests {
         // a short run: estimates are off by several kicks, while few have moved the energy
         let short = Evidence { worst_error: 0.6, kick: 0.1, round_off: 0.3, ..BOUNDED };
         assert_eq!(short.verdict(), Verdict::RoundOff);
+        let lost = |of_kinetic| Evidence { lost: true, of_kinetic, ..short }.verdict();
+        assert_eq!(lost(0.39), Verdict::TooLarge(Criterion::Lost));
+        assert_eq!(lost(0.4), Verdict::TooLarge(Criterion::EnergyError), "the energy grows, and its round-off with it");
     }
 
     #[test]

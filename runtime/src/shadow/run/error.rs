@@ -83,7 +83,7 @@ impl fmt::Display for Quantity {
         match self {
             Quantity::Position(index) => write!(f, "q{}", index + 1),
             Quantity::Momentum(index) => write!(f, "p{}", index + 1),
-            Quantity::Beta => f.write_str("beta"),
+            Quantity::Beta => f.write_str("the sum of qᵀU_q − 2U"),
             Quantity::Energy => f.write_str("the energy"),
             Quantity::ModifiedEnergy => f.write_str("the modified energy"),
             Quantity::ModifiedEnergyError => f.write_str("the estimated error of the modified energy"),
@@ -94,7 +94,7 @@ impl fmt::Display for Quantity {
 impl fmt::Display for NotFinite {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self.quantity {
-            Quantity::Position(_) | Quantity::Momentum(_) | Quantity::Beta => {
+            Quantity::Position(_) | Quantity::Momentum(_) => {
                 write!(f, "{} = {}", self.quantity, self.value)
             }
             _ => write!(f, "{} is {}", self.quantity, self.value),
