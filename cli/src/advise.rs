@@ -176,7 +176,11 @@ fn not_finished(unfinished: &Unfinished<'_>, seconds: f64) -> String {
     let Unfinished { untried, extrapolated } = unfinished;
     let line = |what: &str, names: &[&str]| match names {
         [] => String::new(),
-        names => wrapped_to(&format!("{what} within --seconds {seconds}: {}", names.join(", ")), "", WIDTH),
+        names => {
+            let line =
+                format!("{what} in the time for each scheme, of --seconds {seconds} for all: {}", names.join(", "));
+            wrapped_to(&line, "", WIDTH)
+        }
     };
     line("no result", untried)
         + &line("less certain, extrapolated from larger errors, as no run reached the tolerance", extrapolated)

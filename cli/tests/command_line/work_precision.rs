@@ -206,5 +206,5 @@ fn steps_begin_with_the_map_of_the_scene() {
 fn advice_names_what_it_did_not_try() {
     let ended = shadowstep("advise henon-heiles --until 1e6 --tolerance 1e-30 --of energy --seconds 0.002");
     assert_eq!(ended.code, 1, "{} {}", ended.out, ended.err);
-    assert!(ended.out.contains("within --seconds 0.002: "), "{}", ended.out);
+    assert!(ended.out.contains("of --seconds 0.002 for all: "), "{}", ended.out);
 }
