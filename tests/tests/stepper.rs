@@ -41,7 +41,7 @@ fn a_step_size_is_shown_in_a_line() {
     assert_eq!(shown("-1/20"), "StepSize(-1/20)");
     assert_eq!(shown("1/3"), "StepSize(1/3)");
     assert_eq!(shown("sqrt(2)/20"), "StepSize(≈ 0.07071067811865475244)");
-    assert_eq!(shown("1e-3000"), "StepSize(≈ 1e-3000)");
+    assert_eq!(shown("1e-290"), "StepSize(≈ 1e-290)");
 }
 
 #[test]
@@ -145,6 +145,12 @@ fn step_sizes_that_are_not_valid_are_refused() {
     // the same where the numbers have a context
     let error = Stepper::<_, Float>::with_context(StormerVerlet, 0.0, &precision(30)).map(drop).unwrap_err();
     assert_eq!(error, StepSizeError::Zero);
+}
+
+#[test]
+fn step_sizes_beyond_the_range_of_doubles_are_refused() {
+    let refused = |h: &str| StepSize::try_from(h) == Err(StepSizeError::BeyondRange);
+    assert_eq!(["1e-301", "-1e301", "1e-300", "1e300", "-1e-300"].map(refused), [true, true, false, false, false]);
 }
 
 #[test]

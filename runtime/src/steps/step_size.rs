@@ -2,13 +2,13 @@
 
 use std::convert::Infallible;
 
-use num_traits::Zero;
+use num_traits::{Signed, Zero};
 use shadowstep_symbolic::decimal::{to_significant, to_text};
 use thiserror::Error;
 
 use crate::{Rational, exact};
 
-/// A nonzero step size h, an exact rational; a negative one steps backwards in time.
+/// A step size h, an exact rational of a size from 1e-300 to 1e300; a negative one steps backwards in time.
 ///
 /// | made from | means |
 /// | --- | --- |
@@ -44,6 +44,9 @@ pub enum StepSizeError {
     /// An infinite step size, or NaN.
     #[error("the step size must be finite, not {0}")]
     NotFinite(String),
+    /// A size that is 0 or infinite in `f64`, or nearly.
+    #[error("the step size must be from 1e-300 to 1e300")]
+    BeyondRange,
     /// A text without an exact value.
     #[error("the step size `{text}` is not a valid number: {error}")]
     NotANumber {
@@ -85,7 +88,13 @@ impl std::fmt::Display for StepSize {
 impl TryFrom<Rational> for StepSize {
     type Error = StepSizeError;
     fn try_from(h: Rational) -> Result<Self, StepSizeError> {
-        if h.is_zero() { Err(StepSizeError::Zero) } else { Ok(StepSize(h)) }
+        let size = h.abs();
+        let largest = Rational::from_integer(10.into()).pow(300);
+        match () {
+            () if h.is_zero() => Err(StepSizeError::Zero),
+            () if size > largest || size < largest.recip() => Err(StepSizeError::BeyondRange),
+            () => Ok(StepSize(h)),
+        }
     }
 }
 
