@@ -38,7 +38,7 @@ docs:
 PYTHON = python3
 WHEEL = $(abspath $(or $(CARGO_TARGET_DIR),target))/python
 MPFR_SOURCE = $(dir $(shell cargo metadata --locked --format-version 1 | grep -o '"manifest_path":"[^"]*gmp-mpfr-sys-[^"]*Cargo.toml' | cut -d'"' -f4))
-# Equal functions once, and similar ones side by side, where they compress well: 1.5 MB less to download. For rustc's own linker, which it has for this machine.
+# Equal functions once, and similar ones side by side, where they compress well: 1.2 MB less to download. For rustc's own linker, which it has for this machine.
 OPTIONS_OF_RUST_LLD = -- -C link-arg=-Wl,--icf=all,--bp-compression-sort=both
 SMALLER = $(if $(findstring host: x86_64-unknown-linux-gnu,$(shell rustc -vV)),$(OPTIONS_OF_RUST_LLD))
 wheel: $(WHEEL)/tools/bin/maturin help-files
