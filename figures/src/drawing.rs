@@ -16,7 +16,8 @@ pub(crate) fn additional(what: &str) -> Finding {
 /// By how much a result changes when it is computed with 200 digits.
 pub(crate) fn digits_held(finding: &mut Finding, what: &str, held: Option<f64>) {
     if let Some(held) = held {
-        let change = if held.is_finite() { format!("changes by 1e-{held:.0}") } else { "does not change".to_owned() };
+        let change =
+            if held.is_finite() { format!("changes by about 1e-{held:.0}") } else { "does not change".to_owned() };
         finding.found(format!("Recomputed with 200 digits, {what} {change}."));
     }
 }

@@ -45,7 +45,7 @@ pub enum StepSizeError {
     #[error("the step size must be finite, not {0}")]
     NotFinite(String),
     /// A size that is 0 or infinite in `f64`, or nearly.
-    #[error("the step size must be from 1e-300 to 1e300")]
+    #[error("the step size must have a size from 1e-300 to 1e300")]
     BeyondRange,
     /// A text without an exact value.
     #[error("the step size `{text}` is not a valid number: {error}")]

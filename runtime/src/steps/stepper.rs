@@ -78,7 +78,7 @@ impl<S: Scheme, N: Number> Stepper<S, N> {
     /// A stepper for numbers without a context, such as `f64`.
     ///
     /// # Errors
-    /// A step size that is 0, not finite, or a text without an exact value.
+    /// A step size that is 0, not finite, beyond the range of a [`StepSize`], or a text without an exact value.
     pub fn new<H>(scheme: S, h: H) -> Result<Self, StepSizeError>
     where
         N: Number<Context = ()>,

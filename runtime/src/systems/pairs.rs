@@ -71,12 +71,12 @@ pub struct Pairs<P, const D: usize> {
 /// Sums of this number of bodies and more have blocks.
 const LEAST_BODIES: usize = 2 * BLOCK;
 
-/// What is compiled for a number type: what its constants exclude in a condition is not.
+/// Which sums are compiled for a number type: those behind a condition that is constant and false are not.
 struct HasVectors<N>(PhantomData<N>);
 
 impl<N: Number> HasVectors<N> {
-    /// Numbers without derivatives, in vectors. Dual numbers have blocks of their own for the gradient, and for the energy and β none, which are not followed
-    /// along many steps of theirs.
+    /// Blocks of numbers without derivatives. Dual numbers have [blocks of their own](DualBlocks) for the gradient. For their energy and β there are none, as
+    /// tangent maps compute neither.
     const PLAIN: bool = N::IN_VECTORS && !N::HAS_DERIVATIVES;
 }
 

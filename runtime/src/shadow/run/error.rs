@@ -83,7 +83,7 @@ impl fmt::Display for Quantity {
         match self {
             Quantity::Position(index) => write!(f, "q{}", index + 1),
             Quantity::Momentum(index) => write!(f, "p{}", index + 1),
-            Quantity::Beta => f.write_str("the sum of qᵀU_q − 2U"),
+            Quantity::Beta => f.write_str("the increment of β, for the modified energy,"),
             Quantity::Energy => f.write_str("the energy"),
             Quantity::ModifiedEnergy => f.write_str("the modified energy"),
             Quantity::ModifiedEnergyError => f.write_str("the estimated error of the modified energy"),

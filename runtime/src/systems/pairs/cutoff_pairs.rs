@@ -250,7 +250,7 @@ impl<P, const D: usize> CutoffPairs<P, D> {
     ) where
         P: PairPotential<N>,
     {
-        // of dual numbers no energies are followed: their sum is compiled once, without vectors
+        // tangent maps compute no energies: the sum for dual numbers is compiled once, without vectors
         if N::IN_VECTORS && !(N::HAS_DERIVATIVES && ENERGY) {
             instructions::widest(
                 #[inline(always)]
