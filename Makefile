@@ -87,7 +87,7 @@ book: DEPENDENCY_GROUPS = book
 book: python-environment
 	rm -rf $(or $(CARGO_TARGET_DIR),target)/doc target/book
 	set -e; for crate in -symbolic -limbs -schemes -analysis -macros '' -scenes -sweeps -work-precision; do \
-	    $(RUSTDOC) --profile quick --all-features -p shadowstep$$crate; \
+	    RUSTFLAGS="$$RUSTFLAGS -D warnings" $(RUSTDOC) --profile quick --all-features -p shadowstep$$crate; \
 	done
 	! grep -rlE --include='*.html' '\[<code>[^<]*</code>\]|href="[a-z_]*::' $(or $(CARGO_TARGET_DIR),target)/doc
 	mkdir -p target/book
