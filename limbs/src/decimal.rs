@@ -239,12 +239,19 @@ impl<const L: usize> fmt::Display for Limbs<L> {
 }
 
 /// A text that is not a decimal number.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, PartialEq, Eq)]
 pub struct ParseError;
 
 impl fmt::Display for ParseError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str("expected a decimal number such as -1.25e-30, or NaN, inf, -inf")
+    }
+}
+
+/// Its text, which `unwrap` prints.
+impl fmt::Debug for ParseError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        fmt::Display::fmt(self, f)
     }
 }
 

@@ -100,12 +100,16 @@ impl SystemWithScheme {
         let surface = section.map(|(text, direction)| system.section("section", text, *direction)).transpose()?;
         let kept = surface.as_ref().map_or(KeptStates::Every(every), KeptStates::Crossings);
         let integration = Integration { system, scheme, run, compensated, displaced, until, ends, kept, estimator };
-        let found = match arithmetic.is_longer_than_double() {
-            false => Integrated::Doubles(integration.run::<f64>(&(), observer)?),
-            true => Integrated::Texts(arithmetic.compute(InTexts { integration, observer })?),
-        };
         let frequency = system.fastest_frequency();
         let unstable = frequency.and_then(|frequency| unstable(frequency, &self.scheme, times.h.exact()));
+        let found = match arithmetic.is_longer_than_double() {
+            false => integration.run::<f64>(&(), observer).map(Integrated::Doubles),
+            true => arithmetic.compute(InTexts { integration, observer }).map(Integrated::Texts),
+        };
+        let found = found.map_err(|error| match (error, &unstable) {
+            (Error::Run { message, hint }, Some(note)) => Error::run(message, format!("{hint}; {note}")),
+            (error, _) => error,
+        })?;
         let few_kicks = few_kicks(system, &self.scheme, times.h.exact());
         let resonant = resonant(system, &self.scheme, times.h.exact());
         Ok((found, self.note.iter().cloned().chain(unstable).chain(few_kicks).chain(resonant).collect()))

@@ -292,6 +292,9 @@ def test_a_run_that_fails_says_where():
     with pytest.raises(RunError, match="n = ") as error:
         integrate(Problem("-x^4", q={"x": 1}, p=[1]), "stormer-verlet", h=0.1, steps=1000)
     assert "smaller step size" in error.value.hint
+    with pytest.raises(RunError) as error:
+        integrate(Problem("x^2/2", q={"x": 1}, p=[0]), "stormer-verlet", h=3, steps=1000)
+    assert "beyond the stability limit 2 of stormer-verlet" in error.value.hint
 
 
 @pytest.fixture

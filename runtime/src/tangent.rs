@@ -73,7 +73,7 @@ enum Divisors {
 }
 
 /// Why there are no indicators.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
+#[derive(Clone, Copy, PartialEq, Eq, Error)]
 pub enum TangentError {
     /// The vector has no direction.
     #[error("the tangent vector {0} is 0 or not finite")]
@@ -82,6 +82,8 @@ pub enum TangentError {
     #[error("there are no tangent vectors")]
     NoVectors,
 }
+
+shadowstep_symbolic::debug_as_text!(TangentError);
 
 /// Beyond 2^±SCALE a vector is multiplied by a power of 2, exactly.
 const SCALE: f64 = 128.0;

@@ -25,7 +25,7 @@ const PARTS: usize = 3;
 const DIGITS_LOST: u32 = 2;
 
 /// Why a scheme has no steps for three parts and more.
-#[derive(Clone, Debug, PartialEq, Eq, Error)]
+#[derive(Clone, PartialEq, Eq, Error)]
 pub enum NotForManyParts {
     /// Its gradient kicks are made of T(p) and U(q).
     #[error("{0} has gradient kicks, which are for T(p) and U(q) only")]
@@ -56,6 +56,8 @@ pub enum NotForManyParts {
         failed: String,
     },
 }
+
+shadowstep_symbolic::debug_as_text!(NotForManyParts);
 
 impl Proved {
     /// The scheme with the plan of its steps for three parts and more, whose order is proved by the words on three letters.

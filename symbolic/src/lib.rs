@@ -58,6 +58,7 @@
 //! | `evaluation/value` | exact or enclosed values |
 //! | `evaluation/domain` | the domains of roots, quotients and functions |
 //! | `evaluation/evaluator` | one computation with a given number of digits |
+//! | `debug_as_text` | errors whose `Debug` is their text |
 //! | `separation` | the variable in formulas of pairs of bodies |
 //! | `graph` | **syntax tree → formulas without repetitions**, with the feature `graph` |
 //! | `graph/simplify` | construction of simplified nodes |
@@ -74,6 +75,7 @@
 //! | `program/factor` | the search for a form of the formulas with fewer operations |
 //! | `program/potential` | the programs of a potential |
 
+mod debug_as_text;
 mod evaluation;
 #[cfg(feature = "graph")]
 mod graph;

@@ -19,7 +19,7 @@ use crate::convenient::convenient_step;
 use crate::length::length_of;
 use crate::of::Of;
 use crate::problem::Problem;
-use crate::reference::{Reference, Resolution, method_of_reference, seconds_of_reference};
+use crate::reference::{Reference, Resolution, largest_coordinate, method_of_reference, seconds_of_reference};
 use crate::run::{Measurement, PositionError};
 use crate::series::{End, Series, StepRange, Target, seconds_per_step, stable_step};
 use crate::size::Size;
@@ -260,7 +260,7 @@ impl<'a> AdviceRequest<'a> {
     fn below_digits(&self, others: f64) -> Size {
         match self.of {
             Of::Position => {
-                self.problem.coordinates().times_power_of_ten(others - f64::from(self.problem.arithmetic.digits()))
+                largest_coordinate(self.problem).times_power_of_ten(others - f64::from(self.problem.arithmetic.digits()))
             }
             Of::Energy | Of::Permanent => Size::ZERO,
         }
@@ -292,6 +292,10 @@ impl<'a> AdviceRequest<'a> {
         };
         let curve: Curve = studied.series.runs.iter().filter_map(whole).collect();
         let error = self.tolerance.times_power_of_ten(MARGIN);
+        // an error of a run that is smaller is one by accident
+        if error < self.below_digits(0.0) {
+            return None;
+        }
         let steps = cost_of(&curve, error).or_else(|| self.extrapolated(studied, &curve, error))?;
         let length = study.problem.size();
         let size = |run: &Measurement| length / run.steps as f64;
@@ -317,9 +321,6 @@ impl<'a> AdviceRequest<'a> {
 
     /// The number of steps for an error that no run had the time for.
     fn extrapolated(&self, studied: &Studied<'_>, curve: &Curve, error: Size) -> Option<f64> {
-        if error < self.below_digits(0.0) {
-            return None;
-        }
         let (steps, last) = curve.last().filter(|_| studied.series.end == End::Time)?;
         let more = 10_f64.powf((last - error.log10()) / last_order(curve, self.order(studied.scheme)));
         (1.0..=MOST_EXTRAPOLATED).contains(&more).then_some(steps * more)

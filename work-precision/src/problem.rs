@@ -11,8 +11,6 @@ use shadowstep_scenes::start::{Begin, SceneIntegrator, Steps};
 use shadowstep_scenes::{Error, System};
 use shadowstep_symbolic::decimal::to_text;
 
-use crate::size::Size;
-
 /// Errors along a run are taken at this number of times at most.
 pub(crate) const MOST_SAMPLES: u64 = 64;
 
@@ -43,12 +41,6 @@ impl Problem<'_> {
     /// The size of the length of all steps.
     pub(crate) fn size(&self) -> f64 {
         <f64 as Number>::from_rational(self.steps_length(), &()).abs()
-    }
-
-    /// The largest coordinate at t = 0.
-    pub(crate) fn coordinates(&self) -> Size {
-        let (q, _) = self.system.start::<f64>(&());
-        Size::of(&q.into_iter().fold(f64::MIN_POSITIVE, |size, q| size.max(q.abs())))
     }
 
     /// The step size of this number of steps.

@@ -16,6 +16,7 @@ use shadowstep_scenes::computation::{Computation, RunNumber};
 use shadowstep_scenes::cpu_time::CpuTime;
 use shadowstep_scenes::library::{NamedScheme, scheme};
 use shadowstep_scenes::propagator::for_system;
+use shadowstep_scenes::start::SceneIntegrator;
 use shadowstep_symbolic::decimal::from_text;
 
 use crate::positions::{ASKED, Ended, Sampler, square_distance};
@@ -27,6 +28,24 @@ use crate::timing::time_of_steps;
 const MORE_DIGITS: u32 = 12;
 /// The digits of the reference, which its scheme's weights must have.
 const MOST_REFERENCE_DIGITS: u32 = 240;
+
+/// The largest coordinate at t = 0; where all are 0, that after a radian of the fastest oscillation.
+pub(crate) fn largest_coordinate(problem: Problem<'_>) -> Size {
+    let largest = |q: &[f64]| q.iter().fold(0.0_f64, |size, q| size.max(q.abs()));
+    let size = match largest(&problem.system.start::<f64>(&()).0) {
+        0.0 => after_a_radian(problem).map_or(0.0, |mut moved| largest(moved.system().q())),
+        size => size,
+    };
+    Size::of(&size.max(f64::MIN_POSITIVE))
+}
+
+/// One step from t = 0.
+fn after_a_radian(problem: Problem<'_>) -> Option<SceneIntegrator<f64>> {
+    let named = for_system(scheme(Scheme::ANY.name).ok()?, problem.system).ok()?;
+    let mut integrator = problem.integrator(&named, first_steps(problem, 1), &()).ok()?;
+    integrator.step(Carried::Nothing);
+    Some(integrator)
+}
 
 /// Errors above this part of the largest coordinate cost less by the scheme for planets; log₁₀.
 const LEAST_OF_PLANETS: f64 = -14.0;
@@ -51,7 +70,7 @@ impl Scheme {
     fn of(problem: Problem<'_>, error: Size) -> Result<(Scheme, NamedScheme), Error> {
         let system = problem.system;
         if system.parts.planets().is_some()
-            && error > problem.coordinates().times_power_of_ten(LEAST_OF_PLANETS)
+            && error > largest_coordinate(problem).times_power_of_ten(LEAST_OF_PLANETS)
             && let Ok(named) = for_system(scheme(Scheme::PLANETS.name)?, system)
         {
             return Ok((Scheme::PLANETS, named));
@@ -338,7 +357,7 @@ fn more_digits(problem: Problem<'_>) -> Result<Arithmetic, Error> {
 /// The numbers of the runs, with compensated sums, where they resolve an error.
 fn resolving_numbers(problem: Problem<'_>, error: Size) -> Option<Arithmetic> {
     let own = if problem.arithmetic == Arithmetic::DOUBLE { Arithmetic::COMPENSATED } else { problem.arithmetic };
-    let size = problem.coordinates();
+    let size = largest_coordinate(problem);
     let resolved = size.log10() - f64::from(own.digits().saturating_sub(ROUND_OFF_DIGITS));
     (error.log10() > resolved).then_some(own)
 }

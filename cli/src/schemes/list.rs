@@ -123,9 +123,9 @@ fn table_of(word: &str) -> Result<NamedScheme, Error> {
     let message = format!("`{word}` is not the file of a table");
     let hint = match library::scheme(word) {
         Ok(_) => format!("for a shipped scheme write: shadowstep schemes show {word}"),
-        Err(_) => match nearest(word, ["show", "check", "polish", "prove"]) {
+        Err(unknown) => match nearest(word, ["show", "check", "polish", "prove"]) {
             Some(command) => format!("did you mean `shadowstep schemes {command}`?"),
-            None => "the name of a custom table ends in .toml; subcommands stand before all flags".to_owned(),
+            None => return Err(unknown.into()),
         },
     };
     Err(Error::usage(message, hint))

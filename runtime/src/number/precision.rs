@@ -24,7 +24,7 @@ pub struct Precision {
 }
 
 /// A precision out of range.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
+#[derive(Clone, Copy, PartialEq, Eq, Error)]
 pub enum PrecisionError {
     /// in decimal digits
     #[error("the precision is {0} digits, but has to be from {least} to {most}",
@@ -35,6 +35,8 @@ pub enum PrecisionError {
         least = Precision::LEAST.bits, most = Precision::MOST.bits)]
     Bits(u32),
 }
+
+shadowstep_symbolic::debug_as_text!(PrecisionError);
 
 impl Precision {
     const LEAST: Precision = Precision { bits: 5 };

@@ -19,7 +19,7 @@ pub trait BuildEstimator<N: Number> {
 }
 
 /// Settings of an estimator that are not valid.
-#[derive(Clone, Debug, PartialEq, Eq, Error)]
+#[derive(Clone, PartialEq, Eq, Error)]
 pub enum EstimatorError {
     /// An order, or a largest order, that is too small.
     #[error("{name} must be at least {least}, not {found}")]
@@ -45,6 +45,8 @@ pub enum EstimatorError {
     #[error("the target error must not be negative")]
     NegativeAccuracy,
 }
+
+shadowstep_symbolic::debug_as_text!(EstimatorError);
 
 impl EstimatorError {
     /// Checks that an order is not too small.

@@ -32,7 +32,7 @@ use crate::systems::problems::exact_flow::solver::Solver;
 use crate::systems::problems::{PROBLEMS, Problem, Setup};
 
 /// A problem, initial state or time for which the exact flow cannot be computed, or settings of an estimator that are not valid.
-#[derive(Clone, Debug, PartialEq, Eq, Error)]
+#[derive(Clone, PartialEq, Eq, Error)]
 pub enum ExactFlowError {
     /// No solution of the problem is known.
     #[error("no exact flow of {problem} is known; it is known for {known}")]
@@ -49,6 +49,8 @@ pub enum ExactFlowError {
     #[error(transparent)]
     Estimator(#[from] EstimatorError),
 }
+
+shadowstep_symbolic::debug_as_text!(ExactFlowError);
 
 /// The states of the exact flow of a problem in the order of time, n = −reach, …, steps + reach, with the β of each step.
 ///

@@ -47,7 +47,7 @@ impl EstimatorOptions {
 }
 
 /// Two options that exclude each other.
-#[derive(Clone, Debug, PartialEq, Eq, Error)]
+#[derive(Clone, PartialEq, Eq, Error)]
 #[error("{option} requires {setting} = {required}, not {setting} = {found}")]
 pub struct OptionConflict {
     /// The option that cannot be used: `max_order`, `stop`, `rule` or `accuracy`.
@@ -60,8 +60,10 @@ pub struct OptionConflict {
     pub found: String,
 }
 
+shadowstep_symbolic::debug_as_text!(OptionConflict);
+
 /// A target error that is not valid: it is absolute, in the units of the energy.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
+#[derive(Clone, Copy, PartialEq, Eq, Error)]
 pub enum AccuracyError {
     /// 0 or negative.
     #[error("is not a valid target error: it must be positive")]
@@ -70,6 +72,8 @@ pub enum AccuracyError {
     #[error("is above 1e100, an error larger than any energy")]
     TooLarge,
 }
+
+shadowstep_symbolic::debug_as_text!(AccuracyError);
 
 /// Checks a target error.
 ///
@@ -85,12 +89,14 @@ pub fn check_accuracy(accuracy: &Rational) -> Result<(), AccuracyError> {
 }
 
 /// A word that is not a value of an option.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
+#[derive(Clone, Copy, PartialEq, Eq, Error)]
 #[error("expected {}", listed(.known))]
 pub struct UnknownWord {
     /// The values that exist.
     pub known: &'static [&'static str],
 }
+
+shadowstep_symbolic::debug_as_text!(UnknownWord);
 
 /// `a, b or c`
 fn listed(words: &[&str]) -> String {

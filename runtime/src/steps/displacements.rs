@@ -9,7 +9,7 @@ use crate::systems::displaced::Displacements;
 use crate::systems::maps::MapKind;
 
 /// A scheme whose gradient kicks no displaced forces can replace.
-#[derive(Clone, Debug, PartialEq, Eq, Error)]
+#[derive(Clone, PartialEq, Eq, Error)]
 pub enum DisplacementError {
     /// There is no gradient kick.
     #[error("{scheme} has no gradient kicks that displaced forces could replace")]
@@ -32,6 +32,8 @@ pub enum DisplacementError {
         scheme: String,
     },
 }
+
+shadowstep_symbolic::debug_as_text!(DisplacementError);
 
 /// The displacements of a scheme with the step size h; `weights` are the numbers 2h³c.
 pub(crate) fn displacements<N: Real>(

@@ -3,7 +3,7 @@
 use thiserror::Error;
 
 /// A stepper that does not fit a system.
-#[derive(Clone, Debug, PartialEq, Eq, Error)]
+#[derive(Clone, PartialEq, Eq, Error)]
 pub enum MismatchError {
     /// The weights of the stepper have another precision than the numbers of the system.
     #[error("the weights of the stepper have another precision than the system: make both with the same context")]
@@ -18,3 +18,5 @@ pub enum MismatchError {
         scheme: String,
     },
 }
+
+shadowstep_symbolic::debug_as_text!(MismatchError);

@@ -26,7 +26,9 @@ use crate::{Rational, exact};
 /// assert_eq!(exact, StepSize::try_from("0.05")?);
 /// assert_ne!(exact, StepSize::try_from(0.05)?);
 /// assert_eq!(StepSize::try_from(2)?, StepSize::try_from("2")?);
-/// assert_eq!(StepSize::try_from(0.0).unwrap_err().to_string(), "the step size must be nonzero");
+/// let error = StepSize::try_from(0.0).unwrap_err();
+/// assert_eq!(error.to_string(), "the step size must be nonzero");
+/// assert_eq!(format!("{error:?}"), error.to_string()); // as `unwrap` prints it
 /// # Ok::<(), shadowstep::StepSizeError>(())
 /// ```
 #[derive(Clone, PartialEq, Eq)]
@@ -36,7 +38,7 @@ pub struct StepSize(Rational);
 const LONGEST: usize = 40;
 
 /// A value that is not a valid step size.
-#[derive(Clone, Debug, PartialEq, Eq, Error)]
+#[derive(Clone, PartialEq, Eq, Error)]
 pub enum StepSizeError {
     /// h = 0.
     #[error("the step size must be nonzero")]
@@ -56,6 +58,8 @@ pub enum StepSizeError {
         error: shadowstep_symbolic::Error,
     },
 }
+
+shadowstep_symbolic::debug_as_text!(StepSizeError);
 
 impl StepSize {
     /// The exact value.

@@ -33,7 +33,7 @@ impl<Class> Clone for TableScheme<Class> {
 }
 
 /// A scheme whose claimed order holds for quadratic T only, requested for a general T(p).
-#[derive(Clone, Debug, PartialEq, Eq, Error)]
+#[derive(Clone, PartialEq, Eq, Error)]
 #[error("{name} has {}", match order {
     0 => "gradient kicks, which are for quadratic T only".to_owned(),
     order => format!("order {order_quadratic} for quadratic T only, for a general T(p) order {order}"),
@@ -46,6 +46,8 @@ pub struct QuadraticOnly {
     /// The order proved for quadratic T.
     pub order_quadratic: u32,
 }
+
+shadowstep_symbolic::debug_as_text!(QuadraticOnly);
 
 /// A shipped scheme by its name or an alias, such as `yoshida4`, `PEFRL`, `BM4`; `None` if there is none.
 pub fn shipped(name: &str) -> Option<TableScheme> {

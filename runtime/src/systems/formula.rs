@@ -46,7 +46,7 @@ pub struct FormulaPotential<N> {
 }
 
 /// A text that is not a valid potential or kinetic energy, with the place of the fault.
-#[derive(Clone, Debug, PartialEq, Eq, Error)]
+#[derive(Clone, PartialEq, Eq, Error)]
 pub enum FormulaError {
     /// The text is not a formula.
     #[error(transparent)]
@@ -61,6 +61,8 @@ pub enum FormulaError {
     #[error("`{0}` is a constant; give the coordinate or parameter another name")]
     Constant(String),
 }
+
+shadowstep_symbolic::debug_as_text!(FormulaError);
 
 impl FormulaError {
     /// The byte range of the text that is meant; empty, if the names are.

@@ -477,7 +477,7 @@ fn dot<N: Number>(a: &[N], b: &[N], product: &mut N) {
 }
 
 /// Masses that are not valid.
-#[derive(Clone, Debug, PartialEq, Eq, Error)]
+#[derive(Clone, PartialEq, Eq, Error)]
 pub enum MassError {
     /// A mass (or a diagonal entry of M⁻¹) is 0 or negative.
     #[error("mass {index} is {mass}; masses must be positive and finite")]
@@ -530,3 +530,5 @@ pub enum MassError {
         other: usize,
     },
 }
+
+shadowstep_symbolic::debug_as_text!(MassError);

@@ -327,7 +327,7 @@ fn check<N: Number, P: Potential<N>, K: Kinetic<N>>(
 }
 
 /// A state, a potential and a kinetic energy that do not fit together.
-#[derive(Clone, Debug, PartialEq, Eq, Error)]
+#[derive(Clone, PartialEq, Eq, Error)]
 pub enum MotionError {
     /// q is empty.
     #[error("a motion needs at least one coordinate")]
@@ -389,6 +389,8 @@ pub enum MotionError {
     #[error(transparent)]
     Masses(#[from] MassError),
 }
+
+shadowstep_symbolic::debug_as_text!(MotionError);
 
 impl MotionError {
     pub(crate) fn refuse_not_finite<N: Number>(q: &[N], p: &[N]) -> Result<(), MotionError> {

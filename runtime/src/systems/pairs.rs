@@ -133,7 +133,7 @@ impl<P: Pair, const D: usize> Pairs<P, D> {
 }
 
 /// Bodies and a pair's energy that do not fit together.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
+#[derive(Clone, Copy, PartialEq, Eq, Error)]
 pub enum PairsError {
     /// There is nothing to sum over.
     #[error("a sum over pairs needs at least one body and one dimension")]
@@ -159,6 +159,8 @@ pub enum PairsError {
     #[error("fixed ends are for pairs without properties, as walls have none")]
     WallsWithoutProperties,
 }
+
+shadowstep_symbolic::debug_as_text!(PairsError);
 
 /// The scratch space of a call.
 struct Scratch<'a, N: Number + 'a, const D: usize> {

@@ -122,7 +122,7 @@ impl fmt::Display for Fault {
 }
 
 /// All faults of a document, at least one, in the order of their places.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, PartialEq, Eq)]
 pub struct Faults(pub Vec<Fault>);
 
 impl Faults {
@@ -141,5 +141,7 @@ impl fmt::Display for Faults {
         Ok(())
     }
 }
+
+shadowstep_symbolic::debug_as_text!(Faults);
 
 impl std::error::Error for Faults {}

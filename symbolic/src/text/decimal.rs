@@ -16,12 +16,14 @@ const LARGEST_SHORT_DENOMINATOR: u32 = 10_000;
 const MOST_PLACES: u64 = 400;
 
 /// A text that is not an integer, a fraction or a decimal.
-#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[derive(Clone, PartialEq, Eq, thiserror::Error)]
 #[error("`{text}` is not a number: write an integer, a decimal such as -0.25 or a fraction such as 7/24")]
 pub struct NotANumber {
     /// The text.
     pub text: String,
 }
+
+crate::debug_as_text!(NotANumber);
 
 /// Writes a rational with all its digits, such as `3`, `-7/24` or `0.6756035959798288170238437`.
 ///

@@ -16,7 +16,7 @@ pub(crate) const LARGEST_POWER: u32 = 10_000;
 pub(crate) const MOST_FACTORS: usize = 64;
 
 /// Why a text has no value.
-#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[derive(Clone, PartialEq, Eq, thiserror::Error)]
 pub enum Error {
     /// The text is not a formula.
     #[error(transparent)]
@@ -25,6 +25,8 @@ pub enum Error {
     #[error(transparent)]
     Semantic(#[from] SemanticError),
 }
+
+crate::debug_as_text!(Error);
 
 impl Error {
     /// The place of the error in the text, in bytes.
@@ -37,7 +39,7 @@ impl Error {
 }
 
 /// A text that is not a valid formula.
-#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[derive(Clone, PartialEq, Eq, thiserror::Error)]
 #[error("{message}")]
 pub struct SyntaxError {
     /// One sentence: what was found, and what would be right.
@@ -46,8 +48,10 @@ pub struct SyntaxError {
     pub range: Range<usize>,
 }
 
+crate::debug_as_text!(SyntaxError);
+
 /// Why a formula has no value, or is not a smooth function, and where.
-#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[derive(Clone, PartialEq, Eq, thiserror::Error)]
 #[error("{fault}")]
 pub struct SemanticError {
     /// What is wrong.
@@ -56,6 +60,8 @@ pub struct SemanticError {
     pub range: Range<usize>,
 }
 
+crate::debug_as_text!(SemanticError);
+
 impl SemanticError {
     pub(crate) fn new(fault: SemanticFault, range: &Range<usize>) -> Self {
         SemanticError { fault, range: range.clone() }
@@ -63,7 +69,7 @@ impl SemanticError {
 }
 
 /// Why a formula has no value, or is not a smooth function.
-#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[derive(Clone, PartialEq, Eq, thiserror::Error)]
 pub enum SemanticFault {
     /// An unknown name.
     #[error("unknown name `{name}`; {hint}")]
@@ -144,6 +150,8 @@ pub enum SemanticFault {
     #[error("a product of {0} different factors is too long: at most {MOST_FACTORS} are allowed")]
     LongProduct(usize),
 }
+
+crate::debug_as_text!(SemanticFault);
 
 /// The domain of a function, in words.
 fn domain(function: Function) -> &'static str {

@@ -11,7 +11,7 @@ use crate::Rational;
 use num_traits::Zero;
 
 /// Why constants have no derivatives by a parameter.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
+#[derive(Clone, Copy, PartialEq, Eq, Error)]
 pub enum ParameterError {
     /// What is made at the second value has not the same constants in the same order.
     #[error("the formulas have another form at a nearby value")]
@@ -20,6 +20,8 @@ pub enum ParameterError {
     #[error("no constant of the steps depends on it")]
     NoConstant,
 }
+
+shadowstep_symbolic::debug_as_text!(ParameterError);
 
 /// What happens to the constants of this thread.
 enum Constants {

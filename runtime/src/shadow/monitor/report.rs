@@ -46,10 +46,10 @@ pub struct Report<N> {
     pub method_rms: N,
     /// The newest accurate H̄.
     pub modified: N,
-    /// The range of H̄: max − min of the accurate estimates. Where H̄ oscillates with the estimates' errors, as near a resonance,
+    /// The permanent change of H̄: max − min of the accurate estimates. Where H̄ oscillates with the estimates' errors, as near a resonance,
     /// these may all be of the same phase; `moved` includes all windows.
     pub range: N,
-    /// The permanent change of H̄: the newest accurate estimate less the first one.
+    /// The net change of H̄: the newest accurate estimate less the first one.
     pub change: N,
     /// How far H̄ moved beyond its errors: max (H̄ − 3e) − min (H̄ + 3e) over all windows with their errors e, or 0.
     pub moved: N,

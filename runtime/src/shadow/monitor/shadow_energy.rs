@@ -51,9 +51,9 @@ use crate::systems::system::System;
 /// bounded: the energy error is 1.9 % of T (20000 steps, 199 windows)
 ///   energy error         9.39e-3  max − min of H; 1.9e-2 of T
 ///   the method's part    1.63e-3  rms of H − H̄, which is from -9.04e-3 to 3.31e-4
-///   H̄ ranges over       3.60e-14  3.8e-12 of the energy error, a random walk
-///   it changed by      -1.15e-14  it moved by 3.70e-14 beyond its errors
-///   it is known to      2.22e-16  2.4e-14 of the energy error
+///   permanent change    3.60e-14  max − min of H̄; 3.8e-12 of the energy error, a random walk
+///   H̄ changed by       -1.15e-14  from the beginning to the end; it moved by 3.70e-14 beyond its errors
+///   H̄ is known to       2.22e-16  2.4e-14 of the energy error
 ///   round-off           1.02e-14  1.1e-12 of the energy error, expected by Brouwer's law
 ///   net change          3.68e-14  3.9e-12 of the energy error, at most
 ///   fastest motion          16.7  steps a turn

@@ -269,10 +269,10 @@ impl<N: Real> fmt::Display for Report<N> {
         let range = format!("rms of H − H̄, which is from {least} to {largest}{resolved}");
         line(f, "the method's part", &self.method_rms, &range)?;
         let trend = self.trend.map_or(String::new(), |trend| format!(", {trend}"));
-        line(f, "H̄ ranges over", &self.range, &format!("{}{trend}", part(&self.range)))?;
-        line(f, "it changed by", &self.change, &format!("it moved by {} beyond its errors", short(&self.moved)))?;
+        line(f, "permanent change", &self.range, &format!("max − min of H̄; {}{trend}", part(&self.range)))?;
+        line(f, "H̄ changed by", &self.change, &format!("from the beginning to the end; it moved by {} beyond its errors", short(&self.moved)))?;
         if let Some(resolution) = &self.resolution {
-            line(f, "it is known to", resolution, &part(resolution))?;
+            line(f, "H̄ is known to", resolution, &part(resolution))?;
         }
         line(f, "round-off", &self.round_off, &format!("{}, expected by Brouwer's law", part(&self.round_off)))?;
         if let Some(bound) = self.permanent_bound.as_ref().filter(|_| !self.verdict.loses_the_energy()) {

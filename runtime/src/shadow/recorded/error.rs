@@ -7,7 +7,7 @@ use crate::shadow::run::RunError;
 use crate::steps::step_size::StepSizeError;
 
 /// A log that cannot be used, with the place of what is wrong.
-#[derive(Clone, Debug, PartialEq, Error)]
+#[derive(Clone, PartialEq, Error)]
 pub enum RecordedError {
     /// Arrays whose numbers of rows differ.
     #[error("{name} has {found} numbers, and {rows} states of {columns} numbers are {}", .rows * .columns)]
@@ -125,6 +125,8 @@ pub enum RecordedError {
     #[error(transparent)]
     Run(#[from] RunError),
 }
+
+shadowstep_symbolic::debug_as_text!(RecordedError);
 
 /// The coordinate, also as one of a particle in space.
 fn place(coordinate: Option<usize>, dimension: usize) -> String {

@@ -18,7 +18,7 @@ fn remedy(step: i64) -> &'static str {
 }
 
 /// A run that cannot begin or cannot continue.
-#[derive(Clone, Debug, PartialEq, Eq, Error)]
+#[derive(Clone, PartialEq, Eq, Error)]
 pub enum RunError {
     /// A value is infinite or NaN.
     #[error("the run stopped at step {step}: {value}; {}", remedy(*step))]
@@ -51,6 +51,8 @@ pub enum RunError {
     #[error(transparent)]
     Estimator(#[from] EstimatorError),
 }
+
+shadowstep_symbolic::debug_as_text!(RunError);
 
 /// A value that is infinite or NaN, or a position whose square is.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -5,7 +5,7 @@ use thiserror::Error;
 use crate::number::{Number, scaled};
 
 /// Wrong input of a Kepler drift.
-#[derive(Clone, Debug, PartialEq, Error)]
+#[derive(Clone, PartialEq, Error)]
 pub enum KeplerDriftError {
     /// A gravity parameter that does not attract.
     #[error("the gravity parameter μ of a Kepler drift must be positive and finite, but it is {0}")]
@@ -37,6 +37,8 @@ pub enum KeplerDriftError {
     #[error("the position of a Kepler drift must not be the centre, q = 0")]
     Centre,
 }
+
+shadowstep_symbolic::debug_as_text!(KeplerDriftError);
 
 /// Checks the input of a drift, in every lane.
 pub(super) fn check<N: Number>(mu: &N, time: &N, q: &[N], v: &[N]) -> Result<(), KeplerDriftError> {

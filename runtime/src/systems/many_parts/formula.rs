@@ -17,7 +17,7 @@ use crate::systems::formula::{FormulaError, refuse_repeated};
 use crate::systems::matrix::QUADRATIC_FLOW_DIGITS;
 
 /// A text that is no part of H with a known flow.
-#[derive(Clone, Debug, PartialEq, Eq, Error)]
+#[derive(Clone, PartialEq, Eq, Error)]
 pub enum PartError {
     /// It is not a formula of the coordinates, momenta and parameters.
     #[error(transparent)]
@@ -29,6 +29,8 @@ pub enum PartError {
     #[error("the flow of a quadratic form is computed to at most {QUADRATIC_FLOW_DIGITS} digits")]
     Digits,
 }
+
+shadowstep_symbolic::debug_as_text!(PartError);
 
 impl PartError {
     /// The byte range of the text that is meant; empty, if it is all of it.

@@ -105,7 +105,7 @@ impl<const D: usize> Cutoff<D> {
 }
 
 /// A cutoff that cannot be.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
+#[derive(Clone, Copy, PartialEq, Eq, Error)]
 pub enum CutoffError {
     /// r_c ≤ 0
     #[error("the cutoff must be a positive distance")]
@@ -123,3 +123,5 @@ pub enum CutoffError {
         axis: usize,
     },
 }
+
+shadowstep_symbolic::debug_as_text!(CutoffError);

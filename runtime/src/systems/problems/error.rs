@@ -3,7 +3,7 @@
 use thiserror::Error;
 
 /// An unknown problem, or values that it cannot take.
-#[derive(Clone, Debug, PartialEq, Eq, Error)]
+#[derive(Clone, PartialEq, Eq, Error)]
 pub enum ProblemError {
     /// There is no such problem.
     #[error("there is no problem `{name}`; {hint}")]
@@ -50,3 +50,5 @@ pub enum ProblemError {
         range: &'static str,
     },
 }
+
+shadowstep_symbolic::debug_as_text!(ProblemError);

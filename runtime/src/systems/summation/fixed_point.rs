@@ -288,7 +288,7 @@ impl<N: InDouble, V: Coordinates<N>> Summation<N> for FixedPoint<V> {
 }
 
 /// Ranges of a fixed point that are not valid for a state.
-#[derive(Clone, Debug, PartialEq, Error)]
+#[derive(Clone, PartialEq, Error)]
 pub enum RangeError {
     /// Not one range for each coordinate.
     #[error("{name} has {coordinates} coordinates, but {ranges} ranges")]
@@ -323,6 +323,8 @@ pub enum RangeError {
         range: f64,
     },
 }
+
+shadowstep_symbolic::debug_as_text!(RangeError);
 
 #[cfg(test)]
 mod tests {

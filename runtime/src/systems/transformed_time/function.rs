@@ -34,7 +34,7 @@ impl Exponent {
 }
 
 /// An exponent that is refused.
-#[derive(Clone, Debug, PartialEq, Eq, Error)]
+#[derive(Clone, PartialEq, Eq, Error)]
 pub enum ExponentError {
     /// γ = 0.
     #[error("the exponent 0 makes f constant; its limit is the logarithmic time")]
@@ -43,6 +43,8 @@ pub enum ExponentError {
     #[error("the exponent {0} must be a fraction with a numerator and denominator of at most {LARGEST}")]
     NotSmall(String),
 }
+
+shadowstep_symbolic::debug_as_text!(ExponentError);
 
 impl TimeTransformation {
     /// f(x) = x^γ/γ

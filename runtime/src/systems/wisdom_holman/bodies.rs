@@ -71,7 +71,7 @@ impl Bodies {
 }
 
 /// Bodies that are not a planetary system.
-#[derive(Clone, Debug, PartialEq, Eq, Error)]
+#[derive(Clone, PartialEq, Eq, Error)]
 pub enum BodiesError {
     /// A distance of shells that is not positive.
     #[error("the distance below which planets are close must be positive")]
@@ -134,3 +134,5 @@ pub enum BodiesError {
         dimensions: usize,
     },
 }
+
+shadowstep_symbolic::debug_as_text!(BodiesError);

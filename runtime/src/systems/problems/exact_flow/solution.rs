@@ -13,7 +13,7 @@ use crate::systems::problems::values::Values;
 const GUARD_BITS: f64 = 67.0;
 
 /// An initial state or time for which the exact flow of a problem cannot be computed.
-#[derive(Clone, Debug, PartialEq, Eq, Error)]
+#[derive(Clone, PartialEq, Eq, Error)]
 pub enum SolutionError {
     /// An initial state that the solution does not cover, with the reason.
     #[error("{0}")]
@@ -36,6 +36,8 @@ pub enum SolutionError {
         bits: u32,
     },
 }
+
+shadowstep_symbolic::debug_as_text!(SolutionError);
 
 /// q and p at a time, and β since t = 0.
 #[derive(Clone, Debug)]
