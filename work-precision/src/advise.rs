@@ -259,9 +259,8 @@ impl<'a> AdviceRequest<'a> {
     /// The last digit of a position, with this number of others; 0 for energies.
     fn below_digits(&self, others: f64) -> Size {
         match self.of {
-            Of::Position => {
-                largest_coordinate(self.problem).times_power_of_ten(others - f64::from(self.problem.arithmetic.digits()))
-            }
+            Of::Position => largest_coordinate(self.problem)
+                .times_power_of_ten(others - f64::from(self.problem.arithmetic.digits())),
             Of::Energy | Of::Permanent => Size::ZERO,
         }
     }

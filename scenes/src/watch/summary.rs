@@ -193,7 +193,7 @@ impl Summary {
         let closest = self.closest.iter().take(shown).map(lasts).collect::<Vec<_>>().join(", ");
         match self.encounters {
             0 => "none".to_owned(),
-            1 => format!("1, {closest}"),
+            1 => format!("1, with {closest}"),
             count => format!("{count}, the closest with {closest}"),
         }
     }

@@ -123,7 +123,7 @@ fn verdicts_say_why() {
             "stormer-verlet",
             "1/20",
             "the energy error is 1.9 % of T; in 20000 steps a net change above",
-            "per unit time is excluded",
+            "per unit time, is excluded",
         ),
         (
             "argon-crystal",

@@ -57,7 +57,7 @@ use crate::systems::system::System;
 ///   round-off           1.02e-14  1.1e-12 of the energy error, expected by Brouwer's law
 ///   net change          3.68e-14  3.9e-12 of the energy error, at most
 ///   fastest motion          16.7  steps a turn
-///   the energy error is 1.9 % of T; in 20000 steps a net change above 7.41e-14 of T, 7.41e-17 of T per unit time is excluded
+///   the energy error is 1.9 % of T; in 20000 steps a net change above 7.41e-14 of T, or 7.41e-17 of T per unit time, is excluded
 /// ```
 ///
 /// A loop that does nothing else is `monitor.steps(&mut comet, 20_000)?`. Where a loop does more than steps, it can make them itself: with increments where

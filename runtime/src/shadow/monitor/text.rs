@@ -26,7 +26,7 @@ impl<N: Real> Report<N> {
         rate.divide(&self.kinetic);
         let of_kinetic = short(&rate);
         rate.divide(&self.time);
-        format!("{of_kinetic} of T, {} of T per unit time", short(&rate))
+        format!("{of_kinetic} of T, or {} of T per unit time,", short(&rate))
     }
 
     /// What is known of the change of the energy from the beginning to the end.
@@ -137,7 +137,7 @@ impl<N: Real> Report<N> {
     fn unresolved(&self) -> String {
         match &self.worst_error {
             Some(error) if self.part(error) >= PERMANENT_LIMIT => {
-                format!(". Where H̄ is known least, it is known to {} only", self.in_parts(error))
+                format!(". Where H̄ is known least, it is known to within {} only", self.in_parts(error))
             }
             None if self.part(&self.range) >= PERMANENT_LIMIT => {
                 ". H̄ ranges over more than that, but this estimator gives no errors".to_owned()
@@ -162,7 +162,7 @@ impl<N: Real> Report<N> {
             );
         }
         let resolved = match &self.worst_error {
-            Some(error) => format!("H̄ is known to {} where it is known least", self.in_parts(error)),
+            Some(error) => format!("H̄ is known to within {} where it is known least", self.in_parts(error)),
             None => "the errors of H̄ are not known".to_owned(),
         };
         let bound = self
@@ -268,9 +268,16 @@ impl<N: Real> fmt::Display for Report<N> {
         let [least, largest] = [&self.method_least, &self.method_largest].map(short);
         let range = format!("rms of H − H̄, which is from {least} to {largest}{resolved}");
         line(f, "the method's part", &self.method_rms, &range)?;
-        let trend = self.trend.map_or(String::new(), |trend| format!(", {trend}"));
+        // where the energy is lost, windows with accurate estimates are few
+        let trend = self.trend.filter(|_| !self.verdict.loses_the_energy());
+        let trend = trend.map_or(String::new(), |trend| format!(", {trend}"));
         line(f, "permanent change", &self.range, &format!("max − min of H̄; {}{trend}", part(&self.range)))?;
-        line(f, "H̄ changed by", &self.change, &format!("from the beginning to the end; it moved by {} beyond its errors", short(&self.moved)))?;
+        line(
+            f,
+            "H̄ changed by",
+            &self.change,
+            &format!("from the beginning to the end; it moved by {} beyond its errors", short(&self.moved)),
+        )?;
         if let Some(resolution) = &self.resolution {
             line(f, "H̄ is known to", resolution, &part(resolution))?;
         }
