@@ -1,6 +1,6 @@
 # The two commands: `make run` shows what this is for, `make test` checks everything and fetches what is missing.
 
-# Each is built once: without what an incremental build keeps, the folder of `make test` has 5 GB in place of 9. For cargo alone it is as cargo has it.
+# What is built once needs no incremental files. Without `make`, cargo has its own default.
 export CARGO_INCREMENTAL ?= 0
 
 .PHONY: run test wasm help-files wheel python-environment test-python book bench-python test-cluster test-emit deps format lint check docs bench stability rivals package fuzz valgrind
@@ -68,6 +68,9 @@ $(WHEEL)/tools/bin/maturin:
 	$(PYTHON) -m venv $(WHEEL)/tools
 	$(WHEEL)/tools/bin/pip install --quiet --no-compile 'maturin>=1.9,<2'
 
+# For what the book and the package for tests have in common: cargo compiles again for other flags.
+DENY_WARNINGS = RUSTFLAGS="$$RUSTFLAGS -D warnings"
+
 # A new virtual environment with a wheel that is built in little time, and with the packages that tests, notebooks and the book need. They are downloaded while the wheel is built.
 python-environment: $(WHEEL)/tools/bin/maturin
 	rm -rf $(WHEEL)/wheels $(WHEEL)/test
@@ -75,7 +78,7 @@ python-environment: $(WHEEL)/tools/bin/maturin
 	$(PYTHON) -c 'import sys, tomllib; all = tomllib.load(open("python/pyproject.toml", "rb")); names = sys.argv[1].split(","); \
 	    print(*all["project"]["dependencies"], *sum((all["dependency-groups"][name] for name in names), []), sep="\n")' $(or $(DEPENDENCY_GROUPS),test) > $(WHEEL)/needed.txt
 	$(WHEEL)/test/bin/pip install --quiet --no-compile --requirement $(WHEEL)/needed.txt & \
-	RUSTFLAGS="$$RUSTFLAGS -D warnings" $(WHEEL)/tools/bin/maturin build --profile quick --locked --compatibility linux --manifest-path python/Cargo.toml --out $(WHEEL)/wheels; \
+	$(DENY_WARNINGS) $(WHEEL)/tools/bin/maturin build --profile quick --locked --compatibility linux --manifest-path python/Cargo.toml --out $(WHEEL)/wheels; \
 	built=$$?; wait $$! && exit $$built
 	$(WHEEL)/test/bin/pip install --quiet --no-compile $(WHEEL)/wheels/*.whl
 
@@ -90,7 +93,7 @@ book: DEPENDENCY_GROUPS = book
 book: python-environment
 	rm -rf $(or $(CARGO_TARGET_DIR),target)/doc target/book
 	set -e; for crate in -symbolic -limbs -schemes -analysis -macros '' -scenes -sweeps -work-precision; do \
-	    RUSTFLAGS="$$RUSTFLAGS -D warnings" $(RUSTDOC) --profile quick --all-features -p shadowstep$$crate; \
+	    $(DENY_WARNINGS) $(RUSTDOC) --profile quick --all-features -p shadowstep$$crate; \
 	done
 	! grep -rlE --include='*.html' '\[<code>[^<]*</code>\]|href="[a-z_]*::' $(or $(CARGO_TARGET_DIR),target)/doc
 	mkdir -p target/book
