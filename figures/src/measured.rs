@@ -15,7 +15,7 @@ use shadowstep_scenes::run::Run as Steps;
 use crate::Error;
 use crate::escape::Escape;
 use crate::run::Run;
-use crate::states::{Recorded, Watched};
+use crate::states::{Interruptible, Recorded};
 
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub(crate) struct Drift {
@@ -179,19 +179,19 @@ impl Measure<'_> {
         let watch = |from: i64| self.watch(from, run.steps() as f64 + reach as f64);
         let limbs = run.limbs();
         if let Some(flow) = self.flow {
-            return measure(&mut Watched { states: flow.states(reach), continues: watch(-(reach as i64)) })
+            return measure(&mut Interruptible { states: flow.states(reach), continues: watch(-(reach as i64)) })
                 .map_err(failed);
         }
         let propagator = Propagator::read(run.propagator, &setup)?;
         let Some(scheme) = propagator.scheme() else {
             let states = ExactFlow::<AnyLimbs>::new(&setup, &self.run.h(), run.steps(), reach, &limbs);
             let states = states.map_err(|error| steps.not_followed(&error))?;
-            return measure(&mut Watched { states, continues: watch(-(reach as i64)) }).map_err(failed);
+            return measure(&mut Interruptible { states, continues: watch(-(reach as i64)) }).map_err(failed);
         };
         let stepper = stepper(scheme, steps, &limbs);
         let start = motion::<AnyLimbs>(&setup, &limbs);
         let states = Trajectory::new(stepper.with(start), run.steps(), reach).map_err(failed)?;
-        measure(&mut Watched { states, continues: watch(-(reach as i64)) }).map_err(failed)
+        measure(&mut Interruptible { states, continues: watch(-(reach as i64)) }).map_err(failed)
     }
 
     /// Asks whether to continue, but not at every state from this one to the last.
@@ -216,7 +216,7 @@ impl Measure<'_> {
         let stepper = stepper(propagator.scheme().expect("it is a scheme"), steps, &run.limbs());
         let start = motion::<AnyLimbs>(&setup, &run.limbs());
         let states = Trajectory::plain(stepper.with(start), 0, run.steps()).map_err(failed)?;
-        let mut states = Watched { states, continues: self.watch(0, run.steps() as f64) };
+        let mut states = Interruptible { states, continues: self.watch(0, run.steps() as f64) };
         while let Some(state) = states.advance().map_err(failed)? {
             take(state.q, state.p);
         }

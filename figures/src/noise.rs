@@ -11,7 +11,7 @@ use shadowstep::tables::shipped;
 use shadowstep::{Increments, Motion, Stepper, UnitMasses};
 
 use crate::Error;
-use crate::states::Watched;
+use crate::states::Interruptible;
 
 /// How the estimator takes the differences of neighbouring states.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
@@ -62,7 +62,7 @@ pub(crate) fn blocks(
     let trajectory = Trajectory::new(stepper.with(start), steps, estimator.states() / 2).map_err(failed)?;
     // asking costs as much as a step
     let continues = |n: i64| n % 1024 != 0 || continues(n as f64 / steps as f64);
-    let mut trajectory = Watched { states: trajectory, continues };
+    let mut trajectory = Interruptible { states: trajectory, continues };
     let mut near: VecDeque<(f64, f64)> = VecDeque::new();
     let (mut blocks, mut part, mut first, mut end, mut sum) = (Vec::new(), Sums::default(), None, 1000.0, 0.0);
     while let Some(state) = trajectory.advance().map_err(failed)? {

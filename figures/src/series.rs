@@ -20,14 +20,14 @@ pub(crate) const GRADES: [(u32, &str); 6] = [
     (10, "max - min up to h^10"),
 ];
 
-/// Stops with the calculation.
-struct Watched<'a> {
+/// The progress of the run, which stops with the calculation.
+struct SeriesProgress<'a> {
     continues: Continues<'a>,
     steps: f64,
     n: i64,
 }
 
-impl Observer for Watched<'_> {
+impl Observer for SeriesProgress<'_> {
     fn progress(&mut self, n: i64) {
         self.n = n;
     }
@@ -53,7 +53,7 @@ pub(crate) fn variations(run: &Run, continues: Continues<'_>) -> Result<Vec<Stri
     .expect("a text can be written");
     let scene = Scene::read(Source { path: "series.toml".to_owned(), text }).expect("figures have valid scenes");
     let mut rows = Vec::new();
-    let mut observer = Watched { continues, steps: run.steps() as f64, n: 0 };
+    let mut observer = SeriesProgress { continues, steps: run.steps() as f64, n: 0 };
     if let Outcome::Stopped { n } = scene.run_into(&mut rows, &mut observer)? {
         return Err(Error::run(format!("the run was stopped at n = {n}"), "run it again"));
     }

@@ -58,12 +58,12 @@ impl States for Replay<'_> {
 }
 
 /// States that end with an error when `continues`, which gets the n of each, is false.
-pub(crate) struct Watched<T, F> {
+pub(crate) struct Interruptible<T, F> {
     pub(crate) states: T,
     pub(crate) continues: F,
 }
 
-impl<T: States, F: FnMut(i64) -> bool> States for Watched<T, F> {
+impl<T: States, F: FnMut(i64) -> bool> States for Interruptible<T, F> {
     type Number = T::Number;
 
     fn advance(&mut self) -> Result<Option<TrajectoryState<'_, T::Number>>, RunError> {

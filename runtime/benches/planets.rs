@@ -52,7 +52,7 @@ fn steps<M: System<Number = f64, Class = Quadratic> + 'static>(
     let mut systems = [system];
     let run = move |repetitions: u32| {
         stepper.merged_steps(&mut systems, u64::from(repetitions));
-        black_box(systems[0].q());
+        black_box(systems[0].state().q());
     };
     (name, Box::new(run))
 }

@@ -146,7 +146,7 @@ fn energies(map: &Map, setting: &Setting) -> Result<[f64; 3], Box<dyn Error>> {
     while let Some((_, found)) = run.advance()? {
         let (mut q, mut p, modified) = (found.q.to_vec(), found.p.to_vec(), *found.value);
         run.integrator().postprocess_state(&mut q, &mut p);
-        let energies = [run.integrator().system().energy_at(&q, &p), modified].map(|mut energy| {
+        let energies = [run.integrator().energy_at(&q, &p), modified].map(|mut energy| {
             energy.subtract(&start);
             energy.to_f64()
         });

@@ -33,7 +33,7 @@ fn in_lane(x: &[f64], lane: usize) -> Vec<f64> {
 fn numbers<M: System<Number: Clone>>(system: &mut M) -> Vec<M::Number> {
     let energy = system.energy();
     let (increments, remainders) = (system.state().increments(), system.state().remainders());
-    let parts = [system.q(), system.p(), increments.q, increments.p, &remainders.q, &remainders.p];
+    let parts = [system.state().q(), system.state().p(), increments.q, increments.p, &remainders.q, &remainders.p];
     parts.into_iter().flatten().cloned().chain([increments.beta.clone(), energy]).collect()
 }
 

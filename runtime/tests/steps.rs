@@ -29,7 +29,7 @@ fn check<M: System<Number = f64, Class = Quadratic> + Clone>(start: &M) {
             stepper.steps(std::slice::from_mut(&mut together), count);
             stepper.step_augmented(&mut one_by_one);
             stepper.step_augmented(&mut together);
-            assert_eq!((one_by_one.q(), one_by_one.p()), (together.q(), together.p()));
+            assert_eq!((one_by_one.state().q(), one_by_one.state().p()), (together.state().q(), together.state().p()));
             assert_eq!(one_by_one.state().increments().beta, together.state().increments().beta);
             assert_eq!(one_by_one.state().remainders(), together.state().remainders());
             // a rate that was kept saves the evaluation of the last gradient with its rate
@@ -39,10 +39,16 @@ fn check<M: System<Number = f64, Class = Quadratic> + Clone>(start: &M) {
     }
     let [mut none, mut start] = [start.clone(), start.clone()];
     stepper.steps(std::slice::from_mut(&mut none), 0);
-    assert_eq!((none.q(), none.p(), none.state().evaluations()), (start.q(), start.p(), 0));
+    assert_eq!(
+        (none.state().q(), none.state().p(), none.state().evaluations()),
+        (start.state().q(), start.state().p(), 0)
+    );
     stepper.step_augmented(&mut start);
     stepper.step_augmented(&mut none);
-    assert_eq!((none.q(), none.state().increments().beta), (start.q(), start.state().increments().beta));
+    assert_eq!(
+        (none.state().q(), none.state().increments().beta),
+        (start.state().q(), start.state().increments().beta)
+    );
 }
 
 /// Sees that the states are those of steps one by one.
@@ -56,7 +62,7 @@ impl<M: System<Number = f64, Class = Quadratic>> Visitor<f64> for OneByOne<'_, M
     fn visit(&mut self, q: &[f64], p: &[f64]) {
         self.stepper.step(&mut self.system);
         self.seen += 1;
-        assert_eq!((self.system.q(), self.system.p()), (q, p), "state {}", self.seen);
+        assert_eq!((self.system.state().q(), self.system.state().p()), (q, p), "state {}", self.seen);
     }
 }
 
@@ -124,13 +130,17 @@ fn check_several<M: System<Number = f64, Class = Quadratic> + Clone>(start: impl
                     false => (0..count).for_each(|_| stepper.step(alone)),
                 }
                 let what = format!("{scheme}, {count} steps, merged: {merged}");
-                assert_eq!((alone.q(), alone.p()), (of_several.q(), of_several.p()), "{what}");
+                assert_eq!(
+                    (alone.state().q(), alone.state().p()),
+                    (of_several.state().q(), of_several.state().p()),
+                    "{what}"
+                );
                 assert_eq!(alone.state().remainders(), of_several.state().remainders(), "{what}");
                 assert_eq!(alone.state().evaluations(), of_several.state().evaluations(), "{what}");
                 stepper.step_augmented(alone);
                 stepper.step_augmented(of_several);
                 assert_eq!(alone.state().increments().beta, of_several.state().increments().beta, "{what}");
-                assert_eq!(alone.q(), of_several.q(), "{what}");
+                assert_eq!(alone.state().q(), of_several.state().q(), "{what}");
                 assert_eq!(alone.state().evaluations(), of_several.state().evaluations(), "{what}");
             }
         }
@@ -233,7 +243,10 @@ where
 }
 
 fn same<N: Number + PartialEq>(a: &impl System<Number = N>, b: &impl System<Number = N>) {
-    assert_eq!((a.q(), a.p(), a.state().remainders()), (b.q(), b.p(), b.state().remainders()));
+    assert_eq!(
+        (a.state().q(), a.state().p(), a.state().remainders()),
+        (b.state().q(), b.state().p(), b.state().remainders())
+    );
     assert_eq!(a.state().evaluations(), b.state().evaluations());
 }
 

@@ -267,7 +267,7 @@ impl<N: RunNumber> Recorder<'_, '_, N> {
         }
         let energy = self.needs_energy(due).then(|| match &mut self.energy_of {
             Some(energy_of) => energy_of(&q, &p),
-            None => integrator.system().energy_at(&q, &p),
+            None => integrator.energy_at(&q, &p),
         });
         self.row(n, (&q, &p), energy.as_ref(), (due, modified))?;
         self.state = (q, p);
@@ -281,7 +281,7 @@ impl<N: RunNumber> Recorder<'_, '_, N> {
                 self.state = (integrator.state().q().to_vec(), integrator.state().p().to_vec());
                 at_output(integrator, |integrator| integrator.system().energy())
             }
-            Some(_) => integrator.system().energy_at(&self.state.0, &self.state.1),
+            Some(_) => integrator.energy_at(&self.state.0, &self.state.1),
         };
         self.ends_in_the_domain(&energy)?;
         let outcome = Outcome::Complete { force_evaluations: integrator.state().evaluations() };

@@ -86,7 +86,7 @@ impl Estimates<'_> {
     ) -> Result<Finished, Error> {
         let Estimates { system, run, settings, summarised, .. } = self;
         let (q, p) = system.start(context);
-        let initial = integrator.system().energy_at(&q, &p);
+        let initial = integrator.energy_at(&q, &p);
         let watch = Watch::begin(integrator, run, (0, initial), Energies::All, summarised);
         let watch = watch.map_err(|error| self.failed(&error))?.of_system(system, integrator);
         let last = i64::try_from(run.steps).unwrap_or(i64::MAX);

@@ -206,17 +206,17 @@ impl<N: Number + 'static> Evaluator<N> {
         system: &mut M,
         time: impl Fn() -> Rational,
     ) -> &N {
-        self.set_state(system.q(), system.p());
+        self.set_state(system.state().q(), system.state().p());
         let rest = self.rest();
         if self.has_time {
-            self.point[rest] = match (&self.energy, system.q().last()) {
+            self.point[rest] = match (&self.energy, system.state().q().last()) {
                 (Some(_), Some(t)) => t.clone(),
                 _ => N::from_rational(&time(), &self.value.context()),
             };
         }
         if self.has_energy {
             self.point[rest + 1] = match &mut self.energy {
-                Some(energy) => energy(system.q(), system.p()),
+                Some(energy) => energy(system.state().q(), system.state().p()),
                 None => system.energy(),
             };
         }

@@ -270,7 +270,7 @@ impl<N: RunNumber> Keeper<'_, N> {
         integrator.postprocess_state(&mut q, &mut p);
         let energy = match &mut self.energy_of {
             Some(energy_of) => energy_of(&q, &p),
-            None => integrator.system().energy_at(&q, &p),
+            None => integrator.energy_at(&q, &p),
         };
         self.push(n, (&q, &p), energy, None)
     }

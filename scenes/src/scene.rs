@@ -22,7 +22,7 @@ pub(crate) use output::{NamedExpression, ValueColumns};
 pub use own::OwnPotential;
 pub use pairs::{EnergyOfBodies, PairEnergy};
 pub(crate) use pairs::{GRAVITY, OfPositions, PairCutoff, SmoothEnd};
-pub(crate) use problem::ClassifiedKinetic;
+pub(crate) use problem::{ClassifiedKinetic, energy_of};
 pub use problem::{EnergyAt, InitialValueProblem, KineticEnergy, PotentialEnergy};
 pub use system::{Parts, System};
 

@@ -166,7 +166,7 @@ impl<N: RunNumber> Watch<N> {
         context: &N::Context,
     ) -> Result<Self, RunError> {
         let (q, p) = system.start(context);
-        let initial = integrator.system().energy_at(&q, &p);
+        let initial = integrator.energy_at(&q, &p);
         let watch = Watch::begin(integrator, run, (from, initial), energies, true)?;
         Ok(watch.of_system(system, integrator))
     }

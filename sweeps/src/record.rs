@@ -180,7 +180,7 @@ impl<'a, N: RunNumber> RunFollower<'a, N> {
             false => None,
             true => {
                 let (q, p) = scene.system.start(context);
-                let initial = integrator.system().energy_at(&q, &p);
+                let initial = integrator.energy_at(&q, &p);
                 let energies = if energies { Energies::All } else { Energies::Windows };
                 Some(Watch::begin(integrator, scene.as_run(), (0, initial), energies, summarised)?)
             }
@@ -233,7 +233,7 @@ impl<'a, N: RunNumber> RunFollower<'a, N> {
             let system = integrator.system();
             for (test, met) in &mut self.tests {
                 if met.is_none() && test.is_met(system, || run.time(n)) {
-                    let physical = self.described.time_of(system.q());
+                    let physical = self.described.time_of(system.state().q());
                     *met = Some(physical.map_or_else(|| to_text(&run.time(n)), N::to_text));
                 }
             }
@@ -250,8 +250,8 @@ impl<'a, N: RunNumber> RunFollower<'a, N> {
                 let text = |number: &N| number.is_finite().then(|| number.to_text());
                 let expressions = self.at_end.iter_mut().map(|end| text(end.value(system, || run.time(n)))).collect();
                 let (q, p) = match &mut self.shown {
-                    Some(shown) => shown.of_state(system.q(), system.p()),
-                    None => (system.q(), system.p()),
+                    Some(shown) => shown.of_state(system.state().q(), system.state().p()),
+                    None => (system.state().q(), system.state().p()),
                 };
                 let state = if self.keep.state { q.iter().chain(p).map(text).collect() } else { Vec::new() };
                 self.end = Some(End { expressions, state, has_energy: system.energy().is_finite() });

@@ -181,7 +181,7 @@ impl<'a> LanesFollower<'a> {
     /// Takes the state n.
     fn include<M: System<Number = Lanes<LANES>> + ?Sized>(&mut self, n: u64, system: &mut M) {
         // a position that is not finite stays so
-        for q in system.q() {
+        for q in system.state().q() {
             self.active.iter_mut().zip(&q.0).for_each(|(active, q)| *active &= q.is_finite());
         }
         if n > 0
@@ -227,7 +227,7 @@ impl<'a> LanesFollower<'a> {
         for lane in (0..LANES).filter(|lane| ended[*lane]) {
             self.active[lane] = false;
             let of_lane = |x: &Lanes<LANES>| x.0[lane];
-            let state: Vec<f64> = system.q().iter().chain(system.p()).map(of_lane).collect();
+            let state: Vec<f64> = system.state().q().iter().chain(system.state().p()).map(of_lane).collect();
             if !(energy.0[lane].is_finite() && state.iter().all(|x| x.is_finite())) {
                 continue;
             }

@@ -61,7 +61,7 @@ fn step_to_apocentre<S: Scheme + ValidFor<M::Class>, M: System<Number = f64>>(
     stepper: &Stepper<S, f64>,
     system: &mut M,
 ) {
-    let radial = |system: &M| system.q().iter().zip(system.p()).map(|(q, p)| q * p).sum::<f64>();
+    let radial = |system: &M| system.state().q().iter().zip(system.state().p()).map(|(q, p)| q * p).sum::<f64>();
     loop {
         let before = radial(system);
         stepper.step(system);
@@ -85,7 +85,8 @@ where
         let rest = rest.iter().copied().chain(std::iter::repeat(0.0));
         values.iter().zip(rest).map(|(x, rest)| number(*x) + number(rest)).collect()
     };
-    let motion = Motion::new(potential, UnitMasses, with(system.q(), &rest.q), with(system.p(), &rest.p));
+    let motion =
+        Motion::new(potential, UnitMasses, with(system.state().q(), &rest.q), with(system.state().p(), &rest.p));
     let stepper = Stepper::with_context(scheme, h, &context).expect("a step size");
     let motion = motion.expect("the dimensions agree");
     let mut run = ShadowRun::new(stepper.with(motion), 0, &Bilinear::new(ORDER)).expect("finite states");

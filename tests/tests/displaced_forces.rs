@@ -44,13 +44,13 @@ fn oscillators(context: &<Float as Number>::Context) -> LinearPart<Float, HenonH
 fn is_the_formula(mut system: impl System<Number = Float>, inverse_masses: &[Float]) {
     let number = |text: &str| Float::from_rational(&rational(text), &precision(DIGITS));
     let (kick, gradient_kick, delta) = (number("2/9"), number("2*(1/3)^3/72"), number("2*(1/3)^2*(1/72)/(2/3)"));
-    let (q, p) = (system.q().to_vec(), system.p().to_vec());
+    let (q, p) = (system.state().q().to_vec(), system.state().p().to_vec());
     let zeros = vec![number("0"); q.len()];
     let mut kick_at = |q: &[Float]| {
         system.state_mut().set(q, &zeros);
         system.clear_increments();
         system.kick(&kick, Carried::Increments);
-        (system.p().to_vec(), system.state().increments().beta.clone())
+        (system.state().p().to_vec(), system.state().increments().beta.clone())
     };
     let v = kick_at(&q).0.into_iter().zip(inverse_masses).map(|(p, inverse)| -p / &kick * inverse);
     let displaced: Vec<_> = q.iter().zip(v).map(|(q, v)| q.clone() - v * &delta).collect();
@@ -67,7 +67,7 @@ fn is_the_formula(mut system: impl System<Number = Float>, inverse_masses: &[Flo
         if !kick_first {
             system.kick(&kick, Carried::Increments);
         }
-        let off = log10_largest_distance(system.p(), &expected);
+        let off = log10_largest_distance(system.state().p(), &expected);
         assert!(off < 4.0 - f64::from(DIGITS), "p: 10^{off}");
         let off = log10_distance(system.state().increments().beta, &to_beta);
         assert!(off < 4.0 - f64::from(DIGITS), "β: 10^{off}");
@@ -116,18 +116,25 @@ fn steps_are_steps<M: System + Clone>(
         let stepper = stepper::<M::Number>(name, "1/3", context);
         let mut plain = system(&stepper);
         let mut augmented = plain.clone();
-        let start = [plain.q(), plain.p()].concat();
+        let start = [plain.state().q(), plain.state().p()].concat();
         for _ in 0..10 {
             stepper.step(&mut plain);
             stepper.step_augmented(&mut augmented);
         }
-        assert!(same_bits(plain.q(), augmented.q()) && same_bits(plain.p(), augmented.p()), "{name}");
+        assert!(
+            same_bits(plain.state().q(), augmented.state().q()) && same_bits(plain.state().p(), augmented.state().p()),
+            "{name}"
+        );
         let mut together = [system(&stepper)];
         stepper.steps(&mut together, 10);
-        assert!(same_bits(plain.q(), together[0].q()) && same_bits(plain.p(), together[0].p()), "{name}");
-        assert!(log10_largest_distance(&[plain.q(), plain.p()].concat(), &start) > -2.0);
+        assert!(
+            same_bits(plain.state().q(), together[0].state().q())
+                && same_bits(plain.state().p(), together[0].state().p()),
+            "{name}"
+        );
+        assert!(log10_largest_distance(&[plain.state().q(), plain.state().p()].concat(), &start) > -2.0);
         (0..10).for_each(|_| stepper.step_back(&mut plain));
-        let off = log10_largest_distance(&[plain.q(), plain.p()].concat(), &start);
+        let off = log10_largest_distance(&[plain.state().q(), plain.state().p()].concat(), &start);
         assert!(off < start[0].log10_epsilon() + 3.0, "{name}: 10^{off}");
     }
 }
@@ -154,8 +161,8 @@ where
     M: System<Number = Float> + Clone,
     TableScheme: ValidFor<M::Class>,
 {
-    let dimension = system.q().len();
-    let start = [system.q(), system.p()].concat();
+    let dimension = system.state().q().len();
+    let start = [system.state().q(), system.state().p()].concat();
     let shift: Float = Float::with_val(start[0].prec(), 1) >> 70;
     let columns: Vec<Vec<Float>> = (0..2 * dimension)
         .map(|column| {
@@ -164,7 +171,7 @@ where
                 moved[column] += shift.clone() * sign;
                 system.state_mut().set(&moved[..dimension], &moved[dimension..]);
                 stepper.step(&mut system);
-                [system.q(), system.p()].concat()
+                [system.state().q(), system.state().p()].concat()
             });
             ahead.into_iter().zip(behind).map(|(a, b)| (a - b) / &shift / 2).collect()
         })

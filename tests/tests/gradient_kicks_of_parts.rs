@@ -52,13 +52,13 @@ fn gradient_and_rate(system: &mut impl System<Number = Float>, q: &[Float]) -> (
     system.state_mut().set(q, &zeros);
     system.clear_increments();
     system.kick(&one, Carried::Increments);
-    (system.p().iter().map(|p| -p.clone()).collect(), system.state().increments().beta.clone())
+    (system.state().p().iter().map(|p| -p.clone()).collect(), system.state().increments().beta.clone())
 }
 
 /// The gradient kick is the flow of W = −½B_qᵀM⁻¹B_q, and its rate is the derivative of a kick's in the direction −M⁻¹B_q, by
 /// central differences.
 fn is_the_derivative_of_kicks(mut system: impl System<Number = Float>, inverse_masses: &[Float]) {
-    let q = system.q().to_vec();
+    let q = system.state().q().to_vec();
     let bits = q[0].prec();
     let shift: Float = Float::with_val(bits, 1) >> 100;
     let (gradient, _) = gradient_and_rate(&mut system, &q);
@@ -92,7 +92,7 @@ fn is_the_derivative_of_kicks(mut system: impl System<Number = Float>, inverse_m
     system.clear_increments();
     system.gradient_kick(&weight, Carried::Increments);
     let size = expected.iter().map(Real::log10_abs).fold(f64::NEG_INFINITY, f64::max);
-    let off = log10_largest_distance(system.p(), &expected);
+    let off = log10_largest_distance(system.state().p(), &expected);
     assert!(off < size - 50.0, "force: 10^{off} of 10^{size}");
     let off = log10_distance(system.state().increments().beta, &expected_rate);
     let size = expected_rate.log10_abs();
@@ -119,24 +119,29 @@ where
 {
     let stepper = stepper::<M::Number>("omelyan-4mn5f2gv", h, &system.state().context());
     let [mut plain, mut augmented] = [system.clone(), system.clone()];
-    let start = [system.q(), system.p()].concat();
+    let start = [system.state().q(), system.state().p()].concat();
     for _ in 0..20 {
         stepper.step(&mut plain);
-        let before = [augmented.q(), augmented.p()].concat();
+        let before = [augmented.state().q(), augmented.state().p()].concat();
         stepper.step_augmented(&mut augmented);
         let increments = augmented.state().increments().to_owned();
-        for ((later, earlier), added) in
-            augmented.q().iter().chain(augmented.p()).zip(&before).zip(increments.q.iter().chain(&increments.p))
+        for ((later, earlier), added) in augmented
+            .state()
+            .q()
+            .iter()
+            .chain(augmented.state().p())
+            .zip(&before)
+            .zip(increments.q.iter().chain(&increments.p))
         {
             let mut difference = later.clone();
             difference.subtract(earlier);
             assert!(log10_distance(added, &difference) < later.log10_epsilon() + growth - 1.0);
         }
     }
-    assert!(same_bits(plain.q(), augmented.q()) && same_bits(plain.p(), augmented.p()));
-    assert!(log10_largest_distance(&[plain.q(), plain.p()].concat(), &start) > -1.0);
+    assert!(same_bits(plain.state().q(), augmented.state().q()) && same_bits(plain.state().p(), augmented.state().p()));
+    assert!(log10_largest_distance(&[plain.state().q(), plain.state().p()].concat(), &start) > -1.0);
     (0..20).for_each(|_| stepper.step_back(&mut plain));
-    let off = log10_largest_distance(&[plain.q(), plain.p()].concat(), &start);
+    let off = log10_largest_distance(&[plain.state().q(), plain.state().p()].concat(), &start);
     assert!(off < start[0].log10_epsilon() + growth, "10^{off}");
 }
 

@@ -46,7 +46,7 @@ fn the_flow_of_an_oscillator_is_exact() {
         let (sin, cos) = (angle.clone().sin(), angle.cos());
         let exact_q = q[0].clone() * &cos + p[0].clone() * &sin / number(omega);
         let exact_p = p[0].clone() * &cos - q[0].clone() * &sin * number(omega);
-        let off = log10_largest_distance(&[system.q(), system.p()].concat(), &[exact_q, exact_p]);
+        let off = log10_largest_distance(&[system.state().q(), system.state().p()].concat(), &[exact_q, exact_p]);
         // the rounding of kicks by U_q − Kq, which is round-off of ω² q, and of the sines of the yardstick
         let size = 2.0 * f64::from_rational(&rational(omega), &()).log10().max(0.0);
         assert!(off < size + 2.0 - f64::from(DIGITS), "ω = {omega}: 10^{off}");
@@ -60,7 +60,7 @@ fn the_orders_are_those_proved() {
         let [x, y] = [q[0].clone(), q[1].clone()];
         vec![x.clone() + x.clone() * &y * 2, y.clone() + x.square() - y.square()]
     };
-    let start = [henon_heiles::<Float>(&context).q(), henon_heiles::<Float>(&context).p()].concat();
+    let start = [henon_heiles::<Float>(&context).state().q(), henon_heiles::<Float>(&context).state().p()].concat();
     let flow = Separable { velocity: &|p| p.to_vec(), gradient: &gradient };
     let exact: Vec<_> =
         (0..=7_u32).map(|k| flow.flow(&start, &(Float::with_val(context.in_bits(), 1) >> k), 12)).collect();
@@ -72,7 +72,8 @@ fn the_orders_are_those_proved() {
         let error = |k: u32| {
             let mut system = henon_heiles::<Float>(&context);
             schemes[k as usize][index].generated.step(&mut system);
-            log10_largest_distance(&[system.q(), system.p()].concat(), &exact[k as usize]) / std::f64::consts::LOG10_2
+            log10_largest_distance(&[system.state().q(), system.state().p()].concat(), &exact[k as usize])
+                / std::f64::consts::LOG10_2
         };
         let order = error(k - 1) - error(k) - 1.0;
         println!("{}: {order:.3}, proved {proved}", scheme.name);
@@ -106,15 +107,15 @@ fn the_modified_energy_is_conserved() {
 fn steps_are_steps<N: Bits + shadowstep::number::CorrectlyRounded>(context: &N::Context) {
     let stepper = stepper::<N>("yoshida4", "1/3", context);
     let [mut plain, mut augmented] = [(); 2].map(|()| henon_heiles::<N>(context));
-    let start = [plain.q(), plain.p()].concat();
+    let start = [plain.state().q(), plain.state().p()].concat();
     for _ in 0..10 {
         stepper.step(&mut plain);
         stepper.step_augmented(&mut augmented);
     }
-    assert!(same_bits(plain.q(), augmented.q()) && same_bits(plain.p(), augmented.p()));
-    assert!(log10_largest_distance(&[plain.q(), plain.p()].concat(), &start) > -2.0);
+    assert!(same_bits(plain.state().q(), augmented.state().q()) && same_bits(plain.state().p(), augmented.state().p()));
+    assert!(log10_largest_distance(&[plain.state().q(), plain.state().p()].concat(), &start) > -2.0);
     (0..10).for_each(|_| stepper.step_back(&mut plain));
-    let off = log10_largest_distance(&[plain.q(), plain.p()].concat(), &start);
+    let off = log10_largest_distance(&[plain.state().q(), plain.state().p()].concat(), &start);
     // some hundred roundings of numbers below 1
     assert!(off < start[0].log10_epsilon() + 1.5, "10^{off}");
 }

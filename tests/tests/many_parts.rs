@@ -51,7 +51,7 @@ fn chain<N: CorrectlyRounded + 'static>(context: &N::Context) -> SystemOfParts<N
 }
 
 fn state<M: System>(system: &M) -> Vec<M::Number> {
-    [system.q(), system.p()].concat()
+    [system.state().q(), system.state().p()].concat()
 }
 
 /// The sums of ẋ = J A_x and of β̇ = xᵀA_x − 2A of formulas.

@@ -33,7 +33,7 @@ fn molecule<N: CorrectlyRounded + 'static>(context: &N::Context) -> SystemOfPart
 }
 
 fn state<M: System>(system: &M) -> Vec<M::Number> {
-    [system.q(), system.p()].concat()
+    [system.state().q(), system.state().p()].concat()
 }
 
 /// Tuckerman, Berne and Martyna's loops.

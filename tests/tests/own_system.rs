@@ -310,7 +310,7 @@ fn a_run_has_the_states_of_its_steps() {
     let mut rotor = Rotor::<f64>::new(START, &());
     let mut n = 0;
     while let Some((found, estimate)) = run.advance().unwrap() {
-        assert_eq!((found, estimate.q, estimate.p), (n, rotor.q(), rotor.p()));
+        assert_eq!((found, estimate.q, estimate.p), (n, rotor.state().q(), rotor.state().p()));
         stepper.step(&mut rotor);
         n += 1;
     }

@@ -26,7 +26,7 @@ fn comet() -> Motion<f64, [f64; 2], Kepler, UnitMasses> {
 
 fn all_bits<M: System<Number = f64> + ?Sized>(system: &M) -> Vec<u64> {
     let Remainders { q, p } = system.state().remainders();
-    system.q().iter().chain(system.p()).chain(&q).chain(&p).map(|x| x.to_bits()).collect()
+    system.state().q().iter().chain(system.state().p()).chain(&q).chain(&p).map(|x| x.to_bits()).collect()
 }
 
 // ---------------------------------------------------------------------------------------------------------------
@@ -167,9 +167,9 @@ fn a_state_is_saved_with_its_remainders() {
         let mut gone_on = start.clone();
         (0..100).for_each(|_| stepper.step(&mut gone_on));
         let [mut saved, mut without] = [start.clone(), start];
-        saved.state_mut().set(gone_on.q(), gone_on.p());
+        saved.state_mut().set(gone_on.state().q(), gone_on.state().p());
         saved.state_mut().set_remainders(&gone_on.state().remainders());
-        without.state_mut().set(gone_on.q(), gone_on.p());
+        without.state_mut().set(gone_on.state().q(), gone_on.state().p());
         assert_eq!(all_bits(&saved), all_bits(&gone_on));
         assert_ne!(all_bits(&without), all_bits(&gone_on), "the remainders were dropped");
         for _ in 0..100 {
@@ -218,7 +218,12 @@ fn every_system_has_compensated_sums() {
             doubled.step(&mut exact);
         }
         let distance = |system: &M| {
-            let pairs = system.q().iter().chain(system.p()).zip(exact.q().iter().chain(exact.p()));
+            let pairs = system
+                .state()
+                .q()
+                .iter()
+                .chain(system.state().p())
+                .zip(exact.state().q().iter().chain(exact.state().p()));
             pairs.map(|(x, y)| (x - y.to_f64()).abs()).fold(0.0, f64::max)
         };
         let [plain_off, compensated_off] = [&plain, &compensated].map(distance);
@@ -284,7 +289,8 @@ fn modified(h: &str, system: &impl System<Number = f64>) -> Float {
         let sum = |(x, rest): (&f64, f64)| x.exactly() + rest.exactly();
         values.iter().zip(rest).map(|pair| Float::from_rational(&sum(pair), &context)).collect()
     };
-    let motion = Motion::new(HenonHeiles, UnitMasses, with(system.q(), &q), with(system.p(), &p)).unwrap();
+    let motion =
+        Motion::new(HenonHeiles, UnitMasses, with(system.state().q(), &q), with(system.state().p(), &p)).unwrap();
     let stepper = stepper("stormer-verlet", h, &context);
     let mut run = ShadowRun::new(stepper.with(motion), 0, &Bilinear::new(16)).unwrap();
     run.advance().unwrap().unwrap().1.value.clone()
@@ -345,7 +351,7 @@ trait Elsewhere {
 impl<M: System<Number = f64>> Elsewhere for M {
     /// Finite, and not at the start.
     fn is_somewhere_else(&self, start: &[u64]) -> bool {
-        all_bits(self) != start && self.q().iter().chain(self.p()).all(|x| x.is_finite())
+        all_bits(self) != start && self.state().q().iter().chain(self.state().p()).all(|x| x.is_finite())
     }
 }
 

@@ -221,7 +221,7 @@ where
     let values = |x: &[Dual<f64>]| x.iter().map(|x| x.value.to_bits()).collect::<Vec<_>>();
     let (begun, integrator) = (orbit([0.0; 4]), adjoint.integrator());
     let state = integrator.state();
-    let returned = (values(state.q()), values(state.p())) == (values(begun.q()), values(begun.p()));
+    let returned = (values(state.q()), values(state.p())) == (values(begun.state().q()), values(begun.state().p()));
     (found_forwards, [found, adjoint.by_parameters()[0]], returned)
 }
 

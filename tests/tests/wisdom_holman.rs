@@ -317,15 +317,20 @@ where
 {
     let stepper = Stepper::with_context(scheme("abah864"), "1/3", context).expect("it is nonzero");
     let mut systems = [(); 2].map(|()| giants::<N, C>(context));
-    let start = [systems[0].q(), systems[0].p()].concat();
+    let start = [systems[0].state().q(), systems[0].state().p()].concat();
     let [plain, augmented] = &mut systems;
     for _ in 0..20 {
         stepper.step(plain);
-        let before = [augmented.q(), augmented.p()].concat();
+        let before = [augmented.state().q(), augmented.state().p()].concat();
         stepper.step_augmented(augmented);
         let increments = augmented.state().increments().to_owned();
-        for ((later, earlier), added) in
-            augmented.q().iter().chain(augmented.p()).zip(&before).zip(increments.q.iter().chain(&increments.p))
+        for ((later, earlier), added) in augmented
+            .state()
+            .q()
+            .iter()
+            .chain(augmented.state().p())
+            .zip(&before)
+            .zip(increments.q.iter().chain(&increments.p))
         {
             let mut difference = later.clone();
             difference.subtract(earlier);
@@ -333,11 +338,11 @@ where
             assert!(log10_distance(added, &difference) < later.log10_epsilon() + 2.5);
         }
     }
-    assert!(same_bits(plain.q(), augmented.q()) && same_bits(plain.p(), augmented.p()));
-    let there = [plain.q(), plain.p()].concat();
+    assert!(same_bits(plain.state().q(), augmented.state().q()) && same_bits(plain.state().p(), augmented.state().p()));
+    let there = [plain.state().q(), plain.state().p()].concat();
     assert!(log10_largest_distance(&there, &start) > 0.0);
     (0..20).for_each(|_| stepper.step_back(plain));
-    let off = log10_largest_distance(&[plain.q(), plain.p()].concat(), &start);
+    let off = log10_largest_distance(&[plain.state().q(), plain.state().p()].concat(), &start);
     // twenty steps there and back of planets at 10 whose phases round-off changes
     assert!(off < start[0].log10_epsilon() + 3.5, "10^{off}");
 }

@@ -143,15 +143,15 @@ fn the_orders_are_those_proved() {
 fn steps_are_steps<N: Bits>(context: &N::Context) {
     let stepper = stepper::<N>("chin-4a", "1/16", context);
     let mut systems = [(); 2].map(|()| three::<N>(context));
-    let start = [systems[0].q(), systems[0].p()].concat();
+    let start = [systems[0].state().q(), systems[0].state().p()].concat();
     let [plain, augmented] = &mut systems;
     for _ in 0..20 {
         stepper.step(plain);
         stepper.step_augmented(augmented);
     }
-    assert!(same_bits(plain.q(), augmented.q()) && same_bits(plain.p(), augmented.p()));
+    assert!(same_bits(plain.state().q(), augmented.state().q()) && same_bits(plain.state().p(), augmented.state().p()));
     (0..20).for_each(|_| stepper.step_back(plain));
-    let off = log10_largest_distance(&[plain.q(), plain.p()].concat(), &start);
+    let off = log10_largest_distance(&[plain.state().q(), plain.state().p()].concat(), &start);
     assert!(off < start[0].log10_epsilon() + 3.0, "10^{off}");
 }
 
@@ -212,7 +212,7 @@ fn the_pericentre_turns_as_in_the_closed_solution() {
         let mut planets = planets.beside(Some(potential())).expect("a potential of two bodies");
         let stepper: Stepper<_, N> = stepper(scheme, &format!("{PERIOD}/{steps}"), &());
         (0..steps * REVOLUTIONS).for_each(|_| stepper.step(&mut planets));
-        log10_largest_distance(&planets.q()[2..], &expected)
+        log10_largest_distance(&planets.state().q()[2..], &expected)
     };
     for (scheme, order) in [("stormer-verlet", 2.0), ("abah864", 4.0), ("chin-4a", 4.0), ("blanes-moan-srkn11b", 6.0)] {
         let [coarse, fine] = [200, 400].map(|steps| error(scheme, steps));

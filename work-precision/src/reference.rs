@@ -33,7 +33,7 @@ const MOST_REFERENCE_DIGITS: u32 = 240;
 pub(crate) fn largest_coordinate(problem: Problem<'_>) -> Size {
     let largest = |q: &[f64]| q.iter().fold(0.0_f64, |size, q| size.max(q.abs()));
     let size = match largest(&problem.system.start::<f64>(&()).0) {
-        0.0 => after_a_radian(problem).map_or(0.0, |mut moved| largest(moved.system().q())),
+        0.0 => after_a_radian(problem).map_or(0.0, |mut moved| largest(moved.system().state().q())),
         size => size,
     };
     Size::of(&size.max(f64::MIN_POSITIVE))

@@ -92,7 +92,7 @@ impl<const D: usize> Setting<'_, D> {
         self.in_c(of)(100, &mut q, &mut p);
         stepper.steps(std::slice::from_mut(&mut system), 100);
         let agree = |(a, b): (&f64, &M::Number)| (a - b.to_f64()).abs() < 1e-12 * a.abs().max(1.0);
-        assert!(q.iter().zip(system.q()).all(agree), "{q:?} is not {:?}", system.q());
+        assert!(q.iter().zip(system.state().q()).all(agree), "{q:?} is not {:?}", system.state().q());
     }
 
     fn by_gcc<S: Scheme + 'static>(&self, of: S) -> Contestant<'static> {

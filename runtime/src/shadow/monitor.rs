@@ -141,7 +141,7 @@ impl<N: Real, E: Estimator<N>> Monitor<N, E> {
         let [mut energy, mut kinetic] = [N::zero(&context), N::zero(&context)];
         system.assign_energy(None, &mut energy);
         system.assign_kinetic_energy(None, &mut kinetic);
-        check_energy(&energy, system.q(), 0)?;
+        check_energy(&energy, system.state().q(), 0)?;
         let schedule = Schedule::new(states, 1);
         let mut monitor = Monitor {
             schedule,
@@ -161,7 +161,7 @@ impl<N: Real, E: Estimator<N>> Monitor<N, E> {
             not_finite: None,
             h: h.clone(),
         };
-        monitor.fastest.begin(0, system.p());
+        monitor.fastest.begin(0, system.state().p());
         monitor.take(system)?;
         Ok(monitor)
     }
@@ -242,7 +242,7 @@ impl<N: Real, E: Estimator<N>> Monitor<N, E> {
         system: &mut M,
     ) -> Result<Option<Sample<'_, N>>, RunError> {
         self.n += 1;
-        self.fastest.begin(self.n, system.p());
+        self.fastest.begin(self.n, system.state().p());
         self.kinetic.observe(self.n, system);
         if !self.schedule.takes(self.n) {
             return Ok(None);

@@ -53,6 +53,13 @@ pub trait Integrator {
     /// The system, for its energies, and to set its state.
     fn system(&mut self) -> &mut AnySystem<'_, Self::Number, Self::Coordinates, Self::Summation>;
 
+    /// H at a state q, p, which the system need not be at.
+    fn energy_at(&mut self, q: &[Self::Number], p: &[Self::Number]) -> Self::Number {
+        let mut energy = self.state().increments.beta.clone();
+        self.system().assign_energy(Some((q, p)), &mut energy);
+        energy
+    }
+
     /// Name and proved properties of the scheme.
     fn scheme(&self) -> SchemeProperties<'_>;
 

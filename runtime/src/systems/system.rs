@@ -96,7 +96,7 @@ pub trait System {
     {
         for step in 0..count {
             maps.each(step..step + 1, count, &mut Carrying { system: self, carried: Carried::Nothing });
-            visitor.visit(self.q(), self.p());
+            visitor.visit(self.state().q(), self.state().p());
         }
     }
 
@@ -112,32 +112,13 @@ pub trait System {
     /// How many of the first coordinates have an energy: by default all. Those after them are of particles of mass 0, which move in the field of the bodies
     /// with mass and whose momenta are divided by their mass; the modified energy does not contain them.
     fn massive_coordinates(&self) -> usize {
-        self.q().len()
-    }
-
-    /// Positions.
-    #[inline(always)]
-    fn q(&self) -> &[Self::Number] {
-        self.state().q()
-    }
-
-    /// Momenta, as many as positions.
-    #[inline(always)]
-    fn p(&self) -> &[Self::Number] {
-        self.state().p()
+        self.state().q().len()
     }
 
     /// H at the present state.
     fn energy(&mut self) -> Self::Number {
         let mut energy = self.state().increments.beta.clone();
         self.assign_energy(None, &mut energy);
-        energy
-    }
-
-    /// H at another state of the same system.
-    fn energy_at(&mut self, q: &[Self::Number], p: &[Self::Number]) -> Self::Number {
-        let mut energy = self.state().increments.beta.clone();
-        self.assign_energy(Some((q, p)), &mut energy);
         energy
     }
 }

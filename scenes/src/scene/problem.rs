@@ -4,7 +4,7 @@ use shadowstep::problems::Setup;
 use shadowstep::systems::explicit_time::WithTime;
 use shadowstep::systems::formula::{FormulaKinetic, FormulaPotential};
 use shadowstep::systems::kinetic::{General, Quadratic, WithParticles};
-use shadowstep::{DiagonalMasses, Kinetic, Motion, Number, Potential, Rational, UnitMasses};
+use shadowstep::{DiagonalMasses, Kinetic, Motion, Number, Potential, Rational, System, UnitMasses};
 use shadowstep_symbolic::Exact;
 use shadowstep_symbolic::decimal::to_text;
 
@@ -62,6 +62,16 @@ pub enum KineticEnergy {
 
 /// H of the positions and momenta that it gets.
 pub type EnergyAt<N> = Box<dyn FnMut(&[N], &[N]) -> N>;
+
+/// H of a system at other states.
+pub(crate) fn energy_of<M: System + 'static>(mut system: M) -> EnergyAt<M::Number> {
+    let zero = M::Number::zero(&system.state().context());
+    Box::new(move |q, p| {
+        let mut energy = zero.clone();
+        system.assign_energy(Some((q, p)), &mut energy);
+        energy
+    })
+}
 
 /// A kinetic energy with its class, which decides about the schemes that move it.
 pub(crate) enum ClassifiedKinetic<N> {
@@ -203,12 +213,10 @@ impl InitialValueProblem {
         let potential = self.potential(context);
         match self.kinetic(context) {
             ClassifiedKinetic::Quadratic(kinetic) => {
-                let mut motion = Motion::of_any_energy(potential, kinetic, q, p).expect(READ);
-                Box::new(move |q, p| motion.energy_at(q, p))
+                energy_of(Motion::of_any_energy(potential, kinetic, q, p).expect(READ))
             }
             ClassifiedKinetic::General(kinetic) => {
-                let mut motion = Motion::of_any_energy(potential, kinetic, q, p).expect(READ);
-                Box::new(move |q, p| motion.energy_at(q, p))
+                energy_of(Motion::of_any_energy(potential, kinetic, q, p).expect(READ))
             }
         }
     }

@@ -101,7 +101,7 @@ where
         for _ in 0..self.encounter.halvings {
             let stepper = Stepper::new(scheme.clone(), h.clone()).expect("it is nonzero");
             let (seconds, end, forces) = time(&self.system, &stepper, &until);
-            let error = self.reference.iter().zip(end.q()).map(|(a, b)| (a - b).powi(2)).sum::<f64>().sqrt();
+            let error = self.reference.iter().zip(end.state().q()).map(|(a, b)| (a - b).powi(2)).sum::<f64>().sqrt();
             println!("{} {name} {h} {forces} {seconds:.3e} {error:.2e}", self.encounter.name);
             h /= Rational::from_integer(2.into());
             if seconds > 2.0 {
@@ -137,15 +137,15 @@ where
     S: Scheme + Clone + ValidFor<General>,
     M: System<Number: Real, Class = General>,
 {
-    let (mut q, mut p) = (system.q().to_vec(), system.p().to_vec());
+    let (mut q, mut p) = (system.state().q().to_vec(), system.state().p().to_vec());
     loop {
         stepper.step(&mut system);
         // not finite counts as passed
-        if system.q().last().is_none_or(|t| t.partial_cmp(until) != Some(std::cmp::Ordering::Less)) {
+        if system.state().q().last().is_none_or(|t| t.partial_cmp(until) != Some(std::cmp::Ordering::Less)) {
             break;
         }
-        q.iter_mut().zip(system.q()).for_each(|(own, q)| own.assign(q));
-        p.iter_mut().zip(system.p()).for_each(|(own, p)| own.assign(p));
+        q.iter_mut().zip(system.state().q()).for_each(|(own, q)| own.assign(q));
+        p.iter_mut().zip(system.state().p()).for_each(|(own, p)| own.assign(p));
     }
     system.state_mut().set(&q, &p);
     let mut integrator = stepper.with(system);

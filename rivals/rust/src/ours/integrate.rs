@@ -182,7 +182,7 @@ impl<M: System<Class = Quadratic, Number = Lanes<WIDTH>>> WithScheme for RunAll<
         let mut answer = Answer::default();
         for _ in 0..request.samples {
             answer.time(|| stepper.steps(&mut systems, request.steps() / request.samples));
-            answer.state(systems[0].q().iter().chain(systems[0].p()).map(|x| x.0[0]));
+            answer.state(systems[0].state().q().iter().chain(systems[0].state().p()).map(|x| x.0[0]));
         }
         answer.divide_time((WIDTH * SYSTEMS) as u32);
         answer
@@ -204,7 +204,7 @@ impl<M: System<Class = Quadratic, Number: Real>> WithScheme for Run<'_, M> {
         let mut answer = Answer::default();
         for _ in 0..request.samples {
             answer.time(|| stepper.steps(std::slice::from_mut(&mut system), request.steps() / request.samples));
-            answer.state(system.q().iter().chain(system.p()).map(Real::to_f64));
+            answer.state(system.state().q().iter().chain(system.state().p()).map(Real::to_f64));
         }
         answer
     }
@@ -253,7 +253,7 @@ impl<N: Real<Context = ()>, M: System<Number = N, Class = General> + Clone> With
         for sample in 1..=request.samples {
             let until = number(request.until * sample as f64 / request.samples as f64);
             let at_sample = answer.time(|| {
-                while system.q()[2] < until {
+                while system.state().q()[2] < until {
                     stepper.step(&mut system);
                 }
                 stepper.step_back(&mut system);

@@ -65,10 +65,11 @@ impl<E: Clone> Seen<E> {
     }
 
     fn include<M: System + ?Sized>(&mut self, energy: &M::Number, system: &M, n: u64) {
+        let (q, p) = (system.state().q(), system.state().p());
         for (index, lane) in self.lanes.iter_mut().enumerate() {
             let is_finite = |x: &M::Number| x.lane(index).0.is_finite();
             lane.newest = energy.lane(index).0;
-            if lane.not_finite.is_none() && !(is_finite(energy) && system.q().iter().chain(system.p()).all(is_finite)) {
+            if lane.not_finite.is_none() && !(is_finite(energy) && q.iter().chain(p).all(is_finite)) {
                 lane.not_finite = Some(n);
             }
             if lane.not_finite.is_none() {
@@ -101,7 +102,8 @@ impl<E: Clone> Seen<E> {
     {
         let Some(window) = &mut self.window else { return };
         let massive = system.massive_coordinates();
-        let (q, p, increments) = (system.q(), system.p(), system.state().increments().of_first(massive));
+        let (q, p, increments) =
+            (system.state().q(), system.state().p(), system.state().increments().of_first(massive));
         let Some(estimate) = window.push(&q[..massive], &p[..massive], increments) else { return };
         for (index, lane) in self.lanes.iter_mut().enumerate() {
             lane.include_modified(estimate.value.lane(index).0);
@@ -111,7 +113,7 @@ impl<E: Clone> Seen<E> {
     /// What became of the trajectory in a lane of the system, which is at its last states.
     pub fn outcome<M: System + ?Sized>(&self, system: &M, index: usize) -> Outcome {
         let of_lane = |x: &[M::Number]| x.iter().map(|x| x.lane(index).0).collect();
-        self.lanes[index].outcome(of_lane(system.q()), of_lane(system.p()))
+        self.lanes[index].outcome(of_lane(system.state().q()), of_lane(system.state().p()))
     }
 }
 

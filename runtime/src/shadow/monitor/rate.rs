@@ -31,8 +31,8 @@ impl<N: Real> RateCheck<N> {
 
     /// Compares H as the system gives it at its present state.
     pub(super) fn compare<M: System<Number = N> + ?Sized>(&mut self, system: &mut M, energy: &N) {
-        self.q.iter_mut().zip(system.q()).for_each(|(own, q)| own.assign(q));
-        self.p.iter_mut().zip(system.p()).for_each(|(own, p)| own.assign(p));
+        self.q.iter_mut().zip(system.state().q()).for_each(|(own, q)| own.assign(q));
+        self.p.iter_mut().zip(system.state().p()).for_each(|(own, p)| own.assign(p));
         system.assign_energy(Some((&self.q, &self.p)), &mut self.energy);
         system.assign_kinetic_energy(Some((&self.q, &self.p)), &mut self.kinetic);
         self.size.assign(energy);

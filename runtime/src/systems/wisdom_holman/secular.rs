@@ -13,7 +13,6 @@ pub use prediction::{PredictedFrequency, predicted_frequencies};
 
 use super::{Jacobi, PlanetaryCoordinates, WisdomHolman};
 use crate::number::Real;
-use crate::systems::system::System;
 
 /// e cos ϖ and e sin ϖ of a planet: in three dimensions e times the first two components of the direction of the pericentre.
 pub type Eccentricity = [f64; 2];
@@ -21,7 +20,7 @@ pub type Eccentricity = [f64; 2];
 /// e exp(iϖ) of each planet on its Kepler orbit in Jacobi coordinates: of the vector v × (Q × v)/μ − Q/|Q| with v = P/m.
 pub fn eccentricities<N: Real, const D: usize>(system: &WisdomHolman<N, Jacobi<N, D>, D>) -> Vec<Eccentricity> {
     let numbers = |values: &[N]| values.iter().map(Real::to_f64).collect::<Vec<_>>();
-    let (q, p) = (numbers(system.q()), numbers(system.p()));
+    let (q, p) = (numbers(system.state.q()), numbers(system.state.p()));
     let planets = system.coordinates().orbits().planets.iter();
     let states = q.as_chunks::<D>().0.iter().zip(p.as_chunks::<D>().0).skip(1);
     let of_planet = |(orbit, (q, p)): (&super::orbits::Orbit<N>, (&[f64; D], &[f64; D]))| {

@@ -1,13 +1,13 @@
 //! H as a sum of parts by their formulas.
 
 use serde_json::{Value, json};
+use shadowstep::MotionError;
 use shadowstep::number::CorrectlyRounded;
 use shadowstep::systems::many_parts::{Part, PartError, PartFormula, SystemOfParts};
-use shadowstep::{MotionError, System as _};
 use shadowstep_symbolic::Exact;
 
 use super::{Class, Needs, Split, State};
-use crate::scene::{EnergyAt, Formula, InitialValueProblem};
+use crate::scene::{EnergyAt, Formula, InitialValueProblem, energy_of};
 use crate::start::{SceneIntegrator, Steps};
 
 /// H is the sum of these formulas.
@@ -29,8 +29,7 @@ impl Split for Formulas {
         context: &N::Context,
     ) -> EnergyAt<N> {
         let state = problem.initial(context);
-        let mut system = self.system(problem, &state, context).expect("the dimensions were read with the system");
-        Box::new(move |q, p| system.energy_at(q, p))
+        energy_of(self.system(problem, &state, context).expect("the dimensions were read with the system"))
     }
 
     fn integrator<N: CorrectlyRounded + 'static>(

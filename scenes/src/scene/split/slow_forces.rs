@@ -1,12 +1,12 @@
 //! Slow forces, fast forces and the kinetic energy: for multiple time steps.
 
 use serde_json::{Value, json};
+use shadowstep::MotionError;
 use shadowstep::number::CorrectlyRounded;
 use shadowstep::systems::many_parts::{OfKinetic, OfPotential, Part, SystemOfParts};
-use shadowstep::{MotionError, System as _};
 
 use super::{Class, Needs, Split, State};
-use crate::scene::{ClassifiedKinetic, EnergyAt, InitialValueProblem, PotentialEnergy};
+use crate::scene::{ClassifiedKinetic, EnergyAt, InitialValueProblem, PotentialEnergy, energy_of};
 use crate::start::{SceneIntegrator, Steps};
 
 /// The key of a scene.
@@ -35,8 +35,7 @@ impl Split for SlowForces {
         context: &N::Context,
     ) -> EnergyAt<N> {
         let state = problem.initial(context);
-        let mut system = self.system(problem, &state, context).expect("the dimensions were read with the system");
-        Box::new(move |q, p| system.energy_at(q, p))
+        energy_of(self.system(problem, &state, context).expect("the dimensions were read with the system"))
     }
 
     fn integrator<N: CorrectlyRounded + 'static>(

@@ -15,7 +15,7 @@ use shadowstep_symbolic::decimal::to_text;
 
 use super::{Class, Needs, ShownCoordinates, Split, State};
 use crate::refusal::{Refusal, Unsupported};
-use crate::scene::{EnergyAt, InitialValueProblem};
+use crate::scene::{EnergyAt, InitialValueProblem, energy_of};
 use crate::start::{SceneIntegrator, Steps};
 
 /// A planetary system of point masses, the central body first.
@@ -312,8 +312,7 @@ impl Planets {
         problem: &InitialValueProblem,
         context: &N::Context,
     ) -> EnergyAt<N> {
-        let mut system = self.at_rest::<N, C, D>(problem, context);
-        Box::new(move |q, p| system.energy_at(q, p))
+        energy_of(self.at_rest::<N, C, D>(problem, context))
     }
 
     /// All bodies at 0.

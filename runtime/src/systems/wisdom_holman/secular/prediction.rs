@@ -1,6 +1,5 @@
 //! What the modified Hamiltonian predicts of secular frequencies: means over both mean longitudes of two planets.
 
-use crate::systems::system::System;
 use crate::systems::wisdom_holman::{Jacobi, PlanetaryCoordinates, WisdomHolman};
 
 /// The places on each orbit: means over them have all digits while the larger orbit is some 4/3 of the smaller one.
@@ -78,8 +77,8 @@ impl<const D: usize> Means<D> {
         let axis = |planet: usize| {
             let (orbit, first) = (&orbits.planets[planet], (planet + 1) * D);
             let square = |values: &[f64]| values[first..first + D].iter().map(|x| x * x).sum::<f64>();
-            let axis = (2.0 / square(system.q()).sqrt()
-                - square(system.p()) / (orbit.mass * orbit.mass * orbit.parameter))
+            let axis = (2.0 / square(system.state.q()).sqrt()
+                - square(system.state.p()) / (orbit.mass * orbit.mass * orbit.parameter))
                 .recip();
             (axis > 0.0).then_some(axis)
         };

@@ -3,6 +3,7 @@
 use super::*;
 use crate::exact;
 use crate::systems::increments::Carried;
+use crate::systems::system::System as _;
 use crate::systems::wisdom_holman::Bodies;
 
 /// Two planets of this part of a central mass of 1 with G = 1, at the pericentres of orbits of 1 and `outer` with these eccentricities, the second
@@ -36,7 +37,7 @@ fn means_are_those_along_kepler_orbits() {
     const STEPS: usize = 100_000;
     for _ in 0..STEPS {
         planets.drift(&1.0, Carried::Nothing);
-        means.q.copy_from_slice(planets.q());
+        means.q.copy_from_slice(planets.state.q());
         let energies = means.energies();
         sums = [sums[0] + energies[0], sums[1] + energies[1]];
     }
