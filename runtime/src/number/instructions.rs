@@ -120,6 +120,12 @@ pub(crate) fn widest_if_long<R>(in_vectors: bool, turns: usize, work: impl FnOnc
     if in_vectors && turns >= LONG { widest(work) } else { work() }
 }
 
+/// [`Number::in_widest_instructions`] for energies and β. Tangent maps compute neither: of dual numbers in lanes they are compiled once only.
+#[inline(always)]
+pub(crate) fn widest_for_energies<N: Number, R>(work: impl FnOnce() -> R) -> R {
+    if N::HAS_DERIVATIVES && N::LANES > 1 { work() } else { N::in_widest_instructions(work) }
+}
+
 /// to ← from, of the same length: whole vectors of a long state.
 #[inline(always)]
 pub(crate) fn copy<N: Number>(from: &[N], to: &mut [N]) {

@@ -33,6 +33,7 @@ use std::marker::PhantomData;
 use thiserror::Error;
 
 use crate::number::Number;
+use crate::number::instructions;
 use crate::number::partial_sums::add_sum;
 use crate::systems::potential::{HessianProduct, Potential};
 use blocks::{Blocks, Places, sum_of_places};
@@ -516,7 +517,7 @@ impl<N: Number, P: PairPotential<N>, const D: usize> Potential<N> for Pairs<P, D
         if self.pair.summand() == Summand::Energy {
             // qᵀU_q − 2U
             rate.multiply_integer(-2);
-            N::in_widest_instructions(
+            instructions::widest_for_energies::<N, _>(
                 #[inline(always)]
                 || add_sum(rate, [q, gradient], |[q, gradient], rate| rate.add_product(q, gradient)),
             );
@@ -565,7 +566,7 @@ impl<P, const D: usize> Pairs<P, D> {
         {
             return few.sum((q, gradient), Some(total), &mut scratch[own_scratch(D)..]);
         }
-        N::in_widest_instructions(
+        instructions::widest_for_energies::<N, _>(
             #[inline(always)]
             || self.sum_one_by_one(q, gradient, total, scratch),
         );

@@ -95,7 +95,15 @@ impl PairEnergy {
         parameters: &[(String, Exact)],
         context: &N::Context,
     ) -> Box<dyn Potential<N>> {
-        self.with_values(self.numbers(context), values(parameters, context))
+        let Some(cutoff) = &self.cutoff else {
+            return self.with_values(self.numbers(context), values(parameters, context));
+        };
+        let of_pairs: Box<dyn Potential<N>> = match self.dimensions {
+            1 => Box::new(self.up_to::<N, 1>(cutoff, parameters, context)),
+            2 => Box::new(self.up_to::<N, 2>(cutoff, parameters, context)),
+            _ => Box::new(self.up_to::<N, 3>(cutoff, parameters, context)),
+        };
+        with_energies_beside(of_pairs, self.beside(parameters, context))
     }
 
     /// The properties in numbers of a run, each rounded once.
@@ -104,7 +112,7 @@ impl PairEnergy {
         self.properties.iter().map(|(_, values)| values.iter().map(number).collect()).collect()
     }
 
-    /// U with these values of properties and parameters.
+    /// U without a cutoff, with these values of properties and parameters, which may be in lanes.
     pub(crate) fn with_values<N: Number + 'static>(
         &self,
         properties: Vec<Vec<N>>,
@@ -119,10 +127,7 @@ impl PairEnergy {
             3 => self.sum::<N, 3>(properties, parameters),
             more => unreachable!("{more} dimensions are refused"),
         };
-        match beside {
-            Some(beside) => Box::new(Sum(of_pairs, beside)),
-            None => of_pairs,
-        }
+        with_energies_beside(of_pairs, beside)
     }
 
     /// The energies of each body beside those of pairs, if there are any.
@@ -169,9 +174,6 @@ impl PairEnergy {
         properties: Vec<Vec<N>>,
         parameters: Vec<N>,
     ) -> Box<dyn Potential<N>> {
-        if let Some(cutoff) = &self.cutoff {
-            return Box::new(self.up_to::<N, D>(cutoff, properties, parameters));
-        }
         let pair = self.formula.meaning().in_numbers(properties, parameters);
         let pairs = match self.ends {
             None => Pairs::<_, D>::all(self.bodies, pair),
@@ -183,10 +185,10 @@ impl PairEnergy {
     fn up_to<N: Number, const D: usize>(
         &self,
         cutoff: &PairCutoff,
-        properties: Vec<Vec<N>>,
-        parameters: Vec<N>,
+        parameters: &[(String, Exact)],
+        context: &N::Context,
     ) -> CutoffPairs<FormulaPair<N>, D> {
-        let pair = self.formula.meaning().in_numbers(properties, parameters);
+        let pair = self.formula.meaning().in_numbers(self.numbers(context), values(parameters, context));
         let cutoff = cutoff.cutoff::<D>().expect("the cutoff was read with the scene");
         CutoffPairs::new(self.bodies, pair, cutoff).expect(READ)
     }
@@ -198,12 +200,21 @@ impl PairEnergy {
         context: &N::Context,
     ) -> Option<OfPositions<N>> {
         let cutoff = self.cutoff.as_ref().filter(|_| self.is_in_box())?;
-        let (properties, parameters) = (self.numbers(context), values(parameters, context));
         Some(match self.dimensions {
-            1 => virial_of(self.up_to::<N, 1>(cutoff, properties, parameters), context),
-            2 => virial_of(self.up_to::<N, 2>(cutoff, properties, parameters), context),
-            _ => virial_of(self.up_to::<N, 3>(cutoff, properties, parameters), context),
+            1 => virial_of(self.up_to::<N, 1>(cutoff, parameters, context), context),
+            2 => virial_of(self.up_to::<N, 2>(cutoff, parameters, context), context),
+            _ => virial_of(self.up_to::<N, 3>(cutoff, parameters, context), context),
         })
+    }
+}
+
+fn with_energies_beside<N: Number + 'static>(
+    of_pairs: Box<dyn Potential<N>>,
+    beside: Option<Box<dyn Potential<N>>>,
+) -> Box<dyn Potential<N>> {
+    match beside {
+        Some(beside) => Box::new(Sum(of_pairs, beside)),
+        None => of_pairs,
     }
 }
 

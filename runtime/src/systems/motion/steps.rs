@@ -3,6 +3,7 @@
 use super::hamiltonian::Evaluated;
 use super::{Motion, turns};
 use crate::number::Number;
+use crate::number::instructions;
 use crate::number::partial_sums::add_sum;
 use crate::systems::coordinates::Coordinates;
 use crate::systems::increments::Carried;
@@ -75,7 +76,7 @@ where
                 },
             );
         } else {
-            N::in_widest_instructions(
+            instructions::widest_for_energies::<N, _>(
                 #[inline(always)]
                 || {
                     for motion in motions {

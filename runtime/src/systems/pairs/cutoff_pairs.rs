@@ -211,6 +211,21 @@ pub(super) fn is_below<N: Number>(a: &N, b: &N) -> bool {
     (0..N::LANES).any(|lane| difference.lane(lane).0 > 0.0)
 }
 
+/// What is summed: U_q, and beside it U, or r·∂u/∂r for the virial.
+#[derive(Clone, Copy)]
+struct Wanted {
+    forces: bool,
+    energy: bool,
+    virial: bool,
+}
+
+impl Wanted {
+    const FORCES: Wanted = Wanted { forces: true, energy: false, virial: false };
+    const ENERGY: Wanted = Wanted { forces: false, energy: true, virial: false };
+    const FORCES_AND_ENERGY: Wanted = Wanted { forces: true, energy: true, virial: false };
+    const VIRIAL: Wanted = Wanted { forces: false, energy: false, virial: true };
+}
+
 /// A body with its gradient and its part of the other sum.
 struct Own<N, const D: usize> {
     body: usize,
@@ -234,37 +249,48 @@ impl<P, const D: usize> CutoffPairs<P, D> {
     {
         self.neighbours.update::<N, D>(q, self.sides.as_ref());
         virial.assign_zero();
-        // for rows, not for steps: compiled once, without vectors
-        self.sum_in_blocks::<N, 1, false, false, true>(q, &mut [], virial, scratch);
+        self.sum_one_by_one(Wanted::VIRIAL, q, &mut [], virial, scratch);
         virial.negate();
     }
 
-    /// Adds U_q to the gradient and U to the energy, as these are wanted.
-    #[inline(never)] // each of three callers would have a copy of the loop
-    fn sum<N: Number, const FORCES: bool, const ENERGY: bool>(
-        &self,
-        q: &[N],
-        gradient: &mut [N],
-        energy: &mut N,
-        scratch: &mut [N],
-    ) where
+    /// Adds U_q to the gradient and U to the sum, as these are wanted. Numbers in vectors have a loop of their own for each.
+    fn sum<N: Number>(&self, wanted: Wanted, q: &[N], gradient: &mut [N], sum: &mut N, scratch: &mut [N])
+    where
         P: PairPotential<N>,
     {
-        // tangent maps compute no energies: the sum for dual numbers is compiled once, without vectors
-        if N::IN_VECTORS && !(N::HAS_DERIVATIVES && ENERGY) {
-            instructions::widest(
+        match wanted {
+            _ if !N::IN_VECTORS => self.sum_one_by_one(wanted, q, gradient, sum, scratch),
+            Wanted { forces: true, energy: false, .. } => instructions::widest(
                 #[inline(always)]
-                || self.sum_in_blocks::<N, BLOCK, FORCES, ENERGY, false>(q, gradient, energy, scratch),
-            );
-        } else {
-            self.sum_in_blocks::<N, 1, FORCES, ENERGY, false>(q, gradient, energy, scratch);
+                || self.sum_in_blocks::<N, BLOCK>(Wanted::FORCES, q, gradient, sum, scratch),
+            ),
+            // tangent maps compute no energies
+            _ if N::HAS_DERIVATIVES => self.sum_one_by_one(wanted, q, gradient, sum, scratch),
+            Wanted { forces: true, .. } => instructions::widest(
+                #[inline(always)]
+                || self.sum_in_blocks::<N, BLOCK>(Wanted::FORCES_AND_ENERGY, q, gradient, sum, scratch),
+            ),
+            _ => instructions::widest(
+                #[inline(always)]
+                || self.sum_in_blocks::<N, BLOCK>(Wanted::ENERGY, q, gradient, sum, scratch),
+            ),
         }
     }
 
-    /// The same in blocks of W pairs of a body, added one after the other, so that sums do not depend on W; in place of U the sum of r·∂u/∂r for the virial.
+    /// The same without vectors, for long numbers and for what is not computed in each step: compiled once for whatever is wanted.
+    #[inline(never)]
+    fn sum_one_by_one<N: Number>(&self, wanted: Wanted, q: &[N], gradient: &mut [N], sum: &mut N, scratch: &mut [N])
+    where
+        P: PairPotential<N>,
+    {
+        self.sum_in_blocks::<N, 1>(wanted, q, gradient, sum, scratch);
+    }
+
+    /// The same in blocks of W pairs of a body, added one after the other, so that sums do not depend on W.
     #[inline(always)]
-    fn sum_in_blocks<N: Number, const W: usize, const FORCES: bool, const ENERGY: bool, const VIRIAL: bool>(
+    fn sum_in_blocks<N: Number, const W: usize>(
         &self,
+        wanted: Wanted,
         q: &[N],
         gradient: &mut [N],
         sum: &mut N,
@@ -283,19 +309,18 @@ impl<P, const D: usize> CutoffPairs<P, D> {
             for others in self.neighbours.of(body).chunks(W) {
                 near.add(others, &q[body], q, &constants, reciprocal_sides.as_ref());
                 if near.count >= W {
-                    self.add_block::<N, W, FORCES, ENERGY, VIRIAL>(&near, W, &constants, (gradient, &mut own), pair);
+                    self.add_block(wanted, &near, W, &constants, (gradient, &mut own), pair);
                     near.drop_block();
                 }
             }
             if near.count > 0 {
-                let own = (&mut *gradient, &mut own);
-                self.add_block::<N, W, FORCES, ENERGY, VIRIAL>(&near, near.count, &constants, own, pair);
+                self.add_block(wanted, &near, near.count, &constants, (gradient, &mut own), pair);
                 near.count = 0;
             }
-            if FORCES {
+            if wanted.forces {
                 gradient[body].iter_mut().zip(&own.gradient).for_each(|(gradient, own)| gradient.add(own));
             }
-            if ENERGY || VIRIAL {
+            if wanted.energy || wanted.virial {
                 sum.add(&own.sum);
             }
         }
@@ -303,8 +328,9 @@ impl<P, const D: usize> CutoffPairs<P, D> {
 
     /// Adds the first pairs that are near.
     #[inline(always)]
-    fn add_block<N: Number, const W: usize, const FORCES: bool, const ENERGY: bool, const VIRIAL: bool>(
+    fn add_block<N: Number, const W: usize>(
         &self,
+        wanted: Wanted,
         near: &Near<N, D, W>,
         count: usize,
         constants: &Constants<'_, N, D>,
@@ -317,8 +343,8 @@ impl<P, const D: usize> CutoffPairs<P, D> {
         let [_, from, reciprocal] = constants.squares;
         let switch = self.switch.filter(|_| (0..count).any(|l| is_below(from, &x[l])));
         let (mut slopes, mut energies) = (x.clone(), x.clone());
-        self.evaluate::<N, W>(
-            (FORCES || VIRIAL, ENERGY || switch.is_some()),
+        self.evaluate(
+            (wanted.forces || wanted.virial, wanted.energy || switch.is_some()),
             (own.body, others),
             x,
             (&mut slopes, &mut energies),
@@ -345,7 +371,7 @@ impl<P, const D: usize> CutoffPairs<P, D> {
             clear_far_lanes(x, &constants.squares[0], &mut slopes);
             clear_far_lanes(x, &constants.squares[0], &mut energies);
         }
-        if FORCES {
+        if wanted.forces {
             let mut forces: [[N; W]; D] = std::array::from_fn(|axis| near.difference[axis][0].clone());
             for of_axis in &mut forces {
                 for l in 0..W {
@@ -360,10 +386,10 @@ impl<P, const D: usize> CutoffPairs<P, D> {
                 }
             }
         }
-        if VIRIAL {
+        if wanted.virial {
             slopes[..count].iter().zip(x).for_each(|(slope, x)| own.sum.add_product(slope, x));
         }
-        if ENERGY {
+        if wanted.energy {
             energies[..count].iter().for_each(|of_pair| own.sum.add(of_pair));
         }
     }
@@ -443,19 +469,19 @@ impl<N: Number, P: PairPotential<N>, const D: usize> Potential<N> for CutoffPair
 
     fn energy(&self, q: &[N], energy: &mut N, scratch: &mut [N]) {
         energy.assign_zero();
-        self.sum::<N, false, true>(q, &mut [], energy, scratch);
+        self.sum(Wanted::ENERGY, q, &mut [], energy, scratch);
     }
 
     fn gradient(&self, q: &[N], gradient: &mut [N], scratch: &mut [N]) {
         gradient.iter_mut().for_each(N::assign_zero);
         let mut none = N::zero(&q[0].context());
-        self.sum::<N, true, false>(q, gradient, &mut none, scratch);
+        self.sum(Wanted::FORCES, q, gradient, &mut none, scratch);
     }
 
     fn gradient_and_rate(&self, q: &[N], gradient: &mut [N], rate: &mut N, scratch: &mut [N]) {
         gradient.iter_mut().for_each(N::assign_zero);
         rate.assign_zero();
-        self.sum::<N, true, true>(q, gradient, rate, scratch);
+        self.sum(Wanted::FORCES_AND_ENERGY, q, gradient, rate, scratch);
         // qᵀU_q − 2U of the unwrapped positions, which is not the sum of the pairs' rates, those of the nearest images
         rate.multiply_integer(-2);
         add_sum(rate, [q, gradient], |[q, gradient], rate| rate.add_product(q, gradient));
