@@ -19,12 +19,11 @@ format:
 lint:
 	cargo clippy --workspace --features mpfr --all-targets --locked -- -D warnings
 
-# All tests and doc tests, and the library without its features. What is without GMP and MPFR is compiled, without warnings, and tested as the Python
-# package. One test reads the licences of all dependencies, also of those that other systems need.
+# All tests and doc tests. One test compiles the library without its features, as a user does; what else is without GMP and MPFR is compiled, without
+# warnings, and tested as the Python package. One test reads the licences of all dependencies, also of those that other systems need.
 check:
 	cargo fetch --locked
 	cargo test --workspace --features mpfr --locked
-	cargo clippy -p shadowstep --locked -- -D warnings
 
 # The library and scenes compile for WebAssembly; skipped without that target of rustc.
 wasm:
