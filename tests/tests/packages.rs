@@ -65,3 +65,13 @@ fn what_is_cited_has_the_version_of_the_crates() {
     let version = cited.lines().find_map(|line| line.strip_prefix("version: ")).unwrap();
     assert_eq!(version, env!("CARGO_PKG_VERSION"));
 }
+
+/// With a table of its own in the profile Cargo does not strip a program.
+#[test]
+fn the_program_is_stripped() {
+    let manifest: toml::Table = toml::from_str(&fs::read_to_string(root().join("Cargo.toml")).unwrap()).unwrap();
+    let release = &manifest["profile"]["release"];
+    assert_eq!(release["strip"].as_bool(), Some(true));
+    let tables = release["package"].as_table().unwrap();
+    assert!(tables.contains_key("shadowstep-scenes") && !tables.contains_key("shadowstep-cli"), "{tables:?}");
+}
