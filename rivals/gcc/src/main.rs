@@ -1,4 +1,4 @@
-//! Steps in `f64` and `Fused` beside steps in C by gcc -O3 -march=native, in one process: ratios to C.
+//! Steps in `f64` and `Fused` beside steps in C, in one process: ratios to C by gcc -O3, then to C by gcc -O3 -march=native.
 //!
 //! `cargo run --release`, for any processor of the architecture; `RUSTFLAGS="-C target-cpu=native" cargo run --release`, for this one.
 
@@ -30,19 +30,34 @@ struct Yoshida4;
 #[splitting_scheme("blanes-moan-srkn6b.toml")]
 struct Srkn6b;
 
+/// Functions of `steps.c`.
+#[derive(Clone, Copy)]
+struct InC {
+    compiled: &'static str,
+    set_initial: unsafe extern "C" fn(i32, *const f64, i32, *const f64),
+    verlet: unsafe extern "C" fn(i32, f64, i64, *mut f64, *mut f64),
+    scheme: unsafe extern "C" fn(i32, i32, f64, *const f64, *const f64, i64, *mut f64, *mut f64),
+}
+
+/// For all processors, and for this one, where gcc fuses products and sums.
+const COMPILED: [InC; 2] = [
+    InC { compiled: "gcc -O3", set_initial, verlet, scheme },
+    InC {
+        compiled: "gcc -O3 -march=native",
+        set_initial: native_set_initial,
+        verlet: native_verlet,
+        scheme: native_scheme,
+    },
+];
+
+#[rustfmt::skip]
 unsafe extern "C" {
     fn set_initial(dimension: i32, masses: *const f64, parameters: i32, values: *const f64);
     fn verlet(problem: i32, h: f64, steps: i64, q: *mut f64, p: *mut f64);
-    fn scheme(
-        problem: i32,
-        stages: i32,
-        opening: f64,
-        drifts: *const f64,
-        kicks: *const f64,
-        steps: i64,
-        q: *mut f64,
-        p: *mut f64,
-    );
+    fn scheme(problem: i32, stages: i32, opening: f64, drifts: *const f64, kicks: *const f64, steps: i64, q: *mut f64, p: *mut f64);
+    fn native_set_initial(dimension: i32, masses: *const f64, parameters: i32, values: *const f64);
+    fn native_verlet(problem: i32, h: f64, steps: i64, q: *mut f64, p: *mut f64);
+    fn native_scheme(problem: i32, stages: i32, opening: f64, drifts: *const f64, kicks: *const f64, steps: i64, q: *mut f64, p: *mut f64);
 }
 
 /// A problem: its number in C, the initial state, and the step size.
@@ -59,7 +74,7 @@ fn number<N: Number<Context = ()>>(x: f64) -> N {
 
 impl<const D: usize> Setting<'_, D> {
     /// The steps in C: Störmer–Verlet as everybody writes it, another scheme from the list of its kicks and drifts.
-    fn in_c<S: Scheme>(&self, of: S) -> impl FnMut(u32, &mut [f64; D], &mut [f64; D]) + use<S, D> {
+    fn in_c<S: Scheme>(&self, compiled: InC, of: S) -> impl FnMut(u32, &mut [f64; D], &mut [f64; D]) + use<S, D> {
         let problem = self.problem;
         let h = number(f64::from_rational(&exact(self.h).expect("a number"), &()));
         let stepper = Stepper::<S, f64>::new(of, self.h).expect("h is not 0");
@@ -74,9 +89,10 @@ impl<const D: usize> Setting<'_, D> {
             // SAFETY: q and p are as long as the problem's states, and there are as many weights as stated
             unsafe {
                 if drifts.len() == 1 {
-                    verlet(problem, h, steps, q, p);
+                    (compiled.verlet)(problem, h, steps, q, p);
                 } else {
-                    scheme(problem, drifts.len() as i32, kicks[0], drifts.as_ptr(), kicks[1..].as_ptr(), steps, q, p);
+                    let (drifts_in_c, kicks_in_c) = (drifts.as_ptr(), kicks[1..].as_ptr());
+                    (compiled.scheme)(problem, drifts.len() as i32, kicks[0], drifts_in_c, kicks_in_c, steps, q, p);
                 }
             }
         }
@@ -89,19 +105,19 @@ impl<const D: usize> Setting<'_, D> {
         M: System<Number: Real>,
     {
         let (mut q, mut p) = (self.q, self.p);
-        self.in_c(of)(100, &mut q, &mut p);
+        self.in_c(COMPILED[1], of)(100, &mut q, &mut p);
         stepper.steps(std::slice::from_mut(&mut system), 100);
         let agree = |(a, b): (&f64, &M::Number)| (a - b.to_f64()).abs() < 1e-12 * a.abs().max(1.0);
         assert!(q.iter().zip(system.state().q()).all(agree), "{q:?} is not {:?}", system.state().q());
     }
 
-    fn by_gcc<S: Scheme + 'static>(&self, of: S) -> Contestant<'static> {
-        let (mut steps, mut q, mut p) = (self.in_c(of), self.q, self.p);
+    fn by_gcc<S: Scheme + 'static>(&self, compiled: InC, of: S) -> Contestant<'static> {
+        let (mut steps, mut q, mut p) = (self.in_c(compiled, of), self.q, self.p);
         let run = move |repetitions: u32| {
             steps(repetitions, &mut q, &mut p);
             black_box((&q, &p));
         };
-        ("C by gcc", Box::new(run))
+        (compiled.compiled, Box::new(run))
     }
 
     fn ours<'a, N, S, P, K>(&self, names: [&'static str; 3], of: S, potential: P, masses: K) -> [Contestant<'a>; 3]
@@ -150,9 +166,11 @@ where
     S: Scheme + ValidFor<Quadratic> + Copy + 'static,
     P: Potential<f64> + Potential<Fused> + Copy,
 {
-    let mut contestants = vec![setting.by_gcc(of)];
-    contestants.extend(small(of, setting, potential));
-    compare(title, contestants, 100_000);
+    for compiled in COMPILED {
+        let mut contestants = vec![setting.by_gcc(compiled, of)];
+        contestants.extend(small(of, setting, potential));
+        compare(title, contestants, 100_000);
+    }
 }
 
 const MASSES: [f64; 6] = [
@@ -172,20 +190,29 @@ fn planets() {
     let masses: [f64; 18] = std::array::from_fn(|i| MASSES[i / 3]);
     let g = 2.959_122_082_86e-4;
     // SAFETY: the arrays are as long as stated
-    unsafe { set_initial(18, masses.as_ptr(), 1, [g].as_ptr()) };
+    COMPILED.into_iter().for_each(|compiled| unsafe { (compiled.set_initial)(18, masses.as_ptr(), 1, [g].as_ptr()) });
     let plain = Pairs::<_, 3>::all(6, Gravity { g, m: MASSES.to_vec() }).expect("six bodies");
     let fused = Pairs::<_, 3>::all(6, Gravity { g: Fused(g), m: MASSES.map(Fused).to_vec() }).expect("six bodies");
     let plain_masses = DiagonalMasses::from_numbers(&masses).expect("positive masses");
     let fused_masses = DiagonalMasses::from_numbers(&masses.map(Fused)).expect("positive masses");
-    let mut contestants = vec![setting.by_gcc(StormerVerlet)];
-    contestants.extend(setting.ours::<f64, _, _, _>(["f64, step", "f64, steps", "f64, merged"], StormerVerlet, plain, plain_masses));
-    contestants.extend(setting.ours::<Fused, _, _, _>(
-        ["Fused, step", "Fused, steps", "Fused, merged"],
-        StormerVerlet,
-        fused,
-        fused_masses,
-    ));
-    compare("the Sun and five planets, Störmer–Verlet", contestants, 20_000);
+    for compiled in COMPILED {
+        let mut contestants = vec![setting.by_gcc(compiled, StormerVerlet)];
+        let (plain, fused) = (plain.clone(), fused.clone());
+        let (plain_masses, fused_masses) = (plain_masses.clone(), fused_masses.clone());
+        contestants.extend(setting.ours::<f64, _, _, _>(
+            ["f64, step", "f64, steps", "f64, merged"],
+            StormerVerlet,
+            plain,
+            plain_masses,
+        ));
+        contestants.extend(setting.ours::<Fused, _, _, _>(
+            ["Fused, step", "Fused, steps", "Fused, merged"],
+            StormerVerlet,
+            fused,
+            fused_masses,
+        ));
+        compare("the Sun and five planets, Störmer–Verlet", contestants, 20_000);
+    }
 }
 
 fn main() {
