@@ -17,7 +17,7 @@ pub mod variations;
 use rug::Float;
 use shadowstep::number::{Number, Precision, Real};
 use shadowstep::tables::{self, TableScheme};
-use shadowstep::{Potential, Rational, StepSize, Stepper, exact};
+use shadowstep::{Potential, Rational, StepSize, Stepper, System, exact};
 
 /// The precision of `digits` decimal digits.
 pub fn precision(digits: u32) -> Precision {
@@ -61,6 +61,25 @@ pub fn log10_distance<N: Real>(a: &N, b: &N) -> f64 {
 pub fn log10_largest_distance<N: Real>(a: &[N], b: &[N]) -> f64 {
     assert_eq!(a.len(), b.len());
     a.iter().zip(b).map(|(a, b)| log10_distance(a, b)).fold(f64::NEG_INFINITY, f64::max)
+}
+
+/// The positions of a system, then its momenta.
+pub fn coordinates<M: System>(system: &M) -> Vec<M::Number> {
+    [system.state().q(), system.state().p()].concat()
+}
+
+/// Checks that the increments of the last augmented step are the changes of q and p since `before`, to ε of the coordinate times 10^`digits_lost`.
+///
+/// # Panics
+/// If one is not.
+pub fn check_increments<M: System<Number: Bits>>(system: &M, before: &[M::Number], digits_lost: f64) {
+    let increments = system.state().increments().to_owned();
+    let changes = coordinates(system).into_iter().zip(before);
+    for ((later, earlier), added) in changes.zip(increments.q.iter().chain(&increments.p)) {
+        let mut difference = later.clone();
+        difference.subtract(earlier);
+        assert!(log10_distance(added, &difference) < later.log10_epsilon() + digits_lost);
+    }
 }
 
 /// U, qᵀU_q − 2U, U_q alone and U_q as it comes with that.

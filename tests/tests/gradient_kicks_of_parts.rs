@@ -9,7 +9,8 @@ use shadowstep::systems::potential::Sum;
 use shadowstep::systems::wisdom_holman::{Bodies, Jacobi, PlanetaryCoordinates, WisdomHolman};
 use shadowstep::{Carried, Rational, Stepper, System};
 use shadowstep_tests::{
-    Bits, log10_distance, log10_largest_distance, numbers, precision, rational, same_bits, stepper, variations,
+    Bits, check_increments, coordinates, log10_distance, log10_largest_distance, numbers, precision, rational,
+    same_bits, stepper, variations,
 };
 
 const DIGITS: u32 = 90;
@@ -122,21 +123,9 @@ where
     let start = [system.state().q(), system.state().p()].concat();
     for _ in 0..20 {
         stepper.step(&mut plain);
-        let before = [augmented.state().q(), augmented.state().p()].concat();
+        let before = coordinates(&augmented);
         stepper.step_augmented(&mut augmented);
-        let increments = augmented.state().increments().to_owned();
-        for ((later, earlier), added) in augmented
-            .state()
-            .q()
-            .iter()
-            .chain(augmented.state().p())
-            .zip(&before)
-            .zip(increments.q.iter().chain(&increments.p))
-        {
-            let mut difference = later.clone();
-            difference.subtract(earlier);
-            assert!(log10_distance(added, &difference) < later.log10_epsilon() + growth - 1.0);
-        }
+        check_increments(&augmented, &before, growth - 1.0);
     }
     assert!(same_bits(plain.state().q(), augmented.state().q()) && same_bits(plain.state().p(), augmented.state().p()));
     assert!(log10_largest_distance(&[plain.state().q(), plain.state().p()].concat(), &start) > -1.0);

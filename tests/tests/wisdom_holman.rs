@@ -14,7 +14,8 @@ use shadowstep_schemes::{First, Proved, shipped_names, shipped_proved};
 use shadowstep_tests::reference::Separable;
 use shadowstep_tests::shipped::{Shipped, all, all_for_every_kinetic};
 use shadowstep_tests::{
-    Bits, log10_distance, log10_largest_distance, numbers, precision, rational, same_bits, variations,
+    Bits, check_increments, coordinates, log10_distance, log10_largest_distance, numbers, precision, rational,
+    same_bits, variations,
 };
 
 /// Digits of the computation.
@@ -321,22 +322,10 @@ where
     let [plain, augmented] = &mut systems;
     for _ in 0..20 {
         stepper.step(plain);
-        let before = [augmented.state().q(), augmented.state().p()].concat();
+        let before = coordinates(augmented);
         stepper.step_augmented(augmented);
-        let increments = augmented.state().increments().to_owned();
-        for ((later, earlier), added) in augmented
-            .state()
-            .q()
-            .iter()
-            .chain(augmented.state().p())
-            .zip(&before)
-            .zip(increments.q.iter().chain(&increments.p))
-        {
-            let mut difference = later.clone();
-            difference.subtract(earlier);
-            // positions of size 10, and sums of some twenty terms
-            assert!(log10_distance(added, &difference) < later.log10_epsilon() + 2.5);
-        }
+        // positions of size 10, and sums of some twenty terms
+        check_increments(augmented, &before, 2.5);
     }
     assert!(same_bits(plain.state().q(), augmented.state().q()) && same_bits(plain.state().p(), augmented.state().p()));
     let there = [plain.state().q(), plain.state().p()].concat();
