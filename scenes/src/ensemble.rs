@@ -155,12 +155,17 @@ impl Ensemble {
     /// # Errors
     /// Values of a trajectory that the scene cannot have; an end.
     pub fn outcomes(&self, continues: impl Fn() -> bool + Sync) -> Result<Vec<Outcome>, Error> {
+        self.outcomes_while(&continues)
+    }
+
+    // not generic: the steps are compiled with this crate, for speed, not with a program that may be compiled for size
+    fn outcomes_while(&self, continues: &(dyn Fn() -> bool + Sync)) -> Result<Vec<Outcome>, Error> {
         let parsed = self.family.parsed()?;
-        if let Some(outcomes) = self.of_planets(&parsed, &continues)? {
+        if let Some(outcomes) = self.of_planets(&parsed, continues)? {
             return Ok(outcomes);
         }
         if !self.has_lanes() {
-            let one = |t| alone::outcome(&self.scene(&parsed, t)?, self.observed, &continues);
+            let one = |t| alone::outcome(&self.scene(&parsed, t)?, self.observed, continues);
             let outcomes: Vec<_> = (0..self.columns.trajectories()).into_par_iter().map(one).collect();
             return outcomes.into_iter().collect();
         }
@@ -182,7 +187,7 @@ impl Ensemble {
     fn of_planets(
         &self,
         parsed: &Parsed<'_>,
-        continues: &(impl Fn() -> bool + Sync),
+        continues: &(dyn Fn() -> bool + Sync),
     ) -> Result<Option<Vec<Outcome>>, Error> {
         let planets = planets::in_lanes_of(&self.first.system).filter(|_| !self.first.displaced);
         let Some(planets) = planets else { return Ok(None) };
