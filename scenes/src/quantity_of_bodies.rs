@@ -9,10 +9,11 @@ use num_traits::Zero;
 use shadowstep::{Rational, Real};
 
 use self::orbit::Orbit;
+pub(crate) use self::sums::virial;
 use crate::quantity::{Compute, ELEMENTS, Element, Function, KINETIC, Quantity, VIRIAL};
 use crate::refusal::{Refusal, refuse};
 use crate::scene::bodies::Bodies;
-use crate::scene::{GRAVITY, PotentialEnergy, System};
+use crate::scene::{GRAVITY, PotentialEnergy, SceneNumber, System};
 
 /// The centre of mass of the bodies before, and of all bodies.
 pub(crate) const JACOBI: &str = "jacobi";
@@ -175,10 +176,10 @@ impl QuantityOfBodies {
     }
 
     /// Of this system, in the numbers of a run.
-    pub(crate) fn in_numbers<N: Real + 'static>(&self, system: &System, context: &N::Context) -> Compute<N> {
+    pub(crate) fn in_numbers<N: Real + SceneNumber>(&self, system: &System, context: &N::Context) -> Compute<N> {
         match self {
             QuantityOfBodies::Kinetic => sums::kinetic(system, context),
-            QuantityOfBodies::Virial => sums::virial(system, context),
+            QuantityOfBodies::Virial => N::system(system).virial(context),
             QuantityOfBodies::Distance([one, other]) => {
                 let (one, other) = (one.clone(), other.clone());
                 Box::new(move |q, _| {

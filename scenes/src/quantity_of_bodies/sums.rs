@@ -50,7 +50,7 @@ fn energy_of<N: Number + 'static>(
 }
 
 /// −qᵀU_q of bodies with mass, in a periodic box of the nearest images; slow forces are added.
-pub(super) fn virial<N: Number + 'static>(system: &System, context: &N::Context) -> Compute<N> {
+pub(crate) fn virial<N: Number + 'static>(system: &System, context: &N::Context) -> Compute<N> {
     let slow = system.parts.slow_forces().map(|slow| slow.potential());
     let mut sums: Vec<_> =
         [Some(&system.potential), slow].into_iter().flatten().map(|of| virial_of(of, system, context)).collect();

@@ -9,6 +9,8 @@ use shadowstep::{Kinetic, Motion, MotionError, Potential, Rational, UnitMasses};
 use super::problem::EnergyAt;
 use super::system::{Parts, System, ask};
 use crate::arithmetic::number_types;
+use crate::quantity::Compute;
+use crate::quantity_of_bodies::virial;
 use crate::scene::split::{ShownCoordinates, Split as _, State};
 use crate::start::{SceneIntegrator, Steps};
 
@@ -48,6 +50,9 @@ pub trait SystemIn<N: SceneNumber> {
 
     /// [`System::energy`]
     fn energy(&self, context: &N::Context) -> EnergyAt<N>;
+
+    /// −qᵀU_q of bodies with mass.
+    fn virial(&self, context: &N::Context) -> Compute<N>;
 
     /// [`System::integrator`]
     ///
@@ -119,6 +124,10 @@ impl<N: SceneNumber> SystemIn<N> for System {
 
     fn energy(&self, context: &N::Context) -> EnergyAt<N> {
         ask!(&self.parts, split => split.energy(&self.problem, context))
+    }
+
+    fn virial(&self, context: &N::Context) -> Compute<N> {
+        virial(self, context)
     }
 
     fn integrator(
