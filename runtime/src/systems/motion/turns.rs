@@ -94,26 +94,44 @@ impl<'a, N: Number> Turn<'a, N> {
         turns
     }
 
-    /// The maps of one system, in which the gradient stays.
     #[inline(always)]
-    fn advance<P, K: Kinetic<N>, S: Summation<N>>(
-        &self,
-        hamiltonian: &mut Hamiltonian<N, P, K>,
-        sums: &mut S,
-        (q, p): (&mut [N], &mut [N]),
-        gradient: &[N],
-    ) {
-        let Hamiltonian { kinetic, kinetic_scratch, .. } = hamiltonian;
-        // one by one: the compiler would not unroll loops
-        let Turn { kicks: [kick, other_kick], drifts: [drift, other_drift] } = self;
+    fn evaluate<V, P, K, S>(&self, Motion { hamiltonian, at }: &mut Motion<N, V, P, K, S>)
+    where
+        V: Coordinates<N>,
+        P: Potential<N>,
+        K: Kinetic<N>,
+        S: Summation<N>,
+    {
+        at.state.settle();
+        if self.kicks[0].is_some() && at.kept == KeptForce::Nothing {
+            hamiltonian.evaluate(at, false);
+        }
+    }
+
+    // one by one: the compiler would not unroll loops
+    #[inline(always)]
+    fn kick(&self, sums: &mut impl Summation<N>, p: &mut [N], gradient: &[N]) {
+        let [kick, other_kick] = self.kicks;
         if let Some(weight) = kick {
             sums.kick(weight, gradient, p);
         }
         if let Some(weight) = other_kick {
             sums.kick(weight, gradient, p);
         }
+    }
+
+    #[inline(always)]
+    fn drift<P, K: Kinetic<N>>(
+        &self,
+        Hamiltonian { kinetic, kinetic_scratch, .. }: &mut Hamiltonian<N, P, K>,
+        sums: &mut impl Summation<N>,
+        (q, p): (&mut [N], &[N]),
+        kept: &mut KeptForce,
+    ) {
+        let [drift, other_drift] = self.drifts;
         if let Some(weight) = drift {
             sums.drift(kinetic, weight, p, q, kinetic_scratch);
+            *kept = KeptForce::Nothing;
         }
         if let Some(weight) = other_drift {
             sums.drift(kinetic, weight, p, q, kinetic_scratch);
@@ -151,22 +169,28 @@ where
     K: Kinetic<N>,
     S: Summation<N>,
 {
-    for Motion { hamiltonian, at } in motions {
-        at.state.settle();
-        if turn.kicks[0].is_some() && at.kept == KeptForce::Nothing {
-            hamiltonian.evaluate(at, false);
+    if const { needs_drop::<V>() } {
+        // in memory: one map of all motions, none of which waits for what it has just stored
+        for motion in &mut *motions {
+            turn.evaluate(motion);
         }
-        let Evaluated { state: State { q, p, sums, .. }, gradient, kept, .. } = at;
-        if const { needs_drop::<V>() } {
-            turn.advance(hamiltonian, sums, (q.as_mut(), p.as_mut()), gradient.as_ref());
-        } else {
-            // a copy, which the compiler can hold in registers
-            let mut copy = p.clone();
-            turn.advance(hamiltonian, sums, (q.as_mut(), copy.as_mut()), gradient.as_ref());
-            *p = copy;
+        for Motion { at, .. } in &mut *motions {
+            let State { p, sums, .. } = &mut at.state;
+            turn.kick(sums, p.as_mut(), at.gradient.as_ref());
         }
-        if turn.drifts[0].is_some() {
-            *kept = KeptForce::Nothing;
+        for Motion { hamiltonian, at } in &mut *motions {
+            let State { q, p, sums, .. } = &mut at.state;
+            turn.drift(hamiltonian, sums, (q.as_mut(), p.as_ref()), &mut at.kept);
         }
+        return;
+    }
+    for motion in motions {
+        turn.evaluate(motion);
+        let Motion { hamiltonian, at: Evaluated { state: State { q, p, sums, .. }, gradient, kept, .. } } = motion;
+        // a copy, which the compiler can hold in registers
+        let mut copy = p.clone();
+        turn.kick(sums, copy.as_mut(), gradient.as_ref());
+        turn.drift(hamiltonian, sums, (q.as_mut(), copy.as_ref()), kept);
+        *p = copy;
     }
 }
