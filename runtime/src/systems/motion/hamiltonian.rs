@@ -2,7 +2,7 @@
 
 use super::gradient_kick_state::{GradientKickState, Parts};
 use crate::number::Number;
-use crate::number::partial_sums::{LONG, add_sum};
+use crate::number::partial_sums::add_sum;
 use crate::systems::coordinates::Coordinates;
 use crate::systems::gradient_kicks::Place;
 use crate::systems::increments::Carried;
@@ -151,7 +151,7 @@ impl<N: Number, P: Potential<N>, K: Kinetic<N>> Hamiltonian<N, P, K> {
         self.kinetic.energy(p, &mut self.kinetic_energy, &mut self.kinetic_scratch);
         energy.add(&self.kinetic_energy);
         let q = &q[..self.kinetic.massive_coordinates(q.len())];
-        if N::KEEPS_INCREMENTS && q.len() >= LONG {
+        if N::KEEPS_INCREMENTS {
             let zero = N::zero(&energy.context());
             let mut overflows = zero.clone();
             add_sum(&mut overflows, [q], |[position], overflows| {

@@ -1,4 +1,4 @@
-//! The sum over all pairs of a few bodies, for numbers of a few bytes: unrolled, so that sums are in registers, with two pairs of a body at once.
+//! The sum over all pairs of a few bodies, for numbers of a few bytes: unrolled, so that sums are in registers, with two to four pairs of a body at once.
 //!
 //! The gradient is added up in the order of the plain loop over i < j, so that it has its bits, and so is the sum of the summands of pairs.
 
@@ -57,7 +57,7 @@ impl<P, const D: usize> Few<'_, P, D> {
             4 => unrolled!(self, q, gradient, total, scratch, 4: 0 1 2, 0 3 1, 1 2 2, 2 3 1),
             5 => unrolled!(self, q, gradient, total, scratch, 5: 0 1 2, 0 3 2, 1 2 2, 1 4 1, 2 3 2, 3 4 1),
             _ => {
-                unrolled!(self, q, gradient, total, scratch, 6: 0 1 2, 0 3 2, 0 5 1, 1 2 2, 1 4 2, 2 3 2, 2 5 1, 3 4 2, 4 5 1)
+                unrolled!(self, q, gradient, total, scratch, 6: 0 1 4, 0 5 1, 1 2 4, 2 3 3, 3 4 2, 4 5 1)
             }
         }
     }
