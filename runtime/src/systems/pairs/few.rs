@@ -39,8 +39,10 @@ impl<P, const D: usize> Few<'_, P, D> {
             #[inline(always)]
             || match total {
                 Some(total) => {
-                    total.assign_zero();
-                    self.add_all::<N, true>(q, gradient, total, scratch);
+                    // in a register: in memory each sum would wait for the one before
+                    let mut sum = N::zero(&q[0].context());
+                    self.add_all::<N, true>(q, gradient, &mut sum, scratch);
+                    total.assign(&sum);
                 }
                 None => self.add_all::<N, false>(q, gradient, &mut N::zero(&q[0].context()), scratch),
             },
