@@ -8,8 +8,10 @@ use shadowstep::Real;
 
 /// A passage is a close encounter if the interval before it is this many times as long.
 const APART: i64 = 4;
-/// The edges of a passage are known to this factor of |Δp|.
-const RESOLUTION: f64 = 1.05;
+/// The edges of a passage are known to this factor of |Δp|².
+const RESOLUTION: f64 = 1.05 * 1.05;
+/// The square of half of |Δp|, as a part of |Δp|².
+const HALF: f64 = 0.25;
 /// |Δp| must be this many units in the last place of p, so that it is not round-off.
 const LEAST_DIGITS: f64 = 1e3;
 /// How many of the closest encounters are kept.
@@ -34,10 +36,10 @@ pub(super) struct Encounters<N> {
     passages: Passages,
 }
 
-/// Finds them from the sizes |Δp|.
+/// Finds them from the sizes |Δp|²: no root is taken at each step.
 #[derive(Clone, Debug, Default)]
 struct Passages {
-    /// Sizes since the smallest one after the last passage, as far as they grow: n and |Δp|.
+    /// Sizes since the smallest one after the last passage, as far as they grow: n and |Δp|².
     rising: Vec<(i64, f64)>,
     peak: (i64, f64),
     floor: f64,
@@ -69,9 +71,10 @@ impl<N: Real> Encounters<N> {
             largest = if size > largest { size } else { largest };
             last.assign(p);
         }
-        let size = square.to_f64().sqrt();
+        let size = square.to_f64();
         // numbers with more digits than f64 have less round-off than this
-        if size > LEAST_DIGITS * f64::EPSILON * largest {
+        let round_off = LEAST_DIGITS * f64::EPSILON * largest;
+        if size > round_off * round_off {
             passages.include(n, size);
         }
     }
@@ -95,7 +98,7 @@ impl Passages {
             if self.rising.last().is_none_or(|(_, last)| size > RESOLUTION * last) {
                 self.rising.push((n, size));
             }
-        } else if size < self.peak.1 / 2.0 && (self.end.is_none() || self.peak.1 >= 2.0 * self.floor) {
+        } else if size < HALF * self.peak.1 && (self.end.is_none() || HALF * self.peak.1 >= self.floor) {
             self.end_passage(n - 1);
             self.rise_from(n, size);
         } else if size < self.floor && self.end.is_some() {
@@ -114,7 +117,7 @@ impl Passages {
     #[inline(never)]
     fn end_passage(&mut self, last: i64) {
         let (n, peak) = self.peak;
-        let begin = self.rising.iter().find(|(_, size)| *size >= peak / 2.0).map_or(n, |(begin, _)| *begin);
+        let begin = self.rising.iter().find(|(_, size)| *size >= HALF * peak).map_or(n, |(begin, _)| *begin);
         // of a run that begins at a peak, the other half of the passage is before the run
         let halves = if self.end.is_none() && n == begin { 2 } else { 1 };
         let encounter = Encounter { n, steps: halves * (last - begin + 1) };
@@ -155,7 +158,7 @@ mod tests {
 
     fn encounters(size: impl Fn(f64) -> f64, steps: i64) -> (u64, Vec<Encounter>) {
         let mut passages = Passages::default();
-        (1..=steps).for_each(|n| passages.include(n, size(n as f64)));
+        (1..=steps).for_each(|n| passages.include(n, size(n as f64).powi(2)));
         passages.finish(steps);
         (passages.count, passages.closest)
     }
