@@ -30,6 +30,66 @@ static inline void pendulum_gradient(const struct initial *s, const double *rest
 #define UNIT_MASSES 1
 #include "../c/steps.h"
 
+/* The gradient, and q U_q - 2 U, which beta is carried by. */
+
+static inline double kepler_gradient_and_rate(const struct initial *s, const double *restrict q, double *restrict g)
+{
+    (void)s;
+    double r2 = q[0] * q[0] + q[1] * q[1], r = sqrt(r2), inverse_cube = 1 / (r2 * r);
+    g[0] = q[0] * inverse_cube;
+    g[1] = q[1] * inverse_cube;
+    return 3 * r2 * inverse_cube;
+}
+
+static inline double henon_heiles_gradient_and_rate(const struct initial *s, const double *restrict q, double *restrict g)
+{
+    henon_heiles_gradient(s, q, g);
+    return (q[0] * q[0] - q[1] * q[1] / 3) * q[1];
+}
+
+static inline double outer_gradient_and_rate(const struct initial *s, const double *restrict q, double *restrict g)
+{
+    double sum = 0;
+    for (int i = 0; i < OUTER_D; i++) g[i] = 0;
+    for (int i = 0; i < 6; i++)
+        for (int j = i + 1; j < 6; j++) {
+            double x = q[3 * j] - q[3 * i], y = q[3 * j + 1] - q[3 * i + 1], z = q[3 * j + 2] - q[3 * i + 2];
+            double r2 = x * x + y * y + z * z;
+            double slope = s->parameters[0] * s->mass[3 * i] * s->mass[3 * j] / (r2 * sqrt(r2));
+            sum += slope * r2;
+            g[3 * i] -= slope * x, g[3 * i + 1] -= slope * y, g[3 * i + 2] -= slope * z;
+            g[3 * j] += slope * x, g[3 * j + 1] += slope * y, g[3 * j + 2] += slope * z;
+        }
+    return 3 * sum;
+}
+
+static inline double pendulum_gradient_and_rate(const struct initial *s, const double *restrict q, double *restrict g)
+{
+    (void)s;
+    g[0] = sin(q[0]);
+    return q[0] * g[0] + 2 * cos(q[0]);
+}
+
+#define NAME(part) kepler_##part
+#define D KEPLER_D
+#define UNIT_MASSES 1
+#include "augmented.h"
+
+#define NAME(part) henon_heiles_##part
+#define D HENON_HEILES_D
+#define UNIT_MASSES 1
+#include "augmented.h"
+
+#define NAME(part) outer_##part
+#define D OUTER_D
+#define UNIT_MASSES 0
+#include "augmented.h"
+
+#define NAME(part) pendulum_##part
+#define D PENDULUM_D
+#define UNIT_MASSES 1
+#include "augmented.h"
+
 static struct initial initial;
 
 /* Parameters and masses, one for each coordinate. */
@@ -63,5 +123,20 @@ void scheme(int problem, int stages, double opening, const double *drifts, const
     case 1: henon_heiles_scheme(&initial, &plan, steps, q, p); break;
     case 2: outer_scheme(&initial, &plan, steps, q, p); break;
     case 3: pendulum_scheme(&initial, &plan, steps, q, p); break;
+    }
+}
+
+/* Störmer–Verlet, one step after the other; with increments where there is room for the newest 16. */
+void one_by_one(int problem, double h, long steps, double *q, double *p, double *newest)
+{
+    switch (2 * problem + (newest != NULL)) {
+    case 0: kepler_steps(&initial, h, steps, q, p); break;
+    case 1: kepler_augmented(&initial, h, steps, q, p, newest); break;
+    case 2: henon_heiles_steps(&initial, h, steps, q, p); break;
+    case 3: henon_heiles_augmented(&initial, h, steps, q, p, newest); break;
+    case 4: outer_steps(&initial, h, steps, q, p); break;
+    case 5: outer_augmented(&initial, h, steps, q, p, newest); break;
+    case 6: pendulum_steps(&initial, h, steps, q, p); break;
+    case 7: pendulum_augmented(&initial, h, steps, q, p, newest); break;
     }
 }

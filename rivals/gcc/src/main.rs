@@ -55,6 +55,7 @@ unsafe extern "C" {
     fn set_initial(dimension: i32, masses: *const f64, parameters: i32, values: *const f64);
     fn verlet(problem: i32, h: f64, steps: i64, q: *mut f64, p: *mut f64);
     fn scheme(problem: i32, stages: i32, opening: f64, drifts: *const f64, kicks: *const f64, steps: i64, q: *mut f64, p: *mut f64);
+    fn one_by_one(problem: i32, h: f64, steps: i64, q: *mut f64, p: *mut f64, newest: *mut f64);
     fn native_set_initial(dimension: i32, masses: *const f64, parameters: i32, values: *const f64);
     fn native_verlet(problem: i32, h: f64, steps: i64, q: *mut f64, p: *mut f64);
     fn native_scheme(problem: i32, stages: i32, opening: f64, drifts: *const f64, kicks: *const f64, steps: i64, q: *mut f64, p: *mut f64);
@@ -151,6 +152,58 @@ impl<const D: usize> Setting<'_, D> {
     }
 }
 
+/// Steps of Störmer–Verlet one by one, without β and with it, beside the same in C.
+fn with_beta<const D: usize, P, K>(title: &str, setting: &Setting<'_, D>, potential: P, masses: K)
+where
+    P: Potential<f64> + Clone,
+    K: Kinetic<f64, Class = Quadratic> + Clone,
+{
+    let (problem, h) = (setting.problem, number(f64::from_rational(&exact(setting.h).expect("a number"), &())));
+    let in_c = |name: &'static str, mut newest: Vec<f64>| -> Contestant<'static> {
+        let (mut q, mut p) = (setting.q, setting.p);
+        let run = move |steps: u32| {
+            let room = if newest.is_empty() { std::ptr::null_mut() } else { newest.as_mut_ptr() };
+            // SAFETY: q and p are as long as the problem's states, and there is room for 16 increments or none
+            unsafe { one_by_one(problem, h, steps.into(), q.as_mut_ptr(), p.as_mut_ptr(), room) };
+            black_box((&q, &p, &newest));
+        };
+        (name, Box::new(run))
+    };
+    let start = Motion::new(potential, masses, setting.q, setting.p).expect("the dimensions agree");
+    let stepper = Stepper::<_, f64>::new(StormerVerlet, setting.h).expect("h is not 0");
+    let (other, mut plain, mut augmented) = (stepper.clone(), start.clone(), start);
+    // as in C, from a copy of the state on the stack
+    let steps = move |repetitions| {
+        let mut motion = plain.clone();
+        for _ in 0..repetitions {
+            stepper.step(&mut motion);
+        }
+        plain = motion;
+        black_box(plain.q());
+    };
+    let mut newest = [(0.0, [0.0; D], [0.0; D]); 16];
+    let with_beta = move |repetitions: u32| {
+        let mut motion = augmented.clone();
+        for n in 0..repetitions as usize {
+            other.step_augmented(&mut motion);
+            let added = motion.increments();
+            let (beta, q, p) = &mut newest[n % 16];
+            *beta = *added.beta;
+            q.copy_from_slice(added.q);
+            p.copy_from_slice(added.p);
+        }
+        augmented = motion;
+        black_box((augmented.q(), &newest));
+    };
+    let contestants = vec![
+        in_c("C, steps", Vec::new()),
+        in_c("C, with β", vec![0.0; 16 * (2 * D + 1)]),
+        ("f64, step", Box::new(steps)),
+        ("f64, with β", Box::new(with_beta)),
+    ];
+    compare(&format!("{title}, Störmer–Verlet with β"), contestants, 50_000);
+}
+
 fn small<'a, const D: usize, S, P>(of: S, setting: &Setting<'_, D>, potential: P) -> Vec<Contestant<'a>>
 where
     S: Scheme + ValidFor<Quadratic> + Copy + 'a,
@@ -213,6 +266,7 @@ fn planets() {
         ));
         compare("the Sun and five planets, Störmer–Verlet", contestants, 20_000);
     }
+    with_beta("the Sun and five planets", &setting, plain, plain_masses);
 }
 
 fn main() {
@@ -228,4 +282,7 @@ fn main() {
     planets();
     against("pendulum, Störmer–Verlet", StormerVerlet, &pendulum, Pendulum);
     against("pendulum, SRKN6b", Srkn6b, &pendulum, Pendulum);
+    with_beta("Kepler", &kepler, Kepler, UnitMasses);
+    with_beta("Hénon–Heiles", &star, HenonHeiles, UnitMasses);
+    with_beta("pendulum", &pendulum, Pendulum, UnitMasses);
 }
