@@ -9,7 +9,6 @@ use num_traits::Zero;
 use shadowstep::{Rational, Real};
 
 use self::orbit::Orbit;
-pub(crate) use self::sums::virial;
 use crate::quantity::{Compute, ELEMENTS, Element, Function, KINETIC, Quantity, VIRIAL};
 use crate::refusal::{Refusal, refuse};
 use crate::scene::bodies::Bodies;
@@ -179,7 +178,7 @@ impl QuantityOfBodies {
     pub(crate) fn in_numbers<N: Real + SceneNumber>(&self, system: &System, context: &N::Context) -> Compute<N> {
         match self {
             QuantityOfBodies::Kinetic => sums::kinetic(system, context),
-            QuantityOfBodies::Virial => N::system(system).virial(context),
+            QuantityOfBodies::Virial => sums::virial(system, context),
             QuantityOfBodies::Distance([one, other]) => {
                 let (one, other) = (one.clone(), other.clone());
                 Box::new(move |q, _| {

@@ -21,7 +21,7 @@ pub use output::{CheckpointInterval, Direction, Outputs, Surface};
 pub(crate) use output::{NamedExpression, ValueColumns};
 pub use own::OwnPotential;
 pub use pairs::{EnergyOfBodies, PairEnergy};
-pub(crate) use pairs::{GRAVITY, OfPositions, PairCutoff, SmoothEnd};
+pub(crate) use pairs::{GRAVITY, PairCutoff, SmoothEnd};
 pub(crate) use problem::{ClassifiedKinetic, energy_of};
 pub use problem::{EnergyAt, InitialValueProblem, KineticEnergy, PotentialEnergy};
 pub use system::{Parts, System};

@@ -4,8 +4,7 @@ use shadowstep::{Kinetic, Number};
 
 use crate::quantity::Compute;
 use crate::refusal::{Refusal, refuse};
-use crate::scene::OfPositions;
-use crate::scene::{ClassifiedKinetic, PotentialEnergy, System};
+use crate::scene::{ClassifiedKinetic, PotentialEnergy, SceneNumber, System};
 
 /// Refuses a system that is not T(p) + U(q), or that has the name already.
 pub(super) fn check(name: &str, system: &System) -> Result<(), Refusal> {
@@ -49,43 +48,15 @@ fn energy_of<N: Number + 'static>(
     })
 }
 
-/// −qᵀU_q of bodies with mass, in a periodic box of the nearest images; slow forces are added.
-pub(crate) fn virial<N: Number + 'static>(system: &System, context: &N::Context) -> Compute<N> {
+/// −qᵀU_q of bodies with mass; slow forces are added.
+pub(super) fn virial<N: SceneNumber>(system: &System, context: &N::Context) -> Compute<N> {
     let slow = system.parts.slow_forces().map(|slow| slow.potential());
     let mut sums: Vec<_> =
-        [Some(&system.potential), slow].into_iter().flatten().map(|of| virial_of(of, system, context)).collect();
+        [Some(&system.potential), slow].into_iter().flatten().map(|of| N::system(system).virial(of, context)).collect();
     let zero = N::zero(context);
     Box::new(move |q, _| {
         let mut virial = zero.clone();
         sums.iter_mut().for_each(|sum| virial.add(&sum(q)));
-        virial
-    })
-}
-
-fn virial_of<N: Number + 'static>(
-    potential: &PotentialEnergy,
-    system: &System,
-    context: &N::Context,
-) -> OfPositions<N> {
-    let in_box = match potential {
-        PotentialEnergy::Pairs(pairs) => pairs.virial_in_box(&system.parameters, context),
-        _ => None,
-    };
-    if let Some(in_box) = in_box {
-        return in_box;
-    }
-    let massive = system.massive_coordinates().min(system.coordinates_of_columns());
-    let mut potential = system.in_numbers::<N>(potential, context);
-    let zero = N::zero(context);
-    let mut scratch = vec![zero.clone(); potential.scratch()];
-    potential.prepare(&mut scratch, context);
-    let mut gradient = vec![zero.clone(); potential.dimension()];
-    Box::new(move |q| {
-        let q = &q[..gradient.len()];
-        potential.update(q);
-        potential.gradient(q, &mut gradient, &mut scratch);
-        let mut virial = zero.clone();
-        q[..massive].iter().zip(&gradient).for_each(|(q, slope)| virial.subtract_product(q, slope));
         virial
     })
 }

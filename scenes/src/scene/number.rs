@@ -6,11 +6,10 @@ use shadowstep::systems::kinetic::Quadratic;
 use shadowstep::systems::pairs::{Ends, Pairs};
 use shadowstep::{Kinetic, Motion, MotionError, Potential, Rational, UnitMasses};
 
-use super::problem::EnergyAt;
+use super::pairs::OfPositions;
+use super::problem::{EnergyAt, PotentialEnergy};
 use super::system::{Parts, System, ask};
 use crate::arithmetic::number_types;
-use crate::quantity::Compute;
-use crate::quantity_of_bodies::virial;
 use crate::scene::split::{ShownCoordinates, Split as _, State};
 use crate::start::{SceneIntegrator, Steps};
 
@@ -51,8 +50,8 @@ pub trait SystemIn<N: SceneNumber> {
     /// [`System::energy`]
     fn energy(&self, context: &N::Context) -> EnergyAt<N>;
 
-    /// −qᵀU_q of bodies with mass.
-    fn virial(&self, context: &N::Context) -> Compute<N>;
+    /// −qᵀU_q of bodies with mass, in a periodic box of the nearest images, for one of the system's potentials.
+    fn virial(&self, potential: &PotentialEnergy, context: &N::Context) -> OfPositions<N>;
 
     /// [`System::integrator`]
     ///
@@ -126,8 +125,8 @@ impl<N: SceneNumber> SystemIn<N> for System {
         ask!(&self.parts, split => split.energy(&self.problem, context))
     }
 
-    fn virial(&self, context: &N::Context) -> Compute<N> {
-        virial(self, context)
+    fn virial(&self, potential: &PotentialEnergy, context: &N::Context) -> OfPositions<N> {
+        virial(self, potential, context)
     }
 
     fn integrator(
@@ -138,6 +137,30 @@ impl<N: SceneNumber> SystemIn<N> for System {
     ) -> Result<SceneIntegrator<N>, MotionError> {
         ask!(&self.parts, split => split.integrator(&self.problem, steps, state, context))
     }
+}
+
+fn virial<N: SceneNumber>(system: &System, potential: &PotentialEnergy, context: &N::Context) -> OfPositions<N> {
+    let in_box = match potential {
+        PotentialEnergy::Pairs(pairs) => pairs.virial_in_box(&system.parameters, context),
+        _ => None,
+    };
+    if let Some(in_box) = in_box {
+        return in_box;
+    }
+    let massive = system.massive_coordinates().min(system.coordinates_of_columns());
+    let mut potential = system.in_numbers::<N>(potential, context);
+    let zero = N::zero(context);
+    let mut scratch = vec![zero.clone(); potential.scratch()];
+    potential.prepare(&mut scratch, context);
+    let mut gradient = vec![zero.clone(); potential.dimension()];
+    Box::new(move |q| {
+        let q = &q[..gradient.len()];
+        potential.update(q);
+        potential.gradient(q, &mut gradient, &mut scratch);
+        let mut virial = zero.clone();
+        q[..massive].iter().zip(&gradient).for_each(|(q, slope)| virial.subtract_product(q, slope));
+        virial
+    })
 }
 
 fn springs<N: SceneNumber>(
