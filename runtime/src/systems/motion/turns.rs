@@ -1,7 +1,7 @@
 //! Steps of several systems, which take turns: all kicks and drifts of one system up to the next evaluation of its gradient, then those of the next one.
 //!
 //! So an evaluation of one system need not wait for the results of another, and what is between two evaluations stays in the processor's registers.
-//! Few steps, and those with gradient kicks, are made map by map for all systems.
+//! Of states in vectors, which are in memory, each map of a turn is made for all systems; so are few steps, and those with gradient kicks.
 
 use std::mem::{needs_drop, take};
 
@@ -138,7 +138,7 @@ impl<'a, N: Number> Turn<'a, N> {
         }
     }
 
-    /// The maps of one motion after the other.
+    /// The maps of all motions.
     #[inline(always)]
     fn apply<V, P, K, S>(&self, motions: &mut [Motion<N, V, P, K, S>])
     where
