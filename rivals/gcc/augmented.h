@@ -1,4 +1,4 @@
-/* Steps of Störmer–Verlet one by one, for one problem: included with NAME, D and UNIT_MASSES defined. */
+/* Steps of Störmer–Verlet one by one, for one problem: included with NAME, D and UNIT_MASSES defined, which `steps.h` ends. */
 
 static void NAME(steps)(const struct initial *s, double h, long steps, double *state_q, double *state_p)
 {
@@ -40,7 +40,3 @@ static void NAME(augmented)(const struct initial *s, double h, long steps, doubl
     }
     memcpy(state_q, q, sizeof q), memcpy(state_p, p, sizeof p);
 }
-
-#undef NAME
-#undef D
-#undef UNIT_MASSES

@@ -10,26 +10,6 @@ static inline void pendulum_gradient(const struct initial *s, const double *rest
     g[0] = sin(q[0]);
 }
 
-#define NAME(part) kepler_##part
-#define D KEPLER_D
-#define UNIT_MASSES 1
-#include "../c/steps.h"
-
-#define NAME(part) henon_heiles_##part
-#define D HENON_HEILES_D
-#define UNIT_MASSES 1
-#include "../c/steps.h"
-
-#define NAME(part) outer_##part
-#define D OUTER_D
-#define UNIT_MASSES 0
-#include "../c/steps.h"
-
-#define NAME(part) pendulum_##part
-#define D PENDULUM_D
-#define UNIT_MASSES 1
-#include "../c/steps.h"
-
 /* The gradient, and q U_q - 2 U, which beta is carried by. */
 
 static inline double kepler_gradient_and_rate(const struct initial *s, const double *restrict q, double *restrict g)
@@ -74,21 +54,25 @@ static inline double pendulum_gradient_and_rate(const struct initial *s, const d
 #define D KEPLER_D
 #define UNIT_MASSES 1
 #include "augmented.h"
+#include "../c/steps.h"
 
 #define NAME(part) henon_heiles_##part
 #define D HENON_HEILES_D
 #define UNIT_MASSES 1
 #include "augmented.h"
+#include "../c/steps.h"
 
 #define NAME(part) outer_##part
 #define D OUTER_D
 #define UNIT_MASSES 0
 #include "augmented.h"
+#include "../c/steps.h"
 
 #define NAME(part) pendulum_##part
 #define D PENDULUM_D
 #define UNIT_MASSES 1
 #include "augmented.h"
+#include "../c/steps.h"
 
 static struct initial initial;
 

@@ -171,6 +171,15 @@ where
     };
     let start = Motion::new(potential, masses, setting.q, setting.p).expect("the dimensions agree");
     let stepper = Stepper::<_, f64>::new(StormerVerlet, setting.h).expect("h is not 0");
+    // C computes the same: what the first step adds
+    let (mut q, mut p, mut found, mut system) = (setting.q, setting.p, vec![0.0; 16 * (2 * D + 1)], start.clone());
+    // SAFETY: as above
+    unsafe { one_by_one(problem, h, 1, q.as_mut_ptr(), p.as_mut_ptr(), found.as_mut_ptr()) };
+    stepper.step_augmented(&mut system);
+    let added = system.increments();
+    for (c, ours) in found.iter().zip(std::iter::once(added.beta).chain(added.q).chain(added.p)) {
+        assert!((c - ours).abs() < 1e-12 * ours.abs().max(1.0), "{title}: {c} in C, {ours} here");
+    }
     let (other, mut plain, mut augmented) = (stepper.clone(), start.clone(), start);
     // as in C, from a copy of the state on the stack
     let steps = move |repetitions| {
