@@ -27,22 +27,6 @@ static inline double henon_heiles_gradient_and_rate(const struct initial *s, con
     return (q[0] * q[0] - q[1] * q[1] / 3) * q[1];
 }
 
-static inline double outer_gradient_and_rate(const struct initial *s, const double *restrict q, double *restrict g)
-{
-    double sum = 0;
-    for (int i = 0; i < OUTER_D; i++) g[i] = 0;
-    for (int i = 0; i < 6; i++)
-        for (int j = i + 1; j < 6; j++) {
-            double x = q[3 * j] - q[3 * i], y = q[3 * j + 1] - q[3 * i + 1], z = q[3 * j + 2] - q[3 * i + 2];
-            double r2 = x * x + y * y + z * z;
-            double slope = s->parameters[0] * s->mass[3 * i] * s->mass[3 * j] / (r2 * sqrt(r2));
-            sum += slope * r2;
-            g[3 * i] -= slope * x, g[3 * i + 1] -= slope * y, g[3 * i + 2] -= slope * z;
-            g[3 * j] += slope * x, g[3 * j + 1] += slope * y, g[3 * j + 2] += slope * z;
-        }
-    return 3 * sum;
-}
-
 static inline double pendulum_gradient_and_rate(const struct initial *s, const double *restrict q, double *restrict g)
 {
     (void)s;

@@ -126,7 +126,27 @@ impl<N: SceneNumber> SystemIn<N> for System {
     }
 
     fn virial(&self, potential: &PotentialEnergy, context: &N::Context) -> OfPositions<N> {
-        virial(self, potential, context)
+        let in_box = match potential {
+            PotentialEnergy::Pairs(pairs) => pairs.virial_in_box(&self.parameters, context),
+            _ => None,
+        };
+        if let Some(in_box) = in_box {
+            return in_box;
+        }
+        let massive = self.massive_coordinates().min(self.coordinates_of_columns());
+        let mut potential = self.in_numbers::<N>(potential, context);
+        let zero = N::zero(context);
+        let mut scratch = vec![zero.clone(); potential.scratch()];
+        potential.prepare(&mut scratch, context);
+        let mut gradient = vec![zero.clone(); potential.dimension()];
+        Box::new(move |q| {
+            let q = &q[..gradient.len()];
+            potential.update(q);
+            potential.gradient(q, &mut gradient, &mut scratch);
+            let mut virial = zero.clone();
+            q[..massive].iter().zip(&gradient).for_each(|(q, slope)| virial.subtract_product(q, slope));
+            virial
+        })
     }
 
     fn integrator(
@@ -137,30 +157,6 @@ impl<N: SceneNumber> SystemIn<N> for System {
     ) -> Result<SceneIntegrator<N>, MotionError> {
         ask!(&self.parts, split => split.integrator(&self.problem, steps, state, context))
     }
-}
-
-fn virial<N: SceneNumber>(system: &System, potential: &PotentialEnergy, context: &N::Context) -> OfPositions<N> {
-    let in_box = match potential {
-        PotentialEnergy::Pairs(pairs) => pairs.virial_in_box(&system.parameters, context),
-        _ => None,
-    };
-    if let Some(in_box) = in_box {
-        return in_box;
-    }
-    let massive = system.massive_coordinates().min(system.coordinates_of_columns());
-    let mut potential = system.in_numbers::<N>(potential, context);
-    let zero = N::zero(context);
-    let mut scratch = vec![zero.clone(); potential.scratch()];
-    potential.prepare(&mut scratch, context);
-    let mut gradient = vec![zero.clone(); potential.dimension()];
-    Box::new(move |q| {
-        let q = &q[..gradient.len()];
-        potential.update(q);
-        potential.gradient(q, &mut gradient, &mut scratch);
-        let mut virial = zero.clone();
-        q[..massive].iter().zip(&gradient).for_each(|(q, slope)| virial.subtract_product(q, slope));
-        virial
-    })
 }
 
 fn springs<N: SceneNumber>(

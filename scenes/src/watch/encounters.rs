@@ -10,8 +10,8 @@ use shadowstep::Real;
 const APART: i64 = 4;
 /// The edges of a passage are known to this factor of |Δp|².
 const RESOLUTION: f64 = 1.05 * 1.05;
-/// The square of half of |Δp|, as a part of |Δp|².
-const HALF: f64 = 0.25;
+/// Half of |Δp|, squared, as a part of |Δp|².
+const HALF_SQUARED: f64 = 0.25;
 /// |Δp| must be this many units in the last place of p, so that it is not round-off.
 const LEAST_DIGITS: f64 = 1e3;
 /// How many of the closest encounters are kept.
@@ -98,7 +98,8 @@ impl Passages {
             if self.rising.last().is_none_or(|(_, last)| size > RESOLUTION * last) {
                 self.rising.push((n, size));
             }
-        } else if size < HALF * self.peak.1 && (self.end.is_none() || HALF * self.peak.1 >= self.floor) {
+        } else if size < HALF_SQUARED * self.peak.1 && (self.end.is_none() || HALF_SQUARED * self.peak.1 >= self.floor)
+        {
             self.end_passage(n - 1);
             self.rise_from(n, size);
         } else if size < self.floor && self.end.is_some() {
@@ -117,7 +118,7 @@ impl Passages {
     #[inline(never)]
     fn end_passage(&mut self, last: i64) {
         let (n, peak) = self.peak;
-        let begin = self.rising.iter().find(|(_, size)| *size >= HALF * peak).map_or(n, |(begin, _)| *begin);
+        let begin = self.rising.iter().find(|(_, size)| *size >= HALF_SQUARED * peak).map_or(n, |(begin, _)| *begin);
         // of a run that begins at a peak, the other half of the passage is before the run
         let halves = if self.end.is_none() && n == begin { 2 } else { 1 };
         let encounter = Encounter { n, steps: halves * (last - begin + 1) };
