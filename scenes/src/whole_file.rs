@@ -57,7 +57,9 @@ impl WholeFile {
     /// A path that is not of a file, a folder that cannot be written, a file that another process is writing.
     pub fn create(path: &Path, named: &str) -> Result<Self, Error> {
         let path = &destination(path)?;
-        let name = path.file_name().filter(|_| path.is_file() || !path.exists()).ok_or_else(|| {
+        // asked once: another process may give the file its name meanwhile
+        let is_other = path.metadata().is_ok_and(|found| !found.is_file());
+        let name = path.file_name().filter(|_| !is_other).ok_or_else(|| {
             Error::usage(format!("{named} {} is not a file", path.display()), "give the name of a file")
         })?;
         let partial = path.with_file_name(format!("{}.{ENDING}", name.display()));
@@ -130,5 +132,31 @@ impl Write for WholeFile {
 
     fn flush(&mut self) -> io::Result<()> {
         self.writer.flush().map_err(|error| not_written(&self.path, error, AGAIN).into())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::thread;
+
+    use super::*;
+
+    /// A file that appears while another writer begins is a file.
+    #[test]
+    fn a_file_may_get_its_name_at_any_moment() {
+        let folder = tempfile::tempdir().unwrap();
+        let (path, other) = (folder.path().join("results.csv"), folder.path().join("other.csv"));
+        thread::scope(|scope| {
+            let renames = scope.spawn(|| {
+                for _ in 0..20_000 {
+                    File::create(&other).unwrap();
+                    fs::rename(&other, &path).unwrap();
+                    fs::remove_file(&path).unwrap();
+                }
+            });
+            while !renames.is_finished() {
+                WholeFile::create(&path, "file").unwrap();
+            }
+        });
     }
 }
