@@ -309,7 +309,7 @@ fn push_pairs<'a, N: Number>(
     increments: Increments<'_, N>,
 ) -> Option<Estimate<'a, N>> {
     products.push(q, p, increments);
-    if products.pushed() <= form.k() {
+    if products.reach() < form.k() {
         return None;
     }
     form.add_value(products, 0);

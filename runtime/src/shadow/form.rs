@@ -20,6 +20,8 @@ pub(super) struct Products<N> {
     pairs: Pairs<N>,
     /// The products of the newest state.
     of_newest: Vec<N>,
+    /// How many they are.
+    reach: usize,
 }
 
 /// q_i·p − p_i·q + (β − β_i) of each state in the window and the i-th before it, by i = 1, 2, …, as they are summed: for each i
@@ -50,6 +52,7 @@ impl<N: Number> Products<N> {
                 None => Pairs::Numbers(vec![zero.clone(); lags * states]),
             },
             of_newest: vec![zero; lags],
+            reach: 0,
         }
     }
 
@@ -59,12 +62,13 @@ impl<N: Number> Products<N> {
         if let (Pairs::Rows(access, rows, Some(states)), Some((q, p, beta))) =
             (&mut self.pairs, self.window.newest_with_beta())
         {
+            self.reach = self.window.reach(self.of_newest.len());
             states.set(newest, q.iter().chain(p).map(access.parts), (access.parts)(beta));
-            states.write_pairs(newest, self.window.reach(self.of_newest.len()), rows);
+            states.write_pairs(newest, self.reach, rows);
             return;
         }
-        let count = self.window.pairs(&mut self.of_newest);
-        let places = (0..count).map(|i| i * self.states + newest);
+        self.reach = self.window.pairs(&mut self.of_newest);
+        let places = (0..self.reach).map(|i| i * self.states + newest);
         match &mut self.pairs {
             Pairs::Numbers(pairs) => places.zip(&self.of_newest).for_each(|(place, pair)| pairs[place].assign(pair)),
             Pairs::Rows(access, rows, _) => {
@@ -79,6 +83,11 @@ impl<N: Number> Products<N> {
     /// How many states have come.
     pub(super) fn pushed(&self) -> usize {
         self.window.pushed()
+    }
+
+    /// How many states before the newest one have a product with it.
+    pub(super) fn reach(&self) -> usize {
+        self.reach
     }
 
     /// Positions and momenta of the state `back` places before the newest.

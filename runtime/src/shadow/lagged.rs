@@ -43,6 +43,9 @@ pub(super) struct LaggedEstimator<N> {
     /// The place of the newest.
     place: usize,
     pushed: usize,
+    /// States up to the newest between which all steps are known.
+    in_row: usize,
+    has_vectors: bool,
 }
 
 impl<N: Number> LaggedEstimator<N> {
@@ -69,6 +72,8 @@ impl<N: Number> LaggedEstimator<N> {
             dimension,
             place: 0,
             pushed: 0,
+            in_row: 0,
+            has_vectors: false,
         }
     }
 
@@ -79,37 +84,50 @@ impl<N: Number> LaggedEstimator<N> {
 
     #[inline(always)]
     pub(super) fn push(&mut self, q: &[N], p: &[N], increments: Increments<'_, N>) -> Option<Estimate<'_, N>> {
+        // a state without increments after one with them begins a window
+        let begins = self.has_vectors && !increments.has_vectors();
+        self.has_vectors = increments.has_vectors();
+        let known = if begins { 0 } else { self.in_row };
+        self.in_row = known + 1;
+        let is_complete = known >= self.k;
         N::in_widest_instructions(
             #[inline(always)]
             || match self.lags {
-                4 => self.add::<4>(q, p, increments),
-                _ => self.add::<8>(q, p, increments),
+                4 => self.add::<4>([q, p], increments, (known, is_complete)),
+                _ => self.add::<8>([q, p], increments, (known, is_complete)),
             },
         );
         self.keep(q, p);
-        if self.pushed <= self.k {
+        if !is_complete {
             return None;
         }
         self.estimate(q.len())
     }
 
-    /// Adds the products of the next state; `newest` is then the value of the window that it ends.
+    /// Adds the products of the next state; `newest` is then the value of the window that it ends, if that is complete.
     #[inline(always)]
-    fn add<const K: usize>(&mut self, q: &[N], p: &[N], increments: Increments<'_, N>) {
+    fn add<const K: usize>(
+        &mut self,
+        [q, p]: [&[N]; 2],
+        increments: Increments<'_, N>,
+        (known, is_complete): (usize, bool),
+    ) {
         let place = self.pushed % K;
         let products: [N; K] = if increments.has_vectors() {
             // as many as coordinates, whose number may be known when this is compiled
             let added = [&increments.q[..q.len()], &increments.p[..p.len()]];
-            self.products.of_state(place, [q, p], added, increments.beta)
+            self.products.of_state(place, [q, p], (added, increments.beta), known)
         } else {
             self.products_by_differences(place, [q, p], increments.beta)
         };
         let (kept, _) = self.kept.as_chunks_mut::<K>();
         let before: &[[N; K]; K] = kept[place..].first_chunk().expect("they are there twice");
-        self.value.evaluate(&products, before, &mut self.newest.value);
-        if let Some(last_term) = &self.last_term {
-            last_term.evaluate(&products, before, &mut self.newest.last_term);
-            self.newest.last_term.make_absolute();
+        if is_complete {
+            self.value.evaluate(&products, before, &mut self.newest.value);
+            if let Some(last_term) = &self.last_term {
+                last_term.evaluate(&products, before, &mut self.newest.last_term);
+                self.newest.last_term.make_absolute();
+            }
         }
         kept[place].clone_from(&products);
         kept[place + K] = products;
@@ -122,7 +140,8 @@ impl<N: Number> LaggedEstimator<N> {
         for (own, (newest, before)) in self.differences.iter_mut().zip(q.iter().chain(p).zip(before)) {
             own.assign_difference(newest, before);
         }
-        self.products.of_state(place, [q, p], self.differences.split_at(self.dimension).into(), beta)
+        let added = self.differences.split_at(self.dimension).into();
+        self.products.of_state(place, [q, p], (added, beta), self.in_row - 1)
     }
 
     #[inline(always)]
@@ -258,6 +277,7 @@ mod tests {
                 for (n, (q, p, _, added)) in window.iter().enumerate() {
                     let added = if n > 0 { added.view() } else { Increments::of_beta(&added.beta) };
                     last = estimator.push(q, p, added).map(|estimate| *estimate.value);
+                    assert_eq!(last.is_some(), n == k as usize, "k = {k}: only the last state ends a window");
                 }
                 let (value, expected) = (last.unwrap(), by_definition(&weights, 0.5, window));
                 // as above

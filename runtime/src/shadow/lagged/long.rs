@@ -57,16 +57,17 @@ impl<N: Number> LongRows<N> {
         }
     }
 
-    /// The products of a state with all steps, the oldest first.
+    /// The products of a state with all steps, the oldest first; 0 for groups of steps before the newest `known` ones.
     #[inline(never)]
-    pub(super) fn products<const K: usize>(&mut self, newest: usize, [q, p]: [&[N]; 2]) -> [N; K] {
+    pub(super) fn products<const K: usize>(&mut self, newest: usize, [q, p]: [&[N]; 2], known: usize) -> [N; K] {
         let mut products = std::array::from_fn(|_| N::zero(&q[0].context()));
         instructions::widest_if_long(
             N::IN_VECTORS,
             K * q.len(),
             #[inline(always)]
             || {
-                for (group, products) in products.as_chunks_mut::<AT_ONCE>().0.iter_mut().enumerate() {
+                let groups = products.as_chunks_mut::<AT_ONCE>().0.iter_mut().enumerate();
+                for (group, products) in groups.skip(K.saturating_sub(known) / AT_ONCE) {
                     self.add_lags(newest + 1 + group * AT_ONCE, [q, p], products);
                 }
             },

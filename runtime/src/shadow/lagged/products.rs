@@ -25,20 +25,20 @@ impl<N: Number> LaggedProducts<N> {
     }
 
     /// Takes what a step added, and the state that it led to; q·δp − p·δq + δβ of the newest K = `lags` steps, the oldest first. Steps have the places
-    /// 0 to K − 1 in turn.
+    /// 0 to K − 1 in turn. Those before the newest `known` steps may be left out.
     #[inline(always)]
     pub(super) fn of_state<const K: usize>(
         &mut self,
         place: usize,
         state: [&[N]; 2],
-        added: [&[N]; 2],
-        beta: &N,
+        (added, beta): ([&[N]; 2], &N),
+        known: usize,
     ) -> [N; K] {
         if state[0].len() < LONG {
             self.of_short_state(place, state, added, beta)
         } else {
             self.long.keep(place, added, beta);
-            self.long.products(place, state)
+            self.long.products(place, state, known)
         }
     }
 
