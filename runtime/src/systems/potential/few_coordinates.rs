@@ -24,7 +24,7 @@ pub struct FewCoordinates<'a, N> {
     /// Evaluations of the gradient.
     pub(crate) evaluations: u64,
     pub(crate) maps: [Repeated<N>; 3],
-    /// Sees the state after each step.
+    /// Sees the state after each step, in the order of steps.
     pub(crate) visitor: Option<&'a mut dyn Visitor<N>>,
 }
 
@@ -41,6 +41,9 @@ pub(crate) type Repeated<N> = (Vec<(MapKind, N)>, u64);
 
 /// More coordinates are not held in registers.
 const MOST: usize = 3;
+
+/// States that are visited at once: the state of the steps leaves the registers only then, and the processor makes the next steps meanwhile.
+const AT_ONCE: usize = 4;
 
 impl<N: Number> FewCoordinates<'_, N> {
     /// Whether registers hold such numbers: of others these steps are not even compiled.
@@ -74,6 +77,8 @@ impl<N: Number> FewCoordinates<'_, N> {
         let [mut q, mut p, mut gradient] = [copy(state[0]), copy(state[1]), copy(state[2])];
         let mut velocity = p[0].clone();
         let (mut has_gradient, mut evaluated) = (*kept != KeptForce::Nothing, 0);
+        let mut made: [[[N; D]; 2]; AT_ONCE] = array::from_fn(|_| [q.clone(), p.clone()]);
+        let mut unvisited = 0;
         for (maps, times) in maps {
             for _ in 0..*times {
                 for (kind, weight) in &*maps {
@@ -90,11 +95,17 @@ impl<N: Number> FewCoordinates<'_, N> {
                     Plain.kick(weight, &gradient, &mut p);
                 }
                 if let Some(visitor) = visitor {
-                    // copies: what is lent to another function is not held in registers
-                    let (q, p) = (q.clone(), p.clone());
-                    visitor.visit(&q, &p);
+                    made[unvisited] = [q.clone(), p.clone()];
+                    unvisited += 1;
+                    if unvisited == AT_ONCE {
+                        made.iter().for_each(|[q, p]| visitor.visit(q, p));
+                        unvisited = 0;
+                    }
                 }
             }
+        }
+        if let Some(visitor) = visitor {
+            made[..unvisited].iter().for_each(|[q, p]| visitor.visit(q, p));
         }
         *kept = if has_gradient { KeptForce::Gradient } else { KeptForce::Nothing };
         *evaluations += evaluated;
