@@ -4,8 +4,9 @@ use std::cell::Cell;
 use std::rc::Rc;
 use std::slice;
 
-use shadowstep::number::{DoubleDouble, Limbs, Number};
+use shadowstep::number::{DoubleDouble, Lanes, Limbs, Number};
 use shadowstep::problems::{HenonHeiles, Kepler};
+use shadowstep::systems::formula::FormulaPotential;
 use shadowstep::systems::kinetic::{Kinetic, Quadratic};
 use shadowstep::systems::potential::FewCoordinates;
 use shadowstep::systems::system::Visitor;
@@ -111,11 +112,13 @@ fn steps_of_vectors_are_those_one_by_one() {
 }
 
 /// Steps of several systems, merged and not: the bits of each alone.
-fn check_several<M: System<Number = f64, Class = Quadratic> + Clone>(start: impl Fn(f64) -> M) {
+fn check_several<M: System<Number: Number<Context = ()> + PartialEq, Class = Quadratic> + Clone>(
+    start: impl Fn(f64) -> M,
+) {
     for scheme in ["stormer-verlet", "yoshida4", "blanes-moan-srkn6b", "saba4", "ruth3", "chin-4a"] {
-        let stepper = Stepper::<_, f64>::new(shipped(scheme).unwrap(), "1/20").unwrap();
+        let stepper = Stepper::<_, M::Number>::new(shipped(scheme).unwrap(), "1/20").unwrap();
         for (count, merged) in [0, 1, 7, 8, 9, 100].into_iter().flat_map(|count| [(count, false), (count, true)]) {
-            let mut alone = [0.1, 0.2, 0.3].map(&start);
+            let mut alone = [0.1, 0.2, 0.3, 0.15, 0.25, 0.35].map(&start);
             // one has a gradient that the first kick takes, another its rate as well
             alone[1].kick(&stepper.weights().kicks[0], Carried::Nothing);
             alone[2].kick(&stepper.weights().kicks[0], Carried::Rate);
@@ -156,6 +159,23 @@ fn steps_of_several_systems_are_those_of_each_alone() {
     let in_vectors = |x| Motion::new(HenonHeiles, UnitMasses, vec![x, 0.2], vec![0.1, 0.0]).unwrap();
     check_several(in_vectors);
     check_several(|x| in_vectors(x).compensated());
+}
+
+/// Whose gradients are one program, with other parameters; or two programs.
+#[test]
+fn steps_of_several_systems_of_formulas_are_those_of_each_alone() {
+    type FourLanes = Lanes<4>;
+    let lanes = |x: f64| Lanes([x, x + 0.01, x + 0.02, x + 0.03]);
+    let system = |formula: &str, x: f64| {
+        let parameters = [("depth", lanes(1.0 + x)), ("width", lanes(2.0 - x))];
+        let potential = FormulaPotential::<FourLanes>::new(formula, &["x", "y"], &parameters).unwrap();
+        let (q, p) = (vec![lanes(x), lanes(0.2)], vec![lanes(0.1), lanes(0.0)]);
+        Motion::new(potential, UnitMasses, q, p).unwrap()
+    };
+    let well = |x: f64| system("-depth * exp(-(x^2 + y^2)/width) + sin(y)/7 + cos(y)/9 - 1/sqrt(3 + x^2)", x);
+    check_several(well);
+    check_several(|x| well(x).compensated());
+    check_several(|x| if x > 0.18 { well(x) } else { system("depth * (x^2 + y^2)/width", x) });
 }
 
 // ---------------------------------------------------------------------------------------------------------------

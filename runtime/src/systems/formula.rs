@@ -23,7 +23,7 @@ pub use kinetic::FormulaKinetic;
 use crate::Rational;
 use crate::number::Number;
 use crate::systems::interpreter::Interpreter;
-use crate::systems::potential::{HessianProduct, Potential};
+use crate::systems::potential::{GradientProgram, HessianProduct, Potential};
 use newest::{Derived, Role, Text, derived};
 
 /// A potential from a formula read at run time: a list of operations, executed without allocation.
@@ -196,6 +196,10 @@ impl<N: Number> Potential<N> for FormulaPotential<N> {
 
     fn hessian(&self) -> Option<&dyn HessianProduct<N>> {
         Some(self)
+    }
+
+    fn program(&self) -> Option<GradientProgram<'_, N>> {
+        Some(GradientProgram(&self.interpreter))
     }
 }
 

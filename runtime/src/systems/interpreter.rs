@@ -17,7 +17,7 @@ pub(crate) struct Interpreter<N> {
 }
 
 /// Where an operand is, or a target.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 struct Slot {
     side: Side,
     index: u32,
@@ -35,7 +35,7 @@ enum Side {
 }
 
 /// Where the registers of each kind begin.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 struct Layout {
     /// After the parameters: what the energy keeps, then what the gradient keeps.
     energy_kept: usize,
@@ -130,6 +130,22 @@ impl<N: Number> Interpreter<N> {
     /// Its gradient at x, and something more; all may be swapped with other numbers.
     pub(crate) fn gradient<'r>(&self, x: &[N], registers: &'r mut [N]) -> &'r mut [N] {
         self.compute(&self.gradient, x, registers)
+    }
+
+    /// The gradients of several systems at their x, in whose registers there is what was prepared for each: one instruction after the other, for all
+    /// of them.
+    #[inline(always)]
+    pub(crate) fn gradients<'r, const W: usize>(&self, x: &[[N; W]], registers: &'r mut [[N; W]]) -> &'r [[N; W]] {
+        N::in_widest_instructions(
+            #[inline(always)]
+            || execute_all(&self.gradient, registers, x),
+        );
+        &registers[self.layout.outputs..]
+    }
+
+    /// Whether [`gradients`](Self::gradients) of systems with the other one can be computed by this one.
+    pub(crate) fn has_gradient_of(&self, other: &Self) -> bool {
+        self.layout == other.layout && self.gradient == other.gradient
     }
 
     /// Its gradient at x, then its rate, of a pair its summand, and something more; all may be swapped with other numbers.

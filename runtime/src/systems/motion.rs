@@ -3,6 +3,7 @@
 mod gradient_kick_state;
 mod hamiltonian;
 mod steps;
+mod together;
 mod turns;
 
 use thiserror::Error;

@@ -14,6 +14,7 @@ pub use sum::Sum;
 pub use vectorised::Vectorised;
 
 use crate::number::Number;
+use crate::systems::interpreter::Interpreter;
 
 /// A potential U(q) with its gradient, for one kind of numbers or, written once, for all.
 ///
@@ -156,6 +157,12 @@ pub trait Potential<N: Number> {
         );
     }
 
+    /// The program that is its gradient, where an interpreter carries it out: several systems with one program take turns at each instruction. There
+    /// is no need to implement it.
+    fn program(&self) -> Option<GradientProgram<'_, N>> {
+        None
+    }
+
     /// Whether the type of the potential is known at run time only, so that many steps are better made by one call of
     /// [`advance_few`](Potential::advance_few).
     fn is_boxed() -> bool
@@ -165,6 +172,10 @@ pub trait Potential<N: Number> {
         false
     }
 }
+
+/// The gradient of a formula that is read at run time.
+#[derive(Clone, Copy, Debug)]
+pub struct GradientProgram<'a, N>(pub(crate) &'a Interpreter<N>);
 
 impl<N: Number, P: Potential<N> + ?Sized> Potential<N> for Box<P> {
     fn dimension(&self) -> usize {
@@ -193,6 +204,9 @@ impl<N: Number, P: Potential<N> + ?Sized> Potential<N> for Box<P> {
     }
     fn advance_few(&mut self, steps: &mut FewCoordinates<'_, N>, scratch: &mut [N]) {
         (**self).advance_few(steps, scratch);
+    }
+    fn program(&self) -> Option<GradientProgram<'_, N>> {
+        (**self).program()
     }
     fn is_boxed() -> bool {
         true

@@ -30,7 +30,7 @@ pub(super) struct Hamiltonian<N, P, K> {
     pub(super) potential: P,
     pub(super) kinetic: K,
     /// The potential's, with what it keeps there.
-    scratch: Vec<N>,
+    pub(super) scratch: Vec<N>,
     /// The kinetic energy's, with what it keeps there.
     pub(super) kinetic_scratch: Vec<N>,
     /// T of an energy.
@@ -59,14 +59,21 @@ impl<N: Number, P: Potential<N>, K: Kinetic<N>> Hamiltonian<N, P, K> {
     ) {
         let (q, gradient) = (at.state.q.as_ref(), at.gradient.as_mut());
         self.potential.update(q);
-        at.kept = if with_rate {
+        let kept = if with_rate {
             self.potential.gradient_and_rate(q, gradient, &mut at.rate, &mut self.scratch);
             KeptForce::GradientAndRate
         } else {
             self.potential.gradient(q, gradient, &mut self.scratch);
             KeptForce::Gradient
         };
-        at.state.count_evaluation();
+        self.keep(at, kept);
+    }
+
+    /// Takes what has been evaluated at the present q.
+    #[inline(always)]
+    pub(super) fn keep<V, S>(&mut self, at: &mut Evaluated<N, V, S>, kept: KeptForce) {
+        at.kept = kept;
+        at.state.evaluations += 1;
         if let Some(gradient_kicks) = &mut self.gradient_kicks {
             gradient_kicks.kicks.kept = KeptForce::Nothing;
         }

@@ -7,6 +7,7 @@ use std::mem::{needs_drop, take};
 
 use super::Motion;
 use super::hamiltonian::{Evaluated, FEW, Hamiltonian, kicks_and_drifts};
+use super::together::{SYSTEMS, Together};
 use crate::number::Number;
 use crate::systems::coordinates::Coordinates;
 use crate::systems::increments::Carried;
@@ -53,11 +54,15 @@ fn advance_in_turns<N, V, P, K, S>(
     let repeated = turn.continued(middle);
     let mut end = turn.continued(last);
     end.push(turn);
+    let mut groups = Vec::new();
+    if const { N::LANES > 1 && needs_drop::<V>() } {
+        groups.extend(motions.as_chunks::<SYSTEMS>().0.iter().map(Together::of));
+    }
     // every middle step has a kick after a drift, which begins a turn: what is left over at its end is the same
     for (turns, times) in [(begin, 1), (repeated, times - 1), (end, 1)] {
         for _ in 0..times {
             for turn in &turns {
-                turn.apply(motions);
+                turn.apply(motions, &mut groups);
             }
         }
     }
@@ -108,6 +113,28 @@ impl<'a, N: Number> Turn<'a, N> {
         }
     }
 
+    /// The same of all motions, some of them together.
+    #[inline(always)]
+    fn evaluate_each<V, P, K, S>(&self, motions: &mut [Motion<N, V, P, K, S>], groups: &mut [Option<Together<N>>])
+    where
+        V: Coordinates<N>,
+        P: Potential<N>,
+        K: Kinetic<N>,
+        S: Summation<N>,
+    {
+        for (group, motions) in groups.iter_mut().zip(motions.as_chunks_mut::<SYSTEMS>().0) {
+            if let Some(together) = group
+                && self.kicks[0].is_some()
+            {
+                motions.iter_mut().for_each(|motion| motion.at.state.settle());
+                together.evaluate(motions);
+            }
+        }
+        for motion in motions {
+            self.evaluate(motion);
+        }
+    }
+
     // one by one: the compiler would not unroll loops
     #[inline(always)]
     fn kick(&self, sums: &mut impl Summation<N>, p: &mut [N], gradient: &[N]) {
@@ -140,7 +167,7 @@ impl<'a, N: Number> Turn<'a, N> {
 
     /// The maps of all motions.
     #[inline(always)]
-    fn apply<V, P, K, S>(&self, motions: &mut [Motion<N, V, P, K, S>])
+    fn apply<V, P, K, S>(&self, motions: &mut [Motion<N, V, P, K, S>], groups: &mut [Option<Together<N>>])
     where
         V: Coordinates<N>,
         P: Potential<N>,
@@ -151,18 +178,23 @@ impl<'a, N: Number> Turn<'a, N> {
         let Turn { kicks: [kick, other_kick], drifts: [drift, other_drift] } = *self;
         match (kick, other_kick, drift, other_drift) {
             (Some(_), None, Some(_), None) => {
-                advance_each(motions, &Turn { kicks: [kick, None], drifts: [drift, None] })
+                advance_each(motions, groups, &Turn { kicks: [kick, None], drifts: [drift, None] })
             }
-            (Some(_), Some(_), Some(_), None) => advance_each(motions, &Turn { drifts: [drift, None], ..*self }),
-            (Some(_), None, Some(_), Some(_)) => advance_each(motions, &Turn { kicks: [kick, None], ..*self }),
-            _ => advance_each(motions, &Turn { ..*self }),
+            (Some(_), Some(_), Some(_), None) => {
+                advance_each(motions, groups, &Turn { drifts: [drift, None], ..*self })
+            }
+            (Some(_), None, Some(_), Some(_)) => advance_each(motions, groups, &Turn { kicks: [kick, None], ..*self }),
+            _ => advance_each(motions, groups, &Turn { ..*self }),
         }
     }
 }
 
 #[inline(always)]
-fn advance_each<N, V, P, K, S>(motions: &mut [Motion<N, V, P, K, S>], turn: &Turn<'_, N>)
-where
+fn advance_each<N, V, P, K, S>(
+    motions: &mut [Motion<N, V, P, K, S>],
+    groups: &mut [Option<Together<N>>],
+    turn: &Turn<'_, N>,
+) where
     N: Number,
     V: Coordinates<N>,
     P: Potential<N>,
@@ -171,9 +203,7 @@ where
 {
     if const { needs_drop::<V>() } {
         // in memory: one map of all motions, none of which waits for what it has just stored
-        for motion in &mut *motions {
-            turn.evaluate(motion);
-        }
+        turn.evaluate_each(motions, groups);
         for Motion { at, .. } in &mut *motions {
             let State { p, sums, .. } = &mut at.state;
             turn.kick(sums, p.as_mut(), at.gradient.as_ref());
