@@ -55,7 +55,8 @@ fn advance_in_turns<N, V, P, K, S>(
     let mut end = turn.continued(last);
     end.push(turn);
     let mut groups = Vec::new();
-    if const { N::LANES > 1 && needs_drop::<V>() } {
+    // of other numbers it is not compiled: they do not come in several systems
+    if const { N::LANES > 1 && !N::HAS_DERIVATIVES && needs_drop::<V>() } {
         groups.extend(motions.as_chunks::<SYSTEMS>().0.iter().map(Together::of));
     }
     // every middle step has a kick after a drift, which begins a turn: what is left over at its end is the same
