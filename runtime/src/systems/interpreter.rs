@@ -133,8 +133,8 @@ impl<N: Number> Interpreter<N> {
     }
 
     /// The gradients of several systems at their x, in whose registers there is what was prepared for each: one instruction after the other, for all
-    /// of them.
-    #[inline(always)]
+    /// of them. Not inlined: compiled once for each kind of instructions.
+    #[inline(never)]
     pub(crate) fn gradients<'r, const W: usize>(&self, x: &[[N; W]], registers: &'r mut [[N; W]]) -> &'r [[N; W]] {
         N::in_widest_instructions(
             #[inline(always)]
