@@ -23,7 +23,7 @@ pub use kinetic::FormulaKinetic;
 use crate::Rational;
 use crate::number::Number;
 use crate::systems::interpreter::Interpreter;
-use crate::systems::potential::{GradientProgram, HessianProduct, Potential};
+use crate::systems::potential::{GradientProgram, HessianProduct, Potential, SYSTEMS};
 use newest::{Derived, Role, Text, derived};
 
 /// A potential from a formula read at run time: a list of operations, executed without allocation.
@@ -198,8 +198,18 @@ impl<N: Number> Potential<N> for FormulaPotential<N> {
         Some(self)
     }
 
-    fn program(&self) -> Option<GradientProgram<'_, N>> {
-        Some(GradientProgram(&self.interpreter))
+    fn program(&self) -> Option<&dyn GradientProgram<N>> {
+        Some(self)
+    }
+}
+
+impl<N: Number> GradientProgram<N> for FormulaPotential<N> {
+    fn address(&self) -> *const () {
+        Arc::as_ptr(&self.derived).cast()
+    }
+
+    fn gradients<'r>(&self, q: &[[N; SYSTEMS]], registers: &'r mut [[N; SYSTEMS]]) -> &'r [[N; SYSTEMS]] {
+        self.interpreter.gradients(q, registers)
     }
 }
 

@@ -17,7 +17,7 @@ pub(crate) struct Interpreter<N> {
 }
 
 /// Where an operand is, or a target.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug)]
 struct Slot {
     side: Side,
     index: u32,
@@ -35,7 +35,7 @@ enum Side {
 }
 
 /// Where the registers of each kind begin.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug)]
 struct Layout {
     /// After the parameters: what the energy keeps, then what the gradient keeps.
     energy_kept: usize,
@@ -141,11 +141,6 @@ impl<N: Number> Interpreter<N> {
             || execute_all(&self.gradient, registers, x),
         );
         &registers[self.layout.outputs..]
-    }
-
-    /// Whether [`gradients`](Self::gradients) of systems with the other one can be computed by this one.
-    pub(crate) fn has_gradient_of(&self, other: &Self) -> bool {
-        self.layout == other.layout && self.gradient == other.gradient
     }
 
     /// Its gradient at x, then its rate, of a pair its summand, and something more; all may be swapped with other numbers.

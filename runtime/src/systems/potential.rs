@@ -3,6 +3,7 @@
 mod few_coordinates;
 mod from_fn;
 mod hessian;
+mod program;
 mod sum;
 mod vectorised;
 
@@ -10,11 +11,11 @@ pub use few_coordinates::FewCoordinates;
 pub(crate) use few_coordinates::Repeated;
 pub use from_fn::{FromFn, from_fn};
 pub use hessian::HessianProduct;
+pub use program::{GradientProgram, SYSTEMS};
 pub use sum::Sum;
 pub use vectorised::Vectorised;
 
 use crate::number::Number;
-use crate::systems::interpreter::Interpreter;
 
 /// A potential U(q) with its gradient, for one kind of numbers or, written once, for all.
 ///
@@ -157,9 +158,8 @@ pub trait Potential<N: Number> {
         );
     }
 
-    /// The program that is its gradient, where an interpreter carries it out: several systems with one program take turns at each instruction. There
-    /// is no need to implement it.
-    fn program(&self) -> Option<GradientProgram<'_, N>> {
+    /// Its gradient for several systems at once, where an interpreter evaluates it; the default has none.
+    fn program(&self) -> Option<&dyn GradientProgram<N>> {
         None
     }
 
@@ -172,10 +172,6 @@ pub trait Potential<N: Number> {
         false
     }
 }
-
-/// The gradient of a formula that is read at run time.
-#[derive(Clone, Copy, Debug)]
-pub struct GradientProgram<'a, N>(pub(crate) &'a Interpreter<N>);
 
 impl<N: Number, P: Potential<N> + ?Sized> Potential<N> for Box<P> {
     fn dimension(&self) -> usize {
@@ -205,7 +201,7 @@ impl<N: Number, P: Potential<N> + ?Sized> Potential<N> for Box<P> {
     fn advance_few(&mut self, steps: &mut FewCoordinates<'_, N>, scratch: &mut [N]) {
         (**self).advance_few(steps, scratch);
     }
-    fn program(&self) -> Option<GradientProgram<'_, N>> {
+    fn program(&self) -> Option<&dyn GradientProgram<N>> {
         (**self).program()
     }
     fn is_boxed() -> bool {

@@ -1,5 +1,4 @@
-//! Gradients of several systems at once, whose potential is one formula, evaluated by an interpreter: each of its instructions for all systems
-//! before the next one, so that an instruction is decoded once, and need not wait for the results of the one before.
+//! Gradients of several systems at once, whose potentials have one [program](GradientProgram).
 
 use std::array::from_fn;
 
@@ -8,13 +7,10 @@ use crate::number::Number;
 use crate::systems::coordinates::Coordinates;
 use crate::systems::kept::KeptForce;
 use crate::systems::kinetic::Kinetic;
-use crate::systems::potential::Potential;
+use crate::systems::potential::{GradientProgram, Potential, SYSTEMS};
 use crate::systems::summation::Summation;
 
-/// How many systems there are: of 16 lanes, 64 trajectories, whose registers fit into the nearest cache.
-pub(super) const SYSTEMS: usize = 4;
-
-/// The coordinates and registers of the systems.
+/// The coordinates and scratch spaces of the systems, side by side.
 pub(super) struct Together<N> {
     q: Vec<[N; SYSTEMS]>,
     registers: Vec<[N; SYSTEMS]>,
@@ -22,18 +18,21 @@ pub(super) struct Together<N> {
 
 impl<N: Number> Together<N> {
     /// `None` where the gradient is not a program, or not the same.
-    pub(super) fn of<V, P: Potential<N>, K, S>(motions: &[Motion<N, V, P, K, S>; SYSTEMS]) -> Option<Self> {
-        let first = motions[0].hamiltonian.potential.program()?.0;
-        let is_same = |motion: &Motion<N, V, P, K, S>| {
-            motion.hamiltonian.potential.program().is_some_and(|program| first.has_gradient_of(program.0))
-        };
-        if !motions.iter().all(is_same) {
+    pub(super) fn of<V, P, K, S>(motions: &[Motion<N, V, P, K, S>; SYSTEMS]) -> Option<Self>
+    where
+        V: Coordinates<N>,
+        P: Potential<N>,
+    {
+        let address =
+            |motion: &Motion<N, V, P, K, S>| motion.hamiltonian.potential.program().map(GradientProgram::address);
+        let first = address(&motions[0])?;
+        if !motions.iter().all(|motion| address(motion) == Some(first)) {
             return None;
         }
-        let of_systems = |i: usize| from_fn(|system| motions[system].hamiltonian.scratch[i].clone());
-        let registers: Vec<[N; SYSTEMS]> = (0..first.registers()).map(of_systems).collect();
-        let dimension = motions[0].hamiltonian.potential.dimension();
-        Some(Together { q: vec![registers[0].clone(); dimension], registers })
+        Some(Together {
+            q: side_by_side(|system| motions[system].at.state.q.as_ref()),
+            registers: side_by_side(|system| &motions[system].hamiltonian.scratch),
+        })
     }
 
     /// Evaluates the gradients, unless one is known.
@@ -53,7 +52,7 @@ impl<N: Number> Together<N> {
                 q[system].assign(&motions[system].at.state.q.as_ref()[c]);
             }
         }
-        let program = motions[0].hamiltonian.potential.program().expect("it was there before").0;
+        let Some(program) = motions[0].hamiltonian.potential.program() else { return };
         let gradients = program.gradients(&self.q, &mut self.registers);
         for (system, Motion { hamiltonian, at }) in motions.iter_mut().enumerate() {
             for (own, gradients) in at.gradient.as_mut().iter_mut().zip(gradients) {
@@ -62,4 +61,8 @@ impl<N: Number> Together<N> {
             hamiltonian.keep(at, KeptForce::Gradient);
         }
     }
+}
+
+fn side_by_side<'a, N: Clone + 'a>(list: impl Fn(usize) -> &'a [N]) -> Vec<[N; SYSTEMS]> {
+    (0..list(0).len()).map(|i| from_fn(|system| list(system)[i].clone())).collect()
 }

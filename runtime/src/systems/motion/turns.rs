@@ -7,14 +7,14 @@ use std::mem::{needs_drop, take};
 
 use super::Motion;
 use super::hamiltonian::{Evaluated, FEW, Hamiltonian, kicks_and_drifts};
-use super::together::{SYSTEMS, Together};
+use super::together::Together;
 use crate::number::Number;
 use crate::systems::coordinates::Coordinates;
 use crate::systems::increments::Carried;
 use crate::systems::kept::KeptForce;
 use crate::systems::kinetic::Kinetic;
 use crate::systems::maps::{MapKind, MapSequence};
-use crate::systems::potential::{Potential, Repeated};
+use crate::systems::potential::{Potential, Repeated, SYSTEMS};
 use crate::systems::state::State;
 use crate::systems::summation::Summation;
 use crate::systems::system::Each;
