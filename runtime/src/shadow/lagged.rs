@@ -43,9 +43,10 @@ pub(super) struct LaggedEstimator<N> {
     /// The place of the newest.
     place: usize,
     pushed: usize,
-    /// States up to the newest between which all steps are known.
-    in_row: usize,
-    has_vectors: bool,
+    /// The first state of the window: the step to it is unknown, and those after it are known.
+    begin: usize,
+    /// The state after the newest one without increments.
+    after_unknown: usize,
 }
 
 impl<N: Number> LaggedEstimator<N> {
@@ -72,8 +73,8 @@ impl<N: Number> LaggedEstimator<N> {
             dimension,
             place: 0,
             pushed: 0,
-            in_row: 0,
-            has_vectors: false,
+            begin: 0,
+            after_unknown: 0,
         }
     }
 
@@ -84,19 +85,14 @@ impl<N: Number> LaggedEstimator<N> {
 
     #[inline(always)]
     pub(super) fn push(&mut self, q: &[N], p: &[N], increments: Increments<'_, N>) -> Option<Estimate<'_, N>> {
-        // a state without increments after one with them begins a window
-        let begins = self.has_vectors && !increments.has_vectors();
-        self.has_vectors = increments.has_vectors();
-        let known = if begins { 0 } else { self.in_row };
-        self.in_row = known + 1;
-        let is_complete = known >= self.k;
         N::in_widest_instructions(
             #[inline(always)]
             || match self.lags {
-                4 => self.add::<4>([q, p], increments, (known, is_complete)),
-                _ => self.add::<8>([q, p], increments, (known, is_complete)),
+                4 => self.add::<4>([q, p], increments),
+                _ => self.add::<8>([q, p], increments),
             },
         );
+        let is_complete = self.is_complete();
         self.keep(q, p);
         if !is_complete {
             return None;
@@ -104,19 +100,20 @@ impl<N: Number> LaggedEstimator<N> {
         self.estimate(q.len())
     }
 
+    /// Whether the next state ends k known steps.
+    #[inline(always)]
+    fn is_complete(&self) -> bool {
+        self.pushed >= self.begin + self.k
+    }
+
     /// Adds the products of the next state; `newest` is then the value of the window that it ends, if that is complete.
     #[inline(always)]
-    fn add<const K: usize>(
-        &mut self,
-        [q, p]: [&[N]; 2],
-        increments: Increments<'_, N>,
-        (known, is_complete): (usize, bool),
-    ) {
-        let place = self.pushed % K;
+    fn add<const K: usize>(&mut self, [q, p]: [&[N]; 2], increments: Increments<'_, N>) {
+        let (place, is_complete) = (self.pushed % K, self.is_complete());
         let products: [N; K] = if increments.has_vectors() {
             // as many as coordinates, whose number may be known when this is compiled
             let added = [&increments.q[..q.len()], &increments.p[..p.len()]];
-            self.products.of_state(place, [q, p], (added, increments.beta), known)
+            self.products.of_state(place, [q, p], (added, increments.beta), self.pushed - self.begin)
         } else {
             self.products_by_differences(place, [q, p], increments.beta)
         };
@@ -136,12 +133,17 @@ impl<N: Number> LaggedEstimator<N> {
     /// The step to the first state of all is unknown, and does not affect a value.
     #[cold]
     fn products_by_differences<const K: usize>(&mut self, place: usize, [q, p]: [&[N]; 2], beta: &N) -> [N; K] {
+        // a state without increments after one with them begins a window
+        if self.after_unknown != self.pushed {
+            self.begin = self.pushed;
+        }
+        self.after_unknown = self.pushed + 1;
         let before = &self.states[self.place * 2 * self.dimension..];
         for (own, (newest, before)) in self.differences.iter_mut().zip(q.iter().chain(p).zip(before)) {
             own.assign_difference(newest, before);
         }
         let added = self.differences.split_at(self.dimension).into();
-        self.products.of_state(place, [q, p], (added, beta), self.in_row - 1)
+        self.products.of_state(place, [q, p], (added, beta), self.pushed - self.begin)
     }
 
     #[inline(always)]
