@@ -166,16 +166,20 @@ fn steps_of_several_systems_are_those_of_each_alone() {
 fn steps_of_several_systems_of_formulas_are_those_of_each_alone() {
     type FourLanes = Lanes<4>;
     let lanes = |x: f64| Lanes([x, x + 0.01, x + 0.02, x + 0.03]);
-    let system = |formula: &str, x: f64| {
+    let potential = |formula: &str, x: f64| {
         let parameters = [("depth", lanes(1.0 + x)), ("width", lanes(2.0 - x))];
-        let potential = FormulaPotential::<FourLanes>::new(formula, &["x", "y"], &parameters).unwrap();
-        let (q, p) = (vec![lanes(x), lanes(0.2)], vec![lanes(0.1), lanes(0.0)]);
-        Motion::new(potential, UnitMasses, q, p).unwrap()
+        FormulaPotential::<FourLanes>::new(formula, &["x", "y"], &parameters).unwrap()
     };
-    let well = |x: f64| system("-depth * exp(-(x^2 + y^2)/width) + sin(y)/7 + cos(y)/9 - 1/sqrt(3 + x^2)", x);
-    check_several(well);
-    check_several(|x| well(x).compensated());
-    check_several(|x| if x > 0.18 { well(x) } else { system("depth * (x^2 + y^2)/width", x) });
+    let at = |x: f64| ([lanes(x), lanes(0.2)], [lanes(0.1), lanes(0.0)]);
+    let in_vectors = |formula: &str, x: f64| {
+        let (q, p) = at(x);
+        Motion::new(potential(formula, x), UnitMasses, q.to_vec(), p.to_vec()).unwrap()
+    };
+    let well = "-depth * exp(-(x^2 + y^2)/width) + sin(y)/7 + cos(y)/9 - 1/sqrt(3 + x^2)";
+    check_several(|x| Motion::new(potential(well, x), UnitMasses, at(x).0, at(x).1).unwrap());
+    check_several(|x| in_vectors(well, x));
+    check_several(|x| in_vectors(well, x).compensated());
+    check_several(|x| in_vectors(if x > 0.18 { well } else { "depth * (x^2 + y^2)/width" }, x));
 }
 
 // ---------------------------------------------------------------------------------------------------------------

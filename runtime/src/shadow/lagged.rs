@@ -85,14 +85,13 @@ impl<N: Number> LaggedEstimator<N> {
 
     #[inline(always)]
     pub(super) fn push(&mut self, q: &[N], p: &[N], increments: Increments<'_, N>) -> Option<Estimate<'_, N>> {
-        N::in_widest_instructions(
+        let is_complete = N::in_widest_instructions(
             #[inline(always)]
             || match self.lags {
                 4 => self.add::<4>([q, p], increments),
                 _ => self.add::<8>([q, p], increments),
             },
         );
-        let is_complete = self.is_complete();
         self.keep(q, p);
         if !is_complete {
             return None;
@@ -100,16 +99,10 @@ impl<N: Number> LaggedEstimator<N> {
         self.estimate(q.len())
     }
 
-    /// Whether the next state ends k known steps.
+    /// Adds the products of the next state, and returns whether it ends a window of k known steps, whose value `newest` then is.
     #[inline(always)]
-    fn is_complete(&self) -> bool {
-        self.pushed >= self.begin + self.k
-    }
-
-    /// Adds the products of the next state; `newest` is then the value of the window that it ends, if that is complete.
-    #[inline(always)]
-    fn add<const K: usize>(&mut self, [q, p]: [&[N]; 2], increments: Increments<'_, N>) {
-        let (place, is_complete) = (self.pushed % K, self.is_complete());
+    fn add<const K: usize>(&mut self, [q, p]: [&[N]; 2], increments: Increments<'_, N>) -> bool {
+        let place = self.pushed % K;
         let products: [N; K] = if increments.has_vectors() {
             // as many as coordinates, whose number may be known when this is compiled
             let added = [&increments.q[..q.len()], &increments.p[..p.len()]];
@@ -117,6 +110,7 @@ impl<N: Number> LaggedEstimator<N> {
         } else {
             self.products_by_differences(place, [q, p], increments.beta)
         };
+        let is_complete = self.pushed >= self.begin + self.k;
         let (kept, _) = self.kept.as_chunks_mut::<K>();
         let before: &[[N; K]; K] = kept[place..].first_chunk().expect("they are there twice");
         if is_complete {
@@ -128,6 +122,7 @@ impl<N: Number> LaggedEstimator<N> {
         }
         kept[place].clone_from(&products);
         kept[place + K] = products;
+        is_complete
     }
 
     /// The step to the first state of all is unknown, and does not affect a value.

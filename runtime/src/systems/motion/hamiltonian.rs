@@ -71,9 +71,9 @@ impl<N: Number, P: Potential<N>, K: Kinetic<N>> Hamiltonian<N, P, K> {
 
     /// Takes what has been evaluated at the present q.
     #[inline(always)]
-    pub(super) fn keep<V, S>(&mut self, at: &mut Evaluated<N, V, S>, kept: KeptForce) {
+    pub(super) fn keep<V: Coordinates<N>, S: Summation<N>>(&mut self, at: &mut Evaluated<N, V, S>, kept: KeptForce) {
         at.kept = kept;
-        at.state.evaluations += 1;
+        at.state.count_evaluation();
         if let Some(gradient_kicks) = &mut self.gradient_kicks {
             gradient_kicks.kicks.kept = KeptForce::Nothing;
         }

@@ -55,8 +55,8 @@ fn advance_in_turns<N, V, P, K, S>(
     let mut end = turn.continued(last);
     end.push(turn);
     let mut groups = Vec::new();
-    // of other numbers it is not compiled: they do not come in several systems
-    if const { N::LANES > 1 && !N::HAS_DERIVATIVES && needs_drop::<V>() } {
+    // of other numbers it is not compiled, as each kind needs a loop of the interpreter of its own
+    if const { N::LANES > 1 && !N::HAS_DERIVATIVES } {
         groups.extend(motions.as_chunks::<SYSTEMS>().0.iter().map(Together::of));
     }
     // every middle step has a kick after a drift, which begins a turn: what is left over at its end is the same
@@ -114,9 +114,9 @@ impl<'a, N: Number> Turn<'a, N> {
         }
     }
 
-    /// The same of all motions, some of them together.
+    /// The same of those that are evaluated together.
     #[inline(always)]
-    fn evaluate_each<V, P, K, S>(&self, motions: &mut [Motion<N, V, P, K, S>], groups: &mut [Option<Together<N>>])
+    fn evaluate_together<V, P, K, S>(&self, motions: &mut [Motion<N, V, P, K, S>], groups: &mut [Option<Together<N>>])
     where
         V: Coordinates<N>,
         P: Potential<N>,
@@ -130,9 +130,6 @@ impl<'a, N: Number> Turn<'a, N> {
                 motions.iter_mut().for_each(|motion| motion.at.state.settle());
                 together.evaluate(motions);
             }
-        }
-        for motion in motions {
-            self.evaluate(motion);
         }
     }
 
@@ -202,9 +199,12 @@ fn advance_each<N, V, P, K, S>(
     K: Kinetic<N>,
     S: Summation<N>,
 {
+    turn.evaluate_together(motions, groups);
     if const { needs_drop::<V>() } {
         // in memory: one map of all motions, none of which waits for what it has just stored
-        turn.evaluate_each(motions, groups);
+        for motion in &mut *motions {
+            turn.evaluate(motion);
+        }
         for Motion { at, .. } in &mut *motions {
             let State { p, sums, .. } = &mut at.state;
             turn.kick(sums, p.as_mut(), at.gradient.as_ref());
