@@ -1,5 +1,6 @@
 //! `Stepper::steps` of one system: the bits, evaluations and kept values of a loop of steps.
 
+use std::any::Any;
 use std::cell::Cell;
 use std::rc::Rc;
 use std::slice;
@@ -8,7 +9,7 @@ use shadowstep::number::{DoubleDouble, Lanes, Limbs, Number};
 use shadowstep::problems::{HenonHeiles, Kepler};
 use shadowstep::systems::formula::FormulaPotential;
 use shadowstep::systems::kinetic::{Kinetic, Quadratic};
-use shadowstep::systems::potential::FewCoordinates;
+use shadowstep::systems::potential::{FewCoordinates, Vectorised};
 use shadowstep::systems::system::Visitor;
 use shadowstep::tables::{TableScheme, shipped};
 use shadowstep::{Carried, DiagonalMasses, Motion, Potential, Rational, Stepper, System, UnitMasses, potential};
@@ -112,17 +113,17 @@ fn steps_of_vectors_are_those_one_by_one() {
 }
 
 /// Steps of several systems, merged and not: the bits of each alone.
-fn check_several<M: System<Number: Number<Context = ()> + PartialEq, Class = Quadratic> + Clone>(
-    start: impl Fn(f64) -> M,
-) {
+fn check_several<M: System<Number: Number<Context = ()> + PartialEq, Class = Quadratic>>(start: impl Fn(f64) -> M) {
     for scheme in ["stormer-verlet", "yoshida4", "blanes-moan-srkn6b", "saba4", "ruth3", "chin-4a"] {
         let stepper = Stepper::<_, M::Number>::new(shipped(scheme).unwrap(), "1/20").unwrap();
         for (count, merged) in [0, 1, 7, 8, 9, 100].into_iter().flat_map(|count| [(count, false), (count, true)]) {
-            let mut alone = [0.1, 0.2, 0.3, 0.15, 0.25, 0.35].map(&start);
-            // one has a gradient that the first kick takes, another its rate as well
-            alone[1].kick(&stepper.weights().kicks[0], Carried::Nothing);
-            alone[2].kick(&stepper.weights().kicks[0], Carried::Rate);
-            let mut together = alone.clone();
+            let [mut alone, mut together] = [(); 2].map(|()| {
+                let mut motions = [0.1, 0.2, 0.3, 0.15, 0.25, 0.35].map(&start);
+                // one has a gradient that the first kick takes, another its rate as well
+                motions[1].kick(&stepper.weights().kicks[0], Carried::Nothing);
+                motions[2].kick(&stepper.weights().kicks[0], Carried::Rate);
+                motions
+            });
             match merged {
                 true => stepper.merged_steps(&mut together, count),
                 false => stepper.steps(&mut together, count),
@@ -182,9 +183,46 @@ fn steps_of_several_systems_of_formulas_are_those_of_each_alone() {
     check_several(|x| in_vectors(if x > 0.18 { well } else { "depth * (x^2 + y^2)/width" }, x));
 }
 
+/// Of lanes behind a `dyn`: potentials of one type and of several, which know their type and do not.
+#[test]
+fn steps_of_several_boxed_systems_are_those_of_each_alone() {
+    type Boxed = Box<dyn Potential<Lanes<4>>>;
+    let lanes = |x: f64| Lanes([x, x + 0.01, x + 0.02, x + 0.03]);
+    let motion = |potential: Boxed, x: f64| {
+        let q: Vec<_> = (0..potential.dimension()).map(|i| lanes(x + i as f64 / 8.0)).collect();
+        let p = q.iter().rev().copied().collect();
+        let masses = DiagonalMasses::of_each(
+            &[3, 4, 5, 6]
+                .map(|mass| {
+                    let masses: Vec<_> = (0..q.len()).map(|i| 1.0 / f64::from(mass + i as u32)).collect();
+                    DiagonalMasses::from_numbers(&masses).unwrap()
+                })
+                .each_ref(),
+        );
+        let kinetic: Box<dyn Kinetic<Lanes<4>, Class = Quadratic>> =
+            if x > 0.22 { Box::new(masses.unwrap()) } else { Box::new(UnitMasses) };
+        Motion::new(potential, kinetic, q, p).unwrap()
+    };
+    let spring = |x: f64| -> Boxed { Box::new(Vectorised(Spring { stiffness: lanes(1.0 + x) })) };
+    let unknown = |x: f64| -> Boxed { Box::new(Spring { stiffness: lanes(1.0 + x) }) };
+    let formula =
+        |x: f64| -> Boxed { Box::new(FormulaPotential::new("a*cos(q)", &["q"], &[("a", lanes(x))]).unwrap()) };
+    check_several(|x| motion(spring(x), x));
+    check_several(|x| motion(unknown(x), x));
+    check_several(|x| motion(formula(x), x));
+    check_several(|x| motion(if x > 0.18 { spring(x) } else { unknown(x) }, x));
+    check_several(|x| motion(if x > 0.18 { spring(x) } else { formula(x) }, x));
+    check_several(|x| motion(Box::new(Vectorised(Kepler)), x));
+    check_several(|x| motion(Box::new(Vectorised(Space)), x));
+    check_several(|x| motion(Box::new(Vectorised(Chain)), x));
+    check_several(|x| motion(spring(x), x).compensated_if(x > 0.18));
+    check_several(|x| motion(spring(x), x).compensated_if(false));
+}
+
 // ---------------------------------------------------------------------------------------------------------------
 // A potential and a kinetic energy behind a `dyn`: of a few coordinates many steps are one call
 
+potential! { pub struct Spring { stiffness } U(q) = stiffness*q^2/2 }
 potential! { pub struct Pendulum; U(q) = -cos(q) }
 potential! { pub struct Space; U(x, y, z) = -1/sqrt(x^2 + 2*y^2 + 3*z^2) }
 potential! { pub struct Chain; U(a, b, c, d) = (a - b)^4 + (b - c)^4 + (c - d)^4 + a^2 + d^2 }
@@ -214,9 +252,9 @@ impl<N: Number, P: Potential<N>> Potential<N> for Watched<P> {
     fn hessian(&self) -> Option<&dyn shadowstep::systems::potential::HessianProduct<N>> {
         self.potential.hessian()
     }
-    fn advance_few(&mut self, steps: &mut FewCoordinates<'_, N>, scratch: &mut [N]) {
+    fn advance_few(&mut self, others: Vec<&mut dyn Any>, steps: &mut FewCoordinates<'_, N>) -> bool {
         self.calls.set(self.calls.get() + 1);
-        self.potential.advance_few(steps, scratch);
+        self.potential.advance_few(others, steps)
     }
 }
 

@@ -208,7 +208,7 @@ impl<N: Number> GradientProgram<N> for FormulaPotential<N> {
         Arc::as_ptr(&self.derived).cast()
     }
 
-    fn gradients<'r>(&self, q: &[[N; SYSTEMS]], registers: &'r mut [[N; SYSTEMS]]) -> &'r [[N; SYSTEMS]] {
+    fn gradients(&self, q: &[[N; SYSTEMS]], registers: &mut [[N; SYSTEMS]]) -> usize {
         self.interpreter.gradients(q, registers)
     }
 }

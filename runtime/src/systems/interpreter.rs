@@ -133,14 +133,14 @@ impl<N: Number> Interpreter<N> {
     }
 
     /// The gradients of several systems at their x, in whose registers there is what was prepared for each: one instruction after the other, for all
-    /// of them. Not inlined: compiled once for each kind of instructions.
+    /// of them; the index of the first register of results. Not inlined: compiled once for each kind of instructions.
     #[inline(never)]
-    pub(crate) fn gradients<'r, const W: usize>(&self, x: &[[N; W]], registers: &'r mut [[N; W]]) -> &'r [[N; W]] {
+    pub(crate) fn gradients<const W: usize>(&self, x: &[[N; W]], registers: &mut [[N; W]]) -> usize {
         N::in_widest_instructions(
             #[inline(always)]
             || execute_all(&self.gradient, registers, x),
         );
-        &registers[self.layout.outputs..]
+        self.layout.outputs
     }
 
     /// Its gradient at x, then its rate, of a pair its summand, and something more; all may be swapped with other numbers.

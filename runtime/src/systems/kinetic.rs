@@ -122,6 +122,15 @@ pub enum InverseMasses<'a, N> {
     Of(&'a [N]),
 }
 
+// derived, they would need copies of N
+impl<N> Clone for InverseMasses<'_, N> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<N> Copy for InverseMasses<'_, N> {}
+
 impl<N: Number> InverseMasses<'_, N> {
     /// q ← q + weight·M⁻¹p; `velocity` is scratch space.
     #[inline(always)]
@@ -133,6 +142,50 @@ impl<N: Number> InverseMasses<'_, N> {
                 q.add_product(weight, velocity);
             }),
         }
+    }
+}
+
+impl<N: Number> Kinetic<N> for InverseMasses<'_, N> {
+    type Class = Quadratic;
+
+    fn dimension(&self) -> Option<usize> {
+        match self {
+            InverseMasses::Ones => None,
+            InverseMasses::Of(inverse) => Some(inverse.len()),
+        }
+    }
+
+    fn scratch(&self) -> usize {
+        1
+    }
+
+    #[inline(always)]
+    fn drift(&self, weight: &N, p: &[N], q: &mut [N], scratch: &mut [N]) {
+        InverseMasses::drift(self, weight, p, q, &mut scratch[0]);
+    }
+
+    #[inline(always)]
+    fn drift_augmented(&self, weight: &N, p: &[N], q: &mut [N], _: &mut N, scratch: &mut [N]) {
+        InverseMasses::drift(self, weight, p, q, &mut scratch[0]);
+    }
+
+    fn energy(&self, p: &[N], energy: &mut N, scratch: &mut [N]) {
+        match self {
+            InverseMasses::Ones => UnitMasses.energy(p, energy, scratch),
+            InverseMasses::Of(inverse) => {
+                let mut velocity = scratch[0].register();
+                energy.assign_zero();
+                add_sum(energy, [p, inverse], |[p, inverse], energy| {
+                    velocity.assign_product(inverse, p);
+                    energy.add_product(&velocity, p);
+                });
+                energy.divide_integer(2);
+            }
+        }
+    }
+
+    fn inverse_masses(&self) -> Option<InverseMasses<'_, N>> {
+        Some(*self)
     }
 }
 
@@ -337,13 +390,7 @@ impl<N: Number> Kinetic<N> for DiagonalMasses<N> {
     }
 
     fn energy(&self, p: &[N], energy: &mut N, scratch: &mut [N]) {
-        let mut velocity = scratch[0].register();
-        energy.assign_zero();
-        add_sum(energy, [p, &self.inverse], |[p, inverse], energy| {
-            velocity.assign_product(inverse, p);
-            energy.add_product(&velocity, p);
-        });
-        energy.divide_integer(2);
+        InverseMasses::Of(&self.inverse).energy(p, energy, scratch);
     }
 
     fn inverse_masses(&self) -> Option<InverseMasses<'_, N>> {

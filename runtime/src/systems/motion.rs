@@ -1,9 +1,10 @@
 //! The system of a potential and a kinetic energy, with its state.
 
+mod few;
 mod gradient_kick_state;
 mod hamiltonian;
+mod side_by_side;
 mod steps;
-mod together;
 mod turns;
 
 use thiserror::Error;
@@ -21,6 +22,7 @@ use crate::systems::potential::Potential;
 use crate::systems::state::State;
 use crate::systems::summation::{Compensated, FixedPoint, InDouble, Plain, RangeError, Summation};
 
+pub(crate) use few::advance_in_arrays;
 use gradient_kick_state::GradientKickState;
 use hamiltonian::{Evaluated, Hamiltonian};
 

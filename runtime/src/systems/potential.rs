@@ -8,12 +8,14 @@ mod sum;
 mod vectorised;
 
 pub use few_coordinates::FewCoordinates;
-pub(crate) use few_coordinates::Repeated;
+pub(crate) use few_coordinates::{FewOfSystem, Repeated};
 pub use from_fn::{FromFn, from_fn};
 pub use hessian::HessianProduct;
 pub use program::{GradientProgram, SYSTEMS};
 pub use sum::Sum;
 pub use vectorised::Vectorised;
+
+use std::any::Any;
 
 use crate::number::Number;
 
@@ -145,17 +147,20 @@ pub trait Potential<N: Number> {
         None
     }
 
-    /// Makes steps of a few coordinates, compiled for the type of the potential. There is no need to implement it: the default calls
-    /// [`update`](Potential::update) and [`gradient`](Potential::gradient).
-    fn advance_few(&mut self, steps: &mut FewCoordinates<'_, N>, scratch: &mut [N]) {
-        steps.advance(
-            self.dimension(),
-            #[inline(always)]
-            |q, gradient| {
-                self.update(q);
-                self.gradient(q, gradient, scratch);
-            },
-        );
+    /// Makes steps of systems with a few coordinates, compiled for the type of the potential; false, and nothing is done, where this potential and the
+    /// others, one of each system, are not of one type. There is no need to implement it: the default calls [`update`](Potential::update) and
+    /// [`gradient`](Potential::gradient), of one system alone that is not in lanes.
+    fn advance_few(&mut self, others: Vec<&mut dyn Any>, steps: &mut FewCoordinates<'_, N>) -> bool {
+        let is_alone = others.is_empty() && N::LANES == 1;
+        if is_alone {
+            steps.advance(vec![self]);
+        }
+        is_alone
+    }
+
+    /// Itself, where [`advance_few`](Potential::advance_few) finds other potentials of its type; the default is nothing.
+    fn as_any(&mut self) -> Option<&mut dyn Any> {
+        None
     }
 
     /// Its gradient for several systems at once, where an interpreter evaluates it; the default has none.
@@ -173,38 +178,51 @@ pub trait Potential<N: Number> {
     }
 }
 
-impl<N: Number, P: Potential<N> + ?Sized> Potential<N> for Box<P> {
-    fn dimension(&self) -> usize {
-        (**self).dimension()
-    }
-    fn scratch(&self) -> usize {
-        (**self).scratch()
-    }
-    fn prepare(&self, scratch: &mut [N], context: &N::Context) {
-        (**self).prepare(scratch, context);
-    }
-    fn update(&mut self, q: &[N]) {
-        (**self).update(q);
-    }
-    fn energy(&self, q: &[N], energy: &mut N, scratch: &mut [N]) {
-        (**self).energy(q, energy, scratch);
-    }
-    fn gradient(&self, q: &[N], gradient: &mut [N], scratch: &mut [N]) {
-        (**self).gradient(q, gradient, scratch);
-    }
-    fn gradient_and_rate(&self, q: &[N], gradient: &mut [N], rate: &mut N, scratch: &mut [N]) {
-        (**self).gradient_and_rate(q, gradient, rate, scratch);
-    }
-    fn hessian(&self) -> Option<&dyn HessianProduct<N>> {
-        (**self).hessian()
-    }
-    fn advance_few(&mut self, steps: &mut FewCoordinates<'_, N>, scratch: &mut [N]) {
-        (**self).advance_few(steps, scratch);
-    }
-    fn program(&self) -> Option<&dyn GradientProgram<N>> {
-        (**self).program()
-    }
-    fn is_boxed() -> bool {
-        true
-    }
+/// The potential that this points to.
+macro_rules! forward {
+    ($pointer:ty, $is_boxed:literal) => {
+        impl<N: Number, P: Potential<N> + ?Sized> Potential<N> for $pointer {
+            fn dimension(&self) -> usize {
+                (**self).dimension()
+            }
+            fn scratch(&self) -> usize {
+                (**self).scratch()
+            }
+            fn prepare(&self, scratch: &mut [N], context: &N::Context) {
+                (**self).prepare(scratch, context);
+            }
+            #[inline(always)]
+            fn update(&mut self, q: &[N]) {
+                (**self).update(q);
+            }
+            fn energy(&self, q: &[N], energy: &mut N, scratch: &mut [N]) {
+                (**self).energy(q, energy, scratch);
+            }
+            #[inline(always)]
+            fn gradient(&self, q: &[N], gradient: &mut [N], scratch: &mut [N]) {
+                (**self).gradient(q, gradient, scratch);
+            }
+            fn gradient_and_rate(&self, q: &[N], gradient: &mut [N], rate: &mut N, scratch: &mut [N]) {
+                (**self).gradient_and_rate(q, gradient, rate, scratch);
+            }
+            fn hessian(&self) -> Option<&dyn HessianProduct<N>> {
+                (**self).hessian()
+            }
+            fn advance_few(&mut self, others: Vec<&mut dyn Any>, steps: &mut FewCoordinates<'_, N>) -> bool {
+                (**self).advance_few(others, steps)
+            }
+            fn as_any(&mut self) -> Option<&mut dyn Any> {
+                (**self).as_any()
+            }
+            fn program(&self) -> Option<&dyn GradientProgram<N>> {
+                (**self).program()
+            }
+            fn is_boxed() -> bool {
+                $is_boxed
+            }
+        }
+    };
 }
+
+forward!(Box<P>, true);
+forward!(&mut P, false);

@@ -9,7 +9,7 @@ use crate::systems::increments::Carried;
 use crate::systems::kept::KeptForce;
 use crate::systems::kinetic::Kinetic;
 use crate::systems::maps::{Flows, MapKind, MapSequence, PartOrder};
-use crate::systems::potential::{FewCoordinates, Potential, Repeated};
+use crate::systems::potential::{Potential, Repeated};
 use crate::systems::state::State;
 use crate::systems::summation::Summation;
 use crate::systems::system::Visitor;
@@ -34,7 +34,7 @@ pub(super) struct Hamiltonian<N, P, K> {
     /// The kinetic energy's, with what it keeps there.
     pub(super) kinetic_scratch: Vec<N>,
     /// T of an energy.
-    kinetic_energy: N,
+    pub(super) kinetic_energy: N,
     /// Of gradient kicks, once there was one; what it keeps belongs to the q of the last evaluation of the gradient.
     pub(super) gradient_kicks: Option<Box<GradientKickState<N>>>,
 }
@@ -180,9 +180,6 @@ impl<N: Number, P: Potential<N>, K: Kinetic<N>> Hamiltonian<N, P, K> {
         maps: &impl MapSequence<N>,
         count: u64,
     ) {
-        if self.advance_few(at, maps, count, None) {
-            return;
-        }
         // one of both is compiled
         if const { std::mem::needs_drop::<Evaluated<N, V, S>>() } {
             self.advance_in_place(at, maps, count);
@@ -202,43 +199,10 @@ impl<N: Number, P: Potential<N>, K: Kinetic<N>> Hamiltonian<N, P, K> {
         count: u64,
         visitor: &mut dyn Visitor<N>,
     ) {
-        if self.advance_few(at, maps, count, Some(visitor)) {
-            return;
-        }
         for step in 0..count {
             maps.each(step..step + 1, count, &mut PlainFlows { hamiltonian: self, at });
             visitor.visit(at.state.q.as_ref(), at.state.p.as_ref());
         }
-    }
-
-    /// The steps by one call of a potential behind a `dyn`; false, and nothing is done, where these steps are not of
-    /// [a few coordinates](FewCoordinates).
-    #[inline(always)]
-    fn advance_few<V: Coordinates<N>, S: Summation<N>>(
-        &mut self,
-        at: &mut Evaluated<N, V, S>,
-        maps: &impl MapSequence<N>,
-        count: u64,
-        visitor: Option<&mut dyn Visitor<N>>,
-    ) -> bool {
-        if !FewCoordinates::<N>::FIT {
-            return false;
-        }
-        let Evaluated { state: State { q, p, sums, evaluations, .. }, gradient, kept, .. } = at;
-        let [q, p, gradient] = [q, p, gradient].map(V::as_mut);
-        let is_worth_it = P::is_boxed() && count >= FEW && FewCoordinates::<N>::can_hold(q.len());
-        if !is_worth_it || !sums.is_plain() || self.gradient_kicks.is_some() {
-            return false;
-        }
-        let Some(inverse_masses) = self.kinetic.inverse_masses() else { return false };
-        let Some(maps) = kicks_and_drifts(maps, count) else { return false };
-        let state = [q, p, gradient];
-        // as short a borrow as that of the state
-        let visitor = visitor.map(|visitor| -> &mut dyn Visitor<N> { visitor });
-        let mut few = FewCoordinates { state, inverse_masses, kept: *kept, evaluations: 0, maps, visitor };
-        self.potential.advance_few(&mut few, &mut self.scratch);
-        (*kept, *evaluations) = (few.kept, *evaluations + few.evaluations);
-        true
     }
 
     #[inline(always)]
@@ -282,9 +246,6 @@ impl<N: Number, V: Coordinates<N>, P: Potential<N>, K: Kinetic<N>, S: Summation<
         unreachable!("H has two parts")
     }
 }
-
-/// Of fewer steps than these no list of maps is made.
-pub(super) const FEW: u64 = 8;
 
 /// The maps of the first, of each middle and of the last of `count` steps; `None` unless a step has kicks and drifts and nothing else.
 pub(super) fn kicks_and_drifts<N: Number>(maps: &impl MapSequence<N>, count: u64) -> Option<[Repeated<N>; 3]> {

@@ -1,7 +1,10 @@
 //! The flows and steps of a motion.
 
+use std::slice;
+
+use super::few::advance_few;
 use super::hamiltonian::Evaluated;
-use super::{Motion, turns};
+use super::{Motion, side_by_side, turns};
 use crate::number::Number;
 use crate::number::instructions;
 use crate::number::partial_sums::add_sum;
@@ -69,10 +72,16 @@ where
         if carried == Carried::Nothing {
             N::in_widest_instructions(
                 #[inline(always)]
-                || match motions {
-                    // registers hold the state
-                    [Motion { hamiltonian, at }] => hamiltonian.advance(at, maps, count),
-                    many => turns::advance(many, maps, count),
+                || {
+                    let motions = side_by_side::advance_first(motions, maps, count);
+                    if motions.is_empty() || advance_few(motions, maps, count, None) {
+                        return;
+                    }
+                    match motions {
+                        // registers hold the state
+                        [Motion { hamiltonian, at }] => hamiltonian.advance(at, maps, count),
+                        many => turns::advance(many, maps, count),
+                    }
                 },
             );
         } else {
@@ -89,10 +98,13 @@ where
     }
 
     fn advance_visited(&mut self, maps: &impl MapSequence<N>, count: u64, visitor: &mut dyn Visitor<N>) {
-        let Motion { hamiltonian, at } = self;
         N::in_widest_instructions(
             #[inline(always)]
-            || hamiltonian.advance_visited(at, maps, count, visitor),
+            || {
+                if !advance_few(slice::from_mut(self), maps, count, Some(visitor)) {
+                    self.hamiltonian.advance_visited(&mut self.at, maps, count, visitor);
+                }
+            },
         );
     }
 

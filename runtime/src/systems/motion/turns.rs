@@ -6,15 +6,15 @@
 use std::mem::{needs_drop, take};
 
 use super::Motion;
-use super::hamiltonian::{Evaluated, FEW, Hamiltonian, kicks_and_drifts};
-use super::together::Together;
+use super::few::FEW;
+use super::hamiltonian::{Evaluated, Hamiltonian, kicks_and_drifts};
 use crate::number::Number;
 use crate::systems::coordinates::Coordinates;
 use crate::systems::increments::Carried;
 use crate::systems::kept::KeptForce;
 use crate::systems::kinetic::Kinetic;
 use crate::systems::maps::{MapKind, MapSequence};
-use crate::systems::potential::{Potential, Repeated, SYSTEMS};
+use crate::systems::potential::{Potential, Repeated};
 use crate::systems::state::State;
 use crate::systems::summation::Summation;
 use crate::systems::system::Each;
@@ -38,7 +38,7 @@ where
 
 /// The kicks and drifts of the first, of each middle and of the last step.
 #[inline(always)]
-fn advance_in_turns<N, V, P, K, S>(
+pub(super) fn advance_in_turns<N, V, P, K, S>(
     motions: &mut [Motion<N, V, P, K, S>],
     [(first, _), (middle, times), (last, _)]: &[Repeated<N>; 3],
 ) where
@@ -54,16 +54,11 @@ fn advance_in_turns<N, V, P, K, S>(
     let repeated = turn.continued(middle);
     let mut end = turn.continued(last);
     end.push(turn);
-    let mut groups = Vec::new();
-    // of other numbers it is not compiled, as each kind needs a loop of the interpreter of its own
-    if const { N::LANES > 1 && !N::HAS_DERIVATIVES } {
-        groups.extend(motions.as_chunks::<SYSTEMS>().0.iter().map(Together::of));
-    }
     // every middle step has a kick after a drift, which begins a turn: what is left over at its end is the same
     for (turns, times) in [(begin, 1), (repeated, times - 1), (end, 1)] {
         for _ in 0..times {
             for turn in &turns {
-                turn.apply(motions, &mut groups);
+                turn.apply(motions);
             }
         }
     }
@@ -114,25 +109,6 @@ impl<'a, N: Number> Turn<'a, N> {
         }
     }
 
-    /// The same of those that are evaluated together.
-    #[inline(always)]
-    fn evaluate_together<V, P, K, S>(&self, motions: &mut [Motion<N, V, P, K, S>], groups: &mut [Option<Together<N>>])
-    where
-        V: Coordinates<N>,
-        P: Potential<N>,
-        K: Kinetic<N>,
-        S: Summation<N>,
-    {
-        for (group, motions) in groups.iter_mut().zip(motions.as_chunks_mut::<SYSTEMS>().0) {
-            if let Some(together) = group
-                && self.kicks[0].is_some()
-            {
-                motions.iter_mut().for_each(|motion| motion.at.state.settle());
-                together.evaluate(motions);
-            }
-        }
-    }
-
     // one by one: the compiler would not unroll loops
     #[inline(always)]
     fn kick(&self, sums: &mut impl Summation<N>, p: &mut [N], gradient: &[N]) {
@@ -165,7 +141,7 @@ impl<'a, N: Number> Turn<'a, N> {
 
     /// The maps of all motions.
     #[inline(always)]
-    fn apply<V, P, K, S>(&self, motions: &mut [Motion<N, V, P, K, S>], groups: &mut [Option<Together<N>>])
+    fn apply<V, P, K, S>(&self, motions: &mut [Motion<N, V, P, K, S>])
     where
         V: Coordinates<N>,
         P: Potential<N>,
@@ -176,30 +152,24 @@ impl<'a, N: Number> Turn<'a, N> {
         let Turn { kicks: [kick, other_kick], drifts: [drift, other_drift] } = *self;
         match (kick, other_kick, drift, other_drift) {
             (Some(_), None, Some(_), None) => {
-                advance_each(motions, groups, &Turn { kicks: [kick, None], drifts: [drift, None] })
+                advance_each(motions, &Turn { kicks: [kick, None], drifts: [drift, None] })
             }
-            (Some(_), Some(_), Some(_), None) => {
-                advance_each(motions, groups, &Turn { drifts: [drift, None], ..*self })
-            }
-            (Some(_), None, Some(_), Some(_)) => advance_each(motions, groups, &Turn { kicks: [kick, None], ..*self }),
-            _ => advance_each(motions, groups, &Turn { ..*self }),
+            (Some(_), Some(_), Some(_), None) => advance_each(motions, &Turn { drifts: [drift, None], ..*self }),
+            (Some(_), None, Some(_), Some(_)) => advance_each(motions, &Turn { kicks: [kick, None], ..*self }),
+            _ => advance_each(motions, &Turn { ..*self }),
         }
     }
 }
 
 #[inline(always)]
-fn advance_each<N, V, P, K, S>(
-    motions: &mut [Motion<N, V, P, K, S>],
-    groups: &mut [Option<Together<N>>],
-    turn: &Turn<'_, N>,
-) where
+fn advance_each<N, V, P, K, S>(motions: &mut [Motion<N, V, P, K, S>], turn: &Turn<'_, N>)
+where
     N: Number,
     V: Coordinates<N>,
     P: Potential<N>,
     K: Kinetic<N>,
     S: Summation<N>,
 {
-    turn.evaluate_together(motions, groups);
     if const { needs_drop::<V>() } {
         // in memory: one map of all motions, none of which waits for what it has just stored
         for motion in &mut *motions {
@@ -218,6 +188,11 @@ fn advance_each<N, V, P, K, S>(
     for motion in motions {
         turn.evaluate(motion);
         let Motion { hamiltonian, at: Evaluated { state: State { q, p, sums, .. }, gradient, kept, .. } } = motion;
+        if const { N::LANES > 1 } {
+            turn.kick(sums, p.as_mut(), gradient.as_ref());
+            turn.drift(hamiltonian, sums, (q.as_mut(), p.as_ref()), kept);
+            continue;
+        }
         // a copy, which the compiler can hold in registers
         let mut copy = p.clone();
         turn.kick(sums, copy.as_mut(), gradient.as_ref());

@@ -4,35 +4,44 @@ use std::array;
 use std::fmt;
 use std::mem::{needs_drop, size_of};
 
+use super::Potential;
 use crate::number::Number;
 use crate::systems::kept::KeptForce;
 use crate::systems::kinetic::InverseMasses;
 use crate::systems::maps::MapKind;
+use crate::systems::motion;
 use crate::systems::summation::{Plain, Summation};
 use crate::systems::system::Visitor;
 
-/// Steps of H = ½pᵀM⁻¹p + U(q) with at most three coordinates and a diagonal M, for [`Potential::advance_few`](super::Potential::advance_few).
+/// Steps of one or several systems H = ½pᵀM⁻¹p + U(q) with at most three coordinates and a diagonal M, for
+/// [`Potential::advance_few`](super::Potential::advance_few).
 ///
 /// A step in which the potential and the masses are each behind a `dyn` passes q, p and U_q through memory between its maps. Here one call
 /// makes many steps, compiled for the type of the potential, so that these stay in registers. The bits are the same as with the maps one by one.
 pub struct FewCoordinates<'a, N> {
+    pub(crate) systems: Vec<FewOfSystem<'a, N>>,
+    pub(crate) maps: [Repeated<N>; 3],
+    /// Sees the state of the one system after each step, in the order of steps.
+    pub(crate) visitor: Option<&'a mut dyn Visitor<N>>,
+}
+
+/// A system but for its potential.
+pub(crate) struct FewOfSystem<'a, N> {
     /// q, p and U_q.
     pub(crate) state: [&'a mut [N]; 3],
     pub(crate) inverse_masses: InverseMasses<'a, N>,
-    /// What is kept at q before the first map and after the last.
-    pub(crate) kept: KeptForce,
+    /// The potential's.
+    pub(crate) scratch: &'a mut Vec<N>,
+    /// What is kept at q.
+    pub(crate) kept: &'a mut KeptForce,
     /// Evaluations of the gradient.
-    pub(crate) evaluations: u64,
-    pub(crate) maps: [Repeated<N>; 3],
-    /// Sees the state after each step, in the order of steps.
-    pub(crate) visitor: Option<&'a mut dyn Visitor<N>>,
+    pub(crate) evaluations: &'a mut u64,
 }
 
 impl<N: fmt::Debug> fmt::Debug for FewCoordinates<'_, N> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let FewCoordinates { state, evaluations, maps, .. } = self;
-        let mut text = f.debug_struct("FewCoordinates");
-        text.field("state", state).field("evaluations", evaluations).field("maps", maps).finish_non_exhaustive()
+        let states: Vec<_> = self.systems.iter().map(|system| &system.state).collect();
+        f.debug_struct("FewCoordinates").field("states", &states).field("maps", &self.maps).finish_non_exhaustive()
     }
 }
 
@@ -47,36 +56,51 @@ const AT_ONCE: usize = 4;
 
 impl<N: Number> FewCoordinates<'_, N> {
     /// Whether registers hold such numbers: of others these steps are not even compiled.
-    pub(crate) const FIT: bool = size_of::<N>() <= size_of::<f64>() && !needs_drop::<N>();
+    pub(crate) const FIT: bool = !needs_drop::<N>() && (Self::IN_LANES || size_of::<N>() <= size_of::<f64>());
 
-    /// Whether this makes the steps of a system of this dimension.
-    pub(crate) fn can_hold(dimension: usize) -> bool {
-        Self::FIT && (1..=MOST).contains(&dimension)
+    /// Numbers of which there are several systems.
+    const IN_LANES: bool = N::LANES > 1 && !N::HAS_DERIVATIVES;
+
+    /// Whether this makes the steps of this number of systems of this dimension.
+    pub(crate) fn can_hold(systems: usize, dimension: usize) -> bool {
+        Self::FIT && (Self::IN_LANES || systems == 1) && (1..=MOST).contains(&dimension)
     }
 
-    /// Makes the steps of a potential of this dimension; `evaluate` computes the gradient.
+    /// Makes the steps with these potentials, one of each system.
     ///
     /// # Panics
-    /// If there are more than three.
+    /// If they are not as many as the systems, or of more than three coordinates.
     #[inline(always)]
-    pub fn advance(&mut self, dimension: usize, evaluate: impl FnMut(&[N], &mut [N])) {
+    pub fn advance<P: Potential<N> + ?Sized>(&mut self, potentials: Vec<&mut P>) {
         if const { Self::FIT } {
-            match dimension {
-                1 => self.advance_in_arrays::<1>(evaluate),
-                2 => self.advance_in_arrays::<2>(evaluate),
-                3 => self.advance_in_arrays::<3>(evaluate),
+            match potentials[0].dimension() {
+                1 => self.advance_in_arrays::<1, P>(potentials),
+                2 => self.advance_in_arrays::<2, P>(potentials),
+                3 => self.advance_in_arrays::<3, P>(potentials),
                 more => unreachable!("{more} coordinates are more than {MOST}"),
             }
         }
     }
 
     #[inline(always)]
-    fn advance_in_arrays<const D: usize>(&mut self, mut evaluate: impl FnMut(&[N], &mut [N])) {
-        let FewCoordinates { state, inverse_masses, kept, evaluations, maps, visitor } = self;
+    fn advance_in_arrays<const D: usize, P: Potential<N> + ?Sized>(&mut self, potentials: Vec<&mut P>) {
+        if const { Self::IN_LANES } {
+            return motion::advance_in_arrays::<D, _, _>(&mut self.systems, potentials, &self.maps);
+        }
+        let [potential] = potentials.try_into().unwrap_or_else(|_| unreachable!("there is one system"));
+        self.advance_in_registers::<D, P>(potential);
+    }
+
+    #[inline(always)]
+    fn advance_in_registers<const D: usize, P: Potential<N> + ?Sized>(&mut self, potential: &mut P) {
+        let FewCoordinates { systems, maps, visitor } = self;
+        let [FewOfSystem { state, inverse_masses, scratch, kept, evaluations }] = &mut systems[..] else {
+            unreachable!("there is one system")
+        };
         let copy = |from: &[N]| -> [N; D] { array::from_fn(|i| from[i].clone()) };
         let [mut q, mut p, mut gradient] = [copy(state[0]), copy(state[1]), copy(state[2])];
         let mut velocity = p[0].clone();
-        let (mut has_gradient, mut evaluated) = (*kept != KeptForce::Nothing, 0);
+        let (mut has_gradient, mut evaluated) = (**kept != KeptForce::Nothing, 0);
         let mut made: [[[N; D]; 2]; AT_ONCE] = array::from_fn(|_| [q.clone(), p.clone()]);
         let mut unvisited = 0;
         for (maps, times) in maps {
@@ -88,7 +112,8 @@ impl<N: Number> FewCoordinates<'_, N> {
                         continue;
                     }
                     if !has_gradient {
-                        evaluate(&q, &mut gradient);
+                        potential.update(&q);
+                        potential.gradient(&q, &mut gradient, scratch);
                         has_gradient = true;
                         evaluated += 1;
                     }
@@ -107,8 +132,8 @@ impl<N: Number> FewCoordinates<'_, N> {
         if let Some(visitor) = visitor {
             made[..unvisited].iter().for_each(|[q, p]| visitor.visit(q, p));
         }
-        *kept = if has_gradient { KeptForce::Gradient } else { KeptForce::Nothing };
-        *evaluations += evaluated;
+        **kept = if has_gradient { KeptForce::Gradient } else { KeptForce::Nothing };
+        **evaluations += evaluated;
         for (into, from) in state.iter_mut().zip([&q, &p, &gradient]) {
             into.clone_from_slice(from);
         }

@@ -9,6 +9,7 @@ pub trait GradientProgram<N> {
     /// Where the instructions are: the same for the same program only.
     fn address(&self) -> *const ();
 
-    /// U_q of each system, by coordinates, as `q` is; the registers are the systems' scratch spaces, prepared, side by side.
-    fn gradients<'r>(&self, q: &[[N; SYSTEMS]], registers: &'r mut [[N; SYSTEMS]]) -> &'r [[N; SYSTEMS]];
+    /// Evaluates U_q of each system, by coordinates, as `q` is, in the registers from the index on that is returned. The registers are the systems' scratch
+    /// spaces, prepared, side by side.
+    fn gradients(&self, q: &[[N; SYSTEMS]], registers: &mut [[N; SYSTEMS]]) -> usize;
 }

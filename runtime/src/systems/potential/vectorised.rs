@@ -1,6 +1,9 @@
 //! A potential whose calls choose the vector instructions.
 
-use super::{HessianProduct, Potential};
+use std::any::Any;
+use std::iter::once;
+
+use super::{FewCoordinates, HessianProduct, Potential};
 use crate::number::Number;
 
 /// A potential behind a `dyn`, for [lanes](crate::number::Lanes): each call is compiled for the widest
@@ -22,7 +25,7 @@ use crate::number::Number;
 #[derive(Clone, Copy, Debug)]
 pub struct Vectorised<P>(pub P);
 
-impl<N: Number, P: Potential<N>> Potential<N> for Vectorised<P> {
+impl<N: Number, P: Potential<N> + 'static> Potential<N> for Vectorised<P> {
     fn dimension(&self) -> usize {
         self.0.dimension()
     }
@@ -62,5 +65,19 @@ impl<N: Number, P: Potential<N>> Potential<N> for Vectorised<P> {
 
     fn hessian(&self) -> Option<&dyn HessianProduct<N>> {
         self.0.hessian()
+    }
+
+    fn advance_few(&mut self, others: Vec<&mut dyn Any>, steps: &mut FewCoordinates<'_, N>) -> bool {
+        let others = others.into_iter().map(|other| other.downcast_mut::<Self>().map(|other| &mut other.0));
+        let Some(potentials) = once(Some(&mut self.0)).chain(others).collect() else { return false };
+        N::in_widest_instructions(
+            #[inline(always)]
+            || steps.advance::<P>(potentials),
+        );
+        true
+    }
+
+    fn as_any(&mut self) -> Option<&mut dyn Any> {
+        Some(self)
     }
 }

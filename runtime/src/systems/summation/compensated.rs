@@ -2,7 +2,7 @@
 
 use super::{Half, Remainders, Summation};
 use crate::number::Number;
-use crate::systems::coordinates::Coordinates;
+use crate::systems::coordinates::{Coordinates, index};
 use crate::systems::kinetic::Kinetic;
 
 /// q and p with the remainder of each sum, which is added to the next increment.
@@ -40,9 +40,12 @@ impl<N: Number, V: Coordinates<N>> Compensated<N, V> {
     #[inline(always)]
     fn add_increment(&mut self, q: &mut [N]) {
         let (mut y, mut sum) = (self.y.register(), self.sum.register());
-        for ((q, remainder), increment) in q.iter_mut().zip(self.q.as_mut()).zip(self.increment.as_ref()) {
-            y.assign_sum(remainder, increment);
-            add_with_remainder(q, remainder, &y, &mut sum);
+        let length = q.len();
+        let (remainders, increment) = (&mut self.q.as_mut()[..length], &self.increment.as_ref()[..length]);
+        for i in 0..length {
+            let i = index::<N>(i, length);
+            y.assign_sum(&remainders[i], &increment[i]);
+            add_with_remainder(&mut q[i], &mut remainders[i], &y, &mut sum);
         }
     }
 }
@@ -60,10 +63,13 @@ impl<N: Number, V: Coordinates<N>> Summation<N> for Compensated<N, V> {
     #[inline(always)]
     fn kick(&mut self, weight: &N, gradient: &[N], p: &mut [N]) {
         let (mut y, mut sum) = (self.y.register(), self.sum.register());
-        for ((p, remainder), gradient) in p.iter_mut().zip(self.p.as_mut()).zip(gradient) {
-            y.assign(remainder);
-            y.subtract_product(weight, gradient);
-            add_with_remainder(p, remainder, &y, &mut sum);
+        let length = p.len();
+        let (remainders, gradient) = (&mut self.p.as_mut()[..length], &gradient[..length]);
+        for i in 0..length {
+            let i = index::<N>(i, length);
+            y.assign(&remainders[i]);
+            y.subtract_product(weight, &gradient[i]);
+            add_with_remainder(&mut p[i], &mut remainders[i], &y, &mut sum);
         }
     }
 
