@@ -50,7 +50,53 @@ macro_rules! in_any_numbers {
     )*};
 }
 
-in_any_numbers! { Kepler HenonHeiles Pendulum }
+in_any_numbers! { Kepler HenonHeiles Pendulum Chain }
+
+/// Bodies on a ring with springs U = d²/2 + d⁴/4 between neighbours.
+#[derive(Clone, Copy)]
+struct Chain;
+
+const BODIES: usize = 32;
+
+impl<N: Number> Potential<N> for Chain {
+    fn dimension(&self) -> usize {
+        BODIES
+    }
+
+    fn scratch(&self) -> usize {
+        2
+    }
+
+    #[inline(always)]
+    fn energy(&self, q: &[N], energy: &mut N, scratch: &mut [N]) {
+        energy.assign_zero();
+        for i in 0..BODIES {
+            let [d, square] = scratch else { return };
+            d.assign_difference(&q[(i + 1) % BODIES], &q[i]);
+            square.assign_square(d);
+            d.assign_square(square);
+            d.divide_integer(2);
+            square.add(d);
+            square.divide_integer(2);
+            energy.add(square);
+        }
+    }
+
+    #[inline(always)]
+    fn gradient(&self, q: &[N], gradient: &mut [N], scratch: &mut [N]) {
+        gradient.iter_mut().for_each(N::assign_zero);
+        for i in 0..BODIES {
+            let [d, slope] = scratch else { return };
+            let next = (i + 1) % BODIES;
+            d.assign_difference(&q[next], &q[i]);
+            slope.assign_square(d);
+            slope.multiply(d);
+            slope.add(d);
+            gradient[i].subtract(slope);
+            gradient[next].add(slope);
+        }
+    }
+}
 
 /// A formula in x and y that is read at run time.
 #[derive(Clone, Copy)]
@@ -63,7 +109,7 @@ impl In for AtRunTime {
     }
 }
 
-/// A system of two coordinates at a start.
+/// A system at a start, whose coordinates are in turn these two.
 struct Start<P> {
     title: &'static str,
     potential: P,
@@ -73,7 +119,7 @@ struct Start<P> {
 
 /// The state of a trajectory, a little different from the others.
 fn state<const D: usize>(start: [f64; 2], trajectory: usize) -> [f64; D] {
-    std::array::from_fn(|i| start[i] * (1.0 + 1e-3 * trajectory as f64))
+    std::array::from_fn(|i| start[i % 2] * (1.0 + 1e-3 * trajectory as f64))
 }
 
 type Alone<P, const D: usize> = Motion<f64, [f64; D], <P as In>::Numbers<f64>, UnitMasses>;
@@ -295,6 +341,9 @@ fn main() {
     measure::<_, _, 2>("Störmer–Verlet", StormerVerlet, &henon_heiles);
     measure::<_, _, 2>("Yoshida 4", Yoshida4, &henon_heiles);
     measure::<_, _, 1>("Störmer–Verlet", StormerVerlet, &pendulum);
+    let chain = Start { title: "a chain of 32 bodies", potential: Chain, q: [0.0, 0.1], p: [0.3, 0.0] };
+    check_bits::<_, _, BODIES, 16>(Yoshida4, &chain);
+    measure::<_, _, BODIES>("Yoshida 4", Yoshida4, &chain);
     let formula = AtRunTime("(x^2 + y^2)/2 + x^2*y - y^3/3");
     let at_run_time =
         Start {

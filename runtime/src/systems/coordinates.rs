@@ -16,8 +16,18 @@ impl<N, V: AsRef<[N]> + AsMut<[N]> + Clone> Coordinates<N> for V {}
 pub(crate) fn for_each_two<N: Number>(own: &mut [N], other: &[N], mut visit: impl FnMut(&mut N, &N)) {
     let length = own.len().min(other.len());
     let (own, other) = (&mut own[..length], &other[..length]);
-    for i in 0..length {
-        let i = index::<N>(i, length);
+    let mut done = 0;
+    if are_many::<N>(length) {
+        let (own, other) = (own.as_chunks_mut::<2>().0, other.as_chunks::<2>().0);
+        for i in 0..own.len() {
+            let (own, other) = (&mut own[black_box(i)], &other[i]);
+            // no loop, of which the compiler would make such vectors as well
+            visit(&mut own[0], &other[0]);
+            visit(&mut own[1], &other[1]);
+        }
+        done = 2 * own.len();
+    }
+    for i in done..length {
         visit(&mut own[i], &other[i]);
     }
 }
@@ -33,12 +43,17 @@ pub(crate) fn for_each_three<N: Number>(own: &mut [N], a: &[N], b: &[N], mut vis
     }
 }
 
-/// An index of a loop over this number of coordinates. The compiler does not see it where they are many and in lanes: it would make vectors of one lane of
-/// several coordinates, which are gathered from their places.
+/// Lanes of so many coordinates that the compiler, where it sees the index of a loop, makes vectors of one lane of several coordinates, which are
+/// gathered from their places.
+#[inline(always)]
+fn are_many<N: Number>(length: usize) -> bool {
+    N::LANES > 1 && length >= 4
+}
+
+/// An index of a loop over this number of coordinates, which the compiler does not see where they [are many](are_many).
 #[inline(always)]
 pub(crate) fn index<N: Number>(i: usize, length: usize) -> usize {
-    const MANY: usize = 4;
-    if N::LANES > 1 && length >= MANY { black_box(i) } else { i }
+    if are_many::<N>(length) { black_box(i) } else { i }
 }
 
 /// The first of the initial values q1, q2, …, p1, p2, … that is infinite or NaN. One of several numbers in lanes may be so: the other trajectories go

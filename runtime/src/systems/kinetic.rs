@@ -136,7 +136,12 @@ impl<N: Number> InverseMasses<'_, N> {
     #[inline(always)]
     pub(crate) fn drift(&self, weight: &N, p: &[N], q: &mut [N], velocity: &mut N) {
         match self {
-            InverseMasses::Ones => for_each_two(q, p, |q, p| q.add_product(weight, p)),
+            InverseMasses::Ones => for_each_two(
+                q,
+                p,
+                #[inline(always)]
+                |q, p| q.add_product(weight, p),
+            ),
             InverseMasses::Of(inverse) => for_each_three(q, p, inverse, |q, p, inverse| {
                 velocity.assign_product(inverse, p);
                 q.add_product(weight, velocity);
@@ -239,7 +244,12 @@ impl<N: Number> Kinetic<N> for UnitMasses {
 
     #[inline(always)]
     fn drift(&self, weight: &N, p: &[N], q: &mut [N], _: &mut [N]) {
-        for_each_two(q, p, |q, p| q.add_product(weight, p));
+        for_each_two(
+            q,
+            p,
+            #[inline(always)]
+            |q, p| q.add_product(weight, p),
+        );
     }
 
     #[inline(always)]

@@ -108,7 +108,12 @@ pub struct Plain;
 impl<N: Number> Summation<N> for Plain {
     #[inline(always)]
     fn kick(&mut self, weight: &N, gradient: &[N], p: &mut [N]) {
-        for_each_two(p, gradient, |p, gradient| p.subtract_product(weight, gradient));
+        for_each_two(
+            p,
+            gradient,
+            #[inline(always)]
+            |p, gradient| p.subtract_product(weight, gradient),
+        );
     }
 
     #[inline(always)]

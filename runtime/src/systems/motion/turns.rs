@@ -188,11 +188,6 @@ where
     for motion in motions {
         turn.evaluate(motion);
         let Motion { hamiltonian, at: Evaluated { state: State { q, p, sums, .. }, gradient, kept, .. } } = motion;
-        if const { N::LANES > 1 } {
-            turn.kick(sums, p.as_mut(), gradient.as_ref());
-            turn.drift(hamiltonian, sums, (q.as_mut(), p.as_ref()), kept);
-            continue;
-        }
         // a copy, which the compiler can hold in registers
         let mut copy = p.clone();
         turn.kick(sums, copy.as_mut(), gradient.as_ref());

@@ -10,7 +10,8 @@ use crate::number::Number;
 /// instructions that the processor has.
 ///
 /// A call of a `dyn Potential` is not inlined into the loop of steps, and so not compiled together with it. A potential whose type is known is,
-/// and does not need this. Other numbers than lanes are computed as without it.
+/// and does not need this. Other numbers than lanes are computed as without it. Many steps of systems with up to three coordinates, whose potentials are of
+/// one type, are one call.
 ///
 /// ```
 /// use shadowstep::systems::potential::{Potential, Vectorised};
