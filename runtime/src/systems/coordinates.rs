@@ -43,8 +43,8 @@ pub(crate) fn for_each_three<N: Number>(own: &mut [N], a: &[N], b: &[N], mut vis
     }
 }
 
-/// Lanes of so many coordinates that the compiler, where it sees the index of a loop, makes vectors of one lane of several coordinates, which are
-/// gathered from their places.
+/// Lanes of four coordinates and more: where the compiler sees the index of a loop over them, it makes vectors of one lane of several coordinates, which
+/// are gathered from their places.
 #[inline(always)]
 fn are_many<N: Number>(length: usize) -> bool {
     N::LANES > 1 && length >= 4

@@ -22,7 +22,6 @@ use crate::systems::potential::Potential;
 use crate::systems::state::State;
 use crate::systems::summation::{Compensated, FixedPoint, InDouble, Plain, RangeError, Summation};
 
-pub(crate) use few::advance_in_arrays;
 use gradient_kick_state::GradientKickState;
 use hamiltonian::{Evaluated, Hamiltonian};
 

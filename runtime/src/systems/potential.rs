@@ -153,7 +153,14 @@ pub trait Potential<N: Number> {
     fn advance_few(&mut self, others: Vec<&mut dyn Any>, steps: &mut FewCoordinates<'_, N>) -> bool {
         let is_alone = others.is_empty() && N::LANES == 1;
         if is_alone {
-            steps.advance(vec![self]);
+            steps.advance(
+                self.dimension(),
+                vec![self],
+                #[inline(always)]
+                |potential: &mut Self, q: &[N], gradient: &mut [N], scratch: &mut [N]| {
+                    evaluate(potential, q, gradient, scratch)
+                },
+            );
         }
         is_alone
     }
@@ -178,51 +185,55 @@ pub trait Potential<N: Number> {
     }
 }
 
-/// The potential that this points to.
-macro_rules! forward {
-    ($pointer:ty, $is_boxed:literal) => {
-        impl<N: Number, P: Potential<N> + ?Sized> Potential<N> for $pointer {
-            fn dimension(&self) -> usize {
-                (**self).dimension()
-            }
-            fn scratch(&self) -> usize {
-                (**self).scratch()
-            }
-            fn prepare(&self, scratch: &mut [N], context: &N::Context) {
-                (**self).prepare(scratch, context);
-            }
-            #[inline(always)]
-            fn update(&mut self, q: &[N]) {
-                (**self).update(q);
-            }
-            fn energy(&self, q: &[N], energy: &mut N, scratch: &mut [N]) {
-                (**self).energy(q, energy, scratch);
-            }
-            #[inline(always)]
-            fn gradient(&self, q: &[N], gradient: &mut [N], scratch: &mut [N]) {
-                (**self).gradient(q, gradient, scratch);
-            }
-            fn gradient_and_rate(&self, q: &[N], gradient: &mut [N], rate: &mut N, scratch: &mut [N]) {
-                (**self).gradient_and_rate(q, gradient, rate, scratch);
-            }
-            fn hessian(&self) -> Option<&dyn HessianProduct<N>> {
-                (**self).hessian()
-            }
-            fn advance_few(&mut self, others: Vec<&mut dyn Any>, steps: &mut FewCoordinates<'_, N>) -> bool {
-                (**self).advance_few(others, steps)
-            }
-            fn as_any(&mut self) -> Option<&mut dyn Any> {
-                (**self).as_any()
-            }
-            fn program(&self) -> Option<&dyn GradientProgram<N>> {
-                (**self).program()
-            }
-            fn is_boxed() -> bool {
-                $is_boxed
-            }
-        }
-    };
+/// gradient ← U_q(q), of a q at which nothing has been evaluated.
+#[inline(always)]
+pub(crate) fn evaluate<N: Number, P: Potential<N> + ?Sized>(
+    potential: &mut P,
+    q: &[N],
+    gradient: &mut [N],
+    scratch: &mut [N],
+) {
+    potential.update(q);
+    potential.gradient(q, gradient, scratch);
 }
 
-forward!(Box<P>, true);
-forward!(&mut P, false);
+impl<N: Number, P: Potential<N> + ?Sized> Potential<N> for Box<P> {
+    fn dimension(&self) -> usize {
+        (**self).dimension()
+    }
+    fn scratch(&self) -> usize {
+        (**self).scratch()
+    }
+    fn prepare(&self, scratch: &mut [N], context: &N::Context) {
+        (**self).prepare(scratch, context);
+    }
+    #[inline(always)]
+    fn update(&mut self, q: &[N]) {
+        (**self).update(q);
+    }
+    fn energy(&self, q: &[N], energy: &mut N, scratch: &mut [N]) {
+        (**self).energy(q, energy, scratch);
+    }
+    #[inline(always)]
+    fn gradient(&self, q: &[N], gradient: &mut [N], scratch: &mut [N]) {
+        (**self).gradient(q, gradient, scratch);
+    }
+    fn gradient_and_rate(&self, q: &[N], gradient: &mut [N], rate: &mut N, scratch: &mut [N]) {
+        (**self).gradient_and_rate(q, gradient, rate, scratch);
+    }
+    fn hessian(&self) -> Option<&dyn HessianProduct<N>> {
+        (**self).hessian()
+    }
+    fn advance_few(&mut self, others: Vec<&mut dyn Any>, steps: &mut FewCoordinates<'_, N>) -> bool {
+        (**self).advance_few(others, steps)
+    }
+    fn as_any(&mut self) -> Option<&mut dyn Any> {
+        (**self).as_any()
+    }
+    fn program(&self) -> Option<&dyn GradientProgram<N>> {
+        (**self).program()
+    }
+    fn is_boxed() -> bool {
+        true
+    }
+}

@@ -1,15 +1,12 @@
 //! Steps of [a few coordinates](FewCoordinates) whose potential is behind a `dyn`, by one call of it.
 
-use std::mem::take;
-
 use super::Motion;
 use super::hamiltonian::{Evaluated, Hamiltonian, kicks_and_drifts};
-use super::turns::advance_in_turns;
 use crate::number::Number;
 use crate::systems::coordinates::Coordinates;
-use crate::systems::kinetic::{InverseMasses, Kinetic, UnitMasses};
+use crate::systems::kinetic::Kinetic;
 use crate::systems::maps::MapSequence;
-use crate::systems::potential::{FewCoordinates, FewOfSystem, Potential, Repeated};
+use crate::systems::potential::{FewCoordinates, FewOfSystem, Potential, evaluate};
 use crate::systems::state::State;
 use crate::systems::summation::Summation;
 use crate::systems::system::Visitor;
@@ -47,7 +44,7 @@ where
     let [first, others @ ..] = &mut potentials[..] else { return true };
     let others = others.iter_mut().map(|other| other.as_any()).collect::<Option<_>>();
     if !others.is_some_and(|others| first.advance_few(others, &mut few)) {
-        few.advance(potentials);
+        few.advance(dimension, potentials, evaluate);
     }
     true
 }
@@ -72,64 +69,4 @@ where
     let Evaluated { state: State { q, p, evaluations, .. }, gradient, kept, .. } = at;
     let inverse_masses = kinetic.inverse_masses().expect("the masses are known");
     (potential, FewOfSystem { state: [q, p, gradient].map(V::as_mut), inverse_masses, scratch, kept, evaluations })
-}
-
-/// The steps of systems in lanes, in turns, with states in arrays.
-#[inline(always)]
-pub(crate) fn advance_in_arrays<const D: usize, N: Number, P: Potential<N> + ?Sized>(
-    systems: &mut [FewOfSystem<'_, N>],
-    potentials: Vec<&mut P>,
-    maps: &[Repeated<N>; 3],
-) {
-    if systems.iter().all(|system| matches!(system.inverse_masses, InverseMasses::Ones)) {
-        advance_with::<D, N, P, _>(systems, potentials, maps, |_| UnitMasses);
-    } else {
-        advance_with::<D, N, P, _>(systems, potentials, maps, |system| system.inverse_masses);
-    }
-}
-
-/// With these masses.
-#[inline(always)]
-fn advance_with<'m, const D: usize, N: Number, P: Potential<N> + ?Sized, K: Kinetic<N>>(
-    systems: &mut [FewOfSystem<'m, N>],
-    potentials: Vec<&mut P>,
-    maps: &[Repeated<N>; 3],
-    kinetic: impl Fn(&FewOfSystem<'m, N>) -> K,
-) {
-    let parts = systems.iter_mut().zip(potentials);
-    let mut motions: Vec<_> = parts
-        .map(|(system, potential)| {
-            let kinetic = kinetic(system);
-            in_arrays::<D, _, _, _>(system, potential, kinetic)
-        })
-        .collect();
-    advance_in_turns(&mut motions, maps);
-    for (system, Motion { hamiltonian, at }) in systems.iter_mut().zip(motions) {
-        for (own, made) in system.state.iter_mut().zip([at.state.q, at.state.p, at.gradient]) {
-            own.clone_from_slice(&made);
-        }
-        *system.scratch = hamiltonian.scratch;
-        *system.kept = at.kept;
-        *system.evaluations += at.state.evaluations;
-    }
-}
-
-fn in_arrays<'a, const D: usize, N: Number, P: Potential<N> + ?Sized, K>(
-    system: &mut FewOfSystem<'_, N>,
-    potential: &'a mut P,
-    kinetic: K,
-) -> Motion<N, [N; D], &'a mut P, K> {
-    let [q, p, gradient] = system.state.each_ref().map(|x| std::array::from_fn::<N, D, _>(|i| x[i].clone()));
-    let context = q[0].context();
-    let zero = N::zero(&context);
-    let at = Evaluated { state: State::new(q, p, &context), gradient, rate: zero.clone(), kept: *system.kept };
-    let hamiltonian = Hamiltonian {
-        potential,
-        kinetic,
-        scratch: take(system.scratch),
-        kinetic_scratch: vec![zero.clone()],
-        kinetic_energy: zero,
-        gradient_kicks: None,
-    };
-    Motion { hamiltonian, at }
 }

@@ -34,7 +34,7 @@ pub(super) struct Hamiltonian<N, P, K> {
     /// The kinetic energy's, with what it keeps there.
     pub(super) kinetic_scratch: Vec<N>,
     /// T of an energy.
-    pub(super) kinetic_energy: N,
+    kinetic_energy: N,
     /// Of gradient kicks, once there was one; what it keeps belongs to the q of the last evaluation of the gradient.
     pub(super) gradient_kicks: Option<Box<GradientKickState<N>>>,
 }

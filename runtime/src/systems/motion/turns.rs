@@ -38,7 +38,7 @@ where
 
 /// The kicks and drifts of the first, of each middle and of the last step.
 #[inline(always)]
-pub(super) fn advance_in_turns<N, V, P, K, S>(
+fn advance_in_turns<N, V, P, K, S>(
     motions: &mut [Motion<N, V, P, K, S>],
     [(first, _), (middle, times), (last, _)]: &[Repeated<N>; 3],
 ) where

@@ -4,12 +4,10 @@ use std::array;
 use std::fmt;
 use std::mem::{needs_drop, size_of};
 
-use super::Potential;
 use crate::number::Number;
 use crate::systems::kept::KeptForce;
 use crate::systems::kinetic::InverseMasses;
 use crate::systems::maps::MapKind;
-use crate::systems::motion;
 use crate::systems::summation::{Plain, Summation};
 use crate::systems::system::Visitor;
 
@@ -45,6 +43,11 @@ impl<N: fmt::Debug> fmt::Debug for FewCoordinates<'_, N> {
     }
 }
 
+/// The gradient of a potential at q.
+pub trait Evaluate<N, P: ?Sized>: Fn(&mut P, &[N], &mut [N], &mut [N]) + Copy {}
+
+impl<N, P: ?Sized, F: Fn(&mut P, &[N], &mut [N], &mut [N]) + Copy> Evaluate<N, P> for F {}
+
 /// Kicks and drifts with their weights, and how often they are made.
 pub(crate) type Repeated<N> = (Vec<(MapKind, N)>, u64);
 
@@ -66,33 +69,70 @@ impl<N: Number> FewCoordinates<'_, N> {
         Self::FIT && (Self::IN_LANES || systems == 1) && (1..=MOST).contains(&dimension)
     }
 
-    /// Makes the steps with these potentials, one of each system.
+    /// Makes the steps with these potentials of this dimension, one of each system; `evaluate` computes the gradient of one, with scratch space.
     ///
     /// # Panics
     /// If they are not as many as the systems, or of more than three coordinates.
     #[inline(always)]
-    pub fn advance<P: Potential<N> + ?Sized>(&mut self, potentials: Vec<&mut P>) {
+    pub fn advance<P: ?Sized>(&mut self, dimension: usize, potentials: Vec<&mut P>, evaluate: impl Evaluate<N, P>) {
         if const { Self::FIT } {
-            match potentials[0].dimension() {
-                1 => self.advance_in_arrays::<1, P>(potentials),
-                2 => self.advance_in_arrays::<2, P>(potentials),
-                3 => self.advance_in_arrays::<3, P>(potentials),
+            match dimension {
+                1 => self.advance_in_arrays::<1, P>(potentials, evaluate),
+                2 => self.advance_in_arrays::<2, P>(potentials, evaluate),
+                3 => self.advance_in_arrays::<3, P>(potentials, evaluate),
                 more => unreachable!("{more} coordinates are more than {MOST}"),
             }
         }
     }
 
     #[inline(always)]
-    fn advance_in_arrays<const D: usize, P: Potential<N> + ?Sized>(&mut self, potentials: Vec<&mut P>) {
+    fn advance_in_arrays<const D: usize, P: ?Sized>(&mut self, potentials: Vec<&mut P>, evaluate: impl Evaluate<N, P>) {
         if const { Self::IN_LANES } {
-            return motion::advance_in_arrays::<D, _, _>(&mut self.systems, potentials, &self.maps);
+            // the masses as a constant: so each loop is compiled without branches
+            return match self.systems.iter().all(|system| matches!(system.inverse_masses, InverseMasses::Ones)) {
+                true => self.advance_in_turns::<D, true, P>(potentials, evaluate),
+                false => self.advance_in_turns::<D, false, P>(potentials, evaluate),
+            };
         }
         let [potential] = potentials.try_into().unwrap_or_else(|_| unreachable!("there is one system"));
-        self.advance_in_registers::<D, P>(potential);
+        self.advance_in_registers::<D, P>(potential, evaluate);
+    }
+
+    /// Of lanes the systems take turns: a kick of one with the drift after it, then those of the next one.
+    #[inline(always)]
+    fn advance_in_turns<const D: usize, const ONES: bool, P: ?Sized>(
+        &mut self,
+        potentials: Vec<&mut P>,
+        evaluate: impl Evaluate<N, P>,
+    ) {
+        let systems = self.systems.iter_mut().zip(potentials);
+        let mut systems: Vec<_> =
+            systems.map(|(few, potential)| InArrays::<D, ONES, N, P>::of(few, potential)).collect();
+        for (maps, times) in &self.maps {
+            for _ in 0..*times {
+                let mut maps = maps.iter().peekable();
+                while let Some((kind, weight)) = maps.next() {
+                    if *kind == MapKind::Drift {
+                        for system in &mut systems {
+                            system.drift(weight);
+                        }
+                    } else if let Some((_, drift)) = maps.next_if(|(kind, _)| *kind == MapKind::Drift) {
+                        for system in &mut systems {
+                            system.kick_and_drift(weight, drift, evaluate);
+                        }
+                    } else {
+                        for system in &mut systems {
+                            system.kick(weight, evaluate);
+                        }
+                    }
+                }
+            }
+        }
+        systems.into_iter().for_each(InArrays::put_back);
     }
 
     #[inline(always)]
-    fn advance_in_registers<const D: usize, P: Potential<N> + ?Sized>(&mut self, potential: &mut P) {
+    fn advance_in_registers<const D: usize, P: ?Sized>(&mut self, potential: &mut P, evaluate: impl Evaluate<N, P>) {
         let FewCoordinates { systems, maps, visitor } = self;
         let [FewOfSystem { state, inverse_masses, scratch, kept, evaluations }] = &mut systems[..] else {
             unreachable!("there is one system")
@@ -112,8 +152,7 @@ impl<N: Number> FewCoordinates<'_, N> {
                         continue;
                     }
                     if !has_gradient {
-                        potential.update(&q);
-                        potential.gradient(&q, &mut gradient, scratch);
+                        evaluate(potential, &q, &mut gradient, scratch);
                         has_gradient = true;
                         evaluated += 1;
                     }
@@ -137,5 +176,68 @@ impl<N: Number> FewCoordinates<'_, N> {
         for (into, from) in state.iter_mut().zip([&q, &p, &gradient]) {
             into.clone_from_slice(from);
         }
+    }
+}
+
+/// A system with its potential, whose state is in arrays.
+struct InArrays<'s, 'm, const D: usize, const ONES: bool, N, P: ?Sized> {
+    potential: &'s mut P,
+    /// q, p and U_q.
+    state: [[N; D]; 3],
+    evaluated: u64,
+    velocity: N,
+    system: &'s mut FewOfSystem<'m, N>,
+}
+
+impl<'s, 'm, const D: usize, const ONES: bool, N: Number, P: ?Sized> InArrays<'s, 'm, D, ONES, N, P> {
+    fn of(system: &'s mut FewOfSystem<'m, N>, potential: &'s mut P) -> Self {
+        let state = system.state.each_ref().map(|from| array::from_fn(|i| from[i].clone()));
+        let velocity = system.state[0][0].clone();
+        InArrays { potential, state, evaluated: 0, velocity, system }
+    }
+
+    #[inline(always)]
+    fn kick(&mut self, weight: &N, evaluate: impl Evaluate<N, P>) {
+        self.evaluate(evaluate);
+        let [_, p, gradient] = &mut self.state;
+        Plain.kick(weight, gradient, p);
+    }
+
+    #[inline(always)]
+    fn evaluate(&mut self, evaluate: impl Evaluate<N, P>) {
+        let [q, _, gradient] = &mut self.state;
+        if *self.system.kept == KeptForce::Nothing {
+            evaluate(self.potential, q, gradient, self.system.scratch);
+            *self.system.kept = KeptForce::Gradient;
+            self.evaluated += 1;
+        }
+    }
+
+    #[inline(always)]
+    fn kick_and_drift(&mut self, kick: &N, drift: &N, evaluate: impl Evaluate<N, P>) {
+        self.evaluate(evaluate);
+        let [q, p, gradient] = &mut self.state;
+        // a copy, which the compiler can hold in registers
+        let mut copy = p.clone();
+        Plain.kick(kick, gradient, &mut copy);
+        let inverse_masses = if ONES { InverseMasses::Ones } else { self.system.inverse_masses };
+        inverse_masses.drift(drift, &copy, q, &mut self.velocity);
+        *p = copy;
+        *self.system.kept = KeptForce::Nothing;
+    }
+
+    #[inline(always)]
+    fn drift(&mut self, weight: &N) {
+        let [q, p, _] = &mut self.state;
+        let inverse_masses = if ONES { InverseMasses::Ones } else { self.system.inverse_masses };
+        inverse_masses.drift(weight, p, q, &mut self.velocity);
+        *self.system.kept = KeptForce::Nothing;
+    }
+
+    fn put_back(self) {
+        for (own, made) in self.system.state.iter_mut().zip(&self.state) {
+            own.clone_from_slice(made);
+        }
+        *self.system.evaluations += self.evaluated;
     }
 }

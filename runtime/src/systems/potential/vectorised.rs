@@ -3,7 +3,7 @@
 use std::any::Any;
 use std::iter::once;
 
-use super::{FewCoordinates, HessianProduct, Potential};
+use super::{FewCoordinates, HessianProduct, Potential, evaluate};
 use crate::number::Number;
 
 /// A potential behind a `dyn`, for [lanes](crate::number::Lanes): each call is compiled for the widest
@@ -69,11 +69,24 @@ impl<N: Number, P: Potential<N> + 'static> Potential<N> for Vectorised<P> {
     }
 
     fn advance_few(&mut self, others: Vec<&mut dyn Any>, steps: &mut FewCoordinates<'_, N>) -> bool {
+        let dimension = self.0.dimension();
         let others = others.into_iter().map(|other| other.downcast_mut::<Self>().map(|other| &mut other.0));
-        let Some(potentials) = once(Some(&mut self.0)).chain(others).collect() else { return false };
+        let Some(potentials) = once(Some(&mut self.0)).chain(others).collect::<Option<Vec<&mut P>>>() else {
+            return false;
+        };
         N::in_widest_instructions(
             #[inline(always)]
-            || steps.advance::<P>(potentials),
+            || {
+                steps.advance(
+                    dimension,
+                    potentials,
+                    // a closure: a function would not be compiled for these instructions
+                    #[inline(always)]
+                    |potential: &mut P, q: &[N], gradient: &mut [N], scratch: &mut [N]| {
+                        evaluate(potential, q, gradient, scratch);
+                    },
+                );
+            },
         );
         true
     }
