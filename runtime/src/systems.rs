@@ -3,7 +3,7 @@
 //! | module | what it is |
 //! | --- | --- |
 //! | [`system`], `state`, `increments`, `coordinates` | a system, its state q and p with the remainders of their sums, and the increments of a step |
-//! | `maps`, [`summation`] | the maps that a scheme composes; how increments are added: plainly, compensated, in fixed point |
+//! | `maps`, `turn`, [`summation`] | the maps that a scheme composes; turns of systems whose steps are made together; how increments are added: plainly, compensated, in fixed point |
 //! | [`potential`](mod@potential), [`pairs`], [`kinetic`](mod@kinetic), [`formula`] | U(q) and T(p), from code or from text |
 //! | [`potential_check`] | derivatives that are compared with differences |
 //! | [`motion`] | H = T(p) + U(q) |
@@ -40,6 +40,7 @@ pub(crate) mod state;
 pub mod summation;
 pub mod system;
 pub mod transformed_time;
+pub(crate) mod turn;
 pub mod wisdom_holman;
 
 pub use matrix::QUADRATIC_FLOW_DIGITS;

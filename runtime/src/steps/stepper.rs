@@ -211,10 +211,12 @@ impl<S: Scheme, N: Number> Stepper<S, N> {
     /// Of [lanes](crate::number::Lanes) this is one loop in the widest vector instructions that the processor has. The systems take turns: all
     /// kicks and drifts of one up to its next evaluation of the gradient, then those of the next, so that operations of one need not wait for the
     /// results of another; fewer than 8 steps, and those with gradient kicks, map by map. Four systems of 16 lanes are good, or one of many
-    /// coordinates. Of four systems with one [formula](crate::systems::formula::FormulaPotential) each map and each instruction is carried out for all of
-    /// them before the next one; potentials behind a `dyn`, of up to three coordinates, are called once if they are
-    /// [`Vectorised`](crate::systems::potential::Vectorised). [`Fused`](crate::number::Fused) numbers need it for the instructions of their products. Of `f64` in arrays it is as fast as a
-    /// loop of steps or a little faster, with schemes from tables by 9 to 29 %.
+    /// coordinates. Potentials behind a `dyn`, of up to three coordinates, take turns as those of a known type do if they are
+    /// [`Vectorised`](crate::systems::potential::Vectorised). Each map, and each instruction, of four systems with one
+    /// [formula](crate::systems::formula::FormulaPotential) is carried out for all of them before the next one.
+    ///
+    /// [`Fused`](crate::number::Fused) numbers need it for the instructions of their products. Of `f64` in arrays it is as fast as a loop of steps or
+    /// a little faster, with schemes from tables by 9 to 29 %.
     pub fn steps<M: System<Number = N>>(&self, systems: &mut [M], count: u64)
     where
         S: ValidFor<M::Class>,

@@ -75,3 +75,6 @@ pub trait MapSequence<N> {
     /// Applies the maps of these steps of a run of `count`. All steps but the first and the last have the same maps.
     fn each(&self, steps: Range<u64>, count: u64, flows: &mut impl Flows<Number = N>);
 }
+
+/// Kicks and drifts with their weights, and how often they are made.
+pub(crate) type Repeated<N> = (Vec<(MapKind, N)>, u64);

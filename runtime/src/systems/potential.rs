@@ -8,7 +8,7 @@ mod sum;
 mod vectorised;
 
 pub use few_coordinates::FewCoordinates;
-pub(crate) use few_coordinates::{FewOfSystem, Repeated};
+pub(crate) use few_coordinates::FewOfSystem;
 pub use from_fn::{FromFn, from_fn};
 pub use hessian::HessianProduct;
 pub use program::{GradientProgram, SYSTEMS};

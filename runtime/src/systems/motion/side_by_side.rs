@@ -12,8 +12,8 @@ use crate::number::Number;
 use crate::systems::coordinates::Coordinates;
 use crate::systems::kept::KeptForce;
 use crate::systems::kinetic::{InverseMasses, Kinetic};
-use crate::systems::maps::{MapKind, MapSequence};
-use crate::systems::potential::{GradientProgram, Potential, Repeated, SYSTEMS};
+use crate::systems::maps::{MapKind, MapSequence, Repeated};
+use crate::systems::potential::{GradientProgram, Potential, SYSTEMS};
 use crate::systems::summation::{Compensated, Remainders, Summation};
 
 /// `count` plain steps of the first motions, as many as have one program with their neighbours; the others are returned.

@@ -7,9 +7,10 @@ use std::mem::{needs_drop, size_of};
 use crate::number::Number;
 use crate::systems::kept::KeptForce;
 use crate::systems::kinetic::InverseMasses;
-use crate::systems::maps::MapKind;
+use crate::systems::maps::{MapKind, Repeated};
 use crate::systems::summation::{Plain, Summation};
 use crate::systems::system::Visitor;
+use crate::systems::turn::{InTurns, Turn, advance_in_turns};
 
 /// Steps of one or several systems H = ½pᵀM⁻¹p + U(q) with at most three coordinates and a diagonal M, for
 /// [`Potential::advance_few`](super::Potential::advance_few).
@@ -47,9 +48,6 @@ impl<N: fmt::Debug> fmt::Debug for FewCoordinates<'_, N> {
 pub trait Evaluate<N, P: ?Sized>: Fn(&mut P, &[N], &mut [N], &mut [N]) + Copy {}
 
 impl<N, P: ?Sized, F: Fn(&mut P, &[N], &mut [N], &mut [N]) + Copy> Evaluate<N, P> for F {}
-
-/// Kicks and drifts with their weights, and how often they are made.
-pub(crate) type Repeated<N> = (Vec<(MapKind, N)>, u64);
 
 /// More coordinates are not held in registers.
 const MOST: usize = 3;
@@ -98,7 +96,7 @@ impl<N: Number> FewCoordinates<'_, N> {
         self.advance_in_registers::<D, P>(potential, evaluate);
     }
 
-    /// Of lanes the systems take turns: a kick of one with the drift after it, then those of the next one.
+    /// Of lanes the systems take turns.
     #[inline(always)]
     fn advance_in_turns<const D: usize, const ONES: bool, P: ?Sized>(
         &mut self,
@@ -106,29 +104,10 @@ impl<N: Number> FewCoordinates<'_, N> {
         evaluate: impl Evaluate<N, P>,
     ) {
         let systems = self.systems.iter_mut().zip(potentials);
-        let mut systems: Vec<_> =
-            systems.map(|(few, potential)| InArrays::<D, ONES, N, P>::of(few, potential)).collect();
-        for (maps, times) in &self.maps {
-            for _ in 0..*times {
-                let mut maps = maps.iter().peekable();
-                while let Some((kind, weight)) = maps.next() {
-                    if *kind == MapKind::Drift {
-                        for system in &mut systems {
-                            system.drift(weight);
-                        }
-                    } else if let Some((_, drift)) = maps.next_if(|(kind, _)| *kind == MapKind::Drift) {
-                        for system in &mut systems {
-                            system.kick_and_drift(weight, drift, evaluate);
-                        }
-                    } else {
-                        for system in &mut systems {
-                            system.kick(weight, evaluate);
-                        }
-                    }
-                }
-            }
-        }
-        systems.into_iter().for_each(InArrays::put_back);
+        let systems = systems.map(|(few, potential)| InArrays::<D, ONES, N, P>::of(few, potential)).collect();
+        let mut systems = AllInArrays { systems, evaluate };
+        advance_in_turns(&mut systems, &self.maps);
+        systems.systems.into_iter().for_each(InArrays::put_back);
     }
 
     #[inline(always)]
@@ -185,53 +164,15 @@ struct InArrays<'s, 'm, const D: usize, const ONES: bool, N, P: ?Sized> {
     /// q, p and U_q.
     state: [[N; D]; 3],
     evaluated: u64,
-    velocity: N,
+    velocity: [N; 1],
     system: &'s mut FewOfSystem<'m, N>,
 }
 
 impl<'s, 'm, const D: usize, const ONES: bool, N: Number, P: ?Sized> InArrays<'s, 'm, D, ONES, N, P> {
     fn of(system: &'s mut FewOfSystem<'m, N>, potential: &'s mut P) -> Self {
         let state = system.state.each_ref().map(|from| array::from_fn(|i| from[i].clone()));
-        let velocity = system.state[0][0].clone();
+        let velocity = [system.state[0][0].clone()];
         InArrays { potential, state, evaluated: 0, velocity, system }
-    }
-
-    #[inline(always)]
-    fn kick(&mut self, weight: &N, evaluate: impl Evaluate<N, P>) {
-        self.evaluate(evaluate);
-        let [_, p, gradient] = &mut self.state;
-        Plain.kick(weight, gradient, p);
-    }
-
-    #[inline(always)]
-    fn evaluate(&mut self, evaluate: impl Evaluate<N, P>) {
-        let [q, _, gradient] = &mut self.state;
-        if *self.system.kept == KeptForce::Nothing {
-            evaluate(self.potential, q, gradient, self.system.scratch);
-            *self.system.kept = KeptForce::Gradient;
-            self.evaluated += 1;
-        }
-    }
-
-    #[inline(always)]
-    fn kick_and_drift(&mut self, kick: &N, drift: &N, evaluate: impl Evaluate<N, P>) {
-        self.evaluate(evaluate);
-        let [q, p, gradient] = &mut self.state;
-        // a copy, which the compiler can hold in registers
-        let mut copy = p.clone();
-        Plain.kick(kick, gradient, &mut copy);
-        let inverse_masses = if ONES { InverseMasses::Ones } else { self.system.inverse_masses };
-        inverse_masses.drift(drift, &copy, q, &mut self.velocity);
-        *p = copy;
-        *self.system.kept = KeptForce::Nothing;
-    }
-
-    #[inline(always)]
-    fn drift(&mut self, weight: &N) {
-        let [q, p, _] = &mut self.state;
-        let inverse_masses = if ONES { InverseMasses::Ones } else { self.system.inverse_masses };
-        inverse_masses.drift(weight, p, q, &mut self.velocity);
-        *self.system.kept = KeptForce::Nothing;
     }
 
     fn put_back(self) {
@@ -239,5 +180,32 @@ impl<'s, 'm, const D: usize, const ONES: bool, N: Number, P: ?Sized> InArrays<'s
             own.clone_from_slice(made);
         }
         *self.system.evaluations += self.evaluated;
+    }
+}
+
+struct AllInArrays<'s, 'm, const D: usize, const ONES: bool, N, P: ?Sized, E> {
+    systems: Vec<InArrays<'s, 'm, D, ONES, N, P>>,
+    evaluate: E,
+}
+
+impl<const D: usize, const ONES: bool, N: Number, P: ?Sized, E: Evaluate<N, P>> InTurns<N>
+    for AllInArrays<'_, '_, D, ONES, N, P, E>
+{
+    #[inline(always)]
+    fn advance(&mut self, turn: &Turn<'_, N>) {
+        for InArrays { potential, state: [q, p, gradient], evaluated, velocity, system } in &mut self.systems {
+            let FewOfSystem { inverse_masses, scratch, kept, .. } = &mut **system;
+            if turn.has_kick() && **kept == KeptForce::Nothing {
+                (self.evaluate)(potential, q, gradient, scratch);
+                **kept = KeptForce::Gradient;
+                *evaluated += 1;
+            }
+            // a copy, which the compiler can hold in registers
+            let mut copy = p.clone();
+            turn.kick(&mut Plain, &mut copy, gradient);
+            let mut inverse_masses = if ONES { InverseMasses::Ones } else { *inverse_masses };
+            turn.drift(&mut Plain, (&mut inverse_masses, velocity), (q, &copy), kept);
+            *p = copy;
+        }
     }
 }
