@@ -15,6 +15,7 @@ use crate::systems::kinetic::{InverseMasses, Kinetic};
 use crate::systems::maps::{MapKind, MapSequence, Repeated};
 use crate::systems::potential::{GradientProgram, Potential, SYSTEMS};
 use crate::systems::summation::{Compensated, Remainders, Summation};
+use crate::systems::turn::{InTurns, Turn, advance_in_turns};
 
 /// `count` plain steps of the first motions, as many as have one program with their neighbours; the others are returned.
 #[inline(always)]
@@ -77,30 +78,16 @@ where
     K: Kinetic<N>,
     S: Summation<N>,
 {
-    let [mut q, mut p] = [side_by_side(|system| motions[system].q()), side_by_side(|system| motions[system].p())];
-    let mut registers = side_by_side(|system| &motions[system].hamiltonian.scratch);
-    let mut sums = compensated(motions, &q);
+    let [q, p] = [side_by_side(|system| motions[system].q()), side_by_side(|system| motions[system].p())];
+    let registers = side_by_side(|system| &motions[system].hamiltonian.scratch);
     let masses = inverse_masses(motions);
-    let masses = masses.as_ref().map_or(InverseMasses::Ones, |inverse| InverseMasses::Of(inverse));
-    let mut velocity = [q[0].clone()];
+    let inverse_masses = masses.as_ref().map_or(InverseMasses::Ones, |inverse| InverseMasses::Of(inverse));
+    let (sums, velocity) = (compensated(motions, &q), [q[0].clone()]);
     let Some(program) = motions[0].hamiltonian.potential.program() else { return };
-    let (mut gradient, mut evaluations) = (None, 0);
-    for (maps, times) in maps {
-        for _ in 0..*times {
-            for (kind, weight) in maps {
-                if *kind == MapKind::Drift {
-                    sums.drift(&masses, weight, &p, &mut q, &mut velocity);
-                    gradient = None;
-                    continue;
-                }
-                let first = *gradient.get_or_insert_with(|| {
-                    evaluations += 1;
-                    SYSTEMS * program.gradients(q.as_chunks().0, registers.as_chunks_mut().0)
-                });
-                sums.kick(weight, &registers[first..][..q.len()], &mut p);
-            }
-        }
-    }
+    let (kept, gradient, evaluations) = (KeptForce::Nothing, 0, 0);
+    let mut all = SideBySide { program, registers, gradient, kept, evaluations, q, p, sums, inverse_masses, velocity };
+    advance_in_turns(&mut all, maps);
+    let SideBySide { registers, gradient, kept, evaluations, q, p, sums, .. } = all;
     // a gradient that was kept was evaluated again
     let begins_with_kick = maps[0].0.first().is_some_and(|(kind, _)| *kind == MapKind::Kick);
     let remainders = sums.remainders(&q, &p);
@@ -108,12 +95,42 @@ where
         at.state.evaluations += evaluations - u64::from(begins_with_kick && at.kept != KeptForce::Nothing);
         scatter(system, &q, at.state.q.as_mut());
         scatter(system, &p, at.state.p.as_mut());
-        if let Some(first) = gradient {
-            scatter(system, &registers[first..], at.gradient.as_mut());
+        if kept != KeptForce::Nothing {
+            scatter(system, &registers[gradient..], at.gradient.as_mut());
         }
-        at.kept = if gradient.is_some() { KeptForce::Gradient } else { KeptForce::Nothing };
+        at.kept = kept;
         let own = |list: &[N]| list.iter().skip(system).step_by(SYSTEMS).cloned().collect();
         at.state.set_remainders(&Remainders { q: own(&remainders.q), p: own(&remainders.p) });
+    }
+}
+
+/// Four systems: each list has coordinate by coordinate those of all.
+struct SideBySide<'a, N> {
+    program: &'a dyn GradientProgram<N>,
+    registers: Vec<N>,
+    /// The first of the registers with the gradients.
+    gradient: usize,
+    kept: KeptForce,
+    evaluations: u64,
+    q: Vec<N>,
+    p: Vec<N>,
+    sums: Option<Compensated<N, Vec<N>>>,
+    inverse_masses: InverseMasses<'a, N>,
+    velocity: [N; 1],
+}
+
+impl<N: Number> InTurns<N> for SideBySide<'_, N> {
+    #[inline(always)]
+    fn advance(&mut self, turn: &Turn<'_, N>) {
+        let SideBySide { program, registers, gradient, kept, evaluations, q, p, sums, inverse_masses, velocity } = self;
+        if turn.has_kick() && *kept == KeptForce::Nothing {
+            *gradient = SYSTEMS * program.gradients(q.as_chunks().0, registers.as_chunks_mut().0);
+            *kept = KeptForce::Gradient;
+            *evaluations += 1;
+        }
+        let gradient = &registers[*gradient..][..q.len()];
+        turn.kick(sums, p, gradient);
+        turn.drift(sums, (inverse_masses, velocity), (q, p), kept);
     }
 }
 
