@@ -18,6 +18,10 @@ pub(crate) struct Turn<'a, N> {
 
 /// Systems that take turns.
 pub(crate) trait InTurns<N> {
+    /// Whether states are held in registers. Then each kind of turn is compiled without branches, which take longer than the maps; of others it is one
+    /// piece of code.
+    const IN_REGISTERS: bool;
+
     /// The maps of one turn, of all systems.
     fn advance(&mut self, turn: &Turn<'_, N>);
 }
@@ -71,8 +75,11 @@ impl<'a, N: Number> Turn<'a, N> {
 
     /// The maps of this turn, of all systems.
     #[inline(always)]
-    fn apply(&self, systems: &mut (impl InTurns<N> + ?Sized)) {
-        // what is there and what is not as constants: so each of these is compiled without branches
+    fn apply<T: InTurns<N> + ?Sized>(&self, systems: &mut T) {
+        if const { !T::IN_REGISTERS } {
+            return systems.advance(self);
+        }
+        // what is there and what is not as constants
         let Turn { kicks: [kick, other_kick], drifts: [drift, other_drift] } = *self;
         match (kick, other_kick, drift, other_drift) {
             (Some(_), None, Some(_), None) => systems.advance(&Turn { kicks: [kick, None], drifts: [drift, None] }),

@@ -120,6 +120,8 @@ struct SideBySide<'a, N> {
 }
 
 impl<N: Number> InTurns<N> for SideBySide<'_, N> {
+    const IN_REGISTERS: bool = false;
+
     #[inline(always)]
     fn advance(&mut self, turn: &Turn<'_, N>) {
         let SideBySide { program, registers, gradient, kept, evaluations, q, p, sums, inverse_masses, velocity } = self;

@@ -44,9 +44,11 @@ where
     K: Kinetic<N>,
     S: Summation<N>,
 {
+    const IN_REGISTERS: bool = !needs_drop::<V>();
+
     #[inline(always)]
     fn advance(&mut self, turn: &Turn<'_, N>) {
-        if const { needs_drop::<V>() } {
+        if const { !Self::IN_REGISTERS } {
             // in memory: one map of all motions, none of which waits for what it has just stored
             for motion in &mut *self {
                 evaluate(turn, motion);

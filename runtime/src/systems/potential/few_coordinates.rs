@@ -191,6 +191,8 @@ struct AllInArrays<'s, 'm, const D: usize, const ONES: bool, N, P: ?Sized, E> {
 impl<const D: usize, const ONES: bool, N: Number, P: ?Sized, E: Evaluate<N, P>> InTurns<N>
     for AllInArrays<'_, '_, D, ONES, N, P, E>
 {
+    const IN_REGISTERS: bool = true;
+
     #[inline(always)]
     fn advance(&mut self, turn: &Turn<'_, N>) {
         for InArrays { potential, state: [q, p, gradient], evaluated, velocity, system } in &mut self.systems {
