@@ -69,7 +69,6 @@ impl<N: Number, P: Potential<N> + 'static> Potential<N> for Vectorised<P> {
     }
 
     fn advance_few(&mut self, others: Vec<&mut dyn Any>, steps: &mut FewCoordinates<'_, N>) -> bool {
-        let dimension = self.0.dimension();
         let others = others.into_iter().map(|other| other.downcast_mut::<Self>().map(|other| &mut other.0));
         let Some(potentials) = once(Some(&mut self.0)).chain(others).collect::<Option<Vec<&mut P>>>() else {
             return false;
@@ -77,6 +76,8 @@ impl<N: Number, P: Potential<N> + 'static> Potential<N> for Vectorised<P> {
         N::in_widest_instructions(
             #[inline(always)]
             || {
+                // not before: here it is a constant of the type, of which the steps are compiled for this dimension alone
+                let dimension = potentials[0].dimension();
                 steps.advance(
                     dimension,
                     potentials,
