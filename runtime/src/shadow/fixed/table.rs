@@ -302,30 +302,26 @@ fn add_limbs(sum: &mut [u64], a: &[u64], negative: bool) {
 #[inline(always)]
 fn upper_product(len: usize, a: &[u64], b: &[u64], product: &mut [u64]) {
     let (a, b, product) = (&a[..len + 1], &b[..len], &mut product[..len + 2]);
-    let mut sum = 0;
-    macro_rules! columns {
-        ($($n:literal)*) => { $(if $n <= len { sum = column(len, $n, a, b, product, sum); })* };
+    product.fill(0);
+    macro_rules! rows {
+        ($($i:literal)*) => { $(if $i <= len { add_row(len, $i, a, b, product); })* };
     }
-    sum = column(len, 0, a, b, product, sum);
+    add_row(len, 0, a, b, product);
     if len <= 9 {
         // each with a constant number of limbs, so that its loop is unrolled
-        columns!(1 2 3 4 5 6 7 8 9);
+        rows!(1 2 3 4 5 6 7 8 9);
     } else {
-        (1..=len).for_each(|n| sum = column(len, n, a, b, product, sum));
+        (1..=len).for_each(|i| add_row(len, i, a, b, product));
     }
-    product[len + 1] = sum as u64;
 }
 
-/// Adds the products of limbs that begin at the limb len − 1 + n to a sum, writes its lowest limb, and returns what is above.
+/// Adds the products of the limb i of a.
 #[inline(always)]
-fn column(len: usize, n: usize, a: &[u64], b: &[u64], product: &mut [u64], sum: u128) -> u128 {
-    // lower and upper limbs apart: neither sum overflows
-    let (mut lower, mut upper) = (sum & u128::from(u64::MAX), sum >> 64);
-    for j in n.saturating_sub(1)..len {
-        let (low, high) = a[len - 1 + n - j].carrying_mul(b[j], 0);
-        lower += u128::from(low);
-        upper += u128::from(high);
+fn add_row(len: usize, i: usize, a: &[u64], b: &[u64], product: &mut [u64]) {
+    let mut carry = 0;
+    for j in (len - 1).saturating_sub(i)..len {
+        let limb = &mut product[i + j + 1 - len];
+        (*limb, carry) = a[i].carrying_mul_add(b[j], *limb, carry);
     }
-    product[n] = lower as u64;
-    upper + (lower >> 64)
+    product[i + 1] = carry;
 }
