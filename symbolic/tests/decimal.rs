@@ -42,6 +42,19 @@ fn four_hundred_places_are_the_most() {
 }
 
 #[test]
+fn denominators_of_twos_and_fives_are_decimals() {
+    // 5^27 is the largest power in 64 bits
+    for (twos, fives, others) in [(14, 0, 1), (0, 27, 1), (0, 28, 1), (3, 54, 1), (70, 60, 1), (0, 27, 3), (64, 81, 7)]
+    {
+        let denominator = (BigInt::from(5).pow(fives) << twos) * others;
+        let value = Rational::new(11.into(), denominator);
+        let text = to_text(&value);
+        assert_eq!(text.contains('.'), others == 1, "{text}");
+        assert_eq!(from_text(&text).unwrap(), value, "{text}");
+    }
+}
+
+#[test]
 fn only_numbers_are_read() {
     for (text, expected) in [("+5", "5"), ("-7/24", "-7/24"), ("-0.25", "-1/4"), ("1e-3", "1/1000"), (".5/2.5", "1/5")]
     {

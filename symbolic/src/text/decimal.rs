@@ -2,7 +2,7 @@
 
 use num_bigint::BigInt;
 use num_integer::Integer;
-use num_traits::{One, Signed, Zero};
+use num_traits::{Signed, ToPrimitive, Zero};
 
 use crate::number::ratio::Ratio;
 use crate::number::rational::Rational;
@@ -32,11 +32,12 @@ crate::debug_as_text!(NotANumber);
 /// [`exact`](crate::exact()) up to the length it allows.
 pub fn to_text(value: &Rational) -> String {
     let short = value.denom() <= &BigInt::from(LARGEST_SHORT_DENOMINATOR);
-    match decimal_places(value.denom()) {
-        Some(places) if !short => {
-            let units = rounding::units(value, places, Direction::Nearest);
+    match twos_and_fives(value.denom()) {
+        Some((twos, fives)) if !short => {
+            let places = twos.max(fives);
+            let units = (value.numer() * BigInt::from(5).pow(places - fives)) << (places - twos);
             let digits = units.magnitude().to_string();
-            let exponent = digits.len() as i64 - 1 - places;
+            let exponent = digits.len() as i64 - 1 - i64::from(places);
             format!("{}{}", sign(value), plain(&digits, exponent))
         }
         _ => value.to_string(),
@@ -106,17 +107,27 @@ fn plain(digits: &str, exponent: i64) -> String {
     }
 }
 
-/// The decimal places of a number with this reduced denominator, up to [`MOST_PLACES`].
-fn decimal_places(denominator: &BigInt) -> Option<i64> {
+/// The exponents of 2 and 5 of a denominator without other factors; `None` also of one that needs more than [`MOST_PLACES`].
+fn twos_and_fives(denominator: &BigInt) -> Option<(u32, u32)> {
     let twos = denominator.trailing_zeros().unwrap_or(0);
     let mut rest = denominator >> twos;
     let mut fives = 0;
-    let five = BigInt::from(5);
-    while fives < MOST_PLACES && rest.is_multiple_of(&five) {
-        rest /= &five;
-        fives += 1;
+    // the largest power of 5 in 64 bits, which each larger one is a multiple of
+    let many = BigInt::from(5_u64.pow(27));
+    let mut limb = loop {
+        if let Some(limb) = rest.to_u64() {
+            break limb;
+        }
+        let (quotient, remainder) = rest.div_rem(&many);
+        if !remainder.is_zero() {
+            return None;
+        }
+        (rest, fives) = (quotient, fives + 27);
+    };
+    while limb.is_multiple_of(5) {
+        (limb, fives) = (limb / 5, fives + 1);
     }
-    (rest.is_one() && twos <= MOST_PLACES).then_some(twos.max(fives) as i64)
+    (limb == 1 && twos.max(fives) <= MOST_PLACES).then_some((twos as u32, fives as u32))
 }
 
 /// The value of a text that is one literal from end to end.
