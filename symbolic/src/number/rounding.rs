@@ -4,7 +4,7 @@ use std::cmp::Ordering;
 
 use num_bigint::BigInt;
 use num_integer::Integer;
-use num_traits::Zero;
+use num_traits::{ToPrimitive, Zero};
 
 use crate::number::ratio::Ratio;
 use crate::number::rational::Rational;
@@ -32,15 +32,36 @@ pub(crate) fn at_places(units: BigInt, places: i64) -> Rational {
     };
     // common divisors of most units and a power of ten are found by a few divisions
     let twos = units.trailing_zeros().unwrap_or(0).min(places);
-    let (mut rest, mut fives, five) = (&units >> twos, 0, BigInt::from(5));
-    while fives < places && rest.is_multiple_of(&five) {
-        if fives == MOST_FIVES {
-            return Rational::new(units, ten(places));
+    let (rest, fives) = without_fives(&units >> twos, places.min(MOST_FIVES));
+    if fives == MOST_FIVES {
+        return Rational::new(units, ten(places));
+    }
+    Rational::new_raw(rest, power_of_five((places - fives) as u32) << (places - twos))
+}
+
+/// 5^exponent.
+pub(crate) fn power_of_five(exponent: u32) -> BigInt {
+    match 5_u64.checked_pow(exponent) {
+        Some(power) => power.into(),
+        None => BigInt::from(5).pow(exponent),
+    }
+}
+
+/// A number other than 0 without its factors of 5, or this number of them; and their number.
+pub(crate) fn without_fives(mut number: BigInt, most: u64) -> (BigInt, u64) {
+    let mut fives = 0;
+    if let Some(mut limb) = number.to_i64() {
+        while fives < most && limb % 5 == 0 {
+            (limb, fives) = (limb / 5, fives + 1);
         }
-        rest /= &five;
+        return (limb.into(), fives);
+    }
+    let five = BigInt::from(5);
+    while fives < most && number.is_multiple_of(&five) {
+        number /= &five;
         fives += 1;
     }
-    Rational::new_raw(rest, num_traits::Pow::pow(five, places - fives) << (places - twos))
+    (number, fives)
 }
 
 /// Units with more factors of 5 have a common divisor that is worth a search.

@@ -1,8 +1,7 @@
 //! Rationals as text and back, and rounding to significant digits.
 
 use num_bigint::BigInt;
-use num_integer::Integer;
-use num_traits::{Signed, ToPrimitive, Zero};
+use num_traits::{One, Signed, Zero};
 
 use crate::number::ratio::Ratio;
 use crate::number::rational::Rational;
@@ -35,7 +34,7 @@ pub fn to_text(value: &Rational) -> String {
     match twos_and_fives(value.denom()) {
         Some((twos, fives)) if !short => {
             let places = twos.max(fives);
-            let units = (value.numer() * BigInt::from(5).pow(places - fives)) << (places - twos);
+            let units = (value.numer() * rounding::power_of_five(places - fives)) << (places - twos);
             let digits = units.magnitude().to_string();
             let exponent = digits.len() as i64 - 1 - i64::from(places);
             format!("{}{}", sign(value), plain(&digits, exponent))
@@ -110,24 +109,8 @@ fn plain(digits: &str, exponent: i64) -> String {
 /// The exponents of 2 and 5 of a denominator without other factors; `None` also of one that needs more than [`MOST_PLACES`].
 fn twos_and_fives(denominator: &BigInt) -> Option<(u32, u32)> {
     let twos = denominator.trailing_zeros().unwrap_or(0);
-    let mut rest = denominator >> twos;
-    let mut fives = 0;
-    // the largest power of 5 in 64 bits, which each larger one is a multiple of
-    let many = BigInt::from(5_u64.pow(27));
-    let mut limb = loop {
-        if let Some(limb) = rest.to_u64() {
-            break limb;
-        }
-        let (quotient, remainder) = rest.div_rem(&many);
-        if !remainder.is_zero() {
-            return None;
-        }
-        (rest, fives) = (quotient, fives + 27);
-    };
-    while limb.is_multiple_of(5) {
-        (limb, fives) = (limb / 5, fives + 1);
-    }
-    (limb == 1 && twos.max(fives) <= MOST_PLACES).then_some((twos as u32, fives as u32))
+    let (rest, fives) = rounding::without_fives(denominator >> twos, MOST_PLACES);
+    (rest.is_one() && twos <= MOST_PLACES).then_some((twos as u32, fives as u32))
 }
 
 /// The value of a text that is one literal from end to end.
