@@ -36,15 +36,13 @@ pub(crate) fn at_places(units: BigInt, places: i64) -> Rational {
     if fives == MOST_FIVES {
         return Rational::new(units, ten(places));
     }
-    Rational::new_raw(rest, power_of_five((places - fives) as u32) << (places - twos))
+    Rational::new_raw(rest, power_of_five(places - fives) << (places - twos))
 }
 
 /// 5^exponent.
-pub(crate) fn power_of_five(exponent: u32) -> BigInt {
-    match 5_u64.checked_pow(exponent) {
-        Some(power) => power.into(),
-        None => BigInt::from(5).pow(exponent),
-    }
+pub(crate) fn power_of_five(exponent: u64) -> BigInt {
+    let short = u32::try_from(exponent).ok().and_then(|exponent| 5_u64.checked_pow(exponent));
+    short.map_or_else(|| num_traits::Pow::pow(BigInt::from(5), exponent), BigInt::from)
 }
 
 /// A number other than 0 without its factors of 5, or this number of them; and their number.

@@ -36,7 +36,7 @@ pub fn to_text(value: &Rational) -> String {
             let places = twos.max(fives);
             let units = (value.numer() * rounding::power_of_five(places - fives)) << (places - twos);
             let digits = units.magnitude().to_string();
-            let exponent = digits.len() as i64 - 1 - i64::from(places);
+            let exponent = digits.len() as i64 - 1 - places as i64;
             format!("{}{}", sign(value), plain(&digits, exponent))
         }
         _ => value.to_string(),
@@ -107,10 +107,10 @@ fn plain(digits: &str, exponent: i64) -> String {
 }
 
 /// The exponents of 2 and 5 of a denominator without other factors; `None` also of one that needs more than [`MOST_PLACES`].
-fn twos_and_fives(denominator: &BigInt) -> Option<(u32, u32)> {
+fn twos_and_fives(denominator: &BigInt) -> Option<(u64, u64)> {
     let twos = denominator.trailing_zeros().unwrap_or(0);
     let (rest, fives) = rounding::without_fives(denominator >> twos, MOST_PLACES);
-    (rest.is_one() && twos <= MOST_PLACES).then_some((twos as u32, fives as u32))
+    (rest.is_one() && twos <= MOST_PLACES).then_some((twos, fives))
 }
 
 /// The value of a text that is one literal from end to end.
