@@ -153,14 +153,7 @@ pub trait Potential<N: Number> {
     fn advance_few(&mut self, others: Vec<&mut dyn Any>, steps: &mut FewCoordinates<'_, N>) -> bool {
         let is_alone = others.is_empty() && N::LANES == 1;
         if is_alone {
-            steps.advance(
-                self.dimension(),
-                vec![self],
-                #[inline(always)]
-                |potential: &mut Self, q: &[N], gradient: &mut [N], scratch: &mut [N]| {
-                    evaluate(potential, q, gradient, scratch)
-                },
-            );
+            steps.advance(self.dimension(), vec![self], evaluate);
         }
         is_alone
     }
