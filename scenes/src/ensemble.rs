@@ -45,6 +45,7 @@ use shadowstep::shadow::ensemble::{self, Block, EnsembleError, Outcome};
 use shadowstep::tables::{Faults, Source};
 use shadowstep::{Rational, Scheme, Stepper};
 use shadowstep_schemes::document::document;
+use shadowstep_symbolic::Exact;
 
 use crate::error::Error;
 use crate::family::{Family, Parsed};
@@ -58,12 +59,34 @@ use columns::Columns;
 use planets::Apart;
 use settings::{Observed, settings};
 
-/// Whether \[run\] and \[output\] are the same in all trajectories: they contain no names whose values may differ, and each T(p) has the class of the first.
-fn has_one_run(parsed: &Parsed<'_>, columns: &Columns, first: &Scene) -> bool {
-    let parameters = first.system.parameters.iter().map(|(name, _)| name);
-    let names: Vec<&String> = columns.names.iter().chain(parameters).collect();
-    matches!(first.system.kinetic, KineticEnergy::Masses(_))
-        && !["run", "output"].iter().any(|section| parsed.has_names(section, &names))
+/// What is read of each trajectory but the first; what is the same in all is that of the first.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Differing {
+    /// All: \[run\] and \[output\] may differ, or the class of T(p).
+    Scenes,
+    /// The problem and its initial state.
+    Systems,
+    /// The initial state.
+    States,
+}
+
+impl Differing {
+    /// The least that is enough: the other sections contain no names whose values may differ.
+    fn of(parsed: &Parsed<'_>, columns: &Columns, first: &System) -> Differing {
+        let columns: Vec<&String> = columns.names.iter().collect();
+        let is_of_run = |section: &str| ["run", "output"].contains(&section);
+        let is_of_problem = |section: &str| !is_of_run(section) && !["initial", ENSEMBLE.name].contains(&section);
+        let problem_differs = parsed.has_names(is_of_problem, &columns);
+        let parameters = first.parameters.iter().map(|(name, _)| name).filter(|_| problem_differs);
+        let names: Vec<&String> = columns.iter().copied().chain(parameters).collect();
+        if !matches!(first.kinetic, KineticEnergy::Masses(_)) || parsed.has_names(is_of_run, &names) {
+            Differing::Scenes
+        } else if problem_differs || !first.has_lanes() || first.explicit_time {
+            Differing::Systems
+        } else {
+            Differing::States
+        }
+    }
 }
 
 /// A scene with columns of initial values and parameters.
@@ -74,8 +97,7 @@ pub struct Ensemble {
     /// The scene of the first trajectory, with what is the same in all.
     first: Scene,
     observed: Observed,
-    /// Whether steps, scheme and output are those of the first scene in all: what is read of the others is the system.
-    has_one_run: bool,
+    differing: Differing,
 }
 
 impl Ensemble {
@@ -112,8 +134,8 @@ impl Ensemble {
         let family = Family::new(source, &[ENSEMBLE.name]);
         let first = family.scene(&columns.values(0)).map_err(|faults| columns.with_trajectory(faults, 0))?;
         let observed = settings(family.source(), &first)?;
-        let has_one_run = has_one_run(&family.parsed()?, &columns, &first);
-        Ok(Ensemble { family, columns, first, observed, has_one_run })
+        let differing = Differing::of(&family.parsed()?, &columns, &first.system);
+        Ok(Ensemble { family, columns, first, observed, differing })
     }
 
     /// The scene of the first trajectory.
@@ -220,6 +242,10 @@ impl Ensemble {
 
     /// The system of some lanes.
     fn together(&self, parsed: &Parsed<'_>, block: &Block<LANES>) -> Result<SystemInLanes, Error> {
+        if let Some(states) = self.states(parsed, block) {
+            let system = SystemInLanes::of(&[&self.first.system; LANES]).expect("a system has the form of itself");
+            return Ok(system.at_states(&states));
+        }
         let systems = block.trajectories().map(|t| self.system(parsed, t)).collect::<Result<Vec<System>, Error>>()?;
         let systems = std::array::from_fn(|lane| &systems[lane]);
         SystemInLanes::of(&systems).ok_or_else(|| {
@@ -228,9 +254,15 @@ impl Ensemble {
         })
     }
 
+    /// The initial states of some lanes, if trajectories differ in nothing else; `None` also if one has a fault, which reading its scene gives.
+    fn states(&self, parsed: &Parsed<'_>, block: &Block<LANES>) -> Option<Vec<(Vec<Exact>, Vec<Exact>)>> {
+        let state = |t| parsed.state(&self.columns.values(t), &self.first.system, self.first.arithmetic);
+        (self.differing == Differing::States).then(|| block.trajectories().map(state).collect())?
+    }
+
     /// The system of a trajectory, for steps in lanes.
     fn system(&self, parsed: &Parsed<'_>, t: usize) -> Result<System, Error> {
-        if self.has_one_run
+        if self.differing != Differing::Scenes
             && let Ok(system) = parsed.system(&self.columns.values(t), self.first.arithmetic)
         {
             return Ok(system);
@@ -301,21 +333,86 @@ mod tests {
         assert!(found.contains("out of range (trajectory 1: e = 1/5)"), "{found}");
     }
 
-    /// Those of which the system alone is read, and those of which the whole scene is read.
+    /// Those of which the state alone or the system alone is read, and those of which the whole scene is read.
     #[test]
     fn systems_are_those_of_whole_scenes() {
+        let kepler = "problem.name = \"kepler\"";
+        let plane = "coordinates = [\"x\", \"y\"]";
+        let bodies = "bodies = { count = 3, m = \"1 + i/10\" }, masses = [1, 2, 3]";
         let problems = [
-            "problem.name = \"kepler\"\nproblem.parameters.eccentricity = \"sqrt(e)\"",
-            "problem = { potential = \"-e/sqrt(x^2 + y^2)\", coordinates = [\"x\", \"y\"] }\n\
-             initial = { q = [1, \"e\"], p = [0, \"1 - e^2\"] }",
+            (Differing::Systems, format!("{kepler}\nproblem.parameters.eccentricity = \"sqrt(e)\"")),
+            (
+                Differing::Systems,
+                format!(
+                    "problem = {{ potential = \"-e/sqrt(x^2 + y^2)\", {plane} }}\ninitial = {{ q = [1, \"e\"], p = [0, \"1 - e^2\"] }}"
+                ),
+            ),
+            (
+                Differing::Systems,
+                format!("problem = {{ potential = \"x*y + t\", {plane} }}\ninitial = {{ q = [1, \"e\"], p = [0, 1] }}"),
+            ),
+            (Differing::States, format!("{kepler}\ninitial.q = [\"eccentricity - e\", 1]")),
+            (
+                Differing::States,
+                format!(
+                    "problem = {{ potential = \"k*(x^2 + y^4)\", {plane}, masses = [2, \"k\"], parameters = {{ k = 3 }} }}\n\
+                     initial = {{ q = [\"k*e\", \"sqrt(e)\"], v = [\"e\", \"1/7\"] }}"
+                ),
+            ),
+            (
+                Differing::States,
+                format!(
+                    "problem = {{ pair = \"-m_i*m_j/sqrt(r2 + 1)\", dimensions = 2, {bodies} }}\n\
+                     initial = {{ q = [[0, \"e\"], [1, 0], [\"e\", 2]], v = [0, 0, 0, 1, \"e\", 0] }}"
+                ),
+            ),
+            (
+                Differing::States,
+                format!(
+                    "problem = {{ pair = \"-m_i*m_j/sqrt(r2 + 1)\", dimensions = 1, {bodies} }}\ninitial = {{ q = \"i*m + e\", p = \"e*i\" }}"
+                ),
+            ),
         ];
-        for problem in problems {
+        for (differing, problem) in problems {
             // the weight of a name that is 0 in the step size
-            let [one_run, read_each] = ["1/20", "1/20 + 0*e"]
-                .map(|step| ensemble(problem, &format!("step = \"{step}\""), "[0.1, \"1/3\", 0.7]").unwrap());
-            assert!(one_run.has_one_run && !read_each.has_one_run);
-            let [one_run, read_each] = [one_run, read_each].map(|ensemble| ensemble.outcomes(|| true).unwrap());
-            assert_eq!(one_run, read_each);
+            let [part, all] = ["1/20", "1/20 + 0*e"]
+                .map(|step| ensemble(&problem, &format!("step = \"{step}\""), "[0.1, \"1/3\", 0.7]").unwrap());
+            assert_eq!((part.differing, all.differing), (differing, Differing::Scenes), "{problem}");
+            let [part, all] = [part, all].map(|ensemble| ensemble.outcomes(|| true).unwrap());
+            assert!(part == all && all[0] != all[1], "{problem}");
+        }
+    }
+
+    #[test]
+    fn what_is_wrong_with_a_state_is_said_with_its_values() {
+        let kepler = "problem.name = \"kepler\"\ninitial.q = [\"1/(e - 1/5)\", 0]";
+        let found = refusal(kepler, "step = \"1/20\"");
+        assert!(found.contains("division by zero (trajectory 1: e = 1/5)"), "{found}");
+    }
+
+    #[test]
+    fn names_with_two_meanings_are_refused() {
+        let plane = "potential = \"x^2 + y^4\", coordinates = [\"x\", \"y\"]";
+        for (problem, column, fault) in [
+            ("problem.name = \"kepler\"", "eccentricity", "the parameter `eccentricity` has the name of"),
+            ("problem = { name = \"kepler\", parameters.eccentricity = 0.1 }", "eccentricity", "the parameter `ecc"),
+            (&format!("problem = {{ {plane}, parameters.k = 1 }}"), "k", "the parameter `k` has the name of"),
+            (&format!("problem = {{ {plane} }}"), "x", "the coordinate `x` has the name of an axis or a column"),
+            ("problem.name = \"kepler\"", "px", "a coordinate or momentum has the name `px`"),
+            (
+                "problem = { pair = \"r2\", dimensions = 1, bodies = 2 }",
+                "q1",
+                "a coordinate or momentum has the name `q1`",
+            ),
+        ] {
+            let text = format!(
+                "{problem}\ninitial = {{ q = [\"{column}\", 0], p = [1, 0] }}\n\
+                 run = {{ scheme = \"yoshida4\", steps = 20, step = 0.1, digits = \"double\" }}\noutput.energy = true\n\
+                 ensemble.columns = {{ {column} = [1, 2] }}\n"
+            );
+            let read = Ensemble::read(Source { path: "scene.toml".to_owned(), text });
+            let found = read.map(drop).unwrap_err().to_string();
+            assert!(found.contains(fault), "{found}");
         }
     }
 

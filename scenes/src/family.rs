@@ -14,7 +14,7 @@ use toml::de::{DeTable, DeValue};
 use crate::arithmetic::Arithmetic;
 use crate::library::Schemes;
 use crate::read::{Names, read};
-use crate::scene::{Scene, System};
+use crate::scene::{InitialValueProblem, Scene, System};
 
 /// A scene's text in which names stand for values: one scene for each choice of the values.
 ///
@@ -137,10 +137,11 @@ impl Family {
 }
 
 impl Parsed<'_> {
-    /// Whether a section, such as "run", contains one of these names in its texts.
-    pub(crate) fn has_names(&self, section: &str, names: &[&String]) -> bool {
+    /// Whether one of the sections that are chosen, such as "run", contains one of these names in its texts.
+    pub(crate) fn has_names(&self, is_chosen: impl Fn(&str) -> bool, names: &[&String]) -> bool {
         let mut found = BTreeSet::new();
-        self.document.get(section).into_iter().for_each(|section| collect_names(section.get_ref(), &mut found));
+        let sections = self.document.iter().filter(|(name, _)| is_chosen(name.get_ref()));
+        sections.for_each(|(_, section)| collect_names(section.get_ref(), &mut found));
         self.has_words || names.iter().any(|name| found.contains(*name))
     }
 
@@ -150,6 +151,17 @@ impl Parsed<'_> {
     /// All faults of the system with these values; the scene may have others.
     pub(crate) fn system(&self, names: &[(String, Meaning)], arithmetic: Arithmetic) -> Result<System, Faults> {
         System::read_of(self.family.source(), &self.document, numbers(names), arithmetic)
+    }
+
+    /// q and p at t = 0 with these values of the names, which only \[initial\] contains: the problem is that of another scene; `None` if
+    /// they have a fault.
+    pub(crate) fn state(
+        &self,
+        names: &[(String, Meaning)],
+        problem: &InitialValueProblem,
+        arithmetic: Arithmetic,
+    ) -> Option<(Vec<Exact>, Vec<Exact>)> {
+        problem.read_state(self.family.source(), &self.document, numbers(names), arithmetic)
     }
 
     /// The scene with these values of the names.
@@ -316,7 +328,7 @@ mod tests {
         ));
         let names = [number("q", "2"), number("h", "1/40"), word("n", "12"), word("digits", "double")];
         let faults = family.scene(&names).unwrap_err();
-        assert!(faults.to_string().contains("the coordinate `q` has the name of an axis"), "{faults}");
+        assert!(faults.to_string().contains("the coordinate `q` has the name of an axis or a column"), "{faults}");
     }
 
     #[test]

@@ -43,6 +43,11 @@ impl SystemInLanes {
         SystemInLanes::in_numbers(systems)
     }
 
+    /// The same system at other initial states, q and p of each.
+    pub(crate) fn at_states(self, states: &[(Vec<Exact>, Vec<Exact>)]) -> Self {
+        SystemInLanes { q: in_lanes(|lane| &states[lane].0), p: in_lanes(|lane| &states[lane].1), ..self }
+    }
+
     /// The system with a stepper that is valid for it.
     ///
     /// # Panics

@@ -49,7 +49,7 @@ use crate::keys::{self, ENSEMBLE, SECTIONS};
 use crate::library::Schemes;
 use crate::note::Note;
 use crate::read::reader::Reader;
-use crate::scene::{Outputs, Scene, System};
+use crate::scene::{InitialValueProblem, Outputs, Scene, System};
 use crate::shipped::scene_names;
 use crate::steps::End;
 
@@ -229,6 +229,26 @@ impl System {
             (Some(faults), _) => Err(faults),
             (None, None) => unreachable!("what cannot be read is a fault"),
         }
+    }
+}
+
+impl InitialValueProblem {
+    /// q and p at t = 0 of a document that has the problem of this one, with these names in the numbers of \[initial\]; `None` if they have
+    /// a fault.
+    pub(crate) fn read_state(
+        &self,
+        source: &Source,
+        document: &DeTable<'_>,
+        names: Vec<(String, Exact)>,
+        arithmetic: Arithmetic,
+    ) -> Option<(Vec<Exact>, Vec<Exact>)> {
+        let mut reader = Reader::new(source);
+        reader.arithmetic = arithmetic;
+        reader.known.extend(self.parameters.iter().cloned());
+        reader.known.extend(names);
+        let initial = reader.section(document, "initial");
+        let state = initial::state_of(&mut reader, &initial, self);
+        reader.toml.faults.is_empty().then_some(state)
     }
 }
 

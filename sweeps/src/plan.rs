@@ -107,8 +107,8 @@ impl SweepPlan {
         let mut reader = Reader::new(source, Vec::new());
         check::axes(&mut reader, &document, &family, &axes)?;
         refuse(std::mem::take(&mut reader.faults))?;
-        let (run, first) = first_scene(&family, &axes)?;
-        check::scene(&mut reader, &document, &axes, &keep, run, &first);
+        let first = first_scene(&family, &axes)?;
+        check::scene(&mut reader, &document, &keep, &first);
         let state: Vec<String> = first.system.coordinates.iter().chain(&first.system.momenta).cloned().collect();
         let columns = keep.columns(&state);
         check::columns(&mut reader, &document, &axes, &keep, &columns);
@@ -246,8 +246,8 @@ const PATIENCE: Duration = Duration::from_secs(1);
 
 /// A scene of the sweep with the number of its run. Where the first run has faults, as one at the corner of a map may have, others are
 /// tried, spread over all.
-fn first_scene(family: &Family, axes: &Axes) -> Result<(u64, Scene), Faults> {
-    let scene = |run| family.scene(&axes.values(run)).map(|scene| (run, scene));
+fn first_scene(family: &Family, axes: &Axes) -> Result<Scene, Faults> {
+    let scene = |run| family.scene(&axes.values(run));
     // all of few; of many, the multiples of the golden ratio are spread evenly
     let spread = |k: u64| match axes.runs() {
         runs if runs <= TRIED => k,

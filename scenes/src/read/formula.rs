@@ -109,7 +109,7 @@ fn what_a_potential_is(wrong: &str, error: &FormulaError, coordinates: &[String]
 pub(super) fn names(reader: &mut Reader<'_>, given: &Given, list: &Placed<Vec<Text>>) -> (Vec<String>, Vec<String>) {
     let mut taken: Vec<(String, String)> =
         COLUMNS.iter().map(|name| ((*name).to_owned(), "of a column of the output".to_owned())).collect();
-    taken.extend(reader.names.iter().map(|(name, _)| (name.clone(), "of an axis".to_owned())));
+    taken.extend(reader.names.iter().map(|(name, _)| (name.clone(), "of an axis or a column".to_owned())));
     taken.extend(given.parameters.iter().map(|(name, _)| (name.value.clone(), "of a parameter".to_owned())));
     for name in &list.value {
         check_name(reader, name);

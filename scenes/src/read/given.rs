@@ -90,7 +90,7 @@ impl Given {
             check_name(reader, name);
             // a parameter with a fault has the value 1, so that values that contain it add no more faults
             let value = reader.evaluate(text).unwrap_or(Exact { value: Rational::one(), rounded: false });
-            reader.known.insert(name.value.clone(), value.clone());
+            reader.define(&name.value, value.clone(), Some(text), &self.problem);
             parameters.push((name.value.clone(), value));
         }
         parameters

@@ -5,9 +5,11 @@ use std::ops::Range;
 use shadowstep_symbolic::Exact;
 use shadowstep_symbolic::decimal::to_significant;
 
+use super::bodies::Bodies;
 use super::numbers::Numbers;
 use super::reader::Reader;
 use crate::arithmetic::ANY_SIZE;
+use crate::scene::{InitialValueProblem, KineticEnergy, PotentialEnergy};
 use shadowstep_schemes::document::Section;
 
 /// The initial state in the form in which the scene gives it.
@@ -81,6 +83,31 @@ impl State {
         }
         (q, p)
     }
+}
+
+/// The state of a problem whose other values are read: that of the problem where the section gives none.
+pub(super) fn state_of(
+    reader: &mut Reader<'_>,
+    initial: &Section<'_, '_>,
+    problem: &InitialValueProblem,
+) -> (Vec<Exact>, Vec<Exact>) {
+    let bodies = match &problem.potential {
+        PotentialEnergy::Pairs(pairs) => {
+            let bodies = Bodies { count: pairs.bodies, properties: pairs.properties.clone() };
+            Some((bodies, pairs.dimensions))
+        }
+        _ => None,
+    };
+    let values = |reader: &mut Reader<'_>, numbers: &Numbers| match &bodies {
+        Some((bodies, dimensions)) => bodies.values_in_space(reader, numbers, *dimensions),
+        None => numbers.values(reader, problem.coordinates.len()),
+    };
+    let masses = match &problem.kinetic {
+        KineticEnergy::Masses(masses) => masses.as_deref(),
+        KineticEnergy::Formula(_) => None,
+    };
+    let (q, p) = State::read(reader, initial, bodies.is_some()).values(reader, values, masses);
+    (q.unwrap_or_else(|| problem.q.clone()), p.unwrap_or_else(|| problem.p.clone()))
 }
 
 /// Refuses a position whose square overflows: a potential of distances would be 0 there.

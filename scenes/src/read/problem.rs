@@ -26,7 +26,18 @@ pub(super) fn system(
     let encounters = problem.get("encounters").map(|value| GivenEncounters::read(reader, value));
     let mut system = of_any_way(reader, problem, initial, bodies)?;
     encounters.map_or(Some(()), |encounters| encounters.set(reader, &mut system))?;
+    refuse_coordinates(reader, problem, &system);
     Some(system)
+}
+
+/// Refuses names of a family that are those of coordinates or momenta.
+fn refuse_coordinates(reader: &mut Reader<'_>, problem: &Section<'_, '_>, system: &System) {
+    let mut names = reader.names.iter().map(|(name, _)| name);
+    let Some(name) = names.find(|name| system.coordinates.contains(name) || system.momenta.contains(name)) else {
+        return;
+    };
+    let message = format!("a coordinate or momentum has the name `{name}` of an axis or a column");
+    reader.toml.fault(&problem.at, message, "give the axis or the column another name");
 }
 
 fn of_any_way(

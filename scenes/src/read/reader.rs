@@ -1,7 +1,7 @@
 //! The values of a scene: numbers with the scene's parameters, in its number type.
 
 use std::collections::BTreeMap;
-use std::ops::RangeInclusive;
+use std::ops::{Range, RangeInclusive};
 
 use shadowstep::Rational;
 use shadowstep_schemes::document::{self, Key, Keys, Placed, Section, Source, Text, Value};
@@ -84,6 +84,18 @@ impl<'a> Reader<'a> {
     /// One of a few words.
     pub(super) fn word<T: Copy>(&mut self, value: &Value<'_>, words: &[(&str, T)]) -> Option<T> {
         self.toml.word(value, words).map(|word| word.value)
+    }
+
+    /// Makes the value of a parameter known, which has this text, or is the default of the problem at `place`.
+    pub(super) fn define(&mut self, name: &str, value: Exact, text: Option<&Text>, place: &Range<usize>) {
+        let is_itself = text.is_some_and(|text| text.value.trim() == name);
+        // that of an axis or a column would be ignored
+        if !is_itself && self.names.iter().any(|(other, _)| other == name) {
+            let message = format!("the parameter `{name}` has the name of an axis or a column, and another value");
+            let help = format!("write parameters.{name} = \"{name}\", or give the axis or the column another name");
+            self.toml.fault(text.map_or(place, |text| &text.at), message, help);
+        }
+        self.known.insert(name.to_owned(), value);
     }
 
     /// The value of a number, which can contain the parameters.

@@ -2,7 +2,7 @@
 
 use shadowstep::problems::{self, Problem, ProblemError, Setup};
 use shadowstep::systems::wisdom_holman::Bodies;
-use shadowstep_symbolic::{evaluate, nearest, parse};
+use shadowstep_symbolic::{Budget, nearest};
 
 use super::given::Given;
 use super::kinetic;
@@ -74,13 +74,15 @@ fn setup(reader: &mut Reader<'_>, given: &Given, name: &Text) -> Option<Setup> {
     for parameter in parameters {
         let value = match value_of(parameter.name) {
             Some(text) => Some(reader.evaluate(text)?),
+            // a default that cannot be evaluated is a fault of the setup below
             None => {
-                let default = parse(parameter.default).ok();
-                default.and_then(|d| evaluate(&d, &reader.known, reader.arithmetic.value_digits()).ok())
+                let (default, digits) = (Text::alone(parameter.default), reader.arithmetic.value_digits());
+                default.evaluate(&reader.known, digits, &Budget::default()).ok()
             }
         };
-        // a default that cannot be evaluated is a fault of the setup below
-        reader.known.extend(value.map(|value| (parameter.name.to_owned(), value)));
+        if let Some(value) = value {
+            reader.define(parameter.name, value, value_of(parameter.name), &given.problem);
+        }
     }
     if !reader.names.is_empty()
         && let Some(setup) = setup_with_numbers(reader, problem, &names, |name| value_of(name).is_some())

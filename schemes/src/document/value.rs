@@ -70,6 +70,10 @@ impl Text {
     /// # Errors
     /// A text that is not a number or expression, or has no value; `Error::range` is a range of the text.
     pub fn evaluate(&self, known: &BTreeMap<String, Exact>, digits: u32, budget: &Budget) -> Result<Exact, Error> {
+        // a name alone is its value, which needs no formula
+        if let Some(value) = known.get(&self.value) {
+            return Ok(value.clone());
+        }
         // a number may be longer than a formula
         if let Ok(value) = from_text(&self.value) {
             return Ok(Exact { value, rounded: false });

@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 use std::ops::Range;
 
 use shadowstep::tables::Faults;
-use shadowstep_scenes::family::{Family, Meaning};
+use shadowstep_scenes::family::Family;
 use shadowstep_scenes::{Error, Scene};
 use shadowstep_schemes::document::{Fault, Reader};
 use shadowstep_symbolic::nearest;
@@ -68,22 +68,9 @@ fn schemes(reader: &mut Reader<'_>, root: &DeTable<'_>, family: &Family, axes: &
     Ok(())
 }
 
-/// Refuses names with two meanings, and what cannot be kept of this scene.
-pub(super) fn scene(reader: &mut Reader<'_>, root: &DeTable<'_>, axes: &Axes, keep: &Keep, run: u64, scene: &Scene) {
-    let system = &scene.system;
-    for (axis, (_, value)) in axes.all().iter().zip(axes.values(run)) {
-        if system.coordinates.iter().chain(&system.momenta).any(|name| *name == axis.name) {
-            let message = format!("the axis `{}` has the name of a coordinate or momentum", axis.name);
-            reader.fault(&place(root, axis), message, "give it another name");
-        }
-        let parameter = system.parameters.iter().find(|(name, _)| *name == axis.name);
-        if parameter.is_some_and(|(_, exact)| Meaning::Number(exact.value.clone()) != value) {
-            let message = format!("the problem has a parameter `{}` with another value", axis.name);
-            let hint = format!("write parameters.{0} = \"{0}\", or give the axis another name", axis.name);
-            reader.fault(&place(root, axis), message, hint);
-        }
-    }
-    keep.formulas().for_each(|text| system.check(text, reader));
+/// Refuses what cannot be kept of this scene.
+pub(super) fn scene(reader: &mut Reader<'_>, root: &DeTable<'_>, keep: &Keep, scene: &Scene) {
+    keep.formulas().for_each(|text| scene.system.check(text, reader));
     let at = root.get("keep").map_or(0..0, |keep| keep.span());
     let output = &scene.output;
     if keep.needs(Need::Estimates) && output.modified_energy.is_none() {
