@@ -140,7 +140,7 @@ fn states_of_all_problems() {
     }
 }
 
-/// As many terms and digits as in the paper: limbs of differences are dropped six times.
+/// As many terms and digits as in the paper: digits of differences are dropped fourteen times.
 #[test]
 fn two_hundred_terms_of_120_digits() {
     let states = trajectory::<7>(Problem::Kepler, "1/20", 430);
@@ -150,7 +150,7 @@ fn two_hundred_terms_of_120_digits() {
     compare("Kepler", &states, &Bilinear::with_error(50).into(), usize::MAX / 2);
 }
 
-/// The fewest limbs and the most, whose loops are not unrolled; and weights of four limbs.
+/// The fewest limbs and the most; and weights of four limbs.
 #[test]
 fn few_limbs_and_many() {
     compare(
@@ -222,8 +222,8 @@ fn coordinates_that_are_zero() {
 #[test]
 fn states_that_alternate() {
     let sign = |n: i32| if n % 2 == 0 { 1 } else { -1 };
-    // the largest numbers of a row, whose next ones take a limb more
-    let largest = Float::with_val(320, Float::i_exp(1, 46)) - Float::with_val(320, Float::i_exp(1, -150));
+    // the largest numbers of a row, whose next ones begin a digit higher
+    let largest = Float::with_val(320, Float::i_exp(1, 47)) - Float::with_val(320, Float::i_exp(1, -150));
     let states = synthetic(300, |c, n| Float::with_val(320, &largest * sign(n)) / (1 + (c == 4) as i32));
     compare("alternating", &states, &Central::best(140, StoppingRule::Full).into(), 999);
     let states = synthetic(300, |c, n| Float::with_val(320, wave(c, n) * sign(n)));

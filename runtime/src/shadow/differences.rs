@@ -72,7 +72,7 @@ pub(super) struct AllOrders<N> {
 #[derive(Clone, Debug)]
 enum Table<N> {
     Numbers(DifferenceTable<N>),
-    Fixed(FixedTable<N>),
+    Fixed(Box<FixedTable<N>>),
 }
 
 #[derive(Clone, Debug)]
@@ -115,7 +115,7 @@ impl<N: Real> AllOrders<N> {
             rule,
             coefficients: stirling(largest).iter().map(|c| N::from_rational(&(c / &four_h), context)).collect(),
             table: match N::LIMBS {
-                Some(access) => Table::Fixed(FixedTable::new(access, &N::zero(context), size, dimension)),
+                Some(access) => Table::Fixed(Box::new(FixedTable::new(access, &N::zero(context), size, dimension))),
                 None => Table::Numbers(DifferenceTable::new(size, dimension, context)),
             },
             ring: vec![place; size + 1 + error_estimate.around()],
@@ -141,7 +141,9 @@ impl<N: Real> AllOrders<N> {
         let size = self.ring.len();
         let newest_with_value = (self.pushed - 1).saturating_sub(self.largest);
         for k in 1..=self.largest.min(newest_with_value) {
-            let Place { q, p, search } = &mut self.ring[(newest + size - k) % size];
+            // without a division, which takes longer than the rest of this loop's own work
+            let place = if k <= newest { newest - k } else { newest + size - k };
+            let Place { q, p, search } = &mut self.ring[place];
             if search.ended {
                 continue;
             }

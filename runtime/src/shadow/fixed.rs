@@ -3,8 +3,10 @@
 //! A *row* is a number in two's complement: Σ limb\[i\] 2^(64 (low + i) − offset), the lowest limb first. Rows of the same `low` are
 //! added limb by limb, without a search for leading bits and without rounding. A number is put into a row with all its bits, at the limbs
 //! where its exponent puts it: its `low` follows from its size, so that rows keep the relative precision of floating point. Where a row
-//! meets one with a larger `low`, the limbs below that are dropped: an error of one unit of the coarser row.
+//! meets one with a larger `low`, the limbs below that are dropped: an error of one unit of the coarser row. Where numbers are subtracted and multiplied many
+//! times, rows are of smaller [`digits`] with signs.
 
+mod digits;
 mod pairs;
 mod products;
 mod table;
@@ -30,11 +32,11 @@ const NOT_FINITE: i64 = i64::MAX;
 /// Numbers in [2^−(offset + 2), 2^(62 − offset)) have the same `low`.
 type Offset = i64;
 
-/// Calls an inlined function with its first argument, a number of limbs: a constant up to 9, as 120 digits and the rows of their
-/// differences need, so that its loops are unrolled.
+/// Calls an inlined function with its first argument, a number of limbs or digits: a constant up to 10, as 120 decimal digits
+/// and their differences need, so that its loops are unrolled.
 macro_rules! by_limbs {
     ($function:ident($limbs:expr, $($argument:expr),*)) => {
-        by_limbs!($function, $limbs, ($($argument),*), 1 2 3 4 5 6 7 8 9)
+        by_limbs!($function, $limbs, ($($argument),*), 1 2 3 4 5 6 7 8 9 10)
     };
     ($function:ident, $limbs:expr, $arguments:tt, $($n:literal)*) => {
         match $limbs {
@@ -107,16 +109,4 @@ fn move_row(row: &mut [u64], by: i64) {
     let (left, sign) = (row.len() - by, sign(row[row.len() - 1]));
     row.copy_within(by.., 0);
     row[left..].fill(sign);
-}
-
-/// The first `len` limbs of two rows, the finer of which is moved to the place of the coarser.
-#[cold]
-fn moved(len: usize, (a, a_low): (&[u64], i64), (b, b_low): (&[u64], i64)) -> [[u64; MOST_OF_ROW]; 2] {
-    let low = a_low.max(b_low);
-    [(a, a_low), (b, b_low)].map(|(row, own)| {
-        let mut moved = [0; MOST_OF_ROW];
-        moved[..len].copy_from_slice(&row[..len]);
-        move_row(&mut moved[..len], low.saturating_sub(own));
-        moved
-    })
 }

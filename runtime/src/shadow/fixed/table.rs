@@ -1,327 +1,373 @@
 //! The table of differences in fixed point.
 //!
-//! With L limbs a number takes a row of L + 1, and the table has rows of L + 2. The differences of a level are exact in the rows of the level
-//! before. A level has only as many limbs as its differences need; and at the levels 64, 128, … the lowest limb of its rows is
+//! A number takes as many [digits](super::digits) as its bits need at any place, and the table has room for one more. The differences of a level are
+//! exact in the rows of the level before, and their carries are settled at every fifth. A level has only as many digits as its differences need; and at the levels 57, 114, … the lowest digit of its rows is
 //! dropped: term k of Stirling's series has c_k ≈ 2^{1−2k} √(π/k), so that a unit of a difference of order 2k − 1 counts 2^{2k−1}
-//! times less than one of a state. Each term is multiplied to the precision that its difference has: for one of n limbs only the n + 1 upper
-//! limbs of q and p are used, and the products of limbs that reach the limb below its unit.
+//! times less than one of a state. Each term is multiplied to the precision that its difference has: for one of n digits only the n + 1 upper
+//! digits of q and p are used, and the columns of the product from the digit below its unit on.
 
-use super::{
-    MOST_OF_ROW, NOT_FINITE, Offset, ZERO, by_limbs, move_row, moved, read_number, sign, write_magnitude, write_number,
-};
-use crate::number::{LimbAccess, Number, Parts};
+use super::digits::{self, BITS, MORE, MOST_DIGITS, SUMS, digits_of, magnitude};
+use super::{NOT_FINITE, Offset, ZERO, by_limbs};
+use crate::number::{LimbAccess, Number, Parts, instructions};
 use crate::systems::increments::Increments;
 
-/// The offset of q and p, which are about 1 in most units; and the offset of their products and of β.
-const OFFSET: Offset = 16;
+/// The offset of q and p, so that numbers in [2^−10, 2^47) have the same place; and the offset of their products and of β.
+const OFFSET: Offset = 8;
 const OFFSET_OF_PRODUCTS: Offset = 2 * OFFSET;
+
+/// The most columns of a term: one below the unit of its difference, and two above its digits.
+const MOST_COLUMNS: usize = MOST_DIGITS + 3;
+
+/// How many products fit into columns before their carries are settled.
+const UNSETTLED: usize = 8;
 
 /// ∇^r of (q, p, β) at the newest state, r = 0..2M−1, and at the one before.
 #[derive(Clone, Debug)]
 pub(in crate::shadow) struct FixedTable<N> {
     access: LimbAccess<N>,
+    /// How many digits a number takes.
+    digits: usize,
     newest: Vec<Level>,
     before: Vec<Level>,
-    /// The newest M + 1 states, the state n in place n mod their number.
-    factors: Vec<Factors>,
+    /// p and −q of the newest M + 1 states, the factors of δq and δp, with their highest digits first; the state n in place n mod their number.
+    factors: Vec<Level>,
+    /// That of the newest state.
+    place: usize,
     pushed: usize,
+    sum: SumOfTerm,
 }
 
-/// ∇^r of all coordinates, β last.
+/// Rows Σ digit\[i\] 2^(BITS (low + i) − offset). Of ∇^r they are the coordinates, then β.
 #[derive(Clone, Debug)]
 struct Level {
-    /// How many limbs of each row are in use: its number is smaller than a fourth of what they hold.
+    /// How many digits of each row are in use; those above are 0.
     len: usize,
     low: Vec<i64>,
     /// One row after the other.
-    limbs: Vec<u64>,
-    /// How many limbs there is room for in a row.
+    digits: Vec<i64>,
+    /// How many digits there is room for in a row.
     room: usize,
 }
 
-/// p and −q of a state, the factors of δq and δp: magnitudes with as many limbs as rows have, and one more.
+/// Σ factor (newest + before) − δβ, in columns.
 #[derive(Clone, Debug)]
-struct Factors {
-    low: Vec<i64>,
-    negative: Vec<bool>,
-    limbs: Vec<u64>,
+struct SumOfTerm {
+    columns: [i128; MOST_COLUMNS],
+    low: i64,
 }
 
 impl<N: Number> FixedTable<N> {
     /// For terms 1..=`terms` of Stirling's series, in numbers like this 0.
     pub(in crate::shadow) fn new(access: LimbAccess<N>, zero: &N, terms: usize, dimension: usize) -> Self {
-        let (rows, room) = (2 * dimension + 1, (access.limbs)(zero) + 2);
-        let level = Level { len: 1, low: vec![ZERO; rows], limbs: vec![0; rows * room], room };
-        let factors = Factors {
-            low: vec![ZERO; 2 * dimension],
-            negative: vec![false; 2 * dimension],
-            limbs: vec![0; 2 * dimension * (room + 1)],
-        };
+        let digits = digits_of((access.limbs)(zero));
+        let room = digits + MORE;
+        let level = Level::new(2 * dimension + 1, room);
         FixedTable {
             access,
+            digits,
             newest: vec![level.clone(); 2 * terms],
             before: vec![level; 2 * terms],
-            factors: vec![factors; terms + 1],
+            factors: vec![Level::new(2 * dimension, room + 1); terms + 1],
+            place: 0,
             pushed: 0,
+            sum: SumOfTerm { columns: [0; MOST_COLUMNS], low: ZERO },
         }
     }
 
     /// Takes the next state. The increments are first differences, of q and p too where they are known.
     pub(in crate::shadow) fn push(&mut self, q: &[N], p: &[N], increments: Increments<'_, N>) {
         std::mem::swap(&mut self.newest, &mut self.before);
-        let place = self.pushed % self.factors.len();
-        self.factors[place].set(p.iter().chain(q).map(self.access.parts));
-        self.newest[0].set(0, q.iter().chain(p).map(self.access.parts));
+        let (parts, digits) = (self.access.parts, self.digits);
+        self.place = self.pushed % self.factors.len();
+        self.factors[self.place].set_factors(q.iter().map(parts), p.iter().map(parts));
+        self.newest[0].set(0, digits, q.iter().chain(p).map(parts), OFFSET);
         self.pushed += 1;
-        for r in 1..self.newest.len().min(self.pushed) {
-            let [level, below] = self.newest.get_disjoint_mut([r, r - 1]).expect("levels r and r − 1");
-            level.set_difference(below, &mut self.before[r - 1]);
-            if r == 1 {
-                let Increments { q, p, beta } = increments;
-                level.set(0, q.iter().chain(p).map(self.access.parts));
-                level.set(level.low.len() - 1, [(self.access.parts)(beta)]);
-            }
-            if r % 64 == 0 {
-                level.drop_lowest_limb();
-            }
+        let levels = self.newest.len().min(self.pushed);
+        if levels == 1 {
+            return;
         }
+        let Increments { q, p, beta } = increments;
+        let [states, level] = self.newest.get_disjoint_mut([0, 1]).expect("levels 0 and 1");
+        level.set_difference(states, &self.before[0]);
+        level.set(0, digits, q.iter().chain(p).map(parts), OFFSET);
+        level.set(level.low.len() - 1, digits, [parts(beta)], OFFSET_OF_PRODUCTS);
+        set_differences(&mut self.newest[..levels], &self.before);
     }
 
     /// term ← −qᵀδp + pᵀδq − δβ at the state k before the newest, with δ = 2 μδ^{2k−1}.
     pub(in crate::shadow) fn term(&mut self, k: usize, term: &mut N) {
-        let [newest, before] = [&mut self.newest, &mut self.before].map(|levels| &mut levels[2 * k - 1]);
-        let factors = &self.factors[(self.pushed - 1 - k) % self.factors.len()];
-        let mut sum = [0; MOST_OF_ROW + 3];
-        let (len, low) = sum_of_term(newest, before, factors, &mut sum);
-        if low == NOT_FINITE {
-            (self.access.assign_nan)(term);
-        } else {
-            read_number(term, &self.access, &mut sum[..len + 3], low, OFFSET_OF_PRODUCTS);
-        }
+        let levels = [&self.newest, &self.before].map(|levels| &levels[2 * k - 1]);
+        let place = if k <= self.place { self.place - k } else { self.place + self.factors.len() - k };
+        let factors = &self.factors[place];
+        let Some(columns) = self.sum.compute(factors, levels) else {
+            return (self.access.assign_nan)(term);
+        };
+        let mut limbs = [0; MOST_COLUMNS];
+        let (limbs, negative) = magnitude(columns, &mut limbs);
+        let exponent = self.sum.low.saturating_mul(i64::from(BITS)).saturating_sub(OFFSET_OF_PRODUCTS);
+        (self.access.assign)(term, negative, limbs, exponent);
     }
 }
 
-impl Factors {
-    /// From p and q.
-    fn set<'a>(&mut self, numbers: impl Iterator<Item = Parts<'a>>) {
-        let dimension = self.low.len() / 2;
-        let size = self.limbs.len() / self.low.len();
-        for (c, (parts, row)) in numbers.zip(self.limbs.chunks_exact_mut(size)).enumerate() {
-            let (low, negative) = write_magnitude(parts, OFFSET, row);
-            (self.low[c], self.negative[c]) = (low, negative != (c >= dimension));
-        }
-    }
+/// Sets the differences of the levels 2, 3, …
+#[inline(never)]
+fn set_differences(newest: &mut [Level], before: &[Level]) {
+    instructions::widest(
+        #[inline(always)]
+        || {
+            for r in 2..newest.len() {
+                let (below, levels) = newest.split_at_mut(r);
+                let level = &mut levels[0];
+                level.set_difference(&below[r - 1], &before[r - 1]);
+                let drops = r.is_multiple_of(BITS as usize);
+                if drops || r.is_multiple_of(SUMS) {
+                    level.settle();
+                }
+                if drops {
+                    level.drop_lowest_digit();
+                }
+            }
+        },
+    );
 }
 
 impl Level {
-    fn rows_mut(&mut self) -> impl Iterator<Item = &mut [u64]> {
-        self.limbs.chunks_exact_mut(self.room)
+    fn new(rows: usize, room: usize) -> Self {
+        Level { len: 1, low: vec![ZERO; rows], digits: vec![0; rows * room], room }
     }
 
-    /// A row and its `low`.
-    #[inline(always)]
-    fn row(&self, c: usize) -> (&[u64], i64) {
-        (&self.limbs[c * self.room..(c + 1) * self.room], self.low[c])
+    fn row(&self, c: usize) -> &[i64] {
+        &self.digits[c * self.room..][..self.room]
     }
 
-    /// Sets rows from `first` on to numbers.
-    fn set<'a>(&mut self, first: usize, numbers: impl IntoIterator<Item = Parts<'a>>) {
-        let size = self.room - 1;
-        self.widen(size);
-        let (len, last) = (self.len, self.low.len() - 1);
-        let rows = self.limbs.chunks_exact_mut(self.room).zip(&mut self.low).enumerate().skip(first);
-        for ((c, (row, low)), parts) in rows.zip(numbers) {
-            let offset = if c == last { OFFSET_OF_PRODUCTS } else { OFFSET };
-            *low = write_number(parts, offset, &mut row[..size]);
-            let sign = sign(row[size - 1]);
-            row[size..len].fill(sign);
+    fn rows_mut(&mut self) -> impl Iterator<Item = &mut [i64]> {
+        self.digits.chunks_exact_mut(self.room)
+    }
+
+    /// The digit i of a row that begins at a higher place.
+    fn digit_at(&self, c: usize, low: i64, i: usize) -> i64 {
+        let by = usize::try_from(low.saturating_sub(self.low[c])).unwrap_or(0);
+        self.row(c).get(i.saturating_add(by)).copied().unwrap_or(0)
+    }
+
+    /// Sets rows from `first` on to numbers, of this number of digits.
+    fn set<'a>(&mut self, first: usize, len: usize, numbers: impl IntoIterator<Item = Parts<'a>>, offset: Offset) {
+        let rows = self.digits.chunks_exact_mut(self.room).zip(&mut self.low).skip(first);
+        for ((row, low), parts) in rows.zip(numbers) {
+            let (row, above) = row.split_at_mut(len);
+            *low = digits::write(parts, offset, row);
+            above.fill(0);
         }
+        self.len = self.len.max(len);
     }
 
-    /// At least this number of limbs.
-    fn widen(&mut self, len: usize) {
-        let old = self.len;
-        if len > old {
-            self.len = len;
-            self.rows_mut().for_each(|row| {
-                let sign = sign(row[old - 1]);
-                row[old..len].fill(sign);
-            });
-        }
-    }
-
-    /// The same number of limbs for both; returns it.
-    fn widen_both(a: &mut Level, b: &mut Level) -> usize {
-        a.widen(b.len);
-        b.widen(a.len);
-        a.len
+    /// Sets the rows to p and −q, of as many digits as there is room for, and `low` to what the place of a product is above that of its other factor.
+    fn set_factors<'a>(&mut self, q: impl Iterator<Item = Parts<'a>>, p: impl Iterator<Item = Parts<'a>>) {
+        self.set(0, self.room, p.chain(q.map(negative)), OFFSET);
+        self.rows_mut().for_each(<[i64]>::reverse);
+        let below = self.room as i64 - 2;
+        self.low.iter_mut().for_each(|low| *low = low.saturating_add(below));
     }
 
     /// self ← a − b
-    fn set_difference(&mut self, a: &mut Level, b: &mut Level) {
-        self.len = Level::widen_both(a, b);
-        match by_limbs!(subtract_rows(self.len, self, a, b)) {
-            Size::More if self.len < self.room => self.widen(self.len + 1),
-            Size::More => self.drop_lowest_limb(),
-            Size::Same => {}
-            Size::Less => self.len -= 1,
+    #[inline(always)]
+    fn set_difference(&mut self, a: &Level, b: &Level) {
+        self.len = a.len.max(b.len);
+        let mut same = true;
+        for ((low, a), b) in self.low.iter_mut().zip(&a.low).zip(&b.low) {
+            same &= have_one_place(*a, *b);
+            *low = *a.max(b);
+        }
+        for ((own, a), b) in self.digits.iter_mut().zip(&a.digits).zip(&b.digits) {
+            *own = a - b;
+        }
+        if !same {
+            self.set_difference_of_places(a, b);
         }
     }
 
-    fn drop_lowest_limb(&mut self) {
+    /// The same in the rows of which one is coarser.
+    #[cold]
+    fn set_difference_of_places(&mut self, a: &Level, b: &Level) {
+        for c in (0..self.low.len()).filter(|c| a.low[*c] != b.low[*c]) {
+            let low = self.low[c];
+            let row = self.digits[c * self.room..].iter_mut().take(self.len);
+            row.enumerate().for_each(|(i, own)| *own = a.digit_at(c, low, i) - b.digit_at(c, low, i));
+        }
+    }
+
+    /// Settles all carries, with a highest digit more or less where it is needed or not.
+    #[inline(always)]
+    fn settle(&mut self) {
+        let len = self.len;
+        let (mut is_large, mut is_needless) = (false, true);
+        for row in self.rows_mut() {
+            let highest = digits::settle(&mut row[..len]);
+            is_large |= highest.is_large;
+            is_needless &= highest.is_needless;
+        }
+        if is_large {
+            self.lengthen();
+        } else if is_needless {
+            for row in self.rows_mut() {
+                let [next, highest] = row.get_disjoint_mut([len - 2, len - 1]).expect("two digits");
+                digits::join(next, highest);
+            }
+            self.len -= 1;
+        }
+    }
+
+    /// A highest digit more, in place of the lowest one if there is no room.
+    #[cold]
+    fn lengthen(&mut self) {
+        if self.len == self.room {
+            self.drop_lowest_digit();
+        }
         let len = self.len;
         for row in self.rows_mut() {
-            let sign = sign(row[len - 1]);
+            let [highest, above] = row.get_disjoint_mut([len - 1, len]).expect("there is room");
+            digits::split(highest, above);
+        }
+        self.len += 1;
+    }
+
+    fn drop_lowest_digit(&mut self) {
+        let len = self.len;
+        for row in self.rows_mut() {
             row.copy_within(1..len, 0);
-            row[len - 1] = sign;
+            row[len - 1] = 0;
         }
         self.low.iter_mut().for_each(|low| *low = low.saturating_add(1));
         self.len = (len - 1).max(1);
     }
 }
 
-/// Whether the rows of a level need more limbs, or less.
-enum Size {
-    More,
-    Same,
-    Less,
-}
-
-/// out ← a − b
-#[inline(always)]
-fn subtract_rows(len: usize, out: &mut Level, a: &Level, b: &Level) -> Size {
-    let (mut more, mut less) = (false, len > 1);
-    for (c, (row, low)) in out.limbs.chunks_exact_mut(out.room).zip(&mut out.low).enumerate() {
-        let room;
-        let ((mut a, a_low), (mut b, b_low)) = (a.row(c), b.row(c));
-        if a_low != b_low {
-            room = moved(len, (a, a_low), (b, b_low));
-            [a, b] = [&room[0], &room[1]];
+/// −x
+fn negative(parts: Parts<'_>) -> Parts<'_> {
+    match parts {
+        Parts::Regular { negative, exponent, significand } => {
+            Parts::Regular { negative: !negative, exponent, significand }
         }
-        *low = a_low.max(b_low);
-        let (row, a, b) = (&mut row[..len], &a[..len], &b[..len]);
-        let mut borrow = false;
-        for i in 0..len {
-            (row[i], borrow) = a[i].borrowing_sub(b[i], borrow);
+        other => other,
+    }
+}
+
+/// Whether a row is 0, which has no place.
+#[inline(always)]
+fn is_zero(low: i64) -> bool {
+    low < ZERO / 2
+}
+
+/// Whether two rows can be added digit by digit.
+#[inline(always)]
+fn have_one_place(a: i64, b: i64) -> bool {
+    a == b || is_zero(a.min(b))
+}
+
+impl SumOfTerm {
+    /// Computes it; returns its columns, or `None` if it is not finite. Not inlined: it is compiled once for all number types.
+    #[inline(never)]
+    fn compute(&mut self, factors: &Level, [newest, before]: [&Level; 2]) -> Option<&mut [i128]> {
+        let len = newest.len.max(before.len);
+        let places = Places::of(factors, [newest, before]);
+        let low = places.highest;
+        if low > NOT_FINITE / 2 {
+            return None;
         }
-        more |= !is_small(row[len - 1]);
-        less &= len > 1 && row[len - 1] == sign(row[len - 2]) && is_small(row[len - 2]);
-    }
-    match (more, less) {
-        (true, _) => Size::More,
-        (false, true) => Size::Less,
-        (false, false) => Size::Same,
+        self.low = low;
+        let columns = &mut self.columns[..len + 3];
+        columns.fill(0);
+        if places.are_one {
+            by_limbs!(add_products(len, columns, factors, [newest, before]));
+        } else {
+            add_products_of_places(columns, factors, [newest, before], low);
+        }
+        Some(columns)
     }
 }
 
-/// Whether a number with this highest limb is smaller than a fourth of what its limbs hold.
+/// The places of products, and of β with a digit below it.
+struct Places {
+    highest: i64,
+    /// Whether all products have it, and levels have one in each row.
+    are_one: bool,
+}
+
+impl Places {
+    #[inline(always)]
+    fn of(factors: &Level, [newest, before]: [&Level; 2]) -> Places {
+        let [a, b] = [newest, before].map(|level| level.low[factors.low.len()]);
+        let of_beta = a.max(b).saturating_sub(1);
+        // in most terms all rows of a kind have the same
+        let (of_factors, of_levels, mut others) = (factors.low[0], newest.low[0], a ^ b);
+        for ((factor, a), b) in factors.low.iter().zip(&newest.low).zip(&before.low) {
+            others |= (factor ^ of_factors) | (a ^ of_levels) | (b ^ of_levels);
+        }
+        if others == 0 && of_levels.saturating_add(of_factors) == of_beta {
+            return Places { highest: of_beta, are_one: true };
+        }
+        let mut places = Places { highest: of_beta, are_one: have_one_place(a, b) };
+        let mut lowest = i64::MAX;
+        for ((factor, a), b) in factors.low.iter().zip(&newest.low).zip(&before.low) {
+            let place = a.max(b).saturating_add(*factor);
+            places.highest = places.highest.max(place);
+            lowest = lowest.min(if is_zero(place) { i64::MAX } else { place });
+            places.are_one &= have_one_place(*a, *b);
+        }
+        places.are_one &= lowest >= places.highest && have_one_place(of_beta, places.highest);
+        places
+    }
+}
+
+/// Adds the products of all coordinates, and −δβ.
 #[inline(always)]
-fn is_small(top: u64) -> bool {
-    top.wrapping_add(1 << 62) >> 63 == 0
-}
-
-/// Σ factor (newest + before) − δβ in len + 3 limbs; returns len and `low`. It is compiled once for all number types.
-fn sum_of_term(newest: &mut Level, before: &mut Level, factors: &Factors, sum: &mut [u64]) -> (usize, i64) {
-    let len = Level::widen_both(newest, before);
-    (len, by_limbs!(sum_of_products(len, newest, before, factors, sum)))
-}
-
-/// The same for a number of limbs.
-#[inline(always)]
-fn sum_of_products(len: usize, newest: &Level, before: &Level, factors: &Factors, sum: &mut [u64]) -> i64 {
-    let last = factors.low.len();
-    let size = newest.room + 1;
-    // products begin at the limb below the row's unit times the upper limb of the factor; so β has a limb below it, too
-    let low_of = |c: usize| newest.low[c].max(before.low[c]);
-    let begin = |c: usize| low_of(c).saturating_add(factors.low[c]).saturating_add(size as i64 - 2);
-    let low = (0..last).map(begin).fold(low_of(last).saturating_sub(1), i64::max);
-    sum[..len + 3].fill(0);
-    if low > NOT_FINITE / 2 {
-        return NOT_FINITE;
-    }
-    let (mut mean, mut product) = ([0; MOST_OF_ROW], [0; MOST_OF_ROW + 2]);
-    for (c, factor) in factors.limbs.chunks_exact(size).enumerate() {
-        let negative = magnitude_of_sum(len, newest.row(c), before.row(c), &mut mean) != factors.negative[c];
-        upper_product(len, &factor[size - 1 - len..], &mean, &mut product);
-        add(&mut sum[..len + 3], &mut product[..len + 2], begin(c).saturating_sub(low), negative);
-    }
-    let negative = !magnitude_of_sum(len, newest.row(last), before.row(last), &mut mean);
-    add(&mut sum[..len + 3], &mut mean[..len], low_of(last).saturating_sub(low), negative);
-    low
-}
-
-/// sum ← |a + b|; returns whether a + b < 0.
-#[inline(always)]
-fn magnitude_of_sum(len: usize, (mut a, a_low): (&[u64], i64), (mut b, b_low): (&[u64], i64), sum: &mut [u64]) -> bool {
-    let room;
-    if a_low != b_low {
-        room = moved(len, (a, a_low), (b, b_low));
-        [a, b] = [&room[0], &room[1]];
-    }
-    let (sum, a, b) = (&mut sum[..len], &a[..len], &b[..len]);
-    let mut carry = false;
-    for i in 0..len {
-        (sum[i], carry) = a[i].carrying_add(b[i], carry);
-    }
-    let mask = sign(sum[len - 1]);
-    carry = mask != 0;
-    for limb in sum {
-        (*limb, carry) = (*limb ^ mask).carrying_add(0, carry);
-    }
-    mask != 0
-}
-
-/// sum ± a 2^(64 at), at ≤ 1: a is lost, and what is below the sum is dropped.
-#[inline(always)]
-fn add(sum: &mut [u64], a: &mut [u64], at: i64, negative: bool) {
-    match usize::try_from(at) {
-        Ok(0) => add_limbs(sum, a, negative),
-        Ok(_) => add_limbs(&mut sum[1..], a, negative),
-        Err(_) => {
-            move_row(a, at.saturating_neg());
-            add_limbs(sum, a, negative);
+fn add_products(len: usize, columns: &mut [i128], factors: &Level, [newest, before]: [&Level; 2]) {
+    let mut both = [0; MOST_DIGITS];
+    let both = &mut both[..len];
+    for c in 0..factors.low.len() {
+        set_sum(both, newest.row(c), before.row(c));
+        digits::add_product(len, columns, factors.row(c), both);
+        if c % UNSETTLED == UNSETTLED - 1 {
+            digits::carry(columns);
         }
     }
-}
-
-#[inline(always)]
-fn add_limbs(sum: &mut [u64], a: &[u64], negative: bool) {
-    let mask = if negative { u64::MAX } else { 0 };
-    let mut carry = negative;
-    let (low, high) = sum.split_at_mut(a.len());
-    for (limb, a) in low.iter_mut().zip(a) {
-        (*limb, carry) = limb.carrying_add(a ^ mask, carry);
-    }
-    for limb in high {
-        (*limb, carry) = limb.carrying_add(mask, carry);
+    set_sum(both, newest.row(factors.low.len()), before.row(factors.low.len()));
+    for (column, beta) in columns[1..].iter_mut().zip(both) {
+        *column -= i128::from(*beta);
     }
 }
 
-/// a b of len + 1 and len limbs, from the products of limbs that reach its limb len, in len + 2 limbs from len − 1 on: it is too small
-/// by less than len units of the lowest.
+/// sum ← a + b
 #[inline(always)]
-fn upper_product(len: usize, a: &[u64], b: &[u64], product: &mut [u64]) {
-    let (a, b, product) = (&a[..len + 1], &b[..len], &mut product[..len + 2]);
-    product.fill(0);
-    macro_rules! rows {
-        ($($i:literal)*) => { $(if $i <= len { add_row(len, $i, a, b, product); })* };
-    }
-    add_row(len, 0, a, b, product);
-    if len <= 9 {
-        // each with a constant number of limbs, so that its loop is unrolled
-        rows!(1 2 3 4 5 6 7 8 9);
-    } else {
-        (1..=len).for_each(|i| add_row(len, i, a, b, product));
+fn set_sum(sum: &mut [i64], a: &[i64], b: &[i64]) {
+    let (a, b) = (&a[..sum.len()], &b[..sum.len()]);
+    for i in 0..sum.len() {
+        sum[i] = a[i] + b[i];
     }
 }
 
-/// Adds the products of the limb i of a.
-#[inline(always)]
-fn add_row(len: usize, i: usize, a: &[u64], b: &[u64], product: &mut [u64]) {
-    let mut carry = 0;
-    for j in (len - 1).saturating_sub(i)..len {
-        let limb = &mut product[i + j + 1 - len];
-        (*limb, carry) = a[i].carrying_mul_add(b[j], *limb, carry);
+/// The same where a product or β begins below the sum, or one level is coarser.
+#[cold]
+fn add_products_of_places(sum: &mut [i128], factors: &Level, [a, b]: [&Level; 2], place: i64) {
+    let len = a.len.max(b.len);
+    for (c, of_factor) in factors.low.iter().enumerate() {
+        let low = a.low[c].max(b.low[c]);
+        let mut product = [0; MOST_COLUMNS];
+        let columns = &mut product[..sum.len()];
+        let mean: [_; MOST_DIGITS] = std::array::from_fn(|i| a.digit_at(c, low, i) + b.digit_at(c, low, i));
+        digits::add_product(len, columns, factors.row(c), &mean[..len]);
+        let by = place.saturating_sub(low.saturating_add(*of_factor));
+        digits::move_down(columns, usize::try_from(by).unwrap_or(usize::MAX));
+        sum.iter_mut().zip(columns).for_each(|(sum, column)| *sum += *column);
+        if c % UNSETTLED == UNSETTLED - 1 {
+            digits::carry(sum);
+        }
     }
-    product[i + 1] = carry;
+    let of_beta = factors.low.len();
+    for level in [a, b] {
+        let at = level.low[of_beta].saturating_sub(place);
+        let skip = usize::try_from(at.saturating_neg()).unwrap_or(0);
+        let own = sum[usize::try_from(at).unwrap_or(0)..].iter_mut();
+        own.zip(level.row(of_beta)[..len].iter().skip(skip)).for_each(|(column, beta)| *column -= i128::from(*beta));
+    }
 }
