@@ -250,3 +250,20 @@ fn states_that_are_not_finite() {
         }
     }
 }
+
+/// 0 times NaN: the differences of such a state are 0 where they are known.
+#[test]
+fn states_that_are_not_finite_with_increments_that_are() {
+    let h = StepSize::try_from("1/20").unwrap();
+    let mut estimator = BuildEstimator::<Limbs<4>>::build(&Central::best(2, StoppingRule::Full), &h, 1, &()).unwrap();
+    let zero = [Limbs::from(0.0)];
+    let mut are_finite = Vec::new();
+    for n in 0..20 {
+        let p = [if n == 10 { Limbs::from(f64::NAN) } else { zero[0] }];
+        let increments = Increments { q: &zero, p: &zero, beta: &zero[0] };
+        are_finite.extend(estimator.push(&zero, &p, increments).map(|estimate| estimate.value.is_finite()));
+    }
+    // the first value is of the state 2
+    let expected: Vec<bool> = (2..18).map(|n| n != 10).collect();
+    assert_eq!(are_finite, expected);
+}

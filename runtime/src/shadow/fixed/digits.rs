@@ -126,8 +126,8 @@ pub(super) fn carry(columns: &mut [i128]) {
     *highest += carry;
 }
 
-/// Writes the magnitude of the number in columns, which are smaller than 2^126, and the highest than 2^60, into limbs, as many as are needed; returns them,
-/// and whether it is below 0.
+/// Writes the magnitude of the number in columns, of which the highest is smaller than 2^60, into limbs, as many as are needed; returns them, and whether
+/// it is below 0.
 pub(super) fn magnitude<'l>(columns: &[i128], limbs: &'l mut [u64]) -> (&'l [u64], bool) {
     let Some((highest, rest)) = columns.split_last() else { unreachable!("there is a column") };
     let (mut at, mut bits, mut limb) = (0, 0, 0);

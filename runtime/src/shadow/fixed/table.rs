@@ -18,7 +18,7 @@ const OFFSET_OF_PRODUCTS: Offset = 2 * OFFSET;
 /// The most columns of a term: one below the unit of its difference, and two above its digits.
 const MOST_COLUMNS: usize = MOST_DIGITS + 3;
 
-/// How many products fit into columns before their carries are settled.
+/// How many products fit into columns before their carries are settled: each is smaller than 2^(57 + 62) times its number of digits.
 const UNSETTLED: usize = 8;
 
 /// ∇^r of (q, p, β) at the newest state, r = 0..2M−1, and at the one before.
@@ -271,7 +271,8 @@ impl SumOfTerm {
         let len = newest.len.max(before.len);
         let places = Places::of(factors, [newest, before]);
         let low = places.highest;
-        if low > NOT_FINITE / 2 {
+        // also of 0 times what is not finite
+        if low >= NOT_FINITE / 2 {
             return None;
         }
         self.low = low;
