@@ -140,7 +140,7 @@ fn states_of_all_problems() {
     }
 }
 
-/// As many terms and digits as in the paper: digits of differences are dropped fourteen times.
+/// As many terms and digits as in the paper: digits of differences are dropped seven times.
 #[test]
 fn two_hundred_terms_of_120_digits() {
     let states = trajectory::<7>(Problem::Kepler, "1/20", 430);

@@ -141,7 +141,7 @@ impl<N: Real> AllOrders<N> {
         let size = self.ring.len();
         let newest_with_value = (self.pushed - 1).saturating_sub(self.largest);
         for k in 1..=self.largest.min(newest_with_value) {
-            // without a division, which takes longer than the rest of this loop's own work
+            // without a division
             let place = if k <= newest { newest - k } else { newest + size - k };
             let Place { q, p, search } = &mut self.ring[place];
             if search.ended {

@@ -3,8 +3,9 @@
 //! A *row* is a number in two's complement: Σ limb\[i\] 2^(64 (low + i) − offset), the lowest limb first. Rows of the same `low` are
 //! added limb by limb, without a search for leading bits and without rounding. A number is put into a row with all its bits, at the limbs
 //! where its exponent puts it: its `low` follows from its size, so that rows keep the relative precision of floating point. Where a row
-//! meets one with a larger `low`, the limbs below that are dropped: an error of one unit of the coarser row. Where numbers are subtracted and multiplied many
-//! times, rows are of smaller [`digits`] with signs.
+//! meets one with a larger `low`, the limbs below that are dropped: an error of one unit of the coarser row.
+//!
+//! Where numbers are subtracted and multiplied many times, rows are of smaller [`digits`] with signs.
 
 mod digits;
 mod pairs;

@@ -90,8 +90,8 @@ pub(super) fn join(next: &mut i64, highest: &mut i64) {
     *highest = 0;
 }
 
-/// Adds f a to columns, where a has n digits, and f has n + 1, its highest one first: from the column n − 1 on, which is one below the unit of a times the highest digit
-/// of f. The columns below are lost, less than 32 n units of the column n.
+/// Adds f a to columns, where a has n digits, and f has n + 1, its highest one first: from the column n − 1 on, which is one below the unit of a times the
+/// highest digit of f. The columns below are lost, less than 32 n units of the column n.
 #[inline(always)]
 pub(super) fn add_product(n: usize, columns: &mut [i128], f: &[i64], a: &[i64]) {
     let (columns, f, a) = (&mut columns[..n + 1], &f[..n + 1], &a[..n]);

@@ -1,10 +1,10 @@
 //! The table of differences in fixed point.
 //!
 //! A number takes as many [digits](super::digits) as its bits need at any place, and the table has room for one more. The differences of a level are
-//! exact in the rows of the level before, and their carries are settled at every fifth. A level has only as many digits as its differences need; and at the levels 57, 114, … the lowest digit of its rows is
-//! dropped: term k of Stirling's series has c_k ≈ 2^{1−2k} √(π/k), so that a unit of a difference of order 2k − 1 counts 2^{2k−1}
-//! times less than one of a state. Each term is multiplied to the precision that its difference has: for one of n digits only the n + 1 upper
-//! digits of q and p are used, and the columns of the product from the digit below its unit on.
+//! exact in the rows of the level before, and their carries are settled at every fifth. A level has only as many digits as its differences need; and at the
+//! levels 57, 114, … the lowest digit of its rows is dropped: term k of Stirling's series has c_k ≈ 2^{1−2k} √(π/k), so that a unit of a difference of
+//! order 2k − 1 counts 2^{2k−1} times less than one of a state. Each term is multiplied to the precision that its difference has: for one of n digits only
+//! the n + 1 upper digits of q and p are used, and the columns of the product from the digit below its unit on.
 
 use super::digits::{self, BITS, MORE, MOST_DIGITS, SUMS, digits_of, magnitude};
 use super::{NOT_FINITE, Offset, ZERO, by_limbs};
