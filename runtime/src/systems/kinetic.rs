@@ -142,10 +142,13 @@ impl<N: Number> InverseMasses<'_, N> {
                 #[inline(always)]
                 |q, p| q.add_product(weight, p),
             ),
-            InverseMasses::Of(inverse) => for_each_three(q, p, inverse, |q, p, inverse| {
-                velocity.assign_product(inverse, p);
-                q.add_product(weight, velocity);
-            }),
+            InverseMasses::Of(inverse) => {
+                let mut velocity = velocity.register();
+                for_each_three(q, p, inverse, |q, p, inverse| {
+                    velocity.assign_product(inverse, p);
+                    q.add_product(weight, &velocity);
+                });
+            }
         }
     }
 }
