@@ -150,7 +150,9 @@ impl Methods<'_> {
                 match at {
                     Place::Scratch(i) => {
                         let (name, of_block) = (numbered("scratch", i), numbered("scratch_of_block", i));
-                        bindings.push(quote! { let #name = & #mutable #of_block[#lane]; });
+                        // a statement of two targets takes a reference to its name
+                        let borrowed = (targets.len() > 1 && is_target).then(|| quote! { mut });
+                        bindings.push(quote! { let #borrowed #name = & #mutable #of_block[#lane]; });
                     }
                     Place::Output(i) => {
                         let (of_block, name) = &outputs[i];

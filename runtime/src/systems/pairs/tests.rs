@@ -15,6 +15,12 @@ crate::potential! {
     pair U(r2; m_i, m_j) = -m_i * m_j / sqrt(r2 + s^2)
 }
 
+crate::potential! {
+    /// Its slope has sines and cosines.
+    struct Waves { k }
+    pair U(r2; m_i, m_j) = m_i * m_j * (sin(k*r2) + exp(-r2))
+}
+
 /// Bodies with some disorder, in `dimensions` dimensions.
 fn places(bodies: usize, dimensions: usize) -> Vec<f64> {
     // apart from one another and from 0
@@ -81,6 +87,11 @@ fn blocks_have_the_sums_of_pairs_one_by_one() {
         agree(
             &Pairs::<_, 3>::all(bodies, Softened { s: 0.2, m }).unwrap(),
             &Pairs::<_, 3>::all(bodies, Softened { s: Counting(0.2), m: counting }).unwrap(),
+        );
+        let (m, counting) = (places(bodies, 1), places(bodies, 1).into_iter().map(Counting).collect());
+        agree(
+            &Pairs::<_, 2>::all(bodies, Waves { k: 0.3, m }).unwrap(),
+            &Pairs::<_, 2>::all(bodies, Waves { k: Counting(0.3), m: counting }).unwrap(),
         );
         agree(
             &Pairs::<_, 2>::all(bodies, LennardJones { epsilon: 1.5, sigma: 0.4 }).unwrap(),
