@@ -34,7 +34,8 @@ pub(crate) fn emit(definition: &Definition) -> syn::Result<TokenStream> {
         names: definition.names(),
         arguments: values_in_lane(definition, [&i, &xs, &lane]),
     };
-    let property_blocks = property_blocks(definition, &j);
+    let block = own("block");
+    let property_blocks = property_blocks(definition, [&j, &block]);
     let each =
         Methods { programs: &programs, names: definition.names(), arguments: values_of_copies(definition, &lane) };
     let property_copies = property_copies(definition, [&i, &j]);
@@ -90,37 +91,47 @@ pub(crate) fn emit(definition: &Definition) -> syn::Result<TokenStream> {
                 &self,
                 #i: usize,
                 #j: usize,
-                #xs: &[N; #width],
-                #energies: &mut [N; #width],
+                #xs: &[[N; #width]],
+                #energies: &mut [[N; #width]],
                 #scratch: &mut [N],
             ) {
-                #property_blocks
-                #energies_body
+                for #block in 0..#xs.len() {
+                    let (#xs, #energies) = (&#xs[#block], &mut #energies[#block]);
+                    #property_blocks
+                    #energies_body
+                }
             }
             #[inline(always)]
             fn slopes<const #width: usize>(
                 &self,
                 #i: usize,
                 #j: usize,
-                #xs: &[N; #width],
-                #slopes: &mut [N; #width],
+                #xs: &[[N; #width]],
+                #slopes: &mut [[N; #width]],
                 #scratch: &mut [N],
             ) {
-                #property_blocks
-                #slopes_body
+                for #block in 0..#xs.len() {
+                    let (#xs, #slopes) = (&#xs[#block], &mut #slopes[#block]);
+                    #property_blocks
+                    #slopes_body
+                }
             }
             #[inline(always)]
             fn slopes_and_summands<const #width: usize>(
                 &self,
                 #i: usize,
                 #j: usize,
-                #xs: &[N; #width],
-                #slopes: &mut [N; #width],
-                #summands: &mut [N; #width],
+                #xs: &[[N; #width]],
+                #slopes: &mut [[N; #width]],
+                #summands: &mut [[N; #width]],
                 #scratch: &mut [N],
             ) {
-                #property_blocks
-                #summands_body
+                for #block in 0..#xs.len() {
+                    let (#xs, #slopes, #summands) =
+                        (&#xs[#block], &mut #slopes[#block], &mut #summands[#block]);
+                    #property_blocks
+                    #summands_body
+                }
             }
             #[inline(always)]
             fn each_slope<M>(
@@ -198,14 +209,14 @@ fn property_values(definition: &Definition, [i, j]: [&Ident; 2]) -> TokenStream 
     quote! { #(#values)* }
 }
 
-/// Those of the bodies from j on.
-fn property_blocks(definition: &Definition, j: &Ident) -> TokenStream {
+/// Those of a block of bodies, of which the first blocks begin at j.
+fn property_blocks(definition: &Definition, [j, number]: [&Ident; 2]) -> TokenStream {
     let width = own("W");
     let blocks = listed(definition).enumerate().filter(|(_, (_, _, is_first))| !is_first).map(|(n, (_, list, _))| {
         let block = numbered("block", n);
         quote! {
             let #block: &[N; #width] =
-                self.#list[#j..].first_chunk().expect("the block is within the bodies");
+                self.#list[#j + #number * #width..].first_chunk().expect("the block is within the bodies");
         }
     });
     quote! { #(#blocks)* }

@@ -224,14 +224,14 @@ impl<N: Number> HessianProduct<N> for FormulaPotential<N> {
 
     fn hessian_product(&self, q: &[N], v: &[N], product: &mut [N], scratch: &mut [N]) {
         let second = self.second();
-        second.properties(scratch).iter_mut().zip(v).for_each(|(place, v)| place.assign(v));
+        second.properties(scratch, 1).iter_mut().zip(v).for_each(|(place, v)| place.assign(v));
         let outputs = second.gradient(q, scratch);
         product.swap_with_slice(&mut outputs[..self.dimension]);
     }
 
     fn hessian_product_and_rate(&self, q: &[N], v: &[N], product: &mut [N], rate: &mut N, scratch: &mut [N]) {
         let second = self.second();
-        second.properties(scratch).iter_mut().zip(v).for_each(|(place, v)| place.assign(v));
+        second.properties(scratch, 1).iter_mut().zip(v).for_each(|(place, v)| place.assign(v));
         let outputs = second.gradient_and_rate(q, scratch);
         product.swap_with_slice(&mut outputs[..self.dimension]);
         std::mem::swap(rate, &mut outputs[self.dimension]);

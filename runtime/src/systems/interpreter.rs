@@ -2,8 +2,11 @@
 
 use shadowstep_symbolic::{Function, Instruction, Place, PotentialPrograms, Program};
 
+use std::hint::black_box;
+
 use crate::Rational;
 use crate::number::{Number, instructions};
+use crate::systems::pairs::BLOCKS_AT_ONCE;
 
 /// The programs of a function with its parameters; nothing is allocated when they run.
 #[derive(Clone, Debug)]
@@ -78,14 +81,14 @@ impl<N: Number> Interpreter<N> {
         for instruction in &self.prepare {
             match instruction {
                 Instruction::AssignRational(slot, value) => registers[slot.index as usize] = exact(value, context),
-                other => execute(other, registers.as_chunks_mut::<1>().0, &[]),
+                other => execute::<N, 1, 1>(other, registers.as_chunks_mut().0, &[], 1),
             }
         }
     }
 
-    /// The places of properties of bodies, to be filled before each call; of numbers, or of blocks of them.
-    pub(crate) fn properties<'r, R>(&self, registers: &'r mut [R]) -> &'r mut [R] {
-        &mut registers[self.layout.properties..self.layout.outputs]
+    /// The places of properties of bodies, to be filled before each call; `in_each` numbers or blocks each.
+    pub(crate) fn properties<'r, R>(&self, registers: &'r mut [R], in_each: usize) -> &'r mut [R] {
+        &mut registers[in_each * self.layout.properties..in_each * self.layout.outputs]
     }
 
     /// The function at x.
@@ -93,38 +96,38 @@ impl<N: Number> Interpreter<N> {
         &mut self.compute(&self.energy, x, registers)[0]
     }
 
-    /// The function of one number at a block of them; the registers are blocks, too.
-    pub(crate) fn energies<'r, const W: usize>(&self, x: &[N; W], registers: &'r mut [[N; W]]) -> &'r mut [N; W] {
-        &mut self.compute_block(&self.energy, x, registers)[0]
+    /// The function of one number at blocks of them: the registers of [`BLOCKS`] blocks are side by side, and so are the results.
+    pub(crate) fn energies<'r, const W: usize>(&self, x: &[[N; W]], registers: &'r mut [[N; W]]) -> &'r mut [[N; W]] {
+        self.compute_blocks(&self.energy, x, registers)
     }
 
     /// Its derivative there.
-    pub(crate) fn slopes<'r, const W: usize>(&self, x: &[N; W], registers: &'r mut [[N; W]]) -> &'r mut [N; W] {
-        &mut self.compute_block(&self.gradient, x, registers)[0]
+    pub(crate) fn slopes<'r, const W: usize>(&self, x: &[[N; W]], registers: &'r mut [[N; W]]) -> &'r mut [[N; W]] {
+        self.compute_blocks(&self.gradient, x, registers)
     }
 
-    /// Its derivative there, then the summand.
+    /// Its derivative there, then, from the block number [`BLOCKS`] on, the summand.
     pub(crate) fn slopes_and_summands<'r, const W: usize>(
         &self,
-        x: &[N; W],
+        x: &[[N; W]],
         registers: &'r mut [[N; W]],
     ) -> &'r mut [[N; W]] {
-        self.compute_block(&self.gradient_and_rate, x, registers)
+        self.compute_blocks(&self.gradient_and_rate, x, registers)
     }
 
     /// Not inlined: the programs of blocks are compiled once for each kind of instructions.
     #[inline(never)]
-    fn compute_block<'r, const W: usize>(
+    fn compute_blocks<'r, const W: usize>(
         &self,
         program: &[Instruction<Slot>],
-        x: &[N; W],
+        x: &[[N; W]],
         registers: &'r mut [[N; W]],
     ) -> &'r mut [[N; W]] {
         instructions::widest(
             #[inline(always)]
-            || execute_all(program, registers, std::slice::from_ref(x)),
+            || execute_all::<N, W, BLOCKS_AT_ONCE>(program, registers, x, x.len()),
         );
-        &mut registers[self.layout.outputs..]
+        &mut registers[BLOCKS_AT_ONCE * self.layout.outputs..]
     }
 
     /// Its gradient at x, and something more; all may be swapped with other numbers.
@@ -138,7 +141,7 @@ impl<N: Number> Interpreter<N> {
     pub(crate) fn gradients<const W: usize>(&self, x: &[[N; W]], registers: &mut [[N; W]]) -> usize {
         N::in_widest_instructions(
             #[inline(always)]
-            || execute_all(&self.gradient, registers, x),
+            || execute_all::<N, W, 1>(&self.gradient, registers, x, 1),
         );
         self.layout.outputs
     }
@@ -149,10 +152,10 @@ impl<N: Number> Interpreter<N> {
     }
 
     fn compute<'r>(&self, program: &[Instruction<Slot>], x: &[N], registers: &'r mut [N]) -> &'r mut [N] {
-        let (blocks, _) = registers.as_chunks_mut::<1>();
+        let (blocks, _) = registers.as_chunks_mut();
         N::in_widest_instructions(
             #[inline(always)]
-            || execute_all(program, blocks, x.as_chunks().0),
+            || execute_all::<N, 1, 1>(program, blocks, x.as_chunks().0, 1),
         );
         &mut registers[self.layout.outputs..]
     }
@@ -203,28 +206,63 @@ fn exact<N: Number>(value: &Rational, context: &N::Context) -> N {
 }
 
 #[inline(always)]
-fn execute_all<N: Number, const W: usize>(program: &[Instruction<Slot>], registers: &mut [[N; W]], x: &[[N; W]]) {
+fn execute_all<N: Number, const W: usize, const B: usize>(
+    program: &[Instruction<Slot>],
+    registers: &mut [[N; W]],
+    x: &[[N; W]],
+    blocks: usize,
+) {
     for instruction in program {
-        execute(instruction, registers, x);
+        execute::<N, W, B>(instruction, registers, x, blocks);
     }
 }
 
+/// Carries out an instruction on the first blocks of each register, which has B of them.
 #[inline(always)]
-fn execute<N: Number, const W: usize>(instruction: &Instruction<Slot>, registers: &mut [[N; W]], x: &[[N; W]]) {
+fn execute<N: Number, const W: usize, const B: usize>(
+    instruction: &Instruction<Slot>,
+    registers: &mut [[N; W]],
+    x: &[[N; W]],
+    blocks: usize,
+) {
     use Instruction as I;
-    let (before, rest) = registers.split_at_mut(instruction.target().index as usize);
-    let Some((target, after)) = rest.split_first_mut() else { return };
-    if let I::AssignSinCos(_, cos, a) = *instruction {
-        return assign_sin_cos(target, cos, a, [before, after], x);
+    let (before, rest) = registers.split_at_mut(B * instruction.target().index as usize);
+    if rest.len() < B {
+        return;
     }
-    let of = Operands([before, after, x]);
-    // the same operation on each number of a block
+    let (target, after) = rest.split_at_mut(B);
+    let target = &mut target[..blocks];
+    if let I::AssignSinCos(_, cos, a) = *instruction {
+        return assign_sin_cos::<N, W, B>(target, cos, a, [before, after], x);
+    }
+    let of = Operands::<_, B> { sides: [before, after, x], blocks };
+    // The same operation on each number of the blocks. Results are written when all is read, as for all that the compiler knows the places are the same:
+    // of numbers in vectors a block at once, of lanes one after the other. Long numbers are not copied.
     macro_rules! each {
-        ($operation:ident $(, $operand:expr)*; $($constant:expr),*) => {
-            for l in 0..W {
-                target[l].$operation($(&of.at($operand)[l],)* $($constant),*)
+        ($operation:ident $(, $name:ident)*; $($constant:expr)?) => {{
+            $(let $name = of.at($name);)*
+            for block in 0..blocks {
+                // else the compiler would make vectors of one number of each block
+                let block = if W == 1 { block } else { black_box(block) };
+                if N::IN_VECTORS && W > 1 {
+                    let mut results = target[block].clone();
+                    for l in 0..W {
+                        results[l].$operation($(&$name[block][l],)* $($constant)?);
+                    }
+                    target[block] = results;
+                } else {
+                    for l in 0..W {
+                        if N::LANES > 1 {
+                            let mut result = target[block][l].clone();
+                            result.$operation($(&$name[block][l],)* $($constant)?);
+                            target[block][l] = result;
+                        } else {
+                            target[block][l].$operation($(&$name[block][l],)* $($constant)?);
+                        }
+                    }
+                }
             }
-        };
+        }};
     }
     match *instruction {
         I::AssignZero(_) => each!(assign_zero;),
@@ -238,7 +276,9 @@ fn execute<N: Number, const W: usize>(instruction: &Instruction<Slot>, registers
         I::AssignReciprocalSqrt(_, a) => each!(assign_reciprocal_sqrt, a;),
         I::AssignRoot(_, a, order) => each!(assign_root, a; order),
         I::AssignFunction(function, _, a) => {
-            target.iter_mut().zip(of.at(a)).for_each(|(x, a)| assign_function(function, x, a));
+            for (target, a) in target.iter_mut().zip(of.at(a)) {
+                target.iter_mut().zip(a).for_each(|(x, a)| assign_function(function, x, a));
+            }
         }
         I::Add(_, a) => each!(add, a;),
         I::Subtract(_, a) => each!(subtract, a;),
@@ -247,7 +287,9 @@ fn execute<N: Number, const W: usize>(instruction: &Instruction<Slot>, registers
         I::AddProduct(_, a, b) => each!(add_product, a, b;),
         I::SubtractProduct(_, a, b) => each!(subtract_product, a, b;),
         I::AssignSumWithProduct(_, c, t, a, b) => each!(assign_sum_with_product, c, t, a, b;),
-        I::AssignDifferenceWithProduct(_, c, t, a, b) => each!(assign_difference_with_product, c, t, a, b;),
+        I::AssignDifferenceWithProduct(_, c, t, a, b) => {
+            each!(assign_difference_with_product, c, t, a, b;);
+        }
         I::AddToProduct(_, c, a, b) => each!(add_to_product, c, a, b;),
         I::MultiplyInteger(_, n) => each!(multiply_integer; n),
         I::DivideInteger(_, n) => each!(divide_integer; n),
@@ -256,19 +298,23 @@ fn execute<N: Number, const W: usize>(instruction: &Instruction<Slot>, registers
     }
 }
 
-/// What can be read beside the register that is written, by its side.
-struct Operands<'a, B>([&'a [B]; 3]);
+/// What can be read beside the register that is written, by its side: B blocks of each register.
+struct Operands<'a, R, const B: usize> {
+    sides: [&'a [R]; 3],
+    blocks: usize,
+}
 
-impl<B> Operands<'_, B> {
+impl<'a, R, const B: usize> Operands<'a, R, B> {
+    /// The first blocks.
     #[inline(always)]
-    fn at(&self, slot: Slot) -> &B {
-        &self.0[slot.side as usize][slot.index as usize]
+    fn at(&self, slot: Slot) -> &'a [R] {
+        &self.sides[slot.side as usize][B * slot.index as usize..][..self.blocks]
     }
 }
 
 /// The cosine and its argument are on either side of the sine.
-fn assign_sin_cos<N: Number, const W: usize>(
-    sin: &mut [N; W],
+fn assign_sin_cos<N: Number, const W: usize, const B: usize>(
+    sin: &mut [[N; W]],
     cos: Slot,
     a: Slot,
     [before, after]: [&mut [[N; W]]; 2],
@@ -278,17 +324,22 @@ fn assign_sin_cos<N: Number, const W: usize>(
         Side::Before => (before, after, Side::After),
         Side::After | Side::Coordinate => (after, before, Side::Before),
     };
-    let (low, rest) = own.split_at_mut(cos.index as usize);
-    let Some((cos_target, high)) = rest.split_first_mut() else { return };
-    let index = a.index as usize;
+    let (low, rest) = own.split_at_mut(B * cos.index as usize);
+    if rest.len() < B {
+        return;
+    }
+    let (cos_target, high) = rest.split_at_mut(B);
+    let index = B * a.index as usize;
     let argument = match a.side {
-        Side::Coordinate => &x[index],
-        side if side == others_side => &other[index],
-        _ if index > low.len() => &high[index - low.len() - 1],
-        _ => &low[index],
+        Side::Coordinate => &x[index..],
+        side if side == others_side => &other[index..],
+        _ if index > low.len() => &high[index - low.len() - B..],
+        _ => &low[index..],
     };
-    for l in 0..W {
-        N::assign_sin_cos(&mut sin[l], &mut cos_target[l], &argument[l]);
+    for block in 0..sin.len() {
+        for l in 0..W {
+            N::assign_sin_cos(&mut sin[block][l], &mut cos_target[block][l], &argument[block][l]);
+        }
     }
 }
 

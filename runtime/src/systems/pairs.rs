@@ -11,6 +11,7 @@ mod dual_blocks;
 mod few;
 mod gravity;
 mod hessian;
+mod listed;
 mod neighbours;
 mod pair;
 mod particles;
@@ -22,6 +23,8 @@ mod tests;
 pub use cutoff::{Cutoff, CutoffError, MOST_DERIVATIVES, Switch};
 pub use cutoff_pairs::CutoffPairs;
 pub use gravity::Gravity;
+#[cfg(feature = "formulas")]
+pub(crate) use pair::BLOCKS_AT_ONCE;
 pub use pair::{BLOCK, Ends, Pair, PairCurvature, PairPotential};
 pub use particles::PairsAndParticles;
 pub(crate) use particles::{Field, with_a_particle};
@@ -40,6 +43,7 @@ use blocks::{Blocks, Places, sum_of_places};
 use chain::Chain;
 use dual_blocks::DualBlocks;
 use few::Few;
+use listed::Listed;
 
 /// The potential U = Σ u over pairs of bodies in D dimensions.
 ///
@@ -299,10 +303,17 @@ impl<P, const D: usize> Pairs<P, D> {
         (axes, &mut others[own_scratch(D)..])
     }
 
-    /// The sum over all pairs of a few bodies.
+    /// The sum over all pairs of a few bodies, whose pairs are best evaluated many at once.
     #[inline(always)]
-    fn few<N: Number>(&self) -> Option<Few<'_, P, D>> {
-        let are_few = N::IN_VECTORS && self.which == Which::All && (3..=few::MOST_BODIES).contains(&self.bodies);
+    fn listed(&self) -> Option<Listed<'_, P, D>> {
+        let are_few = self.which == Which::All && (listed::LEAST_BODIES..LEAST_BODIES).contains(&self.bodies);
+        are_few.then_some(Listed { pair: &self.pair, bodies: self.bodies })
+    }
+
+    /// The sum over all pairs of a few bodies that are not listed.
+    #[inline(always)]
+    fn few(&self) -> Option<Few<'_, P, D>> {
+        let are_few = self.which == Which::All && (3..=few::MOST_BODIES).contains(&self.bodies);
         are_few.then_some(Few { pair: &self.pair, bodies: self.bodies })
     }
 
@@ -468,6 +479,12 @@ impl<N: Number, P: PairPotential<N>, const D: usize> Potential<N> for Pairs<P, D
         {
             return self.all_blocks().energy(q, energy, axes, pair);
         }
+        if HasVectors::<N>::PLAIN
+            && P::SEVERAL_BLOCKS
+            && let Some(listed) = self.listed()
+        {
+            return listed.energy(q, energy, &mut scratch[own_scratch(D)..]);
+        }
         energy.assign_zero();
         if self.which != Which::All || !self.is_in_order_of_blocks::<N>() {
             return self.each_energy(q, scratch, |_, _, of_pair| energy.add(of_pair));
@@ -498,7 +515,13 @@ impl<N: Number, P: PairPotential<N>, const D: usize> Potential<N> for Pairs<P, D
             return chain.sum((q, gradient), None, &mut scratch[own_scratch(D)..]);
         }
         if N::IN_VECTORS
-            && let Some(few) = self.few::<N>()
+            && P::SEVERAL_BLOCKS
+            && let Some(listed) = self.listed()
+        {
+            return listed.sum(q, gradient, None, &mut scratch[own_scratch(D)..]);
+        }
+        if N::IN_VECTORS
+            && let Some(few) = self.few()
         {
             return few.sum((q, gradient), None, &mut scratch[own_scratch(D)..]);
         }
@@ -562,7 +585,13 @@ impl<P, const D: usize> Pairs<P, D> {
             return chain.sum((q, gradient), Some(total), &mut scratch[own_scratch(D)..]);
         }
         if HasVectors::<N>::PLAIN
-            && let Some(few) = self.few::<N>()
+            && P::SEVERAL_BLOCKS
+            && let Some(listed) = self.listed()
+        {
+            return listed.sum(q, gradient, Some(total), &mut scratch[own_scratch(D)..]);
+        }
+        if HasVectors::<N>::PLAIN
+            && let Some(few) = self.few()
         {
             return few.sum((q, gradient), Some(total), &mut scratch[own_scratch(D)..]);
         }

@@ -10,7 +10,7 @@ use std::sync::{Arc, OnceLock};
 use crate::Rational;
 use crate::number::Number;
 use crate::systems::interpreter::Interpreter;
-use crate::systems::pairs::{BLOCK, Pair, PairCurvature, PairPotential};
+use crate::systems::pairs::{BLOCK, BLOCKS_AT_ONCE, Pair, PairCurvature, PairPotential};
 
 /// The energy of a pair of bodies whose operations are carried out one by one from a list: the twin of a `pair` formula
 /// in [`crate::potential!`], with the same bits.
@@ -92,7 +92,7 @@ impl<N: Number> FormulaPair<N> {
 
     /// Puts the properties of i and j where the programs find them.
     fn place_properties(&self, i: usize, j: usize, scratch: &mut [N]) {
-        self.place(i, j, self.interpreter.properties(scratch));
+        self.place(i, j, self.interpreter.properties(scratch, 1));
     }
 
     fn place(&self, i: usize, j: usize, places: &mut [N]) {
@@ -102,10 +102,11 @@ impl<N: Number> FormulaPair<N> {
         }
     }
 
-    /// The registers of blocks of this length, with the properties of the bodies i and j of each lane; none where blocks have another length.
+    /// The registers of blocks of this length, with the properties of the bodies i and j of each place; none where blocks have another length.
     #[inline(always)]
-    fn block<'s, const W: usize>(
+    fn blocks<'s, const W: usize>(
         &self,
+        count: usize,
         bodies: impl Fn(usize) -> [usize; 2],
         scratch: &'s mut [N],
     ) -> Option<&'s mut [[N; W]]> {
@@ -113,12 +114,14 @@ impl<N: Number> FormulaPair<N> {
             return None;
         }
         let (blocks, _) = scratch[self.interpreter.registers()..].as_chunks_mut::<W>();
-        let (of_i, of_j) = self.interpreter.properties(blocks).split_at_mut(self.properties.len());
-        for ((of_i, of_j), values) in of_i.iter_mut().zip(of_j).zip(&self.properties) {
-            for l in 0..W {
-                let [i, j] = bodies(l);
-                of_i[l].assign(&values[i]);
-                of_j[l].assign(&values[j]);
+        let places = self.interpreter.properties(blocks, BLOCKS_AT_ONCE);
+        let (of_i, of_j) = places.split_at_mut(BLOCKS_AT_ONCE * self.properties.len());
+        let each = of_i.chunks_exact_mut(BLOCKS_AT_ONCE).zip(of_j.chunks_exact_mut(BLOCKS_AT_ONCE));
+        for ((of_i, of_j), values) in each.zip(&self.properties) {
+            for (block, (of_i, of_j)) in of_i[..count].iter_mut().zip(&mut of_j[..count]).enumerate() {
+                let bodies: [[usize; 2]; W] = std::array::from_fn(|l| bodies(block * W + l));
+                *of_i = std::array::from_fn(|l| values[bodies[l][0]].clone());
+                *of_j = std::array::from_fn(|l| values[bodies[l][1]].clone());
             }
         }
         Some(blocks)
@@ -147,16 +150,18 @@ impl<N> Pair for FormulaPair<N> {
 }
 
 impl<N: Number> PairPotential<N> for FormulaPair<N> {
+    const SEVERAL_BLOCKS: bool = true;
+
     fn scratch(&self) -> usize {
         let registers = self.interpreter.registers();
-        if N::IN_VECTORS { registers * (1 + BLOCK) } else { registers }
+        if N::IN_VECTORS { registers * (1 + BLOCKS_AT_ONCE * BLOCK) } else { registers }
     }
 
     fn prepare(&self, scratch: &mut [N], context: &N::Context) {
         let (registers, blocks) = scratch.split_at_mut(self.interpreter.registers());
         self.interpreter.prepare(registers, context);
-        for (block, register) in blocks.as_chunks_mut::<BLOCK>().0.iter_mut().zip(registers) {
-            block.fill(register.clone());
+        for (of_blocks, register) in blocks.chunks_exact_mut(BLOCKS_AT_ONCE * BLOCK).zip(registers) {
+            of_blocks.fill(register.clone());
         }
     }
 
@@ -185,16 +190,16 @@ impl<N: Number> PairPotential<N> for FormulaPair<N> {
     fn energies_of<const W: usize>(
         &self,
         bodies: impl Fn(usize) -> [usize; 2],
-        x: &[N; W],
-        energies: &mut [N; W],
+        x: &[[N; W]],
+        energies: &mut [[N; W]],
         scratch: &mut [N],
     ) {
-        if let Some(registers) = self.block::<W>(&bodies, scratch) {
-            return energies.swap_with_slice(self.interpreter.energies(x, registers));
+        if let Some(registers) = self.blocks::<W>(x.len(), &bodies, scratch) {
+            return swap(energies, self.interpreter.energies(x, registers));
         }
-        for l in 0..W {
+        for (l, (x, energy)) in x.as_flattened().iter().zip(energies.as_flattened_mut()).enumerate() {
             let [i, j] = bodies(l);
-            self.energy(i, j, &x[l], &mut energies[l], scratch);
+            self.energy(i, j, x, energy, scratch);
         }
     }
 
@@ -202,16 +207,16 @@ impl<N: Number> PairPotential<N> for FormulaPair<N> {
     fn slopes_of<const W: usize>(
         &self,
         bodies: impl Fn(usize) -> [usize; 2],
-        x: &[N; W],
-        slopes: &mut [N; W],
+        x: &[[N; W]],
+        slopes: &mut [[N; W]],
         scratch: &mut [N],
     ) {
-        if let Some(registers) = self.block::<W>(&bodies, scratch) {
-            return slopes.swap_with_slice(self.interpreter.slopes(x, registers));
+        if let Some(registers) = self.blocks::<W>(x.len(), &bodies, scratch) {
+            return swap(slopes, self.interpreter.slopes(x, registers));
         }
-        for l in 0..W {
+        for (l, (x, slope)) in x.as_flattened().iter().zip(slopes.as_flattened_mut()).enumerate() {
             let [i, j] = bodies(l);
-            self.slope(i, j, &x[l], &mut slopes[l], scratch);
+            self.slope(i, j, x, slope, scratch);
         }
     }
 
@@ -219,20 +224,30 @@ impl<N: Number> PairPotential<N> for FormulaPair<N> {
     fn slopes_and_summands_of<const W: usize>(
         &self,
         bodies: impl Fn(usize) -> [usize; 2],
-        x: &[N; W],
-        slopes: &mut [N; W],
-        summands: &mut [N; W],
+        x: &[[N; W]],
+        slopes: &mut [[N; W]],
+        summands: &mut [[N; W]],
         scratch: &mut [N],
     ) {
-        if let Some(registers) = self.block::<W>(&bodies, scratch) {
-            let outputs = self.interpreter.slopes_and_summands(x, registers);
-            slopes.swap_with_slice(&mut outputs[0]);
-            return summands.swap_with_slice(&mut outputs[1]);
+        if let Some(registers) = self.blocks::<W>(x.len(), &bodies, scratch) {
+            let (of_slopes, of_summands) =
+                self.interpreter.slopes_and_summands(x, registers).split_at_mut(BLOCKS_AT_ONCE);
+            swap(slopes, of_slopes);
+            return swap(summands, of_summands);
         }
-        for l in 0..W {
+        let results = slopes.as_flattened_mut().iter_mut().zip(summands.as_flattened_mut());
+        for (l, (x, (slope, summand))) in x.as_flattened().iter().zip(results).enumerate() {
             let [i, j] = bodies(l);
-            self.slope_and_summand(i, j, &x[l], &mut slopes[l], &mut summands[l], scratch);
+            self.slope_and_summand(i, j, x, slope, summand, scratch);
         }
+    }
+}
+
+/// The results of blocks change places with the first ones of those computed.
+#[inline(always)]
+fn swap<R>(results: &mut [R], computed: &mut [R]) {
+    for block in 0..results.len() {
+        std::mem::swap(&mut results[block], &mut computed[block]);
     }
 }
 
@@ -247,7 +262,7 @@ impl<N: Number> PairCurvature<N> for FormulaPair<N> {
 
     fn curvature(&self, i: usize, j: usize, x: &N, slope: &mut N, curvature: &mut N, scratch: &mut [N]) {
         let second = self.second();
-        self.place(i, j, second.properties(scratch));
+        self.place(i, j, second.properties(scratch, 1));
         let outputs = second.gradient(from_ref(x), scratch);
         std::mem::swap(slope, &mut outputs[0]);
         std::mem::swap(curvature, &mut outputs[1]);
@@ -255,7 +270,7 @@ impl<N: Number> PairCurvature<N> for FormulaPair<N> {
 
     fn curvature_and_rate(&self, i: usize, j: usize, x: &N, results: [&mut N; 3], scratch: &mut [N]) {
         let second = self.second();
-        self.place(i, j, second.properties(scratch));
+        self.place(i, j, second.properties(scratch, 1));
         let outputs = second.gradient_and_rate(from_ref(x), scratch);
         results.into_iter().zip(outputs).for_each(|(result, output)| std::mem::swap(result, output));
     }

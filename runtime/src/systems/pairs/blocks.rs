@@ -5,7 +5,7 @@
 
 use std::hint::black_box;
 
-use super::pair::{BLOCK, PairPotential};
+use super::pair::{BLOCK, BLOCKS_AT_ONCE, PairPotential};
 use crate::number::Number;
 use crate::number::instructions;
 use crate::systems::coordinates::for_each_two;
@@ -16,28 +16,30 @@ pub(super) const fn scratch(bodies: usize, dimensions: usize) -> usize {
     2 * bodies * dimensions
 }
 
-/// Room for the results of a block.
-struct Room<N, const D: usize> {
-    difference: [[N; BLOCK]; D],
-    squared: [N; BLOCK],
-    slope: [N; BLOCK],
-    summand: [N; BLOCK],
+/// Room for the results of B blocks.
+struct Room<N, const D: usize, const B: usize> {
+    difference: [[[N; BLOCK]; D]; B],
+    squared: [[N; BLOCK]; B],
+    slope: [[N; BLOCK]; B],
+    summand: [[N; BLOCK]; B],
 }
 
-impl<N: Number, const D: usize> Room<N, D> {
+impl<N: Number, const D: usize, const B: usize> Room<N, D, B> {
     #[inline(always)]
     fn new(context: &N::Context) -> Self {
-        let zeros = || std::array::from_fn(|_| N::zero(context));
-        Room { difference: std::array::from_fn(|_| zeros()), squared: zeros(), slope: zeros(), summand: zeros() }
+        let block = || std::array::from_fn(|_| N::zero(context));
+        let blocks = || std::array::from_fn(|_| block());
+        let difference = std::array::from_fn(|_| std::array::from_fn(|_| block()));
+        Room { difference, squared: blocks(), slope: blocks(), summand: blocks() }
     }
 
-    /// The forces and summands with this number of the first bodies become 0.
+    /// The forces and summands of the first block with this number of the first bodies become 0.
     #[inline(always)]
     fn clear(&mut self, count: usize) {
         for l in 0..BLOCK {
             if l < count {
-                self.difference.iter_mut().for_each(|of_axis| of_axis[l].assign_zero());
-                self.summand[l].assign_zero();
+                self.difference[0].iter_mut().for_each(|of_axis| of_axis[l].assign_zero());
+                self.summand[0][l].assign_zero();
             }
         }
     }
@@ -119,11 +121,29 @@ impl<P, const D: usize> Blocks<'_, P, D> {
     ) where
         P: PairPotential<N>,
     {
+        if P::SEVERAL_BLOCKS {
+            self.add_up_to::<N, FORCES, SUM, BLOCKS_AT_ONCE>(q, gradient, total, pair);
+        } else {
+            self.add_up_to::<N, FORCES, SUM, 1>(q, gradient, total, pair);
+        }
+    }
+
+    /// The same with up to B blocks at once.
+    #[inline(always)]
+    fn add_up_to<N: Number, const FORCES: bool, const SUM: bool, const B: usize>(
+        &self,
+        q: &[N],
+        gradient: &mut [N],
+        total: &mut N,
+        pair: &mut [N],
+    ) where
+        P: PairPotential<N>,
+    {
         let bodies = self.bodies;
-        let mut room = Room::<N, D>::new(&q[0].context());
+        let mut room = Room::<N, D, B>::new(&q[0].context());
         // made once: calls of `from_fn` are not inlined into other codegen units
-        let zeros: Places<N, D> = room.difference.clone();
-        let mut sums_of_places = room.summand.clone();
+        let zeros: Places<N, D> = room.difference[0].clone();
+        let mut sums_of_places = room.summand[0].clone();
         let mut q_i: [N; D] = std::array::from_fn(|_| N::zero(&q[0].context()));
         for i in 0..bodies {
             let mut own = zeros.clone();
@@ -132,16 +152,19 @@ impl<P, const D: usize> Blocks<'_, P, D> {
             }
             let mut j = i + 1;
             while j + BLOCK <= bodies {
-                self.forces::<N, FORCES, SUM>((i, j), q, &q_i, &mut room, pair);
-                self.add_block::<N, FORCES, SUM>(j, &room, gradient, (&mut own, &mut sums_of_places));
-                j += BLOCK;
+                let blocks = if B == 1 { 1 } else { B.min((bodies - j) / BLOCK) };
+                self.forces::<N, FORCES, SUM, B>((i, j, blocks), q, &q_i, &mut room, pair);
+                for block in 0..blocks {
+                    self.add_block::<N, FORCES, SUM, B>((j, block), &room, gradient, (&mut own, &mut sums_of_places));
+                    j += BLOCK;
+                }
             }
             if j < bodies && i + BLOCK < bodies {
                 // the last bodies are in a block with some that had their turn
                 let first = bodies - BLOCK;
-                self.forces::<N, FORCES, SUM>((i, first), q, &q_i, &mut room, pair);
+                self.forces::<N, FORCES, SUM, B>((i, first, 1), q, &q_i, &mut room, pair);
                 room.clear(j - first);
-                self.add_block::<N, FORCES, SUM>(first, &room, gradient, (&mut own, &mut sums_of_places));
+                self.add_block::<N, FORCES, SUM, B>((first, 0), &room, gradient, (&mut own, &mut sums_of_places));
                 j = bodies;
             }
             if FORCES {
@@ -160,71 +183,85 @@ impl<P, const D: usize> Blocks<'_, P, D> {
 
     /// Adds the forces and summands of a block of bodies from j on with a body, whose own sums are `own`.
     #[inline(always)]
-    fn add_block<N: Number, const FORCES: bool, const SUM: bool>(
+    fn add_block<N: Number, const FORCES: bool, const SUM: bool, const B: usize>(
         &self,
-        j: usize,
-        room: &Room<N, D>,
+        (j, block): (usize, usize),
+        room: &Room<N, D, B>,
         gradient: &mut [N],
         (own, sums_of_places): (&mut Places<N, D>, &mut [N; BLOCK]),
     ) {
         if FORCES {
-            for (axis, forces) in room.difference.iter().enumerate() {
+            for (axis, forces) in room.difference[block].iter().enumerate() {
                 let of_axis: &mut [N; BLOCK] =
                     gradient[axis * self.bodies + j..].first_chunk_mut().expect("the block is within the bodies");
-                for_each_two(of_axis, forces, N::add);
-                for_each_two(&mut own[axis], forces, N::subtract);
+                // read before anything is written: for all that the compiler knows they are in one place
+                let (forces, mut sums, mut own_sums) = (forces.clone(), of_axis.clone(), own[axis].clone());
+                for_each_two(&mut sums, &forces, N::add);
+                for_each_two(&mut own_sums, &forces, N::subtract);
+                *of_axis = sums;
+                own[axis] = own_sums;
             }
         }
         if SUM {
-            for_each_two(sums_of_places, &room.summand, N::add);
+            for_each_two(sums_of_places, &room.summand[block], N::add);
         }
     }
 
     /// The forces of the body i at q_i with a block of bodies from j on, in place of their differences, and their summands; without forces,
     /// their energies.
     #[inline(always)]
-    fn forces<N: Number, const FORCES: bool, const SUM: bool>(
+    fn forces<N: Number, const FORCES: bool, const SUM: bool, const B: usize>(
         &self,
-        (i, j): (usize, usize),
+        (i, j, blocks): (usize, usize, usize),
         q: &[N],
         q_i: &[N; D],
-        Room { difference, squared, slope, summand }: &mut Room<N, D>,
+        Room { difference, squared, slope, summand }: &mut Room<N, D, B>,
         pair: &mut [N],
     ) where
         P: PairPotential<N>,
     {
-        for axis in 0..D {
-            let q_j = block(q, axis * self.bodies + j);
-            for l in 0..BLOCK {
-                difference[axis][l].assign_difference(&q_j[l], &q_i[axis]);
-            }
-        }
-        let x = match self.pair.separation() {
-            Separation::Difference => &difference[0],
-            Separation::SquaredDistance => {
+        let separation = self.pair.separation();
+        for number in 0..blocks {
+            let (mut differences, mut x) = (difference[number].clone(), squared[number].clone());
+            for axis in 0..D {
+                let q_j = block(q, axis * self.bodies + j + number * BLOCK);
                 for l in 0..BLOCK {
-                    squared[l].assign_square(&difference[0][l]);
+                    differences[axis][l].assign_difference(&q_j[l], &q_i[axis]);
                 }
-                for of_axis in &difference[1..] {
+            }
+            match separation {
+                Separation::Difference => x.clone_from(&differences[0]),
+                Separation::SquaredDistance => {
                     for l in 0..BLOCK {
-                        squared[l].add_product(&of_axis[l], &of_axis[l]);
+                        x[l].assign_square(&differences[0][l]);
+                    }
+                    for of_axis in &differences[1..] {
+                        for l in 0..BLOCK {
+                            x[l].add_product(&of_axis[l], &of_axis[l]);
+                        }
                     }
                 }
-                &*squared
             }
-        };
-        match (FORCES, SUM) {
-            (true, true) => self.pair.slopes_and_summands(i, j, x, slope, summand, pair),
-            (true, false) => self.pair.slopes(i, j, x, slope, pair),
-            (false, _) => return self.pair.energies(i, j, x, summand, pair),
+            difference[number] = differences;
+            squared[number] = x;
         }
-        for of_axis in difference.iter_mut() {
-            for l in 0..BLOCK {
-                match self.pair.separation() {
-                    Separation::Difference => of_axis[l].assign(&slope[l]),
-                    Separation::SquaredDistance => of_axis[l].multiply(&slope[l]),
+        let (x, slopes, summands) = (&squared[..blocks], &mut slope[..blocks], &mut summand[..blocks]);
+        match (FORCES, SUM) {
+            (true, true) => self.pair.slopes_and_summands(i, j, x, slopes, summands, pair),
+            (true, false) => self.pair.slopes(i, j, x, slopes, pair),
+            (false, _) => return self.pair.energies(i, j, x, summands, pair),
+        }
+        for number in 0..blocks {
+            let (mut forces, slopes) = (difference[number].clone(), slope[number].clone());
+            for of_axis in &mut forces {
+                for l in 0..BLOCK {
+                    match separation {
+                        Separation::Difference => of_axis[l].assign(&slopes[l]),
+                        Separation::SquaredDistance => of_axis[l].multiply(&slopes[l]),
+                    }
                 }
             }
+            difference[number] = forces;
         }
     }
 

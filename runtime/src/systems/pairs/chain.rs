@@ -2,6 +2,8 @@
 //!
 //! A body's gradient is the slope of the spring before it, which is carried on, less the slope of the spring after it: the bits of the plain loop.
 
+use std::slice::{from_mut, from_ref};
+
 use super::pair::{BLOCK, Ends, PairPotential};
 use crate::number::Number;
 use crate::number::instructions;
@@ -117,12 +119,13 @@ impl<P> Chain<'_, P> {
             }
         };
         if SUM {
-            self.pair.slopes_and_summands(first, first + 1, x, &mut slope, &mut summand, pair);
+            let (slopes, summands) = (from_mut(&mut slope), from_mut(&mut summand));
+            self.pair.slopes_and_summands(first, first + 1, from_ref(x), slopes, summands, pair);
             for l in 0..BLOCK {
                 sums_of_places[l].add(&summand[l]);
             }
         } else {
-            self.pair.slopes(first, first + 1, x, &mut slope, pair);
+            self.pair.slopes(first, first + 1, from_ref(x), from_mut(&mut slope), pair);
         }
         if self.pair.separation() == Separation::SquaredDistance {
             for l in 0..BLOCK {

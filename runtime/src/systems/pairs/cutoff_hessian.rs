@@ -45,7 +45,7 @@ impl<P, const D: usize> CutoffPairs<P, D> {
         let (vectors, _) = v.as_chunks::<D>();
         let (product, _) = product.as_chunks_mut::<D>();
         let reciprocal_sides = self.reciprocal_sides();
-        let mut near = Near::<N, D, 1>::new(&zero);
+        let mut near = Near::<N, D, 1, 2>::new(&zero);
         let [mut along, mut total] = [zero.clone(), zero];
         for j in 0..self.bodies {
             for other in self.neighbours.of(j).chunks(1) {

@@ -4,7 +4,7 @@ use shadowstep_symbolic::{Separation, Summand};
 
 use super::cutoff::Cutoff;
 use super::neighbours::{Neighbours, nearest_integer};
-use super::pair::{BLOCK, PairPotential};
+use super::pair::{BLOCK, BLOCKS_AT_ONCE, PairPotential};
 use super::switch::{COEFFICIENTS, Polynomial};
 use super::{Pair, PairsError};
 use crate::Rational;
@@ -117,19 +117,22 @@ const fn constants(dimensions: usize) -> usize {
     3 + COEFFICIENTS + dimensions
 }
 
-/// Pairs of a body with others that are closer than the cutoff: a block, and at most one more.
-pub(super) struct Near<N, const D: usize, const W: usize> {
+/// Pairs of a body with others that are closer than the cutoff, in blocks; there is room for B of them, of which the last one is filled in part.
+pub(super) struct Near<N, const D: usize, const W: usize, const B: usize> {
     pub(super) count: usize,
-    others: [[u32; W]; 2],
+    others: [[u32; W]; B],
     /// From the other body to the body.
-    pub(super) difference: [[[N; W]; 2]; D],
-    pub(super) squared: [[N; W]; 2],
+    pub(super) difference: [[[N; W]; B]; D],
+    pub(super) squared: [[N; W]; B],
 }
 
-impl<N: Number, const D: usize, const W: usize> Near<N, D, W> {
+impl<N: Number, const D: usize, const W: usize, const B: usize> Near<N, D, W, B> {
+    /// How many pairs are evaluated at once.
+    const FULL: usize = W * (B - 1);
+
     pub(super) fn new(zero: &N) -> Self {
         let zeros = || std::array::from_fn(|_| std::array::from_fn(|_| zero.clone()));
-        Near { count: 0, others: [[0; W]; 2], difference: std::array::from_fn(|_| zeros()), squared: zeros() }
+        Near { count: 0, others: [[0; W]; B], difference: std::array::from_fn(|_| zeros()), squared: zeros() }
     }
 
     /// Adds those of some bodies that are closer than the cutoff.
@@ -178,17 +181,15 @@ impl<N: Number, const D: usize, const W: usize> Near<N, D, W> {
         }
     }
 
-    /// Takes a whole block away.
+    /// Takes all blocks away but the last one.
     #[inline(always)]
-    fn drop_block(&mut self) {
-        self.count -= W;
-        self.others[0] = self.others[1];
-        for of_axis in &mut self.difference {
-            let [first, second] = of_axis;
-            first.iter_mut().zip(second).for_each(|(first, second)| first.assign(second));
+    fn drop_full(&mut self) {
+        self.count -= Self::FULL;
+        self.others[0] = self.others[B - 1];
+        for blocks in self.difference.iter_mut().chain([&mut self.squared]) {
+            let [first, .., last] = &mut blocks[..] else { return };
+            first.iter_mut().zip(last).for_each(|(first, last)| first.assign(last));
         }
-        let [first, second] = &mut self.squared;
-        first.iter_mut().zip(second).for_each(|(first, second)| first.assign(second));
     }
 }
 
@@ -262,17 +263,17 @@ impl<P, const D: usize> CutoffPairs<P, D> {
             _ if !N::IN_VECTORS => self.sum_one_by_one(wanted, q, gradient, sum, scratch),
             Wanted { forces: true, energy: false, .. } => instructions::widest(
                 #[inline(always)]
-                || self.sum_in_blocks::<N, BLOCK>(Wanted::FORCES, q, gradient, sum, scratch),
+                || self.sum_in_vectors(Wanted::FORCES, q, gradient, sum, scratch),
             ),
             // tangent maps compute no energies
             _ if N::HAS_DERIVATIVES => self.sum_one_by_one(wanted, q, gradient, sum, scratch),
             Wanted { forces: true, .. } => instructions::widest(
                 #[inline(always)]
-                || self.sum_in_blocks::<N, BLOCK>(Wanted::FORCES_AND_ENERGY, q, gradient, sum, scratch),
+                || self.sum_in_vectors(Wanted::FORCES_AND_ENERGY, q, gradient, sum, scratch),
             ),
             _ => instructions::widest(
                 #[inline(always)]
-                || self.sum_in_blocks::<N, BLOCK>(Wanted::ENERGY, q, gradient, sum, scratch),
+                || self.sum_in_vectors(Wanted::ENERGY, q, gradient, sum, scratch),
             ),
         }
     }
@@ -283,12 +284,21 @@ impl<P, const D: usize> CutoffPairs<P, D> {
     where
         P: PairPotential<N>,
     {
-        self.sum_in_blocks::<N, 1>(wanted, q, gradient, sum, scratch);
+        self.sum_in_blocks::<N, 1, 2>(wanted, q, gradient, sum, scratch);
     }
 
-    /// The same in blocks of W pairs of a body, added one after the other, so that sums do not depend on W.
+    /// The same in blocks of numbers in vectors.
     #[inline(always)]
-    fn sum_in_blocks<N: Number, const W: usize>(
+    fn sum_in_vectors<N: Number>(&self, wanted: Wanted, q: &[N], gradient: &mut [N], sum: &mut N, scratch: &mut [N])
+    where
+        P: PairPotential<N>,
+    {
+        self.sum_in_blocks::<N, BLOCK, { BLOCKS_AT_ONCE + 1 }>(wanted, q, gradient, sum, scratch);
+    }
+
+    /// The same in blocks of W pairs of a body, added one after the other, so that sums do not depend on blocks.
+    #[inline(always)]
+    fn sum_in_blocks<N: Number, const W: usize, const B: usize>(
         &self,
         wanted: Wanted,
         q: &[N],
@@ -303,18 +313,18 @@ impl<P, const D: usize> CutoffPairs<P, D> {
         let (q, _) = q.as_chunks::<D>();
         let (gradient, _) = gradient.as_chunks_mut::<D>();
         let zero = N::zero(&constants.squares[0].context());
-        let mut near = Near::<N, D, W>::new(&zero);
+        let mut near = Near::<N, D, W, B>::new(&zero);
         for body in 0..self.bodies {
             let mut own = Own { body, gradient: std::array::from_fn(|_| zero.clone()), sum: zero.clone() };
             for others in self.neighbours.of(body).chunks(W) {
                 near.add(others, &q[body], q, &constants, reciprocal_sides.as_ref());
-                if near.count >= W {
-                    self.add_block(wanted, &near, W, &constants, (gradient, &mut own), pair);
-                    near.drop_block();
+                if near.count >= Near::<N, D, W, B>::FULL {
+                    self.add_blocks(wanted, &near, Near::<N, D, W, B>::FULL, &constants, (gradient, &mut own), pair);
+                    near.drop_full();
                 }
             }
             if near.count > 0 {
-                self.add_block(wanted, &near, near.count, &constants, (gradient, &mut own), pair);
+                self.add_blocks(wanted, &near, near.count, &constants, (gradient, &mut own), pair);
                 near.count = 0;
             }
             if wanted.forces {
@@ -328,10 +338,10 @@ impl<P, const D: usize> CutoffPairs<P, D> {
 
     /// Adds the first pairs that are near.
     #[inline(always)]
-    fn add_block<N: Number, const W: usize>(
+    fn add_blocks<N: Number, const W: usize, const B: usize>(
         &self,
         wanted: Wanted,
-        near: &Near<N, D, W>,
+        near: &Near<N, D, W, B>,
         count: usize,
         constants: &Constants<'_, N, D>,
         (gradient, own): (&mut [[N; D]], &mut Own<N, D>),
@@ -339,58 +349,46 @@ impl<P, const D: usize> CutoffPairs<P, D> {
     ) where
         P: PairPotential<N>,
     {
-        let (others, x) = (&near.others[0], &near.squared[0]);
-        let [_, from, reciprocal] = constants.squares;
-        let switch = self.switch.filter(|_| (0..count).any(|l| is_below(from, &x[l])));
-        let (mut slopes, mut energies) = (x.clone(), x.clone());
+        let blocks = count.div_ceil(W);
+        let others = near.others.as_flattened();
+        let x = &near.squared[..blocks];
+        let [_, from, _] = constants.squares;
+        let switch = self.switch.filter(|_| x.as_flattened()[..count].iter().any(|x| is_below(from, x)));
+        let (mut slopes, mut energies) = (near.squared.clone(), near.squared.clone());
+        let (slopes, energies) = (&mut slopes[..blocks], &mut energies[..blocks]);
         self.evaluate(
             (wanted.forces || wanted.virial, wanted.energy || switch.is_some()),
             (own.body, others),
             x,
-            (&mut slopes, &mut energies),
+            (slopes, energies),
             pair,
         );
         if let Some(polynomial) = switch {
-            let [cutoff, ..] = constants.squares;
-            let (mut t, mut values, mut rises) = (x.clone(), x.clone(), x.clone());
-            for l in 0..W {
-                t[l].assign_difference(cutoff, &x[l]);
-                t[l].multiply(reciprocal);
-            }
-            polynomial.assign(constants.coefficients, &t, &mut values, &mut rises);
-            for l in 0..W {
-                // 2 (S u)′ = S 2u′ − 2S′ u/(r_c² − r_s²)
-                rises[l].multiply(reciprocal);
-                rises[l].multiply_integer(2);
-                slopes[l].multiply(&values[l]);
-                slopes[l].subtract_product(&rises[l], &energies[l]);
-                energies[l].multiply(&values[l]);
+            for block in 0..blocks {
+                add_switch(polynomial, &x[block], constants, (&mut slopes[block], &mut energies[block]));
             }
         }
         if N::LANES > 1 {
-            clear_far_lanes(x, &constants.squares[0], &mut slopes);
-            clear_far_lanes(x, &constants.squares[0], &mut energies);
+            clear_far_lanes(x.as_flattened(), &constants.squares[0], slopes.as_flattened_mut());
+            clear_far_lanes(x.as_flattened(), &constants.squares[0], energies.as_flattened_mut());
         }
+        let slopes = slopes.as_flattened_mut();
         if wanted.forces {
-            let mut forces: [[N; W]; D] = std::array::from_fn(|axis| near.difference[axis][0].clone());
-            for of_axis in &mut forces {
-                for l in 0..W {
-                    of_axis[l].multiply(&slopes[l]);
-                }
-            }
             for l in 0..count {
                 let other = &mut gradient[others[l] as usize];
-                for axis in 0..D {
-                    own.gradient[axis].add(&forces[axis][l]);
-                    other[axis].subtract(&forces[axis][l]);
+                for (axis, other) in other.iter_mut().enumerate() {
+                    let mut force = near.difference[axis].as_flattened()[l].clone();
+                    force.multiply(&slopes[l]);
+                    own.gradient[axis].add(&force);
+                    other.subtract(&force);
                 }
             }
         }
         if wanted.virial {
-            slopes[..count].iter().zip(x).for_each(|(slope, x)| own.sum.add_product(slope, x));
+            slopes[..count].iter().zip(x.as_flattened()).for_each(|(slope, x)| own.sum.add_product(slope, x));
         }
         if wanted.energy {
-            energies[..count].iter().for_each(|of_pair| own.sum.add(of_pair));
+            energies.as_flattened()[..count].iter().for_each(|of_pair| own.sum.add(of_pair));
         }
     }
 
@@ -399,9 +397,9 @@ impl<P, const D: usize> CutoffPairs<P, D> {
     fn evaluate<N: Number, const W: usize>(
         &self,
         (forces, energy): (bool, bool),
-        (body, others): (usize, &[u32; W]),
-        x: &[N; W],
-        (slopes, energies): (&mut [N; W], &mut [N; W]),
+        (body, others): (usize, &[u32]),
+        x: &[[N; W]],
+        (slopes, energies): (&mut [[N; W]], &mut [[N; W]]),
         pair: &mut [N],
     ) where
         P: PairPotential<N>,
@@ -417,17 +415,45 @@ impl<P, const D: usize> CutoffPairs<P, D> {
         }
         if energy && self.pair.summand() == Summand::Rate {
             // 2r²u′ − 2u
-            for l in 0..W {
-                energies[l].negate();
-                energies[l].add_product(&x[l], &slopes[l]);
-                energies[l].divide_integer(2);
+            for block in 0..x.len() {
+                let (x, slopes, energies) = (&x[block], &slopes[block], &mut energies[block]);
+                for l in 0..W {
+                    energies[l].negate();
+                    energies[l].add_product(&x[l], &slopes[l]);
+                    energies[l].divide_integer(2);
+                }
             }
         }
     }
 }
 
+/// The slopes and energies of S u in place of those of u.
+#[inline(always)]
+fn add_switch<N: Number, const D: usize, const W: usize>(
+    polynomial: Polynomial,
+    x: &[N; W],
+    constants: &Constants<'_, N, D>,
+    (slopes, energies): (&mut [N; W], &mut [N; W]),
+) {
+    let [cutoff, _, reciprocal] = constants.squares;
+    let (mut t, mut values, mut rises) = (x.clone(), x.clone(), x.clone());
+    for l in 0..W {
+        t[l].assign_difference(cutoff, &x[l]);
+        t[l].multiply(reciprocal);
+    }
+    polynomial.assign(constants.coefficients, &t, &mut values, &mut rises);
+    for l in 0..W {
+        // 2 (S u)′ = S 2u′ − 2S′ u/(r_c² − r_s²)
+        rises[l].multiply(reciprocal);
+        rises[l].multiply_integer(2);
+        slopes[l].multiply(&values[l]);
+        slopes[l].subtract_product(&rises[l], &energies[l]);
+        energies[l].multiply(&values[l]);
+    }
+}
+
 /// Numbers ← 0 in the lanes in which bodies are as far as the cutoff.
-pub(super) fn clear_far_lanes<N: Number, const W: usize>(x: &[N; W], cutoff: &N, numbers: &mut [N; W]) {
+pub(super) fn clear_far_lanes<N: Number>(x: &[N], cutoff: &N, numbers: &mut [N]) {
     for (x, number) in x.iter().zip(numbers) {
         let mut difference = cutoff.clone();
         difference.subtract(x);

@@ -2,6 +2,8 @@
 //!
 //! The gradient is added up in the order of the plain loop over i < j, so that it has its bits, and so is the sum of the summands of pairs.
 
+use std::slice::{from_mut, from_ref};
+
 use super::pair::PairPotential;
 use crate::number::Number;
 use shadowstep_symbolic::Separation;
@@ -98,10 +100,11 @@ impl<P, const D: usize> Few<'_, P, D> {
         }
         let (mut slopes, mut summands) = (zeros(), zeros());
         if SUM {
-            self.pair.slopes_and_summands(i, j, &x, &mut slopes, &mut summands, scratch);
+            let of_block = (from_mut(&mut slopes), from_mut(&mut summands));
+            self.pair.slopes_and_summands(i, j, from_ref(&x), of_block.0, of_block.1, scratch);
             summands.iter().for_each(|summand| total.add(summand));
         } else {
-            self.pair.slopes(i, j, &x, &mut slopes, scratch);
+            self.pair.slopes(i, j, from_ref(&x), from_mut(&mut slopes), scratch);
         }
         for of_axis in &mut forces {
             for l in 0..W {

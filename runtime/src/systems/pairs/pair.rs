@@ -1,10 +1,15 @@
 //! What a pair of bodies is: its energy and slope, of one pair or of a block of them.
 
+use std::slice::{from_mut, from_ref};
+
 use shadowstep_symbolic::{Separation, Summand};
 
 use crate::number::Number;
 
 pub use crate::number::BLOCK;
+
+/// How many blocks of pairs are evaluated at once at most: of one block, an instruction of a formula takes longer to read than to carry out.
+pub(crate) const BLOCKS_AT_ONCE: usize = 4;
 
 /// What the energy u of a pair of bodies depends on.
 pub trait Pair {
@@ -20,6 +25,9 @@ pub trait Pair {
 
 /// The energy u of a pair of bodies i < j. [`crate::potential!`] implements it for a `pair` formula.
 pub trait PairPotential<N: Number>: Pair {
+    /// Whether several blocks are best evaluated at once: it is so where a call has much to do beside its arithmetic.
+    const SEVERAL_BLOCKS: bool = false;
+
     /// How many numbers of scratch space there must be for every call.
     fn scratch(&self) -> usize;
 
@@ -40,18 +48,20 @@ pub trait PairPotential<N: Number>: Pair {
         None
     }
 
-    /// The energies of W pairs of bodies i < j, one x for each; `bodies` gives i and j.
+    /// The energies of pairs of bodies i < j in up to four blocks, one x for each; `bodies` gives i and j of each place, counted through all blocks.
     #[inline(always)]
     fn energies_of<const W: usize>(
         &self,
         bodies: impl Fn(usize) -> [usize; 2],
-        x: &[N; W],
-        energies: &mut [N; W],
+        x: &[[N; W]],
+        energies: &mut [[N; W]],
         scratch: &mut [N],
     ) {
-        for l in 0..W {
-            let [i, j] = bodies(l);
-            self.energy(i, j, &x[l], &mut energies[l], scratch);
+        for block in 0..x.len() {
+            for l in 0..W {
+                let [i, j] = bodies(block * W + l);
+                self.energy(i, j, &x[block][l], &mut energies[block][l], scratch);
+            }
         }
     }
 
@@ -60,13 +70,15 @@ pub trait PairPotential<N: Number>: Pair {
     fn slopes_of<const W: usize>(
         &self,
         bodies: impl Fn(usize) -> [usize; 2],
-        x: &[N; W],
-        slopes: &mut [N; W],
+        x: &[[N; W]],
+        slopes: &mut [[N; W]],
         scratch: &mut [N],
     ) {
-        for l in 0..W {
-            let [i, j] = bodies(l);
-            self.slope(i, j, &x[l], &mut slopes[l], scratch);
+        for block in 0..x.len() {
+            for l in 0..W {
+                let [i, j] = bodies(block * W + l);
+                self.slope(i, j, &x[block][l], &mut slopes[block][l], scratch);
+            }
         }
     }
 
@@ -75,26 +87,29 @@ pub trait PairPotential<N: Number>: Pair {
     fn slopes_and_summands_of<const W: usize>(
         &self,
         bodies: impl Fn(usize) -> [usize; 2],
-        x: &[N; W],
-        slopes: &mut [N; W],
-        summands: &mut [N; W],
+        x: &[[N; W]],
+        slopes: &mut [[N; W]],
+        summands: &mut [[N; W]],
         scratch: &mut [N],
     ) {
-        for l in 0..W {
-            let [i, j] = bodies(l);
-            self.slope_and_summand(i, j, &x[l], &mut slopes[l], &mut summands[l], scratch);
+        for block in 0..x.len() {
+            for l in 0..W {
+                let [i, j] = bodies(block * W + l);
+                let (slope, summand) = (&mut slopes[block][l], &mut summands[block][l]);
+                self.slope_and_summand(i, j, &x[block][l], slope, summand, scratch);
+            }
         }
     }
 
     /// The energies of the body i with the bodies j, j + 1, …, whose properties are side by side.
     #[inline(always)]
-    fn energies<const W: usize>(&self, i: usize, j: usize, x: &[N; W], energies: &mut [N; W], scratch: &mut [N]) {
+    fn energies<const W: usize>(&self, i: usize, j: usize, x: &[[N; W]], energies: &mut [[N; W]], scratch: &mut [N]) {
         self.energies_of(|l| [i, j + l], x, energies, scratch);
     }
 
     /// The slopes in the same way.
     #[inline(always)]
-    fn slopes<const W: usize>(&self, i: usize, j: usize, x: &[N; W], slopes: &mut [N; W], scratch: &mut [N]) {
+    fn slopes<const W: usize>(&self, i: usize, j: usize, x: &[[N; W]], slopes: &mut [[N; W]], scratch: &mut [N]) {
         self.slopes_of(|l| [i, j + l], x, slopes, scratch);
     }
 
@@ -111,7 +126,7 @@ pub trait PairPotential<N: Number>: Pair {
         let of_places: [(N, M); BLOCK] = std::array::from_fn(x);
         let x = of_places.each_ref().map(|(x, _)| x.clone());
         let mut slopes = x.clone();
-        self.slopes(i, j, &x, &mut slopes, scratch);
+        self.slopes(i, j, from_ref(&x), from_mut(&mut slopes), scratch);
         for (l, (slope, (_, more))) in slopes.into_iter().zip(of_places).enumerate() {
             take(l, slope, more);
         }
@@ -123,9 +138,9 @@ pub trait PairPotential<N: Number>: Pair {
         &self,
         i: usize,
         j: usize,
-        x: &[N; W],
-        slopes: &mut [N; W],
-        summands: &mut [N; W],
+        x: &[[N; W]],
+        slopes: &mut [[N; W]],
+        summands: &mut [[N; W]],
         scratch: &mut [N],
     ) {
         self.slopes_and_summands_of(|l| [i, j + l], x, slopes, summands, scratch);

@@ -2,6 +2,8 @@
 //!
 //! A particle has an acceleration only, the limit of its force divided by its mass, and so has a momentum divided by its mass: both are those of a unit mass.
 
+use std::slice::{from_mut, from_ref};
+
 use super::pair::{BLOCK, PairPotential};
 use super::{Pairs, PairsError, Which, parts};
 use crate::Rational;
@@ -102,7 +104,7 @@ impl<P, const D: usize> Field<'_, P, D> {
                     squared[l].add_product(&difference[axis][l], &difference[axis][l]);
                 }
             }
-            self.pair.slopes(i, self.bodies, squared, slope, scratch);
+            self.pair.slopes(i, self.bodies, from_ref(squared), from_mut(slope), scratch);
             for axis in 0..D {
                 for l in 0..W {
                     sum[axis][l].add_product(&slope[l], &difference[axis][l]);

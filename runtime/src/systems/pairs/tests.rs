@@ -100,6 +100,28 @@ fn blocks_have_the_sums_of_pairs_one_by_one() {
     }
 }
 
+/// Of formulas read at run time pairs are listed, or up to four blocks are evaluated at once.
+#[test]
+fn formulas_have_the_bits_of_compiled_pairs() {
+    fn compare<P: PairPotential<f64>, const D: usize>(compiled: P, text: &str, m: &[f64], parameter: (&str, f64)) {
+        let (bodies, separation) = (m.len(), compiled.separation());
+        let properties = if compiled.properties().is_empty() { vec![] } else { vec![("m", m.to_vec())] };
+        let read = FormulaPair::new(text, separation, &properties, &[parameter]).unwrap();
+        let [compiled, read] = [
+            evaluated(&Pairs::<_, D>::all(bodies, compiled).unwrap(), &places(bodies, D)),
+            evaluated(&Pairs::<_, D>::all(bodies, read).unwrap(), &places(bodies, D)),
+        ];
+        assert_eq!(compiled, read, "{text}, {bodies} bodies in {D} dimensions");
+    }
+    for bodies in [2, 3, 4, 5, 6, 7, 8, 9, 12, 15, 16, 17, 24, 25, 40, 41, 49, 90] {
+        let m: Vec<f64> = (0..bodies).map(|i| 1.0 + i as f64 / 8.0).collect();
+        compare::<_, 3>(Softened { s: 0.2, m: m.clone() }, "-m_i * m_j / sqrt(r2 + s^2)", &m, ("s", 0.2));
+        compare::<_, 2>(Gravity { g: 0.7, m: m.clone() }, "-g * m_i * m_j / sqrt(r2)", &m, ("g", 0.7));
+        compare::<_, 2>(Waves { k: 0.3, m: m.clone() }, "m_i * m_j * (sin(k*r2) + exp(-r2))", &m, ("k", 0.3));
+        compare::<_, 1>(CubicSpring { alpha: 0.25 }, "d^2/2 + alpha*d^3/3", &m, ("alpha", 0.25));
+    }
+}
+
 #[test]
 fn chains_in_blocks_have_the_bits_of_springs_one_by_one() {
     for bodies in [1, 2, 8, 15, 16, 17, 24, 25, 40] {
