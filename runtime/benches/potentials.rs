@@ -11,11 +11,12 @@ use std::hint::black_box;
 use rug::Float;
 use shadowstep::number::Precision;
 use shadowstep::problems::{Gravity, HenonHeiles, Kepler, Pendulum, problem};
+use shadowstep::systems::formula::FormulaPair;
 use shadowstep::systems::kinetic::Quadratic;
-use shadowstep::systems::pairs::Pairs;
+use shadowstep::systems::pairs::{Pairs, Separation};
 use shadowstep::{DiagonalMasses, Kinetic, Motion, Potential, Real, Stepper, UnitMasses, exact, splitting_scheme};
 
-use by_hand::{BODIES, ByHand, HenonHeilesStar, KeplerOrbit, PendulumBob, Planets};
+use by_hand::{ByHand, HenonHeilesStar, KeplerOrbit, PendulumBob, Planets};
 use timing::{Contestant, compare};
 
 #[splitting_scheme("stormer-verlet.toml")]
@@ -87,6 +88,27 @@ fn planets<'a, N: Real + 'a, P: Potential<N> + 'a>(
 
 const BY_HAND: &str = "potential by hand";
 const BY_FORMULA: &str = "potential from its formula";
+const AT_RUN_TIME: &str = "potential from a formula at run time";
+
+fn gravity<N: Real>(g: N, m: Vec<N>) -> Pairs<Gravity<N>, 3> {
+    Pairs::all(m.len(), Gravity { g, m }).expect("the pairs fit")
+}
+
+fn gravity_at_run_time<N: Real>(g: N, m: Vec<N>) -> Pairs<FormulaPair<N>, 3> {
+    let (bodies, squared) = (m.len(), Separation::SquaredDistance);
+    let pair = FormulaPair::new("-g*m_i*m_j/sqrt(r2)", squared, &[("m", m)], &[("g", g)]).expect("a formula");
+    Pairs::all(bodies, pair).expect("the pairs fit")
+}
+
+/// A hundred bodies at rest in places without an order.
+fn hundred<'a, P: Potential<f64> + 'a>(
+    name: &'static str,
+    potential: impl FnOnce(f64, Vec<f64>) -> P,
+) -> Contestant<'a> {
+    let q: Vec<f64> = (0..300_u32).map(|i| f64::from((i * i * 31 + 7 * i) % 1009) / 50.0).collect();
+    let motion = Motion::new(potential(1e-6, vec![1.0; 100]), UnitMasses, q, vec![0.0; 300]);
+    contestant(name, motion.expect("the dimensions agree"), "1/100")
+}
 
 fn in_numbers<N: Real>(numbers: &str, context: &N::Context, repetitions: u32)
 where
@@ -115,16 +137,15 @@ where
     compare(&format!("Pendulum, {numbers}"), contestants, repetitions);
     let contestants = vec![
         planets::<N, _>(BY_HAND, |g, m| ByHand(Planets { g, m }), context),
-        planets::<N, _>(
-            BY_FORMULA,
-            |g, m| Pairs::<_, 3>::all(BODIES, Gravity { g, m }).expect("the pairs fit"),
-            context,
-        ),
+        planets::<N, _>(BY_FORMULA, gravity, context),
+        planets::<N, _>(AT_RUN_TIME, gravity_at_run_time, context),
     ];
     compare(&format!("The Sun and five planets, {numbers}"), contestants, repetitions / 20);
 }
 
 fn main() {
     in_numbers::<f64>("f64", &(), 1_000_000);
+    let contestants = vec![hundred(BY_FORMULA, gravity), hundred(AT_RUN_TIME, gravity_at_run_time)];
+    compare("100 bodies, f64", contestants, 2_000);
     in_numbers::<Float>("120 digits", &digits(), 2_000);
 }
