@@ -5,7 +5,7 @@
 
 use std::hint::black_box;
 
-use super::pair::{BLOCK, BLOCKS_AT_ONCE, PairPotential};
+use super::pair::{BLOCK, BLOCKS_AT_ONCE, PairPotential, separated};
 use crate::number::Number;
 use crate::number::instructions;
 use crate::systems::coordinates::for_each_two;
@@ -279,18 +279,12 @@ impl<P, const D: usize> Blocks<'_, P, D> {
     {
         let bodies = self.bodies;
         let zero = N::zero(&q[0].context());
-        let (mut x, mut slope, mut summand) = (zero.clone(), zero.clone(), zero);
+        let (mut slope, mut summand) = (zero.clone(), zero);
         let mut difference = q_i.clone();
         for axis in 0..D {
             difference[axis].assign_difference(&q[axis * bodies + j], &q_i[axis]);
         }
-        match self.pair.separation() {
-            Separation::Difference => x.assign(&difference[0]),
-            Separation::SquaredDistance => {
-                x.assign_square(&difference[0]);
-                difference[1..].iter().for_each(|of_axis| x.add_product(of_axis, of_axis));
-            }
-        }
+        let x = separated(&difference, self.pair.separation());
         match (FORCES, SUM) {
             (true, true) => self.pair.slope_and_summand(i, j, &x, &mut slope, &mut summand, pair),
             (true, false) => self.pair.slope(i, j, &x, &mut slope, pair),

@@ -2,7 +2,7 @@
 //!
 //! What is summed is added up in the order of the plain loop over i < j, so that it has its bits.
 
-use super::pair::{BLOCK, BLOCKS_AT_ONCE, PairPotential};
+use super::pair::{BLOCK, BLOCKS_AT_ONCE, PairPotential, separated};
 use crate::number::Number;
 use shadowstep_symbolic::Separation;
 
@@ -120,15 +120,7 @@ impl<P, const D: usize> Listed<'_, P, D> {
 
 impl<N: Number> List<N> {
     fn push<const D: usize>(&mut self, [i, j]: [usize; 2], q: &[[N; D]], separation: Separation) {
-        let x = &mut self.x.as_flattened_mut()[self.count];
-        let difference = difference(&q[i], &q[j]);
-        match separation {
-            Separation::Difference => x.assign(&difference[0]),
-            Separation::SquaredDistance => {
-                x.assign_square(&difference[0]);
-                difference[1..].iter().for_each(|of_axis| x.add_product(of_axis, of_axis));
-            }
-        }
+        self.x.as_flattened_mut()[self.count] = separated(&difference(&q[i], &q[j]), separation);
         self.bodies[self.count] = [i, j].map(|body| body as u8);
         self.count += 1;
     }

@@ -167,6 +167,17 @@ pub trait PairCurvature<N: Number> {
     fn curvature_and_rate(&self, i: usize, j: usize, x: &N, results: [&mut N; 3], scratch: &mut [N]);
 }
 
+/// What u is a function of, from q_j − q_i.
+#[inline(always)]
+pub(super) fn separated<N: Number, const D: usize>(difference: &[N; D], separation: Separation) -> N {
+    let mut x = difference[0].clone();
+    if separation == Separation::SquaredDistance {
+        x.assign_square(&difference[0]);
+        difference[1..].iter().for_each(|of_axis| x.add_product(of_axis, of_axis));
+    }
+    x
+}
+
 /// What is at the ends of a chain.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Ends {
