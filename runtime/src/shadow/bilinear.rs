@@ -211,6 +211,14 @@ impl<N: Real> Estimator<N> for BilinearEstimator<N> {
             FixedOrBest::Best(best) => best.push(q, p, increments),
         }
     }
+
+    #[inline(always)]
+    fn push_for_value(&mut self, q: &[N], p: &[N], increments: Increments<'_, N>) -> Option<Estimate<'_, N>> {
+        match &mut self.0 {
+            FixedOrBest::Fixed(fixed) => fixed.push_for_value(q, p, increments),
+            FixedOrBest::Best(best) => best.push(q, p, increments),
+        }
+    }
 }
 
 /// E_k at one k. Nothing is compared, so that it works also on numbers without an order, such as [lanes](crate::number::Lanes).
@@ -296,7 +304,15 @@ impl<N: Number> Estimator<N> for FixedBilinearEstimator<N> {
     #[inline(always)]
     fn push(&mut self, q: &[N], p: &[N], increments: Increments<'_, N>) -> Option<Estimate<'_, N>> {
         match &mut self.0 {
-            By::Increments(lagged) => lagged.push(q, p, increments),
+            By::Increments(lagged) => lagged.push::<true>(q, p, increments),
+            By::Pairs(products, form) => push_pairs(products, form, (q, p), increments),
+        }
+    }
+
+    #[inline(always)]
+    fn push_for_value(&mut self, q: &[N], p: &[N], increments: Increments<'_, N>) -> Option<Estimate<'_, N>> {
+        match &mut self.0 {
+            By::Increments(lagged) => lagged.push::<false>(q, p, increments),
             By::Pairs(products, form) => push_pairs(products, form, (q, p), increments),
         }
     }

@@ -74,6 +74,13 @@ pub trait Estimator<N: Number> {
     /// All states come with increments of q and p, or none of them does; the latter are subtracted from one another. A state that
     /// comes without them after one with them starts a new sequence: estimates that need states from before it are not valid.
     fn push(&mut self, q: &[N], p: &[N], increments: Increments<'_, N>) -> Option<Estimate<'_, N>>;
+
+    /// As [`push`](Estimator::push), for all states of a trajectory, where q and p of the estimates are not used: they may be empty, so that no state needs to be
+    /// kept for them.
+    #[inline(always)]
+    fn push_for_value(&mut self, q: &[N], p: &[N], increments: Increments<'_, N>) -> Option<Estimate<'_, N>> {
+        self.push(q, p, increments)
+    }
 }
 
 impl<N: Number, E: Estimator<N> + ?Sized> Estimator<N> for Box<E> {
@@ -83,6 +90,10 @@ impl<N: Number, E: Estimator<N> + ?Sized> Estimator<N> for Box<E> {
 
     fn push(&mut self, q: &[N], p: &[N], increments: Increments<'_, N>) -> Option<Estimate<'_, N>> {
         (**self).push(q, p, increments)
+    }
+
+    fn push_for_value(&mut self, q: &[N], p: &[N], increments: Increments<'_, N>) -> Option<Estimate<'_, N>> {
+        (**self).push_for_value(q, p, increments)
     }
 }
 

@@ -10,6 +10,7 @@
 mod form;
 mod long;
 mod products;
+mod short;
 
 use crate::Rational;
 use crate::number::Number;
@@ -17,7 +18,7 @@ use crate::number::instructions::copy;
 use crate::shadow::error_estimate::{ErrorEstimate, Point, around};
 use crate::shadow::estimator::Estimate;
 use crate::systems::increments::Increments;
-use form::LaggedForm;
+use form::{KeptProducts, LaggedForm, StateProducts};
 use products::LaggedProducts;
 
 /// E_k for k up to [`LARGEST_K`](LaggedEstimator::LARGEST_K).
@@ -27,7 +28,7 @@ pub(super) struct LaggedEstimator<N> {
     /// k, or a larger number for which there is a loop of fixed length.
     lags: usize,
     products: LaggedProducts<N>,
-    /// The products of the newest states in a ring that is stored twice, so that the newest ones are contiguous wherever they begin.
+    /// The products of the newest states: the numbers of [`KeptProducts`].
     kept: Vec<N>,
     value: LaggedForm<N>,
     /// Without it no error is computed.
@@ -83,8 +84,14 @@ impl<N: Number> LaggedEstimator<N> {
         self.k + 1 + 2 * self.error_estimate.around()
     }
 
+    /// STATE: whether q and p of the estimates are wanted, for all states.
     #[inline(always)]
-    pub(super) fn push(&mut self, q: &[N], p: &[N], increments: Increments<'_, N>) -> Option<Estimate<'_, N>> {
+    pub(super) fn push<const STATE: bool>(
+        &mut self,
+        q: &[N],
+        p: &[N],
+        increments: Increments<'_, N>,
+    ) -> Option<Estimate<'_, N>> {
         let is_complete = N::in_widest_instructions(
             #[inline(always)]
             || match self.lags {
@@ -92,18 +99,22 @@ impl<N: Number> LaggedEstimator<N> {
                 _ => self.add::<8>([q, p], increments),
             },
         );
-        self.keep(q, p);
+        self.pushed += 1;
+        // a state without increments, too: from it those to the next one follow
+        if STATE || !increments.has_vectors() {
+            self.keep(q, p);
+        }
         if !is_complete {
             return None;
         }
-        self.estimate(q.len())
+        self.estimate::<STATE>(q.len())
     }
 
     /// Adds the products of the next state, and returns whether it ends a window of k known steps, whose value `newest` then is.
     #[inline(always)]
     fn add<const K: usize>(&mut self, [q, p]: [&[N]; 2], increments: Increments<'_, N>) -> bool {
         let place = self.pushed % K;
-        let products: [N; K] = if increments.has_vectors() {
+        let products: StateProducts<N, K> = if increments.has_vectors() {
             // as many as coordinates, whose number may be known when this is compiled
             let added = [&increments.q[..q.len()], &increments.p[..p.len()]];
             self.products.of_state(place, [q, p], (added, increments.beta), self.pushed - self.begin)
@@ -112,22 +123,29 @@ impl<N: Number> LaggedEstimator<N> {
         };
         let is_complete = self.pushed >= self.begin + self.k;
         let (kept, _) = self.kept.as_chunks_mut::<K>();
-        let before: &[[N; K]; K] = kept[place..].first_chunk().expect("they are there twice");
+        let kept: &mut KeptProducts<N, K> = kept.as_chunks_mut().0.try_into().expect("as many states as lags");
         if is_complete {
-            self.value.evaluate(&products, before, &mut self.newest.value);
+            self.value.evaluate(place, &products, kept, &mut self.newest.value);
             if let Some(last_term) = &self.last_term {
-                last_term.evaluate(&products, before, &mut self.newest.last_term);
+                last_term.evaluate(place, &products, kept, &mut self.newest.last_term);
                 self.newest.last_term.make_absolute();
             }
         }
-        kept[place].clone_from(&products);
-        kept[place + K] = products;
+        for of_state in &mut kept[place] {
+            of_state.clone_from(&products.by_places);
+            of_state[place].assign(&products.newest);
+        }
         is_complete
     }
 
     /// The step to the first state of all is unknown, and does not affect a value.
     #[cold]
-    fn products_by_differences<const K: usize>(&mut self, place: usize, [q, p]: [&[N]; 2], beta: &N) -> [N; K] {
+    fn products_by_differences<const K: usize>(
+        &mut self,
+        place: usize,
+        [q, p]: [&[N]; 2],
+        beta: &N,
+    ) -> StateProducts<N, K> {
         // a state without increments after one with them begins a window
         if self.after_unknown != self.pushed {
             self.begin = self.pushed;
@@ -143,7 +161,6 @@ impl<N: Number> LaggedEstimator<N> {
 
     #[inline(always)]
     fn keep(&mut self, q: &[N], p: &[N]) {
-        self.pushed += 1;
         let length = 2 * q.len();
         self.place = if (self.place + 1) * length < self.states.len() { self.place + 1 } else { 0 };
         let (own_q, own_p) = self.states[self.place * length..][..length].split_at_mut(q.len());
@@ -153,10 +170,10 @@ impl<N: Number> LaggedEstimator<N> {
 
     /// The state in the middle is the oldest that is kept.
     #[inline(always)]
-    fn estimate(&mut self, dimension: usize) -> Option<Estimate<'_, N>> {
-        let length = 2 * dimension;
+    fn estimate<const STATE: bool>(&mut self, dimension: usize) -> Option<Estimate<'_, N>> {
+        let length = if STATE { 2 * dimension } else { 0 };
         let oldest = if (self.place + 1) * length < self.states.len() { self.place + 1 } else { 0 };
-        let (q, p) = self.states[oldest * length..][..length].split_at(dimension);
+        let (q, p) = self.states[oldest * length..][..length].split_at(length / 2);
         if self.last_term.is_none() {
             let Point { value, order, .. } = &self.newest;
             return Some(Estimate { value, last_term: None, error: None, order: *order, q, p, particles: (&[], &[]) });
@@ -237,9 +254,17 @@ mod tests {
             let of_orders = [weights(k), weights((k - 1).max(1))];
             for with_vectors in [true, false] {
                 let mut estimator = LaggedEstimator::<f64>::new(k, true, &exact("0.5").unwrap(), dimension, &());
+                let mut without_states = estimator.clone();
                 for (n, (q, p, _, added)) in states.iter().enumerate() {
                     let added = if with_vectors { added.view() } else { Increments::of_beta(&added.beta) };
-                    let error = estimator.push(q, p, added).map(|estimate| estimate.error.copied());
+                    let values = |estimate: Estimate<'_, f64>| (*estimate.value, estimate.error.copied());
+                    let of_values = without_states.push::<false>(q, p, added).map(values);
+                    assert_eq!(
+                        of_values,
+                        estimator.clone().push::<true>(q, p, added).map(values),
+                        "k = {k}, state {n}"
+                    );
+                    let error = estimator.push::<true>(q, p, added).map(|estimate| estimate.error.copied());
                     let k_states = k as usize + 1;
                     assert_eq!(error.is_some(), n + 1 >= estimator.states(), "k = {k}, state {n}");
                     if n + 1 < k_states {
@@ -273,7 +298,7 @@ mod tests {
                 let mut last = None;
                 for (n, (q, p, _, added)) in window.iter().enumerate() {
                     let added = if n > 0 { added.view() } else { Increments::of_beta(&added.beta) };
-                    last = estimator.push(q, p, added).map(|estimate| *estimate.value);
+                    last = estimator.push::<true>(q, p, added).map(|estimate| *estimate.value);
                     assert_eq!(last.is_some(), n == k as usize, "k = {k}: only the last state ends a window");
                 }
                 let (value, expected) = (last.unwrap(), by_definition(&weights, 0.5, window));
@@ -303,8 +328,8 @@ mod tests {
             let added = system.increments();
             let [dq, dp] = [added.q, added.p].map(|x| x.iter().map(limbs).collect::<Vec<_>>());
             let exact = Increments { q: &dq, p: &dp, beta: &limbs(added.beta) };
-            let right = right.push(&q, &p, exact).map(|estimate| *estimate.value);
-            by_lags.push(system.q(), system.p(), added);
+            let right = right.push::<true>(&q, &p, exact).map(|estimate| *estimate.value);
+            by_lags.push::<true>(system.q(), system.p(), added);
             products.push(system.q(), system.p(), added);
             let Some(right) = right else { continue };
             form.add_value(&products, 0);

@@ -9,6 +9,8 @@ use crate::shadow::weights::BilinearWeights;
 pub(super) struct LaggedForm<N> {
     /// For each state of a window, the newest first, the weights of its products with the steps before it, the oldest first.
     weights: Vec<N>,
+    /// For each place of the newest state the weights of its products with the steps by their places; 0 for the newest step.
+    by_places: Vec<N>,
 }
 
 impl<N: Number> LaggedForm<N> {
@@ -20,25 +22,54 @@ impl<N: Number> LaggedForm<N> {
                 weights[j * lags + lags - 1 - step] = N::from_rational(weight, context);
             }
         }
-        LaggedForm { weights }
+        let mut by_places = vec![N::zero(context); lags * lags];
+        for place in 0..lags {
+            for (age, weight) in exact[0].iter().enumerate().skip(1) {
+                by_places[place * lags + (place + lags - age) % lags] = N::from_rational(weight, context);
+            }
+        }
+        LaggedForm { weights, by_places }
     }
 
-    /// value ← the form at the window that a state ends, from its products and the products of the states before it, the newest last.
+    /// value ← the form at the window that the state at this place ends.
     #[inline(always)]
-    pub(super) fn evaluate<const K: usize>(&self, products: &[N; K], before: &[[N; K]; K], value: &mut N) {
+    pub(super) fn evaluate<const K: usize>(
+        &self,
+        place: usize,
+        newest: &StateProducts<N, K>,
+        kept: &KeptProducts<N, K>,
+        value: &mut N,
+    ) {
         let weights: &[[N; K]; K] = self.weights.as_chunks().0.try_into().expect("as many states as lags");
+        let by_places: &[[N; K]; K] = self.by_places.as_chunks().0.try_into().expect("as many places as lags");
+        let place = place % K;
         let mut sums: [N; K] = std::array::from_fn(|_| N::zero(&value.context()));
-        for j in 0..K {
-            let of_state = if j == 0 { products } else { &before[K - j] };
+        for l in 0..K {
+            sums[l].assign_product(&by_places[place][l], &newest.by_places[l]);
+        }
+        for j in 1..K {
+            let slot = (place + K - j) % K;
+            let of_state: &[N; K] = kept[slot].as_flattened()[slot + 1..].first_chunk().expect("they are there twice");
             // the other steps are before the window; from an even one on, as vectors have two numbers or more
             for step in j & !1..K {
                 sums[step].add_product(&weights[j][step], &of_state[step]);
             }
         }
-        value.assign_zero();
+        value.assign_product(&weights[0][K - 1], &newest.newest);
         sums.iter().for_each(|sum| value.add(sum));
     }
 }
+
+/// The products of a state with K steps.
+pub(super) struct StateProducts<N, const K: usize> {
+    /// By the places of the steps, but for the newest.
+    pub(super) by_places: [N; K],
+    /// With the newest step.
+    pub(super) newest: N,
+}
+
+/// The products of the newest states, each at its place, twice: so those with the newest steps are contiguous wherever they begin.
+pub(super) type KeptProducts<N, const K: usize> = [[[N; K]; 2]; K];
 
 /// The weights of E_k.
 pub(super) fn value_weights(k: u32, h: &Rational) -> Vec<Vec<Rational>> {
