@@ -276,10 +276,11 @@ impl<N: Real, E: Estimator<N>> Monitor<N, E> {
         let state = TrajectoryState::massive(system, number(self.n));
         let increments = if begins { Increments::of_beta(&self.unknown) } else { state.increments };
         let TrajectoryState { q, p, .. } = state;
-        TrajectoryState { increments, ..state }.check()?;
-        self.newest_states.push(system, !begins && self.n > 0);
+        if !(self.newest_states.push(system, !begins && self.n > 0) && increments.beta.is_finite()) {
+            TrajectoryState { increments, ..state }.check()?;
+        }
         let states = self.schedule.states();
-        let estimate = self.estimator.push(q, p, increments);
+        let estimate = self.estimator.push_for_value(q, p, increments);
         // the first states of a window complete estimates with the last ones of another, which are not valid
         if !self.schedule.ends(self.n) {
             return Ok(false);

@@ -73,22 +73,21 @@ impl<N: Real> NewestStates<N> {
         self
     }
 
-    /// Takes the next state of a window, to which an augmented step may have led.
+    /// Takes the next state of a window, to which an augmented step may have led. Returns whether q and p are certainly finite, if those before were.
     #[inline(always)]
-    pub(super) fn push<M: System<Number = N> + ?Sized>(&mut self, system: &M, is_augmented: bool) {
+    pub(super) fn push<M: System<Number = N> + ?Sized>(&mut self, system: &M, is_augmented: bool) -> bool {
         let TrajectoryState { q, p, increments: added, .. } = TrajectoryState::massive(system, 0);
         self.newest = if self.newest + 1 < STATES_KEPT { self.newest + 1 } else { 0 };
         let [before, last, own] = in_order(&mut self.states, self.newest, q.len());
         copy(q, own.q);
         copy(p, own.p);
-        if is_augmented && added.has_vectors() {
-            self.consistency.compare(last.q, q, added.q);
-            self.consistency.compare(last.p, p, added.p);
-        }
+        let are_finite = is_augmented
+            && added.has_vectors()
+            && self.consistency.compare(last.q, q, added.q) & self.consistency.compare(last.p, p, added.p);
         self.kicks.take(system);
         if self.skipped > 0 {
             self.skipped -= 1;
-            return;
+            return are_finite;
         }
         self.taken += 1;
         instructions::widest_if_long(
@@ -104,6 +103,7 @@ impl<N: Real> NewestStates<N> {
         if self.roughness.takes() {
             self.roughness.push(q, p, is_augmented.then_some(added));
         }
+        are_finite
     }
 
     /// Ends a window of this schedule, at whose last state the system is.
