@@ -181,9 +181,10 @@ impl<N: Number> Kinetic<N> for InverseMasses<'_, N> {
         match self {
             InverseMasses::Ones => UnitMasses.energy(p, energy, scratch),
             InverseMasses::Of(inverse) => {
-                let mut velocity = scratch[0].register();
+                let velocity = &mut scratch[0];
                 energy.assign_zero();
                 add_sum(energy, [p, inverse], |[p, inverse], energy| {
+                    let mut velocity = velocity.register();
                     velocity.assign_product(inverse, p);
                     energy.add_product(&velocity, p);
                 });

@@ -159,13 +159,11 @@ impl<N: Number, P: Potential<N>, K: Kinetic<N>> Hamiltonian<N, P, K> {
         energy.add(&self.kinetic_energy);
         let q = &q[..self.kinetic.massive_coordinates(q.len())];
         if N::KEEPS_INCREMENTS {
-            let zero = N::zero(&energy.context());
-            let mut overflows = zero.clone();
-            add_sum(&mut overflows, [q], |[position], overflows| {
-                let mut part = zero.clone();
-                part.make_nan_where_square_overflows(position);
-                overflows.add(&part);
-            });
+            let mut squares = N::zero(&energy.context());
+            add_sum(&mut squares, [q], |[position], squares| squares.add_product(position, position));
+            // 0, or NaN
+            let mut overflows = squares.clone();
+            overflows.subtract(&squares);
             energy.make_nan_where_square_overflows(&overflows);
         } else {
             q.iter().for_each(|position| energy.make_nan_where_square_overflows(position));
