@@ -47,6 +47,7 @@ impl<N: Number> LaggedForm<N> {
         for l in 0..K {
             sums[l].assign_product(&by_places[place][l], &newest.by_places[l]);
         }
+        #[expect(clippy::needless_range_loop, reason = "a loop over an iterator would not be unrolled")]
         for j in 1..K {
             let slot = (place + K - j) % K;
             let of_state: &[N; K] = kept[slot].as_flattened()[slot + 1..].first_chunk().expect("they are there twice");

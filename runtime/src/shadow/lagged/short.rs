@@ -58,15 +58,15 @@ impl<N: Number> ShortRows<N> {
         // the newest step by itself: if it came from the rows, the processor would wait until it is written
         let mut newest = beta.clone();
         for c in 0..dimension {
-            let [of_q, of_p] = &mut rows[c];
+            let [Row(of_q), Row(of_p)] = &mut rows[c];
             for l in 0..K {
-                products[l].add_product(&q[c], &of_p.0[l]);
-                products[l].subtract_product(&p[c], &of_q.0[l]);
+                products[l].add_product(&q[c], &of_p[l]);
+                products[l].subtract_product(&p[c], &of_q[l]);
             }
             newest.add_product(&q[c], &dp[c]);
             newest.subtract_product(&p[c], &dq[c]);
-            of_q.0[place].assign(&dq[c]);
-            of_p.0[place].assign(&dp[c]);
+            of_q[place].assign(&dq[c]);
+            of_p[place].assign(&dp[c]);
         }
         StateProducts { by_places: products, newest }
     }
