@@ -43,10 +43,11 @@ impl<N: Number> LaggedForm<N> {
         let weights: &[[N; K]; K] = self.weights.as_chunks().0.try_into().expect("as many states as lags");
         let by_places: &[[N; K]; K] = self.by_places.as_chunks().0.try_into().expect("as many places as lags");
         let place = place % K;
-        let mut sums: [N; K] = std::array::from_fn(|_| N::zero(&value.context()));
+        let mut of_newest = newest.by_places.clone();
         for l in 0..K {
-            sums[l].assign_product(&by_places[place][l], &newest.by_places[l]);
+            of_newest[l].multiply(&by_places[place][l]);
         }
+        let mut sums: [N; K] = std::array::from_fn(|_| N::zero(&value.context()));
         #[expect(clippy::needless_range_loop, reason = "a loop over an iterator would not be unrolled")]
         for j in 1..K {
             let slot = (place + K - j) % K;
@@ -56,8 +57,20 @@ impl<N: Number> LaggedForm<N> {
                 sums[step].add_product(&weights[j][step], &of_state[step]);
             }
         }
-        value.assign_product(&weights[0][K - 1], &newest.newest);
-        sums.iter().for_each(|sum| value.add(sum));
+        // in the order of the steps, so that a value does not depend on their places
+        for l in 0..K - 1 {
+            sums[l].add(&of_newest[(place + 1 + l) % K]);
+        }
+        sums[K - 1].add_product(&weights[0][K - 1], &newest.newest);
+        let mut count = K;
+        while count > 1 {
+            count /= 2;
+            let (sums, others) = sums.split_at_mut(count);
+            for l in 0..count {
+                sums[l].add(&others[l]);
+            }
+        }
+        value.assign(&sums[0]);
     }
 }
 
