@@ -18,7 +18,7 @@ use crate::number::instructions::copy;
 use crate::shadow::error_estimate::{ErrorEstimate, Point, around};
 use crate::shadow::estimator::Estimate;
 use crate::systems::increments::Increments;
-use form::{KeptProducts, LaggedForm, StateProducts};
+use form::LaggedForm;
 use products::LaggedProducts;
 
 /// E_k for k up to [`LARGEST_K`](LaggedEstimator::LARGEST_K).
@@ -28,7 +28,7 @@ pub(super) struct LaggedEstimator<N> {
     /// k, or a larger number for which there is a loop of fixed length.
     lags: usize,
     products: LaggedProducts<N>,
-    /// The products of the newest states: the numbers of [`KeptProducts`].
+    /// The products of the newest states: a ring that is stored twice, so that the newest ones are contiguous wherever they begin.
     kept: Vec<N>,
     value: LaggedForm<N>,
     /// Without it no error is computed.
@@ -114,7 +114,7 @@ impl<N: Number> LaggedEstimator<N> {
     #[inline(always)]
     fn add<const K: usize>(&mut self, [q, p]: [&[N]; 2], increments: Increments<'_, N>) -> bool {
         let place = self.pushed % K;
-        let products: StateProducts<N, K> = if increments.has_vectors() {
+        let products: [N; K] = if increments.has_vectors() {
             // as many as coordinates, whose number may be known when this is compiled
             let added = [&increments.q[..q.len()], &increments.p[..p.len()]];
             self.products.of_state(place, [q, p], (added, increments.beta), self.pushed - self.begin)
@@ -123,29 +123,22 @@ impl<N: Number> LaggedEstimator<N> {
         };
         let is_complete = self.pushed >= self.begin + self.k;
         let (kept, _) = self.kept.as_chunks_mut::<K>();
-        let kept: &mut KeptProducts<N, K> = kept.as_chunks_mut().0.try_into().expect("as many states as lags");
+        let before: &[[N; K]; K] = kept[place..].first_chunk().expect("they are there twice");
         if is_complete {
-            self.value.evaluate(place, &products, kept, &mut self.newest.value);
+            self.value.evaluate(&products, before, &mut self.newest.value);
             if let Some(last_term) = &self.last_term {
-                last_term.evaluate(place, &products, kept, &mut self.newest.last_term);
+                last_term.evaluate(&products, before, &mut self.newest.last_term);
                 self.newest.last_term.make_absolute();
             }
         }
-        for of_state in &mut kept[place] {
-            of_state.clone_from(&products.by_places);
-            of_state[place].assign(&products.newest);
-        }
+        kept[place].clone_from(&products);
+        kept[place + K] = products;
         is_complete
     }
 
     /// The step to the first state of all is unknown, and does not affect a value.
     #[cold]
-    fn products_by_differences<const K: usize>(
-        &mut self,
-        place: usize,
-        [q, p]: [&[N]; 2],
-        beta: &N,
-    ) -> StateProducts<N, K> {
+    fn products_by_differences<const K: usize>(&mut self, place: usize, [q, p]: [&[N]; 2], beta: &N) -> [N; K] {
         // a state without increments after one with them begins a window
         if self.after_unknown != self.pushed {
             self.begin = self.pushed;

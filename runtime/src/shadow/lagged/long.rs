@@ -1,6 +1,5 @@
 //! The products of a long state with what the newest steps added: sums over coordinates in vectors of the processor.
 
-use super::form::StateProducts;
 use crate::number::Number;
 use crate::number::instructions;
 
@@ -58,15 +57,10 @@ impl<N: Number> LongRows<N> {
         }
     }
 
-    /// The products of a state with all steps; 0 for groups of steps before the newest `known` ones.
+    /// The products of a state with all steps, the oldest first; 0 for groups of steps before the newest `known` ones.
     #[inline(never)]
-    pub(super) fn products<const K: usize>(
-        &mut self,
-        newest: usize,
-        [q, p]: [&[N]; 2],
-        known: usize,
-    ) -> StateProducts<N, K> {
-        let mut products: [N; K] = std::array::from_fn(|_| N::zero(&q[0].context()));
+    pub(super) fn products<const K: usize>(&mut self, newest: usize, [q, p]: [&[N]; 2], known: usize) -> [N; K] {
+        let mut products = std::array::from_fn(|_| N::zero(&q[0].context()));
         instructions::widest_if_long(
             N::IN_VECTORS,
             K * q.len(),
@@ -78,9 +72,7 @@ impl<N: Number> LongRows<N> {
                 }
             },
         );
-        let newest_product = products[K - 1].clone();
-        products.rotate_right((newest + 1) % K);
-        StateProducts { by_places: products, newest: newest_product }
+        products
     }
 
     /// The products with the steps at `first`, `first` + 1, …

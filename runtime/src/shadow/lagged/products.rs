@@ -1,6 +1,5 @@
 //! The products of a state with what the newest steps added.
 
-use super::form::StateProducts;
 use super::long::LongRows;
 use super::short::ShortRows;
 use crate::number::Number;
@@ -23,7 +22,7 @@ impl<N: Number> LaggedProducts<N> {
         LaggedProducts { short: ShortRows::new(short, context), long: LongRows::new(lags, long, context) }
     }
 
-    /// Takes what a step added, and the state that it led to; q·δp − p·δq + δβ of the newest K = `lags` steps. Steps have the places
+    /// Takes what a step added, and the state that it led to; q·δp − p·δq + δβ of the newest K = `lags` steps, the oldest first. Steps have the places
     /// 0 to K − 1 in turn. Those before the newest `known` steps may be left out.
     #[inline(always)]
     pub(super) fn of_state<const K: usize>(
@@ -32,7 +31,7 @@ impl<N: Number> LaggedProducts<N> {
         state: [&[N]; 2],
         (added, beta): ([&[N]; 2], &N),
         known: usize,
-    ) -> StateProducts<N, K> {
+    ) -> [N; K] {
         // by the length, which may be known when this is compiled
         if state[0].len() < LONG {
             self.short.products(place, state, (added, beta))
