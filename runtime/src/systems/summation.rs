@@ -15,6 +15,8 @@ mod fixed_point;
 pub use compensated::Compensated;
 pub use fixed_point::{FixedPoint, InDouble, RangeError};
 
+use std::mem::needs_drop;
+
 use crate::number::Number;
 use crate::systems::coordinates::for_each_two;
 use crate::systems::kinetic::Kinetic;
@@ -108,6 +110,9 @@ pub struct Plain;
 impl<N: Number> Summation<N> for Plain {
     #[inline(always)]
     fn kick(&mut self, weight: &N, gradient: &[N], p: &mut [N]) {
+        // of more coordinates a copy, which none of them can be: else it would be read again after each that is written
+        let copy = (!needs_drop::<N>() && p.len() > 4).then(|| weight.clone());
+        let weight = copy.as_ref().unwrap_or(weight);
         for_each_two(
             p,
             gradient,
