@@ -2,6 +2,7 @@
 //!
 //! The gradient is added up in the order of the plain loop over i < j, so that it has its bits, and so is the sum of the summands of pairs.
 
+use std::hint::black_box;
 use std::slice::{from_mut, from_ref};
 
 use super::pair::PairPotential;
@@ -17,16 +18,24 @@ pub(super) struct Few<'a, P, const D: usize> {
     pub(super) bodies: usize,
 }
 
-/// The sum of a fixed number of bodies, by groups of pairs: the body i, the first other one, and how many. The compiler does not unroll loops of this size.
+/// A coordinate; by itself where the program is built for wide vectors: a wide read would wait until the narrower writes of the drift before it are done.
+#[inline(always)]
+fn read<N: Number>(coordinate: &N) -> N {
+    if cfg!(target_feature = "avx") { black_box(coordinate).clone() } else { coordinate.clone() }
+}
+
+/// The sum of a fixed number of bodies, by groups of pairs: the body i, the first other one, and how many. Bodies are side by side, axis by axis. The compiler does
+/// not unroll loops of this size.
 macro_rules! unrolled {
     ($few:ident, $q:ident, $gradient:ident, $total:ident, $scratch:ident, $bodies:literal: $($i:literal $j:literal $width:literal),*) => {{
         const BODIES: &str = "there are as many bodies";
         let q: &[[N; D]; $bodies] = $q.as_chunks().0.try_into().expect(BODIES);
         let gradient: &mut [[N; D]; $bodies] = $gradient.as_chunks_mut().0.try_into().expect(BODIES);
         let zero = N::zero(&q[0][0].context());
-        let mut sum: [[N; D]; $bodies] = std::array::from_fn(|_| std::array::from_fn(|_| zero.clone()));
-        $($few.add::<N, SUM, $bodies, $width>(($i, $j), q, &mut sum, $total, $scratch);)*
-        *gradient = sum;
+        let q: [[N; $bodies]; D] = std::array::from_fn(|axis| std::array::from_fn(|body| read(&q[body][axis])));
+        let mut sum: [[N; $bodies]; D] = std::array::from_fn(|_| std::array::from_fn(|_| zero.clone()));
+        $($few.add::<N, SUM, $bodies, $width>(($i, $j), &q, &mut sum, $total, $scratch);)*
+        *gradient = std::array::from_fn(|body| std::array::from_fn(|axis| sum[axis][body].clone()));
     }};
 }
 
@@ -71,8 +80,8 @@ impl<P, const D: usize> Few<'_, P, D> {
     fn add<N: Number, const SUM: bool, const B: usize, const W: usize>(
         &self,
         (i, j): (usize, usize),
-        q: &[[N; D]; B],
-        sum: &mut [[N; D]; B],
+        q: &[[N; B]; D],
+        sum: &mut [[N; B]; D],
         total: &mut N,
         scratch: &mut [N],
     ) where
@@ -83,7 +92,7 @@ impl<P, const D: usize> Few<'_, P, D> {
         let mut forces: [[N; W]; D] = std::array::from_fn(|_| zeros());
         for axis in 0..D {
             for l in 0..W {
-                forces[axis][l].assign_difference(&q[j + l][axis], &q[i][axis]);
+                forces[axis][l].assign_difference(&q[axis][j + l], &q[axis][i]);
             }
         }
         let separation = self.pair.separation();
@@ -116,8 +125,8 @@ impl<P, const D: usize> Few<'_, P, D> {
         }
         for l in 0..W {
             for axis in 0..D {
-                sum[j + l][axis].add(&forces[axis][l]);
-                sum[i][axis].subtract(&forces[axis][l]);
+                sum[axis][j + l].add(&forces[axis][l]);
+                sum[axis][i].subtract(&forces[axis][l]);
             }
         }
     }
