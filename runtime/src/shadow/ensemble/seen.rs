@@ -104,7 +104,7 @@ impl<E: Clone> Seen<E> {
         let massive = system.massive_coordinates();
         let (q, p, increments) =
             (system.state().q(), system.state().p(), system.state().increments().of_first(massive));
-        let Some(estimate) = window.push(&q[..massive], &p[..massive], increments) else { return };
+        let Some(estimate) = window.push_for_value(&q[..massive], &p[..massive], increments) else { return };
         for (index, lane) in self.lanes.iter_mut().enumerate() {
             lane.include_modified(estimate.value.lane(index).0);
         }

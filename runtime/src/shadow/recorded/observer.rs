@@ -155,7 +155,8 @@ impl Observer {
         self.energies[place(n)] = kinetic + logged.energy;
 
         let pushed = self.pushed;
-        let estimate = self.estimator.push(state.q, state.p, state.increments).filter(|_| pushed > K as usize);
+        let estimate =
+            self.estimator.push_for_value(state.q, state.p, state.increments).filter(|_| pushed > K as usize);
         let estimate = estimate.map(|found| *found.value);
         if let Some(estimate) = estimate {
             check_value(&estimate, Quantity::ModifiedEnergy, n)?;
@@ -163,11 +164,12 @@ impl Observer {
         }
         let found = match &mut self.error {
             ErrorOf::Windows(with_error) => {
-                let found = with_error.push(state.q, state.p, state.increments);
+                let found = with_error.push_for_value(state.q, state.p, state.increments);
                 found.map(|found| (*found.value, found.error.copied().unwrap_or(f64::NAN)))
             }
             ErrorOf::LastTerm(of_seven, before) => {
-                let newest = of_seven.push(state.q, state.p, state.increments).map_or(f64::NAN, |found| *found.value);
+                let newest =
+                    of_seven.push_for_value(state.q, state.p, state.increments).map_or(f64::NAN, |found| *found.value);
                 let before = std::mem::replace(before, newest);
                 if estimate.is_some() {
                     self.changes.push_seven(newest - before);
