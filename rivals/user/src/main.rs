@@ -7,12 +7,16 @@ mod timing;
 
 use std::hint::black_box;
 
-use shadowstep::problems::{CubicSpring, HenonHeiles, Kepler, LennardJones, Pendulum};
+use shadowstep::number::Number;
+use shadowstep::problems::{CubicSpring, Gravity, HenonHeiles, Kepler, LennardJones, Pendulum, problem};
 use shadowstep::shadow::{Bilinear, ShadowEnergy};
 use shadowstep::systems::kinetic::Quadratic;
 use shadowstep::systems::pairs::{Ends, PairPotential, Pairs};
 use shadowstep::tables::shipped;
-use shadowstep::{Coordinates, Motion, Potential, Scheme, Stepper, UnitMasses, ValidFor, potential, splitting_scheme};
+use shadowstep::{
+    Coordinates, DiagonalMasses, Kinetic, Motion, Potential, Scheme, Stepper, UnitMasses, ValidFor, potential,
+    splitting_scheme,
+};
 
 use timing::{Contestant, compare, head, measure};
 
@@ -30,19 +34,20 @@ potential! {
     pair U(r2; m_i, m_j) = -m_i*m_j/sqrt(r2 + s^2)
 }
 
-type Run<V, P> = Motion<f64, V, P, UnitMasses>;
+type Run<V, P, K = UnitMasses> = Motion<f64, V, P, K>;
 
 /// A loop of steps, `steps` and `merged_steps`.
-fn contestants<'a, S, V, P>(
+fn contestants<'a, S, V, P, K>(
     names: [&'static str; 3],
     scheme: impl Fn() -> S,
     h: &str,
-    start: &Run<V, P>,
+    start: &Run<V, P, K>,
 ) -> Vec<Contestant<'a>>
 where
     S: Scheme + ValidFor<Quadratic> + 'a,
     V: Coordinates<f64> + 'a,
     P: Potential<f64> + Clone + 'a,
+    K: Kinetic<f64, Class = Quadratic> + Clone + 'a,
 {
     let stepper = || Stepper::<S, f64>::new(scheme(), h).expect("h is not 0");
     let start = || std::slice::from_ref(start).to_vec();
@@ -57,11 +62,12 @@ where
 
 /// A function of its own, as a user has it: inlined into the timing it would be compiled differently for each contestant.
 #[inline(never)]
-fn loop_of_steps<S, V, P>(stepper: &Stepper<S, f64>, motion: &mut Run<V, P>, count: u32)
+fn loop_of_steps<S, V, P, K>(stepper: &Stepper<S, f64>, motion: &mut Run<V, P, K>, count: u32)
 where
     S: Scheme + ValidFor<Quadratic>,
     V: Coordinates<f64>,
     P: Potential<f64>,
+    K: Kinetic<f64, Class = Quadratic>,
 {
     for _ in 0..count {
         stepper.step(motion);
@@ -69,10 +75,12 @@ where
     black_box(motion.q());
 }
 
-fn watched<'a, const D: usize, P: Potential<f64> + Clone + 'a>(
-    h: &str,
-    mut motion: Run<[f64; D], P>,
-) -> Contestant<'a> {
+fn watched<'a, V, P, K>(h: &str, mut motion: Run<V, P, K>) -> Contestant<'a>
+where
+    V: Coordinates<f64> + 'a,
+    P: Potential<f64> + Clone + 'a,
+    K: Kinetic<f64, Class = Quadratic> + Clone + 'a,
+{
     let stepper = Stepper::new(StormerVerlet, h).expect("h is not 0");
     let mut monitor = ShadowEnergy::new(stepper, &mut motion, &Bilinear::new(8)).expect("a finite state").every(1);
     let run = move |count| {
@@ -101,6 +109,21 @@ fn few<const D: usize, P: Potential<f64> + Copy>(title: &str, potential: P, (q, 
     compare(&format!("{title}, SRKN6b"), many_stages, 20_000);
 }
 
+fn planets() {
+    let problem = problem("outer-solar-system").expect("it is shipped");
+    let values = problem.setup(&[], 40).expect("the defaults are valid").values;
+    let of_coordinates: Vec<_> = values.masses().expect("they differ").iter().map(|mass| mass.value.clone()).collect();
+    let masses = DiagonalMasses::new(&of_coordinates, &()).expect("positive masses");
+    let m = of_coordinates.iter().step_by(3).map(|mass| f64::from_rational(mass, &())).collect();
+    let pairs =
+        Pairs::<_, 3>::all(6, Gravity { g: f64::from_rational(values.value("g"), &()), m }).expect("the pairs fit");
+    let [q, p] = [values.q(&()), values.p(&())].map(|x| <[f64; 18]>::try_from(x).expect("six bodies"));
+    let start = Motion::new(pairs, masses, q, p).expect("the dimensions agree");
+    let mut verlet = contestants(["step", "steps", "merged_steps"], || StormerVerlet, "100", &start);
+    verlet.push(watched("100", start));
+    compare("The Sun and five planets, Störmer–Verlet", verlet, 20_000);
+}
+
 const BODIES: usize = 100;
 
 /// At rest on a grid of 5 × 5 × 4 with some disorder.
@@ -122,8 +145,10 @@ fn chain() -> Run<Vec<f64>, Pairs<CubicSpring<f64>, 1>> {
 
 /// A step of Störmer–Verlet, divided by what it computes.
 fn many<P: Potential<f64> + Clone>(title: &str, start: &Run<Vec<f64>, P>, (of_what, how_many): (&str, usize)) {
-    let measured = measure(&mut contestants(["step", "steps", "merged_steps"], || StormerVerlet, "1/1000", start), 500);
-    for (name, measured) in ["step", "steps", "merged_steps"].iter().zip(measured) {
+    let mut verlet = contestants(["step", "steps", "merged_steps"], || StormerVerlet, "1/1000", start);
+    verlet.push(watched("1/1000", start.clone()));
+    let measured = measure(&mut verlet, 500);
+    for ((name, _), measured) in verlet.iter().zip(measured) {
         println!(
             "| {title}: {of_what}, {name} | {:.2} | {:.3} |",
             measured.nanoseconds / how_many as f64,
@@ -136,6 +161,7 @@ fn main() {
     few("Kepler", Kepler, ([0.4, 0.0], [0.0, 2.0]), "1/100");
     few("Hénon–Heiles", HenonHeiles, ([0.1, 0.2], [0.1, 0.0]), "1/20");
     few("Pendulum", Pendulum, ([1.0], [0.0]), "1/20");
+    planets();
     head("Many bodies, Störmer–Verlet");
     let pairs = ("a pair", BODIES * (BODIES - 1) / 2);
     many("100 bodies, softened gravity", &bodies(Plummer { s: 0.1, m: vec![0.01; BODIES] }, 1.0), pairs);
