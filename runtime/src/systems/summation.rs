@@ -110,7 +110,7 @@ pub struct Plain;
 impl<N: Number> Summation<N> for Plain {
     #[inline(always)]
     fn kick(&mut self, weight: &N, gradient: &[N], p: &mut [N]) {
-        // of more coordinates a copy, which none of them can be: else it would be read again after each that is written
+        // of more coordinates a copy: for all that the compiler knows, a coordinate that is written may be what the reference is to
         let copy = (!needs_drop::<N>() && p.len() > 4).then(|| weight.clone());
         let weight = copy.as_ref().unwrap_or(weight);
         for_each_two(
