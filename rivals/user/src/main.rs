@@ -92,12 +92,22 @@ where
     ("E_8 at each step", Box::new(run))
 }
 
+/// Störmer–Verlet, with E_8 as well.
+fn verlet<'a, V, P, K>(h: &str, start: &Run<V, P, K>) -> Vec<Contestant<'a>>
+where
+    V: Coordinates<f64> + 'a,
+    P: Potential<f64> + Clone + 'a,
+    K: Kinetic<f64, Class = Quadratic> + Clone + 'a,
+{
+    let mut all = contestants(["step", "steps", "merged_steps"], || StormerVerlet, h, start);
+    all.push(watched(h, start.clone()));
+    all
+}
+
 /// The problems of few coordinates.
 fn few<const D: usize, P: Potential<f64> + Copy>(title: &str, potential: P, (q, p): ([f64; D], [f64; D]), h: &str) {
     let start = Motion::new(potential, UnitMasses, q, p).expect("the dimensions agree");
-    let mut verlet = contestants(["step", "steps", "merged_steps"], || StormerVerlet, h, &start);
-    verlet.push(watched(h, start.clone()));
-    compare(&format!("{title}, Störmer–Verlet"), verlet, 100_000);
+    compare(&format!("{title}, Störmer–Verlet"), verlet(h, &start), 100_000);
     let mut many_stages = contestants(["step", "steps", "merged_steps"], || Srkn6b, h, &start);
     let table = || shipped("blanes-moan-srkn6b").expect("it is shipped");
     many_stages.extend(contestants(
@@ -119,9 +129,7 @@ fn planets() {
         Pairs::<_, 3>::all(6, Gravity { g: f64::from_rational(values.value("g"), &()), m }).expect("the pairs fit");
     let [q, p] = [values.q(&()), values.p(&())].map(|x| <[f64; 18]>::try_from(x).expect("six bodies"));
     let start = Motion::new(pairs, masses, q, p).expect("the dimensions agree");
-    let mut verlet = contestants(["step", "steps", "merged_steps"], || StormerVerlet, "100", &start);
-    verlet.push(watched("100", start));
-    compare("The Sun and five planets, Störmer–Verlet", verlet, 20_000);
+    compare("The Sun and five planets, Störmer–Verlet", verlet("100", &start), 20_000);
 }
 
 const BODIES: usize = 100;
@@ -145,8 +153,7 @@ fn chain() -> Run<Vec<f64>, Pairs<CubicSpring<f64>, 1>> {
 
 /// A step of Störmer–Verlet, divided by what it computes.
 fn many<P: Potential<f64> + Clone>(title: &str, start: &Run<Vec<f64>, P>, (of_what, how_many): (&str, usize)) {
-    let mut verlet = contestants(["step", "steps", "merged_steps"], || StormerVerlet, "1/1000", start);
-    verlet.push(watched("1/1000", start.clone()));
+    let mut verlet = verlet("1/1000", start);
     let measured = measure(&mut verlet, 500);
     for ((name, _), measured) in verlet.iter().zip(measured) {
         println!(

@@ -206,16 +206,26 @@ impl<N: Real> Estimator<N> for BilinearEstimator<N> {
 
     #[inline(always)]
     fn push(&mut self, q: &[N], p: &[N], increments: Increments<'_, N>) -> Option<Estimate<'_, N>> {
-        match &mut self.0 {
-            FixedOrBest::Fixed(fixed) => fixed.push(q, p, increments),
-            FixedOrBest::Best(best) => best.push(q, p, increments),
-        }
+        self.push_state::<true>(q, p, increments)
     }
 
     #[inline(always)]
     fn push_for_value(&mut self, q: &[N], p: &[N], increments: Increments<'_, N>) -> Option<Estimate<'_, N>> {
+        self.push_state::<false>(q, p, increments)
+    }
+}
+
+impl<N: Real> BilinearEstimator<N> {
+    /// STATE: whether q and p of the estimates are wanted.
+    #[inline(always)]
+    fn push_state<const STATE: bool>(
+        &mut self,
+        q: &[N],
+        p: &[N],
+        increments: Increments<'_, N>,
+    ) -> Option<Estimate<'_, N>> {
         match &mut self.0 {
-            FixedOrBest::Fixed(fixed) => fixed.push_for_value(q, p, increments),
+            FixedOrBest::Fixed(fixed) => fixed.push_state::<STATE>(q, p, increments),
             FixedOrBest::Best(best) => best.push(q, p, increments),
         }
     }
@@ -283,6 +293,20 @@ enum By<N> {
 }
 
 impl<N: Number> FixedBilinearEstimator<N> {
+    /// STATE: whether q and p of the estimates are wanted.
+    #[inline(always)]
+    fn push_state<const STATE: bool>(
+        &mut self,
+        q: &[N],
+        p: &[N],
+        increments: Increments<'_, N>,
+    ) -> Option<Estimate<'_, N>> {
+        match &mut self.0 {
+            By::Increments(lagged) => lagged.push::<STATE>(q, p, increments),
+            By::Pairs(products, form) => push_pairs(products, form, (q, p), increments),
+        }
+    }
+
     fn new(k: u32, with_error: bool, h: &Rational, dimension: usize, context: &N::Context) -> Self {
         if N::KEEPS_INCREMENTS && k <= LaggedEstimator::<N>::LARGEST_K {
             return FixedBilinearEstimator(By::Increments(LaggedEstimator::new(k, with_error, h, dimension, context)));
@@ -303,18 +327,12 @@ impl<N: Number> Estimator<N> for FixedBilinearEstimator<N> {
 
     #[inline(always)]
     fn push(&mut self, q: &[N], p: &[N], increments: Increments<'_, N>) -> Option<Estimate<'_, N>> {
-        match &mut self.0 {
-            By::Increments(lagged) => lagged.push::<true>(q, p, increments),
-            By::Pairs(products, form) => push_pairs(products, form, (q, p), increments),
-        }
+        self.push_state::<true>(q, p, increments)
     }
 
     #[inline(always)]
     fn push_for_value(&mut self, q: &[N], p: &[N], increments: Increments<'_, N>) -> Option<Estimate<'_, N>> {
-        match &mut self.0 {
-            By::Increments(lagged) => lagged.push::<false>(q, p, increments),
-            By::Pairs(products, form) => push_pairs(products, form, (q, p), increments),
-        }
+        self.push_state::<false>(q, p, increments)
     }
 }
 

@@ -164,9 +164,13 @@ impl<N: Number> LaggedEstimator<N> {
     /// The state in the middle is the oldest that is kept.
     #[inline(always)]
     fn estimate<const STATE: bool>(&mut self, dimension: usize) -> Option<Estimate<'_, N>> {
-        let length = if STATE { 2 * dimension } else { 0 };
-        let oldest = if (self.place + 1) * length < self.states.len() { self.place + 1 } else { 0 };
-        let (q, p) = self.states[oldest * length..][..length].split_at(length / 2);
+        let (q, p): (&[N], &[N]) = if STATE {
+            let length = 2 * dimension;
+            let oldest = if (self.place + 1) * length < self.states.len() { self.place + 1 } else { 0 };
+            self.states[oldest * length..][..length].split_at(dimension)
+        } else {
+            (&[], &[])
+        };
         if self.last_term.is_none() {
             let Point { value, order, .. } = &self.newest;
             return Some(Estimate { value, last_term: None, error: None, order: *order, q, p, particles: (&[], &[]) });

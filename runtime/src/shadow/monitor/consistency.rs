@@ -29,13 +29,9 @@ impl<N: Real> Consistency<N> {
     #[inline(always)]
     pub(super) fn compare(&mut self, before: &[N], after: &[N], added: &[N]) -> bool {
         let Consistency { rounding, two, x, y, .. } = self;
-        match differ([before, after, added], rounding, two, [x, y]) {
-            Some(differs) => {
-                self.mismatch |= differs;
-                true
-            }
-            None => false,
-        }
+        let differs = differ([before, after, added], rounding, two, [x, y]);
+        self.mismatch |= differs == Some(true);
+        differs.is_some()
     }
 
     /// Ends a window.

@@ -205,7 +205,8 @@ impl<N: Real> LastTerms<N> {
 
     fn push(&mut self, q: &[N], p: &[N], increments: Increments<'_, N>) {
         self.count += 1;
-        let (higher, lower) = (self.higher.push(q, p, increments), self.lower.push(q, p, increments));
+        let higher = self.higher.push_for_value(q, p, increments);
+        let lower = self.lower.push_for_value(q, p, increments);
         let Some(lower) = lower else { return };
         if let Some(higher) = higher.filter(|_| self.count > self.k) {
             self.term.assign_sum(&self.before, lower.value);
