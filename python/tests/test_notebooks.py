@@ -30,8 +30,8 @@ def test_a_notebook_runs_and_makes_its_pictures(path):
     code = [cell for cell in notebook.cells if cell.cell_type == "code"]
     assert not any(cell.outputs or cell.execution_count for cell in code), "notebooks are kept without outputs"
     assert any("assert " in cell.source for cell in code)
-    # no cell takes half a minute on one core that has other work; the limit is for a machine that is very busy
-    nbclient.NotebookClient(notebook, timeout=300, kernel_name="python3", resources={"metadata": {"path": str(FOLDER)}}).execute()
+    # the limit only ends a cell that hangs
+    nbclient.NotebookClient(notebook, timeout=1800, kernel_name="python3", resources={"metadata": {"path": str(FOLDER)}}).execute()
     pictures = sum("image/png" in output.get("data", {}) for cell in code for output in cell.outputs)
     drawn = sum("plt.subplots(" in cell.source for cell in code)
     assert pictures == drawn > 0

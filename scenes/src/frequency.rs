@@ -1,9 +1,10 @@
 //! The fastest oscillation of a system, linearised at its initial state: the frequency ω of M^{-1/2} U_qq M^{-1/2}.
 
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use shadowstep::Potential;
 
+use crate::cpu_time::CpuTime;
 use crate::scene::{KineticEnergy, PotentialEnergy, System};
 
 /// ω, the largest frequency of the linearised system.
@@ -17,7 +18,7 @@ pub struct Frequency {
 
 /// More iterations than these make no difference that matters for a warning.
 const MOST_ITERATIONS: usize = 200;
-/// How long they may take: a run is not to wait for what it is warned of.
+/// The CPU time that they may take, which other work on the machine does not change: a run is not to wait for what it is warned of.
 const MOST_TIME: Duration = Duration::from_millis(100);
 /// The estimates of the eigenvalue agree to this part at the end.
 const TOLERANCE: f64 = 1e-7;
@@ -28,7 +29,7 @@ impl System {
     /// The largest frequency at the initial state, in double precision, from differences of the gradient by the power method;
     /// `None` where nothing oscillates, T(p) is given by a formula or is not a part, the initial energy is not finite, or numbers overflow.
     ///
-    /// An eigenvalue that the iterations do not reach in 0.1 s, as where a gradient of thousands of bodies takes long, is underestimated.
+    /// An eigenvalue that the iterations do not reach in 0.1 s of CPU time, as where a gradient of thousands of bodies takes long, is underestimated.
     pub fn fastest_frequency(&self) -> Option<Frequency> {
         self.fastest_motion().filter(|_| self.parts.is_kinetic_and_potential())
     }
@@ -106,7 +107,7 @@ impl Hessian {
         // no symmetry of a problem has this direction
         let mut v: Vec<f64> = (1..=self.q.len()).map(|i| (i as f64 * 0.754_877_666).fract() - 0.5 + 1e-3).collect();
         let mut last = f64::NAN;
-        let start = Instant::now();
+        let start = CpuTime::begin();
         for _ in 0..MOST_ITERATIONS {
             let length = norm(&v);
             v.iter_mut().for_each(|v| *v /= length);

@@ -8,9 +8,10 @@ pub(crate) use digests::hash;
 
 use std::path::Path;
 use std::sync::atomic::AtomicBool;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use shadowstep::tables::{Faults, Source};
+use shadowstep_scenes::cpu_time::CpuTime;
 use shadowstep_scenes::family::Family;
 use shadowstep_scenes::{Error, Scene, elementary_functions, source};
 use shadowstep_schemes::document::{Fault, Reader, document};
@@ -241,7 +242,7 @@ fn is_unknown(section: &str) -> bool {
 /// How many scenes are tried.
 const TRIED: u64 = 64;
 
-/// For how long others are tried: a scene with a fault may have formulas that take long.
+/// The CPU time for which others are tried: a scene with a fault may have formulas that take long.
 const PATIENCE: Duration = Duration::from_secs(1);
 
 /// A scene of the sweep with the number of its run. Where the first run has faults, as one at the corner of a map may have, others are
@@ -253,7 +254,7 @@ fn first_scene(family: &Family, axes: &Axes) -> Result<Scene, Faults> {
         runs if runs <= TRIED => k,
         runs => ((k as f64 * 0.618_033_988_749_895).fract() * runs as f64) as u64,
     };
-    let begun = Instant::now();
+    let begun = CpuTime::begin();
     let mut others = (1..TRIED.min(axes.runs())).take_while(|_| begun.elapsed() < PATIENCE);
     let mut other = || others.find_map(|k| scene(spread(k).min(axes.runs() - 1)).ok());
     scene(0).or_else(|faults| other().ok_or(faults)).map_err(|faults| check::with_axes(faults, axes))

@@ -48,7 +48,7 @@ fn faults(text: &str, is_rust: bool, forbidden: &[Forbidden]) -> Vec<String> {
 const ENDINGS: [&str; 8] = ["rs", "md", "py", "ipynb", "jl", "h", "F90", "tex"];
 
 /// All files below a folder with one of these endings, without build folders and hidden ones.
-fn files(folder: &Path, into: &mut Vec<PathBuf>) -> io::Result<()> {
+pub(crate) fn files(folder: &Path, into: &mut Vec<PathBuf>) -> io::Result<()> {
     for entry in fs::read_dir(folder)? {
         let path = entry?.path();
         let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();

@@ -3,6 +3,7 @@
 mod best_bilinear;
 mod bilinear;
 mod catalogue;
+mod clocks;
 mod corpus;
 mod displaced_forces;
 mod documentation;

@@ -1,8 +1,6 @@
 //! Protects the proofs of orders: schemes of the literature, with the digits that were published, have the orders that
 //! were published, for every T(p) and for quadratic T, and no higher ones.
 
-use std::time::Instant;
-
 use shadowstep_schemes::{First, Proved, Source, read, read_first, shipped};
 
 fn source(text: &str) -> Source {
@@ -157,9 +155,8 @@ const BLANES_CASAS_ESCORIHUELA_8: [&[&str]; 2] = [
 #[test]
 fn compositions_of_orders_6_8_and_10() {
     for (gammas, order, digits) in [(YOSHIDA_6A, 6, 20), (SUZUKI_UMENO_8, 8, 40), (SOFRONIOU_SPALETTA_10, 10, 32)] {
-        let begin = Instant::now();
         let found = proved(&composition(order, digits, gammas));
-        println!("order {order}, {} stages: {:?}", 2 * gammas.len() + 1, begin.elapsed());
+        println!("order {order}, {} stages", 2 * gammas.len() + 1);
         assert_eq!(orders(&found), (order, order), "a composition has one order for every T");
         assert!(found.proof.symmetric);
         assert!(found.notes.is_empty(), "{:?}", found.notes);
@@ -181,9 +178,8 @@ fn schemes_for_quadratic_kinetic_energy() {
         ("Okunbor & Skeel 6", OKUNBOR_SKEEL_6, 17, (4, 6)),
         ("Blanes, Casas & Escorihuela 8", BLANES_CASAS_ESCORIHUELA_8, 19, (4, 8)),
     ] {
-        let begin = Instant::now();
         let found = proved(&stages(expected.1, "quadratic", digits, kick, drift));
-        println!("{name}: {:?}, {:?} of {digits} digits", begin.elapsed(), found.proof.quadratic.digits);
+        println!("{name}: {:?} of {digits} digits", found.proof.quadratic.digits);
         assert_eq!(orders(&found), expected, "{name}");
     }
 }

@@ -3,10 +3,10 @@
 use std::fs;
 use std::path::Path;
 use std::process::{Child, Command, Stdio};
-use std::time::{Duration, Instant};
 
 use tempfile::TempDir;
 
+use crate::output_files::wait_until;
 use crate::scenes::{folder, names, run};
 
 /// In double precision, without modified energies; too long to complete in a test.
@@ -77,15 +77,11 @@ fn begin(folder: &Path) -> Child {
 fn kill_after_checkpoint(folder: &Path, file: &str, before: &str) -> String {
     let checkpoint = folder.join(format!("{file}.checkpoint"));
     let mut child = begin(folder);
-    let begun = Instant::now();
-    let found = loop {
-        let found = fs::read_to_string(&checkpoint).unwrap_or_default();
-        if !found.is_empty() && found != before {
-            break found;
-        }
-        assert!(begun.elapsed() < Duration::from_secs(60), "no checkpoint comes");
-        std::thread::sleep(Duration::from_millis(1));
-    };
+    let mut found = String::new();
+    wait_until("a checkpoint", || {
+        found = fs::read_to_string(&checkpoint).unwrap_or_default();
+        !found.is_empty() && found != before
+    });
     child.kill().unwrap();
     child.wait().unwrap();
     assert!(!folder.join(file).exists(), "the run was over before it could be killed");
@@ -351,11 +347,7 @@ fn a_complete_run_is_prolonged_with_the_bytes_of_one_run() {
 fn two_runs_do_not_write_one_file() {
     let folder = folder(PLAIN);
     let mut child = begin(folder.path());
-    let begun = Instant::now();
-    while !folder.path().join("out.csv.checkpoint").exists() {
-        assert!(begun.elapsed() < Duration::from_secs(60), "no checkpoint comes");
-        std::thread::sleep(Duration::from_millis(1));
-    }
+    wait_until("a checkpoint", || folder.path().join("out.csv.checkpoint").exists());
     let result = run(folder.path(), "");
     let restarted = run(folder.path(), "--restart");
     child.kill().unwrap();
@@ -394,12 +386,8 @@ fn an_interrupted_run_ends_with_a_checkpoint() {
     let partial = folder.path().join("out.jsonl.partial");
     for name in ["-INT", "-TERM"] {
         let mut child = begin(folder.path());
-        let begun = Instant::now();
         // it listens before it writes
-        while fs::metadata(&partial).map_or(0, |file| file.len()) <= length {
-            assert!(begun.elapsed() < Duration::from_secs(60), "no rows come");
-            std::thread::sleep(Duration::from_millis(1));
-        }
+        wait_until("a row", || fs::metadata(&partial).map_or(0, |file| file.len()) > length);
         signal(&child, name);
         assert_eq!(child.wait().unwrap().code(), Some(3));
         let before = checkpoint;
@@ -426,11 +414,7 @@ fn an_interrupted_drift_writes_the_runs_that_are_complete() {
         .spawn()
         .unwrap();
     let read = |name: &str| fs::read_to_string(folder.path().join(name)).unwrap();
-    let begun = Instant::now();
-    while read("out").is_empty() {
-        assert!(begun.elapsed() < Duration::from_secs(60), "no run is complete");
-        std::thread::sleep(Duration::from_millis(1));
-    }
+    wait_until("a complete run", || !read("out").is_empty());
     signal(&child, "-INT");
     assert_eq!(child.wait().unwrap().code(), Some(3));
     assert_eq!(read("out").lines().count(), 1);
@@ -443,11 +427,7 @@ fn an_interrupted_drift_writes_the_runs_that_are_complete() {
 fn an_interrupted_run_without_checkpoints_leaves_nothing() {
     let folder = folder(&PLAIN.replace("checkpoint = 1000", ""));
     let mut child = begin(folder.path());
-    let begun = Instant::now();
-    while names(folder.path()).len() < 2 {
-        assert!(begun.elapsed() < Duration::from_secs(60), "no file comes");
-        std::thread::sleep(Duration::from_millis(1));
-    }
+    wait_until("a file", || names(folder.path()).len() >= 2);
     signal(&child, "-INT");
     assert_eq!(child.wait().unwrap().code(), Some(3));
     assert_eq!(names(folder.path()), ["scene.toml"]);

@@ -6,6 +6,7 @@ use std::path::Path;
 use assert_cmd::Command;
 use tempfile::TempDir;
 
+use crate::output_files::wait_until;
 use crate::program::shadowstep;
 
 /// Two figures, of which one requests results that depend on others.
@@ -114,12 +115,8 @@ fn an_interrupted_call_ends_as_documented_and_keeps_what_is_done() {
         .stderr(std::process::Stdio::piped())
         .spawn()
         .unwrap();
-    let begun = std::time::Instant::now();
     // its first line is the header
-    while fs::read_to_string(&store).map_or(0, |text| text.lines().count()) < 2 {
-        assert!(begun.elapsed() < std::time::Duration::from_secs(60), "nothing is saved");
-        std::thread::sleep(std::time::Duration::from_millis(1));
-    }
+    wait_until("an outcome", || fs::read_to_string(&store).map_or(0, |text| text.lines().count()) >= 2);
     assert!(std::process::Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap().success());
     assert_eq!(child.wait().unwrap().code(), Some(3));
     let mut words = String::new();
