@@ -327,7 +327,7 @@ pub(crate) const KEYS: [Key; 91] = [
         "body",
         "horizons",
         "A table of vectors of JPL's Horizons in CSV, whose first row has its position and velocity; its path is relative to the scene's folder. Requires `units`; \
-         all tables need the same centre, frame and time.",
+         all tables need the same centre, frame and time. The first body may have none if it is their centre, the Sun or the body of its name.",
         "\"earth.txt\"",
         Some("none; q and v or elements are given instead"),
     ),

@@ -101,6 +101,13 @@ pub enum Note {
     },
     /// The energy of pairs jumps at their cutoff.
     AbruptCutoff,
+    /// A table of Horizons is of an orbit with forces besides gravity.
+    ForcesLeftOut {
+        /// The body.
+        target: String,
+        /// The constants of the forces.
+        forces: String,
+    },
     /// The run is resumed from a checkpoint.
     Resumed {
         /// The last n with a row in the file.
@@ -208,6 +215,9 @@ impl fmt::Display for Note {
                 "the energy of a pair jumps at the cutoff, so that no scheme conserves it; `cutoff = {{ at = \"5/2\", from = 2, derivatives = 3 }}` \
                  ends it smoothly"
             ),
+            Note::ForcesLeftOut { target, forces } => {
+                write!(f, "the orbit of {target} has non-gravitational forces ({forces}), which are not in H")
+            }
             Note::Resumed { n, steps } => write!(f, "resumed at n = {n} of {steps}"),
             Note::Prolonged { n, steps } => {
                 write!(f, "the file is that of an earlier end: the run goes on from its last state, n = {n} of {steps}")

@@ -7,12 +7,17 @@ use shadowstep_schemes::document::{Text, read_text};
 
 use super::elements::Vector;
 use super::reader::Reader;
+use crate::Note;
 
 /// The most bytes of a table.
 const LARGEST_FILE: u64 = 64 << 20;
 
 /// The columns of position and velocity.
 const COLUMNS: [&str; 6] = ["X", "Y", "Z", "VX", "VY", "VZ"];
+
+/// Bodies that are not the Sun, whatever their mass.
+const PLANETS: [&str; 10] =
+    ["mercury", "venus", "earth", "moon", "mars", "jupiter", "saturn", "uranus", "neptune", "pluto"];
 
 /// The units of a table, in metres and seconds.
 const UNITS: [(&str, &str, &str); 3] =
@@ -23,8 +28,10 @@ const UNITS: [(&str, &str, &str); 3] =
 pub(super) struct HorizonsVector {
     /// The body, for messages.
     target: String,
+    /// The body that is at rest at the origin, as the table has it.
+    centre: String,
     /// What states of one system have in common, as the table has it: names and values.
-    common: [(&'static str, String); 3],
+    common: [(&'static str, String); 4],
     /// Position and velocity, in metres and seconds.
     state: [Vector; 2],
 }
@@ -49,6 +56,10 @@ impl HorizonsVector {
         };
         match HorizonsVector::read(&text) {
             Ok(vector) => {
+                if let Some(forces) = forces_left_out(&text) {
+                    let target = vector.target.clone();
+                    reader.notes.push(Note::ForcesLeftOut { target, forces });
+                }
                 reader.files.push(text);
                 Some(vector)
             }
@@ -64,13 +75,13 @@ impl HorizonsVector {
         let last = lines.len().max(1);
         let begin = lines.iter().position(|line| *line == "$$SOE");
         let begin = begin.ok_or((last, "this file has no line $$SOE, which begins a table of Horizons".to_owned()))?;
-        let value = |name: &str| {
-            let found = lines[..begin].iter().find_map(|line| {
+        let given = |name: &str| {
+            lines[..begin].iter().find_map(|line| {
                 let (key, value) = line.split_once(':')?;
                 (key.trim() == name).then(|| value.split('{').next().unwrap_or(value).trim().to_owned())
-            });
-            found.ok_or_else(|| (begin + 1, format!("the head has no line `{name}`")))
+            })
         };
+        let value = |name: &str| given(name).ok_or_else(|| (begin + 1, format!("the head has no line `{name}`")));
         let units = value("Output units")?;
         let place = |name: &str| lines.iter().position(|line| line.starts_with(name)).map_or(begin, |line| line) + 1;
         let (_, length, time) = UNITS.iter().find(|(name, ..)| *name == units).ok_or_else(|| {
@@ -79,6 +90,11 @@ impl HorizonsVector {
         let output = value("Output type")?;
         if !output.starts_with("GEOMETRIC") {
             return Err((place("Output type"), format!("the vectors are {output:?}, not geometric")));
+        }
+        // states relative to a place on a body turn with it
+        if let Some(site) = given("Center-site name").filter(|site| site != "BODY CENTER") {
+            let message = format!("the states are relative to the site {site:?}, not to the centre of a body");
+            return Err((place("Center-site name"), message));
         }
         let row = lines.get(begin + 1).ok_or((last, "the table has no row".to_owned()))?;
         let header = lines[..begin].iter().rev().find(|line| line.starts_with("JDTDB,"));
@@ -94,13 +110,17 @@ impl HorizonsVector {
             Ok::<_, (usize, String)>(value * unit)
         };
         let [x, y, z, vx, vy, vz] = COLUMNS.map(of);
+        let centre = value("Center body name")?;
         Ok(HorizonsVector {
             target: value("Target body name")?,
             common: [
-                ("centre", value("Center body name")?),
+                ("centre", centre.clone()),
                 ("reference frame", value("Reference frame")?),
+                // tables of earlier versions have the frame in two lines
+                ("coordinate system", given("Coordinate systm").unwrap_or_default()),
                 ("epoch", cells[0].to_owned()),
             ],
+            centre,
             state: [[x?, y?, z?], [vx?, vy?, vz?]],
         })
     }
@@ -112,6 +132,14 @@ impl HorizonsVector {
         [position.iter().map(|x| x / length).collect(), velocity.iter().map(|v| v / &speed).collect()]
     }
 
+    /// The centre, if it is not the central body of this name: one that is not named after a planet can be the Sun, and no body is at a barycentre.
+    pub(super) fn other_centre(&self, name: Option<&str>) -> Option<&str> {
+        let centre = self.centre.split(" (").next().unwrap_or(&self.centre);
+        let name = name.unwrap_or("sun").replace('_', " ").to_lowercase();
+        let is_centre = name == centre.to_lowercase() || centre == "Sun" && !PLANETS.contains(&name.as_str());
+        (!is_centre).then_some(&self.centre)
+    }
+
     /// In what two tables differ that states of one system have in common.
     pub(super) fn differs(&self, other: &HorizonsVector) -> Option<String> {
         let differing = self.common.iter().zip(&other.common).find(|((_, one), (_, other))| one != other);
@@ -119,6 +147,19 @@ impl HorizonsVector {
             format!("the {name} of {} is {theirs}, and that of {} {own}", other.target, self.target)
         })
     }
+}
+
+/// The forces besides gravity that the table's orbit has, as its head gives them: those of comets and asteroids.
+fn forces_left_out(text: &str) -> Option<String> {
+    let head = text.split("$$SOE").next()?;
+    let after = head.to_ascii_lowercase().rfind("non-gravitational")?;
+    // "A1= 1.0E-9  A2=-3.6E-11", beside other lines
+    let numbers = head[after..].replace('=', " = ");
+    let words: Vec<&str> = numbers.split_whitespace().collect();
+    let found = words.windows(3).filter(|words| words[1] == "=" && ["AMRAT", "A1", "A2", "A3"].contains(&words[0]));
+    let found = found.filter(|words| words[2].parse().is_ok_and(|value: f64| value != 0.0));
+    let found: Vec<String> = found.map(|words| format!("{} = {}", words[0], words[2])).collect();
+    (!found.is_empty()).then(|| found.join(", "))
 }
 
 fn number(text: &str) -> Rational {
@@ -145,6 +186,44 @@ mod tests {
              2451545.000000000, A.D. 2000-Jan-01 12:00:00.0000, {row},\n2451546.000000000, later, 9, 9, 9, 9, 9, 9,\n$$EOE\n"
         )
     }
+
+    /// What becomes of each line of the heads that Horizons writes above vectors, of versions from 2012 on.
+    const HEAD: [(&str, &str); 25] = [
+        ("Ephemeris / API_USER Mon Nov  1 10:00:00 2026 Pasadena, USA      / Horizons", "no part in the motion"),
+        ("Target body name: Earth (399)                     {source: DE441}", "mapped"),
+        (
+            "Center body name: Sun (10)                        {source: DE441}",
+            "mapped, or refused where another body would be there",
+        ),
+        ("Center-site name: BODY CENTER", "refused if it is another"),
+        ("Start time      : A.D. 2000-Jan-01 12:00:00.0000 TDB", "no part: the first row has its own"),
+        ("Stop  time      : A.D. 2000-Jan-02 12:00:00.0000 TDB", "no part"),
+        ("Step-size       : 1440 minutes", "no part"),
+        ("Target pole/equ : ITRF93                          {East-longitude positive}", "no part"),
+        ("Target radii    : 6378.137, 6378.137, 6356.752 km {Equator_a, b, pole_c}", "no part: bodies are points"),
+        ("Target primary  : Sun", "no part"),
+        (
+            "Center geodetic : 0.0, 0.0, 0.0                   {E-lon(deg),Lat(deg),Alt(km)}",
+            "no part: sites are refused",
+        ),
+        ("Center cylindric: 0.0, 0.0, 0.0                   {E-lon(deg),Dxy(km),Dz(km)}", "no part: sites are refused"),
+        ("Center pole/equ : ITRF93                          {East-longitude positive}", "no part: sites are refused"),
+        ("Center radii    : 695700.0, 695700.0, 695700.0 km {Equator_a, b, pole_c}", "no part: bodies are points"),
+        (
+            "Small perturbers: Yes                             {source: SB441-N16}",
+            "no part: the scene says which bodies there are",
+        ),
+        ("Small-body perts: Yes                             {source: SB431-N16}", "no part: as above"),
+        ("Output units    : AU-D", "mapped"),
+        ("Calendar mode   : Mixed Julian/Gregorian", "no part: the epoch is a Julian date"),
+        ("Output type     : GEOMETRIC cartesian states", "refused if it is another"),
+        ("Output format   : 3 (position, velocity, LT, range, range-rate)", "no part: columns have names"),
+        ("EOP file        : eop.261030.p270126", "no part"),
+        ("EOP coverage    : DATA-BASED 1962-JAN-20 TO 2026-OCT-30.", "no part"),
+        ("Reference frame : Ecliptic of J2000.0", "refused if two tables differ"),
+        ("Coordinate systm: Ecliptic and Mean Equinox of Reference Epoch", "refused if two tables differ"),
+        ("   A1= 4.5E-13  A2=-2.9E-14", "noted, below a line of non-gravitational forces"),
+    ];
 
     const EARTH: &str = "-1.495978707E+08,  7.479893535E+07, 1.495978707E+05, 1.731456836805555E+01, 0.000000000000000E+00, -1.731456836805555E+00";
 
@@ -178,6 +257,103 @@ mod tests {
         let p = numbers(&scene.system.p);
         // 1731.4568… km/s are an astronomical unit a day
         assert!((p[2] - 5e-4).abs() < 1e-18 && (p[3] - 1e-5).abs() < 1e-17 && (p[5] + 1e-6).abs() < 1e-18, "{p:?}");
+    }
+
+    /// The head with a line changed, and forces.
+    fn with_head(change: (&str, &str), forces: &str) -> String {
+        let head: String = HEAD[..24].iter().map(|(line, _)| format!("{line}\n")).collect();
+        let row = "2451545.000000000, A.D. 2000-Jan-01 12:00:00.0000, 1,0,0,0,0.017,0,\n$$EOE\n";
+        format!("{head}{forces}JDTDB, Calendar Date (TDB), X, Y, Z, VX, VY, VZ,\n$$SOE\n{row}")
+            .replace(change.0, change.1)
+    }
+
+    /// A line that says that the numbers are others is noticed, and every other one changes nothing.
+    #[test]
+    fn each_line_of_a_head_is_mapped_refused_or_noted() {
+        let folder = tempfile::tempdir().unwrap();
+        let write = |name: &str, text: &str| fs::write(folder.path().join(name), text).unwrap();
+        let file = "horizons = \"earth.txt\"";
+        write("sun.txt", &with_head(("Earth (399)", "Sun (10)"), "").replace("1,0,0,0,0.017,0", "0,0,0,0,0,0"));
+        write("earth.txt", &with_head(("", ""), ""));
+        let known = scene(folder.path(), UNITS, file).unwrap();
+        for (line, fate) in &HEAD[..24] {
+            write("earth.txt", &with_head((line, ""), ""));
+            let found = scene(folder.path(), UNITS, file);
+            match found {
+                Ok(scene) => {
+                    assert!(fate.starts_with("no part") || line.starts_with("Center-site"), "{line}");
+                    assert_eq!((&scene.system.q, &scene.system.p), (&known.system.q, &known.system.p));
+                }
+                Err(_) => assert!(fate.contains("mapped") || fate.contains("refused"), "{line}"),
+            }
+        }
+        for (change, fault) in [
+            (("BODY CENTER", "Greenwich"), "relative to the site \"Greenwich\", not to the centre of a body"),
+            (("Sun (10)", "Earth (399)"), "the centre of Sun (10) is Sun (10)"),
+            (("Ecliptic of J2000.0", "ICRF"), "the reference frame of Sun (10) is Ecliptic of J2000.0"),
+            (("Ecliptic and Mean", "Earth Mean Equator and"), "the coordinate system of Sun (10) is Ecliptic and Mean"),
+            (("2451545.0", "2451546.0"), "the epoch of Sun (10) is 2451545.0"),
+            (("JDTDB", "JDUT"), "this table is not CSV of vectors"),
+            (("AU-D", "KM-H"), "the units are \"KM-H\""),
+            (("GEOMETRIC", "LT+S"), "not geometric"),
+        ] {
+            write("earth.txt", &with_head(change, ""));
+            let faults = scene(folder.path(), UNITS, file).map(drop).unwrap_err();
+            assert!(faults.iter().any(|found| found.contains(fault)), "{faults:?} for {fault}");
+        }
+        for (numbers, note) in [
+            ("   AMRAT= 0.\n   A1= 4.5E-13  A2=-2.9E-14 A3= 0.\n", Some("(A1 = 4.5E-13, A2 = -2.9E-14)")),
+            ("   AMRAT= 0.1 A1= 0. A2= n.a.\n", Some("(AMRAT = 0.1)")),
+            ("   AMRAT= 0.\n   A1= 0.  A2= 0.\n", None),
+        ] {
+            write(
+                "earth.txt",
+                &with_head(("", ""), &format!("Asteroid non-gravitational force model (A1-A3=au/d^2):\n{numbers}")),
+            );
+            let notes: Vec<_> =
+                scene(folder.path(), UNITS, file).unwrap().notes.iter().map(ToString::to_string).collect();
+            assert_eq!(notes.len(), usize::from(note.is_some()), "{notes:?}");
+            assert!(note.is_none_or(|note| notes[0].contains(note)), "{notes:?}");
+        }
+    }
+
+    /// Without a state the first body is at the centre of the tables: of the Sun and the Earth, relative to the barycentre, it is neither.
+    #[test]
+    fn the_central_body_is_that_of_the_tables() {
+        let folder = tempfile::tempdir().unwrap();
+        for (name, centre, is_right) in [
+            ("", "Sun (10)", true),
+            ("name = \"sun\"", "Sun (10)", true),
+            ("name = \"star\"", "Sun (10)", true),
+            ("name = \"earth\"", "Earth (399)", true),
+            ("name = \"earth\"", "Sun (10)", false),
+            ("name = \"sun\"", "Earth (399)", false),
+            ("", "Earth (399)", false),
+            ("", "Solar System Barycenter (0)", false),
+            ("name = \"sun\"", "Solar System Barycenter (0)", false),
+            ("name = \"jupiter\"", "Jupiter Barycenter (5)", false),
+        ] {
+            fs::write(folder.path().join("planet.txt"), table("Mars (499)", centre, "AU-D", "1,0,0,0,0.01,0")).unwrap();
+            let text = |central: &str| {
+                let other = if name.is_empty() { "" } else { "name = \"mars\"" };
+                format!(
+                    "[problem]\n{UNITS}\n[[body]]\nmass = 1\n{name}\n{central}\n[[body]]\nmass = 0.001\n{other}\nhorizons = \"planet.txt\"\n\
+                     [run]\nscheme = \"yoshida4\"\nstep = 1\nsteps = 2\ndigits = \"double\"\n[output]\nenergy = true\n"
+                )
+            };
+            let read = |central: &str| {
+                let path = folder.path().join("scene.toml");
+                fs::write(&path, text(central)).unwrap();
+                Scene::open(&path)
+            };
+            let fault = format!("the states are relative to {centre}, where the first body would be");
+            match read("") {
+                Ok(_) => assert!(is_right, "{name} {centre}"),
+                Err(error) => assert!(!is_right && error.to_string().contains(&fault), "{name} {centre}: {error}"),
+            }
+            fs::write(folder.path().join("own.txt"), table("Sun (10)", centre, "AU-D", "0.01,0,0,0,0,0")).unwrap();
+            read("horizons = \"own.txt\"").unwrap();
+        }
     }
 
     #[test]

@@ -160,12 +160,21 @@ pub(super) fn system(
     parts::split(reader, given, problem, split, Some((bodies, dimensions)))
 }
 
-/// Refuses tables of Horizons of different centres, frames or epochs.
+/// Refuses tables of Horizons of different centres, frames or epochs, and a central body without a state that is not their centre.
 fn agree(reader: &mut Reader<'_>, bodies: &[&GivenBody]) {
     let tables = || {
         bodies.iter().filter_map(|body| body.horizons.as_ref()).filter_map(|(at, table)| Some((at, table.as_ref()?)))
     };
-    let Some((_, first)) = tables().next() else { return };
+    let Some((at, first)) = tables().next() else { return };
+    if let Some(central) = bodies.first().filter(|body| !body.has_state()) {
+        let name = central.name.as_ref().map(|name| name.value.as_str());
+        if let Some(centre) = first.other_centre(name) {
+            let message = format!("the states are relative to {centre}, where the first body would be");
+            let help = "give the first body a table of its own with this centre, or ask Horizons for tables whose centre is \
+                        that body, CENTER='500@10' for the Sun; one of another centre has its name: name = \"earth\"";
+            reader.toml.fault(at, message, help);
+        }
+    }
     for (at, table) in tables().skip(1) {
         if let Some(message) = table.differs(first) {
             reader.toml.fault(at, message, "ask Horizons for tables with one centre, frame and time");

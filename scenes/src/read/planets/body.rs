@@ -69,6 +69,11 @@ impl GivenBody {
         self.a.is_some() || !self.elements.is_empty()
     }
 
+    /// Whether any state is given.
+    pub(super) fn has_state(&self) -> bool {
+        self.horizons.is_some() || self.q.is_some() || self.v.is_some() || self.is_by_elements()
+    }
+
     /// The elements; their faults are reported.
     pub(super) fn elements(&self, reader: &mut Reader<'_>) -> Option<Elements> {
         let Some(a) = &self.a else {
