@@ -216,17 +216,21 @@ impl<'a> Tables<'a> {
         }
         let mut notes: Vec<String> = functions_differ(functions).into_iter().collect();
         if let Some((picture, cells)) = self.picture {
-            match picture.svg(&cells, self.axes, self.columns, &self.title)? {
-                Some(svg) => {
+            match picture.svg(&cells, self.axes, self.columns, &self.title) {
+                Ok(Some(svg)) => {
                     let path = self.folder.join(PICTURE);
                     let mut file = WholeFile::create(&path, "file")?;
                     file.write_all(svg.as_bytes())?;
                     file.finish()?;
                     files.push(path);
                 }
-                None => notes.push(
-                    "there is no picture: no run has such a value, or there are too many words or curves".to_owned(),
+                Ok(None) => notes.push(
+                    "there is no picture: no run has such a value, or there are too many words, curves or panels"
+                        .to_owned(),
                 ),
+                // the table is complete all the same
+                Err(Error::Usage { message, hint }) => notes.push(format!("there is no picture: {message}; {hint}")),
+                Err(error) => return Err(error),
             }
         }
         Ok(Collected::Complete { files, runs: self.runs, failed: self.failed, notes })

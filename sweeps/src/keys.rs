@@ -125,7 +125,7 @@ const KEYS: [Key; 24] = [
     key(
         "picture",
         "panels",
-        "The axis that has a map for each value.",
+        "The axis that has a map for each value, or a chart with the curves.",
         "\"scheme\"",
         Some("of maps, the first axis of words"),
     ),

@@ -31,9 +31,10 @@ pub(super) fn head(columns: &Columns, records: u64) -> Vec<u8> {
     }
     let dictionary = format!("{{'descr': [{fields}], 'fortran_order': False, 'shape': ({records:20},), }}");
     let length = (MAGIC.len() + 4 + dictionary.len() + 1).next_multiple_of(ALIGNMENT) - MAGIC.len() - 4;
-    let text = format!("{dictionary:<0$}\n", length - 1);
+    // a width of Rust's formats is at most 65 535
+    let blanks = " ".repeat(length - 1 - dictionary.len());
     let bytes = u32::try_from(length).expect("a head is shorter than 4 GiB").to_le_bytes();
-    [MAGIC.as_slice(), &bytes, text.as_bytes()].concat()
+    [MAGIC.as_slice(), &bytes, dictionary.as_bytes(), blanks.as_bytes(), b"\n"].concat()
 }
 
 /// The record of a row.
@@ -70,4 +71,28 @@ pub(crate) fn records(
         Err(error) if error.kind() == ErrorKind::UnexpectedEof => None,
         Err(error) => Some(Err(error)),
     }))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A head of more bytes than a format of Rust, or version 1 of NumPy's, can have is aligned, and has its length in front.
+    #[test]
+    fn heads_of_any_length() {
+        for values in [0, 1, 4_000, 100_000] {
+            let values = (0..values).map(|i| format!("value_{i}")).collect();
+            let columns = Columns {
+                energy: false,
+                modified_energy: false,
+                chaos: false,
+                values,
+                state: Vec::new(),
+                coordinates: 0,
+            };
+            let head = head(&columns, 7);
+            let length = u32::from_le_bytes(head[8..12].try_into().unwrap());
+            assert_eq!((head.len() % ALIGNMENT, head.len(), head.last()), (0, 12 + length as usize, Some(&b'\n')));
+        }
+    }
 }

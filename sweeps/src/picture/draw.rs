@@ -2,7 +2,7 @@
 
 use shadowstep_scenes::Error;
 use shadowstep_scenes::family::Meaning;
-use shadowstep_studies::chart::{Axis as ChartAxis, Chart, Curve, log10_of};
+use shadowstep_studies::chart::{Axis as ChartAxis, Chart, Curve, log10_of, stacked};
 use shadowstep_studies::heat_map::{CellAxis, Colour, HeatMap, Panel};
 
 use super::cells::{Cells, Value, double};
@@ -14,14 +14,17 @@ use crate::keep::Column;
 /// The most words that have colours.
 const MOST_WORDS: usize = 12;
 
-/// The most curves.
+/// The most curves of a chart, and the most charts.
 const MOST_CURVES: usize = 24;
+
+/// The largest number of an axis of cells.
+const LARGEST: f64 = 1e290;
 
 /// An axis of positive numbers over this ratio or more is logarithmic.
 const LOGARITHMIC_FROM: f64 = 10.0;
 
 impl Picture {
-    /// The picture as SVG; `None` where no place has a value, or where there are too many words or curves.
+    /// The picture as SVG; `None` where no place has a value, or where there are too many words, curves or panels.
     ///
     /// # Errors
     /// Values that cannot be drawn.
@@ -47,8 +50,9 @@ impl Picture {
                 HeatMap { notes, ..map }.svg().map(Some)
             }
             None => {
-                let chart = self.curves(cells, axis(self.x), self.curves.map(axis), (&title, &label));
-                chart.map(|chart| Chart { notes, ..chart }.svg()).transpose()
+                let Some(mut charts) = self.charts(cells, axes, (&title, &label)) else { return Ok(None) };
+                charts.iter_mut().for_each(|chart| chart.notes.extend(notes.iter().cloned()));
+                if let [chart] = &charts[..] { chart.svg() } else { stacked(&title, &charts) }.map(Some)
             }
         }
     }
@@ -101,29 +105,64 @@ impl Picture {
         panels.map(of).collect()
     }
 
-    /// A curve for each value of an axis; `None` for too many, or where the values are words.
-    fn curves(&self, cells: &Cells, x: &Axis, of: Option<&Axis>, (title, label): (&str, &str)) -> Option<Chart> {
-        let count = cells.counts[1] * cells.counts[2];
-        if count > MOST_CURVES || !cells.words().is_empty() {
+    /// A chart for each panel, with a curve for each value of an axis; `None` for too many, or where the values are words.
+    fn charts(&self, cells: &Cells, axes: &Axes, (title, label): (&str, &str)) -> Option<Vec<Chart>> {
+        let [count, curves, panels] = cells.counts;
+        if curves.max(panels) > MOST_CURVES || !cells.words().is_empty() {
             return None;
         }
+        let axis = |place: usize| &axes.all()[place];
+        let x = axis(self.x);
         let positions: Vec<f64> = (0..x.count()).map(|number| number_at(x, number).unwrap_or(number as f64)).collect();
-        let x_is_log = is_logarithmic(x, &positions);
-        let y_is_log = match self.scale {
-            Some(scale) => scale == Scale::Logarithmic,
-            None => is_wide(cells.numbers().filter(|number| *number != 0.0)),
-        };
+        let is_log = (is_logarithmic(x, &positions), self.has_logarithms(cells));
         let curve = |(place, values): (usize, &[Value])| {
-            let label = of.map(|axis| value_text(axis, place as u64)).unwrap_or_default();
+            let label = self.curves.map(|of| value_text(axis(of), place as u64)).unwrap_or_default();
             let number = |value: &Value| if let Value::Number(number, _) = value { *number } else { f64::NAN };
             let mut points: Vec<_> = positions.iter().copied().zip(values.iter().map(number)).collect();
             points.sort_by(|a, b| a.0.total_cmp(&b.0));
-            Curve::marked(label, log10_of(&points, (x_is_log, y_is_log)), place)
+            Curve::marked(label, log10_of(&points, is_log), place)
         };
-        let curves = cells.values.chunks(cells.counts[0]).enumerate().map(curve).collect();
-        let axis = |label: &str, is_log| if is_log { ChartAxis::log10(label) } else { ChartAxis::linear(label) };
-        Some(Chart::new(title, axis(&x.name, x_is_log), axis(label, y_is_log), curves))
+        let scale = |label: &str, is_log| if is_log { ChartAxis::log10(label) } else { ChartAxis::linear(label) };
+        let chart = |(place, values): (usize, &[Value])| {
+            let title = match self.panels {
+                Some(panels) => format!("{title}: {}", value_text(axis(panels), place as u64)),
+                None => title.to_owned(),
+            };
+            let curves = values.chunks(count).enumerate().map(curve).collect();
+            let chart = Chart::new(title, scale(&x.name, is_log.0), scale(label, is_log.1), curves);
+            Chart { notes: words_of(x).into_iter().collect(), ..chart }
+        };
+        let mut charts: Vec<Chart> = cells.values.chunks(count * curves).enumerate().map(chart).collect();
+        share_range(&mut charts);
+        Some(charts)
     }
+
+    /// Whether curves show the logarithms of the values.
+    fn has_logarithms(&self, cells: &Cells) -> bool {
+        match self.scale {
+            Some(scale) => scale == Scale::Logarithmic,
+            None => is_wide(cells.numbers().filter(|number| *number != 0.0)),
+        }
+    }
+}
+
+/// Several charts have one range of values, so that they can be compared.
+fn share_range(charts: &mut [Chart]) {
+    if charts.len() < 2 {
+        return;
+    }
+    let points = charts.iter().flat_map(|chart| &chart.curves).flat_map(|curve| &curve.points);
+    let values = points.map(|point| point.1).filter(|value| value.is_finite());
+    let (least, most) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), value| (a.min(value), b.max(value)));
+    let room = 0.03 * (most - least);
+    let range = (least < most).then_some((least - room, most + room));
+    charts.iter_mut().for_each(|chart| chart.y.range = range);
+}
+
+/// What the numbers of an axis of words mean.
+fn words_of(axis: &Axis) -> Option<String> {
+    let words = || (0..axis.count()).map(|number| format!("{number}: {}", axis.value(number).text()));
+    (!axis.is_numeric()).then(|| format!("{}: {}", axis.name, words().collect::<Vec<_>>().join(", ")))
 }
 
 /// `yoshida4`, or `e = 1/10`.
@@ -139,13 +178,13 @@ fn number_at(axis: &Axis, number: u64) -> Option<f64> {
     }
 }
 
-/// Words, and numbers of which some are equal, have cells of one size.
+/// Words, and numbers of which some are equal or too large for doubles, have cells of one size.
 fn cell_axis(axis: &Axis) -> CellAxis {
     let numbers: Option<Vec<f64>> = (0..axis.count()).map(|number| number_at(axis, number)).collect();
     let differ = |numbers: &Vec<f64>| {
         let mut sorted = numbers.clone();
         sorted.sort_by(f64::total_cmp);
-        sorted.windows(2).all(|pair| pair[0] < pair[1])
+        sorted.windows(2).all(|pair| pair[0] < pair[1]) && sorted.iter().all(|number| number.abs() <= LARGEST)
     };
     match numbers.filter(differ) {
         Some(numbers) if is_logarithmic(axis, &numbers) => CellAxis::logarithmic(&axis.name, numbers),
