@@ -17,6 +17,7 @@ from .problem import Problem, problem_of
 from .progress import bar
 from .scheme import Scheme
 
+Variable = "tuple[str, int, tuple[Given, Given] | None]"
 Loss = Callable[[np.ndarray, np.ndarray], "tuple[float, Any, Any]"]
 
 
@@ -86,8 +87,7 @@ def derivatives(
     Raises
     ------
     InputError
-        A name that the problem has not; a number at which the formulas have another form than beside it, as a coefficient that is 0; forces that the caller computes, as they
-        have no second derivatives.
+        A name that the problem has not; a number beside which the problem has other parts, or none; forces that the caller computes, as they have no second derivatives.
     RunError
         A state or a derivative that is not finite.
 
@@ -188,17 +188,21 @@ def covectors_of(shape: tuple[int, ...], of_q: Any, of_p: Any) -> np.ndarray:
     return np.ascontiguousarray(np.concatenate(halves, axis=1)).ravel()
 
 
-def variables_of(problem: Problem, names: Sequence[str], digits: str, mpfr: bool) -> list[tuple[str, int, Given | None]]:
+def variables_of(problem: Problem, names: Sequence[str], digits: str, mpfr: bool) -> list[Variable]:
     halves = (("q", problem.coordinates), ("p", problem.momenta))
     places = {name: (half, i, None) for half, all_names in halves for i, name in enumerate(all_names)}
     return [places.get(name) or _number(problem, name, digits, mpfr) for name in names]
 
 
-def _number(problem: Problem, name: str, digits: str, mpfr: bool) -> tuple[str, int, Given | None]:
+def _number(problem: Problem, name: str, digits: str, mpfr: bool) -> Variable:
     if name == "h" and "h" not in dict(problem._given.parameters):
         return name, 0, None
-    nearby = f"({exact(problem.number(name), name)}) + {_shadowstep.distance_of(digits, mpfr)}"
-    return name, 0, problem.replaced({name: nearby})._given
+    value, distance = exact(problem.number(name), name), _shadowstep.distance_of(digits, mpfr)
+    try:
+        near, further = (problem.replaced({name: f"({value}) + {times}*{distance}"})._given for times in (1, 2))
+    except InputError:
+        raise InputError(f"derivatives by {name} are not known: no values beside {name} = {value} can be used") from None
+    return name, 0, (near, further)
 
 
 def _array(numbers: Any) -> np.ndarray:

@@ -212,8 +212,9 @@ class Problem:
         """Where a number is: what contains it, and its key or index there."""
         first, *rest = (word for word in re.split(r"[.\[\]]+", name) if word)
         problem = sections["problem"]
-        if first == "masses" and problem.get("masses") is None:
-            problem["masses"] = [1] * self.dimension
+        if first == "masses" and problem.get("potential") is not None and problem.get("masses") is None and problem.get("kinetic") is None:
+            # one for each coordinate of its own: t may be a further one
+            problem["masses"] = [1] * len(problem["coordinates"])
         given = (problem.get("parameters"), problem.get("bodies"), problem, sections)
         container: Any = next((content for content in given if isinstance(content, dict) and content.get(first) is not None), None)
         if container is None:

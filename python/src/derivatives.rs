@@ -14,8 +14,8 @@ use crate::given::{Given, arithmetic, number};
 use crate::given_run::{GivenRun, ReadRun};
 use crate::waiting::waiting;
 
-/// A variable as Python names it: `q` or `p` with an index, `h`, or another name with the problem in which it is larger by the [distance].
-type Named = (String, usize, Option<Py<Given>>);
+/// A variable as Python names it: `q` or `p` with an index, `h`, or another name with the problems in which it is larger by the [distance], and by twice that.
+type Named = (String, usize, Option<(Py<Given>, Py<Given>)>);
 
 /// By how much numbers are larger in problems at nearby values, as a text.
 #[pyfunction]
@@ -77,13 +77,15 @@ fn array(py: Python<'_>, numbers: Array) -> PyResult<Bound<'_, PyAny>> {
 
 /// A variable.
 pub(crate) enum By {
-    Named(String, usize, Option<Given>),
+    Named(String, usize, Option<[Given; 2]>),
     Direction(Vec<Rational>),
 }
 
 impl By {
     fn named(all: Vec<Named>) -> Vec<Self> {
-        let named = |(name, i, given): Named| By::Named(name, i, given.map(|given| given.get().clone()));
+        let named = |(name, i, given): Named| {
+            By::Named(name, i, given.map(|(near, further)| [near, further].map(|given| given.get().clone())))
+        };
         all.into_iter().map(named).collect()
     }
 
@@ -145,19 +147,22 @@ impl Request {
             By::Named(name, index, given) => (name, index, given),
             By::Direction(components) => return Ok(Variable::Direction(components.clone())),
         };
+        let system = |given: &Given| given.system(precise).map(Box::new);
         let h = &self.run.times.h;
-        let moved = |given: &Given, h: StepSize| -> Result<Variable, Error> {
-            let system = Box::new(given.system(precise)?);
-            Ok(Variable::Parameter(Parameter { name: name.clone(), system, h }))
-        };
-        match (name.as_str(), given) {
-            ("q", None) => Ok(Variable::Position(*index)),
-            ("p", None) => Ok(Variable::Momentum(*index)),
+        let nearby = match (name.as_str(), given) {
+            ("q", None) => return Ok(Variable::Position(*index)),
+            ("p", None) => return Ok(Variable::Momentum(*index)),
             (_, None) => {
-                let nearby: Rational = h.exact() + distance(self.run.arithmetic);
-                moved(&self.run.problem, StepSize::try_from(nearby).expect("a step size is larger than the distance"))
+                let distance = distance(self.run.arithmetic);
+                let nearby = |times: i32| {
+                    let h = h.exact() + &distance * Rational::from_integer(times.into());
+                    StepSize::try_from(h).expect("a step size is larger than the distance")
+                };
+                let of_h = |times| -> Result<_, Error> { Ok((system(&self.run.problem)?, nearby(times))) };
+                [of_h(1)?, of_h(2)?]
             }
-            (_, Some(given)) => moved(given, h.clone()),
-        }
+            (_, Some([near, further])) => [(system(near)?, h.clone()), (system(further)?, h.clone())],
+        };
+        Ok(Variable::Parameter(Parameter { name: name.clone(), nearby }))
     }
 }

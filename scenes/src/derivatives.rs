@@ -13,7 +13,7 @@ use shadowstep::number::{Dual, Number, ParameterError, with_parameter};
 use shadowstep::shadow::run::{NotFinite, Quantity, RunError};
 use shadowstep::steps::integrator::{VectorIntegrator, at_output};
 use shadowstep::tables::{AtRunTime, TableScheme};
-use shadowstep::{MotionError, Rational, StepSize, exact};
+use shadowstep::{Integrator as _, MotionError, Rational, Remainders, StepSize, exact};
 
 use crate::arithmetic::Arithmetic;
 use crate::computation::RunNumber;
@@ -59,15 +59,23 @@ pub enum Variable {
     Parameter(Parameter),
 }
 
-/// A number in the text of a scene, by a nearby value.
+/// A number in the text of a scene, by nearby values.
 #[derive(Debug)]
 pub struct Parameter {
     /// Its name, for messages.
     pub name: String,
-    /// The system where it is larger by the [distance()], read to [more digits](precise).
-    pub system: Box<System>,
-    /// The step size there.
-    pub h: StepSize,
+    /// The systems where it is larger by the [distance()], and by twice the distance, read to [more digits](precise), each with its step size.
+    pub nearby: [(Box<System>, StepSize); 2],
+}
+
+/// The value of a parameter at which constants are differentiated.
+///
+/// At 1, 2 or ⅓ a formula may have fewer constants than beside it, as 1·x is x. Its derivative is then taken at the first value nearby, which differs by less
+/// than the digits of the run; the states stay those of the run.
+#[derive(Clone, Copy, PartialEq)]
+enum Base {
+    Own,
+    Nearby,
 }
 
 /// The digits of values of which differences are taken: twice those of the run, and more.
@@ -75,7 +83,7 @@ fn digits_of_distance(arithmetic: Arithmetic) -> u32 {
     arithmetic.digits().max(20) + 5
 }
 
-/// How much larger a [`Parameter`] is: small beyond the digits of the run.
+/// How much larger a [`Parameter`] is nearby: small beyond the digits of the run.
 ///
 /// # Panics
 /// Never.
@@ -121,6 +129,7 @@ impl Array {
 struct Begun<N: RunNumber> {
     integrator: SceneIntegrator<Dual<N>>,
     shown: Option<ShownCoordinates<Dual<N>>>,
+    base: Base,
 }
 
 impl<N: RunNumber> Begun<N>
@@ -129,8 +138,20 @@ where
 {
     /// q and then p as they are shown, of the present state.
     fn output(&mut self) -> Vec<Dual<N>> {
-        let Begun { integrator, shown } = self;
+        let Begun { integrator, shown, .. } = self;
         at_output(&mut **integrator, |integrator| output(integrator, shown))
+    }
+
+    /// The values of the state, with the remainders of their sums ← those of another integrator; derivatives stay.
+    fn set_values(&mut self, plain: &VectorIntegrator<'_, N>) {
+        let (of, state) = (plain.state(), self.integrator.system().state_mut());
+        let dual = |(value, own): (&N, &Dual<N>)| Dual::new(value.clone(), own.derivatives.clone());
+        let set = |values: &[N], own: &[Dual<N>]| values.iter().zip(own).map(dual).collect::<Vec<_>>();
+        let (values, own) = (of.remainders(), state.remainders());
+        let remainders = Remainders { q: set(&values.q, &own.q), p: set(&values.p, &own.p) };
+        let (q, p) = (set(of.q(), state.q()), set(of.p(), state.p()));
+        state.set(&q, &p);
+        state.set_remainders(&remainders);
     }
 }
 
@@ -157,7 +178,8 @@ impl Differentiation<'_> {
         rows
     }
 
-    fn begin<N: RunNumber>(&self, variable: Option<&Variable>, context: &N::Context) -> Result<Begun<N>, Error>
+    /// The system at its first state, of which the variable, if there is one, has the derivative 1.
+    fn begin<N: RunNumber>(&self, variable: Option<(&Variable, Base)>, context: &N::Context) -> Result<Begun<N>, Error>
     where
         Dual<N>: SceneNumber<Context = N::Context>,
     {
@@ -165,37 +187,44 @@ impl Differentiation<'_> {
         let one = || [N::from_rational(&num_traits::One::one(), context)];
         match variable {
             None => {}
-            Some(Variable::Position(i)) => q[*i].derivatives = one(),
-            Some(Variable::Momentum(i)) => p[*i].derivatives = one(),
-            Some(Variable::Direction(components)) => {
+            Some((Variable::Position(i), _)) => q[*i].derivatives = one(),
+            Some((Variable::Momentum(i), _)) => p[*i].derivatives = one(),
+            Some((Variable::Direction(components), _)) => {
                 for (x, component) in q.iter_mut().chain(&mut p).zip(components) {
                     x.derivatives = [N::from_rational(component, context)];
                 }
             }
-            Some(Variable::Parameter(parameter)) => return self.begin_parameter(parameter, |state| state, context),
+            Some((Variable::Parameter(parameter), base)) => {
+                return self.begin_parameter((parameter, base), |state| state, context);
+            }
         }
         Ok(self.begin_at(self.system, self.run.h, (q, p))?)
     }
 
     fn begin_parameter<N: RunNumber>(
         &self,
-        parameter: &Parameter,
+        (parameter, base): (&Parameter, Base),
         from: impl Fn(State<Dual<N>>) -> State<Dual<N>>,
         context: &N::Context,
     ) -> Result<Begun<N>, Error>
     where
         Dual<N>: SceneNumber<Context = N::Context>,
     {
-        let of = [(self.system, self.run.h), (self.precise, self.run.h), (&parameter.system, &parameter.h)];
-        let found = with_parameter(&distance(self.arithmetic), |i| {
-            let (system, h) = of[i];
-            self.begin_at(system, h, from(system.initial(context)))
-        });
-        let found = found.map_err(|error: ParameterError| {
-            let name = &parameter.name;
-            Error::usage(format!("derivatives by {name} are not known: {error}"), "choose a value beside it")
-        });
-        Ok(found??)
+        let [near, further] = parameter.nearby.each_ref().map(|(system, h)| (&**system, h));
+        let of = match base {
+            Base::Own => [(self.system, self.run.h), (self.precise, self.run.h), near],
+            Base::Nearby => [near, near, further],
+        };
+        let begin = |(system, h): (&System, &StepSize)| self.begin_at(system, h, from(system.initial(context)));
+        let found = match with_parameter(&distance(self.arithmetic), |i| begin(of[i])) {
+            // nothing depends on it, so that all derivatives are 0
+            Err(ParameterError::NoConstant) => begin(of[0]),
+            found => found.map_err(|error| {
+                let name = &parameter.name;
+                Error::usage(format!("derivatives by {name} are not known: {error}"), "choose a value beside it")
+            })?,
+        };
+        Ok(Begun { base, ..found? })
     }
 
     fn begin_at<N: RunNumber>(
@@ -210,17 +239,18 @@ impl Differentiation<'_> {
         let context = &state.0[0].context();
         let state = system.start_at(state, context);
         let integrator = system.integrator(self.steps(h), state, context)?;
-        Ok(Begun { integrator, shown: system.shown(context) })
+        Ok(Begun { integrator, shown: system.shown(context), base: Base::Own })
     }
 
-    /// Checks what is not known before.
-    fn refuse(&self) -> Result<(), Error> {
+    /// Checks what is not known before; for each variable the value at which constants are differentiated.
+    fn bases(&self) -> Result<Vec<Base>, Error> {
         crate::tangent::needs_second_derivatives(self.system)?;
-        self.by.iter().try_for_each(|variable| match variable {
-            Variable::Parameter(parameter) => self.check_first_step(parameter),
-            Variable::Direction(components) => self.check_direction(components.len()),
-            Variable::Position(_) | Variable::Momentum(_) => Ok(()),
-        })
+        let base = |variable: &Variable| match variable {
+            Variable::Parameter(parameter) => self.base(parameter),
+            Variable::Direction(components) => self.check_direction(components.len()).map(|()| Base::Own),
+            Variable::Position(_) | Variable::Momentum(_) => Ok(Base::Own),
+        };
+        self.by.iter().map(base).collect()
     }
 
     fn check_direction(&self, components: usize) -> Result<(), Error> {

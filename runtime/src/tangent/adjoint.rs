@@ -5,6 +5,7 @@ use crate::number::{Dual, Number};
 use crate::steps::integrator::{Integrator, at_output};
 use crate::systems::increments::Carried;
 use crate::systems::state::Saved;
+use crate::systems::summation::Remainders;
 
 /// A covector (∂L/∂q, ∂L/∂p).
 pub type Covector<N> = (Vec<N>, Vec<N>);
@@ -45,7 +46,7 @@ where
         Adjoint { integrator, parameters: Vec::new() }
     }
 
-    /// Derivatives by a parameter, too: by an integrator for the same steps at the same state, whose constants have the derivatives by it: see
+    /// Derivatives by a parameter, too: by an integrator for the same steps, whose constants have the derivatives by it: see
     /// [`with_parameter`](crate::number::with_parameter).
     pub fn add_parameter(&mut self, integrator: I) {
         let sum = Dual::zero(&self.integrator.state().context());
@@ -80,8 +81,9 @@ where
         );
         let mut turned: Vec<N> = of_p.iter().chain(of_q).cloned().collect();
         turned[..of_p.len()].iter_mut().for_each(N::negate);
-        for parameter in &mut self.parameters {
-            parameter.add_of_output((of_q, of_p));
+        if self.integrator.is_processed() {
+            self.set_states();
+            self.parameters.iter_mut().for_each(|parameter| parameter.add_of_output((of_q, of_p)));
         }
         let mut sum = vector(self.integrator.state(), 0);
         if self.integrator.is_processed() {
@@ -96,15 +98,28 @@ where
         set_vector(self.integrator.system().state_mut(), 0, &sum);
     }
 
+    /// The integrators of parameters ← the present state, without derivatives.
+    fn set_states(&mut self) {
+        let state = self.integrator.state();
+        let constants =
+            |numbers: &[Dual<N>]| numbers.iter().map(|x| Dual::constant(x.value.clone())).collect::<Vec<_>>();
+        for Parameter { integrator, .. } in &mut self.parameters {
+            let remainders = state.remainders();
+            let own = integrator.system().state_mut();
+            own.set(&constants(state.q()), &constants(state.p()));
+            own.set_remainders(&Remainders { q: constants(&remainders.q), p: constants(&remainders.p) });
+        }
+    }
+
     /// One step back.
     pub fn step_back(&mut self) {
+        self.set_states();
         self.integrator.step_back(Carried::Nothing);
         if self.parameters.is_empty() {
             return;
         }
         let (of_q, of_p) = covector(&self.integrator);
         for Parameter { integrator, sum } in &mut self.parameters {
-            clear(integrator);
             integrator.step_back(Carried::Nothing);
             let components = integrator.state().q().iter().chain(integrator.state().p());
             let along = components.zip(of_q.iter().chain(&of_p));
@@ -120,10 +135,6 @@ where
 {
     /// The post-map of a processed scheme depends on the parameter, too.
     fn add_of_output(&mut self, (of_q, of_p): (&[N], &[N])) {
-        if !self.integrator.is_processed() {
-            return;
-        }
-        clear(&mut self.integrator);
         let saved = Saved::of(self.integrator.state());
         self.integrator.postprocess();
         let along = vector(self.integrator.state(), 0);

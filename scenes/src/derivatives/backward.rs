@@ -2,11 +2,10 @@
 
 use shadowstep::number::Dual;
 use shadowstep::steps::integrator::{VectorIntegrator, at_output};
-use shadowstep::systems::summation::Remainders;
 use shadowstep::tangent::{Adjoint, Covector, vector};
 use shadowstep::{Integrator as _, Rational, Real};
 
-use super::{Array, Begun, Differentiation, Variable};
+use super::{Array, Base, Begun, Differentiation, Variable};
 use crate::computation::RunNumber;
 use crate::error::Error;
 use crate::observer::{Observer, report};
@@ -33,7 +32,7 @@ impl Differentiation<'_> {
     /// # Errors
     /// As [`forward`](Differentiation::forward); numbers of covectors that do not fit, or are not finite.
     pub fn backward(&self, covectors: &[f64], observer: &mut dyn Observer) -> Result<Gradient, Error> {
-        self.refuse()?;
+        let bases = self.bases()?;
         if self.system.particles() > 0 {
             let message =
                 "derivatives backwards are those of Hamiltonian systems, and bodies of mass 0 do not act on the others";
@@ -47,12 +46,13 @@ impl Differentiation<'_> {
         let covectors = covectors.iter().map(|x| Rational::from_float(*x)).collect::<Option<Vec<_>>>();
         let covectors = covectors
             .ok_or_else(|| Error::usage("a derivative of the function is not finite", "give finite derivatives"))?;
-        self.arithmetic.compute_with_derivatives(Backward { request: self, covectors, observer })?
+        self.arithmetic.compute_with_derivatives(Backward { request: self, bases, covectors, observer })?
     }
 }
 
 struct Backward<'a, 'o> {
     request: &'a Differentiation<'a>,
+    bases: Vec<Base>,
     covectors: Vec<Rational>,
     observer: &'o mut dyn Observer,
 }
@@ -64,7 +64,7 @@ impl WithDerivatives for Backward<'_, '_> {
     where
         Dual<N>: SceneNumber<Context = N::Context>,
     {
-        let Backward { request, covectors, observer } = self;
+        let Backward { request, bases, covectors, observer } = self;
         let rows = request.rows();
         let steps = request.steps(request.run.h);
         let mut plain = request.system.integrator::<N>(steps, request.system.start(context), context)?;
@@ -76,10 +76,10 @@ impl WithDerivatives for Backward<'_, '_> {
             report(observer, request.run, n)?;
         }
         let mut begun = request.begin::<N>(None, context)?;
-        set_values(&mut begun.integrator, &*plain);
+        begun.set_values(&*plain);
         request.check_finite(n, &begun.output())?;
         let end = values(&*plain);
-        let mut backwards = Backwards::new(request, begun, context)?;
+        let mut backwards = Backwards::new(request, bases, begun, context)?;
         let width = covectors.len() / rows.len();
         for (row, covector) in rows.iter().zip(covectors.chunks(width)).rev() {
             for _ in *row..n {
@@ -120,22 +120,20 @@ where
     Dual<N>: SceneNumber<Context = N::Context>,
 {
     /// At the end of the run.
-    fn new(request: &Differentiation<'_>, end: Begun<N>, context: &N::Context) -> Result<Self, Error> {
-        let Begun { integrator, shown } = end;
-        let (q, p, remainders) = {
-            let state = integrator.state();
-            (state.q().to_vec(), state.p().to_vec(), state.remainders())
-        };
+    fn new(
+        request: &Differentiation<'_>,
+        bases: Vec<Base>,
+        end: Begun<N>,
+        context: &N::Context,
+    ) -> Result<Self, Error> {
+        let Begun { integrator, shown, .. } = end;
         let mut adjoint = Adjoint::new(integrator);
         let mut variables = Vec::new();
-        for variable in request.by {
-            let Begun { mut integrator, shown } = request.begin::<N>(Some(variable), context)?;
+        for (variable, base) in request.by.iter().zip(bases) {
+            let Begun { integrator, shown, .. } = request.begin::<N>(Some((variable, base)), context)?;
             let of_start = vector(integrator.state(), 0);
             let is_parameter = matches!(variable, Variable::Parameter(_));
             if is_parameter {
-                let state = integrator.system().state_mut();
-                state.set(&q, &p);
-                state.set_remainders(&remainders);
                 adjoint.add_parameter(integrator);
             }
             variables.push(AlongVariable { of_start, is_parameter, shown, sum: N::zero(context) });
@@ -198,16 +196,6 @@ fn along<N: RunNumber>(shown: &mut ShownCoordinates<Dual<N>>, state: &[Dual<N>],
 fn values<N: Real>(integrator: &VectorIntegrator<'_, N>) -> [Vec<f64>; 2] {
     let values = |x: &[N]| x.iter().map(Real::to_f64).collect();
     [values(integrator.state().q()), values(integrator.state().p())]
-}
-
-/// The state ← that of another integrator, with the remainders of its sums and without derivatives.
-fn set_values<N: RunNumber>(integrator: &mut SceneIntegrator<Dual<N>>, plain: &VectorIntegrator<'_, N>) {
-    let state = plain.state();
-    let constants = |numbers: &[N]| numbers.iter().cloned().map(Dual::constant).collect::<Vec<_>>();
-    let remainders = state.remainders();
-    let own = integrator.system().state_mut();
-    own.set(&constants(state.q()), &constants(state.p()));
-    own.set_remainders(&Remainders { q: constants(&remainders.q), p: constants(&remainders.p) });
 }
 
 /// Of q and of p: the largest difference as a part of the largest number at the start or at the end.

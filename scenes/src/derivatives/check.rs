@@ -4,7 +4,7 @@ use shadowstep::number::AnyLimbs;
 use shadowstep::steps::integrator::at_output;
 use shadowstep::{Carried, Integrator as _, Number, Rational, StepSize};
 
-use super::{Differentiation, Parameter, distance, output, precise};
+use super::{Base, Differentiation, Parameter, distance, output, precise};
 use crate::arithmetic::{Digits, Numbers};
 use crate::error::Error;
 use crate::scene::System;
@@ -14,9 +14,13 @@ use crate::scene::split::State;
 /// of order 1.
 const TOLERANCE: f64 = 1e-9;
 
+/// Of the distance and the largest coordinate or momentum: where all derivatives are 0, a difference has only its error.
+const TOLERANCE_OF_ZERO: f64 = 1e4;
+
 impl Differentiation<'_> {
-    /// Compares the derivative of the first step with the difference of two steps.
-    pub(super) fn check_first_step(&self, parameter: &Parameter) -> Result<(), Error> {
+    /// The value of a parameter at which the derivative of the first step is the difference of two steps: its own, if formulas have the same form there
+    /// and nearby.
+    pub(super) fn base(&self, parameter: &Parameter) -> Result<Base, Error> {
         let arithmetic = precise(self.arithmetic)?;
         let Numbers::Digits(_, Digits::Limbs(count)) = arithmetic.numbers() else { unreachable!("they have limbs") };
         let step = |system: &System, h: &StepSize| -> Result<Vec<AnyLimbs>, Error> {
@@ -26,24 +30,32 @@ impl Differentiation<'_> {
             let mut shown = system.shown(&count);
             Ok(at_output(&mut *integrator, |integrator| output(integrator, &mut shown)))
         };
-        let (here, there) = (step(self.precise, self.run.h)?, step(&parameter.system, &parameter.h)?);
-        let exactly = Differentiation { system: self.precise, ..*self };
-        let mut begun = exactly.begin_parameter::<AnyLimbs>(parameter, |state| beside(state, &count), &count)?;
-        begun.integrator.step(Carried::Nothing);
-        let inverse = AnyLimbs::from_rational(&distance(self.arithmetic).recip(), &count);
-        let pairs: Vec<(f64, f64)> = begun
-            .output()
-            .iter()
-            .zip(here.iter().zip(there))
-            .map(|(found, (here, mut there))| {
-                there.subtract(here);
-                there.multiply(&inverse);
-                (found.derivatives[0].to_f64(), there.to_f64())
-            })
-            .collect();
-        let largest = pairs.iter().map(|(_, expected)| expected.abs()).fold(0.0, f64::max);
-        if pairs.iter().all(|(found, expected)| (found - expected).abs() <= TOLERANCE * largest) {
-            return Ok(());
+        let [(system, h), _] = &parameter.nearby;
+        let (here, mut differences) = (step(self.precise, self.run.h)?, step(system, h)?);
+        let distance = distance(self.arithmetic);
+        let inverse = AnyLimbs::from_rational(&distance.recip(), &count);
+        for (difference, here) in differences.iter_mut().zip(&here) {
+            difference.subtract(here);
+            difference.multiply(&inverse);
+        }
+        let largest = |numbers: &[AnyLimbs]| numbers.iter().map(|x| x.to_f64().abs()).fold(0.0, f64::max);
+        let size = <f64 as Number>::from_rational(&distance, &()) * largest(&here);
+        let tolerance = TOLERANCE * largest(&differences) + TOLERANCE_OF_ZERO * size;
+        let is_right = |base| -> Result<bool, Error> {
+            let exactly = Differentiation { system: self.precise, ..*self };
+            let mut begun =
+                exactly.begin_parameter::<AnyLimbs>((parameter, base), |state| beside(state, &count), &count)?;
+            begun.integrator.step(Carried::Nothing);
+            let output = begun.output();
+            let mut pairs = output.iter().map(|found| found.derivatives[0].to_f64()).zip(&differences);
+            // the run says of a number that is not finite where it is
+            Ok(pairs.all(|(found, expected)| !((found - expected.to_f64()).abs() > tolerance)))
+        };
+        if is_right(Base::Own).unwrap_or(false) {
+            return Ok(Base::Own);
+        }
+        if is_right(Base::Nearby)? {
+            return Ok(Base::Nearby);
         }
         let name = &parameter.name;
         Err(Error::usage(

@@ -1,13 +1,16 @@
 //! Forwards: a tangent vector for each variable.
 
-use shadowstep::Integrator as _;
 use shadowstep::number::Dual;
+use shadowstep::steps::integrator::at_output;
+use shadowstep::{Carried, Integrator as _};
 
-use super::{Array, Differentiation};
+use super::{Array, Base, Begun, Differentiation, output};
 use crate::computation::RunNumber;
 use crate::error::Error;
 use crate::observer::{Observer, report};
 use crate::scene::SceneNumber;
+use crate::scene::split::ShownCoordinates;
+use crate::start::SceneIntegrator;
 use crate::tangent::WithDerivatives;
 
 /// The states of a run with their derivatives.
@@ -28,13 +31,14 @@ impl Differentiation<'_> {
     /// A state or a derivative that is not finite; forces of the caller, which have no second derivatives; a parameter by which derivatives are not
     /// known; more digits than numbers of limbs have; an observer that stops.
     pub fn forward(&self, observer: &mut dyn Observer) -> Result<Derivatives, Error> {
-        self.refuse()?;
-        self.arithmetic.compute_with_derivatives(Forward { request: self, observer })?
+        let bases = self.bases()?;
+        self.arithmetic.compute_with_derivatives(Forward { request: self, bases, observer })?
     }
 }
 
 struct Forward<'a, 'o> {
     request: &'a Differentiation<'a>,
+    bases: Vec<Base>,
     observer: &'o mut dyn Observer,
 }
 
@@ -45,29 +49,79 @@ impl WithDerivatives for Forward<'_, '_> {
     where
         Dual<N>: SceneNumber<Context = N::Context>,
     {
-        let Forward { request, observer } = self;
-        let mut all =
-            request.by.iter().map(|by| request.begin::<N>(Some(by), context)).collect::<Result<Vec<_>, _>>()?;
+        let Forward { request, bases, observer } = self;
+        let variables = request.by.iter().zip(bases);
+        let all: Result<Vec<_>, _> = variables.map(|by| request.begin::<N>(Some(by), context)).collect();
+        let mut all = all?;
         if all.is_empty() {
             all.push(request.begin(None, context)?);
         }
-        let (mut states, mut by) = (Vec::new(), vec![Vec::new(); all.len()]);
+        let mut side_by_side = SideBySide::new(request, all, context)?;
+        let (mut states, mut by) = (Vec::new(), vec![Vec::new(); side_by_side.all.len()]);
         let rows = request.rows();
         let mut n = 0;
         for row in &rows {
-            for (k, (begun, derivatives)) in all.iter_mut().zip(&mut by).enumerate() {
-                begun.integrator.steps(row - n);
+            side_by_side.steps(row - n);
+            let shown = side_by_side.shown_values();
+            for (k, (begun, derivatives)) in side_by_side.all.iter_mut().zip(&mut by).enumerate() {
                 let output = begun.output();
                 request.check_finite(*row, &output)?;
                 derivatives.extend(output.iter().map(|x| x.derivatives[0].clone()));
                 // the states are the same beside each vector
-                states.extend(output.into_iter().filter(|_| k == 0).map(|x| x.value));
+                states.extend(output.into_iter().filter(|_| k == 0 && shown.is_empty()).map(|x| x.value));
             }
+            states.extend(shown);
             n = *row;
             report(observer, request.run, n)?;
         }
         let array = |numbers: &Vec<N>| Array::of(numbers, request.arithmetic);
         let by = by.iter().take(request.by.len()).map(array).collect();
         Ok(Derivatives { n: rows, states: array(&states), by })
+    }
+}
+
+/// The states with each vector; beside those whose constants are differentiated at a value nearby the plain ones, which are those of the run.
+struct SideBySide<N: RunNumber> {
+    all: Vec<Begun<N>>,
+    plain: Option<(SceneIntegrator<N>, Option<ShownCoordinates<N>>)>,
+}
+
+impl<N: RunNumber> SideBySide<N>
+where
+    Dual<N>: SceneNumber<Context = N::Context>,
+{
+    fn new(request: &Differentiation<'_>, mut all: Vec<Begun<N>>, context: &N::Context) -> Result<Self, Error> {
+        let system = request.system;
+        let plain = match all.iter().any(|begun| begun.base == Base::Nearby) {
+            true => {
+                let integrator =
+                    system.integrator::<N>(request.steps(request.run.h), system.start(context), context)?;
+                Some((integrator, system.shown(context)))
+            }
+            false => None,
+        };
+        let nearby = all.iter_mut().filter(|begun| begun.base == Base::Nearby);
+        nearby.zip(plain.iter().cycle()).for_each(|(begun, (plain, _))| begun.set_values(&**plain));
+        Ok(SideBySide { all, plain })
+    }
+
+    fn steps(&mut self, count: u64) {
+        let (nearby, own): (Vec<_>, Vec<_>) = self.all.iter_mut().partition(|begun| begun.base == Base::Nearby);
+        own.into_iter().for_each(|begun| begun.integrator.steps(count));
+        let Some((plain, _)) = &mut self.plain else { return };
+        let mut nearby = nearby;
+        for _ in 0..count {
+            plain.step(Carried::Nothing);
+            for begun in &mut nearby {
+                begun.integrator.step(Carried::Nothing);
+                begun.set_values(&**plain);
+            }
+        }
+    }
+
+    /// q and then p of the plain states as they are shown, if there are any.
+    fn shown_values(&mut self) -> Vec<N> {
+        let Some((plain, shown)) = &mut self.plain else { return Vec::new() };
+        at_output(&mut **plain, |integrator| output(integrator, shown))
     }
 }

@@ -36,11 +36,14 @@ impl Case {
 
     fn with<R>(&self, arithmetic: Arithmetic, use_it: impl FnOnce(Differentiation<'_>) -> R) -> R {
         let precise = precise(arithmetic).unwrap();
-        let moved = format!("({}) + 1e-{}", self.theta, digits_of_distance(arithmetic));
-        let ((text, h), (moved, moved_h)) = (self.at(self.theta), self.at(&moved));
+        let (text, h) = self.at(self.theta);
+        let nearby = [1, 2].map(|times| {
+            let (text, h) = self.at(&format!("({}) + {times}e-{}", self.theta, digits_of_distance(arithmetic)));
+            (Box::new(system(&text, precise)), h)
+        });
         let posed = system(&text, arithmetic);
         let scheme = for_system(library::scheme(self.scheme).unwrap(), &posed).unwrap();
-        let parameter = Parameter { name: "θ".to_owned(), system: Box::new(system(&moved, precise)), h: moved_h };
+        let parameter = Parameter { name: "θ".to_owned(), nearby };
         let by = [Variable::Position(0), Variable::Momentum(posed.p.len() - 1), Variable::Parameter(parameter)];
         let run = Run { propagator: &scheme.name, h: &h, steps: STEPS, order: None, windows: Run::WINDOWS };
         use_it(Differentiation {
@@ -108,7 +111,23 @@ impl Case {
         }
     }
 
+    /// With the derivative by θ alone, too.
+    fn check_states(&self) {
+        let alone = self.with(Arithmetic::DOUBLE, |request| {
+            let by = &request.by[2..];
+            Differentiation { by, ..request }
+                .forward(&mut ())
+                .unwrap_or_else(|error| panic!("{} {}: {error}", self.text, self.theta))
+                .states
+        });
+        let plain = self.with(Arithmetic::DOUBLE, |request| {
+            Differentiation { by: &[], ..request }.forward(&mut ()).unwrap().states
+        });
+        assert_eq!(alone, plain, "{}", self.text);
+    }
+
     fn check(&self) {
+        self.check_states();
         self.check_forward();
         self.check_backward();
     }
@@ -206,14 +225,69 @@ fn by_what_a_matrix_depends_on() {
     }
 }
 
+/// At these values formulas have fewer constants than beside them.
 #[test]
-fn unknown_derivatives_are_refused() {
-    let commuting = OSCILLATOR
-        .replace("potential = \"k*x^2/2 + ", "parts = [\"px^2/2 + py^2/2 + k*x^2/2\", \"")
-        .replace("y^2\"", "y^2\"]");
-    let folded = Case { text: commuting.leak(), scheme: "yoshida4", h: "1/20", theta: "0" };
-    let refused = folded.with(Arithmetic::DOUBLE, |request| request.forward(&mut ()).unwrap_err().to_string());
-    assert!(refused.starts_with("derivatives by θ are not known: the formulas have another form"), "{refused}");
+fn derivatives_follow_the_symbol_whatever_its_value() {
+    let of_parts = |parts: &str| {
+        format!(
+            "[problem]\ncoordinates = [\"x\", \"y\"]\nparts = [{parts}]\nparameters = {{ k = \"θ\" }}\n[initial]\nq = [\"4/5\", \"1/3\"]\np = [\"1/9\", \"1/7\"]\n"
+        )
+    };
+    let texts = [
+        of_parts(r#""px^2/2 + py^2/2", "k*x^2/2 + x^4/4 + k^2*x*y^2/1000", "y^2/2""#),
+        of_parts(r#""px^2/2 + py^2/2 + k*(x*py - y*px) + k*y^2/20", "k*x^4/400 - cos(k*y/10)""#),
+        of_parts(r#""k*(x^2 + px^2)^2/100 + (y*py)^2*k/10", "k*x^4/4 + y^2/2", "py^2*y^2*k/100""#),
+        of_parts(r#""-k*px^2*x^3/500 + py^2/2", "k*x^2/2 + y^2/2", "px^2/2""#),
+        of_parts(r#""px^2/2 + py^2/2", "k*x^2/2 + k*x*cos(k*t) + y^2/2""#),
+        of_parts(r#""px^2/2 + py^2/2", "k*x^2/2 + y^4/4""#)
+            .replace("parts = [\"px^2/2 + py^2/2\", ", "vector_potential = [\"-k*y/2\", \"k*x/2\"]\npotential = ")
+            .replace("4/4\"]", "4/4\""),
+    ];
+    for (i, theta) in ["1", "2", "3", "1/2", "1/3", "1/10", "-1", "100", "0", "7/5"].into_iter().enumerate() {
+        for (j, text) in texts.iter().enumerate() {
+            let case = Case { text: text.clone().leak(), scheme: "yoshida4", h: "1/100", theta };
+            case.check_forward();
+            // each text and each value at times
+            if (i + j) % 4 == 0 {
+                case.check_states();
+                case.check_backward();
+            }
+        }
+    }
+    let kepler = of_parts(r#""px^2/2 + py^2/2 - k/sqrt(x^2 + y^2)", "k*x^2/2 + (y*px - x*py)""#);
+    let arenstorf =
+        of_parts(r#""px^2/2 + py^2/2 + y*px - x*py", "-(1 - k)/sqrt((x + k)^2 + y^2) - k/sqrt((x - 1 + k)^2 + y^2)""#);
+    for theta in ["1", "2", "1/3", "1/80"] {
+        for text in [&kepler, &arenstorf] {
+            Case { text: text.clone().leak(), scheme: "yoshida4", h: "1/100", theta }.check();
+        }
+    }
+}
+
+#[test]
+fn by_masses_that_are_one() {
+    for scheme in ["yoshida4", "chin-4a", "takahashi-imada"] {
+        Case { text: MASSES, scheme, h: "1/10", theta: "1" }.check();
+    }
+    let all = MASSES.replace("3]", "1]").leak();
+    Case { text: all, scheme: "blanes-moan-srkn6b", h: "1/10", theta: "1" }.check();
+    Case { text: BODIES, scheme: "yoshida4", h: "1/20", theta: "1" }.check();
+    Case { text: PLANETS, scheme: "aba1064", h: "1/50", theta: "1" }.check();
+}
+
+/// Where nothing depends on the number, all derivatives are 0.
+#[test]
+fn a_number_without_effect_has_derivatives_of_zero() {
+    let text = OSCILLATOR.replace("k*x^2/2", "k*c*x^2/2").replace("k = ", "c = 0, k = ");
+    let case = Case { text: text.leak(), scheme: "yoshida4", h: "1/20", theta: "3" };
+    let Array::Doubles(found) = &case.forward(Arithmetic::DOUBLE).by[2] else {
+        panic!("double precision has no texts")
+    };
+    assert!(found.iter().all(|x| *x == 0.0), "{found:?}");
+}
+
+#[test]
+fn too_many_digits_are_refused() {
     let long = |digits| precise(Arithmetic::with_digits(digits).unwrap());
     let refused = long(139).unwrap_err().to_string();
     assert!(long(138).is_ok() && refused.contains("use 138 digits"), "{refused}");
