@@ -1,10 +1,12 @@
 //! `shadowstep man`: the help of all commands as pages of `man`.
 
 use std::fs;
-use std::path::PathBuf;
+use std::io::Write;
+use std::path::{Path, PathBuf};
 
 use clap::Args;
-use shadowstep_scenes::{Error, not_written};
+use clap_mangen::Man;
+use shadowstep_scenes::{Error, WholeFile, not_written};
 
 use crate::invocation;
 use crate::report::Status;
@@ -27,8 +29,22 @@ pub(crate) struct Arguments {
 /// Writes the pages.
 pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
     let out = &arguments.out;
-    fs::create_dir_all(out)
-        .and_then(|()| clap_mangen::generate_to(invocation::commands(), out))
-        .map_err(|error| not_written(out, error, "run it again"))?;
+    fs::create_dir_all(out).map_err(|error| not_written(out, error, "run it again"))?;
+    let mut program = invocation::commands().disable_help_subcommand(true);
+    program.build();
+    pages(&program, out)?;
     Ok(Status::Success)
+}
+
+/// The pages of the commands of a command, and its own.
+fn pages(command: &clap::Command, out: &Path) -> Result<(), Error> {
+    for command in command.get_subcommands().filter(|command| !command.is_hide_set()) {
+        pages(command, out)?;
+    }
+    let page = Man::new(command.clone());
+    let mut text = Vec::new();
+    page.render(&mut text)?;
+    let mut file = WholeFile::create(&out.join(page.get_filename()), "the page")?;
+    file.write_all(&text)?;
+    file.finish()
 }

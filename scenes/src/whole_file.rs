@@ -1,20 +1,32 @@
 //! A file that gets its name when it is complete.
 
+use std::collections::hash_map::RandomState;
+use std::ffi::OsString;
 use std::fs::{self, File, OpenOptions};
-use std::io::{self, BufWriter, Write};
+use std::hash::{BuildHasher, Hasher};
+use std::io::{self, BufWriter, ErrorKind, Write};
 use std::path::{Path, PathBuf};
+use std::thread::sleep;
+use std::time::Duration;
 
 use crate::error::{Error, not_written};
 use crate::lock::{LockError, open_locked};
 use crate::temporary::Temporary;
 
-/// What the name of a file has after it until it is complete.
-const ENDING: &str = "shadowstep-partial";
+/// How the names of files end that are not complete.
+const ENDING: &str = ".shadowstep-partial";
 
-/// A file under a temporary name, `FILE.shadowstep-partial`, which is removed unless the file is finished.
+/// The digits of the number before it.
+const DIGITS: usize = 16;
+
+/// How often two processes that begin at the same moment try again.
+const TRIES: u32 = 4;
+
+/// A file under a temporary name, `FILE.`*random number*`.shadowstep-partial`, which is removed unless the file is finished.
 ///
-/// One process has it at a time. What a process that was killed has left is replaced. Where the name is a symbolic link, the file
-/// that it leads to is written.
+/// One process writes it at a time. The temporary file is a new one, whose name no one knows before, so that nothing that lies in the
+/// folder is opened; what a process that was killed has left of the file is removed. Where the name is a symbolic link to another name in its
+/// folder or below, the file that it leads to is written. The file is on the disk before it has its name.
 ///
 /// ```
 /// use std::io::Write;
@@ -54,20 +66,17 @@ impl WholeFile {
     /// Creates the temporary file beside `path`; a file that is there is replaced by the complete new one.
     ///
     /// # Errors
-    /// A path that is not of a file, a folder that cannot be written, a file that another process is writing.
+    /// A path that is not of a file, a symbolic link out of its folder, a folder that cannot be written, a file that another process is writing.
     pub fn create(path: &Path, named: &str) -> Result<Self, Error> {
-        let path = &destination(path)?;
+        let path = destination(path)?;
         // asked once: another process may give the file its name meanwhile
         let is_other = path.metadata().is_ok_and(|found| !found.is_file());
         let name = path.file_name().filter(|_| !is_other).ok_or_else(|| {
             Error::usage(format!("{named} {} is not a file", path.display()), "give the name of a file")
         })?;
-        let partial = path.with_file_name(format!("{}.{ENDING}", name.display()));
-        let options = OpenOptions::new().write(true).create(true).truncate(false).to_owned();
-        let opened = Temporary::open(&partial, || open_locked(&partial, &options), |_| true);
+        let opened = create_temporary(&path, &[name, ".".as_ref()].into_iter().collect());
         let (temporary, file) = opened.map_err(|error| cannot_write(&format!("{named} {}", path.display()), error))?;
-        file.set_len(0).map_err(|error| not_written(path, error, AGAIN))?;
-        Ok(WholeFile { temporary, writer: BufWriter::new(file), path: path.to_owned(), replaces: true })
+        Ok(WholeFile { temporary, writer: BufWriter::new(file), path, replaces: true })
     }
 
     /// The name that it gets.
@@ -81,13 +90,63 @@ impl WholeFile {
     /// The file cannot be written or renamed; a file that was created in the meantime and must not be replaced.
     pub fn finish(mut self) -> Result<(), Error> {
         self.flush()?;
-        if !self.replaces && self.path.exists() {
+        self.writer.get_ref().sync_all().map_err(|error| not_written(&self.path, error, AGAIN))?;
+        if !self.replaces && self.path.symlink_metadata().is_ok() {
             return Err(exists(&format!("file {}", self.path.display())));
         }
         let WholeFile { temporary, path, .. } = self;
         let renamed = temporary.map_or(Ok(()), |partial| partial.rename(|partial| fs::rename(partial, &path), None));
-        renamed.map_err(|error| not_written(&path, error, AGAIN).into())
+        renamed.map_err(|error| not_written(&path, error, AGAIN))?;
+        sync_folder(&path);
+        Ok(())
     }
+}
+
+/// A new file, locked, whose name begins like this; others of the same file that no process writes are removed.
+fn create_temporary(path: &Path, begin: &OsString) -> Result<(Option<Temporary>, File), LockError> {
+    let mut tries = 0;
+    loop {
+        let number = RandomState::new().build_hasher().finish();
+        let mut name = begin.clone();
+        name.push(format!("{number:0DIGITS$x}{ENDING}"));
+        let partial = path.with_file_name(name);
+        let options = OpenOptions::new().write(true).create_new(true).to_owned();
+        let opened = match Temporary::open(&partial, || open_locked(&partial, &options), |_| true) {
+            Ok(opened) if !is_written_by_others(&partial, begin) => return Ok(opened),
+            Err(LockError::Io(error)) if error.kind() != ErrorKind::AlreadyExists => return Err(error.into()),
+            opened => opened,
+        };
+        drop(opened);
+        tries += 1;
+        if tries == TRIES {
+            return Err(LockError::Taken);
+        }
+        // of two that begin at the same moment, one waits longer
+        sleep(Duration::from_millis(number % 16));
+    }
+}
+
+/// Whether another process has a temporary file of this file; those that none has are removed.
+fn is_written_by_others(own: &Path, begin: &OsString) -> bool {
+    let begin = begin.as_encoded_bytes();
+    let is_temporary = |name: &OsString| {
+        let number = name.as_encoded_bytes().strip_prefix(begin).and_then(|rest| rest.strip_suffix(ENDING.as_bytes()));
+        number.is_some_and(|number| number.len() == DIGITS && number.iter().all(u8::is_ascii_hexdigit))
+    };
+    let mut is_written = false;
+    let entries = fs::read_dir(folder_of(own)).into_iter().flatten().flatten();
+    for name in entries.map(|entry| entry.file_name()).filter(is_temporary) {
+        let other = own.with_file_name(name);
+        if other == own {
+            continue;
+        }
+        match open_locked(&other, &OpenOptions::new().read(true).write(true).to_owned()) {
+            Ok(_locked) => drop(fs::remove_file(&other)),
+            Err(LockError::Taken) => is_written |= other.exists(),
+            Err(LockError::Io(_)) => {}
+        }
+    }
+    is_written
 }
 
 /// What helps after a file could not be written.
@@ -101,8 +160,11 @@ fn exists(file: &str) -> Error {
 pub(crate) fn cannot_write(file: &str, error: LockError) -> Error {
     match error {
         LockError::Io(error) => {
-            let message = format!("{file} cannot be written: {error}");
-            Error::usage(message, "give a file in a folder that exists and can be written")
+            let hint = match error.kind() {
+                ErrorKind::InvalidInput => "remove it, or give another file",
+                _ => "give a file in a folder that exists and can be written",
+            };
+            Error::usage(format!("{file} cannot be written: {error}"), hint)
         }
         LockError::Taken => {
             let message = format!("another process is writing {file}");
@@ -111,18 +173,39 @@ pub(crate) fn cannot_write(file: &str, error: LockError) -> Error {
     }
 }
 
-/// The file that a path leads to through symbolic links, which need not exist.
+/// The file that a path leads to through symbolic links, which need not exist; it is in the same folder or below.
 ///
 /// # Errors
-/// A circle of links.
+/// A circle of links; a link out of the folder.
 pub(crate) fn destination(path: &Path) -> Result<PathBuf, Error> {
     const MOST: usize = 40;
     let mut end = path.to_owned();
     for _ in 0..MOST {
         let Ok(target) = fs::read_link(&end) else { return Ok(end) };
-        end = end.parent().unwrap_or(Path::new("")).join(target);
+        end = folder_of(&end).join(target);
+        if !is_within(&end, folder_of(path)) {
+            let message =
+                format!("{} is a symbolic link that leads out of its folder, to {}", path.display(), end.display());
+            return Err(Error::usage(message, "give the path of that file itself, or remove the link"));
+        }
     }
     Err(Error::usage(format!("{} is a circle of symbolic links", path.display()), "give the name of a file"))
+}
+
+/// Whether the folder of a file is another one or below it, as symbolic links lead.
+pub(crate) fn is_within(file: &Path, folder: &Path) -> bool {
+    let within = || Some(fs::canonicalize(folder_of(file)).ok()?.starts_with(fs::canonicalize(folder).ok()?));
+    within().unwrap_or(false)
+}
+
+/// The folder of a file.
+pub(crate) fn folder_of(path: &Path) -> &Path {
+    path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."))
+}
+
+/// Makes a rename last through a loss of power, where a folder can be synchronized.
+pub(crate) fn sync_folder(path: &Path) {
+    let _ = File::open(folder_of(path)).and_then(|folder| folder.sync_all());
 }
 
 impl Write for WholeFile {

@@ -142,6 +142,26 @@ pub(crate) fn make_readable(_: &File) -> io::Result<()> {
     Ok(())
 }
 
+/// Creates a folder within that of a sweep, and those above it.
+///
+/// # Errors
+/// A folder that cannot be created; a symbolic link of its name, which may lead to files of others.
+pub(crate) fn create_folder(path: &Path) -> Result<(), Error> {
+    refuse_link(path)?;
+    std::fs::create_dir_all(path).map_err(|error| {
+        Error::usage(format!("{} cannot be created: {error}", path.display()), "give a folder that can be written")
+    })
+}
+
+/// Refuses a symbolic link in place of a folder within that of a sweep.
+pub(crate) fn refuse_link(path: &Path) -> Result<(), Error> {
+    if !path.is_symlink() {
+        return Ok(());
+    }
+    let message = format!("{} is a symbolic link, which is not followed", path.display());
+    Err(Error::usage(message, "remove it, or give the sweep another folder"))
+}
+
 /// Makes the name of a file permanent.
 #[cfg(unix)]
 pub(crate) fn sync_folder(folder: &Path) -> io::Result<()> {

@@ -1,6 +1,5 @@
 //! `plan.json` in the folder of a sweep: what its chunks are of. With it, results are collected without the sweep's files.
 
-use std::fs;
 use std::io::{self, Write};
 use std::path::Path;
 
@@ -10,7 +9,7 @@ use shadowstep_scenes::{Error, not_written};
 use shadowstep_schemes::document::read_text;
 use tempfile::Builder;
 
-use crate::chunk::{AGAIN, CHUNKS_FOLDER, Chunk, Header, MOST_RUNS_OF_CHUNK};
+use crate::chunk::{AGAIN, CHUNKS_FOLDER, Chunk, Header, MOST_RUNS_OF_CHUNK, create_folder, refuse_link};
 use crate::keep::Column;
 use crate::plan::{Digests, SweepPlan, hash};
 
@@ -81,7 +80,7 @@ impl Manifest {
             text: plan.source().text.clone(),
         };
         let folder_of_chunks = folder.join(CHUNKS_FOLDER);
-        fs::create_dir_all(&folder_of_chunks).map_err(|error| cannot(&folder_of_chunks, &error))?;
+        create_folder(&folder_of_chunks)?;
         own.write(folder, false)?;
         let there = Manifest::read(folder)?;
         there.check(&own, chunks.is_some(), folder)?;
@@ -99,6 +98,7 @@ impl Manifest {
     /// # Errors
     /// A folder without one, a file that is not one.
     pub fn read(folder: &Path) -> Result<Manifest, Error> {
+        refuse_link(&folder.join(CHUNKS_FOLDER))?;
         let path = folder.join(NAME);
         let hint = "give the folder of `shadowstep sweep FILE --out DIR`";
         let text = match read_text(&path, LARGEST) {
@@ -222,8 +222,4 @@ pub(crate) fn check_chunks(chunks: u64, runs: u64) -> Result<(), Error> {
         return Err(Error::usage(message, format!("use at least {least} chunks")));
     }
     Ok(())
-}
-
-fn cannot(path: &Path, error: &io::Error) -> Error {
-    Error::usage(format!("{} cannot be created: {error}", path.display()), "give a folder that can be written")
 }

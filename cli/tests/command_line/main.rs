@@ -12,6 +12,8 @@ mod drift;
 mod emit;
 mod figures;
 mod help;
+#[cfg(unix)]
+mod links;
 mod lost_energy;
 mod modified;
 mod output_files;
@@ -38,5 +40,6 @@ mod stability;
 mod sweeps;
 mod trace;
 mod work_precision;
+mod writers;
 mod wrong_inputs;
 mod wrong_usage;

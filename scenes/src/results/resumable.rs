@@ -14,7 +14,7 @@ use sha2::{Digest, Sha256};
 use shadowstep_schemes::document::read_text;
 
 use crate::error::{Error, NotWritten, not_written};
-use crate::lock::{LockError, open_locked};
+use crate::lock::{LockError, open_itself, open_locked};
 use crate::note::Note;
 use crate::observer::Observer;
 use crate::results::checkpoint::{Checkpoint, Identity};
@@ -23,6 +23,7 @@ use crate::results::numpy::MAGIC;
 use crate::results::options::FileOptions;
 use crate::saved_state::{SavedState, SavedVector};
 use crate::temporary::Temporary;
+use crate::whole_file::{cannot_write, sync_folder};
 
 /// The extension of rows that are not complete.
 const PARTIAL: &str = "partial";
@@ -355,16 +356,12 @@ impl Write for Hashing<'_> {
 
 /// The partial file, locked by this run.
 fn locked(path: &Path, partial: &Path) -> Result<File, Error> {
-    let cannot = |error: io::Error| {
-        let message = format!("file {} cannot be written: {error}", path.display());
-        Error::usage(message, "give a file in a folder that exists and can be written")
-    };
     if path.is_dir() || path.file_name().is_none() {
         return Err(Error::usage(format!("file {} is a folder", path.display()), "give the name of a file"));
     }
     let options = OpenOptions::new().read(true).write(true).create(true).truncate(false).to_owned();
     open_locked(partial, &options).map_err(|error| match error {
-        LockError::Io(error) => cannot(error),
+        LockError::Io(_) => cannot_write(&format!("file {}", path.display()), error),
         LockError::Taken => {
             let message = format!("another run is writing {}", path.display());
             Error::usage(message, "wait until it ends, or give this scene another file")
@@ -381,8 +378,11 @@ pub(super) fn beside(path: &Path, ending: &str) -> PathBuf {
 /// Removes the incomplete checkpoint of a run that was killed; any other file of this name is an error.
 fn remove_new_checkpoint(path: &Path) -> Result<(), Error> {
     let mut begin = Vec::new();
-    match File::open(path) {
+    match open_itself(path, OpenOptions::new().read(true)) {
         Err(error) if error.kind() == ErrorKind::NotFound => return Ok(()),
+        Err(error) if error.kind() == ErrorKind::InvalidInput => {
+            return Err(Error::usage(error.to_string(), "remove it, or give this scene another file"));
+        }
         Err(error) => return Err(error.into()),
         Ok(file) => file.take(HEAD_OF_CHECKPOINT.len() as u64).read_to_end(&mut begin)?,
     };
@@ -403,10 +403,4 @@ fn remove(path: &Path) -> Result<(), Error> {
         Err(error) if error.kind() != ErrorKind::NotFound => Err(error.into()),
         _ => Ok(()),
     }
-}
-
-/// Makes a rename last through a loss of power, where a folder can be synchronized.
-fn sync_folder(path: &Path) {
-    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
-    let _ = File::open(folder).and_then(|folder| folder.sync_all());
 }

@@ -62,6 +62,9 @@ impl<'a> Target<'a> {
         let at_place = |error| at(scene, place, error);
         let path = &destination(path).map_err(at_place)?;
         refuse_special(path).map_err(at_place)?;
+        if !scene.output.format.has_metadata() {
+            destination(&beside(path, METADATA)).map_err(at_place)?;
+        }
         if same_file::is_same_file(path, &scene.source.path).unwrap_or(false) {
             return Err(at_place(Error::usage("the file is the scene itself", "give it another name")));
         }

@@ -5,6 +5,7 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
+use shadowstep_scenes::lock::open_itself;
 use shadowstep_scenes::{Error, not_written};
 
 use super::tasks::TaskList;
@@ -62,7 +63,7 @@ pub(super) fn read(folder: &Path) -> Result<Vec<Job>, Error> {
 pub(super) fn add(folder: &Path, job: &Job) -> Result<(), Error> {
     let path = path(folder);
     let add = || -> io::Result<()> {
-        let mut file = OpenOptions::new().append(true).create(true).open(&path)?;
+        let mut file = open_itself(&path, OpenOptions::new().append(true).create(true))?;
         file.write_all(format!("{}\n", serde_json::to_string(job)?).as_bytes())?;
         file.sync_all()
     };

@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 use shadowstep_scenes::{Error, not_written, shell_word};
 use tempfile::NamedTempFile;
 
-use crate::chunk::make_readable;
+use crate::chunk::{create_folder, make_readable};
 
 /// What a task gets: options of sbatch. What is omitted has the site's default.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -72,9 +72,7 @@ impl Scripts {
         check_path(&command.folder)?;
         check_path(&command.sweep)?;
         let logs = command.folder.join(LOGS);
-        fs::create_dir_all(&logs).map_err(|error| {
-            Error::usage(format!("{} cannot be created: {error}", logs.display()), "give another folder")
-        })?;
+        create_folder(&logs)?;
         let array = Script::prepare(command, ARRAY, &array_text(command, resources))?;
         let collect = Script::prepare(command, COLLECT, &collect_text(command, resources))?;
         array.refuse_contradictions(resources, command.chunks)?;
