@@ -397,13 +397,11 @@ impl<N: RunNumber> Recorder<'_, '_, N> {
                 return Ok(());
             }
             let time = self.run.time_of_crossing(n - 1, part, self.context);
-            at_output(integrator, |integrator| {
-                let (q, p) = (integrator.state().q().to_vec(), integrator.state().p().to_vec());
-                let time = self.scene.system.time_of(&q).unwrap_or(&time).clone();
-                let due = self.due_everywhere();
-                let energy = self.needs_energy(due).then(|| self.energy(integrator));
-                self.write((n - 1, time), (&q, &p), energy.as_ref(), (due, None, None))
-            })
+            let (q, p) = (integrator.state().q().to_vec(), integrator.state().p().to_vec());
+            let time = self.scene.system.time_of(&q).unwrap_or(&time).clone();
+            let due = self.due_everywhere();
+            let energy = self.needs_energy(due).then(|| self.energy(integrator));
+            self.write((n - 1, time), (&q, &p), energy.as_ref(), (due, None, None))
         });
         self.crossings = Some(crossings);
         written.unwrap_or(Ok(()))

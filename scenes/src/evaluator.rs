@@ -234,6 +234,26 @@ impl<N: Number + 'static> Evaluator<N> {
         self.evaluate()
     }
 
+    /// The value at another state of a system; t is a coordinate, if the expression has it.
+    pub(crate) fn value_at_other<M: shadowstep::System<Number = N> + ?Sized>(
+        &mut self,
+        system: &mut M,
+        (q, p): (&[N], &[N]),
+    ) -> &N {
+        self.set_state(q, p);
+        let rest = self.rest();
+        if let (true, Some(t)) = (self.has_time, q.last()) {
+            self.point[rest].assign(t);
+        }
+        if self.has_energy {
+            match &mut self.energy {
+                Some(energy) => self.point[rest + 1] = energy(q, p),
+                None => system.assign_energy(Some((q, p)), &mut self.point[rest + 1]),
+            }
+        }
+        self.evaluate()
+    }
+
     /// The place of t and E in the point.
     fn rest(&self) -> usize {
         self.point.len() - usize::from(self.has_momentum_of_time) - self.quantities.len() - 2

@@ -251,10 +251,8 @@ impl<N: RunNumber> Keeper<'_, N> {
         let number = i64::try_from(n).unwrap_or(i64::MAX);
         let kept = crossings.state(number, integrator, |integrator, part| {
             let time = self.integration.run.time_of_crossing(number - 1, part, self.context);
-            at_output(integrator, |integrator| {
-                let energy = self.energy(integrator);
-                self.push(n - 1, (integrator.state().q(), integrator.state().p()), energy, Some(time))
-            })
+            let energy = self.energy(integrator);
+            self.push(n - 1, (integrator.state().q(), integrator.state().p()), energy, Some(time))
         });
         self.crossings = Some(crossings);
         kept.unwrap_or(Ok(()))

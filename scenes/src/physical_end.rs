@@ -145,7 +145,12 @@ pub(crate) fn last_step<N: Real>(
 mod tests {
     use super::*;
     use crate::engine::Outcome;
-    use shadowstep::tables::{Faults, Source};
+    use shadowstep::number::Limbs;
+    use shadowstep::problems::Kepler;
+    use shadowstep::systems::transformed_time::{TimeTransformation, TransformedKinetic, TransformedPotential};
+    use shadowstep::tables::{Faults, Source, shipped};
+    use shadowstep::{Carried, Integrator as _, Motion, Number as _, Stepper, UnitMasses};
+    use shadowstep_symbolic::decimal::from_text;
 
     fn read(text: &str) -> Result<Scene, Faults> {
         Scene::read(Source { path: "test.toml".to_owned(), text: text.to_owned() })
@@ -203,5 +208,49 @@ mod tests {
         assert_eq!(fault("\"p < z\""), "6:7: unknown name `z`; known names: q, p, t, E");
         assert_eq!(fault("\"p < 2^^3\""), "6:14: unexpected `^`: a number, a name or `(` should follow `^`");
         assert_eq!(fault("1"), "6:7: this value is of the wrong kind");
+    }
+
+    /// The step is from a state of the trajectory to another one: a part of a step of the kernel alone would have the kernel's error.
+    #[test]
+    fn a_last_step_of_a_processed_scheme_has_its_effective_order() {
+        // Kepler's orbit of a = 1 and e = 1/2 from its pericentre, whose H is −1/2; E − e sin E = 3 was solved by mpmath
+        let exact = [
+            "-1.49554367949370064987359367969044780902165371283298359243394",
+            "0.0816675374007804714178980304045221740152716243638199507374892",
+        ];
+        let number = |text: &str| Limbs::<4>::from_rational(&from_text(text).unwrap(), &());
+        let mut speed = number("3");
+        speed.assign_sqrt(&number("3"));
+        for name in ["bcm6-13", "blanes6-7", "shadowstep6-7p"] {
+            let [coarse, fine] = ["1/10", "1/20"].map(|h| {
+                let (q, p) = (["0.5", "0", "0"].map(number).to_vec(), vec![number("0"), speed, number("0.5")]);
+                let time = TimeTransformation::Logarithmic;
+                let kinetic = TransformedKinetic::new(time, UnitMasses);
+                let motion = Motion::new(TransformedPotential::new(time, Kepler), kinetic, q, p).unwrap();
+                let scheme = shipped(name).unwrap().for_every_kinetic().unwrap();
+                let mut integrator = Stepper::<_, Limbs<4>>::new(scheme, h).unwrap().into_integrator(motion);
+                integrator.preprocess();
+                let until = number("3");
+                let mut before = (Vec::new(), Vec::new());
+                let mut state = || {
+                    at_output(&mut integrator, |at| before = (at.state().q().to_vec(), at.state().p().to_vec()));
+                    integrator.step(Carried::Nothing);
+                    before.clone()
+                };
+                let states = std::iter::from_fn(|| Some(state())).take_while(|(q, _)| q[2] < until);
+                let (q, p) = states.last().unwrap();
+                integrator.system().state_mut().set(&q, &p);
+                step_to_time(&mut integrator, &until).unwrap();
+                let error = |(x, exact): (&Limbs<4>, &str)| {
+                    let mut error = *x;
+                    error.subtract(&number(exact));
+                    error.log10_abs()
+                };
+                integrator.state().q().iter().zip(exact).map(error).fold(f64::NEG_INFINITY, f64::max)
+            });
+            let order = (coarse - fine) / std::f64::consts::LOG10_2;
+            println!("{name}: {coarse} {fine} {order}");
+            assert!((order - 6.0).abs() < 0.4, "{name}: {order}");
+        }
     }
 }

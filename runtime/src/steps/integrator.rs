@@ -84,7 +84,8 @@ pub trait Integrator {
     /// `count` plain steps, of which the visitor sees the states: see [`Stepper::steps_visited`].
     fn steps_visited(&mut self, count: u64, visitor: &mut dyn Visitor<Self::Number>);
 
-    /// One plain step of the size part·h: the weights of the stepper times the part (its third power those of gradient kicks), each rounded once more.
+    /// One plain step of the size part·h from a state of the trajectory to another one: of a processed scheme the pre-map, the kernel and the post-map,
+    /// all of part·h. The weights are those of the stepper times the part (its third power those of gradient kicks), each rounded once more.
     fn part_of_step(&mut self, part: &Self::Number);
 
     /// Whether the scheme is a processed one, whose steps are those of its kernel.
@@ -233,7 +234,10 @@ impl<S: Scheme + ValidFor<M::Class>, M: System> Integrator for WithStepper<'_, S
         let cubic = |weight: &M::Number| times(&times(&times(weight, part), part), part);
         let weights = S::Weights::from_vecs(self.stepper.weights().map(linear, cubic));
         let maps = Maps::new(self.stepper.scheme(), &weights);
+        let processor = self.stepper.processor().of_part(part);
+        processor.preprocess(&mut self.system);
         M::advance(std::slice::from_mut(&mut self.system), &maps, 1, Carried::Nothing);
+        processor.postprocess(&mut self.system);
     }
 
     fn is_processed(&self) -> bool {

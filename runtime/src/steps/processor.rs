@@ -24,6 +24,16 @@ impl<N: Number> Processor<N> {
         Processor { pre: maps.iter().rev().map(times(-h)).collect(), post: maps.iter().map(times(h.clone())).collect() }
     }
 
+    /// The same for steps of a part of h: each weight times the part, rounded once more.
+    pub(crate) fn of_part(&self, part: &N) -> Self {
+        let times = |(kind, weight): &(MapKind, N)| {
+            let mut product = weight.clone();
+            product.multiply(part);
+            (*kind, product)
+        };
+        Processor { pre: self.pre.iter().map(times).collect(), post: self.post.iter().map(times).collect() }
+    }
+
     pub(crate) fn is_identity(&self) -> bool {
         self.post.is_empty()
     }

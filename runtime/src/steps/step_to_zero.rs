@@ -7,9 +7,9 @@ use crate::steps::integrator::Integrator;
 const MOST_ITERATIONS: u32 = 400;
 
 /// Makes one step after which the physical time, the last coordinate, is `until` to the last digits, and returns its size as a part of h.
-/// The step of the integrator itself must not end before `until`; it is made by [`Integrator::part_of_step`].
+/// The step of the integrator itself must not end before `until`.
 ///
-/// `None` as of [`step_to_zero`].
+/// States and `None` are as of [`step_to_zero`].
 pub fn step_to_time<I>(integrator: &mut I, until: &I::Number) -> Option<I::Number>
 where
     I: Integrator<Number: Real> + ?Sized,
@@ -23,6 +23,9 @@ where
 
 /// Makes one step after which a function of the state is 0 to the last digits, and returns its size as a part of h: a point of the trajectory with the
 /// error of a step of the scheme, as in M. Hénon, Physica D 5 (1982) 412. The function must not have the same sign at the present state and after the step of the integrator itself.
+///
+/// The step is an [`Integrator::part_of_step`]: of a processed scheme the present state has to be one of the trajectory, after the
+/// [post-map](Integrator::postprocess), and so is the one at the end.
 ///
 /// The size is found by the secant method, within a bracket that shrinks in each iteration, with a trial step in each. `None` if the function
 /// is 0 already, or if it is not finite after a trial step; the system is then as it was.

@@ -154,6 +154,11 @@ impl<S: Scheme, N: Number> Stepper<S, N> {
         Ok(())
     }
 
+    /// The pre-map and the post-map with their weights.
+    pub(crate) fn processor(&self) -> &Processor<N> {
+        &self.processor
+    }
+
     /// The maps of a step with their weights.
     fn maps(&self) -> Maps<'_, S, N> {
         Maps::new(&self.scheme, &self.forward)
