@@ -103,7 +103,7 @@ impl PairEnergy {
             2 => Box::new(self.up_to::<N, 2>(cutoff, parameters, context)),
             _ => Box::new(self.up_to::<N, 3>(cutoff, parameters, context)),
         };
-        with_energies_beside(of_pairs, self.beside(parameters, context))
+        with_energies_beside(of_pairs, self.beside(true, parameters, context))
     }
 
     /// The properties in numbers of a run, each rounded once.
@@ -118,7 +118,7 @@ impl PairEnergy {
         properties: Vec<Vec<N>>,
         parameters: Vec<N>,
     ) -> Box<dyn Potential<N>> {
-        let beside = self.beside_with(&properties, &parameters);
+        let beside = self.beside_with(true, &properties, &parameters);
         let of_pairs = match self.dimensions {
             2 if self.particles > 0 => self.sum_with_particles::<N, 2>(properties, parameters),
             3 if self.particles > 0 => self.sum_with_particles::<N, 3>(properties, parameters),
@@ -130,23 +130,26 @@ impl PairEnergy {
         with_energies_beside(of_pairs, beside)
     }
 
-    /// The energies of each body beside those of pairs, if there are any.
+    /// The energies of each body beside those of pairs, if there are any; of all bodies, or of those with mass alone.
     pub(crate) fn beside<N: Number + 'static>(
         &self,
+        with_particles: bool,
         parameters: &[(String, Exact)],
         context: &N::Context,
     ) -> Option<Box<dyn Potential<N>>> {
-        self.beside_with(&self.numbers(context), &values(parameters, context))
+        self.beside_with(with_particles, &self.numbers(context), &values(parameters, context))
     }
 
     fn beside_with<N: Number + 'static>(
         &self,
+        with_particles: bool,
         properties: &[Vec<N>],
         parameters: &[N],
     ) -> Option<Box<dyn Potential<N>>> {
         let energies = self.of_bodies.iter();
         let boxed = energies.map(|energy| -> Box<dyn Potential<N>> {
-            Box::new(energy.meaning().in_numbers(&properties[0], parameters))
+            let of_all = energy.meaning().in_numbers(&properties[0], parameters);
+            Box::new(if with_particles { of_all } else { of_all.without_particles() })
         });
         boxed.reduce(|one, other| Box::new(Sum(one, other)))
     }

@@ -123,10 +123,14 @@ impl InitialValueProblem {
         matches!(&self.potential, PotentialEnergy::Pairs(pairs) if !pairs.of_bodies.is_empty())
     }
 
-    /// The part of U beside the attraction of bodies, if there is one.
-    pub(crate) fn beside<N: Number + 'static>(&self, context: &N::Context) -> Option<Box<dyn Potential<N>>> {
+    /// The part of U beside the attraction of bodies, if there is one; of all bodies, or of those with mass alone.
+    pub(crate) fn beside<N: Number + 'static>(
+        &self,
+        with_particles: bool,
+        context: &N::Context,
+    ) -> Option<Box<dyn Potential<N>>> {
         match &self.potential {
-            PotentialEnergy::Pairs(pairs) => pairs.beside(&self.parameters, context),
+            PotentialEnergy::Pairs(pairs) => pairs.beside(with_particles, &self.parameters, context),
             _ => None,
         }
     }

@@ -96,6 +96,15 @@ impl<N: Number> FormulaOfBodies<N> {
         FormulaOfBodies { particles, ..self }
     }
 
+    /// The same of the bodies with mass alone.
+    #[must_use]
+    pub fn without_particles(mut self) -> Self {
+        self.formulas.truncate(self.formulas.len() - self.particles);
+        self.bodies -= self.particles;
+        self.particles = 0;
+        self
+    }
+
     /// The same formula in other numbers, with the masses of the bodies and the values of parameters.
     ///
     /// # Panics

@@ -110,7 +110,7 @@ impl<N: Number, P: Potential<N>> Beside<N, P> {
         self.add_slopes::<C, D>(coordinates, product);
     }
 
-    /// Adds V to an energy.
+    /// Adds V to an energy; q may have the bodies with mass alone, as particles have no energy.
     pub(super) fn add_energy<C: PlanetaryCoordinates<N, D>, const D: usize>(
         &mut self,
         coordinates: &mut C,
@@ -118,7 +118,7 @@ impl<N: Number, P: Potential<N>> Beside<N, P> {
         energy: &mut N,
     ) {
         let Beside { potential, scratch, positions, sum, .. } = self;
-        coordinates.assign_inertial_positions(q, positions);
+        coordinates.assign_inertial_positions(q, &mut positions[..q.len()]);
         potential.update(positions);
         potential.energy(positions, sum, scratch);
         energy.add(sum);

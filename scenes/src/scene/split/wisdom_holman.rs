@@ -323,7 +323,7 @@ impl Planets {
     ) -> WisdomHolman<N, C, D, Box<dyn Potential<N>>> {
         let zeros = vec![N::zero(context); self.bodies.count() * D];
         let attracted = WisdomHolman::new(&self.bodies, (&zeros, &zeros), context);
-        let beside = attracted.and_then(|planets| planets.beside(problem.beside(context)));
+        let beside = attracted.and_then(|planets| planets.beside(problem.beside(self.bodies.particles() > 0, context)));
         beside.expect("it is a state of all bodies, and the reader refuses what heliocentric coordinates do not have")
     }
 
@@ -345,5 +345,53 @@ impl Planets {
         ShownCoordinates::by(self.bodies.count() * D, context, move |state, shown| {
             coordinates.assign_inertial(state, shown)
         })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::Scene;
+    use crate::observer::KeptSummary;
+    use shadowstep::tables::Source;
+
+    /// The rows of a planet and of a particle, if there is one, with the largest interaction.
+    fn run(parts: &str, beside: &str, particle: bool) -> (Vec<Vec<f64>>, Option<f64>) {
+        let particle = if particle { "[[body]]\nmass = 0\na = 2\ne = 0.1\nM = 70\n" } else { "" };
+        let text = format!(
+            "[problem]\nparameters = {{ g = 1 }}\nparts = \"{parts}\"\n{beside}\n[[body]]\nmass = 1\n[[body]]\nmass = 1e-3\na = 1\ni = 20\n{particle}\
+             [run]\nscheme = \"yoshida6-a\"\nstep = \"1/20\"\nuntil = 5\ndigits = \"double\"\n[output]\nenergy = true\ntrajectory = true"
+        );
+        let scene = Scene::read(Source { path: "test.toml".to_owned(), text }).unwrap();
+        let (mut rows, mut keep) = (Vec::new(), KeptSummary::default());
+        scene.run_into(&mut rows, &mut keep).unwrap();
+        let text = String::from_utf8(rows).unwrap();
+        let rows = text.lines().filter(|line| !line.starts_with('#')).skip(1);
+        let rows = rows.map(|row| row.split(',').map(|cell| cell.parse().unwrap()).collect()).collect();
+        (rows, keep.0.unwrap().interactions().map(|found| found.epsilon))
+    }
+
+    /// Bodies with mass have the bits and the interactions that they have without particles, and particles move as with the parts T(p) and U(q).
+    #[test]
+    fn energies_of_bodies_and_particles_go_together() {
+        for beside in [
+            "external = \"m*z^2/20\"",
+            "central = \"-3*(g*m0)^2*m/(400*r^2)\"",
+            "external = \"m*x^2/90\"\ncentral = \"m/r^3/99\"",
+        ] {
+            let (with, without) = (run("wisdom-holman", beside, true), run("wisdom-holman", beside, false));
+            assert!(
+                with.1.is_some_and(|epsilon| epsilon > 1e-3) && with.1 == without.1,
+                "{beside}: {:?} {:?}",
+                with.1,
+                without.1
+            );
+            let (plain, _) = run("kinetic-potential", beside, true);
+            assert_eq!((with.0.len(), without.0.len(), plain.len()), (101, 101, 101));
+            for ((with, without), plain) in with.0.iter().zip(&without.0).zip(&plain) {
+                // n, t, energy, 9 positions and 9 momenta; 6 of each without the particle
+                assert_eq!((&with[..9], &with[12..18]), (&without[..9], &without[9..]), "{beside}");
+                assert!(with.iter().zip(plain).all(|(a, b)| (a - b).abs() < 1e-7), "{beside}: {with:?} {plain:?}");
+            }
+        }
     }
 }
