@@ -24,7 +24,7 @@ impl Split for TransformedTime {
                 reason: "but in transformed time no part of H is a quadratic form of the momenta",
                 hint: COMPOSITION,
             }),
-            // the last step to a physical time is one of the kernel
+            // runs that end at a physical time compare it with t of the states of steps, which are the kernel's
             no_processor: Some(Unsupported { reason: "transformed time does not have", hint: COMPOSITION }),
             no_ensembles: Some(Refusal::new(
                 "an ensemble has no transformed time: its steps end at different times",
@@ -140,10 +140,11 @@ impl TransformedTime {
 /// Why the initial state has no transformed time, in double precision.
 fn wrong_sign(problem: &InitialValueProblem) -> Option<String> {
     let (q, _) = problem.initial::<f64>(&());
-    let potential = problem.potential::<f64>(&());
+    let mut potential = problem.potential::<f64>(&());
     let mut scratch = vec![0.0; potential.scratch()];
     potential.prepare(&mut scratch, &());
     let mut energy = <f64 as Number>::zero(&());
+    potential.update(&q);
     potential.energy(&q, &mut energy, &mut scratch);
     (energy >= 0.0).then(|| {
         format!(
@@ -151,4 +152,36 @@ fn wrong_sign(problem: &InitialValueProblem) -> Option<String> {
             energy.to_text()
         )
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::Scene;
+    use shadowstep::tables::Source;
+
+    /// Where all bodies stay within the cutoff, rows are those without one; in one to three dimensions.
+    #[test]
+    fn pairs_may_have_a_cutoff() {
+        let rows = |dimensions: usize, cutoff: &str| {
+            let (zeros, row) = (", 0".repeat(dimensions - 1), |x: &str| format!("{x}{}", ", 0".repeat(dimensions - 1)));
+            let text = format!(
+                "[problem]\npair = \"-1/sqrt(r2 + 1/10)\"\ndimensions = {dimensions}\nbodies = 2\n{cutoff}\n[initial]\nq = [{}, 1{zeros}]\np = [{}, \"-1/3\"{zeros}]\n\
+                 [time]\ntransform = \"logarithmic\"\n[run]\nscheme = \"yoshida4\"\nstep = \"1/10\"\nuntil = 2\ndigits = \"double\"\n[output]\nenergy = true\ntrajectory = true",
+                row("0"),
+                row("0")
+            );
+            let mut rows = Vec::new();
+            let scene = Scene::read(Source { path: "test.toml".to_owned(), text }).unwrap();
+            scene.run_into(&mut rows, &mut ()).unwrap();
+            let text = String::from_utf8(rows).unwrap();
+            let rows = text.lines().filter(|line| !line.starts_with('#')).skip(1);
+            rows.flat_map(|row| row.split(',').map(|cell| cell.parse().unwrap()).collect::<Vec<f64>>())
+                .collect::<Vec<_>>()
+        };
+        for dimensions in 1..=3 {
+            let (with, without) = (rows(dimensions, "cutoff = 9"), rows(dimensions, ""));
+            assert!(with.len() == without.len() && with.len() > 100);
+            assert!(with.iter().zip(&without).all(|(a, b)| (a - b).abs() < 1e-13), "{with:?} {without:?}");
+        }
+    }
 }
