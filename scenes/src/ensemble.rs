@@ -55,9 +55,13 @@ use crate::results::{FileOptions, Identity, Origin, no_file};
 use crate::scene::{KineticEnergy, Scene, System};
 use crate::start::Begin;
 use crate::whole_file::WholeFile;
+use alone::Alone;
 use columns::Columns;
 use planets::Apart;
 use settings::{Observed, settings};
+
+/// A system that is set up for one trajectory after the other is there for as many, at least.
+const MANY: usize = 16;
 
 /// What is read of each trajectory but the first; what is the same in all is that of the first.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -81,7 +85,7 @@ impl Differing {
         let names: Vec<&String> = columns.iter().copied().chain(parameters).collect();
         if !matches!(first.kinetic, KineticEnergy::Masses(_)) || parsed.has_names(is_of_run, &names) {
             Differing::Scenes
-        } else if problem_differs || !first.has_lanes() || first.explicit_time {
+        } else if problem_differs {
             Differing::Systems
         } else {
             Differing::States
@@ -187,9 +191,7 @@ impl Ensemble {
             return Ok(outcomes);
         }
         if !self.has_lanes() {
-            let one = |t| alone::outcome(&self.scene(&parsed, t)?, self.observed, continues);
-            let outcomes: Vec<_> = (0..self.columns.trajectories()).into_par_iter().map(one).collect();
-            return outcomes.into_iter().collect();
+            return self.one_by_one(&parsed, continues, &|| self.first_alone());
         }
         let compensated = self.first.arithmetic.is_compensated();
         let steps = self.first.steps_from(Begin::InitialState);
@@ -203,6 +205,35 @@ impl Ensemble {
             self.trajectories().run_while(&stepper, system, continues)
         };
         outcomes.map_err(|error| error_of(error, |error| error))
+    }
+
+    fn first_alone(&self) -> Result<Alone, Error> {
+        Alone::new(&self.first.system, self.first.steps_from(Begin::InitialState))
+    }
+
+    /// Each trajectory alone; where they differ in their states only, they have a system that `of_first` sets up once for many.
+    fn one_by_one(
+        &self,
+        parsed: &Parsed<'_>,
+        continues: &(dyn Fn() -> bool + Sync),
+        of_first: &(dyn Fn() -> Result<Alone, Error> + Sync),
+    ) -> Result<Vec<Outcome>, Error> {
+        let steps = self.first.steps();
+        let one = |known: &mut Option<Alone>, t: usize| {
+            let Some((q, p)) = self.state(parsed, t) else {
+                let system = self.system(parsed, t)?;
+                let mut alone = Alone::new(&system, self.first.steps_from(Begin::InitialState))?;
+                return alone.outcome((&system, steps), (&system.q, &system.p), self.observed, continues);
+            };
+            let alone = match known {
+                Some(alone) => alone,
+                None => known.insert(of_first()?),
+            };
+            alone.outcome((&self.first.system, steps), (&q, &p), self.observed, continues)
+        };
+        let all = (0..self.columns.trajectories()).into_par_iter().with_min_len(MANY);
+        let outcomes: Vec<_> = all.map_init(|| None, one).collect();
+        outcomes.into_iter().collect()
     }
 
     /// All trajectories, if they are of planets with the same masses.
@@ -242,7 +273,8 @@ impl Ensemble {
 
     /// The system of some lanes.
     fn together(&self, parsed: &Parsed<'_>, block: &Block<LANES>) -> Result<SystemInLanes, Error> {
-        if let Some(states) = self.states(parsed, block) {
+        let states = block.trajectories().map(|t| self.state(parsed, t)).collect::<Option<Vec<_>>>();
+        if let Some(states) = states {
             let system = SystemInLanes::of(&[&self.first.system; LANES]).expect("a system has the form of itself");
             return Ok(system.at_states(&states));
         }
@@ -254,10 +286,10 @@ impl Ensemble {
         })
     }
 
-    /// The initial states of some lanes, if trajectories differ in nothing else; `None` also if one has a fault, which reading its scene gives.
-    fn states(&self, parsed: &Parsed<'_>, block: &Block<LANES>) -> Option<Vec<(Vec<Exact>, Vec<Exact>)>> {
-        let state = |t| parsed.state(&self.columns.values(t), &self.first.system, self.first.arithmetic);
-        (self.differing == Differing::States).then(|| block.trajectories().map(state).collect())?
+    /// The initial state of a trajectory, if they differ in nothing else; `None` also if it has a fault, which reading its scene gives.
+    fn state(&self, parsed: &Parsed<'_>, t: usize) -> Option<(Vec<Exact>, Vec<Exact>)> {
+        let state = || parsed.state(&self.columns.values(t), &self.first.system, self.first.arithmetic);
+        (self.differing == Differing::States).then(state)?
     }
 
     /// The system of a trajectory, for steps in lanes.
@@ -303,6 +335,10 @@ fn error_of<E>(error: EnsembleError<E>, of_system: impl FnOnce(E) -> Error) -> E
 
 #[cfg(test)]
 mod tests {
+    use std::sync::atomic::{AtomicUsize, Ordering};
+
+    use shadowstep::Integrator as _;
+
     use super::*;
 
     fn ensemble(problem: &str, run: &str, values: &str) -> Result<Ensemble, Error> {
@@ -348,7 +384,7 @@ mod tests {
                 ),
             ),
             (
-                Differing::Systems,
+                Differing::States,
                 format!("problem = {{ potential = \"x*y + t\", {plane} }}\ninitial = {{ q = [1, \"e\"], p = [0, 1] }}"),
             ),
             (Differing::States, format!("{kepler}\ninitial.q = [\"eccentricity - e\", 1]")),
@@ -448,7 +484,10 @@ mod tests {
                 assert_eq!(found.len(), 21);
                 for (t, found) in found.iter().enumerate() {
                     let scene = ensemble.scene(&parsed, t).unwrap();
-                    let alone = alone::outcome(&scene, ensemble.observed, &|| true).unwrap();
+                    let system = &scene.system;
+                    let mut alone = Alone::new(system, scene.steps_from(Begin::InitialState)).unwrap();
+                    let steps = (system, scene.steps());
+                    let alone = alone.outcome(steps, (&system.q, &system.p), ensemble.observed, &|| true).unwrap();
                     assert!(alone.not_finite.is_none() && alone.modified_drift.is_some());
                     assert_eq!(*found, alone, "{parts}, {planets} planets, trajectory {t}");
                 }
@@ -461,5 +500,43 @@ mod tests {
         let ensemble = of_planets("wisdom-holman", "double", 2, "(1 + s)/1000");
         assert!(together(&ensemble).is_none());
         assert_eq!(ensemble.outcomes(|| true).unwrap().len(), 21);
+    }
+
+    /// Systems that are not computed in lanes: with a constant magnetic field, with one of position and time, of parts, with a cutoff, with oscillations.
+    const OF_PARTS: [&str; 5] = [
+        "potential = \"(x^2 + y^2)^2/8\"\nvector_potential = [\"-3*y/4\", \"3*x/4\"]\ncoordinates = [\"x\", \"y\"]\nmasses = [1, 2]",
+        "potential = \"(x^2 + y^2)^2/8\"\nvector_potential = [\"-y*cos(t)/2\", \"x/2 + x^3/12\"]\ncoordinates = [\"x\", \"y\"]",
+        "parts = [\"(px^2 + py^2)/2\", \"y*px - x*py\", \"-1/sqrt(x^2 + y^2 + 1)\"]\ncoordinates = [\"x\", \"y\"]",
+        "pair = \"-1/sqrt(r2 + 1/10)\"\nbodies = 2\ndimensions = 1\ncutoff = 3",
+        "name = \"henon-heiles\"\nparts = \"linear\"",
+    ];
+
+    /// Trajectories that differ in their states only have one system, for as many as a thread has, and the bits that they have with a system each.
+    #[test]
+    fn one_system_serves_many_states() {
+        let many = (0..100).map(|i| format!("{i}/100")).collect::<Vec<_>>().join("\", \"");
+        let of_one_thread = rayon::ThreadPoolBuilder::new().num_threads(1).build().unwrap();
+        for problem in OF_PARTS {
+            let problem = format!(
+                "problem = {{ {} }}\ninitial = {{ q = [\"e\", \"1/3\"], p = [\"1/5\", \"e/2\"] }}",
+                problem.replace('\n', ", ")
+            );
+            let ensemble = ensemble(&problem, "step = \"1/20\"", &format!("[\"{many}\"]")).unwrap();
+            let parsed = ensemble.family.parsed().unwrap();
+            let set_up = AtomicUsize::new(0);
+            let of_first = || {
+                set_up.fetch_add(1, Ordering::Relaxed);
+                ensemble.first_alone()
+            };
+            let found = of_one_thread.install(|| ensemble.one_by_one(&parsed, &|| true, &of_first)).unwrap();
+            assert!((1..=2).contains(&set_up.load(Ordering::Relaxed)), "{problem}: {set_up:?}");
+            assert_eq!(found.len(), 100);
+            for (t, found) in found.iter().enumerate() {
+                let scene = ensemble.scene(&parsed, t).unwrap();
+                let mut alone = scene.integrator::<f64>(&()).unwrap();
+                alone.steps(20);
+                assert_eq!((&found.q[..], &found.p[..]), (alone.state().q(), alone.state().p()), "{problem}, {t}");
+            }
+        }
     }
 }

@@ -154,7 +154,7 @@ impl Parsed<'_> {
     }
 
     /// q and p at t = 0 with these values of the names, which only \[initial\] contains: the problem is that of another scene; `None` if
-    /// they have a fault.
+    /// they have a fault, or depend on more than the problem.
     pub(crate) fn state(
         &self,
         names: &[(String, Meaning)],

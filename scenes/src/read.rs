@@ -37,6 +37,7 @@ use std::io::ErrorKind;
 use std::path::Path;
 use std::sync::OnceLock;
 
+use num_traits::Zero as _;
 use shadowstep::tables::{Faults, First, Source};
 use shadowstep_schemes::document::{Section, document, read_text};
 use shadowstep_symbolic::{Exact, nearest};
@@ -49,7 +50,7 @@ use crate::keys::{self, ENSEMBLE, SECTIONS};
 use crate::library::Schemes;
 use crate::note::Note;
 use crate::read::reader::Reader;
-use crate::scene::{InitialValueProblem, Outputs, Scene, System};
+use crate::scene::{InitialValueProblem, Outputs, PotentialEnergy, Scene, System};
 use crate::shipped::scene_names;
 use crate::steps::End;
 
@@ -234,7 +235,7 @@ impl System {
 
 impl InitialValueProblem {
     /// q and p at t = 0 of a document that has the problem of this one, with these names in the numbers of \[initial\]; `None` if they have
-    /// a fault.
+    /// a fault, or depend on more than the problem.
     pub(crate) fn read_state(
         &self,
         source: &Source,
@@ -247,8 +248,13 @@ impl InitialValueProblem {
         reader.known.extend(self.parameters.iter().cloned());
         reader.known.extend(names);
         let initial = reader.section(document, "initial");
+        // p = m v + A(q) in a magnetic field
+        if matches!(self.potential, PotentialEnergy::OfParts) && initial.get("v").is_some() {
+            return None;
+        }
         let state = initial::state_of(&mut reader, &initial, self);
-        reader.toml.faults.is_empty().then_some(state)
+        let is_at_start = !self.explicit_time || state.0.last().is_none_or(|t| t.value.is_zero());
+        (reader.toml.faults.is_empty() && is_at_start).then_some(state)
     }
 }
 

@@ -142,7 +142,10 @@ fn a_start_at_the_pericentre_is_no_crossing() {
             for digits in &NUMBERS[..if angle == 1 { 6 } else { 5 }] {
                 let found = times(&scene, digits, &section);
                 // the apocentre and the pericentre
-                assert!(found.len() == 2 && (found[0] - 3.14).abs() < 0.1, "{parts}, {angle}, {digits}: {found:?}");
+                assert!(
+                    found.len() == 2 && (found[0] - std::f64::consts::PI).abs() < 0.1,
+                    "{parts}, {angle}, {digits}: {found:?}"
+                );
             }
         }
     }

@@ -3,24 +3,51 @@
 use shadowstep::shadow::ensemble::{Outcome, Seen};
 use shadowstep::shadow::{BuildEstimator, FixedBilinear};
 use shadowstep::steps::integrator::{VectorIntegrator, at_output};
-use shadowstep::{Carried, Integrator as _};
+use shadowstep::{Carried, Integrator as _, Number as _};
+use shadowstep_symbolic::Exact;
 
 use super::settings::Observed;
 use crate::error::Error;
-use crate::scene::Scene;
+use crate::scene::System;
+use crate::scene::split::ShownCoordinates;
+use crate::start::{Begin, SceneIntegrator, Steps};
 
 /// The interruption is looked for after this number of steps.
 const AT_ONCE: u64 = 128;
 
-/// What becomes of the trajectory of a scene; `continues` is asked now and then.
-pub(super) fn outcome(scene: &Scene, observed: Observed, continues: &dyn Fn() -> bool) -> Result<Outcome, Error> {
-    let mut integrator = scene.integrator::<f64>(&())?;
-    let mut outcome = follow(&mut *integrator, scene.steps(), observed, continues)?;
-    if let Some(mut shown) = scene.system.shown::<f64>(&()) {
-        let (q, p) = shown.of_state(&outcome.q, &outcome.p);
-        (outcome.q, outcome.p) = (q.to_vec(), p.to_vec());
+/// A system with its stepper, for one trajectory after the other.
+pub(super) struct Alone {
+    integrator: SceneIntegrator<f64>,
+    shown: Option<ShownCoordinates<f64>>,
+}
+
+impl Alone {
+    /// For these steps.
+    pub(super) fn new(system: &System, steps: Steps<'_>) -> Result<Self, Error> {
+        let steps = Steps { begin: Begin::Step, ..steps };
+        let integrator = system.integrator(steps, system.start(&()), &())?;
+        Ok(Alone { integrator, shown: system.shown(&()) })
     }
-    Ok(outcome)
+
+    /// What becomes of the trajectory from an initial state of the system, after this number of steps; `continues` is asked now and then.
+    pub(super) fn outcome(
+        &mut self,
+        (system, steps): (&System, u64),
+        (q, p): (&[Exact], &[Exact]),
+        observed: Observed,
+        continues: &dyn Fn() -> bool,
+    ) -> Result<Outcome, Error> {
+        let numbers = |exact: &[Exact]| exact.iter().map(|x| f64::from_rational(&x.value, &())).collect();
+        let (q, p) = system.start_at((numbers(q), numbers(p)), &());
+        self.integrator.system().state_mut().set(&q, &p);
+        self.integrator.preprocess();
+        let mut outcome = follow(&mut *self.integrator, steps, observed, continues)?;
+        if let Some(shown) = &mut self.shown {
+            let (q, p) = shown.of_state(&outcome.q, &outcome.p);
+            (outcome.q, outcome.p) = (q.to_vec(), p.to_vec());
+        }
+        Ok(outcome)
+    }
 }
 
 /// A trajectory from its beginning to its end.

@@ -100,7 +100,11 @@ pub(super) fn state_of(
     };
     let values = |reader: &mut Reader<'_>, numbers: &Numbers| match &bodies {
         Some((bodies, dimensions)) => bodies.values_in_space(reader, numbers, *dimensions),
-        None => numbers.values(reader, problem.coordinates.len()),
+        // lists are as long as that with which the problem was read
+        None => {
+            let copied = numbers.count().is_some_and(|count| 2 * count == problem.coordinates_of_columns());
+            numbers.values_of_all(reader, problem.coordinates.len(), (copied, problem.explicit_time))
+        }
     };
     let masses = match &problem.kinetic {
         KineticEnergy::Masses(masses) => masses.as_deref(),

@@ -81,18 +81,9 @@ pub(super) fn of_formulas(
     if let Some(initial) = &given.initial {
         given.state.all_there(reader, initial);
     }
-    // the initial state may leave out what it determines
-    let values = |reader: &mut Reader<'_>, numbers: &Numbers| {
-        if numbers.count() == Some(coordinates.len()) {
-            return numbers.values(reader, coordinates.len());
-        }
-        let mut values = numbers.values(reader, of_coordinates)?;
-        if let Copies::Two = copies {
-            values.extend_from_within(..);
-        }
-        values.extend(explicit_time.then(explicit_time::zero));
-        Some(values)
-    };
+    let left_out = (matches!(copies, Copies::Two), explicit_time);
+    let values =
+        |reader: &mut Reader<'_>, numbers: &Numbers| numbers.values_of_all(reader, coordinates.len(), left_out);
     let masses = if let Copies::One(masses) = copies { masses } else { None };
     let (q, p) = given.state.values(reader, values, masses);
     if explicit_time {

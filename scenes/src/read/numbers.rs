@@ -5,6 +5,7 @@ use std::ops::Range;
 use shadowstep_symbolic::Exact;
 use toml::de::DeValue;
 
+use super::explicit_time;
 use super::reader::Reader;
 use shadowstep_schemes::document::{Placed, Text, Value};
 
@@ -59,6 +60,25 @@ impl Numbers {
             Numbers::List(list) => Some(list.value.len()),
             Numbers::Lists(..) | Numbers::Formula(_) => None,
         }
+    }
+
+    /// The same of a list that may leave out what it determines: the last coordinate, t = 0, where H depends on it, and the second copies of the others.
+    pub(super) fn values_of_all(
+        &self,
+        reader: &mut Reader<'_>,
+        coordinates: usize,
+        (copied, explicit_time): (bool, bool),
+    ) -> Option<Vec<Exact>> {
+        if self.count() == Some(coordinates) {
+            return self.values(reader, coordinates);
+        }
+        let without_time = coordinates - usize::from(explicit_time);
+        let mut values = self.values(reader, if copied { without_time / 2 } else { without_time })?;
+        if copied {
+            values.extend_from_within(..);
+        }
+        values.extend(explicit_time.then(explicit_time::zero));
+        Some(values)
     }
 
     /// A number for each coordinate of a system without bodies.
