@@ -3,7 +3,8 @@
 A step is a product of exponentials of kicks K and drifts D, with weights that the certificate has. It has order n for every T(p) if, for every
 Lyndon word in K and D of m <= n letters, the coefficient of the word in the product is 1/m!. This program makes the words and computes the coefficients
 with fractions only, or, where that is the same, with whole multiples of one. Weights are polynomials in roots x1, x2, ..., x_i^k = r_i, and a condition
-has to hold modulo these equations: then it holds for the roots themselves. For decimals it has to hold to within the bound that is stated; with an enclosure, there is one solution within a radius of them.
+has to hold modulo these equations: then it holds for the roots themselves. Decimals solve no condition: the order is that of the one scheme within a radius of
+them, which the enclosure proves to exist, and without it nothing is proved. Conditions of smaller classes are not enclosed: they hold to within the bound only.
 """
 
 import json
@@ -99,6 +100,8 @@ def in_product(words, factors, one, zero):
     return [values[word] for word in words]
 
 
+WIDEST = Fraction(1, 10**6)  # of a box: decimals are nearer to the scheme that they stand for
+SLACK = 1000  # a radius is at most this many times what the decimals need, and a bound this many times the radius
 UNIT = 1 << 200  # intervals are pairs of whole multiples of 1/UNIT
 
 
@@ -170,8 +173,11 @@ def check_enclosure(enclosure, maps, order):
     in_box = [value.slopes for value in values(every(box, number(middle, True, [-2] * count)), one, zero)]
     needed = [Fraction(of != "composition", factorial(len(word))) for word in words]
     at_u = [value - need for value, need in zip(values(every(u, middle), Fraction(1), Fraction(0)), needed)]
-    for i, row in enumerate(inverse):
-        residual, spread = abs(sum(y * value for y, value in zip(row, at_u))), 0
+    shifts = [[y * value for y, value in zip(row, at_u)] for row in inverse]
+    needed = max(sum(map(abs, row)) for row in shifts) or 1
+    assert radius <= min(WIDEST, SLACK * needed), "the box is wider than the decimals need"
+    for i, (row, shift) in enumerate(zip(inverse, shifts)):
+        residual, spread = abs(sum(shift)), 0
         for j in range(count):
             ends = [sorted(y * Fraction(end, UNIT) for end in slopes[j]) for y, slopes in zip(row, in_box)]
             spread += max(abs((i == j) - sum(column)) for column in zip(*ends))
@@ -202,12 +208,17 @@ def check(certificate):
     assert (ring.count == 0) == (kind != "algebraic"), "roots are for algebraic numbers"
     assert certificate["for"] == "every T(p)", "the order for every T(p) first"
     count = sum(check_claim(claim, maps, ring, kind != "decimal") for claim in [certificate, *certificate["also"]])
-    if certificate.get("enclosure"):
+    if kind == "decimal":
+        assert certificate.get("enclosure"), "decimals without an enclosure of the scheme that they stand for"
         check_enclosure(certificate["enclosure"], maps, certificate["order"])
+        bounds, radius = [Fraction(claim["bound"]) for claim in [certificate, *certificate["also"]]], Fraction(certificate["enclosure"]["radius"])
+        assert max(bounds) <= SLACK * radius, "a bound is larger than the decimals need"
     return count
 
 
 if __name__ == "__main__":
+    if not __debug__:
+        sys.exit("not proved: without assertions nothing is checked: run python3 without -O")
     for path in sys.argv[1:]:
         with open(path, encoding="utf-8") as file:
             certificate = json.load(file)
@@ -217,4 +228,8 @@ if __name__ == "__main__":
             sys.exit(f"{path}: not proved: {error}")
         also = "".join(f", {c.get('orders', c.get('order'))} for {c['for']}" for c in certificate["also"])
         facts = f"order {certificate['order']}{also}, {certificate['kind']}, {count} conditions"
-        print(f"{certificate['scheme']}: {facts}{', one solution enclosed' * bool(certificate.get('enclosure'))}")
+        if certificate["kind"] == "decimal":
+            only = "".join(f"; of {c['for']} to within {c['bound']} only" for c in certificate["also"])
+            radius = float(Fraction(certificate["enclosure"]["radius"]))
+            facts += f" to within {certificate['bound']}, one solution enclosed within {radius:.0e}{only}"
+        print(f"{certificate['scheme']}: {facts}")

@@ -14,7 +14,7 @@ use shadowstep_schemes::{Rational, to_significant};
 use shadowstep_symbolic::decimal::to_text;
 
 use crate::output::{Output, OutputArguments};
-use crate::report::Status;
+use crate::report::{self, Status};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -55,6 +55,10 @@ pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
         );
         Error::usage(message, "certificates are of schemes of kicks and drifts")
     })?;
+    if matches!((&certificate.kind, &certificate.enclosure), (Kind::Decimal(_), None)) {
+        let message = "no exact scheme is enclosed near these decimals: the certificate has only how far the conditions are off, which proves no order";
+        report::note(message);
+    }
     // what is refused writes no file
     let text = match arguments.to {
         Form::Json => serde_json::to_string(&record(&scheme.proved().scheme.table.name.value, &certificate))? + "\n",

@@ -59,7 +59,9 @@ fn every_certificate_is_verified() {
     let beside = |class: &str| lines.iter().filter(|line| line.contains(class)).count();
     assert!(beside(" for quadratic T") >= 6 && beside(" for A + εB") >= 12, "{lines:#?}");
     let kinds = |kind: &str| lines.iter().filter(|line| line.ends_with(kind)).count();
-    let enclosed = out.lines().filter(|line| line.ends_with("one solution enclosed")).count();
+    let is_enclosed =
+        |line: &&str| ["2", "3"].iter().any(|n| line.contains(&format!("one solution enclosed within 1e-{n}")));
+    let enclosed = out.lines().filter(is_enclosed).count();
     assert_eq!(enclosed, kinds("decimal"), "{out}");
     assert!(kinds("exact") >= 10 && kinds("algebraic") >= 10 && kinds("decimal") >= 40, "{lines:#?}");
 }
@@ -109,7 +111,7 @@ drift = ["xi", "chi", "1 - 2*(chi + xi)", "chi", "xi"]
     );
     fs::write(&certificate, quietly(&format!("schemes prove {table}"))).unwrap();
     let (is_accepted, out) = accepted(CHECKER, &[certificate]);
-    assert!(is_accepted && out.contains("one solution enclosed"), "{out}");
+    assert!(is_accepted && out.contains("one solution enclosed within 1e-14"), "{out}");
 }
 
 #[test]
@@ -145,9 +147,9 @@ fn wrong_certificates_are_refused() {
     refused("yoshida4", &|certificate| certificate["roots"][0]["of"][0][0] = "3".into());
     // a composition, a palindrome of maps, maps
     for name in ["yoshida6-a", "blanes-moan-s10", "mclachlan-atela4"] {
-        for radius in ["1e-290", "1/10"] {
-            let small = refused(name, &|certificate| certificate["enclosure"]["radius"] = radius.into());
-            assert!(small.contains("the box need not have a solution"), "{small}");
+        for (radius, says) in [("1e-290", "the box need not have a solution"), ("1/10", "the box is wider than")] {
+            let wrong = refused(name, &|certificate| certificate["enclosure"]["radius"] = radius.into());
+            assert!(wrong.contains(says), "{wrong}");
         }
         refused(name, &|certificate| certificate["enclosure"]["inverse"][0][0] = "1".into());
         refused(name, &|certificate| certificate["enclosure"]["weights"][0] = "1/2".into());
@@ -160,6 +162,65 @@ fn wrong_certificates_are_refused() {
         refused("ruth3", &|certificate| certificate["bound"] = "1/100000000".into())
             .contains("only decimals may be off")
     );
+}
+
+/// The decimals of a scheme stand for one that is enclosed: a bound alone is met by weights of any order.
+#[test]
+fn decimals_that_stand_for_no_scheme_are_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("falsified.json").display().to_string();
+    let moved = |certificate: &mut Value, by: bool| {
+        let (palindrome, last) = (certificate["maps"].clone(), certificate["maps"].as_array().unwrap().len() - 1);
+        let weight = palindrome[0]["weight"][0][0].as_str().unwrap();
+        // 18 digits of it, moved by less than 1e-17 or by 1e-5
+        let digits = if by { format!("{}9{}", &weight[..7], &weight[8..20]) } else { weight[..20].to_owned() };
+        let weight: Value = digits.into();
+        for place in [0, last] {
+            certificate["maps"][place]["weight"][0][0] = weight.clone();
+        }
+        if certificate["enclosure"].is_object() {
+            certificate["enclosure"]["weights"][0] = weight;
+        }
+    };
+    let unmoved = |certificate: &mut Value| drop(certificate["enclosure"]["radius"].take());
+    type Change<'a> = (&'a str, &'a dyn Fn(&mut Value));
+    let changes: [Change<'_>; 9] = [
+        ("decimals without an enclosure", &|c| drop(c["enclosure"].take())),
+        ("decimals without an enclosure", &|c| {
+            drop(c["enclosure"].take());
+            moved(c, true);
+            c["bound"] = "1/25000".into();
+        }),
+        ("the box need not have a solution", &|c| {
+            moved(c, false);
+            c["bound"] = "1e-12".into();
+        }),
+        ("the weights are not those of the maps", &|c| {
+            let kept = c["enclosure"].clone();
+            moved(c, false);
+            (c["enclosure"], c["bound"]) = (kept, "1e-12".into());
+        }),
+        ("the box is wider than the decimals need", &|c| c["enclosure"]["radius"] = "1e-100".into()),
+        ("a bound is larger than the decimals need", &|c| c["bound"] = "1e-100".into()),
+        ("the word ", &|c| c["order"] = 5.into()),
+        ("a square matrix", &|c| {
+            drop(c["enclosure"]["solved"].as_array_mut().unwrap().pop());
+            drop(c["enclosure"]["inverse"].as_array_mut().unwrap().pop());
+        }),
+        ("not proved", &unmoved),
+    ];
+    let certificate = objects(&quietly("schemes prove blanes-moan-s6")).remove(0);
+    for (says, change) in changes {
+        let mut falsified = certificate.clone();
+        change(&mut falsified);
+        fs::write(&path, falsified.to_string()).unwrap();
+        let (is_accepted, out) = accepted(CHECKER, std::slice::from_ref(&path));
+        assert!(!is_accepted && out.contains(says), "{says}: {out}");
+    }
+    // without assertions it checks nothing, and accepts nothing
+    fs::write(&path, certificate.to_string()).unwrap();
+    let output = Command::new("python3").args(["-B", "-O", CHECKER, &path]).output().expect("python3 runs");
+    assert!(!output.status.success());
 }
 
 /// The files of Lean of a scheme and of its certificate, in a folder.
