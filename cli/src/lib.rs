@@ -65,7 +65,7 @@ use std::ffi::OsString;
 use std::path::PathBuf;
 
 use clap::{CommandFactory, Parser, Subcommand};
-use shadowstep_scenes::Error;
+use shadowstep_scenes::{Error, outside};
 
 use report::Status;
 
@@ -128,6 +128,11 @@ const VERSION: &str = env!("SHADOWSTEP_VERSION");
 struct Arguments {
     #[command(subcommand)]
     command: Command,
+    /// Lets scenes name files outside of their folders
+    ///
+    /// Without it, the files that a scene or a sweep names, to read or to write, lie in its own folder or below.
+    #[arg(long, global = true, hide_short_help = true)]
+    allow_outside: bool,
 }
 
 /// All commands with their flags and help.
@@ -140,6 +145,9 @@ pub fn commands() -> clap::Command {
 pub fn main(arguments: impl IntoIterator<Item = OsString>, program: Option<PathBuf>) -> u8 {
     let arguments: Vec<OsString> = arguments.into_iter().collect();
     invocation::keep(&arguments, program, commands);
-    let command = Arguments::parse_from(arguments).command;
+    let Arguments { command, allow_outside } = Arguments::parse_from(arguments);
+    if allow_outside {
+        outside::allow_outside();
+    }
     command.execute().unwrap_or_else(|error| report::error(&error)) as u8
 }

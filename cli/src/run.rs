@@ -40,6 +40,11 @@ pub(crate) struct Arguments {
     /// Replaces a file that is not from this scene
     #[arg(long)]
     force: bool,
+    /// Prolongs a complete run and its charts
+    ///
+    /// The scene may differ in its end only, `until` or `steps`, and must have checkpoints. The rows that are there stay; its charts are drawn again.
+    #[arg(long = "continue", conflicts_with_all = ["restart", "force"])]
+    continues: bool,
     /// No summary of the run
     ///
     /// Only what the scene asks for is computed.
@@ -66,7 +71,8 @@ pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
     let steps = scene.steps();
     let interrupt = Interrupt::listen(&scene.source.path, again(&scene));
     let plot = scene.output.plot.as_ref();
-    let files = plot.map(|plot| PlotFiles::of_scene(&scene, plot, arguments.force)).transpose()?;
+    let files =
+        plot.map(|plot| PlotFiles::of_scene(&scene, plot, (arguments.force, arguments.continues))).transpose()?;
     let begin = Instant::now();
     let progress = Progress::new(scene.output.file.is_some(), scene.as_run().name(), steps);
     let mut terminal = Terminal { progress, interrupt, summarises: !arguments.no_summary, summary: None };

@@ -44,11 +44,12 @@ def command(*words: Union[str, os.PathLike[str]]) -> str:
     return done.stdout
 
 
-def sweep(path: Union[str, os.PathLike[str]], out: Union[str, os.PathLike[str]]) -> dict[str, np.ndarray]:
+def sweep(path: Union[str, os.PathLike[str]], out: Union[str, os.PathLike[str]], *, allow_outside: bool = False) -> dict[str, np.ndarray]:
     """Makes the runs of a sweep on all cores, into the folder ``out``, and gives the columns of its results.
 
-    What the folder has is not computed again; after an interruption the same call continues.
+    What the folder has is not computed again; after an interruption the same call continues. The files that the sweep names lie in its own folder
+    or below, unless ``allow_outside`` is true.
     """
-    command("sweep", path, "--out", out)
+    command("sweep", path, "--out", out, *(["--allow-outside"] if allow_outside else []))
     with open(os.path.join(os.fspath(out), "results.csv"), encoding="utf-8") as results:
         return columns_of(results.read())

@@ -42,11 +42,12 @@ class Outcome:
         return f"Outcome({rows})"
 
 
-def run(scene: Union[str, os.PathLike[str]], *, restart: bool = False, progress: bool | None = None) -> Outcome:
+def run(scene: Union[str, os.PathLike[str]], *, restart: bool = False, allow_outside: bool = False, progress: bool | None = None) -> Outcome:
     """Runs a scene: a file, or a text, which has line breaks.
 
     A scene with a ``file`` in [output] is written there under a temporary name, which it keeps until it is complete; after an interruption the same
-    call resumes it from its last checkpoint. Others give their rows.
+    call resumes it from its last checkpoint. Others give their rows. The files that the file of a scene names lie in its own folder or below, unless
+    ``allow_outside`` is true; a text can name any.
 
     Examples
     --------
@@ -66,7 +67,7 @@ def run(scene: Union[str, os.PathLike[str]], *, restart: bool = False, progress:
     path = os.fspath(scene)
     text = path if "\n" in path else None
     with bar(None, "steps", progress) as reach:
-        rows, summary, notes = _shadowstep.run_scene("scene.toml" if text else path, text, restart=restart, progress=reach)
+        rows, summary, notes = _shadowstep.run_scene("scene.toml" if text else path, text, restart=restart, allow_outside=allow_outside, progress=reach)
     for note in notes:
         warnings.warn(note, stacklevel=2)
     readable, record = summary if summary else (None, None)

@@ -7,6 +7,7 @@ use shadowstep::StepSize;
 use shadowstep::problems::PROBLEMS;
 use shadowstep::tables::Source;
 use shadowstep_scenes::arithmetic::{Arithmetic, DigitsError, MOST_DIGITS};
+use shadowstep_scenes::outside::reading_outside;
 use shadowstep_scenes::{Error, Note, System, source};
 use shadowstep_symbolic::Exact;
 
@@ -34,6 +35,7 @@ impl Given {
     /// From a scene's file.
     #[staticmethod]
     fn of_file(py: Python<'_>, path: std::path::PathBuf) -> PyResult<Self> {
+        let path = if path.as_os_str() == OF_ARGUMENTS { std::path::Path::new(".").join(path) } else { path };
         Given::of(ProblemSource::Scene(source(&path).map_err(|error| exception(py, error))?), py)
     }
 
@@ -107,11 +109,18 @@ impl Given {
     }
 }
 
+/// The path of the text that the package makes of a problem's arguments, whose paths the caller has written.
+const OF_ARGUMENTS: &str = "problem";
+
+fn read(source: &Source, arithmetic: Arithmetic) -> Result<(System, Vec<Note>), Error> {
+    Ok(reading_outside(source.path == OF_ARGUMENTS, || System::read(source, arithmetic))?)
+}
+
 impl Given {
     /// The system in a number type.
     pub(crate) fn system(&self, arithmetic: Arithmetic) -> Result<System, Error> {
         let system = match &*self.0 {
-            ProblemSource::Scene(source) => System::read(source, arithmetic)?.0,
+            ProblemSource::Scene(source) => read(source, arithmetic)?.0,
             ProblemSource::Own { forces, q, p, masses } => {
                 System::of_own_potential(Box::new(forces.clone()), (q.clone(), p.clone()), masses.clone())?
             }
@@ -123,7 +132,7 @@ impl Given {
     /// What the user should know about it.
     pub(crate) fn notes(&self, arithmetic: Arithmetic) -> Result<Vec<Note>, Error> {
         match &*self.0 {
-            ProblemSource::Scene(source) => Ok(System::read(source, arithmetic)?.1),
+            ProblemSource::Scene(source) => Ok(read(source, arithmetic)?.1),
             ProblemSource::Own { .. } => Ok(Vec::new()),
         }
     }

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use pyo3::prelude::*;
 use shadowstep::tables::Source;
 use shadowstep_scenes::ensemble::Ensemble;
+use shadowstep_scenes::outside::reading_outside;
 use shadowstep_scenes::{Error, FileOptions, Note, Observer, Outcome, Scene, Summary, source};
 
 use crate::errors::exception;
@@ -15,20 +16,25 @@ type SceneResult = (Option<String>, Option<(String, String)>, Vec<String>);
 
 /// Runs a scene, from a file or a text. One that names a file is written there, from its last checkpoint on.
 #[pyfunction]
-#[pyo3(signature = (path, text, *, restart, progress))]
+#[pyo3(signature = (path, text, *, restart, allow_outside, progress))]
 pub(crate) fn run_scene(
     py: Python<'_>,
     path: PathBuf,
     text: Option<String>,
     restart: bool,
+    allow_outside: bool,
     progress: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<SceneResult> {
     let failed = |error| exception(py, error);
+    let (is_file, path_text) = (text.is_none(), path.display().to_string());
     let source = match text {
-        Some(text) => Source { path: path.display().to_string(), text },
+        Some(text) => Source { path: path_text, text },
         None => source(&path).map_err(failed)?,
     };
-    waiting(py, progress, move |watched| run(source, restart, watched))?.map_err(failed)
+    // a text is an argument, whose paths the caller has written
+    let outside = allow_outside || !is_file;
+    let run = move |watched: &Watched| reading_outside(outside, || run(source, restart, watched));
+    waiting(py, progress, run)?.map_err(failed)
 }
 
 fn run(source: Source, restart: bool, watched: &Watched) -> Result<SceneResult, Error> {

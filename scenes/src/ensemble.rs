@@ -164,7 +164,12 @@ impl Ensemble {
     pub fn run_to_file(&self, options: FileOptions, continues: impl Fn() -> bool + Sync) -> Result<bool, Error> {
         let Some((path, _)) = &self.first.output.file else { return Err(no_file()) };
         let (identity, columns) = (Identity::of(&self.first), self.columns.sha256());
-        let origin = Origin::of(path, self.first.output.format, &[identity.scene(), &columns], identity.others());
+        let origin = Origin::of(
+            path,
+            self.first.output.format,
+            identity.scene(),
+            identity.inputs().chain([(columns.as_str(), "with different columns".to_owned())]),
+        );
         origin.check(path, options)?;
         if origin == Origin::Same && !options.restart {
             return Ok(true);

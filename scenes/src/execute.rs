@@ -8,7 +8,7 @@ use crate::engine::{self, Ended, Outcome};
 use crate::error::Error;
 use crate::note::Note;
 use crate::observer::Observer;
-use crate::results::{Begun, Checkpoint, Columns, FileOptions, Metadata, Rows, Target, records};
+use crate::results::{Begun, Checkpoint, Columns, FileOptions, Metadata, Rows, Target, prolonged, records};
 use crate::scene::{Format, Scene};
 use crate::stability::{few_kicks, resonant, unstable};
 use crate::steps::End;
@@ -22,10 +22,16 @@ impl Scene {
     /// A scene without a file, a file that is not from this scene or cannot be written, a checkpoint of another scene, a
     /// run that fails. The rows of a run that fails stay in a partial file if the scene asks for checkpoints.
     pub fn run_to_file(&self, options: FileOptions, observer: &mut dyn Observer) -> Result<Outcome, Error> {
-        match Target::open(self, options, observer)? {
+        match Target::open(self, &columns(self), options, observer)? {
             Some((target, begun)) => self.run(target, &begun, observer),
             None => Ok(Outcome::AlreadyComplete),
         }
+    }
+
+    /// The hash of the scene with an earlier end whose complete file a run of this scene goes on with, and changes only by adding rows; `None` where
+    /// there is no such file, or another.
+    pub fn prolonged_sha256(&self) -> Option<String> {
+        prolonged(self)
     }
 
     /// Runs the scene and writes its rows, whatever file it names, without checkpoints.

@@ -123,6 +123,7 @@ pub mod lock;
 pub mod modified_hamiltonian;
 mod note;
 mod observer;
+pub mod outside;
 mod pace;
 mod physical_end;
 pub mod propagator;

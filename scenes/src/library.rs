@@ -9,16 +9,19 @@ use shadowstep::problems::Problem;
 use shadowstep::tables::{self, AtRunTime, Faults, Proved, Source, TableScheme, shipped_names};
 use shadowstep::{Rational, Scheme, Stepper, shadow::exact_flow};
 use shadowstep_analysis::best_for_every_kinetic;
-use shadowstep_schemes::document::{LARGEST_TABLE, read_text};
+use shadowstep_schemes::document::{LARGEST_TABLE, document, read_text};
 use shadowstep_schemes::exact::DIGITS as TABLE_DIGITS;
 use shadowstep_schemes::{First, Map, shipped, shipped_hint};
 use shadowstep_symbolic::decimal::to_text;
 use thiserror::Error;
+use toml::de::DeTable;
 
 use crate::arithmetic::{Arithmetic, GUARD_DIGITS, MOST_VALUE_DIGITS, OTHER_SCHEME};
 use crate::error::Error;
 use crate::note::Note;
+use crate::outside::{is_allowed, path_of};
 use crate::refusal::{Refusal, Unsupported};
+use crate::whole_file::folder_of;
 
 /// The name of the exact flow in place of a scheme.
 pub const EXACT_FLOW: &str = "exact-flow";
@@ -194,15 +197,20 @@ type Fitted = (NamedScheme, Option<Note>);
 type Wanted = (String, PathBuf, Option<First>);
 
 impl Schemes {
-    /// As [`scheme_from`].
+    /// The scheme that a word of a text means, whose files are as seen from its folder.
     ///
     /// # Errors
-    /// As [`scheme`].
-    pub fn scheme_from(&self, word: &str, folder: &Path, first: Option<First>) -> Result<NamedScheme, LibraryError> {
+    /// As [`scheme`]; a file outside of the folder; a file that is no table, of which no line is shown.
+    pub fn scheme_of(&self, word: &str, text: &Source, first: Option<First>) -> Result<NamedScheme, LibraryError> {
+        let folder = text.folder();
         let known = || self.read.lock().unwrap_or_else(PoisonError::into_inner);
         let is = |wanted: &Wanted| wanted.0 == word && wanted.1 == folder && wanted.2 == first;
         if let Some((_, scheme)) = known().iter().find(|(wanted, _)| is(wanted)) {
             return Ok(scheme.clone());
+        }
+        if is_file(word) {
+            path_of(text, word).map_err(|Refusal { message, hint }| not_found(message, hint))?;
+            refuse_other(&source_from(word, folder)?)?;
         }
         let scheme = scheme_from(word, folder, first)?;
         known().push(((word.to_owned(), folder.to_owned(), first), scheme.clone()));
@@ -354,6 +362,21 @@ fn file(path: &str) -> Result<Source, LibraryError> {
     }
 }
 
+/// Refuses a file that has nothing of a table: the faults of a table show its lines.
+fn refuse_other(source: &Source) -> Result<(), LibraryError> {
+    let (document, faults) = document(source);
+    let is_table = |document: &DeTable<'_>| OF_TABLES.iter().any(|key| document.contains_key(*key));
+    if document.as_ref().is_some_and(is_table) && faults.is_empty() {
+        return Ok(());
+    }
+    let path = &source.path;
+    let what = if faults.is_empty() { "is not a table of a scheme" } else { "is not TOML" };
+    Err(not_found(format!("{path} {what}"), format!("`shadowstep schemes check {path}` shows its faults")))
+}
+
+/// Keys of which a table has one.
+const OF_TABLES: [&str; 4] = ["order", "kinetic", "composition", "stages"];
+
 fn not_found(message: impl Into<String>, hint: impl Into<String>) -> LibraryError {
     LibraryError::NotFound { message: message.into(), hint: hint.into() }
 }
@@ -362,7 +385,7 @@ fn not_found(message: impl Into<String>, hint: impl Into<String>) -> LibraryErro
 /// bases only.
 pub fn beside_or_shipped(base: &str, from: &Source) -> Option<Source> {
     shadowstep_schemes::library::beside_or_shipped(base, from, |path| {
-        let text = read_text(path, LARGEST_TABLE).ok()?;
+        let text = read_text(path, LARGEST_TABLE).ok().filter(|_| is_allowed(path, folder_of(path)))?;
         Some(Source { path: path.to_str()?.to_owned(), text })
     })
 }

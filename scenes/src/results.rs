@@ -22,4 +22,4 @@ pub(crate) use origin::Origin;
 pub(crate) use resumable::Begun;
 pub(crate) use row::{Columns, Indicators, ModifiedEnergy, Row};
 pub(crate) use rows::Rows;
-pub(crate) use target::{Target, no_file};
+pub(crate) use target::{Target, no_file, prolonged};

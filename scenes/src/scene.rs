@@ -68,8 +68,8 @@ pub struct Scene {
     pub(crate) end: OnceLock<End>,
     /// What is written, and where.
     pub output: Outputs,
-    /// The texts of other files that have states.
-    pub(crate) files: Vec<String>,
+    /// Other files that have states, with the names that the text has for them.
+    pub(crate) files: Vec<Source>,
     /// What the user should know of this scene.
     pub notes: Vec<Note>,
 }

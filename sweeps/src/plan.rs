@@ -13,6 +13,7 @@ use std::time::Duration;
 use shadowstep::tables::{Faults, Source};
 use shadowstep_scenes::cpu_time::CpuTime;
 use shadowstep_scenes::family::Family;
+use shadowstep_scenes::outside::path_within;
 use shadowstep_scenes::{Error, Scene, elementary_functions, source};
 use shadowstep_schemes::document::{Fault, Reader, document};
 use toml::de::{DeTable, DeValue};
@@ -227,8 +228,19 @@ fn separate_scene(reader: &mut Reader<'_>, root: &DeTable<'_>) -> Result<Option<
         reader.fault(&key.span(), message, "write the section in the scene, or remove `scene`");
     }
     let Some(path) = reader.text(value) else { return Ok(None) };
-    let folder = reader.source.folder();
-    match source(&folder.join(&path.value)) {
+    let found = match path_within(reader.source, &path) {
+        Ok(path) => source(&path),
+        Err(fault) => {
+            reader.faults.push(fault);
+            return Ok(None);
+        }
+    };
+    match found {
+        // of a file that is no scene, no line is shown
+        Ok(source) if !document(&source).1.is_empty() => {
+            let hint = format!("`shadowstep run {}` shows its faults", source.path);
+            Ok(reader.wrong(&path.at, format!("{} is not TOML", source.path), hint))
+        }
         Ok(source) => Ok(Some(source)),
         Err(Error::Usage { message, hint }) => Ok(reader.wrong(&path.at, message, hint)),
         Err(other) => Err(other),

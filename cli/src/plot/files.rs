@@ -39,8 +39,9 @@ impl PlotFiles {
         Ok(files)
     }
 
-    /// The files of a scene's charts; those that exist must be from this unchanged scene, or are replaced with `--force`.
-    pub(crate) fn of_scene(scene: &Scene, plot: &Plot, force: bool) -> Result<Self, Error> {
+    /// The files of a scene's charts; those that exist must be from this unchanged scene, with `--continue` from that which is
+    /// prolonged, or are replaced with `--force`.
+    pub(crate) fn of_scene(scene: &Scene, plot: &Plot, (force, continues): (bool, bool)) -> Result<Self, Error> {
         let metadata = scene.metadata();
         let hash = metadata["scene_sha256"].as_str().unwrap_or_default();
         let head = format!("<!-- shadowstep {}, scene_sha256: {hash} -->\n", env!("CARGO_PKG_VERSION"));
@@ -49,15 +50,18 @@ impl PlotFiles {
             Error::Usage { message, hint } => Faults(vec![scene.source.fault(&plot.at, message).hint(hint)]).into(),
             other => other,
         };
+        let earlier = continues.then(|| scene.prolonged_sha256()).flatten();
         for path in &files.paths {
             let is_own = |path| {
                 let text = fs::read_to_string(path).unwrap_or_default();
-                text.lines().next().is_some_and(|line| line.contains(hash))
+                text.lines().next().is_some_and(|line| {
+                    line.contains(hash) || earlier.as_ref().is_some_and(|earlier| line.contains(earlier))
+                })
             };
             if path.is_file() && !force && !is_own(path) {
                 let message = format!("{} already exists and is not from this unchanged scene", path.display());
                 let hint =
-                    "use another name, move the file, or replace it with --force, which also prolongs a complete run";
+                    "use another name, move the file, or replace it with --force; --continue prolongs a complete run";
                 return Err(at_place(Error::usage(message, hint)));
             }
             if !path.is_file() {

@@ -179,7 +179,7 @@ fn a_checkpoint_of_another_table_is_refused() {
     fs::write(folder.path().join("mine.toml"), format!("{euler}\n# a word more")).unwrap();
     let result = run(folder.path(), "");
     assert_eq!(result.code, 2);
-    assert!(result.err.contains("was made with a different table of the scheme"), "{}", result.err);
+    assert!(result.err.contains("was made with a different table "), "{}", result.err);
 }
 
 /// In double precision functions have other last bits where a C library does not use what the processor has.

@@ -6,6 +6,7 @@
 
 mod chaos;
 mod checkpoints;
+mod complete_files;
 #[cfg(feature = "mpfr")]
 mod digits;
 mod drift;
@@ -17,6 +18,7 @@ mod links;
 mod lost_energy;
 mod modified;
 mod output_files;
+mod outside;
 mod planets;
 mod plot;
 mod polish;

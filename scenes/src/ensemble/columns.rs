@@ -11,6 +11,7 @@ use toml::de::DeValue;
 use crate::error::Error;
 use crate::family::Meaning;
 use crate::keys::{ENSEMBLE, ENSEMBLE_KEYS};
+use crate::outside::path_within;
 use crate::results::sha256;
 
 /// The most bytes of a file of columns.
@@ -127,7 +128,7 @@ fn column(reader: &mut Reader<'_>, list: &Value<'_>) -> Option<Vec<Rational>> {
 
 /// A file of CSV with a line of names; its path is relative to the folder of the scene.
 fn of_file(source: &Source, file: &Text) -> Result<Columns, Error> {
-    let path = source.folder().join(&file.value);
+    let path = path_within(source, file).map_err(|fault| Faults(vec![fault]))?;
     let text = read_text(&path, LARGEST_FILE).map_err(|error| {
         let fault = source.fault(&file.at, format!("{} cannot be read: {error}", path.display()));
         Faults(vec![fault.hint("give a file of CSV with a line of names")])
@@ -137,23 +138,31 @@ fn of_file(source: &Source, file: &Text) -> Result<Columns, Error> {
     let names: Vec<String> =
         reader.headers().map_err(|error| unreadable(&shown, &error))?.iter().map(str::to_owned).collect();
     let mut rows = Vec::new();
+    if !names.iter().all(|name| is_name(name)) {
+        let hint = "write a line of names, and a row of numbers for each trajectory";
+        return Err(Error::usage(format!("{shown}:1: the first line does not have the names of columns"), hint));
+    }
     for record in reader.records() {
         rows.push(row(&shown, &names, &record.map_err(|error| unreadable(&shown, &error))?)?);
     }
-    if rows.is_empty() || names.iter().any(String::is_empty) {
+    if rows.is_empty() {
         let hint = "write a line of names, and a row of numbers for each trajectory";
         return Err(Error::usage(format!("{shown} has no trajectories"), hint));
     }
     Ok(Columns { names, rows, at: file.at.clone() })
 }
 
+/// Whether a text can stand in a scene for the values of a column.
+fn is_name(text: &str) -> bool {
+    text.starts_with(|c: char| c.is_alphabetic() || c == '_') && text.chars().all(|c| c.is_alphanumeric() || c == '_')
+}
+
 /// The numbers of a trajectory, from a line of the file.
 fn row(file: &str, names: &[String], record: &csv::StringRecord) -> Result<Vec<Rational>, Error> {
     let line = record.position().map_or(0, csv::Position::line);
     let value = |(name, cell): (&String, &str)| {
-        let message = |_| {
-            Error::usage(format!("{file}:{line}: {name} is {cell:?}, which is not a number"), "write 0.1, 1e-3 or 1/3")
-        };
+        let message =
+            |_| Error::usage(format!("{file}:{line}: the value of {name} is not a number"), "write 0.1, 1e-3 or 1/3");
         exact(cell).map_err(message)
     };
     names.iter().zip(record).map(value).collect()

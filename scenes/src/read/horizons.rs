@@ -3,7 +3,7 @@
 //! Source: <https://ssd.jpl.nasa.gov/horizons/manual.html>, "Vector table".
 
 use shadowstep::{Rational, exact};
-use shadowstep_schemes::document::{Text, read_text};
+use shadowstep_schemes::document::{Source, Text, read_text};
 
 use super::elements::Vector;
 use super::reader::Reader;
@@ -46,7 +46,7 @@ pub(super) struct LengthAndTime {
 impl HorizonsVector {
     /// The first vector of the file that a key names, relative to the folder of the scene; a fault has the line of the file.
     pub(super) fn open(reader: &mut Reader<'_>, name: &Text) -> Option<HorizonsVector> {
-        let path = reader.toml.source.folder().join(&name.value);
+        let path = reader.path(name)?;
         let text = match read_text(&path, LARGEST_FILE) {
             Ok(text) => text,
             Err(error) => {
@@ -60,7 +60,7 @@ impl HorizonsVector {
                     let target = vector.target.clone();
                     reader.notes.push(Note::ForcesLeftOut { target, forces });
                 }
-                reader.files.push(text);
+                reader.files.push(Source { path: name.value.clone(), text });
                 Some(vector)
             }
             Err((line, message)) => {

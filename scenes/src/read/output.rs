@@ -56,8 +56,7 @@ pub(super) fn read(
             reader.toml.wrong(&name.at, message, "use the ending .csv, .jsonl or .npy, or add `format = \"csv\"`")
         }),
     };
-    let folder = reader.toml.source.folder();
-    let file = file.map(|name| (folder.join(&name.value), name.at));
+    let file = file.and_then(|name| Some((reader.path(&name)?, name.at)));
     let checkpoint = checkpoint.and_then(|(_, interval)| interval);
     let format = format?;
     if format == Format::Numpy {

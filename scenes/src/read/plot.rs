@@ -33,7 +33,7 @@ pub(super) fn read(
         let message = format!("`{}` is not the name of an SVG file", file.value);
         return reader.toml.wrong(&file.at, message, "give a name such as kepler.svg");
     }
-    let path = reader.toml.source.folder().join(&file.value);
+    let path = reader.path(&file)?;
     match &outputs.file {
         None if output.get("file").is_none() => {
             let message = "a plot requires a file, from whose rows it is drawn";

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 use std::ops::{Range, RangeInclusive};
+use std::path::PathBuf;
 
 use shadowstep::Rational;
 use shadowstep_schemes::document::{self, Key, Keys, Placed, Section, Source, Text, Value};
@@ -12,6 +13,7 @@ use toml::de::DeTable;
 use crate::arithmetic::{ANY_SIZE, Arithmetic, GUARD_DIGITS, MOST_VALUE_DIGITS, NUMBER_EXAMPLES};
 use crate::keys;
 use crate::note::Note;
+use crate::outside::path_within;
 
 /// Numbers in TOML.
 const NUMBERS: &str = "1, 0.05, or in quotes \"1/10\" or \"sqrt(2)/20\"";
@@ -29,8 +31,8 @@ pub(super) struct Reader<'a> {
     budget: Budget,
     /// What the user should know.
     pub(super) notes: Vec<Note>,
-    /// The texts of other files that have states.
-    pub(super) files: Vec<String>,
+    /// Other files that have states, with the names that the text has for them.
+    pub(super) files: Vec<Source>,
 }
 
 impl<'a> Reader<'a> {
@@ -60,6 +62,11 @@ impl<'a> Reader<'a> {
         name: &'static str,
     ) -> Section<'t, 'i> {
         self.toml.table(table, value.span(), keys_of(name))
+    }
+
+    /// The path of a file that a key names, relative to the folder of the scene.
+    pub(super) fn path(&mut self, name: &Text) -> Option<PathBuf> {
+        path_within(self.toml.source, name).map_err(|fault| self.toml.faults.push(fault)).ok()
     }
 
     /// The text of a number: digits, or an expression in quotes.

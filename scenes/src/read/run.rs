@@ -112,8 +112,7 @@ fn scheme(
     system: Option<&System>,
     schemes: &Schemes,
 ) -> Option<NamedScheme> {
-    let folder = reader.toml.source.folder();
-    let named = match schemes.scheme_from(&word.value, folder, first) {
+    let named = match schemes.scheme_of(&word.value, reader.toml.source, first) {
         Ok(named) => named,
         Err(LibraryError::NotFound { message, hint }) => return reader.toml.wrong(&word.at, message, hint),
         Err(LibraryError::Faults(faults)) => {

@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::arithmetic::Numbers;
 use crate::results::functions::elementary_functions;
-use crate::results::metadata::{file_hashes, platform, sha256, table_hashes};
+use crate::results::metadata::{file_hashes, input_names, platform, sha256, table_hashes};
 use crate::saved_state::{SavedState, SavedVector};
 use crate::scene::Scene;
 use crate::tangent::VECTORS_OF_ROWS;
@@ -25,7 +25,9 @@ pub(crate) struct Identity {
     /// Those of the machine, for a run in double precision with checkpoints.
     #[serde(default)]
     functions_sha256: Option<String>,
-    /// These three follow from the scene.
+    /// What messages call the tables and the files. This and what follows comes from the scene.
+    #[serde(skip)]
+    names: Vec<String>,
     #[serde(skip)]
     steps: u64,
     #[serde(skip)]
@@ -49,6 +51,7 @@ impl Identity {
             tables_sha256: table_hashes(scene),
             files_sha256: file_hashes(scene),
             functions_sha256: functions(scene).map(str::to_owned),
+            names: input_names(scene),
             steps: scene.steps(),
             dimension,
             remainders: if scene.arithmetic.is_compensated() { dimension } else { 0 },
@@ -73,9 +76,15 @@ impl Identity {
         n.unsigned_abs() == self.steps
     }
 
-    /// Everything else, as it stands in metadata.
-    pub(crate) fn others(&self) -> impl Iterator<Item = &String> {
-        [&self.version, &self.platform].into_iter().chain(&self.tables_sha256).chain(&self.files_sha256)
+    /// Everything else, as it stands in metadata, and how a file was made in which it does not.
+    pub(crate) fn inputs(&self) -> impl Iterator<Item = (&str, String)> {
+        let program = [
+            (self.version.as_str(), "by another version of shadowstep".to_owned()),
+            (self.platform.as_str(), "on another platform".to_owned()),
+        ];
+        let hashes = self.tables_sha256.iter().chain(&self.files_sha256);
+        let files = hashes.zip(&self.names).map(|(hash, name)| (hash.as_str(), format!("with a different {name}")));
+        program.into_iter().chain(files)
     }
 
     /// The first difference of another identity, as the end of "was made with".
@@ -83,11 +92,13 @@ impl Identity {
         if self.scene_sha256 != other.scene_sha256 {
             return Some("a different text of the scene".to_owned());
         }
-        if self.tables_sha256 != other.tables_sha256 {
-            return Some("a different table of the scheme".to_owned());
+        let hashes = |identity: &Identity| [identity.tables_sha256.clone(), identity.files_sha256.clone()].concat();
+        let (own, others) = (hashes(self), hashes(other));
+        if own.len() != others.len() {
+            return Some("other files".to_owned());
         }
-        if self.files_sha256 != other.files_sha256 {
-            return Some("a different table of Horizons".to_owned());
+        if let Some(place) = (0..own.len()).find(|&place| own[place] != others[place]) {
+            return Some(format!("a different {}", self.names[place]));
         }
         if self.version != other.version {
             return Some(format!("shadowstep {}", other.version));

@@ -56,6 +56,17 @@ impl Metadata {
         Metadata(all)
     }
 
+    /// Whether an object of JSON has the same values; the scene's file may have another name meanwhile.
+    pub(crate) fn is(&self, other: &Value) -> bool {
+        let count = other.as_object().map_or(0, serde_json::Map::len);
+        let mut names: Vec<&str> = self.0.iter().map(|(name, _)| *name).collect();
+        names.sort_unstable();
+        names.dedup();
+        // of a name that stands here twice, the last value is read
+        let value = |name: &str| self.0.iter().rfind(|(own, _)| *own == name).map(|(_, value)| value);
+        count == names.len() && names.iter().all(|name| *name == "scene" || value(name) == other.get(name))
+    }
+
     /// One line for each: `digits: 120`.
     pub(crate) fn lines(&self) -> impl Iterator<Item = String> + '_ {
         self.0.iter().map(|(name, value)| match value.as_str() {
@@ -152,7 +163,19 @@ pub(crate) fn table_hashes(scene: &Scene) -> Vec<String> {
 
 /// The hashes of other files that have states.
 pub(crate) fn file_hashes(scene: &Scene) -> Vec<String> {
-    scene.files.iter().map(|text| sha256(text)).collect()
+    scene.files.iter().map(|file| sha256(&file.text)).collect()
+}
+
+/// What messages call these tables, and these files.
+pub(crate) fn input_names(scene: &Scene) -> Vec<String> {
+    let table = &scene.scheme.scheme.proved().scheme.table;
+    let tables =
+        std::iter::once(&table.source).chain(&bases(table)).map(|source| table_name(source)).collect::<Vec<_>>();
+    tables.into_iter().chain(scene.files.iter().map(|file| format!("file {}", file.path))).collect()
+}
+
+fn table_name(source: &Source) -> String {
+    format!("table {}", file_name(&source.path))
 }
 
 /// The base tables of a composition, which were found when it was read.

@@ -13,25 +13,26 @@ use crate::scene::Format;
 pub(super) const METADATA: &str = "metadata.json";
 
 /// Whose result a file is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) enum Origin {
     /// There is no file.
     None,
-    /// This scene, these tables and this version: a run would write the same bytes again.
+    /// This scene, these inputs and this version: a run would write the same bytes again.
     Same,
-    /// This scene with other tables or another version.
-    SameScene,
+    /// This scene with something else that differs, as the end of "was made".
+    SameScene(String),
     /// Something else, or a changed scene.
     Other,
 }
 
 impl Origin {
-    /// Of the file of a scene, whose text has these hashes, and which was made with these `others`.
+    /// Of the file of a scene, whose text has this hash, and which was made with these `inputs`: what stands in metadata, and what differs where
+    /// it does not.
     pub(crate) fn of<'a>(
         path: &Path,
         format: Format,
-        scene: &[&str],
-        mut others: impl Iterator<Item = &'a String>,
+        scene: &str,
+        mut inputs: impl Iterator<Item = (&'a str, String)>,
     ) -> Origin {
         let metadata = if format.has_metadata() { path.to_owned() } else { beside(path, METADATA) };
         let is_there = |path: &Path| path.symlink_metadata().is_ok();
@@ -42,19 +43,28 @@ impl Origin {
         let read = File::open(&metadata).and_then(|file| file.take(LONGEST_HEAD).read_to_end(&mut head));
         let has = |text: &str| head.windows(text.len()).any(|part| part == text.as_bytes());
         match read {
-            Ok(_) if !scene.iter().all(|hash| has(hash)) => Origin::Other,
-            Ok(_) if others.all(|text| has(text)) && is_there(path) => Origin::Same,
-            Ok(_) => Origin::SameScene,
+            Ok(_) if !has(scene) => Origin::Other,
+            Ok(_) => match inputs.find(|(text, _)| !has(text)) {
+                Some((_, differs)) => Origin::SameScene(differs),
+                None if is_there(path) => Origin::Same,
+                // the rows were removed
+                None => Origin::None,
+            },
             Err(_) => Origin::Other,
         }
     }
 
-    /// Refuses a file that is not from the scene, unless it is to be replaced.
-    pub(crate) fn check(self, path: &Path, options: FileOptions) -> Result<(), Error> {
-        if self != Origin::Other || options.force || path.is_dir() {
+    /// Refuses a file that is not from the scene and its inputs, unless it is to be replaced.
+    pub(crate) fn check(&self, path: &Path, options: FileOptions) -> Result<(), Error> {
+        let why = match self {
+            Origin::Other => "is not from this unchanged scene",
+            Origin::SameScene(differs) => &format!("was made {differs}"),
+            Origin::None | Origin::Same => return Ok(()),
+        };
+        if options.force || path.is_dir() {
             return Ok(());
         }
-        let message = format!("{} already exists and is not from this unchanged scene", path.display());
+        let message = format!("{} already exists and {why}", path.display());
         Err(Error::usage(message, "use another name, move the file, or replace it with `force`"))
     }
 }

@@ -187,6 +187,28 @@ impl Resumable {
         (hexadecimal(&hash.finalize()) == earlier.sha256).then_some(earlier)
     }
 
+    /// In what a complete file differs from its last checkpoint, as the predicate of a sentence; `None` where there is no such checkpoint. `head` is
+    /// what begins a file of this number of bytes after its head, in formats whose head is written at the end.
+    pub(crate) fn damage(
+        path: &Path,
+        identity: &Identity,
+        head: impl Fn(u64) -> Vec<u8>,
+    ) -> Result<Option<String>, Error> {
+        let last = read_text(beside(path, CHECKPOINT), LARGEST_CHECKPOINT).ok();
+        let last = last.and_then(|text| Checkpoint::read(&text, identity).ok());
+        let Some(last) = last.filter(|last| identity.is_last(last.n)) else { return Ok(None) };
+        let Ok(mut file) = File::open(path) else { return Ok(None) };
+        let length = file.metadata()?.len();
+        if length != last.bytes {
+            return Ok(Some(format!("has {length} bytes, and had {} when it was complete", last.bytes)));
+        }
+        let mut begin = vec![0; usize::try_from(last.hashed_from).unwrap_or_default()];
+        file.read_exact(&mut begin)?;
+        let is_whole = begin.is_empty() || begin == head(last.bytes - last.head);
+        let is_same = is_whole && hexadecimal(&hash_of(&mut file, &last)?.finalize()) == last.sha256;
+        Ok((!is_same).then(|| "was changed after it was complete: its bytes have another hash".to_owned()))
+    }
+
     /// The hash of the scene whose complete file a run that was stopped has begun to prolong.
     pub(crate) fn prolongs(path: &Path, identity: &Identity) -> Option<String> {
         let text = read_text(beside(path, CHECKPOINT), LARGEST_CHECKPOINT).ok()?;

@@ -1,18 +1,23 @@
 //! Where rows go: a writer of the caller, or a file that gets its name when it is complete.
 
-use std::io::{self, Write};
+use std::fs::File;
+use std::io::{self, BufReader, Write};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
+use serde_json::Value;
 use shadowstep::tables::Faults;
 use shadowstep_schemes::document::refuse_pipe;
 
 use crate::error::Error;
 use crate::observer::Observer;
 use crate::results::checkpoint::{Checkpoint, Identity};
+use crate::results::metadata::Metadata;
+use crate::results::numpy;
 use crate::results::options::FileOptions;
 use crate::results::origin::{METADATA, Origin};
 use crate::results::resumable::{Begun, CHECKPOINT, NEW_CHECKPOINT, Resumable, beside};
+use crate::results::row::Columns;
 use crate::saved_state::{SavedState, SavedVector};
 use crate::scene::Scene;
 use crate::whole_file::destination;
@@ -49,11 +54,41 @@ fn refuse_special(path: &Path) -> Result<(), Error> {
     })
 }
 
+/// What is wrong with a complete file of the scene, or with its metadata, as a sentence.
+fn damage(
+    scene: &Scene,
+    (path, origin): (&Path, &Origin),
+    identity: &Identity,
+    columns: &Columns,
+) -> Result<Option<String>, Error> {
+    let head = |bytes: u64| numpy::head(columns, bytes / numpy::length(columns));
+    if let Some(damage) = Resumable::damage(path, identity, head)? {
+        return Ok(Some(format!("{} {damage}", path.display())));
+    }
+    if scene.output.format.has_metadata() || *origin != Origin::Same {
+        return Ok(None);
+    }
+    let metadata = beside(path, METADATA);
+    let read = File::open(&metadata).map(|file| serde_json::from_reader::<_, Value>(BufReader::new(file)));
+    let same = read?.is_ok_and(|found| Metadata::of(scene).is(&found["metadata"]));
+    Ok((!same).then(|| format!("{} was changed after it was complete", metadata.display())))
+}
+
+/// The hash of the scene with an earlier end whose complete file a run of this one prolongs, or has begun to prolong.
+pub(crate) fn prolonged(scene: &Scene) -> Option<String> {
+    let (path, _) = scene.output.file.as_ref().filter(|_| scene.output.checkpoint.is_some())?;
+    let (path, identity) = (destination(path).ok()?, Identity::of(scene));
+    let earlier = Resumable::earlier_end(&path, &identity).map(|earlier| earlier.scene().to_owned());
+    let earlier = earlier.or_else(|| Resumable::prolongs(&path, &identity))?;
+    (Origin::of(&path, scene.output.format, &earlier, identity.inputs()) == Origin::Same).then_some(earlier)
+}
+
 impl<'a> Target<'a> {
     /// The file of the scene, and the checkpoint from which the run is resumed; `None` if the file is complete.
     pub(crate) fn open(
         scene: &Scene,
-        options: FileOptions,
+        columns: &Columns,
+        mut options: FileOptions,
         observer: &mut dyn Observer,
     ) -> Result<Option<(Target<'a>, Begun)>, Error> {
         let Some((path, place)) = &scene.output.file else {
@@ -69,8 +104,23 @@ impl<'a> Target<'a> {
             return Err(at_place(Error::usage("the file is the scene itself", "give it another name")));
         }
         let identity = Identity::of(scene);
-        let of_scene = |hash: &str| Origin::of(path, scene.output.format, &[hash], identity.others());
+        let of_scene = |hash: &str| Origin::of(path, scene.output.format, hash, identity.inputs());
         let origin = of_scene(identity.scene());
+        if origin != Origin::None && !options.restart && !Resumable::is_begun_again(path) {
+            match damage(scene, (path, &origin), &identity, columns).map_err(at_place)? {
+                None if origin == Origin::Same => return Ok(None),
+                None => {}
+                Some(_) if options.force => options.restart = true,
+                Some(damage) => {
+                    let again = if origin == Origin::Same {
+                        "run the scene again with `restart`"
+                    } else {
+                        "replace it with `force`"
+                    };
+                    return Err(at_place(Error::usage(damage, format!("restore it, or {again}"))));
+                }
+            }
+        }
         let saves = scene.output.checkpoint.is_some();
         let is_allowed = saves && !options.restart && origin == Origin::Other;
         let earlier = is_allowed.then(|| Resumable::earlier_end(path, &identity)).flatten();
@@ -78,9 +128,6 @@ impl<'a> Target<'a> {
         let prolongs = prolongs.or_else(|| is_allowed.then(|| Resumable::prolongs(path, &identity)).flatten());
         if prolongs.is_none_or(|earlier| of_scene(&earlier) != Origin::Same) {
             origin.check(path, options).map_err(at_place)?;
-        }
-        if origin == Origin::Same && !options.restart && !Resumable::is_begun_again(path) {
-            return Ok(None);
         }
         let opened = Resumable::open(path, identity, (saves, earlier), options, observer);
         let (file, begun) = opened.map_err(at_place)?;

@@ -58,9 +58,8 @@ fn schemes(reader: &mut Reader<'_>, root: &DeTable<'_>, family: &Family, axes: &
     let (scene, _) = shadowstep_schemes::document::document(family.source());
     let axis = scene.as_ref().and_then(|scene| scheme_axis(scene, axes));
     let Some(axis) = axis.filter(|axis| !axis.is_numeric()) else { return Ok(()) };
-    let folder = family.source().folder();
     for number in 0..axis.count() {
-        match family.schemes().scheme_from(&axis.value(number).text(), folder, None).map_err(Error::from) {
+        match family.schemes().scheme_of(&axis.value(number).text(), family.source(), None).map_err(Error::from) {
             Err(Error::Usage { message, hint }) => reader.fault(&member(root, axis, number), message, hint),
             other => drop(other?),
         }

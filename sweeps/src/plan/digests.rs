@@ -86,10 +86,9 @@ fn tables(scene: &DeTable<'_>, family: &Family, axes: &Axes) -> Result<String, E
         (None, Some(word)) => vec![word.to_owned()],
         (None, None) => Vec::new(),
     };
-    let folder = family.source().folder();
     let mut identities = Vec::new();
     for word in words {
-        identities.push(family.schemes().scheme_from(&word, folder, None)?.identity());
+        identities.push(family.schemes().scheme_of(&word, family.source(), None)?.identity());
     }
     Ok(identities.join("\n"))
 }

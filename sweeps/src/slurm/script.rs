@@ -5,6 +5,7 @@ use std::fs;
 use std::io::{self, Write as _};
 use std::path::{Path, PathBuf};
 
+use shadowstep_scenes::outside::is_outside_allowed;
 use shadowstep_scenes::{Error, not_written, shell_word};
 use tempfile::NamedTempFile;
 
@@ -205,7 +206,11 @@ fn array_text(command: &SweepCommand, resources: &Resources) -> String {
     let _ = writeln!(text, "#SBATCH --output={}", log(folder, "%A_%a.log"));
     text += "\nexport RAYON_NUM_THREADS=\"${SLURM_CPUS_PER_TASK:-1}\"\n";
     let (program, sweep, folder) = (shell_word(program), shell_word(sweep), shell_word(folder));
-    let _ = writeln!(text, "exec {program} sweep {sweep} --out {folder} --chunk \"$SLURM_ARRAY_TASK_ID/{chunks}\"");
+    let outside = if is_outside_allowed() { " --allow-outside" } else { "" };
+    let _ = writeln!(
+        text,
+        "exec {program} sweep {sweep} --out {folder} --chunk \"$SLURM_ARRAY_TASK_ID/{chunks}\"{outside}"
+    );
     text
 }
 

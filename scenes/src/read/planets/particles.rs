@@ -1,5 +1,6 @@
 //! `particles` in [problem]: bodies of mass 0, a line each of a file of CSV.
 
+use shadowstep::tables::Source;
 use shadowstep_schemes::document::{Placed, Text, read_text};
 
 use super::body::{ANGLES_AND_SHAPE, GivenBody};
@@ -18,7 +19,7 @@ const HELP: &str = "the first line has the names of the columns: x, y, z, vx, vy
 
 /// The particles of a file of this name, its path relative to the folder of the scene; its faults are reported.
 pub(super) fn of_file(reader: &mut Reader<'_>, name: &Text) -> Option<Vec<GivenBody>> {
-    let path = reader.toml.source.folder().join(&name.value);
+    let path = reader.path(name)?;
     let shown = path.display().to_string();
     let text = match read_text(&path, LARGEST_FILE) {
         Ok(text) => text,
@@ -27,7 +28,7 @@ pub(super) fn of_file(reader: &mut Reader<'_>, name: &Text) -> Option<Vec<GivenB
     match read(&text, name) {
         Ok(mut bodies) => {
             bodies.iter_mut().for_each(|body| body.line.iter_mut().for_each(|line| *line = format!("{shown}:{line}")));
-            reader.files.push(text);
+            reader.files.push(Source { path: name.value.clone(), text });
             Some(bodies)
         }
         Err((line, message)) => reader.toml.wrong(&name.at, format!("{shown}:{line}: {message}"), HELP),
@@ -45,8 +46,14 @@ fn read(text: &str, file: &Text) -> Result<Vec<GivenBody>, (u64, String)> {
     };
     let names: Vec<String> = reader.headers().map_err(unreadable)?.iter().map(str::to_owned).collect();
     let known = || COORDINATES.iter().flatten().chain(&ANGLES_AND_SHAPE).chain(&["a", "name"]);
+    // of a file that is no table of particles, no line is shown
+    if !names.iter().any(|name| known().any(|known| known == name)) {
+        return Err((1, "the first line does not have the names of columns of particles".to_owned()));
+    }
     if let Some(unknown) = names.iter().find(|name| !known().any(|known| known == name)) {
-        return Err((1, format!("`{unknown}` is not a column of particles")));
+        let is_word = unknown.chars().all(|c| c.is_alphanumeric() || "_-. ".contains(c));
+        let shown = if is_word { format!("`{unknown}`") } else { "a text that is no name".to_owned() };
+        return Err((1, format!("{shown} is not a column of particles")));
     }
     let mut bodies = Vec::new();
     for record in reader.records() {
