@@ -8,7 +8,9 @@ use crate::engine::{self, Ended, Outcome};
 use crate::error::Error;
 use crate::note::Note;
 use crate::observer::Observer;
-use crate::results::{Begun, Checkpoint, Columns, FileOptions, Metadata, Rows, Target, prolonged, records};
+use crate::results::{
+    Begun, Checkpoint, Columns, FileOptions, Metadata, Rows, Target, file_hashes, prolonged, records,
+};
 use crate::scene::{Format, Scene};
 use crate::stability::{few_kicks, resonant, unstable};
 use crate::steps::End;
@@ -26,6 +28,11 @@ impl Scene {
             Some((target, begun)) => self.run(target, &begun, observer),
             None => Ok(Outcome::AlreadyComplete),
         }
+    }
+
+    /// The hashes of other files than tables of schemes that the scene has read: of particles, of Horizons.
+    pub fn file_hashes(&self) -> Vec<String> {
+        file_hashes(self)
     }
 
     /// The hash of the scene with an earlier end whose complete file a run of this scene goes on with, and changes only by adding rows; `None` where

@@ -13,9 +13,9 @@ mod target;
 
 pub(crate) use checkpoint::{Checkpoint, Identity};
 pub use functions::elementary_functions;
-pub(crate) use metadata::Metadata;
 pub use metadata::hexadecimal;
 pub(crate) use metadata::sha256;
+pub(crate) use metadata::{Metadata, file_hashes};
 pub(crate) use numpy::records;
 pub use options::FileOptions;
 pub(crate) use origin::Origin;

@@ -152,7 +152,7 @@ impl Manifest {
             return Err("it is of another sweep".to_owned());
         }
         if header.digests.tables != self.digests.tables {
-            return Err("it was made with other tables of schemes".to_owned());
+            return Err("it was made with other tables of schemes, or other files of particles or bodies".to_owned());
         }
         Ok(())
     }
@@ -165,7 +165,7 @@ impl Manifest {
         } else if self.digests.sweep != own.digests.sweep {
             Some(format!("{shown} is of another sweep, or of this one before it was changed"))
         } else if self.digests.tables != own.digests.tables {
-            Some(format!("{shown} was made with other tables of schemes"))
+            Some(format!("{shown} was made with other tables of schemes, or other files of particles or bodies"))
         } else {
             None
         };

@@ -117,7 +117,7 @@ impl SweepPlan {
         refuse(std::mem::take(&mut reader.faults))?;
         let picture = picture.resolve(&mut reader, &axes, &columns);
         refuse(reader.faults)?;
-        let digests = digests::of(&document, &family, &axes)?;
+        let digests = digests::of(&document, (&family, &first), &axes)?;
         let long_numbers = first.arithmetic.is_longer_than_double() || axes.find("digits").is_some();
         Ok(SweepPlan { family, axes, keep, columns, picture, long_numbers, digests, source: source.clone() })
     }

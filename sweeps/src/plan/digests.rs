@@ -5,7 +5,7 @@ use std::fmt::Write;
 use sha2::{Digest, Sha256};
 use shadowstep::tables::Faults;
 use shadowstep_scenes::family::Family;
-use shadowstep_scenes::{Error, hexadecimal};
+use shadowstep_scenes::{Error, Scene, hexadecimal};
 use shadowstep_schemes::document::document;
 use toml::de::{DeTable, DeValue};
 
@@ -17,12 +17,12 @@ use crate::axis::Axis;
 pub struct Digests {
     /// Of the scene, the axes and what is kept; comments and the picture are left out.
     pub sweep: String,
-    /// Of the weights of all schemes.
+    /// Of the weights of all schemes, and of other files that the scene reads.
     pub tables: String,
 }
 
-/// Of a sweep's document, of its scene and of the tables of its schemes.
-pub(super) fn of(sweep: &DeTable<'_>, family: &Family, axes: &Axes) -> Result<Digests, Error> {
+/// Of a sweep's document, of its scene, of which `first` is one, and of the tables of its schemes.
+pub(super) fn of(sweep: &DeTable<'_>, (family, first): (&Family, &Scene), axes: &Axes) -> Result<Digests, Error> {
     let (scene, faults) = document(family.source());
     let Some(scene) = scene else { return Err(Faults(faults).into()) };
     let mut text = String::new();
@@ -39,7 +39,8 @@ pub(super) fn of(sweep: &DeTable<'_>, family: &Family, axes: &Axes) -> Result<Di
         }
         text.push(';');
     }
-    Ok(Digests { sweep: hash(&text), tables: hash(&tables(&scene, family, axes)?) })
+    let inputs = [tables(&scene, family, axes)?].into_iter().chain(first.file_hashes()).collect::<Vec<_>>();
+    Ok(Digests { sweep: hash(&text), tables: hash(&inputs.join("\n")) })
 }
 
 /// The hash of a text in hexadecimal digits.

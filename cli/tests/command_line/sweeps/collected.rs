@@ -344,3 +344,21 @@ fn exact_values_are_texts_with_doubles_beside_them() {
         assert_eq!(row["steps"], (3.0 / h).ceil().to_string(), "{row:?}");
     }
 }
+
+/// A file of particles that was edited: what is there was made with another one.
+#[test]
+fn another_file_of_particles_is_another_sweep() {
+    let sweep = "[problem]\nparameters.g = 40\nparticles = \"p.csv\"\n[[body]]\nname = \"sun\"\nmass = 1\n[[body]]\nname = \"jupiter\"\n\
+                 mass = 0.001\na = 5\n[run]\nscheme = \"saba4\"\nstep = \"h\"\nsteps = 20\ndigits = \"double\"\n[axes]\n\
+                 h = [\"1/20\", \"1/40\"]\n[keep]\nvalues = [\"energy_error\"]\nstate = true\n";
+    let folder = folder(sweep);
+    fs::write(folder.path().join("p.csv"), "a,e\n3,0.1\n").unwrap();
+    assert_eq!(run(folder.path(), "sweep sweep.toml --out out").code, 0);
+    let wanted = fs::read(folder.path().join("out/results.csv")).unwrap();
+    fs::write(folder.path().join("p.csv"), "a,e\n4,0.1\n").unwrap();
+    let result = run(folder.path(), "sweep sweep.toml --out out");
+    assert!(result.code == 2 && result.err.contains("other files of particles or bodies"), "{}", result.err);
+    assert_eq!(fs::read(folder.path().join("out/results.csv")).unwrap(), wanted);
+    assert_eq!(run(folder.path(), "sweep sweep.toml --out out --force").code, 0);
+    assert_ne!(fs::read(folder.path().join("out/results.csv")).unwrap(), wanted);
+}
