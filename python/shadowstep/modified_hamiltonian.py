@@ -18,14 +18,15 @@ from .scheme import Scheme, table_of
 class ModifiedHamiltonian:
     """H + h H_2 + h² H_3 + … up to a power of h: formulas, and their values."""
 
-    def __init__(self, problem: Problem, hamiltonian: str, terms: dict[int, str], function: str) -> None:
+    def __init__(self, problem: Problem, hamiltonian: str, terms: dict[int, str], function: str, arguments: list[str]) -> None:
         self._problem = problem
         self.hamiltonian = hamiltonian
         """H"""
         self.terms = terms
         """The formulas of H_(n+1) by the power n of h; those that are 0 are left out."""
         self.function = function
-        """A function of Python, ``modified_hamiltonian(h, x, …, px, …)``, as text."""
+        """A function of Python, ``modified_hamiltonian(h, x, …, px, …)``, as text. A name that it cannot have has ``_`` appended."""
+        self._arguments = arguments
 
     def __call__(self, q: npt.ArrayLike, p: npt.ArrayLike, h: Number, t: npt.ArrayLike | None = None) -> npt.NDArray[np.float64]:
         """Its values in double precision.
@@ -43,13 +44,12 @@ class ModifiedHamiltonian:
         values: dict[str, Any] = {name: _number(value, name) for name, value in self._problem._given.parameters}
         for names, columns in ((self._problem.coordinates, q), (self._problem.momenta, p)):
             values.update(zip(names, np.moveaxis(np.asarray(columns, dtype=np.float64), -1, 0)))
-        if t is not None:
+        if t is not None and all(name != "t" for name, _ in self._problem._given.parameters):
             values["t"] = np.asarray(t, dtype=np.float64)
-        names = function.__code__.co_varnames[1 : function.__code__.co_argcount]
-        for name in names:
+        for name in self._arguments:
             if name not in values:
                 raise InputError(f"{name} is missing: H depends on it; give t, or positions and momenta of all coordinates")
-        return np.asarray(function(_number(h, "h"), *(values[name] for name in names)))
+        return np.asarray(function(_number(h, "h"), *(values[name] for name in self._arguments)))
 
     @cached_property
     def _compiled(self) -> Any:
@@ -100,10 +100,10 @@ def modified_hamiltonian(
     True
     """
     made = problem_of(problem)
-    hamiltonian, terms, function = modified_formulas(
+    hamiltonian, terms, function, arguments = modified_formulas(
         made._given, table_of(scheme), count(grade, "grade", most=10), notation, count(digits, "digits", most=300)
     )
-    return ModifiedHamiltonian(made, hamiltonian, dict(terms), function)
+    return ModifiedHamiltonian(made, hamiltonian, dict(terms), function, arguments)
 
 
 def _number(value: Number, what: str) -> float:

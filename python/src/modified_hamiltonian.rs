@@ -28,10 +28,10 @@ pub(crate) fn modified_series(
     Ok(series.terms.into_iter().map(|term| (term.power, term.bracket, term.coefficient)).collect())
 }
 
-/// H, the terms, a function.
-type Texts = (String, Vec<(u32, String)>, String);
+/// H, the terms, a function, its arguments besides h as the system names them.
+type Texts = (String, Vec<(u32, String)>, String, Vec<String>);
 
-/// H, the terms with their powers of h, and a function of them in Python.
+/// H, the terms with their powers of h, and a function of them in Python with its arguments.
 #[pyfunction]
 pub(crate) fn modified_formulas(
     py: Python<'_>,
@@ -59,10 +59,11 @@ pub(crate) fn modified_formulas(
         let in_numpy = formulas.written(Notation::NumPy, 17)?;
         let function = in_numpy.function(&in_numpy.title(), Notation::NumPy);
         let formulas = formulas.written(notation, digits)?;
-        Ok((formulas, function))
+        let arguments = in_numpy.names.into_iter().map(|(name, _)| name).collect();
+        Ok((formulas, function, arguments))
     })?;
-    let (formulas, function) =
+    let (formulas, function, arguments) =
         found.map_err(|refusal: shadowstep_scenes::Refusal| exception(py, Error::from(refusal)))?;
     let terms = formulas.terms.into_iter().map(|term| (term.power, term.formula)).collect();
-    Ok((formulas.hamiltonian, terms, function))
+    Ok((formulas.hamiltonian, terms, function, arguments))
 }

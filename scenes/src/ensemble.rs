@@ -137,6 +137,7 @@ impl Ensemble {
     fn of(source: Source, columns: Columns) -> Result<Ensemble, Error> {
         let family = Family::new(source, &[ENSEMBLE.name]);
         let first = family.scene(&columns.values(0)).map_err(|faults| columns.with_trajectory(faults, 0))?;
+        columns.refuse_repeated(family.source(), first.system.columns())?;
         let observed = settings(family.source(), &first)?;
         let differing = Differing::of(&family.parsed()?, &columns, &first.system);
         Ok(Ensemble { family, columns, first, observed, differing })
@@ -364,6 +365,18 @@ mod tests {
         for step in ["e/10", "eccentricity/20"] {
             let found = refusal(kepler, &format!("step = \"{step}\""));
             assert!(found.contains("trajectory 1 has another step size"), "{found}");
+        }
+    }
+
+    #[test]
+    fn two_columns_of_rows_have_different_names() {
+        for (names, twice) in [("energy_error", "energy_error"), ("e = [1, 2], not_finite", "not_finite")] {
+            let text = format!(
+                "problem.name = \"kepler\"\n[run]\nscheme = \"yoshida4\"\nstep = \"1/100\"\nsteps = 3\ndigits = \"double\"\n\
+                 [output]\nenergy = true\n[ensemble]\ncolumns = {{ {names} = [1, 2] }}"
+            );
+            let found = Ensemble::read(Source { path: "test.toml".to_owned(), text }).unwrap_err().to_string();
+            assert!(found.contains(&format!("test.toml:10:11: two columns would be named `{twice}`")), "{found}");
         }
     }
 

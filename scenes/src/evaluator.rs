@@ -17,6 +17,7 @@ use crate::lanes::LANES;
 use crate::quantity::{Compute, Quantity};
 use crate::quantity_of_bodies::QuantityOfBodies;
 use crate::refusal::Refusal;
+use crate::reserved_names::QUANTITIES;
 use crate::scene::split::ShownCoordinates;
 use crate::scene::{Direction, EnergyAt, Surface, System};
 
@@ -73,6 +74,10 @@ impl System {
             true => expression.text.place(range),
             false => expression.text.at.clone(),
         };
+        if let Some(Refusal { message, hint }) = self.two_meanings(expression) {
+            reader.fault(&expression.text.at, message, hint);
+            return;
+        }
         let Err(error) = Evaluator::<f64>::new(expression, self, &()) else { return };
         let (message, hint, range) = match error {
             NotOfSystem::Quantity { no: Refusal { message, hint }, range } => (message, hint, range),
@@ -93,6 +98,26 @@ impl System {
             }
         };
         reader.fault(&place(&range), message, hint);
+    }
+
+    /// A name of the formula that could be read in two ways.
+    fn two_meanings(&self, expression: &Expression) -> Option<Refusal> {
+        let quantities = QUANTITIES.iter().filter(|(name, _)| *name != TIME || !self.explicit_time);
+        let of = |names: &[String], what| names.iter().map(move |name| (name.clone(), what)).collect::<Vec<_>>();
+        let parameters: Vec<_> = self.parameters.iter().map(|(name, _)| name.clone()).collect();
+        let all = [
+            of(&self.coordinates, "the coordinate"),
+            of(&self.momenta, "the momentum"),
+            of(&parameters, "the parameter"),
+        ];
+        let all = all.concat().into_iter().chain(quantities.map(|(name, what)| ((*name).to_owned(), *what)));
+        let all: Vec<_> = all.collect();
+        expression.names.iter().find_map(|name| {
+            let meanings: Vec<_> = all.iter().filter(|(own, _)| own == name).map(|(_, what)| *what).collect();
+            let [one, other, ..] = meanings[..] else { return None };
+            let message = format!("`{name}` could be {one} or {other} here");
+            Some(Refusal::new(message, format!("give {one} another name")))
+        })
     }
 }
 

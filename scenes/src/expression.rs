@@ -4,7 +4,7 @@ use std::cmp::Ordering;
 use std::sync::Arc;
 
 use shadowstep_schemes::document::{Reader, Text, Value};
-use shadowstep_symbolic::{Expression as Syntax, Graph, Node, parse};
+use shadowstep_symbolic::{Expression as Syntax, ExpressionKind, Graph, Node, parse};
 use toml::de::DeValue;
 
 use crate::quantity::Quantity;
@@ -22,6 +22,8 @@ pub struct Expression {
     pub(crate) quantities: Vec<Quantity>,
     /// What is written.
     pub(crate) text: Text,
+    /// The names in it as it is written, those of bodies in the calls of quantities excepted.
+    pub(crate) names: Vec<String>,
     pub(crate) has_time: bool,
     pub(crate) has_energy: bool,
     has_functions: bool,
@@ -61,14 +63,16 @@ impl Expression {
     }
 
     fn with(formula: &str, text: Text) -> Expression {
-        let quantities = parse(formula).map_or(Vec::new(), |syntax| Quantity::all(formula, &syntax));
+        let written = parse(formula).ok();
+        let quantities = written.as_ref().map_or(Vec::new(), |syntax| Quantity::all(formula, syntax));
+        let names = written.map_or(Vec::new(), |syntax| names(&syntax, &quantities));
         let formula = with_names(formula, &quantities);
-        let syntax = parse(&formula).ok();
-        let has = |name| syntax.as_ref().is_some_and(|syntax| syntax.mentions(name));
-        let has_functions = syntax.as_ref().is_none_or(Syntax::has_functions);
+        let has_functions = parse(&formula).ok().as_ref().is_none_or(Syntax::has_functions);
+        let has = |name: &str| names.iter().any(|own| own == name);
         Expression {
             has_time: has(TIME),
             has_energy: has(ENERGY),
+            names,
             has_functions,
             quantities,
             formula,
@@ -82,6 +86,7 @@ impl Expression {
         Expression {
             formula: text.value.clone(),
             quantities: Vec::new(),
+            names: Vec::new(),
             text,
             has_time: false,
             has_energy: true,
@@ -117,6 +122,17 @@ pub fn named(reader: &mut Reader<'_>, value: &Value<'_>, is_name: impl Fn(&str) 
 /// The name that stands for a quantity in a formula: that of no coordinate.
 pub(crate) fn name_of_quantity(number: usize) -> String {
     format!("__{number}")
+}
+
+/// The names of a formula that are no arguments of its quantities.
+fn names(syntax: &Syntax, quantities: &[Quantity]) -> Vec<String> {
+    let is_argument = |part: &Syntax| quantities.iter().any(|own| own.has_arguments_at(&part.range));
+    let mut found = Vec::new();
+    syntax.visit(&mut |part| match &part.kind {
+        ExpressionKind::Name(name) if !is_argument(part) => found.push(name.clone()),
+        _ => {}
+    });
+    found
 }
 
 /// The formula with a name in the place of each quantity, as long as the quantity, so that all others stay in their places.

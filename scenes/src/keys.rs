@@ -156,7 +156,8 @@ pub(crate) const KEYS: [Key; 91] = [
         "problem",
         "parameters",
         "Names and values, for formulas or of the shipped problem. Each can use those before it. Masses, initial state, \
-         step and times can use all of them.",
+         step and times can use all of them. None may have the name of something else in a formula of [output] or `end` that contains it, \
+         such as E, the energy.",
         "{ depth = 2, width = \"depth/3\" }",
         Some("those of the shipped problem; otherwise none"),
     ),

@@ -78,6 +78,7 @@
 //! | `whole_file`, [`lock`], `temporary` | files that get their names when they are complete, that one process has alone, and that are removed if the program ends early |
 //! | [`arithmetic`] | number types and their digits |
 //! | [`expression`], [`evaluator`] | formulas in the numbers of a state, and conditions on them |
+//! | [`reserved_names`] | names with a meaning of their own: in such formulas, as columns, in emitted code |
 //! | [`library`] | schemes by their names: shipped ones and files |
 //! | [`scheme_record`] | everything that is known about a scheme |
 //! | [`sampling`] | schemes for Hamiltonian Monte Carlo on a Gaussian target, as records |
@@ -133,6 +134,7 @@ mod read;
 pub mod readable;
 mod refusal;
 mod results;
+pub mod reserved_names;
 pub mod run;
 mod run_number;
 pub mod sampling;

@@ -288,17 +288,23 @@ impl SymbolicHamiltonian {
         if self.graph.written_size(expanded) <= self.graph.written_size(formula) { expanded } else { formula }
     }
 
-    /// A formula as text; numbers that are no short fractions have this number of significant digits.
+    /// A formula as text with these names of coordinates and parameters; numbers that are no short fractions have this number of significant digits.
     ///
     /// # Errors
     /// A formula that is too long.
-    pub(crate) fn text(&self, formula: Node, notation: Notation, digits: usize) -> Result<String, Refusal> {
+    pub(crate) fn text(
+        &self,
+        formula: Node,
+        notation: Notation,
+        names: (&[String], &[String]),
+        digits: usize,
+    ) -> Result<String, Refusal> {
         let size = self.graph.written_size(formula);
         if size > LONGEST {
             let message = format!("the formula has {size} symbols, more than {LONGEST}");
             return Err(Refusal::new(message, "ask for a lower grade"));
         }
-        Ok(self.graph.text(formula, notation, (&self.coordinates, &self.parameters), digits))
+        Ok(self.graph.text(formula, notation, names, digits))
     }
 
     /// H
@@ -307,10 +313,31 @@ impl SymbolicHamiltonian {
         self.graph.sum(&parts)
     }
 
-    /// The names of coordinates and momenta, and of the parameters in some formulas.
-    pub(crate) fn names_in(&self, formulas: &[Node]) -> Vec<&str> {
-        let parameters = self.graph.parameters(formulas).into_iter().map(|index| &self.parameters[index]);
-        self.coordinates.iter().chain(parameters).map(String::as_str).collect()
+    /// The names of coordinates and momenta, and of all parameters.
+    ///
+    /// # Errors
+    /// A name that both t or its momentum and something of the problem have.
+    pub(crate) fn names(&self) -> Result<Vec<String>, Refusal> {
+        let names = [&self.coordinates[..], &self.parameters].concat();
+        let is_twice = |name: &&str| names.iter().filter(|own| own == name).count() > 1;
+        match [TIME, MOMENTUM_OF_TIME].into_iter().find(is_twice) {
+            Some(name) => {
+                let message = format!("`{name}` is of transformed time, and of the problem");
+                Err(Refusal::new(message, format!("give the coordinate, momentum or parameter `{name}` another name")))
+            }
+            None => Ok(names),
+        }
+    }
+
+    /// The places of coordinates and momenta, and of the parameters in some formulas, among all names.
+    pub(crate) fn places_in(&self, formulas: &[Node]) -> Vec<usize> {
+        let count = self.coordinates.len();
+        (0..count).chain(self.graph.parameters(formulas).into_iter().map(|index| count + index)).collect()
+    }
+
+    /// Coordinates with momenta: how many.
+    pub(crate) fn dimension(&self) -> usize {
+        self.coordinates.len()
     }
 }
 

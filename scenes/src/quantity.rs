@@ -57,6 +57,11 @@ pub(crate) enum Function {
 pub(crate) type Compute<N> = Box<dyn FnMut(&[N], &[N]) -> N>;
 
 impl Quantity {
+    /// Whether bytes of the formula are within its arguments.
+    pub(crate) fn has_arguments_at(&self, range: &Range<usize>) -> bool {
+        !self.arguments.is_empty() && self.range.start < range.start && range.end <= self.range.end
+    }
+
     /// The quantities in a formula, in the order of the text.
     pub(crate) fn all(formula: &str, syntax: &Syntax) -> Vec<Quantity> {
         let mut found: Vec<Quantity> = Vec::new();

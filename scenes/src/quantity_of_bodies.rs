@@ -159,8 +159,12 @@ impl QuantityOfBodies {
             (Some(element), [body, centre]) => {
                 let (body, is_body) = (number(body)?, bodies.names.contains(centre));
                 let centre: Vec<usize> = match centre.as_str() {
-                    JACOBI if !is_body => (0..body).collect(),
-                    BARYCENTRE if !is_body => (0..bodies.names.len()).collect(),
+                    JACOBI | BARYCENTRE if is_body => {
+                        let message = format!("`{centre}` could be the body or the centre of mass of this name here");
+                        return refuse(message, "give the body another name");
+                    }
+                    JACOBI => (0..body).collect(),
+                    BARYCENTRE => (0..bodies.names.len()).collect(),
                     _ => vec![number(centre)?],
                 };
                 ElementOfBody::new(system, &bodies, (element, body), &centre)

@@ -1,19 +1,27 @@
 //! Numbers and texts for people; machines get every digit.
 
 use shadowstep::Rational;
-use shadowstep_symbolic::decimal::{to_significant, to_text};
+use shadowstep_symbolic::decimal::{round_significant, to_significant, to_text};
 
-/// The exact text of a number, or `digits` significant digits and `…` where it is longer.
+/// The most digits of a number in a message.
+pub const LONGEST_NUMBER: usize = 20;
+
+/// The exact text of a number, or `digits` significant digits, and `…` where it has more.
 ///
 /// ```
 /// use shadowstep_scenes::readable::shortened;
 ///
 /// assert_eq!(shortened(&shadowstep::exact("1/10").unwrap(), 4), "1/10");
 /// assert_eq!(shortened(&shadowstep::exact("123456789/1001").unwrap(), 4), "123300…");
+/// assert_eq!(shortened(&shadowstep::exact("1e300").unwrap(), 20), "1e300");
 /// ```
 pub fn shortened(value: &Rational, digits: usize) -> String {
     let exact = to_text(value);
-    if exact.len() <= digits + 2 { exact } else { format!("{}…", to_significant(value, digits)) }
+    if exact.len() <= digits + 2 {
+        return exact;
+    }
+    let is_all = round_significant(value, digits as u32) == *value;
+    to_significant(value, digits) + if is_all { "" } else { "…" }
 }
 
 /// A number of digits in words: `1 digit`, `120 digits`.

@@ -13,7 +13,6 @@ mod problem;
 pub(crate) mod split;
 mod system;
 
-pub(crate) use format::COLUMNS;
 pub use format::Format;
 pub use formula::Formula;
 pub use number::{SceneNumber, SystemIn};

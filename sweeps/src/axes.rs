@@ -1,6 +1,8 @@
 //! All axes: the number of runs, and the values of each run from its number.
 
 use shadowstep_scenes::family::Meaning;
+use shadowstep_scenes::readable::{LONGEST_NUMBER, shortened};
+use shadowstep_scenes::reserved_names::QUANTITIES;
 use shadowstep_schemes::document::{Reader, Text};
 use toml::de::{DeTable, DeValue};
 
@@ -88,7 +90,11 @@ impl Axes {
     /// The values of a run for messages: `h = 1/10, e = 0`.
     pub fn described(&self, run: u64) -> String {
         let values = self.values(run);
-        values.iter().map(|(name, value)| format!("{name} = {}", value.text())).collect::<Vec<_>>().join(", ")
+        let short = |value: &Meaning| match value {
+            Meaning::Number(number) => shortened(number, LONGEST_NUMBER),
+            Meaning::Word(word) => word.clone(),
+        };
+        values.iter().map(|(name, value)| format!("{name} = {}", short(value))).collect::<Vec<_>>().join(", ")
     }
 }
 
@@ -99,15 +105,17 @@ fn axis(reader: &mut Reader<'_>, name: &Text, value: &shadowstep_schemes::docume
     if !is_name || word == "pi" {
         let hint = "a name consists of letters, digits and _, and begins with a letter";
         reader.fault(&name.at, format!("`{word}` is not a name of an axis"), hint);
-    } else if RESERVED.contains(&word.as_str()) {
-        let hint = format!("give it another name; reserved are {}", RESERVED.join(", "));
+    } else if reserved().any(|name| name == word) {
+        let hint = format!("give it another name; reserved are {}", reserved().collect::<Vec<_>>().join(", "));
         reader.fault(&name.at, format!("an axis cannot be named `{word}`"), hint);
     }
     Axis::read(reader, name, value)
 }
 
-/// Names of columns, and of the time and the energy in expressions.
-const RESERVED: [&str; 4] = ["run", "failure", "t", "E"];
+/// Names of columns, and of quantities in expressions.
+fn reserved() -> impl Iterator<Item = &'static str> {
+    ["run", "failure"].into_iter().chain(QUANTITIES.iter().map(|(name, _)| *name))
+}
 
 /// The most axes.
 const MOST_AXES: usize = 100;

@@ -18,6 +18,18 @@ use crate::results::sha256;
 const LARGEST_FILE: u64 = 1 << 30;
 
 /// Values of some names in each trajectory.
+/// The other columns of the rows, besides those of a state.
+const BESIDE: [&str; 8] = [
+    "trajectory",
+    "energy_error",
+    "energy_start",
+    "energy_end",
+    "modified_drift",
+    "modified_start",
+    "modified_end",
+    "not_finite",
+];
+
 #[derive(Debug)]
 pub(super) struct Columns {
     pub(super) names: Vec<String>,
@@ -58,6 +70,23 @@ impl Columns {
     }
 
     /// A hash of the names and values, which may be in another file than the scene.
+    /// Refuses names that are there twice, or that other columns of the rows have, those of a state among them.
+    pub(super) fn refuse_repeated<'a>(
+        &self,
+        source: &Source,
+        state: impl Iterator<Item = &'a String>,
+    ) -> Result<(), Error> {
+        let mut taken: Vec<&str> = BESIDE.into_iter().chain(state.map(String::as_str)).collect();
+        for name in &self.names {
+            if taken.contains(&name.as_str()) {
+                let fault = self.fault(source, format!("two columns would be named `{name}`"));
+                return Err(Faults(vec![fault.hint("give the column of the ensemble another name")]).into());
+            }
+            taken.push(name);
+        }
+        Ok(())
+    }
+
     pub(super) fn sha256(&self) -> String {
         let row = |row: &Vec<Rational>| row.iter().map(to_text).collect::<Vec<_>>().join(",");
         let rows: Vec<String> = [self.names.join(",")].into_iter().chain(self.rows.iter().map(row)).collect();

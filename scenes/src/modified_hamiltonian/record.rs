@@ -11,6 +11,7 @@ use shadowstep_symbolic::{Node, Notation, Rational};
 use super::{SymbolicHamiltonian, SymbolicTerm};
 use crate::library::NamedScheme;
 use crate::refusal::Refusal;
+use crate::reserved_names::Language;
 use crate::scene::System;
 
 /// Short fractions have numerators and denominators of at most this number of digits.
@@ -120,9 +121,10 @@ pub struct FormulaRecord {
     pub hamiltonian: String,
     /// H_2, H_3, …, but those that are 0.
     pub terms: Vec<FormulaTerm>,
-    /// The names of coordinates, momenta and parameters in them.
+    /// The names of coordinates, momenta and parameters in them, as the system has them and as they are written: others where these are
+    /// [reserved](crate::reserved_names) in the language of the notation.
     #[serde(skip)]
-    pub names: Vec<String>,
+    pub names: Vec<(String, String)>,
     /// The lowest power of h whose term may not be 0 and is left out.
     #[serde(skip)]
     pub remainder: u32,
@@ -167,15 +169,22 @@ impl Formulas {
     /// A formula that is too long.
     pub fn written(&self, notation: Notation, digits: usize) -> Result<FormulaRecord, Refusal> {
         let Formulas { scheme, symbolic, hamiltonian, terms, remainder } = self;
+        let names = symbolic.names()?;
+        let written = match notation {
+            Notation::Rust => Language::Rust.free(&names),
+            Notation::NumPy => Language::Python.free(&names),
+            Notation::Formula | Notation::Latex => names.clone(),
+        };
+        let in_formulas = written.split_at(symbolic.dimension());
         let nodes: Vec<_> = terms.iter().map(|term| term.formula).chain([*hamiltonian]).collect();
         let formula = |term: &SymbolicTerm| {
-            Ok(FormulaTerm { power: term.power, formula: symbolic.text(term.formula, notation, digits)? })
+            Ok(FormulaTerm { power: term.power, formula: symbolic.text(term.formula, notation, in_formulas, digits)? })
         };
         Ok(FormulaRecord {
             scheme: scheme.clone(),
-            hamiltonian: symbolic.text(*hamiltonian, notation, digits)?,
+            hamiltonian: symbolic.text(*hamiltonian, notation, in_formulas, digits)?,
             terms: terms.iter().map(formula).collect::<Result<_, Refusal>>()?,
-            names: symbolic.names_in(&nodes).into_iter().map(str::to_owned).collect(),
+            names: symbolic.places_in(&nodes).into_iter().map(|i| (names[i].clone(), written[i].clone())).collect(),
             remainder: *remainder,
         })
     }
@@ -190,9 +199,14 @@ impl FormulaRecord {
     /// A function of h, positions, momenta and parameters in the notation of the formulas, which is that of Rust or NumPy.
     pub fn function(&self, title: &str, notation: Notation) -> String {
         let FormulaRecord { hamiltonian, terms, names, .. } = self;
+        let others = names.iter().filter(|(own, written)| own != written);
+        let others: String = others.map(|(own, written)| format!("; {written} is {own} of the problem")).collect();
+        // of a path, which may have what ends a comment or a text
+        let title = format!("{title}{others}").replace(|c: char| c.is_control() || c == '"' || c == '\\', "/");
+        let names = names.iter().map(|(_, written)| written);
         match notation {
             Notation::Rust => {
-                let names: String = names.iter().map(|name| format!(", {name}: f64")).collect();
+                let names: String = names.map(|name| format!(", {name}: f64")).collect();
                 let lines: String = terms
                     .iter()
                     .map(|term| format!("    total += h.powi({})*({});\n", term.power, term.formula))
@@ -204,9 +218,9 @@ impl FormulaRecord {
             _ => {
                 let lines: String =
                     terms.iter().map(|term| format!("    total += h**{}*({})\n", term.power, term.formula)).collect();
-                let names = names.join(", ");
+                let names: String = names.map(|name| format!(", {name}")).collect();
                 format!(
-                    "import numpy as np\n\n\ndef modified_hamiltonian(h, {names}):\n    \"\"\"{title}\"\"\"\n    total = {hamiltonian}\n{lines}    return total\n"
+                    "import numpy as np\n\n\ndef modified_hamiltonian(h{names}):\n    \"\"\"{title}\"\"\"\n    total = {hamiltonian}\n{lines}    return total\n"
                 )
             }
         }

@@ -9,7 +9,7 @@ use super::kinetic;
 use super::names::check_name;
 use super::numbers::Numbers;
 use super::reader::Reader;
-use crate::scene::COLUMNS;
+use crate::reserved_names::COLUMNS;
 use crate::scene::{Formula, InitialValueProblem, PotentialEnergy};
 use shadowstep_schemes::document::{Placed, Text};
 

@@ -12,7 +12,8 @@ pub(super) fn check_name(reader: &mut Reader<'_>, name: &Text) {
     let is_name =
         |expression: &Expression| matches!(&expression.kind, ExpressionKind::Name(whole) if *whole == name.value);
     match parse(&name.value) {
-        Ok(expression) if is_name(&expression) => {
+        // `_1` may stand for a part of a formula, and `_` is a name in no language of emitted code
+        Ok(expression) if is_name(&expression) && !name.value.starts_with('_') => {
             // a name that has a value by itself is a constant
             if evaluate(&expression, &BTreeMap::new(), 1).is_ok() {
                 reader.toml.fault(&name.at, format!("`{}` is a constant", name.value), "give it another name");

@@ -15,6 +15,7 @@ use super::run::Steps;
 use super::values;
 use crate::estimator::{ACCURACY_HINT, conflict};
 use crate::run::Run;
+use crate::reserved_names::LISTS;
 use crate::scene::{CheckpointInterval, Direction, Format, Outputs, Surface, System};
 use crate::steps::MOST_STEPS;
 use shadowstep_schemes::document::{Section, Value};
@@ -95,10 +96,22 @@ pub(super) fn read(
 fn check_numpy(reader: &mut Reader<'_>, output: &Section<'_, '_>) {
     let at =
         ["format", "file"].into_iter().find_map(|key| output.get(key)).map_or(output.at.clone(), |value| value.span());
+    refuse_names_of_lists(reader, &outputs);
     if output.get("file").is_none() {
         reader.toml.fault(&at, "records of NumPy require a file", "add `file = \"out.npy\"`");
     }
     if reader.arithmetic.is_longer_than_double() {
+/// Refuses columns of values with the names that q and p have, where rows have these as lists.
+fn refuse_names_of_lists(reader: &mut Reader<'_>, outputs: &Outputs) {
+    if outputs.format == Format::Csv || !outputs.has_states() {
+        return;
+    }
+    for column in outputs.named_values().filter(|column| LISTS.contains(&column.name.as_str())) {
+        let message = format!("`{}` is the name of the list of positions or momenta in these rows", column.name);
+        reader.toml.fault(&column.at, message, "give this column another name");
+    }
+}
+
         let message = format!("records of NumPy have double precision, not {}", reader.arithmetic.described());
         reader.toml.fault(&at, message, "write a file of .csv or .jsonl");
     }

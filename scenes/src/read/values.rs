@@ -10,7 +10,8 @@ use super::reader::Reader;
 use super::run::Steps;
 use crate::expression::{Expression, named};
 use crate::quantity_of_bodies::{BARYCENTRE, JACOBI, elements_of};
-use crate::scene::{COLUMNS, NamedExpression, System, ValueColumns};
+use crate::reserved_names::COLUMNS;
+use crate::scene::{NamedExpression, System, ValueColumns};
 use crate::steps::MOST_STEPS;
 
 /// The key that gives the period of values.

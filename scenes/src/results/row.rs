@@ -5,7 +5,7 @@ use serde::{Serialize, Serializer};
 use shadowstep::Real;
 use shadowstep::shadow::Estimate;
 
-use crate::scene::COLUMNS;
+use crate::reserved_names::COLUMNS;
 use crate::tangent::TangentRun;
 
 /// A state of the run: what is written at its n.

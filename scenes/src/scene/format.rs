@@ -1,8 +1,4 @@
-//! The formats of files, and the columns before positions and momenta.
-
-/// The columns before those of the trajectory; no coordinate has such a name.
-pub(crate) const COLUMNS: [&str; 10] =
-    ["n", "t", "energy", "modified_energy", "estimate", "order", "lyapunov", "megno", "mean_megno", "sali"];
+//! The formats of files.
 
 /// How rows are written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

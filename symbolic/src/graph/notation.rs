@@ -267,7 +267,14 @@ impl Writer<'_> {
     }
 
     fn name(&self, name: &str) -> String {
-        if self.notation == Notation::Latex { latex_name(name) } else { name.to_owned() }
+        if self.notation != Notation::Latex {
+            return name.to_owned();
+        }
+        let symbol = latex_name(name);
+        let is_other = |other: &String| other != name && latex_name(other) == symbol;
+        let (coordinates, parameters) = self.names;
+        // x1 beside x_1
+        if coordinates.iter().chain(parameters).any(is_other) { upright(name) } else { symbol }
     }
 }
 
@@ -289,8 +296,12 @@ fn latex_name(name: &str) -> String {
         _ if first == 'p' || rest.starts_with('_') || index.bytes().all(|byte| byte.is_ascii_digit()) => {
             format!("{first}_{{{}}}", latex_name(index))
         }
-        _ => format!(r"\mathrm{{{}}}", name.replace('_', r"\_")),
+        _ => upright(name),
     }
+}
+
+fn upright(name: &str) -> String {
+    format!(r"\mathrm{{{}}}", name.replace('_', r"\_"))
 }
 
 #[cfg(test)]
@@ -366,5 +377,14 @@ mod tests {
             assert_eq!(written(formula, Notation::Rust), rust);
             assert_eq!(written(formula, Notation::NumPy), numpy);
         }
+    }
+
+    #[test]
+    fn names_that_latex_would_write_alike_stay_apart() {
+        let names = ["x1", "x_1", "px"].map(String::from);
+        let mut graph = Graph::new();
+        let node = graph.build(&parse("x1*p_x*px/x_1").unwrap(), &names, &["p_x".to_owned()]).unwrap();
+        let latex = graph.text(node, Notation::Latex, (&names, &["p_x".to_owned()]), 5);
+        assert_eq!(latex, r"\frac{\mathrm{x1} \mathrm{px} \mathrm{p\_x}}{\mathrm{x\_1}}");
     }
 }
