@@ -7,6 +7,7 @@ use clap::{Args, ValueEnum};
 use shadowstep::number::{Limbs, Number, Real};
 use shadowstep_scenes::Error;
 use shadowstep_scenes::readable::wrapped_to;
+use shadowstep_symbolic::decimal::significant;
 use shadowstep_work_precision::advise::{Advice, AdviceRequest, Choice, Unfinished, Verified};
 use shadowstep_work_precision::no_advice::over;
 use shadowstep_work_precision::of::Of;
@@ -198,7 +199,10 @@ fn evidence(best: &Choice<'_>, request: &AdviceRequest<'_>, verified: Verified, 
     ];
     if let Some(stable) = best.stable_step {
         let part = best.size() / stable;
-        lines.push(("stability", format!("{part:.2} of the stability limit of the fastest oscillation at the start")));
+        lines.push((
+            "stability",
+            format!("{} of the stability limit of the fastest oscillation at the start", significant(part, 2)),
+        ));
     }
     lines.push(("modified energy", conserved(best)));
     let line = |(name, text): (&str, String)| {
@@ -209,7 +213,7 @@ fn evidence(best: &Choice<'_>, request: &AdviceRequest<'_>, verified: Verified, 
 
 /// Up to which step the modified energy is conserved, and from which on it is lost, as far as runs were made.
 fn conserved(best: &Choice<'_>) -> String {
-    let size = |h: f64| format!("{h:.2e}, {:.1} times this one", h / best.size());
+    let size = |h: f64| format!("{h:.2e}, {} times this one", significant(h / best.size(), 2));
     let bounded = best.conserved_up_to.map_or("bounded in none of the runs".to_owned(), |largest| {
         format!("bounded in runs with steps up to {}", size(largest))
     });

@@ -8,6 +8,7 @@ use clap::Args;
 use shadowstep_scenes::chaos::{ChaosRecord, conclusion};
 use shadowstep_scenes::tangent::Vectors;
 use shadowstep_scenes::{Error, Observer};
+use shadowstep_symbolic::decimal::significant;
 
 use crate::headings::{OUTPUT, SCHEMES};
 use crate::interrupt::Interrupt;
@@ -114,7 +115,7 @@ fn readable(records: &[ChaosRecord]) -> String {
             record.step.clone(),
             record.motion.to_string(),
             exponent,
-            format!("{:.4}", record.mean_megno),
+            significant(record.mean_megno, 5),
             or_nothing(record.sali, 1),
             record.summary.conclusion().to_owned(),
         ]

@@ -12,6 +12,7 @@ use shadowstep_scenes::Error;
 use shadowstep_scenes::library;
 use shadowstep_scenes::sampling::{SamplingRecord, SamplingTarget, Wanted, is_suited};
 use shadowstep_schemes::document::read_text;
+use shadowstep_symbolic::decimal::significant;
 
 use crate::output::Output;
 use crate::quantity::{number, whole};
@@ -143,13 +144,13 @@ fn table_of(records: &[SamplingRecord]) -> String {
     let row = |record: &SamplingRecord| {
         [
             record.order.to_string(),
-            format!("{:.4}", record.step),
+            significant(record.step, 4),
             record.steps.to_string(),
             record.gradients.to_string(),
             format!("{:.2e}", record.error),
             format!("{:.2e}", record.largest_error),
-            format!("{:.3}", record.acceptance),
-            format!("{:.1}", record.cost),
+            significant(record.acceptance, 3),
+            significant(record.cost, 4),
             record.scheme.clone(),
         ]
     };

@@ -51,11 +51,11 @@ class Report:
     """max − min of H."""
     kinetic: float
     """The mean kinetic energy."""
-    method_least: float
-    """The least H − H̄: the part of the method in the energy error."""
-    method_largest: float
+    method_least: float | None
+    """The least H − H̄: the part of the method in the energy error; None where H̄ is not known well enough for it."""
+    method_largest: float | None
     """The largest H − H̄."""
-    method_rms: float
+    method_rms: float | None
     """The root mean square of H − H̄."""
     modified: float
     """The newest accurate H̄."""

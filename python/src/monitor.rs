@@ -231,13 +231,15 @@ fn dictionary<'py>(
     all.set_item("planets", planets.map(|found| json!(found).to_string()))?;
     all.set_item("steps", report.steps)?;
     all.set_item("windows", report.windows)?;
+    let [method_rms, method_least, method_largest] =
+        report.method().map_or([None; 3], |all| all.map(|number| Some(*number)));
     let numbers = [
         ("time", Some(report.time)),
         ("energy_error", Some(report.energy_error)),
         ("kinetic", Some(report.kinetic)),
-        ("method_least", Some(report.method_least)),
-        ("method_largest", Some(report.method_largest)),
-        ("method_rms", Some(report.method_rms)),
+        ("method_least", method_least),
+        ("method_largest", method_largest),
+        ("method_rms", method_rms),
         ("modified", Some(report.modified)),
         ("range", Some(report.range)),
         ("change", Some(report.change)),

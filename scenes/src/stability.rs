@@ -4,6 +4,7 @@ use shadowstep::{Rational, Scheme as _};
 use shadowstep_analysis::oscillator::Oscillator;
 use shadowstep_analysis::resonance::resonances;
 use shadowstep_analysis::stability::Stability;
+use shadowstep_symbolic::decimal::significant;
 
 use crate::frequency::Frequency;
 use crate::library::NamedScheme;
@@ -22,8 +23,8 @@ pub fn unstable(frequency: Frequency, named: &NamedScheme, h: &Rational) -> Opti
     (trace.abs() > 2.0 + ROUNDING).then(|| Note::Unstable {
         scheme: named.name.clone(),
         limit: Stability::of_scheme(proved).map(|stability| stability.limit),
-        h_omega: format!("{h_omega:.4}"),
-        omega: format!("{:.4}", frequency.omega),
+        h_omega: significant(h_omega, 5),
+        omega: significant(frequency.omega, 5),
         quadratic: frequency.quadratic,
     })
 }
@@ -38,9 +39,9 @@ pub fn resonant(system: &System, named: &NamedScheme, h: &Rational) -> Option<No
     let from = first.parse::<f64>().ok()?;
     (h_omega > from).then(|| Note::Resonant {
         scheme: named.name.clone(),
-        h_omega: format!("{h_omega:.4}"),
-        omega: format!("{omega:.4}"),
-        from: format!("{from:.4}"),
+        h_omega: significant(h_omega, 5),
+        omega: significant(omega, 5),
+        from: significant(from, 5),
     })
 }
 
@@ -57,7 +58,7 @@ pub fn few_kicks(system: &System, named: &NamedScheme, h: &Rational) -> Option<N
     let kicks = named.scheme.summary().evaluations;
     (steps * (kicks as f64) < LEAST_KICKS).then(|| Note::FewKicks {
         planet: planets.names(&system.coordinates).swap_remove(planet),
-        steps: format!("{steps:.1}"),
+        steps: significant(steps, 2),
         kicks,
         least: LEAST_KICKS,
     })
@@ -76,6 +77,9 @@ mod tests {
         assert_eq!((note("1.99", 1.0), note("1", 2.0)), (None, None));
         let Some(Note::Unstable { limit, h_omega, .. }) = note("-2.1", 1.0) else { panic!("stable") };
         assert_eq!((limit.as_deref(), h_omega.as_str()), (Some("2"), "2.1000"));
+        // a slow system, whose frequency has no digit among the first decimals
+        let Some(Note::Unstable { h_omega: product, omega, .. }) = note("1e7", 2.1e-7) else { panic!("stable") };
+        assert_eq!((product.as_str(), omega.as_str()), ("2.1000", "2.1000e-7"));
     }
 
     /// Beyond its limit a scheme may be stable again.

@@ -287,7 +287,8 @@ impl<N: RunNumber> Watch<N> {
         let bound = report.permanent_bound.as_ref().filter(|_| !verdict.loses_the_energy() && lasting.is_none());
         let bound = bound.map(|bound| if *bound < report.range { &report.range } else { bound });
         let modified_energy = (report.windows > 0).then(|| ModifiedEnergySummary {
-            method: report.method_rms.to_text(),
+            method: report.method().map(|[rms, ..]| rms.to_text()),
+            method_resolution: report.method_resolution.to_text(),
             round_off: report.round_off.to_text(),
             permanent_change: report.range.to_text(),
             permanent_bound: bound.map(N::to_text),
@@ -490,6 +491,33 @@ mod tests {
         let text = crate::shipped::scene_text("relativity").unwrap().replace("365.25*10000", "365.25*100");
         let found = summary_of(text);
         assert!(found.is_bounded() && !found.reason().contains("may be lost"), "{found}");
+    }
+
+    /// H − H̄ is printed where it is known: not of a binary whose pericentres are so close that H̄ is known less well than H, but on a circle, where H is
+    /// constant and H̄ another number.
+    #[test]
+    fn the_methods_part_is_no_number_where_h_is_known_better() {
+        let number = |text: &str| text.parse::<f64>().unwrap();
+        let binary = planets(
+            "parts = \"wisdom-holman\", elements = \"jacobi\"",
+            "{ mass = 0.5, a = 1, e = 0.1 }, { mass = 0.8, a = 8, e = 0.2, i = 88 }",
+            "step = \"1/20\", until = 400",
+            "{ every = 100 }",
+        );
+        let modified = binary.modified_energy().unwrap();
+        assert_eq!(modified.method, None, "{binary}");
+        assert!(number(&modified.method_resolution) > number(&binary.energy().largest), "{binary}");
+        let text = binary.to_string().split_whitespace().collect::<Vec<_>>().join(" ");
+        assert!(text.contains("method's part of H not resolved: H̄ is known to"), "{text}");
+        let circle = summary_of(
+            "problem = { name = \"kepler\", parameters = { eccentricity = 0 } }\n\
+             run = { scheme = \"stormer-verlet\", step = \"1/20\", until = 300, digits = \"double\" }\noutput.energy = true"
+                .to_owned(),
+        );
+        // where T, its Poisson bracket with U and r are 1/2, 0 and 1, H̄ − H is h²/24 |U_q|² or −h²/12 pᵀU_qq p but for h⁴
+        let method = number(circle.modified_energy().unwrap().method.as_ref().unwrap());
+        assert!((method / (1.0 / 400.0 / 24.0) - 1.0).abs() < 1e-2, "{circle}");
+        assert!(number(&circle.energy().largest) < method / 10.0, "{circle}");
     }
 
     /// Kepler orbits whose pericentre is in no window: what windows take for a permanent change, or for round-off, is little of the error of H.

@@ -345,7 +345,7 @@ impl<N: Real> RunValues<'_, N> {
             RunValue::EnergyError => energy.map(|energy| energy.largest.clone()),
             RunValue::RelativeEnergyError => energy.and_then(|energy| energy.largest_relative.clone()),
             RunValue::LastEnergyError => energy.map(|energy| energy.last.clone()),
-            RunValue::MethodError => Some(summary.as_ref()?.modified_energy()?.method.clone()),
+            RunValue::MethodError => summary.as_ref()?.modified_energy()?.method.clone(),
             RunValue::CloseEncounters => summary.map(|summary| summary.encounters().to_string()),
             RunValue::Drift => ended.drift.as_ref().map(|drift| drift.drift.to_text()),
             // of a change on one side of an encounter only, nothing is known

@@ -3,7 +3,7 @@
 use num_bigint::BigInt;
 use num_traits::{Signed, Zero};
 use proptest::prelude::*;
-use shadowstep_symbolic::decimal::{from_text, round_significant, to_significant, to_text};
+use shadowstep_symbolic::decimal::{from_text, round_significant, significant, to_significant, to_text};
 use shadowstep_symbolic::{Rational, exact};
 
 fn ratio(text: &str) -> Rational {
@@ -136,6 +136,13 @@ proptest! {
         prop_assert!(error < half || !count.to_integer().bit(0), "a tie goes to the even digit");
         prop_assert_eq!(ratio_of(&to_significant(&value, digits as usize)), rounded);
     }
+}
+
+#[test]
+fn numbers_of_any_size_have_their_digits() {
+    let texts = [2.1, -0.0123456, 1.2345e-7, 123_456.7, 9.99996e5, f64::NAN].map(|value| significant(value, 4));
+    assert_eq!(texts, ["2.100", "-0.01235", "1.234e-7", "123457", "1.000e6", "NaN"]);
+    assert_eq!([0.0, 5e-324].map(|value| significant(value, 2)), ["0.0", "4.9e-324"]);
 }
 
 fn ratio_of(text: &str) -> Rational {

@@ -6,7 +6,7 @@ use shadowstep_scenes::Summary;
 use shadowstep_scenes::drift::{NOT_SEEN, Permanent, Record};
 use shadowstep_scenes::readable::{shortened, wrapped_to};
 use shadowstep_scenes::run::Run;
-use shadowstep_symbolic::decimal::from_text;
+use shadowstep_symbolic::decimal::{from_text, significant};
 
 use crate::colour::{heading, of_verdict, styled};
 use crate::readable::{rounded, table};
@@ -40,9 +40,9 @@ fn row(run: Run<'_>, record: &Record) -> Row {
         (None, Some(_)) => LEFT_OUT.to_owned(),
         (None, None) => String::new(),
     };
-    let mut seconds = format!("{:.3}", record.cost.seconds);
+    let mut seconds = significant(record.cost.seconds, 3);
     if let Some(control) = &record.control {
-        seconds += &format!(" + {:.3}", control.seconds);
+        seconds += &format!(" + {}", significant(control.seconds, 3));
     }
     [
         shortened(run.h.exact(), 12),

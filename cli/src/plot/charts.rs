@@ -2,6 +2,7 @@
 
 use shadowstep_scenes::plot::{Content, Distance, Orbit, Picture};
 use shadowstep_studies::chart::{Axis, Chart, Curve, Marker};
+use shadowstep_symbolic::decimal::significant;
 
 use super::lines::{Lines, RunOfChart};
 
@@ -49,7 +50,8 @@ fn energies(title: String, runs: &[(&RunOfChart, &Lines)]) -> Chart {
     if let [(_, Lines::Energies { reference: Some((t, error)), .. })] = runs {
         let error = power(*error);
         chart.notes.push(format!(
-            "H̄* is that at t = {t:.6}, with an estimated error of {error}; smaller changes of H̄ are not resolved."
+            "H̄* is that at t = {}, with an estimated error of {error}; smaller changes of H̄ are not resolved.",
+            significant(*t, 7)
         ));
     }
     chart

@@ -4,6 +4,7 @@ use shadowstep_analysis::error::LeadingError;
 use shadowstep_analysis::sampling::SamplingError;
 use shadowstep_analysis::{self as analysis, Analysis, stability};
 use shadowstep_schemes::Kinetic;
+use shadowstep_symbolic::decimal::significant;
 
 use crate::readable::shortened;
 
@@ -17,14 +18,14 @@ pub(crate) fn facts(analysis: &Analysis) -> Vec<(String, String)> {
     let errors = |[general, quadratic]: [&LeadingError; 2], effective: &dyn Fn(Kinetic) -> f64| {
         let both = match has_gradient_kicks {
             true => format!(
-                "{:.4} for quadratic T, a Hessian–vector product counted as a force",
-                effective(Kinetic::Quadratic)
+                "{} for quadratic T, a Hessian–vector product counted as a force",
+                significant(effective(Kinetic::Quadratic), 4)
             ),
             false => {
                 format!(
-                    "{:.4} for every T(p), {:.4} for quadratic T",
-                    effective(Kinetic::Any),
-                    effective(Kinetic::Quadratic)
+                    "{} for every T(p), {} for quadratic T",
+                    significant(effective(Kinetic::Any), 4),
+                    significant(effective(Kinetic::Quadratic), 4)
                 )
             }
         };

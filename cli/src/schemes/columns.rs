@@ -1,6 +1,7 @@
 //! The columns of the list: by default what a person chooses by, within 80 characters; all others with `--wide`.
 
 use shadowstep_schemes::Kinetic;
+use shadowstep_symbolic::decimal::significant;
 
 use crate::readable::{rounded, table};
 use crate::schemes::facts::{digits_text, near_integrable_text};
@@ -26,11 +27,10 @@ const FORCES: Column = number("forces\na step", |record| match record.hessian_pr
     products => format!("{}+{products}", record.evaluations),
 });
 const ERROR: Column =
-    number("eff.\nerror", |record| record.orders.effective_error.map_or_else(none, |error| format!("{error:.4}")));
-const ERROR_QUADRATIC: Column =
-    number("eff.\nerror", |record| format!("{:.4}", record.orders.effective_error_quadratic));
+    number("eff.\nerror", |record| record.orders.effective_error.map_or_else(none, |error| significant(error, 4)));
+const ERROR_QUADRATIC: Column = number("eff.\nerror", |record| significant(record.orders.effective_error_quadratic, 4));
 const PER_FORCE: Column = number("stable\na force", |record| {
-    record.stability_limit_per_force.map_or_else(|| "–".to_owned(), |limit| format!("{limit:.3}"))
+    record.stability_limit_per_force.map_or_else(|| "–".to_owned(), |limit| significant(limit, 4))
 });
 const SYMMETRIC: Column = text("sym-\nmetric", |record| if record.symmetric { "yes" } else { "no" }.to_owned());
 const ORDER: Column = number("order", |record| record.orders.order.map_or_else(none, |order| order.to_string()));

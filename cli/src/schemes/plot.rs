@@ -9,6 +9,7 @@ use shadowstep_scenes::Error;
 use shadowstep_schemes::MapKind;
 use shadowstep_schemes::{Proved, Rational};
 use shadowstep_studies::chart::{Axis, Chart, Curve, Mark, log10_of, stacked};
+use shadowstep_symbolic::decimal::significant;
 
 /// Points of a curve over hω.
 const POINTS: usize = 1200;
@@ -155,12 +156,14 @@ impl Gaps {
         let (mut marks, mut stable) = (Vec::new(), "stable to");
         for (from, to) in self.visible() {
             if let Some(to) = to.filter(|to| to - from <= NARROW) {
-                marks.push(Mark::at(*from, format!("gap at {from:.4}, {:.0e} wide", to - from)));
+                marks.push(Mark::at(*from, format!("gap at {}, {:.0e} wide", significant(*from, 5), to - from)));
                 stable = "but for gaps stable to";
                 continue;
             }
-            marks.push(Mark::at(*from, format!("{stable} {from:.4}")));
-            marks.extend(to.filter(|to| *to < self.end).map(|to| Mark::at(to, format!("again from {to:.4}"))));
+            marks.push(Mark::at(*from, format!("{stable} {}", significant(*from, 5))));
+            marks.extend(
+                to.filter(|to| *to < self.end).map(|to| Mark::at(to, format!("again from {}", significant(to, 5)))),
+            );
             stable = "stable to";
         }
         marks.iter_mut().skip(MOST_LABELS).for_each(|mark| mark.label.clear());

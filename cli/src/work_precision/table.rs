@@ -1,6 +1,7 @@
 //! The schemes that need the least for an error, and the orders that the schemes show, as tables of at most 80 columns.
 
 use shadowstep_scenes::readable::wrapped_to;
+use shadowstep_symbolic::decimal::significant;
 use shadowstep_work_precision::of::Of;
 use shadowstep_work_precision::order::MeasuredOrder;
 use shadowstep_work_precision::study::{Studied, Study};
@@ -51,7 +52,7 @@ fn orders(study: &Study<'_>, studied: &Studied<'_>) -> [String; 8] {
     [
         studied.scheme.name.clone(),
         studied.evaluations_per_step().to_string(),
-        format!("{:.3}", studied.time.median * 1e6),
+        significant(studied.time.median * 1e6, 4),
         studied.proved_order(study.problem).to_string(),
         shown(position),
         from,

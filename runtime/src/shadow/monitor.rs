@@ -310,7 +310,7 @@ impl<N: Real, E: Estimator<N>> Monitor<N, E> {
         self.newest_states.end(&self.schedule, system, &mut self.fastest);
         let best = self.blocks.push(energy, modified);
         self.method.assign_difference(energy, &best.value);
-        self.statistics.add(energy, &self.method, modified);
+        self.statistics.add(energy, (&self.method, &best.error), modified);
         Ok(())
     }
 

@@ -115,7 +115,7 @@ fn system(system: &System, arithmetic: Arithmetic) -> Vec<(&'static str, Value)>
     let parameters: serde_json::Map<_, _> =
         system.parameters.iter().map(|(name, value)| (name.clone(), json!(arithmetic.text(value)))).collect();
     let kinetic = match &system.kinetic {
-        KineticEnergy::Masses(masses) => masses.iter().map(|masses| ("masses", texts(masses))).collect(),
+        KineticEnergy::Masses(masses) => masses_of(system, masses.as_deref(), arithmetic),
         KineticEnergy::Formula(formula) => vec![("kinetic", json!(formula.text())), ("momenta", json!(system.momenta))],
     };
     named
@@ -125,6 +125,18 @@ fn system(system: &System, arithmetic: Arithmetic) -> Vec<(&'static str, Value)>
         .chain(kinetic)
         .chain([("q", texts(&system.q)), ("p", texts(&system.p))])
         .collect()
+}
+
+/// The masses of the coordinates, where they are not all 1: of particles 0, though their momenta are divided by it.
+fn masses_of(system: &System, masses: Option<&[Exact]>, arithmetic: Arithmetic) -> Vec<(&'static str, Value)> {
+    let massive = system.massive_coordinates();
+    let mut texts = match masses {
+        Some(masses) => masses.iter().map(|mass| arithmetic.text(mass)).collect(),
+        None if massive < system.q.len() => vec!["1".to_owned(); system.q.len()],
+        None => return Vec::new(),
+    };
+    texts.iter_mut().skip(massive).for_each(|mass| *mass = "0".to_owned());
+    vec![("masses", json!(texts))]
 }
 
 fn pair_energy(pairs: &PairEnergy, texts: impl Fn(&[Exact]) -> Value) -> Vec<(&'static str, Value)> {

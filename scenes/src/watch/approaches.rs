@@ -2,6 +2,7 @@
 
 use serde::Serialize;
 use shadowstep::Real;
+use shadowstep_symbolic::decimal::significant;
 
 use super::particles::{ParticleApproach, Particles};
 use crate::scene::System;
@@ -53,12 +54,13 @@ impl Interactions {
     pub fn text(&self, time: impl Fn(i64) -> String) -> String {
         let Interactions { epsilon, of, closest, particles, .. } = self;
         let closest = closest.as_ref().map_or(String::new(), |Approach { n, bodies: [i, j], hill_radii, .. }| {
-            format!("; closest approach {hill_radii:.3} Hill radii, {i} and {j} at {}", time(*n))
+            format!("; closest approach {} Hill radii, {i} and {j} at {}", significant(*hill_radii, 4), time(*n))
         });
         let particles =
             particles.as_ref().map_or(String::new(), |ParticleApproach { n, bodies: [i, j], hill_radii, within }| {
                 let of_all = if *within == 1 { "1 particle".to_owned() } else { format!("{within} particles") };
-                let of_particle = format!("closest approach of a particle {hill_radii:.3} Hill radii, {j} to {i}");
+                let of_particle =
+                    format!("closest approach of a particle {} Hill radii, {j} to {i}", significant(*hill_radii, 4));
                 format!("; {of_particle} at {}; within 1 Hill radius {of_all}", time(*n))
             });
         format!("interactions at most {epsilon:.1e} of the Kepler force ({of}){closest}{particles}")

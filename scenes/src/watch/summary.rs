@@ -8,7 +8,7 @@ use serde::{Serialize, Serializer};
 use serde_json::json;
 use shadowstep::Rational;
 use shadowstep::shadow::{Criterion, Missing, Verdict};
-use shadowstep_symbolic::decimal::{from_text, to_significant, to_text};
+use shadowstep_symbolic::decimal::{from_text, significant, to_significant, to_text};
 
 use crate::readable::wrapped_to;
 use crate::watch::encounters::Encounter;
@@ -78,8 +78,10 @@ pub struct EnergySummary {
 /// What the monitor found of the modified energy H̄; [`Report`](shadowstep::shadow::Report) has the meanings.
 #[derive(Clone, Debug, Serialize)]
 pub struct ModifiedEnergySummary {
-    /// The method's part of the error of H: H − H̄, rms.
-    pub method: String,
+    /// The method's part of the error of H: H − H̄, rms; `None` where H̄ is not known well enough for it.
+    pub method: Option<String>,
+    /// To what H̄ is known in these differences, rms.
+    pub method_resolution: String,
     /// The expected effect of round-off on H̄.
     pub round_off: String,
     /// max − min of H̄ over states with small estimated errors, as [`PermanentChange`](shadowstep::shadow::run::PermanentChange) of all states:
@@ -91,14 +93,6 @@ pub struct ModifiedEnergySummary {
     pub resolution: Option<String>,
     /// In how many windows it was estimated.
     pub windows: u64,
-}
-
-impl ModifiedEnergySummary {
-    /// Whether H − H̄ is larger than the errors of H̄.
-    fn resolves_the_method(&self) -> bool {
-        let [method, error] = [Some(&self.method), self.resolution.as_ref()].map(|text| from_text(text?).ok());
-        method.zip(error).is_none_or(|(method, error)| method >= error)
-    }
 }
 
 impl Summary {
@@ -154,18 +148,18 @@ impl Summary {
         };
         let within = format!("{:.1e}", 3.0 * hill_radius);
         let within = from_text(&within).map_or(within, |exact| to_significant(&exact, 2));
-        let time = self.time(*n);
+        let (time, hill_radii) = (self.time(*n), significant(*hill_radii, 2));
         if let Some(given) = self.interactions.as_ref().and_then(|found| found.in_drifts_within) {
             let larger =
                 if given < 3.0 * hill_radius { format!(", {within} is 3 of these radii") } else { String::new() };
             self.reason = format!(
-                "{i} and {j} came within {hill_radii:.2} Hill radii of each other at {time}, and their attraction goes from kicks to drifts within \
+                "{i} and {j} came within {hill_radii} Hill radii of each other at {time}, and their attraction goes from kicks to drifts within \
                  too few steps: use a smaller step size, or a larger distance in encounters = {{ within = … }}{larger}"
             );
             self.verdict = Verdict::TooLarge(Criterion::EnergyError).to_string();
         } else {
             self.reason = format!(
-                "{i} and {j} came within {hill_radii:.2} Hill radii of each other at {time}, where kicks are not small beside the Kepler orbits, as \
+                "{i} and {j} came within {hill_radii} Hill radii of each other at {time}, where kicks are not small beside the Kepler orbits, as \
                  these parts require: smaller steps do not help; write parts = \"wisdom-holman-heliocentric\" with encounters = {{ within = \
                  {within} }}, 3 of these radii"
             );
@@ -261,13 +255,14 @@ impl Summary {
         let Some(modified) = &self.modified_energy else {
             return "the run is too short for an estimate".to_owned();
         };
-        let ModifiedEnergySummary { method, round_off, permanent_change, resolution, .. } = modified;
+        let ModifiedEnergySummary { method, method_resolution, round_off, permanent_change, resolution, .. } = modified;
         let known = resolution.as_ref().map_or(String::new(), |error| format!(", known to {}", short(error)));
-        // H − H̄ then shows no more than the errors of H̄
-        let resolved = if modified.resolves_the_method() { "" } else { " (not resolved: H̄ is not known so well)" };
+        let method = method.as_ref().map_or_else(
+            || format!("not resolved: H̄ is known to {} rms only", short(method_resolution)),
+            |method| format!("{} rms", short(method)),
+        );
         format!(
-            "method's part of H {} rms{resolved}; round-off {} expected; permanent change {}{known}",
-            short(method),
+            "method's part of H {method}; round-off {} expected; permanent change {}{known}",
             short(round_off),
             short(permanent_change)
         )

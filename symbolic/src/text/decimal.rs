@@ -87,6 +87,20 @@ pub fn to_significant(value: &impl Ratio, digits: usize) -> String {
     format!("{}{body}", sign(value))
 }
 
+/// Writes a number of double precision with this number of significant digits, zeros at the end included, for messages and tables whose numbers are of any
+/// size: `2.100`, `0.01234`, `1.235e-7`. Scientific outside 1e-4..1e6.
+pub fn significant(value: f64, digits: usize) -> String {
+    let scientific = format!("{value:.*e}", digits.saturating_sub(1));
+    // infinities and NaN have no exponent
+    match scientific.split_once('e').and_then(|(_, exponent)| exponent.parse::<i32>().ok()) {
+        Some(exponent @ -4..6) => {
+            let places = (digits as i32 - 1 - exponent).max(0) as usize;
+            format!("{value:.places$}")
+        }
+        _ => scientific,
+    }
+}
+
 fn sign(value: &impl Ratio) -> &'static str {
     if value.numer().is_negative() { "-" } else { "" }
 }

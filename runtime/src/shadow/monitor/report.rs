@@ -44,6 +44,8 @@ pub struct Report<N> {
     pub method_largest: N,
     /// The root mean square of H − H̄.
     pub method_rms: N,
+    /// The root mean square of the errors of these H̄; 0 where the estimator gives no errors.
+    pub method_resolution: N,
     /// The newest accurate H̄.
     pub modified: N,
     /// The permanent change of H̄: max − min of the accurate estimates. Where H̄ oscillates with the estimates' errors, as near a resonance,
@@ -131,6 +133,7 @@ impl<N: Real, E: Estimator<N>> Monitor<N, E> {
         time.multiply(&N::from_rational(&self.h.exact().abs(), &context));
         let turning = self.newest_states.turning();
         let trend_ratio = trend_ratio(&accurate, &range);
+        let [method_rms, method_resolution] = statistics.method_rms();
         let mut report = Report {
             steps: self.n,
             time,
@@ -139,7 +142,8 @@ impl<N: Real, E: Estimator<N>> Monitor<N, E> {
             kinetic: self.kinetic.mean(),
             method_least: statistics.method.least.clone(),
             method_largest: statistics.method.largest.clone(),
-            method_rms: statistics.method_rms(),
+            method_rms,
+            method_resolution,
             modified: last.clone(),
             change: difference(last, first),
             trend: trend_ratio.map(TrendRatio::trend),
@@ -254,6 +258,17 @@ impl<N: Real> Report<N> {
             finite: self.not_finite.is_none() && numbers.into_iter().all(N::is_finite),
             windows: self.windows,
         }
+    }
+
+    /// The root mean square of H − H̄, and its least and largest value; `None` where they are no more than the errors of H̄: where H̄ is known less well than
+    /// H − H̄, or less well than H changes while H − H̄ is not three times its error.
+    pub fn method(&self) -> Option<[&N; 3]> {
+        let mut error = self.method_resolution.clone();
+        if error > self.energy_error {
+            error.multiply_integer(ERROR_FACTOR);
+        }
+        let of_best = self.resolution.as_ref().is_none_or(|error| self.method_rms >= *error);
+        (of_best && self.method_rms >= error).then_some([&self.method_rms, &self.method_least, &self.method_largest])
     }
 
     /// How far the range of H − H̄ is from 0.

@@ -46,6 +46,8 @@ pub(super) struct Statistics<N> {
     beyond_errors: Range<N>,
     bound: N,
     sum_of_squares: N,
+    /// Σ of squares of the errors of the H̄ in these differences.
+    method_errors: N,
     /// Σ of squares of the errors, and of H − H̄ with the H̄ of the same window.
     errors: N,
     distances: N,
@@ -61,14 +63,15 @@ impl<N: Real> Statistics<N> {
             beyond_errors: Range::of(&zero),
             bound: zero.clone(),
             sum_of_squares: zero.clone(),
+            method_errors: zero.clone(),
             errors: zero.clone(),
             distances: zero,
         }
     }
 
-    /// Takes a window: H, H − H̄ and H̄.
+    /// Takes a window: H, H − H̄ with the error of this H̄, and the window's own H̄.
     #[inline]
-    pub(super) fn add(&mut self, energy: &N, method: &N, modified: &Estimated<N>) {
+    pub(super) fn add(&mut self, energy: &N, (method, error): (&N, &N), modified: &Estimated<N>) {
         self.energy.include(energy);
         self.include_bounds(modified);
         if self.windows == 0 {
@@ -77,6 +80,7 @@ impl<N: Real> Statistics<N> {
         }
         self.method.include(method);
         self.sum_of_squares.add_product(method, method);
+        self.method_errors.add_product(error, error);
         self.errors.add_product(&modified.error, &modified.error);
         self.bound.assign_difference(energy, &modified.value);
         self.distances.add_product(&self.bound, &self.bound);
@@ -122,8 +126,8 @@ impl<N: Real> Statistics<N> {
         integer(self.windows.max(1), &self.sum_of_squares.context())
     }
 
-    /// √⟨(H − H̄)²⟩
-    pub(super) fn method_rms(&self) -> N {
-        root(&quotient(&self.sum_of_squares, &self.count()))
+    /// √⟨(H − H̄)²⟩, and the same of the errors of these H̄.
+    pub(super) fn method_rms(&self) -> [N; 2] {
+        [&self.sum_of_squares, &self.method_errors].map(|sum| root(&quotient(sum, &self.count())))
     }
 }

@@ -262,12 +262,16 @@ impl<N: Real> fmt::Display for Report<N> {
             _ => format!("T is {}", short(&self.kinetic)),
         };
         line(f, "energy error", &self.energy_error, &format!("max − min of H; {of_kinetic}"))?;
-        // H − H̄ then shows no more than the errors of H̄
-        let is_resolved = self.resolution.as_ref().is_none_or(|resolution| self.method_rms >= *resolution);
-        let resolved = if is_resolved { "" } else { "; not resolved" };
-        let [least, largest] = [&self.method_least, &self.method_largest].map(short);
-        let range = format!("rms of H − H̄, which is from {least} to {largest}{resolved}");
-        line(f, "the method's part", &self.method_rms, &range)?;
+        match self.method().map(|all| all.map(short)) {
+            Some([rms, least, largest]) => {
+                let range = format!("rms of H − H̄, which is from {least} to {largest}");
+                writeln!(f, "  {:<18}{rms:>10}  {range}", "the method's part")?;
+            }
+            None => {
+                let known = format!("H̄ is known to {} rms only", short(&self.method_resolution));
+                writeln!(f, "  {:<18}{:>10}  not resolved: {known}", "the method's part", "–")?;
+            }
+        }
         // where the energy is lost, windows with accurate estimates are few
         let trend = self.trend.filter(|_| !self.verdict.loses_the_energy());
         let trend = trend.map_or(String::new(), |trend| format!(", {trend}"));

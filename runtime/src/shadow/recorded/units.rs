@@ -1,5 +1,7 @@
 //! The units of a program, in texts.
 
+use shadowstep_symbolic::decimal::significant;
+
 /// The units of a program: those of the numbers that it gives, and the unit in which times are printed.
 ///
 /// ```
@@ -26,8 +28,8 @@ impl Units {
     /// A time.
     pub(super) fn time(&self, time: f64) -> String {
         match &self.time {
-            None => format!("{time:.4} of time"),
-            Some((unit, of_unit)) => format!("{:.4} {unit}", time * of_unit),
+            None => format!("{} of time", significant(time, 5)),
+            Some((unit, of_unit)) => format!("{} {unit}", significant(time * of_unit, 5)),
         }
     }
 }

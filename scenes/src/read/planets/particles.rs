@@ -199,6 +199,19 @@ mod tests {
         );
     }
 
+    /// In metadata too, though momenta are divided by it; also where all other masses are 1.
+    #[test]
+    fn particles_have_the_mass_0() {
+        let particle = "[[body]]\nname = \"a\"\nmass = 0\na = 2\n";
+        for parts in PARTS {
+            let masses = read(parts, particle, "").unwrap().metadata()["masses"].clone();
+            assert_eq!(masses, serde_json::json!(["1", "1", "1", "0.001", "0.001", "0.001", "0", "0", "0"]), "{parts}");
+        }
+        let text = format!("[problem]\nparameters = {{ g = 1 }}\n{}{RUN}", BODIES.replace("0.001", "1") + particle);
+        let scene = Scene::read(Source { path: "scene.toml".to_owned(), text }).unwrap();
+        assert_eq!(scene.metadata()["masses"], serde_json::json!(["1", "1", "1", "1", "1", "1", "0", "0", "0"]));
+    }
+
     /// Elements about the centre, the velocity for the momentum, and no orbit about a particle.
     #[test]
     fn particles_have_elements() {
