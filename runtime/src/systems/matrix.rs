@@ -68,8 +68,8 @@ pub(crate) fn add_to_diagonal(a: &mut Matrix<AnyLimbs>, number: u32, count: Limb
 }
 
 /// e^A − 1: its series for A/2ⁿ, and then by doubling, E ← E² + 2E, which has no cancellation.
-pub(crate) fn exponential(mut argument: Matrix<AnyLimbs>, count: LimbCount) -> Matrix<AnyLimbs> {
-    let norm = argument.iter().map(|row| row.iter().map(|x| x.to_f64().abs()).sum::<f64>()).fold(0.0, f64::max);
+fn exponential(mut argument: Matrix<AnyLimbs>, count: LimbCount) -> Matrix<AnyLimbs> {
+    let norm = norm(&argument);
     let halvings = if norm.is_finite() { (norm * 16.0).max(1.0).log2().ceil() as u32 } else { 0 };
     for _ in 0..halvings {
         argument.iter_mut().flatten().for_each(|x| x.divide_integer(2));
@@ -86,12 +86,73 @@ pub(crate) fn exponential(mut argument: Matrix<AnyLimbs>, count: LimbCount) -> M
             break;
         }
     }
-    for _ in 0..halvings {
-        let square = product(&sum, &sum, count);
-        scale(&mut sum, 2);
-        add(&mut sum, &square);
-    }
+    double(&mut sum, halvings, count);
     sum
+}
+
+/// E ← E² + 2E, some times.
+fn double(e: &mut Matrix<AnyLimbs>, times: u32, count: LimbCount) {
+    for _ in 0..times {
+        let square = product(e, e, count);
+        scale(e, 2);
+        add(e, &square);
+    }
+}
+
+/// The powers of larger matrices would need much memory, and are computed again for each time.
+const LARGEST_KEPT: usize = 32;
+
+/// The powers A, A², … that series Σ c_k Aᵏ have needed so far: with them a series has no products of matrices.
+#[derive(Clone, Debug)]
+pub(crate) struct Powers {
+    powers: Vec<Matrix<AnyLimbs>>,
+    /// A norm of A.
+    norm: f64,
+    count: LimbCount,
+}
+
+impl Powers {
+    pub(crate) fn new(matrix: Matrix<AnyLimbs>, count: LimbCount) -> Self {
+        Powers { norm: norm(&matrix), powers: vec![matrix], count }
+    }
+
+    /// A norm of A.
+    pub(crate) fn norm(&self) -> f64 {
+        self.norm
+    }
+
+    /// Σ c_k Aᵏ over k = 1, 2, … as long as terms have digits; `next` makes c_k of the coefficient before, and c_0 is 1.
+    pub(crate) fn series(&mut self, mut next: impl FnMut(i32, &mut AnyLimbs)) -> Matrix<AnyLimbs> {
+        let Powers { powers, norm, count, .. } = self;
+        let zero = AnyLimbs::zero(*count);
+        let mut sum = vec![vec![zero; powers[0].len()]; powers[0].len()];
+        let mut coefficient = AnyLimbs::from_rational(&Rational::from_integer(1.into()), count);
+        for k in 1..MOST_TERMS {
+            next(k, &mut coefficient);
+            if powers.len() < k as usize {
+                powers.push(product(&powers[0], &powers[k as usize - 2], *count));
+            }
+            let entries = sum.iter_mut().flatten().zip(powers[k as usize - 1].iter().flatten());
+            entries.for_each(|(sum, power)| sum.add_product(&coefficient, power));
+            let size = coefficient.log10_abs() + f64::from(k) * norm.log10();
+            if size < -f64::from(count.bits()) * std::f64::consts::LOG10_2 {
+                break;
+            }
+        }
+        sum
+    }
+
+    /// Ends the series over a time: powers of large matrices are not kept for the next.
+    pub(crate) fn end_of_time(&mut self) {
+        if self.powers[0].len() > LARGEST_KEPT {
+            self.powers.truncate(1);
+        }
+    }
+}
+
+/// The largest sum of the sizes of a row.
+fn norm(matrix: &Matrix<AnyLimbs>) -> f64 {
+    matrix.iter().map(|row| row.iter().map(|x| x.to_f64().abs()).sum::<f64>()).fold(0.0, f64::max)
 }
 
 /// A quadratic form ½xᵀSx in x = (q, p): S exactly, and in numbers, which have the derivatives of S.
@@ -99,16 +160,36 @@ pub(crate) fn exponential(mut argument: Matrix<AnyLimbs>, count: LimbCount) -> M
 pub(crate) struct Form<N> {
     exact: Matrix<Rational>,
     pub(crate) rounded: Matrix<N>,
+    /// Of JS, once there was a flow.
+    powers: Option<Powers>,
 }
 
 impl<N: CorrectlyRounded> Form<N> {
     pub(crate) fn new(exact: Matrix<Rational>, context: &N::Context) -> Self {
         let number = |value: &Rational| N::from_rational(value, context);
-        Form { rounded: exact.iter().map(|row| row.iter().map(number).collect()).collect(), exact }
+        Form { rounded: exact.iter().map(|row| row.iter().map(number).collect()).collect(), exact, powers: None }
+    }
+
+    /// e^{tJS} − 1: the series for t/2ⁿ, and then by doubling, E ← E² + 2E, which has no cancellation.
+    pub(crate) fn flow(&mut self, time: &Rational, count: LimbCount) -> Matrix<AnyLimbs> {
+        let Form { exact, powers, .. } = self;
+        let number = |s: &Rational| AnyLimbs::from_rational(s, &count);
+        let powers = powers.get_or_insert_with(|| Powers::new(hamiltonian(exact, number), count));
+        let mut time = number(time);
+        let size = time.to_f64().abs() * powers.norm();
+        let halvings = if size.is_finite() { (size * 2.0).max(1.0).log2().ceil() as u32 } else { 0 };
+        (0..halvings).for_each(|_| time.divide_integer(2));
+        let mut sum = powers.series(|k, coefficient| {
+            coefficient.multiply(&time);
+            coefficient.divide_integer(k);
+        });
+        powers.end_of_time();
+        double(&mut sum, halvings, count);
+        sum
     }
 
     /// tJS: the rows of p, and then those of q with the other sign.
-    pub(crate) fn argument(&self, time: &Rational, count: LimbCount) -> Matrix<AnyLimbs> {
+    fn argument(&self, time: &Rational, count: LimbCount) -> Matrix<AnyLimbs> {
         hamiltonian(&self.exact, |s| AnyLimbs::from_rational(&(s * time), &count))
     }
 
@@ -159,5 +240,23 @@ mod tests {
     fn most_digits_are_those_of_the_longest_limbs() {
         let fits = |digits| LimbCount::of_bits(Precision::digits(digits).unwrap().in_bits() + GUARD_BITS).is_some();
         assert!(fits(QUADRATIC_FLOW_DIGITS) && !fits(QUADRATIC_FLOW_DIGITS + 1));
+    }
+
+    /// Two degrees of freedom in a magnetic field: flows over many times cost few products of matrices, and are those of one exponential each.
+    #[test]
+    fn flows_over_many_times_share_the_powers() {
+        let exact =
+            [["9/16", "0", "0", "-3/4"], ["0", "9/32", "3/8", "0"], ["0", "3/8", "1/2", "0"], ["-3/4", "0", "0", "1"]];
+        let exact = exact.map(|row| row.map(|s| crate::exact(s).unwrap()).to_vec()).to_vec();
+        let mut form = Form::<f64>::new(exact, &());
+        let count = precision::<f64>(&()).unwrap();
+        for i in -50..150 {
+            let time = Rational::new(i.into(), 37.into());
+            let found = round(&form.flow(&time, count), &0.0);
+            assert_eq!(found, round(&exponential(form.argument(&time, count), count), &0.0), "{time}");
+        }
+        // each is a product
+        let kept = form.powers.unwrap().powers.len();
+        assert!((20..60).contains(&kept), "{kept}");
     }
 }

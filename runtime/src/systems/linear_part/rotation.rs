@@ -6,16 +6,16 @@
 use shadowstep_symbolic::decimal::from_text;
 
 use crate::Rational;
-use crate::number::{AnyLimbs, CorrectlyRounded, LimbCount, Number, Real};
-use crate::systems::matrix::{
-    Form, MOST_KEPT, MOST_TERMS, Matrix, add, add_to_diagonal, precision, product, round, scale,
-};
+use crate::number::{AnyLimbs, CorrectlyRounded, LimbCount, Number};
+use crate::systems::matrix::{Form, MOST_KEPT, Matrix, Powers, add_to_diagonal, precision, product, round, scale};
 
 /// The flows over the times that have occurred: a scheme has a few.
 #[derive(Clone, Debug)]
 pub(super) struct Rotations<N> {
     masses: Vec<Rational>,
     stiffness: Matrix<Rational>,
+    /// Of W = M⁻¹K, once there was a flow.
+    powers: Option<Powers>,
     /// A itself, for derivatives.
     form: Option<Form<N>>,
     known: Vec<(N, Flow<N>)>,
@@ -40,6 +40,7 @@ impl<N: CorrectlyRounded> Rotations<N> {
         Rotations {
             masses: masses.to_vec(),
             stiffness: stiffness.to_vec(),
+            powers: None,
             form: (N::DERIVATIVES > 0).then(|| Form::new(form(masses, stiffness), context)),
             known: Vec::new(),
             to_q: zeros(),
@@ -54,7 +55,7 @@ impl<N: CorrectlyRounded> Rotations<N> {
             if self.known.len() == MOST_KEPT {
                 self.known.clear();
             }
-            let mut flow = Flow::new(&self.masses, &self.stiffness, time);
+            let mut flow = Flow::new((&self.masses, &self.stiffness), &mut self.powers, time);
             self.form.iter().for_each(|form| flow.add_derivatives(form, time));
             self.known.push((time.clone(), flow));
             self.known.len() - 1
@@ -77,7 +78,7 @@ impl<N: CorrectlyRounded> Rotations<N> {
 
 impl<N: CorrectlyRounded> Flow<N> {
     /// The flow, computed in more digits and rounded once.
-    fn new(masses: &[Rational], stiffness: &Matrix<Rational>, time: &N) -> Self {
+    fn new((masses, stiffness): (&[Rational], &Matrix<Rational>), powers: &mut Option<Powers>, time: &N) -> Self {
         let count = precision::<N>(&time.context()).expect("it was checked with the system");
         let number = |value: &Rational| AnyLimbs::from_rational(value, &count);
         // the decimal reads back to the same number, thus differs by less than its rounding
@@ -85,11 +86,12 @@ impl<N: CorrectlyRounded> Flow<N> {
         let zero = N::zero(&time.context());
         let time = &number(&exact);
         let of_row = |(row, mass): (&Vec<Rational>, &Rational)| row.iter().map(|k| number(&(k / mass))).collect();
-        let frequencies: Matrix<AnyLimbs> = stiffness.iter().zip(masses).map(of_row).collect();
-        let doublings = doublings(&frequencies, time);
+        let frequencies = || Powers::new(stiffness.iter().zip(masses).map(of_row).collect(), count);
+        let powers = powers.get_or_insert_with(frequencies);
+        let doublings = doublings(powers.norm(), time);
         let mut small = *time;
         (0..doublings).for_each(|_| small.divide_integer(2));
-        let (mut versine, mut sine) = series(&frequencies, &small, count);
+        let (mut versine, mut sine) = series(powers, &small, count);
         for _ in 0..doublings {
             // cos 2x − 1 = 2 (cos x − 1)(cos x + 1), sin 2x = 2 sin x cos x
             let [mut cosine, mut plus_two] = [versine.clone(), versine.clone()];
@@ -146,44 +148,27 @@ fn form(masses: &[Rational], stiffness: &[Vec<Rational>]) -> Matrix<Rational> {
     of_q.chain(of_p).collect()
 }
 
-/// How often t is halved, so that t²|W| is below 1/16 in a norm.
+/// How often t is halved, so that t²|W| is below 1/16.
 #[inline]
-fn doublings(frequencies: &Matrix<AnyLimbs>, time: &AnyLimbs) -> u32 {
-    let norm = frequencies.iter().map(|row| row.iter().map(|w| w.to_f64().abs()).sum::<f64>()).fold(0.0, f64::max);
+fn doublings(norm: f64, time: &AnyLimbs) -> u32 {
     let size = time.to_f64().abs() * norm.sqrt();
     if size.is_finite() { (size.max(0.25) * 4.0).log2().ceil() as u32 } else { 0 }
 }
 
 /// C − 1 = Σ (−t²W)ᵏ/(2k)! and S = t Σ (−t²W)ᵏ/(2k + 1)!
 #[inline]
-fn series(frequencies: &Matrix<AnyLimbs>, time: &AnyLimbs, count: LimbCount) -> (Matrix<AnyLimbs>, Matrix<AnyLimbs>) {
-    let zero = AnyLimbs::zero(count);
-    let dimension = frequencies.len();
+fn series(powers: &mut Powers, time: &AnyLimbs, count: LimbCount) -> (Matrix<AnyLimbs>, Matrix<AnyLimbs>) {
     let mut squared = *time;
     squared.multiply(time);
     squared.negate();
-    let mut argument = frequencies.clone();
-    argument.iter_mut().flatten().for_each(|w| w.multiply(&squared));
-    let mut versine = vec![vec![zero; dimension]; dimension];
-    let mut sine = versine.clone();
-    let mut term = versine.clone();
+    let [versine, mut sine] = [-1, 1].map(|of_sine| {
+        powers.series(|k, coefficient| {
+            coefficient.multiply(&squared);
+            coefficient.divide_integer(2 * k * (2 * k + of_sine));
+        })
+    });
+    powers.end_of_time();
     add_to_diagonal(&mut sine, 1, count);
-    add_to_diagonal(&mut term, 1, count);
-    let mut k = 0;
-    loop {
-        // a term is less than 1/16 of the one before
-        term = product(&term, &argument, count);
-        term.iter_mut().flatten().for_each(|x| x.divide_integer((2 * k + 1) * (2 * k + 2)));
-        add(&mut versine, &term);
-        let mut of_sine = term.clone();
-        of_sine.iter_mut().flatten().for_each(|x| x.divide_integer(2 * k + 3));
-        add(&mut sine, &of_sine);
-        k += 1;
-        let largest = term.iter().flatten().map(AnyLimbs::log10_abs).fold(f64::NEG_INFINITY, f64::max);
-        if largest < -f64::from(count.bits()) * std::f64::consts::LOG10_2 || k > MOST_TERMS {
-            break;
-        }
-    }
     sine.iter_mut().flatten().for_each(|s| s.multiply(time));
     (versine, sine)
 }

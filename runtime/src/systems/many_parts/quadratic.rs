@@ -7,7 +7,7 @@ use shadowstep_symbolic::decimal::from_text;
 use super::part::{FlowState, Part};
 use crate::Rational;
 use crate::number::CorrectlyRounded;
-use crate::systems::matrix::{Form, MOST_KEPT, Matrix, exponential, precision, round};
+use crate::systems::matrix::{Form, MOST_KEPT, Matrix, precision, round};
 
 /// The form with the flows over the times that have occurred: a scheme has a few.
 pub(super) struct Quadratic<N> {
@@ -38,7 +38,7 @@ impl<N: CorrectlyRounded> Quadratic<N> {
         if self.known.len() == MOST_KEPT {
             self.known.clear();
         }
-        self.known.push((time.clone(), flow(&self.form, time)));
+        self.known.push((time.clone(), flow(&mut self.form, time)));
         self.known.len() - 1
     }
 }
@@ -74,14 +74,14 @@ impl<N: CorrectlyRounded> Part<N> for Quadratic<N> {
 }
 
 /// e^{tJS} − 1, computed in more digits and rounded once, with its derivatives.
-fn flow<N: CorrectlyRounded>(form: &Form<N>, time: &N) -> Matrix<N> {
+fn flow<N: CorrectlyRounded>(form: &mut Form<N>, time: &N) -> Matrix<N> {
     let count = precision::<N>(&time.context()).expect("it was checked with the form");
     // the decimal reads back to the same number, thus differs by less than its rounding
     let Ok(exact) = from_text(&time.to_text()) else {
         // a time that is infinite or NaN: so are all coordinates after it
         return vec![vec![time.clone(); form.rounded.len()]; form.rounded.len()];
     };
-    let mut flow = round(&exponential(form.argument(&exact, count), count), &N::zero(&time.context()));
+    let mut flow = round(&form.flow(&exact, count), &N::zero(&time.context()));
     for (k, derivative) in form.derivatives_of_flow(time, count) {
         let pairs = flow.iter_mut().flatten().zip(derivative.iter().flatten());
         pairs.for_each(|(x, derivative)| x.assign_rounded_derivative(k, derivative));
