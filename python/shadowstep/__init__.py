@@ -11,7 +11,7 @@ True
 True
 """
 
-from .border import InternalError  # isort: skip, before all that takes functions from the compiled module
+from .border import InternalError, WrongType  # isort: skip, before all that takes functions from the compiled module
 from ._shadowstep import InputError, RunError, __version__
 from .chaos import Chaos, Indicator, Indicators, chaos, lyapunov, megno
 from .command import command, sweep
@@ -57,6 +57,7 @@ __all__ = [
     "Scheme",
     "ShadowEnergy",
     "Trajectory",
+    "WrongType",
     "__version__",
     "advise",
     "chaos",

@@ -14,6 +14,10 @@ class InternalError(RuntimeError):
     """A fault of Shadowstep itself, with the sentence of the check that failed. Please report it with the call that leads to it."""
 
 
+class WrongType(_shadowstep.InputError, TypeError):
+    """An argument of a wrong type: an `InputError`, which is the `TypeError` of Python too."""
+
+
 _PROCESSING = "while processing "
 
 
@@ -24,7 +28,7 @@ def ordinary(function: Callable[..., Any]) -> Callable[..., Any]:
     def called(*arguments: Any, **named: Any) -> Any:
         try:
             return function(*arguments, **named)
-        except TypeError as raised:
+        except (TypeError, ValueError, OverflowError) as raised:
             error: BaseException = raised
             # PyO3 notes it, where Python has notes
             notes = [note for note in getattr(error, "__notes__", ()) if note.startswith(_PROCESSING)]
@@ -33,7 +37,7 @@ def ordinary(function: Callable[..., Any]) -> Callable[..., Any]:
             argument = notes[0].removeprefix(_PROCESSING).strip("'")
             if argument == "run" and error.__cause__ is not None:  # a field of it
                 argument, error = str(error).rpartition(".")[2], error.__cause__
-            wrong: Exception = TypeError(f"{argument}: {error}")
+            wrong: Exception = WrongType(f"{argument}: {error}")
         except BaseException as panic:
             if type(panic).__name__ != "PanicException":
                 raise

@@ -10,6 +10,7 @@ from fractions import Fraction
 from typing import Any, Union
 
 from . import _shadowstep
+from .arguments import check
 from .exact import Number, count
 from .integration import run_of
 from .problem import Problem
@@ -112,6 +113,7 @@ def chaos(
     >>> 0.02 < found.at.exponent < 0.08
     True
     """
+    check(chaos, locals())
     run = run_of(problem, scheme, h, until, steps, first, gradient_kicks, every, digits, mpfr)
     exponents = None if exponents is None else count(exponents, "exponents")
     with bar(None, "steps", progress) as reach:
@@ -172,6 +174,7 @@ def lyapunov(
     >>> found.verdict, 0.02 < found.value - found.uncertainty, found.value + found.uncertainty < 0.09
     ('chaotic', True, True)
     """
+    check(lyapunov, locals())
     options: dict[str, Any] = {"steps": steps, "first": first, "gradient_kicks": gradient_kicks, "every": every, "digits": digits, "mpfr": mpfr}
     along = chaos(problem, scheme, h, until, vectors=1, half=False, progress=progress, **options).at
     return _indicator(along.motion, along.lyapunov if along.exponent is None else along.exponent, along.exponent_error)
@@ -215,6 +218,7 @@ def megno(
     >>> found.verdict, abs(found.value - 2) < 0.05, found.uncertainty < 0.05
     ('regular', True, True)
     """
+    check(megno, locals())
     options: dict[str, Any] = {"steps": steps, "first": first, "gradient_kicks": gradient_kicks, "every": every, "digits": digits, "mpfr": mpfr}
     along = chaos(problem, scheme, h, until, vectors=1, half=False, progress=progress, **options).at
     return _indicator(along.motion, along.mean_megno, along.mean_megno_error)

@@ -10,6 +10,7 @@ from typing import Union
 import numpy as np
 
 from ._shadowstep import InputError, RunError
+from .arguments import path_of
 from .scene import columns_of
 
 
@@ -34,7 +35,7 @@ def command(*words: Union[str, os.PathLike[str]]) -> str:
     # the package itself is found wherever this process has found it
     program = "import sys; sys.path[:0] = sys.argv.pop(1).split(chr(10)); from shadowstep.__main__ import main; main()"
     paths = "\n".join(path for path in sys.path if path)
-    arguments = [sys.executable, "-c", program, paths, *(os.fspath(word) for word in words)]
+    arguments = [sys.executable, "-c", program, paths, *(path_of(word, "words") for word in words)]
     done = subprocess.run(arguments, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, encoding="utf-8")
     if done.returncode in (2, 3):
         error = (InputError if done.returncode == 2 else RunError)(done.stderr.strip())
@@ -50,6 +51,7 @@ def sweep(path: Union[str, os.PathLike[str]], out: Union[str, os.PathLike[str]],
     What the folder has is not computed again; after an interruption the same call continues. The files that the sweep names lie in its own folder
     or below, unless ``allow_outside`` is true.
     """
-    command("sweep", path, "--out", out, *(["--allow-outside"] if allow_outside else []))
-    with open(os.path.join(os.fspath(out), "results.csv"), encoding="utf-8") as results:
+    folder = path_of(out, "out")
+    command("sweep", path_of(path, "path"), "--out", folder, *(["--allow-outside"] if allow_outside else []))
+    with open(os.path.join(folder, "results.csv"), encoding="utf-8") as results:
         return columns_of(results.read())

@@ -11,6 +11,8 @@ import numpy as np
 
 from . import _shadowstep
 from ._shadowstep import Given, InputError
+from .arguments import check, numbers
+from .border import WrongType
 from .exact import Number, exact
 from .integration import integrate, run_of, vectors_of
 from .problem import Problem, problem_of
@@ -101,6 +103,7 @@ def derivatives(
     >>> [round(float(x), 6) for x in found.of_q[-1, 0]]  # of cos(√k t): cos 2 and −sin(2)/4
     [-0.416147, -0.227324]
     """
+    check(derivatives, locals())
     problem = problem_of(problem)
     names = [*problem.coordinates, *problem.momenta] if by is None else list(by)
     run = run_of(problem, scheme, h, until, steps, first, gradient_kicks, every, digits, mpfr)
@@ -162,6 +165,7 @@ def gradient(
     >>> found.reversal_error < 1e-12
     True
     """
+    check(gradient, locals())
     problem = problem_of(problem)
     names = [*problem.coordinates, *problem.momenta] if by is None else list(by)
     variables = variables_of(problem, names, str(digits), mpfr)
@@ -170,18 +174,22 @@ def gradient(
         problem, scheme, h, until, steps=steps, first=first, gradient_kicks=gradient_kicks, every=every, digits=digits, mpfr=mpfr, progress=progress
     )
     q, p = (np.asarray(half, dtype=float) for half in (made.q, made.p))
-    value, of_q, of_p = loss(q, p)
+    found = loss(q, p)
+    if not isinstance(found, (tuple, list)) or len(found) != 3:
+        raise WrongType("loss must return its value with its derivatives by q and by p, which may be None")
+    value, of_q, of_p = found
+    value = float(numbers(value, "the value of loss").reshape(()))
     covectors = covectors_of(q.shape, of_q, of_p)
     with bar(run["steps"], "steps", progress) as reach:
-        found, error = _shadowstep.gradient(run, variables, covectors, progress=reach)
-    return Gradient(float(value), dict(zip(names, _array(found).tolist())), error)
+        by_names, error = _shadowstep.gradient(run, variables, covectors, progress=reach)
+    return Gradient(value, dict(zip(names, _array(by_names).tolist())), error)
 
 
 def covectors_of(shape: tuple[int, ...], of_q: Any, of_p: Any) -> np.ndarray:
     """The derivatives of a function by the states, flat."""
     halves = []
     for name, given in (("q", of_q), ("p", of_p)):
-        half = np.zeros(shape) if given is None else np.asarray(given, dtype=float)
+        half = np.zeros(shape) if given is None else numbers(given, f"of_{name}")
         if half.shape != shape:
             raise InputError(f"the derivatives by {name} have the shape {half.shape}, not {shape}")
         halves.append(half)

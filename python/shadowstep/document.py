@@ -4,8 +4,11 @@ from __future__ import annotations
 
 import json
 from collections.abc import Mapping
+from fractions import Fraction
 from typing import Any
 
+from .arguments import refuse_other
+from .border import WrongType
 from .exact import exact
 
 
@@ -22,15 +25,13 @@ def document(sections: Mapping[str, Any]) -> str:
 
 def _section(name: str, content: Any) -> str:
     if isinstance(content, (list, tuple)):
-        return "\n".join(f"[{_section_of_list(name, item)}" for item in content)
-    return f"[{name}]\n{_lines(content)}"
+        return "\n".join(f"[[{name}]]\n{_lines(item, name)}" for item in content)
+    return f"[{name}]\n{_lines(content, name)}"
 
 
-def _section_of_list(name: str, content: Mapping[str, Any]) -> str:
-    return f"[{name}]]\n{_lines(content)}"
-
-
-def _lines(content: Mapping[str, Any]) -> str:
+def _lines(content: Any, name: str) -> str:
+    if not isinstance(content, Mapping):
+        raise WrongType(f"{name} must be a mapping of keys to values, or a list of such, not {type(content).__name__}")
     return "".join(f"{key} = {_value(value, key)}\n" for key, value in content.items() if value is not None)
 
 
@@ -45,6 +46,7 @@ def _value(value: Any, what: str) -> str:
         return "{" + ", ".join(f"{_text(key)} = {_value(item, key)}" for key, item in value.items()) + "}"
     if isinstance(value, (list, tuple)):
         return "[" + ", ".join(_value(item, what) for item in value) + "]"
+    refuse_other(value, (Fraction,), what)
     return _text(exact(value, what))
 
 

@@ -7,6 +7,7 @@ import os
 from typing import Any, Union
 
 from . import _shadowstep
+from .arguments import check
 from .estimator import options
 from .exact import Number, exact
 from .problem import Problem, problem_of
@@ -56,6 +57,7 @@ def drift(
     >>> float(found["drift"]) < 1e-4 < float(found["energy_error"]["largest"])
     True
     """
+    check(drift, locals())
     exact_flow = isinstance(scheme, str) and scheme == "exact-flow"
     problem, table = problem_of(problem), None if exact_flow else table_of(scheme)
     with bar(None, "steps", progress) as reach:

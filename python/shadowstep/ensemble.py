@@ -10,6 +10,7 @@ from typing import Any, Union
 import numpy as np
 
 from . import _shadowstep
+from .arguments import check, numbers
 from .document import document
 from .estimator import order_of
 from .exact import Number, count, exact
@@ -94,6 +95,7 @@ def ensemble(
     >>> bool(found.energy_error[0] < found.energy_error[50] < found.energy_error[99])
     True
     """
+    check(ensemble, locals())
     problem = problem_of(problem)
     columns = _Columns()
     sections = dict(problem.sections)
@@ -101,7 +103,7 @@ def ensemble(
     initial = dict(sections.get("initial") or {})
     for name, values in (("q", q), ("p", p)):
         if values is not None:
-            initial[name] = columns.of_states(name, np.asarray(values, dtype=float), problem.dimension)
+            initial[name] = columns.of_states(name, numbers(values, name), problem.dimension)
     sections["initial"] = initial
     name = table_of(scheme).name
     run: dict[str, Any] = {"scheme": name, "step": exact(h, "h"), "digits": digits}
@@ -134,9 +136,9 @@ class _Columns:
         self.named: dict[str, np.ndarray] = {}
 
     def of_parameter(self, name: str, values: Any) -> str:
-        values = np.asarray(values, dtype=float)
+        values = numbers(values, f"parameters[{name!r}]")
         if values.ndim != 1:
-            raise _shadowstep.InputError(f"{name} must have the shape (n,), not {values.shape}")
+            raise _shadowstep.InputError(f"parameters[{name!r}] must have the shape (n,), not {values.shape}")
         _refuse_infinite(name, values)
         self.named[f"ensemble_{name}"] = values
         return f"ensemble_{name}"

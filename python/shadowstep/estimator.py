@@ -25,9 +25,6 @@ def options(
     name: str, order: int | None, max_order: int | None, stop: str | None, rule: str | None, accuracy: Number | None
 ) -> dict[str, Any]:
     """What the module of Rust takes; what is not given has its default there."""
-    for what, value in (("estimator", name), ("stop", stop), ("rule", rule)):
-        if value is not None and not isinstance(value, str):
-            raise TypeError(f"{what} must be a text, not {type(value).__name__}")
     return {
         "name": name,
         "order": None if order is None else order_of(order),

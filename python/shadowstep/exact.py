@@ -18,6 +18,7 @@ from numbers import Integral, Real
 from typing import Any, Union
 
 from . import _shadowstep
+from .border import WrongType
 
 Number = Union[str, int, float, Fraction, Decimal]
 
@@ -35,17 +36,22 @@ def exact(value: Any, what: str = "the number") -> str:
     if isinstance(value, str):
         return value
     if isinstance(value, bool):
-        raise TypeError(f"{what} must be a number, not {value}")
+        raise WrongType(f"{what} must be a number, not {value}")
     if isinstance(value, Integral):
         return str(int(value))
+    if isinstance(value, Decimal) and value.is_nan():  # a signalling one cannot be compared
+        raise _shadowstep.InputError(f"{what} must be finite, not {value}")
     if isinstance(value, (Fraction, Decimal)):
         return str(_finite(value, what))
-    if hasattr(value, "man_exp"):  # mpmath
-        mantissa, exponent = (int(part) for part in value.man_exp)
+    if hasattr(type(value), "man_exp"):  # mpmath
+        try:
+            mantissa, exponent = (int(part) for part in value.man_exp)
+        except ValueError:
+            raise _shadowstep.InputError(f"{what} must be finite, not {value}") from None
         return str(Fraction(mantissa) * Fraction(2) ** exponent)
     if isinstance(value, Real):
         return repr(_finite(float(value), what))
-    raise TypeError(f"{what} must be a number or a text such as '1/10', not {type(value).__name__}")
+    raise WrongType(f"{what} must be a number or a text such as '1/10', not {type(value).__name__}")
 
 
 def count(value: Any, what: str, least: int = 1, most: int = 2**63 - 1) -> int:
@@ -58,12 +64,12 @@ def count(value: Any, what: str, least: int = 1, most: int = 2**63 - 1) -> int:
     shadowstep.InputError: every = 0 is too small: give 1 or more
     >>> count(0.5, "every")
     Traceback (most recent call last):
-    TypeError: every must be a whole number, not 0.5
+    shadowstep.border.WrongType: every must be a whole number, not 0.5
     """
     try:
         found = operator.index(value)
     except TypeError:
-        raise TypeError(f"{what} must be a whole number, not {value!r}") from None
+        raise WrongType(f"{what} must be a whole number, not {value!r}") from None
     if found < least:
         raise _shadowstep.InputError(f"{what} = {found} is too small: give {least} or more")
     if found > most:

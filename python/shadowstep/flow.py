@@ -10,8 +10,9 @@ import numpy as np
 
 from . import _shadowstep
 from ._shadowstep import InputError
+from .arguments import check, numbers
 from .derivatives import covectors_of, variables_of
-from .exact import Number
+from .exact import Number, count
 from .integration import integrate, run_of
 from .problem import Problem, problem_of
 from .scheme import Scheme
@@ -42,24 +43,29 @@ class Flow:
         gradient_kicks: str = "exact",
         every: int = 1,
     ) -> None:
+        check(Flow.__init__, locals())
         self._problem, self._scheme, self._by = problem_of(problem), scheme, list(by)
         self._h = h
+        every = count(every, "every")
         self._options: dict[str, Any] = {"first": first, "gradient_kicks": gradient_kicks, "every": every}
         if steps is None:  # of each step size
             made = integrate(self._problem, scheme, h, until, first=first, gradient_kicks=gradient_kicks, every=2**63 - 1, progress=False)
             steps = int(made.n[-1])
-        self.steps = steps
+        self.steps = count(steps, "steps")
         """The number of steps."""
         self.dimension = self._problem.dimension
         """d, the number of coordinates."""
         self.rows = steps // every + 1 + (steps % every > 0)
         """The number of states that it has."""
 
-    def _at(self, q: Any, p: Any, numbers: Any) -> tuple[Problem, Number]:
-        q, p, numbers = (np.asarray(given, dtype=float) for given in (q, p, numbers))
-        if numbers.shape != (len(self._by),):
-            raise InputError(f"there are {numbers.size} numbers for the {len(self._by)} names in `by`")
-        values = dict(zip(self._by, numbers.tolist()))
+    def _at(self, q: Any, p: Any, values: Any) -> tuple[Problem, Number]:
+        q, p, given = numbers(q, "q"), numbers(p, "p"), numbers(values, "numbers")
+        if given.shape != (len(self._by),):
+            raise InputError(f"numbers: there are {given.size} for the {len(self._by)} names in `by`")
+        for name, state in (("q", q), ("p", p)):
+            if state.shape != (self.dimension,):
+                raise InputError(f"{name} has the shape {state.shape}, not ({self.dimension},)")
+        values = dict(zip(self._by, given.tolist()))
         h = values.pop("h", self._h)
         return self._problem.replaced(values, q=q, p=p), h
 

@@ -13,6 +13,7 @@ import numpy as np
 
 from . import _shadowstep
 from ._shadowstep import InputError
+from .arguments import check
 from .estimator import options_if_any
 from .exact import Number, count, exact
 from .problem import Problem, given_of
@@ -22,6 +23,9 @@ from .scheme import Scheme, table_of
 if TYPE_CHECKING:
     import pandas
     import xarray
+
+
+_OF_STATES = ("t", "q", "p", "energy", "modified_energy", "modified_energy_error", "tangent")
 
 
 @dataclass(frozen=True, repr=False)
@@ -81,8 +85,13 @@ class Trajectory:
         """
         import mpmath
 
+        check(Trajectory.mpmath, locals())
+        if name not in _OF_STATES:
+            raise InputError(f"name = {name!r} is not an array of the trajectory: it is one of {', '.join(_OF_STATES)}")
+        if getattr(self, name) is None:
+            raise InputError(f"name = {name!r}: the trajectory has no such array")
         if digits is not None:
-            mpmath.mp.dps = digits
+            mpmath.mp.dps = count(digits, "digits")
         convert = np.vectorize(mpmath.mpf, otypes=[object])
         return convert(getattr(self, name)).tolist()
 
@@ -228,9 +237,7 @@ def integrate(
     >>> cut.q.shape, bool(abs(cut.q[:, 0]).max() < 1e-14), bool((cut.p[:, 0] > 0).all())
     ((158, 2), True, True)
     """
-    for what, text in (("end", end), ("section", section), ("direction", direction)):
-        if text is not None and not isinstance(text, str):
-            raise TypeError(f"{what} must be a text, not {type(text).__name__}")
+    check(integrate, locals())
     if section is None and direction is not None:
         raise InputError(f'direction={direction!r} requires a section: section="x"')
     for what, value in (("every", every), ("estimator", estimator), ("tangent", tangent)):
@@ -267,9 +274,13 @@ def integrate(
 def _texts(tangent: Sequence[Sequence[Number]] | np.ndarray | None) -> list[list[str]]:
     if tangent is None:
         return []
-    if np.ndim(np.asarray(tangent, dtype=object)) != 2 or len(tangent) == 0:
+    try:
+        vectors = np.asarray(tangent, dtype=object)
+    except ValueError:  # rows of different lengths, with arrays
+        vectors = np.empty(0)
+    if vectors.ndim != 2 or len(vectors) == 0:
         raise InputError("`tangent` is not a list of vectors: tangent = [[1, 0], [0, 1]]")
-    return [[exact(x, "a component of a tangent vector") for x in vector] for vector in tangent]
+    return [[exact(x, "tangent") for x in vector] for vector in vectors.tolist()]
 
 
 def vectors_of(columns: Sequence[Any], rows: int) -> np.ndarray:

@@ -10,6 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ._shadowstep import InputError, modified_formulas
+from .arguments import check, numbers
 from .exact import Number, count, exact
 from .problem import Problem, problem_of
 from .scheme import Scheme, table_of
@@ -42,10 +43,13 @@ class ModifiedHamiltonian:
         """
         function = self._compiled
         values: dict[str, Any] = {name: _number(value, name) for name, value in self._problem._given.parameters}
-        for names, columns in ((self._problem.coordinates, q), (self._problem.momenta, p)):
-            values.update(zip(names, np.moveaxis(np.asarray(columns, dtype=np.float64), -1, 0)))
+        for name, names, columns in (("q", self._problem.coordinates, q), ("p", self._problem.momenta, p)):
+            of_states = numbers(columns, name)
+            if of_states.ndim == 0 or of_states.shape[-1] > len(names):
+                raise InputError(f"{name} has the shape {of_states.shape}: its last axis must have {len(names)} numbers, one for each coordinate")
+            values.update(zip(names, np.moveaxis(of_states, -1, 0)))
         if t is not None and all(name != "t" for name, _ in self._problem._given.parameters):
-            values["t"] = np.asarray(t, dtype=np.float64)
+            values["t"] = numbers(t, "t")
         for name in self._arguments:
             if name not in values:
                 raise InputError(f"{name} is missing: H depends on it; give t, or positions and momenta of all coordinates")
@@ -99,6 +103,7 @@ def modified_hamiltonian(
     >>> bool(np.ptp(drift) < 0.05 * np.ptp(run.energy))
     True
     """
+    check(modified_hamiltonian, locals())
     made = problem_of(problem)
     hamiltonian, terms, function, arguments = modified_formulas(
         made._given, table_of(scheme), count(grade, "grade", most=10), notation, count(digits, "digits", most=300)

@@ -10,6 +10,7 @@ from typing import Any, NamedTuple, Union
 import numpy as np
 
 from . import _shadowstep
+from .arguments import check
 from .estimator import order_of
 from .exact import Number, count, exact
 from .problem import Problem, given_of
@@ -127,6 +128,7 @@ class Monitor:
         every: int = 100,
         digits: str = "double",
     ) -> None:
+        check(Monitor.__init__, locals())
         self._monitor: Any = _shadowstep.Monitor.of(
             given_of(problem), table_of(scheme), exact(h, "h"), order=order_of(order), every=count(every, "every"), digits=str(digits)
         )

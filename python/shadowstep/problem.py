@@ -4,16 +4,19 @@ from __future__ import annotations
 
 import os
 import re
-from collections.abc import Callable, Iterable, Mapping, Sequence
-from copy import deepcopy
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from difflib import get_close_matches
 from numbers import Integral
+from types import MappingProxyType
 from typing import Any, Union
 
 import numpy as np
 
 from . import _shadowstep
 from ._shadowstep import Given, problem_names
+from .arguments import check, naming, path_of
+from .border import WrongType
 from .by_name import in_order, names_of
 from .document import document
 from .exact import Number, exact
@@ -103,10 +106,11 @@ class Problem:
         time: Mapping[str, Any] | None = None,
         **others: Any,
     ) -> None:
+        check(Problem.__init__, locals())
         self._system = system
         if system is not None and not isinstance(system, str):
             if not callable(system) and not isinstance(system, Integral):
-                raise TypeError(f"system must be a name, a formula, a function for the forces or the address of one, not {type(system).__name__}")
+                raise WrongType(f"system must be a name, a formula, a function for the forces or the address of one, not {type(system).__name__}")
             others = {"kinetic": kinetic, "pair": pair, "parts": parts, "time": time, **others}
             self._forces = _of_forces(system, q, p, v, masses, others)
             self._given = Given.of_forces(*self._forces)
@@ -115,8 +119,10 @@ class Problem:
         sections = _sections(system, q, p, v, others)
         problem = sections["problem"]
         problem |= {"masses": masses, "kinetic": kinetic, "pair": pair, "parts": parts}
-        self._sections = {**sections, "time": time}
-        self._given = Given.of_text(document(self._sections), "problem")
+        # what is given may change later
+        self._sections = _copied({**sections, "time": time})
+        with _of_system():
+            self._given = Given.of_text(document(self._sections), "problem")
 
     @classmethod
     def from_scene(cls, path: Union[str, os.PathLike[str]]) -> Problem:
@@ -128,8 +134,8 @@ class Problem:
             A file that cannot be read, or faults of its text, each with its line and column.
         """
         problem = cls.__new__(cls)
-        problem._system = os.fspath(path)
-        problem._given = Given.of_file(path)
+        problem._system = path_of(path, "path")
+        problem._given = Given.of_file(problem._system)
         return problem
 
     def __getstate__(self) -> dict[str, Any]:
@@ -146,9 +152,9 @@ class Problem:
         self._given = Given.of_forces(*self._forces) if self._forces is not None else Given.of_text(*source)
 
     def __deepcopy__(self, memo: dict[int, Any]) -> Problem:
+        # nothing of it changes, and an address has no copy
         copied = self.__class__.__new__(self.__class__)
-        # what is read never changes, and an address has no copy
-        copied.__dict__.update(self.__dict__, _sections=deepcopy(self._sections, memo))
+        copied.__dict__.update(self.__dict__)
         return copied
 
     @property
@@ -158,7 +164,7 @@ class Problem:
 
     @property
     def sections(self) -> Mapping[str, Any]:
-        """The sections of a scene that describe it.
+        """The sections of a scene that describe it, which cannot be changed: see `replaced`.
 
         Raises
         ------
@@ -166,8 +172,9 @@ class Problem:
             For a problem of a scene's file or with a function for its forces, which has none.
         """
         if self._sections is None:
-            raise TypeError("this needs a problem that is given by its keys, not by a scene's file or a function for the forces")
-        return self._sections
+            raise WrongType("this needs a problem that is given by its keys, not by a scene's file or a function for the forces")
+        frozen: Mapping[str, Any] = _frozen(self._sections)
+        return frozen
 
     def replaced(self, numbers: Mapping[str, Number] = {}, *, q: Values | None = None, p: Values | None = None) -> Problem:
         """The same problem with other numbers, or another state at t = 0.
@@ -187,9 +194,13 @@ class Problem:
         >>> spring.replaced({"k": 2}).energy, spring.replaced(q=[3]).energy
         (1.0, 18.0)
         """
-        sections: dict[str, Any] = {name: _copied(content) for name, content in self.sections.items()}
+        check(Problem.replaced, locals())
+        sections: dict[str, Any] = _copied(self.sections)
         for name, value in numbers.items():
-            container, key = self._place(sections, name)
+            if not isinstance(name, str):
+                raise WrongType(f"numbers must have names, which are texts, not {name!r}")
+            with naming("numbers"):
+                container, key = self._place(sections, name)
             container[key] = value
         if q is not None or p is not None:
             if sections.get("body"):
@@ -204,13 +215,14 @@ class Problem:
 
     def number(self, name: str) -> Number:
         """The number of this name, as `replaced` has them, as it was given."""
-        container, key = self._place({name: _copied(content) for name, content in self.sections.items()}, name)
+        check(Problem.number, locals())
+        container, key = self._place(_copied(self.sections), name)
         number: Number = container[key]
         return number
 
     def _place(self, sections: dict[str, Any], name: str) -> tuple[Any, Any]:
         """Where a number is: what contains it, and its key or index there."""
-        first, *rest = (word for word in re.split(r"[.\[\]]+", name) if word)
+        first, *rest = [word for word in re.split(r"[.\[\]]+", str(name)) if word] or [""]
         problem = sections["problem"]
         if first == "masses" and problem.get("potential") is not None and problem.get("masses") is None and problem.get("kinetic") is None:
             # one for each coordinate of its own: t may be a further one
@@ -227,15 +239,19 @@ class Problem:
             container = container[key]
             if isinstance(container, list) and not word.isdigit():
                 word = next((i for i, body in enumerate(container) if isinstance(body, dict) and body.get("name") == word), word)
-            key = int(word) if isinstance(container, list) and str(word).isdigit() else word
+            key = int(word) if isinstance(container, list) and re.fullmatch("[0-9]{1,9}", str(word)) else word
             known = range(len(container)) if isinstance(container, list) else container if isinstance(container, dict) else ()
             if key not in known:
                 raise self._unknown(name)
+        if container[key] is None:
+            raise self._unknown(name)
         if isinstance(container[key], (dict, list)):
             raise _shadowstep.InputError(f"{name!r} has several numbers; write one of them, such as {name}[0]")
         return container, key
 
     def _unknown(self, name: str) -> Exception:
+        if name in (*self.coordinates, *self.momenta):
+            return _shadowstep.InputError(f"{name!r} is of the state at t = 0: give it as q or p")
         known = [*self.coordinates, *self.momenta, *dict(self._given.parameters)]
         near = get_close_matches(name, known, n=1)
         right = f"did you mean {near[0]!r}?" if near else f"there are {', '.join(known)}, and places such as 'masses[0]' and 'body[1].mass'"
@@ -280,10 +296,21 @@ class Problem:
             return "a C function"
         if self._system is not None:
             return getattr(self._system, "__name__", None) or f"forces of type {type(self._system).__name__}"
-        problem = self.sections["problem"]
+        problem = (self._sections or {})["problem"]
         shown = (f"{key}={problem[key]!r}" for key in ("pair", "parts", "hamiltonian") if problem.get(key) is not None)
         bodies = self.sections.get("body")
         return ", ".join([*shown, *([f"{len(bodies)} bodies"] if bodies else [])])
+
+
+@contextmanager
+def _of_system() -> Iterator[None]:
+    """Names the argument for a name or a formula, which is another key in a text."""
+    try:
+        yield
+    except _shadowstep.InputError as error:
+        if re.search(r"^ *\d+ \| (name|potential) = ", str(error), re.MULTILINE):
+            error.args = (f"system: {error}",)
+        raise
 
 
 def given_of(problem: Any) -> Given:
@@ -301,7 +328,7 @@ def problem_of(problem: Any) -> Problem:
         near = get_close_matches(problem, problem_names(), n=1)
         right = f"did you mean {near[0]!r}?" if near else "write shadowstep.Problem(…) for a formula or other problems"
         raise _shadowstep.InputError(f"problem = {problem!r} is not the name of a shipped problem; {right}")
-    raise TypeError(f"problem must be a Problem, or the name of a shipped one such as 'kepler', not {type(problem).__name__}")
+    raise WrongType(f"problem must be a Problem, or the name of a shipped one such as 'kepler', not {type(problem).__name__}")
 
 
 # keys of [problem] and [initial]; every other keyword is a parameter
@@ -311,6 +338,8 @@ _BESIDE = {"coupling": "hamiltonian", "central": "body", "external": "body", "pa
 
 
 def _sections(system: str | None, q: Values | None, p: Values | None, v: Values | None, others: Mapping[str, Any]) -> dict[str, Any]:
+    if not isinstance(others.get("parameters", {}), Mapping):
+        raise WrongType(f"parameters must be a mapping of names to numbers, not {type(others['parameters']).__name__}")
     keys = (*_PROBLEM, *(key for key, other in _BESIDE.items() if other in others))
     problem: dict[str, Any] = {key: others[key] for key in keys if key in others}
     parameters = {key: value for key, value in others.items() if key not in (*keys, "body")}
@@ -326,7 +355,7 @@ def _sections(system: str | None, q: Values | None, p: Values | None, v: Values 
     if ("potential" in problem or "hamiltonian" in problem) and "coordinates" not in problem and q is not None:
         if not isinstance(q, Mapping):
             raise _shadowstep.InputError('q must name the coordinates of the formula: q={"x": 1, "y": 0}')
-        problem["coordinates"] = list(q)
+        problem["coordinates"] = [_name(name, "q") for name in q]
     if any(isinstance(values, Mapping) for values in (q, p, v)):
         q, p, v = _by_name(problem, q, p, v)
     initial = {"q": q, "p": p, "v": v}
@@ -348,6 +377,12 @@ def _by_name(problem: dict[str, Any], q: Any, p: Any, v: Any) -> tuple[Any, Any,
     )
 
 
+def _name(name: Any, of: str) -> str:
+    if not isinstance(name, str):
+        raise WrongType(f"{of} must have names of coordinates, which are texts, not {name!r}")
+    return name
+
+
 def _is_name(system: str, q: Values | None) -> bool:
     # a formula needs q; without it a word is meant as a name, which may be misspelt
     return system in problem_names() or (q is None and re.fullmatch("[a-z][a-z0-9-]*", system) is not None)
@@ -362,19 +397,35 @@ def _copied(content: Any) -> Any:
     return [_copied(value) for value in content] if isinstance(content, (list, tuple)) else content
 
 
+def _frozen(content: Any) -> Any:
+    """The same content of sections, which cannot be changed."""
+    if isinstance(content, dict):
+        return MappingProxyType({key: _frozen(value) for key, value in content.items()})
+    return tuple(_frozen(value) for value in content) if isinstance(content, list) else content
+
+
+# No function is in the first page of the memory.
+_LEAST_ADDRESS = 4096
+
+
 def _of_forces(forces: Forces, q: Values | None, p: Values | None, v: Values | None, masses: Any, others: Mapping[str, Any]) -> tuple[Any, ...]:
     given = [name for name, value in others.items() if value is not None]
     if given:
-        raise TypeError(f"`{given[0]}` goes with a formula or a shipped problem, not with a function for the forces")
+        raise WrongType(f"`{given[0]}` goes with a formula or a shipped problem, not with a function for the forces")
     if q is None or p is None:
-        raise TypeError("a function for the forces needs q and p, the state at t = 0" + ("; give p = m v in place of v" if v is not None else ""))
+        raise WrongType("a function for the forces needs q and p, the state at t = 0" + ("; give p = m v in place of v" if v is not None else ""))
     if any(isinstance(values, Mapping) for values in (q, p)):
-        raise TypeError("q and p of a function for the forces are lists, in the order in which the function has the coordinates")
-    texts = None if masses is None else _texts(masses, "masses")
-    return forces, _texts(q, "q"), _texts(p, "p"), texts
+        raise WrongType("q and p of a function for the forces are lists, in the order in which the function has the coordinates")
+    if isinstance(forces, Integral) and not _LEAST_ADDRESS <= int(forces) < 2**64:
+        raise WrongType(f"system = {forces} is not the address of a function")
+    texts = {name: _texts(values, name) for name, values in (("q", q), ("p", p), ("masses", masses)) if values is not None}
+    for name, what in (("p", "momenta"), ("masses", "masses")):
+        if len(texts.get(name, texts["q"])) != len(texts["q"]):
+            raise _shadowstep.InputError(f"{name}: there are {len(texts['q'])} coordinates and {len(texts[name])} {what}: give one for each coordinate")
+    return forces, texts["q"], texts["p"], texts.get("masses")
 
 
 def _texts(values: Values, name: str) -> list[str]:
     if isinstance(values, str) or not isinstance(values, Iterable):
-        raise TypeError(f"{name} must be numbers, such as [1, 0], not {values!r}")
+        raise WrongType(f"{name} must be numbers, such as [1, 0], not {values!r}")
     return [exact(value, name) for value in values]

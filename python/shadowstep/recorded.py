@@ -11,6 +11,8 @@ from typing import Any, NamedTuple, Union
 import numpy as np
 
 from . import _shadowstep
+from .arguments import check, numbers
+from .border import WrongType
 from .estimator import order_of
 from .exact import Number, count, exact
 from .monitor import Sample
@@ -78,10 +80,11 @@ def shadow_energy(
     >>> bool(np.nanmax(values) - np.nanmin(values) < 1e-10 < 1e-4 < np.ptp(orbit.energy))
     True
     """
-    q, p = _rows(q), _rows(p)
+    check(shadow_energy, locals())
+    q, p = _rows(q, "q"), _rows(p, "p")
     step = exact(h, "h")
     if cell is not None:
-        q = _unwrapped(q, cell)
+        q = _unwrapped(q, _cell(cell, q.shape[1]))
     if isinstance(potential, Problem):
         if q.shape[1] != potential.dimension:
             raise _shadowstep.InputError(f"the states have {q.shape[1]} coordinates, and the problem has {potential.dimension}")
@@ -89,9 +92,8 @@ def shadow_energy(
             p = _of_half_steps(len(q), p)
         found = _shadowstep.energies_of_states(q, p, potential._given, table_of(scheme), step, order_of(k, "k"))
     else:
-        energies, derivatives = potential
-        energies, derivatives = np.ascontiguousarray(energies, dtype=np.float64), np.asarray(derivatives, dtype=np.float64)
-        forces = None if derivatives.ndim == 1 else _rows(derivatives)
+        energies, derivatives = _pair(potential)
+        forces = None if derivatives.ndim == 1 else _rows(derivatives, "the forces of potential")
         rates = derivatives if derivatives.ndim == 1 else None
         if half_steps:
             p = _of_half_steps(len(q), p) if forces is None else _with_forces(step, p, forces)
@@ -193,9 +195,13 @@ class Observer:
     """
 
     def __init__(self, masses: Any, h: Number, *, window: int = 17, cell: Any = None, periodic: Sequence[bool] = (True, True, True)) -> None:
-        masses = np.asarray(masses, dtype=np.float64).ravel()
-        cell = None if cell is None else _cell(cell).tolist()
-        self._observer = _shadowstep.Observer.of(masses.tolist(), exact(h, "h"), count(window, "window"), cell, [bool(along) for along in periodic])
+        check(Observer.__init__, locals())
+        masses = _checked(numbers(masses, "masses").ravel())
+        along = numbers(periodic, "periodic")
+        if along.shape != (3,):
+            raise _shadowstep.InputError(f"periodic has the shape {along.shape}: give three of True and False, one for each box vector")
+        cell = None if cell is None else _cell(cell, len(masses)).tolist()
+        self._observer = _shadowstep.Observer.of(masses.tolist(), exact(h, "h"), count(window, "window"), cell, (along != 0).tolist())
 
     @property
     def window(self) -> int:
@@ -204,7 +210,7 @@ class Observer:
 
     def begin(self, n: int) -> None:
         """A new window begins: the next state is the state n, which does not follow the newest by a step."""
-        self._observer.begin(n)
+        self._observer.begin(count(n, "n", least=-(2**63)))
 
     def observe(self, q: Any, p: Any, energy: float, forces: Any, *, half_step: bool = False, step: tuple[Any, Any, float] | None = None) -> Sample | None:
         """Takes the next state; gives the estimate that it completes.
@@ -221,8 +227,14 @@ class Observer:
             Of another splitting than these two: what the step to the state added to q and p, and Σ h a ((q_s - q)ᵀU_q(q_s) - 2U(q_s)) over its kicks
             by h a at q_s, q being that before the step. Of the first state it does not matter.
         """
-        made = None if step is None else (_flat(step[0]), _flat(step[1]), float(step[2]))
-        found = self._observer.observe(_flat(q), _flat(p), float(energy), _flat(forces), half_step, made)
+        check(Observer.observe, locals())
+        if step is not None and (not isinstance(step, (tuple, list)) or len(step) != 3):
+            raise WrongType("step must be what it added to q and p, and the sum over its kicks")
+        energy = float(numbers(energy, "energy").reshape(()))
+        if not np.isfinite(energy):
+            raise _shadowstep.InputError(f"energy is {energy}: give the states before it; a run that overflows has steps that are too large")
+        made = None if step is None else (_flat(step[0], "step"), _flat(step[1], "step"), float(numbers(step[2], "step").reshape(())))
+        found = self._observer.observe(_flat(q, "q"), _flat(p, "p"), energy, _flat(forces, "forces"), bool(half_step), made)
         return None if found is None else Sample(*found)
 
     @property
@@ -263,10 +275,12 @@ def diagnose(
     >>> shadowstep.diagnose(orbit.q, orbit.p, (U, forces), h=0.101).cause
     'other-steps'
     """
-    energies, forces = (np.asarray(of, dtype=np.float64) for of in potential)
-    if forces.ndim == 1 and np.ndim(q) > 1:
+    check(diagnose, locals())
+    energies, forces = _pair(potential)
+    q = numbers(q, "q")
+    if forces.ndim == 1 and q.ndim > 1:
         raise _shadowstep.InputError("a diagnosis needs forces, in the shape of q; a rate qᵀU_q − 2U does not tell the causes apart")
-    q, p, forces = _rows(q), _rows(p), _rows(forces)
+    q, p, forces = _rows(q, "q"), _rows(p, "p"), _rows(forces, "the forces of potential")
     if not len(q) == len(p) == len(energies) == len(forces):
         lengths = f"{len(q)}, {len(p)}, {len(energies)} and {len(forces)}"
         raise _shadowstep.InputError(f"q, p, U and forces have {lengths} states: give as many of each")
@@ -276,29 +290,54 @@ def diagnose(
     return observer.diagnosis()
 
 
-def _flat(array: Any) -> np.ndarray:
-    return np.ascontiguousarray(array, dtype=np.float64).ravel()
+def _flat(array: Any, name: str) -> np.ndarray:
+    return np.ascontiguousarray(numbers(array, name)).ravel()
 
 
-def _rows(array: Any) -> np.ndarray:
-    array = np.ascontiguousarray(array, dtype=np.float64)
+def _rows(array: Any, name: str) -> np.ndarray:
+    array = np.ascontiguousarray(numbers(array, name))
+    if array.size == 0:
+        raise _shadowstep.InputError(f"{name} has the shape {array.shape}: there are no states")
     return array.reshape(len(array), -1)
 
 
+def _pair(potential: Any) -> tuple[np.ndarray, np.ndarray]:
+    """U of each state, and the forces or the rate."""
+    if not isinstance(potential, (tuple, list)) or len(potential) != 2:
+        raise WrongType("potential must be a pair (U, forces), or a Problem where it may be one")
+    energies, derivatives = numbers(potential[0], "U of potential"), numbers(potential[1], "the forces of potential")
+    if energies.ndim != 1 or derivatives.ndim == 0:
+        raise _shadowstep.InputError(f"U of potential has the shape {energies.shape}: give one number for each state")
+    return np.ascontiguousarray(energies), derivatives
+
+
 def _masses(masses: Any, dimension: int) -> list[float]:
-    masses = np.asarray(masses, dtype=np.float64).ravel()
+    masses = _checked(numbers(masses, "masses").ravel())
     if masses.size == 1:
         return [float(masses[0])] * dimension
     return (np.repeat(masses, 3) if 3 * masses.size == dimension else masses).tolist()
 
 
-def _cell(cell: Any) -> np.ndarray:
-    cell = np.asarray(cell, dtype=np.float64)
-    return np.diag(cell) if cell.shape == (3,) else cell
+def _checked(masses: np.ndarray) -> np.ndarray:
+    wrong = np.flatnonzero(~((masses > 0) & np.isfinite(masses)))
+    if masses.size == 0 or wrong.size:
+        what = f"the mass of coordinate {wrong[0]} is {masses[wrong[0]]:g}" if wrong.size else "there are none"
+        raise _shadowstep.InputError(f"masses: {what}; give a positive and finite one for each coordinate or particle")
+    return masses
 
 
-def _unwrapped(q: np.ndarray, cell: Any) -> np.ndarray:
-    return np.asarray(_shadowstep.unwrapped(q, _cell(cell).tolist(), [True] * 3)).reshape(q.shape)
+def _cell(cell: Any, dimension: int) -> np.ndarray:
+    if dimension % 3:
+        raise _shadowstep.InputError(f"a cell needs three coordinates for each particle, and there are {dimension} coordinates")
+    cell = numbers(cell, "cell")
+    cell = np.diag(cell) if cell.shape == (3,) else cell
+    if cell.shape != (3, 3):
+        raise _shadowstep.InputError(f"cell has the shape {cell.shape}: give three lengths, or three vectors, (3, 3)")
+    return cell
+
+
+def _unwrapped(q: np.ndarray, cell: np.ndarray) -> np.ndarray:
+    return np.asarray(_shadowstep.unwrapped(q, cell.tolist(), [True] * 3)).reshape(q.shape)
 
 
 def _of_half_steps(states: int, p: np.ndarray) -> np.ndarray:

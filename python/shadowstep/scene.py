@@ -13,6 +13,7 @@ from typing import Any, Union
 import numpy as np
 
 from . import _shadowstep
+from .arguments import check, naming, path_of
 from .progress import bar
 
 
@@ -62,9 +63,8 @@ def run(scene: Union[str, os.PathLike[str]], *, restart: bool = False, allow_out
     >>> outcome.summary["verdict"]
     'bounded'
     """
-    if not isinstance(scene, (str, os.PathLike)):
-        raise TypeError(f"scene must be the path of a scene or its text, not {type(scene).__name__}")
-    path = os.fspath(scene)
+    check(run, locals())
+    path = path_of(scene, "scene")
     text = path if "\n" in path else None
     with bar(None, "steps", progress) as reach:
         rows, summary, notes = _shadowstep.run_scene("scene.toml" if text else path, text, restart=restart, allow_outside=allow_outside, progress=reach)
@@ -86,7 +86,9 @@ def scene(name: str) -> str:
     >>> scene("kepler").splitlines()[0]
     "# Kepler's problem in the plane: H = (px^2 + py^2)/2 - 1/sqrt(x^2 + y^2)"
     """
-    return _shadowstep.scene_text(name)
+    check(scene, locals())
+    with naming("name"):
+        return _shadowstep.scene_text(name)
 
 
 def columns_of(rows: str) -> dict[str, np.ndarray]:

@@ -10,6 +10,8 @@ from functools import cached_property
 from typing import Any, Union
 
 from ._shadowstep import Table, emit, modified_series, polished, proposal, shipped_names
+from .arguments import check, naming, numbers, path_of
+from .border import WrongType
 from .exact import count
 
 
@@ -71,10 +73,9 @@ class Scheme:
     _table: Table
 
     def __init__(self, table: Union[str, os.PathLike[str]]) -> None:
-        if not isinstance(table, (str, os.PathLike)):
-            raise TypeError(f"table must be the name of a scheme, the path of a table or its text, not {type(table).__name__}")
-        text = os.fspath(table)
-        self._table = Table.of_text(text, "table") if "\n" in text else Table.of_word(text)
+        text = path_of(table, "table")
+        with naming("table"):
+            self._table = Table.of_text(text, "table") if "\n" in text else Table.of_word(text)
 
     @staticmethod
     def polish(
@@ -118,8 +119,11 @@ class Scheme:
         >>> ruth.maps[1][1][:20]
         '1.351207191959657634'
         """
+        check(Scheme.polish, locals())
         number = None if digits is None else count(digits, "digits", most=300)
-        return Scheme(polished(os.fspath(table), number, list(free), split_kicks, [float(gap) for gap in closed_gaps]))
+        gaps = numbers(list(closed_gaps), "closed_gaps").ravel().tolist()
+        with naming("closed_gaps" if gaps else "table"):
+            return Scheme(polished(path_of(table, "table"), number, list(free), bool(split_kicks), gaps))
 
     @property
     def name(self) -> str:
@@ -147,10 +151,14 @@ class Scheme:
         """The text of the table."""
         return self._table.text
 
-    @cached_property
+    @property
     def record(self) -> dict[str, Any]:
         """Everything that is known: proofs, the leading error, stability, exact weights as texts. As ``shadowstep schemes show --json``."""
-        return json.loads(self._table.record())
+        return json.loads(self._record)
+
+    @cached_property
+    def _record(self) -> str:
+        return self._table.record()
 
     @property
     def symmetric(self) -> bool:
@@ -207,6 +215,7 @@ class Scheme:
         >>> bool(abs(q[0] - math.cos(1)) < 1e-8)
         True
         """
+        check(Scheme.emit, locals())
         return emit(self._table, target)
 
     def proposal(
@@ -246,8 +255,10 @@ class Scheme:
         >>> bcss3.steps, round(bcss3.acceptance, 3), round(bcss3.cost)
         (42, 0.907, 139)
         """
+        check(Scheme.proposal, locals())
         number = None if steps is None else count(steps, "steps", most=10**9)
-        return Proposal(*proposal(self._table, list(frequencies), time, acceptance, number))
+        length, least = (None if value is None else float(value) for value in (time, acceptance))
+        return Proposal(*proposal(self._table, numbers(list(frequencies), "frequencies").ravel().tolist(), length, least, number))
 
     def modified(self, grade: int = 4, *, parts: int | None = None, quadratic: bool = False, digits: int = 17) -> dict[int, dict[str, str]]:
         """The series of the modified Hamiltonian in brackets: the coefficients by the power n of h, of H_(n+1), and the bracket.
@@ -276,6 +287,7 @@ class Scheme:
         >>> Scheme("stormer-verlet").modified(2)
         {2: {'[K,[K,D]]': '-1/24', '[D,[D,K]]': '1/12'}}
         """
+        check(Scheme.modified, locals())
         parts = None if parts is None else count(parts, "parts", least=3, most=9)
         series: dict[int, dict[str, str]] = {}
         terms = modified_series(self._table, count(grade, "grade", most=10), parts, quadratic, count(digits, "digits", most=300))
@@ -299,13 +311,15 @@ def _of_text(text: str, path: str, name: str) -> Scheme:
     return scheme
 
 
-def table_of(scheme: Any) -> Table:
+def table_of(scheme: Any, name: str = "scheme") -> Table:
     """The table of an argument ``scheme``: a scheme, or the name or path of one."""
     if isinstance(scheme, Scheme):
         return scheme._table
     if not isinstance(scheme, (str, os.PathLike)):
-        raise TypeError(f"scheme must be a Scheme, or the name or path of one such as 'yoshida4', not {type(scheme).__name__}")
-    return Scheme(scheme)._table
+        raise WrongType(f"{name} must be a Scheme, or the name or path of one such as 'yoshida4', not {type(scheme).__name__}")
+    path = path_of(scheme, name)
+    with naming(name):
+        return Scheme(path)._table
 
 
 def schemes() -> list[str]:

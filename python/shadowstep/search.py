@@ -6,6 +6,7 @@ import os
 from typing import Union
 
 from ._shadowstep import searched
+from .arguments import check, path_of
 from .exact import count
 from .scheme import Scheme
 
@@ -49,7 +50,8 @@ def search(
     >>> found[0]
     Scheme('search-1': order 2, 2 forces a step)
     """
-    text = os.fspath(request)
+    check(search, locals())
+    text = path_of(request, "request")
     path = "search"
     if "\n" not in text:
         path = text

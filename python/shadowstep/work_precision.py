@@ -8,11 +8,11 @@ import tempfile
 from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
-from decimal import Decimal
-from numbers import Real
 from typing import Any, Union
 
 from . import _shadowstep
+from .arguments import check, path_of
+from .border import WrongType
 from .exact import Number, count, exact
 from .problem import Problem, given_of
 from .progress import bar
@@ -86,7 +86,7 @@ def work_precision(
     seconds
         The time for the runs of a scheme, where ``steps`` is None.
     folder
-        Keeps results there, and continues with what it has.
+        Keeps results there, and continues with what it has; not for a function for the forces, whose runs are compared with others in double precision.
 
     Examples
     --------
@@ -95,12 +95,13 @@ def work_precision(
     >>> [round(curve.runs[-2].position_error / curve.runs[-1].position_error) for curve in curves]
     [4, 16]
     """
+    check(work_precision, locals())
     group, tables = _tables(schemes)
     _check_seconds(seconds)
     given = None if steps is None else sorted(count(number, "steps") for number in steps)
     if given == []:
         raise _shadowstep.InputError(f"steps = {steps}: give numbers of steps such as [100, 200, 400]")
-    with _folder(folder) as path, bar(1000, "", progress) as reach:
+    with _folder(folder, problem) as path, bar(1000, "", progress) as reach:
         found = _shadowstep.work_precision(
             given_of(problem),
             exact(until, "until"),
@@ -214,14 +215,15 @@ def advise(
     >>> str(advice).split()[:6]
     ['scheme', 'h', 'steps', 'predicted', 'forces', 'seconds']
     """
+    check(advise, locals())
     group, tables = _tables(schemes)
     _check_seconds(seconds)
-    with _folder(folder) as path, bar(1000, "", progress) as reach:
+    with _folder(folder, problem) as path, bar(1000, "", progress) as reach:
         found: dict[str, Any] = json.loads(
             _shadowstep.advise(
                 given_of(problem),
                 exact(until, "until"),
-                _real(tolerance, "tolerance"),
+                float(tolerance),
                 of=of,
                 cost=cost,
                 schemes=tables,
@@ -245,17 +247,8 @@ def advise(
     )
 
 
-def _real(value: Any, what: str) -> float:
-    if isinstance(value, bool) or not isinstance(value, (Real, Decimal, str)):
-        raise TypeError(f"{what} must be a number, not {type(value).__name__}")
-    try:
-        return float(value)
-    except ValueError:
-        raise _shadowstep.InputError(f"{what} must be a number such as 1e-8, not {value!r}") from None
-
-
 def _check_seconds(seconds: float) -> None:
-    if not 1e-3 <= _real(seconds, "seconds") <= 1e6:
+    if not 1e-3 <= seconds <= 1e6:
         raise _shadowstep.InputError(f"seconds = {seconds}: give a number of seconds from 0.001 to 1000000")
 
 
@@ -266,15 +259,18 @@ def _tables(schemes: Schemes) -> tuple[str | None, list[Any]]:
     if isinstance(schemes, (str, os.PathLike, Scheme)):
         schemes = [schemes]
     if not isinstance(schemes, Iterable):
-        raise TypeError(f"schemes must be schemes or their names, such as ['yoshida4', 'pefrl'], not {type(schemes).__name__}")
-    return None, [table_of(scheme) for scheme in schemes]
+        raise WrongType(f"schemes must be schemes or their names, such as ['yoshida4', 'pefrl'], not {type(schemes).__name__}")
+    return None, [table_of(scheme, "schemes") for scheme in schemes]
 
 
 @contextmanager
-def _folder(folder: Union[str, os.PathLike[str], None]) -> Iterator[str]:
+def _folder(folder: Union[str, os.PathLike[str], None], problem: Union[Problem, str]) -> Iterator[str]:
     if folder is not None:
-        os.makedirs(folder, exist_ok=True)
-        yield os.fspath(folder)
+        if isinstance(problem, Problem) and problem.name == "forces":
+            raise _shadowstep.InputError("folder: results for a function are not kept, as nothing tells it from another function; leave folder out")
+        path = path_of(folder, "folder")
+        os.makedirs(path, exist_ok=True)
+        yield path
         return
     with tempfile.TemporaryDirectory(prefix="shadowstep-") as path:
         yield path

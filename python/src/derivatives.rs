@@ -92,7 +92,7 @@ impl By {
     /// Vectors (δq, δp).
     pub(crate) fn directions(py: Python<'_>, vectors: &[Vec<String>]) -> PyResult<Vec<Self>> {
         let direction = |vector: &Vec<String>| -> PyResult<By> {
-            let components = vector.iter().map(|component| number(py, component));
+            let components = vector.iter().map(|component| number(py, "tangent", component));
             Ok(By::Direction(components.collect::<PyResult<_>>()?))
         };
         vectors.iter().map(direction).collect()

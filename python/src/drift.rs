@@ -34,7 +34,7 @@ pub(crate) fn drift(
 ) -> PyResult<String> {
     let arithmetic = arithmetic(py, digits, mpfr)?;
     let times = Times::of(py, h, None, Some(until))?;
-    let until = number(py, until)?;
+    let until = number(py, "until", until)?;
     let estimator = options.settings(py)?;
     let (given, scheme, name) = (problem.clone(), scheme.map(|table| table.0.clone()), name.to_owned());
     let found = waiting(py, progress, move |watched| -> Result<Record, Error> {

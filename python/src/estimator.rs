@@ -69,7 +69,7 @@ fn word<T: std::str::FromStr>(
 }
 
 fn accuracy(py: Python<'_>, text: &str) -> PyResult<shadowstep::Rational> {
-    let accuracy = number(py, text)?;
+    let accuracy = number(py, "accuracy", text)?;
     check_accuracy(&accuracy).map_err(|error| usage(py, format!("accuracy = {text} {error}"), ACCURACY_HINT))?;
     Ok(accuracy)
 }

@@ -49,8 +49,11 @@ impl Given {
         p: Vec<String>,
         masses: Option<Vec<String>>,
     ) -> PyResult<Self> {
-        let numbers = |texts: Vec<String>| texts.iter().map(|text| exact(py, text)).collect::<PyResult<Vec<_>>>();
-        let (q, p, masses) = (numbers(q)?, numbers(p)?, masses.map(numbers).transpose()?);
+        let numbers = |what: &str, texts: Vec<String>| {
+            texts.iter().map(|text| exact(py, what, text)).collect::<PyResult<Vec<_>>>()
+        };
+        let (q, p) = (numbers("q", q)?, numbers("p", p)?);
+        let masses = masses.map(|masses| numbers("masses", masses)).transpose()?;
         let forces = Forces::of(function, q.len())?;
         Given::of(ProblemSource::Own { forces, q, p, masses }, py)
     }
@@ -158,19 +161,21 @@ pub(crate) fn problem_names() -> Vec<&'static str> {
     PROBLEMS.iter().map(|problem| problem.name()).collect()
 }
 
-fn exact(py: Python<'_>, text: &str) -> PyResult<Exact> {
-    number(py, text).map(|value| Exact { value, rounded: false })
+fn exact(py: Python<'_>, what: &str, text: &str) -> PyResult<Exact> {
+    number(py, what, text).map(|value| Exact { value, rounded: false })
 }
 
 /// A step size, exactly.
 pub(crate) fn step_size(py: Python<'_>, h: &str) -> PyResult<StepSize> {
-    StepSize::try_from(number(py, h)?).map_err(|error| usage(py, error.to_string(), "write a step size such as 1/10"))
+    let exact = number(py, "h", h)?;
+    StepSize::try_from(exact).map_err(|error| usage(py, format!("h = {h}: {error}"), "write a step size such as 1/10"))
 }
 
-/// An exact number.
-pub(crate) fn number(py: Python<'_>, text: &str) -> PyResult<shadowstep::Rational> {
-    shadowstep::exact(text)
-        .map_err(|error| usage(py, format!("`{text}`: {error}"), shadowstep_scenes::arithmetic::NUMBER_EXAMPLES))
+/// The exact number of an argument.
+pub(crate) fn number(py: Python<'_>, what: &str, text: &str) -> PyResult<shadowstep::Rational> {
+    shadowstep::exact(text).map_err(|error| {
+        usage(py, format!("{what} = `{text}`: {error}"), shadowstep_scenes::arithmetic::NUMBER_EXAMPLES)
+    })
 }
 
 /// The number type of some digits: a name or a number.

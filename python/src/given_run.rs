@@ -113,7 +113,7 @@ impl Times {
                 let until = size.exact() * Rational::from_integer(count.into());
                 Times::until(py, (size, h), (until, &format!("{count} h")))
             }
-            (None, Some(text)) => Times::until(py, (size, h), (number(py, text)?, text)),
+            (None, Some(text)) => Times::until(py, (size, h), (number(py, "until", text)?, text)),
             (Some(_), Some(_)) => Err(usage(py, "`until` and `steps` are both given", "remove one of the two")),
             (None, None) => Err(usage(py, "give either `until` or `steps`", "until = 100, the time, or steps = 1000")),
         }
@@ -121,15 +121,15 @@ impl Times {
 
     fn until(py: Python<'_>, (h, step): (StepSize, &str), (until, end): (Rational, &str)) -> PyResult<Self> {
         let steps = steps::count((&h, step), (&until, end));
-        let steps = steps.map_err(|error| usage(py, error.to_string(), error.hint()))?;
+        let steps = steps.map_err(|error| usage(py, format!("h = {step}, until = {end}: {error}"), error.hint()))?;
         Ok(Times { note: Note::of_end(h.exact(), steps, &until), h, steps, physical_end: None })
     }
 
     /// The end is a physical time, where time is transformed: how many steps there are is found by making them.
     fn physical(py: Python<'_>, step: &str, end: &str) -> PyResult<Self> {
-        let (h, until) = (step_size(py, step)?, number(py, end)?);
+        let (h, until) = (step_size(py, step)?, number(py, "until", end)?);
         let checked = steps::check_physical_end((&h, step), (&until, end));
-        checked.map_err(|error| usage(py, error.to_string(), error.hint()))?;
+        checked.map_err(|error| usage(py, format!("h = {step}, until = {end}: {error}"), error.hint()))?;
         Ok(Times { h, steps: 0, physical_end: Some(until), note: None })
     }
 }

@@ -59,7 +59,7 @@ impl Asked {
         digits: &str,
     ) -> PyResult<Self> {
         let group = group.map(|given| word(py, "schemes", given, &Group::NAMED)).transpose()?;
-        let (arithmetic, until) = (arithmetic(py, digits, false)?, number(py, until)?);
+        let (arithmetic, until) = (arithmetic(py, digits, false)?, number(py, "until", until)?);
         if until == Rational::from_integer(0.into()) {
             return Err(usage(py, "until = 0: the runs must have a length", "until = 100"));
         }
