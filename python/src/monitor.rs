@@ -25,7 +25,7 @@ use crate::errors::exception;
 use crate::given::{Given, arithmetic, step_size};
 use crate::given_run::SystemWithScheme;
 use crate::scheme::Table;
-use crate::waiting::{Watched, answered, awaited, spawned};
+use crate::waiting::{Watched, answered, awaited, new_number, spawned, within, working_for};
 
 /// n, the modified energy, its error and H, all of the middle of a window.
 type Newest = (u64, f64, Option<f64>, f64);
@@ -50,6 +50,8 @@ pub(crate) struct Monitor {
     tasks: Mutex<Sender<Task>>,
     /// A forked process has no such thread.
     process: u32,
+    /// By which it is known that its own forces ask it.
+    number: u64,
     problem: Given,
 }
 
@@ -77,19 +79,23 @@ impl Monitor {
         let (tasks, next) = channel::<Task>();
         let (begun, has_begun) = channel();
         let (given, scheme) = (problem.clone(), scheme.0.clone());
-        spawned(move || match answered(|| Followed::new(&given, &scheme, &h, (order, every), arithmetic)) {
-            Ok(Ok(mut followed)) => {
-                let _ = begun.send(Ok(Ok(())));
-                while let Some(task) = soon(&next).or_else(|| next.recv().ok()) {
-                    task(&mut followed);
+        let number = new_number();
+        let begins = within(number).unwrap_or_default();
+        spawned(move || {
+            match answered(|| working_for(begins, || Followed::new(&given, &scheme, &h, (order, every), arithmetic))) {
+                Ok(Ok(mut followed)) => {
+                    let _ = begun.send(Ok(Ok(())));
+                    while let Some(task) = soon(&next).or_else(|| next.recv().ok()) {
+                        task(&mut followed);
+                    }
                 }
+                other => drop(begun.send(other.map(|found| found.map(drop)))),
             }
-            other => drop(begun.send(other.map(|found| found.map(drop)))),
         })?;
         let found = awaited(py, None, &Watched::default(), has_begun);
         problem.raised(py)?;
         found?.map_err(failed)?;
-        Ok(Monitor { tasks: Mutex::new(tasks), process: process::id(), problem: problem.clone() })
+        Ok(Monitor { tasks: Mutex::new(tasks), process: process::id(), number, problem: problem.clone() })
     }
 
     /// A number of steps.
@@ -150,10 +156,16 @@ impl Monitor {
             let message = "a monitor belongs to the process that made it: make one in the forked process";
             return Err(PyRuntimeError::new_err(message));
         }
+        let Some(within) = within(self.number) else {
+            let message = "the forces of a monitor cannot ask the monitor itself, which waits for them";
+            return Err(PyRuntimeError::new_err(message));
+        };
         let watched = Arc::<Watched>::default();
         let (done, is_done) = channel();
         let of_thread = Arc::clone(&watched);
-        let task = move |followed: &mut Followed| drop(done.send(answered(|| task(followed, &of_thread))));
+        let task = move |followed: &mut Followed| {
+            drop(done.send(answered(|| working_for(within, || task(followed, &of_thread)))));
+        };
         // without its thread there is no answer, which is reported then
         let _ = self.tasks.lock().unwrap_or_else(PoisonError::into_inner).send(Box::new(task));
         match soon(&is_done) {

@@ -202,7 +202,8 @@ impl Observer {
         let (q, mut p, gradient) = (q.to_vec()?, p.to_vec()?, negative(forces.to_vec()?));
         let step = step.map(|(q, p, beta)| Ok::<_, PyErr>((q.to_vec()?, p.to_vec()?, beta))).transpose()?;
         let Observer { observer, h, unwrapping } = self;
-        let observe = || -> Result<_, RecordedError> {
+        // with Python's lock: other threads of it find the observer complete
+        let mut observe = || -> Result<_, RecordedError> {
             if half_step {
                 integer_momenta_with_gradients(h, &mut p, &gradient)?;
             }
@@ -216,7 +217,7 @@ impl Observer {
             };
             observer.observe(&Logged { q, p: &p, energy, derivatives })
         };
-        let found = py.detach(observe).map_err(|error| refused(py, &error))?;
+        let found = observe().map_err(|error| refused(py, &error))?;
         Ok(found.map(|value| (value.n, value.modified, value.error, value.energy)))
     }
 

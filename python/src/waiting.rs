@@ -1,13 +1,14 @@
 //! Work without Python's lock, until it is done or Ctrl-C is pressed.
 
+use std::cell::RefCell;
 use std::panic::{self, AssertUnwindSafe};
-use std::sync::atomic::{AtomicBool, AtomicI64, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicI64, AtomicU64, Ordering};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::thread;
 use std::time::{Duration, Instant};
 
-use pyo3::exceptions::PyRuntimeError;
+use pyo3::exceptions::{PyRecursionError, PyRuntimeError};
 use pyo3::prelude::*;
 use shadowstep_scenes::Observer;
 use shadowstep_studies::Progress;
@@ -77,21 +78,54 @@ impl shadowstep_studies::Observer for Watching<'_> {
 /// The answer of a thread: what it has found, or its panic.
 pub(crate) type Answer<T> = thread::Result<T>;
 
+/// So many computations may wait for each other, each within the forces of the one before; more cost powers of the evaluations in a step.
+const DEEPEST: usize = 4;
+
+thread_local! {
+    /// The computations within whose forces this thread works: those that wait for it.
+    static WITHIN: RefCell<Vec<u64>> = const { RefCell::new(Vec::new()) };
+}
+
+/// A number that no other computation has.
+pub(crate) fn new_number() -> u64 {
+    static NEXT: AtomicU64 = AtomicU64::new(0);
+    NEXT.fetch_add(1, Ordering::Relaxed)
+}
+
+/// The computations that wait for what this thread does, with one more; `None` if it is one of them.
+pub(crate) fn within(number: u64) -> Option<Vec<u64>> {
+    let mut all = WITHIN.with_borrow(Clone::clone);
+    (!all.contains(&number)).then(|| {
+        all.push(number);
+        all
+    })
+}
+
+/// Work of a thread for these computations.
+pub(crate) fn working_for<T>(all: Vec<u64>, work: impl FnOnce() -> T) -> T {
+    WITHIN.replace(all);
+    work()
+}
+
 /// Does some work in a thread of its own, while Python's other threads run; `progress`, if there is one, is called with the n of the
 /// state that was reached.
 ///
 /// # Errors
 /// `KeyboardInterrupt` after Ctrl-C, or what another handler of signals or `progress` raises: the work is asked to end, and not waited for where it
-/// does not end soon.
+/// does not end soon. `RecursionError` where forces compute what needs these forces.
 pub(crate) fn waiting<T: Send + 'static>(
     py: Python<'_>,
     progress: Option<&Bound<'_, PyAny>>,
     work: impl FnOnce(&Watched) -> T + Send + 'static,
 ) -> PyResult<T> {
+    let within = within(new_number()).filter(|all| all.len() <= DEEPEST).ok_or_else(|| {
+        let message = "the forces of a computation compute what needs these forces again, without an end";
+        PyRecursionError::new_err(message)
+    })?;
     let watched = Arc::<Watched>::default();
     let (done, is_done) = channel();
     let of_thread = Arc::clone(&watched);
-    spawned(move || drop(done.send(answered(|| work(&of_thread)))))?;
+    spawned(move || drop(done.send(answered(|| working_for(within, || work(&of_thread))))))?;
     awaited(py, progress, &watched, is_done)
 }
 

@@ -262,3 +262,61 @@ def test_advice_is_printed_as_a_table():
     none = shadowstep.advise("pendulum", 50, 1e-30, seconds=0.2)
     # and no runs are made that cannot meet it
     assert str(none) == none.reason and none.reason.startswith("No scheme meets the tolerance")
+
+
+def test_forces_that_ask_what_waits_for_them_are_one_error():
+    """They waited for each other without an end."""
+    asked = []
+
+    def forces(q):
+        for ask in asked:
+            ask()
+        return 0.5 * q @ q, q
+
+    problem = Problem(forces, q=[1.0], p=[0.0])
+    monitor, other = (Monitor(problem, "stormer-verlet", "1/10") for _ in range(2))
+    for ask in (lambda: monitor.step(1), lambda: monitor.state, lambda: monitor.report(), lambda: monitor.n, lambda: other.step(1)):
+        asked[:] = [ask]
+        with pytest.raises(RuntimeError, match="the forces of a monitor cannot ask the monitor itself, which waits for them"):
+            monitor.step(1)
+    asked[:] = [lambda: integrate(problem, "stormer-verlet", "1/10", steps=1)]
+    for call in (lambda: integrate(problem, "stormer-verlet", "1/10", steps=1), lambda: monitor.step(1), lambda: shadowstep.drift(problem, "stormer-verlet", "1/10", 1, digits="double")):
+        with pytest.raises(RecursionError, match="compute what needs these forces again"):
+            call()
+    asked[:] = [lambda: integrate("pendulum", "stormer-verlet", "1/10", steps=1)]  # what ends is right
+    n = monitor.n
+    monitor.step(2)
+    assert monitor.n == n + 2
+
+
+def test_an_observer_is_shared_by_threads():
+    observer = shadowstep.Observer([1.0], 0.1)
+    threads = [threading.Thread(target=lambda: [observer.observe([1.0], [0.0], 0.0, [0.0]) for _ in range(500)]) for _ in range(4)]
+    [thread.start() for thread in threads]
+    [thread.join() for thread in threads]
+    assert observer.diagnosis().states == 2000
+
+
+def test_what_a_problem_and_a_scheme_give_cannot_change_them():
+    k = np.array([0.0, 1.0])
+    problem = Problem("k*x^2/2 + y^2", q={"x": 1, "y": 2}, p=k, k=4)
+    k[1] = 7
+    sections = problem.sections
+    for change in (
+        lambda: sections["problem"].update(potential="x"),
+        lambda: sections["problem"]["parameters"].__setitem__("k", 5),
+        lambda: sections["initial"]["q"].__setitem__(0, 5),
+        lambda: sections.__setitem__("problem", {}),
+    ):
+        with pytest.raises((TypeError, AttributeError)):
+            change()
+    problem.initial[0][0] = 9
+    problem.coordinates[0] = "z"
+    assert problem.replaced({"k": 2}).energy == 5.5 and problem.energy == 6.5 and problem.coordinates == ["x", "y"]
+    scheme = Scheme("yoshida4")
+    scheme.record["maps"].clear()
+    scheme.maps.clear()
+    assert len(scheme.maps) == 7
+    monitor = Monitor("pendulum", "stormer-verlet", "1/10")
+    monitor.state[0][0] = 5
+    assert monitor.state[0][0] == Problem("pendulum").initial[0][0]
