@@ -221,3 +221,44 @@ def test_files_that_end_too_early_are_noticed(tmp_path):
     (tmp_path / "kepler.csv").write_text("".join(lines[:-4]))
     with pytest.warns(UserWarning, match="kepler.csv ends at n = 49, and its run has 66 steps: copy the file again"):
         shadowstep.open(tmp_path / "kepler.csv")
+
+
+def spring(q):
+    return 0.5 * float(q @ q), q
+
+
+def kepler(q):
+    r = float(np.sqrt(q @ q))
+    return -1 / r, q / r**3
+
+
+@pytest.mark.parametrize("digits", ["double", "compensated"])
+def test_work_precision_of_a_function_has_a_reference_in_double_precision(digits):
+    """Its errors are those beside the exact flow, or they are not known."""
+    problem = Problem(spring, q=[1.0], p=[0.0])
+    for seconds in (0.05, 0.5):
+        for steps in ([100, 200, 400, 6400], None):
+            (curve,) = shadowstep.work_precision(problem, 10, ["blanes-moan-srkn11b"], steps=steps, seconds=seconds, digits=digits)
+            for run in curve.runs:
+                made = shadowstep.integrate(problem, "blanes-moan-srkn11b", f"10/{run.steps}", steps=run.steps, every=run.steps, digits=digits)
+                true = abs(float(made.q[-1, 0]) - np.cos(10))
+                if run.position_error is not None:
+                    assert abs(run.position_error - true) < 0.25 * run.position_error, run
+                elif run.position_error_below is not None:
+                    assert true < 1.5 * run.position_error_below, run
+
+
+def test_advice_for_a_function_meets_its_tolerance():
+    shipped = Problem("kepler", eccentricity="3/5")
+    problem = Problem(kepler, q=[0.4, 0.0], p=[0.0, 2.0])
+    for tolerance in (1e-5, 1e-9):
+        advice = shadowstep.advise(problem, 5, tolerance, schemes=["yoshida4", "blanes-moan-srkn11b"], seconds=2)
+        best = advice.choices[0]
+        end = shadowstep.integrate(problem, best.scheme, best.h, until=5, every=10**9).q[-1]
+        precise = shadowstep.integrate(shipped, "sofroniou-spaletta10-35", "1/200", until=5, every=10**9, digits=30).q[-1].astype(float)
+        assert np.linalg.norm(end - precise) <= 1.1 * advice.verified and advice.verified <= tolerance
+    # less than double precision has is refused, in a sentence
+    none = shadowstep.advise(problem, 5, 1e-20, schemes=["yoshida4"], seconds=0.2)
+    assert not none.choices and none.reason.startswith("No ")
+    with pytest.raises(InputError, match="folder: results for a function are not kept"):
+        shadowstep.work_precision(problem, 1, ["yoshida4"], steps=[10], folder="kept")

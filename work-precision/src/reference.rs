@@ -1,5 +1,5 @@
 //! The positions with which those of the schemes are compared: of the exact flow where it is known, else of a scheme of order 10
-//! with more digits and small steps, with an estimate of its own error.
+//! with more digits and small steps, with an estimate of its own error; in double precision with compensated sums where forces have no more digits.
 
 use std::time::Duration;
 
@@ -151,10 +151,11 @@ impl Reference {
             Some(setup) => of_exact_flow(problem, &setup, samples),
             None => {
                 let arithmetic = more_digits(problem)?;
+                let gain = !has_forces_in_doubles(problem);
                 let target = f64::from(problem.arithmetic.digits() + 2);
                 let enough = |error: f64, size: f64| error <= size - target;
                 let steps = first_steps(problem, samples);
-                let request = Halving { samples, steps, time, gain: true, enough: &enough, continues };
+                let request = Halving { samples, steps, time, gain, enough: &enough, continues };
                 let found = of_scheme(problem, (arithmetic, Size::ZERO), request).transpose();
                 found.unwrap_or_else(|| {
                     let seconds = time.as_secs_f64();
@@ -211,8 +212,10 @@ impl Reference {
                 return Ok(found.clone());
             }
         }
-        let precise =
-            more_digits(problem).and_then(|arithmetic| of_scheme(problem, (arithmetic, error), request(true)));
+        let precise = match has_forces_in_doubles(problem) {
+            true => Ok(None),
+            false => more_digits(problem).and_then(|arithmetic| of_scheme(problem, (arithmetic, error), request(true))),
+        };
         let best = match (precise, found) {
             (Ok(Some(precise)), Some(found)) => {
                 if found.error() < precise.error() {
@@ -340,8 +343,17 @@ impl Computation for ExactTexts<'_> {
     }
 }
 
-/// The number type of a reference.
+/// Whether the forces have no more digits than double precision: a function of the caller computes them.
+fn has_forces_in_doubles(problem: Problem<'_>) -> bool {
+    problem.system.check_digits(Arithmetic::DOUBLE_DOUBLE).is_err()
+}
+
+/// The number type of a reference. Forces of a function stay in double precision: smaller steps of a higher order are better until round-off, and its error is
+/// known by what half the step changes, which has the round-off of two runs.
 fn more_digits(problem: Problem<'_>) -> Result<Arithmetic, Error> {
+    if has_forces_in_doubles(problem) {
+        return Ok(Arithmetic::COMPENSATED);
+    }
     let digits = problem.arithmetic.digits() + MORE_DIGITS;
     if digits > MOST_REFERENCE_DIGITS {
         let most = MOST_REFERENCE_DIGITS - MORE_DIGITS;
@@ -359,7 +371,7 @@ fn resolving_numbers(problem: Problem<'_>, error: Size) -> Option<Arithmetic> {
     let own = if problem.arithmetic == Arithmetic::DOUBLE { Arithmetic::COMPENSATED } else { problem.arithmetic };
     let size = largest_coordinate(problem);
     let resolved = size.log10() - f64::from(own.digits().saturating_sub(ROUND_OFF_DIGITS));
-    (error.log10() > resolved).then_some(own)
+    (error.log10() > resolved || has_forces_in_doubles(problem)).then_some(own)
 }
 
 /// The numbers in which a reference with errors of about this size is computed, and its scheme; `None` where the flow is exact.
@@ -440,7 +452,14 @@ impl Computation for ByHalving<'_> {
                 let difference = differences.iter().map(|size| size.log10()).fold(f64::NEG_INFINITY, f64::max);
                 let shows_order = last_difference - difference >= scheme.gain;
                 let gain = if shows_order && request.gain { scheme.gain } else { 0.0 };
-                let errors = differences.iter().map(|size| size.times_power_of_ten(-gain)).collect();
+                // two runs that round alike are not exact
+                let least = match has_forces_in_doubles(problem) {
+                    true => Size::of(&f64::EPSILON).times_power_of_ten(largest(&found)),
+                    false => Size::ZERO,
+                };
+                let known = |size: &Size| size.times_power_of_ten(-gain);
+                let errors =
+                    differences.iter().map(known).map(|size| if size < least { least } else { size }).collect();
                 let texts = |position: &Vec<N>| position.iter().map(Real::to_text).collect();
                 let origin =
                     Origin::Scheme { name: scheme.name.to_owned(), steps, digits: problem.arithmetic.digits() };
