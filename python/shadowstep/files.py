@@ -6,13 +6,15 @@ import builtins
 import csv
 import json
 import os
+import re
 import warnings
-from collections.abc import Iterator
+from collections.abc import Sequence
 from typing import Any, Union
 
 import numpy as np
 
 from ._shadowstep import InputError
+from .arguments import path_of
 from .integration import Trajectory
 
 _INDICATORS = ("lyapunov", "megno", "mean_megno", "sali")
@@ -27,7 +29,7 @@ def open(path: Union[str, os.PathLike[str]]) -> Trajectory:
     Raises
     ------
     InputError
-        A file that is not one of a run, with its line.
+        A file that is not one of a run, or is damaged, with its line or byte.
     OSError
         A file that cannot be read.
 
@@ -46,7 +48,7 @@ def open(path: Union[str, os.PathLike[str]]) -> Trajectory:
     >>> run.q.shape, run.metadata["scheme"], int(np.isfinite(run.energy).sum())
     ((31, 1), 'yoshida4', 4)
     """
-    name = os.fspath(path)
+    name = path_of(path, "path")
     if name.endswith(".npy"):
         return _numpy(name)
     metadata, rows, momenta = _json_lines(name) if name.endswith(".jsonl") else _csv(name)
@@ -67,7 +69,7 @@ def open(path: Union[str, os.PathLike[str]]) -> Trajectory:
         return any(row.get(column) for row in rows)
 
     return Trajectory(
-        n=array("n").astype(np.int64),
+        n=np.array([int(row["n"]) for row in rows], dtype=np.int64),
         t=array("t", texts=True),
         q=states(coordinates),
         p=states(momenta),
@@ -84,51 +86,136 @@ def open(path: Union[str, os.PathLike[str]]) -> Trajectory:
     )
 
 
+_AGAIN = "copy the file again, or run its scene again"
+_NUMBER = re.compile(r"[-+]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][-+]?[0-9]+)?|nan|-?inf")
+_WHOLE = re.compile(r"-?[0-9]{1,18}")
+
+
 def _warn_of_missing(name: str, metadata: dict[str, Any], rows: list[dict[str, str]]) -> None:
     """Warns where rows have been cut off at the end of a line: from n = 0 on, rows are never farther from each other than the first two."""
     if len(rows) < 2 or "section" in metadata:
         return
     first, second, last = (int(rows[i]["n"]) for i in (0, 1, -1))
     if first == 0 and last + second <= int(metadata["steps"]):
-        message = f"{name} ends at n = {last}, and its run has {metadata['steps']} steps: copy the file again, or run its scene again"
+        message = f"{name} ends at n = {last}, and its run has {metadata['steps']} steps: {_AGAIN}"
         warnings.warn(message, stacklevel=3)
+
+
+def _text(name: str) -> str:
+    with builtins.open(name, "rb") as file:
+        content = file.read()
+    try:
+        return content.decode("utf-8")
+    except UnicodeDecodeError as error:
+        line = content[: error.start].count(b"\n") + 1
+        raise InputError(f"{name}:{line}: byte {error.start} is not of a text in UTF-8: {_AGAIN}") from None
+
+
+def _lines(name: str) -> list[str]:
+    """The lines of a text, each of which ends with a line feed."""
+    lines = _text(name).split("\n")
+    if lines[-1]:
+        raise InputError(f"{name}:{len(lines)}: the line is incomplete, and what follows is missing: {_AGAIN}")
+    return lines[:-1]
+
+
+def _check_metadata(metadata: Any, place: dict[str, str], otherwise: str) -> None:
+    """Refuses metadata of another form; each key has a place, and keys that are missing another one."""
+    texts = lambda value: isinstance(value, list) and bool(value) and all(isinstance(text, str) for text in value)  # noqa: E731
+    known: dict[str, tuple[Any, str]] = {
+        "coordinates": (texts, "a list of names"),
+        "momenta": (lambda value: texts(value) and len(value) == len(metadata["coordinates"]), "a name for each coordinate"),
+        "values": (lambda value: isinstance(value, dict), "formulas by their names"),
+        "steps": (lambda value: _WHOLE.fullmatch(str(value)) is not None, "a number of steps"),
+    }
+    for key, (is_right, what) in known.items():
+        if key not in metadata:
+            if key in ("coordinates", "steps"):
+                raise InputError(f"{otherwise}: `{key}` is missing from the metadata: {_AGAIN}")
+        elif not is_right(metadata[key]):
+            raise InputError(f"{place.get(key, otherwise)}: `{key}` is not {what}: {_AGAIN}")
+
+
+def _check_cells(cells: dict[str, Any], at: str) -> None:
+    """Refuses cells that are no numbers; those that are empty are not due."""
+    if not cells.get("t"):
+        raise InputError(f"{at}: `t` is missing: {_AGAIN}")
+    for column, cell in cells.items():
+        if cell and not (_WHOLE if column == "n" else _NUMBER).fullmatch(cell):
+            raise InputError(f"{at}: {column} is {cell[:40]!r}, which is no number: {_AGAIN}")
 
 
 def _csv(name: str) -> tuple[dict[str, Any], list[dict[str, str]], list[str]]:
     metadata: dict[str, Any] = {}
-    with builtins.open(name, newline="") as file:
-        lines = _without_head(name, file, metadata)
-        reader = csv.DictReader(lines)
-        columns = reader.fieldnames
-        if columns is None or list(columns[:2]) != ["n", "t"] or "coordinates" not in metadata:
-            raise InputError(f"{name} is no file of `shadowstep run`, which begins with lines of metadata and has columns n, t, …: read a file of `trace` with pandas.read_csv")
-        rows = list(reader)
-    for key in ("coordinates", "values"):
-        if key in metadata:
-            metadata[key] = json.loads(metadata[key])
-    state = [column for column in columns if column not in _FIXED and column not in metadata.get("values", {})]
-    written = [coordinate for coordinate in metadata["coordinates"] if coordinate in state]
-    return metadata, rows, state[len(written) :] or [f"p{name}" for name in metadata["coordinates"]]
-
-
-def _without_head(name: str, file: Any, metadata: dict[str, Any]) -> Iterator[str]:
-    for number, line in enumerate(file, 1):
-        if not line.endswith("\n"):
-            raise InputError(f"{name}:{number}: the line is incomplete, and what follows is missing: copy the file again, or run its scene again")
-        if not line.startswith("#"):
-            yield line
+    place: dict[str, str] = {}
+    table: list[tuple[int, list[str]]] = []
+    for number, line in enumerate(_lines(name), 1):
+        if line.startswith("#"):
+            key, _, value = line[1:].strip().partition(": ")
+            metadata[key], place[key] = value, f"{name}:{number}"
             continue
-        key, _, value = line[1:].strip().partition(": ")
-        metadata[key] = value
+        try:
+            table.append((number, next(csv.reader([line], strict=True), [])))
+        except csv.Error as error:
+            raise InputError(f"{name}:{number}: the row is damaged ({error}): {_AGAIN}") from None
+    at = f"{name}:{table[0][0] if table else 1}"
+    columns = table[0][1] if table else []
+    if columns[:2] != ["n", "t"] or not metadata:
+        raise InputError(f"{at}: this is no file of `shadowstep run`, which begins with lines of metadata and has columns n, t, …: read a file of `trace` with pandas.read_csv")
+    for key in ("coordinates", "momenta", "values"):
+        if key in metadata:
+            try:
+                metadata[key] = json.loads(metadata[key])
+            except ValueError:
+                raise InputError(f"{place[key]}: `{key}` is not JSON: {_AGAIN}") from None
+    _check_metadata(metadata, place, at)
+    momenta = _momenta(columns, metadata, at)
+    rows = []
+    for number, cells in table[1:]:
+        if len(cells) != len(columns):
+            raise InputError(f"{name}:{number}: the row has {len(cells)} cells, and there are {len(columns)} columns: {_AGAIN}")
+        row = dict(zip(columns, cells))
+        _check_cells({**row, "n": row["n"] or "?"}, f"{name}:{number}")
+        rows.append(row)
+    return metadata, rows, momenta
+
+
+def _momenta(columns: Sequence[str], metadata: dict[str, Any], at: str) -> list[str]:
+    """The names of the momenta: of the columns of states, those after the coordinates."""
+    coordinates, values = metadata["coordinates"], metadata.get("values", {})
+    missing = [value for value in values if value not in columns]
+    if missing or len(set(columns)) < len(columns):
+        raise InputError(f"{at}: the columns are not those of the metadata: {f'`{missing[0]}` is missing' if missing else 'one is there twice'}: {_AGAIN}")
+    state = [column for column in columns if column not in _FIXED and column not in values]
+    if not state:
+        return [f"p{name}" for name in coordinates]
+    # t has its column already, where it is a coordinate
+    written = [name for name in coordinates if name not in _FIXED]
+    if state[: len(written)] != written or len(state) != len(written) + len(coordinates):
+        raise InputError(f"{at}: the columns {', '.join(state)} are not those of the coordinates {', '.join(coordinates)} and their momenta: {_AGAIN}")
+    return state[len(written) :]
 
 
 def _numpy(name: str) -> Trajectory:
     metadata = _metadata(name)
+    size = os.path.getsize(name)
     try:
         rows = np.load(name, mmap_mode="r", max_header_size=1 << 24)
-    except ValueError as error:
-        raise InputError(f"{name} cannot be read as records of NumPy ({error}): if it is incomplete, copy it again, or run its scene again") from None
+        offset: int = rows.offset
+    except OSError:
+        raise
+    except Exception as error:  # noqa: BLE001, whatever the bytes of its head are
+        raise InputError(f"{name}: byte 0 of {size}: the file cannot be read as records of NumPy ({error}): if it is incomplete, copy it again, or run its scene again") from None
+    dimension = len(metadata["coordinates"])
     fields = rows.dtype.names or ()
+    expected = {field: np.dtype("<i8") if field == "n" else np.dtype(("<f8", (dimension,))) if field in ("q", "p") else np.dtype("<f8") for field in fields}
+    known = {*_FIXED, "q", "p", *metadata.get("values", {})}
+    wrong = [field for field in fields if field not in known or rows.dtype[field] != expected[field]]
+    missing = [field for field in ("n", "t", *metadata.get("values", {})) if field not in fields]
+    if rows.ndim != 1 or wrong or missing:
+        raise InputError(f"{name}: byte 0 of {size}: the records are not those of a run{f': `{(wrong + missing)[0]}`' if wrong + missing else ''}: {_AGAIN}")
+    if offset + rows.nbytes != size:
+        raise InputError(f"{name}: byte {offset + rows.nbytes} of {size}: {len(rows)} records should end there: {_AGAIN}")
 
     def field(column: str, *shape: int) -> np.ndarray:
         # one NaN for all rows, which takes no memory
@@ -146,8 +233,8 @@ def _numpy(name: str) -> Trajectory:
         momenta=momenta,
         force_evaluations=None,
         modified_energy=rows["modified_energy"] if estimated else None,
-        modified_energy_error=rows["estimate"] if estimated else None,
-        order=rows["order"] if estimated else None,
+        modified_energy_error=field("estimate") if estimated else None,
+        order=field("order") if estimated else None,
         metadata=metadata,
         indicators={name: rows[name] for name in _INDICATORS if name in fields},
         values={name: rows[name] for name in metadata.get("values", {})},
@@ -155,21 +242,45 @@ def _numpy(name: str) -> Trajectory:
 
 
 def _metadata(name: str) -> dict[str, Any]:
-    with builtins.open(f"{name}.metadata.json") as file:
-        metadata: dict[str, Any] = json.load(file)["metadata"]
+    path = f"{name}.metadata.json"
+    text = _text(path)
+    try:
+        content = json.loads(text)
+    except json.JSONDecodeError as error:
+        raise InputError(f"{path}:{error.lineno}: this is not JSON ({error.msg}): {_AGAIN}") from None
+    metadata = content.get("metadata") if isinstance(content, dict) else None
+    if not isinstance(metadata, dict):
+        raise InputError(f"{path}:1: these are no metadata of a run: {_AGAIN}")
+    _check_metadata(metadata, {}, f"{path}:{_line_of(text, 'metadata')}")
     return metadata
+
+
+def _line_of(text: str, key: str) -> int:
+    return text[: max(text.find(f'"{key}"'), 0)].count("\n") + 1
 
 
 def _json_lines(name: str) -> tuple[dict[str, Any], list[dict[str, str]], list[str]]:
     metadata = _metadata(name)
-    momenta = metadata.get("momenta") or [f"p{coordinate}" for coordinate in metadata["coordinates"]]
+    coordinates = metadata["coordinates"]
+    momenta = metadata.get("momenta") or [f"p{coordinate}" for coordinate in coordinates]
+    known = {*_FIXED, "q", "p", *metadata.get("values", {})}
     rows = []
-    with builtins.open(name) as file:
-        for number, line in enumerate(file, 1):
-            try:
-                row = json.loads(line)
-            except ValueError:
-                raise InputError(f"{name}:{number}: this line is not JSON") from None
-            state = zip([*metadata["coordinates"], *momenta], [*row.pop("q", []), *row.pop("p", [])])
-            rows.append({**{key: str(value) for key, value in row.items() if value is not None}, **dict(state)})
+    for number, line in enumerate(_lines(name), 1):
+        at = f"{name}:{number}"
+        try:
+            row = json.loads(line)
+        except ValueError:
+            raise InputError(f"{at}: this line is not JSON: {_AGAIN}") from None
+        if not isinstance(row, dict) or row.keys() - known or not isinstance(row.get("n"), int):
+            others = sorted(row.keys() - known) if isinstance(row, dict) else []
+            raise InputError(f"{at}: this is no row of the run{f': it has `{others[0]}`' if others else ''}: {_AGAIN}")
+        state = {}
+        for half, names in (("q", coordinates), ("p", momenta)):
+            numbers = row.pop(half, None)
+            if numbers is not None and not (isinstance(numbers, list) and len(numbers) == len(names)):
+                raise InputError(f"{at}: `{half}` has not a number for each of {', '.join(names)}: {_AGAIN}")
+            state.update({name: str(value) for name, value in zip(names, numbers or [])})
+        cells = {key: str(value) for key, value in row.items() if value is not None}
+        _check_cells({**state, **cells}, at)
+        rows.append({**state, **cells})
     return metadata, rows, momenta
