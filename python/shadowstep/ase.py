@@ -5,18 +5,23 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-from ase import units
+from ase import Atoms, units
 from ase.constraints import FixAtoms
 from ase.md.verlet import VelocityVerlet
 
 from ._shadowstep import InputError
+from .arguments import check
+from .border import WrongType
 from .exact import count
-from .monitor import Sample
-from .recorded import Diagnosis, Observer
+from .following import Following
+from .recorded import Observer
 
 
-class ShadowMonitor:
+class ShadowMonitor(Following):
     """Follows the modified energy of a run with ASE's `VelocityVerlet`, and says what moves the energy.
+
+    It raises nothing during the run: where steps are so large that the states cannot be followed, `diagnosis` says so. Energies are in eV, forces in eV/Å, and texts
+    have times in fs.
 
     Parameters
     ----------
@@ -33,7 +38,7 @@ class ShadowMonitor:
     Examples
     --------
     >>> import numpy as np
-    >>> from ase import units
+    >>> from ase import Atoms, units
     >>> from ase.build import bulk
     >>> from ase.calculators.emt import EMT
     >>> from ase.md.velocitydistribution import thermalize_momenta
@@ -51,9 +56,12 @@ class ShadowMonitor:
     """
 
     def __init__(self, atoms: Any, dyn: Any, every: int = 1, window: int = 17) -> None:
+        check(ShadowMonitor.__init__, locals())
+        if not isinstance(atoms, Atoms):
+            raise WrongType(f"atoms must be ase.Atoms, not {type(atoms).__name__}")
         if not isinstance(dyn, VelocityVerlet) or type(dyn).step is not VelocityVerlet.step:
             found = type(dyn).__name__
-            raise InputError(f"the modified energy is that of velocity Verlet, and the dynamics are {found}: use ase.md.verlet.VelocityVerlet")
+            raise InputError(f"dyn: the modified energy is that of velocity Verlet, and the dynamics are {found}: use ase.md.verlet.VelocityVerlet")
         if dyn.atoms is not atoms:
             raise InputError("the dynamics are those of other atoms")
         others = [type(constraint).__name__ for constraint in atoms.constraints if not isinstance(constraint, FixAtoms)]
@@ -66,34 +74,23 @@ class ShadowMonitor:
         self._dyn = dyn
         cell = atoms.cell.complete() if any(atoms.pbc) else None
         masses = np.repeat(atoms.get_masses()[self._free], 3)
-        self._observer = Observer(masses, float(dyn.dt), window=window, cell=cell, periodic=atoms.pbc)
-        self._every = count(every, "every")
-        self._before: int | None = None
-        self.newest: Sample | None = None
-        """The newest estimate; None before the first."""
+        observer = Observer(masses, float(dyn.dt), window=window, cell=cell, periodic=atoms.pbc)
+        super().__init__(observer, float(dyn.dt), masses, count(every, "every"), ("eV", "fs", 1 / units.fs))
+        try:
+            self._state()
+        except Exception as error:
+            raise InputError(f"the calculator of the atoms gives no energy and forces: {type(error).__name__}: {error}") from error
         dyn.attach(self._take, interval=1)
 
     def _take(self) -> None:
-        n = self._dyn.nsteps
-        if self._every > self._observer.window and n % self._every >= self._observer.window:
-            return
-        if n != (0 if self._before is None else self._before + 1):
-            self._observer.begin(n)
-        self._before = n
+        if self._is_taken(self._dyn.nsteps):
+            self._follow(self._dyn.nsteps, self._state)
+
+    def _state(self) -> tuple[np.ndarray, np.ndarray, float, np.ndarray]:
         atoms = self._atoms
         energy = atoms.get_potential_energy(force_consistent=_is_force_consistent(atoms.calc))
         q, p, forces = (of[self._free] for of in (atoms.positions, atoms.get_momenta(), atoms.get_forces()))
-        sample = self._observer.observe(q, p, energy, forces)
-        self.newest = sample or self.newest
-
-    @property
-    def values(self) -> dict[str, np.ndarray]:
-        """Arrays ``n``, ``modified_energy``, ``error`` and ``energy`` of all states that have an estimate; energies are in eV."""
-        return self._observer.values
-
-    def diagnosis(self) -> Diagnosis:
-        """What moves the energy, as far as the states so far tell; energies are in eV, forces in eV/Å, and the text has times in fs."""
-        return self._observer._in_units(("eV", "fs", 1 / units.fs))
+        return q, p, energy, forces
 
 
 def _is_force_consistent(calculator: Any) -> bool:

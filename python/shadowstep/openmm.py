@@ -6,14 +6,26 @@ from typing import Any
 
 import numpy as np
 import openmm
+import openmm.app
 from openmm import unit
 
 from ._shadowstep import InputError
+from .arguments import check
+from .border import WrongType
 from .exact import count
-from .monitor import Sample
-from .recorded import Diagnosis, Observer
+from .following import Following
+from .recorded import Observer
 
-_OTHER = ("CMMotionRemover", "AndersenThermostat", "MonteCarloBarostat", "MonteCarloAnisotropicBarostat", "MonteCarloMembraneBarostat", "MonteCarloFlexibleBarostat")
+# What changes states between the steps; all other forces have an energy.
+_OTHER = (
+    "CMMotionRemover",
+    "AndersenThermostat",
+    "MonteCarloBarostat",
+    "MonteCarloAnisotropicBarostat",
+    "MonteCarloMembraneBarostat",
+    "MonteCarloFlexibleBarostat",
+    "RPMDMonteCarloBarostat",
+)
 
 _PER_DOF, _GLOBAL = ("shadow_dx", "shadow_dv"), "shadow_dbeta"
 
@@ -26,10 +38,11 @@ def _sums_increments(integrator: Any) -> bool:
     return per_dof.issuperset(_PER_DOF) and _GLOBAL in names
 
 
-class ShadowReporter:
+class ShadowReporter(Following):
     """A reporter that follows the modified energy of a simulation with OpenMM's `VerletIntegrator` or another splitting, and says what moves the energy.
 
-    Momenta of `VerletIntegrator` are those of leapfrog, half a step before the positions; they are converted exactly, by the forces. Another splitting is
+    It raises nothing during the run: where steps are so large that the states cannot be followed, `diagnosis` says so. Energies are in kJ/mol, forces in kJ/mol/nm, and texts
+    have times in ps. Momenta of `VerletIntegrator` are those of leapfrog, half a step before the positions; they are converted exactly, by the forces. Another splitting is
     a `CustomIntegrator` that sums the increments of its steps, as ``make_integrator(step_size, increments=True)`` of `Scheme.emit` does.
 
     Parameters
@@ -44,6 +57,9 @@ class ShadowReporter:
     """
 
     def __init__(self, simulation: Any, every: int = 1, window: int = 17) -> None:
+        check(ShadowReporter.__init__, locals())
+        if not isinstance(simulation, openmm.app.Simulation):
+            raise WrongType(f"simulation must be an openmm.app.Simulation, not {type(simulation).__name__}")
         integrator, system = simulation.context.getIntegrator(), simulation.system
         self._increments = integrator if _sums_increments(integrator) else None
         if not (self._increments or isinstance(integrator, openmm.VerletIntegrator)):
@@ -61,12 +77,15 @@ class ShadowReporter:
         masses = np.array([system.getParticleMass(i).value_in_unit(unit.dalton) for i in particles])
         # OpenMM does not move particles of mass 0
         self._free = masses > 0
-        self._masses = np.repeat(masses[self._free], 3)
-        self._observer = Observer(self._masses, integrator.getStepSize().value_in_unit(unit.picosecond), window=window)
-        self._every = count(every, "every")
-        self._before: int | None = None
-        self.newest: Sample | None = None
-        """The newest estimate; None before the first."""
+        if not self._free.any():
+            raise InputError("all particles have mass 0, so that nothing moves")
+        groups = {force.getForceGroup() for force in system.getForces()}
+        left_out = [group for group in sorted(groups) if not integrator.getIntegrationForceGroups() >> group & 1]
+        if left_out:
+            raise InputError(f"the integrator leaves out the forces of group {left_out[0]}, whose energy states have: integrate all groups")
+        h = integrator.getStepSize().value_in_unit(unit.picosecond)
+        moving = np.repeat(masses[self._free], 3)
+        super().__init__(Observer(moving, h, window=window), h, moving, count(every, "every"), ("kJ/mol", "ps", 1.0))
 
     def describeNextReport(self, simulation: Any) -> tuple[int, bool, bool, bool, bool, bool]:
         """OpenMM asks this: in how many steps the next state is needed, and what of it. Positions are not wrapped."""
@@ -78,29 +97,17 @@ class ShadowReporter:
     def report(self, simulation: Any, state: Any) -> None:
         """OpenMM gives a state."""
         n = simulation.currentStep
-        if n != (0 if self._before is None else self._before + 1):
-            self._observer.begin(n)
-        self._before = n
+        step: dict[str, Any] = {"half_step": True}
+        if self._increments is not None:
+            dq, dv = (np.array(self._increments.getPerDofVariableByName(name))[self._free] for name in _PER_DOF)
+            step = {"step": (dq, dv.ravel() * self._masses, self._increments.getGlobalVariableByName(_GLOBAL))}
+        self._follow(n, lambda: self._state(state), **step)
+
+    def _state(self, state: Any) -> tuple[np.ndarray, np.ndarray, float, np.ndarray]:
         number = lambda quantity, of: np.asarray(quantity.value_in_unit(of))  # noqa: E731
         q = number(state.getPositions(asNumpy=True), unit.nanometer)
         v = number(state.getVelocities(asNumpy=True), unit.nanometer / unit.picosecond)
         forces = number(state.getForces(asNumpy=True), unit.kilojoule_per_mole / unit.nanometer)
         energy = state.getPotentialEnergy().value_in_unit(unit.kilojoule_per_mole)
         q, v, forces = (of[self._free] for of in (q, v, forces))
-        p = v.ravel() * self._masses
-        if self._increments is None:
-            sample = self._observer.observe(q, p, energy, forces, half_step=True)
-        else:
-            dq, dv = (np.array(self._increments.getPerDofVariableByName(name))[self._free] for name in _PER_DOF)
-            step = (dq, dv.ravel() * self._masses, self._increments.getGlobalVariableByName(_GLOBAL))
-            sample = self._observer.observe(q, p, energy, forces, step=step)
-        self.newest = sample or self.newest
-
-    @property
-    def values(self) -> dict[str, np.ndarray]:
-        """Arrays ``n``, ``modified_energy``, ``error`` and ``energy`` of all states that have an estimate; energies are in kJ/mol."""
-        return self._observer.values
-
-    def diagnosis(self) -> Diagnosis:
-        """What moves the energy, as far as the states so far tell; energies are in kJ/mol, forces in kJ/mol/nm, and the text has times in ps."""
-        return self._observer._in_units(("kJ/mol", "ps", 1.0))
+        return q, v.ravel() * self._masses, energy, forces
