@@ -265,7 +265,7 @@ mod tests {
         }
         let coordinate = "potential = \"E^2/2\"\ncoordinates = [\"E\"]";
         let fault = read(coordinate, "steps = 3", "values = { a = \"2*E\" }").map(drop).unwrap_err();
-        assert_eq!(fault, "13:17: `E` could be the coordinate or the energy H here");
+        assert_eq!(fault, "13:16: `E` could be the coordinate or the energy H here");
         // t of H is the time of the rows
         read("potential = \"x^2/2 - t*x\"\ncoordinates = [\"x\"]", "steps = 3", "values = { a = \"t*x\" }").unwrap();
     }
