@@ -103,6 +103,8 @@ def columns_of(rows: str) -> dict[str, np.ndarray]:
 
 
 def _numbers(texts: list[str]) -> np.ndarray:
+    # the mark of a text that a spreadsheet would compute
+    texts = [text.removeprefix("'") for text in texts]
     # more digits than a double has stay texts
     doubles = all(len(text) <= 24 for text in texts)
     try:

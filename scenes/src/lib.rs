@@ -93,6 +93,7 @@
 //! | [`estimates`], [`start`] | the modified energies along such a run; a system at a state with its stepper |
 //! | `frequency`, [`stability`] | the fastest oscillation at the start, and the stability limit of the scheme |
 //! | [`watch`] | what a run shows: the error of H, the modified energy, close encounters, the verdict |
+//! | [`spreadsheet`] | cells of CSV that spreadsheets would compute |
 //! | [`readable`], `error`, `refusal` | numbers and texts for people; what can go wrong |
 //! | `shell` | words of commands that users copy |
 
@@ -144,6 +145,7 @@ pub mod scheme_record;
 mod shell;
 mod shipped;
 mod snapshots;
+pub mod spreadsheet;
 pub mod stability;
 pub mod start;
 pub mod steps;

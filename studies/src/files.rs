@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 
 use serde::Serialize;
 use shadowstep_scenes::WholeFile;
+use shadowstep_scenes::spreadsheet::cell;
 
 use crate::chart::Chart;
 use crate::page::Report;
@@ -82,8 +83,13 @@ pub fn write_page(folder: &Path, page: &Report) -> Result<PathBuf, Error> {
 /// A record that CSV cannot contain, such as a map.
 pub fn csv<R: Serialize>(head: &[String], records: impl IntoIterator<Item = R>) -> Result<String, Error> {
     let head: String = head.iter().map(|line| format!("# {line}\n")).collect();
+    let mut plain = csv::Writer::from_writer(Vec::new());
+    records.into_iter().try_for_each(|record| plain.serialize(record))?;
+    let plain = plain.into_inner().map_err(|error| error.into_error())?;
     let mut csv = csv::Writer::from_writer(head.into_bytes());
-    records.into_iter().try_for_each(|record| csv.serialize(record))?;
+    for record in csv::ReaderBuilder::new().has_headers(false).from_reader(&plain[..]).records() {
+        csv.write_record(record?.iter().map(|text| cell(text).into_owned()))?;
+    }
     let bytes = csv.into_inner().map_err(|error| error.into_error())?;
     Ok(String::from_utf8(bytes).expect("CSV of texts is a text"))
 }

@@ -2,6 +2,7 @@
 
 use serde::Serialize;
 use shadowstep_scenes::Error;
+use shadowstep_scenes::spreadsheet::cell;
 
 use crate::output::Output;
 use crate::selection::Selection;
@@ -54,7 +55,8 @@ pub(super) fn writer<'a>(
         let (n, order) = (row.n.to_string(), row.order.to_string());
         let none = String::new();
         let [energy, estimate] = [&row.energy, &row.estimate].map(|text| text.as_ref().unwrap_or(&none));
-        let run = row.run.iter().flat_map(|run| [&run.scheme, &run.step]);
+        let names = row.run.as_ref().map(|run| [&run.scheme, &run.step].map(|text| cell(text).into_owned()));
+        let run = names.iter().flatten();
         let fields = [&n, &row.t, energy, &row.modified_energy, estimate, &order];
         let positions = row.q.iter().flatten().take(positions);
         let state = positions.chain(row.p.iter().flatten());

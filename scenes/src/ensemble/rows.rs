@@ -9,6 +9,7 @@ use super::columns::Columns;
 use crate::error::Error;
 use crate::results::Metadata;
 use crate::scene::Scene;
+use crate::spreadsheet::cell;
 
 /// The metadata, a line of names, and a row for each outcome.
 pub(super) fn write(
@@ -23,7 +24,8 @@ pub(super) fn write(
     }
     let system = &scene.system;
     let mut csv = csv::Writer::from_writer(writer);
-    let names = columns.names.iter().chain(system.columns()).map(String::as_str);
+    let own: Vec<_> = columns.names.iter().map(|name| cell(name)).collect();
+    let names = own.iter().map(AsRef::as_ref).chain(system.columns().map(String::as_str));
     let modified = ["modified_drift", "modified_start", "modified_end"].into_iter().filter(|_| has_modified_energy);
     let energies = ["energy_error", "energy_start", "energy_end"].into_iter().chain(modified);
     csv.write_record(["trajectory"].into_iter().chain(names).chain(energies).chain(["not_finite"]))?;

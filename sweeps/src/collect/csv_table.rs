@@ -4,6 +4,7 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use csv::Writer;
+use shadowstep_scenes::spreadsheet::cell;
 use shadowstep_scenes::{Error, WholeFile};
 
 use super::table::{Cell, Head, Table};
@@ -24,16 +25,16 @@ impl CsvTable {
             writeln!(file, "# {name}: {value}")?;
         }
         let mut writer = Writer::from_writer(file);
-        writer.write_record(head.columns.iter().map(|column| &column.name))?;
+        writer.write_record(head.columns.iter().map(|column| cell(&column.name).into_owned()))?;
         Ok(CsvTable { writer, path })
     }
 }
 
 impl Table for CsvTable {
     fn row(&mut self, cells: &[Cell]) -> Result<(), Error> {
-        for cell in cells {
-            match cell {
-                Cell::Text(text) => self.writer.write_field(text)?,
+        for own in cells {
+            match own {
+                Cell::Text(text) => self.writer.write_field(cell(text).as_ref())?,
                 Cell::Double(double) => self.writer.write_field(double.to_string())?,
                 Cell::Empty => self.writer.write_field("")?,
             }

@@ -187,3 +187,22 @@ fn a_manifest_describes_its_columns() {
     assert_eq!(names, ["energy_error", "steps", "near", "L"]);
     assert_eq!((&plan["runs"], &plan["chunks"]), (&Value::from(60), &Value::from(2)));
 }
+
+/// A table's file may have any name, and so may what else is a text.
+#[test]
+fn texts_that_a_spreadsheet_would_compute_are_marked() {
+    let folder = folder(
+        "problem.name = \"pendulum\"\nrun = { scheme = \"$scheme\", step = \"h\", steps = 4, digits = \"double\" }\n\
+         axes = { scheme = [\"=1+1.toml\", \"yoshida4\"], h = [\"-1/3\", \"1/10\"] }\nkeep.values = [\"energy_error\"]\n",
+    );
+    let table = "name = \"mine\"\norder = 2\nkinetic = \"any\"\n[stages]\nkick = [\"1/2\", \"1/2\"]\ndrift = [1, 0]\n";
+    fs::write(folder.path().join("=1+1.toml"), table).unwrap();
+    succeeds(folder.path(), "sweep sweep.toml --out out");
+    let cells: Vec<_> = rows(folder.path()).iter().map(|row| [row["scheme"].clone(), row["h"].clone()]).collect();
+    let (own, shipped) = ("'=1+1.toml", "yoshida4");
+    assert_eq!(cells, [[own, "-1/3"], [own, "1/10"], [shipped, "-1/3"], [shipped, "1/10"]]);
+    let traced =
+        succeeds(folder.path(), "trace pendulum --scheme =1+1.toml,yoshida4 --step 1/10 --until 1 --csv --order 2");
+    assert!(traced.out.lines().any(|line| line.starts_with("'=1+1.toml,1/10,")), "{}", traced.out);
+    assert!(!traced.out.lines().any(|line| line.starts_with('=')), "{}", traced.out);
+}
