@@ -6,8 +6,9 @@ use std::ops::RangeInclusive;
 use shadowstep::problems::ProblemError;
 use shadowstep::{Rational, StepSize};
 use shadowstep_scenes::arithmetic::NUMBER_EXAMPLES;
-use shadowstep_scenes::{Error, steps};
-use shadowstep_symbolic::decimal::to_text;
+use shadowstep_scenes::readable::{LONGEST_NUMBER, shortened};
+use shadowstep_scenes::steps::{self, StepsError};
+use shadowstep_scenes::{Error, System};
 use shadowstep_symbolic::{Budget, evaluate_within, parse};
 
 /// Digits of irrational numbers in flags.
@@ -34,11 +35,20 @@ pub(crate) fn step_size(flag: &str, text: &str) -> Result<StepSize, Error> {
 
 /// How many steps of size h, with its text, end at or before the time of --until.
 pub(crate) fn steps(h: (&StepSize, &str), until: &Rational) -> Result<u64, Error> {
-    let end = to_text(until);
-    steps::count(h, (until, &end)).map_err(|none| match none.is_of_time() {
+    steps::count(h, (until, &shortened(until, LONGEST_NUMBER))).map_err(no_steps)
+}
+
+/// Refuses a physical time of --until at which steps of a fictitious time of a system cannot end.
+pub(crate) fn check_physical_end(h: (&StepSize, &str), until: &Rational, system: &System) -> Result<(), Error> {
+    let ends = (until, &*shortened(until, LONGEST_NUMBER));
+    steps::check_physical_end(h, ends, system.rate_at_start()).map_err(no_steps)
+}
+
+fn no_steps(none: StepsError) -> Error {
+    match none.is_of_time() {
         true => Error::usage(format!("--{none}"), "write a time such as --until 100"),
         false => Error::usage(none.to_string(), none.hint()),
-    })
+    }
 }
 
 fn exact(text: &str) -> Result<Rational, shadowstep_symbolic::Error> {

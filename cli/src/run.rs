@@ -67,12 +67,12 @@ pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
         return Err(Error::usage(message, "remove that line, or --strict"));
     }
     scene.notes.iter().for_each(report::note);
-    // before signals are handled: counting steps to a physical time makes them
-    let steps = scene.steps();
-    let interrupt = Interrupt::listen(&scene.source.path, again(&scene));
     let plot = scene.output.plot.as_ref();
     let files =
         plot.map(|plot| PlotFiles::of_scene(&scene, plot, (arguments.force, arguments.continues))).transpose()?;
+    // before signals are handled: counting steps to a physical time makes them
+    let steps = scene.steps();
+    let interrupt = Interrupt::listen(&scene.source.path, again(&scene));
     let begin = Instant::now();
     let progress = Progress::new(scene.output.file.is_some(), scene.as_run().name(), steps);
     let mut terminal = Terminal { progress, interrupt, summarises: !arguments.no_summary, summary: None };

@@ -86,7 +86,7 @@ fn times(
         (Some(until), None) => {
             let system = problem.system(arithmetic).map_err(|error| exception(py, error))?;
             match system.transformed_time() {
-                Some(_) => Times::physical(py, h, until),
+                Some(_) => Times::physical(py, h, until, system.rate_at_start()),
                 None => Times::of(py, h, None, Some(until)),
             }
         }
@@ -126,9 +126,9 @@ impl Times {
     }
 
     /// The end is a physical time, where time is transformed: how many steps there are is found by making them.
-    fn physical(py: Python<'_>, step: &str, end: &str) -> PyResult<Self> {
+    fn physical(py: Python<'_>, step: &str, end: &str, rate: Option<f64>) -> PyResult<Self> {
         let (h, until) = (step_size(py, step)?, number(py, "until", end)?);
-        let checked = steps::check_physical_end((&h, step), (&until, end));
+        let checked = steps::check_physical_end((&h, step), (&until, end), rate);
         checked.map_err(|error| usage(py, format!("h = {step}, until = {end}: {error}"), error.hint()))?;
         Ok(Times { h, steps: 0, physical_end: Some(until), note: None })
     }

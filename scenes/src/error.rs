@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 
 use shadowstep::MotionError;
 use shadowstep::tables::Faults;
+use shadowstep_schemes::document::with_short_numbers;
 use thiserror::Error;
 
 /// Why something cannot be read or run.
@@ -75,12 +76,12 @@ impl From<io::Error> for Error {
 impl Error {
     /// A wrong request, and what would be right.
     pub fn usage(message: impl Into<String>, hint: impl Into<String>) -> Self {
-        Error::Usage { message: message.into(), hint: hint.into() }
+        Error::Usage { message: with_short_numbers(&message.into()), hint: hint.into() }
     }
 
     /// A run that failed, and what may help.
     pub fn run(message: impl Into<String>, hint: impl Into<String>) -> Self {
-        Error::Run { message: message.into(), hint: hint.into() }
+        Error::Run { message: with_short_numbers(&message.into()), hint: hint.into() }
     }
 }
 

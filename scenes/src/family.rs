@@ -172,12 +172,12 @@ impl Parsed<'_> {
         let Family { source, others, schemes } = self.family;
         let numbers = Names { numbers: numbers(names), others, schemes };
         if !self.has_words {
-            return read(source, &self.document, numbers);
+            return read(source, &self.document, &numbers);
         }
         let words: Vec<_> = names.iter().map(|(name, meaning)| (name.as_str(), meaning.text())).collect();
         let mut document = self.document.clone();
         document.iter_mut().for_each(|(_, value)| substitute(value.get_mut(), &words));
-        read(source, &document, numbers)
+        read(source, &document, &numbers)
     }
 }
 

@@ -96,7 +96,8 @@ impl Scene {
     fn read_with(source: Source, others: &'static [&'static str]) -> Result<Scene, Faults> {
         let (document, faults) = document(&source);
         let Some(document) = document.filter(|_| faults.is_empty()) else { return Err(Faults(faults)) };
-        let scene = read(&source, &document, Names { numbers: Vec::new(), others, schemes: &Schemes::default() })?;
+        let names = Names { numbers: Vec::new(), others, schemes: &Schemes::default() };
+        let scene = read(&source, &document, &names)?;
         Ok(Scene { source, ..scene })
     }
 }
@@ -112,12 +113,22 @@ pub(crate) struct Names<'a> {
 }
 
 /// The scene of a document.
-pub(crate) fn read(source: &Source, document: &DeTable<'_>, names: Names<'_>) -> Result<Scene, Faults> {
+pub(crate) fn read(source: &Source, document: &DeTable<'_>, names: &Names<'_>) -> Result<Scene, Faults> {
     refuse_ensemble(source, document, names.others)?;
-    let mut reader = Reader::new(source);
-    reader.known.extend(names.numbers.iter().cloned());
-    reader.names = names.numbers;
-    let sections = sections(&mut reader, document, names.others, names.schemes);
+    let read = |is_cursory| {
+        let mut reader = Reader::new(source);
+        reader.known.extend(names.numbers.iter().cloned());
+        (reader.names, reader.is_cursory) = (names.numbers.clone(), is_cursory);
+        let sections = sections(&mut reader, document, names.others, names.schemes);
+        (reader, sections)
+    };
+    // a fault in another key is found before that
+    if takes_long(document)
+        && let Some(faults) = Faults::of(read(true).0.toml.faults)
+    {
+        return Err(faults);
+    }
+    let (reader, sections) = read(false);
     let Reader { toml, arithmetic, notes, files, .. } = reader;
     match (Faults::of(toml.faults), sections) {
         (None, Some((system, run::Steps { scheme, displaced, h, until, steps, end_at, ends }, output))) => {
@@ -144,6 +155,13 @@ pub(crate) fn read(source: &Source, document: &DeTable<'_>, names: Names<'_>) ->
         (Some(faults), _) => Err(faults),
         (None, None) => unreachable!("what cannot be read is a fault"),
     }
+}
+
+/// Whether a scene has what takes long to read: formulas of a modified Hamiltonian, a file of particles, the proof of a table.
+fn takes_long(document: &DeTable<'_>) -> bool {
+    let value = |section: &str, key: &str| document.get(section)?.get_ref().as_table()?.get(key);
+    let has_table = value("run", "scheme").and_then(|word| word.get_ref().as_str()).is_some_and(run::is_table);
+    has_table || value("output", modified_hamiltonian::KEY).is_some() || value("problem", "particles").is_some()
 }
 
 /// The map that the steps of a scene begin with, whatever else it contains; `None` if \[run\] has no `first`.
@@ -365,6 +383,60 @@ mod tests {
             let text = format!("[{}]\nfrobnicate = 1", section.name);
             assert!(faults(&text).contains(&"2:1: unknown key `frobnicate`".to_owned()), "{text}: {:?}", faults(&text));
         }
+    }
+
+    /// What takes long has faults of its own here, which are not found before the others.
+    #[test]
+    fn faults_of_other_keys_come_before_what_takes_long() {
+        let scene = |problem: &str, scheme: &str, step: &str, output: &str| {
+            faults(&format!(
+                "[problem]\n{problem}\n[run]\nscheme = \"{scheme}\"\nstep = {step}\nsteps = 10\ndigits = \"double\"\n[output]\n{output}"
+            ))
+        };
+        let solar = "name = \"outer-solar-system\"";
+        let long = scene(solar, "stormer-verlet", "1", "modified_hamiltonian = 8");
+        assert!(long[0].contains("more than 100000 parts"), "{long:?}");
+        for (step, output, fault) in [
+            ("1", "modified_hamiltonian = 8\nwindows = 1", "10:11: 1 is out of range"),
+            (
+                "1",
+                "modified_hamiltonian = 8\nvalues = { modified_hamiltonian_8 = \"kinetic\" }",
+                "9:24: there is another column `modified_hamiltonian_8`",
+            ),
+            ("0", "modified_hamiltonian = 8", "5:8: step 0: the step size must be nonzero"),
+            ("1", "modified_hamiltonian = 8\nenergi = true", "10:1: unknown key `energi`"),
+        ] {
+            assert_eq!(scene(solar, "stormer-verlet", step, output), [fault]);
+        }
+        let table = scene("name = \"kepler\"", "none.toml", "1", "energi = true\nenergy = true");
+        assert_eq!(table, ["9:1: unknown key `energi`"]);
+        let bodies = "particles = \"none.csv\"\nparameters = { g = 1 }\n[[body]]\nmass = 1\n[[body]]\nmass = 1\nq = [1, 0]\nv = [0, 1]";
+        let particles = scene(bodies, "saba4", "1", "energi = true\nenergy = true");
+        assert_eq!(particles, ["16:1: unknown key `energi`"]);
+    }
+
+    #[test]
+    fn a_physical_time_that_no_run_reaches_is_refused() {
+        let fault = |problem: &str, time: &str, until: &str| {
+            let text = format!(
+                "{problem}\ntime.transform = {time}\noutput.energy = true\n\
+                 run = {{ scheme = \"yoshida4\", step = \"1/20\", until = {until}, digits = \"double\" }}"
+            );
+            match Scene::read(Source { path: "test.toml".to_owned(), text }) {
+                Ok(_) => None,
+                Err(Faults(faults)) => Some(faults[0].message.clone()),
+            }
+        };
+        let kepler = "problem.name = \"kepler\"";
+        let count =
+            |n: &str| format!("steps of 1/20 until 1e300 are {n} steps at the rate of physical time at the start");
+        let power = "\"power\"\ntime.exponent = \"-1/2\"";
+        // -U = 1/r at the start, and r = 2/5: dt/ds = r, and r^(3/2) = 0.25298
+        assert_eq!(fault(kepler, "\"logarithmic\"", "1e300"), Some(count("5e301")));
+        assert_eq!(fault(kepler, power, "1e300"), Some(count("7.91e301")));
+        // a rate that is a million times that of the start suffices up to 10^10 · 10^6 · 2/5 · 1/20
+        assert_eq!(fault(kepler, "\"logarithmic\"", "1.9e14"), None);
+        assert!(fault(kepler, "\"logarithmic\"", "2.1e14").is_some());
     }
 
     #[test]

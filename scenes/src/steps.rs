@@ -42,6 +42,16 @@ pub enum StepsError {
         /// The time.
         until: String,
     },
+    /// Of steps of a fictitious time more than [`MOST_STEPS`], even if physical time runs a million times as fast as at the start.
+    #[error("steps of {h} until {until} are {count} steps at the rate of physical time at the start")]
+    TooSlow {
+        /// The step size.
+        h: String,
+        /// The time.
+        until: String,
+        /// The number of steps at that rate, to 3 digits.
+        count: String,
+    },
     /// More than [`MOST_STEPS`].
     #[error("steps of {h} until {until} are {count} steps")]
     TooMany {
@@ -63,6 +73,9 @@ impl StepsError {
                 "use positive values for both, or negative values for both to go back in time"
             }
             StepsError::LongerThanRun { .. } => "use a smaller step size",
+            StepsError::TooSlow { .. } => {
+                "give an earlier time: the limit is 1e10 steps, and rates change by less along orbits"
+            }
             StepsError::TooMany { .. } => "the limit is 1e10 steps: use a larger step size or a shorter time",
         }
     }
@@ -120,11 +133,29 @@ pub fn count((h, step): (&StepSize, &str), (until, end): (&Rational, &str)) -> R
     })
 }
 
-/// Whether a run with steps of a fictitious time can end at this physical time: the signs must agree, as time grows with s.
+/// How many times as fast as at the start physical time may run on the whole, from s.
+const FASTEST: f64 = 1e6;
+
+/// Whether a run with steps of a fictitious time can end at this physical time: the signs must agree, as time grows with s, and the steps must not be far too many at
+/// the [rate](crate::System::rate_at_start) dt/ds of the start, where it is known.
 ///
 /// # Errors
-/// A time of 0, different signs.
-pub fn check_physical_end((h, step): (&StepSize, &str), (until, end): (&Rational, &str)) -> Result<(), StepsError> {
+/// A time of 0, different signs, a time that is too far away.
+pub fn check_physical_end(
+    (h, step): (&StepSize, &str),
+    (until, end): (&Rational, &str),
+    rate: Option<f64>,
+) -> Result<(), StepsError> {
     let compared = if until.is_zero() { until.clone() } else { h.exact().abs() * until.signum() };
-    count((h, step), (&compared, end)).map(drop)
+    count((h, step), (&compared, end))?;
+    let quotient = until / h.exact();
+    let allowed = rate.and_then(|rate| Rational::from_float(rate * FASTEST * MOST_STEPS as f64));
+    match (allowed, rate.and_then(Rational::from_float)) {
+        (Some(allowed), Some(rate)) if quotient > allowed => Err(StepsError::TooSlow {
+            h: step.to_owned(),
+            until: end.to_owned(),
+            count: to_significant(&(quotient / rate), 3),
+        }),
+        _ => Ok(()),
+    }
 }

@@ -47,7 +47,7 @@ mod keys;
 mod reader;
 mod value;
 
-pub use fault::{Fault, Faults, Source};
+pub use fault::{Fault, Faults, Source, with_short_numbers};
 pub use file::{LARGEST_TABLE, read_text, refuse_pipe};
 pub use keys::{Key, Keys};
 pub use reader::{Reader, Section, document};

@@ -125,6 +125,7 @@ impl<'a> AdviceRequest<'a> {
     /// As [`Request::study`].
     pub fn run(&self, observer: &mut dyn Observer) -> Result<Advice<'a>, Error> {
         self.problem.check_energy()?;
+        self.problem.check_duration()?;
         let halvings = self.halvings()?;
         let until = self.problem.until / Rational::from_integer((1_i64 << halvings).into());
         let length = length_of(self.problem.system, &until)?;

@@ -1,5 +1,7 @@
 //! What schemes are compared on: a system, an interval of time, a number type.
 
+use std::f64::consts::TAU;
+
 use num_traits::Signed;
 use shadowstep::problems::Setup;
 use shadowstep::shadow::exact_flow::has_exact_flow;
@@ -7,12 +9,17 @@ use shadowstep::{Number, Rational, StepSize};
 use shadowstep_scenes::arithmetic::{Arithmetic, Numbers};
 use shadowstep_scenes::computation::{Computation, RunNumber};
 use shadowstep_scenes::library::{NamedScheme, fingerprint};
+use shadowstep_scenes::readable::{LONGEST_NUMBER, shortened};
 use shadowstep_scenes::start::{Begin, SceneIntegrator, Steps};
+use shadowstep_scenes::steps::MOST_STEPS;
 use shadowstep_scenes::{Error, System};
 use shadowstep_symbolic::decimal::to_text;
 
 /// Errors along a run are taken at this number of times at most.
 pub(crate) const MOST_SAMPLES: u64 = 64;
+
+/// More turns than this are more steps than there may be, even with a hundred turns in a step.
+const MOST_TURNS: f64 = 100.0 * MOST_STEPS as f64;
 
 /// A system from t = 0 to `until` in a number type. Where time is transformed, `until` is a physical time, and steps are in s.
 #[derive(Clone, Copy, Debug)]
@@ -77,6 +84,20 @@ impl Problem<'_> {
             };
             Err(Error::run(message, hint))
         })
+    }
+
+    /// Refuses times with so many turns of the fastest oscillation at t = 0 that the steps of every scheme are too many.
+    pub(crate) fn check_duration(&self) -> Result<(), Error> {
+        let Some(frequency) = self.system.fastest_motion() else { return Ok(()) };
+        let turns = self.duration() * frequency.omega / TAU;
+        if turns <= MOST_TURNS {
+            return Ok(());
+        }
+        let until = shortened(self.until, LONGEST_NUMBER);
+        let message = format!(
+            "until {until} the fastest oscillation at the start makes {turns:.1e} turns: which are too many steps of any scheme"
+        );
+        Err(Error::usage(message, "the limit is 1e10 steps: give an earlier time"))
     }
 
     /// Whether the runs go forward in time.

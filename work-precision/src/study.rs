@@ -103,6 +103,7 @@ impl<'a> Request<'a> {
     /// reported to the observer.
     pub fn study(&self, observer: &mut dyn Observer) -> Result<Study<'a>, Error> {
         self.problem.check_energy()?;
+        self.problem.check_duration()?;
         let mut store = Store::open(&self.folder, observer)?;
         let problem = self.problem;
         let wanted = match self.resolution {

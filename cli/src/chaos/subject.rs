@@ -9,10 +9,10 @@ use shadowstep_scenes::chaos::ChaosRequest;
 use shadowstep_scenes::ensemble::Ensemble;
 use shadowstep_scenes::library::{self, NamedScheme};
 use shadowstep_scenes::propagator::for_system;
+use shadowstep_scenes::readable::{LONGEST_NUMBER, shortened};
 use shadowstep_scenes::run::Run;
 use shadowstep_scenes::tangent::Vectors;
 use shadowstep_scenes::{Error, Scene, System};
-use shadowstep_symbolic::decimal::to_text;
 
 use crate::headings::SCHEMES;
 use crate::posed::{PosedArguments, PosedProblem, fitted, has_run};
@@ -89,9 +89,13 @@ impl Subject {
             (None, None) => return Err(Error::usage("--step is missing", "give a step size: --step 1/10")),
         };
         let scheme = fitted(scheme, arithmetic)?;
+        let step = shortened(h.exact(), LONGEST_NUMBER);
         let (steps, until) = match system.transformed_time() {
-            Some(_) => (0, Some(until)),
-            None => (quantity::steps((&h, &to_text(h.exact())), &until)?, None),
+            Some(_) => {
+                quantity::check_physical_end((&h, &step), &until, &system)?;
+                (0, Some(until))
+            }
+            None => (quantity::steps((&h, &step), &until)?, None),
         };
         Ok(Subject { title: described.name, system, scheme, displaced, h, steps, windows, arithmetic, until })
     }

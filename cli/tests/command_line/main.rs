@@ -34,6 +34,7 @@ mod scene_pairs;
 mod scenes;
 mod schemes;
 mod search;
+mod short_messages;
 #[cfg(unix)]
 mod signals;
 #[cfg(unix)]

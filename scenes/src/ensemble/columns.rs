@@ -12,12 +12,12 @@ use crate::error::Error;
 use crate::family::Meaning;
 use crate::keys::{ENSEMBLE, ENSEMBLE_KEYS};
 use crate::outside::path_within;
+use crate::readable::{LONGEST_NUMBER, shortened};
 use crate::results::sha256;
 
 /// The most bytes of a file of columns.
 const LARGEST_FILE: u64 = 1 << 30;
 
-/// Values of some names in each trajectory.
 /// The other columns of the rows, besides those of a state.
 const BESIDE: [&str; 8] = [
     "trajectory",
@@ -30,6 +30,7 @@ const BESIDE: [&str; 8] = [
     "not_finite",
 ];
 
+/// Values of some names in each trajectory.
 #[derive(Debug)]
 pub(super) struct Columns {
     pub(super) names: Vec<String>,
@@ -69,7 +70,6 @@ impl Columns {
         self.rows.len()
     }
 
-    /// A hash of the names and values, which may be in another file than the scene.
     /// Refuses names that are there twice, or that other columns of the rows have, those of a state among them.
     pub(super) fn refuse_repeated<'a>(
         &self,
@@ -87,6 +87,7 @@ impl Columns {
         Ok(())
     }
 
+    /// A hash of the names and values, which may be in another file than the scene.
     pub(super) fn sha256(&self) -> String {
         let row = |row: &Vec<Rational>| row.iter().map(to_text).collect::<Vec<_>>().join(",");
         let rows: Vec<String> = [self.names.join(",")].into_iter().chain(self.rows.iter().map(row)).collect();
@@ -106,7 +107,8 @@ impl Columns {
 
     /// The faults of a trajectory's scene, with its values.
     pub(super) fn with_trajectory(&self, faults: Faults, t: usize) -> Faults {
-        let values = self.names.iter().zip(&self.rows[t]).map(|(name, value)| format!("{name} = {}", to_text(value)));
+        let short = |(name, value): (&String, &Rational)| format!("{name} = {}", shortened(value, LONGEST_NUMBER));
+        let values = self.names.iter().zip(&self.rows[t]).map(short);
         let trajectory = format!(" (trajectory {t}: {})", values.collect::<Vec<_>>().join(", "));
         let named = |fault: Fault| Fault { message: fault.message.clone() + &trajectory, ..fault };
         Faults(faults.0.into_iter().map(named).collect())

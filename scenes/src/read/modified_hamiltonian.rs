@@ -13,7 +13,7 @@ use crate::scene::{NamedExpression, System, ValueColumns};
 use crate::steps::MOST_STEPS;
 
 /// The name of the key, with which those of the columns begin.
-const KEY: &str = "modified_hamiltonian";
+pub(super) const KEY: &str = "modified_hamiltonian";
 
 /// The columns: that of one grade, or those of a list.
 pub(super) fn columns(
@@ -42,14 +42,21 @@ pub(super) fn columns(
         return reader.toml.wrong(&value.span(), "displaced forces have another modified Hamiltonian", help);
     }
     let highest = *grades.iter().max()?;
-    let derived = SymbolicHamiltonian::of(system)
-        .and_then(|mut symbolic| Ok((symbolic.modified(scheme.scheme.proved(), highest)?, symbolic)));
-    let (terms, symbolic) = match derived {
+    let derived = SymbolicHamiltonian::of(system).and_then(|mut symbolic| match reader.is_cursory {
+        true => Ok(None),
+        false => Ok(Some((symbolic.modified(scheme.scheme.proved(), highest)?, symbolic))),
+    });
+    let derived = match derived {
         Ok(derived) => derived,
         Err(Refusal { message, hint }) => return reader.toml.wrong(&value.span(), message, hint),
     };
     let column = |grade: u32| {
-        let expression = Expression::derived(symbolic.up_to(&terms, grade, h), Text::at(KEY, value.span()));
+        let expression = match &derived {
+            Some((terms, symbolic)) => {
+                Expression::derived(symbolic.up_to(terms, grade, h), Text::at(KEY, value.span()))
+            }
+            None => Expression::new(Text::at("0", value.span())),
+        };
         NamedExpression { name: format!("{KEY}_{grade}"), at: value.span(), expression }
     };
     Some(ValueColumns { every, expressions: grades.into_iter().map(column).collect() })

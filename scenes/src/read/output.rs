@@ -8,14 +8,15 @@ use shadowstep::shadow::{
 };
 use toml::de::DeValue;
 
+use super::modified_hamiltonian;
 use super::period::every;
 use super::plot;
 use super::reader::Reader;
 use super::run::Steps;
 use super::values;
 use crate::estimator::{ACCURACY_HINT, conflict};
-use crate::run::Run;
 use crate::reserved_names::LISTS;
+use crate::run::Run;
 use crate::scene::{CheckpointInterval, Direction, Format, Outputs, Surface, System};
 use crate::steps::MOST_STEPS;
 use shadowstep_schemes::document::{Section, Value};
@@ -78,7 +79,14 @@ pub(super) fn read(
         windows: windows.unwrap_or(Run::WINDOWS),
         plot: None,
     };
-    if !outputs.has_rows() && outputs.extremes.is_empty() && reader.toml.faults.len() == before && output.is_there() {
+    // those of a system or a scheme that is left out
+    let has_others = reader.is_cursory && output.get(modified_hamiltonian::KEY).is_some();
+    if !outputs.has_rows()
+        && !has_others
+        && outputs.extremes.is_empty()
+        && reader.toml.faults.len() == before
+        && output.is_there()
+    {
         let help = "add `energy = true`, `modified_energy = true` or `trajectory = true`";
         reader.toml.fault(&output.at, "no output is selected", help);
     }
@@ -88,19 +96,11 @@ pub(super) fn read(
             reader.toml.fault(&value.span(), message, "remove one of the two");
         }
     }
+    refuse_names_of_lists(reader, &outputs);
     outputs.plot = plot::read(reader, output, system, &outputs);
     Some(outputs)
 }
 
-/// Refuses records of NumPy where they would lose digits, or cannot be written.
-fn check_numpy(reader: &mut Reader<'_>, output: &Section<'_, '_>) {
-    let at =
-        ["format", "file"].into_iter().find_map(|key| output.get(key)).map_or(output.at.clone(), |value| value.span());
-    refuse_names_of_lists(reader, &outputs);
-    if output.get("file").is_none() {
-        reader.toml.fault(&at, "records of NumPy require a file", "add `file = \"out.npy\"`");
-    }
-    if reader.arithmetic.is_longer_than_double() {
 /// Refuses columns of values with the names that q and p have, where rows have these as lists.
 fn refuse_names_of_lists(reader: &mut Reader<'_>, outputs: &Outputs) {
     if outputs.format == Format::Csv || !outputs.has_states() {
@@ -112,6 +112,14 @@ fn refuse_names_of_lists(reader: &mut Reader<'_>, outputs: &Outputs) {
     }
 }
 
+/// Refuses records of NumPy where they would lose digits, or cannot be written.
+fn check_numpy(reader: &mut Reader<'_>, output: &Section<'_, '_>) {
+    let at =
+        ["format", "file"].into_iter().find_map(|key| output.get(key)).map_or(output.at.clone(), |value| value.span());
+    if output.get("file").is_none() {
+        reader.toml.fault(&at, "records of NumPy require a file", "add `file = \"out.npy\"`");
+    }
+    if reader.arithmetic.is_longer_than_double() {
         let message = format!("records of NumPy have double precision, not {}", reader.arithmetic.described());
         reader.toml.fault(&at, message, "write a file of .csv or .jsonl");
     }

@@ -108,6 +108,7 @@ pub(super) fn system(
     let mut parameters = given.own_parameters(reader);
     let constant = settings.constant(reader, problem, &parameters);
     let mut particles = match &settings.particles {
+        Some(_) if reader.is_cursory => return None,
         Some(file) => particles::of_file(reader, file.as_ref()?)?,
         None => Vec::new(),
     };

@@ -29,6 +29,8 @@ pub(super) struct Reader<'a> {
     pub(super) names: Vec<(String, Exact)>,
     /// How much computing the values may take together.
     budget: Budget,
+    /// Whether what takes long is left out, to find the faults of all else.
+    pub(super) is_cursory: bool,
     /// What the user should know.
     pub(super) notes: Vec<Note>,
     /// Other files that have states, with the names that the text has for them.
@@ -44,6 +46,7 @@ impl<'a> Reader<'a> {
             known: BTreeMap::new(),
             names: Vec::new(),
             budget: Budget::default(),
+            is_cursory: false,
             notes: Vec::new(),
             files: Vec::new(),
         }

@@ -4,7 +4,6 @@ use std::ops::Range;
 
 use shadowstep::{Rational, StepSize};
 use shadowstep_schemes::First;
-use shadowstep_symbolic::decimal::to_text;
 use toml::de::DeValue;
 
 use super::reader::Reader;
@@ -12,6 +11,7 @@ use crate::arithmetic::{Arithmetic, DEFAULT_DIGITS, MOST_DIGITS};
 use crate::expression::Condition;
 use crate::library::{LibraryError, NamedScheme, Schemes, check_displaced};
 use crate::note::Note;
+use crate::readable::{LONGEST_NUMBER, shortened};
 use crate::refusal::Refusal;
 use crate::scene::System;
 use crate::scene::split::{Class, Needs};
@@ -88,7 +88,7 @@ impl Steps {
                 reader.word(value, &[("exact", false), ("displaced", true)]).map(|wanted| Some((value.span(), wanted)))
             }
         };
-        let times = times(reader, run, transformed);
+        let times = times(reader, run, (system, transformed));
         let ends = match run.get("end") {
             None => Some(None),
             Some(value) => condition(reader, value, system).map(Some),
@@ -105,6 +105,11 @@ impl Steps {
     }
 }
 
+/// Whether a scheme is the file of a table.
+pub(super) fn is_table(word: &str) -> bool {
+    word.contains(['.', '/', '\\'])
+}
+
 fn scheme(
     reader: &mut Reader<'_>,
     word: &Text,
@@ -112,6 +117,9 @@ fn scheme(
     system: Option<&System>,
     schemes: &Schemes,
 ) -> Option<NamedScheme> {
+    if reader.is_cursory && is_table(&word.value) {
+        return None;
+    }
     let named = match schemes.scheme_of(&word.value, reader.toml.source, first) {
         Ok(named) => named,
         Err(LibraryError::NotFound { message, hint }) => return reader.toml.wrong(&word.at, message, hint),
@@ -171,7 +179,11 @@ fn condition(reader: &mut Reader<'_>, value: &Value<'_>, system: Option<&System>
 type Times = (StepSize, Option<Rational>, Option<u64>);
 
 /// h, the end and the number of steps; in transformed time h is a fictitious time and the end a physical one.
-fn times(reader: &mut Reader<'_>, run: &Section<'_, '_>, transformed: bool) -> Option<Times> {
+fn times(
+    reader: &mut Reader<'_>,
+    run: &Section<'_, '_>,
+    (system, transformed): (Option<&System>, bool),
+) -> Option<Times> {
     let value = |reader: &mut Reader<'_>, key| {
         let text = run.get(key).and_then(|value| reader.number(value))?;
         let exact = reader.evaluate(&text)?;
@@ -206,9 +218,10 @@ fn times(reader: &mut Reader<'_>, run: &Section<'_, '_>, transformed: bool) -> O
         return Some((h, until, Some(steps)));
     }
     let (end, until) = until?;
-    let (sized, ends) = ((&h, step.value.as_str()), (&until, &*to_text(&until)));
+    let (sized, ends) = ((&h, step.value.as_str()), (&until, &*shortened(&until, LONGEST_NUMBER)));
     let count = if transformed {
-        steps::check_physical_end(sized, ends).map(|()| None)
+        let rate = system.and_then(System::rate_at_start);
+        steps::check_physical_end(sized, ends, rate).map(|()| None)
     } else {
         steps::count(sized, ends).map(Some)
     };

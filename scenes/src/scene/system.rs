@@ -178,6 +178,14 @@ impl System {
         ask!(&self.parts, split => split.transformed_time())
     }
 
+    /// dt/ds at the start of steps of a fictitious time s, in double precision; `None` in physical time.
+    pub fn rate_at_start(&self) -> Option<f64> {
+        match &self.parts {
+            Parts::TransformedTime(time) => Some(time.rate_at_start(&self.problem)),
+            _ => None,
+        }
+    }
+
     /// The physical time of a state in the coordinates of the steps, where time is transformed.
     pub fn time_of<'s, N>(&self, q: &'s [N]) -> Option<&'s N> {
         self.transformed_time().and_then(|_| q.last())

@@ -34,7 +34,7 @@ impl Source {
             column: before + 1,
             marked: shown_before..shown_before + meant.clamp(1, marked),
             source_line,
-            message: message.into(),
+            message: with_short_numbers(&message.into()),
             values: None,
             hint: None,
         }
@@ -145,3 +145,28 @@ impl fmt::Display for Faults {
 shadowstep_symbolic::debug_as_text!(Faults);
 
 impl std::error::Error for Faults {}
+
+/// The most digits that follow each other in a message.
+const MOST_DIGITS: usize = 60;
+
+/// A message in which `…` stands for the rest of long numbers: these are in the text that it is about.
+///
+/// ```
+/// use shadowstep_schemes::document::with_short_numbers;
+///
+/// let zeros = "0".repeat(300);
+/// assert_eq!(with_short_numbers(&format!("1{zeros} is out of range")), "10000000000000000000… is out of range");
+/// assert_eq!(with_short_numbers("0.25 is out of range"), "0.25 is out of range");
+/// ```
+pub fn with_short_numbers(message: &str) -> String {
+    let mut short = String::new();
+    for part in message.split_inclusive(|c: char| !c.is_ascii_digit()) {
+        let digits = part.bytes().take_while(u8::is_ascii_digit).count();
+        if digits > MOST_DIGITS {
+            short.extend([&part[..MOST_DIGITS / 3], "…", &part[digits..]]);
+        } else {
+            short.push_str(part);
+        }
+    }
+    short
+}

@@ -1,5 +1,6 @@
 //! Transformed time: the system in q, t and p, p_t.
 
+use num_traits::ToPrimitive;
 use serde_json::{Value, json};
 use shadowstep::number::CorrectlyRounded;
 use shadowstep::systems::transformed_time::{TimeTransformation, TransformedKinetic, TransformedPotential};
@@ -124,6 +125,15 @@ impl TransformedTime {
         }
     }
 
+    /// dt/ds at the initial state.
+    pub(crate) fn rate_at_start(&self, problem: &InitialValueProblem) -> f64 {
+        let x = -potential_at_start(problem);
+        match self.0 {
+            TimeTransformation::Logarithmic => x.recip(),
+            TimeTransformation::Power(exponent) => x.powf(exponent.value().to_f64().unwrap_or(f64::NAN) - 1.0),
+        }
+    }
+
     fn of_kinetic<N: CorrectlyRounded + 'static, K: Kinetic<N> + 'static>(
         &self,
         potential: TransformedPotential<Box<dyn Potential<N>>>,
@@ -137,8 +147,19 @@ impl TransformedTime {
     }
 }
 
-/// Why the initial state has no transformed time, in double precision.
+/// Why the initial state has no transformed time.
 fn wrong_sign(problem: &InitialValueProblem) -> Option<String> {
+    let energy = potential_at_start(problem);
+    (energy >= 0.0).then(|| {
+        format!(
+            "transformed time requires U < 0 on the whole orbit, as time runs at a rate that is a function of -U; at t = 0 U is {}",
+            energy.to_text()
+        )
+    })
+}
+
+/// U at the initial state, in double precision.
+fn potential_at_start(problem: &InitialValueProblem) -> f64 {
     let (q, _) = problem.initial::<f64>(&());
     let mut potential = problem.potential::<f64>(&());
     let mut scratch = vec![0.0; potential.scratch()];
@@ -146,12 +167,7 @@ fn wrong_sign(problem: &InitialValueProblem) -> Option<String> {
     let mut energy = <f64 as Number>::zero(&());
     potential.update(&q);
     potential.energy(&q, &mut energy, &mut scratch);
-    (energy >= 0.0).then(|| {
-        format!(
-            "transformed time requires U < 0 on the whole orbit, as time runs at a rate that is a function of -U; at t = 0 U is {}",
-            energy.to_text()
-        )
-    })
+    energy
 }
 
 #[cfg(test)]
