@@ -7,8 +7,8 @@ use std::fs::canonicalize;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use shadowstep::tables::Source;
-use shadowstep_schemes::document::{Fault, Text};
+use shadowstep::tables::{Faults, Source};
+use shadowstep_schemes::document::Text;
 
 use crate::refusal::Refusal;
 use crate::whole_file::folder_of;
@@ -58,8 +58,9 @@ pub fn reading_outside<T>(allowed: bool, read: impl FnOnce() -> T) -> T {
 ///
 /// # Errors
 /// A file outside of the folder of the text, also by a symbolic link, where that is not allowed.
-pub fn path_within(source: &Source, name: &Text) -> Result<PathBuf, Fault> {
-    path_of(source, &name.value).map_err(|Refusal { message, hint }| source.fault(&name.at, message).hint(hint))
+pub fn path_within(source: &Source, name: &Text) -> Result<PathBuf, Faults> {
+    let fault = |Refusal { message, hint }| Faults(vec![source.fault(&name.at, message).hint(hint)]);
+    path_of(source, &name.value).map_err(fault)
 }
 
 /// The path of a file that a text names.

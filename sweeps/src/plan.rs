@@ -230,8 +230,8 @@ fn separate_scene(reader: &mut Reader<'_>, root: &DeTable<'_>) -> Result<Option<
     let Some(path) = reader.text(value) else { return Ok(None) };
     let found = match path_within(reader.source, &path) {
         Ok(path) => source(&path),
-        Err(fault) => {
-            reader.faults.push(fault);
+        Err(faults) => {
+            reader.faults.extend(faults.0);
             return Ok(None);
         }
     };

@@ -23,29 +23,52 @@ const TABLE: &str = "name = \"mine\"\norder = 2\nkinetic = \"any\"\nsymmetric = 
 const BASE: &str = "name = \"base\"\norder = 2\nkinetic = \"any\"\nsymmetric = true\nreference = \"L. Verlet\"\n\
                     [stages]\nkick = [\"1/2\", \"1/2\"]\ndrift = [1, 0]\n";
 
-/// Scenes with the files that they read, one of which is changed by a comment or in a digit.
-fn inputs() -> [(&'static str, Vec<(&'static str, &'static str)>, (&'static str, &'static str), &'static str); 4] {
-    [
-        (
-            KEPLER,
-            vec![("mine.toml", TABLE), ("base.toml", BASE)],
-            ("mine.toml", "\n# changed\n"),
-            "with a different table mine.toml",
-        ),
-        (
-            KEPLER,
-            vec![("mine.toml", TABLE), ("base.toml", BASE)],
-            ("base.toml", "\n# changed\n"),
-            "with a different table base.toml",
-        ),
-        (PLANETS, vec![("p.csv", "a,e\n3,0.1\n")], ("p.csv", "4,0.1\n"), "with a different file p.csv"),
-        (ENSEMBLE, vec![("c.csv", "e\n0.1\n")], ("c.csv", "0.2\n"), "with different columns"),
-    ]
+/// A scene with the files that it reads, to one of which some text is added.
+struct Input {
+    scene: &'static str,
+    files: &'static [(&'static str, &'static str)],
+    changed: &'static str,
+    added: &'static str,
+    /// What the message says.
+    wanted: &'static str,
 }
+
+const TABLES: &[(&str, &str)] = &[("mine.toml", TABLE), ("base.toml", BASE)];
+
+const INPUTS: [Input; 4] = [
+    Input {
+        scene: KEPLER,
+        files: TABLES,
+        changed: "mine.toml",
+        added: "# changed\n",
+        wanted: "with a different table mine.toml",
+    },
+    Input {
+        scene: KEPLER,
+        files: TABLES,
+        changed: "base.toml",
+        added: "# changed\n",
+        wanted: "with a different table base.toml",
+    },
+    Input {
+        scene: PLANETS,
+        files: &[("p.csv", "a,e\n3,0.1\n")],
+        changed: "p.csv",
+        added: "4,0.1\n",
+        wanted: "with a different file p.csv",
+    },
+    Input {
+        scene: ENSEMBLE,
+        files: &[("c.csv", "e\n0.1\n")],
+        changed: "c.csv",
+        added: "0.2\n",
+        wanted: "with different columns",
+    },
+];
 
 #[test]
 fn a_file_made_with_other_inputs_is_kept_and_what_differs_is_named() {
-    for (scene, files, (changed, more), wanted) in inputs() {
+    for Input { scene, files, changed, added, wanted } in INPUTS {
         for checkpoint in ["", "checkpoint = 5\n"] {
             if !checkpoint.is_empty() && scene == ENSEMBLE {
                 continue;
@@ -55,7 +78,7 @@ fn a_file_made_with_other_inputs_is_kept_and_what_differs_is_named() {
             assert_eq!(run(folder.path(), "").code, 0);
             let rows = fs::read(folder.path().join("out.csv")).unwrap();
             let text = files.iter().find(|(name, _)| *name == changed).unwrap().1;
-            fs::write(folder.path().join(changed), format!("{text}{more}")).unwrap();
+            fs::write(folder.path().join(changed), format!("{text}{added}")).unwrap();
             for flags in ["", "--restart", "--continue"] {
                 let result = run(folder.path(), flags);
                 let is_kept = fs::read(folder.path().join("out.csv")).unwrap() == rows;

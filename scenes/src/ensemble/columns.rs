@@ -159,7 +159,7 @@ fn column(reader: &mut Reader<'_>, list: &Value<'_>) -> Option<Vec<Rational>> {
 
 /// A file of CSV with a line of names; its path is relative to the folder of the scene.
 fn of_file(source: &Source, file: &Text) -> Result<Columns, Error> {
-    let path = path_within(source, file).map_err(|fault| Faults(vec![fault]))?;
+    let path = path_within(source, file)?;
     let text = read_text(&path, LARGEST_FILE).map_err(|error| {
         let fault = source.fault(&file.at, format!("{} cannot be read: {error}", path.display()));
         Faults(vec![fault.hint("give a file of CSV with a line of names")])

@@ -69,7 +69,7 @@ impl<'a> Reader<'a> {
 
     /// The path of a file that a key names, relative to the folder of the scene.
     pub(super) fn path(&mut self, name: &Text) -> Option<PathBuf> {
-        path_within(self.toml.source, name).map_err(|fault| self.toml.faults.push(fault)).ok()
+        path_within(self.toml.source, name).map_err(|faults| self.toml.faults.extend(faults.0)).ok()
     }
 
     /// The text of a number: digits, or an expression in quotes.

@@ -181,13 +181,9 @@ pub(crate) fn file_hashes(scene: &Scene) -> Vec<String> {
 /// What messages call these tables, and these files.
 pub(crate) fn input_names(scene: &Scene) -> Vec<String> {
     let table = &scene.scheme.scheme.proved().scheme.table;
-    let tables =
-        std::iter::once(&table.source).chain(&bases(table)).map(|source| table_name(source)).collect::<Vec<_>>();
-    tables.into_iter().chain(scene.files.iter().map(|file| format!("file {}", file.path))).collect()
-}
-
-fn table_name(source: &Source) -> String {
-    format!("table {}", file_name(&source.path))
+    let tables = std::iter::once(table.source.clone()).chain(bases(table));
+    let names = tables.map(|source| format!("table {}", file_name(&source.path)));
+    names.chain(scene.files.iter().map(|file| format!("file {}", file.path))).collect()
 }
 
 /// The base tables of a composition, which were found when it was read.

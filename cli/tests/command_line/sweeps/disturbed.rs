@@ -92,8 +92,11 @@ fn what_killed_processes_leave_is_removed() {
     for name in ["plan.json.new-a", "chunks/00001-of-00016.new-b", "chunks/00002-of-00016.new-c"] {
         fs::write(out.join(name), "{").unwrap();
     }
-    for name in ["chunks/00002-of-00016.partial-d", "chunks/00003-of-00016.partial-e", "results.csv.0123456789abcdef.shadowstep-partial"]
-    {
+    for name in [
+        "chunks/00002-of-00016.partial-d",
+        "chunks/00003-of-00016.partial-e",
+        "results.csv.0123456789abcdef.shadowstep-partial",
+    ] {
         fs::write(out.join(name), "{}\n0123456789abcdef {\"run\":7}\n").unwrap();
     }
     succeeds(folder.path(), "sweep sweep.toml --out out");
