@@ -262,3 +262,58 @@ def test_advice_for_a_function_meets_its_tolerance():
     assert not none.choices and none.reason.startswith("No ")
     with pytest.raises(InputError, match="folder: results for a function are not kept"):
         shadowstep.work_precision(problem, 1, ["yoshida4"], steps=[10], folder="kept")
+
+
+def test_records_with_many_columns(tmp_path):
+    lines = [f"{2 + i / 500},0.05,{i / 100}" for i in range(600)]
+    (tmp_path / "particles.csv").write_text("\n".join(["a,e,M", *lines]) + "\n")
+    bodies = '[[body]]\nname = "sun"\nmass = 1\n[[body]]\nname = "jupiter"\nmass = 0.001\na = 5\n'
+    run = '[run]\nscheme = "saba4"\nstep = "1/2"\nsteps = 4\ndigits = "double"\n'
+    output = '[output]\nfile = "out.npy"\nplot = "out.svg"\ntrajectory = true\nenergy = true\nelements = true\n'
+    (tmp_path / "scene.toml").write_text(f'[problem]\nparameters.g = 40\nparticles = "particles.csv"\n{bodies}{run}{output}')
+    shadowstep.command("run", tmp_path / "scene.toml", "--no-summary")
+    head = (tmp_path / "out.npy").read_bytes()
+    assert int.from_bytes(head[8:12], "little") > 65_535
+    # the head is longer than what NumPy reads without being told so
+    rows = np.load(tmp_path / "out.npy", max_header_size=1 << 20)
+    read = shadowstep.open(tmp_path / "out.npy")
+    semimajor = [name for name in rows.dtype.names if name.startswith("a_")]
+    assert len(rows) == 5 and len(semimajor) == 601
+    first = np.array([rows[name][0] for name in semimajor[1:]])
+    assert np.allclose(first, 2 + np.arange(600) / 500, rtol=1e-12)
+    assert np.array_equal(read.q, rows["q"]) and np.array_equal(read.values[semimajor[7]], rows[semimajor[7]])
+
+
+def test_the_files_of_a_scene_lie_in_its_folder(tmp_path):
+    (tmp_path / "own").mkdir()
+    scene = tmp_path / "own" / "scene.toml"
+    text = SCENE % f', file = "{tmp_path}/rows.csv"'
+    scene.write_text(text)
+    with pytest.raises(InputError, match="is outside of the folder of this file"):
+        shadowstep.run(scene)
+    assert not (tmp_path / "rows.csv").exists()
+    shadowstep.run(scene, allow_outside=True)
+    rows = (tmp_path / "rows.csv").read_bytes()
+    # a text is an argument
+    (tmp_path / "rows.csv").unlink()
+    shadowstep.run(text)
+    assert (tmp_path / "rows.csv").read_bytes().splitlines()[-1] == rows.splitlines()[-1]
+    sweep = tmp_path / "own" / "sweep.toml"
+    (tmp_path / "one.toml").write_text(SCENE.replace('"1/20"', '"h"') % "")
+    sweep.write_text('scene = "../one.toml"\n[axes]\nh = ["1/20", "1/40"]\n[keep]\nvalues = ["energy_error"]\n')
+    with pytest.raises(InputError, match="is outside of the folder of this file"):
+        shadowstep.sweep(sweep, tmp_path / "out")
+    assert len(shadowstep.sweep(sweep, tmp_path / "out", allow_outside=True)["h"]) == 2
+
+
+def test_the_files_of_arguments_can_be_anywhere(tmp_path, monkeypatch):
+    (tmp_path / "particles.csv").write_text("a,e\n3,0.1\n")
+    (tmp_path / "own").mkdir()
+    monkeypatch.chdir(tmp_path / "own")
+    star, planet = {"name": "star", "mass": 1}, {"name": "planet", "mass": "1/1000", "a": 1}
+    given = shadowstep.Problem(bodies=[star, planet], particles=str(tmp_path / "particles.csv"), parameters={"g": 40})
+    assert len(given.coordinates) == 9
+    text = '[problem]\nparameters.g = 40\nparticles = "../particles.csv"\n[[body]]\nname = "star"\nmass = 1\n[[body]]\nname = "planet"\nmass = 0.001\na = 1\n'
+    (tmp_path / "own" / "problem").write_text(text)
+    with pytest.raises(InputError, match="is outside of the folder of this file"):
+        shadowstep.Problem.from_scene("problem")
