@@ -31,11 +31,6 @@ impl GivenEncounters {
     pub(super) fn set(self, reader: &mut Reader<'_>, system: &mut System) -> Option<()> {
         let has_more =
             matches!(&system.problem.potential, PotentialEnergy::Pairs(pairs) if !pairs.of_bodies.is_empty());
-        if system.particles() > 0 {
-            let message = "close encounters are those of planets with mass, and there are bodies of mass 0";
-            let help = "give these a mass that moves nothing, such as 1e-40 of the central one, or remove `encounters`";
-            return reader.toml.wrong(&self.at, message, help);
-        }
         match &mut system.parts {
             Parts::WisdomHolman(planets)
                 if planets.coordinates == CanonicalCoordinates::DemocraticHeliocentric && !has_more =>

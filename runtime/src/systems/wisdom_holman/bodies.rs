@@ -36,6 +36,11 @@ impl Bodies {
         }
     }
 
+    /// The gravitational constant.
+    pub fn g(&self) -> &Rational {
+        &self.g
+    }
+
     /// How many there are, the central one included.
     pub fn count(&self) -> usize {
         self.masses.len() + self.particles
@@ -99,9 +104,6 @@ pub enum BodiesError {
         /// Its mass.
         found: String,
     },
-    /// Bodies of mass 0 that may come close to planets.
-    #[error("close encounters are those of planets with mass, and there are bodies of mass 0")]
-    Particles,
     /// A potential of positions with more or fewer coordinates.
     #[error("a potential of {found} coordinates is not one of {bodies} bodies in {dimensions} dimensions")]
     Potential {

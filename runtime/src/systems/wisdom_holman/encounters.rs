@@ -10,13 +10,14 @@ use crate::systems::kinetic::General;
 use crate::systems::pairs::{Cutoff, Gravity, Pairs, Shell};
 use crate::systems::potential::Potential;
 use crate::systems::state::VectorState;
-use crate::systems::summation::{Compensated, Half};
+use crate::systems::summation::{Compensated, Half, Remainders};
 use crate::systems::system::System;
 
 use super::WisdomHolman;
 use super::bodies::{Bodies, BodiesError};
 use super::heliocentric::DemocraticHeliocentric;
 use super::interactions::{gravity_of_planets, scaled};
+use super::particles::AttractionInShell;
 
 /// A planetary system whose planets may come close to each other, in [`DemocraticHeliocentric`] coordinates.
 ///
@@ -27,6 +28,9 @@ use super::interactions::{gravity_of_planets, scaled};
 ///
 /// So a step is one map for all states, a composition of exact flows: β and the modified energy are exact as elsewhere. Its order in h is that of the scheme or 2, whichever is lower, but terms of order 2
 /// from the substeps have the factor (τ/h)².
+///
+/// Particles of mass 0 are attracted by planets in the same shells. One that may come below R_0 in a drift makes it with copies of the bodies, in as many substeps as it needs: so the bodies, and other
+/// particles, have the bits that they have without it.
 ///
 /// ```
 /// use shadowstep::systems::wisdom_holman::{Bodies, Encounters, Shells};
@@ -59,6 +63,10 @@ pub struct Encounters<N: Number, const D: usize> {
     parameter: f64,
     /// Scratch space.
     points: Vec<MovingPoint<D>>,
+    /// The bodies with one particle, which takes part in the shells; `None` where there are no particles, and in this system itself.
+    with_one: Option<Box<Encounters<N, D>>>,
+    /// The particles that may come close to planets in a drift.
+    near: Vec<usize>,
 }
 
 /// The distances of the shells.
@@ -100,6 +108,13 @@ impl Shells {
         &self.radii[0]
     }
 
+    /// Into how many parts a substep of shell 0 is divided where two planets are at a distance: 3^k between R_(k+1) and R_k. `None` beyond R_0.
+    pub fn division_at(&self, distance: f64) -> Option<f64> {
+        let inside = self.radii[..LEVELS].iter().take_while(|radius| distance < double(radius)).count();
+        let shell = i32::try_from(inside).ok()?.checked_sub(1).filter(|shell| *shell >= 0)?;
+        Some(f64::from(RATIO).powi(shell))
+    }
+
     /// The cutoff that is S_k.
     fn cutoff<const D: usize>(&self, k: usize) -> Cutoff<D> {
         let cutoff = Cutoff::at(self.radii[k].clone());
@@ -116,24 +131,28 @@ struct ShellOfPlanets<N, const D: usize> {
     /// (S_k − S_(k+1)) u, of the innermost one S_k u.
     pairs: Pairs<Shell<Gravity<N>>, D>,
     scratch: Vec<N>,
-    /// By the positions of the planets.
+    /// The same of a particle.
+    particle: Option<AttractionInShell<N>>,
+    /// By the positions of the planets, and of the particle.
     gradient: Vec<N>,
     rate: N,
     kept: KeptForce,
 }
 
 impl<N: Number, const D: usize> ShellOfPlanets<N, D> {
-    fn new(bodies: &Bodies, shells: &Shells, k: usize, context: &N::Context) -> Self {
+    fn new(bodies: &Bodies, shells: &Shells, k: usize, takes_a_particle: bool, context: &N::Context) -> Self {
         let (outer, inner) = (shells.cutoff(k), (k + 1 < LEVELS).then(|| shells.cutoff::<D>(k + 1)));
         let pair = Shell::new(gravity_of_planets(bodies, context), Some(&outer), inner.as_ref());
-        let pairs = Pairs::all(bodies.count() - 1, pair).expect("a mass for each planet");
+        let pairs = Pairs::all(bodies.masses.len() - 1, pair).expect("a mass for each planet");
         let mut scratch = vec![N::zero(context); Potential::<N>::scratch(&pairs)];
         pairs.prepare(&mut scratch, context);
+        let of_particle = || AttractionInShell::new(bodies, Some(&outer), inner.as_ref(), context);
         ShellOfPlanets {
             radius: double(&shells.radii[k]),
             pairs,
             scratch,
-            gradient: vec![N::zero(context); (bodies.count() - 1) * D],
+            particle: takes_a_particle.then(of_particle),
+            gradient: vec![N::zero(context); (bodies.masses.len() - 1 + usize::from(takes_a_particle)) * D],
             rate: N::zero(context),
             kept: KeptForce::Nothing,
         }
@@ -143,10 +162,16 @@ impl<N: Number, const D: usize> ShellOfPlanets<N, D> {
         if self.kept.suffices(augmented) {
             return;
         }
-        let ShellOfPlanets { pairs, scratch, gradient, rate, kept, .. } = self;
+        let ShellOfPlanets { pairs, scratch, particle, gradient, rate, kept, .. } = self;
+        let massive = gradient.len() - if particle.is_some() { D } else { 0 };
+        let (x, of_particle) = x.split_at(massive);
+        let (gradient, particle_gradient) = gradient.split_at_mut(massive);
         match augmented {
             true => pairs.gradient_and_rate(x, gradient, rate, scratch),
             false => pairs.gradient(x, gradient, scratch),
+        }
+        if let Some(particle) = particle {
+            particle.assign_gradient::<D>(x, of_particle, particle_gradient);
         }
         *kept = if augmented { KeptForce::GradientAndRate } else { KeptForce::Gradient };
     }
@@ -156,7 +181,7 @@ impl<N: Number, const D: usize> Encounters<N, D> {
     /// The system at inertial positions and momenta, body after body, with drifts of substeps of at most `substep`.
     ///
     /// # Errors
-    /// A state of another number of bodies; an infinite q or p, or one that is NaN; a substep that is not positive; bodies of mass 0.
+    /// A state of another number of bodies; an infinite q or p, or one that is NaN; a substep that is not positive.
     pub fn new(
         bodies: &Bodies,
         state: (&[N], &[N]),
@@ -164,9 +189,22 @@ impl<N: Number, const D: usize> Encounters<N, D> {
         substep: &Rational,
         context: &N::Context,
     ) -> Result<Self, BodiesError> {
+        let mut system = Self::with(bodies, state, (shells, substep, false), context)?;
         if bodies.particles > 0 {
-            return Err(BodiesError::Particles);
+            let with_one = Bodies { particles: 1, ..bodies.clone() };
+            let zeros = vec![N::zero(context); with_one.count() * D];
+            let with_one = Self::with(&with_one, (&zeros, &zeros), (shells, substep, true), context)?;
+            system.with_one = Some(Box::new(with_one));
         }
+        Ok(system)
+    }
+
+    fn with(
+        bodies: &Bodies,
+        state: (&[N], &[N]),
+        (shells, substep, takes_a_particle): (&Shells, &Rational, bool),
+        context: &N::Context,
+    ) -> Result<Self, BodiesError> {
         let mut planets = WisdomHolman::<N, DemocraticHeliocentric<N, D>, D>::new(bodies, state, context)?;
         planets.coordinates.leave_near(bodies, &shells.cutoff(0), context);
         if !substep.is_positive() {
@@ -174,11 +212,14 @@ impl<N: Number, const D: usize> Encounters<N, D> {
         }
         Ok(Encounters {
             planets,
-            shells: (0..LEVELS).map(|k| ShellOfPlanets::new(bodies, shells, k, context)).collect(),
+            shells: (0..LEVELS).map(|k| ShellOfPlanets::new(bodies, shells, k, takes_a_particle, context)).collect(),
             substep: double(substep),
-            masses: bodies.masses[1..].iter().map(double).collect(),
+            // the momentum of a particle is its velocity
+            masses: bodies.masses[1..].iter().map(double).chain(takes_a_particle.then_some(1.0)).collect(),
             parameter: double(&bodies.g) * double(&bodies.masses[0]),
             points: Vec::new(),
+            with_one: None,
+            near: Vec::new(),
         })
     }
 
@@ -186,6 +227,7 @@ impl<N: Number, const D: usize> Encounters<N, D> {
     #[must_use]
     pub fn compensated(mut self) -> Self {
         self.planets = self.planets.compensated();
+        self.with_one = self.with_one.map(|with_one| Box::new(with_one.compensated()));
         self
     }
 
@@ -248,6 +290,64 @@ impl<N: Number, const D: usize> Encounters<N, D> {
             }
             left -= free.max(1);
         }
+    }
+
+    /// Finds the particles that may come below R_0 of a planet in a time.
+    fn find_near_particles(&mut self, time: f64) {
+        let Encounters { planets, shells, masses, parameter, near, .. } = self;
+        let (q, p) = (planets.state.q.as_chunks::<D>().0, planets.state.p.as_chunks::<D>().0);
+        let (first, distance) = (masses.len() + 1, shells[0].radius);
+        let point = |body: usize, lane: usize| {
+            let number = |number: &N| scaled(number.lane(lane));
+            let mass = masses.get(body - 1).copied().unwrap_or(1.0);
+            MovingPoint::new(q[body].each_ref().map(number), p[body].each_ref().map(|p| number(p) / mass), *parameter)
+        };
+        near.clear();
+        for lane in 0..N::LANES {
+            let points: Vec<_> = (1..first).map(|planet| point(planet, lane)).collect();
+            let comes_close = |particle: usize| {
+                let particle = point(particle, lane);
+                // NaN is close
+                let meets = |planet: &MovingPoint<D>| {
+                    let is_apart = particle.stays_apart(planet, distance, time)
+                        || particle.time_apart(planet, distance) * (1.0 - 1e-9) > time;
+                    !is_apart
+                };
+                points.iter().any(meets)
+            };
+            near.extend((first..q.len()).filter(|particle| comes_close(*particle)));
+        }
+        near.sort_unstable();
+        near.dedup();
+    }
+
+    /// The drift of a near particle, with the bodies as they were before it.
+    fn drift_near(&mut self, particle: usize, before: &VectorState<N>, (weight, count): (&N, i32), carried: Carried) {
+        let Some(with_one) = &mut self.with_one else { return };
+        let (massive, at) = ((self.masses.len() + 1) * D, particle * D);
+        let own = |all: &[N]| [&all[..massive], &all[at..at + D]].concat();
+        let remainders = before.remainders();
+        let of_own = |all: &[N]| if all.is_empty() { Vec::new() } else { own(all) };
+        let state = with_one.state_mut();
+        state.set(&own(before.q()), &own(before.p()));
+        state.set_remainders(&Remainders { q: of_own(&remainders.q), p: of_own(&remainders.p) });
+        state.clear_increments();
+        with_one.drift_in(0, weight, count, carried);
+        let (made, state) = (&with_one.planets.state, &mut self.planets.state);
+        let (made_remainders, mut remainders) = (made.remainders(), state.remainders());
+        for (place, axis) in (at..at + D).zip(massive..) {
+            state.q[place].assign(&made.q[axis]);
+            state.p[place].assign(&made.p[axis]);
+            for (own, made) in [(&mut remainders.q, &made_remainders.q), (&mut remainders.p, &made_remainders.p)] {
+                own.iter_mut().skip(place).take(1).zip(made.get(axis)).for_each(|(own, made)| own.assign(made));
+            }
+            if N::KEEPS_INCREMENTS && carried.has_increments() {
+                let (own, before) = (&mut state.increments, &before.increments);
+                own.q[place].assign_sum(&before.q[place], &made.increments.q[axis]);
+                own.p[place].assign_sum(&before.p[place], &made.increments.p[axis]);
+            }
+        }
+        state.set_remainders(&remainders);
     }
 
     /// In how many of the next substeps no two planets can come below a distance, of at most `most`: it falls by at most v t + a t²/2 in the
@@ -356,8 +456,18 @@ impl<N: Number, const D: usize> System for Encounters<N, D> {
 
     fn drift(&mut self, weight: &N, carried: Carried) {
         // a quotient that is a whole number but for round-off is this number
-        let count = (size(weight) / self.substep * (1.0 - 1e-12)).ceil() as i32;
-        self.drift_in(0, weight, count.max(1), carried);
+        let count = ((size(weight) / self.substep * (1.0 - 1e-12)).ceil() as i32).max(1);
+        if self.with_one.is_some() {
+            self.find_near_particles(size(weight));
+        }
+        let before = (!self.near.is_empty()).then(|| self.planets.state.clone());
+        self.drift_in(0, weight, count, carried);
+        if let Some(before) = before {
+            for place in 0..self.near.len() {
+                self.drift_near(self.near[place], &before, (weight, count), carried);
+            }
+            self.forget();
+        }
     }
 
     fn assign_energy(&mut self, at: Option<(&[N], &[N])>, energy: &mut N) {
@@ -366,6 +476,10 @@ impl<N: Number, const D: usize> System for Encounters<N, D> {
 
     fn assign_kinetic_energy(&mut self, at: Option<(&[N], &[N])>, kinetic: &mut N) {
         self.planets.assign_kinetic_energy(at, kinetic);
+    }
+
+    fn massive_coordinates(&self) -> usize {
+        self.planets.massive_coordinates()
     }
 }
 

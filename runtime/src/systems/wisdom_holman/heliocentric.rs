@@ -177,6 +177,7 @@ impl<N: Number, const D: usize> DemocraticHeliocentric<N, D> {
     /// Kicks by the attraction between the planets without what a cutoff has of it, which is switched.
     pub(super) fn leave_near(&mut self, bodies: &Bodies, cutoff: &Cutoff<D>, context: &N::Context) {
         self.interactions.leave_near(bodies, cutoff, context);
+        self.particles.iter_mut().for_each(|particles| particles.leave_near(bodies, cutoff, context));
     }
 
     /// sum ← Σ P_i of the planets

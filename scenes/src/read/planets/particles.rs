@@ -170,12 +170,6 @@ mod tests {
                 "",
                 "3:11: with bodies of mass 0, `central` must be proportional to m",
             ),
-            (
-                "parts = \"wisdom-holman-heliocentric\"\nencounters = { within = 1 }",
-                particle.clone(),
-                "",
-                "4:14: close encounters are those of planets with mass, and there are bodies of mass 0",
-            ),
             (file, String::new(), "a,e\n2,0\n3,-1\n", "3:13: particles.csv:3: the eccentricity -1 is negative"),
             (file, String::new(), "a,w\n2,0\n", "3:13: particles.csv:1: `w` is not a column of particles"),
             (file, String::new(), "a\n2\n3,4\n", "3:13: particles.csv:3: this is not a line of CSV with as many cells"),
