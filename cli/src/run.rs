@@ -159,7 +159,7 @@ fn concluded(scene: &Scene, summary: Option<&Summary>, strict: bool) -> Status {
         (_, _, Some(summary)) => report::summary(summary, false),
         _ => {}
     }
-    let fine = !strict || summary.is_none_or(Summary::is_bounded);
+    let fine = !strict || summary.is_none_or(|summary| summary.is_bounded() && summary.is_of_whole_run());
     if fine { Status::Success } else { Status::NegativeAnswer }
 }
 

@@ -22,6 +22,7 @@ mod limbs;
 mod multiprecision;
 pub(crate) mod partial_sums;
 mod precision;
+pub mod saved;
 mod scaled;
 pub(crate) mod value;
 

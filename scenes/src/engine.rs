@@ -4,6 +4,7 @@ use std::mem::take;
 use std::ops::ControlFlow::{self, Break, Continue};
 use std::time::{Duration, Instant};
 
+use shadowstep::number::saved::{Fields, Saved as _};
 use shadowstep::shadow::Estimate;
 use shadowstep::shadow::run::RunError;
 use shadowstep::steps::integrator::{VectorIntegrator, at_output};
@@ -21,6 +22,7 @@ use crate::physical_end::last_step;
 use crate::results::{Checkpoint, Indicators, ModifiedEnergy, Row, Rows};
 use crate::run::Run;
 use crate::saved_state::SavedState;
+use crate::saved_summary::SavedSummary;
 use crate::scene::split::ShownCoordinates;
 use crate::scene::{CheckpointInterval, EnergyAt, Outputs, Scene};
 use crate::snapshots::{Snapshot, Snapshots};
@@ -99,10 +101,12 @@ pub(crate) fn run<N: RunNumber>(
         snapshots: Snapshots::new(0),
         state: (integrator.state().q().to_vec(), integrator.state().p().to_vec()),
         n: from.unwrap_or(0),
+        seen: from.unwrap_or(0) - 1,
         due: 0,
         pace: Pace::new(from.unwrap_or(0).unsigned_abs() + ONE_BY_ONE),
     };
     recorder.watch = recorder.watch(&mut *integrator)?;
+    recorder.resume_summary(checkpoint)?;
     let settings = scene.output.modified_energy.as_ref().map(|(settings, _)| settings);
     match follow(&mut *integrator, (from, recorder.run.steps), settings, &mut recorder)? {
         Break(()) => Ok((Outcome::Stopped { n: recorder.n }, None)),
@@ -192,6 +196,8 @@ struct Recorder<'a, 'r, N: RunNumber> {
     state: (Vec<N>, Vec<N>),
     /// The n of the newest output.
     n: i64,
+    /// That of the newest state that the summary has taken: a resumed run with estimates makes some once more.
+    seen: i64,
     /// No row of states or energies is due before.
     due: i64,
     /// Of asking the observer.
@@ -211,6 +217,29 @@ impl<N: RunNumber> Recorder<'_, '_, N> {
         };
         let watch = Watch::of_run(&self.scene.system, integrator, run, energies, self.context);
         watch.map(Some).map_err(|error| self.named(&error))
+    }
+
+    /// Goes on with the summary from that of the run before.
+    fn resume_summary(&mut self, checkpoint: Option<&Checkpoint>) -> Result<(), Error> {
+        let (Some(checkpoint), Some(_)) = (checkpoint, &self.watch) else { return Ok(()) };
+        match (&checkpoint.summary, self.from) {
+            (Some(saved), _) => {
+                self.seen = saved.n;
+                if saved.restore(|to| self.fields_of_summary(to)) { Ok(()) } else { Err(unreadable(checkpoint.n)) }
+            }
+            (None, Some(n)) => {
+                self.observer.note(&Note::SummaryOfPart { n });
+                Ok(())
+            }
+            // it begins at t = 0 again
+            (None, None) => Ok(()),
+        }
+    }
+
+    /// All numbers that the states so far have left for the summary.
+    fn fields_of_summary(&mut self, to: &mut dyn Fields<N>) {
+        self.watch.iter_mut().for_each(|watch| watch.fields(to));
+        self.extremes.fields(self.context, to);
     }
 
     /// The error of the run, with the scene's names of coordinates and momenta.
@@ -456,7 +485,12 @@ impl<N: RunNumber> Recorder<'_, '_, N> {
         };
         match (state.map(SavedState::of), vectors) {
             (Some(None), _) | (_, None) => self.observer.note(&Note::NoCheckpoint { n }),
-            (saved, Some(vectors)) => self.rows.target.keep(n, saved.flatten(), vectors)?,
+            (saved, Some(vectors)) => {
+                let is_watched = self.watch.is_some();
+                let summary =
+                    is_watched.then(|| SavedSummary::of(self.seen, |to| self.fields_of_summary(to))).flatten();
+                self.rows.target.keep(n, saved.flatten(), vectors, summary)?;
+            }
         }
         self.last_checkpoint = Instant::now();
         Ok(())
@@ -507,12 +541,13 @@ impl<N: RunNumber> Follower<N> for Recorder<'_, '_, N> {
         if self.scene.output.modified_energy.is_some() {
             self.snapshots.offer(n, integrator.state());
         }
-        let own = self.from.unwrap_or(0)..i64::try_from(self.run.steps).unwrap_or(i64::MAX);
-        // the first state and those after it
-        if n == own.start || own.contains(&(n - 1)) {
-            self.extremes.include(n, self.run, integrator);
+        if n <= self.seen || n.unsigned_abs() > self.run.steps {
+            return;
         }
-        if let Some(watch) = self.watch.as_mut().filter(|_| own.contains(&(n - 1))) {
+        self.seen = n;
+        self.extremes.include(n, self.run, integrator);
+        // it has begun at the first state
+        if let Some(watch) = self.watch.as_mut().filter(|_| n > self.from.unwrap_or(0)) {
             watch.include(n, integrator);
         }
     }

@@ -157,6 +157,7 @@ mod tests {
     use crate::chaos::ChaosRequest;
     use crate::run::Run;
     use crate::tangent::Vectors;
+    use crate::watch::summary::Summary;
     use std::fs;
 
     const KEPLER: &str = "[problem]\nname = \"kepler\"";
@@ -273,6 +274,107 @@ mod tests {
                 assert_eq!(bytes, whole, "{output}: {stops:?}");
             }
         }
+    }
+
+    /// Stops a run after some states, and keeps its summary.
+    struct StopAfterAndKeep(StopAfter, Option<Summary>);
+
+    impl Observer for StopAfterAndKeep {
+        fn stops(&mut self) -> bool {
+            self.0.stops()
+        }
+
+        fn summarises(&self) -> bool {
+            true
+        }
+
+        fn summary(&mut self, summary: &Summary) {
+            self.1 = Some(summary.clone());
+        }
+    }
+
+    /// The summary as text and JSON of a run that is stopped after random numbers of states.
+    fn summary_with_stops(text: &str, random: &mut impl FnMut() -> i64) -> (String, serde_json::Value) {
+        let folder = tempfile::tempdir().unwrap();
+        fs::write(folder.path().join("scene.toml"), text).unwrap();
+        let scene = Scene::open(folder.path().join("scene.toml")).unwrap();
+        loop {
+            let mut observer = StopAfterAndKeep(StopAfter(random()), None);
+            scene.run_to_file(FileOptions::default(), &mut observer).unwrap();
+            if let Some(summary) = observer.1 {
+                return (summary.to_string(), serde_json::json!(summary));
+            }
+        }
+    }
+
+    /// Whatever is in a summary is that of a run without interruptions, wherever it was interrupted.
+    #[test]
+    fn wherever_a_run_is_stopped_its_summary_is_the_same() {
+        let kepler = "problem = { name = \"kepler\", parameters = { eccentricity = \"7/10\" } }";
+        let transformed = format!("{kepler}\ntime.transform = \"logarithmic\"");
+        let planets = "problem = { parts = \"wisdom-holman-heliocentric\", parameters = { g = 1 }, encounters = { within = 0.2 } }\n\
+                       body = [{ mass = 1 }, { mass = 3e-4, a = 1, e = 0.1 }, { mass = 1e-4, a = 1.2, e = 0.1, M = 80 }]";
+        let particles = "problem = { parts = \"wisdom-holman\", parameters = { g = 1 } }\n\
+                         body = [{ mass = 1 }, { mass = 3e-4, a = 1, e = 0.1 }, { mass = 0, a = 1.2, e = 0.1, M = 80 }]";
+        let many = "problem = { name = \"toda\" }";
+        let rows = "energy = { every = 7 }\n";
+        let estimated = "modified_energy = { estimator = \"bilinear\", order = 8, every = 7 }\n";
+        let extremes = "energy = { every = 9 }\nextremes = { r = \"x^2 + y^2\" }\n";
+        let section = "trajectory = { section = \"y\", direction = \"up\" }\nchaos = { every = 20 }\n";
+        let mut seed = 71_u64;
+        let mut random = || {
+            seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            2 + (seed >> 33).rem_euclid(120) as i64
+        };
+        for (system, scheme, h, digits, output) in [
+            (kepler, "yoshida4", "1/20", "\"double\"", extremes),
+            (kepler, "yoshida4", "1/20", "\"double\"", estimated),
+            (kepler, "bcm6-13", "1/20", "\"double\"", rows),
+            (kepler, "yoshida4", "1/20", "\"double\"", section),
+            (kepler, "stormer-verlet", "1/20", "\"compensated\"", rows),
+            (kepler, "stormer-verlet", "1/20", "\"double-double\"", rows),
+            (kepler, "stormer-verlet", "1/20", "30", extremes),
+            (kepler, "stormer-verlet", "1/20", "40", estimated),
+            (&transformed, "yoshida4", "1/20", "30", estimated),
+            (planets, "stormer-verlet", "1/40", "\"double\"", rows),
+            (particles, "saba4", "1/10", "\"double\"", rows),
+            (particles, "saba4", "1/10", "\"double\"", estimated),
+            (many, "stormer-verlet", "1/10", "\"double\"", rows),
+        ] {
+            // windows that overlap, and windows apart, but for what is short, where H is computed at all states
+            for steps in [60, 300, 900] {
+                let text = format!(
+                    "{system}\nrun = {{ scheme = \"{scheme}\", step = \"{h}\", steps = {steps}, digits = {digits} }}\n\
+                     [output]\nfile = \"out.csv\"\ncheckpoint = \"1 h\"\n{output}"
+                );
+                let whole = summary_with_stops(&text, &mut || 10_000);
+                assert_eq!(summary_with_stops(&text, &mut random), whole, "{text}");
+            }
+        }
+    }
+
+    /// A checkpoint of a run without a summary has nothing for one; that of a complete run has it for a later end.
+    #[test]
+    fn a_summary_is_of_all_steps_that_were_followed() {
+        let folder = tempfile::tempdir().unwrap();
+        let scene = scene(folder.path(), KEPLER, "energy = true");
+        assert_eq!(scene.run_to_file(FileOptions::default(), &mut StopAfter(8)).unwrap(), Outcome::Stopped { n: 7 });
+        let mut observer = StopAfterAndKeep(StopAfter(1000), None);
+        scene.run_to_file(FileOptions::default(), &mut observer).unwrap();
+        let summary = observer.1.unwrap();
+        assert!(!summary.is_of_whole_run() && summary.to_string().contains("13 steps since n = 7"), "{summary}");
+        let summary_of = |steps: u64, restart: bool| {
+            fs::write(folder.path().join("scene.toml"), scene.source.text.replace("= 20", &format!("= {steps}")))
+                .unwrap();
+            let mut observer = StopAfterAndKeep(StopAfter(1000), None);
+            let options = FileOptions { restart, force: restart };
+            Scene::open(folder.path().join("scene.toml")).unwrap().run_to_file(options, &mut observer).unwrap();
+            observer.1.unwrap()
+        };
+        summary_of(30, true);
+        let prolonged = summary_of(60, false);
+        // up to 64 steps H is computed at each, and there is a window at each
+        assert_eq!(prolonged.to_string(), summary_of(60, true).to_string());
     }
 
     /// The bytes of a run to the end, from that of an earlier end, with a stop after a number of states of the prolonged one.

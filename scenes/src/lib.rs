@@ -140,6 +140,7 @@ pub mod run;
 mod run_number;
 pub mod sampling;
 mod saved_state;
+mod saved_summary;
 mod scene;
 pub mod scheme_record;
 mod shell;

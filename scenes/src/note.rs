@@ -122,6 +122,11 @@ pub enum Note {
         /// The number of steps of the whole run.
         steps: u64,
     },
+    /// A run is resumed of which a part was made without a summary.
+    SummaryOfPart {
+        /// The n of the last state without one.
+        n: i64,
+    },
     /// There is a checkpoint without a partial file: the run begins at t = 0.
     CheckpointWithoutRows {
         /// The checkpoint.
@@ -224,6 +229,12 @@ impl fmt::Display for Note {
             }
             Note::CheckpointWithoutRows { checkpoint } => {
                 write!(f, "{} has no partial file: the run begins again", checkpoint.display())
+            }
+            Note::SummaryOfPart { n } => {
+                write!(
+                    f,
+                    "the summary and its verdict are of the steps after n = {n} only: those before were made without a summary"
+                )
             }
             Note::NoCheckpoint { n } => {
                 write!(f, "no checkpoint at n = {n}: a number is below 1e-10000 or above 1e10000")

@@ -2,6 +2,7 @@
 
 use std::ops::ControlFlow;
 
+use shadowstep::number::saved::Saved;
 use shadowstep::shadow::run::RunError;
 use shadowstep::shadow::{
     Bilinear, BuildEstimator, Estimator, EstimatorError, EstimatorSettings, Monitor, Report, Sample,
@@ -66,7 +67,7 @@ impl<N: Real> BuildEstimator<N> for ForVerdict {
 }
 
 /// A [`Monitor`] of the states of an integrator.
-pub trait Monitoring<N: RunNumber> {
+pub trait Monitoring<N: RunNumber>: Saved<N> {
     /// [`Monitor::step`]
     ///
     /// # Errors

@@ -65,7 +65,8 @@ impl SavedVector {
     }
 }
 
-fn number<N: Real>(text: &str, context: &N::Context) -> Option<N> {
+/// The number of a text; `None` if it has an exponent that cannot be read.
+pub(crate) fn number<N: Real>(text: &str, context: &N::Context) -> Option<N> {
     let exact = from_text(text).ok()?;
     let mut number = N::from_rational(&exact, context);
     // a rational 0 has no sign, a number's 0 has

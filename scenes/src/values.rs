@@ -1,5 +1,6 @@
 //! Expressions along a run: columns of rows, and their least and greatest values.
 
+use shadowstep::number::saved::{Fields, optional};
 use shadowstep::steps::integrator::{VectorIntegrator, at_output};
 
 use crate::computation::RunNumber;
@@ -86,6 +87,16 @@ impl<'a, N: RunNumber> Extremes<'a, N> {
                 }
             }
         });
+    }
+
+    pub(crate) fn fields(&mut self, context: &N::Context, to: &mut dyn Fields<N>) {
+        let none = (N::zero(context), 0);
+        for found in self.0.iter_mut().flat_map(|one| &mut one.found) {
+            optional(to, found, &none, |to, (value, n)| {
+                to.number(value);
+                to.whole(n);
+            });
+        }
     }
 
     /// What was found, in the order of the text.

@@ -9,6 +9,7 @@ pub(crate) mod summary;
 
 use std::mem::take;
 
+use shadowstep::number::saved::{Fields, Saved};
 use shadowstep::shadow::run::RunError;
 use shadowstep::shadow::{Criterion, KINETIC_LIMIT, Missing, Report, Verdict};
 use shadowstep::steps::integrator::{VectorIntegrator, at_output};
@@ -111,6 +112,20 @@ impl<N: RunNumber> Visitor<N> for Watch<N> {
     }
 }
 
+/// All that the states so far have left: one that was begun anew on the same run, or on a longer one, goes on from it with the same bits.
+impl<N: RunNumber> Saved<N> for Watch<N> {
+    fn fields(&mut self, to: &mut dyn Fields<N>) {
+        self.energy.fields(to);
+        [&mut self.from, &mut self.n].into_iter().for_each(|n| to.whole(n));
+        if let Some(Observed { monitor, pass, idle, encounters, approaches }) = &mut self.observed {
+            monitor.fields(to);
+            [pass, idle].into_iter().for_each(|states| to.count(states));
+            encounters.fields(to);
+            approaches.iter_mut().for_each(|approaches| approaches.fields(to));
+        }
+    }
+}
+
 impl<N: RunNumber> Watch<N> {
     /// Begins at the system's present state, which is number `from` of the run; `initial` is H at t = 0.
     ///
@@ -179,8 +194,9 @@ impl<N: RunNumber> Watch<N> {
         self.time = system.explicit_time.then(|| system.q.len() - 1);
         if let Some(observed) = &mut self.observed {
             observed.approaches = Approaches::of(system);
+            let state = (integrator.state().q(), integrator.state().p());
             if let Some(approaches) = &mut observed.approaches {
-                approaches.include(self.n, (integrator.state().q(), integrator.state().p()));
+                approaches.include(self.n, state);
             }
         }
         self

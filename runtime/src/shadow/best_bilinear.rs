@@ -4,6 +4,7 @@ use std::cmp::max;
 
 use crate::Rational;
 use crate::number::Real;
+use crate::number::saved::Fields;
 use crate::shadow::estimator::{Estimate, Estimator};
 use crate::shadow::form::{Form, Products};
 use crate::systems::increments::Increments;
@@ -48,6 +49,11 @@ impl<N: Real> BestOrder<N> {
             accuracy: accuracy.map(|accuracy| N::from_rational(accuracy, context)),
             limit: N::zero(context),
         }
+    }
+
+    pub(super) fn fields(&mut self, to: &mut dyn Fields<N>) {
+        self.products.fields(to);
+        self.forms.iter_mut().for_each(|form| form.error_estimate.fields(to));
     }
 
     /// The first form whose error is small enough.

@@ -6,6 +6,7 @@ use num_traits::Signed;
 use shadowstep_symbolic::decimal::to_significant;
 
 use crate::Rational;
+use crate::number::saved::{Fields, Saved};
 use crate::number::{Number, Real};
 use crate::shadow::best_bilinear::BestOrder;
 use crate::shadow::estimator::{BuildEstimator, Estimate, Estimator, EstimatorError};
@@ -212,6 +213,19 @@ impl<N: Real> Estimator<N> for BilinearEstimator<N> {
     #[inline(always)]
     fn push_for_value(&mut self, q: &[N], p: &[N], increments: Increments<'_, N>) -> Option<Estimate<'_, N>> {
         self.push_state::<false>(q, p, increments)
+    }
+}
+
+impl<N: Real> Saved<N> for BilinearEstimator<N> {
+    fn fields(&mut self, to: &mut dyn Fields<N>) {
+        match &mut self.0 {
+            FixedOrBest::Fixed(FixedBilinearEstimator(By::Increments(lagged))) => lagged.fields(to),
+            FixedOrBest::Fixed(FixedBilinearEstimator(By::Pairs(products, form))) => {
+                products.fields(to);
+                form.error_estimate.fields(to);
+            }
+            FixedOrBest::Best(best) => best.fields(to),
+        }
     }
 }
 

@@ -5,7 +5,9 @@
 //! the spread vanishes on a circle, and the last term is far too small where the differences alias, near a close encounter.
 
 use std::collections::VecDeque;
+use std::mem::take;
 
+use crate::number::saved::{Fields, list};
 use crate::number::{Number, epsilon};
 
 /// The newest 2·`around` + 1 values of an estimator. The one in the middle has an error: the largest of max − min of them all, of
@@ -32,6 +34,15 @@ pub(super) struct Point<N> {
 }
 
 impl<N: Number> Point<N> {
+    pub(super) fn fields(&mut self, to: &mut dyn Fields<N>) {
+        let Point { value, last_term, order } = self;
+        to.number(value);
+        to.number(last_term);
+        let mut k = u64::from(*order);
+        to.count(&mut k);
+        *order = k as u32;
+    }
+
     pub(super) fn assign(&mut self, other: &Self) {
         self.value.assign(&other.value);
         self.last_term.assign(&other.last_term);
@@ -50,6 +61,16 @@ impl<N: Number> ErrorEstimate<N> {
             least: N::zero(context),
             error: N::zero(context),
         }
+    }
+
+    /// The error and what it is made of are computed anew with each value.
+    pub(super) fn fields(&mut self, to: &mut dyn Fields<N>) {
+        let zero = N::zero(&self.error.context());
+        let none = Point { value: zero.clone(), last_term: zero, order: 0 };
+        let mut points = Vec::from(take(&mut self.points));
+        list(to, &mut points, &none, |to, point| point.fields(to));
+        points.truncate(2 * self.around + 1);
+        self.points = points.into();
     }
 
     pub(super) fn around(&self) -> usize {

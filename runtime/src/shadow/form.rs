@@ -3,6 +3,7 @@
 use num_bigint::BigInt;
 
 use crate::Rational;
+use crate::number::saved::Fields;
 use crate::number::{LimbAccess, Number};
 use crate::shadow::error_estimate::{ErrorEstimate, Point, around};
 use crate::shadow::estimator::Estimate;
@@ -78,6 +79,19 @@ impl<N: Number> Products<N> {
                 }
             }
         }
+    }
+
+    /// Products of the newest state are computed anew with each state.
+    pub(super) fn fields(&mut self, to: &mut dyn Fields<N>) {
+        self.window.fields(to);
+        match &mut self.pairs {
+            Pairs::Numbers(pairs) => to.numbers(pairs),
+            Pairs::Rows(_, rows, states) => {
+                rows.fields(to);
+                states.iter_mut().for_each(|states| states.fields(to));
+            }
+        }
+        to.place(&mut self.reach, self.of_newest.len() + 1);
     }
 
     /// How many states have come.

@@ -15,6 +15,7 @@ mod short;
 use crate::Rational;
 use crate::number::Number;
 use crate::number::instructions::copy;
+use crate::number::saved::Fields;
 use crate::shadow::error_estimate::{ErrorEstimate, Point, around};
 use crate::shadow::estimator::Estimate;
 use crate::systems::increments::Increments;
@@ -77,6 +78,18 @@ impl<N: Number> LaggedEstimator<N> {
             begin: 0,
             after_unknown: 0,
         }
+    }
+
+    pub(super) fn fields(&mut self, to: &mut dyn Fields<N>) {
+        self.products.fields(to);
+        to.numbers(&mut self.kept);
+        self.newest.fields(to);
+        self.error_estimate.fields(to);
+        to.numbers(&mut self.states);
+        to.place(&mut self.place, self.states.len() / (2 * self.dimension).max(1));
+        let LaggedEstimator { pushed, begin, after_unknown, .. } = self;
+        to.place(pushed, usize::MAX);
+        [begin, after_unknown].into_iter().for_each(|n| to.place(n, *pushed + 1));
     }
 
     /// How many states an estimate needs.

@@ -56,6 +56,7 @@ use self::rate::RateCheck;
 use self::schedule::Schedule;
 use self::statistics::Statistics;
 use crate::number::Real;
+use crate::number::saved::{Fields, Saved, optional};
 use crate::shadow::estimator::{BuildEstimator, Estimator};
 use crate::shadow::run::{Quantity, RunError, TrajectoryState, check_energy, check_value};
 use crate::steps::integrator::Integrator;
@@ -317,6 +318,39 @@ impl<N: Real, E: Estimator<N>> Monitor<N, E> {
     fn sample(&self) -> Sample<'_, N> {
         let Newest { n, modified, has_error, energy, .. } = &self.newest;
         Sample { n: *n, modified: &modified.value, error: has_error.then_some(&modified.error), energy }
+    }
+}
+
+/// All that the states so far have left, at any of them: a monitor that was begun anew, with the same estimator and an integrator of the same kind, goes on from it
+/// with the same bits, also with windows at other distances.
+impl<N: Real, E: Estimator<N> + Saved<N>> Saved<N> for Monitor<N, E> {
+    fn fields(&mut self, to: &mut dyn Fields<N>) {
+        let Monitor { estimator, schedule, energies, kinetic, n, newest, statistics, blocks, .. } = self;
+        to.count(n);
+        schedule.fields(to);
+        energies.fields(to);
+        kinetic.fields(to);
+        newest.fields(to);
+        statistics.fields(to);
+        blocks.fields(to);
+        estimator.fields(to);
+        self.newest_states.fields(to);
+        self.fastest.fields(to);
+        to.count(&mut self.rate.wrong);
+        optional(to, &mut self.not_finite, &0, |to, n| to.count(n));
+    }
+}
+
+impl<N: Real> Saved<N> for Newest<N> {
+    fn fields(&mut self, to: &mut dyn Fields<N>) {
+        let Newest { n, modified, has_error, order, energy } = self;
+        to.count(n);
+        modified.fields(to);
+        to.flag(has_error);
+        let mut k = u64::from(*order);
+        to.count(&mut k);
+        *order = k as u32;
+        to.number(energy);
     }
 }
 

@@ -1,6 +1,7 @@
 //! The newest states of a trajectory, and the products of the newest one with those before it.
 
 use crate::number::Number;
+use crate::number::saved::Fields;
 use crate::systems::increments::{Increments, OwnedIncrements};
 
 /// The newest states, as many as an estimator needs.
@@ -33,6 +34,15 @@ impl<N: Number> Window<N> {
         let sum = OwnedIncrements::zero(dimension, context);
         let stored = Stored { q: numbers(), p: numbers(), increments: sum.clone() };
         Window { ring: vec![stored; states], pushed: 0, sum, places: std::array::from_fn(|_| zero.clone()) }
+    }
+
+    pub(super) fn fields(&mut self, to: &mut dyn Fields<N>) {
+        for Stored { q, p, increments } in &mut self.ring {
+            to.numbers(q);
+            to.numbers(p);
+            increments.fields(to);
+        }
+        to.place(&mut self.pushed, usize::MAX);
     }
 
     /// How many states have come, those included that have gone again.

@@ -1,6 +1,7 @@
 //! What a step carries along beside q and p: nothing, or what it adds to q, p and β.
 
 use crate::number::Number;
+use crate::number::saved::{Fields, list};
 use crate::systems::coordinates::Coordinates;
 
 /// What a step carries along beside q and p.
@@ -99,6 +100,12 @@ impl<N: Number> OwnedIncrements<N> {
     /// The increment of β alone, for states whose increments of q and p are unknown.
     pub fn of_beta(beta: N) -> Self {
         OwnedIncrements { q: Vec::new(), p: Vec::new(), beta }
+    }
+
+    pub(crate) fn fields(&mut self, to: &mut dyn Fields<N>) {
+        let OwnedIncrements { q, p, beta } = self;
+        to.number(beta);
+        [q, p].into_iter().for_each(|numbers| list(to, numbers, beta, |to, number| to.number(number)));
     }
 
     pub(crate) fn assign(&mut self, other: Increments<'_, N>) {

@@ -6,6 +6,7 @@ use crate::arithmetic::Numbers;
 use crate::results::functions::elementary_functions;
 use crate::results::metadata::{file_hashes, input_names, platform, sha256, table_hashes};
 use crate::saved_state::{SavedState, SavedVector};
+use crate::saved_summary::SavedSummary;
 use crate::scene::Scene;
 use crate::tangent::VECTORS_OF_ROWS;
 
@@ -149,6 +150,9 @@ pub(crate) struct Checkpoint {
     /// The tangent vectors at n, if there are any.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub(crate) vectors: Vec<SavedVector>,
+    /// What its summary needs of the states so far; `None` of a run without one.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(crate) summary: Option<SavedSummary>,
 }
 
 /// A checkpoint with its own hash: the content of the file.

@@ -22,6 +22,7 @@ use crate::results::metadata::hexadecimal;
 use crate::results::numpy::MAGIC;
 use crate::results::options::FileOptions;
 use crate::saved_state::{SavedState, SavedVector};
+use crate::saved_summary::SavedSummary;
 use crate::temporary::Temporary;
 use crate::whole_file::{cannot_write, sync_folder};
 
@@ -255,7 +256,13 @@ impl Resumable {
     }
 
     /// Writes a checkpoint: all rows up to n are written, and the run can be resumed from `state`.
-    pub(crate) fn keep(&mut self, n: i64, state: Option<SavedState>, vectors: Vec<SavedVector>) -> Result<(), Error> {
+    pub(crate) fn keep(
+        &mut self,
+        n: i64,
+        state: Option<SavedState>,
+        vectors: Vec<SavedVector>,
+        summary: Option<SavedSummary>,
+    ) -> Result<(), Error> {
         if !self.saves {
             return Ok(());
         }
@@ -264,7 +271,8 @@ impl Resumable {
         let sha256 = hexadecimal(&self.hash.clone().finalize());
         let (identity, prolongs) = (self.identity.clone(), self.prolongs.clone());
         let (bytes, head, hashed_from) = (self.bytes, self.head, self.hashed_from);
-        let checkpoint = Checkpoint { identity, n, bytes, head, hashed_from, sha256, state, prolongs, vectors };
+        let checkpoint =
+            Checkpoint { identity, n, bytes, head, hashed_from, sha256, state, prolongs, vectors, summary };
         let text = checkpoint.to_text();
         if text.len() as u64 > LARGEST_CHECKPOINT {
             let message = format!("a checkpoint of this run is longer than {} MiB", LARGEST_CHECKPOINT >> 20);

@@ -19,6 +19,7 @@ use crate::results::origin::{METADATA, Origin};
 use crate::results::resumable::{Begun, CHECKPOINT, NEW_CHECKPOINT, Resumable, beside};
 use crate::results::row::Columns;
 use crate::saved_state::{SavedState, SavedVector};
+use crate::saved_summary::SavedSummary;
 use crate::scene::Scene;
 use crate::whole_file::destination;
 
@@ -143,10 +144,16 @@ impl<'a> Target<'a> {
     }
 
     /// Makes a checkpoint, where there can be one.
-    pub(crate) fn keep(&mut self, n: i64, state: Option<SavedState>, vectors: Vec<SavedVector>) -> Result<(), Error> {
+    pub(crate) fn keep(
+        &mut self,
+        n: i64,
+        state: Option<SavedState>,
+        vectors: Vec<SavedVector>,
+        summary: Option<SavedSummary>,
+    ) -> Result<(), Error> {
         match self {
             Target::Writer(_) => Ok(()),
-            Target::File(file) => file.keep(n, state, vectors),
+            Target::File(file) => file.keep(n, state, vectors, summary),
         }
     }
 

@@ -2,6 +2,7 @@
 
 use serde::Serialize;
 use shadowstep::Real;
+use shadowstep::number::saved::{Fields, optional};
 use shadowstep_symbolic::decimal::significant;
 
 use super::particles::{ParticleApproach, Particles};
@@ -76,8 +77,20 @@ pub struct Approaches {
     epsilon: OfPlanets,
     q: Vec<f64>,
     p: Vec<f64>,
-    found: Interactions,
+    /// ε, and the planet that has it.
+    largest: (f64, usize),
+    closest: Option<Closest>,
+    in_drifts_within: Option<f64>,
     particles: Option<Particles>,
+}
+
+/// The closest approach so far, by the places of the bodies.
+#[derive(Clone, Copy)]
+struct Closest {
+    n: i64,
+    bodies: [usize; 2],
+    hill_radii: f64,
+    hill_radius: f64,
 }
 
 impl Approaches {
@@ -88,7 +101,6 @@ impl Approaches {
         let masses: Vec<f64> = planets.bodies.masses().iter().map(number).collect();
         let zeros = || vec![0.0; masses.len() * planets.dimensions];
         let names = planets.names(&system.coordinates);
-        let of = names[1].clone();
         Some(Approaches {
             q: zeros(),
             p: zeros(),
@@ -97,13 +109,9 @@ impl Approaches {
             names,
             shown: planets.inertial(&()),
             epsilon: planets.epsilon(system),
-            found: Interactions {
-                epsilon: 0.0,
-                of,
-                closest: None,
-                particles: None,
-                in_drifts_within: planets.encounters.as_ref().map(|near| number(near.shells.radius())),
-            },
+            largest: (0.0, 1),
+            closest: None,
+            in_drifts_within: planets.encounters.as_ref().map(|near| number(near.shells.radius())),
             planets,
         })
     }
@@ -113,8 +121,8 @@ impl Approaches {
         self.q.iter_mut().zip(q).for_each(|(own, q)| *own = q.to_f64());
         self.p.iter_mut().zip(p).for_each(|(own, p)| *own = p.to_f64());
         for (planet, epsilon) in (self.epsilon)(&self.q).into_iter().enumerate() {
-            if epsilon > self.found.epsilon {
-                (self.found.epsilon, self.found.of) = (epsilon, self.names[planet + 1].clone());
+            if epsilon > self.largest.0 {
+                self.largest = (epsilon, planet + 1);
             }
         }
         let (shown, _) = self.shown.of_state(&self.q, &self.p);
@@ -137,9 +145,8 @@ impl Approaches {
                 let part = ((self.masses[i] + self.masses[j]) / (3.0 * self.masses[0])).cbrt();
                 let hill_radius = part * (distance(0, i) + distance(0, j)) / 2.0;
                 let hill_radii = distance(i, j) / hill_radius;
-                if self.found.closest.as_ref().is_none_or(|closest| hill_radii < closest.hill_radii) {
-                    let bodies = [i, j].map(|body| self.names[body].clone());
-                    self.found.closest = Some(Approach { n, bodies, hill_radii, hill_radius });
+                if self.closest.is_none_or(|closest| hill_radii < closest.hill_radii) {
+                    self.closest = Some(Closest { n, bodies: [i, j], hill_radii, hill_radius });
                 }
             }
         }
@@ -147,7 +154,30 @@ impl Approaches {
 
     /// What the states so far have shown.
     pub fn found(&self) -> Interactions {
-        let particles = self.particles.as_ref().and_then(|particles| particles.found(&self.names));
-        Interactions { particles, ..self.found.clone() }
+        let named = |Closest { n, bodies, hill_radii, hill_radius }| {
+            let bodies = bodies.map(|body: usize| self.names[body].clone());
+            Approach { n, bodies, hill_radii, hill_radius }
+        };
+        Interactions {
+            epsilon: self.largest.0,
+            of: self.names[self.largest.1].clone(),
+            closest: self.closest.map(named),
+            particles: self.particles.as_ref().and_then(|particles| particles.found(&self.names)),
+            in_drifts_within: self.in_drifts_within,
+        }
+    }
+
+    pub(super) fn fields<N>(&mut self, to: &mut dyn Fields<N>) {
+        let (bodies, (epsilon, of)) = (self.masses.len(), &mut self.largest);
+        to.double(epsilon);
+        to.place(of, bodies);
+        let none = Closest { n: 0, bodies: [0; 2], hill_radii: 0.0, hill_radius: 0.0 };
+        optional(to, &mut self.closest, &none, |to, closest| {
+            to.whole(&mut closest.n);
+            closest.bodies.iter_mut().for_each(|body| to.place(body, bodies));
+            to.double(&mut closest.hill_radii);
+            to.double(&mut closest.hill_radius);
+        });
+        self.particles.iter_mut().for_each(|particles| particles.fields(to));
     }
 }

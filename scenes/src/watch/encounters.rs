@@ -5,6 +5,7 @@
 //! long as it lasts: of an ellipse with an eccentricity of 0.5 or more each pericentre is one, of an oscillation nothing is.
 
 use shadowstep::Real;
+use shadowstep::number::saved::{Fields, list, optional};
 
 /// A passage is a close encounter if the interval before it is this many times as long.
 const APART: i64 = 4;
@@ -79,6 +80,11 @@ impl<N: Real> Encounters<N> {
         }
     }
 
+    pub(super) fn fields(&mut self, to: &mut dyn Fields<N>) {
+        to.numbers(&mut self.p);
+        self.passages.fields(to);
+    }
+
     /// How many there are, and the closest ones.
     pub(super) fn found(mut self, last: i64) -> (u64, Vec<Encounter>) {
         self.passages.finish(last);
@@ -86,7 +92,32 @@ impl<N: Real> Encounters<N> {
     }
 }
 
+impl Encounter {
+    fn fields<N>(&mut self, to: &mut dyn Fields<N>) {
+        [&mut self.n, &mut self.steps].into_iter().for_each(|count| to.whole(count));
+    }
+}
+
 impl Passages {
+    fn fields<N>(&mut self, to: &mut dyn Fields<N>) {
+        let none = Encounter { n: 0, steps: 0 };
+        let size = |to: &mut dyn Fields<N>, (n, size): &mut (i64, f64)| {
+            to.whole(n);
+            to.double(size);
+        };
+        let Passages { rising, peak, floor, end, first, closest, count } = self;
+        list(to, rising, &(0, 0.0), size);
+        size(to, peak);
+        to.double(floor);
+        optional(to, end, &0, |to, end| to.whole(end));
+        optional(to, first, &(none, 0), |to, (encounter, end)| {
+            encounter.fields(to);
+            to.whole(end);
+        });
+        list(to, closest, &none, |to, encounter| encounter.fields(to));
+        to.count(count);
+    }
+
     #[inline]
     fn include(&mut self, n: i64, size: f64) {
         let begins = self.rising.is_empty();

@@ -1,6 +1,7 @@
 //! The error of H over a run.
 
 use shadowstep::Real;
+use shadowstep::number::saved::Fields;
 
 use super::lasting_change::LastingChanges;
 
@@ -51,6 +52,14 @@ impl<N: Real> EnergyError<N> {
             self.largest.assign(&self.size);
             self.at = n;
         }
+    }
+
+    pub(super) fn fields(&mut self, to: &mut dyn Fields<N>) {
+        let EnergyError { initial, largest, at, last, last_n, states, size: _, lasting } = self;
+        [initial, largest, last].into_iter().for_each(|energy| to.number(energy));
+        [at, last_n].into_iter().for_each(|n| to.whole(n));
+        to.count(states);
+        lasting.fields(to);
     }
 
     /// A difference as a part of |H(0)|; `None` if that is 0.

@@ -1,6 +1,8 @@
 //! A change of H from one state to the next that lasts: at a close encounter, or where a step was too large. The windows of a monitor may miss its
 //! beginning, if the run has few states before it.
 
+use shadowstep::number::saved::{Fields, optional};
+
 /// The least and the largest H of some states.
 #[derive(Clone, Copy, Debug)]
 struct Range {
@@ -91,6 +93,16 @@ impl LastingChanges {
             (self.before, self.since) = (Some(before.joined(since)), Some(new));
         } else {
             self.since = Some(since.joined(new));
+        }
+    }
+
+    pub(super) fn fields<N>(&mut self, to: &mut dyn Fields<N>) {
+        for range in [&mut self.before, &mut self.since] {
+            optional(to, range, &Range::of(0, 0.0), |to, Range { least, largest, states, from, to: last }| {
+                [least, largest].into_iter().for_each(|energy| to.double(energy));
+                to.count(states);
+                [from, last].into_iter().for_each(|n| to.whole(n));
+            });
         }
     }
 

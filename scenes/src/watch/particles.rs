@@ -2,6 +2,7 @@
 
 use serde::Serialize;
 use shadowstep::Real;
+use shadowstep::number::saved::Fields;
 
 /// The closest approach of a particle to a planet.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -52,6 +53,15 @@ impl Particles {
                 }
             }
         }
+    }
+
+    pub(super) fn fields<N>(&mut self, to: &mut dyn Fields<N>) {
+        let Particles { parts, planets: _, closest: (square, n, [planet, particle]), within } = self;
+        to.double(square);
+        to.whole(n);
+        to.place(planet, parts.len());
+        to.place(particle, within.len());
+        within.iter_mut().for_each(|within| to.flag(within));
     }
 
     /// What was found, with the names of all bodies.

@@ -15,7 +15,7 @@ use crate::watch::encounters::Encounter;
 use crate::watch::lasting_change::LastingChange;
 use crate::watch::{Approach, Interactions};
 
-/// What a run, or the part of it since it was resumed, has shown.
+/// What a run has shown.
 ///
 /// It is displayed as lines for people, and serialised as an object. Numbers are texts that read back to the same numbers.
 #[derive(Clone, Debug)]
@@ -25,7 +25,7 @@ pub struct Summary {
     pub(crate) h: Rational,
     /// Whether the steps are in a fictitious time s.
     pub(crate) transformed: bool,
-    /// The first state and the last one; the first one is not 0 if the run was resumed.
+    /// The first state and the last one; the first one is not 0 where the run was resumed from one without a summary.
     pub(crate) from: i64,
     pub(crate) to: i64,
     pub(crate) energy: EnergySummary,
@@ -99,6 +99,11 @@ impl Summary {
     /// Whether the error is bounded, or round-off: whether it is small enough is not decided here.
     pub fn is_bounded(&self) -> bool {
         self.bounded
+    }
+
+    /// Whether it is of all states: a part of a run that is resumed may have been made without a summary.
+    pub fn is_of_whole_run(&self) -> bool {
+        self.from == 0
     }
 
     /// The error of H.

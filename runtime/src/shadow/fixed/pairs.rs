@@ -9,6 +9,7 @@
 use num_bigint::{BigInt, Sign};
 
 use super::{MOST_LIMBS, MOST_OF_ROW, NOT_FINITE, Offset, ZERO, by_limbs, move_row, read_number, sign, write_number};
+use crate::number::saved::Fields;
 use crate::number::{LimbAccess, Parts};
 
 /// Pairs are numbers about 1 in most units.
@@ -31,6 +32,11 @@ impl Rows {
     pub(in crate::shadow) fn new(limbs: usize, count: usize) -> Self {
         let size = limbs + 1;
         Rows { size, low: vec![ZERO; count], limbs: vec![0; count * size] }
+    }
+
+    pub(in crate::shadow) fn fields<N>(&mut self, to: &mut dyn Fields<N>) {
+        self.low.iter_mut().for_each(|low| to.whole(low));
+        self.limbs.iter_mut().for_each(|limb| to.count(limb));
     }
 
     pub(in crate::shadow) fn set(&mut self, place: usize, number: Parts<'_>) {

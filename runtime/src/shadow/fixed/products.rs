@@ -8,6 +8,7 @@ use shadowstep_limbs::fixed;
 use super::pairs::{OFFSET, Rows};
 use super::{NOT_FINITE, Offset, ZERO, sign, write_magnitude};
 use crate::number::Parts;
+use crate::number::saved::Fields;
 
 /// Products have twice this offset: that of pairs and a limb.
 const OFFSET_OF_COORDINATES: Offset = OFFSET / 2 + 32;
@@ -54,6 +55,14 @@ impl StateRows {
             negative: vec![false; coordinates],
             of_beta: Rows::new(limbs, states),
         })
+    }
+
+    pub(in crate::shadow) fn fields<N>(&mut self, to: &mut dyn Fields<N>) {
+        let StateRows { limbs, low, negative, of_beta, .. } = self;
+        limbs.iter_mut().for_each(|limb| to.count(limb));
+        low.iter_mut().for_each(|low| to.whole(low));
+        negative.iter_mut().for_each(|negative| to.flag(negative));
+        of_beta.fields(to);
     }
 
     /// Sets q and p of a state, and what the step to it added to β.

@@ -2,6 +2,7 @@
 
 use crate::number::Number;
 use crate::number::instructions;
+use crate::number::saved::Fields;
 
 /// Coordinates are added up in this number of sums that do not wait for one another, on all machines.
 const LANES: usize = 8;
@@ -40,6 +41,14 @@ impl<N: Number> LongRows<N> {
             beta: vec![N::zero(context); lags],
             sums: std::array::from_fn(|_| zeros()),
         }
+    }
+
+    pub(super) fn fields(&mut self, to: &mut dyn Fields<N>) {
+        for Group { q, p } in &mut self.rows {
+            to.numbers(q);
+            to.numbers(p);
+        }
+        to.numbers(&mut self.beta);
     }
 
     /// Keeps what a step added.

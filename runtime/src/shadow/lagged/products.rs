@@ -3,6 +3,7 @@
 use super::long::LongRows;
 use super::short::ShortRows;
 use crate::number::Number;
+use crate::number::saved::Fields;
 
 /// What the newest steps added to β, q and p.
 #[derive(Clone, Debug)]
@@ -20,6 +21,11 @@ impl<N: Number> LaggedProducts<N> {
     pub(super) fn new(lags: usize, dimension: usize, context: &N::Context) -> Self {
         let (short, long) = if dimension < LONG { (dimension, 0) } else { (0, dimension) };
         LaggedProducts { short: ShortRows::new(short, context), long: LongRows::new(lags, long, context) }
+    }
+
+    pub(super) fn fields(&mut self, to: &mut dyn Fields<N>) {
+        self.short.fields(to);
+        self.long.fields(to);
     }
 
     /// Takes what a step added, and the state that it led to; q·δp − p·δq + δβ of the newest K = `lags` steps, the oldest first. Steps have the places

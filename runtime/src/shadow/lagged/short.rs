@@ -2,6 +2,7 @@
 
 use crate::number::Number;
 use crate::number::instructions;
+use crate::number::saved::Fields;
 
 /// As many as the most lags.
 const STEPS: usize = 8;
@@ -37,6 +38,11 @@ impl<N: Number> ShortRows<N> {
     pub(super) fn new(dimension: usize, context: &N::Context) -> Self {
         let row = || Row(std::array::from_fn(|_| N::zero(context)));
         ShortRows { coordinates: vec![[row(), row()]; dimension], beta: row() }
+    }
+
+    pub(super) fn fields(&mut self, to: &mut dyn Fields<N>) {
+        let ShortRows { coordinates, beta } = self;
+        coordinates.iter_mut().flatten().chain([beta]).for_each(|Row(row)| to.numbers(row));
     }
 
     /// Takes what a step added, and the state that it led to; its products with K steps, the oldest first.

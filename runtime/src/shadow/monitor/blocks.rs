@@ -4,6 +4,7 @@
 use super::arithmetic::{integer, quotient};
 use super::estimated::Estimated;
 use crate::number::Real;
+use crate::number::saved::Fields;
 
 /// The largest number of blocks; a long run has at least half as many.
 const BLOCKS: usize = 64;
@@ -99,6 +100,19 @@ impl<N: Real> Blocks<N> {
         }
         self.full = BLOCKS / 2;
         self.size *= 2;
+    }
+
+    pub(super) fn fields(&mut self, to: &mut dyn Fields<N>) {
+        let Blocks { blocks, origin, difference: _, full, size, count } = self;
+        to.number(origin);
+        to.place(full, BLOCKS);
+        to.count(size);
+        to.count(count);
+        for Block { best, energy, modified } in &mut blocks[..=*full] {
+            best.fields(to);
+            to.number(energy);
+            to.number(modified);
+        }
     }
 
     /// The most accurate estimates in the order of time; the growing block's as soon as it is half full.

@@ -1,6 +1,7 @@
 //! Whether the states of a window belong to the increments of the steps.
 
 use crate::number::partial_sums::{PartialSums, add_sum};
+use crate::number::saved::Fields;
 use crate::number::{Real, epsilon};
 
 /// Counts the windows with a state that differs from its increments.
@@ -32,6 +33,11 @@ impl<N: Real> Consistency<N> {
         let differs = differ([before, after, added], rounding, two, [x, y]);
         self.mismatch |= differs == Some(true);
         differs.is_some()
+    }
+
+    pub(super) fn fields(&mut self, to: &mut dyn Fields<N>) {
+        to.flag(&mut self.mismatch);
+        to.count(&mut self.mismatches);
     }
 
     /// Ends a window.

@@ -2,6 +2,7 @@
 
 use super::schedule::Schedule;
 use crate::number::Number;
+use crate::number::saved::Fields;
 
 /// H of the windows whose middle has come, but not yet their end.
 ///
@@ -58,6 +59,14 @@ impl<N: Number> Energies<N> {
         let place = self.oldest;
         self.oldest = self.after(place);
         &self.ring[place]
+    }
+
+    pub(super) fn fields(&mut self, to: &mut dyn Fields<N>) {
+        let Energies { schedule, ring, next, oldest, count, checked, checks } = self;
+        schedule.fields(to);
+        to.numbers(ring);
+        [next, oldest].into_iter().for_each(|place| to.place(place, ring.len()));
+        [count, checked, checks].into_iter().for_each(|count| to.count(count));
     }
 
     #[inline]

@@ -1,6 +1,7 @@
 //! A modified energy with its error.
 
 use crate::number::Real;
+use crate::number::saved::Fields;
 
 /// An estimate of the modified energy, and its error.
 #[derive(Clone, Debug)]
@@ -13,6 +14,11 @@ pub(super) struct Estimated<N> {
 impl<N: Real> Estimated<N> {
     pub(super) fn zero(context: &N::Context) -> Self {
         Estimated { value: N::zero(context), error: N::zero(context) }
+    }
+
+    pub(super) fn fields(&mut self, to: &mut dyn Fields<N>) {
+        let Estimated { value, error } = self;
+        [value, error].into_iter().for_each(|number| to.number(number));
     }
 
     #[inline]

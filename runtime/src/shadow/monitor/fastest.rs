@@ -2,6 +2,7 @@
 
 use super::turning::{STATES, Sums, Turning, assign_second_difference, turning};
 use crate::number::instructions;
+use crate::number::saved::Fields;
 use crate::number::{Real, epsilon};
 
 /// This number of coordinates of a long state is computed at once.
@@ -44,6 +45,13 @@ impl<N: Real> Fastest<N> {
             y: zero(),
             z: zero(),
         }
+    }
+
+    pub(super) fn fields(&mut self, to: &mut dyn Fields<N>) {
+        let Fastest { start, begun, sums, .. } = self;
+        start.iter_mut().for_each(|p| to.numbers(p));
+        to.place(begun, STATES + 1);
+        to.numbers(sums);
     }
 
     /// The number of coordinates.

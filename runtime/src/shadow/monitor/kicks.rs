@@ -1,7 +1,10 @@
 //! By how much round-off moves the energy, and the action of the steps.
 
+use std::mem::take;
+
 use super::state_view::{STATES_KEPT, StateView};
 use crate::number::partial_sums::PartialSums;
+use crate::number::saved::Fields;
 use crate::number::{Real, epsilon};
 use crate::shadow::expected_round_off::{add_squares_of_increments, kick_factor};
 use crate::steps::step_size::StepSize;
@@ -10,8 +13,11 @@ use crate::systems::system::System;
 /// Sums over the last steps of the windows.
 #[derive(Clone, Debug)]
 pub(super) struct Kicks<N> {
-    /// Evaluations of the gradient up to the state before the newest, and up to the newest.
-    evaluations: [u64; 2],
+    /// Evaluations of the gradient up to the newest state, and in the step to it.
+    evaluations: u64,
+    stages: u64,
+    /// The newest state is one that was restored, up to which this run has made no evaluations: those of the next step are taken for the same.
+    restored: bool,
     /// The most of them that are counted as stages of a step.
     pub(super) most_stages: u64,
     /// Whether round-off comes from the increments only.
@@ -36,7 +42,9 @@ impl<N: Real> Kicks<N> {
     pub(super) fn new(h: &StepSize, context: &N::Context) -> Self {
         let zero = || N::zero(context);
         Kicks {
-            evaluations: [0; 2],
+            evaluations: 0,
+            stages: 0,
+            restored: false,
             most_stages: u64::MAX,
             compensated: false,
             factor: kick_factor(&epsilon(context), h.exact(), context),
@@ -51,10 +59,22 @@ impl<N: Real> Kicks<N> {
         }
     }
 
+    pub(super) fn fields(&mut self, to: &mut dyn Fields<N>) {
+        let Kicks { stages, compensated, sum, newest, moves, action, .. } = self;
+        to.count(stages);
+        [compensated, moves].into_iter().for_each(|flag| to.flag(flag));
+        [sum, newest, action].into_iter().for_each(|sum| to.number(sum));
+        to.restore(&mut self.restored);
+    }
+
     /// Takes how the newest state was made.
     #[inline(always)]
     pub(super) fn take<M: System<Number = N> + ?Sized>(&mut self, system: &M) {
-        self.evaluations = [self.evaluations[1], system.state().evaluations()];
+        let evaluations = system.state().evaluations();
+        if !take(&mut self.restored) {
+            self.stages = evaluations.saturating_sub(self.evaluations);
+        }
+        self.evaluations = evaluations;
         self.compensated = system.state().is_compensated();
     }
 
@@ -83,7 +103,7 @@ impl<N: Real> Kicks<N> {
             z.assign_zero();
             add_squares_of_increments(z, [&*before.q, &*s0.q, &*s1.q], [&*before.p, &*s0.p, &*s1.p], [x, y]);
         }
-        let stages = self.evaluations[1].saturating_sub(self.evaluations[0]).min(self.most_stages).max(1);
+        let stages = self.stages.min(self.most_stages).max(1);
         z.multiply_integer(i32::try_from(stages).unwrap_or(i32::MAX));
         self.newest.assign_product(z, &self.factor);
         self.sum.add(&self.newest);

@@ -2,6 +2,7 @@
 
 use super::arithmetic::{integer, quotient};
 use crate::number::Real;
+use crate::number::saved::Fields;
 use crate::systems::system::System;
 
 /// In the distance of windows T is computed this many times. It needs no forces.
@@ -62,6 +63,13 @@ impl<N: Real> MeanKinetic<N> {
         self.sum.add(&self.newest);
         self.count += 1;
         self.next = state_of(self.count, self.stretch);
+    }
+
+    pub(super) fn fields(&mut self, to: &mut dyn Fields<N>) {
+        let MeanKinetic { stretch, count, next, newest, sum } = self;
+        [&mut *stretch, count, next].into_iter().for_each(|count| to.count(count));
+        [newest, sum].into_iter().for_each(|number| to.number(number));
+        *stretch = (*stretch).max(1);
     }
 
     /// Whether n is the number of one of the states.

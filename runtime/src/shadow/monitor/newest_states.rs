@@ -13,6 +13,7 @@ use super::turning_sums::TurningSums;
 use crate::Rational;
 use crate::number::Real;
 use crate::number::instructions::{self, copy};
+use crate::number::saved::Fields;
 use crate::shadow::estimator::EstimatorError;
 use crate::shadow::run::TrajectoryState;
 use crate::steps::step_size::StepSize;
@@ -142,6 +143,19 @@ impl<N: Real> NewestStates<N> {
             let angle = turning(&self.turning.window, &mut self.angle).map(|turning| turning.angle);
             self.roughness.end(angle, &self.kicks.newest);
         }
+    }
+
+    pub(super) fn fields(&mut self, to: &mut dyn Fields<N>) {
+        let NewestStates { states, newest, skipped, taken, ended, windows, kinetic, .. } = self;
+        to.numbers(states);
+        to.place(newest, STATES_KEPT);
+        to.place(taken, usize::MAX);
+        [skipped, ended, windows].into_iter().for_each(|count| to.count(count));
+        to.number(kinetic);
+        self.consistency.fields(to);
+        self.kicks.fields(to);
+        self.turning.fields(to);
+        self.roughness.fields(to);
     }
 
     /// The number of windows in which a state differs from its increments.

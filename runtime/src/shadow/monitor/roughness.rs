@@ -6,6 +6,7 @@
 
 use super::arithmetic::{integer, quotient, root};
 use crate::number::Real;
+use crate::number::saved::{Fields, Saved};
 use crate::shadow::bilinear::{Bilinear, BilinearEstimator};
 use crate::shadow::estimator::{BuildEstimator, Estimator, EstimatorError};
 use crate::steps::step_size::StepSize;
@@ -63,6 +64,19 @@ impl<N: Real> Roughness<N> {
         let spacings = (k >= LEAST_K).then(|| Spacings::new(k, h, dimension, context)).transpose()?;
         let zero = || N::zero(context);
         Ok(Roughness { spacings, windows: 0, squares: [zero(), zero()], kicks: zero() })
+    }
+
+    pub(super) fn fields(&mut self, to: &mut dyn Fields<N>) {
+        let Roughness { spacings, windows, squares, kicks } = self;
+        if let Some(Spacings { fine, coarse, k: _, count, sum, unknown: _ }) = spacings {
+            fine.fields(to);
+            coarse.fields(to);
+            to.place(count, usize::MAX);
+            sum.fields(to);
+        }
+        to.count(windows);
+        to.numbers(squares);
+        to.number(kicks);
     }
 
     /// Whether it takes states: windows are long enough.
@@ -196,6 +210,15 @@ impl<N: Real> LastTerms<N> {
         let zero = || N::zero(context);
         let [before, term, squares] = [zero(), zero(), zero()];
         Ok(LastTerms { k, higher: build(k)?, lower: build(k - 1)?, count: 0, before, term, squares })
+    }
+
+    fn fields(&mut self, to: &mut dyn Fields<N>) {
+        let LastTerms { k: _, higher, lower, count, before, term: _, squares } = self;
+        higher.fields(to);
+        lower.fields(to);
+        to.place(count, usize::MAX);
+        to.number(before);
+        to.number(squares);
     }
 
     fn begin(&mut self) {

@@ -1,5 +1,7 @@
 //! Which states belong to windows.
 
+use crate::number::saved::Fields;
+
 /// The odd number next to 2⁶⁴ times the golden section: its multiples, taken mod 2⁶⁴, are spread evenly.
 const GOLDEN: u64 = 0x9E37_79B9_7F4A_7C15;
 
@@ -37,6 +39,12 @@ impl Schedule {
         let mut schedule = Schedule { states: states as u64, every: every.max(1), window: 0, end: 0 };
         schedule.end = schedule.last_of_first_place();
         schedule
+    }
+
+    pub(super) fn fields<N>(&mut self, to: &mut dyn Fields<N>) {
+        let Schedule { states: _, every, window, end } = self;
+        [every, window, end].into_iter().for_each(|count| to.count(count));
+        *self = Schedule { every: self.every.max(1), ..*self };
     }
 
     /// Whether the state n belongs to a window.

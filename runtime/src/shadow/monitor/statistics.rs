@@ -3,6 +3,7 @@
 use super::arithmetic::{difference, integer, quotient, root};
 use super::estimated::Estimated;
 use crate::number::Real;
+use crate::number::saved::Fields;
 
 /// An estimate may be wrong by this many times its error.
 pub(super) const ERROR_FACTOR: i32 = 3;
@@ -85,6 +86,17 @@ impl<N: Real> Statistics<N> {
         self.bound.assign_difference(energy, &modified.value);
         self.distances.add_product(&self.bound, &self.bound);
         self.windows += 1;
+    }
+
+    pub(super) fn fields(&mut self, to: &mut dyn Fields<N>) {
+        let Statistics { windows, energy, method, beyond_errors, .. } = self;
+        to.count(windows);
+        [energy, method, beyond_errors].into_iter().for_each(|Range { least, largest }| {
+            to.number(least);
+            to.number(largest);
+        });
+        let Statistics { bound: _, sum_of_squares, method_errors, errors, distances, .. } = self;
+        [sum_of_squares, method_errors, errors, distances].into_iter().for_each(|sum| to.number(sum));
     }
 
     /// The root mean square of H − H̄ with the H̄ of the same window, as a part of the root mean square of the errors: small where H̄ changes with H

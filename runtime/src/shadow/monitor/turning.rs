@@ -3,6 +3,7 @@
 use std::f64::consts::TAU;
 
 use crate::number::Real;
+use crate::number::saved::Fields;
 
 /// States that the turning needs: three second differences.
 pub(super) const STATES: usize = 5;
@@ -24,6 +25,11 @@ impl<N: Real> Sums<N> {
     pub(super) fn zero(context: &N::Context) -> Self {
         let zero = || N::zero(context);
         Sums { squares: zero(), products: zero(), fourths: zero() }
+    }
+
+    pub(super) fn fields(&mut self, to: &mut dyn Fields<N>) {
+        let Sums { squares, products, fourths } = self;
+        [squares, products, fourths].into_iter().for_each(|sum| to.number(sum));
     }
 }
 

@@ -6,6 +6,7 @@ use super::state_view::{STATES_KEPT, StateView};
 use super::turning::{Sums, Turning, assign_second_difference, turning};
 use crate::number::Real;
 use crate::number::partial_sums::PartialSums;
+use crate::number::saved::Fields;
 
 /// A fourth difference of p is off by less than this number of last places of p: rms by √(20 s) · 0.2123, s the stages of a step.
 const LAST_PLACES: f64 = 10.0;
@@ -62,6 +63,12 @@ impl<N: Real> TurningSums<N> {
         self.sums.squares.add(&squares);
         self.sums.products.add(&products);
         self.sums.fourths.add(&fourths);
+    }
+
+    pub(super) fn fields(&mut self, to: &mut dyn Fields<N>) {
+        self.sums.fields(to);
+        self.window.fields(to);
+        to.number(&mut self.weighted);
     }
 
     /// `None` where the windows are too short, or nothing moves.
