@@ -179,5 +179,5 @@ pub use shell::shell_word;
 pub use shipped::{SHIPPED_SCENES, ShippedScene, scene_text};
 pub use temporary::{Temporary, remove_temporary_files};
 pub use watch::summary::{EnergySummary, Extreme, ModifiedEnergySummary, Summary};
-pub use watch::{Approach, Encounter, Interactions, ParticleApproach};
+pub use watch::{Approach, Encounter, Interactions, LightBody, ParticleApproach};
 pub use whole_file::WholeFile;

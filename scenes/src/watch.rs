@@ -4,6 +4,7 @@ pub(crate) mod approaches;
 pub(crate) mod encounters;
 mod energy;
 mod lasting_change;
+mod light;
 pub(crate) mod particles;
 pub(crate) mod summary;
 
@@ -14,12 +15,14 @@ use shadowstep::shadow::run::RunError;
 use shadowstep::shadow::{Criterion, KINETIC_LIMIT, Missing, Report, Verdict};
 use shadowstep::steps::integrator::{VectorIntegrator, at_output};
 use shadowstep::systems::system::Visitor;
-use shadowstep::{Carried, Integrator as _, Rational, Real};
+use shadowstep::{Carried, Integrator as _, Number, Rational, Real};
 
 pub use self::approaches::{Approach, Approaches, Interactions};
 pub use self::encounters::Encounter;
 use self::encounters::Encounters;
 use self::energy::EnergyError;
+use self::light::LightBodies;
+pub use self::light::LightBody;
 pub use self::particles::ParticleApproach;
 use crate::run::Run;
 use crate::run_number::{Monitoring, RunNumber};
@@ -80,16 +83,20 @@ struct Observed<N: RunNumber> {
     idle: u64,
     encounters: Encounters<N>,
     approaches: Option<Approaches>,
+    light: Option<LightBodies>,
 }
 
 impl<N: RunNumber> Observed<N> {
     /// Takes the state n; whether the monitor takes nothing of it.
     #[inline]
     fn include(&mut self, n: i64, (q, p): (&[N], &[N])) -> bool {
-        let Observed { monitor, pass, idle, encounters, approaches } = self;
+        let Observed { monitor, pass, idle, encounters, approaches, light } = self;
         encounters.include(n, p);
         if let Some(approaches) = approaches {
             approaches.include(n, (q, p));
+        }
+        if let Some(light) = light {
+            light.include(n, (q, p));
         }
         if *idle == 0 {
             return false;
@@ -117,11 +124,12 @@ impl<N: RunNumber> Saved<N> for Watch<N> {
     fn fields(&mut self, to: &mut dyn Fields<N>) {
         self.energy.fields(to);
         [&mut self.from, &mut self.n].into_iter().for_each(|n| to.whole(n));
-        if let Some(Observed { monitor, pass, idle, encounters, approaches }) = &mut self.observed {
+        if let Some(Observed { monitor, pass, idle, encounters, approaches, light }) = &mut self.observed {
             monitor.fields(to);
             [pass, idle].into_iter().for_each(|states| to.count(states));
             encounters.fields(to);
             approaches.iter_mut().for_each(|approaches| approaches.fields(to));
+            light.iter_mut().for_each(|light| light.fields(to));
         }
     }
 }
@@ -149,6 +157,7 @@ impl<N: RunNumber> Watch<N> {
                 monitor,
                 encounters: Encounters::new(&integrator.state().p()[..massive]),
                 approaches: None,
+                light: None,
             });
         }
         let mut energy = EnergyError::new(initial);
@@ -188,7 +197,7 @@ impl<N: RunNumber> Watch<N> {
 
     /// Follows the planets of a system that has some, too; in transformed time H is H'.
     #[must_use]
-    pub(crate) fn of_system(mut self, system: &scene::System, integrator: &VectorIntegrator<'_, N>) -> Self {
+    pub fn of_system(mut self, system: &scene::System, integrator: &VectorIntegrator<'_, N>) -> Self {
         self.transformed = system.transformed_time().is_some();
         self.names.clone_from(&system.coordinates);
         self.time = system.explicit_time.then(|| system.q.len() - 1);
@@ -197,6 +206,11 @@ impl<N: RunNumber> Watch<N> {
             let state = (integrator.state().q(), integrator.state().p());
             if let Some(approaches) = &mut observed.approaches {
                 approaches.include(self.n, state);
+            }
+            let h = <f64 as Number>::from_rational(integrator.step_size().exact(), &());
+            observed.light = LightBodies::of(system, h);
+            if let Some(light) = &mut observed.light {
+                light.include(self.n, state);
             }
         }
         self
@@ -280,7 +294,7 @@ impl<N: RunNumber> Watch<N> {
         initial.make_absolute();
         let [largest, last] = [&self.energy.largest, &self.energy.last].map(N::clone);
         let Watch { observed, from, n, transformed, processed, time, names, .. } = self;
-        let Observed { mut monitor, pass, encounters, approaches, .. } = observed?;
+        let Observed { mut monitor, pass, encounters, approaches, light, .. } = observed?;
         monitor.pass(pass);
         let mut report = monitor.report();
         report.coordinate_names = names;
@@ -323,6 +337,7 @@ impl<N: RunNumber> Watch<N> {
             closest,
             extremes: Vec::new(),
             interactions: approaches.map(|approaches| approaches.found()),
+            light: light.map_or(Vec::new(), |light| light.found()),
             bounded: verdict.is_bounded(),
             verdict: verdict.to_string(),
             conclusion: if verdict == report.verdict { report.conclusion() } else { verdict.to_string() },
@@ -334,6 +349,7 @@ impl<N: RunNumber> Watch<N> {
         if lasting.is_some() || changes(&report, verdict) {
             summary.name_close_planets();
         }
+        summary.name_light_bodies();
         Some(summary)
     }
 }

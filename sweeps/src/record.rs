@@ -182,7 +182,8 @@ impl<'a, N: RunNumber> RunFollower<'a, N> {
                 let (q, p) = scene.system.start(context);
                 let initial = integrator.energy_at(&q, &p);
                 let energies = if energies { Energies::All } else { Energies::Windows };
-                Some(Watch::begin(integrator, scene.as_run(), (0, initial), energies, summarised)?)
+                let watch = Watch::begin(integrator, scene.as_run(), (0, initial), energies, summarised)?;
+                Some(watch.of_system(&scene.system, integrator))
             }
         };
         const CHECKED: &str = "the formulas were checked with the sweep";

@@ -13,6 +13,7 @@ use shadowstep_symbolic::decimal::{from_text, significant, to_significant, to_te
 use crate::readable::wrapped_to;
 use crate::watch::encounters::Encounter;
 use crate::watch::lasting_change::LastingChange;
+use crate::watch::light::{self, LightBody, not_resolved};
 use crate::watch::{Approach, Interactions};
 
 /// What a run has shown.
@@ -36,6 +37,8 @@ pub struct Summary {
     pub(crate) closest: Vec<Encounter>,
     /// Of planets.
     pub(crate) interactions: Option<Interactions>,
+    /// Light bodies that came near to planets.
+    pub(crate) light: Vec<LightBody>,
     /// The least and the greatest values of expressions.
     pub(crate) extremes: Vec<Extreme>,
     pub(crate) bounded: bool,
@@ -173,6 +176,30 @@ impl Summary {
         self.conclusion.clone_from(&self.verdict);
     }
 
+    /// A verdict on the energy says nothing about bodies that have none.
+    pub(super) fn name_light_bodies(&mut self) {
+        let Some(lost) = not_resolved(&self.light, |n| self.time(n)) else { return };
+        if self.bounded {
+            self.verdict = "light bodies are not resolved".to_owned();
+            self.conclusion.clone_from(&self.verdict);
+            self.reason = lost;
+        } else {
+            self.reason = format!("{}; and there are {lost}", self.reason);
+        }
+        self.bounded = false;
+    }
+
+    /// Light planets and particles of mass 0 that came near to heavier planets, with whether the steps resolved that.
+    pub fn light_bodies(&self) -> &[LightBody] {
+        &self.light
+    }
+
+    /// Whether bodies came within one Hill radius of each other.
+    fn has_close_bodies(&self) -> bool {
+        let planets = self.interactions.as_ref().and_then(|found| found.closest.as_ref());
+        planets.is_some_and(|closest| closest.hill_radii < 1.0) || self.light.iter().any(|body| body.hill_radii < 1.0)
+    }
+
     /// The verdict with its reason.
     pub fn verdict_with_reason(&self) -> String {
         format!("{}: {}", self.verdict, self.reason)
@@ -191,6 +218,9 @@ impl Summary {
         };
         let closest = self.closest.iter().take(shown).map(lasts).collect::<Vec<_>>().join(", ");
         match self.encounters {
+            0 if self.has_close_bodies() => {
+                "none of all bodies together; of bodies within one Hill radius, see below".to_owned()
+            }
             0 => "none".to_owned(),
             1 => format!("1, with {closest}"),
             count => format!("{count}, the closest with {closest}"),
@@ -308,8 +338,14 @@ impl fmt::Display for Summary {
             ("modified energy", self.modified_energy_text()),
             ("close encounters", self.encounters_text(SHOWN) + self.unresolved_text()),
         ];
+        let light = light::text(&self.light, |n| self.time(n)).map(|text| ("light bodies", text));
         let extremes = self.extremes_text().map(|text| ("values", text));
-        let facts = facts.into_iter().chain(planets).chain(extremes).chain([("verdict", self.verdict_with_reason())]);
+        let facts = facts
+            .into_iter()
+            .chain(planets)
+            .chain(light)
+            .chain(extremes)
+            .chain([("verdict", self.verdict_with_reason())]);
         for (name, fact) in facts {
             let lines = wrapped_to(&fact, &" ".repeat(20), 80);
             write!(f, "\n  {name:<18}{}", lines.trim())?;
@@ -339,7 +375,8 @@ impl Serialize for Summary {
             (found.name.clone(), json!({ "least": state(&found.least), "greatest": state(&found.greatest) }))
         };
         let extremes: serde_json::Map<_, _> = self.extremes.iter().map(extreme).collect();
-        let fields = 9 + usize::from(self.interactions.is_some()) + usize::from(!extremes.is_empty());
+        let optional = [self.interactions.is_some(), !self.light.is_empty(), !extremes.is_empty()];
+        let fields = 9 + optional.into_iter().map(usize::from).sum::<usize>();
         let mut object = serializer.serialize_struct("Summary", fields)?;
         object.serialize_field("from", &self.from)?;
         object.serialize_field("to", &self.to)?;
@@ -349,6 +386,9 @@ impl Serialize for Summary {
         object.serialize_field("closest_encounters", &closest.collect::<Vec<_>>())?;
         if let Some(interactions) = &self.interactions {
             object.serialize_field("planets", interactions)?;
+        }
+        if !self.light.is_empty() {
+            object.serialize_field("light_bodies", &self.light)?;
         }
         if !extremes.is_empty() {
             object.serialize_field("extremes", &extremes)?;
