@@ -142,6 +142,9 @@ pub struct Refusal {
 /// The targets that express every scheme for two parts.
 const EVERY_SCHEME: &str = "emit it to python, jax, c, julia or fortran";
 
+/// The longest name of a scheme with that of a Fortran module, of at most 63 letters: `shadowstep_scheme_NAME`.
+const LONGEST_IN_FORTRAN: usize = 45;
+
 /// Emits a scheme.
 ///
 /// # Errors
@@ -163,6 +166,11 @@ fn lacks(proved: &Proved, target: Target) -> Option<(String, &'static str)> {
     if proved.scheme.inner.is_some() {
         let hint = "emit the scheme that its table calls the base";
         return Some(("has multiple time steps, for H of three parts".to_owned(), hint));
+    }
+    let name = &proved.scheme.table.name.value;
+    if target == Target::Fortran && name.len() > LONGEST_IN_FORTRAN {
+        let reason = format!("has a name of {} letters, and that of its module would be too long", name.len());
+        return Some((reason, "give the scheme a name of at most 45 letters"));
     }
     let place = match target {
         Target::Openmm => "a CustomIntegrator of OpenMM",

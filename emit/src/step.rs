@@ -2,6 +2,7 @@
 
 use shadowstep::number::Number;
 use shadowstep::tables::TableScheme;
+use shadowstep_scenes::reserved_names::Language;
 use shadowstep_schemes::map::Stages;
 use shadowstep_schemes::{First, Map, MapKind, Proved, Rational, to_significant, to_text};
 
@@ -129,12 +130,16 @@ impl<'a> Step<'a> {
         &self.proved.scheme.table.name.value
     }
 
-    /// The name of the table as an identifier: `stormer_verlet`.
+    /// The name of the table as an identifier: `stormer_verlet`; `scheme_class` where the name is a keyword of a target, or a module that it has.
     pub(crate) fn identifier(&self) -> String {
         let is_letter = |letter: char| letter.is_ascii_alphanumeric();
         let name: String =
             self.name().chars().map(|c| if is_letter(c) { c.to_ascii_lowercase() } else { '_' }).collect();
-        if name.starts_with(|c: char| c.is_ascii_alphabetic()) { name } else { format!("scheme_{name}") }
+        let capitalised = name[..name.len().min(1)].to_uppercase() + name.get(1..).unwrap_or_default();
+        let is_reserved =
+            Language::Python.reserved().contains(&&*name) || Language::Julia.reserved().contains(&&*capitalised);
+        let is_word = name.starts_with(|c: char| c.is_ascii_alphabetic());
+        if is_word && !is_reserved { name } else { format!("scheme_{name}") }
     }
 
     /// Whether it has gradient kicks.

@@ -21,7 +21,12 @@ pub(crate) fn plain(text: &str) -> String {
 /// Lines as comments; long ones are wrapped.
 pub(crate) fn commented(sign: &str, lines: &[String]) -> Vec<String> {
     let wrap = |line: &String| wrapped(&plain(line), WIDTH - sign.len());
-    lines.iter().flat_map(wrap).map(|line| format!("{sign} {line}").trim_end().to_owned()).collect()
+    // in the first lines of a file Python reads `coding:` as a command
+    let is_python = sign == "#";
+    let harmless = |line: String| {
+        if is_python { line.replace("coding:", "coding :").replace("coding=", "coding =") } else { line }
+    };
+    lines.iter().flat_map(wrap).map(|line| format!("{sign} {}", harmless(line)).trim_end().to_owned()).collect()
 }
 
 /// A line as several, broken at blanks.

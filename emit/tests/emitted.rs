@@ -1,7 +1,10 @@
 //! What is emitted, as its readers see it: texts of very different schemes, and refusals.
 
-use shadowstep::tables::{shipped, shipped_names};
+use std::process::Command;
+
+use shadowstep::tables::{Source, TableScheme, read, shipped, shipped_names};
 use shadowstep_emit::{Target, emit};
+use shadowstep_scenes::reserved_names::Language;
 
 fn emitted(name: &str, target: Target) -> String {
     emit(&shipped(name).unwrap(), target).unwrap()
@@ -69,4 +72,44 @@ fn refusals() {
     insta::assert_snapshot!(sentences.join("\n"));
     let unknown = "matlab".parse::<Target>().unwrap_err().to_string();
     assert!(Target::ALL.iter().all(|target| unknown.contains(target.name())), "{unknown}");
+}
+
+/// A scheme of a name: Störmer–Verlet.
+fn named(name: &str, title: &str) -> TableScheme {
+    let text = format!(
+        "name = {name:?}\ntitle = {title:?}\norder = 2\nkinetic = \"any\"\n[stages]\nkick = [\"1/2\", \"1/2\"]\ndrift = [1, 0]\n"
+    );
+    let source = Source { path: "mine.toml".to_owned(), text };
+    read(&source, &|_, _| None, None).unwrap_or_else(|faults| panic!("{faults}"))
+}
+
+/// Keywords and modules, and names that a header or a first line could take for something else.
+#[test]
+fn code_is_valid_whatever_a_scheme_is_named() {
+    let more =
+        ["coding", "1-2", "int", "double", "main", "s", "a1", "kepler", "step", "system", "module", "end", "class"];
+    let names = [Language::Python, Language::Julia].iter().flat_map(|language| language.reserved());
+    let names = names.map(|name| name.to_lowercase().replace('_', "-")).chain(more.map(str::to_owned));
+    let folder = tempfile::tempdir().unwrap();
+    let is_valid = |program: &str, options: &[&str], code: String| {
+        let path = folder.path().join("code.h");
+        std::fs::write(&path, &code).unwrap();
+        let output = Command::new(program).args(options).arg(path).output().expect("the program runs");
+        assert!(output.status.success(), "{}\n{code}", String::from_utf8_lossy(&output.stderr));
+    };
+    let reads = "import ast, re, sys; text = open(sys.argv[1], 'rb').read(); ast.parse(text)\n\
+                 for line in re.findall(r'^ *(from \\w+ import \\w+)', text.decode(), re.M): ast.parse(line)";
+    for name in names {
+        let scheme = named(&name, "coding: of \"\"\" and */ \\ a test");
+        for target in [Target::Python, Target::Jax, Target::Openmm, Target::Blackjax, Target::Mici] {
+            is_valid("python3", &["-B", "-c", reads], emit(&scheme, target).unwrap());
+        }
+        let options = ["-DSELF_TEST", "-std=c99", "-Wall", "-Werror", "-fsyntax-only", "-x", "c"];
+        is_valid("cc", &options, emit(&scheme, Target::C).unwrap());
+        let julia = emit(&scheme, Target::Julia).unwrap();
+        let module = julia.lines().find_map(|line| line.strip_prefix("module ")).unwrap();
+        assert!(!Language::Julia.reserved().contains(&module), "{module}");
+    }
+    let long = emit(&named(&"a".repeat(46), ""), Target::Fortran).unwrap_err().to_string();
+    assert!(long.contains("has a name of 46 letters"), "{long}");
 }
