@@ -41,12 +41,12 @@ def refuse_other(value: Any, kinds: tuple[Any, ...], name: str) -> None:
 
 
 @contextmanager
-def naming(name: str) -> Iterator[None]:
-    """Puts the name of an argument before what is wrong with it, where that does not have it."""
+def naming(name: str, where: str = "") -> Iterator[None]:
+    """Puts the name of an argument before what is wrong with it, where that does not have it; only before messages with a pattern, if one is given."""
     try:
         yield
     except InputError as error:
-        if not re.search(rf"\b{name}\b", str(error)):
+        if re.search(where, str(error), re.MULTILINE) and not re.search(rf"\b{name}\b", str(error)):
             error.args = (f"{name}: {error}",)
         raise
 
@@ -118,20 +118,22 @@ def _is_of(value: Any, hint: Any) -> bool:
             return False
         return True
     if kind is float:
-        return isinstance(value, (Real, Decimal))
+        # a signalling NaN cannot be converted
+        return isinstance(value, Real) or (isinstance(value, Decimal) and not value.is_snan())
     if kind is Fraction:
         return _is_text(value) or isinstance(value, (Real, Decimal)) or hasattr(type(value), "man_exp")
     if kind is np.ndarray:
-        return hasattr(value, "__array__") or _is_list(value)
+        return hasattr(value, "__array__") or is_list(value)
     if kind is Iterable:
         texts = get_args(hint) == (str,) and isinstance(value, (list, tuple, set, np.ndarray))
-        return _is_list(value) and not (texts and not all(_is_text(item) for item in value))
+        return is_list(value) and not (texts and not all(_is_text(item) for item in value))
     if kind is str:
         return _is_text(value)
     return callable(value) if kind is Callable else isinstance(value, kind)
 
 
-def _is_list(value: Any) -> bool:
+def is_list(value: Any) -> bool:
+    """Whether values are taken from it one by one."""
     return isinstance(value, Iterable) and not isinstance(value, (str, bytes, Mapping)) and not (isinstance(value, np.ndarray) and value.ndim == 0)
 
 

@@ -10,7 +10,7 @@ from typing import Union
 import numpy as np
 
 from ._shadowstep import InputError, RunError
-from .arguments import path_of
+from .arguments import naming, path_of
 from .scene import columns_of
 
 
@@ -52,6 +52,8 @@ def sweep(path: Union[str, os.PathLike[str]], out: Union[str, os.PathLike[str]],
     or below, unless ``allow_outside`` is true.
     """
     folder = path_of(out, "out")
-    command("sweep", path_of(path, "path"), "--out", folder, *(["--allow-outside"] if allow_outside else []))
+    allowed = ["--allow-outside"] if allow_outside else []
+    with naming("path", "FILE"):
+        command("sweep", path_of(path, "path"), "--out", folder, *allowed)
     with open(os.path.join(folder, "results.csv"), encoding="utf-8") as results:
         return columns_of(results.read())

@@ -11,7 +11,7 @@ import numpy as np
 
 from . import _shadowstep
 from ._shadowstep import Given, InputError
-from .arguments import check, numbers
+from .arguments import check, naming, numbers
 from .border import WrongType
 from .exact import Number, exact
 from .integration import integrate, run_of, vectors_of
@@ -107,7 +107,8 @@ def derivatives(
     problem = problem_of(problem)
     names = [*problem.coordinates, *problem.momenta] if by is None else list(by)
     run = run_of(problem, scheme, h, until, steps, first, gradient_kicks, every, digits, mpfr)
-    variables = variables_of(problem, names, str(digits), mpfr)
+    with naming("by"):
+        variables = variables_of(problem, names, str(digits), mpfr)
     with bar(run["steps"], "steps", progress) as reach:
         found = _shadowstep.derivatives(run, variables, progress=reach)
     states, rows = _array(found["states"]), len(found["n"])
@@ -168,7 +169,8 @@ def gradient(
     check(gradient, locals())
     problem = problem_of(problem)
     names = [*problem.coordinates, *problem.momenta] if by is None else list(by)
-    variables = variables_of(problem, names, str(digits), mpfr)
+    with naming("by"):
+        variables = variables_of(problem, names, str(digits), mpfr)
     run = run_of(problem, scheme, h, until, steps, first, gradient_kicks, every, digits, mpfr)
     made = integrate(
         problem, scheme, h, until, steps=steps, first=first, gradient_kicks=gradient_kicks, every=every, digits=digits, mpfr=mpfr, progress=progress

@@ -25,14 +25,16 @@ def document(sections: Mapping[str, Any]) -> str:
 
 def _section(name: str, content: Any) -> str:
     if isinstance(content, (list, tuple)):
-        return "\n".join(f"[[{name}]]\n{_lines(item, name)}" for item in content)
+        return "\n".join(f"[[{name}]]\n{_lines(item, f'{name}[{i}]')}" for i, item in enumerate(content))
     return f"[{name}]\n{_lines(content, name)}"
 
 
 def _lines(content: Any, name: str) -> str:
     if not isinstance(content, Mapping):
         raise WrongType(f"{name} must be a mapping of keys to values, or a list of such, not {type(content).__name__}")
-    return "".join(f"{key} = {_value(value, key)}\n" for key, value in content.items() if value is not None)
+    # the keys of some sections are arguments by themselves
+    of = "" if name in ("problem", "initial") else f"{name}."
+    return "".join(f"{key} = {_value(value, f'{of}{key}')}\n" for key, value in content.items() if value is not None)
 
 
 def _value(value: Any, what: str) -> str:
@@ -43,7 +45,7 @@ def _value(value: Any, what: str) -> str:
     if isinstance(value, int):
         return str(value)
     if isinstance(value, Mapping):
-        return "{" + ", ".join(f"{_text(key)} = {_value(item, key)}" for key, item in value.items()) + "}"
+        return "{" + ", ".join(f"{_text(key)} = {_value(item, f'{what}.{key}')}" for key, item in value.items()) + "}"
     if isinstance(value, (list, tuple)):
         return "[" + ", ".join(_value(item, what) for item in value) + "]"
     refuse_other(value, (Fraction,), what)

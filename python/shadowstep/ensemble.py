@@ -10,7 +10,7 @@ from typing import Any, Union
 import numpy as np
 
 from . import _shadowstep
-from .arguments import check, numbers
+from .arguments import check, naming, numbers
 from .document import document
 from .estimator import order_of
 from .exact import Number, count, exact
@@ -115,7 +115,7 @@ def ensemble(
     if order is not None:
         output["modified_energy"] = {"estimator": "bilinear", "order": order_of(order), **look}
     sections["output"] = output or {"energy": {"every": steps or 1_000_000_000}}
-    with bar(None, "", progress) as reach:
+    with bar(None, "", progress) as reach, naming("h", r"^ *\d+ \| step = "):
         found = _shadowstep.ensemble(document(sections), *columns.all(), progress=reach)
     rows = len(found["energy_error"])
     return Ensemble(

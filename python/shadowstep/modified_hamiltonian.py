@@ -115,5 +115,5 @@ def _number(value: Number, what: str) -> float:
     text = exact(value, what)
     try:
         return float(Fraction(text))
-    except ValueError:
+    except (ValueError, ZeroDivisionError):
         raise InputError(f"{what} = {text!r} is not a number: write a decimal or a fraction such as '1/10'") from None

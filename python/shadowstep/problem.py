@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import os
 import re
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from contextlib import contextmanager
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from difflib import get_close_matches
 from numbers import Integral
 from types import MappingProxyType
@@ -15,7 +14,7 @@ import numpy as np
 
 from . import _shadowstep
 from ._shadowstep import Given, problem_names
-from .arguments import check, naming, path_of
+from .arguments import check, is_list, naming, path_of, refuse_other
 from .border import WrongType
 from .by_name import in_order, names_of
 from .document import document
@@ -121,7 +120,9 @@ class Problem:
         problem |= {"masses": masses, "kinetic": kinetic, "pair": pair, "parts": parts}
         # what is given may change later
         self._sections = _copied({**sections, "time": time})
-        with _of_system():
+        # what is wrong with a name or a formula has the key of a text
+        of_bodies = naming("body", "" if others.get("body") is not None else "(?!)")
+        with of_bodies, naming("system", r"^ *\d+ \| (name|potential) = "):
             self._given = Given.of_text(document(self._sections), "problem")
 
     @classmethod
@@ -216,7 +217,8 @@ class Problem:
     def number(self, name: str) -> Number:
         """The number of this name, as `replaced` has them, as it was given."""
         check(Problem.number, locals())
-        container, key = self._place(_copied(self.sections), name)
+        with naming("name"):
+            container, key = self._place(_copied(self.sections), name)
         number: Number = container[key]
         return number
 
@@ -302,17 +304,6 @@ class Problem:
         return ", ".join([*shown, *([f"{len(bodies)} bodies"] if bodies else [])])
 
 
-@contextmanager
-def _of_system() -> Iterator[None]:
-    """Names the argument for a name or a formula, which is another key in a text."""
-    try:
-        yield
-    except _shadowstep.InputError as error:
-        if re.search(r"^ *\d+ \| (name|potential) = ", str(error), re.MULTILINE):
-            error.args = (f"system: {error}",)
-        raise
-
-
 def given_of(problem: Any) -> Given:
     """What an argument ``problem`` is: a problem, or the name of a shipped one."""
     return problem_of(problem)._given
@@ -342,6 +333,10 @@ def _sections(system: str | None, q: Values | None, p: Values | None, v: Values 
         raise WrongType(f"parameters must be a mapping of names to numbers, not {type(others['parameters']).__name__}")
     keys = (*_PROBLEM, *(key for key, other in _BESIDE.items() if other in others))
     problem: dict[str, Any] = {key: others[key] for key in keys if key in others}
+    for key in ("coordinates", "momenta"):
+        if problem.get(key) is not None:
+            refuse_other(problem[key], (Iterable[str],), key)
+            problem[key] = list(problem[key])
     parameters = {key: value for key, value in others.items() if key not in (*keys, "body")}
     for key, value in parameters.items():
         if isinstance(value, (Mapping, Sequence, np.ndarray)) and not isinstance(value, str):
@@ -426,6 +421,6 @@ def _of_forces(forces: Forces, q: Values | None, p: Values | None, v: Values | N
 
 
 def _texts(values: Values, name: str) -> list[str]:
-    if isinstance(values, str) or not isinstance(values, Iterable):
+    if not is_list(values):
         raise WrongType(f"{name} must be numbers, such as [1, 0], not {values!r}")
     return [exact(value, name) for value in values]

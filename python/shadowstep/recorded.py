@@ -11,7 +11,7 @@ from typing import Any, NamedTuple, Union
 import numpy as np
 
 from . import _shadowstep
-from .arguments import check, numbers
+from .arguments import check, naming, numbers
 from .border import WrongType
 from .estimator import order_of
 from .exact import Number, count, exact
@@ -210,7 +210,8 @@ class Observer:
 
     def begin(self, n: int) -> None:
         """A new window begins: the next state is the state n, which does not follow the newest by a step."""
-        self._observer.begin(count(n, "n", least=-(2**63)))
+        with naming("n"):
+            self._observer.begin(count(n, "n", least=-(2**63)))
 
     def observe(self, q: Any, p: Any, energy: float, forces: Any, *, half_step: bool = False, step: tuple[Any, Any, float] | None = None) -> Sample | None:
         """Takes the next state; gives the estimate that it completes.
@@ -234,7 +235,8 @@ class Observer:
         if not np.isfinite(energy):
             raise _shadowstep.InputError(f"energy is {energy}: give the states before it; a run that overflows has steps that are too large")
         made = None if step is None else (_flat(step[0], "step"), _flat(step[1], "step"), float(numbers(step[2], "step").reshape(())))
-        found = self._observer.observe(_flat(q, "q"), _flat(p, "p"), energy, _flat(forces, "forces"), bool(half_step), made)
+        with naming("forces", "^the gradient"), naming("step", " has increments,"):
+            found = self._observer.observe(_flat(q, "q"), _flat(p, "p"), energy, _flat(forces, "forces"), bool(half_step), made)
         return None if found is None else Sample(*found)
 
     @property

@@ -258,7 +258,9 @@ class Scheme:
         check(Scheme.proposal, locals())
         number = None if steps is None else count(steps, "steps", most=10**9)
         length, least = (None if value is None else float(value) for value in (time, acceptance))
-        return Proposal(*proposal(self._table, numbers(list(frequencies), "frequencies").ravel().tolist(), length, least, number))
+        of = numbers(list(frequencies), "frequencies").ravel().tolist()
+        with naming("frequencies", "^frequency"):
+            return Proposal(*proposal(self._table, of, length, least, number))
 
     def modified(self, grade: int = 4, *, parts: int | None = None, quadratic: bool = False, digits: int = 17) -> dict[int, dict[str, str]]:
         """The series of the modified Hamiltonian in brackets: the coefficients by the power n of h, of H_(n+1), and the bracket.

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from typing import Any, Union
 
 from . import _shadowstep
-from .arguments import check, path_of
+from .arguments import check, is_list, path_of
 from .border import WrongType
 from .exact import Number, count, exact
 from .problem import Problem, given_of
@@ -258,7 +258,7 @@ def _tables(schemes: Schemes) -> tuple[str | None, list[Any]]:
         return schemes, []
     if isinstance(schemes, (str, os.PathLike, Scheme)):
         schemes = [schemes]
-    if not isinstance(schemes, Iterable):
+    if not is_list(schemes):
         raise WrongType(f"schemes must be schemes or their names, such as ['yoshida4', 'pefrl'], not {type(schemes).__name__}")
     return None, [table_of(scheme, "schemes") for scheme in schemes]
 

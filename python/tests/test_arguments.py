@@ -166,6 +166,37 @@ def refused(name, argument, value):
     return None
 
 
+# Of [problem] and the sections beside it, which Problem takes as they are.
+KEYS = """
+    q p v masses kinetic pair parts time coordinates momenta bodies dimensions neighbours cutoff box units elements barycentric encounters vector_potential hamiltonian slow
+    parameters coupling central external particles body nonsense
+""".split()
+PROBLEMS = [
+    {"system": "x^2/2", "q": {"x": 1}, "p": [0]},
+    {"pair": "-m_i*m_j/sqrt(r2)", "dimensions": 2, "bodies": {"m": [1, "1/1000"]}, "q": [0, 0, 1, 0], "v": [0, 0, 0, 1]},
+    {"body": [{"mass": 1}, {"mass": "1/1000", "a": 1}], "parameters": {"g": 1}, "parts": "wisdom-holman"},
+    {"system": "kepler"},
+]
+OF_KEYS = [*WRONG, {"function": "nonsense"}, {"potential": 3}, [{"mass": 1}], [{"mass": None}], [3], {"m": [1, None]}, {"count": 2**70}, [["a"]]]
+
+
+@pytest.mark.filterwarnings("ignore")
+@pytest.mark.parametrize("given", PROBLEMS, ids=lambda given: next(iter(given)))
+def test_wrong_values_of_keys_of_a_problem_name_them(given, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    wrong = []
+    for key in KEYS:
+        for value in OF_KEYS:
+            try:
+                Problem(**{**given, key: value})
+            except InputError as error:
+                if not re.search(rf"\b({'|'.join([key, *given])})\b", str(error)):
+                    wrong.append(f"{key}={value!r}: not named: {error}")
+            except Exception as other:  # noqa: BLE001
+                wrong.append(f"{key}={value!r}: {type(other).__name__}: {other}")
+    assert not wrong, "\n".join(wrong)
+
+
 @pytest.mark.parametrize("name", CALLS)
 def test_wrong_values_name_their_argument(name, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
