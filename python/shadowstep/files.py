@@ -142,7 +142,7 @@ def _check_cells(cells: dict[str, Any], at: str) -> None:
         raise InputError(f"{at}: `t` is missing: {_AGAIN}")
     for column, cell in cells.items():
         if cell and not (_WHOLE if column == "n" else _NUMBER).fullmatch(cell):
-            raise InputError(f"{at}: {column} is {cell[:40]!r}, which is no number: {_AGAIN}")
+            raise InputError(f"{at}: {column} is {cell[:40]!r}, not a number: {_AGAIN}")
 
 
 def _csv(name: str) -> tuple[dict[str, Any], list[dict[str, str]], list[str]]:

@@ -78,7 +78,7 @@ impl shadowstep_studies::Observer for Watching<'_> {
 /// The answer of a thread: what it has found, or its panic.
 pub(crate) type Answer<T> = thread::Result<T>;
 
-/// So many computations may wait for each other, each within the forces of the one before; more cost powers of the evaluations in a step.
+/// At most this number of computations wait for each other, each within the forces of the one before: their cost is a power of the evaluations in a step.
 const DEEPEST: usize = 4;
 
 thread_local! {

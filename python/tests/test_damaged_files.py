@@ -106,5 +106,5 @@ def test_digits_of_another_kind_are_no_numbers(files, tmp_path):
     text = (tmp_path / "run.csv").read_text()
     row = next(i for i, line in enumerate(text.splitlines(), 1) if line.startswith("10,"))
     (tmp_path / "run.csv").write_text(text.replace("\n10,", "\n1_0,"))
-    with pytest.raises(InputError, match=rf"run\.csv:{row}: n is '1_0', which is no number"):
+    with pytest.raises(InputError, match=rf"run\.csv:{row}: n is '1_0', not a number"):
         shadowstep.open(tmp_path / "run.csv")
