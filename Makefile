@@ -149,7 +149,8 @@ stability: deps
 rivals: deps
 	rivals/run.sh
 
-# Fuzzes the readers of tables, formulas, scenes, sweeps, checkpoints and source code, SECONDS each: `make fuzz SECONDS=600 READERS="table scene"`.
+# Fuzzes the readers of tables, formulas, scenes, sweeps, checkpoints and source code, and runs random documents, SECONDS each:
+# `make fuzz SECONDS=600 READERS="table scene documents"`.
 SECONDS = 60
 fuzz: deps
 	SECONDS_EACH=$(SECONDS) fuzz/run.sh $(READERS)

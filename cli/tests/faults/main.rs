@@ -14,7 +14,7 @@ use std::fs;
 use std::os::unix::process::ExitStatusExt;
 use std::process::{Command, Stdio};
 use std::thread::sleep;
-use std::time::{Duration, Instant};
+use std::time::{Duration, Instant, SystemTime, UNIX_EPOCH};
 
 use commands::{COMMANDS, Disturbed, TIMED};
 use random::Random;
@@ -36,9 +36,17 @@ const FIRST_CALLS: u64 = 4;
 const ERRORS: [(u32, &str); 3] =
     [(28, "No space left on device"), (30, "Read-only file system"), (13, "Permission denied")];
 
+/// Random numbers of a test, of the seed FAULTS_SEED, or of the time; the seed is printed.
+fn random_of(name: &str) -> Random {
+    let of_time = || SystemTime::now().duration_since(UNIX_EPOCH).unwrap().as_nanos() as u64 % 1_000_000;
+    let seed = std::env::var("FAULTS_SEED").map_or_else(|_| of_time(), |seed| seed.parse().unwrap());
+    println!("{name}: FAULTS_SEED={seed}");
+    Random::of_seed(name.bytes().fold(seed, |seed, byte| seed.wrapping_mul(31).wrapping_add(u64::from(byte))))
+}
+
 fn each(test: fn(Disturbed, &mut Random), name: &str) {
     for &command in COMMANDS {
-        test(command, &mut Random::of_test(&format!("{name}, {}", command.name)));
+        test(command, &mut random_of(&format!("{name}, {}", command.name)));
     }
 }
 
@@ -213,7 +221,7 @@ fn several_commands_do_not_write_one_file() {
 #[test]
 fn clocks_may_jump() {
     for command in COMMANDS.iter().copied().chain([TIMED]) {
-        let mut random = Random::of_test(&format!("clocks, {}", command.name));
+        let mut random = random_of(&format!("clocks, {}", command.name));
         let Undisturbed { files, .. } = undisturbed(command);
         let work = Work::new(command);
         let output = work.with_fault(&[("FAULT_CLOCK", (random.next() >> 33).to_string())]).output().unwrap();

@@ -1,17 +1,11 @@
-//! Random numbers of a seed that is printed.
-
-use std::time::{SystemTime, UNIX_EPOCH};
+//! Random numbers of a seed.
 
 /// SplitMix64.
 pub(crate) struct Random(u64);
 
 impl Random {
-    /// Of the seed FAULTS_SEED, or of the time.
-    pub(crate) fn of_test(name: &str) -> Self {
-        let of_time = || SystemTime::now().duration_since(UNIX_EPOCH).unwrap().as_nanos() as u64 % 1_000_000;
-        let seed = std::env::var("FAULTS_SEED").map_or_else(|_| of_time(), |seed| seed.parse().unwrap());
-        println!("{name}: FAULTS_SEED={seed}");
-        Random(name.bytes().fold(seed, |seed, byte| seed.wrapping_mul(31).wrapping_add(u64::from(byte))))
+    pub(crate) fn of_seed(seed: u64) -> Self {
+        Random(seed)
     }
 
     pub(crate) fn next(&mut self) -> u64 {
