@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use num_traits::{One, Signed, Zero};
-use shadowstep::number::Limbs;
+use shadowstep::number::{AnyLimbs, LimbCount};
 use shadowstep::systems::formula::FormulaValue;
 use shadowstep::{Number, Rational, Real};
 use shadowstep_symbolic::decimal::{from_text, round_significant, to_significant};
@@ -183,36 +183,40 @@ impl Compute for Formulas {
     }
 }
 
-/// 115 digits.
-type Long = Limbs<6>;
+/// The fewest digits of a computation in limbs, and how many it has beyond those of its results.
+const LEAST_DIGITS: u32 = 60;
+const DIGITS_BEYOND: u32 = 55;
 
 /// The names in the formulas.
 const NAMES: [&str; 10] = ["i", "O", "w", "M", "a", "e", "mu", "E", "x", "y"];
 
-/// What is smaller is round-off of numbers in units that are not extreme, such as the sine of two right angles.
-const LEAST: f64 = -90.0;
+/// What is smaller than round-off by fewer decades is round-off, too, in units that are not extreme, such as the sine of two right angles.
+const ROUND_OFF: f64 = 25.6;
 
 /// Computes formulas in numbers of limbs, in a small part of the time: for very many orbits. The results have the digits of [`Formulas`] but the last ones, as
 /// these round what is in between.
 pub(super) struct InLimbs {
     digits: u32,
-    values: [Long; NAMES.len()],
-    formulas: BTreeMap<&'static str, FormulaValue<Long>>,
+    count: LimbCount,
+    values: [AnyLimbs; NAMES.len()],
+    formulas: BTreeMap<&'static str, FormulaValue<AnyLimbs>>,
 }
 
 impl InLimbs {
     /// To this number of digits, if numbers of limbs have enough.
     pub(super) fn with_digits(digits: u32) -> Option<Self> {
-        let values = std::array::from_fn(|_| Long::zero(&()));
-        (digits <= 60).then(|| InLimbs { digits, values, formulas: BTreeMap::new() })
+        let bits = f64::from(digits.max(LEAST_DIGITS) + DIGITS_BEYOND) * std::f64::consts::LOG2_10;
+        let count = LimbCount::of_bits(bits.ceil() as u32)?;
+        let values = std::array::from_fn(|_| Number::zero(&count));
+        Some(InLimbs { digits, count, values, formulas: BTreeMap::new() })
     }
 
-    fn at(&mut self, formula: &'static str) -> &Long {
-        let known = self
-            .formulas
+    fn at(&mut self, formula: &'static str) -> &AnyLimbs {
+        let InLimbs { count, values, formulas, .. } = self;
+        let known = formulas
             .entry(formula)
-            .or_insert_with(|| FormulaValue::new(formula, &NAMES, &[], &()).expect("it is a formula in these names"));
-        known.at(&self.values)
+            .or_insert_with(|| FormulaValue::new(formula, &NAMES, &[], count).expect("it is a formula in these names"));
+        known.at(values)
     }
 
     fn place(name: &str) -> usize {
@@ -225,7 +229,7 @@ impl Compute for InLimbs {
     type Error = ();
 
     fn set(&mut self, name: &'static str, value: &Rational) {
-        self.values[InLimbs::place(name)] = Long::from_rational(value, &());
+        self.values[InLimbs::place(name)] = AnyLimbs::from_rational(value, &self.count);
     }
 
     fn assign(&mut self, name: &'static str, formula: &'static str) -> Result<(), ()> {
@@ -236,7 +240,9 @@ impl Compute for InLimbs {
     fn value(&mut self, formula: &'static str) -> Result<Rational, ()> {
         let value = *self.at(formula);
         match value.log10_abs() {
-            small if small < LEAST => Ok(Rational::zero()),
+            small if small < ROUND_OFF - f64::from(self.count.bits()) * std::f64::consts::LOG10_2 => {
+                Ok(Rational::zero())
+            }
             _ => Ok(round_significant(&from_text(&value.to_text()).map_err(drop)?, self.digits)),
         }
     }
@@ -278,6 +284,21 @@ mod tests {
     fn elements(texts: [&str; 6]) -> Elements {
         let [a, e, i, node, pericentre, anomaly] = texts.map(|text| exact(text).unwrap());
         Elements { a, e, i, node, pericentre, anomaly }
+    }
+
+    /// Orbits of long numbers are computed in limbs, too, and are those of exact formulas.
+    #[test]
+    fn limbs_have_the_digits_of_long_numbers() {
+        let mu = exact("2").unwrap();
+        let found = elements(["2", "0.3", "20", "10", "20", "77"]);
+        for digits in [60, 80, 120, 250] {
+            let exact = found.state(&mu, digits).unwrap();
+            let in_limbs = found.state_by(&mu, digits, &mut InLimbs::with_digits(digits).unwrap()).unwrap();
+            let least = Rational::from_integer(10.into()).pow(4 - digits as i32);
+            let pairs = exact.iter().flatten().zip(in_limbs.iter().flatten());
+            assert!(pairs.into_iter().all(|(a, b)| (a - b).abs() < least), "{digits}: {exact:?} {in_limbs:?}");
+        }
+        assert!(InLimbs::with_digits(400).is_none());
     }
 
     /// Of what the elements are constants: the energy, the eccentricity vector and the angular momentum.
