@@ -3,7 +3,6 @@
 //! Where only U depends on t, the parts are T(p) + p_t and U(q, t), with all schemes for T and U. Where T does, too, they are formulas of parts.
 
 use num_traits::Zero;
-use shadowstep::Rational;
 use shadowstep_schemes::document::Text;
 use shadowstep_symbolic::{Exact, parse};
 
@@ -69,11 +68,6 @@ pub(super) fn add_momentum(reader: &Reader<'_>, given: &Given, formulas: &mut Ve
             formulas.push(alone);
         }
     }
-}
-
-/// t or p_t at the start.
-pub(super) fn zero() -> Exact {
-    Exact { value: Rational::zero(), rounded: false }
 }
 
 /// Refuses another t than 0: it would not be that of the rows.

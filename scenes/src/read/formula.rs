@@ -43,12 +43,7 @@ pub(super) fn problem(
         given.state.all_there(reader, initial);
     }
     let values = |reader: &mut Reader<'_>, numbers: &Numbers| {
-        if numbers.count() == Some(coordinates.len()) {
-            return numbers.values(reader, coordinates.len());
-        }
-        let mut values = numbers.values(reader, of_coordinates)?;
-        values.extend(explicit_time.then(explicit_time::zero));
-        Some(values)
+        numbers.values_of_all(reader, coordinates.len(), (false, explicit_time))
     };
     let (q, p) = given.state.values(reader, values, masses.as_deref());
     if explicit_time {

@@ -2,10 +2,11 @@
 
 use std::ops::Range;
 
+use num_traits::Zero;
+use shadowstep::Rational;
 use shadowstep_symbolic::Exact;
 use toml::de::DeValue;
 
-use super::explicit_time;
 use super::reader::Reader;
 use shadowstep_schemes::document::{Placed, Text, Value};
 
@@ -77,7 +78,7 @@ impl Numbers {
         if copied {
             values.extend_from_within(..);
         }
-        values.extend(explicit_time.then(explicit_time::zero));
+        values.extend(explicit_time.then(|| Exact { value: Rational::zero(), rounded: false }));
         Some(values)
     }
 
