@@ -62,3 +62,31 @@ def test_wrong_inputs() -> None:
         modified_hamiltonian(DRIVEN, "stormer-verlet", 2)([0.5], [0.3, 0.0], "1/10")
     with pytest.raises(InputError, match="grade = 11 is too large"):
         modified_hamiltonian("pendulum", "stormer-verlet", 11)
+
+
+@pytest.mark.parametrize("names", [("h", "lambda"), ("class", "h"), ("total", "np"), ("None", "t"), ("lambda", "lambda_")])
+def test_any_name_may_be_that_of_a_coordinate_or_a_parameter(names: tuple[str, str]) -> None:
+    def values(x: str, k: str):
+        problem = Problem(f"{k}*{x}^4/4 + sin({x})", q={x: "1/2"}, p=["1/3"], parameters={k: 3})
+        return modified_hamiltonian(problem, "stormer-verlet", 4)([0.5], [1 / 3], "1/4", 7.0)
+
+    assert values(*names) == values("x", "k")
+    # H at this state is 0.58186: the function is not that of another name
+    assert abs(values(*names) - (1 / 18 + 3 / 64 + np.sin(0.5))) < 1e-2
+
+
+def test_a_name_with_two_meanings_is_refused_in_a_condition() -> None:
+    problem = Problem("x^2/2 - E*x", q={"x": 1}, p=[0], E=3)
+    with pytest.raises(InputError, match="`E` could be the parameter or the energy H here"):
+        shadowstep.integrate(problem, "yoshida4", h="1/10", until=1, end="x*E > 4")
+    with pytest.raises(InputError, match="`E` could be the parameter or the energy H here"):
+        shadowstep.integrate(problem, "yoshida4", h="1/10", until=1, section="x - E")
+
+
+def test_a_physical_time_that_no_run_reaches_is_refused() -> None:
+    problem = Problem("kepler", time={"transform": "logarithmic"})
+    with pytest.raises(InputError, match="steps of 1/20 until 1e300 are 5e301 steps at the rate of physical time at the start"):
+        shadowstep.integrate(problem, "yoshida4", h="1/20", until="1e300")
+    with pytest.raises(InputError) as refused:
+        shadowstep.integrate(problem, "yoshida4", h="1/20", until=10**300)
+    assert len(str(refused.value)) < 300
