@@ -160,7 +160,7 @@ fn of_system(arguments: &Arguments, named: &NamedScheme, described: &Described) 
     if matches!(arguments.to, To::Text | To::Latex) {
         let of_series = |name: &str| name == "h" || name == "H" || name.starts_with("H_");
         for (name, _) in formulas.names.iter().filter(|(name, _)| of_series(name)) {
-            report::note(&format!("`{name}` in the formulas is of the problem, and elsewhere of the series"));
+            report::note(format!("`{name}` in the formulas is of the problem, and elsewhere of the series"));
         }
     }
     let title = format!("{}, {}: {}", formulas.scheme, described.name, formulas.title());

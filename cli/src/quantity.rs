@@ -35,16 +35,16 @@ pub(crate) fn step_size(flag: &str, text: &str) -> Result<StepSize, Error> {
 
 /// How many steps of size h, with its text, end at or before the time of --until.
 pub(crate) fn steps(h: (&StepSize, &str), until: &Rational) -> Result<u64, Error> {
-    steps::count(h, (until, &shortened(until, LONGEST_NUMBER))).map_err(no_steps)
+    steps::count(h, (until, &shortened(until, LONGEST_NUMBER))).map_err(|none| no_steps(&none))
 }
 
 /// Refuses a physical time of --until at which steps of a fictitious time of a system cannot end.
 pub(crate) fn check_physical_end(h: (&StepSize, &str), until: &Rational, system: &System) -> Result<(), Error> {
     let ends = (until, &*shortened(until, LONGEST_NUMBER));
-    steps::check_physical_end(h, ends, system.rate_at_start()).map_err(no_steps)
+    steps::check_physical_end(h, ends, system.rate_at_start()).map_err(|none| no_steps(&none))
 }
 
-fn no_steps(none: StepsError) -> Error {
+fn no_steps(none: &StepsError) -> Error {
     match none.is_of_time() {
         true => Error::usage(format!("--{none}"), "write a time such as --until 100"),
         false => Error::usage(none.to_string(), none.hint()),
