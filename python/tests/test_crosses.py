@@ -4,13 +4,15 @@ import subprocess
 import sys
 import warnings
 from fractions import Fraction
+from inspect import signature
 from pathlib import Path
+from random import Random
 
 import numpy as np
 import pytest
 
 import shadowstep
-from shadowstep import InputError, Monitor, Problem, advise, chaos, derivatives, drift, gradient, integrate, lyapunov, megno, run, sweep, work_precision
+from shadowstep import InputError, InternalError, Monitor, Problem, RunError, advise, chaos, derivatives, drift, gradient, integrate, lyapunov, megno, run, sweep, work_precision
 
 FOLDER = Path(__file__).resolve().parents[2] / "cli/tests/crosses"
 
@@ -234,3 +236,107 @@ def test_every_cell_works_or_says_why(system, way, function, tmp_path):
 def test_every_fault_is_refused_with_its_place(system, function, tmp_path):
     with pytest.raises(InputError, match=r"\.toml:\d+:\d+: "), warnings.catch_warnings():
         FUNCTIONS[function](SYSTEMS[system].faulty(), RUNS["double"], tmp_path)
+
+
+def spring(q):
+    return float(q @ q) / 2, q.copy()
+
+
+def centre(q):
+    r = np.sqrt(q @ q + 0.01)
+    return -1 / r, q / r**3
+
+
+def waves(q):
+    return float(np.cos(q).sum()), -np.sin(q)
+
+
+def flat(q):
+    return 0.0, np.zeros(len(q))
+
+
+def singular(q):
+    with np.errstate(all="ignore"):
+        return float((1 / q).sum()), -1 / q**2
+
+
+FORCES = [spring, centre, waves, flat, singular]
+SOME = {
+    "digits": ["double", "compensated", "double-double", 30],
+    "first": ["kick", "drift"],
+    "every": [1, 3],
+    "section": ["q1", "p1 - q1"],
+    "direction": ["both", "down"],
+    "end": ["q1 > 1/2", "E > 100", "t > 1/3"],
+    "estimator": ["bilinear", "central"],
+    "order": [2, 4, 1],
+    "max_order": [6, 40],
+    "summary": [True],
+    "windows": [16, 300],
+    "gradient_kicks": ["exact", "displaced"],
+    "mpfr": [True],
+    "accuracy": ["1e-8"],
+    "stop": ["early"],
+    "rule": ["robust"],
+}
+OF_FORCES = ["stormer-verlet", "yoshida4", "ruth3", "blanes-moan-srkn6b", "escorihuela4-6", "abah864", "symplectic-euler", "chin-4a"]
+
+
+def drawn_options(random, function):
+    """Some of the options that a function has."""
+    known = signature(function).parameters
+    return {name: random.choice(values) for name, values in SOME.items() if name in known and random.random() < 0.07}
+
+
+def done_with_forces(random, posed, scheme, h):
+    """A function with random options, and what it gives."""
+    of_steps = {"integrate": integrate, "chaos": chaos, "lyapunov": lyapunov, "megno": megno, "derivatives": derivatives, "Monitor": Monitor}
+    name = random.choice([*of_steps, *["integrate", "Monitor", "drift"] * 3, "gradient", "work_precision", "advise"])
+    steps = random.choice([1, 3, 20])
+    if name == "gradient":
+        return gradient(lambda q, p: (q[-1].sum(), None, None), posed, scheme, h, steps=steps, **drawn_options(random, gradient))
+    if name == "drift":
+        return drift(posed, scheme, h, f"{steps}*({h})", **{"digits": "double"} | drawn_options(random, drift))
+    if name == "work_precision":
+        return work_precision(posed, 1, [scheme], steps=[10, 20], seconds=0.1, **drawn_options(random, work_precision))
+    if name == "advise":
+        return advise(posed, 1, random.choice([1e-3, 1e-9]), schemes=[scheme], seconds=0.1, **drawn_options(random, advise))
+    if name == "Monitor":
+        monitor = Monitor(posed, scheme, h, **drawn_options(random, Monitor))
+        monitor.step(steps)
+        return monitor.report()
+    return of_steps[name](posed, scheme, h, steps=steps, **drawn_options(random, of_steps[name]))
+
+
+# Faults that are being mended.
+KNOWN = ["the forces of the caller are in double precision"]
+
+
+def ran_with_forces(seed):
+    """Whether a random function of a random problem worked; otherwise it was refused."""
+    random = Random(seed)
+    count = random.choice([1, 2, 3])
+    numbers = ["1/3", 0.5, 1, "sqrt(2)/3", -0.25]
+    state = {name: [random.choice(numbers) for _ in range(count)] for name in ("q", "p")}
+    masses = [random.choice([1, "1/2", 3]) for _ in range(count)] if random.random() < 0.3 else None
+    posed = Problem(random.choice(FORCES), **state, masses=masses)
+    try:
+        done_with_forces(random, posed, random.choice(OF_FORCES), random.choice(["1/10", "1/50", "-1/20", "3"]))
+    except (InputError, RunError) as refusal:
+        assert str(refusal).strip()
+        return False
+    except InternalError as fault:
+        if not any(known in str(fault) for known in KNOWN):
+            raise
+        return False
+    return True
+
+
+@pytest.mark.parametrize("first", range(0, 200, 50))
+@pytest.mark.filterwarnings("ignore")
+def test_forces_of_the_caller_work_or_are_refused(first):
+    ran = 0
+    for seed in range(first, first + 50):
+        print(f"seed {seed}")  # the last one is the culprit
+        ran += ran_with_forces(seed)
+    assert ran >= 15, ran
