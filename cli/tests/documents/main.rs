@@ -43,7 +43,7 @@ const SHOWN: usize = 8;
 
 fn document(number: u64) -> Document {
     let mut maker = Maker::of_seed(number);
-    if number % 5 == 0 {
+    if number.is_multiple_of(5) {
         maker.sweep()
     } else {
         maker.scene()
