@@ -27,6 +27,7 @@
 //! 82 (2010) 036704 the tangent map of splitting schemes.
 
 mod adjoint;
+mod frame;
 mod growth;
 mod vectors;
 
@@ -38,10 +39,11 @@ use std::f64::consts::LN_2;
 
 use thiserror::Error;
 
-use crate::number::{Dual, Number};
+use crate::number::{Dual, Number, scaled};
 use crate::steps::integrator::Integrator;
 use crate::systems::increments::Carried;
-use vectors::{log_norm, orthonormalise, set_vector};
+use frame::Frame;
+use vectors::{Column, log_norm, orthonormalise, set_vector};
 
 /// A trajectory with tangent vectors, and the indicators of chaos that follow from these.
 ///
@@ -61,12 +63,14 @@ pub struct Tangents<I> {
     /// Of the vector i and the lane l at i·lanes + l.
     growths: Vec<Growth>,
     divisors: Divisors,
+    /// What free vectors are, of each lane: those after the first are combinations of what the integrators carry along.
+    frames: Vec<Frame>,
 }
 
 /// By what vectors were divided when they were observed, in the order of their growths.
 #[derive(Debug)]
 enum Divisors {
-    /// Vectors evolve freely. Exponents of 2.
+    /// Vectors evolve freely. Exponents of 2 of the first one in each lane; 0 of the others.
     PowersOfTwo(Vec<i64>),
     /// Vectors are made orthonormal. Logarithms: Σ log R_jj of V = QR.
     Norms(Vec<f64>),
@@ -102,7 +106,10 @@ where
         let logarithms: Vec<_> = found.vectors().map(|vector| logarithms(&vector)).collect();
         found.growths = logarithms.iter().flatten().map(|logarithm| Growth::new(*logarithm)).collect();
         found.divisors = Divisors::PowersOfTwo(vec![0; found.growths.len()]);
-        check(&logarithms).map(|()| found)
+        check(&logarithms)?;
+        found.frames = vec![Frame::new(logarithms.len()); found.lanes];
+        found.separate();
+        Ok(found)
     }
 
     /// The same with vectors that are made orthonormal at each observation, for the Lyapunov exponents: of m vectors, at most 2n for n degrees of freedom,
@@ -122,15 +129,19 @@ where
         check(&logarithms).map(|()| found)
     }
 
-    /// Goes on with free vectors that the [integrators](Tangents::integrators_mut) have now: with the growths of all vectors, and the powers of 2 by which they
-    /// [were divided](Tangents::exponents), in the order of vectors and lanes.
-    ///
-    /// # Panics
-    /// Numbers of growths or exponents that are not those of the vectors.
-    pub fn resume(&mut self, growths: Vec<Growth>, exponents: Vec<i64>) {
+    /// Goes on with free vectors that the [integrators](Tangents::integrators_mut) have now: with the growths of all vectors, the powers of 2 by which they
+    /// [were divided](Tangents::exponents), and [what they are](Tangents::combinations), in the order of vectors and lanes. Whether these fit.
+    pub fn resume(&mut self, growths: Vec<Growth>, exponents: Vec<i64>, combinations: &[Vec<f64>]) -> bool {
         let count = self.growths.len();
-        assert_eq!((growths.len(), exponents.len()), (count, count), "there is one for each vector and lane");
-        (self.growths, self.divisors) = (growths, Divisors::PowersOfTwo(exponents));
+        let of_lane = |lane| {
+            let parts: Vec<&[f64]> = combinations.iter().skip(lane).step_by(self.lanes).map(Vec::as_slice).collect();
+            Frame::of_parts(&parts)
+        };
+        let frames: Option<Vec<_>> = (0..self.lanes).map(of_lane).collect();
+        let fits = [growths.len(), exponents.len(), combinations.len()] == [count; 3];
+        let Some(frames) = frames.filter(|_| fits) else { return false };
+        (self.growths, self.divisors, self.frames) = (growths, Divisors::PowersOfTwo(exponents), frames);
+        true
     }
 
     /// Whether vectors evolve freely.
@@ -146,6 +157,12 @@ where
         }
     }
 
+    /// What free vectors are: each as a combination of the vectors of the integrators, with logarithms of lengths; what [`resume`](Tangents::resume) needs.
+    pub fn combinations(&self) -> Vec<Vec<f64>> {
+        let vectors = 0..self.count() * usize::from(self.are_free());
+        vectors.flat_map(|vector| self.frames.iter().map(move |frame| frame.parts(vector))).collect()
+    }
+
     fn begin(integrators: Vec<I>) -> Result<Self, TangentError> {
         match integrators.len() * K {
             0 => Err(TangentError::NoVectors),
@@ -154,6 +171,7 @@ where
                 lanes: N::LANES,
                 growths: Vec::new(),
                 divisors: Divisors::Norms(Vec::new()),
+                frames: Vec::new(),
             }),
         }
     }
@@ -163,16 +181,18 @@ where
         self.integrators.iter_mut().for_each(|integrator| integrator.step(Carried::Nothing));
     }
 
-    /// The growth of all vectors up to the present state, at t. Free vectors that became large or small are multiplied by a power of 2; orthonormal ones
-    /// should not have grown by more than some 10⁶ since the last observation.
+    /// The growth of all vectors up to the present state, at t. A free vector that became large or small is multiplied by a power of 2. Between two
+    /// observations vectors should not have grown by more than some 10⁶, where there are several; see [`separate`](Tangents::separate).
     pub fn observe(&mut self, t: f64) {
         if let Divisors::Norms(_) = self.divisors {
             return self.observe_norms(t.abs());
         }
-        for i in 0..self.integrators.len() {
-            for k in 0..K {
-                self.observe_vector(i, k, t.abs());
-            }
+        self.separate();
+        for (i, growth) in self.growths.iter_mut().enumerate() {
+            growth.observe(t.abs(), self.frames[i % self.lanes].length(i / self.lanes));
+        }
+        if (0..self.lanes).any(|lane| is_far(self.log_of_first(lane))) {
+            self.rescale();
         }
     }
 
@@ -185,26 +205,37 @@ where
         }
     }
 
-    fn observe_vector(&mut self, i: usize, k: usize, time: f64) {
-        let state = self.integrators[i].state();
-        let components = state.q().iter().chain(state.p()).map(|x| &x.derivatives[k]);
-        let first = (i * K + k) * self.lanes;
-        let Divisors::PowersOfTwo(exponents) = &self.divisors else { unreachable!("vectors are free") };
-        let mut rescale = false;
-        for lane in 0..self.lanes {
-            let logarithm = log_norm(components.clone(), lane);
-            self.growths[first + lane].observe(time, logarithm + exponents[first + lane] as f64 * LN_2);
-            rescale |= is_far(logarithm);
+    /// Takes from free vectors after the first what they have along those before, so that they do not turn to one direction: what they are stays known. An
+    /// [observation](Tangents::observe) does it, too; it changes no [`growth`](Tangents::growth).
+    pub fn separate(&mut self) {
+        let Divisors::PowersOfTwo(exponents) = &self.divisors else { return };
+        let length = |lane: usize| self.log_of_first(lane) + exponents[lane] as f64 * LN_2;
+        let lengths: Vec<f64> = (0..self.lanes).map(length).collect();
+        if self.count() > 1 {
+            let mut vectors: Vec<_> = self.vectors().collect();
+            let columns = orthonormalise(&mut vectors);
+            for (i, vector) in vectors.iter().enumerate().skip(1) {
+                set_vector(self.integrators[i / K].system().state_mut(), i % K, vector);
+            }
+            for (lane, frame) in self.frames.iter_mut().enumerate() {
+                let mut diagonal: Vec<f64> = columns.iter().map(|column| column.logarithms[lane]).collect();
+                // the first one is not divided by its length
+                diagonal[0] = lengths[lane] - frame.length(0);
+                frame.advance(&diagonal, &above(&columns, lane));
+            }
         }
-        if rescale {
-            self.rescale(i, k);
-        }
+        self.frames.iter_mut().zip(lengths).for_each(|(frame, length)| frame.set_first_length(length));
+    }
+
+    /// log |δ| of the first vector as it is carried along.
+    fn log_of_first(&self, lane: usize) -> f64 {
+        let state = self.integrators[0].state();
+        log_norm(state.q().iter().chain(state.p()).map(|x| &x.derivatives[0]), lane)
     }
 
     #[cold]
-    fn rescale(&mut self, i: usize, k: usize) {
-        let state = self.integrators[i].state();
-        let mut vector = vector(state, k);
+    fn rescale(&mut self) {
+        let mut vector = vector(self.integrators[0].state(), 0);
         let mut factor = vector[0].clone();
         let Divisors::PowersOfTwo(exponents) = &mut self.divisors else { unreachable!("vectors are free") };
         for lane in 0..self.lanes {
@@ -212,10 +243,10 @@ where
             // others stay: a lane has the bits that it has alone
             let exponent = if is_far(logarithm) { (logarithm / LN_2).round() as i64 } else { 0 };
             factor.set_lane(lane, 1.0, -exponent);
-            exponents[(i * K + k) * self.lanes + lane] += exponent;
+            exponents[lane] += exponent;
         }
         vector.iter_mut().for_each(|x| x.multiply(&factor));
-        set_vector(self.integrators[i].system().state_mut(), k, &vector);
+        set_vector(self.integrators[0].system().state_mut(), 0, &vector);
     }
 
     /// How many vectors there are.
@@ -252,12 +283,12 @@ where
     /// Makes the vectors orthonormal; the logarithms by which they were divided, by vectors and lanes.
     fn orthonormalise(&mut self) -> Vec<Vec<f64>> {
         let mut vectors: Vec<_> = self.vectors().collect();
-        let logarithms = orthonormalise(&mut vectors);
+        let columns = orthonormalise(&mut vectors);
         for (integrator, own) in self.integrators.iter_mut().zip(vectors.chunks(K)) {
             let state = integrator.system().state_mut();
             own.iter().enumerate().for_each(|(k, vector)| set_vector(state, k, vector));
         }
-        logarithms
+        columns.into_iter().map(|column| column.logarithms).collect()
     }
 
     /// The vectors.
@@ -265,33 +296,42 @@ where
         self.integrators.iter().flat_map(|integrator| (0..K).map(|k| vector(integrator.state(), k)))
     }
 
-    /// GALI_k, the volume of the parallelepiped of the unit vectors along the first k ones, in the trajectory of a lane. Along chaotic trajectories it
-    /// goes to 0
-    /// exponentially, along regular ones of n degrees of freedom not at all for k ≤ n, and by a power of t beyond.
+    /// GALI_k at the last observation, the volume of the parallelepiped of the unit vectors along the first k ones, in the trajectory of a lane. Along chaotic
+    /// trajectories it goes to 0 exponentially, along regular ones of n degrees of freedom not at all for k ≤ n, and by a power of t beyond.
     ///
-    /// C. Skokos, T. Bountis, C. Antonopoulos, Physica D 231 (2007) 30.
+    /// It is a product of factors R_jj of V = QR at all observations, and has no floor by round-off: it is right to rounding down to 10⁻³⁰⁸, below which it is 0.
+    ///
+    /// C. Skokos, T. Bountis, C. Antonopoulos, Physica D 231 (2007) 30; by factors C. Skokos, T. Bountis, C. Antonopoulos, Eur. Phys. J. Spec. Top. 165 (2008) 5.
     ///
     /// # Panics
-    /// There are not as many vectors.
+    /// There are not as many vectors, or they are orthonormal.
     pub fn gali(&self, k: usize, lane: usize) -> f64 {
         assert!(k <= self.count(), "there are {} vectors", self.count());
-        let mut vectors: Vec<_> = self.vectors().take(k).collect();
-        let norms: f64 = vectors.iter().map(|vector| log_norm(vector.iter(), lane)).sum();
-        let volume: f64 = orthonormalise(&mut vectors).iter().map(|logarithms| logarithms[lane]).sum();
-        (volume - norms).exp().min(1.0)
+        assert!(self.are_free(), "orthonormal vectors have no GALI");
+        self.frames[lane].volume(k)
     }
 
-    /// SALI, the smaller of |e₁ + e₂| and |e₁ − e₂| of the unit vectors along the first two: the angle between their lines. Along chaotic trajectories
-    /// it goes to 0 exponentially.
+    /// SALI at the last observation, the smaller of |e₁ + e₂| and |e₁ − e₂| of the unit vectors along the first two: the angle between their lines. Along chaotic
+    /// trajectories it goes to 0 exponentially. It has no floor, as [`gali`](Tangents::gali).
     ///
     /// C. Skokos, J. Phys. A 34 (2001) 10029.
     ///
     /// # Panics
-    /// There is one vector only.
+    /// There is one vector only, or vectors are orthonormal.
     pub fn sali(&self, lane: usize) -> f64 {
-        let sine = self.gali(2, lane);
-        sine / ((1.0 + (1.0 - sine * sine).sqrt()) / 2.0).sqrt()
+        assert!(self.count() > 1, "there is one vector");
+        assert!(self.are_free(), "orthonormal vectors have no SALI");
+        self.frames[lane].smaller_distance()
     }
+}
+
+/// What is above the diagonal in a lane.
+fn above<N: Number>(columns: &[Column<N>], lane: usize) -> Vec<Vec<f64>> {
+    let number = |x: &N| {
+        let (m, n) = x.lane(lane);
+        scaled(m, n)
+    };
+    columns.iter().map(|column| column.above.iter().map(number).collect()).collect()
 }
 
 /// Whether a vector with this log |δ| is to be multiplied by a power of 2.

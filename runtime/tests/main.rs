@@ -3,6 +3,7 @@
 mod ensemble;
 #[cfg(feature = "mpfr")]
 mod fixed_point;
+mod indicators;
 mod kepler_drift;
 mod lanes;
 #[cfg(feature = "mpfr")]

@@ -18,6 +18,9 @@ pub(crate) struct SavedVector {
     pub(crate) exponent: i64,
     /// [`Growth::parts`]
     pub(crate) growth: Vec<String>,
+    /// What the vector is: [`Tangents::combinations`](shadowstep::tangent::Tangents::combinations).
+    #[serde(default)]
+    pub(crate) combination: Vec<String>,
 }
 
 /// A state as texts that give the same numbers when they are read.
@@ -60,9 +63,16 @@ impl SavedState {
 
 impl SavedVector {
     pub(crate) fn growth(&self) -> Option<Growth> {
-        let parts: Option<Vec<f64>> = self.growth.iter().map(|text| number(text, &())).collect();
-        Some(Growth::of_parts(parts?.try_into().ok()?))
+        Some(Growth::of_parts(doubles(&self.growth)?.try_into().ok()?))
     }
+
+    pub(crate) fn combination(&self) -> Option<Vec<f64>> {
+        doubles(&self.combination)
+    }
+}
+
+fn doubles(texts: &[String]) -> Option<Vec<f64>> {
+    texts.iter().map(|text| number(text, &())).collect()
 }
 
 /// The number of a text; `None` if it has an exponent that cannot be read.

@@ -21,6 +21,9 @@ pub trait TangentRun {
     /// The growth of all vectors up to the present state, at t.
     fn observe(&mut self, t: f64);
 
+    /// [`Tangents::separate`]
+    fn separate(&mut self);
+
     /// The physical time of the present state, where time is transformed.
     fn time(&self) -> Option<f64>;
 
@@ -43,6 +46,9 @@ trait ResumableRun: TangentRun {
     fn restore(&mut self, saved: &[SavedVector]) -> bool;
 }
 
+/// Free vectors are separated every so many steps, however rarely they are measured: in these they grow by less than 10⁶ at most step sizes.
+const SEPARATED_EVERY: u64 = 4;
+
 /// The number of vectors of which rows have indicators.
 pub(crate) const VECTORS_OF_ROWS: usize = 2;
 
@@ -62,6 +68,8 @@ impl FollowingVectors {
         self.steps += 1;
         if self.steps.is_multiple_of(self.every) {
             self.observe();
+        } else if self.steps.is_multiple_of(SEPARATED_EVERY) {
+            self.run.separate();
         }
     }
 
@@ -307,6 +315,10 @@ impl<N: CorrectlyRounded> TangentRun for InNumbers<N> {
         self.tangents.observe(t);
     }
 
+    fn separate(&mut self) {
+        self.tangents.separate();
+    }
+
     fn time(&self) -> Option<f64> {
         let state = self.tangents.integrators()[0].state();
         state.q().last().filter(|_| self.transformed).map(Real::to_f64)
@@ -332,6 +344,9 @@ impl<N: CorrectlyRounded> TangentRun for InNumbers<N> {
 impl<N: CorrectlyRounded> ResumableRun for InNumbers<N> {
     fn saved(&self, n: i64) -> Option<Vec<SavedVector>> {
         let exponents = self.tangents.exponents()?;
+        let combinations = self.tangents.combinations();
+        // a vector that depends on those before it has a logarithm of −∞
+        let text = |x: &f64| x.is_finite().then(|| x.to_text());
         let saved = |(i, integrator): (usize, &SceneIntegrator<Dual<N>>)| {
             let (state, remainders) = (integrator.state(), integrator.state().remainders());
             let part = |part: fn(&Dual<N>) -> &N| {
@@ -344,6 +359,7 @@ impl<N: CorrectlyRounded> ResumableRun for InNumbers<N> {
                 derivatives: part(|x| &x.derivatives[0])?,
                 exponent: exponents[i],
                 growth: self.tangents.growth(i, 0).parts().map(|part| part.to_text()).to_vec(),
+                combination: combinations[i].iter().map(text).collect::<Option<_>>()?,
             })
         };
         self.tangents.integrators().iter().enumerate().map(saved).collect()
@@ -351,12 +367,14 @@ impl<N: CorrectlyRounded> ResumableRun for InNumbers<N> {
 
     fn restore(&mut self, saved: &[SavedVector]) -> bool {
         let growths: Option<Vec<Growth>> = saved.iter().map(SavedVector::growth).collect();
+        let Some(combinations) = saved.iter().map(SavedVector::combination).collect::<Option<Vec<_>>>() else {
+            return false;
+        };
         let mut integrators = self.tangents.integrators_mut().iter_mut().zip(saved);
         let Some(growths) = growths.filter(|_| integrators.all(|(own, saved)| set_state(own, saved).is_some())) else {
             return false;
         };
-        self.tangents.resume(growths, saved.iter().map(|saved| saved.exponent).collect());
-        true
+        self.tangents.resume(growths, saved.iter().map(|saved| saved.exponent).collect(), &combinations)
     }
 }
 

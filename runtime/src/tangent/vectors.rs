@@ -60,29 +60,44 @@ pub(super) fn log_norm<'a, N: Number + 'a>(vector: impl Iterator<Item = &'a N> +
     vector.map(square).sum::<f64>().ln() / 2.0 + unit as f64 * LN_2
 }
 
-/// The vectors ← orthonormal ones that span the same spaces, and for each the logarithm of what it was divided by, in each lane: log R_jj of V = QR.
+/// A column of R in V = QR.
+pub(super) struct Column<N> {
+    /// R_1j, …
+    pub(super) above: Vec<N>,
+    /// log R_jj in each lane.
+    pub(super) logarithms: Vec<f64>,
+}
+
+/// The vectors ← orthonormal ones that span the same spaces, V = QR, and R. Beside a vector that depends on those before it, with R_jj = 0, Q has another one.
 ///
 /// By the modified Gram–Schmidt process, twice, as once leaves vectors that are nearly parallel not orthogonal: L. Giraud, J. Langou, M. Rozložník,
 /// J. van den Eshof, Numer. Math. 101 (2005) 87.
-pub(super) fn orthonormalise<N: Number>(vectors: &mut [Vec<N>]) -> Vec<Vec<f64>> {
-    let mut logarithms = Vec::with_capacity(vectors.len());
+pub(super) fn orthonormalise<N: Number>(vectors: &mut [Vec<N>]) -> Vec<Column<N>> {
+    let mut columns = Vec::with_capacity(vectors.len());
     for j in 0..vectors.len() {
         let (before, own) = vectors.split_at_mut(j);
         let own = &mut own[0];
-        for earlier in before.iter().chain(before.iter()) {
-            subtract_projection(own, earlier);
+        let mut above: Vec<N> = before.iter().map(|earlier| subtract_projection(own, earlier)).collect();
+        for (earlier, above) in before.iter().zip(&mut above) {
+            above.add(&subtract_projection(own, earlier));
         }
-        logarithms.push((0..N::LANES).map(|lane| log_norm(own.iter(), lane)).collect());
+        let logarithms: Vec<f64> = (0..N::LANES).map(|lane| log_norm(own.iter(), lane)).collect();
+        for lane in (0..N::LANES).filter(|lane| logarithms[*lane] == f64::NEG_INFINITY) {
+            let component = j % own.len();
+            own[component].set_lane(lane, 1.0, 0);
+        }
         normalise(own);
+        columns.push(Column { above, logarithms });
     }
-    logarithms
+    columns
 }
 
-/// x ← x − (x·e) e
-fn subtract_projection<N: Number>(x: &mut [N], e: &[N]) {
+/// x ← x − (x·e) e, and x·e
+fn subtract_projection<N: Number>(x: &mut [N], e: &[N]) -> N {
     let mut product = N::zero(&e[0].context());
     x.iter().zip(e).for_each(|(x, e)| product.add_product(x, e));
     x.iter_mut().zip(e).for_each(|(x, e)| x.subtract_product(&product, e));
+    product
 }
 
 /// x ← x/|x|
@@ -116,7 +131,7 @@ mod tests {
     #[test]
     fn vectors_become_orthonormal() {
         let mut vectors = vec![vec![1.0, 1.0, 1.0], vec![1.0, 1.0, 1.0 + 1e-9], vec![0.0, 3.0, -4.0]];
-        let volume = orthonormalise(&mut vectors).iter().map(|found| found[0]).sum::<f64>();
+        let volume = orthonormalise(&mut vectors).iter().map(|found| found.logarithms[0]).sum::<f64>();
         for (i, a) in vectors.iter().enumerate() {
             for (j, b) in vectors.iter().enumerate() {
                 let product: f64 = a.iter().zip(b).map(|(a, b)| a * b).sum();
