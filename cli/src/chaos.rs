@@ -28,7 +28,7 @@ Examples:
 const MORE: &str = "\
 The run is made at the step size and at half of it, with tangent vectors. Chaos that only the larger step has is caused by that step.
 
-The exponent is the largest Lyapunov exponent over the last three quarters of the run, with twice its standard error. The mean of MEGNO tends to 2 on \
+The exponent is the largest Lyapunov exponent over the last three quarters of the run, with half the width of its interval of 95 %. The mean of MEGNO tends to 2 on \
 regular orbits, to 0 where all frequencies are constant, and grows with the time on chaotic ones. SALI tends to 0 exponentially on chaotic ones.";
 
 const VECTORS: &str = "Tangent vectors";
@@ -115,7 +115,7 @@ fn readable(records: &[ChaosRecord]) -> String {
             record.step.clone(),
             record.motion.to_string(),
             exponent,
-            significant(record.mean_megno, 5),
+            record.mean_megno.map_or_else(String::new, |x| significant(x, 5)),
             or_nothing(record.sali, 1),
             record.summary.conclusion().to_owned(),
         ]

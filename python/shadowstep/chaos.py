@@ -31,13 +31,13 @@ class Indicators:
     exponent: float | None
     """The largest Lyapunov exponent, over the last three quarters of the run; None of fewer than 64 measurements."""
     exponent_error: float | None
-    """Twice its standard error, from its scatter over parts of the run."""
-    lyapunov: float
-    """The finite-time exponent log(|δ(t)|/|δ(0)|)/t of the whole run."""
+    """Half the width of its interval of 95 %, from its scatter over parts of the run."""
+    lyapunov: float | None
+    """The finite-time exponent log(|δ(t)|/|δ(0)|)/t of the whole run; None of a run without a step."""
     megno: float
     """MEGNO, Y."""
-    mean_megno: float
-    """Its mean Ȳ: 2 on regular orbits, 0 where all frequencies are constant; it grows with the time on chaotic ones."""
+    mean_megno: float | None
+    """Its mean Ȳ: 2 on regular orbits, 0 where all frequencies are constant; it grows with the time on chaotic ones. None of a run without a step."""
     mean_megno_error: float | None
     """|Ȳ(t) − Ȳ(t/2)|; None of fewer than 64 measurements."""
     sali: float | None
@@ -45,7 +45,7 @@ class Indicators:
     gali: float | None
     """GALI of all vectors, if there are three or more."""
     exponents: list[list[float]] | None
-    """The exponents of orthonormal vectors with twice their standard errors, the largest first."""
+    """The exponents of orthonormal vectors with their errors, the largest first."""
     summary: dict[str, Any]
     """The error of H and the verdict of the modified energy, as of a scene."""
 
@@ -127,8 +127,8 @@ def chaos(
 class Indicator:
     """One indicator of chaos along a run."""
 
-    value: float
-    """Its value."""
+    value: float | None
+    """Its value; None of a run without a step."""
     uncertainty: float
     """The error of the value; infinite of fewer than 64 measurements."""
     verdict: str
@@ -151,8 +151,8 @@ def lyapunov(
 ) -> Indicator:
     """The largest Lyapunov exponent λ = lim log(|δ(t)|/|δ(0)|)/t of the trajectory from the problem's initial state, by one tangent vector δ.
 
-    The value is the growth over the last three quarters of the run, divided by their length, and its uncertainty twice the standard error from six
-    parts of them. Exponents of all vectors, and whether chaos is of the step size, are in `chaos`, which makes the run.
+    The value is the growth over the last three quarters of the run, divided by their length, and its uncertainty half the width of an
+    interval of 95 %: the largest of Student's intervals by the means over 6, 4 and 3 parts of them. Exponents of all vectors, and whether chaos is of the step size, are in `chaos`, which makes the run.
 
     G. Benettin, L. Galgani, A. Giorgilli, J.-M. Strelcyn, Meccanica 15 (1980) 9.
 
@@ -224,7 +224,7 @@ def megno(
     return _indicator(along.motion, along.mean_megno, along.mean_megno_error)
 
 
-def _indicator(motion: str, value: float, uncertainty: float | None) -> Indicator:
+def _indicator(motion: str, value: float | None, uncertainty: float | None) -> Indicator:
     return Indicator(value, math.inf if uncertainty is None else uncertainty, motion)
 
 

@@ -28,7 +28,7 @@ class Ensemble:
     p: np.ndarray
     """Momenta at the end, of shape (n, d)."""
     energy_error: np.ndarray
-    """The largest |H − H(0)|/|H(0)| at the states that were looked at, of shape (n,)."""
+    """The largest |H − H(0)|/|H(0)| at the states that were looked at, of shape (n,), NaN where H(0) = 0."""
     energy_start: np.ndarray
     """H at the beginning, of shape (n,)."""
     energy_end: np.ndarray

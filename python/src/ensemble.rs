@@ -37,7 +37,7 @@ pub(crate) fn ensemble<'py>(
     };
     all.set_item("q", PyArray1::from_vec(py, outcomes.iter().flat_map(|outcome| outcome.q.clone()).collect()))?;
     all.set_item("p", PyArray1::from_vec(py, outcomes.iter().flat_map(|outcome| outcome.p.clone()).collect()))?;
-    all.set_item("energy_error", numbers(|outcome| outcome.energy_error))?;
+    all.set_item("energy_error", numbers(|outcome| outcome.energy_error.unwrap_or(f64::NAN)))?;
     all.set_item("modified_drift", numbers(|outcome| outcome.modified_drift.unwrap_or(f64::NAN)))?;
     all.set_item("energy_start", numbers(|outcome| outcome.energies[0]))?;
     all.set_item("energy_end", numbers(|outcome| outcome.energies[1]))?;

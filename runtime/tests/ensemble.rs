@@ -77,7 +77,7 @@ fn alone(t: usize) -> Outcome {
         q: motion.q().to_vec(),
         p: motion.p().to_vec(),
         energies: [initial, motion.energy()],
-        energy_error: largest / initial.abs(),
+        energy_error: Some(largest / initial.abs()),
         modified_drift: Some(range[1] - range[0]),
         modified_energies: Some([modified[0], *modified.last().unwrap()]),
         not_finite: None,
@@ -136,7 +136,7 @@ fn merged_outcomes_are_those_of_merged_steps() {
         (0..6).for_each(|_| stepper.merged_steps(std::slice::from_mut(&mut motion), 10));
         assert_eq!([&found.q[..], &found.p], [motion.q(), motion.p()], "trajectory {t}");
         // 60 steps of 7 maps, each of which rounds numbers of size 1
-        assert!((found.energy_error - plain.energy_error).abs() < 1e-13, "trajectory {t}");
+        assert!((found.energy_error.unwrap() - plain.energy_error.unwrap()).abs() < 1e-13, "trajectory {t}");
     }
 }
 
@@ -166,7 +166,10 @@ fn a_trajectory_that_is_not_finite_is_reported_alone() {
     });
     for (t, outcome) in found.unwrap().iter().enumerate() {
         assert_eq!(outcome.not_finite, [3, 70].contains(&t).then_some(0), "trajectory {t}");
-        assert!(outcome.not_finite.is_some() || outcome.energy_error < 0.1 && outcome.modified_drift.unwrap() < 0.1);
+        assert!(
+            outcome.not_finite.is_some()
+                || outcome.energy_error.unwrap() < 0.1 && outcome.modified_drift.unwrap() < 0.1
+        );
     }
 }
 
@@ -212,9 +215,14 @@ where
             let initial = motion.energy();
             (0..40).for_each(|_| stepper.step(&mut motion));
             assert_eq!((&outcome.q[..], &outcome.p[..]), (motion.q(), motion.p()), "trajectory {t}");
-            assert!(outcome.energy_error >= ((motion.energy() - initial) / initial).abs());
+            // one of the masses makes H 0 at the beginning
+            let Some(error) = outcome.energy_error else {
+                assert_eq!(initial, 0.0, "trajectory {t}");
+                continue;
+            };
+            assert!(error >= ((motion.energy() - initial) / initial).abs());
             // the increments have the same masses: with others E_4 would be no better than H
-            assert!(outcome.modified_drift.unwrap() < 0.2 * outcome.energy_error, "trajectory {t}: {outcome:?}");
+            assert!(outcome.modified_drift.unwrap() < 0.2 * error, "trajectory {t}: {outcome:?}");
         }
     }
 }

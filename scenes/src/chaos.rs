@@ -43,14 +43,14 @@ pub struct ChaosRecord {
     pub motion: Regularity,
     /// The largest Lyapunov exponent over the last three quarters of the trajectory.
     pub exponent: Option<f64>,
-    /// Twice its standard error.
+    /// Its error: see [`Exponent`].
     pub exponent_error: Option<f64>,
-    /// The finite-time exponent L(t)/t of the whole trajectory.
-    pub lyapunov: f64,
+    /// The finite-time exponent L(t)/t of the whole trajectory, if there is a step.
+    pub lyapunov: Option<f64>,
     /// MEGNO, Y.
     pub megno: f64,
-    /// The mean of MEGNO, Ȳ.
-    pub mean_megno: f64,
+    /// The mean of MEGNO, Ȳ, if there is a step.
+    pub mean_megno: Option<f64>,
     /// Its error: see [`Growth::mean_megno_error`].
     pub mean_megno_error: Option<f64>,
     /// SALI of the first two vectors, if there are two.
@@ -59,7 +59,7 @@ pub struct ChaosRecord {
     /// GALI of all vectors, if there are three or more.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub gali: Option<f64>,
-    /// The exponents of orthonormal vectors, the largest first, each with twice its standard error.
+    /// The exponents of orthonormal vectors, the largest first, each with its error.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub exponents: Option<Vec<[f64; 2]>>,
     /// The error of H and the verdict of the modified energy.
@@ -82,9 +82,9 @@ impl ChaosRecord {
             motion: growth.regularity(),
             exponent: exponent.map(|found| found.value),
             exponent_error: exponent.map(|found| found.error),
-            lyapunov: growth.lyapunov(),
+            lyapunov: growth.lyapunov().filter(|x| x.is_finite()),
             megno: growth.megno(),
-            mean_megno: growth.mean_megno(),
+            mean_megno: growth.mean_megno().filter(|x| x.is_finite()),
             mean_megno_error: growth.mean_megno_error(),
             sali: tangents.sali(),
             gali: tangents.gali(),

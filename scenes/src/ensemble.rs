@@ -381,6 +381,13 @@ mod tests {
     }
 
     #[test]
+    fn where_h_is_0_at_first_there_is_no_relative_error() {
+        let free = "problem = { potential = \"x^3\", coordinates = [\"x\"] }\ninitial = { q = [0], p = [\"e\"] }";
+        let found = ensemble(free, "step = \"1/20\"", "[0, 1]").unwrap().outcomes(|| true).unwrap();
+        assert!(found[0].energy_error.is_none() && found[1].energy_error.is_some(), "{found:?}");
+    }
+
+    #[test]
     fn what_is_wrong_with_a_trajectory_is_said_with_its_values() {
         let kepler = "problem.name = \"kepler\"\nproblem.parameters.eccentricity = \"6*e\"";
         let found = refusal(kepler, "step = \"1/20\"");

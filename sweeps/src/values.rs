@@ -92,7 +92,12 @@ pub(crate) const VALUES: [Description; 18] = [
         Need::Tangents,
         "the largest Lyapunov exponent over the last three quarters of the run",
     ),
-    number(RunValue::LyapunovError, "lyapunov_error", Need::Tangents, "twice its standard error"),
+    number(
+        RunValue::LyapunovError,
+        "lyapunov_error",
+        Need::Tangents,
+        "its error: half the width of an interval of 95 %, from parts of the run",
+    ),
     number(
         RunValue::Megno,
         "megno",
@@ -116,11 +121,12 @@ impl RunValue {
 
     /// The value that the growth of the first tangent vector has; `None` of other values.
     pub(crate) fn of_growth(self, growth: &Growth) -> Option<String> {
+        let text = |x: f64| x.is_finite().then(|| x.to_text());
         match self {
             RunValue::Motion => Some(growth.regularity().to_string()),
-            RunValue::Lyapunov => growth.exponent().map(|found| found.value.to_text()),
-            RunValue::LyapunovError => growth.exponent().map(|found| found.error.to_text()),
-            RunValue::Megno => Some(growth.mean_megno().to_text()),
+            RunValue::Lyapunov => growth.exponent().and_then(|found| text(found.value)),
+            RunValue::LyapunovError => growth.exponent().and_then(|found| text(found.error)),
+            RunValue::Megno => growth.mean_megno().and_then(text),
             _ => None,
         }
     }

@@ -297,7 +297,7 @@ fn regular_and_chaotic_orbits_are_told_apart() {
             tangents.observe(0.2 * f64::from(n));
         }
         let growth = tangents.growth(0, 0).clone();
-        (growth.regularity(), growth.mean_megno(), growth.exponent().unwrap(), tangents.sali(0))
+        (growth.regularity(), growth.mean_megno().unwrap(), growth.exponent().unwrap(), tangents.sali(0))
     };
     let (regular, megno, exponent, sali) = follow(0.1, 50_000);
     assert_eq!(regular, Regularity::Regular, "{megno} {exponent:?}");

@@ -21,7 +21,7 @@
 //! })?;
 //! assert_eq!(outcomes.len(), 1000);
 //! for outcome in &outcomes {
-//!     assert!(outcome.not_finite.is_none() && outcome.energy_error < 1e-4);
+//!     assert!(outcome.not_finite.is_none() && outcome.energy_error.unwrap() < 1e-4);
 //!     assert!(outcome.modified_drift.unwrap() < 1e-8);
 //! }
 //! # Ok::<(), Box<dyn std::error::Error>>(())

@@ -346,7 +346,7 @@ impl<const W: usize> DiagonalMasses<Lanes<W>> {
     ///     let [zero, part] = [0.0, 0.1].map(|x| block.lanes(|_| x));
     ///     Motion::new(HenonHeiles, masses, [zero, part], [part, zero])
     /// })?;
-    /// assert!(outcomes[0].q != outcomes[19].q && outcomes.iter().all(|outcome| outcome.energy_error < 1e-6));
+    /// assert!(outcomes[0].q != outcomes[19].q && outcomes.iter().all(|outcome| outcome.energy_error.unwrap() < 1e-6));
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     ///

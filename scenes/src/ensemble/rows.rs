@@ -34,8 +34,9 @@ pub(super) fn write(
             outcome;
         let state = q.iter().take(system.coordinates_of_columns()).chain(p).map(number);
         let [first, last] = modified_energies.map_or([None; 2], |ends| ends.map(Some));
-        let modified = [*modified_drift, first, last].map(|x| x.as_ref().map(number).unwrap_or_default());
-        let energies = [energy_error, start, end].map(number).into_iter();
+        let text = |x: Option<f64>| x.as_ref().map(number).unwrap_or_default();
+        let modified = [*modified_drift, first, last].map(text);
+        let energies = [*energy_error, Some(*start), Some(*end)].map(text).into_iter();
         let energies = energies.chain(modified.into_iter().filter(|_| has_modified_energy));
         let not_finite = not_finite.map(|n| n.to_string()).unwrap_or_default();
         let row = [t.to_string()].into_iter().chain(values.iter().map(to_text)).chain(state);
@@ -45,7 +46,7 @@ pub(super) fn write(
     Ok(())
 }
 
-/// Text that reads back to the same bits, as in the rows of other scenes.
+/// Text that reads back to the same bits, as in the rows of other scenes; none of what is no number.
 fn number(x: &f64) -> String {
-    format!("{x:?}")
+    if x.is_nan() { String::new() } else { format!("{x:?}") }
 }

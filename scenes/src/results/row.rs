@@ -39,9 +39,9 @@ impl Indicators {
     pub(crate) fn of(run: &dyn TangentRun) -> Self {
         let growth = run.growths()[0];
         Indicators {
-            lyapunov: growth.lyapunov(),
+            lyapunov: growth.lyapunov().unwrap_or(f64::NAN),
             megno: growth.megno(),
-            mean_megno: growth.mean_megno(),
+            mean_megno: growth.mean_megno().unwrap_or(f64::NAN),
             sali: run.sali().unwrap_or(f64::NAN),
         }
     }

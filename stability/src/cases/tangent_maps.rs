@@ -232,7 +232,7 @@ impl Grown {
         };
         Grown {
             exponents: growths.iter().map(exponent).collect(),
-            mean_megno: finite(growths[0].mean_megno()),
+            mean_megno: finite(growths[0].mean_megno().expect("there are observations")),
             regular: growths[0].regularity() == Regularity::Regular,
             time: growths[0].time(),
         }

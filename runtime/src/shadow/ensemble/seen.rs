@@ -14,8 +14,8 @@ pub struct Outcome {
     pub p: Vec<f64>,
     /// H at the beginning and at the end; NaN at the end of a trajectory that is not finite.
     pub energies: [f64; 2],
-    /// The largest |H − H₀|/|H₀| that was seen, H₀ at the beginning: finite ones only.
-    pub energy_error: f64,
+    /// The largest |H − H₀|/|H₀| that was seen, H₀ at the beginning: finite ones only; `None` where H₀ is 0 or not finite.
+    pub energy_error: Option<f64>,
     /// max − min of the modified energy; `None` where it was not asked for, or no k + 1 states were finite.
     pub modified_drift: Option<f64>,
     /// The first estimate of the modified energy and the last one; `None` as before, NaN for the last one of a trajectory that is not finite.
@@ -147,7 +147,7 @@ impl Lane {
             q,
             p,
             energies: ends([self.initial, self.newest]),
-            energy_error: self.largest_error / self.initial.abs(),
+            energy_error: Some(self.largest_error / self.initial.abs()).filter(|error| error.is_finite()),
             modified_drift: drift,
             modified_energies: drift.map(|_| ends(self.modified_ends)),
             not_finite: self.not_finite,
