@@ -19,7 +19,7 @@ from .problem import Problem, problem_of
 from .progress import bar
 from .scheme import Scheme
 
-Variable = "tuple[str, int, tuple[Given, Given] | None]"
+Variable = tuple[str, int, "tuple[Given, Given] | None"]
 Loss = Callable[[np.ndarray, np.ndarray], "tuple[float, Any, Any]"]
 
 

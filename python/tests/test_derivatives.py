@@ -99,7 +99,7 @@ def test_derivatives_of_the_oscillator_are_those_of_its_closed_form():
     assert np.allclose([found.of_q[-1, 0], found.of_p[-1, 0]], exact, rtol=0, atol=1e-12)
 
 
-# cos(k t) has no constant at k = 0 or 1, nor has T where all masses are 1
+# values at which formulas have fewer constants than beside them
 SPECIAL = {
     "parts": (Problem(parts=["px^2/2", "k*x^2/2 + x^4/4"], coordinates=["x"], q=["4/5"], p=["1/9"], k=1), "k", ["1", "2", "3", "1/2", "1/3", "1/10", "-1", "100", "0"]),
     "a field": (Problem("k*x^2/2 + y^4/4", vector_potential=["-y/4", "x/4"], q={"x": 1, "y": "1/3"}, p=[0, "1/7"], k=1), "k", ["1", "2", "1/3", "0"]),
