@@ -74,14 +74,14 @@ fn angles_in_double_precision_are_those_with_more_digits() {
         let stepper = stepper("blanes-moan-srkn6b", "1/5", context);
         let motion = Motion::new(HenonHeiles, UnitMasses, q, p).unwrap();
         let mut tangents = Tangents::new(vec![stepper.with(motion)]).unwrap();
-        for n in 1..=2250_u32 {
+        for n in 1..=1900_u32 {
             tangents.step();
             tangents.observe(0.2 * f64::from(n));
         }
         [tangents.sali(0), tangents.gali(3, 0), tangents.gali(4, 0)]
     }
     let (double, long) = (angles::<f64>(&()), angles::<AnyLimbs>(&LimbCount::of_bits(400).unwrap()));
-    assert!(long[0] < 1e-12 && long[2] < 1e-51, "{long:?}");
+    assert!(long[0] < 1e-8 && long[2] < 1e-41, "{long:?}");
     for (double, long) in double.iter().zip(long) {
         assert!((double / long - 1.0).abs() < 1e-2, "{double} {long}");
     }
