@@ -11,6 +11,7 @@ use std::path::{Path, PathBuf};
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
 use shadowstep_scenes::{Error, hexadecimal, not_written};
+use shadowstep_schemes::document::refuse_pipe;
 use tempfile::Builder;
 
 use crate::plan::Digests;
@@ -190,6 +191,12 @@ impl<W: Write> Write for Hashing<W> {
     }
 }
 
+/// Opens what is no pipe, which would wait for its other end.
+pub(crate) fn open(path: &Path) -> io::Result<File> {
+    refuse_pipe(path)?;
+    File::open(path)
+}
+
 /// Gives each record of a chunk's file to `take`, in the order of the runs; returns the header. Only when this returns is it known
 /// that the file is whole.
 pub(crate) fn read(
@@ -199,7 +206,7 @@ pub(crate) fn read(
     mut take: impl FnMut(Record) -> Result<(), Error>,
 ) -> Result<Result<Header, Unusable>, Error> {
     let damaged = |what: &str| Ok(Err(Unusable::Damaged(what.to_owned())));
-    let file = match File::open(chunk.path(folder)) {
+    let file = match open(&chunk.path(folder)) {
         Ok(file) => file,
         Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(Err(Unusable::Missing)),
         Err(error) => return damaged(&error.to_string()),

@@ -13,7 +13,7 @@ use std::path::{Path, PathBuf};
 use shadowstep_scenes::{Error, not_written};
 use tempfile::{Builder, NamedTempFile};
 
-use crate::chunk::{AGAIN, Chunk, Header, left};
+use crate::chunk::{AGAIN, Chunk, Header, left, open};
 use crate::plan::hash;
 use crate::record::Record;
 
@@ -70,7 +70,7 @@ fn line(json: &str) -> String {
 
 /// Takes the records of a file up to the first line that is damaged, if the file is of the same plan and chunk.
 fn take(path: &Path, header: &str, runs: &Range<u64>, records: &mut BTreeMap<u64, String>) {
-    let Ok(file) = File::open(path) else { return };
+    let Ok(file) = open(path) else { return };
     let mut lines = BufReader::new(file).lines().map_while(Result::ok);
     if lines.next().as_deref() != Some(header) {
         return;

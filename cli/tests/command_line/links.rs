@@ -143,3 +143,16 @@ fn a_file_with_the_name_of_a_temporary_one_stays() {
         assert!(foreign.iter().all(|name| fs::read_to_string(untrusted.path(name)).unwrap() == "notes"), "{words}");
     }
 }
+
+/// To open one would wait for its other end.
+#[test]
+fn pipes_in_place_of_chunks_are_not_opened() {
+    let untrusted = Untrusted::new();
+    assert_eq!(untrusted.run("sweep @sweep.toml --out @o").code, 0);
+    for (name, code) in [("o/chunks/00001-of-00002", 1), ("o/chunks/00002-of-00002.partial-x", 0)] {
+        let _ = fs::remove_file(untrusted.path(name));
+        assert!(std::process::Command::new("mkfifo").arg(untrusted.path(name)).status().unwrap().success());
+        let (collected, again) = (untrusted.run("collect @o"), untrusted.run("sweep @sweep.toml --out @o"));
+        assert_eq!((collected.code, again.code), (code, 0), "{name}: {}{}", collected.err, again.err);
+    }
+}

@@ -1,10 +1,9 @@
 //! The chunks that are not there.
 
-use std::fs::File;
 use std::io::{BufRead, BufReader};
 use std::path::Path;
 
-use crate::chunk::{Chunk, Header};
+use crate::chunk::{Chunk, Header, open};
 use crate::manifest::Manifest;
 
 /// Chunks that are missing, and those that cannot be used.
@@ -52,7 +51,7 @@ impl Missing {
 
 /// The header of a chunk's file; `None` without a file.
 pub(crate) fn header(path: &Path) -> Option<Option<Header>> {
-    let file = File::open(path).ok()?;
+    let file = open(path).ok()?;
     let mut line = String::new();
     let read = BufReader::new(file).read_line(&mut line);
     Some(read.ok().and_then(|_| serde_json::from_str(&line).ok()))
