@@ -311,7 +311,7 @@ def test_the_files_of_arguments_can_be_anywhere(tmp_path, monkeypatch):
     (tmp_path / "own").mkdir()
     monkeypatch.chdir(tmp_path / "own")
     star, planet = {"name": "star", "mass": 1}, {"name": "planet", "mass": "1/1000", "a": 1}
-    given = shadowstep.Problem(bodies=[star, planet], particles=str(tmp_path / "particles.csv"), parameters={"g": 40})
+    given = shadowstep.Problem(body=[star, planet], particles=str(tmp_path / "particles.csv"), parameters={"g": 40})
     assert len(given.coordinates) == 9
     text = '[problem]\nparameters.g = 40\nparticles = "../particles.csv"\n[[body]]\nname = "star"\nmass = 1\n[[body]]\nname = "planet"\nmass = 0.001\na = 1\n'
     (tmp_path / "own" / "problem").write_text(text)
