@@ -11,7 +11,7 @@ pub(crate) mod summary;
 use std::mem::take;
 
 use shadowstep::number::saved::{Fields, Saved};
-use shadowstep::shadow::run::RunError;
+use shadowstep::shadow::run::{NotFinite, Quantity, RunError};
 use shadowstep::shadow::{Criterion, KINETIC_LIMIT, Missing, Report, Verdict};
 use shadowstep::steps::integrator::{VectorIntegrator, at_output};
 use shadowstep::systems::system::Visitor;
@@ -150,6 +150,11 @@ impl<N: RunNumber> Watch<N> {
         let every = (run.steps.saturating_sub(from.unsigned_abs()) / run.windows).max(1);
         let (mut observed, massive) = (None, integrator.system().massive_coordinates());
         if summarised {
+            // the monitor begins with the kernel's state, which may not be that of the trajectory
+            if !initial.is_finite() {
+                let value = NotFinite { quantity: Quantity::Energy, value: initial.to_text() };
+                return Err(RunError::NotFinite { step: 0, value });
+            }
             let monitor = N::monitor(integrator, MONITOR_ORDER, every)?;
             observed = Some(Observed {
                 idle: monitor.idle(),
