@@ -238,12 +238,12 @@ where
         let mut vector = vector(self.integrators[0].state(), 0);
         let mut factor = vector[0].clone();
         let Divisors::PowersOfTwo(exponents) = &mut self.divisors else { unreachable!("vectors are free") };
-        for lane in 0..self.lanes {
+        for (lane, own) in exponents.iter_mut().enumerate().take(self.lanes) {
             let logarithm = log_norm(vector.iter(), lane);
             // others stay: a lane has the bits that it has alone
             let exponent = if is_far(logarithm) { (logarithm / LN_2).round() as i64 } else { 0 };
             factor.set_lane(lane, 1.0, -exponent);
-            exponents[lane] += exponent;
+            *own += exponent;
         }
         vector.iter_mut().for_each(|x| x.multiply(&factor));
         set_vector(self.integrators[0].system().state_mut(), 0, &vector);
