@@ -73,6 +73,9 @@ pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
     // before signals are handled: counting steps to a physical time makes them
     let steps = scene.steps();
     let interrupt = Interrupt::listen(&scene.source.path, again(&scene));
+    if let (Some(files), Some(plot)) = (&files, plot) {
+        files.can_be_written(&scene, plot)?;
+    }
     let begin = Instant::now();
     let progress = Progress::new(scene.output.file.is_some(), scene.as_run().name(), steps);
     let mut terminal = Terminal { progress, interrupt, summarises: !arguments.no_summary, summary: None };

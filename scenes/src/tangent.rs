@@ -46,7 +46,7 @@ trait ResumableRun: TangentRun {
     fn restore(&mut self, saved: &[SavedVector]) -> bool;
 }
 
-/// Free vectors are separated every so many steps, however rarely they are measured: in these they grow by less than 10⁶ at most step sizes.
+/// The number of steps after which free vectors are separated, however rarely they are measured: they grow by less than 10⁶ meanwhile at most step sizes.
 const SEPARATED_EVERY: u64 = 4;
 
 /// The number of vectors of which rows have indicators.

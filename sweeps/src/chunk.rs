@@ -191,7 +191,7 @@ impl<W: Write> Write for Hashing<W> {
     }
 }
 
-/// Opens what is no pipe, which would wait for its other end.
+/// Opens a file that is not a pipe, which would wait for its other end.
 pub(crate) fn open(path: &Path) -> io::Result<File> {
     refuse_pipe(path)?;
     File::open(path)

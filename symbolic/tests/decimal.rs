@@ -141,7 +141,7 @@ proptest! {
 #[test]
 fn numbers_of_any_size_have_their_digits() {
     let texts = [2.1, -0.0123456, 1.2345e-7, 123_456.7, 9.99996e5, f64::NAN].map(|value| significant(value, 4));
-    assert_eq!(texts, ["2.100", "-0.01235", "1.234e-7", "123457", "1.000e6", "NaN"]);
+    assert_eq!(texts, ["2.100", "-0.01235", "1.235e-7", "123457", "1.000e6", "NaN"]);
     assert_eq!([0.0, 5e-324].map(|value| significant(value, 2)), ["0.0", "4.9e-324"]);
 }
 

@@ -86,7 +86,7 @@ impl Problem<'_> {
         })
     }
 
-    /// Refuses times with so many turns of the fastest oscillation at t = 0 that the steps of every scheme are too many.
+    /// Refuses times in which the fastest oscillation at t = 0 turns so often that every scheme needs too many steps.
     pub(crate) fn check_duration(&self) -> Result<(), Error> {
         let Some(frequency) = self.system.fastest_motion() else { return Ok(()) };
         let turns = self.duration() * frequency.omega / TAU;

@@ -46,10 +46,6 @@ impl PlotFiles {
         let hash = metadata["scene_sha256"].as_str().unwrap_or_default();
         let head = format!("<!-- shadowstep {}, scene_sha256: {hash} -->\n", env!("CARGO_PKG_VERSION"));
         let files = PlotFiles { paths: paths(&plot.file, &plot.pictures), named: "plot", head, replaces: true };
-        let at_place = |error| match error {
-            Error::Usage { message, hint } => Faults(vec![scene.source.fault(&plot.at, message).hint(hint)]).into(),
-            other => other,
-        };
         let earlier = continues.then(|| scene.prolonged_sha256()).flatten();
         for path in &files.paths {
             let is_own = |path| {
@@ -62,13 +58,16 @@ impl PlotFiles {
                 let message = format!("{} already exists and is not from this unchanged scene", path.display());
                 let hint =
                     "use another name, move the file, or replace it with --force; --continue prolongs a complete run";
-                return Err(at_place(Error::usage(message, hint)));
-            }
-            if !path.is_file() {
-                files.open(path).map(drop).map_err(at_place)?;
+                return Err(at(scene, plot, Error::usage(message, hint)));
             }
         }
         Ok(files)
+    }
+
+    /// Shows that a scene's charts can be written, by files under temporary names: signals must be handled, so that none stays.
+    pub(crate) fn can_be_written(&self, scene: &Scene, plot: &Plot) -> Result<(), Error> {
+        let new = self.paths.iter().filter(|path| !path.is_file());
+        new.map(|path| self.open(path).map(drop).map_err(|error| at(scene, plot, error))).collect()
     }
 
     /// A file under a temporary name; dropped, it only shows that the chart can be written.
@@ -90,6 +89,14 @@ impl PlotFiles {
             file.finish()?;
         }
         Ok(())
+    }
+}
+
+/// An error with the place of the scene's key.
+fn at(scene: &Scene, plot: &Plot, error: Error) -> Error {
+    match error {
+        Error::Usage { message, hint } => Faults(vec![scene.source.fault(&plot.at, message).hint(hint)]).into(),
+        other => other,
     }
 }
 

@@ -558,7 +558,7 @@ fn an_ensemble_has_a_row_for_each_trajectory() {
     );
     assert_eq!(table.len(), 4);
     // lost at the start
-    assert_eq!([&table[2][9], &table[2][11]], ["NaN", ""]);
+    assert_eq!([&table[2][9], &table[2][11]], ["", ""]);
     assert_eq!(table.iter().skip(1).map(|row| row[13].as_str()).collect::<Vec<_>>(), ["", "0", ""]);
     // each is the run of its own scene
     for (row, d) in [(1, "0"), (3, "1/3")] {
@@ -608,7 +608,7 @@ fn a_complete_ensemble_is_done() {
         for flags in ["", "--restart"] {
             let refused = run(folder.path(), flags);
             assert_eq!(refused.code, 2);
-            assert!(refused.err.contains("already exists and is not from this unchanged scene"), "{}", refused.err);
+            assert!(refused.err.contains("already exists and was made with different columns"), "{}", refused.err);
         }
     }
     assert_eq!(fs::read_to_string(path("out.csv")).unwrap(), whole);

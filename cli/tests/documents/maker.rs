@@ -59,7 +59,7 @@ impl Maker {
         (self.random.part() * count as f64) as usize
     }
 
-    /// Once in so many times; combinations that are always refused are to be rare.
+    /// Once in this number of times; combinations that are always refused are to be rare.
     pub(crate) fn once_in(&mut self, times: usize) -> bool {
         self.below(times) == 0
     }
@@ -117,7 +117,7 @@ impl Maker {
         files.flat_map(|file| &file.lines).any(|line| line.split(|letter| !is_part(letter)).any(|known| known == word))
     }
 
-    /// A key once in so many times, with one of these values.
+    /// A key once in this number of times, with one of these values.
     pub(crate) fn maybe(&mut self, times: usize, name: &str, values: &[&str]) {
         if self.once_in(times) {
             let value = self.one(values);

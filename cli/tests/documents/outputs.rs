@@ -82,7 +82,7 @@ impl Maker {
         }
     }
 
-    /// Once in so many times a key with this value, or a table with some of these keys.
+    /// Once in this number of times a key with this value, or a table with some of these keys.
     fn one_or_table(&mut self, name: &str, times: usize, value: &str, table: &[(&str, &[&str])]) {
         if !self.once_in(times) {
         } else if self.once_in(2) {

@@ -12,7 +12,7 @@ use crate::document::Document;
 /// The CPU time that a command may take, in seconds.
 const CPU_SECONDS: u32 = 10;
 
-/// After so many seconds a command hangs that takes no CPU time.
+/// After this number of seconds a command hangs that takes no CPU time.
 const HANGS_AFTER: u32 = 600;
 
 /// What no message may have: texts of the language, not of the program.

@@ -46,7 +46,7 @@ pub(super) fn write(
     Ok(())
 }
 
-/// Text that reads back to the same bits, as in the rows of other scenes; none of what is no number.
+/// Text that reads back to the same bits, as in the rows of other scenes; no text of an infinite value or NaN.
 fn number(x: &f64) -> String {
     if x.is_nan() { String::new() } else { format!("{x:?}") }
 }

@@ -6,15 +6,8 @@ use crate::quantity::Compute;
 use crate::refusal::{Refusal, refuse};
 use crate::scene::{ClassifiedKinetic, PotentialEnergy, SceneNumber, System};
 
-/// Refuses a system that is not T(p) + U(q), or that has the name already.
+/// Refuses a system that is not T(p) + U(q).
 pub(super) fn check(name: &str, system: &System) -> Result<(), Refusal> {
-    let of_system = system.parameters.iter().map(|(known, _)| known).chain(&system.coordinates).chain(&system.momenta);
-    if of_system.clone().any(|known| known == name) {
-        return refuse(
-            format!("`{name}` is a name of the system, and a sum over its bodies"),
-            "give the parameter or coordinate another name",
-        );
-    }
     match system.potential {
         PotentialEnergy::OfParts => refuse(
             format!("`{name}` is of systems T(p) + U(q), and H is not given so"),
@@ -134,7 +127,7 @@ mod tests {
         let named = "[problem]\npotential = \"virial*x^2\"\nparameters = { virial = 1 }\ncoordinates = [\"x\"]\n[initial]\nq = [1]\np = [0]";
         assert_eq!(
             fault(named, "values = { T = \"2*virial\" }").split_once(": ").unwrap().1,
-            "`virial` is a name of the system, and a sum over its bodies"
+            "`virial` could be the parameter or the virial here"
         );
     }
 }

@@ -413,13 +413,11 @@ mod tests {
             fs::write(folder.path().join("sun.txt"), table("Sun (10)", "Sun (10)", "AU-D", &format!("{x},0,0,0,0,0")))
                 .unwrap()
         };
-        let run = || {
-            scene(folder.path(), UNITS, "a = 1").unwrap().run_to_file(crate::FileOptions::default(), &mut ()).unwrap()
-        };
+        let run = || scene(folder.path(), UNITS, "a = 1").unwrap().run_to_file(crate::FileOptions::default(), &mut ());
         write("0");
-        assert!(matches!(run(), crate::Outcome::Complete { .. }));
-        assert_eq!(run(), crate::Outcome::AlreadyComplete);
+        assert!(matches!(run(), Ok(crate::Outcome::Complete { .. })));
+        assert_eq!(run().unwrap(), crate::Outcome::AlreadyComplete);
         write("1");
-        assert!(matches!(run(), crate::Outcome::Complete { .. }));
+        assert!(run().unwrap_err().to_string().contains("was made with a different file sun.txt"));
     }
 }

@@ -385,6 +385,6 @@ mod tests {
         let mut graph = Graph::new();
         let node = graph.build(&parse("x1*p_x*px/x_1").unwrap(), &names, &["p_x".to_owned()]).unwrap();
         let latex = graph.text(node, Notation::Latex, (&names, &["p_x".to_owned()]), 5);
-        assert_eq!(latex, r"\frac{\mathrm{x1} \mathrm{px} \mathrm{p\_x}}{\mathrm{x\_1}}");
+        assert_eq!(latex, r"\frac{\mathrm{x1} \mathrm{p\_x} \mathrm{px}}{\mathrm{x\_1}}");
     }
 }
