@@ -41,7 +41,7 @@ class Problem:
         ``p={"x": 0, "y": 2}``, in any order; with ``momenta=["u", "w"]`` those names. Velocities can be given as ``v`` in place of ``p``. A shipped
         problem has its own.
     masses
-        Those of the coordinates, d numbers; 1 by default. T = Σ p_i²/(2 m_i).
+        Those of the coordinates, d numbers; 1 by default. T = Σ p_i²/(2 m_i). Of pairs also one number for all bodies, or the name of a property.
     kinetic
         T(p) as a formula, in place of masses.
     pair
@@ -98,7 +98,7 @@ class Problem:
         q: Values | None = None,
         p: Values | None = None,
         v: Values | None = None,
-        masses: Sequence[Number] | np.ndarray | None = None,
+        masses: Number | Sequence[Number] | np.ndarray | None = None,
         kinetic: str | None = None,
         pair: str | None = None,
         parts: Union[str, Sequence[str], None] = None,

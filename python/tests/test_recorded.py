@@ -186,7 +186,7 @@ def test_ase_with_fixed_atoms_wrapped_positions_and_units():
     found = monitor.diagnosis()
     assert found.cause == "nothing" and found.off_q < 1e-9, str(found)
     assert np.ptp(monitor.values["modified_energy"]) < 0.01 * np.ptp(monitor.values["energy"])
-    assert " eV, " in found.reason and " in 520.0000 fs" in found.reason, found.reason
+    assert " eV, " in found.reason and " in 520.00 fs" in found.reason, found.reason
 
 
 def test_ase_what_has_no_modified_energy_is_refused():

@@ -161,16 +161,24 @@ pub(crate) struct Form<N> {
     exact: Matrix<Rational>,
     pub(crate) rounded: Matrix<N>,
     /// Of JS, once there was a flow.
+    #[cfg(feature = "formulas")]
     powers: Option<Powers>,
 }
 
 impl<N: CorrectlyRounded> Form<N> {
     pub(crate) fn new(exact: Matrix<Rational>, context: &N::Context) -> Self {
         let number = |value: &Rational| N::from_rational(value, context);
-        Form { rounded: exact.iter().map(|row| row.iter().map(number).collect()).collect(), exact, powers: None }
+        let rounded = exact.iter().map(|row| row.iter().map(number).collect()).collect();
+        Form {
+            exact,
+            rounded,
+            #[cfg(feature = "formulas")]
+            powers: None,
+        }
     }
 
     /// e^{tJS} − 1: the series for t/2ⁿ, and then by doubling, E ← E² + 2E, which has no cancellation.
+    #[cfg(feature = "formulas")]
     pub(crate) fn flow(&mut self, time: &Rational, count: LimbCount) -> Matrix<AnyLimbs> {
         let Form { exact, powers, .. } = self;
         let number = |s: &Rational| AnyLimbs::from_rational(s, &count);
