@@ -150,12 +150,12 @@ impl<N: RunNumber> Watch<N> {
         let every = (run.steps.saturating_sub(from.unsigned_abs()) / run.windows).max(1);
         let (mut observed, massive) = (None, integrator.system().massive_coordinates());
         if summarised {
-            // the monitor begins with the kernel's state, which may not be that of the trajectory
+            let monitor = N::monitor(integrator, MONITOR_ORDER, every)?;
+            // it has refused the state of the steps, which is that of the trajectory unless the scheme is a processed one
             if !initial.is_finite() {
                 let value = NotFinite { quantity: Quantity::Energy, value: initial.to_text() };
                 return Err(RunError::NotFinite { step: 0, value });
             }
-            let monitor = N::monitor(integrator, MONITOR_ORDER, every)?;
             observed = Some(Observed {
                 idle: monitor.idle(),
                 pass: 0,
