@@ -66,8 +66,8 @@ impl PlotFiles {
 
     /// Shows that a scene's charts can be written, by files under temporary names: signals must be handled, so that none stays.
     pub(crate) fn can_be_written(&self, scene: &Scene, plot: &Plot) -> Result<(), Error> {
-        let new = self.paths.iter().filter(|path| !path.is_file());
-        new.map(|path| self.open(path).map(drop).map_err(|error| at(scene, plot, error))).collect()
+        let mut new = self.paths.iter().filter(|path| !path.is_file());
+        new.try_for_each(|path| self.open(path).map(drop).map_err(|error| at(scene, plot, error)))
     }
 
     /// A file under a temporary name; dropped, it only shows that the chart can be written.
