@@ -9,11 +9,10 @@ use crate::language::files;
 const CLOCKS: [&str; 7] =
     ["Instant::now", "SystemTime::now", "CpuTime::begin", "perf_counter", "monotonic()", "time.time()", "process_time"];
 
-const KNOWN: [(&str, &str); 9] = [
+const KNOWN: [(&str, &str); 8] = [
     ("cli/tests/command_line/output_files.rs", "a limit of minutes, which ends a test that hangs"),
     ("cli/tests/documents/main.rs", "how long new documents are drawn by `make fuzz`"),
-    ("cli/tests/faults/main.rs", "a limit of minutes, which ends a test that hangs"),
-    ("cli/tests/faults/random.rs", "a seed, which is printed"),
+    ("cli/tests/faults/main.rs", "a limit of minutes, and a seed, which is printed"),
     ("cli/tests/faults/work.rs", "the moments at which a command is disturbed"),
     ("python/notebooks/drift-of-the-modified-energy.ipynb", "a time that is printed"),
     ("python/notebooks/outer-planets.ipynb", "times that are drawn"),
