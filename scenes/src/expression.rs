@@ -22,7 +22,7 @@ pub struct Expression {
     pub(crate) quantities: Vec<Quantity>,
     /// What is written.
     pub(crate) text: Text,
-    /// The names in it as it is written, those of bodies in the calls of quantities excepted.
+    /// The names in its text, without those of bodies in calls of quantities.
     pub(crate) names: Vec<String>,
     pub(crate) has_time: bool,
     pub(crate) has_energy: bool,

@@ -200,7 +200,7 @@ impl Schemes {
     /// The scheme that a word of a text means, whose files are as seen from its folder.
     ///
     /// # Errors
-    /// As [`scheme`]; a file outside of the folder; a file that is no table, of which no line is shown.
+    /// As [`scheme`]; a file outside of the folder; a file that is not a table, of which no line is shown.
     pub fn scheme_of(&self, word: &str, text: &Source, first: Option<First>) -> Result<NamedScheme, LibraryError> {
         let folder = text.folder();
         let known = || self.read.lock().unwrap_or_else(PoisonError::into_inner);

@@ -33,7 +33,7 @@ const REASONS: [(&str, &str); 11] = [
         "studies/src/store.rs",
         "outcomes are appended, by open_locked; a folder that the user names; another version's file is renamed",
     ),
-    ("sweeps/src/chunk.rs", "several processes write a chunk: new files of random names; folders that are no links"),
+    ("sweeps/src/chunk.rs", "several processes write a chunk: new files of random names; folders that are not links"),
     ("sweeps/src/partial.rs", "as chunk.rs"),
     ("sweeps/src/manifest.rs", "as chunk.rs; the first of several processes writes the plan"),
     ("sweeps/src/slurm/script.rs", "as manifest.rs"),

@@ -46,13 +46,13 @@ fn read(text: &str, file: &Text) -> Result<Vec<GivenBody>, (u64, String)> {
     };
     let names: Vec<String> = reader.headers().map_err(unreadable)?.iter().map(str::to_owned).collect();
     let known = || COORDINATES.iter().flatten().chain(&ANGLES_AND_SHAPE).chain(&["a", "name"]);
-    // of a file that is no table of particles, no line is shown
+    // no line is shown of a file that is not a table of particles
     if !names.iter().any(|name| known().any(|known| known == name)) {
         return Err((1, "the first line does not have the names of columns of particles".to_owned()));
     }
     if let Some(unknown) = names.iter().find(|name| !known().any(|known| known == name)) {
         let is_word = unknown.chars().all(|c| c.is_alphanumeric() || "_-. ".contains(c));
-        let shown = if is_word { format!("`{unknown}`") } else { "a text that is no name".to_owned() };
+        let shown = if is_word { format!("`{unknown}`") } else { "a text that is not a name".to_owned() };
         return Err((1, format!("{shown} is not a column of particles")));
     }
     let mut bodies = Vec::new();
