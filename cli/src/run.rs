@@ -59,6 +59,12 @@ pub(crate) struct Arguments {
 pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
     let source = shadowstep_scenes::source(Path::new(&arguments.scene))?;
     if Ensemble::is_in(&source) {
+        if arguments.strict {
+            return Err(Error::usage(
+                "--strict needs the verdict of a summary, and an ensemble has none",
+                "remove --strict",
+            ));
+        }
         return ensemble(&Ensemble::read(source)?, arguments);
     }
     let scene = Scene::read(source)?;
@@ -101,6 +107,11 @@ pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
                 ));
             }
             Ok(concluded(&scene, summary.as_ref(), arguments.strict))
+        }
+        Outcome::AlreadyComplete if arguments.strict => {
+            let message =
+                format!("--strict needs the verdict of a run, and {} is done: its file is complete", scene.source.path);
+            Err(Error::usage(message, "add --restart to run it again"))
         }
         Outcome::AlreadyComplete => {
             is_done(&scene);

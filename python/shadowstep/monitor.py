@@ -36,9 +36,9 @@ class Report:
 
     verdict: str
     """``bounded``, ``near-resonance``, ``drifts``, ``not-the-gradient``, ``not-smooth``, ``not-conserved``, ``inconsistent``, ``too-large``,
-    ``round-off`` or ``undecided``."""
+    ``round-off``, ``undecided``, or ``light-bodies`` where the energy error is bounded and a light body is not resolved."""
     is_bounded: bool
-    """Whether the energy error is bounded, or round-off; ``energy_error / kinetic`` is its size."""
+    """Whether the energy error is bounded, or round-off, and all light bodies are resolved; ``energy_error / kinetic`` is its size."""
     reason: str
     """The reason, a sentence with numbers."""
     text: str
@@ -83,6 +83,9 @@ class Report:
     planets: dict[str, Any] | None
     """Of planets: ``epsilon``, the largest part of a kick beside the force of the Kepler orbit, ``of`` which planet, and the ``closest`` approach
     of two with their distance in Hill radii, and that of ``particles`` of mass 0 to planets, over all states; None of other systems."""
+    light: list[dict[str, Any]]
+    """Of light planets and particles: the closest approach to a heavier planet, with ``n``, ``bodies``, ``hill_radii``, the ``steps`` in the local time
+    scale, and whether these are enough: ``resolved``."""
 
     def __str__(self) -> str:
         return self.text
@@ -168,5 +171,5 @@ class Monitor:
     def report(self) -> Report:
         """The report on the run so far."""
         found = self._monitor.report()
-        planets = found.pop("planets")
-        return Report(**found, planets=None if planets is None else json.loads(planets))
+        planets, light = found.pop("planets"), json.loads(found.pop("light"))
+        return Report(**found, planets=None if planets is None else json.loads(planets), light=light)

@@ -123,20 +123,23 @@ class Problem:
         # what is wrong with a name or a formula has the key of a text
         of_bodies = naming("body", "" if others.get("body") is not None else "(?!)")
         with of_bodies, naming("system", r"^ *\d+ \| (name|potential) = "):
-            self._given = Given.of_text(document(self._sections), "problem")
+            self._given = Given.of_text(document(self._sections), "problem", True)
 
     @classmethod
-    def from_scene(cls, path: Union[str, os.PathLike[str]]) -> Problem:
+    def from_scene(cls, path: Union[str, os.PathLike[str]], *, allow_outside: bool = False) -> Problem:
         """The system of a scene's file, of which [problem], [initial], [[body]] and [time] are used.
+
+        The files that it names lie in its own folder or below, unless ``allow_outside`` is true.
 
         Raises
         ------
         InputError
             A file that cannot be read, or faults of its text, each with its line and column.
         """
+        check(Problem.from_scene, locals())
         problem = cls.__new__(cls)
         problem._system = path_of(path, "path")
-        problem._given = Given.of_file(problem._system)
+        problem._given = Given.of_file(problem._system, allow_outside)
         return problem
 
     def __getstate__(self) -> dict[str, Any]:
@@ -211,7 +214,7 @@ class Problem:
             p = now[1] if p is None else in_order(p, names_of(p, self.momenta, self.coordinates), "p")
             sections["initial"] = {"q": q, "p": p}
         problem = self.__class__.__new__(self.__class__)
-        problem.__dict__.update(self.__dict__, _sections=sections, _given=Given.of_text(document(sections), "problem"))
+        problem.__dict__.update(self.__dict__, _sections=sections, _given=Given.of_text(document(sections), "problem", True))
         return problem
 
     def number(self, name: str) -> Number:
@@ -361,7 +364,7 @@ def _by_name(problem: dict[str, Any], q: Any, p: Any, v: Any) -> tuple[Any, Any,
     """Positions, momenta and velocities in the order of the coordinates."""
     coordinates, momenta = problem.get("coordinates"), problem.get("momenta")
     if "name" in problem:
-        shipped = Given.of_text(document({"problem": {key: problem[key] for key in ("name", "parameters") if key in problem}}), "problem")
+        shipped = Given.of_text(document({"problem": {key: problem[key] for key in ("name", "parameters") if key in problem}}), "problem", True)
         coordinates, momenta = shipped.coordinates, shipped.momenta
     if coordinates is None:
         raise _shadowstep.InputError("q, p and v have no names of coordinates here; write them as lists")

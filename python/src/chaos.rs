@@ -9,7 +9,7 @@ use shadowstep_scenes::tangent::Vectors;
 
 use crate::errors::exception;
 use crate::given_run::{GivenRun, Times};
-use crate::waiting::waiting;
+use crate::waiting::waiting_for;
 
 /// The records of runs at h and, if `half` is true, h/2, with what both say, as JSON.
 #[pyfunction]
@@ -25,7 +25,7 @@ pub(crate) fn chaos(
     let given = run.read(py)?;
     let vectors = exponents.map_or(Vectors::Free(vectors), Vectors::Orthonormal);
     let problem = given.problem.clone();
-    let found = waiting(py, progress, move |watched| -> Result<String, Error> {
+    let found = waiting_for(py, progress, Some(&problem), move |watched| -> Result<String, Error> {
         let posed = given.posed()?;
         let Times { h, steps, physical_end, .. } = &given.times;
         let run = Run { propagator: &posed.scheme.name, h, steps: *steps, order: None, windows: Run::WINDOWS };
@@ -43,6 +43,5 @@ pub(crate) fn chaos(
         };
         Ok(json!({ "records": records, "conclusion": conclusion }).to_string())
     });
-    problem.raised(py)?;
     found?.map_err(|error| exception(py, error))
 }

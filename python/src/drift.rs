@@ -13,7 +13,7 @@ use crate::estimator::Options;
 use crate::given::{Given, arithmetic, number};
 use crate::given_run::{SystemWithScheme, Times};
 use crate::scheme::Table;
-use crate::waiting::{Watched, waiting};
+use crate::waiting::{Watched, waiting_for};
 
 /// The drift of one run, with its control on the exact flow where that is wanted, as JSON. Without a scheme it is the drift on the exact flow.
 #[pyfunction]
@@ -37,7 +37,7 @@ pub(crate) fn drift(
     let until = number(py, "until", until)?;
     let estimator = options.settings(py)?;
     let (given, scheme, name) = (problem.clone(), scheme.map(|table| table.0.clone()), name.to_owned());
-    let found = waiting(py, progress, move |watched| -> Result<Record, Error> {
+    let found = waiting_for(py, progress, Some(problem), move |watched| -> Result<Record, Error> {
         let (system, propagator) = match scheme {
             Some(scheme) => {
                 let posed = SystemWithScheme::of(&given, &scheme, arithmetic)?;
@@ -62,7 +62,6 @@ pub(crate) fn drift(
         let mut controls = Controls::new(if control { Wanted::Always } else { Wanted::Never });
         request.run(&propagator, run, &mut controls, &mut DriftProgress(watched))
     });
-    problem.raised(py)?;
     let record = found?.map_err(|error| exception(py, error))?;
     serde_json::to_string(&record).map_err(|error| pyo3::exceptions::PyRuntimeError::new_err(error.to_string()))
 }

@@ -20,23 +20,32 @@ use crate::own_forces::Forces;
 pub(crate) struct Given(Arc<ProblemSource>);
 
 enum ProblemSource {
-    Scene(Source),
-    Own { forces: Forces, q: Vec<Exact>, p: Vec<Exact>, masses: Option<Vec<Exact>> },
+    /// The text of a scene, and whether it may name files outside of its folder.
+    Scene {
+        source: Source,
+        outside: bool,
+    },
+    Own {
+        forces: Forces,
+        q: Vec<Exact>,
+        p: Vec<Exact>,
+        masses: Option<Vec<Exact>>,
+    },
 }
 
 #[pymethods]
 impl Given {
     /// From the text of a scene, of which \[problem\], \[initial\], \[\[body\]\] and \[time\] are used.
     #[staticmethod]
-    fn of_text(py: Python<'_>, text: String, path: String) -> PyResult<Self> {
-        Given::of(ProblemSource::Scene(Source { path, text }), py)
+    fn of_text(py: Python<'_>, text: String, path: String, allow_outside: bool) -> PyResult<Self> {
+        Given::of(ProblemSource::Scene { source: Source { path, text }, outside: allow_outside }, py)
     }
 
     /// From a scene's file.
     #[staticmethod]
-    fn of_file(py: Python<'_>, path: std::path::PathBuf) -> PyResult<Self> {
-        let path = if path.as_os_str() == OF_ARGUMENTS { std::path::Path::new(".").join(path) } else { path };
-        Given::of(ProblemSource::Scene(source(&path).map_err(|error| exception(py, error))?), py)
+    fn of_file(py: Python<'_>, path: std::path::PathBuf, allow_outside: bool) -> PyResult<Self> {
+        let source = source(&path).map_err(|error| exception(py, error))?;
+        Given::of(ProblemSource::Scene { source, outside: allow_outside }, py)
     }
 
     /// With a function for the forces: a number is the address of a C function, anything else is called.
@@ -58,11 +67,11 @@ impl Given {
         Given::of(ProblemSource::Own { forces, q, p, masses }, py)
     }
 
-    /// The text of the scene with its path; `None` with a function for the forces.
+    /// What [`of_text`](Given::of_text) makes it of again; `None` with a function for the forces.
     #[getter]
-    fn source(&self) -> Option<(&str, &str)> {
+    fn source(&self) -> Option<(&str, &str, bool)> {
         match &*self.0 {
-            ProblemSource::Scene(Source { path, text }) => Some((text, path)),
+            ProblemSource::Scene { source: Source { path, text }, outside } => Some((text, path, *outside)),
             ProblemSource::Own { .. } => None,
         }
     }
@@ -112,18 +121,15 @@ impl Given {
     }
 }
 
-/// The path of the text that the package makes of a problem's arguments, whose paths the caller has written.
-const OF_ARGUMENTS: &str = "problem";
-
-fn read(source: &Source, arithmetic: Arithmetic) -> Result<(System, Vec<Note>), Error> {
-    Ok(reading_outside(source.path == OF_ARGUMENTS, || System::read(source, arithmetic))?)
+fn read((source, outside): (&Source, bool), arithmetic: Arithmetic) -> Result<(System, Vec<Note>), Error> {
+    Ok(reading_outside(outside, || System::read(source, arithmetic))?)
 }
 
 impl Given {
     /// The system in a number type.
     pub(crate) fn system(&self, arithmetic: Arithmetic) -> Result<System, Error> {
         let system = match &*self.0 {
-            ProblemSource::Scene(source) => read(source, arithmetic)?.0,
+            ProblemSource::Scene { source, outside } => read((source, *outside), arithmetic)?.0,
             ProblemSource::Own { forces, q, p, masses } => {
                 System::of_own_potential(Box::new(forces.clone()), (q.clone(), p.clone()), masses.clone())?
             }
@@ -135,7 +141,7 @@ impl Given {
     /// What the user should know about it.
     pub(crate) fn notes(&self, arithmetic: Arithmetic) -> Result<Vec<Note>, Error> {
         match &*self.0 {
-            ProblemSource::Scene(source) => Ok(read(source, arithmetic)?.1),
+            ProblemSource::Scene { source, outside } => Ok(read((source, *outside), arithmetic)?.1),
             ProblemSource::Own { .. } => Ok(Vec::new()),
         }
     }
@@ -144,7 +150,7 @@ impl Given {
     pub(crate) fn raised(&self, py: Python<'_>) -> PyResult<()> {
         match &*self.0 {
             ProblemSource::Own { forces, .. } => forces.raised(py),
-            ProblemSource::Scene(_) => Ok(()),
+            ProblemSource::Scene { .. } => Ok(()),
         }
     }
 

@@ -18,7 +18,7 @@ use crate::estimator::Options;
 use crate::given::word;
 use crate::given_run::{GivenRun, SystemWithScheme, Times};
 use crate::scene::Summarising;
-use crate::waiting::waiting;
+use crate::waiting::waiting_for;
 
 /// What happens on the way: a condition that ends the run, and a surface of section with the name of its direction.
 #[derive(FromPyObject)]
@@ -49,7 +49,7 @@ pub(crate) fn integrate<'py>(
     let is_between = estimator.as_ref().is_some_and(EstimatorSettings::is_between);
     let mut request = Request::of(py, run.read(py)?, By::directions(py, &tangent)?)?;
     let given = request.run.problem.clone();
-    let found = waiting(py, progress, move |watched| {
+    let found = waiting_for(py, progress, Some(&given), move |watched| {
         let run = &request.run;
         let posed = run.posed()?;
         let runs = (&run.times, run.displaced);
@@ -68,7 +68,6 @@ pub(crate) fn integrate<'py>(
         }
         Ok((found, vectors, notes, posed.system.problem, summarising.summary()?))
     });
-    given.raised(py)?;
     let (found, vectors, notes, problem, summary) = found?.map_err(|error| exception(py, error))?;
     let dictionary = found.into_dictionary(py)?;
     dictionary.set_item("notes", PyList::new(py, notes.iter().map(Note::to_string))?)?;

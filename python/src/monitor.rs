@@ -10,16 +10,18 @@ use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use serde_json::json;
-use shadowstep::StepSize;
+
 use shadowstep::shadow::Report;
 use shadowstep::shadow::run::RunError;
 use shadowstep::steps::integrator::{VectorIntegrator, at_output};
+use shadowstep::{Number as _, StepSize};
 use shadowstep_scenes::Error;
 use shadowstep_scenes::arithmetic::Arithmetic;
 use shadowstep_scenes::computation::{Monitoring, RunNumber as _};
 use shadowstep_scenes::library::NamedScheme;
 use shadowstep_scenes::start::{Begin, SceneIntegrator, Steps};
-use shadowstep_scenes::watch::{Approaches, Interactions};
+use shadowstep_scenes::watch::light::{self, LightBodies};
+use shadowstep_scenes::watch::{Approaches, Interactions, LightBody};
 
 use crate::errors::exception;
 use crate::given::{Given, arithmetic, step_size};
@@ -37,6 +39,7 @@ struct Followed {
     newest: Option<Newest>,
     /// Of planets.
     approaches: Option<Approaches>,
+    light: Option<LightBodies>,
     /// The names of the coordinates.
     names: Vec<String>,
 }
@@ -92,7 +95,7 @@ impl Monitor {
                 other => drop(begun.send(other.map(|found| found.map(drop)))),
             }
         })?;
-        let found = awaited(py, None, &Watched::default(), has_begun);
+        let found = awaited(py, (None, &|_| Ok(())), &Watched::default(), has_begun);
         problem.raised(py)?;
         found?.map_err(failed)?;
         Ok(Monitor { tasks: Mutex::new(tasks), process: process::id(), number, problem: problem.clone() })
@@ -136,12 +139,13 @@ impl Monitor {
 
     /// The report on the run so far.
     fn report<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
-        let (report, planets) = self.ask(py, |followed, _| {
+        let (report, planets, light) = self.ask(py, |followed, _| {
             let mut report = followed.monitor.report();
             report.coordinate_names.clone_from(&followed.names);
-            (report, followed.approaches.as_ref().map(|approaches| approaches.found()))
+            let light = followed.light.as_ref().map_or(Vec::new(), LightBodies::found);
+            (report, followed.approaches.as_ref().map(|approaches| approaches.found()), light)
         })?;
-        dictionary(py, &report, planets.as_ref())
+        dictionary(py, &report, planets.as_ref(), &light)
     }
 }
 
@@ -171,7 +175,7 @@ impl Monitor {
         match soon(&is_done) {
             Some(Ok(found)) => Ok(found),
             Some(Err(panic)) => panic::resume_unwind(panic),
-            None => awaited(py, None, &watched, is_done),
+            None => awaited(py, (None, &|_| Ok(())), &watched, is_done),
         }
     }
 }
@@ -203,11 +207,12 @@ impl Followed {
             Steps { scheme: &posed.scheme.scheme, h, compensated, displaced: false, begin: Begin::InitialState };
         let mut integrator = posed.system.integrator(steps, posed.system.start::<f64>(&()), &())?;
         let monitor = f64::monitor(&mut *integrator, order, every).map_err(|error| of_run(&error))?;
-        let mut approaches = Approaches::of(&posed.system);
-        if let Some(approaches) = &mut approaches {
-            approaches.include(0, (integrator.state().q(), integrator.state().p()));
-        }
-        Ok(Followed { integrator, monitor, newest: None, approaches, names: posed.system.coordinates.clone() })
+        let approaches = Approaches::of(&posed.system);
+        let light = LightBodies::of(&posed.system, f64::from_rational(h.exact(), &()));
+        let names = posed.system.coordinates.clone();
+        let mut followed = Followed { integrator, monitor, newest: None, approaches, light, names };
+        followed.include();
+        Ok(followed)
     }
 
     /// Steps until there are as many, or Python asks to end.
@@ -216,12 +221,18 @@ impl Followed {
             if let Some(sample) = self.monitor.step(&mut *self.integrator)? {
                 self.newest = Some((sample.n, *sample.modified, sample.error.copied(), *sample.energy));
             }
-            if let Some(approaches) = &mut self.approaches {
-                let n = i64::try_from(self.monitor.n()).unwrap_or(i64::MAX);
-                approaches.include(n, (self.integrator.state().q(), self.integrator.state().p()));
-            }
+            self.include();
         }
         Ok(())
+    }
+
+    /// Takes the bodies of the present state.
+    fn include(&mut self) {
+        let Followed { integrator, monitor, approaches, light, .. } = self;
+        let n = i64::try_from(monitor.n()).unwrap_or(i64::MAX);
+        let state = (integrator.state().q(), integrator.state().p());
+        approaches.iter_mut().for_each(|approaches| approaches.include(n, state));
+        light.iter_mut().for_each(|light| light.include(n, state));
     }
 }
 
@@ -233,14 +244,21 @@ fn dictionary<'py>(
     py: Python<'py>,
     report: &Report<f64>,
     planets: Option<&Interactions>,
+    light: &[LightBody],
 ) -> PyResult<Bound<'py, PyDict>> {
     let all = PyDict::new(py);
-    all.set_item("verdict", report.verdict.name())?;
-    all.set_item("is_bounded", report.verdict.is_bounded())?;
-    all.set_item("reason", report.reason())?;
-    let line = planets.map(|found| format!("\n  planets: {}", found.text(|n| format!("n = {n}"))));
-    all.set_item("text", format!("{report}{}", line.unwrap_or_default()))?;
+    let at = |n: i64| format!("n = {n}");
+    // the energy has no part of light bodies
+    let lost = light::not_resolved(light, at).filter(|_| report.verdict.is_bounded());
+    all.set_item("verdict", if lost.is_some() { "light-bodies" } else { report.verdict.name() })?;
+    all.set_item("is_bounded", report.verdict.is_bounded() && lost.is_none())?;
+    let lines =
+        [planets.map(|found| ("planets", found.text(at))), light::text(light, at).map(|text| ("light bodies", text))];
+    let lines: String = lines.into_iter().flatten().map(|(name, text)| format!("\n  {name}: {text}")).collect();
+    all.set_item("text", format!("{report}{lines}"))?;
+    all.set_item("reason", lost.unwrap_or_else(|| report.reason()))?;
     all.set_item("planets", planets.map(|found| json!(found).to_string()))?;
+    all.set_item("light", json!(light).to_string())?;
     all.set_item("steps", report.steps)?;
     all.set_item("windows", report.windows)?;
     let [method_rms, method_least, method_largest] =

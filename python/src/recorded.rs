@@ -18,7 +18,7 @@ use crate::errors::{exception, usage};
 use crate::given::{Given, step_size};
 use crate::given_run::SystemWithScheme;
 use crate::scheme::Table;
-use crate::waiting::waiting;
+use crate::waiting::{waiting, waiting_for};
 
 /// n, H̄ and its error of the states that have one.
 type LogEstimates = (Vec<i64>, Vec<f64>, Vec<f64>);
@@ -71,7 +71,7 @@ pub(crate) fn energies_of_states(
 ) -> PyResult<LogEstimates> {
     let h = step_size(py, h)?;
     let (given, scheme, q, p) = (problem.clone(), scheme.0.clone(), rows(&q)?, rows(&p)?);
-    let found = waiting(py, None, move |_| -> Result<_, Error> {
+    let found = waiting_for(py, None, Some(problem), move |_| -> Result<_, Error> {
         let posed = SystemWithScheme::of(&given, &scheme, Arithmetic::DOUBLE)?;
         let begin = Begin::InitialState;
         let steps = Steps { scheme: &posed.scheme.scheme, h: &h, compensated: false, displaced: false, begin };
@@ -79,7 +79,6 @@ pub(crate) fn energies_of_states(
         let integrator = integrator.map_err(|error| Error::usage(error.to_string(), "check the problem"))?;
         Ok(again(integrator, &q, &p, k))
     });
-    problem.raised(py)?;
     found?.map_err(|error| exception(py, error))?.map_err(|error| refused(py, &error))
 }
 

@@ -13,6 +13,8 @@ use pyo3::prelude::*;
 use shadowstep_scenes::Observer;
 use shadowstep_studies::Progress;
 
+use crate::given::Given;
+
 /// Signals are asked for this often.
 const SIGNALS: Duration = Duration::from_millis(40);
 
@@ -118,6 +120,19 @@ pub(crate) fn waiting<T: Send + 'static>(
     progress: Option<&Bound<'_, PyAny>>,
     work: impl FnOnce(&Watched) -> T + Send + 'static,
 ) -> PyResult<T> {
+    waiting_for(py, progress, None, work)
+}
+
+/// As [`waiting`], of work with the forces of a problem: it is asked to end where these raise something.
+///
+/// # Errors
+/// Also what the forces have raised.
+pub(crate) fn waiting_for<T: Send + 'static>(
+    py: Python<'_>,
+    progress: Option<&Bound<'_, PyAny>>,
+    problem: Option<&Given>,
+    work: impl FnOnce(&Watched) -> T + Send + 'static,
+) -> PyResult<T> {
     let within = within(new_number()).filter(|all| all.len() <= DEEPEST).ok_or_else(|| {
         let message = "the forces of a computation compute what needs these forces again, without an end";
         PyRecursionError::new_err(message)
@@ -126,7 +141,9 @@ pub(crate) fn waiting<T: Send + 'static>(
     let (done, is_done) = channel();
     let of_thread = Arc::clone(&watched);
     spawned(move || drop(done.send(answered(|| working_for(within, || work(&of_thread))))))?;
-    awaited(py, progress, &watched, is_done)
+    let raised = |py| problem.map_or(Ok(()), |problem| problem.raised(py));
+    let found = awaited(py, (progress, &raised), &watched, is_done);
+    raised(py).and(found)
 }
 
 /// A thread for computations.
@@ -140,10 +157,10 @@ pub(crate) fn answered<T>(work: impl FnOnce() -> T) -> Answer<T> {
     panic::catch_unwind(AssertUnwindSafe(work))
 }
 
-/// Waits for the answer of another thread, as [`waiting`] does.
+/// Waits for the answer of another thread, as [`waiting_for`] does; `problem` gives what its forces have raised.
 pub(crate) fn awaited<T: Send>(
     py: Python<'_>,
-    progress: Option<&Bound<'_, PyAny>>,
+    (progress, problem): (Option<&Bound<'_, PyAny>>, &dyn Fn(Python<'_>) -> PyResult<()>),
     watched: &Watched,
     is_done: Receiver<Answer<T>>,
 ) -> PyResult<T> {
@@ -160,7 +177,7 @@ pub(crate) fn awaited<T: Send>(
                 Some((error, since)) if since.elapsed() > PATIENCE => return Err(error),
                 Some(_) => {}
                 None => {
-                    let mut checked = py.check_signals();
+                    let mut checked = py.check_signals().and_then(|()| problem(py));
                     if let (Ok(()), Some(progress)) = (&checked, progress) {
                         checked = progress.call1((watched.n.load(Ordering::Relaxed),)).map(|_| ());
                     }

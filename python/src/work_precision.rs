@@ -25,7 +25,7 @@ use crate::errors::{exception, usage};
 use crate::given::{Given, arithmetic, number, word};
 use crate::given_run::{SystemWithScheme, beginning_with, first_map};
 use crate::scheme::Table;
-use crate::waiting::waiting;
+use crate::waiting::waiting_for;
 
 /// What schemes are compared on, and the schemes.
 struct Compared {
@@ -114,12 +114,11 @@ pub(crate) fn work_precision(
         None => StepRange::Automatic { seconds, target: None },
     };
     let reference_time = Duration::from_secs_f64(REFERENCE * seconds);
-    let found = waiting(py, progress, move |watched| {
+    let found = waiting_for(py, progress, Some(problem), move |watched| {
         let compared = Compared::of(asked)?;
         let request = Request::new(compared.problem(), &compared.schemes, range, reference_time, &folder);
         request.study(&mut watched.observer_of_tasks()).map(|study| of_study(&study))
     });
-    problem.raised(py)?;
     Ok(found?.map_err(|error| exception(py, error))?.to_string())
 }
 
@@ -188,7 +187,7 @@ pub(crate) fn advise(
         return Err(usage(py, format!("tolerance = {tolerance}: the tolerance must be positive"), "tolerance = 1e-8"));
     }
     let asked = Asked::of(py, problem, until, (&schemes, group), first, digits)?;
-    let found = waiting(py, progress, move |watched| {
+    let found = waiting_for(py, progress, Some(problem), move |watched| {
         let compared = Compared::of(asked)?;
         let request = AdviceRequest {
             problem: compared.problem(),
@@ -201,7 +200,6 @@ pub(crate) fn advise(
         };
         request.run(&mut watched.observer_of_tasks()).map(|advice| of_advice(&advice, &request))
     });
-    problem.raised(py)?;
     Ok(found?.map_err(|error| exception(py, error))?.to_string())
 }
 

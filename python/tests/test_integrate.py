@@ -396,6 +396,25 @@ def test_planets_have_their_interactions():
         integrate(planets, "stormer-verlet", h=2900, steps=3)
 
 
+def test_a_monitor_names_light_bodies_that_the_steps_do_not_resolve():
+    """A comet that passes Jupiter at 0.02 Hill radii: it has no part in the energy, whose error is bounded."""
+    units = {"length": "AU", "time": "year", "mass": "solar"}
+    bodies = [
+        {"name": "sun", "mass": 1},
+        {"name": "jupiter", "mass": "1/1047.35", "q": [5.2, 0], "v": [0, 2.756674112]},
+        {"name": "comet", "mass": 0, "q": [3.4, -1], "v": [1.88, 3.25]},
+    ]
+    monitor = Monitor(Problem(body=bodies, units=units, parts="wisdom-holman"), "saba4", "1/20", every=1)
+    monitor.step(20)
+    report = monitor.report()
+    assert report.is_bounded and report.light[0]["resolved"]
+    monitor.step(80)
+    report = monitor.report()
+    assert (report.verdict, report.is_bounded) == ("light-bodies", False)
+    assert report.light[0]["bodies"] == ["jupiter", "comet"] and not report.light[0]["resolved"]
+    assert "comet near jupiter at n = 31" in report.reason and "comet not resolved" in str(report)
+
+
 def test_monitor_of_a_loop():
     monitor = shadowstep.Monitor(Problem("kepler"), "stormer-verlet", h="1/20", every=50)
     farthest = 0.0

@@ -1,5 +1,6 @@
 """Ensembles, drift, work-precision, advice, scenes, the command line, types."""
 
+import pickle
 import subprocess
 import sys
 import warnings
@@ -264,6 +265,27 @@ def test_advice_for_a_function_meets_its_tolerance():
         shadowstep.work_precision(problem, 1, ["yoshida4"], steps=[10], folder="kept")
 
 
+def test_what_forces_raise_ends_a_study_at_once():
+    """And not after the hour that the study may take."""
+    calls = 0
+
+    def failing(q):
+        nonlocal calls
+        calls += 1
+        if calls == 500:
+            raise ZeroDivisionError("call 500")
+        return kepler(q)
+
+    problem = Problem(failing, q=[0.4, 0.0], p=[0.0, 2.0])
+    for study in (
+        lambda: shadowstep.work_precision(problem, 100, ["yoshida4"], seconds=3600),
+        lambda: shadowstep.advise(problem, 100, 1e-9, schemes=["yoshida4"], seconds=3600),
+    ):
+        calls = 0
+        with pytest.raises(ZeroDivisionError, match="call 500"):
+            study()
+
+
 def test_records_with_many_columns(tmp_path):
     lines = [f"{2 + i / 500},0.05,{i / 100}" for i in range(600)]
     (tmp_path / "particles.csv").write_text("\n".join(["a,e,M", *lines]) + "\n")
@@ -317,3 +339,5 @@ def test_the_files_of_arguments_can_be_anywhere(tmp_path, monkeypatch):
     (tmp_path / "own" / "problem").write_text(text)
     with pytest.raises(InputError, match="is outside of the folder of this file"):
         shadowstep.Problem.from_scene("problem")
+    allowed = shadowstep.Problem.from_scene("problem", allow_outside=True)
+    assert pickle.loads(pickle.dumps(allowed)).coordinates == given.coordinates

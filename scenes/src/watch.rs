@@ -4,7 +4,7 @@ pub(crate) mod approaches;
 pub(crate) mod encounters;
 mod energy;
 mod lasting_change;
-mod light;
+pub mod light;
 pub(crate) mod particles;
 pub(crate) mod summary;
 

@@ -426,6 +426,16 @@ fn ruin_is_in_the_summary_and_with_strict_in_the_exit_code() {
     assert!(result.err.contains("the step size is too large") && result.err.contains("error of H"), "{}", result.err);
     assert!(result.err.contains("steps per passage at t = 1.8"), "{}", result.err);
     assert_eq!(summarised(ruined.path(), "--strict").code, 1);
+    // nothing is computed where the file is complete: no verdict, so no success
+    let kept = folder(&format!("{}file = \"out.csv\"\n", scene("1/50")));
+    assert_eq!(summarised(kept.path(), "").code, 0);
+    let again = summarised(kept.path(), "--strict");
+    assert!(
+        again.code == 2 && again.err.contains("its file is complete") && again.err.contains("--restart"),
+        "{}",
+        again.err
+    );
+    assert_eq!(summarised(kept.path(), "--strict --restart").code, 1);
     let fine = "[problem]\nname = \"kepler\"\n[run]\nscheme = \"stormer-verlet\"\nstep = \"1/20\"\nuntil = 100\n\
                 digits = \"double\"\n[output]\nenergy = { every = 100 }\n";
     let result = summarised(folder(fine).path(), "--strict");

@@ -38,7 +38,7 @@ const LEAST_STEPS: f64 = 10.0;
 type Place = [f64; 3];
 
 /// Follows light bodies from state to state.
-pub(super) struct LightBodies {
+pub struct LightBodies {
     names: Vec<String>,
     dimensions: usize,
     /// The mass of each body that has one.
@@ -82,7 +82,7 @@ impl Closest {
 
 impl LightBodies {
     /// Of bodies about a central one, in steps of h; `None` where none of them is light.
-    pub(super) fn of(system: &System, h: f64) -> Option<LightBodies> {
+    pub fn of(system: &System, h: f64) -> Option<LightBodies> {
         let number = |value: &Rational| <f64 as Number>::from_rational(value, &());
         let (particles, planets) =
             (system.particles(), system.parts.planets().map(|of_all| of_all.without_particles()));
@@ -134,7 +134,7 @@ impl LightBodies {
     }
 
     /// Takes the state n after the last one, in the coordinates of the steps.
-    pub(super) fn include<N: Real>(&mut self, n: i64, (q, p): (&[N], &[N])) {
+    pub fn include<N: Real>(&mut self, n: i64, (q, p): (&[N], &[N])) {
         std::mem::swap(&mut self.now, &mut self.before);
         self.find_places(q, p);
         if self.before.len() == self.now.len() {
@@ -204,7 +204,7 @@ impl LightBodies {
     }
 
     /// What the states so far have shown, of each light body that was near any planet.
-    pub(super) fn found(&self) -> Vec<LightBody> {
+    pub fn found(&self) -> Vec<LightBody> {
         let one = |(body, Closest { square, n, planet, steps }): (&usize, &Closest)| LightBody {
             n: *n,
             bodies: [*planet, *body].map(|body| self.names[body].clone()),
@@ -252,7 +252,7 @@ fn length(a: Place) -> f64 {
 const SHOWN: usize = 6;
 
 /// The light bodies in words, those that are not resolved first, with the times of states in words.
-pub(super) fn text(bodies: &[LightBody], time: impl Fn(i64) -> String) -> Option<String> {
+pub fn text(bodies: &[LightBody], time: impl Fn(i64) -> String) -> Option<String> {
     let mut sorted: Vec<&LightBody> = bodies.iter().collect();
     sorted.sort_by(|a, b| a.resolved.cmp(&b.resolved).then(a.hill_radii.total_cmp(&b.hill_radii)));
     let one = |LightBody { n, bodies: [planet, body], hill_radii, steps, resolved }: &&LightBody| {
@@ -275,7 +275,7 @@ pub(super) fn text(bodies: &[LightBody], time: impl Fn(i64) -> String) -> Option
 }
 
 /// Why the verdict cannot be that all is well, if a light body is not resolved.
-pub(super) fn not_resolved(bodies: &[LightBody], time: impl Fn(i64) -> String) -> Option<String> {
+pub fn not_resolved(bodies: &[LightBody], time: impl Fn(i64) -> String) -> Option<String> {
     let lost: Vec<&LightBody> = bodies.iter().filter(|body| !body.resolved).collect();
     let one = |LightBody { n, bodies: [planet, body], steps, .. }: &&LightBody| {
         format!("{body} near {planet} at {} ({})", time(*n), significant(*steps, 2))
