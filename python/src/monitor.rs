@@ -95,7 +95,7 @@ impl Monitor {
                 other => drop(begun.send(other.map(|found| found.map(drop)))),
             }
         })?;
-        let found = awaited(py, (None, &|_| Ok(())), &Watched::default(), has_begun);
+        let found = awaited(py, (None, None), &Watched::default(), has_begun);
         problem.raised(py)?;
         found?.map_err(failed)?;
         Ok(Monitor { tasks: Mutex::new(tasks), process: process::id(), number, problem: problem.clone() })
@@ -175,7 +175,7 @@ impl Monitor {
         match soon(&is_done) {
             Some(Ok(found)) => Ok(found),
             Some(Err(panic)) => panic::resume_unwind(panic),
-            None => awaited(py, (None, &|_| Ok(())), &watched, is_done),
+            None => awaited(py, (None, None), &watched, is_done),
         }
     }
 }

@@ -141,9 +141,8 @@ pub(crate) fn waiting_for<T: Send + 'static>(
     let (done, is_done) = channel();
     let of_thread = Arc::clone(&watched);
     spawned(move || drop(done.send(answered(|| working_for(within, || work(&of_thread))))))?;
-    let raised = |py| problem.map_or(Ok(()), |problem| problem.raised(py));
-    let found = awaited(py, (progress, &raised), &watched, is_done);
-    raised(py).and(found)
+    let found = awaited(py, (progress, problem), &watched, is_done);
+    problem.map_or(Ok(()), |problem| problem.raised(py)).and(found)
 }
 
 /// A thread for computations.
@@ -157,10 +156,10 @@ pub(crate) fn answered<T>(work: impl FnOnce() -> T) -> Answer<T> {
     panic::catch_unwind(AssertUnwindSafe(work))
 }
 
-/// Waits for the answer of another thread, as [`waiting_for`] does; `problem` gives what its forces have raised.
+/// Waits for the answer of another thread, as [`waiting_for`] does.
 pub(crate) fn awaited<T: Send>(
     py: Python<'_>,
-    (progress, problem): (Option<&Bound<'_, PyAny>>, &dyn Fn(Python<'_>) -> PyResult<()>),
+    (progress, problem): (Option<&Bound<'_, PyAny>>, Option<&Given>),
     watched: &Watched,
     is_done: Receiver<Answer<T>>,
 ) -> PyResult<T> {
@@ -177,7 +176,7 @@ pub(crate) fn awaited<T: Send>(
                 Some((error, since)) if since.elapsed() > PATIENCE => return Err(error),
                 Some(_) => {}
                 None => {
-                    let mut checked = py.check_signals().and_then(|()| problem(py));
+                    let mut checked = py.check_signals().and_then(|()| problem.map_or(Ok(()), |problem| problem.raised(py)));
                     if let (Ok(()), Some(progress)) = (&checked, progress) {
                         checked = progress.call1((watched.n.load(Ordering::Relaxed),)).map(|_| ());
                     }
