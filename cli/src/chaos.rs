@@ -86,8 +86,8 @@ pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
     let mut records = Vec::new();
     for parts in if arguments.one { 1..=1 } else { 1..=2 } {
         let request = subject.request(arguments.vectors(), arguments.every.into());
-        let name = format!("{}, part {parts}", request.run.name());
-        let progress = Progress::new(bar, name, request.run.steps * u64::from(parts));
+        let name = format!("{}, part {parts}", request.posed.run.name());
+        let progress = Progress::new(bar, name, request.posed.expected_steps() * u64::from(parts));
         let mut terminal = Terminal { progress, interrupt: &interrupt };
         let found = request.run(parts, &mut terminal)?;
         let record = found.ok_or_else(|| Error::run(format!("{}: interrupted", subject.title), AGAIN))?;

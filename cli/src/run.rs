@@ -76,14 +76,12 @@ pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
     let plot = scene.output.plot.as_ref();
     let files =
         plot.map(|plot| PlotFiles::of_scene(&scene, plot, (arguments.force, arguments.continues))).transpose()?;
-    // before signals are handled: counting steps to a physical time makes them
-    let steps = scene.steps();
     let interrupt = Interrupt::listen(&scene.source.path, again(&scene));
     if let (Some(files), Some(plot)) = (&files, plot) {
         files.can_be_written(&scene, plot)?;
     }
     let begin = Instant::now();
-    let progress = Progress::new(scene.output.file.is_some(), scene.as_run().name(), steps);
+    let progress = Progress::new(scene.output.file.is_some(), scene.as_run().name(), scene.posed().expected_steps());
     let mut terminal = Terminal { progress, interrupt, summarises: !arguments.no_summary, summary: None };
     let outcome = match scene.output.file {
         Some(_) => scene.run_to_file(arguments.options(), &mut terminal)?,
@@ -99,7 +97,7 @@ pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
         }
     }
     match outcome {
-        Outcome::Complete { force_evaluations } => {
+        Outcome::Complete { steps, force_evaluations } => {
             if io::stderr().is_terminal() {
                 let seconds = begin.elapsed().as_secs_f64();
                 report::note(format_args!(

@@ -139,8 +139,8 @@ impl Computation for TraceRun<'_, '_> {
         let system = &selection.problem.system;
         let (mut energy_of, mut shown) = (system.energy::<N>(context), system.shown::<N>(context));
         let name = several.then(|| RunName { scheme: run.propagator.to_owned(), step: to_text(run.h.exact()) });
-        let (compensated, summarised) = (selection.arithmetic.is_compensated(), !arguments.run.no_summary);
-        let estimates = Estimates { system, propagator, run, compensated, settings: &settings, summarised };
+        let (arithmetic, summarised) = (selection.arithmetic, !arguments.run.no_summary);
+        let estimates = Estimates { system, propagator, run, arithmetic, settings: &settings, summarised };
         let with_states = plots.as_ref().is_some_and(|plots| plots.needs_states());
         let mut lines = plots.as_ref().map(|plots| plots.run::<N>(run.name(), run.steps));
         let finished = estimates.take::<N>(context, &mut |n, found| {

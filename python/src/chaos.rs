@@ -4,6 +4,7 @@ use pyo3::prelude::*;
 use serde_json::json;
 use shadowstep_scenes::Error;
 use shadowstep_scenes::chaos::{ChaosRequest, conclusion};
+use shadowstep_scenes::posed::Posed;
 use shadowstep_scenes::run::Run;
 use shadowstep_scenes::tangent::Vectors;
 
@@ -29,9 +30,10 @@ pub(crate) fn chaos(
         let posed = given.posed()?;
         let Times { h, steps, physical_end, .. } = &given.times;
         let run = Run { propagator: &posed.scheme.name, h, steps: *steps, order: None, windows: Run::WINDOWS };
-        let (system, scheme, until) = (&posed.system, &posed.scheme.scheme, physical_end.as_ref());
-        let (arithmetic, displaced, every) = (given.arithmetic, given.displaced, given.every);
-        let request = ChaosRequest { system, scheme, run, arithmetic, displaced, until, vectors, every };
+        let numbers = (given.arithmetic, given.displaced);
+        let followed = Posed::new(&posed.system, &posed.scheme.scheme, run, numbers);
+        let followed = Posed { until: physical_end.as_ref(), ..followed };
+        let request = ChaosRequest { posed: followed, vectors, every: given.every };
         let mut records = Vec::new();
         for parts in if half { 1..=2 } else { 1..=1 } {
             let found = request.run(parts, &mut watched.observer())?;

@@ -147,7 +147,7 @@ impl Request {
             By::Named(name, index, given) => (name, index, given),
             By::Direction(components) => return Ok(Variable::Direction(components.clone())),
         };
-        let system = |given: &Given| given.system(precise).map(Box::new);
+        let system = |given: &Given| given.read_anew(precise).map(|(system, _)| Box::new(system));
         let h = &self.run.times.h;
         let nearby = match (name.as_str(), given) {
             ("q", None) => return Ok(Variable::Position(*index)),

@@ -1,6 +1,7 @@
 //! A problem: the sections of a scene that describe a system, or a function that computes its forces.
 
-use std::sync::Arc;
+use std::ops::Deref;
+use std::sync::{Arc, Mutex, PoisonError};
 
 use pyo3::prelude::*;
 use shadowstep::StepSize;
@@ -14,10 +15,22 @@ use shadowstep_symbolic::Exact;
 use crate::errors::{exception, usage};
 use crate::own_forces::Forces;
 
-/// A problem as it was given; it is read again in the number type of each run, as exact values are computed to the digits of the run.
+/// A problem as it was given.
 #[pyclass(frozen, module = "shadowstep._shadowstep")]
 #[derive(Clone)]
-pub(crate) struct Given(Arc<ProblemSource>);
+pub(crate) struct Given(Arc<GivenProblem>);
+
+struct GivenProblem {
+    source: ProblemSource,
+    /// The system in each number type that was asked for: exact values are computed to its digits.
+    read: Mutex<Vec<(Arithmetic, Arc<Read>)>>,
+}
+
+/// A system, and what the user should know about it.
+struct Read {
+    system: System,
+    notes: Vec<Note>,
+}
 
 enum ProblemSource {
     /// The text of a scene, and whether it may name files outside of its folder.
@@ -70,7 +83,7 @@ impl Given {
     /// What [`of_text`](Given::of_text) makes it of again; `None` with a function for the forces.
     #[getter]
     fn source(&self) -> Option<(&str, &str, bool)> {
-        match &*self.0 {
+        match &self.0.source {
             ProblemSource::Scene { source: Source { path, text }, outside } => Some((text, path, *outside)),
             ProblemSource::Own { .. } => None,
         }
@@ -79,13 +92,13 @@ impl Given {
     /// The names of q_1, q_2, ….
     #[getter]
     fn coordinates(&self, py: Python<'_>) -> PyResult<Vec<String>> {
-        Ok(self.system(Arithmetic::DOUBLE).map_err(|error| exception(py, error))?.problem.coordinates)
+        Ok(self.system(Arithmetic::DOUBLE).map_err(|error| exception(py, error))?.coordinates.clone())
     }
 
     /// The names of p_1, p_2, ….
     #[getter]
     fn momenta(&self, py: Python<'_>) -> PyResult<Vec<String>> {
-        Ok(self.system(Arithmetic::DOUBLE).map_err(|error| exception(py, error))?.problem.momenta)
+        Ok(self.system(Arithmetic::DOUBLE).map_err(|error| exception(py, error))?.momenta.clone())
     }
 
     /// The parameters with their values as texts, to 100 digits.
@@ -93,7 +106,7 @@ impl Given {
     fn parameters(&self, py: Python<'_>) -> PyResult<Vec<(String, String)>> {
         let digits = Arithmetic::with_digits(100).expect("there are numbers of 100 digits");
         let system = self.system(digits).map_err(|error| exception(py, error))?;
-        Ok(system.problem.parameters.into_iter().map(|(name, exact)| (name, exact.value.to_string())).collect())
+        Ok(system.parameters.iter().map(|(name, exact)| (name.clone(), exact.value.to_string())).collect())
     }
 
     /// The state at t = 0 in double precision, in the coordinates that trajectories have.
@@ -121,41 +134,63 @@ impl Given {
     }
 }
 
-fn read((source, outside): (&Source, bool), arithmetic: Arithmetic) -> Result<(System, Vec<Note>), Error> {
-    Ok(reading_outside(outside, || System::read(source, arithmetic))?)
+/// The system of a problem, in the number type of a run.
+pub(crate) struct GivenSystem(Arc<Read>);
+
+impl Deref for GivenSystem {
+    type Target = System;
+
+    fn deref(&self) -> &System {
+        &self.0.system
+    }
 }
 
 impl Given {
-    /// The system in a number type.
-    pub(crate) fn system(&self, arithmetic: Arithmetic) -> Result<System, Error> {
-        let system = match &*self.0 {
-            ProblemSource::Scene { source, outside } => read((source, *outside), arithmetic)?.0,
+    /// The system in a number type, which is read once.
+    fn read(&self, arithmetic: Arithmetic) -> Result<Arc<Read>, Error> {
+        let all = || self.0.read.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some((_, known)) = all().iter().find(|(known, _)| *known == arithmetic) {
+            return Ok(Arc::clone(known));
+        }
+        let (system, notes) = self.read_anew(arithmetic)?;
+        let read = Arc::new(Read { system, notes });
+        all().push((arithmetic, Arc::clone(&read)));
+        Ok(read)
+    }
+
+    /// The system in a number type, which may be needed once.
+    pub(crate) fn read_anew(&self, arithmetic: Arithmetic) -> Result<(System, Vec<Note>), Error> {
+        let (system, notes) = match &self.0.source {
+            ProblemSource::Scene { source, outside } => reading_outside(*outside, || System::read(source, arithmetic))?,
             ProblemSource::Own { forces, q, p, masses } => {
-                System::of_own_potential(Box::new(forces.clone()), (q.clone(), p.clone()), masses.clone())?
+                let own = Box::new(forces.clone());
+                (System::of_own_potential(own, (q.clone(), p.clone()), masses.clone())?, Vec::new())
             }
         };
         system.check_digits(arithmetic)?;
-        Ok(system)
+        Ok((system, notes))
+    }
+
+    /// The system in a number type.
+    pub(crate) fn system(&self, arithmetic: Arithmetic) -> Result<GivenSystem, Error> {
+        self.read(arithmetic).map(GivenSystem)
     }
 
     /// What the user should know about it.
     pub(crate) fn notes(&self, arithmetic: Arithmetic) -> Result<Vec<Note>, Error> {
-        match &*self.0 {
-            ProblemSource::Scene { source, outside } => Ok(read((source, *outside), arithmetic)?.1),
-            ProblemSource::Own { .. } => Ok(Vec::new()),
-        }
+        Ok(self.read(arithmetic)?.notes.clone())
     }
 
     /// What the function for the forces has raised since it was asked last.
     pub(crate) fn raised(&self, py: Python<'_>) -> PyResult<()> {
-        match &*self.0 {
+        match &self.0.source {
             ProblemSource::Own { forces, .. } => forces.raised(py),
             ProblemSource::Scene { .. } => Ok(()),
         }
     }
 
     fn of(source: ProblemSource, py: Python<'_>) -> PyResult<Self> {
-        let given = Given(Arc::new(source));
+        let given = Given(Arc::new(GivenProblem { source, read: Mutex::default() }));
         given.system(Arithmetic::DOUBLE).map_err(|error| exception(py, error))?;
         Ok(given)
     }

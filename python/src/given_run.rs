@@ -5,11 +5,11 @@ use shadowstep::{Rational, StepSize};
 use shadowstep_scenes::arithmetic::Arithmetic;
 use shadowstep_scenes::library::{NamedScheme, check_displaced};
 use shadowstep_scenes::propagator::for_system;
-use shadowstep_scenes::{Error, Note, System, steps};
+use shadowstep_scenes::{Error, Note, steps};
 use shadowstep_schemes::First;
 
 use crate::errors::{exception, of_library, usage};
-use crate::given::{Given, arithmetic, number, step_size, word};
+use crate::given::{Given, GivenSystem, arithmetic, number, step_size, word};
 use crate::scheme::Table;
 
 /// A run as Python gives it.
@@ -130,13 +130,13 @@ impl Times {
         let (h, until) = (step_size(py, step)?, number(py, "until", end)?);
         let checked = steps::check_physical_end((&h, step), (&until, end), rate);
         checked.map_err(|error| usage(py, format!("h = {step}, until = {end}: {error}"), error.hint()))?;
-        Ok(Times { h, steps: 0, physical_end: Some(until), note: None })
+        Ok(Times { h, steps: steps::MOST_STEPS, physical_end: Some(until), note: None })
     }
 }
 
 /// A system with a scheme that is valid for it.
 pub(crate) struct SystemWithScheme {
-    pub(crate) system: System,
+    pub(crate) system: GivenSystem,
     pub(crate) scheme: NamedScheme,
     pub(crate) note: Option<Note>,
 }

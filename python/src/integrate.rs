@@ -7,7 +7,8 @@ use serde_json::json;
 use shadowstep::shadow::EstimatorSettings;
 use shadowstep_scenes::arithmetic::Arithmetic;
 use shadowstep_scenes::computation::{Computation, RunNumber};
-use shadowstep_scenes::integrate::{Integration, KeptStates, Samples};
+use shadowstep_scenes::integrate::{KeptStates, Samples};
+use shadowstep_scenes::posed::Posed;
 use shadowstep_scenes::run::{OrderSetting, Run};
 use shadowstep_scenes::stability::{few_kicks, resonant, unstable};
 use shadowstep_scenes::{Direction, Error, Note, Observer, estimator};
@@ -66,13 +67,13 @@ pub(crate) fn integrate<'py>(
             request.run.times.steps = found.steps();
             vectors = request.forward(&mut watched.observer())?.by;
         }
-        Ok((found, vectors, notes, posed.system.problem, summarising.summary()?))
+        Ok((found, vectors, notes, posed.system, summarising.summary()?))
     });
-    let (found, vectors, notes, problem, summary) = found?.map_err(|error| exception(py, error))?;
+    let (found, vectors, notes, system, summary) = found?.map_err(|error| exception(py, error))?;
     let dictionary = found.into_dictionary(py)?;
     dictionary.set_item("notes", PyList::new(py, notes.iter().map(Note::to_string))?)?;
-    dictionary.set_item("coordinates", &problem.coordinates)?;
-    dictionary.set_item("momenta", &problem.momenta)?;
+    dictionary.set_item("coordinates", &system.coordinates)?;
+    dictionary.set_item("momenta", &system.momenta)?;
     dictionary.set_item("is_between", is_between)?;
     dictionary.set_item("summary", summary)?;
     dictionary.set_item("tangent", columns(py, vectors)?)?;
@@ -91,19 +92,18 @@ impl SystemWithScheme {
         let setting = estimator.and_then(estimator::order_setting);
         let order = setting.map(|(name, value)| OrderSetting { name, value });
         let run = Run { propagator: &self.scheme.name, h: &times.h, steps: times.steps, order, windows };
-        let compensated = arithmetic.is_compensated();
-        let (system, scheme) = (&self.system, &self.scheme.scheme);
-        let until = times.physical_end.as_ref();
+        let system = &self.system;
         let ends = end.map(|text| system.condition("end", text)).transpose()?;
         let ends = ends.as_ref();
         let surface = section.map(|(text, direction)| system.section("section", text, *direction)).transpose()?;
         let kept = surface.as_ref().map_or(KeptStates::Every(every), KeptStates::Crossings);
-        let integration = Integration { system, scheme, run, compensated, displaced, until, ends, kept, estimator };
+        let posed = Posed::new(system, &self.scheme.scheme, run, (arithmetic, displaced));
+        let posed = Posed { until: times.physical_end.as_ref(), ends, estimator, ..posed };
         let frequency = system.fastest_frequency();
         let unstable = frequency.and_then(|frequency| unstable(frequency, &self.scheme, times.h.exact()));
         let found = match arithmetic.is_longer_than_double() {
-            false => integration.run::<f64>(&(), observer).map(Integrated::Doubles),
-            true => arithmetic.compute(InTexts { integration, observer }).map(Integrated::Texts),
+            false => posed.samples::<f64>(kept, &(), observer).map(Integrated::Doubles),
+            true => arithmetic.compute(InTexts { posed, kept, observer }).map(Integrated::Texts),
         };
         let found = found.map_err(|error| match (error, &unstable) {
             (Error::Run { message, hint }, Some(note)) => Error::run(message, format!("{hint}; {note}")),
@@ -116,7 +116,8 @@ impl SystemWithScheme {
 }
 
 struct InTexts<'a> {
-    integration: Integration<'a>,
+    posed: Posed<'a>,
+    kept: KeptStates<'a>,
     observer: &'a mut dyn Observer,
 }
 
@@ -124,7 +125,7 @@ impl Computation for InTexts<'_> {
     type Output = Result<Samples<String>, Error>;
 
     fn compute<N: RunNumber>(self, context: &N::Context) -> Self::Output {
-        Ok(self.integration.run::<N>(context, self.observer)?.map(N::to_text))
+        Ok(self.posed.samples::<N>(self.kept, context, self.observer)?.map(N::to_text))
     }
 }
 

@@ -176,7 +176,8 @@ pub(crate) fn awaited<T: Send>(
                 Some((error, since)) if since.elapsed() > PATIENCE => return Err(error),
                 Some(_) => {}
                 None => {
-                    let mut checked = py.check_signals().and_then(|()| problem.map_or(Ok(()), |problem| problem.raised(py)));
+                    let mut checked =
+                        py.check_signals().and_then(|()| problem.map_or(Ok(()), |problem| problem.raised(py)));
                     if let (Ok(()), Some(progress)) = (&checked, progress) {
                         checked = progress.call1((watched.n.load(Ordering::Relaxed),)).map(|_| ());
                     }

@@ -22,14 +22,14 @@ use shadowstep_work_precision::size::Size;
 use shadowstep_work_precision::study::{Cost, Request, Studied, Study};
 
 use crate::errors::{exception, usage};
-use crate::given::{Given, arithmetic, number, word};
+use crate::given::{Given, GivenSystem, arithmetic, number, word};
 use crate::given_run::{SystemWithScheme, beginning_with, first_map};
 use crate::scheme::Table;
 use crate::waiting::waiting_for;
 
 /// What schemes are compared on, and the schemes.
 struct Compared {
-    system: System,
+    system: GivenSystem,
     until: Rational,
     /// About the length of the runs in s, where time is transformed.
     length: Option<Rational>,

@@ -1,29 +1,20 @@
 //! Whether a trajectory is chaotic, and whether its step size makes it so.
 
-use std::ops::ControlFlow::{self, Break, Continue};
-
 use serde::{Serialize, Serializer};
-use shadowstep::shadow::run::RunError;
-use shadowstep::shadow::{Criterion, Estimate, Verdict};
-use shadowstep::steps::integrator::VectorIntegrator;
-use shadowstep::tables::{AtRunTime, TableScheme};
+use shadowstep::shadow::{Criterion, Verdict};
 use shadowstep::tangent::{Exponent, Growth, Regularity};
-use shadowstep::{Carried, Rational, StepSize};
+use shadowstep::{Rational, StepSize};
 use shadowstep_symbolic::decimal::to_text;
 
 use crate::arithmetic::{Arithmetic, DigitsLabel};
 use crate::computation::{Computation, RunNumber};
 use crate::error::Error;
-use crate::follow::Follower;
 use crate::observer::Observer;
-use crate::physical_end::{Ends, find_end};
+use crate::posed::{Followed, Posed};
 use crate::run::Run;
-use crate::scene::{Scene, System};
-use crate::start::{Begin, Steps};
-use crate::steps::MOST_STEPS;
-use crate::tangent::{FollowingVectors, TangentRun, Vectors};
+use crate::tangent::{TangentRun, Vectors};
+use crate::watch::Energies;
 use crate::watch::summary::Summary;
-use crate::watch::{Energies, Watch};
 
 /// Indicators of chaos along a trajectory. Numbers that are not defined, as of too few observations, are `None`.
 #[derive(Clone, Debug, Serialize)]
@@ -67,9 +58,12 @@ pub struct ChaosRecord {
 }
 
 impl ChaosRecord {
-    fn of(request: &ChaosRequest<'_>, tangents: &dyn TangentRun, summary: Summary) -> Self {
-        let run = request.run;
-        let orthonormal = matches!(request.vectors, Vectors::Orthonormal(_));
+    fn of(
+        (run, arithmetic, vectors): (Run<'_>, Arithmetic, Vectors),
+        tangents: &dyn TangentRun,
+        summary: Summary,
+    ) -> Self {
+        let orthonormal = matches!(vectors, Vectors::Orthonormal(_));
         let growths = tangents.growths();
         let (growth, exponent) = (growths[0], growths[0].exponent());
         let each = |growth: &&Growth| growth.exponent().map(|Exponent { value, error }| [value, error]);
@@ -77,7 +71,7 @@ impl ChaosRecord {
             scheme: run.propagator.to_owned(),
             step: to_text(run.h.exact()),
             steps: run.steps,
-            digits: request.arithmetic.label(),
+            digits: arithmetic.label(),
             time: growth.time(),
             motion: growth.regularity(),
             exponent: exponent.map(|found| found.value),
@@ -138,57 +132,36 @@ fn exponents_agree(whole: &ChaosRecord, half: &ChaosRecord) -> bool {
     (a - b).abs() <= errors.max(a.max(b) / 4.0)
 }
 
-/// A run from t = 0 with tangent vectors. Nothing is written.
+/// A run with tangent vectors. Nothing is written.
 #[derive(Clone, Copy)]
 pub struct ChaosRequest<'a> {
-    /// H and the initial state.
-    pub system: &'a System,
-    /// The scheme, valid for the [system](crate::propagator::for_system).
-    pub scheme: &'a TableScheme<AtRunTime>,
-    /// The steps.
-    pub run: Run<'a>,
-    /// The number type.
-    pub arithmetic: Arithmetic,
-    /// Whether gradient kicks are by displaced forces.
-    pub displaced: bool,
-    /// The physical time at which the run ends, where time is transformed; the number of steps of the run is then not used.
-    pub until: Option<&'a Rational>,
+    /// The run.
+    pub posed: Posed<'a>,
     /// The vectors.
     pub vectors: Vectors,
     /// Vectors are measured every `every` steps.
     pub every: u64,
 }
 
-impl Scene {
-    /// The run of the scene with these vectors, measured every `every` steps.
-    pub fn chaos(&self, vectors: Vectors, every: u64) -> ChaosRequest<'_> {
-        let Scene { system, arithmetic, displaced, .. } = self;
-        let (scheme, run) = (&self.scheme.scheme, self.as_run());
-        let (arithmetic, displaced) = (*arithmetic, *displaced);
-        ChaosRequest { system, scheme, run, arithmetic, displaced, until: None, vectors, every }
-    }
-}
-
 impl ChaosRequest<'_> {
     /// Makes the run with steps of h/`parts`; `None` if the observer stopped it.
     ///
     /// # Errors
-    /// A run that fails; those of [`FollowingVectors::new`].
+    /// A run that fails; those of [`FollowingVectors::new`](crate::tangent::FollowingVectors::new).
     pub fn run(&self, parts: u32, observer: &mut dyn Observer) -> Result<Option<ChaosRecord>, Error> {
-        let h = StepSize::try_from(self.run.h.exact() / Rational::from_integer(parts.into())).expect("h is not 0");
-        let run = Run { h: &h, steps: self.run.steps * u64::from(parts), ..self.run };
-        self.arithmetic.compute(Following { request: ChaosRequest { run, ..*self }, observer })
-    }
-
-    fn steps(&self) -> Steps<'_> {
-        let ChaosRequest { scheme, run, displaced, .. } = *self;
-        Steps { scheme, h: run.h, compensated: self.arithmetic.is_compensated(), displaced, begin: Begin::InitialState }
+        let run = self.posed.run;
+        let h = StepSize::try_from(run.h.exact() / Rational::from_integer(parts.into())).expect("h is not 0");
+        let run = Run { h: &h, steps: run.steps.saturating_mul(parts.into()), ..run };
+        let vectors = Some((self.vectors, self.every));
+        let posed = Posed { run, vectors, energies: Some(Energies::Windows), summarised: true, ..self.posed };
+        posed.arithmetic.compute(Following { posed, vectors: self.vectors, observer })
     }
 }
 
 /// The run in any number type.
 struct Following<'a, 'o> {
-    request: ChaosRequest<'a>,
+    posed: Posed<'a>,
+    vectors: Vectors,
     observer: &'o mut dyn Observer,
 }
 
@@ -196,63 +169,13 @@ impl Computation for Following<'_, '_> {
     type Output = Result<Option<ChaosRecord>, Error>;
 
     fn compute<N: RunNumber>(self, context: &N::Context) -> Self::Output {
-        let Following { mut request, observer } = self;
-        let (system, vectors) = (request.system, (request.vectors, request.every));
-        let begin =
-            |request: &ChaosRequest<'_>| system.integrator::<N>(request.steps(), system.start(context), context);
-        if let Some(until) = request.until {
-            let ends = Ends { until: Some(until), condition: None };
-            let integrator = &mut *begin(&request)?;
-            request.run.steps = find_end(integrator, system, ends, (request.run.h.exact(), MOST_STEPS), context).steps;
-        }
-        let mut integrator = begin(&request)?;
-        let tangents = FollowingVectors::new(request.arithmetic, system, request.steps(), vectors)?;
-        let run = request.run;
-        let failed = |error: RunError| run.failed_naming(&error, &system.coordinates, &system.momenta);
-        let watch = Watch::of_run(system, &mut *integrator, (run, 0), Energies::Windows, context).map_err(failed)?;
-        let mut follower = ChaosFollower { run, system, tangents, watch, observer };
-        if N::follow(&mut *integrator, (None, run.steps), None, &mut follower)?.is_break() {
+        let Following { posed, vectors, observer } = self;
+        let followed = N::follow(&posed, context, &mut [], observer)?;
+        let Followed { n, is_stopped: false, summary: Some(summary), vectors: Some(mut tangents), .. } = followed
+        else {
             return Ok(None);
-        }
-        let ChaosFollower { mut tangents, watch, .. } = follower;
-        let summary = watch.summary(run).expect("it was asked for");
-        Ok(Some(ChaosRecord::of(&request, tangents.end(), summary)))
-    }
-}
-
-/// Makes a step of the tangent vectors with each step of the run.
-struct ChaosFollower<'a, N: RunNumber> {
-    run: Run<'a>,
-    system: &'a System,
-    tangents: FollowingVectors,
-    watch: Watch<N>,
-    observer: &'a mut dyn Observer,
-}
-
-impl<N: RunNumber> Follower<N> for ChaosFollower<'_, N> {
-    fn carried(&self) -> Carried {
-        self.watch.carried()
-    }
-
-    fn state(&mut self, n: i64, integrator: &mut VectorIntegrator<'_, N>) {
-        if n == 0 {
-            return;
-        }
-        self.watch.include(n, integrator);
-        self.tangents.step();
-    }
-
-    fn output(
-        &mut self,
-        n: i64,
-        _: Option<&Estimate<'_, N>>,
-        _: &mut VectorIntegrator<'_, N>,
-    ) -> Result<ControlFlow<()>, Error> {
-        self.observer.progress(n);
-        Ok(if self.observer.stops() { Break(()) } else { Continue(()) })
-    }
-
-    fn failed(&mut self, error: RunError) -> Result<(), Error> {
-        Err(self.run.failed_naming(&error, &self.system.coordinates, &self.system.momenta))
+        };
+        let run = Run { steps: n.unsigned_abs(), ..posed.run };
+        Ok(Some(ChaosRecord::of((run, posed.arithmetic, vectors), tangents.end(), summary)))
     }
 }

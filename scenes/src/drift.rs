@@ -101,11 +101,10 @@ impl Computation for Measurement<'_> {
 
     fn compute<N: RunNumber>(self, context: &N::Context) -> Self::Output {
         let Measurement { request, propagator, run, controls, follower } = self;
-        let DriftRequest { system, summarised, .. } = *request;
+        let DriftRequest { system, summarised, arithmetic, .. } = *request;
         let settings = request.estimator.clone().with_errors(true);
-        let compensated = request.arithmetic.is_compensated() && propagator.scheme().is_some();
         let begin = CpuTime::begin();
-        let estimates = Estimates { system, propagator, run, compensated, settings: &settings, summarised };
+        let estimates = Estimates { system, propagator, run, arithmetic, settings: &settings, summarised };
         let (found, finished) = measure::<N>(estimates, context, |n| follower.reaches(run, n))?;
         let seconds = begin.elapsed();
         let control = match propagator.scheme() {

@@ -224,7 +224,7 @@ impl Ensemble {
         continues: &(dyn Fn() -> bool + Sync),
         of_first: &(dyn Fn() -> Result<Alone, Error> + Sync),
     ) -> Result<Vec<Outcome>, Error> {
-        let steps = self.first.steps();
+        let steps = self.first.most_steps();
         let one = |known: &mut Option<Alone>, t: usize| {
             let Some((q, p)) = self.state(parsed, t) else {
                 let system = self.system(parsed, t)?;
@@ -269,7 +269,7 @@ impl Ensemble {
 
     fn trajectories(&self) -> ensemble::Ensemble {
         let Observed { every, modified_energy } = self.observed;
-        let (trajectories, steps) = (self.columns.trajectories(), self.first.steps());
+        let (trajectories, steps) = (self.columns.trajectories(), self.first.most_steps());
         ensemble::Ensemble { trajectories, steps, every, modified_energy, merged: false, threads: None }
     }
 
@@ -511,7 +511,7 @@ mod tests {
                     let scene = ensemble.scene(&parsed, t).unwrap();
                     let system = &scene.system;
                     let mut alone = Alone::new(system, scene.steps_from(Begin::InitialState)).unwrap();
-                    let steps = (system, scene.steps());
+                    let steps = (system, scene.most_steps());
                     let alone = alone.outcome(steps, (&system.q, &system.p), ensemble.observed, &|| true).unwrap();
                     assert!(alone.not_finite.is_none() && alone.modified_drift.is_some());
                     assert_eq!(*found, alone, "{parts}, {planets} planets, trajectory {t}");

@@ -1,20 +1,19 @@
 //! The modified energies along a run, one by one, and what the run shows.
 
-use std::ops::ControlFlow;
-
-use shadowstep::shadow::run::RunError;
 use shadowstep::shadow::{Estimate, EstimatorSettings};
-use shadowstep::steps::integrator::VectorIntegrator;
 
+use crate::arithmetic::Arithmetic;
+use crate::at::At;
+use crate::column::Column;
 use crate::computation::RunNumber;
 use crate::error::Error;
-use crate::follow::Follower;
+use crate::library::NamedScheme;
+use crate::posed::{Followed, Posed};
 use crate::propagator::{Propagator, exact_flow};
 use crate::run::Run;
 use crate::scene::System;
-use crate::start::{Begin, Steps};
+use crate::watch::Energies;
 use crate::watch::summary::{EnergySummary, Summary};
-use crate::watch::{Energies, Watch};
 
 /// A run whose modified energies are estimated.
 #[derive(Clone, Copy)]
@@ -25,8 +24,8 @@ pub struct Estimates<'a> {
     pub propagator: &'a Propagator,
     /// The steps.
     pub run: Run<'a>,
-    /// Whether q and p are sums with remainders.
-    pub compensated: bool,
+    /// The number type.
+    pub arithmetic: Arithmetic,
     /// The estimator.
     pub settings: &'a EstimatorSettings,
     /// Whether a summary is made.
@@ -50,6 +49,11 @@ pub struct Finished {
 }
 
 impl Estimates<'_> {
+    /// Whether q and p are sums with remainders.
+    pub fn is_compensated(&self) -> bool {
+        self.arithmetic.is_compensated() && self.propagator.scheme().is_some()
+    }
+
     /// Gives each estimate with its n to `take`.
     ///
     /// # Errors
@@ -60,12 +64,7 @@ impl Estimates<'_> {
     pub fn take<N: RunNumber>(self, context: &N::Context, take: Take<'_, N>) -> Result<Finished, Error> {
         let Estimates { system, propagator, run, settings, .. } = self;
         match propagator {
-            Propagator::Scheme(named) => {
-                let (compensated, begin) = (self.compensated, Begin::InitialState);
-                let steps = Steps { scheme: &named.scheme, h: run.h, compensated, displaced: false, begin };
-                let mut integrator = system.integrator(steps, system.start(context), context)?;
-                self.along(&mut *integrator, context, take)
-            }
+            Propagator::Scheme(named) => self.along(named, context, take),
             Propagator::ExactFlow => {
                 let setup = system.setup().expect("the exact flow was read for this system");
                 let mut shadow = exact_flow(&setup, run, settings, context)?;
@@ -80,69 +79,32 @@ impl Estimates<'_> {
     /// Those of a scheme.
     fn along<N: RunNumber>(
         self,
-        integrator: &mut VectorIntegrator<'_, N>,
+        named: &NamedScheme,
         context: &N::Context,
         take: Take<'_, N>,
     ) -> Result<Finished, Error> {
-        let Estimates { system, run, settings, summarised, .. } = self;
-        let (q, p) = system.start(context);
-        let initial = integrator.energy_at(&q, &p);
-        let watch = Watch::begin(integrator, run, (0, initial), Energies::All, summarised);
-        let watch = watch.map_err(|error| self.failed(&error))?.of_system(system, integrator);
-        let last = i64::try_from(run.steps).unwrap_or(i64::MAX);
-        let mut along = Along { estimates: self, take, watch, last, at_first: 0, at_last: 0 };
-        // none ends the run
-        let _ = N::follow(integrator, (None, run.steps), Some(settings), &mut along)?;
-        let Along { watch, at_first, at_last, .. } = along;
-        Ok(Finished {
-            evaluations: integrator.state().evaluations(),
-            own_evaluations: at_last - at_first,
-            energy: Some(watch.energy()),
-            summary: watch.summary(run),
-        })
-    }
-
-    fn failed(self, error: &RunError) -> Error {
-        self.run.failed_naming(error, &self.system.coordinates, &self.system.momenta)
+        let Estimates { system, run, settings, arithmetic, summarised, .. } = self;
+        let posed = Posed {
+            estimator: Some(settings),
+            energies: Some(Energies::All),
+            summarised,
+            ..Posed::new(system, &named.scheme, run, (arithmetic, false))
+        };
+        let Followed { evaluations, own_evaluations, energy, summary, .. } =
+            N::follow(&posed, context, &mut [&mut Taking(take)], &mut ())?;
+        Ok(Finished { evaluations, own_evaluations, energy, summary })
     }
 }
 
-/// Follows a run of a scheme.
-struct Along<'a, N: RunNumber> {
-    estimates: Estimates<'a>,
-    take: Take<'a, N>,
-    watch: Watch<N>,
-    /// The n of the last state of the run.
-    last: i64,
-    /// Evaluations of the gradient before the first and after the last step of the run.
-    at_first: u64,
-    at_last: u64,
-}
+/// Takes the estimates of a run of a scheme.
+struct Taking<'a, N: RunNumber>(Take<'a, N>);
 
-impl<N: RunNumber> Follower<N> for Along<'_, N> {
-    fn state(&mut self, n: i64, integrator: &mut VectorIntegrator<'_, N>) {
-        if n == 0 {
-            self.at_first = integrator.state().evaluations();
-        }
-        if n == self.last {
-            self.at_last = integrator.state().evaluations();
-        }
-        if 0 < n && n <= self.last {
-            self.watch.include(n, integrator);
-        }
+impl<N: RunNumber> Column<N> for Taking<'_, N> {
+    fn next(&self, n: i64) -> i64 {
+        n + 1
     }
 
-    fn output(
-        &mut self,
-        n: i64,
-        estimate: Option<&Estimate<'_, N>>,
-        _: &mut VectorIntegrator<'_, N>,
-    ) -> Result<ControlFlow<()>, Error> {
-        (self.take)(n, estimate.expect("estimates are made"))?;
-        Ok(ControlFlow::Continue(()))
-    }
-
-    fn failed(&mut self, error: RunError) -> Result<(), Error> {
-        Err(self.estimates.failed(&error))
+    fn take(&mut self, at: &mut At<'_, '_, N>) -> Result<(), Error> {
+        at.estimate.map_or(Ok(()), |estimate| (self.0)(at.n, estimate))
     }
 }

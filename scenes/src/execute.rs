@@ -3,17 +3,16 @@
 use std::io::{self, Write};
 use std::path::Path;
 
-use crate::computation::{Computation, RunNumber};
-use crate::engine::{self, Ended, Outcome};
+use crate::engine::{Outcome, SceneRun};
 use crate::error::Error;
 use crate::note::Note;
 use crate::observer::Observer;
+use crate::posed::Followed;
 use crate::results::{
     Begun, Checkpoint, Columns, FileOptions, Metadata, Rows, Target, file_hashes, prolonged, records,
 };
 use crate::scene::{Format, Scene};
 use crate::stability::{few_kicks, resonant, unstable};
-use crate::steps::End;
 
 impl Scene {
     /// Runs the scene and writes its rows to the file that it names, from the last checkpoint if there is one.
@@ -77,14 +76,10 @@ impl Scene {
         unstable.or_else(|| few_kicks(&self.system, scheme, h)).or_else(|| resonant(&self.system, scheme, h))
     }
 
-    /// Where a condition ends the run, or that whole steps end before `until`.
+    /// That whole steps end before `until`.
     fn note_of_end(&self) -> Option<Note> {
-        if let Some(condition) = &self.ends {
-            let (condition, End { steps, is_met }) = (condition.text().to_owned(), self.end());
-            return Some(Note::Ends { condition, steps, is_met });
-        }
         let plain = self.until.as_ref().filter(|_| self.physical_end().is_none());
-        plain.and_then(|until| Note::of_end(self.h.exact(), self.steps(), until))
+        plain.and_then(|until| Note::of_end(self.h.exact(), self.steps()?, until))
     }
 
     /// Whether a summary is made.
@@ -108,34 +103,25 @@ impl Scene {
             rows.target.end_head(self.output.format == Format::Numpy, checkpoint)?;
         }
         let following = SceneRun { scene: self, rows: &mut rows, checkpoint, observer: &mut *observer };
-        let ended = self.arithmetic.compute(following);
-        match &ended {
-            Ok((Outcome::Stopped { .. }, _)) => {}
-            Ok((_, summary)) => {
+        match self.arithmetic.compute(following) {
+            Ok(Followed { n, is_stopped: true, .. }) => Ok(Outcome::Stopped { n }),
+            Ok(Followed { n, is_met, evaluations: force_evaluations, summary, .. }) => {
+                let steps = n.unsigned_abs();
+                if let Some(condition) = &self.ends {
+                    observer.note(&Note::Ends { condition: condition.text().to_owned(), steps, is_met });
+                }
                 rows.finish(&Metadata::of(self), summary.as_ref())?;
                 summary.iter().for_each(|summary| observer.summary(summary));
+                Ok(Outcome::Complete { steps, force_evaluations })
             }
-            Err(Error::Run { .. }) => rows.target.give_up(observer)?,
-            // the disk is full: a later run can resume it
-            Err(_) => {}
+            Err(error) => {
+                // where the disk is full, a later run can resume it
+                if matches!(error, Error::Run { .. }) {
+                    rows.target.give_up(observer)?;
+                }
+                Err(error)
+            }
         }
-        Ok(ended?.0)
-    }
-}
-
-/// The run of a scene in any number type.
-struct SceneRun<'a, 'r> {
-    scene: &'a Scene,
-    rows: &'a mut Rows<'r>,
-    checkpoint: Option<&'a Checkpoint>,
-    observer: &'a mut dyn Observer,
-}
-
-impl Computation for SceneRun<'_, '_> {
-    type Output = Result<Ended, Error>;
-
-    fn compute<N: RunNumber>(self, context: &N::Context) -> Self::Output {
-        engine::run::<N>(self.scene, context, self.rows, self.checkpoint, self.observer)
     }
 }
 
@@ -155,6 +141,7 @@ fn columns(scene: &Scene) -> Columns {
 mod tests {
     use super::*;
     use crate::chaos::ChaosRequest;
+    use crate::posed::Posed;
     use crate::run::Run;
     use crate::tangent::Vectors;
     use crate::watch::summary::Summary;
@@ -349,6 +336,31 @@ mod tests {
                 );
                 let whole = summary_with_stops(&text, &mut || 10_000);
                 assert_eq!(summary_with_stops(&text, &mut random), whole, "{text}");
+            }
+        }
+    }
+
+    /// Nor does it matter where the run ends on something else than a number of steps.
+    #[test]
+    fn so_is_that_of_a_run_whose_end_is_found_on_the_way() {
+        let kepler = "problem = { name = \"kepler\", parameters = { eccentricity = \"7/10\" } }";
+        let transformed = format!("{kepler}\ntime.transform = \"logarithmic\"");
+        let rows = "energy = { every = 7 }\nextremes = { r = \"x^2 + y^2\" }\n";
+        let estimated = "modified_energy = { estimator = \"bilinear\", order = 8, every = 7 }\n";
+        for (system, scheme, end, digits) in [
+            (kepler, "yoshida4", "steps = 5000, end = \"t > 31/2\"", "\"double\""),
+            (kepler, "bcm6-13", "steps = 5000, end = \"t > 31/2\"", "\"compensated\""),
+            (&transformed, "stormer-verlet", "until = 16", "30"),
+            (&transformed, "yoshida4", "until = 1000, end = \"t > 31/2\"", "\"double\""),
+        ] {
+            for output in [rows, estimated] {
+                let text = format!(
+                    "{system}\nrun = {{ scheme = \"{scheme}\", step = \"1/20\", {end}, digits = {digits} }}\n\
+                     [output]\nfile = \"out.csv\"\ncheckpoint = \"1 h\"\n{output}"
+                );
+                let whole = summary_with_stops(&text, &mut || 10_000);
+                let mut stops = [3, 40, 97, 150].into_iter().cycle();
+                assert_eq!(summary_with_stops(&text, &mut || stops.next().unwrap()), whole, "{text}");
             }
         }
     }
@@ -548,8 +560,8 @@ mod tests {
             assert_eq!(rows[1].split(',').skip(2).take(3).collect::<Vec<_>>(), ["", "0.0", ""]);
             assert_eq!(rows.len(), 4, "{rows:?}");
             let shorter = scene_in(digits, folder.path(), KEPLER, "energy = true");
-            let request = shorter.chaos(Vectors::Free(2), 1);
-            let request = ChaosRequest { run: Run { steps: 14, ..request.run }, ..request };
+            let posed = Posed { run: Run { steps: 14, ..shorter.as_run() }, ..shorter.posed() };
+            let request = ChaosRequest { posed, vectors: Vectors::Free(2), every: 1 };
             let expected = request.run(1, &mut ()).unwrap().unwrap();
             let found: Vec<f64> = rows[3].split(',').skip(2).map(|text| text.parse().unwrap()).collect();
             let means = [expected.lyapunov, expected.mean_megno].map(Option::unwrap);
@@ -633,6 +645,6 @@ mod tests {
         let mut scene = scene(folder.path(), KEPLER, "energy = true");
         scene.scheme = crate::library::scheme("stormer-verlet").unwrap();
         let outcome = scene.run_to_file(FileOptions::default(), &mut ()).unwrap();
-        assert_eq!(outcome, Outcome::Complete { force_evaluations: 21 });
+        assert_eq!(outcome, Outcome::Complete { steps: 20, force_evaluations: 21 });
     }
 }

@@ -282,7 +282,7 @@ mod tests {
             for (e, digits) in [("1/3", "double"), ("2/3", "30")] {
                 let names = [number("e", e), number("h", "1/40"), word("n", "12"), word("digits", digits)];
                 let scene = family.scene(&names).unwrap_or_else(|faults| panic!("{faults}"));
-                assert_eq!((scene.steps(), scene.h.exact().to_string()), (12, "1/40".to_owned()));
+                assert_eq!((scene.steps(), scene.h.exact().to_string()), (Some(12), "1/40".to_owned()));
                 assert_eq!(scene.arithmetic.digits(), digits.parse().unwrap_or(16));
                 let value = |name| scene.system.parameters.iter().find(|(n, _)| n == name).unwrap().1.value.to_string();
                 assert_eq!(value("e"), e);

@@ -1,148 +1,526 @@
-//! The loop of every run: it makes the states in the order of time, with their modified energies if these are wanted, and gives them to a follower.
+//! The one loop of runs: it makes the states in the order of time, with their modified energies if these are wanted, and shows them to columns.
 
 use std::ops::ControlFlow::{self, Break, Continue};
+use std::time::{Duration, Instant};
 
+use num_traits::Signed;
+use shadowstep::number::saved::{Fields, Saved as _};
 use shadowstep::shadow::run::{RunError, ShadowRun, States as _, Trajectory};
 use shadowstep::shadow::{Estimate, EstimatorSettings};
-use shadowstep::steps::integrator::VectorIntegrator;
-use shadowstep::systems::system::Visitor;
-use shadowstep::{Carried, Real};
+use shadowstep::steps::integrator::{VectorIntegrator, at_output};
+use shadowstep::steps::step_to_time;
+use shadowstep::{Carried, Rational};
 
+use crate::at::{At, Place, View};
+use crate::column::{Column, next_multiple};
+use crate::computation::RunNumber;
+use crate::crossings::{Crossings, NEEDS_PARTS_OF_STEPS};
 use crate::error::Error;
+use crate::evaluator::Test;
+use crate::moment::Moment;
+use crate::note::Note;
+use crate::observer::Observer;
+use crate::pace::Pace;
+use crate::posed::{Followed, Posed, unreadable};
+use crate::run::Run;
+use crate::saved_state::SavedState;
+use crate::saved_summary::SavedSummary;
+use crate::scene::CheckpointInterval;
+use crate::snapshots::{Snapshot, Snapshots};
+use crate::watch::{Energies, Watch};
 
-/// What follows a run: it takes states as they are made, and outputs.
-pub trait Follower<N: Real> {
-    /// The run begins, at the state `from` or at t = 0; an estimate needs `reach` states before its own.
-    fn begin(&mut self, reach: i64, integrator: &mut VectorIntegrator<'_, N>) {
-        let _ = (reach, integrator);
+/// Where a state takes longer than this, each has its checkpoint: a program that is asked to end may not wait for the next one.
+const LONG: Duration = Duration::from_millis(500);
+
+/// The observer is asked at each of the first states: it may stop short runs anywhere.
+const ONE_BY_ONE: u64 = 256;
+
+/// Makes the run and shows its states to the columns.
+///
+/// # Errors
+/// Crossings with displaced forces; a state or an energy that is not finite; settings of the estimator that are not valid; those of the columns.
+pub(crate) fn follow<N: RunNumber>(
+    posed: &Posed<'_>,
+    context: &N::Context,
+    columns: &mut [&mut dyn Column<N>],
+    observer: &mut dyn Observer,
+) -> Result<Followed, Error> {
+    if posed.displaced && posed.section.is_some() {
+        return Err(Error::usage(NEEDS_PARTS_OF_STEPS, "write gradient_kicks = \"exact\", or remove the section"));
+    }
+    let (mut integrator, from) = posed.begin::<N>(context)?;
+    let mut following = Following::begin(posed, (&mut *integrator, from), columns, observer, context)?;
+    match posed.estimator {
+        None => following.plain(&mut *integrator)?,
+        Some(settings) => following.estimated(&mut *integrator, settings)?,
+    }
+    following.complete(&mut *integrator)
+}
+
+/// Follows the states in the order of time.
+struct Following<'a, 'c, N: RunNumber> {
+    posed: &'a Posed<'a>,
+    context: &'a N::Context,
+    columns: &'a mut [&'c mut dyn Column<N>],
+    observer: &'a mut dyn Observer,
+    view: View<'a, N>,
+    watch: Option<Watch<N>>,
+    crossings: Option<Crossings<N>>,
+    /// The condition that ends the run.
+    test: Option<Test<N>>,
+    /// The physical time that no state is to pass, and whether steps go forwards.
+    until: Option<(N, bool)>,
+    /// Whether a column sees each state.
+    sees_each: bool,
+    /// The state from which the run is resumed; `None` at its beginning.
+    from: Option<i64>,
+    /// The n of the last state; where something else ends the run, the most until that is known.
+    last: i64,
+    is_met: bool,
+    is_stopped: bool,
+    /// Whether a column ended the run.
+    is_ended_by_column: bool,
+    /// The n of the newest output, and of the newest state that was seen: a resumed run with estimates makes some once more.
+    n: i64,
+    seen: i64,
+    /// The n of the next output that a column takes.
+    due: i64,
+    /// Outputs up to this n were shown before the run was resumed.
+    written: i64,
+    /// The last state; until it is known the newest one, of a run with a physical end.
+    state: Option<Snapshot<N>>,
+    /// The states from which estimates can be computed again.
+    snapshots: Snapshots<N>,
+    /// Evaluations of the gradient at the first state and at the last one.
+    evaluations: [u64; 2],
+    /// Of asking the observer.
+    pace: Pace,
+    last_checkpoint: Instant,
+    last_state: Instant,
+    /// Whether the last state was kept as that.
+    is_kept: bool,
+}
+
+impl<'a, 'c, N: RunNumber> Following<'a, 'c, N> {
+    fn begin(
+        posed: &'a Posed<'a>,
+        (integrator, from): (&mut VectorIntegrator<'_, N>, Option<i64>),
+        columns: &'a mut [&'c mut dyn Column<N>],
+        observer: &'a mut dyn Observer,
+        context: &'a N::Context,
+    ) -> Result<Self, Error> {
+        let Posed { system, run, .. } = *posed;
+        let first = from.unwrap_or(0);
+        let test = |condition| Test::new(condition, system, context).expect("it was checked with the system");
+        let until = posed.until.map(|until| (N::from_rational(until, context), until.is_positive()));
+        let mut following = Following {
+            context,
+            view: View {
+                system,
+                run,
+                context,
+                shown: system.shown(context),
+                energy_of: system.energy_of_rows(context),
+                vectors: posed.tangents()?,
+            },
+            watch: None,
+            crossings: posed.section.map(|surface| Crossings::new(surface, system, context)),
+            test: posed.ends.map(test),
+            until,
+            sees_each: columns.iter().any(|column| column.sees_each()),
+            from,
+            last: i64::try_from(run.steps).unwrap_or(i64::MAX),
+            is_met: false,
+            is_stopped: false,
+            is_ended_by_column: false,
+            n: first,
+            seen: first - 1,
+            due: 0,
+            written: posed.resumed.checkpoint.map_or(-1, |checkpoint| checkpoint.n),
+            state: None,
+            snapshots: Snapshots::new(0),
+            evaluations: [0; 2],
+            pace: Pace::new(first.unsigned_abs() + ONE_BY_ONE),
+            last_checkpoint: Instant::now(),
+            last_state: Instant::now(),
+            is_kept: false,
+            posed,
+            columns,
+            observer,
+        };
+        following.watch = following.watch(integrator)?;
+        following.resume_summary()?;
+        Ok(following)
     }
 
-    /// What the next step is to carry along for it, where nothing is estimated.
-    fn carried(&self) -> Carried {
-        Carried::Nothing
+    /// Follows the run for the error of H and a summary, where these are wanted.
+    fn watch(&self, integrator: &mut VectorIntegrator<'_, N>) -> Result<Option<Watch<N>>, Error> {
+        let Posed { system, energies, summarised, .. } = *self.posed;
+        if energies.is_none() && !summarised {
+            return Ok(None);
+        }
+        let energies = match energies {
+            // the rows have another function than the steps conserve
+            Some(Energies::Given(_)) if self.view.energy_of.is_some() => Energies::Windows,
+            energies => energies.unwrap_or(Energies::Windows),
+        };
+        let (q, p) = system.start(self.context);
+        let initial = integrator.energy_at(&q, &p);
+        let (run, from) = (self.posed.run, self.from.unwrap_or(0));
+        let watch = Watch::begin(integrator, run, (from, initial), energies, (summarised, self.posed.is_open()));
+        let watch = watch.map_err(|error| self.posed.named(run, &error))?;
+        Ok(Some(watch.of_system(system, integrator)))
     }
 
-    /// The n of the next state that it takes after the state `n`, where nothing is estimated: those between are made at once, without increments.
+    /// Goes on with the summary from that of the run before.
+    fn resume_summary(&mut self) -> Result<(), Error> {
+        let (Some(checkpoint), true) = (self.posed.resumed.checkpoint, self.posed.summarised) else { return Ok(()) };
+        match (&checkpoint.summary, self.from) {
+            (Some(saved), _) => {
+                self.seen = saved.n;
+                if saved.restore(|to| self.fields(to)) { Ok(()) } else { Err(unreadable(checkpoint.n)) }
+            }
+            (None, Some(n)) => {
+                self.observer.note(&Note::SummaryOfPart { n });
+                Ok(())
+            }
+            // it begins at t = 0 again
+            (None, None) => Ok(()),
+        }
+    }
+
+    /// All numbers that the states so far have left.
+    fn fields(&mut self, to: &mut dyn Fields<N>) {
+        self.watch.iter_mut().for_each(|watch| watch.fields(to));
+        self.columns.iter_mut().for_each(|column| column.fields(self.context, to));
+    }
+
+    fn run(&self) -> Run<'a> {
+        Run { steps: self.last.unsigned_abs(), ..self.posed.run }
+    }
+
+    fn failed(&self, error: &RunError) -> Error {
+        self.posed.named(self.run(), error)
+    }
+
+    /// Without states beyond both ends, and with increments only where the summary needs them.
+    fn plain(&mut self, integrator: &mut VectorIntegrator<'_, N>) -> Result<(), Error> {
+        let from = self.from.unwrap_or(0);
+        let trajectory = Trajectory::plain(integrator, from, self.last.unsigned_abs());
+        let mut trajectory = trajectory.map_err(|error| self.failed(&error))?;
+        let (mut reached, mut next) = (from, from);
+        loop {
+            if next > reached + 1 {
+                trajectory.set_augmented(false);
+                let made = match &mut self.watch {
+                    Some(watch) => trajectory.reach_visited(next - 1, watch),
+                    None => trajectory.reach(next - 1),
+                };
+                made.map_err(|error| self.failed(&error))?;
+            }
+            let carried = self.watch.as_ref().map_or(Carried::Nothing, Watch::carried);
+            trajectory.set_augmented(carried == Carried::Increments);
+            let made = trajectory.advance().map_err(|error| self.failed(&error))?;
+            let Some(n) = made.map(|state| state.n) else { return Ok(()) };
+            let integrator = &mut **trajectory.integrator();
+            if self.see(n, integrator) {
+                let last = self.state.as_ref().expect("the state before was kept");
+                last.restore(integrator);
+                return Ok(());
+            }
+            if self.output(n, None, integrator)?.is_break() {
+                return Ok(());
+            }
+            (reached, next) = (n, self.next(n));
+        }
+    }
+
+    /// With increments and an estimate at each state, and its error.
+    fn estimated(
+        &mut self,
+        integrator: &mut VectorIntegrator<'_, N>,
+        settings: &EstimatorSettings,
+    ) -> Result<(), Error> {
+        let (settings, steps) = (settings.clone().with_errors(true), self.last.unsigned_abs());
+        let begun = match self.from {
+            None => ShadowRun::new(integrator, steps, &settings),
+            Some(from) => ShadowRun::resume(integrator, from, steps, &settings),
+        };
+        let mut run = begun.map_err(|error| self.failed(&error))?;
+        self.snapshots = Snapshots::new(run.reach());
+        if let Some(from) = self.from {
+            self.snapshots.begin(Snapshot::of(from, run.integrator().state()));
+        }
+        loop {
+            let next = run.advance_with(|n, trajectory| {
+                self.see(n, *trajectory.integrator());
+            });
+            let next = match next {
+                // states beyond the last one are made for estimates only
+                Err(_) if self.is_ended_by_column => return Ok(()),
+                next => next.map_err(|error| self.failed(&error))?,
+            };
+            let Some(((n, estimate), trajectory)) = next else { return Ok(()) };
+            if n > self.last || self.output(n, Some(&estimate), *trajectory.integrator())?.is_break() {
+                return Ok(());
+            }
+        }
+    }
+
+    /// The n of the next state after n that is to be seen, or shown.
     fn next(&self, n: i64) -> i64 {
-        n + 1
+        if self.sees_each || self.crossings.is_some() || self.test.is_some() || self.until.is_some() {
+            return n + 1;
+        }
+        let checkpoint = match self.posed.resumed.interval {
+            Some(CheckpointInterval::Steps(every)) => next_multiple(n, every),
+            _ => i64::MAX,
+        };
+        let idle = self.watch.as_ref().map_or(u64::MAX, Watch::idle);
+        let watched = n.saturating_add_unsigned(idle).saturating_add(1);
+        let looked_up = i64::try_from(self.pace.next(n.unsigned_abs())).unwrap_or(i64::MAX);
+        self.due.min(checkpoint).min(watched).min(looked_up).max(n + 1).min(self.last)
     }
 
-    /// What sees the states between.
-    fn visitor(&mut self) -> Option<&mut dyn Visitor<N>> {
-        None
+    /// Sees the state n, at which the integrator is. Whether it is past the physical end, so that the state before is the last one.
+    fn see(&mut self, n: i64, integrator: &mut VectorIntegrator<'_, N>) -> bool {
+        if self.posed.estimator.is_some() {
+            self.snapshots.offer(n, integrator.state());
+        }
+        if n == 0 {
+            self.evaluations[0] = integrator.state().evaluations();
+        }
+        if n > self.last {
+            return false;
+        }
+        if let Some((until, forwards)) = &self.until {
+            let t = integrator.state().q().last().expect("time is a coordinate");
+            if if *forwards { t > until } else { t < until } {
+                (self.last, self.until) = (n - 1, None);
+                return true;
+            }
+        }
+        if n >= 0 && (self.sees_each || self.test.is_some()) {
+            at_output(integrator, |integrator| self.see_trajectory(n, integrator));
+        }
+        // it has begun at the first state
+        if let Some(watch) = self.watch.as_mut().filter(|_| n > self.seen && n > self.from.unwrap_or(0)) {
+            watch.include(n, integrator);
+        }
+        self.seen = self.seen.max(n);
+        if n == self.last || self.until.is_some() {
+            self.evaluations[1] = integrator.state().evaluations();
+            match &mut self.state {
+                Some(state) => state.update(n, integrator.state()),
+                None => self.state = Some(Snapshot::of(n, integrator.state())),
+            }
+        }
+        false
     }
 
-    /// Takes the state n, at which the system is. Where modified energies are estimated there are states before n = 0 and after the last one, which
-    /// only the estimates need.
-    fn state(&mut self, n: i64, integrator: &mut VectorIntegrator<'_, N>) {
-        let _ = (n, integrator);
+    /// The same of the state of the trajectory, with which the run may end.
+    fn see_trajectory(&mut self, n: i64, integrator: &mut VectorIntegrator<'_, N>) {
+        let (run, is_new) = (self.posed.run, n > self.seen);
+        for column in self.columns.iter_mut().filter(|column| is_new && column.sees_each()) {
+            if column.see(n, run, integrator) {
+                (self.last, self.is_ended_by_column) = (n, true);
+            }
+        }
+        if let Some(test) = self.test.as_mut().filter(|_| n > 0)
+            && test.is_met(integrator.system(), || run.time(n))
+        {
+            (self.last, self.is_met) = (n, true);
+        }
+        if self.last == n {
+            self.until = None;
+        }
     }
 
-    /// Takes the output of n, and ends the run by `Break`. Without an estimate the system is at the state n; with one it is ahead, and the estimate has
-    /// the state.
-    ///
-    /// # Errors
-    /// What ends the run.
+    /// Shows the output of n. Without an estimate the integrator is at the state n; with one it is ahead, and the estimate has the state.
     fn output(
         &mut self,
         n: i64,
         estimate: Option<&Estimate<'_, N>>,
         integrator: &mut VectorIntegrator<'_, N>,
-    ) -> Result<ControlFlow<()>, Error>;
-
-    /// What a state that is not finite means: an error, or the end of the run.
-    ///
-    /// # Errors
-    /// That the run has failed.
-    fn failed(&mut self, error: RunError) -> Result<(), Error>;
-}
-
-/// Makes the states n = `from`, …, steps, and gives them to the follower, with estimates if there are settings for these. The system is at the state
-/// `from`, or at t = 0. Returns whether the follower ended the run.
-///
-/// # Errors
-/// Those of the follower.
-pub(crate) fn follow<N: Real + 'static, F: Follower<N> + ?Sized>(
-    integrator: &mut VectorIntegrator<'_, N>,
-    (from, steps): (Option<i64>, u64),
-    settings: Option<&EstimatorSettings>,
-    follower: &mut F,
-) -> Result<ControlFlow<()>, Error> {
-    let ended = match settings {
-        None => plain(integrator, (from.unwrap_or(0), steps), follower),
-        Some(settings) => estimated(integrator, (from, steps), settings, follower),
-    };
-    match ended {
-        Ok(ended) => Ok(ended),
-        Err(Failed::Run(error)) => follower.failed(error).map(|()| Break(())),
-        Err(Failed::Follower(error)) => Err(error),
-    }
-}
-
-/// Why a run ends early.
-enum Failed {
-    Run(RunError),
-    Follower(Error),
-}
-
-impl From<RunError> for Failed {
-    fn from(error: RunError) -> Self {
-        Failed::Run(error)
-    }
-}
-
-impl From<Error> for Failed {
-    fn from(error: Error) -> Self {
-        Failed::Follower(error)
-    }
-}
-
-/// Without states beyond both ends, and with increments only where the follower needs them.
-fn plain<N: Real, F: Follower<N> + ?Sized>(
-    integrator: &mut VectorIntegrator<'_, N>,
-    (from, steps): (i64, u64),
-    follower: &mut F,
-) -> Result<ControlFlow<()>, Failed> {
-    let mut trajectory = Trajectory::plain(integrator, from, steps)?;
-    let (mut reached, mut next) = (from, from);
-    loop {
-        if next > reached + 1 {
-            trajectory.set_augmented(false);
-            match follower.visitor() {
-                Some(visitor) => trajectory.reach_visited(next - 1, visitor)?,
-                None => trajectory.reach(next - 1)?,
+    ) -> Result<ControlFlow<()>, Error> {
+        self.n = n;
+        if let Some(vectors) = &mut self.view.vectors {
+            vectors.reach(n);
+        }
+        self.pace.looks_up(n.unsigned_abs());
+        if estimate.is_none() {
+            self.cross(n, integrator)?;
+        }
+        if (n >= self.due || n >= self.last) && n > self.written {
+            self.due = self.columns.iter().map(|column| column.next(n)).min().unwrap_or(i64::MAX);
+            let is_last = n == self.last;
+            let is_met = self.is_met && is_last;
+            let Following { view, columns, watch, .. } = self;
+            match estimate {
+                None => at_output(integrator, |integrator| {
+                    show(columns, watch, &mut At { is_last, is_met, ..view.at(n, integrator) })
+                })?,
+                Some(estimate) => {
+                    show(
+                        columns,
+                        watch,
+                        &mut At { is_last, is_met, estimate: Some(estimate), ..view.at(n, integrator) },
+                    )?;
+                }
             }
         }
-        trajectory.set_augmented(follower.carried() == Carried::Increments);
-        let Some(n) = trajectory.advance()?.map(|state| state.n) else { return Ok(Continue(())) };
-        let integrator = &mut **trajectory.integrator();
-        follower.state(n, integrator);
-        if follower.output(n, None, integrator)?.is_break() {
-            return Ok(Break(()));
+        self.observer.progress(n);
+        self.keep_if_due(n, integrator)?;
+        Ok(if self.is_stopped || n >= self.last { Break(()) } else { Continue(()) })
+    }
+
+    /// Shows the crossing between the state n, at which the integrator is, and the state before.
+    fn cross(&mut self, n: i64, integrator: &mut VectorIntegrator<'_, N>) -> Result<(), Error> {
+        let Following { view, columns, crossings: Some(crossings), written, .. } = self else { return Ok(()) };
+        let found = crossings.state(n, integrator, |integrator, part| {
+            if n <= *written {
+                return Ok(());
+            }
+            let time = view.run.time_of_crossing(n - 1, part, view.context);
+            let at = At { place: Place::Crossing, time: Some(time), ..view.at(n - 1, integrator) };
+            show(columns, &mut None, &mut { at })
+        });
+        found.unwrap_or(Ok(()))
+    }
+
+    /// Keeps a moment where it is time for one, at the last state, from which the run can be prolonged, or where the run is stopped: then it ends.
+    fn keep_if_due(&mut self, n: i64, integrator: &VectorIntegrator<'_, N>) -> Result<(), Error> {
+        self.is_stopped = self.observer.stops();
+        let is_due = match self.posed.resumed.interval {
+            None => false,
+            Some(interval) => self.is_time_for_a_moment(n, interval) || n == self.last,
+        };
+        if n <= self.written || !(is_due || self.is_stopped) {
+            return Ok(());
         }
-        reached = n;
-        next = follower.next(n).min(i64::try_from(steps).unwrap_or(i64::MAX));
+        match self.posed.estimator {
+            None => self.keep(n, Some(&Snapshot::of(n, integrator.state()))),
+            Some(_) => self.keep(n, self.snapshots.for_those_after(n).cloned().as_ref()),
+        }
+    }
+
+    fn is_time_for_a_moment(&mut self, n: i64, interval: CheckpointInterval) -> bool {
+        let now = Instant::now();
+        let took = now.duration_since(std::mem::replace(&mut self.last_state, now));
+        took >= LONG
+            || match interval {
+                CheckpointInterval::Steps(every) => n.unsigned_abs().is_multiple_of(every),
+                CheckpointInterval::Time(time) => now.duration_since(self.last_checkpoint) >= time,
+            }
+    }
+
+    /// `state` is the one from which the run can be resumed; `None` for the state at t = 0.
+    #[cold]
+    fn keep(&mut self, n: i64, state: Option<&Snapshot<N>>) -> Result<(), Error> {
+        let vectors = match &self.view.vectors {
+            None => Some(Vec::new()),
+            Some(vectors) => vectors.saved(),
+        };
+        match (state.map(SavedState::of), vectors) {
+            (Some(None), _) | (_, None) => self.observer.note(&Note::NoCheckpoint { n }),
+            (saved, Some(vectors)) => {
+                let summarised = self.posed.summarised;
+                let summary = summarised.then(|| SavedSummary::of(self.seen, |to| self.fields(to))).flatten();
+                let state = saved.flatten();
+                for column in self.columns.iter_mut() {
+                    let (state, vectors, summary) = (state.clone(), vectors.clone(), summary.clone());
+                    column.keep(Moment { n, is_last: n == self.last, state, vectors, summary })?;
+                }
+                self.is_kept = n == self.last;
+            }
+        }
+        self.last_checkpoint = Instant::now();
+        Ok(())
+    }
+
+    /// What has become of the run, and its last state once more.
+    fn complete(mut self, integrator: &mut VectorIntegrator<'_, N>) -> Result<Followed, Error> {
+        let (n, run) = (self.n, self.run());
+        let mut followed = Followed {
+            n,
+            is_met: self.is_met || self.is_ended_by_column,
+            is_stopped: self.is_stopped,
+            evaluations: integrator.state().evaluations(),
+            own_evaluations: self.evaluations[1].saturating_sub(self.evaluations[0]),
+            energy: None,
+            summary: None,
+            vectors: None,
+        };
+        if self.is_stopped {
+            return Ok(followed);
+        }
+        followed.n = self.last;
+        let last = self.state.clone().expect("the last state was seen");
+        if self.posed.resumed.interval.is_some() && !self.is_kept && self.last > self.written {
+            // that it is the last one was known later
+            match self.posed.estimator {
+                None => self.keep(self.last, Some(&last))?,
+                Some(_) => self.keep(self.last, self.snapshots.for_those_after(self.last).cloned().as_ref())?,
+            }
+        }
+        let (mut q, mut p) = (last.q.clone(), last.p.clone());
+        integrator.postprocess_state(&mut q, &mut p);
+        self.view.run = run;
+        let energy = integrator.energy_at(&q, &p);
+        // the gradient may have values where the potential has none, as that of log(x) for x < 0
+        if !energy.is_finite() {
+            return Err(run.not_finite(&format!("the energy at the end, n = {},", self.last)));
+        }
+        if let Some(watch) = &mut self.watch {
+            watch.include_energy(self.last, &energy);
+        }
+        let Following { view, columns, watch, last: n, .. } = &mut self;
+        let mut at = At { other: Some((q, p)), ..view.at(*n, integrator) };
+        columns.iter_mut().try_for_each(|column| column.end(&mut at))?;
+        followed.energy = watch.as_ref().map(Watch::energy);
+        followed.summary = watch.take().and_then(|watch| watch.summary(run));
+        if let Some(until) = self.posed.until.filter(|_| !followed.is_met) {
+            self.end_at_time(integrator, &last, until)?;
+        }
+        followed.vectors = self.view.vectors;
+        Ok(followed)
+    }
+
+    /// Makes the last step from the last state to the physical end, and shows its state.
+    fn end_at_time(
+        &mut self,
+        integrator: &mut VectorIntegrator<'_, N>,
+        last: &Snapshot<N>,
+        until: &Rational,
+    ) -> Result<(), Error> {
+        let until = N::from_rational(until, self.context);
+        let (mut q, mut p) = (last.q.clone(), last.p.clone());
+        integrator.postprocess_state(&mut q, &mut p);
+        integrator.system().state_mut().set(&q, &p);
+        if q.last() == Some(&until) {
+            return Ok(());
+        }
+        if step_to_time(integrator, &until).is_none() {
+            let message = format!("{}: no last step to t = {until} has a finite state", self.run().name());
+            return Err(Error::run(message, "try a smaller step size"));
+        }
+        let at = At { place: Place::PhysicalEnd, ..self.view.at(self.last + 1, integrator) };
+        show(self.columns, &mut None, &mut { at })
     }
 }
 
-/// With increments and an estimate at each state, and its error.
-fn estimated<N: Real + 'static, F: Follower<N> + ?Sized>(
-    integrator: &mut VectorIntegrator<'_, N>,
-    (from, steps): (Option<i64>, u64),
-    settings: &EstimatorSettings,
-    follower: &mut F,
-) -> Result<ControlFlow<()>, Failed> {
-    let settings = settings.clone().with_errors(true);
-    let mut run = match from {
-        None => ShadowRun::new(integrator, steps, &settings)?,
-        Some(from) => ShadowRun::resume(integrator, from, steps, &settings)?,
-    };
-    follower.begin(run.reach(), *run.integrator());
-    loop {
-        let next = run.advance_with(|n, trajectory| follower.state(n, *trajectory.integrator()))?;
-        let Some(((n, estimate), trajectory)) = next else { return Ok(Continue(())) };
-        if follower.output(n, Some(&estimate), *trajectory.integrator())?.is_break() {
-            return Ok(Break(()));
-        }
+/// Shows a state to all columns. H, where it is computed, is of the error of H, too.
+fn show<N: RunNumber>(
+    columns: &mut [&mut dyn Column<N>],
+    watch: &mut Option<Watch<N>>,
+    at: &mut At<'_, '_, N>,
+) -> Result<(), Error> {
+    columns.iter_mut().try_for_each(|column| column.take(at))?;
+    if let (Some(watch), Some(energy), None) = (watch, &at.energy, &at.energy_of) {
+        watch.include_energy(at.n, energy);
     }
+    Ok(())
 }
+
+#[cfg(test)]
+mod tests;

@@ -412,7 +412,7 @@ pub(crate) const KEYS: [Key; 91] = [
         "run",
         "end",
         "A condition that ends the run at the first state after t = 0 that meets it: one comparison of formulas in the coordinates, momenta and \
-         parameters, t and the energy E. `until` or `steps` is the end if it is not met. The steps are made twice, as the end is looked for first.",
+         parameters, t and the energy E. `until` or `steps` is the end if it is not met.",
         "\"x^2 + y^2 > 100\"",
         Some("none; the run ends with `until` or `steps`"),
     ),

@@ -21,7 +21,7 @@
 //! let scene = Scene::read(Source { path: "scene.toml".to_owned(), text: text.to_owned() })?;
 //! let mut rows = Vec::new();
 //! let outcome = scene.run_into(&mut rows, &mut ())?;
-//! assert_eq!(outcome, Outcome::Complete { force_evaluations: 41 });
+//! assert_eq!(outcome, Outcome::Complete { steps: 40, force_evaluations: 41 });
 //!
 //! let csv = String::from_utf8(rows).unwrap();
 //! let rows: Vec<&str> = csv.lines().filter(|line| !line.starts_with('#')).collect();
@@ -71,7 +71,9 @@
 //! | [`family`] | scenes that differ in the values of some names |
 //! | [`ensemble`], [`lanes`] | many trajectories of such a family; their systems as one system of lanes |
 //! | `read` | a scene's text → a scene, or all its faults |
-//! | `execute`, `engine`, `snapshots`, `saved_state` | the run of a scene |
+//! | [`posed`], `follow` | a run with all that determines it; the one loop of runs |
+//! | [`column`], [`at`] | what takes states, and a state as it sees it |
+//! | `execute`, `engine`, `moment`, `snapshots`, `saved_state` | the run of a scene into rows, which can be resumed |
 //! | `crossings` | where a run crosses a surface of section |
 //! | `observer`, `note` | how a caller watches a run and stops it |
 //! | `results` | rows, the head of a file, checkpoints, and where they go |
@@ -98,7 +100,9 @@
 //! | `shell` | words of commands that users copy |
 
 pub mod arithmetic;
+pub mod at;
 pub mod chaos;
+pub mod column;
 pub mod computation;
 pub mod cpu_time;
 mod crossings;
@@ -115,7 +119,7 @@ mod explain;
 pub mod expression;
 pub mod extremum;
 pub mod family;
-pub mod follow;
+mod follow;
 mod frequency;
 pub mod integrate;
 pub mod keys;
@@ -123,11 +127,12 @@ pub mod lanes;
 pub mod library;
 pub mod lock;
 pub mod modified_hamiltonian;
+mod moment;
 mod note;
 mod observer;
 pub mod outside;
 mod pace;
-mod physical_end;
+pub mod posed;
 pub mod propagator;
 mod quantity;
 mod quantity_of_bodies;

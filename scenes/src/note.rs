@@ -112,15 +112,15 @@ pub enum Note {
     Resumed {
         /// The last n with a row in the file.
         n: i64,
-        /// The number of steps of the whole run.
-        steps: u64,
+        /// The number of steps of the whole run, where it is known before.
+        steps: Option<u64>,
     },
     /// The run goes on from the last state of the same scene with an earlier end.
     Prolonged {
         /// The n of that state.
         n: i64,
-        /// The number of steps of the whole run.
-        steps: u64,
+        /// The number of steps of the whole run, where it is known before.
+        steps: Option<u64>,
     },
     /// A run is resumed of which a part was made without a summary.
     SummaryOfPart {
@@ -154,6 +154,11 @@ impl Note {
 /// t = n h after n = `steps` steps.
 fn end(h: &Rational, steps: u64) -> Rational {
     h * Rational::from_integer(steps.into())
+}
+
+/// Of how many steps.
+fn of_all(steps: Option<u64>) -> String {
+    steps.map_or_else(String::new, |steps| format!(" of {steps}"))
 }
 
 impl fmt::Display for Note {
@@ -223,9 +228,10 @@ impl fmt::Display for Note {
             Note::ForcesLeftOut { target, forces } => {
                 write!(f, "the orbit of {target} has non-gravitational forces ({forces}), which are not in H")
             }
-            Note::Resumed { n, steps } => write!(f, "resumed at n = {n} of {steps}"),
+            Note::Resumed { n, steps } => write!(f, "resumed at n = {n}{}", of_all(*steps)),
             Note::Prolonged { n, steps } => {
-                write!(f, "the file is that of an earlier end: the run goes on from its last state, n = {n} of {steps}")
+                let all = of_all(*steps);
+                write!(f, "the file is that of an earlier end: the run goes on from its last state, n = {n}{all}")
             }
             Note::CheckpointWithoutRows { checkpoint } => {
                 write!(f, "{} has no partial file: the run begins again", checkpoint.display())

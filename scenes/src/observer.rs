@@ -41,13 +41,13 @@ impl Observer for () {}
 /// That the observer stops it.
 pub(crate) fn report(observer: &mut dyn Observer, run: Run<'_>, n: u64) -> Result<(), Error> {
     observer.progress(i64::try_from(n).unwrap_or(i64::MAX));
-    match observer.stops() {
-        false => Ok(()),
-        true => Err(Error::run(
-            format!("{}: interrupted at n = {n}", run.name()),
-            "run it again, over a shorter time for example",
-        )),
-    }
+    if observer.stops() { Err(interrupted(run, n)) } else { Ok(()) }
+}
+
+/// That the observer has stopped a run into memory.
+pub(crate) fn interrupted(run: Run<'_>, n: u64) -> Error {
+    let message = format!("{}: interrupted at n = {n}", run.name());
+    Error::run(message, "run it again, over a shorter time for example")
 }
 
 /// Keeps the summary of a run.

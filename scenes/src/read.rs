@@ -35,7 +35,6 @@ mod values;
 
 use std::io::ErrorKind;
 use std::path::Path;
-use std::sync::OnceLock;
 
 use num_traits::Zero as _;
 use shadowstep::tables::{Faults, First, Source};
@@ -52,7 +51,6 @@ use crate::note::Note;
 use crate::read::reader::Reader;
 use crate::scene::{InitialValueProblem, Outputs, PotentialEnergy, Scene, System};
 use crate::shipped::scene_names;
-use crate::steps::End;
 
 /// The most bytes of a scene, which may have the initial values of many bodies.
 const LARGEST_SCENE: u64 = 16 << 20;
@@ -132,9 +130,7 @@ pub(crate) fn read(source: &Source, document: &DeTable<'_>, names: &Names<'_>) -
     let Reader { toml, arithmetic, notes, files, .. } = reader;
     match (Faults::of(toml.faults), sections) {
         (None, Some((system, run::Steps { scheme, displaced, h, until, steps, end_at, ends }, output))) => {
-            let known = steps.filter(|_| ends.is_none()).map(|steps| End { steps, is_met: false });
-            let end = known.map_or_else(OnceLock::new, OnceLock::from);
-            let (source, most_steps) = (source.clone(), steps);
+            let source = source.clone();
             Ok(Scene {
                 source,
                 arithmetic,
@@ -145,8 +141,7 @@ pub(crate) fn read(source: &Source, document: &DeTable<'_>, names: &Names<'_>) -
                 until,
                 end_at,
                 ends,
-                most_steps,
-                end,
+                steps,
                 output,
                 files,
                 notes,

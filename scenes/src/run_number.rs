@@ -1,7 +1,5 @@
 //! What follows a run, in the number types of runs. It is compiled in this crate, once for each, and not again in every crate that uses it.
 
-use std::ops::ControlFlow;
-
 use shadowstep::number::saved::Saved;
 use shadowstep::shadow::run::RunError;
 use shadowstep::shadow::{
@@ -11,23 +9,25 @@ use shadowstep::steps::integrator::VectorIntegrator;
 use shadowstep::{Real, StepSize};
 
 use crate::arithmetic::number_types;
+use crate::column::Column;
 use crate::error::Error;
-use crate::follow::{Follower, follow};
+use crate::follow::follow;
+use crate::observer::Observer;
+use crate::posed::{Followed, Posed};
 use crate::scene::SceneNumber;
 
 /// A number type of runs.
 pub trait RunNumber: SceneNumber {
-    /// Makes the states n = `from`, …, steps, `states` being these two, and gives them to the follower, with estimates if there are settings for these. The
-    /// system is at the state `from`, or without one at t = 0. Returns whether the follower ended the run.
+    /// Makes a run and shows its states to columns; without an end that is known before, until a column, a condition or a physical time ends it.
     ///
     /// # Errors
-    /// Those of the follower.
+    /// Crossings with displaced forces; a state or an energy that is not finite; settings of the estimator that are not valid; those of the columns.
     fn follow(
-        integrator: &mut VectorIntegrator<'_, Self>,
-        states: (Option<i64>, u64),
-        settings: Option<&EstimatorSettings>,
-        follower: &mut dyn Follower<Self>,
-    ) -> Result<ControlFlow<()>, Error>;
+        posed: &Posed<'_>,
+        context: &Self::Context,
+        columns: &mut [&mut dyn Column<Self>],
+        observer: &mut dyn Observer,
+    ) -> Result<Followed, Error>;
 
     /// The estimator of these settings: see [`BuildEstimator::build`].
     ///
@@ -139,12 +139,12 @@ macro_rules! run_numbers {
         impl RunNumber for $number {
             #[inline(never)]
             fn follow(
-                integrator: &mut VectorIntegrator<'_, Self>,
-                states: (Option<i64>, u64),
-                settings: Option<&EstimatorSettings>,
-                follower: &mut dyn Follower<Self>,
-            ) -> Result<ControlFlow<()>, Error> {
-                follow(integrator, states, settings, follower)
+                posed: &Posed<'_>,
+                context: &Self::Context,
+                columns: &mut [&mut dyn Column<Self>],
+                observer: &mut dyn Observer,
+            ) -> Result<Followed, Error> {
+                follow(posed, context, columns, observer)
             }
 
             #[inline(never)]

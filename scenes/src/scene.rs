@@ -26,7 +26,6 @@ pub use problem::{EnergyAt, InitialValueProblem, KineticEnergy, PotentialEnergy}
 pub use system::{Parts, System};
 
 use std::ops::Range;
-use std::sync::OnceLock;
 
 use shadowstep::tables::Source;
 use shadowstep::{MotionError, Rational, StepSize};
@@ -38,7 +37,7 @@ use crate::library::NamedScheme;
 use crate::note::Note;
 use crate::run::{OrderSetting, Run};
 use crate::start::{Begin, SceneIntegrator, Steps};
-use crate::steps::End;
+use crate::steps::MOST_STEPS;
 
 /// A scene: the system, the scheme with its steps, and the output.
 #[derive(Debug)]
@@ -62,9 +61,7 @@ pub struct Scene {
     /// The condition on which the run ends before, if there is one.
     pub ends: Option<Condition>,
     /// The most steps; `None` where only the steps themselves have their times.
-    pub(crate) most_steps: Option<u64>,
-    /// The end of the run, where it is known.
-    pub(crate) end: OnceLock<End>,
+    pub(crate) steps: Option<u64>,
     /// What is written, and where.
     pub output: Outputs,
     /// Other files that have states, with the names that the text has for them.
@@ -92,6 +89,21 @@ impl Scene {
     pub fn as_run(&self) -> Run<'_> {
         let setting = self.output.modified_energy.as_ref().and_then(|(settings, _)| order_setting(settings));
         let order = setting.map(|(name, value)| OrderSetting { name, value });
-        Run { propagator: &self.scheme.name, h: &self.h, steps: self.steps(), order, windows: self.output.windows }
+        Run { propagator: &self.scheme.name, h: &self.h, steps: self.most_steps(), order, windows: self.output.windows }
+    }
+
+    /// The number of steps; `None` where a condition or, in transformed time, a physical time ends the run.
+    pub fn steps(&self) -> Option<u64> {
+        self.steps.filter(|_| self.ends.is_none())
+    }
+
+    /// The most steps, which are those of a run that nothing else ends.
+    pub fn most_steps(&self) -> u64 {
+        self.steps.unwrap_or(MOST_STEPS)
+    }
+
+    /// The physical time at which the run ends, where time is transformed.
+    pub(crate) fn physical_end(&self) -> Option<&Rational> {
+        self.until.as_ref().filter(|_| self.system.transformed_time().is_some())
     }
 }

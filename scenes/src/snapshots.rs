@@ -19,6 +19,15 @@ impl<N: Real> Snapshot<N> {
         Snapshot { n, q: state.q().to_vec(), p: state.p().to_vec(), remainders: state.remainders() }
     }
 
+    /// Becomes the state n.
+    pub(crate) fn update(&mut self, n: i64, state: &VectorState<N>) {
+        self.n = n;
+        for (own, new) in [(&mut self.q, state.q()), (&mut self.p, state.p())] {
+            own.iter_mut().zip(new).for_each(|(own, new)| own.assign(new));
+        }
+        self.remainders = state.remainders();
+    }
+
     /// Sets the state of the system to this one, to the last bit.
     pub(crate) fn restore(&self, integrator: &mut VectorIntegrator<'_, N>) {
         let state = integrator.system().state_mut();

@@ -8,15 +8,6 @@ use thiserror::Error;
 /// The most steps of a run: more would take years.
 pub const MOST_STEPS: u64 = 10_000_000_000;
 
-/// Where a run ends.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct End {
-    /// The number of steps.
-    pub(crate) steps: u64,
-    /// Whether the condition of the scene is met there.
-    pub(crate) is_met: bool,
-}
-
 /// A step size and an end of the run that give no valid number of steps.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 pub enum StepsError {

@@ -1,9 +1,12 @@
 //! Expressions along a run: columns of rows, and their least and greatest values.
 
 use shadowstep::number::saved::{Fields, optional};
-use shadowstep::steps::integrator::{VectorIntegrator, at_output};
+use shadowstep::steps::integrator::VectorIntegrator;
 
+use crate::at::At;
+use crate::column::Column;
 use crate::computation::RunNumber;
+use crate::error::Error;
 use crate::evaluator::Evaluator;
 use crate::extremum::Extremum;
 use crate::run::Run;
@@ -68,37 +71,6 @@ impl<'a, N: RunNumber> Extremes<'a, N> {
         Extremes(expressions.iter().map(one).collect())
     }
 
-    pub(crate) fn is_empty(&self) -> bool {
-        self.0.is_empty()
-    }
-
-    /// Takes the state n, at which the system is; values that are not finite are left out.
-    pub(crate) fn include(&mut self, n: i64, run: Run<'_>, integrator: &mut VectorIntegrator<'_, N>) {
-        if self.is_empty() {
-            return;
-        }
-        at_output(integrator, |integrator| {
-            for one in &mut self.0 {
-                let value = one.evaluator.value(integrator.system(), || run.time(n));
-                for (extremum, found) in [Extremum::Least, Extremum::Greatest].into_iter().zip(&mut one.found) {
-                    if extremum.is_beyond(value, found.as_ref().map(|(value, _)| value)) {
-                        *found = Some((value.clone(), n));
-                    }
-                }
-            }
-        });
-    }
-
-    pub(crate) fn fields(&mut self, context: &N::Context, to: &mut dyn Fields<N>) {
-        let none = (N::zero(context), 0);
-        for found in self.0.iter_mut().flat_map(|one| &mut one.found) {
-            optional(to, found, &none, |to, (value, n)| {
-                to.number(value);
-                to.whole(n);
-            });
-        }
-    }
-
     /// What was found, in the order of the text.
     pub(crate) fn found(&self) -> Vec<Extreme> {
         let one = |one: &ExtremesOfOne<'_, N>| {
@@ -107,6 +79,43 @@ impl<'a, N: RunNumber> Extremes<'a, N> {
             Some(Extreme { name: one.name.to_owned(), least: least?, greatest: greatest? })
         };
         self.0.iter().filter_map(one).collect()
+    }
+}
+
+impl<N: RunNumber> Column<N> for Extremes<'_, N> {
+    fn next(&self, _: i64) -> i64 {
+        i64::MAX
+    }
+
+    fn take(&mut self, _: &mut At<'_, '_, N>) -> Result<(), Error> {
+        Ok(())
+    }
+
+    fn sees_each(&self) -> bool {
+        !self.0.is_empty()
+    }
+
+    /// Values that are not finite are left out.
+    fn see(&mut self, n: i64, run: Run<'_>, integrator: &mut VectorIntegrator<'_, N>) -> bool {
+        for one in &mut self.0 {
+            let value = one.evaluator.value(integrator.system(), || run.time(n));
+            for (extremum, found) in [Extremum::Least, Extremum::Greatest].into_iter().zip(&mut one.found) {
+                if extremum.is_beyond(value, found.as_ref().map(|(value, _)| value)) {
+                    *found = Some((value.clone(), n));
+                }
+            }
+        }
+        false
+    }
+
+    fn fields(&mut self, context: &N::Context, to: &mut dyn Fields<N>) {
+        let none = (N::zero(context), 0);
+        for found in self.0.iter_mut().flat_map(|one| &mut one.found) {
+            optional(to, found, &none, |to, (value, n)| {
+                to.number(value);
+                to.whole(n);
+            });
+        }
     }
 }
 

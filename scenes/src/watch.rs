@@ -71,26 +71,63 @@ pub struct Watch<N: RunNumber> {
     names: Vec<String>,
     /// What a summary needs besides H; `None` where there is none.
     observed: Option<Observed<N>>,
+    /// In about how many windows modified energies are compared.
+    windows: u64,
     /// The n of the first state and of the last one so far.
     from: i64,
     n: i64,
 }
 
 struct Observed<N: RunNumber> {
-    monitor: Box<dyn Monitoring<N>>,
-    /// Of the monitor: the states that pass unobserved, and those of them that are still to come.
-    pass: u64,
-    idle: u64,
+    /// Of a run whose number of steps is not known several, with windows at larger and larger distances; the first one has the closest.
+    monitors: Vec<Spaced<N>>,
     encounters: Encounters<N>,
     approaches: Option<Approaches>,
     light: Option<LightBodies>,
 }
 
-impl<N: RunNumber> Observed<N> {
-    /// Takes the state n; whether the monitor takes nothing of it.
+/// A monitor with a window every `every` steps.
+struct Spaced<N: RunNumber> {
+    monitor: Box<dyn Monitoring<N>>,
+    every: u64,
+    /// The states that pass unobserved, and those of them that are still to come.
+    pass: u64,
+    idle: u64,
+}
+
+impl<N: RunNumber> Spaced<N> {
+    fn new(integrator: &mut VectorIntegrator<'_, N>, every: u64) -> Result<Self, RunError> {
+        let monitor = N::monitor(integrator, MONITOR_ORDER, every)?;
+        Ok(Spaced { idle: monitor.idle(), pass: 0, monitor, every })
+    }
+
+    /// A state passes, if the monitor takes nothing of it.
     #[inline]
-    fn include(&mut self, n: i64, (q, p): (&[N], &[N])) -> bool {
-        let Observed { monitor, pass, idle, encounters, approaches, light } = self;
+    fn passes(&mut self) -> bool {
+        if self.idle == 0 {
+            return false;
+        }
+        (self.idle, self.pass) = (self.idle - 1, self.pass + 1);
+        if self.idle == 0 {
+            self.monitor.pass(take(&mut self.pass));
+        }
+        true
+    }
+}
+
+/// The distances of windows in a run of `steps` at most, which something else may end before: at each a monitor sees this many windows at most, so that one of
+/// them has from half as many as wanted to twice as many, wherever the run ends.
+fn distances(steps: u64, windows: u64) -> impl Iterator<Item = u64> {
+    const RATIO: u64 = 4;
+    std::iter::successors(Some(1_u64), |every| every.checked_mul(RATIO))
+        .take_while(move |every| every.saturating_mul(windows / 2) <= steps.max(windows / 2))
+}
+
+impl<N: RunNumber> Observed<N> {
+    /// Takes the state n, which passes all monitors if none of them takes anything of it.
+    #[inline]
+    fn include(&mut self, n: i64, (q, p): (&[N], &[N])) {
+        let Observed { encounters, approaches, light, .. } = self;
         encounters.include(n, p);
         if let Some(approaches) = approaches {
             approaches.include(n, (q, p));
@@ -98,14 +135,19 @@ impl<N: RunNumber> Observed<N> {
         if let Some(light) = light {
             light.include(n, (q, p));
         }
-        if *idle == 0 {
-            return false;
+    }
+
+    /// Leaves out the monitors that have seen enough windows by the state n, of a run from `from`.
+    fn leave_closer(&mut self, (from, n): (i64, i64), windows: u64) {
+        let made = n.abs_diff(from);
+        let has_enough = |spaced: &Spaced<N>| made / spaced.every > 2 * windows;
+        while self.monitors.len() > 1 && has_enough(&self.monitors[0]) {
+            self.monitors.remove(0);
         }
-        (*idle, *pass) = (*idle - 1, *pass + 1);
-        if *idle == 0 {
-            monitor.pass(take(pass));
-        }
-        true
+    }
+
+    fn idle(&self) -> u64 {
+        self.monitors.iter().map(|spaced| spaced.idle).min().unwrap_or(u64::MAX)
     }
 }
 
@@ -115,6 +157,9 @@ impl<N: RunNumber> Visitor<N> for Watch<N> {
         self.n += 1;
         if let Some(observed) = &mut self.observed {
             observed.include(self.n, (q, p));
+            for spaced in &mut observed.monitors {
+                spaced.passes();
+            }
         }
     }
 }
@@ -124,9 +169,13 @@ impl<N: RunNumber> Saved<N> for Watch<N> {
     fn fields(&mut self, to: &mut dyn Fields<N>) {
         self.energy.fields(to);
         [&mut self.from, &mut self.n].into_iter().for_each(|n| to.whole(n));
-        if let Some(Observed { monitor, pass, idle, encounters, approaches, light }) = &mut self.observed {
-            monitor.fields(to);
-            [pass, idle].into_iter().for_each(|states| to.count(states));
+        if let Some(observed) = &mut self.observed {
+            observed.leave_closer((self.from, self.n), self.windows);
+            let Observed { monitors, encounters, approaches, light } = observed;
+            for Spaced { monitor, pass, idle, .. } in monitors {
+                monitor.fields(to);
+                [pass, idle].into_iter().for_each(|states| to.count(states));
+            }
             encounters.fields(to);
             approaches.iter_mut().for_each(|approaches| approaches.fields(to));
             light.iter_mut().for_each(|light| light.fields(to));
@@ -135,7 +184,8 @@ impl<N: RunNumber> Saved<N> for Watch<N> {
 }
 
 impl<N: RunNumber> Watch<N> {
-    /// Begins at the system's present state, which is number `from` of the run; `initial` is H at t = 0.
+    /// Begins at the system's present state, which is number `from` of the run; `initial` is H at t = 0. `is_open` is whether something else may end the run
+    /// before its last step.
     ///
     /// # Errors
     /// A state or an energy that is not finite.
@@ -144,22 +194,23 @@ impl<N: RunNumber> Watch<N> {
         run: Run<'_>,
         (from, initial): (i64, N),
         energies: Energies,
-        summarised: bool,
+        (summarised, is_open): (bool, bool),
     ) -> Result<Self, RunError> {
         let energies = if run.steps <= SHORT_RUN { Energies::All } else { energies };
-        let every = (run.steps.saturating_sub(from.unsigned_abs()) / run.windows).max(1);
         let (mut observed, massive) = (None, integrator.system().massive_coordinates());
         if summarised {
-            let monitor = N::monitor(integrator, MONITOR_ORDER, every)?;
+            let steps = run.steps.saturating_sub(from.unsigned_abs());
+            let distances: Vec<u64> =
+                if is_open { distances(steps, run.windows).collect() } else { vec![(steps / run.windows).max(1)] };
+            let monitors =
+                distances.into_iter().map(|every| Spaced::new(integrator, every)).collect::<Result<_, _>>()?;
             // it has refused the state of the steps, which is that of the trajectory unless the scheme is a processed one
             if !initial.is_finite() {
                 let value = NotFinite { quantity: Quantity::Energy, value: initial.to_text() };
                 return Err(RunError::NotFinite { step: 0, value });
             }
             observed = Some(Observed {
-                idle: monitor.idle(),
-                pass: 0,
-                monitor,
+                monitors,
                 encounters: Encounters::new(&integrator.state().p()[..massive]),
                 approaches: None,
                 light: None,
@@ -178,26 +229,10 @@ impl<N: RunNumber> Watch<N> {
             time: None,
             names: Vec::new(),
             observed,
+            windows: run.windows,
             from,
             n: from,
         })
-    }
-
-    /// Begins at the present state of a run of the system, which is number `from`, for a summary of the whole run.
-    ///
-    /// # Errors
-    /// A state or an energy that is not finite.
-    pub(crate) fn of_run(
-        system: &scene::System,
-        integrator: &mut VectorIntegrator<'_, N>,
-        (run, from): (Run<'_>, i64),
-        energies: Energies,
-        context: &N::Context,
-    ) -> Result<Self, RunError> {
-        let (q, p) = system.start(context);
-        let initial = integrator.energy_at(&q, &p);
-        let watch = Watch::begin(integrator, run, (from, initial), energies, true)?;
-        Ok(watch.of_system(system, integrator))
     }
 
     /// Follows the planets of a system that has some, too; in transformed time H is H'.
@@ -224,7 +259,11 @@ impl<N: RunNumber> Watch<N> {
     /// What the next step is to carry along.
     pub fn carried(&self) -> Carried {
         match &self.observed {
-            Some(observed) if observed.idle == 0 && observed.monitor.needs_increments() => Carried::Increments,
+            Some(Observed { monitors, .. })
+                if monitors.iter().any(|spaced| spaced.idle == 0 && spaced.monitor.needs_increments()) =>
+            {
+                Carried::Increments
+            }
             _ => Carried::Nothing,
         }
     }
@@ -232,7 +271,7 @@ impl<N: RunNumber> Watch<N> {
     /// How many of the next states need not be [included](Watch::include): it is enough that they are visited.
     pub fn idle(&self) -> u64 {
         match &self.observed {
-            Some(observed) if self.energies != Energies::All => observed.idle,
+            Some(observed) if self.energies != Energies::All => observed.idle(),
             _ => 0,
         }
     }
@@ -245,10 +284,18 @@ impl<N: RunNumber> Watch<N> {
             self.energy.include(n, &at_output(integrator, |integrator| integrator.system().energy()));
         }
         let Some(observed) = &mut self.observed else { return };
-        if observed.include(n, (integrator.state().q(), integrator.state().p())) {
+        observed.include(n, (integrator.state().q(), integrator.state().p()));
+        observed.leave_closer((self.from, n), self.windows);
+        let [first, others @ ..] = &mut observed.monitors[..] else { return };
+        for Spaced { monitor, idle, .. } in others.iter_mut().filter_map(|spaced| (!spaced.passes()).then_some(spaced))
+        {
+            let _ = monitor.observe(integrator);
+            *idle = monitor.idle();
+        }
+        if first.passes() {
             return;
         }
-        let Observed { monitor, idle, .. } = observed;
+        let Spaced { monitor, idle, .. } = first;
         // what is not finite is found by the run as well, or by the verdict
         let found = monitor.observe(integrator).ok().flatten();
         // of a processed scheme the trajectory is known at the present state only
@@ -299,7 +346,8 @@ impl<N: RunNumber> Watch<N> {
         initial.make_absolute();
         let [largest, last] = [&self.energy.largest, &self.energy.last].map(N::clone);
         let Watch { observed, from, n, transformed, processed, time, names, .. } = self;
-        let Observed { mut monitor, pass, encounters, approaches, light, .. } = observed?;
+        let Observed { monitors, encounters, approaches, light } = observed?;
+        let Spaced { mut monitor, pass, .. } = monitors.into_iter().next()?;
         monitor.pass(pass);
         let mut report = monitor.report();
         report.coordinate_names = names;
@@ -481,7 +529,7 @@ mod tests {
         {
             let found = summary(end, digits);
             assert!(!found.is_bounded(), "{end}: {}", found.verdict_with_reason());
-            assert!(found.reason().starts_with("at the end the energy error is"), "{}", found.reason());
+            assert!(found.reason().contains("he energy error is"), "{}", found.reason());
         }
         assert!(summary("t > 5", "double").is_bounded());
     }

@@ -43,7 +43,7 @@ pub(crate) fn suits(scene: &Scene, keep: &Keep) -> bool {
     sums(scene).is_some()
         && scene.scheme.scheme.processor().is_empty()
         && !scene.displaced
-        && scene.steps() <= MOST_STEPS
+        && scene.steps().is_some_and(|steps| steps <= MOST_STEPS)
         && !has_functions(scene, keep)
 }
 
@@ -102,7 +102,7 @@ fn follow(
 ) -> Vec<Option<Values>> {
     let mut following = LanesFollower::begin(scenes, keep, tangents, integrator.system());
     let at_once = if following.follows_all() { 1 } else { STEPS_AT_ONCE };
-    let (mut n, last) = (0, scenes[0].steps());
+    let (mut n, last) = (0, scenes[0].most_steps());
     following.include(n, integrator.system());
     while n < last && following.goes_on() {
         let count = at_once.min(last - n);
@@ -193,7 +193,7 @@ impl<'a> LanesFollower<'a> {
             tangents.step();
             tangents.observe(self.h * n as f64);
         }
-        let mut ends = [n == self.scene.steps(); LANES];
+        let mut ends = [n == self.scene.most_steps(); LANES];
         let run = self.scene.as_run();
         for (place, (test, met)) in self.tests.iter_mut().enumerate() {
             let stops = self.keep.stop.contains(&place);

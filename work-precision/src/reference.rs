@@ -412,6 +412,20 @@ fn of_scheme(
     arithmetic.compute(ByHalving { problem, scheme, named, request })
 }
 
+/// What two runs at round-off, which differ by this at each sample, show of the error of one of them: they may agree by chance, for a while or at all samples.
+fn round_off(differences: &[Size], largest: f64) -> Vec<Size> {
+    /// The error beside the largest difference so far, and beside the round-off of a position; log₁₀.
+    const BESIDE_DIFFERENCE: f64 = 0.3;
+    const BESIDE_POSITION: f64 = 0.6;
+    let least = Size::of(&f64::EPSILON).times_power_of_ten(largest + BESIDE_POSITION);
+    let grow = |so_far: &mut Size, difference: &Size| {
+        let difference = difference.times_power_of_ten(BESIDE_DIFFERENCE);
+        *so_far = if difference > *so_far { difference } else { *so_far };
+        Some(*so_far)
+    };
+    differences.iter().scan(least, grow).collect()
+}
+
 /// How far the step is halved.
 #[derive(Clone, Copy)]
 struct Halving<'a> {
@@ -452,14 +466,10 @@ impl Computation for ByHalving<'_> {
                 let difference = differences.iter().map(|size| size.log10()).fold(f64::NEG_INFINITY, f64::max);
                 let shows_order = last_difference - difference >= scheme.gain;
                 let gain = if shows_order && request.gain { scheme.gain } else { 0.0 };
-                // two runs that round alike are not exact
-                let least = match has_forces_in_doubles(problem) {
-                    true => Size::of(&f64::EPSILON).times_power_of_ten(largest(&found)),
-                    false => Size::ZERO,
+                let errors = match has_forces_in_doubles(problem) {
+                    true => round_off(&differences, largest(&found)),
+                    false => differences.iter().map(|size| size.times_power_of_ten(-gain)).collect(),
                 };
-                let known = |size: &Size| size.times_power_of_ten(-gain);
-                let errors =
-                    differences.iter().map(known).map(|size| if size < least { least } else { size }).collect();
                 let texts = |position: &Vec<N>| position.iter().map(Real::to_text).collect();
                 let origin =
                     Origin::Scheme { name: scheme.name.to_owned(), steps, digits: problem.arithmetic.digits() };

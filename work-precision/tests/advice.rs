@@ -7,8 +7,9 @@ use shadowstep::{Number, Rational, StepSize, exact};
 use shadowstep_scenes::System;
 use shadowstep_scenes::arithmetic::Arithmetic;
 use shadowstep_scenes::computation::{Computation, RunNumber};
-use shadowstep_scenes::integrate::{Integration, KeptStates};
+use shadowstep_scenes::integrate::KeptStates;
 use shadowstep_scenes::library::{NamedScheme, scheme};
+use shadowstep_scenes::posed::Posed;
 use shadowstep_scenes::run::Run;
 use shadowstep_work_precision::advise::{Advice, AdviceRequest, Choice, Verified};
 use shadowstep_work_precision::of::Of;
@@ -51,20 +52,8 @@ impl Computation for Final<'_> {
         let Final { system, scheme, h, steps } = self;
         let h = StepSize::try_from(h).unwrap();
         let run = Run { propagator: &scheme.name, h: &h, steps, order: None, windows: Run::WINDOWS };
-        let scheme = &scheme.scheme;
-        let (compensated, displaced, until) = (false, false, None);
-        let integration = Integration {
-            system,
-            scheme,
-            run,
-            compensated,
-            displaced,
-            until,
-            ends: None,
-            kept: KeptStates::Every(steps),
-            estimator: None,
-        };
-        let samples = integration.run::<N>(context, &mut ()).unwrap();
+        let posed = Posed::new(system, &scheme.scheme, run, (Arithmetic::DOUBLE, false));
+        let samples = posed.samples::<N>(KeptStates::Every(steps), context, &mut ()).unwrap();
         samples.q[system.q.len()..].iter().map(|q| exact(&q.to_text()).unwrap()).collect()
     }
 }

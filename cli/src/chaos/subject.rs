@@ -7,10 +7,13 @@ use shadowstep::{Rational, StepSize};
 use shadowstep_scenes::arithmetic::Arithmetic;
 use shadowstep_scenes::chaos::ChaosRequest;
 use shadowstep_scenes::ensemble::Ensemble;
+use shadowstep_scenes::expression::Condition;
 use shadowstep_scenes::library::{self, NamedScheme};
+use shadowstep_scenes::posed::Posed;
 use shadowstep_scenes::propagator::for_system;
 use shadowstep_scenes::readable::{LONGEST_NUMBER, shortened};
 use shadowstep_scenes::run::Run;
+use shadowstep_scenes::steps::MOST_STEPS;
 use shadowstep_scenes::tangent::Vectors;
 use shadowstep_scenes::{Error, Scene, System};
 
@@ -46,6 +49,8 @@ pub(super) struct Subject {
     arithmetic: Arithmetic,
     /// The physical end, where time is transformed and the steps are not known.
     until: Option<Rational>,
+    /// The condition that ends the run of a scene.
+    ends: Option<Condition>,
 }
 
 impl Subject {
@@ -61,9 +66,10 @@ impl Subject {
 
     fn of_scene(scene: Scene) -> Self {
         scene.notes.iter().for_each(report::note);
-        let (steps, windows, title) = (scene.steps(), scene.output.windows, scene.source.path);
-        let Scene { system, scheme, displaced, h, arithmetic, .. } = scene;
-        Subject { title, system, scheme, displaced, h, steps, windows, arithmetic, until: None }
+        let (steps, windows) = (scene.most_steps(), scene.output.windows);
+        let Scene { system, scheme, displaced, h, arithmetic, until, ends, source, .. } = scene;
+        let until = until.filter(|_| system.transformed_time().is_some());
+        Subject { title: source.path, system, scheme, displaced, h, steps, windows, arithmetic, until, ends }
     }
 
     /// What no flag gives is that of the scene.
@@ -93,19 +99,31 @@ impl Subject {
         let (steps, until) = match system.transformed_time() {
             Some(_) => {
                 quantity::check_physical_end((&h, &step), &until, &system)?;
-                (0, Some(until))
+                (MOST_STEPS, Some(until))
             }
             None => (quantity::steps((&h, &step), &until)?, None),
         };
-        Ok(Subject { title: described.name, system, scheme, displaced, h, steps, windows, arithmetic, until })
+        Ok(Subject {
+            title: described.name,
+            system,
+            scheme,
+            displaced,
+            h,
+            steps,
+            windows,
+            arithmetic,
+            until,
+            ends: None,
+        })
     }
 
     /// The run with these vectors, measured every `every` steps.
     pub(super) fn request(&self, vectors: Vectors, every: u64) -> ChaosRequest<'_> {
-        let Subject { system, scheme, displaced, h, steps, windows, arithmetic, until, .. } = self;
+        let Subject { system, scheme, displaced, h, steps, windows, arithmetic, until, ends, .. } = self;
         let run = Run { propagator: &scheme.name, h, steps: *steps, order: None, windows: *windows };
-        let (scheme, displaced, arithmetic) = (&scheme.scheme, *displaced, *arithmetic);
-        ChaosRequest { system, scheme, run, arithmetic, displaced, until: until.as_ref(), vectors, every }
+        let posed = Posed::new(system, &scheme.scheme, run, (*arithmetic, *displaced));
+        let posed = Posed { until: until.as_ref(), ends: ends.as_ref(), ..posed };
+        ChaosRequest { posed, vectors, every }
     }
 }
 

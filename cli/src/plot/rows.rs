@@ -44,7 +44,11 @@ impl Computation for Reading<'_> {
 
     fn compute<N: RunNumber>(self, context: &N::Context) -> Self::Output {
         let Reading { plots, scene, path, name } = self;
-        let mut run = plots.run::<N>(name, scene.steps());
+        let steps = match scene.steps() {
+            Some(steps) => steps,
+            None => last_row(scene, path)?,
+        };
+        let mut run = plots.run::<N>(name, steps);
         let damaged = |n: u64| {
             let message = format!("{}: the row after n = {n} cannot be read, so there is no plot", path.display());
             Error::usage(message, "--restart runs the scene again")
@@ -75,6 +79,16 @@ impl Computation for Reading<'_> {
         plots.add(run);
         Ok(())
     }
+}
+
+/// The n of the last row.
+fn last_row(scene: &Scene, path: &Path) -> Result<u64, Error> {
+    let mut last = 0;
+    each_row(scene, path, |row| {
+        last = row.map_or(last, |row| row.n);
+        Ok(())
+    })?;
+    Ok(last)
 }
 
 /// Gives each row, or `None` for one that cannot be read, to `take`.

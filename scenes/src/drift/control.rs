@@ -89,7 +89,7 @@ impl Controls {
             return known.clone();
         }
         let run = Run { propagator: EXACT_FLOW, ..estimates.run };
-        let estimates = Estimates { propagator: &Propagator::ExactFlow, run, compensated: false, ..estimates };
+        let estimates = Estimates { propagator: &Propagator::ExactFlow, run, ..estimates };
         let found = match expected::<N>(&setup, run, context) {
             Some(expected) if limit.is_some_and(|limit| expected > limit) => left_out(expected, seconds),
             _ => control::<N>(estimates, context, limit, seconds, follower),

@@ -14,7 +14,7 @@ pub(super) fn measure<N: RunNumber>(
 ) -> Result<(EnergyDrift<N>, Finished), Error> {
     let run = estimates.run;
     let drift = DriftRecorder::new(run.h.clone());
-    let mut drift = drift.compensated_if(estimates.compensated);
+    let mut drift = drift.compensated_if(estimates.is_compensated());
     let finished = estimates.take::<N>(context, &mut |n, estimate| {
         drift.include(n, estimate);
         progress(n)

@@ -86,7 +86,10 @@ fn refuse_outputs(reader: &mut Reader<'_>, scene: &Scene) {
 fn observed(reader: &mut Reader<'_>, scene: &Scene) -> Option<Observed> {
     let output = &scene.output;
     let Some((estimator, every)) = &output.modified_energy else {
-        return Some(Observed { every: output.energy.unwrap_or_else(|| scene.steps()).max(1), modified_energy: None });
+        return Some(Observed {
+            every: output.energy.unwrap_or_else(|| scene.most_steps()).max(1),
+            modified_energy: None,
+        });
     };
     let at = place(reader.source, "output", "modified_energy");
     if output.energy.is_some_and(|energy| energy != *every) {

@@ -53,7 +53,7 @@ impl Identity {
             files_sha256: file_hashes(scene),
             functions_sha256: functions(scene).map(str::to_owned),
             names: input_names(scene),
-            steps: scene.steps(),
+            steps: scene.most_steps(),
             dimension,
             remainders: if scene.arithmetic.is_compensated() { dimension } else { 0 },
             vectors: if scene.output.chaos.is_some() { VECTORS_OF_ROWS } else { 0 },
@@ -70,11 +70,6 @@ impl Identity {
         let is_same = self.without_end_sha256 == other.without_end_sha256;
         let scene = if is_same { other } else { self };
         Identity { scene_sha256: scene.scene_sha256.clone(), ..self.clone() }
-    }
-
-    /// Whether a state is the last one.
-    pub(crate) fn is_last(&self, n: i64) -> bool {
-        n.unsigned_abs() == self.steps
     }
 
     /// Everything else, as it stands in metadata, and how a file was made in which it does not.
@@ -132,6 +127,9 @@ pub(crate) struct Checkpoint {
     pub(crate) identity: Identity,
     /// All rows up to this n are in the partial file.
     pub(crate) n: i64,
+    /// Whether it is the last one.
+    #[serde(default)]
+    pub(crate) is_last: bool,
     /// Their length in bytes, with the head.
     pub(crate) bytes: u64,
     /// The length of the head before them.

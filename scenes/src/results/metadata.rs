@@ -97,7 +97,7 @@ fn steps(scene: &Scene) -> impl Iterator<Item = (&'static str, Value)> {
     let end = scene.ends.iter().map(|condition| ("end", json!(condition.text())));
     let section = scene.output.section.iter().map(|surface| ("section", json!(surface.expression.text.value)));
     let step = [("step", json!(to_text(scene.h.exact())))].into_iter();
-    step.chain(until).chain(end).chain([("steps", json!(scene.steps()))]).chain(section)
+    step.chain(until).chain(end).chain(scene.steps().map(|steps| ("steps", json!(steps)))).chain(section)
 }
 
 fn system(system: &System, arithmetic: Arithmetic) -> Vec<(&'static str, Value)> {

@@ -15,14 +15,13 @@ use shadowstep_schemes::document::read_text;
 
 use crate::error::{Error, NotWritten, not_written};
 use crate::lock::{LockError, open_itself, open_locked};
+use crate::moment::Moment;
 use crate::note::Note;
 use crate::observer::Observer;
 use crate::results::checkpoint::{Checkpoint, Identity};
 use crate::results::metadata::hexadecimal;
 use crate::results::numpy::MAGIC;
 use crate::results::options::FileOptions;
-use crate::saved_state::{SavedState, SavedVector};
-use crate::saved_summary::SavedSummary;
 use crate::temporary::Temporary;
 use crate::whole_file::{cannot_write, sync_folder};
 
@@ -67,8 +66,8 @@ pub(crate) struct Resumable {
     /// From where on bytes are hashed.
     hashed_from: u64,
     hash: Sha256,
-    /// The n of the last checkpoint.
-    kept: Option<i64>,
+    /// Whether the last checkpoint is at the last state.
+    is_kept_at_end: bool,
     /// The hash of the scene whose file is prolonged.
     prolongs: Option<String>,
 }
@@ -119,7 +118,7 @@ impl Resumable {
             head: 0,
             hashed_from: 0,
             hash: Sha256::new(),
-            kept: None,
+            is_kept_at_end: false,
             prolongs: None,
         };
         let found = match resumable.checkpoint.try_exists()? {
@@ -197,7 +196,7 @@ impl Resumable {
     ) -> Result<Option<String>, Error> {
         let last = read_text(beside(path, CHECKPOINT), LARGEST_CHECKPOINT).ok();
         let last = last.and_then(|text| Checkpoint::read(&text, identity).ok());
-        let Some(last) = last.filter(|last| identity.is_last(last.n)) else { return Ok(None) };
+        let Some(last) = last.filter(|last| last.is_last) else { return Ok(None) };
         let Ok(mut file) = File::open(path) else { return Ok(None) };
         let length = file.metadata()?.len();
         if length != last.bytes {
@@ -245,7 +244,7 @@ impl Resumable {
         file.set_len(checkpoint.bytes)?;
         file.seek(SeekFrom::Start(checkpoint.bytes))?;
         (self.bytes, self.head, self.hashed_from) = (checkpoint.bytes, checkpoint.head, checkpoint.hashed_from);
-        self.kept = Some(checkpoint.n);
+        self.is_kept_at_end = checkpoint.is_last;
         self.prolongs.clone_from(&checkpoint.prolongs);
         Ok(checkpoint)
     }
@@ -255,14 +254,8 @@ impl Resumable {
         Error::usage(format!("{} {why}, so the run cannot be resumed from it", file.display()), hint)
     }
 
-    /// Writes a checkpoint: all rows up to n are written, and the run can be resumed from `state`.
-    pub(crate) fn keep(
-        &mut self,
-        n: i64,
-        state: Option<SavedState>,
-        vectors: Vec<SavedVector>,
-        summary: Option<SavedSummary>,
-    ) -> Result<(), Error> {
+    /// Writes a checkpoint: all rows up to n are written, and the run can be resumed from the state.
+    pub(crate) fn keep(&mut self, Moment { n, is_last, state, vectors, summary }: Moment) -> Result<(), Error> {
         if !self.saves {
             return Ok(());
         }
@@ -272,7 +265,7 @@ impl Resumable {
         let (identity, prolongs) = (self.identity.clone(), self.prolongs.clone());
         let (bytes, head, hashed_from) = (self.bytes, self.head, self.hashed_from);
         let checkpoint =
-            Checkpoint { identity, n, bytes, head, hashed_from, sha256, state, prolongs, vectors, summary };
+            Checkpoint { identity, n, is_last, bytes, head, hashed_from, sha256, state, prolongs, vectors, summary };
         let text = checkpoint.to_text();
         if text.len() as u64 > LARGEST_CHECKPOINT {
             let message = format!("a checkpoint of this run is longer than {} MiB", LARGEST_CHECKPOINT >> 20);
@@ -282,7 +275,7 @@ impl Resumable {
         remove_new_checkpoint(&new)?;
         self.replace_checkpoint(&new, &text).map_err(|error| self.not_written(&new, error))?;
         self.temporary = None;
-        self.kept = Some(n);
+        self.is_kept_at_end = is_last;
         Ok(())
     }
 
@@ -325,7 +318,7 @@ impl Resumable {
         };
         renamed.map_err(|error| self.not_written(&self.path, error))?;
         sync_folder(&self.path);
-        if self.kept.is_some_and(|n| self.identity.is_last(n)) { Ok(()) } else { self.remove_checkpoint() }
+        if self.is_kept_at_end { Ok(()) } else { self.remove_checkpoint() }
     }
 
     /// After a run that failed: its rows stay in the partial file if checkpoints are made.

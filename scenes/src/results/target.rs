@@ -10,6 +10,7 @@ use shadowstep::tables::Faults;
 use shadowstep_schemes::document::refuse_pipe;
 
 use crate::error::Error;
+use crate::moment::Moment;
 use crate::observer::Observer;
 use crate::results::checkpoint::{Checkpoint, Identity};
 use crate::results::metadata::Metadata;
@@ -18,8 +19,6 @@ use crate::results::options::FileOptions;
 use crate::results::origin::{METADATA, Origin};
 use crate::results::resumable::{Begun, CHECKPOINT, NEW_CHECKPOINT, Resumable, beside};
 use crate::results::row::Columns;
-use crate::saved_state::{SavedState, SavedVector};
-use crate::saved_summary::SavedSummary;
 use crate::scene::Scene;
 use crate::whole_file::destination;
 
@@ -144,16 +143,10 @@ impl<'a> Target<'a> {
     }
 
     /// Makes a checkpoint, where there can be one.
-    pub(crate) fn keep(
-        &mut self,
-        n: i64,
-        state: Option<SavedState>,
-        vectors: Vec<SavedVector>,
-        summary: Option<SavedSummary>,
-    ) -> Result<(), Error> {
+    pub(crate) fn keep(&mut self, moment: Moment) -> Result<(), Error> {
         match self {
             Target::Writer(_) => Ok(()),
-            Target::File(file) => file.keep(n, state, vectors, summary),
+            Target::File(file) => file.keep(moment),
         }
     }
 

@@ -1,0 +1,61 @@
+//! What takes the states of a run: rows, arrays, records, the least and greatest values of expressions.
+
+use shadowstep::number::saved::Fields;
+use shadowstep::steps::integrator::VectorIntegrator;
+
+use crate::at::At;
+use crate::computation::RunNumber;
+use crate::error::Error;
+use crate::moment::Moment;
+use crate::run::Run;
+
+/// Takes states of a run.
+pub trait Column<N: RunNumber> {
+    /// The n of the next state that it takes after the state n. It is also shown others, as the last one.
+    fn next(&self, n: i64) -> i64;
+
+    /// Takes a state, or leaves it.
+    ///
+    /// # Errors
+    /// What ends the run.
+    fn take(&mut self, at: &mut At<'_, '_, N>) -> Result<(), Error>;
+
+    /// Whether it [sees](Column::see) each state.
+    fn sees_each(&self) -> bool {
+        false
+    }
+
+    /// Sees the state n of the trajectory, at which the integrator is: each of the run, before estimates. Whether the run ends with it.
+    fn see(&mut self, n: i64, run: Run<'_>, integrator: &mut VectorIntegrator<'_, N>) -> bool {
+        let _ = (n, run, integrator);
+        false
+    }
+
+    /// Takes the last state once more, when all that is known of the run is known.
+    ///
+    /// # Errors
+    /// What makes the run a failed one.
+    fn end(&mut self, at: &mut At<'_, '_, N>) -> Result<(), Error> {
+        let _ = at;
+        Ok(())
+    }
+
+    /// Gives all numbers that the states so far have left, or replaces them.
+    fn fields(&mut self, context: &N::Context, to: &mut dyn Fields<N>) {
+        let _ = (context, to);
+    }
+
+    /// Keeps a moment from which the run can be resumed.
+    ///
+    /// # Errors
+    /// A file that cannot be written.
+    fn keep(&mut self, moment: Moment) -> Result<(), Error> {
+        let _ = moment;
+        Ok(())
+    }
+}
+
+/// The next multiple of `every` after n.
+pub(crate) fn next_multiple(n: i64, every: u64) -> i64 {
+    n.saturating_add_unsigned(every - n.unsigned_abs() % every)
+}
