@@ -171,7 +171,7 @@ def integrate(
         physical time, to which a last step is made.
     end
         A condition that ends the run before, at the first state after t = 0 that meets it: one comparison of formulas in the coordinates, momenta,
-        parameters, t and the energy E, such as ``"x^2 + y^2 > 100"``. The steps are made twice, as the end is looked for first.
+        parameters, t and the energy E, such as ``"x^2 + y^2 > 100"``.
     section, direction
         A surface of section: in place of states at equal times those are kept at which this formula in the coordinates, momenta, parameters and the energy E becomes
         0, ``direction="up"`` growing (the default), ``"down"`` falling, or ``"both"``. Each is found by a step of a part of h from the state before, so it is

@@ -259,6 +259,19 @@ impl<N: Number + 'static> Evaluator<N> {
         self.evaluate()
     }
 
+    /// The value at a state, without H.
+    fn value_without_energy(&mut self, (q, p): (&[N], &[N]), time: impl FnOnce() -> N) -> &N {
+        self.set_state(q, p);
+        if self.has_time {
+            let rest = self.rest();
+            self.point[rest] = match (&self.energy, q.last()) {
+                (Some(_), Some(t)) => t.clone(),
+                _ => time(),
+            };
+        }
+        self.evaluate()
+    }
+
     /// The value at another state of a system; t is a coordinate, if the expression has it.
     pub(crate) fn value_at_other<M: shadowstep::System<Number = N> + ?Sized>(
         &mut self,
@@ -360,6 +373,18 @@ impl<N: RunNumber> Test<N> {
         time: impl Fn() -> Rational,
     ) -> bool {
         self.met.is_of(self.difference.value(system, time).partial_cmp(&self.zero))
+    }
+}
+
+impl<N: RunNumber> Test<N> {
+    /// Whether H is in it.
+    pub(crate) fn has_energy(&self) -> bool {
+        self.difference.has_energy
+    }
+
+    /// Whether a state meets the condition, which has no H.
+    pub(crate) fn is_met_at(&mut self, state: (&[N], &[N]), time: impl FnOnce() -> N) -> bool {
+        self.met.is_of(self.difference.value_without_energy(state, time).partial_cmp(&self.zero))
     }
 }
 

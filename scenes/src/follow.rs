@@ -9,6 +9,7 @@ use shadowstep::shadow::run::{RunError, ShadowRun, States as _, Trajectory};
 use shadowstep::shadow::{Estimate, EstimatorSettings};
 use shadowstep::steps::integrator::{VectorIntegrator, at_output};
 use shadowstep::steps::step_to_time;
+use shadowstep::systems::system::Visitor;
 use shadowstep::{Carried, Rational};
 
 use crate::at::{At, Place, View};
@@ -77,6 +78,9 @@ struct Following<'a, 'c, N: RunNumber> {
     /// The n of the last state; where something else ends the run, the most until that is known.
     last: i64,
     is_met: bool,
+    /// Whether the end is known to be among the next states.
+    is_near_end: bool,
+    is_processed: bool,
     is_stopped: bool,
     /// Whether a column ended the run.
     is_ended_by_column: bool,
@@ -131,6 +135,8 @@ impl<'a, 'c, N: RunNumber> Following<'a, 'c, N> {
             from,
             last: i64::try_from(run.steps).unwrap_or(i64::MAX),
             is_met: false,
+            is_near_end: false,
+            is_processed: integrator.is_processed(),
             is_stopped: false,
             is_ended_by_column: false,
             n: first,
@@ -212,10 +218,7 @@ impl<'a, 'c, N: RunNumber> Following<'a, 'c, N> {
         loop {
             if next > reached + 1 {
                 trajectory.set_augmented(false);
-                let made = match &mut self.watch {
-                    Some(watch) => trajectory.reach_visited(next - 1, watch),
-                    None => trajectory.reach(next - 1),
-                };
+                let made = self.pass(&mut trajectory, (reached, next - 1));
                 made.map_err(|error| self.failed(&error))?;
             }
             let carried = self.watch.as_ref().map_or(Carried::Nothing, Watch::carried);
@@ -233,6 +236,33 @@ impl<'a, 'c, N: RunNumber> Following<'a, 'c, N> {
             }
             (reached, next) = (n, self.next(n));
         }
+    }
+
+    /// Makes the states up to n, which need not be seen or shown: the summary and the end take what they need of them. Where the end comes before n, they are made
+    /// again, one by one.
+    fn pass(
+        &mut self,
+        trajectory: &mut Trajectory<&mut VectorIntegrator<'_, N>>,
+        (from, n): (i64, i64),
+    ) -> Result<(), RunError> {
+        let Following { watch, test, until, view, .. } = self;
+        if test.is_none() && until.is_none() {
+            return match watch {
+                Some(watch) => trajectory.reach_visited(n, watch),
+                None => trajectory.reach(n),
+            };
+        }
+        let before = Snapshot::of(from, trajectory.integrator().state());
+        let mut passing = Passing { watch, test, until, view, n: from, has_ended: false };
+        let made = trajectory.reach_visited(n, &mut passing);
+        self.is_near_end = passing.has_ended;
+        self.seen = passing.n;
+        if !self.is_near_end {
+            return made;
+        }
+        before.restore(trajectory.integrator());
+        trajectory.go_on_from(from);
+        Ok(())
     }
 
     /// With increments and an estimate at each state, and its error.
@@ -269,7 +299,12 @@ impl<'a, 'c, N: RunNumber> Following<'a, 'c, N> {
 
     /// The n of the next state after n that is to be seen, or shown.
     fn next(&self, n: i64) -> i64 {
-        if self.sees_each || self.crossings.is_some() || self.test.is_some() || self.until.is_some() {
+        let needs_system = |test: &Test<N>| test.has_energy() || self.is_processed;
+        if self.sees_each
+            || self.crossings.is_some()
+            || self.is_near_end
+            || self.test.as_ref().is_some_and(needs_system)
+        {
             return n + 1;
         }
         let checkpoint = match self.posed.resumed.interval {
@@ -293,12 +328,9 @@ impl<'a, 'c, N: RunNumber> Following<'a, 'c, N> {
         if n > self.last {
             return false;
         }
-        if let Some((until, forwards)) = &self.until {
-            let t = integrator.state().q().last().expect("time is a coordinate");
-            if if *forwards { t > until } else { t < until } {
-                (self.last, self.until) = (n - 1, None);
-                return true;
-            }
+        if self.until.as_ref().is_some_and(|until| is_past(integrator.state().q(), until)) {
+            (self.last, self.until) = (n - 1, None);
+            return true;
         }
         if n >= 0 && (self.sees_each || self.test.is_some()) {
             at_output(integrator, |integrator| self.see_trajectory(n, integrator));
@@ -507,6 +539,42 @@ impl<'a, 'c, N: RunNumber> Following<'a, 'c, N> {
         let at = At { place: Place::PhysicalEnd, ..self.view.at(self.last + 1, integrator) };
         show(self.columns, &mut None, &mut { at })
     }
+}
+
+/// Passes states until the run ends with one of them, or before it.
+struct Passing<'s, 'a, N: RunNumber> {
+    watch: &'s mut Option<Watch<N>>,
+    test: &'s mut Option<Test<N>>,
+    until: &'s Option<(N, bool)>,
+    view: &'s View<'a, N>,
+    /// The last state before.
+    n: i64,
+    has_ended: bool,
+}
+
+impl<N: RunNumber> Visitor<N> for Passing<'_, '_, N> {
+    fn visit(&mut self, q: &[N], p: &[N]) {
+        if self.has_ended {
+            return;
+        }
+        let (n, View { run, context, .. }) = (self.n + 1, self.view);
+        let is_past = self.until.as_ref().is_some_and(|until| is_past(q, until));
+        let mut is_met = |test: &mut Test<N>| test.is_met_at((q, p), || run.time_in(n, *context));
+        if is_past || self.test.as_mut().is_some_and(&mut is_met) {
+            self.has_ended = true;
+            return;
+        }
+        self.n = n;
+        if let Some(watch) = self.watch {
+            watch.visit(q, p);
+        }
+    }
+}
+
+/// Whether a state is past the physical end; `until` is its time, and whether steps go forwards.
+fn is_past<N: RunNumber>(q: &[N], (until, forwards): &(N, bool)) -> bool {
+    let t = q.last().expect("time is a coordinate");
+    if *forwards { t > until } else { t < until }
 }
 
 /// Shows a state to all columns. H, where it is computed, is of the error of H, too.

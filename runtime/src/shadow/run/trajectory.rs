@@ -129,6 +129,11 @@ impl<I: Integrator<Number: Real>> Trajectory<I> {
         if n <= self.n { Ok(()) } else { self.make_until(n, Some(visitor)) }
     }
 
+    /// Goes on from the state n, which the caller has set the integrator to: it is one of those that were made.
+    pub fn go_on_from(&mut self, n: i64) {
+        self.n = n;
+    }
+
     fn make_until(&mut self, n: i64, mut visitor: Option<&mut dyn Visitor<I::Number>>) -> Result<(), RunError> {
         let n = n.min(self.last);
         while self.n < n && (self.augmented || !self.before.is_empty() || n - self.n < AT_ONCE) {
