@@ -25,7 +25,7 @@ const EXAMPLES: &str = "\
 Examples:
   shadowstep drift --problem kepler --set eccentricity=0.3 --digits 60 \\
       --scheme stormer-verlet,yoshida4 --step 1/10,1/20 --until 100
-  shadowstep drift mine.toml --scheme own.toml --step 1/8 --until 100 --double";
+  shadowstep drift mine.toml --scheme own.toml --step 1/8 --until 100";
 
 const MORE: &str = "  \
   shadowstep drift --potential \"a*x^4 + x^2*y^2\" --set a=1/4 \\

@@ -5,7 +5,7 @@ use std::path::Path;
 use clap::Args;
 use shadowstep::Rational;
 use shadowstep::tables::First;
-use shadowstep_scenes::arithmetic::{Arithmetic, MOST_DIGITS};
+use shadowstep_scenes::arithmetic::Arithmetic;
 use shadowstep_scenes::library::NamedScheme;
 use shadowstep_scenes::readable::shortened;
 use shadowstep_scenes::{Error, Scene, first_map, source};
@@ -13,8 +13,8 @@ use shadowstep_schemes::document::document;
 use shadowstep_work_precision::length::length_of;
 use shadowstep_work_precision::problem::Problem;
 
-use crate::headings::{NUMBERS, SCHEMES};
-use crate::quantity::{self, whole};
+use crate::headings::SCHEMES;
+use crate::quantity;
 use crate::run_arguments::{NumberArguments, SystemArguments};
 use crate::system::{Described, is_file};
 
@@ -28,16 +28,6 @@ pub(crate) struct PosedArguments {
     /// It is exact, such as 100. Of a scene with [time], it is a physical time as well.
     #[arg(long, value_name = "T", allow_hyphen_values = true, help_heading = SCHEMES)]
     until: Option<String>,
-    /// Decimal digits [default: those of the scene, else double precision]
-    ///
-    /// All numbers of a run have them, such as 50.
-    #[arg(long, value_name = "DIGITS", value_parser = |text: &str| whole(text, 1..=MOST_DIGITS), help_heading = NUMBERS)]
-    digits: Option<u32>,
-    /// MPFR's numbers, also for up to 307 digits
-    ///
-    /// For up to 307 digits, numbers of 64-bit limbs are the default; they take less time.
-    #[arg(long, requires = "digits", help_heading = NUMBERS)]
-    mpfr: bool,
     #[command(flatten)]
     numbers: NumberArguments,
 }
@@ -50,8 +40,8 @@ impl PosedArguments {
 
     /// Whether there is anything besides the problem.
     pub(crate) fn is_changed(&self) -> bool {
-        let PosedArguments { system, until, digits, numbers, .. } = self;
-        until.is_some() || digits.is_some() || numbers.arithmetic().is_some() || !system.set.is_empty()
+        let PosedArguments { system, until, numbers } = self;
+        until.is_some() || !matches!(numbers.arithmetic(), Ok(None)) || !system.set.is_empty()
     }
 }
 
@@ -75,8 +65,8 @@ pub(crate) struct PosedProblem {
 impl PosedProblem {
     pub(crate) fn read(arguments: &PosedArguments) -> Result<Self, Error> {
         let path = arguments.scene();
-        let named = arguments.numbers.arithmetic();
-        let is_complete = arguments.until.is_some() && (named.is_some() || arguments.digits.is_some());
+        let given = arguments.numbers.arithmetic()?;
+        let is_complete = arguments.until.is_some() && given.is_some();
         let scene = match path.filter(|_| !is_complete) {
             Some(path) if arguments.until.is_none() || has_run(path)? => {
                 Some(Scene::read_without_output(source(Path::new(path))?)?)
@@ -84,16 +74,8 @@ impl PosedProblem {
             // without [run], a scene is only a system
             _ => None,
         };
-        let arithmetic = match (arguments.digits, &scene) {
-            (Some(digits), _) => {
-                let found = Arithmetic::of_digits(digits, arguments.mpfr);
-                found.map_err(|error| Error::usage(error.to_string(), "use --digits 120"))?
-            }
-            (None, scene) => {
-                let of_scene = scene.as_ref().map_or(Arithmetic::DOUBLE, |scene| scene.arithmetic);
-                named.unwrap_or(of_scene)
-            }
-        };
+        let of_scene = scene.as_ref().map_or(Arithmetic::DOUBLE, |scene| scene.arithmetic);
+        let arithmetic = given.unwrap_or(of_scene);
         let until = match (&arguments.until, &scene) {
             (Some(text), _) => quantity::number("--until", text)?,
             (None, Some(Scene { until: Some(until), .. })) => until.clone(),

@@ -3,7 +3,8 @@
 use clap::Args;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use shadowstep::shadow::{EstimatorSettings, HIGHEST_ORDER, SelectionRule, StoppingRule};
-use shadowstep_scenes::arithmetic::{Arithmetic, DEFAULT_DIGITS, MOST_DIGITS};
+use shadowstep_scenes::Error;
+use shadowstep_scenes::arithmetic::{Arithmetic, MOST_DIGITS};
 
 use crate::headings::{ESTIMATOR, NUMBERS, OUTPUT, PROBLEM, SCHEMES};
 use crate::output::OutputArguments;
@@ -30,16 +31,6 @@ pub(crate) struct RunArguments {
     /// Of a scene with [time], it is the fictitious time s.
     #[arg(long, value_name = "T", allow_hyphen_values = true, help_heading = SCHEMES)]
     pub(crate) until: String,
-    /// Decimal digits, such as 50
-    ///
-    /// All numbers of a run have them.
-    #[arg(long, default_value_t = DEFAULT_DIGITS, value_name = "DIGITS", value_parser = |text: &str| whole(text, 1..=MOST_DIGITS), help_heading = NUMBERS)]
-    pub(crate) digits: u32,
-    /// MPFR's numbers, also for up to 307 digits
-    ///
-    /// For up to 307 digits, numbers of 64-bit limbs are the default; they take less time.
-    #[arg(long, help_heading = NUMBERS)]
-    pub(crate) mpfr: bool,
     #[command(flatten)]
     pub(crate) numbers: NumberArguments,
     #[command(flatten)]
@@ -92,11 +83,21 @@ pub(crate) struct EstimatorArguments {
     pub(crate) accuracy: Option<String>,
 }
 
-/// A number type that has a flag in place of digits.
+/// The number type.
 #[derive(Debug, Args)]
 #[command(next_help_heading = NUMBERS)]
 pub(crate) struct NumberArguments {
-    /// Double precision (f64) in place of --digits
+    /// Decimal digits, such as 50 [default: double precision]
+    ///
+    /// All numbers of a run have them. `advise`, `chaos` and `work-precision` have those of [run] in a scene by default.
+    #[arg(long, value_name = "DIGITS", value_parser = |text: &str| whole(text, 1..=MOST_DIGITS))]
+    digits: Option<u32>,
+    /// MPFR's numbers, also for up to 307 digits
+    ///
+    /// For up to 307 digits, numbers of 64-bit limbs are the default; they take less time.
+    #[arg(long, requires = "digits")]
+    mpfr: bool,
+    /// Double precision (f64), also where a scene has digits
     #[arg(long, conflicts_with_all = ["digits", "mpfr"])]
     double: bool,
     /// Double precision with less round-off in long runs
@@ -113,13 +114,17 @@ pub(crate) struct NumberArguments {
 
 impl NumberArguments {
     /// The number type, if there is a flag.
-    pub(crate) fn arithmetic(&self) -> Option<Arithmetic> {
+    pub(crate) fn arithmetic(&self) -> Result<Option<Arithmetic>, Error> {
+        if let Some(digits) = self.digits {
+            let found = Arithmetic::of_digits(digits, self.mpfr);
+            return found.map(Some).map_err(|error| Error::usage(error.to_string(), "use --digits 120"));
+        }
         let flags = [
             (self.double, Arithmetic::DOUBLE),
             (self.compensated, Arithmetic::COMPENSATED),
             (self.double_double, Arithmetic::DOUBLE_DOUBLE),
         ];
-        flags.into_iter().find_map(|(given, arithmetic)| given.then_some(arithmetic))
+        Ok(flags.into_iter().find_map(|(given, arithmetic)| given.then_some(arithmetic)))
     }
 }
 

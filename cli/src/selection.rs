@@ -31,7 +31,7 @@ pub(crate) struct Selection {
 
 impl Selection {
     pub(crate) fn read(arguments: &RunArguments) -> Result<Self, Error> {
-        let arithmetic = arithmetic(arguments)?;
+        let arithmetic = arguments.numbers.arithmetic()?.unwrap_or(Arithmetic::DOUBLE);
         let estimator = estimator(&arguments.estimator)?;
         let problem = Described::read(&arguments.system, arithmetic)?;
         let until = quantity::number("--until", &arguments.until)?;
@@ -109,14 +109,6 @@ impl Selection {
 
     fn note_ends(&self) {
         self.steps.iter().filter_map(|(h, count)| Note::of_end(h.exact(), *count, &self.until)).for_each(report::note);
-    }
-}
-
-fn arithmetic(arguments: &RunArguments) -> Result<Arithmetic, Error> {
-    match arguments.numbers.arithmetic() {
-        Some(named) => Ok(named),
-        None => Arithmetic::of_digits(arguments.digits, arguments.mpfr)
-            .map_err(|error| Error::usage(error.to_string(), "use --digits 120")),
     }
 }
 

@@ -21,7 +21,7 @@ def drift(
     h: Number,
     until: Number,
     *,
-    digits: Union[int, str] = 120,
+    digits: Union[int, str] = "double",
     mpfr: bool = False,
     estimator: str = "bilinear",
     order: int | None = None,

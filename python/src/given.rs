@@ -222,7 +222,10 @@ pub(crate) fn number(py: Python<'_>, what: &str, text: &str) -> PyResult<shadows
 /// The number type of some digits: a name or a number.
 pub(crate) fn arithmetic(py: Python<'_>, digits: &str, mpfr: bool) -> PyResult<Arithmetic> {
     if let Some((_, named)) = Arithmetic::NAMED.iter().find(|(name, _)| *name == digits) {
-        return Ok(*named);
+        return match mpfr {
+            true => Err(usage(py, format!("mpfr requires a number of digits, not digits = \"{digits}\""), "digits = 120")),
+            false => Ok(*named),
+        };
     }
     let names = Arithmetic::NAMED.iter().map(|(name, _)| format!("\"{name}\"")).collect::<Vec<_>>().join(", ");
     let hint = format!("give a number of decimal digits up to {MOST_DIGITS}, or one of {names}");

@@ -16,9 +16,6 @@ pub const MOST_VALUE_DIGITS: u32 = shadowstep_symbolic::MOST_EVALUATED_DIGITS;
 /// The most digits of a run.
 pub const MOST_DIGITS: u32 = 100_000;
 
-/// The default digits of a run.
-pub const DEFAULT_DIGITS: u32 = 120;
-
 /// How exact numbers are written.
 pub const NUMBER_EXAMPLES: &str = "write an exact number, such as 1/10, 0.05, 1e-3 or sqrt(2)/20";
 

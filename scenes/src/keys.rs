@@ -424,12 +424,12 @@ pub(crate) const KEYS: [Key; 91] = [
          positions and momenta are sums with remainders: less round-off in long runs, for up to half more time; or \
          \"double-double\" for sums of two doubles, about 32 digits, for 4 to 9 times the time of double precision.",
         "120",
-        Some("120"),
+        Some("\"double\""),
     ),
     key(
         "run",
         "mpfr",
-        "MPFR's numbers, also for up to 307 digits, for which numbers of some limbs of 64 bits take less time.",
+        "MPFR's numbers, also for up to 307 digits, for which numbers of some limbs of 64 bits take less time. Requires a number of `digits`.",
         "true",
         Some("false"),
     ),

@@ -45,7 +45,7 @@ pub(crate) fn template(problem: &Description) -> String {
     lines.key("run", "scheme", Some("\"yoshida4\""));
     lines.key("run", "step", Some(&format!("\"{}\"", problem.step)));
     lines.key("run", "until", Some(&format!("\"{}\"", problem.until)));
-    lines.key("run", "digits", Some("120"));
+    lines.key("run", "digits", Some("\"double\""));
     lines.section("output");
     lines.key("output", "file", Some(&format!("\"{name}.csv\"")));
     lines.key("output", "energy", Some("{ every = 10 }"));

@@ -259,7 +259,8 @@ fn where_only_the_estimators_states_fail_a_lower_order_is_the_hint() {
         ("--set y=1 --set py=1", "--order 40", after, "--order (here 40)"),
     ] {
         let words = format!(
-            "drift --problem henon-heiles --scheme stormer-verlet --step 1/10 --until 3 --estimator central {start}"
+            "drift --problem henon-heiles --scheme stormer-verlet --step 1/10 --until 3 --digits 120 --estimator central \
+             {start}"
         );
         let result = shadowstep(&format!("{words} {order}"));
         assert_eq!((result.code, result.out.as_str()), (3, ""), "{start} {order}");

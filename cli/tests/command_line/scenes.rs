@@ -247,7 +247,7 @@ fn where_only_the_estimators_states_fail_a_lower_order_is_the_hint() {
     let scene = |modified: &str| {
         format!(
             "[problem]\nname = \"henon-heiles\"\n[initial]\nq = [0, 1.1]\np = [0.1, 0]\n[run]\nscheme = \"stormer-verlet\"\n\
-             step = 0.1\nuntil = 3\n[output]\nmodified_energy = {modified}\n"
+             step = 0.1\nuntil = 3\ndigits = 120\n[output]\nmodified_energy = {modified}\n"
         )
     };
     for (modified, hint) in [
@@ -368,7 +368,7 @@ fn scene_lists_and_explains() {
     let list = quietly("scene");
     assert!(list.contains("  kepler  ") && list.contains("shadowstep scene kepler > scene.toml"), "{list}");
     let explained = quietly("scene --explain");
-    for line in ["[problem]", "[output.modified_energy]", "  step = \"1/20\"", "      Required.", "      Default: 120."]
+    for line in ["[problem]", "[output.modified_energy]", "  step = \"1/20\"", "      Required.", "      Default: \"double\"."]
     {
         assert!(explained.lines().any(|l| l == line), "{line}: {explained}");
     }

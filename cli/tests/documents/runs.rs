@@ -21,8 +21,9 @@ impl Maker {
         ]);
         let is_number = digits.parse::<u32>().is_ok();
         self.is_double = ["\"double\"", "\"compensated\""].contains(&digits);
-        if !self.once_in(30) {
-            self.key("digits", digits);
+        match self.once_in(30) {
+            true => self.is_double = true,
+            false => self.key("digits", digits),
         }
         if is_number && self.once_in(3) || self.once_in(60) {
             self.maybe(1, "mpfr", &["true", "false"]);

@@ -7,7 +7,7 @@ use shadowstep_schemes::First;
 use toml::de::DeValue;
 
 use super::reader::Reader;
-use crate::arithmetic::{Arithmetic, DEFAULT_DIGITS, MOST_DIGITS};
+use crate::arithmetic::{Arithmetic, MOST_DIGITS};
 use crate::expression::Condition;
 use crate::library::{LibraryError, NamedScheme, Schemes, check_displaced};
 use crate::note::Note;
@@ -20,13 +20,20 @@ use shadowstep_schemes::document::{Section, Text, Value};
 
 /// The number type, to whose digits all values of the scene are computed.
 pub(super) fn arithmetic(reader: &mut Reader<'_>, run: &Section<'_, '_>) -> Option<Arithmetic> {
-    let digits = match run.get("digits") {
-        None => DEFAULT_DIGITS,
-        Some(value) if matches!(value.get_ref(), DeValue::String(_)) => return named_or_quoted(reader, value),
-        Some(value) => u32::try_from(reader.whole(value, 1..=MOST_DIGITS.into())?).ok()?,
+    let mpfr = run.get("mpfr").and_then(|value| reader.toml.truth(value)).filter(|mpfr| mpfr.value);
+    let named = match run.get("digits") {
+        None => Some(Arithmetic::DOUBLE),
+        Some(value) if matches!(value.get_ref(), DeValue::String(_)) => Some(named_or_quoted(reader, value)?),
+        Some(_) => None,
     };
-    let mpfr = run.get("mpfr").map(|value| reader.toml.truth(value));
-    match Arithmetic::of_digits(digits, mpfr.is_some_and(|mpfr| mpfr.is_some_and(|mpfr| mpfr.value))) {
+    if let Some(named) = named {
+        return match mpfr {
+            Some(mpfr) => reader.toml.wrong(&mpfr.at, "mpfr requires a number of digits", "write digits = 120"),
+            None => Some(named),
+        };
+    }
+    let digits = u32::try_from(reader.whole(run.get("digits")?, 1..=MOST_DIGITS.into())?).ok()?;
+    match Arithmetic::of_digits(digits, mpfr.is_some()) {
         Ok(arithmetic) => Some(arithmetic),
         Err(error) => reader.toml.wrong(&run.at, error.to_string(), "write digits = 120"),
     }
