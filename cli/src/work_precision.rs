@@ -7,15 +7,13 @@ use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use clap::Args;
-use shadowstep::Rational;
 use shadowstep_scenes::library::{NamedScheme, scheme_from};
 use shadowstep_scenes::propagator::for_system;
-use shadowstep_scenes::steps::nearly_equal;
+use shadowstep_scenes::steps::MOST_STEPS;
 use shadowstep_scenes::{Error, System};
-use shadowstep_symbolic::decimal::to_text;
 use shadowstep_symbolic::nearest;
 use shadowstep_work_precision::files::{Title, write, written};
-use shadowstep_work_precision::length::common_multiple;
+use shadowstep_work_precision::length::counts;
 use shadowstep_work_precision::schemes::Group;
 use shadowstep_work_precision::series::StepRange;
 use shadowstep_work_precision::study::Request;
@@ -65,12 +63,15 @@ pub(crate) struct Arguments {
     ///
     /// The end time must be a multiple of each. In transformed time they are any steps of s. The default range goes from the stability limit down
     /// to round-off, at equal numbers of evaluations for all schemes.
-    #[arg(long, value_name = "H,…", value_delimiter = ',', allow_hyphen_values = true, help_heading = SCHEMES)]
+    #[arg(long, aliases = ["h", "dt"], value_name = "H,…", value_delimiter = ',', allow_hyphen_values = true, help_heading = SCHEMES)]
+    step: Vec<String>,
+    /// Numbers of steps in place of sizes: 100,200,400
+    #[arg(long, value_name = "N,…", value_delimiter = ',', allow_hyphen_values = true, conflicts_with = "step", help_heading = SCHEMES)]
     steps: Vec<String>,
     /// The time for the runs of a scheme
     ///
-    /// It cannot be used with --steps.
-    #[arg(long, value_name = "SECONDS", default_value = "2", value_parser = seconds, conflicts_with = "steps", help_heading = SCHEMES)]
+    /// It cannot be used with --step or --steps.
+    #[arg(long, value_name = "SECONDS", default_value = "2", value_parser = seconds, conflicts_with_all = ["step", "steps"], help_heading = SCHEMES)]
     seconds: f64,
     /// The folder for charts, data and results
     #[arg(long, value_name = "DIR", help_heading = OUTPUT)]
@@ -156,31 +157,29 @@ fn valid(scheme: NamedScheme, system: &System, posed: &PosedProblem) -> Result<N
     fitted(for_system(scheme, system)?, posed.arithmetic)
 }
 
-/// The steps: those of the flag, or chosen for each scheme.
+/// The steps: those of a flag, or chosen for each scheme.
 fn range(arguments: &Arguments, posed: &mut PosedProblem) -> Result<StepRange, Error> {
-    if arguments.steps.is_empty() {
-        return Ok(StepRange::Automatic { seconds: arguments.seconds, target: None });
-    }
-    if let Some(length) = &mut posed.length {
-        // the steps to the end are about as many as there are in a length that is a multiple of all
-        let step = |text: &String| Ok(quantity::step_size("--steps", text)?.exact().clone());
-        *length = common_multiple(length, &arguments.steps.iter().map(step).collect::<Result<Vec<_>, Error>>()?);
-    }
-    let until = posed.length.as_ref().unwrap_or(&posed.until);
-    let count = |text: &String| {
-        let h = quantity::step_size("--steps", text)?;
-        let count = quantity::steps((&h, text), until)?;
-        if !nearly_equal(&(h.exact() * Rational::from_integer(count.into())), until) {
-            let message = format!(
-                "--until {} is not a multiple of the step {text}, so that runs would end at other times",
-                to_text(until)
-            );
-            return Err(Error::usage(message, "use steps that divide the time"));
+    let Arguments { step, steps, seconds, .. } = arguments;
+    match (&step[..], &steps[..]) {
+        ([], []) => Ok(StepRange::Automatic { seconds: *seconds, target: None }),
+        ([], numbers) => {
+            let mut counts =
+                numbers.iter().map(|text| number_of_steps(text, numbers)).collect::<Result<Vec<_>, _>>()?;
+            counts.sort_unstable();
+            counts.dedup();
+            Ok(StepRange::Given(counts))
         }
-        Ok(count)
-    };
-    let mut steps = arguments.steps.iter().map(count).collect::<Result<Vec<u64>, Error>>()?;
-    steps.sort_unstable();
-    steps.dedup();
-    Ok(StepRange::Given(steps))
+        (sizes, _) => {
+            let sizes = sizes.iter().map(|text| quantity::step_size("--step", text)).collect::<Result<Vec<_>, _>>()?;
+            Ok(StepRange::Given(counts(&sizes, &posed.until, posed.length.as_mut())?))
+        }
+    }
+}
+
+/// A number of steps, one of several.
+fn number_of_steps(text: &str, all: &[String]) -> Result<u64, Error> {
+    text.parse().ok().filter(|number| (1..=MOST_STEPS).contains(number)).ok_or_else(|| {
+        let hint = format!("write step sizes with --step {}, numbers of steps such as --steps 100,200", all.join(","));
+        Error::usage(format!("--steps {text} is not a number of steps from 1 to 1e10"), hint)
+    })
 }

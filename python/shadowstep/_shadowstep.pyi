@@ -135,6 +135,7 @@ def work_precision(
     *,
     first: str | None,
     steps: Sequence[int] | None,
+    h: Sequence[str] | None,
     digits: str,
     seconds: float,
     folder: str,

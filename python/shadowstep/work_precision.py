@@ -64,6 +64,7 @@ def work_precision(
     *,
     first: str | None = None,
     steps: Sequence[int] | None = None,
+    h: Sequence[Number] | None = None,
     digits: Union[int, str] = "double",
     seconds: float = 2.0,
     folder: Union[str, os.PathLike[str], None] = None,
@@ -83,8 +84,10 @@ def work_precision(
         As in `integrate`: what the steps of all schemes begin with. Default schemes whose order would not hold are left out.
     steps
         The numbers of steps of the runs; by default equal numbers of evaluations for all schemes.
+    h
+        Step sizes in place of ``steps``, of which ``until`` is a multiple; in transformed time any steps of s.
     seconds
-        The time for the runs of a scheme, where ``steps`` is None.
+        The time for the runs of a scheme, where ``steps`` and ``h`` are None.
     folder
         Keeps results there, and continues with what it has; not for a function for the forces, whose runs are compared with others in double precision.
 
@@ -101,6 +104,9 @@ def work_precision(
     given = None if steps is None else sorted(count(number, "steps") for number in steps)
     if given == []:
         raise _shadowstep.InputError(f"steps = {steps}: give numbers of steps such as [100, 200, 400]")
+    sizes = None if h is None else [exact(size, "h") for size in h]
+    if sizes is not None and (given is not None or not sizes):
+        raise _shadowstep.InputError(f"h = {h}: give step sizes such as ['1/10', '1/20'], without steps")
     with _folder(folder, problem) as path, bar(1000, "", progress) as reach:
         found = _shadowstep.work_precision(
             given_of(problem),
@@ -109,6 +115,7 @@ def work_precision(
             group,
             first=first,
             steps=given,
+            h=sizes,
             digits=str(digits),
             seconds=seconds,
             folder=path,

@@ -12,7 +12,7 @@ use shadowstep_scenes::library::NamedScheme;
 use shadowstep_scenes::{Error, System};
 use shadowstep_symbolic::decimal::to_text;
 use shadowstep_work_precision::advise::{Advice, AdviceRequest, Choice, Verified};
-use shadowstep_work_precision::length::length_of;
+use shadowstep_work_precision::length::{counts, length_of};
 use shadowstep_work_precision::of::Of;
 use shadowstep_work_precision::problem::Problem;
 use shadowstep_work_precision::run::{Measurement, PositionError};
@@ -22,7 +22,7 @@ use shadowstep_work_precision::size::Size;
 use shadowstep_work_precision::study::{Cost, Request, Studied, Study};
 
 use crate::errors::{exception, usage};
-use crate::given::{Given, GivenSystem, arithmetic, number, word};
+use crate::given::{Given, GivenSystem, arithmetic, number, step_size, word};
 use crate::given_run::{SystemWithScheme, beginning_with, first_map};
 use crate::scheme::Table;
 use crate::waiting::waiting_for;
@@ -91,7 +91,7 @@ impl Compared {
 
 /// The errors of several schemes on a problem beside a reference, and their cost, as JSON.
 #[pyfunction]
-#[pyo3(signature = (problem, until, schemes, group, *, first, steps, digits, seconds, folder, progress))]
+#[pyo3(signature = (problem, until, schemes, group, *, first, steps, h, digits, seconds, folder, progress))]
 #[allow(clippy::too_many_arguments)] // the package's own function has the defaults
 pub(crate) fn work_precision(
     py: Python<'_>,
@@ -101,6 +101,7 @@ pub(crate) fn work_precision(
     group: Option<&str>,
     first: Option<&str>,
     steps: Option<Vec<u64>>,
+    h: Option<Vec<String>>,
     digits: &str,
     seconds: f64,
     folder: PathBuf,
@@ -109,13 +110,15 @@ pub(crate) fn work_precision(
     /// The reference may take this multiple of the time of a scheme.
     const REFERENCE: f64 = 10.0;
     let asked = Asked::of(py, problem, until, (&schemes, group), first, digits)?;
-    let range = match steps {
-        Some(steps) => StepRange::Given(steps),
-        None => StepRange::Automatic { seconds, target: None },
-    };
+    let sizes = h.map(|sizes| sizes.iter().map(|h| step_size(py, h)).collect::<PyResult<Vec<_>>>()).transpose()?;
     let reference_time = Duration::from_secs_f64(REFERENCE * seconds);
     let found = waiting_for(py, progress, Some(problem), move |watched| {
-        let compared = Compared::of(asked)?;
+        let mut compared = Compared::of(asked)?;
+        let range = match (sizes, steps) {
+            (Some(sizes), _) => StepRange::Given(counts(&sizes, &compared.until, compared.length.as_mut())?),
+            (None, Some(steps)) => StepRange::Given(steps),
+            (None, None) => StepRange::Automatic { seconds, target: None },
+        };
         let request = Request::new(compared.problem(), &compared.schemes, range, reference_time, &folder);
         request.study(&mut watched.observer_of_tasks()).map(|study| of_study(&study))
     });

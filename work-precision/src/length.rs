@@ -1,11 +1,13 @@
-//! The length of a run in the fictitious time s, where time is transformed.
+//! The length of a run in the fictitious time s, where time is transformed, and how many steps of given sizes there are.
 
 use num_integer::Integer as _;
 use num_traits::{FromPrimitive, One as _, Signed};
 use shadowstep::{Carried, Number, Rational, StepSize};
 use shadowstep_scenes::library::scheme;
 use shadowstep_scenes::propagator::for_system;
+use shadowstep_scenes::readable::{LONGEST_NUMBER, shortened};
 use shadowstep_scenes::start::{Begin, Steps};
+use shadowstep_scenes::steps::{self, nearly_equal};
 use shadowstep_scenes::{Error, System};
 use shadowstep_symbolic::decimal::{from_text, to_significant};
 
@@ -66,6 +68,38 @@ fn length_by(system: &System, until: &Rational, h: &Rational) -> Result<Option<f
         before = t;
     }
     Ok(None)
+}
+
+/// The numbers of steps of these sizes, the least first and each once. The time of the runs must be a multiple of each size; a length in s, where time is transformed,
+/// becomes one.
+///
+/// # Errors
+/// Sizes that do not divide the time, have another sign, or are longer than it.
+pub fn counts(sizes: &[StepSize], until: &Rational, length: Option<&mut Rational>) -> Result<Vec<u64>, Error> {
+    let until = match length {
+        Some(length) => {
+            // the steps to the end are about as many as there are in a length that is a multiple of all
+            let exact: Vec<_> = sizes.iter().map(|h| h.exact().clone()).collect();
+            *length = common_multiple(length, &exact);
+            length
+        }
+        None => until,
+    };
+    let count = |h: &StepSize| {
+        let [step, end] = [h.exact(), until].map(|time| shortened(time, LONGEST_NUMBER));
+        let count =
+            steps::count((h, &step), (until, &end)).map_err(|none| Error::usage(none.to_string(), none.hint()))?;
+        if nearly_equal(&(h.exact() * Rational::from_integer(count.into())), until) {
+            return Ok(count);
+        }
+        let message =
+            format!("until {end} is not a multiple of the step {step}, so that runs would end at other times");
+        Err(Error::usage(message, "use steps that divide the time"))
+    };
+    let mut counts = sizes.iter().map(count).collect::<Result<Vec<u64>, Error>>()?;
+    counts.sort_unstable();
+    counts.dedup();
+    Ok(counts)
 }
 
 /// The common multiple of these step sizes that is closest to the length, at least one.

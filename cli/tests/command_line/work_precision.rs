@@ -12,7 +12,7 @@ fn a_study_is_data_charts_and_a_page() {
     let folder = TempDir::new().unwrap();
     let out = folder.path().display();
     let command = format!(
-        "work-precision kepler --until 10 --schemes stormer-verlet,yoshida4 --steps 1/20,1/40,1/80,1/160 --digits 25 --out {out}"
+        "work-precision kepler --until 10 --schemes stormer-verlet,yoshida4 --step 1/20,1/40,1/80,1/160 --digits 25 --out {out}"
     );
     let printed = quietly(&command);
     assert!(printed.lines().all(|line| line.chars().count() <= 80 || line.contains("report.html")), "{printed}");
@@ -105,9 +105,14 @@ fn wrong_requests_are_refused() {
         (format!("work-precision kepler --out {out}"), "--until is missing"),
         (format!("work-precision kepler --until 0 --out {out}"), "the runs must have a length"),
         (
-            format!("work-precision kepler --until 1 --steps 1/3,2/7 --out {out}"),
-            "--until 1 is not a multiple of the step 2/7",
+            format!("work-precision kepler --until 1 --step 1/3,2/7 --out {out}"),
+            "until 1 is not a multiple of the step 2/7",
         ),
+        (
+            format!("work-precision kepler --until 1 --steps 1/10,1/20 --out {out}"),
+            "write step sizes with --step 1/10,1/20",
+        ),
+        (format!("work-precision kepler --until 1 --steps 10 --step 1/10 --out {out}"), "cannot be used with"),
         (format!("work-precision kepler --until 1 --schemes yoshida5 --out {out}"), "there is no scheme `yoshida5`"),
         ("advise kepler --until 1 --tolerance 0".to_owned(), "the tolerance must be positive"),
     ] {
@@ -115,7 +120,7 @@ fn wrong_requests_are_refused() {
         assert!(refused.code == 2 && refused.err.contains(message), "{words}: {} {}", refused.code, refused.err);
     }
     fs::write(folder.path().join("work-precision.csv"), "mine").unwrap();
-    let refused = shadowstep(&format!("work-precision kepler --until 1 --steps 1/10 --out {out}"));
+    let refused = shadowstep(&format!("work-precision kepler --until 1 --step 1/10 --out {out}"));
     assert!(refused.code == 2 && refused.err.contains("without results of this program beside it"), "{}", refused.err);
 }
 
@@ -123,7 +128,7 @@ fn wrong_requests_are_refused() {
 fn schemes_for_near_integrable_systems_are_a_group() {
     let folder = TempDir::new().unwrap();
     let out = folder.path().display();
-    let command = "work-precision outer-solar-system --until 2000 --steps 100,50 --schemes near-integrable,+yoshida4";
+    let command = "work-precision outer-solar-system --until 2000 --steps 20,40 --schemes near-integrable,+yoshida4";
     quietly(&format!("{command} --out {out}"));
     let rows = objects(&fs::read_to_string(folder.path().join("work-precision.jsonl")).unwrap());
     let mut names: Vec<_> = rows.iter().map(|row| text(row, "scheme")).collect();
@@ -185,7 +190,7 @@ fn steps_begin_with_the_map_of_the_scene() {
     let mut errors = Vec::new();
     for (first, flags) in [("drift", ""), ("kick", ""), ("drift", " --until 1 --double")] {
         let [x, y] = last(first, "1/10");
-        let words = format!("{}{flags} --steps 1/10 --schemes stormer-verlet", scene.display());
+        let words = format!("{}{flags} --step 1/10 --schemes stormer-verlet", scene.display());
         let printed = quietly(&format!("work-precision {words} --out {} --force", out.display()));
         let rows = objects(&fs::read_to_string(out.join("work-precision.jsonl")).unwrap());
         let found = text(&rows[0], "position_error").parse::<f64>().unwrap();
@@ -195,7 +200,7 @@ fn steps_begin_with_the_map_of_the_scene() {
     }
     assert!(errors[0] / errors[1] > 1.5 || errors[1] / errors[0] > 1.5, "{errors:?}");
     // the order of a Nyström scheme does not survive the exchange of its maps
-    let default = quietly(&format!("work-precision {} --steps 1/10 --out {} --force", scene.display(), out.display()));
+    let default = quietly(&format!("work-precision {} --step 1/10 --out {} --force", scene.display(), out.display()));
     assert!(default.contains("blanes-moan-s6") && !default.contains("srkn11b"), "{default}");
     let refused = shadowstep(&format!("advise {} --tolerance 1e-2 --schemes blanes-moan-srkn11b", scene.display()));
     assert_eq!(refused.code, 2, "{}", refused.err);

@@ -304,7 +304,7 @@ fn has_own(scene: &Scene) -> Option<Cell> {
 fn work_precision(scene: &Scene, folder: &Path) -> Outcome {
     let step = signed_step(scene);
     let mut command = of_scene(scene, folder, "work-precision --out out");
-    command.args([format!("--until=8*({step})"), format!("--steps={step},({step})/4")]);
+    command.args([format!("--until=8*({step})"), format!("--step={step},({step})/4")]);
     ended(scene, command, |_| {
         let table = Table::read(&folder.join("out/work-precision.csv"))?;
         let errors = table.column("energy_error")?;
