@@ -7,7 +7,7 @@ use shadowstep::problems::ProblemError;
 use shadowstep::{Rational, StepSize};
 use shadowstep_scenes::arithmetic::NUMBER_EXAMPLES;
 use shadowstep_scenes::readable::{LONGEST_NUMBER, shortened};
-use shadowstep_scenes::steps::{self, StepsError};
+use shadowstep_scenes::steps;
 use shadowstep_scenes::{Error, System};
 use shadowstep_symbolic::{Budget, evaluate_within, parse};
 
@@ -33,22 +33,17 @@ pub(crate) fn step_size(flag: &str, text: &str) -> Result<StepSize, Error> {
         .map_err(|zero| Error::usage(format!("{flag} {text}: {zero}"), "write a step size such as 1/10"))
 }
 
-/// How many steps of size h, with its text, end at or before the time of --until.
-pub(crate) fn steps(h: (&StepSize, &str), until: &Rational) -> Result<u64, Error> {
-    steps::count(h, (until, &shortened(until, LONGEST_NUMBER))).map_err(|none| no_steps(&none))
-}
-
-/// Refuses a physical time of --until at which steps of a fictitious time of a system cannot end.
-pub(crate) fn check_physical_end(h: (&StepSize, &str), until: &Rational, system: &System) -> Result<(), Error> {
+/// How many steps of size h, with its text, end at or before the time of --until; `None` where time is transformed, as they have to be made to count them.
+pub(crate) fn steps(h: (&StepSize, &str), until: &Rational, system: &System) -> Result<Option<u64>, Error> {
     let ends = (until, &*shortened(until, LONGEST_NUMBER));
-    steps::check_physical_end(h, ends, system.rate_at_start()).map_err(|none| no_steps(&none))
-}
-
-fn no_steps(none: &StepsError) -> Error {
-    match none.is_of_time() {
+    let count = match system.transformed_time() {
+        Some(_) => steps::check_physical_end(h, ends, system.rate_at_start()).map(|()| None),
+        None => steps::count(h, ends).map(Some),
+    };
+    count.map_err(|none| match none.is_of_time() {
         true => Error::usage(format!("--{none}"), "write a time such as --until 100"),
         false => Error::usage(none.to_string(), none.hint()),
-    }
+    })
 }
 
 fn exact(text: &str) -> Result<Rational, shadowstep_symbolic::Error> {

@@ -28,7 +28,7 @@ pub(crate) struct RunArguments {
     pub(crate) steps: Vec<String>,
     /// The exact time at which runs end, such as 100
     ///
-    /// Of a scene with [time], it is the fictitious time s.
+    /// Of a scene with [time], it is a physical time as well.
     #[arg(long, value_name = "T", allow_hyphen_values = true, help_heading = SCHEMES)]
     pub(crate) until: String,
     #[command(flatten)]

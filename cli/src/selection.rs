@@ -10,13 +10,13 @@ use crate::quantity;
 use crate::report;
 use crate::run_arguments::{EstimatorArguments, OrderChoice, RunArguments};
 use crate::system::Described;
-use shadowstep_scenes::Error;
 use shadowstep_scenes::arithmetic::Arithmetic;
 use shadowstep_scenes::estimator::{ACCURACY_HINT, conflict, order_setting};
 use shadowstep_scenes::library::NamedScheme;
 use shadowstep_scenes::propagator::Propagator;
 use shadowstep_scenes::run::{OrderSetting, Run};
 use shadowstep_scenes::stability::{few_kicks, resonant, unstable};
+use shadowstep_scenes::{Error, System};
 
 /// Everything that is to be run.
 #[derive(Debug)]
@@ -25,8 +25,9 @@ pub(crate) struct Selection {
     pub(crate) until: Rational,
     pub(crate) arithmetic: Arithmetic,
     pub(crate) estimator: EstimatorSettings,
-    propagators: Vec<Propagator>,
-    steps: Vec<(StepSize, u64)>,
+    /// With the number of steps of each size.
+    propagators: Vec<(Propagator, Vec<u64>)>,
+    sizes: Vec<StepSize>,
 }
 
 impl Selection {
@@ -37,20 +38,28 @@ impl Selection {
         let until = quantity::number("--until", &arguments.until)?;
         refuse_empty("--scheme", &arguments.schemes, "yoshida4,ruth3")?;
         refuse_empty("--step", &arguments.steps, "1/10,1/20")?;
-        let mut steps: Vec<_> = arguments.steps.iter().map(|text| step(text, &until)).collect::<Result<_, _>>()?;
+        let step = |text: &String| step(text, &until, &problem.system);
+        let steps = arguments.steps.iter().map(step).collect::<Result<Vec<_>, _>>()?;
         let words = each_once(&arguments.schemes, |word| word.clone(), "scheme");
         let propagators: Vec<_> =
             words.iter().map(|word| Propagator::of_system(word, &problem.system)).collect::<Result<_, _>>()?;
-        steps = each_once(&steps, |(h, _)| to_text(h.exact()), "step");
+        let steps = each_once(&steps, |(h, _)| to_text(h.exact()), "step");
         let fitted = |propagator: Propagator| {
             let (propagator, note) = propagator.fitted(arithmetic)?;
             let of_name = propagator.scheme().and_then(NamedScheme::note);
             of_name.iter().chain(&note).for_each(report::note);
-            Ok(propagator)
+            let count = |(h, steps): &(StepSize, Option<u64>)| match steps {
+                Some(steps) => Ok(*steps),
+                None => propagator.steps_before(&until, h, (&problem.system, arithmetic)),
+            };
+            let counts = steps.iter().map(count).collect::<Result<_, _>>()?;
+            Ok((propagator, counts))
         };
         let propagators = propagators.into_iter().map(fitted).collect::<Result<_, Error>>()?;
-        let selection = Selection { problem, until, arithmetic, estimator, propagators, steps };
-        selection.note_ends();
+        let note_of_end = |(h, steps): &(StepSize, Option<u64>)| Note::of_end(h.exact(), (*steps)?, &until);
+        steps.iter().filter_map(note_of_end).for_each(report::note);
+        let sizes = steps.into_iter().map(|(h, _)| h).collect();
+        let selection = Selection { problem, until, arithmetic, estimator, propagators, sizes };
         if !arguments.no_summary {
             selection.note_large_steps();
         }
@@ -61,9 +70,9 @@ impl Selection {
     pub(crate) fn runs(&self) -> impl Iterator<Item = (&Propagator, Run<'_>)> {
         let order = order_setting(&self.estimator)
             .map(|(name, value)| OrderSetting { name: if name == "order" { "--order" } else { "--max-order" }, value });
-        self.propagators.iter().flat_map(move |propagator| {
+        self.propagators.iter().flat_map(move |(propagator, counts)| {
             let name = propagator.name();
-            self.steps.iter().map(move |(h, steps)| {
+            self.sizes.iter().zip(counts).map(move |(h, steps)| {
                 (propagator, Run { propagator: name, h, steps: *steps, order, windows: Run::WINDOWS })
             })
         })
@@ -84,7 +93,7 @@ impl Selection {
 
     /// How many runs there are.
     pub(crate) fn count(&self) -> usize {
-        self.propagators.len() * self.steps.len()
+        self.propagators.len() * self.sizes.len()
     }
 
     /// What is the same in all runs.
@@ -102,13 +111,9 @@ impl Selection {
             let unstable = frequency.and_then(|frequency| unstable(frequency, scheme, h));
             unstable.or_else(|| few_kicks(system, scheme, h)).or_else(|| resonant(system, scheme, h))
         };
-        for scheme in self.propagators.iter().filter_map(Propagator::scheme) {
-            self.steps.iter().filter_map(|(h, _)| note(scheme, h.exact())).for_each(report::note);
+        for scheme in self.propagators.iter().filter_map(|(propagator, _)| propagator.scheme()) {
+            self.sizes.iter().filter_map(|h| note(scheme, h.exact())).for_each(report::note);
         }
-    }
-
-    fn note_ends(&self) {
-        self.steps.iter().filter_map(|(h, count)| Note::of_end(h.exact(), *count, &self.until)).for_each(report::note);
     }
 }
 
@@ -177,9 +182,9 @@ fn each_once<T: Clone>(list: &[T], name: impl Fn(&T) -> String, what: &str) -> V
     kept
 }
 
-/// A step size h, and how many steps end at or before `until`.
-fn step(text: &str, until: &Rational) -> Result<(StepSize, u64), Error> {
+/// A step size h, and how many steps end at or before `until`, where this is known without making them.
+fn step(text: &str, until: &Rational, system: &System) -> Result<(StepSize, Option<u64>), Error> {
     let h = quantity::step_size("--step", text)?;
-    let count = quantity::steps((&h, text), until)?;
+    let count = quantity::steps((&h, text), until, system)?;
     Ok((h, count))
 }

@@ -3,22 +3,23 @@
 mod rows;
 
 use clap::{ArgGroup, Args};
+use shadowstep::shadow::Estimate;
 use shadowstep_scenes::computation::{Computation, RunNumber};
-use shadowstep_scenes::estimates::{Estimates, Finished};
+use shadowstep_scenes::estimates::Estimates;
 use shadowstep_scenes::propagator::Propagator;
 use shadowstep_scenes::run::Run;
-use shadowstep_scenes::{Error, Summary};
+use shadowstep_scenes::{EnergyAt, Error, ShownCoordinates, Summary};
 use shadowstep_symbolic::decimal::to_text;
 
 use crate::headings::OUTPUT;
 use crate::interrupt::Interrupt;
 use crate::output::Output;
-use crate::plot::{KINDS, PlotArguments, Plots, Values};
+use crate::plot::{KINDS, PlotArguments, Plots, RunLines, Values};
 use crate::progress::Progress;
 use crate::report::{self, Status};
 use crate::run_arguments::{RunArguments, usage};
 use crate::selection::Selection;
-use rows::{Row, RunName, Writer, writer};
+use rows::{ModifiedEnergy, Row, RunName, Writer, writer};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -30,7 +31,8 @@ Examples:
 const MORE: &str = "\
 A line has n, t, energy, modified_energy, estimate and order: the m or k used. The estimate is the estimated error of \
 modified_energy, of the right size also near close encounters. With --order 1 there is no reliable estimate: it is empty, in \
-JSON null. Lines of several runs begin with scheme and step.
+JSON null. Lines of several runs begin with scheme and step. In transformed time --until is a physical time, too: a last line, without a modified energy, is for \
+the state after a step to it.
 
 The summary of each run is written to stderr: for CSV as text, for JSON as one object a line, {\"summary\": …}.";
 
@@ -94,7 +96,7 @@ pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
         let (selection, interrupt, write) = (&selection, &interrupt, &mut write);
         let plots = plots.as_mut().map(|(plots, _)| plots);
         let following = TraceRun { selection, propagator, run, several, arguments, progress, interrupt, write, plots };
-        summaries.extend(selection.arithmetic.compute(following)?.summary);
+        summaries.extend(selection.arithmetic.compute(following)?);
     }
     drop(write);
     output.finish()?;
@@ -131,64 +133,97 @@ struct TraceRun<'a, 'w> {
 }
 
 impl Computation for TraceRun<'_, '_> {
-    type Output = Result<Finished, Error>;
+    type Output = Result<Option<Summary>, Error>;
 
     fn compute<N: RunNumber>(self, context: &N::Context) -> Self::Output {
-        let TraceRun { selection, propagator, run, several, arguments, progress, interrupt, write, mut plots } = self;
-        let (settings, between) = (selection.estimator.clone().with_errors(true), selection.estimator.is_between());
-        let system = &selection.problem.system;
-        let (mut energy_of, mut shown) = (system.energy::<N>(context), system.shown::<N>(context));
-        let name = several.then(|| RunName { scheme: run.propagator.to_owned(), step: to_text(run.h.exact()) });
-        let (arithmetic, summarised) = (selection.arithmetic, !arguments.run.no_summary);
-        let estimates = Estimates { system, propagator, run, arithmetic, settings: &settings, summarised };
-        let with_states = plots.as_ref().is_some_and(|plots| plots.needs_states());
-        let mut lines = plots.as_ref().map(|plots| plots.run::<N>(run.name(), run.steps));
+        let TraceRun { selection, propagator, run, several, arguments, progress, interrupt, write, plots } = self;
+        let Selection { arithmetic, estimator, problem, until, .. } = selection;
+        let (settings, system) = (estimator.clone().with_errors(true), &problem.system);
+        let (arithmetic, summarised) = (*arithmetic, !arguments.run.no_summary);
+        // values between states have no row for a state
+        let until = Some(until).filter(|_| system.transformed_time().is_some() && !estimator.is_between());
+        let estimates = Estimates { system, propagator, run, arithmetic, settings: &settings, summarised, until };
+        let mut rows = StatesOfRun {
+            selection,
+            run,
+            context,
+            name: several.then(|| RunName { scheme: run.propagator.to_owned(), step: to_text(run.h.exact()) }),
+            energy_of: system.energy(context),
+            shown: system.shown(context),
+            lines: plots.as_ref().map(|plots| plots.run(run.name(), run.steps)),
+            lines_need_states: plots.as_ref().is_some_and(|plots| plots.needs_states()),
+            write: arguments.writes_rows().then_some(write),
+            states: arguments.states,
+        };
         let finished = estimates.take::<N>(context, &mut |n, found| {
-            let [own_q, own_p] = found.state().map(|numbers| numbers.cloned().collect::<Vec<_>>());
-            let energy = (!between).then(|| energy_of(&own_q, &own_p));
-            if energy.as_ref().is_some_and(|energy| !energy.is_finite()) {
-                return Err(run.not_finite(&format!("the energy at n = {n}")));
-            }
-            let t = match system.time_of(&own_q) {
-                Some(t) => t.clone(),
-                None => N::from_rational(&run.time_of_value(n, &selection.estimator), context),
-            };
-            let (q, p) = match &mut shown {
-                Some(shown) => shown.of_state(&own_q, &own_p),
-                None => (&own_q[..], &own_p[..]),
-            };
-            if let Some(lines) = &mut lines {
-                let numbers = q.iter().chain(p).filter(|_| with_states);
-                lines.take(&Values {
-                    n: n.unsigned_abs(),
-                    t: t.to_f64(),
-                    energy: energy.as_ref(),
-                    modified_energy: Some(found.value),
-                    estimate: found.error,
-                    state: &numbers.map(N::to_f64).collect::<Vec<_>>(),
-                });
-            }
             progress.reach(n);
             interrupt.check(run, n, NOT_RESUMED)?;
-            if !arguments.writes_rows() {
-                return Ok(());
-            }
-            let texts = |numbers: &[N]| arguments.states.then(|| numbers.iter().map(N::to_text).collect());
-            write(&Row {
-                run: name.clone(),
-                n,
-                t: t.to_text(),
-                energy: energy.as_ref().map(N::to_text),
+            let [q, p] = found.state().map(|numbers| numbers.cloned().collect::<Vec<_>>());
+            rows.take(n, (&q, &p), Some(found))
+        })?;
+        if let Some((q, p)) = finished.at_until {
+            rows.take(i64::try_from(run.steps).unwrap_or(i64::MAX - 1) + 1, (&q, &p), None)?;
+        }
+        if let (Some(plots), Some(lines)) = (plots, rows.lines) {
+            plots.add(lines);
+        }
+        Ok(finished.summary)
+    }
+}
+
+/// Writes the states of a run, with their energies, and draws them.
+struct StatesOfRun<'a, 'w, N: RunNumber> {
+    selection: &'a Selection,
+    run: Run<'a>,
+    context: &'a N::Context,
+    name: Option<RunName>,
+    energy_of: EnergyAt<N>,
+    shown: Option<ShownCoordinates<N>>,
+    lines: Option<RunLines<N>>,
+    lines_need_states: bool,
+    /// `None` if a plot is all that is made.
+    write: Option<&'a mut Writer<'w>>,
+    /// Whether rows have q and p.
+    states: bool,
+}
+
+impl<N: RunNumber> StatesOfRun<'_, '_, N> {
+    /// Takes a state in the coordinates of the steps, or with an estimate between two states what belongs to that.
+    fn take(&mut self, n: i64, (own_q, own_p): (&[N], &[N]), found: Option<&Estimate<'_, N>>) -> Result<(), Error> {
+        let Selection { estimator, problem, .. } = self.selection;
+        let energy = (!estimator.is_between()).then(|| (self.energy_of)(own_q, own_p));
+        if energy.as_ref().is_some_and(|energy| !energy.is_finite()) {
+            return Err(self.run.not_finite(&format!("the energy at n = {n}")));
+        }
+        let t = match problem.system.time_of(own_q) {
+            Some(t) => t.clone(),
+            None => N::from_rational(&self.run.time_of_value(n, estimator), self.context),
+        };
+        let (q, p) = match &mut self.shown {
+            Some(shown) => shown.of_state(own_q, own_p),
+            None => (own_q, own_p),
+        };
+        let (modified_energy, estimate) = (found.map(|found| found.value), found.and_then(|found| found.error));
+        if let Some(lines) = &mut self.lines {
+            let numbers = q.iter().chain(p).filter(|_| self.lines_need_states);
+            let state = &*numbers.map(N::to_f64).collect::<Vec<_>>();
+            let (n, t, energy) = (n.unsigned_abs(), t.to_f64(), energy.as_ref());
+            lines.take(&Values { n, t, energy, modified_energy, estimate, state });
+        }
+        let Some(write) = &mut self.write else { return Ok(()) };
+        let texts = |numbers: &[N]| self.states.then(|| numbers.iter().map(N::to_text).collect());
+        write(&Row {
+            run: self.name.clone(),
+            n,
+            t: t.to_text(),
+            energy: energy.as_ref().map(N::to_text),
+            modified: found.map(|found| ModifiedEnergy {
                 modified_energy: found.value.to_text(),
                 estimate: found.error.map(N::to_text),
                 order: found.order,
-                q: texts(q),
-                p: texts(p),
-            })
-        })?;
-        if let (Some(plots), Some(lines)) = (&mut plots, lines) {
-            plots.add(lines);
-        }
-        Ok(finished)
+            }),
+            q: texts(q),
+            p: texts(p),
+        })
     }
 }

@@ -11,7 +11,7 @@ use shadowstep_scenes::run::{OrderSetting, Run};
 use crate::errors::exception;
 use crate::estimator::Options;
 use crate::given::{Given, arithmetic, number};
-use crate::given_run::{SystemWithScheme, Times};
+use crate::given_run::{SystemWithScheme, times};
 use crate::scheme::Table;
 use crate::waiting::{Watched, waiting_for};
 
@@ -33,7 +33,7 @@ pub(crate) fn drift(
     progress: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<String> {
     let arithmetic = arithmetic(py, digits, mpfr)?;
-    let times = Times::of(py, h, None, Some(until))?;
+    let times = times(py, problem, arithmetic, (h, None, Some(until)))?;
     let until = number(py, "until", until)?;
     let estimator = options.settings(py)?;
     let (given, scheme, name) = (problem.clone(), scheme.map(|table| table.0.clone()), name.to_owned());
@@ -50,7 +50,11 @@ pub(crate) fn drift(
             }
         };
         let order = order_setting(&estimator).map(|(name, value)| OrderSetting { name, value });
-        let run = Run { propagator: propagator.name(), h: &times.h, steps: times.steps, order, windows: Run::WINDOWS };
+        let steps = match times.physical_end {
+            Some(_) => propagator.steps_before(&until, &times.h, (&system, arithmetic))?,
+            None => times.steps,
+        };
+        let run = Run { propagator: propagator.name(), h: &times.h, steps, order, windows: Run::WINDOWS };
         let request = DriftRequest {
             problem: &name,
             system: &system,

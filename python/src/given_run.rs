@@ -76,7 +76,7 @@ pub(crate) fn beginning_with(py: Python<'_>, scheme: &NamedScheme, first: Option
 }
 
 /// The steps of a run of a problem; where its time is transformed, `until` is a physical time.
-fn times(
+pub(crate) fn times(
     py: Python<'_>,
     problem: &Given,
     arithmetic: Arithmetic,

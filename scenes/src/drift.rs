@@ -104,7 +104,8 @@ impl Computation for Measurement<'_> {
         let DriftRequest { system, summarised, arithmetic, .. } = *request;
         let settings = request.estimator.clone().with_errors(true);
         let begin = CpuTime::begin();
-        let estimates = Estimates { system, propagator, run, arithmetic, settings: &settings, summarised };
+        let estimates =
+            Estimates { system, propagator, run, arithmetic, settings: &settings, summarised, until: None };
         let (found, finished) = measure::<N>(estimates, context, |n| follower.reaches(run, n))?;
         let seconds = begin.elapsed();
         let control = match propagator.scheme() {
@@ -126,7 +127,7 @@ fn record<N: CorrectlyRounded>(
     request: &DriftRequest<'_>,
     run: Run<'_>,
     found: &EnergyDrift<N>,
-    finished: Finished,
+    finished: Finished<N>,
     control: KnownControl,
     cost: Cost,
 ) -> Record {
@@ -139,7 +140,7 @@ fn record<N: CorrectlyRounded>(
         scheme: run.propagator.to_owned(),
         step: to_text(run.h.exact()),
         until: to_text(request.until),
-        end: to_text(&run.time_of_last()),
+        end: finished.end.map_or_else(|| to_text(&run.time_of_last()), |end| end.to_text()),
         digits: request.arithmetic.label(),
         estimator: request.estimator.name(),
         order: options.order.map_or(OrderLabel::Word("auto"), OrderLabel::Fixed),

@@ -1,9 +1,10 @@
 //! The modified energies along a run, one by one, and what the run shows.
 
+use shadowstep::Rational;
 use shadowstep::shadow::{Estimate, EstimatorSettings};
 
 use crate::arithmetic::Arithmetic;
-use crate::at::At;
+use crate::at::{At, Place};
 use crate::column::Column;
 use crate::computation::RunNumber;
 use crate::error::Error;
@@ -30,6 +31,8 @@ pub struct Estimates<'a> {
     pub settings: &'a EstimatorSettings,
     /// Whether a summary is made.
     pub summarised: bool,
+    /// The physical time to which a last step is made after those of the run, where time is transformed.
+    pub until: Option<&'a Rational>,
 }
 
 /// Takes each estimate with its n.
@@ -37,7 +40,7 @@ pub(crate) type Take<'a, N> = &'a mut dyn FnMut(i64, &Estimate<'_, N>) -> Result
 
 /// What is known at the end of a run.
 #[derive(Clone, Debug)]
-pub struct Finished {
+pub struct Finished<N> {
     /// Evaluations of the gradient, those for the states before and after the run included.
     pub evaluations: u64,
     /// Those for the steps of the run alone.
@@ -46,6 +49,10 @@ pub struct Finished {
     pub energy: Option<EnergySummary>,
     /// What the run has shown, if that is wanted; `None` for the exact flow.
     pub summary: Option<Summary>,
+    /// The physical time of the last state, where time is transformed.
+    pub end: Option<N>,
+    /// q and p at [`until`](Estimates::until); `None` without a step to it.
+    pub at_until: Option<(Vec<N>, Vec<N>)>,
 }
 
 impl Estimates<'_> {
@@ -61,7 +68,7 @@ impl Estimates<'_> {
     ///
     /// # Panics
     /// If the scheme is the exact flow of a system that has none, which [`Propagator::of_system`] excludes.
-    pub fn take<N: RunNumber>(self, context: &N::Context, take: Take<'_, N>) -> Result<Finished, Error> {
+    pub fn take<N: RunNumber>(self, context: &N::Context, take: Take<'_, N>) -> Result<Finished<N>, Error> {
         let Estimates { system, propagator, run, settings, .. } = self;
         match propagator {
             Propagator::Scheme(named) => self.along(named, context, take),
@@ -71,7 +78,8 @@ impl Estimates<'_> {
                 while let Some((n, estimate)) = shadow.advance().map_err(|error| run.failed(&error))? {
                     take(n, &estimate)?;
                 }
-                Ok(Finished { evaluations: 0, own_evaluations: 0, energy: None, summary: None })
+                let (energy, summary, end, at_until) = (None, None, None, None);
+                Ok(Finished { evaluations: 0, own_evaluations: 0, energy, summary, end, at_until })
             }
         }
     }
@@ -82,22 +90,31 @@ impl Estimates<'_> {
         named: &NamedScheme,
         context: &N::Context,
         take: Take<'_, N>,
-    ) -> Result<Finished, Error> {
-        let Estimates { system, run, settings, arithmetic, summarised, .. } = self;
+    ) -> Result<Finished<N>, Error> {
+        let Estimates { system, run, settings, arithmetic, summarised, until, .. } = self;
         let posed = Posed {
             estimator: Some(settings),
             energies: Some(Energies::All),
             summarised,
+            until,
             ..Posed::new(system, &named.scheme, run, (arithmetic, false))
         };
+        let mut taking = Taking { take, end: None, at_until: None };
         let Followed { evaluations, own_evaluations, energy, summary, .. } =
-            N::follow(&posed, context, &mut [&mut Taking(take)], &mut ())?;
-        Ok(Finished { evaluations, own_evaluations, energy, summary })
+            N::follow(&posed, context, &mut [&mut taking], &mut ())?;
+        let Taking { end, at_until, .. } = taking;
+        Ok(Finished { evaluations, own_evaluations, energy, summary, end, at_until })
     }
 }
 
 /// Takes the estimates of a run of a scheme.
-struct Taking<'a, N: RunNumber>(Take<'a, N>);
+struct Taking<'a, N: RunNumber> {
+    take: Take<'a, N>,
+    /// The physical time of the last state, where time is transformed.
+    end: Option<N>,
+    /// q and p at the physical end.
+    at_until: Option<(Vec<N>, Vec<N>)>,
+}
 
 impl<N: RunNumber> Column<N> for Taking<'_, N> {
     fn next(&self, n: i64) -> i64 {
@@ -105,6 +122,16 @@ impl<N: RunNumber> Column<N> for Taking<'_, N> {
     }
 
     fn take(&mut self, at: &mut At<'_, '_, N>) -> Result<(), Error> {
-        at.estimate.map_or(Ok(()), |estimate| (self.0)(at.n, estimate))
+        if at.place == Place::PhysicalEnd {
+            let (q, p) = at.state();
+            self.at_until = Some((q.to_vec(), p.to_vec()));
+        }
+        at.estimate.map_or(Ok(()), |estimate| (self.take)(at.n, estimate))
+    }
+
+    fn end(&mut self, at: &mut At<'_, '_, N>) -> Result<(), Error> {
+        let system = at.system;
+        self.end = system.time_of(at.state().0).cloned();
+        Ok(())
     }
 }

@@ -96,25 +96,10 @@ impl Subject {
         };
         let scheme = fitted(scheme, arithmetic)?;
         let step = shortened(h.exact(), LONGEST_NUMBER);
-        let (steps, until) = match system.transformed_time() {
-            Some(_) => {
-                quantity::check_physical_end((&h, &step), &until, &system)?;
-                (MOST_STEPS, Some(until))
-            }
-            None => (quantity::steps((&h, &step), &until)?, None),
-        };
-        Ok(Subject {
-            title: described.name,
-            system,
-            scheme,
-            displaced,
-            h,
-            steps,
-            windows,
-            arithmetic,
-            until,
-            ends: None,
-        })
+        let steps = quantity::steps((&h, &step), &until, &system)?;
+        let (steps, until) = (steps.unwrap_or(MOST_STEPS), steps.is_none().then_some(until));
+        let (title, ends) = (described.name, None);
+        Ok(Subject { title, system, scheme, displaced, h, steps, windows, arithmetic, until, ends })
     }
 
     /// The run with these vectors, measured every `every` steps.

@@ -124,15 +124,13 @@ fn head(selection: &Selection) -> String {
         values.push(format!("… ({rest} more; --json has all)"));
     }
     let problem = &selection.problem;
-    // energies are those of H', and the end is one of the fictitious time
     let transformed = problem.system.transformed_time().is_some();
-    let time = if transformed { "s" } else { "t" };
     let of = if transformed { " in transformed time: of H', with steps of s" } else { "" };
     [
         format!("{}: H = {}", problem.title, problem.hamiltonian),
         values.join(", "),
         format!(
-            "from {time} = 0 to {}, {}; modified energy by {}{of}",
+            "from t = 0 to {}, {}; modified energy by {}{of}",
             shortened(&selection.until, 20),
             selection.arithmetic.described(),
             selection.estimator

@@ -17,14 +17,21 @@ pub(super) struct Row {
     pub(super) t: String,
     /// `None` for values between two states.
     pub(super) energy: Option<String>,
-    pub(super) modified_energy: String,
-    /// The estimated error; `None` if there is no reliable estimate.
-    pub(super) estimate: Option<String>,
-    pub(super) order: u32,
+    /// `None` for the state at a physical time, to which the last step is shorter.
+    #[serde(flatten)]
+    pub(super) modified: Option<ModifiedEnergy>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) q: Option<Vec<String>>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) p: Option<Vec<String>>,
+}
+
+#[derive(Serialize)]
+pub(super) struct ModifiedEnergy {
+    pub(super) modified_energy: String,
+    /// The estimated error; `None` if there is no reliable estimate.
+    pub(super) estimate: Option<String>,
+    pub(super) order: u32,
 }
 
 #[derive(Clone, Serialize)]
@@ -52,12 +59,16 @@ pub(super) fn writer<'a>(
     let run = ["scheme", "step"].into_iter().filter(|_| selection.count() > 1);
     csv.write_record(run.chain(columns).chain(coordinates.filter(|_| states)))?;
     Ok(Box::new(move |row| {
-        let (n, order) = (row.n.to_string(), row.order.to_string());
-        let none = String::new();
-        let [energy, estimate] = [&row.energy, &row.estimate].map(|text| text.as_ref().unwrap_or(&none));
+        let (n, none) = (row.n.to_string(), String::new());
+        let order = row.modified.as_ref().map_or_else(String::new, |found| found.order.to_string());
+        let (modified, estimate) = match &row.modified {
+            Some(found) => (&found.modified_energy, found.estimate.as_ref().unwrap_or(&none)),
+            None => (&none, &none),
+        };
+        let energy = row.energy.as_ref().unwrap_or(&none);
         let names = row.run.as_ref().map(|run| [&run.scheme, &run.step].map(|text| cell(text).into_owned()));
         let run = names.iter().flatten();
-        let fields = [&n, &row.t, energy, &row.modified_energy, estimate, &order];
+        let fields = [&n, &row.t, energy, modified, estimate, &order];
         let positions = row.q.iter().flatten().take(positions);
         let state = positions.chain(row.p.iter().flatten());
         csv.write_record(run.chain(fields).chain(state))?;

@@ -116,6 +116,41 @@ fn the_numbers_are_those_of_trace() {
     }
 }
 
+/// In transformed time, whose steps are counted by making them: the same rows up to the same physical time.
+#[test]
+fn the_rows_and_the_end_are_those_of_trace_and_drift_in_transformed_time() {
+    let kepler = "problem.name = \"kepler\"\ntime.transform = \"logarithmic\"\n";
+    let run_of = |digits: &str, format: &str| {
+        format!(
+            "{kepler}run = {{ scheme = \"yoshida4\", step = \"1/20\", until = 10, digits = {digits} }}\n[output]\nformat = \"{format}\"\n\
+             energy = true\nmodified_energy = {{ order = 8 }}\ntrajectory = true\n"
+        )
+    };
+    for (digits, flag) in [("\"double\"", "--double"), ("\"compensated\"", "--compensated"), ("30", "--digits 30")] {
+        let folder = folder(kepler);
+        let flags = format!("--scheme yoshida4 --step 1/20 --until 10 --order 8 --no-summary {flag}");
+        let of_system =
+            |words: &str| quietly(&format!("{words} {} {flags}", folder.path().join("scene.toml").display()));
+        let rows = table(&printed(&run_of(digits, "csv")));
+        assert_eq!(table(&of_system("trace --csv --states")), rows, "{digits}");
+        assert_eq!(objects(&of_system("trace --states")), objects(&printed(&run_of(digits, "jsonl"))), "{digits}");
+        let [.., before, last] = &rows.1[..] else { panic!("{rows:?}") };
+        assert!(last[0] == "196" && last[1].parse::<f64>() == Ok(10.0) && last[3..6] == ["", "", ""], "{last:?}");
+        let record = &objects(&of_system("drift --json"))[0];
+        assert_eq!((&record["steps"], text(record, "until"), text(record, "end")), (&195.into(), "10", &*before[1]));
+    }
+    let folder = folder(kepler);
+    let refused = shadowstep(&format!(
+        "drift {} --scheme yoshida4 --step 1/2 --until 1/100",
+        folder.path().join("scene.toml").display()
+    ));
+    assert!(
+        refused.code == 2 && refused.err.contains("a step of 1/2 is longer than the run until 1/100"),
+        "{}",
+        refused.err
+    );
+}
+
 #[test]
 fn a_formula_has_the_numbers_of_the_shipped_problem() {
     let formula = KEPLER.replace("file = \"kepler.csv\"", "trajectory = true");
@@ -368,7 +403,8 @@ fn scene_lists_and_explains() {
     let list = quietly("scene");
     assert!(list.contains("  kepler  ") && list.contains("shadowstep scene kepler > scene.toml"), "{list}");
     let explained = quietly("scene --explain");
-    for line in ["[problem]", "[output.modified_energy]", "  step = \"1/20\"", "      Required.", "      Default: \"double\"."]
+    for line in
+        ["[problem]", "[output.modified_energy]", "  step = \"1/20\"", "      Required.", "      Default: \"double\"."]
     {
         assert!(explained.lines().any(|l| l == line), "{line}: {explained}");
     }

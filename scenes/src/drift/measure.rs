@@ -11,7 +11,7 @@ pub(super) fn measure<N: RunNumber>(
     estimates: Estimates<'_>,
     context: &N::Context,
     mut progress: impl FnMut(i64) -> Result<(), Error>,
-) -> Result<(EnergyDrift<N>, Finished), Error> {
+) -> Result<(EnergyDrift<N>, Finished<N>), Error> {
     let run = estimates.run;
     let drift = DriftRecorder::new(run.h.clone());
     let mut drift = drift.compensated_if(estimates.is_compensated());

@@ -23,7 +23,7 @@ pub struct Record {
     pub step: String,
     /// The time asked for.
     pub until: String,
-    /// The time of the last state: `until`, or the last multiple of the step before it.
+    /// The time of the last state: `until`, or that of the last whole step before it.
     pub end: String,
     /// The number type.
     pub digits: DigitsLabel,
