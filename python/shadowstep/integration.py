@@ -70,7 +70,7 @@ class Trajectory:
     indicators: dict[str, np.ndarray] = field(default_factory=dict)
     """Of a file with `chaos`: lyapunov, megno, mean_megno and sali, each of shape (n,)."""
     values: dict[str, np.ndarray] = field(default_factory=dict)
-    """Of a file with `values` or `elements`: each column, of shape (n,)."""
+    """Of a file with `values` or `elements`: each column, of shape (n,). Elements are heliocentric unless the scene has a ``centre``, and Jacobi ones in REBOUND."""
     summary: dict[str, Any] | None = None
     """What the run has shown, if that was asked for: the verdict, the error of H, close encounters, …; see ``summary_text``."""
     summary_text: str = "There is no summary: integrate(…, summary=True) makes one, and run(…).summary is that of a scene."

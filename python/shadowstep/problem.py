@@ -54,7 +54,8 @@ class Problem:
     **others
         Parameters by their names, with numbers or texts; ``parameters={"q": 2}`` where a name is one of these arguments. Other keys of [problem] are taken as they are: ``coordinates``, ``momenta``,
         ``bodies``, ``dimensions``, ``neighbours``, ``cutoff``, ``box``, ``units``, ``central``, ``slow``, ``encounters``, …; and ``body`` is a list of
-        mappings with the keys of [[body]], by elements, by ``q`` and ``v``, or by a table of Horizons; beside it ``particles`` is a file
+        mappings with the keys of [[body]], by elements, by ``q`` and ``v``, or by a table of Horizons. Elements are heliocentric, about the first body;
+        ``elements="jacobi"`` takes them about the centre of mass of the bodies before, as REBOUND does by default. Beside it ``particles`` is a file
         with bodies of mass 0.
 
     Own forces

@@ -240,8 +240,8 @@ pub(crate) const KEYS: [Key; 91] = [
     key(
         "problem",
         "elements",
-        "For [[body]]: what orbital elements are relative to: \"heliocentric\", the first body; or \"jacobi\", the centre of mass of \
-         the bodies before.",
+        "For [[body]]: what orbital elements are relative to: \"heliocentric\", the first body, with the masses of the two; or \"jacobi\", the centre of mass of \
+         the bodies before, with their mass and the body's own, which is REBOUND's default.",
         "\"jacobi\"",
         Some("\"heliocentric\""),
     ),
@@ -320,7 +320,7 @@ pub(crate) const KEYS: [Key; 91] = [
     key(
         "body",
         "a",
-        "The semi-major axis of its orbit; negative of a hyperbola.",
+        "The semi-major axis of its orbit about the first body, or about what `elements` of [problem] has; negative of a hyperbola.",
         "5.2",
         Some("none; q and v are given instead"),
     ),
@@ -482,7 +482,7 @@ pub(crate) const KEYS: [Key; 91] = [
         "output",
         "elements",
         "Writes the elements of the osculating orbits of all bodies but the first as columns a_earth, e_earth, i_earth, node_earth, pericentre_earth, \
-         M_earth, …, with angles in degrees: true, or a table.",
+         M_earth, …, with angles in degrees: true, or a table. They are heliocentric, about the first body; `centre` has others, such as REBOUND's default \"jacobi\".",
         "{ every = 100, centre = \"jacobi\" }",
         Some("false"),
     ),
@@ -619,8 +619,8 @@ pub(crate) const KEYS: [Key; 91] = [
     key(
         "output.elements",
         "centre",
-        "What orbits are about: \"heliocentric\" for the first body, with the masses of the two; \"jacobi\" for the centre of mass of the bodies before, with \
-         their mass and the body's own; \"barycentric\" for the centre of mass of all bodies, with their mass, where the first body has an orbit, too.",
+        "What orbits are about: \"heliocentric\" for the first body, with the masses of the two; \"jacobi\", REBOUND's default, for the centre of mass of the bodies \
+         before, with their mass and the body's own; \"barycentric\" for the centre of mass of all bodies, with their mass, where the first body has an orbit, too.",
         "\"jacobi\"",
         Some("\"heliocentric\""),
     ),

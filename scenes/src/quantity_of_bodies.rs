@@ -22,7 +22,9 @@ pub(crate) const BARYCENTRE: &str = "barycentre";
 /// a plane without `i` and `node`; none without bodies.
 pub(crate) fn elements_of(system: &System, centre: Option<&str>) -> Vec<(String, String)> {
     let Some(bodies) = Bodies::of(system) else { return Vec::new() };
-    let about = centre.map_or(String::new(), |centre| format!(", {centre}"));
+    // the name of the first body, unless it could be another centre
+    let of_first = bodies.names.first().map(String::as_str).filter(|name| ![JACOBI, BARYCENTRE].contains(name));
+    let about = centre.or(of_first).map_or(String::new(), |centre| format!(", {centre}"));
     let elements = ELEMENTS.iter().filter(|(_, element)| match element {
         Element::Inclination | Element::Node => bodies.dimensions == 3,
         Element::MeanLongitude => false,
