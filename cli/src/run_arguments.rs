@@ -25,7 +25,7 @@ pub(crate) struct RunArguments {
     ///
     /// Of a scene with [time], they are steps of the fictitious time s.
     #[arg(long = "step", aliases = ["h", "dt"], value_name = "H,…", required = true, value_delimiter = ',', allow_hyphen_values = true, help_heading = SCHEMES)]
-    pub(crate) steps: Vec<String>,
+    pub(crate) sizes: Vec<String>,
     /// The exact time at which runs end, such as 100
     ///
     /// Of a scene with [time], it is a physical time as well.

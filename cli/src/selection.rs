@@ -15,7 +15,7 @@ use shadowstep_scenes::estimator::{ACCURACY_HINT, conflict, order_setting};
 use shadowstep_scenes::library::NamedScheme;
 use shadowstep_scenes::propagator::Propagator;
 use shadowstep_scenes::run::{OrderSetting, Run};
-use shadowstep_scenes::stability::{few_kicks, resonant, unstable};
+use shadowstep_scenes::stability::note_of_steps;
 use shadowstep_scenes::{Error, System};
 
 /// Everything that is to be run.
@@ -37,9 +37,9 @@ impl Selection {
         let problem = Described::read(&arguments.system, arithmetic)?;
         let until = quantity::number("--until", &arguments.until)?;
         refuse_empty("--scheme", &arguments.schemes, "yoshida4,ruth3")?;
-        refuse_empty("--step", &arguments.steps, "1/10,1/20")?;
+        refuse_empty("--step", &arguments.sizes, "1/10,1/20")?;
         let step = |text: &String| step(text, &until, &problem.system);
-        let steps = arguments.steps.iter().map(step).collect::<Result<Vec<_>, _>>()?;
+        let steps = arguments.sizes.iter().map(step).collect::<Result<Vec<_>, _>>()?;
         let words = each_once(&arguments.schemes, |word| word.clone(), "scheme");
         let propagators: Vec<_> =
             words.iter().map(|word| Propagator::of_system(word, &problem.system)).collect::<Result<_, _>>()?;
@@ -105,14 +105,9 @@ impl Selection {
 
     /// Notes of runs whose steps are beyond the stability limit of their scheme, or too few for a revolution of a planet.
     fn note_large_steps(&self) {
-        let system = &self.problem.system;
-        let frequency = system.fastest_frequency();
-        let note = |scheme, h| {
-            let unstable = frequency.and_then(|frequency| unstable(frequency, scheme, h));
-            unstable.or_else(|| few_kicks(system, scheme, h)).or_else(|| resonant(system, scheme, h))
-        };
+        let note = |scheme, h: &StepSize| note_of_steps(&self.problem.system, scheme, h.exact());
         for scheme in self.propagators.iter().filter_map(|(propagator, _)| propagator.scheme()) {
-            self.sizes.iter().filter_map(|h| note(scheme, h.exact())).for_each(report::note);
+            self.sizes.iter().filter_map(|h| note(scheme, h)).for_each(report::note);
         }
     }
 }

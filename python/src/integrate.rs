@@ -10,7 +10,7 @@ use shadowstep_scenes::computation::{Computation, RunNumber};
 use shadowstep_scenes::integrate::{KeptStates, Samples};
 use shadowstep_scenes::posed::Posed;
 use shadowstep_scenes::run::{OrderSetting, Run};
-use shadowstep_scenes::stability::{few_kicks, resonant, unstable};
+use shadowstep_scenes::stability::note_of_steps;
 use shadowstep_scenes::{Direction, Error, Note, Observer, estimator};
 
 use crate::derivatives::{By, Request, columns};
@@ -99,19 +99,16 @@ impl SystemWithScheme {
         let kept = surface.as_ref().map_or(KeptStates::Every(every), KeptStates::Crossings);
         let posed = Posed::new(system, &self.scheme.scheme, run, (arithmetic, displaced));
         let posed = Posed { until: times.physical_end.as_ref(), ends, estimator, ..posed };
-        let frequency = system.fastest_frequency();
-        let unstable = frequency.and_then(|frequency| unstable(frequency, &self.scheme, times.h.exact()));
+        let of_steps = note_of_steps(system, &self.scheme, times.h.exact());
         let found = match arithmetic.is_longer_than_double() {
             false => posed.samples::<f64>(kept, &(), observer).map(Integrated::Doubles),
             true => arithmetic.compute(InTexts { posed, kept, observer }).map(Integrated::Texts),
         };
-        let found = found.map_err(|error| match (error, &unstable) {
+        let found = found.map_err(|error| match (error, &of_steps) {
             (Error::Run { message, hint }, Some(note)) => Error::run(message, format!("{hint}; {note}")),
             (error, _) => error,
         })?;
-        let few_kicks = few_kicks(system, &self.scheme, times.h.exact());
-        let resonant = resonant(system, &self.scheme, times.h.exact());
-        Ok((found, self.note.iter().cloned().chain(unstable).chain(few_kicks).chain(resonant).collect()))
+        Ok((found, self.note.iter().cloned().chain(of_steps).collect()))
     }
 }
 

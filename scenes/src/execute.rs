@@ -12,7 +12,7 @@ use crate::results::{
     Begun, Checkpoint, Columns, FileOptions, Metadata, Rows, Target, file_hashes, prolonged, records,
 };
 use crate::scene::{Format, Scene};
-use crate::stability::{few_kicks, resonant, unstable};
+use crate::stability;
 
 impl Scene {
     /// Runs the scene and writes its rows to the file that it names, from the last checkpoint if there is one.
@@ -68,12 +68,8 @@ impl Scene {
 
     /// Whether the steps are too large for the motion at the start, if a summary is wanted.
     fn note_of_steps(&self, observer: &dyn Observer) -> Option<Note> {
-        if !self.summarises(observer) {
-            return None;
-        }
-        let (scheme, h) = (&self.scheme, self.h.exact());
-        let unstable = self.system.fastest_frequency().and_then(|frequency| unstable(frequency, scheme, h));
-        unstable.or_else(|| few_kicks(&self.system, scheme, h)).or_else(|| resonant(&self.system, scheme, h))
+        let wanted = self.summarises(observer);
+        wanted.then(|| stability::note_of_steps(&self.system, &self.scheme, self.h.exact())).flatten()
     }
 
     /// That whole steps end before `until`.

@@ -14,8 +14,14 @@ use crate::scene::System;
 /// A trace this far above 2 in size is not due to rounding.
 const ROUNDING: f64 = 1e-9;
 
+/// What is to be noted of steps of size h before a run: that they are unstable, else few for a revolution of a planet, else that they are near a resonance.
+pub fn note_of_steps(system: &System, named: &NamedScheme, h: &Rational) -> Option<Note> {
+    let unstable = system.fastest_frequency().and_then(|frequency| unstable(frequency, named, h));
+    unstable.or_else(|| few_kicks(system, named, h)).or_else(|| resonant(system, named, h))
+}
+
 /// A note if steps of size h of the fastest oscillation are unstable: |tr| > 2 for the matrix of a step with hω.
-pub fn unstable(frequency: Frequency, named: &NamedScheme, h: &Rational) -> Option<Note> {
+fn unstable(frequency: Frequency, named: &NamedScheme, h: &Rational) -> Option<Note> {
     let proved = named.scheme.proved();
     let h_omega = frequency.omega * <f64 as shadowstep::Number>::from_rational(h, &()).abs();
     let nearest = |weight: &Rational| shadowstep::Number::from_rational(weight, &());
@@ -31,7 +37,7 @@ pub fn unstable(frequency: Frequency, named: &NamedScheme, h: &Rational) -> Opti
 
 /// A note if the fastest oscillation of fast forces and T is beyond the first resonance with the slow kicks of multiple time steps, for slow forces of a
 /// hundredth of its stiffness.
-pub fn resonant(system: &System, named: &NamedScheme, h: &Rational) -> Option<Note> {
+pub(crate) fn resonant(system: &System, named: &NamedScheme, h: &Rational) -> Option<Note> {
     system.parts.slow_forces()?;
     let first = resonances(named.scheme.proved(), &Rational::new(1.into(), 100.into()))?.limit;
     let omega = system.fastest_motion()?.omega;
@@ -50,7 +56,7 @@ pub fn resonant(system: &System, named: &NamedScheme, h: &Rational) -> Option<No
 const LEAST_KICKS: f64 = 10.0;
 
 /// A note if a planet has few kicks in a revolution of its Kepler orbit at the start.
-pub fn few_kicks(system: &System, named: &NamedScheme, h: &Rational) -> Option<Note> {
+fn few_kicks(system: &System, named: &NamedScheme, h: &Rational) -> Option<Note> {
     let planets = system.parts.planets()?;
     let (q, p) = system.start::<f64>(&());
     let (planet, period) = planets.shortest_period(&q, &p)?;
