@@ -39,7 +39,7 @@ def drift(
     scheme
         A scheme, or ``"exact-flow"`` for the exact flow of a shipped problem, on which the drift is the estimator's own error.
     h, until
-        As in `integrate`; in transformed time, too, the run ends with the last whole step.
+        As in `integrate`; in transformed time, too, the run ends with the last whole step before ``until``.
     estimator, order, max_order, stop, rule, accuracy
         As in `integrate`; by default the best of E_2, E_4, E_8, …, E_64 for each state. ``estimator="central"`` is that of Moan and Niesen.
     control

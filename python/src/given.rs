@@ -223,7 +223,9 @@ pub(crate) fn number(py: Python<'_>, what: &str, text: &str) -> PyResult<shadows
 pub(crate) fn arithmetic(py: Python<'_>, digits: &str, mpfr: bool) -> PyResult<Arithmetic> {
     if let Some((_, named)) = Arithmetic::NAMED.iter().find(|(name, _)| *name == digits) {
         return match mpfr {
-            true => Err(usage(py, format!("mpfr requires a number of digits, not digits = \"{digits}\""), "digits = 120")),
+            true => {
+                Err(usage(py, format!("mpfr requires a number of digits, not digits = \"{digits}\""), "digits = 120"))
+            }
             false => Ok(*named),
         };
     }

@@ -63,6 +63,17 @@ def test_drift_is_that_of_the_command_line():
     assert found == printed
     on_exact_flow = shadowstep.drift(kepler, "exact-flow", "1/20", 10, digits=40, order=8)
     assert on_exact_flow["drift"] == found["control"]["drift"]
+    with pytest.raises(InputError, match='mpfr requires a number of digits, not digits = "double"'):
+        shadowstep.drift(kepler, "stormer-verlet", "1/20", 10, mpfr=True)
+
+
+def test_drift_ends_with_the_last_whole_step_before_a_physical_time():
+    kepler = Problem("kepler", time={"transform": "logarithmic"})
+    run = shadowstep.integrate(kepler, "yoshida4", "1/20", until=10)
+    found = shadowstep.drift(kepler, "yoshida4", "1/20", 10, order=8)
+    assert (found["steps"], float(found["end"])) == (run.n[-2], run.t[-2]) and run.n[-1] == 196
+    with pytest.raises(InputError, match="a step of 2 is longer than the run until 1/10"):
+        shadowstep.drift(kepler, "yoshida4", 2, "1/10")
 
 
 def test_work_precision_measures_the_order():
@@ -71,6 +82,8 @@ def test_work_precision_measures_the_order():
     # errors of higher order are left at these steps
     assert np.allclose(orders, [2, 4, 6], atol=0.4), orders
     assert [curve.order for curve in curves] == [2, 4, 6]
+    by_size = shadowstep.work_precision(Problem("pendulum"), 20, ["stormer-verlet"], h=["1/10", "1/5"])[0]
+    assert [(run.steps, run.position_error) for run in by_size.runs] == [(run.steps, run.position_error) for run in curves[0].runs]
 
 
 def test_steps_of_all_schemes_begin_with_a_map():
@@ -120,6 +133,8 @@ def test_advice_meets_its_tolerance():
     [
         (lambda: shadowstep.work_precision(Problem("pendulum"), 10, seconds=-1.0), "seconds = -1.0"),
         (lambda: shadowstep.work_precision(Problem("pendulum"), 10, steps=[0, 100]), "steps = 0 is too small"),
+        (lambda: shadowstep.work_precision(Problem("pendulum"), 10, steps=[100], h=["1/10"]), "without steps"),
+        (lambda: shadowstep.work_precision(Problem("pendulum"), 10, h=["3/7"]), "until 10 is not a multiple of the step 3/7"),
         (lambda: shadowstep.advise(Problem("pendulum"), 10, 1e-6, seconds=float("nan")), "seconds = nan"),
         (lambda: shadowstep.shadow_energy(np.zeros((20, 1)), np.zeros((20, 1)), Problem("pendulum"), h=0), "step size must be nonzero"),
         (lambda: shadowstep.shadow_energy(np.zeros((20, 3)), np.zeros((20, 3)), Problem("pendulum"), h=0.1), "3 coordinates, and the problem has 1"),

@@ -40,8 +40,10 @@ use crate::cpu_time::CpuTime;
 use crate::error::Error;
 use crate::estimates::{Estimates, Finished};
 use crate::propagator::Propagator;
+use crate::readable::{LONGEST_NUMBER, shortened};
 use crate::run::Run;
 use crate::scene::System;
+use crate::steps::StepsError;
 use control::KnownControl;
 use measure::measure;
 
@@ -70,7 +72,7 @@ impl DriftRequest<'_> {
     /// Makes a run, and its control.
     ///
     /// # Errors
-    /// A state or a modified energy that is not finite; a follower that stops the run.
+    /// A run without steps; a state or a modified energy that is not finite; a follower that stops the run.
     pub fn run(
         &self,
         propagator: &Propagator,
@@ -78,6 +80,11 @@ impl DriftRequest<'_> {
         controls: &mut Controls,
         follower: &mut dyn Follower,
     ) -> Result<Record, Error> {
+        if run.steps == 0 {
+            let [h, until] = [run.h.exact(), self.until].map(|time| shortened(time, LONGEST_NUMBER));
+            let none = StepsError::LongerThanRun { h, until };
+            return Err(Error::usage(none.to_string(), none.hint()));
+        }
         self.arithmetic.compute(Measurement { request: self, propagator, run, controls, follower })
     }
 

@@ -149,6 +149,11 @@ fn the_rows_and_the_end_are_those_of_trace_and_drift_in_transformed_time() {
         "{}",
         refused.err
     );
+    // as of the scene, the step to that time is all there is
+    let flags = "--csv --no-summary --scheme yoshida4 --step 1/2 --until 1/100 --order 8";
+    let rows = table(&quietly(&format!("trace {} {flags}", folder.path().join("scene.toml").display()))).1;
+    let t: f64 = rows[1][1].parse().unwrap();
+    assert!(rows.len() == 2 && rows[1][0] == "1" && (t - 0.01).abs() < 1e-17, "{rows:?}");
 }
 
 #[test]
