@@ -111,8 +111,7 @@ impl Computation for Measurement<'_> {
         let DriftRequest { system, summarised, arithmetic, .. } = *request;
         let settings = request.estimator.clone().with_errors(true);
         let begin = CpuTime::begin();
-        let estimates =
-            Estimates { system, propagator, run, arithmetic, settings: &settings, summarised, until: None };
+        let estimates = Estimates { system, propagator, run, arithmetic, settings: &settings, summarised, until: None };
         let (found, finished) = measure::<N>(estimates, context, |n| follower.reaches(run, n))?;
         let seconds = begin.elapsed();
         let control = match propagator.scheme() {
