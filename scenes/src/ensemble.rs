@@ -79,7 +79,7 @@ impl Differing {
     fn of(parsed: &Parsed<'_>, columns: &Columns, first: &System) -> Differing {
         let columns: Vec<&String> = columns.names.iter().collect();
         let is_of_run = |section: &str| ["run", "output"].contains(&section);
-        let is_of_problem = |section: &str| !is_of_run(section) && !["initial", ENSEMBLE.name].contains(&section);
+        let is_of_problem = |section: &str| !is_of_run(section) && !["initial", ENSEMBLE.name()].contains(&section);
         let problem_differs = parsed.has_names(is_of_problem, &columns);
         let parameters = first.parameters.iter().map(|(name, _)| name).filter(|_| problem_differs);
         let names: Vec<&String> = columns.iter().copied().chain(parameters).collect();
@@ -107,7 +107,7 @@ pub struct Ensemble {
 impl Ensemble {
     /// Whether the text has a section \[ensemble\].
     pub fn is_in(source: &Source) -> bool {
-        document(source).0.is_some_and(|document| document.contains_key(ENSEMBLE.name))
+        document(source).0.is_some_and(|document| document.contains_key(ENSEMBLE.name()))
     }
 
     /// Reads the scene and its columns.
@@ -135,7 +135,7 @@ impl Ensemble {
     }
 
     fn of(source: Source, columns: Columns) -> Result<Ensemble, Error> {
-        let family = Family::new(source, &[ENSEMBLE.name]);
+        let family = Family::new(source, &["ensemble"]);
         let first = family.scene(&columns.values(0)).map_err(|faults| columns.with_trajectory(faults, 0))?;
         columns.refuse_repeated(family.source(), first.system.columns())?;
         let observed = settings(family.source(), &first)?;

@@ -3,11 +3,11 @@
 use std::cmp::Ordering;
 use std::sync::Arc;
 
-use shadowstep_schemes::document::{Reader, Text, Value};
+use shadowstep_schemes::document::{Reader, Text};
 use shadowstep_symbolic::{Expression as Syntax, ExpressionKind, Graph, Node, parse};
-use toml::de::DeValue;
 
 use crate::quantity::Quantity;
+use crate::schema::Table;
 
 /// The time and the energy.
 pub(crate) const TIME: &str = "t";
@@ -104,19 +104,9 @@ impl Expression {
 /// The most formulas of a table.
 const MOST_FORMULAS: usize = 1000;
 
-/// A table of names with formulas, in the order of the text; those of other keys are left out.
-pub fn named(reader: &mut Reader<'_>, value: &Value<'_>, is_name: impl Fn(&str) -> bool) -> Option<Vec<(Text, Text)>> {
-    let DeValue::Table(table) = value.get_ref() else {
-        return reader.wrong_kind(value, "a table of names with formulas: { r = \"sqrt(x^2 + y^2)\" }");
-    };
-    if !reader.has_at_most(value, MOST_FORMULAS, "formulas") {
-        return None;
-    }
-    let formulas = table.iter().filter(|(name, _)| is_name(name.get_ref()));
-    let mut found: Vec<_> =
-        formulas.filter_map(|(name, value)| Some((Text::of_key(name), reader.text(value)?))).collect();
-    found.sort_by_key(|(name, _)| name.at.start);
-    Some(found)
+/// The names with formulas of a key, in the order of the text.
+pub fn named(reader: &mut Reader<'_>, table: &Table<'_, '_>, key: &str) -> Option<Vec<(Text, Text)>> {
+    reader.has_at_most(table.get(key)?, MOST_FORMULAS, "formulas").then(|| table.named(key))
 }
 
 /// The name that stands for a quantity in a formula: that of no coordinate.

@@ -67,7 +67,7 @@
 //! | module | what it is |
 //! | --- | --- |
 //! | `scene` | the content of a scene: plain data |
-//! | [`keys`] | every key with its meaning; `explain` lists them, [`scene_text`] writes scenes with them |
+//! | [`keys`], [`schema`] | a row for each key, from which documents are checked; `explain` lists them, [`scene_text`] writes scenes with them |
 //! | [`family`] | scenes that differ in the values of some names |
 //! | [`ensemble`], [`lanes`] | many trajectories of such a family; their systems as one system of lanes |
 //! | `read` | a scene's text → a scene, or all its faults |
@@ -147,6 +147,7 @@ pub mod sampling;
 mod saved_state;
 mod saved_summary;
 mod scene;
+pub mod schema;
 pub mod scheme_record;
 mod shell;
 mod shipped;
@@ -164,7 +165,7 @@ mod whole_file;
 
 pub use engine::Outcome;
 pub use error::{Error, NotWritten, not_written};
-pub use explain::{explain, explanation};
+pub use explain::{explain, explanation, scene_schema};
 pub use frequency::Frequency;
 pub use note::Note;
 pub use observer::Observer;

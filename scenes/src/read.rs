@@ -20,7 +20,6 @@ mod of_bodies;
 mod output;
 mod pair;
 mod parts;
-mod period;
 mod planets;
 mod plot;
 mod problem;
@@ -38,18 +37,19 @@ use std::path::Path;
 
 use num_traits::Zero as _;
 use shadowstep::tables::{Faults, First, Source};
-use shadowstep_schemes::document::{Section, document, read_text};
+use shadowstep_schemes::document::{self, document, read_text};
 use shadowstep_symbolic::{Exact, nearest};
 use toml::de::DeTable;
 
 use crate::arithmetic::Arithmetic;
 use crate::crossings::NEEDS_PARTS_OF_STEPS;
 use crate::error::Error;
-use crate::keys::{self, ENSEMBLE, SECTIONS};
+use crate::keys::{ENSEMBLE, INITIAL, OF_SYSTEM, OUTPUT, RUN, SECTIONS, TIME, section_with};
 use crate::library::Schemes;
 use crate::note::Note;
 use crate::read::reader::Reader;
 use crate::scene::{InitialValueProblem, Outputs, PotentialEnergy, Scene, System};
+use crate::schema::{Table, has_form, refuse_unknown};
 use crate::shipped::scene_names;
 
 /// The most bytes of a scene, which may have the initial values of many bodies.
@@ -167,9 +167,9 @@ pub fn first_map(source: &Source) -> Result<Option<First>, Faults> {
     let (document, faults) = document(source);
     let Some(document) = document.filter(|_| faults.is_empty()) else { return Err(Faults(faults)) };
     let run = document.get("run").and_then(|run| run.get_ref().as_table());
-    let mut reader = Reader::new(source);
-    let first = run.and_then(|run| run.get("first")).and_then(|value| run::first(&mut reader, value));
-    Faults::of(reader.toml.faults).map_or(Ok(first), Err)
+    let mut reader = document::Reader::new(source, Vec::new());
+    let first = run.and_then(|run| run.get("first")).and_then(|value| reader.word(value, &run::FIRST));
+    Faults::of(reader.faults).map_or(Ok(first.map(|first| first.value)), Err)
 }
 
 /// The text of a scene's file.
@@ -210,10 +210,8 @@ impl System {
         refuse_ensemble(source, &document, &[])?;
         let mut reader = Reader::new(source);
         reader.arithmetic = arithmetic;
-        refuse_unknown_sections(&mut reader, &document, &["problem"], &[]);
-        let (problem, initial) = (reader.section(&document, "problem"), reader.section(&document, "initial"));
-        let system = system(&mut reader, &document, &problem, &initial);
-        unused::refuse_unused_parameters(&mut reader, &document, &problem);
+        refuse_unknown(&mut reader.toml, &document, &SECTIONS, (&["problem"], &[]), section_with);
+        let system = system_of_form(&mut reader, &document);
         match (Faults::of(reader.toml.faults), system) {
             (None, Some(system)) => Ok((system, reader.notes)),
             (Some(faults), _) => Err(faults),
@@ -236,8 +234,7 @@ impl System {
         let mut reader = Reader::new(source);
         reader.known.extend(names.iter().cloned());
         (reader.names, reader.arithmetic) = (names, arithmetic);
-        let (problem, initial) = (reader.section(document, "problem"), reader.section(document, "initial"));
-        let system = system(&mut reader, document, &problem, &initial);
+        let system = system(&mut reader, document);
         match (Faults::of(reader.toml.faults), system) {
             (None, Some(system)) => Ok(system),
             (Some(faults), _) => Err(faults),
@@ -260,7 +257,7 @@ impl InitialValueProblem {
         reader.arithmetic = arithmetic;
         reader.known.extend(self.parameters.iter().cloned());
         reader.known.extend(names);
-        let initial = reader.section(document, "initial");
+        let initial = Table::of(reader.toml.source, document, &INITIAL);
         // p = m v + A(q) in a magnetic field
         if matches!(self.potential, PotentialEnergy::OfParts) && initial.get("v").is_some() {
             return None;
@@ -272,16 +269,20 @@ impl InitialValueProblem {
 }
 
 /// The system in the parts that its steps have.
-fn system(
-    reader: &mut Reader<'_>,
-    root: &DeTable<'_>,
-    problem: &Section<'_, '_>,
-    initial: &Section<'_, '_>,
-) -> Option<System> {
+fn system(reader: &mut Reader<'_>, root: &DeTable<'_>) -> Option<System> {
     let bodies = planets::given(reader, root);
-    let time = time::section(reader, root);
-    let system = problem::system(reader, problem, initial, &bodies);
-    time::transformed(reader, &time, system)
+    let system = problem::system(reader, root, &bodies);
+    time::transformed(reader, &Table::of(reader.toml.source, root, &TIME), system)
+}
+
+/// The system, if its sections have the form that their keys have.
+fn system_of_form(reader: &mut Reader<'_>, root: &DeTable<'_>) -> Option<System> {
+    if !has_form(&mut reader.toml, root, &OF_SYSTEM, section_with) {
+        return None;
+    }
+    let system = system(reader, root);
+    unused::refuse_unused_parameters(reader, root);
+    system
 }
 
 fn sections(
@@ -291,16 +292,21 @@ fn sections(
     schemes: &Schemes,
 ) -> Option<(System, run::Steps, Outputs)> {
     let required: &[&str] = if others.is_empty() { &["problem", "run", "output"] } else { &["problem", "run"] };
-    refuse_unknown_sections(reader, root, required, others);
-    let (problem, initial) = (reader.section(root, "problem"), reader.section(root, "initial"));
-    let (run, output) = (reader.section(root, "run"), reader.section(root, "output"));
+    refuse_unknown(&mut reader.toml, root, &SECTIONS, (required, others), section_with);
+    let [has_run, has_output] =
+        [&RUN, &OUTPUT].map(|section| has_form(&mut reader.toml, root, &[section], section_with));
+    let [run, output] = [&RUN, &OUTPUT].map(|section| Table::of(reader.toml.source, root, section));
     // the digits come first: values are computed to them
+    let known = reader.toml.faults.len();
     let arithmetic = run::arithmetic(reader, &run);
     reader.arithmetic = arithmetic.unwrap_or(Arithmetic::DOUBLE);
-    let system = system(reader, root, &problem, &initial);
-    unused::refuse_unused_parameters(reader, root, &problem);
-    let steps = run::Steps::read(reader, &run, (system.as_ref(), root.contains_key(time::TIME)), schemes);
-    let output = output::read(reader, &output, system.as_ref(), steps.as_ref());
+    if !has_run {
+        reader.toml.faults.truncate(known);
+    }
+    let system = system_of_form(reader, root);
+    let (of_system, is_transformed) = (system.as_ref(), root.contains_key(TIME.name()));
+    let steps = if has_run { run::Steps::read(reader, &run, (of_system, is_transformed), schemes) } else { None };
+    let output = if has_output { output::read(reader, &output, of_system, steps.as_ref()) } else { None };
     if let (Some(run::Steps { displaced: true, .. }), Some(Outputs { section: Some(_), .. })) = (&steps, &output) {
         let help = "write gradient_kicks = \"exact\", or write states with `every`";
         reader.toml.fault(&run.at, NEEDS_PARTS_OF_STEPS, help);
@@ -311,7 +317,7 @@ fn sections(
 
 /// Refuses the section of an ensemble where there is to be one scene, and nothing else: its numbers contain names without values.
 fn refuse_ensemble(source: &Source, root: &DeTable<'_>, others: &[&str]) -> Result<(), Faults> {
-    match root.get_key_value(ENSEMBLE.name).filter(|_| !others.contains(&ENSEMBLE.name)) {
+    match root.get_key_value(ENSEMBLE.name()).filter(|_| !others.contains(&ENSEMBLE.name())) {
         Some((key, _)) => {
             let fault = source.fault(&key.span(), "an ensemble is computed by `shadowstep run` only");
             Err(Faults(vec![fault.hint("remove [ensemble], or give one trajectory's values")]))
@@ -320,37 +326,10 @@ fn refuse_ensemble(source: &Source, root: &DeTable<'_>, others: &[&str]) -> Resu
     }
 }
 
-fn refuse_unknown_sections(reader: &mut Reader<'_>, root: &DeTable<'_>, required: &[&str], others: &[&str]) {
-    let names: Vec<&str> = SECTIONS.iter().map(|section| section.name).filter(|name| !name.contains('.')).collect();
-    let is_known = |name: &str| names.contains(&name) || others.contains(&name);
-    for key in root.keys().filter(|key| !is_known(key.get_ref())) {
-        let word: &str = key.get_ref();
-        let help = match (keys::section_with(word), nearest(word, names.iter().copied())) {
-            (Some(section), _) => format!("`{word}` is a key of {section}"),
-            (None, Some(near)) => format!("did you mean [{near}]?"),
-            (None, None) => format!("the sections of a scene are [{}]", names.join("], [")),
-        };
-        reader.toml.fault(&key.span(), format!("unknown section `{word}`"), help);
-    }
-    // a shipped problem has an initial state
-    let problem = root.get("problem").and_then(|problem| problem.get_ref().as_table());
-    let formulas = |problem: &toml::de::DeTable<'_>| problem.get("parts").is_some_and(parts::is_list);
-    let has_own = problem
-        .is_some_and(|problem| ["potential", "pair"].iter().any(|key| problem.contains_key(*key)) || formulas(problem));
-    let needed = required.iter().copied().chain(has_own.then_some("initial"));
-    for name in needed {
-        let misspelt = |word: &str| !names.contains(&word) && nearest(word, names.iter().copied()) == Some(name);
-        if root.get(name).is_none() && !root.keys().any(|word| misspelt(word.get_ref())) {
-            let help = "`shadowstep scene kepler` writes a scene with all sections";
-            reader.toml.fault(&(0..0), format!("the section [{name}] is missing"), help);
-        }
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::keys::KEYS;
+    use crate::schema::{Key, Section};
 
     /// The faults of a scene, each as `line:column: sentence`.
     fn faults(text: &str) -> Vec<String> {
@@ -362,11 +341,17 @@ mod tests {
         }
     }
 
+    /// All keys with their sections.
+    fn rows() -> impl Iterator<Item = (&'static Section, &'static Key)> {
+        let sections = SECTIONS.into_iter().take(6).flat_map(|section| [section].into_iter().chain(section.tables()));
+        sections.flat_map(|section| section.keys.iter().map(move |key| (section, key)))
+    }
+
     #[test]
     fn every_key_that_is_explained_is_read() {
         // a date is a value of no key
-        for key in &KEYS {
-            let text = format!("[{}]\n{} = 2001-01-01", key.section, key.name);
+        for (section, key) in rows() {
+            let text = format!("{}\n{} = 2001-01-01", section.heading, key.name);
             let wrong = format!("2:{}: this value is of the wrong kind", key.name.len() + 4);
             assert!(faults(&text).contains(&wrong), "{text}: {:?}", faults(&text));
         }
@@ -374,8 +359,11 @@ mod tests {
 
     #[test]
     fn keys_that_are_not_explained_are_refused() {
-        for section in &SECTIONS {
-            let text = format!("[{}]\nfrobnicate = 1", section.name);
+        for section in SECTIONS[..6].iter().flat_map(|section| [*section].into_iter().chain(section.tables())) {
+            if section.names.is_some() {
+                continue;
+            }
+            let text = format!("{}\nfrobnicate = 1", section.heading);
             assert!(faults(&text).contains(&"2:1: unknown key `frobnicate`".to_owned()), "{text}: {:?}", faults(&text));
         }
     }
@@ -398,7 +386,7 @@ mod tests {
                 "modified_hamiltonian = 8\nvalues = { modified_hamiltonian_8 = \"kinetic\" }",
                 "9:24: there is another column `modified_hamiltonian_8`",
             ),
-            ("0", "modified_hamiltonian = 8", "5:8: step 0: the step size must be nonzero"),
+            ("0", "modified_hamiltonian = 8", "5:8: step must be nonzero, not 0"),
             ("1", "modified_hamiltonian = 8\nenergi = true", "10:1: unknown key `energi`"),
         ] {
             assert_eq!(scene(solar, "stormer-verlet", step, output), [fault]);
@@ -452,16 +440,15 @@ mod tests {
 
     #[test]
     fn every_section_is_explained() {
-        for key in &KEYS {
-            assert!(SECTIONS.iter().any(|section| section.name == key.section), "{}", key.section);
+        for (_, key) in rows() {
             assert!(!key.meaning.is_empty() && !key.example.is_empty(), "{}", key.name);
         }
     }
 
     #[test]
     fn the_examples_are_readable_values() {
-        for key in &KEYS {
-            let text = format!("[{}]\n{} = {}", key.section, key.name, key.example);
+        for (section, key) in rows() {
+            let text = format!("{}\n{} = {}", section.heading, key.name, key.example);
             let faults = faults(&text);
             assert!(!faults.iter().any(|fault| fault.contains("wrong kind")), "{text}: {faults:?}");
         }

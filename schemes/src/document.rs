@@ -51,4 +51,4 @@ pub use fault::{Fault, Faults, Source, with_short_numbers};
 pub use file::{LARGEST_TABLE, read_text, refuse_pipe};
 pub use keys::{Key, Keys};
 pub use reader::{Reader, Section, document};
-pub use value::{Placed, Text, Value};
+pub use value::{Placed, Text, Value, whole_number};

@@ -3,8 +3,9 @@
 use shadowstep_scenes::family::Meaning;
 use shadowstep_scenes::readable::{LONGEST_NUMBER, shortened};
 use shadowstep_scenes::reserved_names::QUANTITIES;
+use shadowstep_scenes::schema::texts;
 use shadowstep_schemes::document::{Reader, Text};
-use toml::de::{DeTable, DeValue};
+use toml::de::DeTable;
 
 use crate::axis::Axis;
 
@@ -27,7 +28,7 @@ impl Axes {
             let hint = "add [axes] with a name and its values, such as h = [\"1/10\", \"1/20\"]";
             return reader.wrong(&(0..0), "the section [axes] is missing", hint);
         };
-        let DeValue::Table(table) = value.get_ref() else { return reader.wrong_kind(value, "a table: [axes]") };
+        let table = value.get_ref().as_table()?;
         if table.is_empty() {
             return reader.wrong(
                 &key.span(),
@@ -127,11 +128,9 @@ fn zips(
     names: &[&str],
 ) -> Option<Vec<(Vec<usize>, std::ops::Range<usize>)>> {
     let Some(value) = root.get("zip") else { return Some(Vec::new()) };
-    let what = "a list of lists of names: [[\"h\", \"steps\"]]";
-    let lists = reader.list(value, what, |reader, value| reader.list(value, what, Reader::text))?;
     let mut zips = Vec::new();
     let mut taken: Vec<usize> = Vec::new();
-    for list in lists.value {
+    for list in value.get_ref().as_array()?.iter().filter_map(|list| texts(reader.source, list)) {
         let mut zip = Vec::new();
         for name in &list.value {
             let Some(place) = names.iter().position(|known| *known == name.value) else {

@@ -5,13 +5,15 @@ mod number;
 mod range;
 
 use shadowstep_scenes::family::Meaning;
+use shadowstep_scenes::schema::{Table, texts};
 use shadowstep_schemes::document::{Reader, Text, Value};
 use shadowstep_symbolic::Error;
-use toml::de::DeValue;
 
+use crate::keys::DRAWS;
 use draws::Draws;
+pub(crate) use draws::MOST as MOST_DRAWS;
 use number::evaluated;
-pub(crate) use number::{NUMBERS, number};
+pub(crate) use number::number;
 use range::Range;
 
 /// A name and its values, which are numbered from 0.
@@ -36,17 +38,12 @@ enum Values {
 impl Axis {
     /// Reads the value of a key of \[axes\].
     pub(crate) fn read(reader: &mut Reader<'_>, name: &Text, value: &Value<'_>) -> Option<Axis> {
-        let values = match value.get_ref() {
-            DeValue::Array(_) => list(reader, value)?,
-            DeValue::Table(table) => Values::Draws(Draws::read(reader, &name.value, table, value)?),
-            DeValue::String(_) => {
-                let text = reader.text(value)?;
-                Values::Range(Range::read(reader, &name.value, &text)?)
-            }
-            _ => {
-                let needed = "a list, a range \"1/10 … 1/100 in 19 steps\", or a table { draws = 100, uniform = [0, 1], seed = 1 }";
-                return reader.wrong_kind(value, needed);
-            }
+        let values = if let Some(draws) = Table::of_value(reader.source, value, &DRAWS) {
+            Values::Draws(Draws::read(reader, &name.value, &draws)?)
+        } else if let Some(list) = texts(reader.source, value) {
+            self::list(list.value)
+        } else {
+            Values::Range(Range::read(reader, &name.value, &Text::of(reader.source, value)?)?)
         };
         Some(Axis { name: name.value.clone(), values })
     }
@@ -103,11 +100,9 @@ impl Axis {
 }
 
 /// Numbers if all members are numbers, otherwise words.
-fn list(reader: &mut Reader<'_>, value: &Value<'_>) -> Option<Values> {
-    let what = "a list of numbers or of words: [\"1/10\", \"1/20\"]";
-    let texts = reader.list(value, what, |reader, value| reader.number(value, NUMBERS))?.value;
+fn list(texts: Vec<Text>) -> Values {
     let numbers: Option<Vec<_>> = texts.iter().map(|text| evaluated(&text.value).ok().map(Meaning::Number)).collect();
     let is_numeric = numbers.is_some();
     let words = || texts.into_iter().map(|text| Meaning::Word(text.value)).collect();
-    Some(Values::List { values: numbers.unwrap_or_else(words), is_numeric })
+    Values::List { values: numbers.unwrap_or_else(words), is_numeric }
 }

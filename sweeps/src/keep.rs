@@ -2,8 +2,8 @@
 
 use shadowstep_scenes::expression::{Condition, Expression, named};
 use shadowstep_scenes::extremum::Extremum;
-use shadowstep_schemes::document::{Reader, Section, Text};
-use shadowstep_symbolic::nearest;
+use shadowstep_scenes::schema::Table;
+use shadowstep_schemes::document::{Reader, Text};
 use toml::de::DeTable;
 
 use crate::keys;
@@ -41,18 +41,15 @@ pub struct Column {
 
 impl Keep {
     pub(crate) fn read(reader: &mut Reader<'_>, root: &DeTable<'_>) -> Option<Keep> {
-        let section = reader.section(root, "keep", keys::of("keep"));
+        let section = Table::of(reader.source, root, &keys::KEEP);
         if !section.is_there() {
             let hint = "add [keep] with values = [\"verdict\", \"energy_error\"], for example";
             return reader.wrong(&(0..0), "the section [keep] is missing", hint);
         }
         let before = reader.faults.len();
         let mut keep = Keep { values: values(reader, &section), ..Keep::default() };
-        let truth = |reader: &mut Reader<'_>, key| {
-            section.get(key).and_then(|value| reader.truth(value)).is_some_and(|t| t.value)
-        };
-        keep.state = truth(reader, "state");
-        keep.rows = truth(reader, "rows");
+        keep.state = section.truth("state") == Some(true);
+        keep.rows = section.truth("rows") == Some(true);
         for (name, text) in formulas(reader, &section, "at_end") {
             keep.at_end.push((name, Expression::new(text)));
         }
@@ -111,39 +108,28 @@ impl Keep {
     }
 }
 
-fn values(reader: &mut Reader<'_>, section: &Section<'_, '_>) -> Vec<RunValue> {
-    let Some(value) = section.get("values") else { return Vec::new() };
+fn values(reader: &mut Reader<'_>, section: &Table<'_, '_>) -> Vec<RunValue> {
     let mut kept = Vec::new();
-    for text in reader.readable_members(value, "a list of values: [\"verdict\", \"energy_error\"]", Reader::text) {
+    for text in section.list("values").into_iter().flat_map(|list| list.value) {
         match VALUES.iter().find(|value| value.name == text.value) {
             Some(Description { kept: known, .. }) if kept.contains(known) => {
                 reader.fault(&text.at, format!("`{}` is there twice", text.value), "keep one of the two");
             }
-            Some(Description { kept: known, .. }) => kept.push(*known),
-            None => {
-                let names = VALUES.iter().map(|value| value.name);
-                let hint = match nearest(&text.value, names.clone()) {
-                    Some(near) => format!("did you mean `{near}`?"),
-                    None => format!("the values are {}", names.collect::<Vec<_>>().join(", ")),
-                };
-                reader.fault(&text.at, format!("there is no value `{}`", text.value), hint);
-            }
+            known => kept.extend(known.map(|known| known.kept)),
         }
     }
     kept
 }
 
 /// Names with formulas, in the order of the text.
-fn formulas(reader: &mut Reader<'_>, section: &Section<'_, '_>, key: &str) -> Vec<(Text, Text)> {
-    section.get(key).and_then(|value| named(reader, value, |_| true)).unwrap_or_default()
+fn formulas(reader: &mut Reader<'_>, section: &Table<'_, '_>, key: &str) -> Vec<(Text, Text)> {
+    named(reader, section, key).unwrap_or_default()
 }
 
 /// Places of conditions of these names.
-fn stop(reader: &mut Reader<'_>, section: &Section<'_, '_>, conditions: &[String]) -> Vec<usize> {
-    let Some(value) = section.get("stop") else { return Vec::new() };
-    let names = reader.readable_members(value, "a list of names of first_time: [\"escape\"]", Reader::text);
+fn stop(reader: &mut Reader<'_>, section: &Table<'_, '_>, conditions: &[String]) -> Vec<usize> {
     let mut found = Vec::new();
-    for name in names {
+    for name in section.list("stop").into_iter().flat_map(|list| list.value) {
         match conditions.iter().position(|known| *known == name.value) {
             Some(place) => found.push(place),
             None => {

@@ -1,10 +1,14 @@
-//! The keys of a sweep with their meanings: the one place for `--explain` and messages.
+//! The keys of a sweep beside those of its scene: a row for each.
 
-use shadowstep_scenes::explanation;
-use shadowstep_scenes::keys::{Key, Section, key, section};
-use shadowstep_schemes::document;
+use shadowstep_scenes::schema::{
+    CONDITION, FORMULA, Kind, NAME, NAMES, NUMBER, NUMBERS, PATH, Section, has_form, json_schema,
+};
+use shadowstep_scenes::{explanation, keys, rows};
+use shadowstep_schemes::document::Reader;
+use toml::de::DeTable;
 
-use crate::values::{Description, VALUES};
+use crate::axis::MOST_DRAWS;
+use crate::values::{Description, NAMES_OF_VALUES, VALUES};
 
 const INTRODUCTION: &str = "\
 A sweep is a TOML file: the sections of a scene, or `scene` with the path of one, and [axes], [keep] and [picture]. `shadowstep scene \
@@ -14,158 +18,97 @@ varies fastest.
 The name of an axis stands for its value: in every number of the scene, as a parameter does, step = \"h\" or q = [\"1 - e\", 0]; and \
 \"$scheme\" in place of a whole value, scheme = \"$scheme\" or steps = \"$n\".";
 
-const SECTIONS: [Section; 4] = [
-    section("", "At the beginning, before all sections:", "The scene's file, and axes that advance together."),
-    section(
-        "axes",
-        "[axes]",
-        "Names with their values, in one of these forms. Names are free, but for run, failure, t, E and pi.",
-    ),
-    section("keep", "[keep]", "What is kept of each run. Nothing else is computed."),
-    section(
-        "picture",
-        "[picture]",
-        "A map of a value over two axes, or curves over one. It can be changed without computing anything again.",
-    ),
-];
+/// The sections, and the keys before all of them.
+const SECTIONS: [&Section; 4] = [&BEGINNING, &AXES, &KEEP, &PICTURE];
 
-const KEYS: [Key; 24] = [
-    key(
-        "",
-        "scene",
-        "The path of the scene, relative to the folder of the sweep.",
-        "\"kepler.toml\"",
-        Some("none; the sections of the scene are in the sweep"),
-    ),
-    key(
-        "",
-        "zip",
-        "Lists of axes that advance together; they need equally many values.",
-        "[[\"h\", \"n\"]]",
-        Some("none; every value of an axis meets every value of the others"),
-    ),
-    key("axes", "e", "A list of exact numbers.", "[0, \"1/10\", 0.25]", Some("none")),
-    key("axes", "scheme", "A list of words, for \"$scheme\".", "[\"yoshida4\", \"mine.toml\"]", Some("none")),
-    key(
-        "axes",
-        "h",
-        "A range, also with ... in place of …: equal distances of the value, `of 1/h` of its reciprocal, `of log(h)` of its \
-         logarithm. `in 20 values` counts values, `in 19 steps` what is between them. Values are exact; those of logarithms are rounded to 12 \
-         digits, irrational ends to 30, and exact from there on.",
-        "\"1/10 … 1/100 in 19 steps of 1/h\"",
-        Some("none"),
-    ),
-    key(
-        "axes",
-        "phase",
-        "Random draws, uniform = [a, b], log = [a, b] (whose logarithm is uniform) or normal = [mean, deviation]. A draw depends on the \
-         seed, the name of the axis and its number only; it is rounded to 17 digits, and exact from there on.",
-        "{ draws = 100, uniform = [0, \"2*pi\"], seed = 1 }",
-        Some("none"),
-    ),
-    key("keep", "values", "Values that every run has; see below.", "[\"verdict\", \"energy_error\"]", Some("none")),
-    key("keep", "state", "Whether q and p of the last state are kept.", "true", Some("false")),
-    key(
-        "keep",
-        "at_end",
-        "Formulas at the last state: in the coordinates, momenta and parameters, the axes, t and E.",
-        "{ L = \"x*py - y*px\" }",
-        Some("none"),
-    ),
-    key(
-        "keep",
-        "min",
-        "The least values of formulas over all states of the run.",
-        "{ closest = \"x^2 + y^2\" }",
-        Some("none"),
-    ),
-    key(
-        "keep",
-        "max",
-        "The greatest values of formulas over all states of the run.",
-        "{ E_max = \"E\" }",
-        Some("none"),
-    ),
-    key(
-        "keep",
-        "first_time",
-        "Conditions, one comparison each. The value is the time of the first state that meets it, and nothing where no state does.",
-        "{ escape = \"x^2 + y^2 > 100\" }",
-        Some("none"),
-    ),
-    key(
-        "keep",
-        "stop",
-        "Names of first_time: a run ends at the first state that meets one of them.",
-        "[\"escape\"]",
-        Some("none"),
-    ),
-    key(
-        "keep",
-        "rows",
-        "Whether the rows of the scene's [output] are kept, in rows.csv with the number of the run; each run is made twice then.",
-        "true",
-        Some("false"),
-    ),
-    key("picture", "x", "The axis in horizontal direction.", "\"h\"", Some("the first axis of numbers")),
-    key(
-        "picture",
-        "y",
-        "The axis in vertical direction, for a map.",
-        "\"e\"",
-        Some("the next axis of numbers; without one, curves are drawn"),
-    ),
-    key(
-        "picture",
-        "curves",
-        "The axis that has a curve for each value, in place of y.",
-        "\"scheme\"",
-        Some("the first axis of words"),
-    ),
-    key(
-        "picture",
-        "panels",
-        "The axis that has a map for each value, or a chart with the curves.",
-        "\"scheme\"",
-        Some("of maps, the first axis of words"),
-    ),
-    key(
-        "picture",
-        "value",
-        "What is drawn: a column of the results.",
-        "\"permanent_change\"",
-        Some("the first one with numbers"),
-    ),
-    key(
-        "picture",
-        "of_several",
-        "What is shown of runs that differ in other axes only: \"mean\", \"largest\" or \"least\".",
-        "\"largest\"",
-        Some("\"mean\""),
-    ),
-    key(
-        "picture",
-        "scale",
-        "The scale of the values, \"linear\" or \"log\".",
-        "\"log\"",
-        Some("the one that suits the values"),
-    ),
-    key(
-        "picture",
-        "range",
-        "The values at the ends of a map's colours, which values beyond share.",
-        "[1, 100]",
-        Some("the least and the largest value"),
-    ),
-    key("picture", "title", "The title.", "\"Permanent change\"", Some("the name of the sweep's file")),
-    key(
-        "picture",
-        "label",
-        "What the value is called.",
-        "\"|change of the modified energy|\"",
-        Some("the name of the column"),
-    ),
-];
+/// An axis: a list of numbers or of words, a range, or draws.
+const AXIS: Kind =
+    Kind::Any(&[Kind::List(&Kind::Any(&[NUMBER, Kind::Text("word")])), Kind::Text("range"), Kind::Table(&DRAWS)]);
+
+pub(crate) const BEGINNING: Section = Section::new(
+    "At the beginning, before all sections:",
+    "The scene's file, and axes that advance together.",
+    rows! {
+        scene: PATH => "\"kepler.toml\"",
+            "The path of the scene, relative to the folder of the sweep.",
+            else "none; the sections of the scene are in the sweep";
+        zip: Kind::List(&NAMES) => "[[\"h\", \"n\"]]",
+            "Lists of axes that advance together; they need equally many values.",
+            else "none; every value of an axis meets every value of the others";
+    },
+);
+
+pub(crate) const AXES: Section = Section::new(
+    "[axes]",
+    "Names with their values, in one of these forms. Names are free, but for run, failure, t, E and pi.",
+    rows! {
+        e: AXIS => "[0, \"1/10\", 0.25]", "A list of exact numbers.", else "none";
+        scheme: AXIS => "[\"yoshida4\", \"mine.toml\"]", "A list of words, for \"$scheme\".", else "none";
+        h: AXIS => "\"1/10 … 1/100 in 19 steps of 1/h\"",
+            "A range, also with ... in place of …: equal distances of the value, `of 1/h` of its reciprocal, `of log(h)` of its logarithm. `in 20 \
+             values` counts values, `in 19 steps` what is between them. Values are exact; those of logarithms are rounded to 12 digits, irrational ends \
+             to 30, and exact from there on.",
+            else "none";
+        phase: AXIS => "{ draws = 100, uniform = [0, \"2*pi\"], seed = 1 }",
+            "Random draws, uniform = [a, b], log = [a, b] (whose logarithm is uniform) or normal = [mean, deviation]. A draw depends on the seed, the \
+             name of the axis and its number only; it is rounded to 17 digits, and exact from there on.",
+            else "none";
+    },
+)
+.with_names(&AXIS);
+
+pub(crate) const DRAWS: Section = Section::new(
+    "draws",
+    "Random draws.",
+    rows! {
+        draws: Kind::Whole(1, MOST_DRAWS) => "100", "How many.";
+        seed: Kind::Whole(0, u64::MAX) => "1", "The seed.";
+        uniform: NUMBERS => "[0, \"2*pi\"]", "The least and the greatest value.", else "none", excludes ["log", "normal"];
+        log: NUMBERS => "[\"1e-6\", \"1e-3\"]", "The same of values whose logarithm is uniform.", else "none", excludes ["normal"];
+        normal: NUMBERS => "[0, \"1/10\"]", "The mean and the standard deviation.", else "none";
+    },
+)
+.one_of("uniform|log|normal");
+
+pub(crate) const KEEP: Section = Section::new(
+    "[keep]",
+    "What is kept of each run. Nothing else is computed.",
+    rows! {
+        values: Kind::List(&Kind::Word(&NAMES_OF_VALUES)) => "[\"verdict\", \"energy_error\"]", "Values that every run has; see below.", else "none";
+        state: Kind::Truth => "true", "Whether q and p of the last state are kept.", else "false";
+        at_end: Kind::Names(&FORMULA) => "{ L = \"x*py - y*px\" }",
+            "Formulas at the last state: in the coordinates, momenta and parameters, the axes, t and E.", else "none";
+        min: Kind::Names(&FORMULA) => "{ closest = \"x^2 + y^2\" }", "The least values of formulas over all states of the run.", else "none";
+        max: Kind::Names(&FORMULA) => "{ E_max = \"E\" }", "The greatest values of formulas over all states of the run.", else "none";
+        first_time: Kind::Names(&CONDITION) => "{ escape = \"x^2 + y^2 > 100\" }",
+            "Conditions, one comparison each. The value is the time of the first state that meets it, and nothing where no state does.", else "none";
+        stop: NAMES => "[\"escape\"]",
+            "Names of first_time: a run ends at the first state that meets one of them.", else "none", needs ["first_time"];
+        rows: Kind::Truth => "true",
+            "Whether the rows of the scene's [output] are kept, in rows.csv with the number of the run; each run is made twice then.", else "false";
+    },
+);
+
+pub(crate) const PICTURE: Section = Section::new(
+    "[picture]",
+    "A map of a value over two axes, or curves over one. It can be changed without computing anything again.",
+    rows! {
+        x: NAME => "\"h\"", "The axis in horizontal direction.", else "the first axis of numbers";
+        y: NAME => "\"e\"", "The axis in vertical direction, for a map.", else "the next axis of numbers; without one, curves are drawn";
+        curves: NAME => "\"scheme\"",
+            "The axis that has a curve for each value, in place of y.", else "the first axis of words", excludes ["y"];
+        panels: NAME => "\"scheme\"",
+            "The axis that has a map for each value, or a chart with the curves.", else "of maps, the first axis of words";
+        value: NAME => "\"permanent_change\"", "What is drawn: a column of the results.", else "the first one with numbers";
+        of_several: Kind::Word(&["mean", "largest", "least"]) => "\"largest\"",
+            "What is shown of runs that differ in other axes only.", else "\"mean\"";
+        scale: Kind::Word(&["linear", "log"]) => "\"log\"", "The scale of the values.", else "the one that suits the values";
+        range: NUMBERS => "[1, 100]",
+            "The values at the ends of a map's colours, which values beyond share.", else "the least and the largest value";
+        title: Kind::Text("title") => "\"Permanent change\"", "The title.", else "the name of the sweep's file";
+        label: Kind::Text("label") => "\"|change of the modified energy|\"", "What the value is called.", else "the name of the column";
+    },
+);
 
 /// Every key of a sweep with its meaning, and the values that can be kept.
 ///
@@ -173,7 +116,7 @@ const KEYS: [Key; 24] = [
 /// assert!(shadowstep_sweeps::explain().contains("first_time = { escape = \"x^2 + y^2 > 100\" }"));
 /// ```
 pub fn explain() -> String {
-    let mut text = explanation(INTRODUCTION, &SECTIONS, &KEYS);
+    let mut text = explanation(INTRODUCTION, SECTIONS);
     text += "\nThe values of [keep]:\n";
     for Description { name, meaning, .. } in &VALUES {
         text += &format!("  {name:<22}{meaning}\n");
@@ -181,9 +124,19 @@ pub fn explain() -> String {
     text
 }
 
-/// The keys of a section, for the reader of documents.
-pub(crate) fn of(section: &'static str) -> document::Keys {
-    let heading = SECTIONS.iter().find(|known| known.name == section).map_or("a sweep", |known| known.heading);
-    let keys = KEYS.iter().filter(|key| key.section == section);
-    document::Keys::new(heading, keys.map(|key| document::Key::new(key.name, key.example)))
+/// The JSON Schema of sweeps.
+pub fn sweep_schema() -> String {
+    let sections: Vec<&Section> = SECTIONS[1..].iter().copied().chain(keys::SECTIONS).collect();
+    json_schema("A sweep of Shadowstep", BEGINNING.keys, &sections, &["axes", "keep"])
+}
+
+/// Whether the sections and keys that are not of the scene have what their rows say; faults are added to the reader.
+pub(crate) fn have_form(reader: &mut Reader<'_>, root: &DeTable<'_>) -> bool {
+    has_form(reader, root, &SECTIONS, section_with)
+}
+
+/// The heading of the section that has a key of this name.
+fn section_with(name: &str) -> Option<&'static str> {
+    let own = SECTIONS[2..].iter().find(|section| section.find(name).is_some());
+    own.map(|section| section.heading).or_else(|| keys::section_with(name))
 }

@@ -73,7 +73,7 @@ pub use collect::{Collected, Missing, TableFormat, collect, ranges};
 pub use compute::{Computed, compute, is_there};
 pub use foreign::{refuse_foreign, remove_foreign};
 pub use keep::Column;
-pub use keys::explain;
+pub use keys::{explain, sweep_schema};
 pub use manifest::Manifest;
 pub use picture::Picture;
 pub use plan::{Digests, SweepPlan};

@@ -20,6 +20,7 @@ use toml::de::{DeTable, DeValue};
 
 use crate::axes::Axes;
 use crate::keep::{Column, Keep};
+use crate::keys;
 use crate::picture::{Picture, Written};
 use crate::record::{Record, measured};
 
@@ -96,12 +97,14 @@ impl SweepPlan {
         let (document, faults) = document(source);
         let Some(document) = document.filter(|_| faults.is_empty()) else { return Err(Faults(faults).into()) };
         let mut reader = Reader::new(source, Vec::new());
+        let has_form = keys::have_form(&mut reader, &document);
         let separate = separate_scene(&mut reader, &document)?;
-        let axes = Axes::read(&mut reader, &document);
-        let keep = Keep::read(&mut reader, &document);
-        let picture = Written::read(&mut reader, &document);
+        let read = has_form.then(|| {
+            let (axes, keep) = (Axes::read(&mut reader, &document), Keep::read(&mut reader, &document));
+            (axes, keep, Written::read(&mut reader, &document))
+        });
         refuse(reader.faults)?;
-        let (Some(axes), Some(keep), Some(picture)) = (axes, keep, picture) else {
+        let Some((Some(axes), Some(keep), Some(picture))) = read else {
             unreachable!("what cannot be read is a fault")
         };
         let others: &[&str] = if separate.is_some() { &["picture"] } else { OTHERS };
@@ -188,10 +191,10 @@ pub(crate) fn axes_and_picture(source: &Source, columns: &[Column]) -> Result<(A
     let (document, faults) = document(source);
     let Some(document) = document.filter(|_| faults.is_empty()) else { return Err(Faults(faults).into()) };
     let mut reader = Reader::new(source, Vec::new());
-    let axes = Axes::read(&mut reader, &document);
-    let picture = Written::read(&mut reader, &document);
+    let read = keys::have_form(&mut reader, &document)
+        .then(|| (Axes::read(&mut reader, &document), Written::read(&mut reader, &document)));
     refuse(std::mem::take(&mut reader.faults))?;
-    let (Some(axes), Some(picture)) = (axes, picture) else { unreachable!("what cannot be read is a fault") };
+    let Some((Some(axes), Some(picture))) = read else { unreachable!("what cannot be read is a fault") };
     let picture = picture.resolve(&mut reader, &axes, columns);
     refuse(reader.faults)?;
     Ok((axes, picture))

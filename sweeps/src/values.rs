@@ -57,6 +57,16 @@ const fn word(kept: RunValue, name: &'static str, need: Need, meaning: &'static 
     Description { kept, name, meaning, need, is_number: false }
 }
 
+/// Their names.
+pub(crate) const NAMES_OF_VALUES: [&str; VALUES.len()] = {
+    let (mut names, mut i) = ([""; VALUES.len()], 0);
+    while i < VALUES.len() {
+        names[i] = VALUES[i].name;
+        i += 1;
+    }
+    names
+};
+
 /// All of them.
 pub(crate) const VALUES: [Description; 18] = [
     word(RunValue::Verdict, "verdict", Need::Summary, "the monitor's verdict on the step size"),

@@ -292,7 +292,7 @@ fn wrong_sections_are_refused() {
         ("", "the key `transform` is missing"),
         ("transform = \"power\"", "the key `exponent` is missing"),
         ("transform = \"logarithmic\"\nexponent = 2", "logarithmic time has no exponent"),
-        ("transform = \"power\"\nexponent = 0", "the exponent 0 makes f constant"),
+        ("transform = \"power\"\nexponent = 0", "exponent must be nonzero, not 0"),
         ("transform = \"power\"\nexponent = \"1/100\"", "must be a fraction"),
     ] {
         let faults = kepler(time);

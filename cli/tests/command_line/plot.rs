@@ -224,9 +224,13 @@ fn a_chart_of_a_complete_run_is_drawn_from_its_rows() {
 
 /// The [output] of a scene; then place, message and hint of its fault.
 const WRONG: &[(&str, &str, &str)] = &[
-    ("energy = true\nplot = \"a.svg\"", "11:8: a plot requires a file", "add `file = \"out.csv\"`"),
+    ("energy = true\nplot = \"a.svg\"", "11:8: plot requires `file`", "add `file = "),
     ("energy = true\nfile = \"a.csv\"\nplot = \"a.png\"", "12:8: `a.png` is not the name of an SVG file", "kepler.svg"),
-    ("energy = true\nfile = \"a.csv\"\nplot = 3", "12:8: this value is of the wrong kind", "{ file = \"kepler.svg\" }"),
+    (
+        "energy = true\nfile = \"a.csv\"\nplot = 3",
+        "12:8: this value is of the wrong kind",
+        "a path in quotes, or a table",
+    ),
     (
         "trajectory = true\nfile = \"a.csv\"\nplot = \"a.svg\"",
         "12:8: the chart `energies` requires rows",
@@ -255,7 +259,7 @@ const WRONG: &[(&str, &str, &str)] = &[
     (
         "energy = true\nfile = \"a.csv\"\nplot = { file = \"a.svg\", of = [] }",
         "12:31: this list is empty",
-        "write charts, such as [\"energies\"]",
+        "write a list of charts in quotes",
     ),
     (
         "energy = true\nfile = \"a.svg\"\nformat = \"csv\"\nplot = \"a.svg\"",

@@ -226,10 +226,10 @@ fn faults_have_their_places() {
         "8:26: a section is a function of q and p, and t is no coordinate here"
     );
     assert_eq!(fault("{ section = \"x\", every = 2 }", ""), "8:26: every and section are both given");
-    assert_eq!(fault("{ direction = \"up\" }", ""), "8:28: a direction requires a section");
+    assert_eq!(fault("{ direction = \"up\" }", ""), "8:28: direction requires `section`");
     assert_eq!(
         fault("{ section = \"x\" }", "modified_energy = true"),
-        "9:19: rows of a section have no modified energy"
+        "8:26: modified_energy in [output] and section are both given"
     );
     assert_eq!(
         fault("{ section = \"x\" }", "file = \"x.csv\"\nplot = { file = \"x.svg\", of = [\"orbit=x:y\"] }"),

@@ -4,16 +4,16 @@ use std::ops::Range;
 
 use shadowstep::tables::{Faults, Source};
 use shadowstep::{Rational, exact};
-use shadowstep_schemes::document::{Fault, Key, Keys, Reader, Section, Text, Value, document, read_text};
+use shadowstep_schemes::document::{Fault, Reader, Text, Value, document, read_text};
 use shadowstep_symbolic::decimal::to_text;
-use toml::de::DeValue;
 
 use crate::error::Error;
 use crate::family::Meaning;
-use crate::keys::{ENSEMBLE, ENSEMBLE_KEYS};
+use crate::keys::{ENSEMBLE, section_with};
 use crate::outside::path_within;
 use crate::readable::{LONGEST_NUMBER, shortened};
 use crate::results::sha256;
+use crate::schema::{Table, has_form};
 
 /// The most bytes of a file of columns.
 const LARGEST_FILE: u64 = 1 << 30;
@@ -45,19 +45,14 @@ impl Columns {
         let (document, faults) = document(source);
         let Some(document) = document.filter(|_| faults.is_empty()) else { return Err(Faults(faults).into()) };
         let mut reader = Reader::new(source, Vec::new());
-        let keys = ENSEMBLE_KEYS.iter().map(|key| Key::new(key.name, key.example));
-        let section = reader.section(&document, ENSEMBLE.name, Keys::new(ENSEMBLE.heading, keys));
-        let found = match (section.get("columns"), section.get("file")) {
-            (Some(columns), None) => of_lists(&mut reader, columns),
-            (None, Some(file)) => match reader.text(file) {
-                Some(file) if reader.faults.is_empty() => return of_file(source, &file),
-                _ => None,
-            },
-            (Some(_), Some(file)) => {
-                reader.wrong(&file.span(), "columns and file are both given", "keep one of the two")
-            }
-            (None, None) => missing(&mut reader, &section),
-        };
+        if !has_form(&mut reader, &document, &[&ENSEMBLE], section_with) {
+            return Err(Faults(reader.faults).into());
+        }
+        let section = Table::of(source, &document, &ENSEMBLE);
+        if let Some(file) = section.text("file") {
+            return of_file(source, &file);
+        }
+        let found = section.get("columns").and_then(|columns| of_lists(&mut reader, columns));
         match (Faults::of(reader.faults), found) {
             (None, Some(columns)) => Ok(columns),
             (Some(faults), _) => Err(faults.into()),
@@ -115,16 +110,9 @@ impl Columns {
     }
 }
 
-fn missing<T>(reader: &mut Reader<'_>, section: &Section<'_, '_>) -> Option<T> {
-    reader.missing(section, &["columns", "file"]);
-    None
-}
-
 /// columns = { x0 = [0.1, 0.2], depth = [1, 2] }
 fn of_lists(reader: &mut Reader<'_>, value: &Value<'_>) -> Option<Columns> {
-    let DeValue::Table(table) = value.get_ref() else {
-        return reader.wrong_kind(value, "a table of lists: { x0 = [0.1, 0.2] }");
-    };
+    let table = value.get_ref().as_table()?;
     let (mut names, mut columns): (Vec<String>, Vec<Vec<Rational>>) = (Vec::new(), Vec::new());
     // in the order of the text
     let mut lists: Vec<_> = table.iter().collect();
@@ -147,14 +135,15 @@ fn of_lists(reader: &mut Reader<'_>, value: &Value<'_>) -> Option<Columns> {
 }
 
 fn column(reader: &mut Reader<'_>, list: &Value<'_>) -> Option<Vec<Rational>> {
-    let number = |reader: &mut Reader<'_>, value: &Value<'_>| {
-        let text = reader.number(value, "1, 0.05, or \"1/3\"")?;
+    let number = |value: &Value<'_>| {
+        let text = Text::of(reader.source, value)?;
         match exact(&text.value) {
             Ok(number) => Some(number),
             Err(error) => reader.wrong(&text.place(&error.range()), error.to_string(), "write a number or a fraction"),
         }
     };
-    Some(reader.list(list, "a list of numbers: [0.1, 0.2]", number)?.value)
+    // all faults of the list
+    list.get_ref().as_array()?.iter().map(number).collect::<Vec<_>>().into_iter().collect()
 }
 
 /// A file of CSV with a line of names; its path is relative to the folder of the scene.

@@ -5,18 +5,12 @@ use std::ops::Range;
 use shadowstep::Rational;
 use shadowstep::systems::pairs::Separation;
 use shadowstep_symbolic::Exact;
-use toml::de::DeValue;
 
 use super::names::check_name;
 use super::numbers::Numbers;
 use super::reader::Reader;
-use shadowstep_schemes::document::{Text, Value};
-
-/// The most bodies: with more, a step takes too long.
-const MOST_BODIES: u64 = 1_000_000;
-
-/// The key among the properties that gives the number of bodies.
-const COUNT: &str = "count";
+use crate::schema::Table;
+use shadowstep_schemes::document::{Text, whole_number};
 
 /// The name of the number of a body in formulas.
 const NUMBER: &str = "i";
@@ -34,24 +28,20 @@ pub(super) enum Property {
 }
 
 impl GivenBodies {
-    pub(super) fn read(reader: &mut Reader<'_>, value: &Value<'_>) -> Option<GivenBodies> {
-        match value.get_ref() {
-            DeValue::Integer(_) => reader.whole(value, 1..=MOST_BODIES).map(GivenBodies::Count),
-            DeValue::Table(table) => {
-                let mut properties = Vec::new();
-                for (key, value) in table {
-                    let property = match key.get_ref().as_ref() == COUNT {
-                        true => reader.whole(value, 1..=MOST_BODIES).map(Property::Count),
-                        false => Numbers::of_bodies(reader, value).map(Property::Values),
-                    };
-                    properties.push(property.map(|property| (Text::of_key(key), property)));
-                }
-                let mut properties = properties.into_iter().collect::<Option<Vec<_>>>()?;
-                properties.sort_by_key(|(name, _)| name.at.start);
-                Some(GivenBodies::Properties(properties))
-            }
-            _ => reader.toml.wrong_kind(value, "the number of bodies, or a table of their properties: { m = [1, 2] }"),
+    pub(super) fn read(reader: &mut Reader<'_>, problem: &Table<'_, '_>) -> Option<GivenBodies> {
+        if let Some(count) = problem.whole("bodies") {
+            return Some(GivenBodies::Count(count));
         }
+        let mut properties = Vec::new();
+        for (key, value) in problem.get("bodies")?.get_ref().as_table()? {
+            let property = match whole_number(value) {
+                Some(count) => Property::Count(count),
+                None => Property::Values(Numbers::read(reader, value, true)?),
+            };
+            properties.push((Text::of_key(key), property));
+        }
+        properties.sort_by_key(|(name, _)| name.at.start);
+        Some(GivenBodies::Properties(properties))
     }
 }
 

@@ -1,126 +1,66 @@
 //! Where the energy of pairs ends, and the box that the bodies are in.
 
-use std::ops::Range;
-
-use shadowstep::systems::pairs::{CutoffError, MOST_DERIVATIVES};
+use shadowstep::systems::pairs::CutoffError;
 use shadowstep_symbolic::Exact;
-use toml::de::DeValue;
 
 use super::reader::Reader;
 use crate::note::Note;
 use crate::scene::{PairCutoff, SmoothEnd};
-use shadowstep_schemes::document::{Placed, Section, Text, Value};
+use crate::schema::Table;
 
-/// The value of the key `cutoff`.
-pub(super) struct GivenCutoff {
-    at: Text,
-    /// From where on the energy falls, and with how many derivatives.
-    smooth: Option<(Text, Placed<u64>)>,
-}
-
-/// The value of the key `box`.
-pub(super) enum GivenBox {
-    Side(Text),
-    Sides(Placed<Vec<Text>>),
-}
-
-const CUTOFF: &str = "a distance, or a table: { at = \"5/2\", from = 2, derivatives = 3 }";
-
-impl GivenCutoff {
-    pub(super) fn read(reader: &mut Reader<'_>, value: &Value<'_>) -> Option<GivenCutoff> {
-        let DeValue::Table(table) = value.get_ref() else {
-            return match value.get_ref() {
-                DeValue::Integer(_) | DeValue::Float(_) | DeValue::String(_) => {
-                    Some(GivenCutoff { at: reader.number(value)?, smooth: None })
-                }
-                _ => reader.toml.wrong_kind(value, CUTOFF),
-            };
-        };
-        let section: Section<'_, '_> = reader.table(table, value, "problem.cutoff");
-        let at = reader.toml.required(&section, "at").and_then(|value| reader.number(value));
-        let from = reader.toml.required(&section, "from").and_then(|value| reader.number(value));
-        let derivatives = reader.toml.required(&section, "derivatives").and_then(|value| {
-            let range = 1..=u64::from(MOST_DERIVATIVES);
-            reader.whole(value, range).map(|number| Placed { value: number, at: value.span() })
-        });
-        Some(GivenCutoff { at: at?, smooth: Some((from?, derivatives?)) })
-    }
-}
-
-impl GivenBox {
-    pub(super) fn read(reader: &mut Reader<'_>, value: &Value<'_>) -> Option<GivenBox> {
-        match value.get_ref() {
-            DeValue::Array(_) => reader.numbers(value, "a list of the sides: [10, 10, 12]").map(GivenBox::Sides),
-            _ => reader.number(value).map(GivenBox::Side),
-        }
-    }
-
-    fn at(&self) -> &Range<usize> {
-        match self {
-            GivenBox::Side(text) => &text.at,
-            GivenBox::Sides(list) => &list.at,
-        }
-    }
-
-    fn sides(&self, reader: &mut Reader<'_>, dimensions: usize) -> Option<Vec<Exact>> {
-        match self {
-            GivenBox::Side(text) => Some(vec![reader.evaluate(text)?; dimensions]),
-            GivenBox::Sides(list) => reader.values(list, dimensions, "side of the box"),
-        }
-    }
-}
-
-/// The cutoff of pairs of bodies in space, by the places of the values of keys; `Some(None)` if there is none.
-pub(super) fn cutoff<'g>(
+/// The cutoff of pairs of bodies in space; `Some(None)` if there is none.
+pub(super) fn cutoff(
     reader: &mut Reader<'_>,
-    (cutoff, of_box): (Option<&GivenCutoff>, Option<&GivenBox>),
-    place: impl Fn(&str) -> Option<&'g Range<usize>>,
+    problem: &Table<'_, '_>,
     dimensions: usize,
 ) -> Option<Option<PairCutoff>> {
-    let Some(cutoff) = cutoff else {
-        return match place("cutoff").or(place("box")) {
-            // it has its own fault
-            Some(_) if place("cutoff").is_some() => None,
-            Some(at) => {
-                let help = "add the distance up to which bodies interact, at most half of the box: cutoff = 2.5";
-                reader.toml.wrong(at, "a box requires a cutoff", help)
-            }
-            None => Some(None),
-        };
-    };
-    if let Some(at) = place("neighbours") {
-        return reader.toml.wrong(at, "a chain of neighbours has no cutoff", "keep one of the two");
+    if problem.get("cutoff").is_none() {
+        return Some(None);
     }
+    let table = problem.table("cutoff");
     // what is given must have a value
-    let radius = reader.evaluate(&cutoff.at);
-    let smooth = match &cutoff.smooth {
-        Some((from, derivatives)) => {
-            reader.evaluate(from).map(|from| Some(SmoothEnd { from, derivatives: derivatives.value as u32 }))
-        }
+    let radius = match &table {
+        Some(table) => reader.value(table, "at"),
+        None => reader.value(problem, "cutoff"),
+    };
+    let smooth = match &table {
+        Some(table) => smooth(reader, table).map(Some),
         None => Some(None),
     };
-    let sides = match (of_box, place("box")) {
-        (Some(sides), _) => sides.sides(reader, dimensions).map(Some),
-        (None, Some(_)) => None,
-        (None, None) => Some(None),
+    let sides = match problem.get("box") {
+        Some(_) => sides(reader, problem, dimensions).map(Some),
+        None => Some(None),
     };
-    let cutoff_of_pairs = PairCutoff { radius: radius?, smooth: smooth?, sides: sides? };
-    if let Some(error) = cutoff_of_pairs.error(dimensions) {
+    let of_pairs = PairCutoff { radius: radius?.1, smooth: smooth?, sides: sides? };
+    if let Some(error) = of_pairs.error(dimensions) {
+        let of_table = |key: &str| table.as_ref().map_or(problem.place("cutoff"), |table| table.place(key));
         let (at, help) = match error {
-            CutoffError::Radius => (&cutoff.at.at, "write a positive distance: cutoff = 2.5"),
+            CutoffError::Radius => (of_table("at"), "write a positive distance: cutoff = 2.5"),
             CutoffError::Switch => {
-                let (from, _) = cutoff.smooth.as_ref()?;
-                (&from.at, "write a distance below the cutoff: { at = \"5/2\", from = 2, derivatives = 3 }")
+                (of_table("from"), "write a distance below the cutoff: { at = \"5/2\", from = 2, derivatives = 3 }")
             }
-            CutoffError::Derivatives => (&cutoff.smooth.as_ref()?.1.at, "write derivatives = 3"),
-            CutoffError::Side { .. } => (of_box?.at(), "make the box larger, or the cutoff smaller"),
+            CutoffError::Derivatives => (of_table("derivatives"), "write derivatives = 3"),
+            CutoffError::Side { .. } => (problem.place("box"), "make the box larger, or the cutoff smaller"),
         };
-        return reader.toml.wrong(at, error.to_string(), help);
+        return reader.toml.wrong(&at, error.to_string(), help);
     }
-    if cutoff_of_pairs.smooth.is_none() {
+    if of_pairs.smooth.is_none() {
         reader.notes.push(Note::AbruptCutoff);
     }
-    Some(Some(cutoff_of_pairs))
+    Some(Some(of_pairs))
+}
+
+fn smooth(reader: &mut Reader<'_>, table: &Table<'_, '_>) -> Option<SmoothEnd> {
+    let (_, from) = reader.value(table, "from")?;
+    Some(SmoothEnd { from, derivatives: u32::try_from(table.whole("derivatives")?).ok()? })
+}
+
+/// The sides of the box along each axis.
+fn sides(reader: &mut Reader<'_>, problem: &Table<'_, '_>, dimensions: usize) -> Option<Vec<Exact>> {
+    match problem.list("box") {
+        Some(sides) => reader.values(&sides, dimensions, "side of the box"),
+        None => Some(vec![reader.value(problem, "box")?.1; dimensions]),
+    }
 }
 
 #[cfg(test)]
@@ -146,20 +86,20 @@ mod tests {
         for (lines, place, message) in [
             ("cutoff = 2.5\nbox = 5", "", ""),
             ("cutoff = { at = 2, from = \"3/2\", derivatives = 8 }\nbox = [4, 5]", "", ""),
-            ("cutoff = 0", "5:10", "the cutoff must be a positive distance"),
+            ("cutoff = 0", "5:10", "cutoff must be positive, not 0"),
             ("cutoff = { at = 2, from = 2, derivatives = 3 }", "5:27", "must be below the cutoff"),
             ("cutoff = { at = 2, from = 1, derivatives = 9 }", "5:44", "1 to 8"),
             ("cutoff = { at = 2, from = 1 }", "5:10", "derivatives"),
             ("cutoff = { at = 2, form = 1 }", "5:20", "form"),
-            ("cutoff = true", "5:10", "a distance, or a table"),
+            ("cutoff = true", "5:10", "a positive number, or a table"),
             (
                 "cutoff = 2\nbox = [5, 3.9]",
                 "6:7",
                 "at least twice as long as the cutoff along each axis; axis 2 is shorter",
             ),
             ("cutoff = 2\nbox = [5, 5, 5]", "6:7", "a number for each side of the box"),
-            ("box = 5", "5:7", "a box requires a cutoff"),
-            ("cutoff = 2\nneighbours = \"free\"", "6:14", "a chain of neighbours has no cutoff"),
+            ("box = 5", "5:7", "box requires `cutoff`"),
+            ("cutoff = 2\nneighbours = \"free\"", "5:10", "neighbours and cutoff are both given"),
             ("cutoff = \"sqrt(\"", "5:16", "unexpected end"),
         ] {
             let found = faults(lines);

@@ -5,7 +5,6 @@
 //!
 //! Source: M. Tao, Phys. Rev. E 94 (2016) 043303.
 
-use num_traits::Signed;
 use shadowstep_schemes::document::Text;
 use shadowstep_symbolic::{ExpressionKind, parse};
 
@@ -15,35 +14,14 @@ use super::many_parts::{self, Copies, SECOND};
 use super::reader::Reader;
 use crate::scene::{Formula, System};
 
-/// The keys of H and of ω.
+/// The key of H.
 pub(super) const HAMILTONIAN: &str = "hamiltonian";
-pub(super) const COUPLING: &str = "coupling";
 
 /// The system of this H and ω.
-pub(super) fn system(
-    reader: &mut Reader<'_>,
-    given: &Given,
-    hamiltonian: &Text,
-    coupling: Option<Text>,
-) -> Option<System> {
-    given.refuse(
-        reader,
-        &["bodies", "dimensions", "neighbours", "cutoff", "box", "kinetic", "parts", "masses"],
-        |key| (format!("{key} cannot be set with `{HAMILTONIAN}`"), format!("remove `{key}`: H is all in its formula")),
-    );
+pub(super) fn system(reader: &mut Reader<'_>, given: &Given<'_, '_>, hamiltonian: &Text) -> Option<System> {
     given.state.refuse_velocities(reader, "H is given by its formula");
     let parameters = given.own_parameters(reader);
-    let Some(coupling) = coupling else {
-        let help = format!(
-            "add `{COUPLING} = 20`, for example: the rate at which the two copies of the motion are held together"
-        );
-        return reader.toml.wrong(&hamiltonian.at, format!("{HAMILTONIAN} requires `{COUPLING}`"), help);
-    };
-    // its faults have its place
-    if !reader.evaluate(&coupling)?.value.is_positive() {
-        let help = "write coupling = 20, for example: the rate at which the two copies of the motion are held together";
-        return reader.toml.wrong(&coupling.at, "a coupling must be positive", help);
-    }
+    let (coupling, _) = reader.value(&given.problem, "coupling")?;
     let (coordinates, momenta) = given.variables(given.coordinates.as_ref()?);
     let known = [&coordinates[..], &momenta, &[TIME.to_owned()]].concat();
     if let Err(error) = Formula::potential(&hamiltonian.value, &known, &parameters) {
@@ -133,10 +111,10 @@ mod tests {
         );
         assert_eq!(
             fault("hamiltonian = \"x*px\"\ncoupling = 1\nmasses = [1, 1]"),
-            "4:10: masses cannot be set with `hamiltonian`"
+            "4:10: masses requires `potential` or `pair`"
         );
         assert_eq!(fault("hamiltonian = \"x*px\"\ncoupling = \"1/0\""), "3:15: division by zero");
-        assert_eq!(fault("hamiltonian = \"x*px\"\ncoupling = 0"), "3:12: a coupling must be positive");
+        assert_eq!(fault("hamiltonian = \"x*px\"\ncoupling = 0"), "3:12: coupling must be positive, not 0");
         assert_eq!(fault("potential = \"x\"\ncoupling = 1"), "3:12: coupling requires `hamiltonian`");
     }
 }

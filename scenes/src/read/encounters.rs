@@ -1,67 +1,37 @@
 //! `encounters` in [problem]: planets that come close to each other.
 
-use std::ops::Range;
-
 use shadowstep::systems::wisdom_holman::Shells;
-use shadowstep_schemes::document::Value;
-use toml::de::DeValue;
 
 use super::reader::Reader;
 use crate::scene::split::{CanonicalCoordinates, CloseEncounters};
 use crate::scene::{Parts, PotentialEnergy, System};
+use crate::schema::Table;
 
 /// Substeps of a step, by default.
 const SUBSTEPS: u32 = 4;
 
-/// More substeps of a step would take a step's time each.
-const MOST_SUBSTEPS: u64 = 1_000_000;
-
-/// The value of the key, with its place; `None` inside if it cannot be read.
-pub(super) struct GivenEncounters {
-    at: Range<usize>,
-    encounters: Option<CloseEncounters>,
-}
-
-impl GivenEncounters {
-    pub(super) fn read(reader: &mut Reader<'_>, value: &Value<'_>) -> GivenEncounters {
-        GivenEncounters { at: value.span(), encounters: encounters(reader, value) }
-    }
-
-    /// Sets them in a system of planets in heliocentric coordinates.
-    pub(super) fn set(self, reader: &mut Reader<'_>, system: &mut System) -> Option<()> {
-        let has_more =
-            matches!(&system.problem.potential, PotentialEnergy::Pairs(pairs) if !pairs.of_bodies.is_empty());
-        match &mut system.parts {
-            Parts::WisdomHolman(planets)
-                if planets.coordinates == CanonicalCoordinates::DemocraticHeliocentric && !has_more =>
-            {
-                planets.encounters = Some(self.encounters?);
-                Some(())
-            }
-            _ => {
-                let message = "close encounters are those of planets in heliocentric coordinates";
-                reader.toml.wrong(
-                    &self.at,
-                    message,
-                    "write parts = \"wisdom-holman-heliocentric\", or remove `encounters`",
-                )
-            }
-        }
-    }
-}
-
-fn encounters(reader: &mut Reader<'_>, value: &Value<'_>) -> Option<CloseEncounters> {
-    let DeValue::Table(table) = value.get_ref() else {
-        return reader.toml.wrong_kind(value, "a table: { within = 0.3, substeps = 4 }");
+/// Sets the encounters of a system of planets in heliocentric coordinates, where they are given.
+pub(super) fn set(reader: &mut Reader<'_>, problem: &Table<'_, '_>, system: &mut System) -> Option<()> {
+    let Some(table) = problem.table("encounters") else { return Some(()) };
+    let (text, within) = reader.value(&table, "within")?;
+    let shells = match Shells::within(within.value) {
+        Ok(shells) => shells,
+        Err(error) => return reader.toml.wrong(&text.at, error.to_string(), "write some 3 Hill radii of the planets"),
     };
-    let section = reader.table(table, value, "problem.encounters");
-    let within = reader.toml.required(&section, "within").and_then(|value| reader.number(value));
-    let substeps =
-        section.get("substeps").map_or(Some(SUBSTEPS.into()), |value| reader.whole(value, 1..=MOST_SUBSTEPS));
-    let within = within?;
-    match Shells::within(reader.evaluate(&within)?.value) {
-        Ok(shells) => Some(CloseEncounters { shells, substeps: u32::try_from(substeps?).ok()? }),
-        Err(error) => reader.toml.wrong(&within.at, error.to_string(), "write some 3 Hill radii of the planets"),
+    let substeps = table.whole("substeps").map_or(Some(SUBSTEPS), |substeps| u32::try_from(substeps).ok())?;
+    let has_more = matches!(&system.problem.potential, PotentialEnergy::Pairs(pairs) if !pairs.of_bodies.is_empty());
+    match &mut system.parts {
+        Parts::WisdomHolman(planets)
+            if planets.coordinates == CanonicalCoordinates::DemocraticHeliocentric && !has_more =>
+        {
+            planets.encounters = Some(CloseEncounters { shells, substeps });
+            Some(())
+        }
+        _ => {
+            let message = "close encounters are those of planets in heliocentric coordinates";
+            let help = "write parts = \"wisdom-holman-heliocentric\", or remove `encounters`";
+            reader.toml.wrong(&table.at, message, help)
+        }
     }
 }
 
@@ -115,7 +85,7 @@ mod tests {
             ["4:14: close encounters are those of planets in heliocentric coordinates"]
         );
         let with = |table: &str| faults(&format!("{HELIOCENTRIC}\nencounters = {table}"));
-        assert_eq!(with("{ within = 0 }"), ["4:25: the distance below which planets are close must be positive"]);
+        assert_eq!(with("{ within = 0 }"), ["4:25: within must be positive, not 0"]);
         assert_eq!(with("{ substeps = 3 }"), ["4:14: the key `within` is missing"]);
         assert_eq!(with("3"), ["4:14: this value is of the wrong kind"]);
         assert!(with("{ within = 1, substeps = 0 }")[0].starts_with("4:39: "));

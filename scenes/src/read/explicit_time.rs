@@ -15,7 +15,7 @@ pub(super) const TIME: &str = "t";
 pub(super) const MOMENTUM: &str = "pt";
 
 /// Whether t occurs in a formula; not where it is a parameter or an axis.
-pub(super) fn is_in(reader: &Reader<'_>, given: &Given, formula: &str) -> bool {
+pub(super) fn is_in(reader: &Reader<'_>, given: &Given<'_, '_>, formula: &str) -> bool {
     let axes = reader.names.iter().map(|(name, _)| name);
     if given.parameters.iter().map(|(name, _)| &name.value).chain(axes).any(|name| name == TIME) {
         return false;
@@ -24,14 +24,14 @@ pub(super) fn is_in(reader: &Reader<'_>, given: &Given, formula: &str) -> bool {
 }
 
 /// Whether t occurs in T.
-pub(super) fn is_in_kinetic(reader: &Reader<'_>, given: &Given) -> bool {
+pub(super) fn is_in_kinetic(reader: &Reader<'_>, given: &Given<'_, '_>) -> bool {
     given.kinetic.as_ref().is_some_and(|text| is_in(reader, given, &text.value))
 }
 
 /// Refuses t in formulas of bodies; `what` does not depend on it.
 pub(super) fn refuse<'a>(
     reader: &mut Reader<'_>,
-    given: &Given,
+    given: &Given<'_, '_>,
     formulas: impl IntoIterator<Item = Option<&'a Text>>,
     what: &str,
 ) -> Option<()> {
@@ -45,21 +45,24 @@ pub(super) fn refuse<'a>(
 /// Adds t and its momentum to the names.
 pub(super) fn add_names(
     reader: &mut Reader<'_>,
-    given: &Given,
+    given: &Given<'_, '_>,
     (coordinates, momenta): (&mut Vec<String>, &mut Vec<String>),
 ) {
     let parameters = given.parameters.iter().map(|(name, _)| &name.value);
     if parameters.chain(&*coordinates).chain(&*momenta).any(|name| name == MOMENTUM) {
         let message = format!("`{MOMENTUM}` is the name of the momentum of t, on which H depends");
-        let place = given.coordinates.as_ref().map_or(&given.problem, |names| &names.at);
-        reader.toml.fault(place, message, "give the coordinate, momentum or parameter of this name another one");
+        reader.toml.fault(
+            &given.problem.place("coordinates"),
+            message,
+            "give the coordinate, momentum or parameter of this name another one",
+        );
     }
     coordinates.push(TIME.to_owned());
     momenta.push(MOMENTUM.to_owned());
 }
 
 /// Adds p_t to the first part in which t has no place, or as a part of its own.
-pub(super) fn add_momentum(reader: &Reader<'_>, given: &Given, formulas: &mut Vec<Text>) {
+pub(super) fn add_momentum(reader: &Reader<'_>, given: &Given<'_, '_>, formulas: &mut Vec<Text>) {
     match formulas.iter_mut().find(|formula| !is_in(reader, given, &formula.value)) {
         Some(formula) => formula.value += &format!(" + {MOMENTUM}"),
         None => {
@@ -71,9 +74,12 @@ pub(super) fn add_momentum(reader: &Reader<'_>, given: &Given, formulas: &mut Ve
 }
 
 /// Refuses another t than 0: it would not be that of the rows.
-pub(super) fn refuse_other_start(reader: &mut Reader<'_>, given: &Given, q: Option<&Vec<Exact>>) {
+pub(super) fn refuse_other_start(reader: &mut Reader<'_>, given: &Given<'_, '_>, q: Option<&Vec<Exact>>) {
     if q.and_then(|q| q.last()).is_some_and(|t| !t.value.is_zero()) {
-        let place = given.initial.as_ref().unwrap_or(&given.problem);
-        reader.toml.fault(place, "t must be 0 at the start", "write the phase in the formula: cos(w*t + 1)");
+        reader.toml.fault(
+            &given.initial.at,
+            "t must be 0 at the start",
+            "write the phase in the formula: cos(w*t + 1)",
+        );
     }
 }

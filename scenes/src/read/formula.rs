@@ -16,11 +16,10 @@ use shadowstep_schemes::document::{Placed, Text};
 /// The problem with this potential, and with it the slow potential of another one.
 pub(super) fn problem(
     reader: &mut Reader<'_>,
-    given: &Given,
+    given: &Given<'_, '_>,
     potential: &Text,
     slow: Option<&Text>,
 ) -> Option<(InitialValueProblem, Option<PotentialEnergy>)> {
-    given.refuse_keys_of_pairs(reader);
     let parameters = given.own_parameters(reader);
     let list = given.coordinates.as_ref()?;
     let before = reader.toml.faults.len();
@@ -39,9 +38,6 @@ pub(super) fn problem(
         let values = numbers.values(reader, of_coordinates)?;
         kinetic::masses(reader, numbers, values)
     });
-    if let Some(initial) = &given.initial {
-        given.state.all_there(reader, initial);
-    }
     let values = |reader: &mut Reader<'_>, numbers: &Numbers| {
         numbers.values_of_all(reader, coordinates.len(), (false, explicit_time))
     };
@@ -101,7 +97,11 @@ fn what_a_potential_is(wrong: &str, error: &FormulaError, coordinates: &[String]
 }
 
 /// The names of the coordinates and of their momenta, each different from all other names.
-pub(super) fn names(reader: &mut Reader<'_>, given: &Given, list: &Placed<Vec<Text>>) -> (Vec<String>, Vec<String>) {
+pub(super) fn names(
+    reader: &mut Reader<'_>,
+    given: &Given<'_, '_>,
+    list: &Placed<Vec<Text>>,
+) -> (Vec<String>, Vec<String>) {
     let mut taken: Vec<(String, String)> =
         COLUMNS.iter().map(|name| ((*name).to_owned(), "of a column of the output".to_owned())).collect();
     taken.extend(reader.names.iter().map(|(name, _)| (name.clone(), "of an axis or a column".to_owned())));
@@ -122,8 +122,8 @@ pub(super) fn names(reader: &mut Reader<'_>, given: &Given, list: &Placed<Vec<Te
         taken.push((name.value.clone(), COORDINATE.to_owned()));
         taken.extend(momentum.map(|momentum| (momentum, format!("of the momentum of `{}`", name.value))));
     }
-    if let Some(momenta) = &given.momenta {
-        check_momenta(reader, momenta, list.value.len(), taken);
+    if let Some(momenta) = given.problem.list("momenta") {
+        check_momenta(reader, &momenta, list.value.len(), taken);
     }
     given.variables(list)
 }

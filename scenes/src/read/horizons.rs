@@ -389,7 +389,7 @@ mod tests {
             (
                 "parameters = { g = 1 }",
                 table("Earth", "Sun (10)", "AU-D", EARTH),
-                "5:12: a table of Horizons requires units",
+                "5:12: horizons requires `units` in [problem]",
             ),
         ] {
             write("earth.txt", table);
@@ -398,7 +398,7 @@ mod tests {
         }
         for (earth, fault) in [
             ("horizons = \"mars.txt\"", "cannot be read"),
-            ("horizons = \"earth.txt\"\na = 4", "8:12: this body has a table of Horizons and another state"),
+            ("horizons = \"earth.txt\"\na = 4", "8:12: a and horizons are both given"),
         ] {
             let faults = scene(folder.path(), UNITS, earth).map(drop).unwrap_err();
             assert!(faults.iter().any(|found| found.contains(fault)), "{faults:?} for {fault}");

@@ -10,7 +10,7 @@ use super::numbers::Numbers;
 use super::reader::Reader;
 use crate::arithmetic::ANY_SIZE;
 use crate::scene::{InitialValueProblem, KineticEnergy, PotentialEnergy};
-use shadowstep_schemes::document::Section;
+use crate::schema::Table;
 
 /// The initial state in the form in which the scene gives it.
 pub(super) struct State {
@@ -18,33 +18,14 @@ pub(super) struct State {
     p: Option<Numbers>,
     /// The place of `v`: then `p` is of velocities.
     velocities: Option<Range<usize>>,
-    /// Whether the lists are given, valid or not.
-    has_q: bool,
-    has_p: bool,
 }
 
 impl State {
     /// Of bodies, or of coordinates.
-    pub(super) fn read(reader: &mut Reader<'_>, initial: &Section<'_, '_>, of_bodies: bool) -> State {
-        let read = if of_bodies { Numbers::of_bodies_in_space } else { Numbers::of_coordinates };
-        let [q, p, v] = ["q", "p", "v"].map(|key| initial.get(key).and_then(|value| read(reader, value)));
-        let has = |key| initial.get(key).is_some();
-        let (has_q, has_p) = (has("q"), has("p") || has("v"));
-        let velocities = initial.get("v").map(|value| value.span());
-        if let (true, Some(at)) = (has("p"), &velocities) {
-            reader.toml.fault(at, "p and v are both given", "keep one of the two");
-        }
-        State { q, p: v.or(p), velocities, has_q, has_p }
-    }
-
-    /// Refuses a missing initial state.
-    pub(super) fn all_there(&self, reader: &mut Reader<'_>, at: &Range<usize>) {
-        for (there, key) in [(self.has_q, "q"), (self.has_p, "p")] {
-            if !there {
-                let help = format!("add `{key} = […]` to [initial], with a number for each coordinate");
-                reader.toml.fault(at, format!("the key `{key}` is missing"), help);
-            }
-        }
+    pub(super) fn read(reader: &mut Reader<'_>, initial: &Table<'_, '_>, of_bodies: bool) -> State {
+        let [q, p, v] =
+            ["q", "p", "v"].map(|key| initial.get(key).and_then(|value| Numbers::read(reader, value, of_bodies)));
+        State { q, p: v.or(p), velocities: initial.get("v").map(|value| value.span()) }
     }
 
     /// Whether velocities are given in place of momenta.
@@ -88,7 +69,7 @@ impl State {
 /// The state of a problem whose other values are read: that of the problem where the section gives none.
 pub(super) fn state_of(
     reader: &mut Reader<'_>,
-    initial: &Section<'_, '_>,
+    initial: &Table<'_, '_>,
     problem: &InitialValueProblem,
 ) -> (Vec<Exact>, Vec<Exact>) {
     let bodies = match &problem.potential {

@@ -15,7 +15,7 @@ use crate::scene::{Formula, KineticEnergy};
 /// T(p): by its formula, where that is given, or else by these masses.
 pub(super) fn kinetic(
     reader: &mut Reader<'_>,
-    given: &Given,
+    given: &Given<'_, '_>,
     momenta: &[String],
     parameters: &[(String, Exact)],
     masses: Option<Vec<Exact>>,
@@ -23,7 +23,7 @@ pub(super) fn kinetic(
     if given.place("kinetic").is_none() {
         return Some(KineticEnergy::Masses(masses));
     }
-    refuse_masses(reader, given);
+    given.state.refuse_velocities(reader, "T is given by `kinetic`");
     let text = given.kinetic.as_ref()?;
     match Formula::kinetic(&text.value, momenta, parameters) {
         Ok(formula) => {
@@ -38,15 +38,6 @@ pub(super) fn kinetic(
             reader.toml.wrong(&text.place(&error.range()), error.to_string(), help)
         }
     }
-}
-
-/// Refuses masses and velocities beside T by a formula.
-pub(super) fn refuse_masses(reader: &mut Reader<'_>, given: &Given) {
-    given.refuse(reader, &["masses"], |_| {
-        let help = "keep one of the two; with `kinetic`, write the masses as numbers or parameters in its formula";
-        ("masses and kinetic are both given".to_owned(), help.to_owned())
-    });
-    given.state.refuse_velocities(reader, "T is given by `kinetic`");
 }
 
 /// The masses, unless all are 1.

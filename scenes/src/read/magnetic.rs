@@ -23,14 +23,10 @@ pub(super) const KEY: &str = "vector_potential";
 /// The system of this potential and these A_i, one for each coordinate, times the charge.
 pub(super) fn system(
     reader: &mut Reader<'_>,
-    given: &Given,
+    given: &Given<'_, '_>,
     potential: Text,
     field: &Placed<Vec<Text>>,
 ) -> Option<System> {
-    given.refuse(reader, &["bodies", "dimensions", "neighbours", "cutoff", "box", "kinetic", "parts"], |key| {
-        let help = format!("remove `{key}`: T is the sum of (p_i - A_i)^2/(2*m_i), and its parts follow from the A_i");
-        (format!("{key} cannot be set with `{KEY}`"), help)
-    });
     let parameters = given.own_parameters(reader);
     let (coordinates, momenta) = given.variables(given.coordinates.as_ref()?);
     if field.value.len() != coordinates.len() {
@@ -185,7 +181,7 @@ mod tests {
                 "3:21: this component of A depends on x, its own coordinate",
                 "3:20: this list needs a component for each coordinate",
                 "3:36: unknown name `c`; known names: x, y, t, b",
-                "6:11: kinetic cannot be set with `vector_potential`",
+                "3:20: kinetic and vector_potential are both given",
             ]
         );
     }

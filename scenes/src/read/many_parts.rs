@@ -2,14 +2,14 @@
 
 use shadowstep::systems::QUADRATIC_FLOW_DIGITS;
 use shadowstep::systems::many_parts::{PartError, PartFormula};
-use shadowstep_schemes::document::{Text, Value};
+use shadowstep_schemes::document::{Placed, Text};
 use shadowstep_symbolic::Exact;
 
+use super::explicit_time;
 use super::formula::names;
 use super::given::Given;
 use super::numbers::Numbers;
 use super::reader::Reader;
-use super::{explicit_time, kinetic};
 use crate::scene::split::Formulas;
 use crate::scene::{Formula, InitialValueProblem, KineticEnergy, Parts, PotentialEnergy, System};
 
@@ -18,26 +18,13 @@ const KNOWN: &str = "a part is a function of variables none of which is the mome
                      form, f((q^2 + p^2)/2) or f(q*p) of one pair, p^2/(2*m) - k/r, or a sum of these in different coordinates";
 
 /// The system of these parts.
-pub(super) fn system(reader: &mut Reader<'_>, given: &Given, value: &Value<'_>) -> Option<System> {
-    given.refuse(reader, &["bodies", "dimensions", "neighbours", "cutoff", "box"], |key| {
-        (format!("{key} requires `pair`"), format!("remove `{key}`"))
-    });
-    given.refuse(reader, &["masses", "kinetic"], |key| {
-        (format!("{key} has no meaning beside formulas of parts"), "write T(p) as one of the parts".to_owned())
-    });
+pub(super) fn system(reader: &mut Reader<'_>, given: &Given<'_, '_>, formulas: Placed<Vec<Text>>) -> Option<System> {
     given.state.refuse_velocities(reader, "H is given by formulas of its parts");
-    let formulas =
-        reader.toml.list(value, "a list of formulas: [\"p^2/2\", \"-cos(q)\"]", |reader, value| reader.text(value));
-    let formulas = formulas.filter(|formulas| match formulas.value.len() {
-        0 | 1 => {
-            let message = format!("H needs two parts at least, not {}", formulas.value.len());
-            reader.toml.fault(&formulas.at, message, "add the other parts of H to the list");
-            false
-        }
-        _ => true,
-    });
+    if formulas.value.len() < 2 {
+        return reader.toml.wrong(&formulas.at, "H needs two parts at least, not 1", "add the other parts of H");
+    }
     let parameters = given.own_parameters(reader);
-    of_formulas(reader, given, formulas?.value, parameters, Copies::One(None))
+    of_formulas(reader, given, formulas.value, parameters, Copies::One(None))
 }
 
 /// What the names of second copies end with.
@@ -55,7 +42,7 @@ pub(super) enum Copies<'a> {
 /// The system of these parts, two at least.
 pub(super) fn of_formulas(
     reader: &mut Reader<'_>,
-    given: &Given,
+    given: &Given<'_, '_>,
     mut formulas: Vec<Text>,
     parameters: Vec<(String, Exact)>,
     copies: Copies<'_>,
@@ -78,9 +65,6 @@ pub(super) fn of_formulas(
     let named = reader.toml.faults.len() == before;
     let parts = formulas.iter().filter(|_| named);
     let parts: Vec<_> = parts.map(|formula| part(reader, formula, (&coordinates, &momenta), &parameters)).collect();
-    if let Some(initial) = &given.initial {
-        given.state.all_there(reader, initial);
-    }
     let left_out = (matches!(copies, Copies::Two), explicit_time);
     let values =
         |reader: &mut Reader<'_>, numbers: &Numbers| numbers.values_of_all(reader, coordinates.len(), left_out);
@@ -103,13 +87,10 @@ pub(super) fn of_formulas(
 }
 
 /// H = T(p, t) + U as formulas of its parts.
-pub(super) fn with_time_in_kinetic(reader: &mut Reader<'_>, given: &Given, potential: Text) -> Option<System> {
-    given.refuse_keys_of_pairs(reader);
-    given.refuse(reader, &["parts"], |_| {
-        let help = "remove it, or give the parts by their formulas: parts = [\"p^2*exp(-t)/2\", \"q^4\"]";
-        ("T depends on t, so that its part is that of its formula".to_owned(), help.to_owned())
-    });
-    kinetic::refuse_masses(reader, given);
+pub(super) fn with_time_in_kinetic(reader: &mut Reader<'_>, given: &Given<'_, '_>, potential: Text) -> Option<System> {
+    let help = "remove it, or give the parts by their formulas: parts = [\"p^2*exp(-t)/2\", \"q^4\"]";
+    given.refuse(reader, "parts", "T depends on t, so that its part is that of its formula", help);
+    given.state.refuse_velocities(reader, "T is given by `kinetic`");
     let parameters = given.own_parameters(reader);
     of_formulas(reader, given, vec![given.kinetic.clone()?, potential], parameters, Copies::One(None))
 }
@@ -202,9 +183,9 @@ mod tests {
                 "2:10: the flow of this part has no formula: it couples x and px",
                 "2:25: unknown name `z`; known names: x, y, px, py",
                 "2:9: H needs two parts at least, not 1",
-                "4:10: masses has no meaning beside formulas of parts",
-                "2:9: potential and formulas of parts are both given",
-                "1:1: the key `coordinates` is missing",
+                "4:10: masses requires `potential` or `pair`",
+                "2:9: potential and parts are both given",
+                "2:9: parts requires `coordinates`",
                 "8:10: wisdom-corrector-5 is a processed scheme, whose effective order is proved for two parts only",
                 "8:10: mclachlan-atela5 has order 5 for T(p) and U(q) with quadratic T only, for three parts and more order 3",
                 "8:10: chin-4a has gradient kicks, which are for T(p) and U(q) only",

@@ -1,7 +1,6 @@
 //! `modified_hamiltonian` in [output]: the modified Hamiltonian of the scheme as a formula, whose values are columns.
 
-use shadowstep_analysis::modified::HIGHEST_GRADE;
-use shadowstep_schemes::document::{Section, Text, Value};
+use shadowstep_schemes::document::{Text, Value, whole_number};
 use toml::de::DeValue;
 
 use super::reader::Reader;
@@ -10,7 +9,7 @@ use crate::expression::Expression;
 use crate::modified_hamiltonian::SymbolicHamiltonian;
 use crate::refusal::Refusal;
 use crate::scene::{NamedExpression, System, ValueColumns};
-use crate::steps::MOST_STEPS;
+use crate::schema::Table;
 
 /// The name of the key, with which those of the columns begin.
 pub(super) const KEY: &str = "modified_hamiltonian";
@@ -18,24 +17,14 @@ pub(super) const KEY: &str = "modified_hamiltonian";
 /// The columns: that of one grade, or those of a list.
 pub(super) fn columns(
     reader: &mut Reader<'_>,
-    output: &Section<'_, '_>,
+    output: &Table<'_, '_>,
     system: Option<&System>,
     steps: Option<&Steps>,
 ) -> Option<ValueColumns> {
     let value = output.get(KEY)?;
-    let (every, grades) = match value.get_ref() {
-        DeValue::Table(table) => {
-            let table = reader.table(table, value, "output.modified_hamiltonian");
-            let every = table.get("every").map_or(Some(1), |value| reader.whole(value, 1..=MOST_STEPS));
-            let Some(grades) = table.get("grade") else {
-                reader.toml.missing(&table, &["grade"]);
-                return None;
-            };
-            (every?, grades)
-        }
-        _ => (1, value),
-    };
-    let grades = self::grades(reader, grades)?;
+    let table = output.table(KEY);
+    let every = table.as_ref().and_then(|table| table.whole("every")).unwrap_or(1);
+    let grades = grades(table.map_or(Some(value), |table| table.get("grade"))?);
     let (system, Steps { scheme, displaced, h, .. }) = (system?, steps?);
     if *displaced {
         let help = "write gradient_kicks = \"exact\", or `modified_energy` for its values";
@@ -63,17 +52,10 @@ pub(super) fn columns(
 }
 
 /// A power of h, or several.
-fn grades(reader: &mut Reader<'_>, value: &Value<'_>) -> Option<Vec<u32>> {
-    let grade = |reader: &mut Reader<'_>, value: &Value<'_>| {
-        reader.whole(value, 1..=HIGHEST_GRADE.into()).and_then(|grade| u32::try_from(grade).ok())
+fn grades(value: &Value<'_>) -> Vec<u32> {
+    let members = match value.get_ref() {
+        DeValue::Array(members) => &members[..],
+        _ => std::slice::from_ref(value),
     };
-    match value.get_ref() {
-        DeValue::Array(grades) if !grades.is_empty() => {
-            grades.iter().map(|value| grade(reader, value)).collect::<Vec<_>>().into_iter().collect()
-        }
-        DeValue::Integer(_) => Some(vec![grade(reader, value)?]),
-        _ => reader
-            .toml
-            .wrong_kind(value, "the highest power of h, a list of such, or a table: { grade = 4, every = 10 }"),
-    }
+    members.iter().filter_map(whole_number).filter_map(|grade| u32::try_from(grade).ok()).collect()
 }

@@ -8,6 +8,7 @@ use shadowstep_symbolic::Exact;
 use toml::de::DeValue;
 
 use super::reader::Reader;
+use crate::schema::texts;
 use shadowstep_schemes::document::{Placed, Text, Value};
 
 /// Numbers in the form in which the scene gives them.
@@ -20,29 +21,21 @@ pub(super) enum Numbers {
 }
 
 impl Numbers {
-    /// A number for each coordinate.
-    pub(super) fn of_coordinates(reader: &mut Reader<'_>, value: &Value<'_>) -> Option<Numbers> {
-        reader.numbers(value, "a list of numbers: [1, \"1/2\"]").map(Numbers::List)
-    }
-
-    /// A number for each body.
-    pub(super) fn of_bodies(reader: &mut Reader<'_>, value: &Value<'_>) -> Option<Numbers> {
-        if matches!(value.get_ref(), DeValue::String(_)) {
-            return reader.toml.text(value).map(Numbers::Formula);
-        }
-        let what = "a list with a number for each body, or a formula for all: \"1 + i/10\"";
-        reader.numbers(value, what).map(Numbers::List)
-    }
-
-    /// A number for each coordinate of each body.
-    pub(super) fn of_bodies_in_space(reader: &mut Reader<'_>, value: &Value<'_>) -> Option<Numbers> {
+    /// The numbers of a key: a list, also one for each body, or a formula where they are those of bodies.
+    pub(super) fn read(reader: &mut Reader<'_>, value: &Value<'_>, of_bodies: bool) -> Option<Numbers> {
         match value.get_ref() {
-            DeValue::Array(bodies) if matches!(bodies.first().map(Value::get_ref), Some(DeValue::Array(_))) => {
-                let what = "a list with the numbers of one body: [1, 0, 0]";
-                let lists: Vec<_> = bodies.iter().map(|body| reader.numbers(body, what)).collect();
-                Some(Numbers::Lists(lists.into_iter().collect::<Option<_>>()?, value.span()))
+            DeValue::Array(bodies) if of_bodies && matches!(bodies[0].get_ref(), DeValue::Array(_)) => {
+                let lists: Option<Vec<_>> = bodies.iter().map(|body| texts(reader.toml.source, body)).collect();
+                match lists {
+                    Some(lists) => Some(Numbers::Lists(lists, value.span())),
+                    None => reader.toml.wrong_kind(value, "a list for each body"),
+                }
             }
-            _ => Numbers::of_bodies(reader, value),
+            DeValue::String(_) if of_bodies => Text::of(reader.toml.source, value).map(Numbers::Formula),
+            _ => match texts(reader.toml.source, value) {
+                Some(list) => Some(Numbers::List(list)),
+                None => reader.toml.wrong_kind(value, "a list of numbers"),
+            },
         }
     }
 

@@ -15,11 +15,12 @@ const NAMES: [&str; 6] = ["m", "m0", "r", "x", "y", "z"];
 /// The energies of a number of bodies, some of them particles of mass 0, in a number of dimensions.
 pub(super) fn energies(
     reader: &mut Reader<'_>,
-    given: &Given,
+    given: &Given<'_, '_>,
     bodies: (usize, usize, usize),
     parameters: &[(String, Exact)],
 ) -> Option<Vec<EnergyOfBodies>> {
-    let texts = [&given.central, &given.external].map(Option::as_ref);
+    let texts = ["central", "external"].map(|key| given.problem.text(key));
+    let texts = [texts[0].as_ref(), texts[1].as_ref()];
     explicit_time::refuse(reader, given, texts, "the energy of a body beside the attraction")?;
     let before = reader.toml.faults.len();
     let mut energies = Vec::new();
@@ -47,7 +48,7 @@ pub(super) fn energies(
 /// Refuses parameters, or axes of a sweep, with a name that a formula of bodies has already.
 fn refuse_names(
     reader: &mut Reader<'_>,
-    given: &Given,
+    given: &Given<'_, '_>,
     (formula, names): (&Text, &[&str]),
     parameters: &[(String, Exact)],
 ) {
@@ -138,6 +139,6 @@ mod tests {
             assert!(faults.len() == 1 && faults[0].starts_with(fault), "{problem}: {faults:?}");
         }
         let text = format!("[problem]\nname = \"kepler\"\ncentral = \"m/r\"\n{RUN}");
-        assert_eq!(read(&text).map(drop).unwrap_err(), ["3:11: central requires bodies"]);
+        assert_eq!(read(&text).map(drop).unwrap_err(), ["3:11: central requires [[body]]"]);
     }
 }

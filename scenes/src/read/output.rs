@@ -3,13 +3,11 @@
 use std::time::Duration;
 
 use shadowstep::Rational;
-use shadowstep::shadow::{
-    EstimatorOptions, EstimatorSettings, HIGHEST_ORDER, SelectionRule, StoppingRule, Verdict, check_accuracy,
-};
-use toml::de::DeValue;
+use shadowstep::shadow::{EstimatorOptions, EstimatorSettings, HIGHEST_ORDER, check_accuracy};
+
+use shadowstep_symbolic::Exact;
 
 use super::modified_hamiltonian;
-use super::period::every;
 use super::plot;
 use super::reader::Reader;
 use super::run::Steps;
@@ -18,40 +16,29 @@ use crate::estimator::{ACCURACY_HINT, conflict};
 use crate::reserved_names::LISTS;
 use crate::run::Run;
 use crate::scene::{CheckpointInterval, Direction, Format, Outputs, Surface, System};
-use crate::steps::MOST_STEPS;
-use shadowstep_schemes::document::{Section, Value};
+use crate::schema::Table;
 
 /// What is to be written, and where.
 pub(super) fn read(
     reader: &mut Reader<'_>,
-    output: &Section<'_, '_>,
+    output: &Table<'_, '_>,
     system: Option<&System>,
     steps: Option<&Steps>,
 ) -> Option<Outputs> {
     let before = reader.toml.faults.len();
-    let file = output.get("file").and_then(|value| reader.toml.text(value));
-    let format = output
-        .get("format")
-        .map(|value| reader.word(value, &[("csv", Format::Csv), ("jsonl", Format::JsonLines), ("npy", Format::Numpy)]));
-    let energy = every(reader, output, "energy", "output.energy").map(|(every, _)| every);
+    let file = output.text("file");
+    let period = |key| output.every(key).map(|(every, _)| every);
     let modified_energy = modified_energy(reader, output);
     let (trajectory, section) = trajectory(reader, output, system);
     let values = values::columns(reader, output, system, steps);
     let extremes = values::extremes(reader, output, system);
-    let chaos = every(reader, output, "chaos", "output.chaos").map(|(every, _)| every);
-    let summary = output.get("summary").and_then(|value| reader.toml.truth(value)).is_none_or(|truth| truth.value);
-    let windows = output
-        .get("windows")
-        .map_or(Some(Run::WINDOWS), |value| reader.whole(value, Verdict::LEAST_WINDOWS..=MOST_STEPS));
-    let checkpoint = output.get("checkpoint").map(|value| (value.span(), interval(reader, value)));
-    if let (Some((at, _)), None) = (&checkpoint, output.get("file")) {
-        reader.toml.fault(at, "a checkpoint requires a file", "add `file = \"out.csv\"`");
-    }
+    let summary = output.truth("summary").unwrap_or(true);
+    let checkpoint = interval(reader, output);
     if let Some(name) = file.as_ref().filter(|name| name.value.ends_with(['/', '\\'])) {
         reader.toml.fault(&name.at, format!("`{}` is a folder", name.value), "give the name of a file");
     }
-    let format = match (format, &file) {
-        (Some(format), _) => format,
+    let format = match (output.word("format", &FORMATS), &file) {
+        (Some(format), _) => Some(format),
         (None, None) => Some(Format::Csv),
         (None, Some(name)) => Format::of(&name.value).or_else(|| {
             let message = format!("the name `{}` does not give the format", name.value);
@@ -59,7 +46,6 @@ pub(super) fn read(
         }),
     };
     let file = file.and_then(|name| Some((reader.path(&name)?, name.at)));
-    let checkpoint = checkpoint.and_then(|(_, interval)| interval);
     let format = format?;
     if format == Format::Numpy {
         check_numpy(reader, output);
@@ -67,16 +53,16 @@ pub(super) fn read(
     let mut outputs = Outputs {
         file,
         format,
-        energy,
+        energy: period("energy"),
         modified_energy,
         trajectory,
         section,
         values,
         extremes,
-        chaos,
+        chaos: period("chaos"),
         checkpoint,
         summary,
-        windows: windows.unwrap_or(Run::WINDOWS),
+        windows: output.whole("windows").unwrap_or(Run::WINDOWS),
         plot: None,
     };
     // those of a system or a scheme that is left out
@@ -101,6 +87,8 @@ pub(super) fn read(
     Some(outputs)
 }
 
+const FORMATS: [(&str, Format); 3] = [("csv", Format::Csv), ("jsonl", Format::JsonLines), ("npy", Format::Numpy)];
+
 /// Refuses columns of values with the names that q and p have, where rows have these as lists.
 fn refuse_names_of_lists(reader: &mut Reader<'_>, outputs: &Outputs) {
     if outputs.format == Format::Csv || !outputs.has_states() {
@@ -113,7 +101,7 @@ fn refuse_names_of_lists(reader: &mut Reader<'_>, outputs: &Outputs) {
 }
 
 /// Refuses records of NumPy where they would lose digits, or cannot be written.
-fn check_numpy(reader: &mut Reader<'_>, output: &Section<'_, '_>) {
+fn check_numpy(reader: &mut Reader<'_>, output: &Table<'_, '_>) {
     let at =
         ["format", "file"].into_iter().find_map(|key| output.get(key)).map_or(output.at.clone(), |value| value.span());
     if output.get("file").is_none() {
@@ -128,55 +116,29 @@ fn check_numpy(reader: &mut Reader<'_>, output: &Section<'_, '_>) {
 /// The period of states, or the surface at whose crossings they are.
 fn trajectory(
     reader: &mut Reader<'_>,
-    output: &Section<'_, '_>,
+    output: &Table<'_, '_>,
     system: Option<&System>,
 ) -> (Option<u64>, Option<Surface>) {
-    let Some((every, table)) = every(reader, output, "trajectory", "output.trajectory") else { return (None, None) };
-    let direction = table.as_ref().and_then(|table| table.get("direction"));
-    let direction = direction.map(|value| (value.span(), reader.word(value, &Direction::NAMES)));
-    let Some((table, value)) = table.as_ref().and_then(|table| Some((table, table.get("section")?))) else {
-        if let Some((at, Some(_))) = direction {
-            reader.toml.fault(&at, "a direction requires a section", "add `section = \"x\"`");
-        }
-        return (Some(every), None);
-    };
-    if table.get("every").is_some() {
-        reader.toml.fault(&value.span(), "every and section are both given", "keep one of the two");
-    }
-    if let Some(value) = output.get("modified_energy") {
-        let help = "remove it, and run the scene again without `section` for modified energies";
-        reader.toml.fault(&value.span(), "rows of a section have no modified energy", help);
-    }
-    let direction = direction.map_or(Some(Direction::Up), |(_, direction)| direction);
-    (None, direction.and_then(|direction| surface(reader, value, direction, system)))
+    let Some((every, table)) = output.every("trajectory") else { return (None, None) };
+    let section = table.and_then(|table| Some((table.text("section")?, table)));
+    let Some((text, table)) = section else { return (Some(every), None) };
+    let direction = table.word("direction", &Direction::NAMES).unwrap_or(Direction::Up);
+    (None, system.and_then(|system| system.surface(text, direction, &mut reader.toml)))
 }
 
-fn surface(
-    reader: &mut Reader<'_>,
-    value: &Value<'_>,
-    direction: Direction,
-    system: Option<&System>,
-) -> Option<Surface> {
-    let text = reader.toml.text(value)?;
-    system?.surface(text, direction, &mut reader.toml)
-}
-
-fn modified_energy(reader: &mut Reader<'_>, output: &Section<'_, '_>) -> Option<(EstimatorSettings, u64)> {
-    let (every, table) = every(reader, output, "modified_energy", "output.modified_energy")?;
+fn modified_energy(reader: &mut Reader<'_>, output: &Table<'_, '_>) -> Option<(EstimatorSettings, u64)> {
+    let (every, table) = output.every("modified_energy")?;
     let mut options = EstimatorOptions::default();
     let mut name = EstimatorSettings::NAMES[0];
     if let Some(table) = &table {
         let before = reader.toml.faults.len();
-        if let Some(value) = table.get("estimator") {
-            name = reader.word(value, &words(EstimatorSettings::NAMES))?;
-        }
-        options.order = table.get("order").and_then(|value| order(reader, value, name));
-        options.max_order = table.get("max_order").and_then(|value| up_to(reader, value, 2, name));
-        let stop = table.get("stop").and_then(|value| reader.word(value, &words(StoppingRule::NAMES)));
-        options.stop = stop.and_then(|word| word.parse().ok());
-        let rule = table.get("rule").and_then(|value| reader.word(value, &words(SelectionRule::NAMES)));
-        options.rule = rule.and_then(|word| word.parse().ok());
-        options.accuracy = table.get("accuracy").and_then(|value| accuracy(reader, value));
+        let estimator = table.str("estimator");
+        name = EstimatorSettings::NAMES.iter().find(|name| Some(**name) == estimator).unwrap_or(&name);
+        options.order = order(reader, table, name);
+        options.max_order = up_to(reader, table, "max_order", 2, name);
+        options.stop = table.str("stop").and_then(|word| word.parse().ok());
+        options.rule = table.str("rule").and_then(|word| word.parse().ok());
+        options.accuracy = accuracy(reader, table);
         if reader.toml.faults.len() > before {
             return None;
         }
@@ -189,43 +151,32 @@ fn modified_energy(reader: &mut Reader<'_>, output: &Section<'_, '_>) -> Option<
                 Err(_) => format!("{name} = \"{value}\""),
             };
             let (message, help) = conflict(&error, error.option, assigned);
-            let table = table?;
-            let at = table.get(error.option).map_or(table.at.clone(), |value| value.span());
-            reader.toml.wrong(&at, message, help)
+            reader.toml.wrong(&table?.place(error.option), message, help)
         }
     }
 }
 
-/// Words that stand for themselves.
-fn words(names: &[&'static str]) -> Vec<(&'static str, &'static str)> {
-    names.iter().map(|name| (*name, *name)).collect()
-}
-
 /// A fixed order; none for "auto".
-fn order(reader: &mut Reader<'_>, value: &Value<'_>, estimator: &str) -> Option<u32> {
-    if !matches!(value.get_ref(), DeValue::Integer(_)) {
-        reader.word(value, &[("auto", ())]);
-        return None;
-    }
-    let order = up_to(reader, value, 1, estimator)?;
+fn order(reader: &mut Reader<'_>, table: &Table<'_, '_>, estimator: &str) -> Option<u32> {
+    let order = up_to(reader, table, "order", 1, estimator)?;
     let options = EstimatorOptions { order: Some(order), ..Default::default() };
     let settings = EstimatorSettings::from_options(estimator, options).ok().flatten();
     if settings.is_some_and(|settings| settings.is_between()) {
         let message = "with estimator = \"bilinear\" and an odd order the values are at times between the states";
-        return reader.toml.wrong(&value.span(), message, "write an even order");
+        return reader.toml.wrong(&table.place("order"), message, "write an even order");
     }
     Some(order)
 }
 
 /// The m of a central difference, or the k of E_k.
-fn up_to(reader: &mut Reader<'_>, value: &Value<'_>, least: u64, estimator: &str) -> Option<u32> {
+fn up_to(reader: &mut Reader<'_>, table: &Table<'_, '_>, key: &str, least: u32, estimator: &str) -> Option<u32> {
+    table.whole(key)?;
     let highest = EstimatorSettings::highest_order(estimator).unwrap_or(HIGHEST_ORDER);
-    reader.whole(value, least..=highest.into()).and_then(|m| u32::try_from(m).ok())
+    reader.toml.whole(table.get(key)?, least..=highest, "a whole number").map(|m| m.value)
 }
 
-fn accuracy(reader: &mut Reader<'_>, value: &Value<'_>) -> Option<Rational> {
-    let text = reader.number(value)?;
-    let accuracy = reader.evaluate(&text)?.value;
+fn accuracy(reader: &mut Reader<'_>, table: &Table<'_, '_>) -> Option<Rational> {
+    let (text, Exact { value: accuracy, .. }) = reader.value(table, "accuracy")?;
     match check_accuracy(&accuracy) {
         Ok(()) => Some(accuracy),
         Err(error) => reader.toml.wrong(&text.at, format!("accuracy {} {error}", text.value), ACCURACY_HINT),
@@ -233,14 +184,11 @@ fn accuracy(reader: &mut Reader<'_>, value: &Value<'_>) -> Option<Rational> {
 }
 
 /// A number of steps, or a time such as `1 min`.
-fn interval(reader: &mut Reader<'_>, value: &Value<'_>) -> Option<CheckpointInterval> {
-    if matches!(value.get_ref(), DeValue::Integer(_)) {
-        return reader.whole(value, 1..=MOST_STEPS).map(CheckpointInterval::Steps);
+fn interval(reader: &mut Reader<'_>, output: &Table<'_, '_>) -> Option<CheckpointInterval> {
+    if let Some(steps) = output.whole("checkpoint") {
+        return Some(CheckpointInterval::Steps(steps));
     }
-    if !matches!(value.get_ref(), DeValue::String(_)) {
-        return reader.toml.wrong_kind(value, "a time such as \"1 min\", or a number of steps");
-    }
-    let text = reader.toml.text(value)?;
+    let text = output.text("checkpoint")?;
     let found = duration(text.value.trim());
     if found.is_none() {
         let message = format!("`{}` is not a valid time between checkpoints", text.value);

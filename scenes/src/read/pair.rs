@@ -74,24 +74,16 @@ pub(super) type Slow = Result<PairFormula, Text>;
 /// The problem of bodies with this energy of each pair, and with it the slow potential of another one.
 pub(super) fn problem(
     reader: &mut Reader<'_>,
-    given: &Given,
+    given: &Given<'_, '_>,
     pair: Option<PairFormula>,
     slow: Option<Slow>,
 ) -> Option<(InitialValueProblem, Option<PotentialEnergy>)> {
-    given.refuse(reader, &["coordinates", "momenta"], |key| {
-        let names = "x1, y1, …, px1, py1, …, or in one dimension q1, …, p1, …";
-        (format!("{key} cannot be set with `pair`"), format!("remove `{key}`: the names are {names}"))
-    });
     let parameters = given.own_parameters(reader);
     given.parameters.iter().for_each(|(name, _)| refuse_reserved(reader, name));
     let dimensions = dimensions(reader, given, pair.as_ref());
-    let bodies = match (given.place("bodies"), &given.bodies) {
-        (Some(at), Some(bodies)) => Bodies::read(reader, bodies, at, &given.parameters),
-        _ => None,
-    };
-    if let Some(initial) = &given.initial {
-        given.state.all_there(reader, initial);
-    }
+    let bodies = given.bodies.as_ref();
+    let bodies =
+        bodies.and_then(|bodies| Bodies::read(reader, bodies, &given.problem.place("bodies"), &given.parameters));
     let of_slow = slow.as_ref().map(|slow| slow.as_ref().map_or_else(|text| text, |pair| &pair.text));
     let formulas = [pair.as_ref().map(|pair| &pair.text), given.kinetic.as_ref(), of_slow];
     explicit_time::refuse(reader, given, formulas, "a sum over pairs of bodies")?;
@@ -131,7 +123,7 @@ pub(super) fn problem(
 /// The slow potential: all pairs have it, of a chain too.
 fn slow_potential(
     reader: &mut Reader<'_>,
-    given: &Given,
+    given: &Given<'_, '_>,
     slow: Slow,
     (bodies, dimensions): (Bodies, usize),
     (coordinates, parameters): (&[String], &[(String, Exact)]),
@@ -154,7 +146,7 @@ fn slow_potential(
 
 fn pair_energy(
     reader: &mut Reader<'_>,
-    given: &Given,
+    given: &Given<'_, '_>,
     pair: &PairFormula,
     bodies: Bodies,
     dimensions: usize,
@@ -164,11 +156,11 @@ fn pair_energy(
     let ends = ends(reader, given, &bodies);
     let cutoff = match (pair.separation, given.place("cutoff").or(given.place("box"))) {
         (Separation::Difference, Some(at)) => reader.toml.wrong(
-            at,
+            &at,
             "a cutoff requires a formula in `r2`",
             "write the formula in `r2`, and `dimensions = 1`",
         ),
-        _ => cutoff(reader, (given.cutoff.as_ref(), given.sides.as_ref()), |key| given.place(key), dimensions),
+        _ => cutoff(reader, &given.problem, dimensions),
     };
     let energy = of_pairs(reader, pair, (bodies, ends, cutoff?.map(Box::new)), dimensions, parameters);
     energy.filter(|_| reader.toml.faults.len() == before)
@@ -210,20 +202,26 @@ fn of_pairs(
 }
 
 /// The number of dimensions; 1 for a formula in `d`.
-fn dimensions(reader: &mut Reader<'_>, given: &Given, pair: Option<&PairFormula>) -> Option<usize> {
+fn dimensions(reader: &mut Reader<'_>, given: &Given<'_, '_>, pair: Option<&PairFormula>) -> Option<usize> {
     let on_a_line = pair.is_some_and(|pair| pair.separation == Separation::Difference);
-    match (given.dimensions, given.place("dimensions")) {
-        (Some(dimensions), Some(at)) if on_a_line && dimensions != 1 => {
+    match given.problem.whole("dimensions") {
+        Some(dimensions) if on_a_line && dimensions != 1 => {
             let message = format!("a formula in `d` requires one dimension, not {dimensions}");
-            reader.toml.wrong(at, message, "remove `dimensions`, or write the formula in `r2`")
+            let help = "remove `dimensions`, or write the formula in `r2`";
+            reader.toml.wrong(&given.problem.place("dimensions"), message, help)
         }
-        (None, None) => on_a_line.then_some(1),
-        (dimensions, _) => dimensions,
+        Some(dimensions) => usize::try_from(dimensions).ok(),
+        None => on_a_line.then_some(1),
     }
 }
 
 /// Refuses parameters with the name of a coordinate or momentum; whether there are any.
-fn has_names_of_bodies(reader: &mut Reader<'_>, given: &Given, coordinates: &[String], momenta: &[String]) -> bool {
+fn has_names_of_bodies(
+    reader: &mut Reader<'_>,
+    given: &Given<'_, '_>,
+    coordinates: &[String],
+    momenta: &[String],
+) -> bool {
     let before = reader.toml.faults.len();
     for (name, _) in &given.parameters {
         for (names, what) in [(coordinates, "coordinate"), (momenta, "momentum")] {
@@ -237,9 +235,9 @@ fn has_names_of_bodies(reader: &mut Reader<'_>, given: &Given, coordinates: &[St
 }
 
 /// The ends of a chain, unless all pairs interact.
-fn ends(reader: &mut Reader<'_>, given: &Given, bodies: &Bodies) -> Option<Ends> {
+fn ends(reader: &mut Reader<'_>, given: &Given<'_, '_>, bodies: &Bodies) -> Option<Ends> {
     let ends = given.neighbours;
-    let at = given.place("bodies").unwrap_or(&given.problem);
+    let at = &given.problem.place("bodies");
     if ends == Some(Ends::Fixed) && !bodies.properties.is_empty() {
         let message = "bodies between fixed ends cannot have properties, because the walls have none";
         reader.toml.fault(at, message, "write `bodies = 32`, or neighbours = \"free\" or \"periodic\"");

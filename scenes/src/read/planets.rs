@@ -4,7 +4,6 @@ mod body;
 mod particles;
 
 pub(super) use body::GivenBody;
-use body::missing;
 
 use std::collections::BTreeSet;
 use std::ops::Range;
@@ -14,7 +13,7 @@ use shadowstep::Rational;
 use shadowstep::systems::pairs::Separation;
 use shadowstep::systems::wisdom_holman::Bodies;
 use shadowstep_symbolic::Exact;
-use toml::de::{DeTable, DeValue};
+use toml::de::DeTable;
 
 use super::elements::{InLimbs, Vector};
 use super::given::Given;
@@ -26,13 +25,12 @@ use super::of_bodies;
 use super::parts::{self, Split};
 use super::reader::Reader;
 use super::units;
+use crate::keys::BODY;
 use crate::scene::{
     EnergyOfBodies, Formula, GRAVITY, InitialValueProblem, KineticEnergy, PairEnergy, PotentialEnergy, System,
 };
-use shadowstep_schemes::document::{Placed, Section, Text};
-
-/// The name of the section.
-pub(super) const BODY: &str = "body";
+use crate::schema::Table;
+use shadowstep_schemes::document::{Placed, Text};
 
 /// The most bodies: what is read of each takes some milliseconds.
 const MOST_BODIES: usize = 1000;
@@ -46,33 +44,20 @@ enum Centre {
     Inner,
 }
 
+const CENTRES: [(&str, Centre); 2] = [("heliocentric", Centre::Body), ("jacobi", Centre::Inner)];
+
 /// Reads all sections [[body]].
 pub(super) fn given(reader: &mut Reader<'_>, root: &DeTable<'_>) -> Vec<GivenBody> {
-    let Some(value) = root.get(BODY) else { return Vec::new() };
-    let tables: Vec<_> = match value.get_ref() {
-        DeValue::Table(_) => vec![value],
-        DeValue::Array(array) => array.iter().collect(),
-        _ => {
-            reader.toml.wrong_kind::<()>(value, "a section for each body: [[body]]");
-            return Vec::new();
-        }
-    };
+    let Some(value) = root.get(BODY.name()) else { return Vec::new() };
+    let tables = value.get_ref().as_array().map_or(std::slice::from_ref(value), |array| &array[..]);
     if tables.len() > MOST_BODIES {
         let message = format!("{} bodies are too many", tables.len());
         reader.toml.fault(&value.span(), message, format!("at most {MOST_BODIES} are read from elements"));
         return Vec::new();
     }
-    let mut bodies = Vec::new();
-    for value in tables {
-        match value.get_ref() {
-            DeValue::Table(table) => {
-                let section = reader.table(table, value, BODY);
-                bodies.push(GivenBody::read(reader, &section));
-            }
-            _ => reader.toml.wrong_kind::<()>(value, "a section for each body: [[body]]").unwrap_or(()),
-        }
-    }
-    bodies
+    let source = reader.toml.source;
+    let body = |value| Some(GivenBody::read(reader, &Table::of_value(source, value, &BODY)?));
+    tables.iter().filter_map(body).collect()
 }
 
 /// Bodies with their exact states so far.
@@ -92,24 +77,15 @@ struct Placing {
 /// The system of the bodies.
 pub(super) fn system(
     reader: &mut Reader<'_>,
-    given: &Given,
-    problem: &Section<'_, '_>,
-    (settings, bodies): (&Settings, &[GivenBody]),
+    given: &Given<'_, '_>,
+    bodies: &[GivenBody],
+    split: Split,
 ) -> Option<System> {
-    given.refuse(
-        reader,
-        &["coordinates", "momenta", "masses", "kinetic", "bodies", "dimensions", "neighbours", "cutoff", "box"],
-        |key| (format!("{key} cannot be set with [[body]]"), format!("remove `{key}`")),
-    );
-    if let Some(initial) = &given.initial {
-        let help = "give q and v, or orbital elements, in [[body]]";
-        reader.toml.fault(initial, "with [[body]] there is no section [initial]", help);
-    }
     let mut parameters = given.own_parameters(reader);
-    let constant = settings.constant(reader, problem, &parameters);
-    let mut particles = match &settings.particles {
+    let constant = constant(reader, &given.problem, &parameters);
+    let mut particles = match given.problem.text("particles") {
         Some(_) if reader.is_cursory => return None,
-        Some(file) => particles::of_file(reader, file.as_ref()?)?,
+        Some(file) => particles::of_file(reader, &file)?,
         None => Vec::new(),
     };
     if bodies.iter().all(|body| body.name.is_some()) {
@@ -117,15 +93,15 @@ pub(super) fn system(
     }
     let bodies: Vec<&GivenBody> = bodies.iter().chain(&particles).collect();
     let bodies = &bodies[..];
-    let (g, centre, split) = (constant?, settings.centre?, settings.split?);
+    let (g, units) = constant?;
+    let centre = given.problem.word("elements", &CENTRES).unwrap_or(Centre::Body);
     let dimensions = bodies.iter().find_map(|body| body.q.as_ref()).map_or(3, |q| q.value.len());
     let masses = masses(reader, bodies)?;
     if masses.iter().filter(|mass| !mass.is_zero()).count() < 2 {
-        let at = bodies.first().map_or(&given.problem, |body| &body.at);
+        let at = bodies.first().map_or(&given.problem.at, |body| &body.at);
         let message = "a planetary system has a central body and at least one planet with mass";
         return reader.toml.wrong(at, message, "add [[body]]");
     }
-    let units = settings.units.as_ref().and_then(|units| units.as_ref()).map(|(_, units)| units.clone());
     let in_limbs = InLimbs::with_digits(reader.arithmetic.value_digits());
     let mut placing = Placing { g: g.clone(), units, dimensions, centre, masses, states: Vec::new(), in_limbs };
     let before = reader.toml.faults.len();
@@ -145,7 +121,7 @@ pub(super) fn system(
         return None;
     }
     placing.refuse_one_place(reader, bodies)?;
-    if settings.barycentric? {
+    if given.problem.truth("barycentric") == Some(true) {
         placing.move_to_barycentre();
     }
     if !parameters.iter().any(|(name, _)| name == "g") {
@@ -157,7 +133,7 @@ pub(super) fn system(
     let counts = (bodies.len(), bodies.len() - placing.massive(), dimensions);
     let of_bodies = of_bodies::energies(reader, given, counts, &parameters)?;
     placing.refuse_forces_on_particles(reader, given, &of_bodies, &parameters)?;
-    let (problem, bodies) = placing.into_system(reader, (parameters, of_bodies), &names, &given.problem)?;
+    let (problem, bodies) = placing.into_system(reader, (parameters, of_bodies), &names, &given.problem.at)?;
     parts::split(reader, given, problem, split, Some((bodies, dimensions)))
 }
 
@@ -184,7 +160,7 @@ fn agree(reader: &mut Reader<'_>, bodies: &[&GivenBody]) {
 }
 
 /// Refuses parameters that have a name of the bodies' energy; whether there are any.
-fn has_names_of_energy(reader: &mut Reader<'_>, given: &Given) -> bool {
+fn has_names_of_energy(reader: &mut Reader<'_>, given: &Given<'_, '_>) -> bool {
     let before = reader.toml.faults.len();
     for (name, _) in given.parameters.iter().filter(|(name, _)| ["r2", "m_i", "m_j"].contains(&name.value.as_str())) {
         let message = format!("with [[body]], `{}` is a name in {GRAVITY}, the energy of two bodies", name.value);
@@ -193,53 +169,23 @@ fn has_names_of_energy(reader: &mut Reader<'_>, given: &Given) -> bool {
     reader.toml.faults.len() > before
 }
 
-/// What [problem] says of bodies and parts.
-pub(super) struct Settings {
-    /// The parts that the steps have.
-    pub(super) split: Option<Split>,
-    /// The constant in these units.
-    units: Option<Option<(Rational, LengthAndTime)>>,
-    centre: Option<Centre>,
-    barycentric: Option<bool>,
-    /// The name of a file of particles, `None` inside if it cannot be read.
-    particles: Option<Option<Text>>,
-}
-
-impl Settings {
-    pub(super) fn read(reader: &mut Reader<'_>, problem: &Section<'_, '_>) -> Settings {
-        let centres = [("heliocentric", Centre::Body), ("jacobi", Centre::Inner)];
-        Settings {
-            split: parts::of_word(reader, problem),
-            units: problem.get("units").map(|value| units::constant(reader, value)),
-            centre: problem.get("elements").map_or(Some(Centre::Body), |value| reader.word(value, &centres)),
-            barycentric: problem
-                .get("barycentric")
-                .map_or(Some(false), |value| reader.toml.truth(value).map(|truth| truth.value)),
-            particles: problem.get("particles").map(|value| reader.toml.text(value)),
+/// The gravitational constant from `units`, with these, or from a parameter g.
+fn constant(
+    reader: &mut Reader<'_>,
+    problem: &Table<'_, '_>,
+    parameters: &[(String, Exact)],
+) -> Option<(Rational, Option<LengthAndTime>)> {
+    let parameter = parameters.iter().find(|(name, _)| name == "g").map(|(_, value)| value.value.clone());
+    match (problem.table("units"), parameter) {
+        (Some(units), None) => units::constant(&units).map(|(constant, units)| (constant, Some(units))),
+        (None, Some(g)) => Some((g, None)),
+        (Some(units), Some(_)) => {
+            let help = "remove `units`, or the parameter g";
+            reader.toml.wrong(&units.at, "g is given by the units and by a parameter", help)
         }
-    }
-
-    /// G from `units`, or from a parameter g.
-    fn constant(
-        &self,
-        reader: &mut Reader<'_>,
-        problem: &Section<'_, '_>,
-        parameters: &[(String, Exact)],
-    ) -> Option<Rational> {
-        let parameter = parameters.iter().find(|(name, _)| name == "g").map(|(_, value)| value.value.clone());
-        match (&self.units, parameter) {
-            (Some(units), None) => units.as_ref().map(|(constant, _)| constant.clone()),
-            (None, Some(g)) => Some(g),
-            (Some(_), Some(_)) => {
-                let at = problem.get("units").map_or(problem.at.clone(), |value| value.span());
-                let help = "remove `units`, or the parameter g";
-                reader.toml.wrong(&at, "g is given by the units and by a parameter", help)
-            }
-            (None, None) => {
-                let help =
-                    "add units = { length = \"AU\", time = \"day\", mass = \"solar\" }, or parameters = { g = 1 }";
-                reader.toml.wrong(&problem.at, "the gravitational constant is missing", help)
-            }
+        (None, None) => {
+            let help = "add units = { length = \"AU\", time = \"day\", mass = \"solar\" }, or parameters = { g = 1 }";
+            reader.toml.wrong(&problem.at, "the gravitational constant is missing", help)
         }
     }
 }
@@ -326,14 +272,10 @@ impl Placing {
     /// Position and velocity of a body.
     fn state(&mut self, reader: &mut Reader<'_>, index: usize, body: &GivenBody) -> Option<[Vec<Rational>; 2]> {
         if let Some((at, table)) = &body.horizons {
-            return self.of_horizons(reader, body, (at, table.as_ref()));
+            return self.of_horizons(reader, (at, table.as_ref()));
         }
         match (&body.q, &body.v) {
             (Some(q), Some(v)) => {
-                if body.is_by_elements() {
-                    let help = "keep one of the two";
-                    return reader.toml.wrong(&body.at, "this body has q and v and orbital elements", help);
-                }
                 let mut values = |list| {
                     let values = reader.values(list, self.dimensions, "dimension")?;
                     Some(values.into_iter().map(|exact| exact.value).collect::<Vec<_>>())
@@ -341,19 +283,14 @@ impl Placing {
                 let (q, v) = (values(q), values(v));
                 Some([q?, v?])
             }
-            (Some(given), None) | (None, Some(given)) => {
-                let key = if body.q.is_some() { "v" } else { "q" };
-                let help = "give both q and v, or orbital elements";
-                reader.toml.wrong(&given.at, missing(key, body.name.as_ref()), help)
-            }
-            (None, None) if index == 0 => match body.is_by_elements() {
+            _ if index == 0 => match body.is_by_elements() {
                 false => Some(self.origin()),
                 true => {
                     let help = "give it q and v, or nothing for a body at the origin";
                     reader.toml.wrong(&body.at, "the first body is the central one and has no orbit", help)
                 }
             },
-            (None, None) => self.on_orbit(reader, index, body),
+            _ => self.on_orbit(reader, index, body),
         }
     }
 
@@ -361,21 +298,13 @@ impl Placing {
     fn of_horizons(
         &self,
         reader: &mut Reader<'_>,
-        body: &GivenBody,
         (at, table): (&Range<usize>, Option<&HorizonsVector>),
     ) -> Option<[Vec<Rational>; 2]> {
-        if body.q.is_some() || body.v.is_some() || body.is_by_elements() {
-            return reader.toml.wrong(at, "this body has a table of Horizons and another state", "keep one of the two");
-        }
         if self.dimensions != 3 {
             let help = "give the other bodies positions in three dimensions";
             return reader.toml.wrong(at, "a table of Horizons has three dimensions", help);
         }
-        let Some(units) = &self.units else {
-            let help =
-                "write units = { length = \"AU\", time = \"day\", mass = \"solar\" } in place of the parameter g";
-            return reader.toml.wrong(at, "a table of Horizons requires units", help);
-        };
+        let units = self.units.as_ref()?;
         table.map(|table| table.in_units(units))
     }
 
@@ -430,7 +359,7 @@ impl Placing {
     fn refuse_forces_on_particles(
         &self,
         reader: &mut Reader<'_>,
-        given: &Given,
+        given: &Given<'_, '_>,
         energies: &[EnergyOfBodies],
         parameters: &[(String, Exact)],
     ) -> Option<()> {
@@ -443,7 +372,7 @@ impl Placing {
         };
         let message = format!("with bodies of mass 0, `{}` must be proportional to m", wrong.key());
         reader.toml.wrong(
-            given.place(wrong.key()).unwrap_or(&given.problem),
+            &given.problem.place(wrong.key()),
             message,
             "write the energy of a mass m as m times a formula without m",
         )
@@ -563,11 +492,11 @@ mod tests {
             (G, "a = 4\ne = 1", "12:5: a parabola has no semi-major axis"),
             (G, "a = 4\ne = 2", "12:5: with e = 2 the orbit is a hyperbola, whose a is negative"),
             (G, "a = 4\ne = -0.1", "12:5: the eccentricity -0.1 is negative"),
-            (G, "name = \"inner\"\ne = 0.1", "9:1: the key `a` of the body `inner` is missing"),
+            (G, "name = \"inner\"\ne = 0.1", "12:5: e requires `a`"),
             (G, "a = 4\ni = 10", "9:1: this orbit is not in the plane of the other bodies"),
-            (G, "q = [1, 0]", "11:5: the key `v` is missing"),
+            (G, "q = [1, 0]", "11:5: q requires `v`"),
             (G, "q = [1, 0, 0]\nv = [0, 0]", "11:5: this list needs a number for each dimension"),
-            (G, "a = 4\nq = [1, 0]\nv = [0, 0]", "9:1: this body has q and v and orbital elements"),
+            (G, "a = 4\nq = [1, 0]\nv = [0, 0]", "12:5: a and q are both given"),
             ("parts = \"wisdom\"\nparameters = { g = 1 }", "a = 4", "2:9: `wisdom` is not known here"),
             ("parts = \"wisdom-holman\"", "a = 4", "1:1: the gravitational constant is missing"),
             (
@@ -575,7 +504,7 @@ mod tests {
                 "a = 4",
                 "2:9: the attraction between bodies has no linear part",
             ),
-            ("name = \"kepler\"", "a = 4", "2:8: name and [[body]] are both given"),
+            ("name = \"kepler\"", "a = 4", "2:8: [[body]] and name are both given"),
         ] {
             let faults = read(&scene(problem, second)).unwrap_err();
             let place = fault.split_once(": ").unwrap().1;

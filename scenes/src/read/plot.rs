@@ -1,56 +1,35 @@
 //! `plot` in [output]: the charts and their file.
 
-use toml::de::DeValue;
-
 use super::reader::Reader;
 use crate::refusal::Refusal;
 use crate::scene::plot::{Content, Picture, Plot};
 use crate::scene::{Outputs, System};
-use shadowstep_schemes::document::{self, Placed, Section, Text};
+use crate::schema::Table;
+use shadowstep_schemes::document::{Placed, Text};
 
 /// The charts, if the rows that they are drawn from are written.
 pub(super) fn read(
     reader: &mut Reader<'_>,
-    output: &Section<'_, '_>,
+    output: &Table<'_, '_>,
     system: Option<&System>,
     outputs: &Outputs,
 ) -> Option<Plot> {
-    let value = output.get("plot")?;
-    let (file, of) = match value.get_ref() {
-        DeValue::String(_) => (reader.toml.text(value), None),
-        DeValue::Table(table) => {
-            let table = reader.table(table, value, "output.plot");
-            let file = reader.toml.required(&table, "file").and_then(|value| reader.toml.text(value));
-            let of = table
-                .get("of")
-                .map(|value| reader.toml.list(value, "charts, such as [\"energies\"]", document::Reader::text));
-            (file, of)
-        }
-        _ => return reader.toml.wrong_kind(value, "the name of a file, or a table: { file = \"kepler.svg\" }"),
-    };
-    let file = file?;
+    let table = output.table("plot");
+    let file = match &table {
+        Some(table) => table.text("file"),
+        None => output.text("plot"),
+    }?;
     if !file.value.ends_with(".svg") || file.value.ends_with("/.svg") || file.value == ".svg" {
         let message = format!("`{}` is not the name of an SVG file", file.value);
         return reader.toml.wrong(&file.at, message, "give a name such as kepler.svg");
     }
     let path = reader.path(&file)?;
-    match &outputs.file {
-        None if output.get("file").is_none() => {
-            let message = "a plot requires a file, from whose rows it is drawn";
-            return reader.toml.wrong(&value.span(), message, "add `file = \"out.csv\"`");
-        }
-        Some((rows, _)) if *rows == path => {
-            return reader.toml.wrong(
-                &file.at,
-                "the plot has the name of the file for the rows",
-                "give it another name",
-            );
-        }
-        _ => {}
+    if outputs.file.as_ref().is_some_and(|(rows, _)| *rows == path) {
+        return reader.toml.wrong(&file.at, "the plot has the name of the file for the rows", "give it another name");
     }
-    let texts = match of {
+    let texts = match table.and_then(|table| table.list("of")) {
         None => vec![Placed { value: "energies".to_owned(), at: file.at.clone() }],
-        Some(of) => of?.value.into_iter().map(|Text { value, at, .. }| Placed { value, at }).collect(),
+        Some(of) => of.value.into_iter().map(|Text { value, at, .. }| Placed { value, at }).collect(),
     };
     let pictures = pictures(reader, &texts, system?, outputs)?;
     Some(Plot { file: path, at: file.at, pictures })

@@ -1,22 +1,19 @@
-//! The values of a scene: numbers with the scene's parameters, in its number type.
+//! The values of a scene, which are of their kinds: numbers with the scene's parameters, in its number type.
 
 use std::collections::BTreeMap;
-use std::ops::{Range, RangeInclusive};
+use std::ops::Range;
 use std::path::PathBuf;
 
+use num_traits::{Signed as _, Zero as _};
 use shadowstep::Rational;
-use shadowstep_schemes::document::{self, Key, Keys, Placed, Section, Source, Text, Value};
+use shadowstep_schemes::document::{self, Placed, Source, Text};
 use shadowstep_symbolic::decimal::to_significant;
 use shadowstep_symbolic::{Budget, Exact};
-use toml::de::DeTable;
 
 use crate::arithmetic::{ANY_SIZE, Arithmetic, GUARD_DIGITS, MOST_VALUE_DIGITS, NUMBER_EXAMPLES};
-use crate::keys;
 use crate::note::Note;
 use crate::outside::path_within;
-
-/// Numbers in TOML.
-const NUMBERS: &str = "1, 0.05, or in quotes \"1/10\" or \"sqrt(2)/20\"";
+use crate::schema::{Sign, Table};
 
 /// Reads the values of a scene.
 pub(super) struct Reader<'a> {
@@ -52,48 +49,26 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// A section of the scene; unknown keys are faults.
-    pub(super) fn section<'t, 'i>(&mut self, root: &'t DeTable<'i>, name: &'static str) -> Section<'t, 'i> {
-        self.toml.section(root, name, keys_of(name))
-    }
-
-    /// A table that is the value of a key; unknown keys are faults.
-    pub(super) fn table<'t, 'i>(
-        &mut self,
-        table: &'t DeTable<'i>,
-        value: &Value<'_>,
-        name: &'static str,
-    ) -> Section<'t, 'i> {
-        self.toml.table(table, value.span(), keys_of(name))
-    }
-
     /// The path of a file that a key names, relative to the folder of the scene.
     pub(super) fn path(&mut self, name: &Text) -> Option<PathBuf> {
         path_within(self.toml.source, name).map_err(|faults| self.toml.faults.extend(faults.0)).ok()
     }
 
-    /// The text of a number: digits, or an expression in quotes.
-    pub(super) fn number(&mut self, value: &Value<'_>) -> Option<Text> {
-        self.toml.number(value, NUMBERS)
-    }
-
-    /// A list of numbers; `what` is what messages call it.
-    pub(super) fn numbers(&mut self, value: &Value<'_>, what: &str) -> Option<Placed<Vec<Text>>> {
-        self.toml.list(value, what, |reader, value| reader.number(value, NUMBERS))
-    }
-
-    /// The list of names of a key, where it is given.
-    pub(super) fn names(&mut self, section: &Section<'_, '_>, key: &str, what: &str) -> Option<Placed<Vec<Text>>> {
-        self.toml.list(section.get(key)?, what, document::Reader::text)
-    }
-
-    pub(super) fn whole(&mut self, value: &Value<'_>, range: RangeInclusive<u64>) -> Option<u64> {
-        self.toml.whole(value, range, "a whole number").map(|whole| whole.value)
-    }
-
-    /// One of a few words.
-    pub(super) fn word<T: Copy>(&mut self, value: &Value<'_>, words: &[(&str, T)]) -> Option<T> {
-        self.toml.word(value, words).map(|word| word.value)
+    /// The number that is the value of a key, which has the sign that its row says.
+    pub(super) fn value(&mut self, section: &Table<'_, '_>, key: &str) -> Option<(Text, Exact)> {
+        let text = section.text(key)?;
+        let exact = self.evaluate(&text)?;
+        let row = section.row(key);
+        let (sign, is_right) = match row.kind.sign() {
+            Sign::Any => return Some((text, exact)),
+            Sign::Positive => ("positive", exact.value.is_positive()),
+            Sign::Nonzero => ("nonzero", !exact.value.is_zero()),
+        };
+        if is_right {
+            return Some((text, exact));
+        }
+        let message = format!("{key} must be {sign}, not {}", to_significant(&exact.value, 12));
+        self.toml.wrong(&text.at, message, format!("write {key} = {}, for example", row.example))
     }
 
     /// Makes the value of a parameter known, which has this text, or is the default of the problem at `place`.
@@ -161,15 +136,10 @@ impl<'a> Reader<'a> {
     }
 }
 
-/// The keys of a section, for the reader of documents.
-fn keys_of(section: &str) -> Keys {
-    let heading = keys::SECTIONS.iter().find(|known| known.name == section).map_or("a scene", |known| known.heading);
-    Keys::new(heading, keys::of(section).map(|key| Key::new(key.name, key.example))).with_elsewhere(keys::section_with)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::schema::texts;
 
     #[test]
     fn the_numbers_of_a_scene_share_a_budget() {
@@ -180,7 +150,7 @@ mod tests {
         let evaluated = |budget: Budget| {
             let mut reader = Reader::new(&source);
             reader.budget = budget;
-            let list = reader.numbers(document.get("q").unwrap(), "numbers").unwrap();
+            let list = texts(&source, document.get("q").unwrap()).unwrap();
             let values = list.value.iter().filter_map(|text| reader.evaluate(text)).count();
             (values, reader.toml.faults.iter().map(|fault| fault.message.clone()).collect::<Vec<_>>())
         };

@@ -4,10 +4,9 @@ use std::ops::Range;
 
 use shadowstep::{Rational, StepSize};
 use shadowstep_schemes::First;
-use toml::de::DeValue;
 
 use super::reader::Reader;
-use crate::arithmetic::{Arithmetic, MOST_DIGITS};
+use crate::arithmetic::Arithmetic;
 use crate::expression::Condition;
 use crate::library::{LibraryError, NamedScheme, Schemes, check_displaced};
 use crate::note::Note;
@@ -15,45 +14,29 @@ use crate::readable::{LONGEST_NUMBER, shortened};
 use crate::refusal::Refusal;
 use crate::scene::System;
 use crate::scene::split::{Class, Needs};
-use crate::steps::{self, MOST_STEPS};
-use shadowstep_schemes::document::{Section, Text, Value};
+use crate::schema::Table;
+use crate::steps;
+use shadowstep_schemes::document::Text;
+use shadowstep_symbolic::Exact;
 
 /// The number type, to whose digits all values of the scene are computed.
-pub(super) fn arithmetic(reader: &mut Reader<'_>, run: &Section<'_, '_>) -> Option<Arithmetic> {
-    let mpfr = run.get("mpfr").and_then(|value| reader.toml.truth(value)).filter(|mpfr| mpfr.value);
-    let named = match run.get("digits") {
-        None => Some(Arithmetic::DOUBLE),
-        Some(value) if matches!(value.get_ref(), DeValue::String(_)) => Some(named_or_quoted(reader, value)?),
-        Some(_) => None,
-    };
-    if let Some(named) = named {
-        return match mpfr {
-            Some(mpfr) => reader.toml.wrong(&mpfr.at, "mpfr requires a number of digits", "write digits = 120"),
+pub(super) fn arithmetic(reader: &mut Reader<'_>, run: &Table<'_, '_>) -> Option<Arithmetic> {
+    let Some(digits) = run.whole("digits") else {
+        let named = run.word("digits", Arithmetic::NAMED).unwrap_or(Arithmetic::DOUBLE);
+        return match run.get("mpfr").filter(|_| run.truth("mpfr") == Some(true)) {
+            Some(mpfr) => reader.toml.wrong(&mpfr.span(), "mpfr requires a number of digits", "write digits = 120"),
             None => Some(named),
         };
-    }
-    let digits = u32::try_from(reader.whole(run.get("digits")?, 1..=MOST_DIGITS.into())?).ok()?;
-    match Arithmetic::of_digits(digits, mpfr.is_some()) {
+    };
+    let digits = u32::try_from(digits).ok()?;
+    match Arithmetic::of_digits(digits, run.truth("mpfr") == Some(true)) {
         Ok(arithmetic) => Some(arithmetic),
         Err(error) => reader.toml.wrong(&run.at, error.to_string(), "write digits = 120"),
     }
 }
 
-/// The number type that a text names.
-fn named_or_quoted(reader: &mut Reader<'_>, value: &Value<'_>) -> Option<Arithmetic> {
-    match value.get_ref().as_str().filter(|text| text.parse::<u32>().is_ok()) {
-        Some(digits) => {
-            let hint = format!("write digits = {digits}");
-            reader.toml.wrong(&value.span(), "the number of digits is in quotes", hint)
-        }
-        None => reader.word(value, Arithmetic::NAMED),
-    }
-}
-
-/// The map that steps begin with.
-pub(super) fn first(reader: &mut Reader<'_>, value: &Value<'_>) -> Option<First> {
-    reader.word(value, &[("kick", First::Kick), ("drift", First::Drift)])
-}
+/// The maps that steps begin with.
+pub(super) const FIRST: [(&str, First); 2] = [("kick", First::Kick), ("drift", First::Drift)];
 
 /// The section [run].
 pub(super) struct Steps {
@@ -75,38 +58,19 @@ impl Steps {
     /// For this system, `None` if it cannot be read, and whether its time is transformed.
     pub(super) fn read(
         reader: &mut Reader<'_>,
-        run: &Section<'_, '_>,
+        run: &Table<'_, '_>,
         (system, transformed): (Option<&System>, bool),
         schemes: &Schemes,
     ) -> Option<Steps> {
-        let first = run.get("first").map(|value| first(reader, value));
-        let scheme = match run.get("scheme") {
-            Some(value) => {
-                reader.toml.text(value).and_then(|text| scheme(reader, &text, first.flatten(), system, schemes))
-            }
-            None => {
-                reader.toml.missing(run, &["scheme"]);
-                None
-            }
-        };
-        let displaced = match run.get("gradient_kicks") {
-            None => Some(None),
-            Some(value) => {
-                reader.word(value, &[("exact", false), ("displaced", true)]).map(|wanted| Some((value.span(), wanted)))
-            }
-        };
+        let first = run.word("first", &FIRST);
+        let scheme = run.text("scheme").and_then(|text| scheme(reader, &text, first, system, schemes));
         let times = times(reader, run, (system, transformed));
-        let ends = match run.get("end") {
+        let ends = match run.text("end") {
             None => Some(None),
-            Some(value) => condition(reader, value, system).map(Some),
+            Some(text) => condition(reader, &text, system).map(Some),
         };
-        if matches!(first, Some(None)) {
-            return None;
-        }
-        let (h, until, steps) = times?;
-        let scheme = scheme?;
-        let displaced =
-            displaced?.map_or(Some(false), |(at, wanted)| displaced_forces(reader, &at, wanted, &scheme))?;
+        let ((h, until, steps), scheme) = (times?, scheme?);
+        let displaced = displaced_forces(reader, run, &scheme)?;
         let end_at = run.get("until").or(run.get("steps")).map_or(run.at.clone(), |value| value.span());
         Some(Steps { scheme, displaced, h, until, steps, end_at, ends: ends? })
     }
@@ -164,17 +128,17 @@ fn near_integrable(named: &NamedScheme) -> Option<Note> {
 }
 
 /// Whether gradient kicks are by displaced forces, which the scheme must allow.
-fn displaced_forces(reader: &mut Reader<'_>, at: &Range<usize>, wanted: bool, named: &NamedScheme) -> Option<bool> {
+fn displaced_forces(reader: &mut Reader<'_>, run: &Table<'_, '_>, named: &NamedScheme) -> Option<bool> {
+    let wanted = run.str("gradient_kicks") == Some("displaced");
     match check_displaced(named) {
-        Err(Refusal { message, hint }) if wanted => reader.toml.wrong(at, message, hint),
+        Err(Refusal { message, hint }) if wanted => reader.toml.wrong(&run.place("gradient_kicks"), message, hint),
         _ => Some(wanted),
     }
 }
 
 /// A condition on a state of the system.
-fn condition(reader: &mut Reader<'_>, value: &Value<'_>, system: Option<&System>) -> Option<Condition> {
-    let text = reader.toml.text(value)?;
-    let condition = Condition::read(&mut reader.toml, &text)?;
+fn condition(reader: &mut Reader<'_>, text: &Text, system: Option<&System>) -> Option<Condition> {
+    let condition = Condition::read(&mut reader.toml, text)?;
     let before = reader.toml.faults.len();
     if let Some(system) = system {
         system.check(condition.difference(), &mut reader.toml);
@@ -188,43 +152,17 @@ type Times = (StepSize, Option<Rational>, Option<u64>);
 /// h, the end and the number of steps; in transformed time h is a fictitious time and the end a physical one.
 fn times(
     reader: &mut Reader<'_>,
-    run: &Section<'_, '_>,
+    run: &Table<'_, '_>,
     (system, transformed): (Option<&System>, bool),
 ) -> Option<Times> {
-    let value = |reader: &mut Reader<'_>, key| {
-        let text = run.get(key).and_then(|value| reader.number(value))?;
-        let exact = reader.evaluate(&text)?;
-        Some((text, exact.value))
-    };
-    let step = value(reader, "step");
-    let until = value(reader, "until");
-    let steps = run.get("steps").map(|value| (value.span(), reader.whole(value, 1..=MOST_STEPS)));
-    if run.get("step").is_none() {
-        reader.toml.missing(run, &["step"]);
-    }
-    if run.get("until").is_none() && steps.is_none() {
-        reader.toml.missing(run, &["until", "steps"]);
-    }
-    if let (Some(_), Some((at, _))) = (run.get("until"), &steps) {
-        return reader.toml.wrong(at, "until and steps are both given", "keep one of the two");
-    }
+    let (step, until) = (reader.value(run, "step"), reader.value(run, "until"));
     let (step, h) = step?;
-    let h = match StepSize::try_from(h) {
-        Ok(h) => h,
-        Err(zero) => {
-            return reader.toml.wrong(
-                &step.at,
-                format!("step {}: {zero}", step.value),
-                "write a step size such as 1/10",
-            );
-        }
-    };
-    if let Some((_, steps)) = steps {
-        let steps = steps?;
+    let h = StepSize::try_from(h.value).ok()?;
+    if let Some(steps) = run.whole("steps") {
         let until = (!transformed).then(|| h.exact() * Rational::from_integer(steps.into()));
         return Some((h, until, Some(steps)));
     }
-    let (end, until) = until?;
+    let (end, Exact { value: until, .. }) = until?;
     let (sized, ends) = ((&h, step.value.as_str()), (&until, &*shortened(&until, LONGEST_NUMBER)));
     let count = if transformed {
         let rate = system.and_then(System::rate_at_start);

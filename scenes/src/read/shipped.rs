@@ -14,17 +14,9 @@ use shadowstep_schemes::document::Text;
 /// The problem of this name; with its bodies and their dimensions, if it has bodies that attract each other.
 pub(super) fn problem(
     reader: &mut Reader<'_>,
-    given: &Given,
+    given: &Given<'_, '_>,
     name: &Text,
 ) -> Option<(InitialValueProblem, Option<(Bodies, usize)>)> {
-    given.refuse(
-        reader,
-        &["coordinates", "momenta", "masses", "kinetic", "bodies", "dimensions", "neighbours", "cutoff", "box"],
-        |key| {
-            let help = format!("remove `{key}`, or write a `potential` or a `pair` instead of the name");
-            (format!("{key} cannot be set for the shipped problem {}", name.value), help)
-        },
-    );
     let setup = setup(reader, given, name)?;
     let (coordinates, q): (Vec<_>, Vec<_>) = setup.values.positions().iter().cloned().unzip();
     let (momenta, p): (Vec<_>, Vec<_>) = setup.values.momenta().iter().cloned().unzip();
@@ -59,7 +51,7 @@ pub(super) fn problem(
 }
 
 /// The shipped problem with its parameters, which become known to the reader.
-fn setup(reader: &mut Reader<'_>, given: &Given, name: &Text) -> Option<Setup> {
+fn setup(reader: &mut Reader<'_>, given: &Given<'_, '_>, name: &Text) -> Option<Setup> {
     let problem = match problems::problem(&name.value) {
         Ok(problem) => problem,
         Err(ProblemError::UnknownProblem { hint, .. }) => {
@@ -81,7 +73,7 @@ fn setup(reader: &mut Reader<'_>, given: &Given, name: &Text) -> Option<Setup> {
             }
         };
         if let Some(value) = value {
-            reader.define(parameter.name, value, value_of(parameter.name), &given.problem);
+            reader.define(parameter.name, value, value_of(parameter.name), &given.problem.at);
         }
     }
     if !reader.names.is_empty()
@@ -91,7 +83,7 @@ fn setup(reader: &mut Reader<'_>, given: &Given, name: &Text) -> Option<Setup> {
     }
     let set: Vec<_> =
         names.iter().filter_map(|name| Some(((*name).to_owned(), text(reader, name, value_of(name)?)))).collect();
-    let place = |name: &str| value_of(name).map_or(given.problem.clone(), |text| text.at.clone());
+    let place = |name: &str| value_of(name).map_or(given.problem.at.clone(), |text| text.at.clone());
     match problem.setup(&set, reader.arithmetic.value_digits()) {
         Ok(setup) => Some(setup),
         Err(ProblemError::OutOfRange { name, text, range }) => {
@@ -101,7 +93,7 @@ fn setup(reader: &mut Reader<'_>, given: &Given, name: &Text) -> Option<Setup> {
             let help = "choose other parameters";
             reader.toml.wrong(&place(&name), format!("{name} = {text}: {why}"), help)
         }
-        Err(error) => reader.toml.wrong(&given.problem, error.to_string(), "see `shadowstep problems`"),
+        Err(error) => reader.toml.wrong(&given.problem.at, error.to_string(), "see `shadowstep problems`"),
     }
 }
 
@@ -125,7 +117,7 @@ fn text(reader: &Reader<'_>, name: &str, formula: &Text) -> String {
     }
 }
 
-fn refuse_unknown_parameters(reader: &mut Reader<'_>, given: &Given, problem: &str, names: &[&str]) {
+fn refuse_unknown_parameters(reader: &mut Reader<'_>, given: &Given<'_, '_>, problem: &str, names: &[&str]) {
     for (key, _) in given.parameters.iter().filter(|(key, _)| !names.contains(&key.value.as_str())) {
         let help = match nearest(&key.value, names.iter().copied()) {
             Some(near) => format!("did you mean `{near}`?"),

@@ -3,29 +3,18 @@
 use super::given::Given;
 use super::parts::{self, Split};
 use super::reader::Reader;
-use crate::scene::split::{SLOW, SlowForces};
+use crate::scene::split::SlowForces;
 use crate::scene::{InitialValueProblem, Parts, PotentialEnergy, System};
 
 /// The system of a problem, in three parts if it has slow forces.
 pub(super) fn system(
     reader: &mut Reader<'_>,
-    given: &Given,
+    given: &Given<'_, '_>,
     (problem, slow): (InitialValueProblem, Option<PotentialEnergy>),
-    split: Option<Split>,
+    split: Split,
 ) -> Option<System> {
-    let Some(slow) = slow else { return parts::split(reader, given, problem, split?, None) };
-    given.refuse(reader, &["parts"], |_| {
-        (format!("parts cannot be set with `{SLOW}`"), "remove one of the two: the parts are slow, fast, T".to_owned())
-    });
+    let Some(slow) = slow else { return parts::split(reader, given, problem, split, None) };
     Some(System { problem, parts: Parts::SlowForces(SlowForces::new(slow)) })
-}
-
-/// Refuses slow forces beside parts that are formulas.
-pub(super) fn refuse(reader: &mut Reader<'_>, given: &Given, beside: &str) {
-    given.refuse(reader, &[SLOW], |key| {
-        let help = "give H by the formulas of three parts: parts = [\"slow\", \"fast\", \"T\"]";
-        (format!("{key} cannot be set with {beside}"), help.to_owned())
-    });
 }
 
 #[cfg(test)]
@@ -120,8 +109,8 @@ mod tests {
                 "8:10: r-respa-4 has multiple time steps, for slow forces, fast forces and T; here H has 2 parts",
                 "8:10: r-respa-4 has multiple time steps, for slow forces, fast forces and T; here H has 4 parts",
                 "4:13: unknown name `z`; known names: x, y",
-                "5:9: parts cannot be set with `slow`",
-                "4:8: slow cannot be set with vector_potential",
+                "4:8: parts and slow are both given",
+                "4:8: vector_potential and slow are both given",
                 "3:8: slow requires `potential` or `pair`",
                 "9:10: chin-4a has gradient kicks, which are for T(p) and U(q) only",
                 "6:8: slow forces of pairs have no periodic images and no walls",

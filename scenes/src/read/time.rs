@@ -1,16 +1,12 @@
 //! [time]: how the fictitious time of the steps runs.
 
 use shadowstep::systems::transformed_time::TimeTransformation;
-use toml::de::DeTable;
 
 use super::reader::Reader;
 use crate::refusal::Refusal;
 use crate::scene::split::TransformedTime;
 use crate::scene::{Parts, System};
-use shadowstep_schemes::document::Section;
-
-/// The name of the section.
-pub(super) const TIME: &str = "time";
+use crate::schema::Table;
 
 /// The values of `transform`.
 #[derive(Clone, Copy)]
@@ -21,17 +17,8 @@ enum Transform {
 
 const TRANSFORMS: [(&str, Transform); 2] = [("logarithmic", Transform::Logarithmic), ("power", Transform::Power)];
 
-/// The section, if there is one.
-pub(super) fn section<'t, 'i>(reader: &mut Reader<'_>, root: &'t DeTable<'i>) -> Section<'t, 'i> {
-    reader.section(root, TIME)
-}
-
 /// The system in its time.
-pub(super) fn transformed(
-    reader: &mut Reader<'_>,
-    section: &Section<'_, '_>,
-    system: Option<System>,
-) -> Option<System> {
+pub(super) fn transformed(reader: &mut Reader<'_>, section: &Table<'_, '_>, system: Option<System>) -> Option<System> {
     if !section.is_there() {
         return system;
     }
@@ -43,26 +30,23 @@ pub(super) fn transformed(
     }
 }
 
-fn transformation(reader: &mut Reader<'_>, section: &Section<'_, '_>) -> Option<TimeTransformation> {
-    let exponent = section.get("exponent").map(|value| (value.span(), reader.number(value)));
-    let Some(value) = section.get("transform") else {
-        reader.toml.missing(section, &["transform"]);
-        return None;
-    };
-    match (reader.word(value, &TRANSFORMS)?, exponent) {
+fn transformation(reader: &mut Reader<'_>, section: &Table<'_, '_>) -> Option<TimeTransformation> {
+    let transform = section.word("transform", &TRANSFORMS)?;
+    match (transform, section.get("exponent")) {
         (Transform::Logarithmic, None) => Some(TimeTransformation::Logarithmic),
-        (Transform::Logarithmic, Some((at, _))) => {
-            reader.toml.wrong(&at, "logarithmic time has no exponent", "remove it, or write `transform = \"power\"`")
+        (Transform::Logarithmic, Some(value)) => {
+            let help = "remove it, or write `transform = \"power\"`";
+            reader.toml.wrong(&value.span(), "logarithmic time has no exponent", help)
         }
         (Transform::Power, None) => {
-            reader.toml.missing(section, &["exponent"]);
-            None
+            let help = "add `exponent = \"-1/2\"`";
+            reader.toml.wrong(&section.at, "the key `exponent` is missing", help)
         }
-        (Transform::Power, Some((at, text))) => {
-            let exponent = reader.evaluate(&text?)?;
+        (Transform::Power, Some(_)) => {
+            let (text, exponent) = reader.value(section, "exponent")?;
             match TimeTransformation::power(&exponent.value) {
                 Ok(time) => Some(time),
-                Err(error) => reader.toml.wrong(&at, error.to_string(), "write an exponent such as \"-1/2\""),
+                Err(error) => reader.toml.wrong(&text.at, error.to_string(), "write an exponent such as \"-1/2\""),
             }
         }
     }

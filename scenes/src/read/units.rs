@@ -1,11 +1,9 @@
 //! Units of length, time and mass, from which the gravitational constant follows.
 
 use shadowstep::{Rational, exact};
-use toml::de::DeValue;
 
 use super::horizons::LengthAndTime;
-use super::reader::Reader;
-use shadowstep_schemes::document::Value;
+use crate::schema::Table;
 
 /// Metres: the astronomical unit is exact (IAU 2012, resolution B2).
 const LENGTHS: [(&str, &str); 3] = [("AU", "149597870700"), ("km", "1000"), ("m", "1")];
@@ -17,15 +15,10 @@ const TIMES: [(&str, &str); 3] = [("day", "86400"), ("year", "31557600"), ("s", 
 const MASSES: [(&str, &str); 4] =
     [("solar", "1.3271244e20"), ("earth", "3.986004e14"), ("jupiter", "1.2668653e17"), ("kg", "6.67430e-11")];
 
-/// The gravitational constant in the units of a table, and these.
-pub(super) fn constant(reader: &mut Reader<'_>, value: &Value<'_>) -> Option<(Rational, LengthAndTime)> {
-    let DeValue::Table(table) = value.get_ref() else {
-        return reader.toml.wrong_kind(value, "a table: { length = \"AU\", time = \"day\", mass = \"solar\" }");
-    };
-    let section = reader.table(table, value, "problem.units");
-    let length = reader.toml.required(&section, "length").and_then(|value| reader.word(value, &LENGTHS));
-    let time = reader.toml.required(&section, "time").and_then(|value| reader.word(value, &TIMES));
-    let mass = reader.toml.required(&section, "mass").and_then(|value| reader.word(value, &MASSES));
+/// The gravitational constant in the units of the table, and these.
+pub(super) fn constant(units: &Table<'_, '_>) -> Option<(Rational, LengthAndTime)> {
+    let (length, time) = (units.word("length", &LENGTHS), units.word("time", &TIMES));
+    let mass = units.word("mass", &MASSES);
     let number = |text: &str| exact(text).expect("units are exact numbers");
     let (length, time) = (number(length?), number(time?));
     let constant = number(mass?) * &time * &time / (&length * &length * &length);

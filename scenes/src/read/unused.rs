@@ -4,11 +4,13 @@ use shadowstep_symbolic::nearest;
 use toml::de::{DeTable, DeValue};
 
 use super::reader::Reader;
-use crate::keys;
-use shadowstep_schemes::document::{Section, Text};
+use crate::keys::PROBLEM;
+use crate::schema::Table;
+use shadowstep_schemes::document::Text;
 
 /// Refuses parameters of a problem's own formulas that are in no text of the scene: `masss = 2` changes nothing. Those of shipped problems are known.
-pub(super) fn refuse_unused_parameters(reader: &mut Reader<'_>, root: &DeTable<'_>, problem: &Section<'_, '_>) {
+pub(super) fn refuse_unused_parameters(reader: &mut Reader<'_>, root: &DeTable<'_>) {
+    let problem = Table::of(reader.toml.source, root, &PROBLEM);
     let Some(DeValue::Table(parameters)) = problem.get("parameters").map(|value| value.get_ref()) else { return };
     // after other faults: a name that is unknown in a formula may be meant for it
     if problem.get("name").is_some() || !reader.toml.faults.is_empty() {
@@ -21,7 +23,7 @@ pub(super) fn refuse_unused_parameters(reader: &mut Reader<'_>, root: &DeTable<'
         if of_gravity(&name.value) || root.values().any(|value| has(value.get_ref(), &name.value)) {
             continue;
         }
-        let known = keys::of("problem").map(|key| key.name).filter(|key| *key != "parameters");
+        let known = PROBLEM.keys.iter().map(|key| key.name).filter(|key| *key != "parameters");
         let others = parameters.keys().map(|key| key.get_ref().as_ref()).filter(|other| *other != name.value);
         let near = nearest(&name.value, known.chain(others))
             .map_or("remove".to_owned(), |near| format!("did you mean `{near}`? Remove"));

@@ -1,18 +1,16 @@
 //! `values`, `elements` and `extremes` in [output]: expressions as columns, and their least and greatest values.
 
-use shadowstep_schemes::document::{Section, Text, Value};
-use toml::de::DeValue;
+use shadowstep_schemes::document::Text;
 
 use super::modified_hamiltonian;
 use super::names::check_name;
-use super::period::every;
 use super::reader::Reader;
 use super::run::Steps;
 use crate::expression::{Expression, named};
 use crate::quantity_of_bodies::{BARYCENTRE, JACOBI, elements_of};
 use crate::reserved_names::COLUMNS;
 use crate::scene::{NamedExpression, System, ValueColumns};
-use crate::steps::MOST_STEPS;
+use crate::schema::Table;
 
 /// The key that gives the period of values.
 const EVERY: &str = "every";
@@ -20,13 +18,13 @@ const EVERY: &str = "every";
 /// The columns of `values`, `elements` and `modified_hamiltonian`.
 pub(super) fn columns(
     reader: &mut Reader<'_>,
-    output: &Section<'_, '_>,
+    output: &Table<'_, '_>,
     system: Option<&System>,
     steps: Option<&Steps>,
 ) -> Vec<ValueColumns> {
     let before = reader.toml.faults.len();
     let mut found: Vec<ValueColumns> = Vec::new();
-    found.extend(output.get("values").and_then(|value| values(reader, value, system)));
+    found.extend(values(reader, output, system));
     found.extend(elements(reader, output, system));
     found.extend(modified_hamiltonian::columns(reader, output, system, steps));
     let Some(system) = system else { return found };
@@ -41,30 +39,30 @@ pub(super) fn columns(
 }
 
 /// `values = { r = "sqrt(x^2 + y^2)", every = 10 }`
-fn values(reader: &mut Reader<'_>, value: &Value<'_>, system: Option<&System>) -> Option<ValueColumns> {
-    let DeValue::Table(table) = value.get_ref() else {
-        return reader.toml.wrong_kind(value, "a table of names with formulas: { r = \"sqrt(x^2 + y^2)\" }");
-    };
-    let every = table.iter().find(|(key, _)| key.get_ref().as_ref() == EVERY).map(|(_, value)| value);
-    let every = every.map_or(Some(1), |value| reader.whole(value, 1..=MOST_STEPS))?;
-    let expressions = expressions(reader, value, system)?;
-    Some(ValueColumns { every, expressions })
+fn values(reader: &mut Reader<'_>, output: &Table<'_, '_>, system: Option<&System>) -> Option<ValueColumns> {
+    let every = output.table("values")?.whole(EVERY).unwrap_or(1);
+    Some(ValueColumns { every, expressions: expressions(reader, output, "values", system)? })
 }
 
 /// `extremes = { r = "sqrt(x^2 + y^2)" }`
 pub(super) fn extremes(
     reader: &mut Reader<'_>,
-    output: &Section<'_, '_>,
+    output: &Table<'_, '_>,
     system: Option<&System>,
 ) -> Vec<NamedExpression> {
-    output.get("extremes").and_then(|value| expressions(reader, value, system)).unwrap_or_default()
+    output.get("extremes").and_then(|_| expressions(reader, output, "extremes", system)).unwrap_or_default()
 }
 
 /// The formulas of a table, the period excepted.
-fn expressions(reader: &mut Reader<'_>, value: &Value<'_>, system: Option<&System>) -> Option<Vec<NamedExpression>> {
+fn expressions(
+    reader: &mut Reader<'_>,
+    output: &Table<'_, '_>,
+    key: &str,
+    system: Option<&System>,
+) -> Option<Vec<NamedExpression>> {
     let before = reader.toml.faults.len();
     let mut found = Vec::new();
-    for (name, text) in named(&mut reader.toml, value, |name| name != EVERY)? {
+    for (name, text) in named(&mut reader.toml, output, key)?.into_iter().filter(|(name, _)| name.value != EVERY) {
         check_name(reader, &name);
         let expression = Expression::new(text);
         if let Some(system) = system {
@@ -73,18 +71,17 @@ fn expressions(reader: &mut Reader<'_>, value: &Value<'_>, system: Option<&Syste
         found.push(NamedExpression { name: name.value, at: name.at, expression });
     }
     if found.is_empty() && reader.toml.faults.len() == before {
-        reader.toml.fault(&value.span(), "there is no formula", "write { r = \"sqrt(x^2 + y^2)\" }, for example");
+        reader.toml.fault(&output.place(key), "there is no formula", "write { r = \"sqrt(x^2 + y^2)\" }, for example");
     }
     (reader.toml.faults.len() == before).then_some(found)
 }
 
 /// `elements = true`, or `{ every = 10, centre = "jacobi" }`: those of all bodies but the first.
-fn elements(reader: &mut Reader<'_>, output: &Section<'_, '_>, system: Option<&System>) -> Option<ValueColumns> {
-    let (every, table) = every(reader, output, "elements", "output.elements")?;
-    let words = [("heliocentric", None), ("jacobi", Some(JACOBI)), ("barycentric", Some(BARYCENTRE))];
-    let centre = table.as_ref().and_then(|table| table.get("centre"));
-    let centre = centre.map_or(Some(None), |value| reader.word(value, &words))?;
-    let (system, at) = (system?, output.get("elements")?.span());
+fn elements(reader: &mut Reader<'_>, output: &Table<'_, '_>, system: Option<&System>) -> Option<ValueColumns> {
+    let (every, table) = output.every("elements")?;
+    let words = [("jacobi", JACOBI), ("barycentric", BARYCENTRE)];
+    let centre = table.and_then(|table| table.word("centre", &words));
+    let (system, at) = (system?, output.place("elements"));
     let mut expressions = Vec::new();
     for (name, formula) in elements_of(system, centre) {
         let expression = Expression::new(Text::at(&formula, at.clone()));

@@ -42,18 +42,25 @@ pub struct Keys {
     table: &'static str,
     keys: Vec<Key>,
     elsewhere: fn(&str) -> Option<&'static str>,
+    /// Whether other keys are names that the user chooses.
+    pub(super) has_names: bool,
 }
 
 impl Keys {
     /// The keys of a table, which messages call `table`: `[run]`.
     pub fn new(table: &'static str, keys: impl IntoIterator<Item = Key>) -> Keys {
-        Keys { table, keys: keys.into_iter().collect(), elsewhere: |_| None }
+        Keys { table, keys: keys.into_iter().collect(), elsewhere: |_| None, has_names: false }
     }
 
     /// Adds a function that finds the table of a key that is not one of these, for the hint at a key in the wrong
     /// table.
     pub fn with_elsewhere(self, elsewhere: fn(&str) -> Option<&'static str>) -> Keys {
         Keys { elsewhere, ..self }
+    }
+
+    /// Allows other keys, which are names that the user chooses.
+    pub fn with_names(self) -> Keys {
+        Keys { has_names: true, ..self }
     }
 
     /// The key of this name.

@@ -3,11 +3,12 @@
 use std::fmt::Display;
 use std::ops::{Range, RangeInclusive};
 
+use shadowstep_symbolic::nearest;
 use toml::de::{DeTable, DeValue, Error};
 
 use super::fault::{Fault, Source};
 use super::keys::Keys;
-use super::value::{Placed, Text, Value};
+use super::value::{Placed, Text, Value, whole_number};
 
 /// Reads the text as TOML: its outermost table, if the text is TOML at all, and all faults of the syntax.
 pub fn document(source: &Source) -> (Option<DeTable<'_>>, Vec<Fault>) {
@@ -77,10 +78,13 @@ impl<'t, 'i> Section<'t, 'i> {
     }
 
     /// Whether a key is there in a misspelling.
-    fn misspells(&self, key: &str) -> bool {
+    pub fn misspells(&self, key: &str) -> bool {
         self.table.is_some_and(|table| table.keys().any(|word| self.keys.is_misspelling(word.get_ref(), key)))
     }
 }
+
+/// Of more words than these the nearest is shown.
+const MOST_SHOWN: usize = 4;
 
 /// Reads the values of a document and collects what is wrong with them.
 #[derive(Debug)]
@@ -130,7 +134,7 @@ impl Reader<'_> {
     pub fn table<'t, 'i>(&mut self, table: &'t DeTable<'i>, at: Range<usize>, keys: Keys) -> Section<'t, 'i> {
         for key in table.keys() {
             let word: &str = key.get_ref();
-            if keys.find(word).is_none() {
+            if !keys.has_names && keys.find(word).is_none() {
                 self.fault(&key.span(), format!("unknown key `{word}`"), keys.hint(word));
             }
         }
@@ -182,7 +186,7 @@ impl Reader<'_> {
             DeValue::String(text) if text.trim().is_empty() => {
                 self.wrong(&value.span(), "this text is empty", "write something between the quotes")
             }
-            DeValue::String(text) => Some(Text::new(&self.source.text, text, value.span())),
+            DeValue::String(_) => Text::of(self.source, value),
             _ => self.wrong_kind(value, "a text in quotes"),
         }
     }
@@ -193,8 +197,10 @@ impl Reader<'_> {
         if let Some((_, meaning)) = words.iter().find(|(word, _)| *word == text.value) {
             return Some(Placed { value: *meaning, at: text.at });
         }
+        let near = nearest(&text.value, words.iter().map(|(word, _)| *word)).filter(|_| words.len() > MOST_SHOWN);
         let known: Vec<String> = words.iter().map(|(word, _)| format!("\"{word}\"")).collect();
-        self.wrong(&text.at, format!("`{}` is not known here", text.value), format!("write {}", known.join(" or ")))
+        let hint = near.map_or(format!("write {}", known.join(" or ")), |near| format!("did you mean \"{near}\"?"));
+        self.wrong(&text.at, format!("`{}` is not known here", text.value), hint)
     }
 
     /// true or false
@@ -211,8 +217,7 @@ impl Reader<'_> {
         T: TryFrom<u64> + PartialOrd + Display,
     {
         let DeValue::Integer(number) = value.get_ref() else { return self.wrong_kind(value, "a whole number") };
-        let unsigned = number.as_str().trim_start_matches('+');
-        let found = u64::from_str_radix(unsigned, number.radix()).ok().and_then(|n| T::try_from(n).ok());
+        let found = whole_number(value).and_then(|n| T::try_from(n).ok());
         match found.filter(|n| range.contains(n)) {
             Some(n) => Some(Placed { value: n, at: value.span() }),
             None => {
@@ -226,15 +231,13 @@ impl Reader<'_> {
     /// `examples` are shown where it is something else.
     pub fn number(&mut self, value: &Value<'_>, examples: &str) -> Option<Text> {
         let at = value.span();
-        let document = &self.source.text;
         match value.get_ref() {
             DeValue::String(_) => self.text(value),
-            DeValue::Integer(n) if n.radix() == 10 => Some(Text::new(document, n.as_str(), at)),
-            DeValue::Integer(_) => self.wrong_kind(value, "a number in decimal digits"),
+            DeValue::Integer(number) if number.radix() != 10 => self.wrong_kind(value, "a number in decimal digits"),
             DeValue::Float(x) if x.as_str().contains("inf") || x.as_str().contains("nan") => {
                 self.wrong(&at, format!("{} is not a finite number", x.as_str()), format!("write a number: {examples}"))
             }
-            DeValue::Float(x) => Some(Text::new(document, x.as_str(), at)),
+            DeValue::Integer(_) | DeValue::Float(_) => Text::of(self.source, value),
             _ => self.wrong_kind(value, &format!("an exact number: {examples}")),
         }
     }

@@ -8,6 +8,8 @@ use shadowstep_symbolic::{Budget, Error, Exact, evaluate_within, parse};
 use toml::Spanned;
 use toml::de::{DeString, DeValue};
 
+use super::fault::Source;
+
 /// A value as the TOML parser gives it, with its place.
 pub type Value<'i> = Spanned<DeValue<'i>>;
 
@@ -18,6 +20,12 @@ pub struct Placed<T> {
     pub value: T,
     /// Where it is.
     pub at: Range<usize>,
+}
+
+/// A value that is a whole number.
+pub fn whole_number(value: &Value<'_>) -> Option<u64> {
+    let DeValue::Integer(number) = value.get_ref() else { return None };
+    u64::from_str_radix(number.as_str().trim_start_matches('+'), number.radix()).ok()
 }
 
 /// A text of the document: a name, a formula, or a number as it is written.
@@ -33,9 +41,20 @@ pub struct Text {
 
 impl Text {
     /// The text of a value at the range `at` of the `document`.
-    pub(super) fn new(document: &str, value: &str, at: Range<usize>) -> Text {
+    fn new(document: &str, value: &str, at: Range<usize>) -> Text {
         let begin = document.get(at.clone()).and_then(|written| written.find(value)).map(|from| at.start + from);
         Text { value: value.to_owned(), at, begin }
+    }
+
+    /// The text that is a value, or a decimal number as it is written.
+    pub fn of(source: &Source, value: &Value<'_>) -> Option<Text> {
+        let text = match value.get_ref() {
+            DeValue::String(text) => text.as_ref(),
+            DeValue::Integer(number) if number.radix() == 10 => number.as_str(),
+            DeValue::Float(number) => number.as_str(),
+            _ => return None,
+        };
+        Some(Text::new(&source.text, text, value.span()))
     }
 
     /// A document that is a text and nothing else.

@@ -5,11 +5,11 @@ use rand_pcg::Pcg64;
 use rand_pcg::rand_core::RngCore;
 use sha2::{Digest, Sha256};
 use shadowstep::Rational;
-use shadowstep_schemes::document::{Key, Keys, Reader, Text, Value};
+use shadowstep_scenes::schema::Table;
+use shadowstep_schemes::document::{Placed, Reader, Text};
 use shadowstep_symbolic::decimal::round_significant;
-use toml::de::DeTable;
 
-use super::number::{NUMBERS, formula, number};
+use super::number::{formula, number};
 
 /// Draws are rounded to this many digits, and are exact from there on.
 const DIGITS: u32 = 17;
@@ -18,7 +18,7 @@ const DIGITS: u32 = 17;
 const WORKING_DIGITS: u32 = DIGITS + 10;
 
 /// The most draws.
-const MOST: u64 = 1_000_000_000_000;
+pub(crate) const MOST: u64 = 1_000_000_000_000;
 
 /// Independent random numbers.
 #[derive(Clone, Debug)]
@@ -41,31 +41,10 @@ enum Distribution {
 }
 
 impl Draws {
-    pub(super) fn read(reader: &mut Reader<'_>, name: &str, table: &DeTable<'_>, value: &Value<'_>) -> Option<Draws> {
-        let keys = [
-            Key::new("draws", "100"),
-            Key::new("seed", "1"),
-            Key::new("uniform", "[0, \"2*pi\"]"),
-            Key::new("log", "[\"1e-6\", \"1e-3\"]"),
-            Key::new("normal", "[0, \"1/10\"]"),
-        ];
-        let section = reader.table(table, value.span(), Keys::new("draws", keys));
-        let count =
-            reader.required(&section, "draws").and_then(|value| reader.whole(value, 1..=MOST, "a number of draws"));
-        let seed = reader.required(&section, "seed").and_then(|value| reader.whole(value, 0..=u64::MAX, "a seed"));
-        let given: Vec<_> = ["uniform", "log", "normal"].into_iter().filter(|key| section.get(key).is_some()).collect();
-        let [kind] = given[..] else {
-            match given[..] {
-                [] => reader.missing(&section, &["uniform", "log", "normal"]),
-                _ => reader.fault(
-                    &section.at,
-                    format!("{} and {} are both given", given[0], given[1]),
-                    "keep one of the two",
-                ),
-            }
-            return None;
-        };
-        let (a, b, at) = pair(reader, section.get(kind)?)?;
+    pub(super) fn read(reader: &mut Reader<'_>, name: &str, draws: &Table<'_, '_>) -> Option<Draws> {
+        let (count, seed) = (draws.whole("draws")?, draws.whole("seed")?);
+        let kind = ["uniform", "log", "normal"].into_iter().find(|key| draws.get(key).is_some())?;
+        let (a, b, at) = pair(reader, &draws.list(kind)?)?;
         let wrong = match kind {
             "uniform" if a >= b => Some(("the first number must be less than the second", "uniform = [0, 1]")),
             "log" if !a.is_positive() || a >= b => {
@@ -89,7 +68,7 @@ impl Draws {
         };
         let hash = Sha256::digest(name.as_bytes());
         let stream = hash.iter().take(16).fold(0, |stream, byte| (stream << 8) | u128::from(*byte));
-        Some(Draws { count: count?.value, seed: seed?.value, stream, distribution })
+        Some(Draws { count, seed, stream, distribution })
     }
 
     pub(super) fn count(&self) -> u64 {
@@ -127,11 +106,10 @@ fn logarithmic(from: &Rational, to: &Rational, u: &Rational) -> Option<Rational>
 }
 
 /// Two numbers and their place.
-fn pair(reader: &mut Reader<'_>, value: &Value<'_>) -> Option<(Rational, Rational, std::ops::Range<usize>)> {
-    let texts = reader.list(value, "a list of two numbers: [0, 1]", |reader, value| reader.number(value, NUMBERS))?;
+fn pair(reader: &mut Reader<'_>, texts: &Placed<Vec<Text>>) -> Option<(Rational, Rational, std::ops::Range<usize>)> {
     let numbers: Vec<Option<Rational>> = texts.value.iter().map(|text: &Text| number(reader, text)).collect();
     match <[Option<Rational>; 2]>::try_from(numbers) {
-        Ok([a, b]) => Some((a?, b?, texts.at)),
+        Ok([a, b]) => Some((a?, b?, texts.at.clone())),
         Err(numbers) => {
             let fault = reader.source.fault(&texts.at, "this list needs two numbers");
             reader.faults.push(fault.values(numbers.len().to_string(), "2"));
@@ -144,16 +122,15 @@ fn pair(reader: &mut Reader<'_>, value: &Value<'_>) -> Option<(Rational, Rationa
 mod tests {
     use super::*;
     use shadowstep_schemes::document::{Source, document};
-    use toml::de::DeValue;
 
     fn draws(name: &str, text: &str) -> Draws {
         let source = Source { path: "test.toml".to_owned(), text: format!("a = {text}") };
         let (document, _) = document(&source);
         let document = document.unwrap();
         let value = document.get("a").unwrap();
-        let DeValue::Table(table) = value.get_ref() else { unreachable!() };
         let mut reader = Reader::new(&source, Vec::new());
-        Draws::read(&mut reader, name, table, value).unwrap_or_else(|| panic!("{:?}", reader.faults))
+        let table = Table::of_value(&source, value, &crate::keys::DRAWS).unwrap();
+        Draws::read(&mut reader, name, &table).unwrap_or_else(|| panic!("{:?}", reader.faults))
     }
 
     fn doubles(draws: &Draws) -> Vec<f64> {

@@ -2,13 +2,14 @@
 
 use num_traits::Zero;
 use shadowstep::Rational;
-use shadowstep_schemes::document::{Placed, Reader, Text, Value};
+use shadowstep_scenes::schema::Table;
+use shadowstep_schemes::document::{Placed, Reader, Text};
 use shadowstep_symbolic::nearest;
 use toml::de::DeTable;
 
 use super::drawn::{OfSeveral, Picture, Scale};
 use crate::axes::Axes;
-use crate::axis::{Axis, NUMBERS, number};
+use crate::axis::{Axis, number};
 use crate::keep::Column;
 use crate::keys;
 
@@ -31,18 +32,13 @@ impl Written {
     /// Reads the section.
     pub(crate) fn read(reader: &mut Reader<'_>, root: &DeTable<'_>) -> Option<Written> {
         let before = reader.faults.len();
-        let section = reader.section(root, "picture", keys::of("picture"));
-        let text = |reader: &mut Reader<'_>, key| section.get(key).and_then(|value| reader.text(value));
+        let section = Table::of(reader.source, root, &keys::PICTURE);
         let [x, y, curves, panels, value, title, label] =
-            ["x", "y", "curves", "panels", "value", "title", "label"].map(|key| text(reader, key));
+            ["x", "y", "curves", "panels", "value", "title", "label"].map(|key| section.text(key));
         let words = [("mean", OfSeveral::Mean), ("largest", OfSeveral::Largest), ("least", OfSeveral::Least)];
-        let of_several = section.get("of_several").and_then(|value| reader.word(value, &words)).map(|word| word.value);
-        let words = [("linear", Scale::Linear), ("log", Scale::Logarithmic)];
-        let scale = section.get("scale").and_then(|value| reader.word(value, &words)).map(|word| word.value);
-        let range = section.get("range").and_then(|value| range(reader, value, scale));
-        if let (Some(_), Some(curves)) = (&y, &curves) {
-            reader.fault(&curves.at, "y and curves are both given", "keep y for a map, or curves for curves");
-        }
+        let of_several = section.word("of_several", &words);
+        let scale = section.word("scale", &[("linear", Scale::Linear), ("log", Scale::Logarithmic)]);
+        let range = section.list("range").and_then(|list| range(reader, &list, scale));
         let written = Written { x, y, curves, panels, value, of_several, scale, range, title, label };
         (reader.faults.len() == before).then_some(written)
     }
@@ -121,14 +117,11 @@ impl Written {
 }
 
 /// The values at the ends of the colours.
-fn range(reader: &mut Reader<'_>, value: &Value<'_>, scale: Option<Scale>) -> Option<Placed<[Rational; 2]>> {
+fn range(reader: &mut Reader<'_>, list: &Placed<Vec<Text>>, scale: Option<Scale>) -> Option<Placed<[Rational; 2]>> {
     const TWO: &str = "the values at both ends, such as [1, 100]";
-    let found = reader.list(value, TWO, |reader, value| {
-        let text = reader.number(value, NUMBERS)?;
-        number(reader, &text)
-    })?;
-    let at = found.at;
-    let Ok([least, most]) = <[Rational; 2]>::try_from(found.value) else {
+    let found = list.value.iter().map(|text| number(reader, text)).collect::<Option<Vec<_>>>()?;
+    let at = list.at.clone();
+    let Ok([least, most]) = <[Rational; 2]>::try_from(found) else {
         return reader.wrong(&at, "range has two values", format!("write {TWO}"));
     };
     if least >= most {

@@ -4,12 +4,13 @@ use std::ops::Range;
 
 use num_traits::Zero;
 use shadowstep::Rational;
-use shadowstep_schemes::document::{Fault, Placed, Section, Text};
+use shadowstep_schemes::document::{Fault, Placed, Text};
 use shadowstep_symbolic::Exact;
 
 use crate::read::elements::Elements;
 use crate::read::horizons::HorizonsVector;
 use crate::read::reader::Reader;
+use crate::schema::Table;
 
 /// The keys of elements besides `a`, which all are 0 unless they are given.
 pub(super) const ANGLES_AND_SHAPE: [&str; 6] = ["e", "i", "node", "pericentre", "M", "lambda"];
@@ -29,30 +30,21 @@ pub(in crate::read) struct GivenBody {
     pub(super) line: Option<String>,
 }
 
-/// The message about a key that a body lacks, with its name if it has one.
-pub(super) fn missing(key: &str, body: Option<&Text>) -> String {
-    let body = body.map_or(String::new(), |name| format!(" of the body `{}`", name.value));
-    format!("the key `{key}`{body} is missing")
-}
-
 impl GivenBody {
-    pub(super) fn read(reader: &mut Reader<'_>, section: &Section<'_, '_>) -> GivenBody {
-        let mut number = |key: &str| section.get(key).and_then(|value| reader.number(value));
-        let (mass, a) = (number("mass"), number("a"));
-        let elements = ANGLES_AND_SHAPE.into_iter().filter_map(|key| Some((key, number(key)?))).collect();
-        let mut list =
-            |key: &str| section.get(key).and_then(|value| reader.numbers(value, "a list of numbers: [1, 0, 0]"));
-        let (q, v) = (list("q"), list("v"));
-        let name = section.get("name").and_then(|value| reader.toml.text(value));
-        if section.get("mass").is_none() {
-            let help = "add `mass = 3e-6`, for example, or `mass = 0` where the body attracts nothing";
-            reader.toml.fault(&section.at, missing("mass", name.as_ref()), help);
+    pub(super) fn read(reader: &mut Reader<'_>, section: &Table<'_, '_>) -> GivenBody {
+        let horizons = section.text("horizons").map(|file| (file.at.clone(), HorizonsVector::open(reader, &file)));
+        let text = |key: &str| section.text(key);
+        GivenBody {
+            name: text("name"),
+            mass: text("mass"),
+            q: section.list("q"),
+            v: section.list("v"),
+            a: text("a"),
+            elements: ANGLES_AND_SHAPE.into_iter().filter_map(|key| Some((key, text(key)?))).collect(),
+            horizons,
+            at: section.at.clone(),
+            line: None,
         }
-        let horizons = section.get("horizons").map(|value| {
-            let file = reader.toml.text(value);
-            (value.span(), file.and_then(|file| HorizonsVector::open(reader, &file)))
-        });
-        GivenBody { name, mass, q, v, a, elements, horizons, at: section.at.clone(), line: None }
     }
 
     /// Puts the line of a file before the faults that were found in it.
@@ -77,12 +69,9 @@ impl GivenBody {
     /// The elements; their faults are reported.
     pub(super) fn elements(&self, reader: &mut Reader<'_>) -> Option<Elements> {
         let Some(a) = &self.a else {
-            let help = "add the semi-major axis, `a = 5.2`, or give q and v instead";
-            return reader.toml.wrong(&self.at, missing("a", self.name.as_ref()), help);
+            let help = "add q and v, or the semi-major axis of its orbit, `a = 5.2`";
+            return reader.toml.wrong(&self.at, "this body has no position", help);
         };
-        if let (Some(_), Some(text)) = (self.element("M"), self.element("lambda")) {
-            return reader.toml.wrong(&text.at, "M and lambda are both given", "keep one of the two");
-        }
         let zero = || Some(Exact { value: Rational::zero(), rounded: false });
         let mut value = |key: &str| self.element(key).map_or_else(zero, |text| reader.evaluate(text));
         let [e, i, node, pericentre, anomaly, longitude] = ANGLES_AND_SHAPE.map(|key| value(key).map(|e| e.value));

@@ -4,6 +4,7 @@ use shadowstep::tables::Source;
 use shadowstep_schemes::document::{Placed, Text, read_text};
 
 use super::body::{ANGLES_AND_SHAPE, GivenBody};
+use crate::keys::BODY;
 use crate::read::reader::Reader;
 
 /// The most bytes of a file.
@@ -55,6 +56,7 @@ fn read(text: &str, file: &Text) -> Result<Vec<GivenBody>, (u64, String)> {
         let shown = if is_word { format!("`{unknown}`") } else { "a text that is not a name".to_owned() };
         return Err((1, format!("{shown} is not a column of particles")));
     }
+    refuse_conflicts(&names)?;
     let mut bodies = Vec::new();
     for record in reader.records() {
         let record = record.map_err(unreadable)?;
@@ -84,6 +86,25 @@ fn read(text: &str, file: &Text) -> Result<Vec<GivenBody>, (u64, String)> {
         });
     }
     if bodies.is_empty() { Err((1, "there is no particle".to_owned())) } else { Ok(bodies) }
+}
+
+/// Refuses columns without those that they need, or with others that they exclude, as the keys of bodies do.
+fn refuse_conflicts(names: &[String]) -> Result<(), (u64, String)> {
+    let has_any = |columns: &[&str]| columns.iter().any(|column| names.iter().any(|name| name == column));
+    let has = |key: &str| match key {
+        "q" => has_any(&COORDINATES[0]),
+        "v" => has_any(&COORDINATES[1]),
+        column => has_any(&[column]),
+    };
+    for key in BODY.keys.iter().filter(|key| has(key.name)) {
+        if let Some(other) = key.excludes.iter().find(|other| has(other)) {
+            return Err((1, format!("{other} and {} are both given", key.name)));
+        }
+        if let Some(need) = key.needs.iter().find(|need| !has(need)) {
+            return Err((1, format!("{} requires {need}", key.name)));
+        }
+    }
+    Ok(())
 }
 
 #[cfg(test)]
@@ -173,12 +194,8 @@ mod tests {
             (file, String::new(), "a,e\n2,0\n3,-1\n", "3:13: particles.csv:3: the eccentricity -1 is negative"),
             (file, String::new(), "a,w\n2,0\n", "3:13: particles.csv:1: `w` is not a column of particles"),
             (file, String::new(), "a\n2\n3,4\n", "3:13: particles.csv:3: this is not a line of CSV with as many cells"),
-            (
-                file,
-                String::new(),
-                "x,y,z\n1,2,3\n",
-                "3:13: particles.csv:2: the key `v` of the body `particle1` is missing",
-            ),
+            (file, String::new(), "x,y,z\n1,2,3\n", "3:13: particles.csv:1: q requires v"),
+            (file, String::new(), "name\nb\n", "3:13: particles.csv:2: this body has no position"),
             (file, String::new(), "name,a\nsun,2\n", "3:13: the body `sun` is named twice"),
             (file, String::new(), "a\n", "3:13: particles.csv:1: there is no particle"),
             ("particles = \"none.csv\"", String::new(), "", "3:13: none.csv cannot be read"),
