@@ -27,12 +27,16 @@ pub(crate) struct Arguments {
     /// Explains every key of a scene
     #[arg(long, conflicts_with = "name")]
     explain: bool,
+    /// Writes the JSON Schema of scenes, for editors
+    #[arg(long, conflicts_with_all = ["name", "explain"])]
+    schema: bool,
 }
 
 /// Prints the scene of a problem, the names of all, or what the keys mean.
 pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
     let text = match &arguments.name {
         _ if arguments.explain => shadowstep_scenes::explain(),
+        _ if arguments.schema => shadowstep_scenes::scene_schema(),
         Some(name) => scene_text(name)?,
         None => list(),
     };

@@ -10,6 +10,7 @@ use clap::Args;
 use shadowstep_scenes::Error;
 use shadowstep_sweeps::{
     Chunk, Computed, Manifest, SweepPlan, chunk_of_task, compute, explain, is_there, refuse_foreign, remove_foreign,
+    sweep_schema,
 };
 
 use crate::collect::{Format, collected};
@@ -40,10 +41,10 @@ const RUNS: &str = "Runs";
 #[command(after_help = EXAMPLES, after_long_help = format!("{EXAMPLES}\n\n{MORE}"))]
 pub(crate) struct Arguments {
     /// The sweep's file, such as sweep.toml
-    #[arg(value_name = "FILE", required_unless_present = "explain", help_heading = RUNS, display_order = 0)]
+    #[arg(value_name = "FILE", required_unless_present_any = ["explain", "schema"], help_heading = RUNS, display_order = 0)]
     sweep: Option<PathBuf>,
     /// The folder for chunks, table and picture
-    #[arg(long, value_name = "DIR", help_heading = OUTPUT, required_unless_present = "explain")]
+    #[arg(long, value_name = "DIR", help_heading = OUTPUT, required_unless_present_any = ["explain", "schema"])]
     out: Option<PathBuf>,
     /// Computes chunk I of N only, such as 3/16
     ///
@@ -56,6 +57,9 @@ pub(crate) struct Arguments {
     /// Explains every key of a sweep
     #[arg(long, exclusive = true, help_heading = RUNS)]
     explain: bool,
+    /// Writes the JSON Schema of sweeps, for editors
+    #[arg(long, exclusive = true, help_heading = RUNS)]
+    schema: bool,
     /// Replaces files in --out that are not from this sweep
     ///
     /// They are results of another sweep, or of this one before it was changed, and files of other programs.
@@ -79,7 +83,7 @@ fn chunk(text: &str) -> Result<Chunk, String> {
 pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
     let Arguments { sweep: Some(sweep), out: Some(out), chunk, format, force, slurm, .. } = arguments else {
         let mut output = Output::stdout();
-        write!(output, "{}", explain())?;
+        write!(output, "{}", if arguments.schema { sweep_schema() } else { explain() })?;
         output.finish()?;
         return Ok(Status::Success);
     };

@@ -7,6 +7,7 @@
 
 mod bodies;
 mod document;
+mod json_schema;
 mod known;
 mod maker;
 mod outputs;
