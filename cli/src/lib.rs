@@ -144,6 +144,9 @@ pub fn commands() -> clap::Command {
 /// process. `program` is its path, for job scripts, where another program contains it.
 pub fn main(arguments: impl IntoIterator<Item = OsString>, program: Option<PathBuf>) -> u8 {
     let arguments: Vec<OsString> = arguments.into_iter().collect();
+    if completions::answer(&arguments, commands) {
+        return Status::Success as u8;
+    }
     invocation::keep(&arguments, program, commands);
     let Arguments { command, allow_outside } = Arguments::parse_from(arguments);
     if allow_outside {
