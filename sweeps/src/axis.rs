@@ -11,7 +11,6 @@ use shadowstep_symbolic::Error;
 
 use crate::keys::DRAWS;
 use draws::Draws;
-pub(crate) use draws::MOST as MOST_DRAWS;
 use number::evaluated;
 pub(crate) use number::number;
 use range::Range;

@@ -7,7 +7,6 @@ use shadowstep_scenes::{explanation, keys, rows};
 use shadowstep_schemes::document::Reader;
 use toml::de::DeTable;
 
-use crate::axis::MOST_DRAWS;
 use crate::values::{Description, NAMES_OF_VALUES, VALUES};
 
 const INTRODUCTION: &str = "\
@@ -17,6 +16,9 @@ varies fastest.
 
 The name of an axis stands for its value: in every number of the scene, as a parameter does, step = \"h\" or q = [\"1 - e\", 0]; and \
 \"$scheme\" in place of a whole value, scheme = \"$scheme\" or steps = \"$n\".";
+
+/// The most draws.
+const MOST_DRAWS: u64 = 1_000_000_000_000;
 
 /// The sections, and the keys before all of them.
 const SECTIONS: [&Section; 4] = [&BEGINNING, &AXES, &KEEP, &PICTURE];

@@ -1,9 +1,10 @@
-//! The JSON Schemas of scenes and sweeps, by a validator that shares no code with them.
+//! The JSON Schemas of scenes and sweeps, by a validator that shares no code with them; and what reading takes from documents.
 
 use std::fs;
 use std::path::Path;
 
 use boon::{Compiler, Draft, SchemaIndex, Schemas};
+use rayon::prelude::*;
 use serde_json::{Map, Value, json};
 use shadowstep_scenes::schema::Section;
 use shadowstep_scenes::{SHIPPED_SCENES, Scene, ensemble::Ensemble, keys, scene_text};
@@ -73,6 +74,27 @@ fn shipped_documents_are_valid() {
     }
 }
 
+/// Whether the program reads the document of a number.
+fn is_read(source: Source, number: u64) -> bool {
+    match number.is_multiple_of(5) {
+        true => SweepPlan::of(&source).is_ok(),
+        false if Ensemble::is_in(&source) => Ensemble::read(source).is_ok(),
+        false => Scene::read(source).is_ok(),
+    }
+}
+
+/// What reading takes from a document is there: a missing line is a fault, or not needed.
+#[test]
+fn documents_that_lack_a_line_are_read_or_refused() {
+    super::TESTED.into_par_iter().step_by(4).for_each(|number| {
+        let lines = &super::document(number).files[0].lines;
+        for missing in 0..lines.len() {
+            let rest = [&lines[..missing], &lines[missing + 1..]].concat();
+            is_read(Source { path: NAME.to_owned(), text: rest.join("\n") }, number);
+        }
+    });
+}
+
 /// What the program reads is valid.
 #[test]
 fn random_documents_that_are_read_are_valid() {
@@ -86,15 +108,9 @@ fn random_documents_that_are_read_are_valid() {
         let path = folder.path().join(NAME);
         let text = fs::read_to_string(&path).unwrap();
         let source = Source { path: path.display().to_string(), text: text.clone() };
-        let is_sweep = number.is_multiple_of(5);
-        let is_read = match is_sweep {
-            true => SweepPlan::of(&source).is_ok(),
-            false if Ensemble::is_in(&source) => Ensemble::read(source).is_ok(),
-            false => Scene::read(source).is_ok(),
-        };
-        if is_read {
+        if is_read(source, number) {
             read += 1;
-            let fault = if is_sweep { &sweeps } else { &scenes }.fault(&json_of(&text));
+            let fault = if number.is_multiple_of(5) { &sweeps } else { &scenes }.fault(&json_of(&text));
             assert_eq!(fault, None, "document {number}:\n{text}");
         }
     }

@@ -78,7 +78,7 @@ impl Check<'_, '_, '_, '_> {
     fn section(&mut self, section: &'static Section, value: &Value<'_>) {
         match value.get_ref() {
             DeValue::Table(table) => self.table(section, table, value.span()),
-            DeValue::Array(members) if section.heading.starts_with("[[") => {
+            DeValue::Array(members) if section.heading.starts_with("[[") && !members.is_empty() => {
                 members.iter().for_each(|member| self.section(section, member));
             }
             _ => self.wrong_kind(value, &format!("a table: {}", section.heading)),
@@ -163,10 +163,12 @@ impl Check<'_, '_, '_, '_> {
         match (kind, value.get_ref()) {
             (Kind::Text(_), _) => drop(self.reader.text(value)),
             (Kind::Word(words), _) => {
-                drop(self.reader.word(value, &words.iter().map(|word| (*word, ())).collect::<Vec<_>>()));
+                let _ = self.reader.word(value, &words.iter().map(|word| (*word, ())).collect::<Vec<_>>());
             }
             (Kind::Number(_), _) => drop(self.reader.number(value, NUMBERS)),
-            (Kind::Whole(least, most), _) => drop(self.reader.whole(value, *least..=*most, "a whole number")),
+            (Kind::Whole(least, most), _) => {
+                let _ = self.reader.whole(value, *least..=*most, "a whole number");
+            }
             (Kind::List(_), DeValue::Array(members)) if members.is_empty() => {
                 self.reader.fault(&value.span(), "this list is empty", format!("write {kind}"));
             }

@@ -17,9 +17,6 @@ const DIGITS: u32 = 17;
 /// Formulas are computed to more digits, in exact arithmetic, so that every machine has the same.
 const WORKING_DIGITS: u32 = DIGITS + 10;
 
-/// The most draws.
-pub(crate) const MOST: u64 = 1_000_000_000_000;
-
 /// Independent random numbers.
 #[derive(Clone, Debug)]
 pub(super) struct Draws {
