@@ -52,11 +52,10 @@ class Problem:
     time
         The section [time] of a scene as a mapping: steps that become short in close encounters.
     **others
-        Parameters by their names, with numbers or texts; ``parameters={"q": 2}`` where a name is one of these arguments. Other keys of [problem] are taken as they are: ``coordinates``, ``momenta``,
-        ``bodies``, ``dimensions``, ``neighbours``, ``cutoff``, ``box``, ``units``, ``central``, ``slow``, ``encounters``, …; and ``body`` is a list of
-        mappings with the keys of [[body]], by elements, by ``q`` and ``v``, or by a table of Horizons. Elements are heliocentric, about the first body;
-        ``elements="jacobi"`` takes them about the centre of mass of the bodies before, as REBOUND does by default. Beside it ``particles`` is a file
-        with bodies of mass 0.
+        Parameters by their names, with numbers or texts; ``parameters={"q": 2}`` where a name is one of these arguments. Other keys of [problem] are
+        taken as they are: KEYS. A key without what it needs, such as ``coupling`` without ``hamiltonian``, is a parameter where a formula has its
+        name. ``body`` is a list of mappings with the keys of [[body]], by elements, by ``q`` and ``v``, or by a table of Horizons. Elements are
+        heliocentric, about the first body; ``elements="jacobi"`` takes them about the centre of mass of the bodies before, as REBOUND does by default.
 
     Own forces
     ----------
@@ -116,9 +115,7 @@ class Problem:
             self._given = Given.of_forces(*self._forces)
             warn_of_gradient(system, self.initial[0])
             return
-        sections = _sections(system, q, p, v, others)
-        problem = sections["problem"]
-        problem |= {"masses": masses, "kinetic": kinetic, "pair": pair, "parts": parts}
+        sections = _sections(system, q, p, v, {"masses": masses, "kinetic": kinetic, "pair": pair, "parts": parts}, others)
         # what is given may change later
         self._sections = _copied({**sections, "time": time})
         # what is wrong with a name or a formula has the key of a text
@@ -326,17 +323,28 @@ def problem_of(problem: Any) -> Problem:
     raise WrongType(f"problem must be a Problem, or the name of a shipped one such as 'kepler', not {type(problem).__name__}")
 
 
-# keys of [problem] and [initial]; every other keyword is a parameter
-_PROBLEM = ("coordinates", "momenta", "bodies", "dimensions", "neighbours", "cutoff", "box", "units", "elements", "barycentric", "encounters", "vector_potential", "hamiltonian", "slow", "parameters")
-# keys beside another one, without which they are names of parameters
-_BESIDE = {"coupling": "hamiltonian", "central": "body", "external": "body", "particles": "body"}
+# the keys of [problem] with what they need; every other keyword is a parameter
+_KEYS: dict[str, list[str]] = dict(_shadowstep.problem_keys())
+_ARGUMENTS = ("q", "p", "v", "masses", "kinetic", "pair", "parts", "time", "body")
+_OTHERS = [key for key in _KEYS if key not in (*_ARGUMENTS, "name", "potential")]
+Problem.__doc__ = str(Problem.__doc__).replace("KEYS", ", ".join(f"``{key}``" for key in _OTHERS))
 
 
-def _sections(system: str | None, q: Values | None, p: Values | None, v: Values | None, others: Mapping[str, Any]) -> dict[str, Any]:
+def _is_key(name: str, given: Mapping[str, Any]) -> bool:
+    """Whether an argument is a key of [problem], and not a parameter of a formula."""
+    has_needed = all(any(given.get(other.strip("[]")) is not None for other in needs.split("|")) for needs in _KEYS.get(name, []) if "." not in needs)
+    return name in _OTHERS and (has_needed or not re.search(rf"\b{name}\b", repr([value for other, value in given.items() if other != name])))
+
+
+def _sections(
+    system: str | None, q: Values | None, p: Values | None, v: Values | None, arguments: dict[str, Any], others: Mapping[str, Any]
+) -> dict[str, Any]:
     if not isinstance(others.get("parameters", {}), Mapping):
         raise WrongType(f"parameters must be a mapping of names to numbers, not {type(others['parameters']).__name__}")
-    keys = (*_PROBLEM, *(key for key, other in _BESIDE.items() if other in others))
-    problem: dict[str, Any] = {key: others[key] for key in keys if key in others}
+    way = {} if system is None else {"name" if _is_name(system, q) else "potential": system}
+    given = {**way, **arguments, "q": q, "p": p, "v": v, **others}
+    keys = [key for key in others if _is_key(key, given)]
+    problem: dict[str, Any] = {key: others[key] for key in keys}
     for key in ("coordinates", "momenta"):
         if problem.get(key) is not None:
             refuse_other(problem[key], (Iterable[str],), key)
@@ -344,13 +352,12 @@ def _sections(system: str | None, q: Values | None, p: Values | None, v: Values 
     parameters = {key: value for key, value in others.items() if key not in (*keys, "body")}
     for key, value in parameters.items():
         if isinstance(value, (Mapping, Sequence, np.ndarray)) and not isinstance(value, str):
-            near = get_close_matches(key, ("q", "p", "v", "masses", "kinetic", "pair", "parts", "time", "body", *_PROBLEM), n=1)
+            near = get_close_matches(key, (*_ARGUMENTS, *_OTHERS), n=1)
             hint = f"did you mean {near[0]!r}?" if near else "a parameter is a number"
             raise _shadowstep.InputError(f"Problem has no argument {key!r} with several values; {hint}")
     if parameters:
         problem["parameters"] = {**problem.get("parameters", {}), **parameters}
-    if system is not None:
-        problem["name" if _is_name(system, q) else "potential"] = system
+    problem |= {**way, **arguments}
     if ("potential" in problem or "hamiltonian" in problem) and "coordinates" not in problem and q is not None:
         if not isinstance(q, Mapping):
             raise _shadowstep.InputError('q must name the coordinates of the formula: q={"x": 1, "y": 0}')

@@ -8,6 +8,7 @@ use shadowstep::StepSize;
 use shadowstep::problems::PROBLEMS;
 use shadowstep::tables::Source;
 use shadowstep_scenes::arithmetic::{Arithmetic, DigitsError, MOST_DIGITS};
+use shadowstep_scenes::keys::PROBLEM;
 use shadowstep_scenes::outside::reading_outside;
 use shadowstep_scenes::{Error, Note, System, source};
 use shadowstep_symbolic::Exact;
@@ -200,6 +201,12 @@ impl Given {
 #[pyfunction]
 pub(crate) fn problem_names() -> Vec<&'static str> {
     PROBLEMS.iter().map(|problem| problem.name()).collect()
+}
+
+/// The keys of [problem] with what they need.
+#[pyfunction]
+pub(crate) fn problem_keys() -> Vec<(&'static str, &'static [&'static str])> {
+    PROBLEM.keys.iter().map(|key| (key.name, key.needs)).collect()
 }
 
 fn exact(py: Python<'_>, what: &str, text: &str) -> PyResult<Exact> {

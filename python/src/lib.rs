@@ -69,7 +69,7 @@ mod _shadowstep {
     #[pymodule_export]
     use crate::errors::{InputError, RunError};
     #[pymodule_export]
-    use crate::given::{Given, problem_names};
+    use crate::given::{Given, problem_keys, problem_names};
     #[pymodule_export]
     use crate::integrate::integrate;
     #[pymodule_export]

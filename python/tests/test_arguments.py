@@ -167,10 +167,7 @@ def refused(name, argument, value):
 
 
 # Of [problem] and the sections beside it, which Problem takes as they are.
-KEYS = """
-    q p v masses kinetic pair parts time coordinates momenta bodies dimensions neighbours cutoff box units elements barycentric encounters vector_potential hamiltonian slow
-    parameters coupling central external particles body nonsense
-""".split()
+KEYS = ["q", "p", "v", "time", "body", "nonsense", *(key for key, _ in shadowstep._shadowstep.problem_keys() if key not in ("name", "potential"))]
 PROBLEMS = [
     {"system": "x^2/2", "q": {"x": 1}, "p": [0]},
     {"pair": "-m_i*m_j/sqrt(r2)", "dimensions": 2, "bodies": {"m": [1, "1/1000"]}, "q": [0, 0, 1, 0], "v": [0, 0, 0, 1]},
