@@ -36,7 +36,7 @@ impl<'t, 'i> Given<'t, 'i> {
     pub(super) fn read<'s: 't>(reader: &mut Reader<'s>, root: &'t DeTable<'i>) -> Self {
         let (problem, initial) =
             (Table::of(reader.toml.source, root, &PROBLEM), Table::of(reader.toml.source, root, &INITIAL));
-        let of_bodies = ["name", "potential", "hamiltonian"].iter().all(|way| problem.get(way).is_none());
+        let of_bodies = problem.get("pair").is_some();
         let ends = [("free", Ends::Free), ("fixed", Ends::Fixed), ("periodic", Ends::Periodic)];
         Given {
             coordinates: problem.list("coordinates"),
