@@ -182,6 +182,14 @@ impl Given {
         Ok(self.read(arithmetic)?.notes.clone())
     }
 
+    /// Whether the function for the forces has raised something that was not [taken](Given::raised).
+    pub(crate) fn has_raised(&self, py: Python<'_>) -> bool {
+        match &self.0.source {
+            ProblemSource::Own { forces, .. } => forces.has_raised(py),
+            ProblemSource::Scene { .. } => false,
+        }
+    }
+
     /// What the function for the forces has raised since it was asked last.
     pub(crate) fn raised(&self, py: Python<'_>) -> PyResult<()> {
         match &self.0.source {

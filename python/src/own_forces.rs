@@ -66,6 +66,12 @@ impl Forces {
         Ok(Forces { function, dimension })
     }
 
+    /// Whether the Python function has raised something that was not taken.
+    pub(crate) fn has_raised(&self, py: Python<'_>) -> bool {
+        let Function::Python(PythonFunction { raised, .. }) = &self.function else { return false };
+        py.detach(|| raised.lock().unwrap_or_else(PoisonError::into_inner).is_some())
+    }
+
     /// What the Python function has raised since this was asked last.
     pub(crate) fn raised(&self, py: Python<'_>) -> PyResult<()> {
         let Function::Python(PythonFunction { raised, .. }) = &self.function else { return Ok(()) };

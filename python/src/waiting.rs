@@ -176,12 +176,12 @@ pub(crate) fn awaited<T: Send>(
                 Some((error, since)) if since.elapsed() > PATIENCE => return Err(error),
                 Some(_) => {}
                 None => {
-                    let mut checked =
-                        py.check_signals().and_then(|()| problem.map_or(Ok(()), |problem| problem.raised(py)));
+                    let mut checked = py.check_signals();
                     if let (Ok(()), Some(progress)) = (&checked, progress) {
                         checked = progress.call1((watched.n.load(Ordering::Relaxed),)).map(|_| ());
                     }
-                    watched.stop.store(checked.is_err(), Ordering::Relaxed);
+                    let is_over = checked.is_err() || problem.is_some_and(|problem| problem.has_raised(py));
+                    watched.stop.store(is_over, Ordering::Relaxed);
                     raised = checked.err().map(|error| (error, Instant::now()));
                 }
             },
