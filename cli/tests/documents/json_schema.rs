@@ -86,7 +86,7 @@ fn is_read(source: Source, number: u64) -> bool {
 /// What reading takes from a document is there: a missing line is a fault, or not needed.
 #[test]
 fn documents_that_lack_a_line_are_read_or_refused() {
-    super::TESTED.into_par_iter().step_by(4).for_each(|number| {
+    super::TESTED.into_par_iter().filter(|number| number.is_multiple_of(4)).for_each(|number| {
         let lines = &super::document(number).files[0].lines;
         for missing in 0..lines.len() {
             let rest = [&lines[..missing], &lines[missing + 1..]].concat();
