@@ -92,8 +92,14 @@ _WHOLE = re.compile(r"-?[0-9]{1,18}")
 
 
 def _warn_of_missing(name: str, metadata: dict[str, Any], rows: list[dict[str, str]]) -> None:
-    """Warns where rows have been cut off at the end of a line: from n = 0 on, rows are never farther from each other than the first two."""
-    if len(rows) < 2 or "section" in metadata:
+    """Warns where rows have been cut off at the end of a line: from n = 0 on, rows are never farther from each other than the first two. Where a condition ends
+    the run, its end is not known before."""
+    if len(rows) < 2 or "section" in metadata or "end" in metadata:
+        return
+    if "steps" not in metadata:
+        t, until = rows[-1]["t"], metadata["until"]
+        if float(t) != float(until):
+            warnings.warn(f"{name} ends at t = {t}, and its run at t = {until}: {_AGAIN}", stacklevel=3)
         return
     first, second, last = (int(rows[i]["n"]) for i in (0, 1, -1))
     if first == 0 and last + second <= int(metadata["steps"]):
@@ -128,9 +134,11 @@ def _check_metadata(metadata: Any, place: dict[str, str], otherwise: str) -> Non
         "values": (lambda value: isinstance(value, dict), "formulas by their names"),
         "steps": (lambda value: _WHOLE.fullmatch(str(value)) is not None, "a number of steps"),
     }
+    # what ends the run otherwise
+    is_open = "end" in metadata or {"time", "until"} <= metadata.keys()
     for key, (is_right, what) in known.items():
         if key not in metadata:
-            if key in ("coordinates", "steps"):
+            if key == "coordinates" or (key == "steps" and not is_open):
                 raise InputError(f"{otherwise}: `{key}` is missing from the metadata: {_AGAIN}")
         elif not is_right(metadata[key]):
             raise InputError(f"{place.get(key, otherwise)}: `{key}` is not {what}: {_AGAIN}")

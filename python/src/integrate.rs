@@ -6,7 +6,7 @@ use pyo3::types::{PyDict, PyList};
 use serde_json::json;
 use shadowstep::shadow::EstimatorSettings;
 use shadowstep_scenes::arithmetic::Arithmetic;
-use shadowstep_scenes::computation::{Computation, RunNumber};
+use shadowstep_scenes::computation::{Computation, FollowedNumber};
 use shadowstep_scenes::integrate::{KeptStates, Samples};
 use shadowstep_scenes::posed::Posed;
 use shadowstep_scenes::run::{OrderSetting, Run};
@@ -121,7 +121,7 @@ struct InTexts<'a> {
 impl Computation for InTexts<'_> {
     type Output = Result<Samples<String>, Error>;
 
-    fn compute<N: RunNumber>(self, context: &N::Context) -> Self::Output {
+    fn compute<N: FollowedNumber>(self, context: &N::Context) -> Self::Output {
         Ok(self.posed.samples::<N>(self.kept, context, self.observer)?.map(N::to_text))
     }
 }

@@ -3,9 +3,9 @@
 use shadowstep::shadow::Estimate;
 use shadowstep::steps::integrator::VectorIntegrator;
 
-use crate::computation::RunNumber;
 use crate::error::Error;
 use crate::run::Run;
+use crate::run_number::RunNumber;
 use crate::scene::split::ShownCoordinates;
 use crate::scene::{EnergyAt, System};
 use crate::tangent::{FollowingVectors, TangentRun};

@@ -7,7 +7,7 @@ use shadowstep::{Rational, StepSize};
 use shadowstep_symbolic::decimal::to_text;
 
 use crate::arithmetic::{Arithmetic, DigitsLabel};
-use crate::computation::{Computation, RunNumber};
+use crate::computation::{Computation, FollowedNumber};
 use crate::error::Error;
 use crate::observer::Observer;
 use crate::posed::{Followed, Posed};
@@ -168,7 +168,7 @@ struct Following<'a, 'o> {
 impl Computation for Following<'_, '_> {
     type Output = Result<Option<ChaosRecord>, Error>;
 
-    fn compute<N: RunNumber>(self, context: &N::Context) -> Self::Output {
+    fn compute<N: FollowedNumber>(self, context: &N::Context) -> Self::Output {
         let Following { posed, vectors, observer } = self;
         let followed = N::follow(&posed, context, &mut [], observer)?;
         let Followed { n, is_stopped: false, summary: Some(summary), vectors: Some(mut tangents), .. } = followed

@@ -4,10 +4,10 @@ use shadowstep::number::saved::Fields;
 use shadowstep::steps::integrator::VectorIntegrator;
 
 use crate::at::At;
-use crate::computation::RunNumber;
 use crate::error::Error;
 use crate::moment::Moment;
 use crate::run::Run;
+use crate::run_number::RunNumber;
 
 /// Takes states of a run.
 pub trait Column<N: RunNumber> {

@@ -8,6 +8,7 @@ use shadowstep::number::{AnyLimbs, DoubleDouble};
 use shadowstep_symbolic::Exact;
 
 use crate::arithmetic::{Arithmetic, Digits, Numbers};
+pub use crate::follow::FollowedNumber;
 pub use crate::run_number::{Monitoring, RunNumber};
 
 /// A computation that can be made in every number type.
@@ -16,7 +17,7 @@ pub trait Computation {
     type Output;
 
     /// Makes it with numbers of type N.
-    fn compute<N: RunNumber>(self, context: &N::Context) -> Self::Output;
+    fn compute<N: FollowedNumber>(self, context: &N::Context) -> Self::Output;
 }
 
 impl Arithmetic {

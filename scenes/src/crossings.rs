@@ -5,9 +5,9 @@ use shadowstep::steps::step_to_zero;
 use shadowstep::{Rational, Real};
 use shadowstep_symbolic::decimal::to_text;
 
-use crate::computation::RunNumber;
 use crate::evaluator::Evaluator;
 use crate::run::Run;
+use crate::run_number::RunNumber;
 use crate::scene::{Direction, Surface, System};
 use crate::snapshots::Snapshot;
 

@@ -35,7 +35,7 @@ use shadowstep::shadow::{EstimatorSettings, SelectionRule, StoppingRule};
 use shadowstep_symbolic::decimal::to_text;
 
 use crate::arithmetic::Arithmetic;
-use crate::computation::{Computation, RunNumber};
+use crate::computation::{Computation, FollowedNumber};
 use crate::cpu_time::CpuTime;
 use crate::error::Error;
 use crate::estimates::{Estimates, Finished};
@@ -106,7 +106,7 @@ struct Measurement<'a> {
 impl Computation for Measurement<'_> {
     type Output = Result<Record, Error>;
 
-    fn compute<N: RunNumber>(self, context: &N::Context) -> Self::Output {
+    fn compute<N: FollowedNumber>(self, context: &N::Context) -> Self::Output {
         let Measurement { request, propagator, run, controls, follower } = self;
         let DriftRequest { system, summarised, arithmetic, .. } = *request;
         let settings = request.estimator.clone().with_errors(true);

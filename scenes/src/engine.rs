@@ -2,7 +2,7 @@
 
 use crate::at::{At, Place};
 use crate::column::{Column, next_multiple};
-use crate::computation::{Computation, RunNumber};
+use crate::computation::{Computation, FollowedNumber, RunNumber};
 use crate::error::Error;
 use crate::moment::Moment;
 use crate::observer::Observer;
@@ -43,7 +43,7 @@ pub(crate) struct SceneRun<'a, 'r> {
 impl Computation for SceneRun<'_, '_> {
     type Output = Result<Followed, Error>;
 
-    fn compute<N: RunNumber>(self, context: &N::Context) -> Self::Output {
+    fn compute<N: FollowedNumber>(self, context: &N::Context) -> Self::Output {
         let SceneRun { scene, rows, checkpoint, observer } = self;
         let summarised = scene.summarises(observer);
         let output = &scene.output;

@@ -6,7 +6,7 @@ use shadowstep::shadow::{Estimate, EstimatorSettings};
 use crate::arithmetic::Arithmetic;
 use crate::at::{At, Place};
 use crate::column::Column;
-use crate::computation::RunNumber;
+use crate::computation::{FollowedNumber, RunNumber};
 use crate::error::Error;
 use crate::library::NamedScheme;
 use crate::posed::{Followed, Posed};
@@ -68,7 +68,7 @@ impl Estimates<'_> {
     ///
     /// # Panics
     /// If the scheme is the exact flow of a system that has none, which [`Propagator::of_system`] excludes.
-    pub fn take<N: RunNumber>(self, context: &N::Context, take: Take<'_, N>) -> Result<Finished<N>, Error> {
+    pub fn take<N: FollowedNumber>(self, context: &N::Context, take: Take<'_, N>) -> Result<Finished<N>, Error> {
         let Estimates { system, propagator, run, settings, .. } = self;
         match propagator {
             Propagator::Scheme(named) => self.along(named, context, take),
@@ -85,7 +85,7 @@ impl Estimates<'_> {
     }
 
     /// Those of a scheme.
-    fn along<N: RunNumber>(
+    fn along<N: FollowedNumber>(
         self,
         named: &NamedScheme,
         context: &N::Context,

@@ -10,7 +10,6 @@ use shadowstep_schemes::document::{Reader, Text};
 use shadowstep_symbolic::Exact;
 use thiserror::Error;
 
-use crate::computation::RunNumber;
 use crate::error::Error;
 use crate::expression::{Comparison, Condition, ENERGY, Expression, TIME, name_of_quantity};
 use crate::lanes::LANES;
@@ -18,6 +17,7 @@ use crate::quantity::{Compute, Quantity};
 use crate::quantity_of_bodies::QuantityOfBodies;
 use crate::refusal::Refusal;
 use crate::reserved_names::QUANTITIES;
+use crate::run_number::RunNumber;
 use crate::scene::split::ShownCoordinates;
 use crate::scene::{Direction, EnergyAt, Surface, System};
 

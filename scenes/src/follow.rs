@@ -12,9 +12,9 @@ use shadowstep::steps::step_to_time;
 use shadowstep::systems::system::Visitor;
 use shadowstep::{Carried, Rational};
 
+use crate::arithmetic::number_types;
 use crate::at::{At, Place, View};
 use crate::column::{Column, next_multiple};
-use crate::computation::RunNumber;
 use crate::crossings::{Crossings, NEEDS_PARTS_OF_STEPS};
 use crate::error::Error;
 use crate::evaluator::Test;
@@ -24,6 +24,7 @@ use crate::observer::Observer;
 use crate::pace::Pace;
 use crate::posed::{Followed, Posed, unreadable};
 use crate::run::Run;
+use crate::run_number::RunNumber;
 use crate::saved_state::SavedState;
 use crate::saved_summary::SavedSummary;
 use crate::scene::CheckpointInterval;
@@ -36,11 +37,40 @@ const LONG: Duration = Duration::from_millis(500);
 /// The observer is asked at each of the first states: it may stop short runs anywhere.
 const ONE_BY_ONE: u64 = 256;
 
-/// Makes the run and shows its states to the columns.
-///
-/// # Errors
-/// Crossings with displaced forces; a state or an energy that is not finite; settings of the estimator that are not valid; those of the columns.
-pub(crate) fn follow<N: RunNumber>(
+/// A number type in which runs are made.
+pub trait FollowedNumber: RunNumber {
+    /// Makes a run and shows its states to columns; without an end that is known before, until a column, a condition or a physical time ends it.
+    ///
+    /// # Errors
+    /// Crossings with displaced forces; a state or an energy that is not finite; settings of the estimator that are not valid; those of the columns.
+    fn follow(
+        posed: &Posed<'_>,
+        context: &Self::Context,
+        columns: &mut [&mut dyn Column<Self>],
+        observer: &mut dyn Observer,
+    ) -> Result<Followed, Error>;
+}
+
+// not inlined: callers in other crates would compile it once more
+macro_rules! followed_numbers {
+    ($($number:ty),*) => {$(
+        impl FollowedNumber for $number {
+            #[inline(never)]
+            fn follow(
+                posed: &Posed<'_>,
+                context: &Self::Context,
+                columns: &mut [&mut dyn Column<Self>],
+                observer: &mut dyn Observer,
+            ) -> Result<Followed, Error> {
+                follow(posed, context, columns, observer)
+            }
+        }
+    )*};
+}
+
+number_types!(followed_numbers);
+
+fn follow<N: RunNumber>(
     posed: &Posed<'_>,
     context: &N::Context,
     columns: &mut [&mut dyn Column<N>],

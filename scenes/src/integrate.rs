@@ -24,7 +24,7 @@
 
 use crate::at::{At, Place};
 use crate::column::{Column, next_multiple};
-use crate::computation::RunNumber;
+use crate::computation::{FollowedNumber, RunNumber};
 use crate::error::Error;
 use crate::observer::{Observer, interrupted};
 use crate::posed::Posed;
@@ -80,7 +80,7 @@ impl Posed<'_> {
     ///
     /// # Panics
     /// If the scheme is not valid for the system.
-    pub fn samples<N: RunNumber>(
+    pub fn samples<N: FollowedNumber>(
         self,
         kept: KeptStates<'_>,
         context: &N::Context,

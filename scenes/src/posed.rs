@@ -7,11 +7,11 @@ use shadowstep::tables::{AtRunTime, TableScheme};
 use shadowstep::{MotionError, Rational};
 
 use crate::arithmetic::Arithmetic;
-use crate::computation::RunNumber;
 use crate::error::Error;
 use crate::expression::Condition;
 use crate::results::Checkpoint;
 use crate::run::Run;
+use crate::run_number::RunNumber;
 use crate::scene::{CheckpointInterval, Scene, Surface, System};
 use crate::start::{Begin, SceneIntegrator, Steps};
 use crate::tangent::{FollowingVectors, Vectors};
@@ -39,7 +39,7 @@ pub struct Posed<'a> {
     pub section: Option<&'a Surface>,
     /// The estimator of modified energies, if these are wanted.
     pub estimator: Option<&'a EstimatorSettings>,
-    /// The tangent vectors beside the run, measured every so many steps.
+    /// The tangent vectors beside the run, with the number of steps after which they are measured.
     pub vectors: Option<(Vectors, u64)>,
     /// At which states H is computed for its error, if that is wanted.
     pub energies: Option<Energies>,

@@ -9,7 +9,7 @@ use shadowstep::tables::TableScheme;
 use shadowstep::{Rational, StepSize, Stepper};
 
 use crate::arithmetic::Arithmetic;
-use crate::computation::Computation;
+use crate::computation::{Computation, FollowedNumber};
 use crate::error::Error;
 use crate::library::{self, EXACT_FLOW, NamedScheme, Schemes};
 use crate::note::Note;
@@ -118,7 +118,7 @@ struct Counting<'a>(Posed<'a>);
 impl Computation for Counting<'_> {
     type Output = Result<u64, Error>;
 
-    fn compute<N: RunNumber>(self, context: &N::Context) -> Self::Output {
+    fn compute<N: FollowedNumber>(self, context: &N::Context) -> Self::Output {
         Ok(N::follow(&self.0, context, &mut [], &mut ())?.n.unsigned_abs())
     }
 }

@@ -9,26 +9,10 @@ use shadowstep::steps::integrator::VectorIntegrator;
 use shadowstep::{Real, StepSize};
 
 use crate::arithmetic::number_types;
-use crate::column::Column;
-use crate::error::Error;
-use crate::follow::follow;
-use crate::observer::Observer;
-use crate::posed::{Followed, Posed};
 use crate::scene::SceneNumber;
 
 /// A number type of runs.
 pub trait RunNumber: SceneNumber {
-    /// Makes a run and shows its states to columns; without an end that is known before, until a column, a condition or a physical time ends it.
-    ///
-    /// # Errors
-    /// Crossings with displaced forces; a state or an energy that is not finite; settings of the estimator that are not valid; those of the columns.
-    fn follow(
-        posed: &Posed<'_>,
-        context: &Self::Context,
-        columns: &mut [&mut dyn Column<Self>],
-        observer: &mut dyn Observer,
-    ) -> Result<Followed, Error>;
-
     /// The estimator of these settings: see [`BuildEstimator::build`].
     ///
     /// # Errors
@@ -137,16 +121,6 @@ impl<N: RunNumber> Monitoring<N> for Monitor<N, <Bilinear as BuildEstimator<N>>:
 macro_rules! run_numbers {
     ($($number:ty),*) => {$(
         impl RunNumber for $number {
-            #[inline(never)]
-            fn follow(
-                posed: &Posed<'_>,
-                context: &Self::Context,
-                columns: &mut [&mut dyn Column<Self>],
-                observer: &mut dyn Observer,
-            ) -> Result<Followed, Error> {
-                follow(posed, context, columns, observer)
-            }
-
             #[inline(never)]
             fn estimator(
                 settings: &EstimatorSettings,

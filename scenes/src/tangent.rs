@@ -6,8 +6,8 @@ use shadowstep::tangent::{Growth, Tangents, with_derivatives};
 use shadowstep::{Integrator as _, MotionError, Number, Rational, Real, Remainders};
 
 use crate::arithmetic::{Arithmetic, Digits, Numbers};
-use crate::computation::RunNumber;
 use crate::error::Error;
+use crate::run_number::RunNumber;
 use crate::saved_state::{SavedState, SavedVector};
 use crate::scene::{PotentialEnergy, Scene, SceneNumber, System};
 use crate::snapshots::Snapshot;

@@ -5,11 +5,11 @@ use shadowstep::steps::integrator::VectorIntegrator;
 
 use crate::at::At;
 use crate::column::Column;
-use crate::computation::RunNumber;
 use crate::error::Error;
 use crate::evaluator::Evaluator;
 use crate::extremum::Extremum;
 use crate::run::Run;
+use crate::run_number::RunNumber;
 use crate::scene::{NamedExpression, System, ValueColumns};
 use crate::watch::summary::Extreme;
 

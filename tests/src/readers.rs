@@ -170,7 +170,7 @@ impl Stopped {
         let state = serde_json::to_string(&content.state).expect("texts and numbers are JSON");
         let Content { n, bytes, .. } = content;
         let checkpoint = format!(
-            "{{\"identity\":{},\"n\":{n},\"bytes\":{bytes},\"head\":0,\"hashed_from\":0,\"sha256\":\"{rows}\",\"state\":{state}}}",
+            "{{\"identity\":{},\"n\":{n},\"is_last\":false,\"bytes\":{bytes},\"head\":0,\"hashed_from\":0,\"sha256\":\"{rows}\",\"state\":{state}}}",
             self.identity
         );
         let seal = hexadecimal(checkpoint.as_bytes());

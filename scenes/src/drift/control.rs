@@ -16,7 +16,7 @@ use shadowstep::shadow::run::States;
 use super::follower::Follower;
 use super::measure::measure;
 use super::record::{Control, Permanent};
-use crate::computation::RunNumber;
+use crate::computation::FollowedNumber;
 use crate::cpu_time::CpuTime;
 use crate::error::Error;
 use crate::estimates::Estimates;
@@ -72,7 +72,7 @@ impl Controls {
     }
 
     /// The control of a run that took `seconds`.
-    pub(super) fn of<N: RunNumber>(
+    pub(super) fn of<N: FollowedNumber>(
         &mut self,
         estimates: Estimates<'_>,
         context: &N::Context,
@@ -113,7 +113,7 @@ fn expected<N: CorrectlyRounded>(setup: &Setup, run: Run<'_>, context: &N::Conte
     Duration::try_from_secs_f64(all).ok()
 }
 
-fn control<N: RunNumber>(
+fn control<N: FollowedNumber>(
     estimates: Estimates<'_>,
     context: &N::Context,
     limit: Option<Duration>,

@@ -2,12 +2,12 @@
 
 use shadowstep::shadow::run::{DriftRecorder, EnergyDrift};
 
-use crate::computation::RunNumber;
+use crate::computation::FollowedNumber;
 use crate::error::Error;
 use crate::estimates::{Estimates, Finished};
 
 /// The drift of a run, and what is known of the run besides.
-pub(super) fn measure<N: RunNumber>(
+pub(super) fn measure<N: FollowedNumber>(
     estimates: Estimates<'_>,
     context: &N::Context,
     mut progress: impl FnMut(i64) -> Result<(), Error>,
