@@ -72,7 +72,7 @@
 //! | [`ensemble`], [`lanes`] | many trajectories of such a family; their systems as one system of lanes |
 //! | `read` | a scene's text → a scene, or all its faults |
 //! | [`posed`], `follow` | a run with all that determines it; the one loop of runs |
-//! | [`column`], [`at`] | what takes states, and a state as it sees it |
+//! | [`mod@column`], [`at`] | what takes states, and a state as it sees it |
 //! | `execute`, `engine`, `moment`, `snapshots`, `saved_state` | the run of a scene into rows, which can be resumed |
 //! | `crossings` | where a run crosses a surface of section |
 //! | `observer`, `note` | how a caller watches a run and stops it |
