@@ -50,8 +50,9 @@ impl Maker {
         );
         self.text("step", &step);
         let count = self.one(&[1, 2, 5, 10, 16, 24, 40]);
-        // from near a singularity the orbits are so short that a physical end is millions of steps away
-        let is_far = self.has_time && ["1e-3", "1e-17", "1e-300"].iter().any(|x| self.document.to_string().contains(x));
+        // from near a singularity, or by a power of U, a physical end may be millions of steps away
+        let is_far = self.has_time
+            && ["1e-3", "1e-17", "1e-300", "exponent = "].iter().any(|x| self.document.to_string().contains(x));
         match self.below(5) {
             _ if is_far => self.key("steps", count),
             0 => self.text("until", &format!("{count}*({step})")),
