@@ -361,6 +361,35 @@ mod tests {
         }
     }
 
+    /// However late it is interrupted, and where it goes on to a later end than the one that came before its condition.
+    #[test]
+    fn a_run_whose_condition_is_not_met_is_resumed_late_and_prolonged() {
+        let folder = tempfile::tempdir().unwrap();
+        let run = |steps: u64, stop: i64| {
+            let text = format!(
+                "problem.name = \"kepler\"\nrun = {{ scheme = \"yoshida4\", step = \"1/20\", steps = {steps}, end = \"x > 9\", digits = \"double\" }}\n\
+                 [output]\nfile = \"out.csv\"\ncheckpoint = 50\nenergy = {{ every = 7 }}\n"
+            );
+            fs::write(folder.path().join("scene.toml"), text).unwrap();
+            let mut observer = StopAfterAndKeep(StopAfter(stop), None);
+            let scene = Scene::open(folder.path().join("scene.toml")).unwrap();
+            scene.run_to_file(FileOptions::default(), &mut observer).unwrap();
+            observer.1.map(|summary| summary.to_string())
+        };
+        assert_eq!(run(2000, 300), None);
+        for stop in [2, 40, 3] {
+            assert_eq!(run(2000, stop), None);
+        }
+        let resumed = run(2000, 100_000).expect("it is complete");
+        let prolonged = run(20_000, 100_000).expect("it is complete");
+        fs::remove_file(folder.path().join("out.csv")).unwrap();
+        fs::remove_file(folder.path().join("out.csv.checkpoint")).unwrap();
+        assert_eq!(run(2000, 100_000), Some(resumed));
+        fs::remove_file(folder.path().join("out.csv")).unwrap();
+        fs::remove_file(folder.path().join("out.csv.checkpoint")).unwrap();
+        assert_eq!(run(20_000, 100_000), Some(prolonged));
+    }
+
     /// A checkpoint of a run without a summary has nothing for one; that of a complete run has it for a later end.
     #[test]
     fn a_summary_is_of_all_steps_that_were_followed() {

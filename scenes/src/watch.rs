@@ -27,6 +27,7 @@ pub use self::particles::ParticleApproach;
 use crate::run::Run;
 use crate::run_number::{Monitoring, RunNumber};
 use crate::scene;
+use crate::steps::MOST_STEPS;
 use crate::watch::summary::{EnergySummary, ModifiedEnergySummary, Summary};
 
 /// The monitor's estimator is E_16 with its error: 17 states a window.
@@ -81,6 +82,9 @@ pub struct Watch<N: RunNumber> {
 struct Observed<N: RunNumber> {
     /// Of a run whose number of steps is not known several, with windows at larger and larger distances; the first one has the closest.
     monitors: Vec<Spaced<N>>,
+    /// Of all monitors: the states that pass unobserved, and those of them that are still to come.
+    pass: u64,
+    idle: u64,
     encounters: Encounters<N>,
     approaches: Option<Approaches>,
     light: Option<LightBodies>,
@@ -90,44 +94,20 @@ struct Observed<N: RunNumber> {
 struct Spaced<N: RunNumber> {
     monitor: Box<dyn Monitoring<N>>,
     every: u64,
-    /// The states that pass unobserved, and those of them that are still to come.
-    pass: u64,
-    idle: u64,
 }
 
-impl<N: RunNumber> Spaced<N> {
-    fn new(integrator: &mut VectorIntegrator<'_, N>, every: u64) -> Result<Self, RunError> {
-        let monitor = N::monitor(integrator, MONITOR_ORDER, every)?;
-        Ok(Spaced { idle: monitor.idle(), pass: 0, monitor, every })
-    }
-
-    /// A state passes, if the monitor takes nothing of it.
-    #[inline]
-    fn passes(&mut self) -> bool {
-        if self.idle == 0 {
-            return false;
-        }
-        (self.idle, self.pass) = (self.idle - 1, self.pass + 1);
-        if self.idle == 0 {
-            self.monitor.pass(take(&mut self.pass));
-        }
-        true
-    }
-}
-
-/// The distances of windows in a run of `steps` at most, which something else may end before: at each a monitor sees this many windows at most, so that one of
-/// them has from half as many as wanted to twice as many, wherever the run ends.
-fn distances(steps: u64, windows: u64) -> impl Iterator<Item = u64> {
+/// The distances of windows in a run whose number of steps is not known, whatever its end is, so that it can be prolonged: at each a monitor sees twice as many
+/// windows as wanted, at most, and one of them has at least half as many, wherever the run ends.
+fn distances(windows: u64) -> impl Iterator<Item = u64> {
     const RATIO: u64 = 4;
-    std::iter::successors(Some(1_u64), |every| every.checked_mul(RATIO))
-        .take_while(move |every| every.saturating_mul(windows / 2) <= steps.max(windows / 2))
+    std::iter::successors(Some(1), move |every| Some(every * RATIO).filter(|every| *every <= MOST_STEPS / windows))
 }
 
 impl<N: RunNumber> Observed<N> {
-    /// Takes the state n, which passes all monitors if none of them takes anything of it.
+    /// Takes the state n; whether no monitor takes anything of it.
     #[inline]
-    fn include(&mut self, n: i64, (q, p): (&[N], &[N])) {
-        let Observed { encounters, approaches, light, .. } = self;
+    fn include(&mut self, n: i64, (q, p): (&[N], &[N])) -> bool {
+        let Observed { monitors, pass, idle, encounters, approaches, light } = self;
         encounters.include(n, p);
         if let Some(approaches) = approaches {
             approaches.include(n, (q, p));
@@ -135,6 +115,15 @@ impl<N: RunNumber> Observed<N> {
         if let Some(light) = light {
             light.include(n, (q, p));
         }
+        if *idle == 0 {
+            return false;
+        }
+        (*idle, *pass) = (*idle - 1, *pass + 1);
+        if *idle == 0 {
+            let passed = take(pass);
+            monitors.iter_mut().for_each(|spaced| spaced.monitor.pass(passed));
+        }
+        true
     }
 
     /// Leaves out the monitors that have seen enough windows by the state n, of a run from `from`.
@@ -146,8 +135,8 @@ impl<N: RunNumber> Observed<N> {
         }
     }
 
-    fn idle(&self) -> u64 {
-        self.monitors.iter().map(|spaced| spaced.idle).min().unwrap_or(u64::MAX)
+    fn monitors_idle(&self) -> u64 {
+        self.monitors.iter().map(|spaced| spaced.monitor.idle()).min().unwrap_or(u64::MAX)
     }
 }
 
@@ -157,9 +146,6 @@ impl<N: RunNumber> Visitor<N> for Watch<N> {
         self.n += 1;
         if let Some(observed) = &mut self.observed {
             observed.include(self.n, (q, p));
-            for spaced in &mut observed.monitors {
-                spaced.passes();
-            }
         }
     }
 }
@@ -171,11 +157,9 @@ impl<N: RunNumber> Saved<N> for Watch<N> {
         [&mut self.from, &mut self.n].into_iter().for_each(|n| to.whole(n));
         if let Some(observed) = &mut self.observed {
             observed.leave_closer((self.from, self.n), self.windows);
-            let Observed { monitors, encounters, approaches, light } = observed;
-            for Spaced { monitor, pass, idle, .. } in monitors {
-                monitor.fields(to);
-                [pass, idle].into_iter().for_each(|states| to.count(states));
-            }
+            let Observed { monitors, pass, idle, encounters, approaches, light } = observed;
+            monitors.iter_mut().for_each(|spaced| spaced.monitor.fields(to));
+            [pass, idle].into_iter().for_each(|states| to.count(states));
             encounters.fields(to);
             approaches.iter_mut().for_each(|approaches| approaches.fields(to));
             light.iter_mut().for_each(|light| light.fields(to));
@@ -199,22 +183,25 @@ impl<N: RunNumber> Watch<N> {
         let energies = if run.steps <= SHORT_RUN { Energies::All } else { energies };
         let (mut observed, massive) = (None, integrator.system().massive_coordinates());
         if summarised {
-            let steps = run.steps.saturating_sub(from.unsigned_abs());
-            let distances: Vec<u64> =
-                if is_open { distances(steps, run.windows).collect() } else { vec![(steps / run.windows).max(1)] };
-            let monitors =
-                distances.into_iter().map(|every| Spaced::new(integrator, every)).collect::<Result<_, _>>()?;
+            let every = (run.steps.saturating_sub(from.unsigned_abs()) / run.windows).max(1);
+            let distances = if is_open { distances(run.windows).collect() } else { vec![every] };
+            let spaced = |every| Ok(Spaced { monitor: N::monitor(integrator, MONITOR_ORDER, every)?, every });
+            let monitors = distances.into_iter().map(spaced).collect::<Result<Vec<_>, RunError>>()?;
             // it has refused the state of the steps, which is that of the trajectory unless the scheme is a processed one
             if !initial.is_finite() {
                 let value = NotFinite { quantity: Quantity::Energy, value: initial.to_text() };
                 return Err(RunError::NotFinite { step: 0, value });
             }
-            observed = Some(Observed {
+            let mut begun = Observed {
                 monitors,
+                pass: 0,
+                idle: 0,
                 encounters: Encounters::new(&integrator.state().p()[..massive]),
                 approaches: None,
                 light: None,
-            });
+            };
+            begun.idle = begun.monitors_idle();
+            observed = Some(begun);
         }
         let mut energy = EnergyError::new(initial);
         if from == 0 {
@@ -259,8 +246,8 @@ impl<N: RunNumber> Watch<N> {
     /// What the next step is to carry along.
     pub fn carried(&self) -> Carried {
         match &self.observed {
-            Some(Observed { monitors, .. })
-                if monitors.iter().any(|spaced| spaced.idle == 0 && spaced.monitor.needs_increments()) =>
+            Some(Observed { monitors, idle: 0, .. })
+                if monitors.iter().any(|spaced| spaced.monitor.needs_increments()) =>
             {
                 Carried::Increments
             }
@@ -271,7 +258,7 @@ impl<N: RunNumber> Watch<N> {
     /// How many of the next states need not be [included](Watch::include): it is enough that they are visited.
     pub fn idle(&self) -> u64 {
         match &self.observed {
-            Some(observed) if self.energies != Energies::All => observed.idle(),
+            Some(observed) if self.energies != Energies::All => observed.idle,
             _ => 0,
         }
     }
@@ -284,18 +271,22 @@ impl<N: RunNumber> Watch<N> {
             self.energy.include(n, &at_output(integrator, |integrator| integrator.system().energy()));
         }
         let Some(observed) = &mut self.observed else { return };
-        observed.include(n, (integrator.state().q(), integrator.state().p()));
-        observed.leave_closer((self.from, n), self.windows);
-        let [first, others @ ..] = &mut observed.monitors[..] else { return };
-        for Spaced { monitor, idle, .. } in others.iter_mut().filter_map(|spaced| (!spaced.passes()).then_some(spaced))
-        {
-            let _ = monitor.observe(integrator);
-            *idle = monitor.idle();
-        }
-        if first.passes() {
+        if observed.include(n, (integrator.state().q(), integrator.state().p())) {
             return;
         }
-        let Spaced { monitor, idle, .. } = first;
+        observed.leave_closer((self.from, n), self.windows);
+        let [Spaced { monitor, .. }, others @ ..] = &mut observed.monitors[..] else { return };
+        for Spaced { monitor, .. } in others {
+            match monitor.idle() {
+                0 => drop(monitor.observe(integrator)),
+                _ => monitor.pass(1),
+            }
+        }
+        if monitor.idle() > 0 {
+            monitor.pass(1);
+            observed.idle = observed.monitors_idle();
+            return;
+        }
         // what is not finite is found by the run as well, or by the verdict
         let found = monitor.observe(integrator).ok().flatten();
         // of a processed scheme the trajectory is known at the present state only
@@ -304,7 +295,7 @@ impl<N: RunNumber> Watch<N> {
         let middle = found.filter(|_| !processed).map(|sample| (sample.n, sample.energy.clone()));
         let is_own = (processed && ends) || monitor.takes_kinetic(monitor.n());
         let middle = middle.filter(|(n, _)| !monitor.takes_kinetic(*n));
-        *idle = monitor.idle();
+        observed.idle = observed.monitors_idle();
         if let Some((middle, energy)) = middle {
             let n = self.from + i64::try_from(middle).unwrap_or(i64::MAX);
             if self.energies.wants(n) {
@@ -346,8 +337,8 @@ impl<N: RunNumber> Watch<N> {
         initial.make_absolute();
         let [largest, last] = [&self.energy.largest, &self.energy.last].map(N::clone);
         let Watch { observed, from, n, transformed, processed, time, names, .. } = self;
-        let Observed { monitors, encounters, approaches, light } = observed?;
-        let Spaced { mut monitor, pass, .. } = monitors.into_iter().next()?;
+        let Observed { monitors, pass, encounters, approaches, light, .. } = observed?;
+        let Spaced { mut monitor, .. } = monitors.into_iter().next()?;
         monitor.pass(pass);
         let mut report = monitor.report();
         report.coordinate_names = names;
