@@ -49,7 +49,7 @@ pub trait Column<N: RunNumber> {
     ///
     /// # Errors
     /// A file that cannot be written.
-    fn keep(&mut self, moment: Moment) -> Result<(), Error> {
+    fn keep(&mut self, moment: &Moment) -> Result<(), Error> {
         let _ = moment;
         Ok(())
     }

@@ -56,9 +56,8 @@ impl Computation for SceneRun<'_, '_> {
             resumed: Resumed { interval: output.checkpoint, checkpoint },
             ..scene.posed()
         };
-        let written = checkpoint.map_or(-1, |checkpoint| checkpoint.n);
         let values = output.values.iter().map(|columns| ValuesOfRows::new(columns, &scene.system, context));
-        let mut rows = StateRows { output, rows, values: values.collect(), written };
+        let mut rows = StateRows { output, rows, values: values.collect() };
         let extremes = if summarised { &output.extremes[..] } else { &[] };
         let mut extremes = Extremes::new(extremes, &scene.system, context);
         let columns: &mut [&mut dyn Column<N>] = &mut [&mut rows, &mut extremes];
@@ -89,8 +88,6 @@ struct StateRows<'a, 'r, N: RunNumber> {
     rows: &'a mut Rows<'r>,
     /// Columns of expressions.
     values: Vec<ValuesOfRows<'a, N>>,
-    /// Rows up to this n are in the file already.
-    written: i64,
 }
 
 impl<N: RunNumber> StateRows<'_, '_, N> {
@@ -145,8 +142,7 @@ impl<N: RunNumber> Column<N> for StateRows<'_, '_, N> {
         self.rows.row(&Row { n, t: &t, energy, modified_energy, chaos, values, state })
     }
 
-    fn keep(&mut self, moment: Moment) -> Result<(), Error> {
-        self.written = self.written.max(moment.n);
+    fn keep(&mut self, moment: &Moment) -> Result<(), Error> {
         self.rows.target.keep(moment)
     }
 }

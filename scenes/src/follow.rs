@@ -91,7 +91,6 @@ fn follow<N: RunNumber>(
 /// Follows the states in the order of time.
 struct Following<'a, 'c, N: RunNumber> {
     posed: &'a Posed<'a>,
-    context: &'a N::Context,
     columns: &'a mut [&'c mut dyn Column<N>],
     observer: &'a mut dyn Observer,
     view: View<'a, N>,
@@ -108,9 +107,8 @@ struct Following<'a, 'c, N: RunNumber> {
     /// The n of the last state; where something else ends the run, the most until that is known.
     last: i64,
     is_met: bool,
-    /// Whether the end is known to be among the next states.
-    is_near_end: bool,
-    is_processed: bool,
+    /// Whether the states are made one by one: each is seen, or the end is known to be among the next ones.
+    one_by_one: bool,
     is_stopped: bool,
     /// Whether a column ended the run.
     is_ended_by_column: bool,
@@ -147,8 +145,12 @@ impl<'a, 'c, N: RunNumber> Following<'a, 'c, N> {
         let first = from.unwrap_or(0);
         let test = |condition| Test::new(condition, system, context).expect("it was checked with the system");
         let until = posed.until.map(|until| (N::from_rational(until, context), until.is_positive()));
+        let test = posed.ends.map(test);
+        let sees_each = columns.iter().any(|column| column.sees_each());
+        // H, and the trajectory of a processed scheme, are known at the present state only
+        let needs_system = |test: &Test<N>| test.has_energy() || integrator.is_processed();
         let mut following = Following {
-            context,
+            one_by_one: sees_each || posed.section.is_some() || test.as_ref().is_some_and(needs_system),
             view: View {
                 system,
                 run,
@@ -159,14 +161,12 @@ impl<'a, 'c, N: RunNumber> Following<'a, 'c, N> {
             },
             watch: None,
             crossings: posed.section.map(|surface| Crossings::new(surface, system, context)),
-            test: posed.ends.map(test),
+            test,
             until,
-            sees_each: columns.iter().any(|column| column.sees_each()),
+            sees_each,
             from,
             last: i64::try_from(run.steps).unwrap_or(i64::MAX),
             is_met: false,
-            is_near_end: false,
-            is_processed: integrator.is_processed(),
             is_stopped: false,
             is_ended_by_column: false,
             n: first,
@@ -200,7 +200,7 @@ impl<'a, 'c, N: RunNumber> Following<'a, 'c, N> {
             Some(Energies::Given(_)) if self.view.energy_of.is_some() => Energies::Windows,
             energies => energies.unwrap_or(Energies::Windows),
         };
-        let (q, p) = system.start(self.context);
+        let (q, p) = system.start(self.view.context);
         let initial = integrator.energy_at(&q, &p);
         let (run, from) = (self.posed.run, self.from.unwrap_or(0));
         let watch = Watch::begin(integrator, run, (from, initial), energies, (summarised, self.posed.is_open()));
@@ -228,7 +228,7 @@ impl<'a, 'c, N: RunNumber> Following<'a, 'c, N> {
     /// All numbers that the states so far have left.
     fn fields(&mut self, to: &mut dyn Fields<N>) {
         self.watch.iter_mut().for_each(|watch| watch.fields(to));
-        self.columns.iter_mut().for_each(|column| column.fields(self.context, to));
+        self.columns.iter_mut().for_each(|column| column.fields(self.view.context, to));
     }
 
     fn run(&self) -> Run<'a> {
@@ -285,11 +285,11 @@ impl<'a, 'c, N: RunNumber> Following<'a, 'c, N> {
         let before = Snapshot::of(from, trajectory.integrator().state());
         let mut passing = Passing { watch, test, until, view, n: from, has_ended: false };
         let made = trajectory.reach_visited(n, &mut passing);
-        self.is_near_end = passing.has_ended;
         self.seen = passing.n;
-        if !self.is_near_end {
+        if !passing.has_ended {
             return made;
         }
+        self.one_by_one = true;
         before.restore(trajectory.integrator());
         trajectory.go_on_from(from);
         Ok(())
@@ -329,12 +329,7 @@ impl<'a, 'c, N: RunNumber> Following<'a, 'c, N> {
 
     /// The n of the next state after n that is to be seen, or shown.
     fn next(&self, n: i64) -> i64 {
-        let needs_system = |test: &Test<N>| test.has_energy() || self.is_processed;
-        if self.sees_each
-            || self.crossings.is_some()
-            || self.is_near_end
-            || self.test.as_ref().is_some_and(needs_system)
-        {
+        if self.one_by_one {
             return n + 1;
         }
         let checkpoint = match self.posed.resumed.interval {
@@ -409,7 +404,7 @@ impl<'a, 'c, N: RunNumber> Following<'a, 'c, N> {
         if let Some(vectors) = &mut self.view.vectors {
             vectors.reach(n);
         }
-        self.pace.looks_up(n.unsigned_abs());
+        self.pace.look_up(n.unsigned_abs());
         if estimate.is_none() {
             self.cross(n, integrator)?;
         }
@@ -460,10 +455,16 @@ impl<'a, 'c, N: RunNumber> Following<'a, 'c, N> {
         if n <= self.written || !(is_due || self.is_stopped) {
             return Ok(());
         }
-        match self.posed.estimator {
-            None => self.keep(n, Some(&Snapshot::of(n, integrator.state()))),
-            Some(_) => self.keep(n, self.snapshots.for_those_after(n).cloned().as_ref()),
-        }
+        self.keep_at(n, || Snapshot::of(n, integrator.state()))
+    }
+
+    /// Keeps the moment of the state n, from which the run can be resumed, or with estimates from an earlier one.
+    fn keep_at(&mut self, n: i64, state: impl FnOnce() -> Snapshot<N>) -> Result<(), Error> {
+        let state = match self.posed.estimator {
+            None => Some(state()),
+            Some(_) => self.snapshots.for_those_after(n).cloned(),
+        };
+        self.keep(n, state.as_ref())
     }
 
     fn is_time_for_a_moment(&mut self, n: i64, interval: CheckpointInterval) -> bool {
@@ -488,12 +489,9 @@ impl<'a, 'c, N: RunNumber> Following<'a, 'c, N> {
             (saved, Some(vectors)) => {
                 let summarised = self.posed.summarised;
                 let summary = summarised.then(|| SavedSummary::of(self.seen, |to| self.fields(to))).flatten();
-                let state = saved.flatten();
-                for column in self.columns.iter_mut() {
-                    let (state, vectors, summary) = (state.clone(), vectors.clone(), summary.clone());
-                    column.keep(Moment { n, is_last: n == self.last, state, vectors, summary })?;
-                }
-                self.is_kept = n == self.last;
+                let moment = Moment { n, is_last: n == self.last, state: saved.flatten(), vectors, summary };
+                self.columns.iter_mut().try_for_each(|column| column.keep(&moment))?;
+                self.is_kept = moment.is_last;
             }
         }
         self.last_checkpoint = Instant::now();
@@ -517,17 +515,13 @@ impl<'a, 'c, N: RunNumber> Following<'a, 'c, N> {
             return Ok(followed);
         }
         followed.n = self.last;
-        let last = self.state.clone().expect("the last state was seen");
+        let last = self.state.take().expect("the last state was seen");
         if self.posed.resumed.interval.is_some() && !self.is_kept && self.last > self.written {
             // that it is the last one was known later
-            match self.posed.estimator {
-                None => self.keep(self.last, Some(&last))?,
-                Some(_) => self.keep(self.last, self.snapshots.for_those_after(self.last).cloned().as_ref())?,
-            }
+            self.keep_at(self.last, || last.clone())?;
         }
-        let (mut q, mut p) = (last.q.clone(), last.p.clone());
+        let (mut q, mut p) = (last.q, last.p);
         integrator.postprocess_state(&mut q, &mut p);
-        self.view.run = run;
         let energy = integrator.energy_at(&q, &p);
         // the gradient may have values where the potential has none, as that of log(x) for x < 0
         if !energy.is_finite() {
@@ -537,12 +531,13 @@ impl<'a, 'c, N: RunNumber> Following<'a, 'c, N> {
             watch.include_energy(self.last, &energy);
         }
         let Following { view, columns, watch, last: n, .. } = &mut self;
-        let mut at = At { other: Some((q, p)), ..view.at(*n, integrator) };
+        let energy = Some(energy).filter(|_| view.energy_of.is_none());
+        let mut at = At { other: Some((q.clone(), p.clone())), energy, ..view.at(*n, integrator) };
         columns.iter_mut().try_for_each(|column| column.end(&mut at))?;
         followed.energy = watch.as_ref().map(Watch::energy);
         followed.summary = watch.take().and_then(|watch| watch.summary(run));
         if let Some(until) = self.posed.until.filter(|_| !followed.is_met) {
-            self.end_at_time(integrator, &last, until)?;
+            self.end_at_time(integrator, (&q, &p), until)?;
         }
         followed.vectors = self.view.vectors;
         Ok(followed)
@@ -552,16 +547,14 @@ impl<'a, 'c, N: RunNumber> Following<'a, 'c, N> {
     fn end_at_time(
         &mut self,
         integrator: &mut VectorIntegrator<'_, N>,
-        last: &Snapshot<N>,
+        (q, p): (&[N], &[N]),
         until: &Rational,
     ) -> Result<(), Error> {
-        let until = N::from_rational(until, self.context);
-        let (mut q, mut p) = (last.q.clone(), last.p.clone());
-        integrator.postprocess_state(&mut q, &mut p);
-        integrator.system().state_mut().set(&q, &p);
+        let until = N::from_rational(until, self.view.context);
         if q.last() == Some(&until) {
             return Ok(());
         }
+        integrator.system().state_mut().set(q, p);
         if step_to_time(integrator, &until).is_none() {
             let message = format!("{}: no last step to t = {until} has a finite state", self.run().name());
             return Err(Error::run(message, "try a smaller step size"));

@@ -4,7 +4,7 @@ use crate::saved_state::{SavedState, SavedVector};
 use crate::saved_summary::SavedSummary;
 
 /// All states up to n were shown.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct Moment {
     pub(crate) n: i64,
     /// Whether this is the last state.

@@ -27,20 +27,17 @@ impl Pace {
         (n / self.at_once + 1).saturating_mul(self.at_once)
     }
 
-    /// Whether the run looks up at the state n; at all others it does not even look at the clock.
-    pub(crate) fn looks_up(&mut self, n: u64) -> bool {
-        if !n.is_multiple_of(self.at_once) {
-            return false;
+    /// Looks at the clock, if the state n is one of those.
+    pub(crate) fn look_up(&mut self, n: u64) {
+        if n < self.one_by_one || !n.is_multiple_of(self.at_once) {
+            return;
         }
-        if n >= self.one_by_one {
-            let took = self.looked_up.elapsed();
-            if took < ASKED / 4 {
-                self.at_once = (2 * self.at_once).min(MOST_AT_ONCE);
-            } else if took > ASKED {
-                self.at_once = (self.at_once / 2).max(1);
-            }
-            self.looked_up = Instant::now();
+        let took = self.looked_up.elapsed();
+        if took < ASKED / 4 {
+            self.at_once = (2 * self.at_once).min(MOST_AT_ONCE);
+        } else if took > ASKED {
+            self.at_once = (self.at_once / 2).max(1);
         }
-        true
+        self.looked_up = Instant::now();
     }
 }

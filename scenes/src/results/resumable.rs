@@ -255,7 +255,7 @@ impl Resumable {
     }
 
     /// Writes a checkpoint: all rows up to n are written, and the run can be resumed from the state.
-    pub(crate) fn keep(&mut self, Moment { n, is_last, state, vectors, summary }: Moment) -> Result<(), Error> {
+    pub(crate) fn keep(&mut self, moment: &Moment) -> Result<(), Error> {
         if !self.saves {
             return Ok(());
         }
@@ -263,6 +263,7 @@ impl Resumable {
         synchronized.map_err(|error| self.not_written(&self.partial, error))?;
         let sha256 = hexadecimal(&self.hash.clone().finalize());
         let (identity, prolongs) = (self.identity.clone(), self.prolongs.clone());
+        let Moment { n, is_last, state, vectors, summary } = moment.clone();
         let (bytes, head, hashed_from) = (self.bytes, self.head, self.hashed_from);
         let checkpoint =
             Checkpoint { identity, n, is_last, bytes, head, hashed_from, sha256, state, prolongs, vectors, summary };
@@ -275,7 +276,7 @@ impl Resumable {
         remove_new_checkpoint(&new)?;
         self.replace_checkpoint(&new, &text).map_err(|error| self.not_written(&new, error))?;
         self.temporary = None;
-        self.is_kept_at_end = is_last;
+        self.is_kept_at_end = moment.is_last;
         Ok(())
     }
 

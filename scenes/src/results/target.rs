@@ -143,7 +143,7 @@ impl<'a> Target<'a> {
     }
 
     /// Makes a checkpoint, where there can be one.
-    pub(crate) fn keep(&mut self, moment: Moment) -> Result<(), Error> {
+    pub(crate) fn keep(&mut self, moment: &Moment) -> Result<(), Error> {
         match self {
             Target::Writer(_) => Ok(()),
             Target::File(file) => file.keep(moment),
