@@ -5,6 +5,7 @@ use std::path::Path;
 use std::time::Instant;
 
 use clap::Args;
+use shadowstep::tables::Source;
 use shadowstep_scenes::ensemble::Ensemble;
 use shadowstep_scenes::{Error, FileOptions, Format, Note, Observer, Outcome, Scene, Summary};
 
@@ -59,18 +60,11 @@ pub(crate) struct Arguments {
 pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
     let source = shadowstep_scenes::source(Path::new(&arguments.scene))?;
     if Ensemble::is_in(&source) {
-        if arguments.strict {
-            return Err(Error::usage(
-                "--strict needs the verdict of a summary, and an ensemble has none",
-                "remove --strict",
-            ));
-        }
-        return ensemble(&Ensemble::read(source)?, arguments);
+        return ensemble(source, arguments);
     }
     let scene = Scene::read(source)?;
-    if arguments.strict && !scene.output.summary {
-        let message = "--strict needs the verdict of a summary, and [output] of the scene has `summary = false`";
-        return Err(Error::usage(message, "remove that line, or --strict"));
+    if !scene.output.summary {
+        arguments.refuse_strict("[output] of the scene has `summary = false`", "remove that line, or --strict")?;
     }
     scene.notes.iter().for_each(report::note);
     let plot = scene.output.plot.as_ref();
@@ -96,6 +90,15 @@ pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
             draw(&scene, files)?;
         }
     }
+    ended((&scene, outcome, begin), summary.as_ref(), arguments.strict)
+}
+
+/// Reports how a run ended, with its summary.
+fn ended(
+    (scene, outcome, begin): (&Scene, Outcome, Instant),
+    summary: Option<&Summary>,
+    strict: bool,
+) -> Result<Status, Error> {
     match outcome {
         Outcome::Complete { steps, force_evaluations } => {
             if io::stderr().is_terminal() {
@@ -104,25 +107,27 @@ pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
                     "{steps} steps, {force_evaluations} force evaluations, {seconds:.3} seconds"
                 ));
             }
-            Ok(concluded(&scene, summary.as_ref(), arguments.strict))
+            Ok(concluded(scene, summary, strict))
         }
-        Outcome::AlreadyComplete if arguments.strict => {
+        Outcome::AlreadyComplete if strict => {
             let message =
                 format!("--strict needs the verdict of a run, and {} is done: its file is complete", scene.source.path);
             Err(Error::usage(message, "add --restart to run it again"))
         }
         Outcome::AlreadyComplete => {
-            is_done(&scene);
+            is_done(scene);
             Ok(Status::Success)
         }
         Outcome::Stopped { n } => {
-            Err(Error::run(format!("{}: interrupted at n = {n}", scene.source.path), again(&scene)))
+            Err(Error::run(format!("{}: interrupted at n = {n}", scene.source.path), again(scene)))
         }
     }
 }
 
 /// Computes an ensemble: a row for each trajectory, to the file of the scene or to stdout.
-fn ensemble(ensemble: &Ensemble, arguments: &Arguments) -> Result<Status, Error> {
+fn ensemble(source: Source, arguments: &Arguments) -> Result<Status, Error> {
+    arguments.refuse_strict("an ensemble has none", "remove --strict")?;
+    let ensemble = Ensemble::read(source)?;
     let scene = ensemble.first();
     scene.notes.iter().for_each(report::note);
     let _interrupt = Interrupt::listen(&scene.source.path, "run the scene again");
@@ -140,6 +145,12 @@ fn is_done(scene: &Scene) {
 }
 
 impl Arguments {
+    /// Refuses --strict where there is no summary.
+    fn refuse_strict(&self, why: &str, hint: &str) -> Result<(), Error> {
+        let message = || format!("--strict needs the verdict of a summary, and {why}");
+        if self.strict { Err(Error::usage(message(), hint)) } else { Ok(()) }
+    }
+
     fn options(&self) -> FileOptions {
         FileOptions { restart: self.restart, force: self.force }
     }

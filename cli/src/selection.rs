@@ -105,7 +105,9 @@ impl Selection {
 
     /// Notes of runs whose steps are beyond the stability limit of their scheme, or too few for a revolution of a planet.
     fn note_large_steps(&self) {
-        let note = |scheme, h: &StepSize| note_of_steps(&self.problem.system, scheme, h.exact());
+        let system = &self.problem.system;
+        let frequency = system.fastest_frequency();
+        let note = |scheme, h: &StepSize| note_of_steps((system, frequency), scheme, h.exact());
         for scheme in self.propagators.iter().filter_map(|(propagator, _)| propagator.scheme()) {
             self.sizes.iter().filter_map(|h| note(scheme, h)).for_each(report::note);
         }

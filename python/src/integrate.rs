@@ -99,7 +99,7 @@ impl SystemWithScheme {
         let kept = surface.as_ref().map_or(KeptStates::Every(every), KeptStates::Crossings);
         let posed = Posed::new(system, &self.scheme.scheme, run, (arithmetic, displaced));
         let posed = Posed { until: times.physical_end.as_ref(), ends, estimator, ..posed };
-        let of_steps = note_of_steps(system, &self.scheme, times.h.exact());
+        let of_steps = note_of_steps((system, system.fastest_frequency()), &self.scheme, times.h.exact());
         let found = match arithmetic.is_longer_than_double() {
             false => posed.samples::<f64>(kept, &(), observer).map(Integrated::Doubles),
             true => arithmetic.compute(InTexts { posed, kept, observer }).map(Integrated::Texts),

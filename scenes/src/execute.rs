@@ -68,8 +68,11 @@ impl Scene {
 
     /// Whether the steps are too large for the motion at the start, if a summary is wanted.
     fn note_of_steps(&self, observer: &dyn Observer) -> Option<Note> {
-        let wanted = self.summarises(observer);
-        wanted.then(|| stability::note_of_steps(&self.system, &self.scheme, self.h.exact())).flatten()
+        if !self.summarises(observer) {
+            return None;
+        }
+        let system = (&self.system, self.system.fastest_frequency());
+        stability::note_of_steps(system, &self.scheme, self.h.exact())
     }
 
     /// That whole steps end before `until`.

@@ -14,9 +14,14 @@ use crate::scene::System;
 /// A trace this far above 2 in size is not due to rounding.
 const ROUNDING: f64 = 1e-9;
 
-/// What is to be noted of steps of size h before a run: that they are unstable, else few for a revolution of a planet, else that they are near a resonance.
-pub fn note_of_steps(system: &System, named: &NamedScheme, h: &Rational) -> Option<Note> {
-    let unstable = system.fastest_frequency().and_then(|frequency| unstable(frequency, named, h));
+/// What is to be noted of steps of size h before a run: that they are unstable at the [fastest frequency](System::fastest_frequency), else few for a revolution of a
+/// planet, else that they are near a resonance.
+pub fn note_of_steps(
+    (system, frequency): (&System, Option<Frequency>),
+    named: &NamedScheme,
+    h: &Rational,
+) -> Option<Note> {
+    let unstable = frequency.and_then(|frequency| unstable(frequency, named, h));
     unstable.or_else(|| few_kicks(system, named, h)).or_else(|| resonant(system, named, h))
 }
 

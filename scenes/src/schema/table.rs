@@ -77,7 +77,7 @@ impl<'t, 'i> Table<'t, 'i> {
         words.iter().find(|(word, _)| *word == given).map(|(_, meaning)| *meaning)
     }
 
-    /// The text, or the number as it is written, that is the value of a key.
+    /// The value of a key as a text; of a number the digits in the document.
     pub fn text(&self, key: &str) -> Option<Text> {
         Text::of(self.source, self.get(key)?)
     }

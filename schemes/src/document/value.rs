@@ -46,7 +46,7 @@ impl Text {
         Text { value: value.to_owned(), at, begin }
     }
 
-    /// The text that is a value, or a decimal number as it is written.
+    /// The value as a text; of a decimal number the digits in the document.
     pub fn of(source: &Source, value: &Value<'_>) -> Option<Text> {
         let text = match value.get_ref() {
             DeValue::String(text) => text.as_ref(),
