@@ -238,10 +238,15 @@ def test_files_that_end_too_early_are_noticed(tmp_path):
     with pytest.warns(UserWarning, match="kepler.csv ends at n = 49, and its run has 66 steps: copy the file again"):
         shadowstep.open(tmp_path / "kepler.csv")
     # one whose number of steps is not known before
-    (tmp_path / "kepler.toml").write_text(scene.format(steps=66, columns="trajectory = true").replace("steps = 66", "until = 2") + "\n[time]\ntransform = 'logarithmic'\n")
-    (tmp_path / "kepler.csv").unlink()
-    shadowstep.run(tmp_path / "kepler.toml", progress=False)
-    assert shadowstep.open(tmp_path / "kepler.csv").t[-1] == 2
+    transformed = scene.replace("steps = {steps}", "until = 2") + "\n[time]\ntransform = 'logarithmic'\n"
+    for columns in ("modified_energy = { order = 2 }", "trajectory = true"):
+        (tmp_path / "kepler.toml").write_text(transformed.format(columns=columns))
+        (tmp_path / "kepler.csv").unlink()
+        shadowstep.run(tmp_path / "kepler.toml", progress=False)
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            read = shadowstep.open(tmp_path / "kepler.csv")
+        assert (read.t[-1] == 2) == (columns == "trajectory = true")
     lines = (tmp_path / "kepler.csv").read_text().splitlines(keepends=True)
     (tmp_path / "kepler.csv").write_text("".join(lines[:-1]))
     with pytest.warns(UserWarning, match="kepler.csv ends at t = 1.9[0-9]*, and its run at t = 2: copy the file again"):
