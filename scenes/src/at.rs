@@ -53,10 +53,7 @@ impl<N: RunNumber> At<'_, '_, N> {
     /// q and p in the coordinates of the steps.
     pub fn state(&mut self) -> (&[N], &[N]) {
         self.leave_kernel();
-        match &self.other {
-            Some((q, p)) => (q, p),
-            None => (self.integrator.state().q(), self.integrator.state().p()),
-        }
+        numbers(&self.other, self.integrator)
     }
 
     /// The steps of a processed scheme are those of its kernel.
@@ -72,10 +69,7 @@ impl<N: RunNumber> At<'_, '_, N> {
     pub fn shown_state(&mut self) -> (&[N], &[N]) {
         self.leave_kernel();
         let At { shown, other, integrator, .. } = self;
-        let (q, p) = match other {
-            Some((q, p)) => (&q[..], &p[..]),
-            None => (integrator.state().q(), integrator.state().p()),
-        };
+        let (q, p) = numbers(other, *integrator);
         match shown {
             Some(shown) => shown.of_state(q, p),
             None => (q, p),
@@ -99,8 +93,10 @@ impl<N: RunNumber> At<'_, '_, N> {
             self.leave_kernel();
             let At { energy_of, other, integrator, .. } = self;
             self.energy = Some(match (energy_of, other) {
-                (Some(energy_of), Some((q, p))) => energy_of(q, p),
-                (Some(energy_of), None) => energy_of(integrator.state().q(), integrator.state().p()),
+                (Some(energy_of), other) => {
+                    let (q, p) = numbers(other, *integrator);
+                    energy_of(q, p)
+                }
                 (None, Some((q, p))) => integrator.energy_at(q, p),
                 (None, None) => integrator.system().energy(),
             });
@@ -115,6 +111,17 @@ impl<N: RunNumber> At<'_, '_, N> {
     /// The growth of tangent vectors up to the state, where there are some.
     pub fn vectors(&mut self) -> Option<&dyn TangentRun> {
         self.vectors.as_mut().map(|vectors| vectors.end())
+    }
+}
+
+/// Other q and p, or those of the integrator.
+fn numbers<'s, N: RunNumber>(
+    other: &'s Option<(Vec<N>, Vec<N>)>,
+    integrator: &'s VectorIntegrator<'_, N>,
+) -> (&'s [N], &'s [N]) {
+    match other {
+        Some((q, p)) => (q, p),
+        None => (integrator.state().q(), integrator.state().p()),
     }
 }
 
