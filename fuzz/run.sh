@@ -11,9 +11,9 @@ found=$PWD/target/fuzz
 export RUSTFLAGS="--cfg fuzzing -Cpasses=sancov-module -Cllvm-args=-sanitizer-coverage-level=4 \
 -Cllvm-args=-sanitizer-coverage-inline-8bit-counters -Cllvm-args=-sanitizer-coverage-pc-table \
 -Cllvm-args=-sanitizer-coverage-trace-compares"
-documents() { # in the build of the tests, which looks for overflow as well
+documents() { # in the build that a user has, as times are limited; overflow is looked for as well
     echo "running random documents for $seconds seconds"
-    env -u RUSTFLAGS SECONDS_EACH="$seconds" cargo test --locked -p shadowstep-cli --features mpfr --test documents -- --ignored --nocapture
+    env -u RUSTFLAGS CARGO_PROFILE_RELEASE_OVERFLOW_CHECKS=true SECONDS_EACH="$seconds" cargo test --release --locked -p shadowstep-cli --features mpfr --test documents -- --ignored --nocapture
 }
 if [ "$*" = documents ]; then
     documents

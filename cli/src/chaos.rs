@@ -89,8 +89,7 @@ pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
         let name = format!("{}, part {parts}", request.posed.run.name());
         let progress = Progress::new(bar, name, request.posed.expected_steps() * u64::from(parts));
         let mut terminal = Terminal { progress, interrupt: &interrupt };
-        let found = request.run(parts, &mut terminal)?;
-        let record = found.ok_or_else(|| Error::run(format!("{}: interrupted", subject.title), AGAIN))?;
+        let record = request.run(parts, &mut terminal)?;
         if arguments.json {
             output.json(&record)?;
         }

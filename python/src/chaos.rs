@@ -36,8 +36,7 @@ pub(crate) fn chaos(
         let request = ChaosRequest { posed: followed, vectors, every: given.every };
         let mut records = Vec::new();
         for parts in if half { 1..=2 } else { 1..=1 } {
-            let found = request.run(parts, &mut watched.observer())?;
-            records.push(found.ok_or_else(|| Error::run(format!("{}: interrupted", run.name()), "run it again"))?);
+            records.push(request.run(parts, &mut watched.observer())?);
         }
         let conclusion = match &records[..] {
             [whole, half] => conclusion(whole, half),

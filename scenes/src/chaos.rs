@@ -9,7 +9,7 @@ use shadowstep_symbolic::decimal::to_text;
 use crate::arithmetic::{Arithmetic, DigitsLabel};
 use crate::computation::{Computation, FollowedNumber};
 use crate::error::Error;
-use crate::observer::Observer;
+use crate::observer::{Observer, interrupted};
 use crate::posed::{Followed, Posed};
 use crate::run::Run;
 use crate::tangent::{TangentRun, Vectors};
@@ -144,11 +144,11 @@ pub struct ChaosRequest<'a> {
 }
 
 impl ChaosRequest<'_> {
-    /// Makes the run with steps of h/`parts`; `None` if the observer stopped it.
+    /// Makes the run with steps of h/`parts`.
     ///
     /// # Errors
-    /// A run that fails; those of [`FollowingVectors::new`](crate::tangent::FollowingVectors::new).
-    pub fn run(&self, parts: u32, observer: &mut dyn Observer) -> Result<Option<ChaosRecord>, Error> {
+    /// A run that fails, an observer that stops; those of [`FollowingVectors::new`](crate::tangent::FollowingVectors::new).
+    pub fn run(&self, parts: u32, observer: &mut dyn Observer) -> Result<ChaosRecord, Error> {
         let run = self.posed.run;
         let h = StepSize::try_from(run.h.exact() / Rational::from_integer(parts.into())).expect("h is not 0");
         let run = Run { h: &h, steps: run.steps.saturating_mul(parts.into()), ..run };
@@ -166,16 +166,15 @@ struct Following<'a, 'o> {
 }
 
 impl Computation for Following<'_, '_> {
-    type Output = Result<Option<ChaosRecord>, Error>;
+    type Output = Result<ChaosRecord, Error>;
 
     fn compute<N: FollowedNumber>(self, context: &N::Context) -> Self::Output {
         let Following { posed, vectors, observer } = self;
         let followed = N::follow(&posed, context, &mut [], observer)?;
-        let Followed { n, is_stopped: false, summary: Some(summary), vectors: Some(mut tangents), .. } = followed
-        else {
-            return Ok(None);
+        let run = Run { steps: followed.n.unsigned_abs(), ..posed.run };
+        let Followed { is_stopped: false, summary: Some(summary), vectors: Some(mut tangents), .. } = followed else {
+            return Err(interrupted(run, run.steps));
         };
-        let run = Run { steps: n.unsigned_abs(), ..posed.run };
-        Ok(Some(ChaosRecord::of((run, posed.arithmetic, vectors), tangents.end(), summary)))
+        Ok(ChaosRecord::of((run, posed.arithmetic, vectors), tangents.end(), summary))
     }
 }

@@ -142,11 +142,12 @@ pub fn check_physical_end(
     let quotient = until / h.exact();
     let allowed = rate.and_then(|rate| Rational::from_float(rate * FASTEST * MOST_STEPS as f64));
     match (allowed, rate.and_then(Rational::from_float)) {
-        (Some(allowed), Some(rate)) if quotient > allowed => Err(StepsError::TooSlow {
-            h: step.to_owned(),
-            until: end.to_owned(),
-            count: to_significant(&(quotient / rate), 3),
-        }),
+        (Some(allowed), Some(rate)) if quotient > allowed => {
+            let (h, until) = (step.to_owned(), end.to_owned());
+            // a rate below the smallest double is 0
+            let count = if rate.is_zero() { "over 1e300".to_owned() } else { to_significant(&(quotient / rate), 3) };
+            Err(StepsError::TooSlow { h, until, count })
+        }
         _ => Ok(()),
     }
 }

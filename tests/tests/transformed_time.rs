@@ -278,7 +278,7 @@ fn potentials_that_are_not_negative_are_refused() {
     };
     let refused = scene(&system("x^2/2", "1", "0")).expect_err("U is positive");
     assert_eq!(refused.len(), 1, "{refused:?}");
-    assert!(refused[0].contains("requires U < 0") && refused[0].ends_with("U is 0.5"), "{refused:?}");
+    assert!(refused[0].contains("requires a finite U < 0") && refused[0].ends_with("U is 0.5"), "{refused:?}");
     // negative at first
     let scene = scene(&system("-cos(x)", "\"1/2\"", "2")).expect("U is negative at the start");
     let error = scene.run_into(&mut Vec::new(), &mut ()).expect_err("U becomes positive").to_string();

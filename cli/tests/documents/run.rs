@@ -1,19 +1,31 @@
-//! Runs documents, each command in a process of its own with a limit of its CPU time, and judges how they end.
+//! Runs documents, each command in a process of its own that is interrupted after some CPU time, and judges how they end.
 
-use std::fs;
+use std::fs::{self, File};
 use std::os::unix::process::ExitStatusExt;
 use std::path::Path;
-use std::process::{Command, Output};
+use std::process::{Command, Output, Stdio};
+use std::thread;
+use std::time::{Duration, Instant};
 
 use tempfile::TempDir;
 
 use crate::document::Document;
 
-/// The CPU time that a command may take, in seconds.
-const CPU_SECONDS: u32 = 10;
+/// After this CPU time in seconds a command is interrupted.
+const CPU_SECONDS: u64 = 10;
 
-/// After this number of seconds a command hangs that takes no CPU time.
-const HANGS_AFTER: u32 = 600;
+/// A command hangs that has not ended this number of seconds after it began.
+const HANGS_AFTER: Duration = Duration::from_secs(600);
+
+/// How often a command is looked at.
+const TICK: Duration = Duration::from_millis(5);
+
+/// What a command says that was interrupted between two states, runs or trajectories. One that says nothing of that hung.
+const INTERRUPTED: [&str; 3] = ["interrupted at n = ", "runs of this call are saved", "the ensemble was interrupted"];
+
+/// Where the output of a command goes.
+const STDOUT: &str = "stdout.of-command";
+const STDERR: &str = "stderr.of-command";
 
 /// What no message may have: texts of the language, not of the program.
 const INTERNAL: [&str; 8] = ["panicked", "RUST_BACKTRACE", ".rs:", "Some(", "Ok(", "Err(", "internal error", "unwrap"];
@@ -23,6 +35,8 @@ const INTERNAL: [&str; 8] = ["panicked", "RUST_BACKTRACE", ".rs:", "Some(", "Ok(
 pub(crate) enum End {
     /// All commands ran, also one that found a state that is not finite, or a verdict that is not good.
     Ran,
+    /// One of them was interrupted, as it makes many states, runs or trajectories.
+    Interrupted,
     /// One of them was refused by a sentence.
     Refused(String),
     /// A fault of the program: its kind, and what the program said.
@@ -43,12 +57,41 @@ pub(crate) fn run(document: &Document) -> End {
     End::Ran
 }
 
+/// Runs a command, which is interrupted after some CPU time.
 fn shadowstep(words: &str, folder: &Path) -> Output {
-    let program = assert_cmd::cargo::cargo_bin("shadowstep");
-    let limited = format!("ulimit -S -t {CPU_SECONDS}; exec timeout {HANGS_AFTER} \"$0\" \"$@\"");
-    let mut command = Command::new("sh");
-    command.args(["-c", &limited]).arg(program).args(words.split(' ')).current_dir(folder);
-    command.env("RAYON_NUM_THREADS", "1").output().unwrap()
+    let output = |name: &str| File::create(folder.join(name)).unwrap();
+    let mut command = Command::new(assert_cmd::cargo::cargo_bin("shadowstep"));
+    command.args(words.split(' ')).current_dir(folder).env("RAYON_NUM_THREADS", "1");
+    let mut child = command.stdin(Stdio::null()).stdout(output(STDOUT)).stderr(output(STDERR)).spawn().unwrap();
+    let (begin, mut was_interrupted) = (Instant::now(), false);
+    let status = loop {
+        if let Some(status) = child.try_wait().unwrap() {
+            break status;
+        }
+        if begin.elapsed() > HANGS_AFTER {
+            child.kill().unwrap();
+        } else if !was_interrupted && cpu_time(child.id()) > CPU_SECONDS {
+            was_interrupted = true;
+            Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap();
+        }
+        thread::sleep(TICK);
+    };
+    let [stdout, stderr] = [STDOUT, STDERR].map(|name| {
+        let path = folder.join(name);
+        let content = fs::read(&path).unwrap();
+        fs::remove_file(path).unwrap();
+        content
+    });
+    Output { status, stdout, stderr }
+}
+
+/// The CPU time of a process, in seconds; 0 of one that has ended.
+fn cpu_time(process: u32) -> u64 {
+    const TICKS_PER_SECOND: u64 = 100;
+    let text = fs::read_to_string(format!("/proc/{process}/stat")).unwrap_or_default();
+    // behind the name in parentheses: user time and system time are the 12th and 13th
+    let fields = text.rsplit(") ").next().unwrap_or_default().split(' ').skip(11);
+    fields.take(2).filter_map(|ticks| ticks.parse::<u64>().ok()).sum::<u64>() / TICKS_PER_SECOND
 }
 
 fn judged(output: &Output, folder: &Path) -> End {
@@ -62,8 +105,10 @@ fn judged(output: &Output, folder: &Path) -> End {
     }
     let sentence = message.lines().find(|line| !line.starts_with("note: ") && !line.trim().is_empty());
     match (output.status.code(), sentence) {
-        (None, _) if output.status.signal() == Some(24) => fault(format!("more than {CPU_SECONDS} s of CPU time")),
+        (None, _) if output.status.signal() == Some(9) => fault("a hang".to_owned()),
         (None, _) => fault(format!("signal {:?}", output.status.signal())),
+        _ if INTERRUPTED.iter().any(|text| message.contains(text)) => End::Interrupted,
+        _ if message.contains("interrupted") => fault(format!("more than {CPU_SECONDS} s of CPU time")),
         (Some(0..=3), _) if INTERNAL.iter().any(|text| message.contains(text)) => fault("an internal text".to_owned()),
         (Some(0), _) => not_finite(output, folder).map_or(End::Ran, fault),
         (Some(2 | 3), None) => fault("a refusal without a sentence".to_owned()),
@@ -128,10 +173,12 @@ mod tests {
         assert!(
             is_fault(of(2 << 8, ""))
                 && is_fault(of(101 << 8, ""))
-                && is_fault(of(24, ""))
+                && is_fault(of(9, ""))
+                && is_fault(of(1 << 8, "error: a: interrupted"))
                 && is_fault(of(4 << 8, "no"))
         );
         assert!(is_fault(of(2 << 8, "error: Some(3)")));
+        assert_eq!(of(1 << 8, "error: a: interrupted at n = 3"), End::Interrupted);
         let panic = of(101 << 8, "\nthread 'main' panicked at a/b.rs:3:7:\nno\n");
         assert!(matches!(panic, End::Fault { kind, .. } if kind == "a panic at a/b.rs:3"));
         assert_eq!(of_text("# nan\nn,a\n0,1\n1,NaN\n").unwrap(), "NaN of a");

@@ -150,9 +150,9 @@ impl TransformedTime {
 /// Why the initial state has no transformed time.
 fn wrong_sign(problem: &InitialValueProblem) -> Option<String> {
     let energy = potential_at_start(problem);
-    (energy >= 0.0).then(|| {
+    (energy >= 0.0 || !energy.is_finite()).then(|| {
         format!(
-            "transformed time requires U < 0 on the whole orbit, as time runs at a rate that is a function of -U; at t = 0 U is {}",
+            "transformed time requires a finite U < 0 on the whole orbit, as time runs at a rate that is a function of -U; at t = 0 U is {}",
             energy.to_text()
         )
     })
