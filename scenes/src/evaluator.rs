@@ -19,7 +19,7 @@ use crate::refusal::Refusal;
 use crate::reserved_names::QUANTITIES;
 use crate::run_number::RunNumber;
 use crate::scene::split::ShownCoordinates;
-use crate::scene::{Direction, EnergyAt, Surface, System};
+use crate::scene::{Direction, EnergyAt, NamedExpression, Surface, System};
 
 /// What is read of a text that stands alone, which has this name in its faults.
 fn alone<T>(name: &str, text: &str, read: impl FnOnce(Text, &mut Reader<'_>) -> Option<T>) -> Result<T, Error> {
@@ -173,6 +173,13 @@ impl<N: RunNumber> Evaluator<N> {
         let quantities = quantities(expression, system)?;
         let quantities = quantities.iter().map(|quantity| quantity.in_numbers(system, context)).collect();
         Evaluator::with(expression, system, (parameters, quantities), context)
+    }
+}
+
+impl NamedExpression {
+    /// The evaluator of an expression that was checked with its scene.
+    pub(crate) fn evaluator<N: RunNumber>(&self, system: &System, context: &N::Context) -> Evaluator<N> {
+        Evaluator::of_run(&self.expression, system, context).expect("it was checked with the scene")
     }
 }
 

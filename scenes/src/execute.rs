@@ -8,9 +8,7 @@ use crate::error::Error;
 use crate::note::Note;
 use crate::observer::Observer;
 use crate::posed::Followed;
-use crate::results::{
-    Begun, Checkpoint, Columns, FileOptions, Metadata, Rows, Target, file_hashes, prolonged, records,
-};
+use crate::results::{Begun, Checkpoint, FileOptions, Metadata, Rows, Target, file_hashes, prolonged, records};
 use crate::scene::{Format, Scene};
 use crate::stability;
 
@@ -23,7 +21,7 @@ impl Scene {
     /// A scene without a file, a file that is not from this scene or cannot be written, a checkpoint of another scene, a
     /// run that fails. The rows of a run that fails stay in a partial file if the scene asks for checkpoints.
     pub fn run_to_file(&self, options: FileOptions, observer: &mut dyn Observer) -> Result<Outcome, Error> {
-        match Target::open(self, &columns(self), options, observer)? {
+        match Target::open(self, &self.names(), options, observer)? {
             Some((target, begun)) => self.run(target, &begun, observer),
             None => Ok(Outcome::AlreadyComplete),
         }
@@ -50,7 +48,7 @@ impl Scene {
 
     /// The names of the columns of its rows.
     pub fn column_names(&self) -> Vec<String> {
-        columns(self).names().into_iter().map(str::to_owned).collect()
+        self.names().into_iter().filter(|name| name.is_column).map(|name| name.text).collect()
     }
 
     /// The rows of a complete file of NumPy's format, as cells of [columns](Scene::column_names).
@@ -87,7 +85,7 @@ impl Scene {
     }
 
     fn run(&self, target: Target<'_>, begun: &Begun, observer: &mut dyn Observer) -> Result<Outcome, Error> {
-        let mut rows = Rows { target, format: self.output.format, columns: columns(self) };
+        let mut rows = Rows { target, format: self.output.format, names: self.names() };
         let (checkpoint, steps) = (begun.checkpoint(), self.steps());
         match begun {
             Begun::Resumed(Checkpoint { n, .. }) => observer.note(&Note::Resumed { n: *n, steps }),
@@ -121,18 +119,6 @@ impl Scene {
                 Err(error)
             }
         }
-    }
-}
-
-fn columns(scene: &Scene) -> Columns {
-    let output = &scene.output;
-    Columns {
-        energy: output.energy.is_some(),
-        modified_energy: output.modified_energy.is_some(),
-        chaos: output.chaos.is_some(),
-        values: output.named_values().map(|value| value.name.clone()).collect(),
-        state: scene.system.columns().filter(|_| output.has_states()).cloned().collect(),
-        coordinates: scene.system.coordinates_of_columns(),
     }
 }
 

@@ -3,10 +3,6 @@
 use crate::expression::{ENERGY, TIME};
 use crate::quantity::{KINETIC, VIRIAL};
 
-/// The columns before those of the trajectory; no coordinate has such a name.
-pub(crate) const COLUMNS: [&str; 10] =
-    ["n", "t", "energy", "modified_energy", "estimate", "order", "lyapunov", "megno", "mean_megno", "sali"];
-
 /// The lists in rows of JSON lines, beside which no column of values has such a name.
 pub(crate) const LISTS: [&str; 2] = ["q", "p"];
 

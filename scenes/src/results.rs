@@ -20,6 +20,6 @@ pub(crate) use numpy::records;
 pub use options::FileOptions;
 pub(crate) use origin::Origin;
 pub(crate) use resumable::Begun;
-pub(crate) use row::{Columns, Indicators, ModifiedEnergy, Row};
+pub(crate) use row::{Cell, Name};
 pub(crate) use rows::Rows;
 pub(crate) use target::{Target, no_file, prolonged};

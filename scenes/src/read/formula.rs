@@ -9,7 +9,7 @@ use super::kinetic;
 use super::names::check_name;
 use super::numbers::Numbers;
 use super::reader::Reader;
-use crate::reserved_names::COLUMNS;
+use crate::columns::fixed_names;
 use crate::scene::{Formula, InitialValueProblem, PotentialEnergy};
 use shadowstep_schemes::document::{Placed, Text};
 
@@ -103,7 +103,7 @@ pub(super) fn names(
     list: &Placed<Vec<Text>>,
 ) -> (Vec<String>, Vec<String>) {
     let mut taken: Vec<(String, String)> =
-        COLUMNS.iter().map(|name| ((*name).to_owned(), "of a column of the output".to_owned())).collect();
+        fixed_names().map(|name| (name.to_owned(), "of a column of the output".to_owned())).collect();
     taken.extend(reader.names.iter().map(|(name, _)| (name.clone(), "of an axis or a column".to_owned())));
     taken.extend(given.parameters.iter().map(|(name, _)| (name.value.clone(), "of a parameter".to_owned())));
     for name in &list.value {

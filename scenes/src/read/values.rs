@@ -6,9 +6,9 @@ use super::modified_hamiltonian;
 use super::names::check_name;
 use super::reader::Reader;
 use super::run::Steps;
+use crate::columns::fixed_names;
 use crate::expression::{Expression, named};
 use crate::quantity_of_bodies::{BARYCENTRE, JACOBI, elements_of};
-use crate::reserved_names::COLUMNS;
 use crate::scene::{NamedExpression, System, ValueColumns};
 use crate::schema::Table;
 
@@ -28,7 +28,8 @@ pub(super) fn columns(
     found.extend(elements(reader, output, system));
     found.extend(modified_hamiltonian::columns(reader, output, system, steps));
     let Some(system) = system else { return found };
-    let mut taken: Vec<&str> = COLUMNS.into_iter().chain(system.columns().map(String::as_str)).collect();
+    let mut taken: Vec<&str> = fixed_names().collect();
+    taken.extend(system.columns().map(String::as_str));
     for NamedExpression { name, at, .. } in found.iter().flat_map(|columns| &columns.expressions) {
         if taken.contains(&name.as_str()) {
             reader.toml.fault(at, format!("there is another column `{name}`"), "give this one another name");

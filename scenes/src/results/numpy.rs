@@ -10,7 +10,7 @@ use std::path::Path;
 
 use shadowstep::Real;
 
-use crate::results::row::{Cell, Columns, Row};
+use crate::results::row::{Cell, Name, Row};
 
 /// The beginning of a file of version 2.
 pub(super) const MAGIC: &[u8; 8] = b"\x93NUMPY\x02\x00";
@@ -19,15 +19,15 @@ pub(super) const MAGIC: &[u8; 8] = b"\x93NUMPY\x02\x00";
 const ALIGNMENT: usize = 64;
 
 /// The head of a file with this number of records; its length does not depend on that.
-pub(super) fn head(columns: &Columns, records: u64) -> Vec<u8> {
+pub(super) fn head(names: &[Name], records: u64) -> Vec<u8> {
     let mut fields = "('n', '<i8'), ".to_owned();
-    let names = columns.names();
-    for name in &names[1..names.len() - columns.state.len()] {
-        write!(fields, "('{name}', '<f8'), ").expect("a text grows");
-    }
-    if !columns.state.is_empty() {
-        let (q, p) = (columns.coordinates, columns.state.len() - columns.coordinates);
-        write!(fields, "('q', '<f8', ({q},)), ('p', '<f8', ({p},)), ").expect("a text grows");
+    for names in names[1..].chunk_by(|a, b| a.list.is_some() && a.list == b.list) {
+        let count = names.iter().filter(|name| name.is_column).count();
+        match names[0].list {
+            Some(list) => write!(fields, "('{list}', '<f8', ({count},)), "),
+            None => write!(fields, "('{}', '<f8'), ", names[0].text),
+        }
+        .expect("a text grows");
     }
     let dictionary = format!("{{'descr': [{fields}], 'fortran_order': False, 'shape': ({records:20},), }}");
     let length = (MAGIC.len() + 4 + dictionary.len() + 1).next_multiple_of(ALIGNMENT) - MAGIC.len() - 4;
@@ -38,13 +38,13 @@ pub(super) fn head(columns: &Columns, records: u64) -> Vec<u8> {
 }
 
 /// The record of a row.
-pub(super) fn record<N: Real>(columns: &Columns, row: &Row<'_, N>) -> Vec<u8> {
-    columns.cells(row).iter().flat_map(Cell::bytes).collect()
+pub(super) fn record<N: Real>(row: &Row<'_, N>) -> Vec<u8> {
+    row.of_columns().flat_map(Cell::bytes).collect()
 }
 
 /// The length of a record in bytes.
-pub(super) fn length(columns: &Columns) -> u64 {
-    8 * columns.names().len() as u64
+pub(super) fn length(names: &[Name]) -> u64 {
+    8 * names.iter().filter(|name| name.is_column).count() as u64
 }
 
 /// The records of a file with this number of columns, as cells of CSV.
@@ -81,16 +81,8 @@ mod tests {
     #[test]
     fn heads_of_any_length() {
         for values in [0, 1, 4_000, 100_000] {
-            let values = (0..values).map(|i| format!("value_{i}")).collect();
-            let columns = Columns {
-                energy: false,
-                modified_energy: false,
-                chaos: false,
-                values,
-                state: Vec::new(),
-                coordinates: 0,
-            };
-            let head = head(&columns, 7);
+            let names: Vec<Name> = (0..=values).map(|i| Name::from(&*format!("value_{i}"))).collect();
+            let head = head(&names, 7);
             let length = u32::from_le_bytes(head[8..12].try_into().unwrap());
             assert_eq!((head.len() % ALIGNMENT, head.len(), head.last()), (0, 12 + length as usize, Some(&b'\n')));
         }

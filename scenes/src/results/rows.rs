@@ -9,7 +9,7 @@ use crate::results::metadata::Metadata;
 use crate::results::numpy;
 use crate::results::origin::METADATA;
 use crate::results::resumable::beside;
-use crate::results::row::{Cell, Columns, Row};
+use crate::results::row::{Cell, Name, Row};
 use crate::results::target::Target;
 use crate::scene::Format;
 use crate::watch::summary::Summary;
@@ -19,7 +19,7 @@ use crate::whole_file::WholeFile;
 pub(crate) struct Rows<'a> {
     pub(crate) target: Target<'a>,
     pub(crate) format: Format,
-    pub(crate) columns: Columns,
+    pub(crate) names: Vec<Name>,
 }
 
 impl Rows<'_> {
@@ -27,12 +27,13 @@ impl Rows<'_> {
     pub(crate) fn head(&mut self, metadata: &Metadata) -> Result<(), Error> {
         match self.format {
             Format::JsonLines => Ok(()),
-            Format::Numpy => Ok(self.target.write_all(&numpy::head(&self.columns, 0))?),
+            Format::Numpy => Ok(self.target.write_all(&numpy::head(&self.names, 0))?),
             Format::Csv => {
                 for line in metadata.lines() {
                     writeln!(self.target, "# {line}")?;
                 }
-                let line = record(self.columns.names())?;
+                let names = self.names.iter().filter(|name| name.is_column);
+                let line = record(names.map(|name| &name.text))?;
                 Ok(self.target.write_all(&line)?)
             }
         }
@@ -48,22 +49,23 @@ impl Rows<'_> {
         }
         match self.format {
             Format::Numpy => {
-                let records = self.target.bytes_of_rows() / numpy::length(&self.columns);
-                self.target.finish(Some(&numpy::head(&self.columns, records)))
+                let records = self.target.bytes_of_rows() / numpy::length(&self.names);
+                self.target.finish(Some(&numpy::head(&self.names, records)))
             }
             Format::Csv | Format::JsonLines => self.target.finish(None),
         }
     }
 
-    pub(crate) fn row<N: Real>(&mut self, row: &Row<'_, N>) -> Result<(), Error> {
+    pub(crate) fn row<N: Real>(&mut self, cells: &[Cell<N>]) -> Result<(), Error> {
+        let row = Row { names: &self.names, cells };
         match self.format {
             Format::JsonLines => {
-                let line = serde_json::to_string(row)?;
+                let line = serde_json::to_string(&row)?;
                 Ok(writeln!(self.target, "{line}")?)
             }
-            Format::Numpy => Ok(self.target.write_all(&numpy::record(&self.columns, row))?),
+            Format::Numpy => Ok(self.target.write_all(&numpy::record(&row))?),
             Format::Csv => {
-                let line = record(self.columns.cells(row).iter().map(Cell::text))?;
+                let line = record(row.of_columns().map(Cell::text))?;
                 Ok(self.target.write_all(&line)?)
             }
         }

@@ -18,7 +18,7 @@ use crate::results::numpy;
 use crate::results::options::FileOptions;
 use crate::results::origin::{METADATA, Origin};
 use crate::results::resumable::{Begun, CHECKPOINT, NEW_CHECKPOINT, Resumable, beside};
-use crate::results::row::Columns;
+use crate::results::row::Name;
 use crate::scene::Scene;
 use crate::whole_file::destination;
 
@@ -59,9 +59,9 @@ fn damage(
     scene: &Scene,
     (path, origin): (&Path, &Origin),
     identity: &Identity,
-    columns: &Columns,
+    names: &[Name],
 ) -> Result<Option<String>, Error> {
-    let head = |bytes: u64| numpy::head(columns, bytes / numpy::length(columns));
+    let head = |bytes: u64| numpy::head(names, bytes / numpy::length(names));
     if let Some(damage) = Resumable::damage(path, identity, head)? {
         return Ok(Some(format!("{} {damage}", path.display())));
     }
@@ -87,7 +87,7 @@ impl<'a> Target<'a> {
     /// The file of the scene, and the checkpoint from which the run is resumed; `None` if the file is complete.
     pub(crate) fn open(
         scene: &Scene,
-        columns: &Columns,
+        names: &[Name],
         mut options: FileOptions,
         observer: &mut dyn Observer,
     ) -> Result<Option<(Target<'a>, Begun)>, Error> {
@@ -107,7 +107,7 @@ impl<'a> Target<'a> {
         let of_scene = |hash: &str| Origin::of(path, scene.output.format, hash, identity.inputs());
         let origin = of_scene(identity.scene());
         if origin != Origin::None && !options.restart && !Resumable::is_begun_again(path) {
-            match damage(scene, (path, &origin), &identity, columns).map_err(at_place)? {
+            match damage(scene, (path, &origin), &identity, names).map_err(at_place)? {
                 None if origin == Origin::Same => return Ok(None),
                 None => {}
                 Some(_) if options.force => options.restart = true,

@@ -1,4 +1,4 @@
-//! Expressions along a run: columns of rows, and their least and greatest values.
+//! The least and the greatest values of expressions along a run.
 
 use shadowstep::number::saved::{Fields, optional};
 use shadowstep::steps::integrator::VectorIntegrator;
@@ -10,46 +10,8 @@ use crate::evaluator::Evaluator;
 use crate::extremum::Extremum;
 use crate::run::Run;
 use crate::run_number::RunNumber;
-use crate::scene::{NamedExpression, System, ValueColumns};
+use crate::scene::{NamedExpression, System};
 use crate::watch::summary::Extreme;
-
-/// The evaluator of an expression that was checked with its scene.
-fn evaluator<N: RunNumber>(named: &NamedExpression, system: &System, context: &N::Context) -> Evaluator<N> {
-    Evaluator::of_run(&named.expression, system, context).expect("it was checked with the scene")
-}
-
-/// The columns of expressions with one period.
-pub(crate) struct ValuesOfRows<'a, N: RunNumber> {
-    pub(crate) every: u64,
-    columns: &'a [NamedExpression],
-    evaluators: Vec<Evaluator<N>>,
-}
-
-/// A state in the coordinates of the steps with its time, and H where it is needed.
-type StateOfRow<'s, N> = ((&'s [N], &'s [N]), &'s N, Option<&'s N>);
-
-impl<'a, N: RunNumber> ValuesOfRows<'a, N> {
-    pub(crate) fn new(columns: &'a ValueColumns, system: &System, context: &N::Context) -> Self {
-        let evaluators = columns.expressions.iter().map(|named| evaluator(named, system, context)).collect();
-        ValuesOfRows { every: columns.every, columns: &columns.expressions, evaluators }
-    }
-
-    /// Whether a formula has E.
-    pub(crate) fn needs_energy(&self) -> bool {
-        self.columns.iter().any(|named| named.expression.has_energy)
-    }
-
-    /// Appends the values at a state, or nothing for each column.
-    pub(crate) fn append(&mut self, state: Option<StateOfRow<'_, N>>, values: &mut Vec<(&'a str, Option<N>)>) {
-        for (named, evaluator) in self.columns.iter().zip(&mut self.evaluators) {
-            let value = state.map(|(state, time, energy)| {
-                let energy = || energy.expect("it is computed where a formula has it").clone();
-                evaluator.value_at(state, time, energy).clone()
-            });
-            values.push((&named.name, value.filter(N::is_finite)));
-        }
-    }
-}
 
 /// The least and the greatest values of expressions, over states in the order of time.
 pub(crate) struct Extremes<'a, N: RunNumber>(Vec<ExtremesOfOne<'a, N>>);
@@ -65,7 +27,7 @@ impl<'a, N: RunNumber> Extremes<'a, N> {
     pub(crate) fn new(expressions: &'a [NamedExpression], system: &System, context: &N::Context) -> Self {
         let one = |named: &'a NamedExpression| ExtremesOfOne {
             name: &named.name,
-            evaluator: evaluator(named, system, context),
+            evaluator: named.evaluator(system, context),
             found: [None, None],
         };
         Extremes(expressions.iter().map(one).collect())
