@@ -13,12 +13,12 @@ from typing import Any, Union
 
 import numpy as np
 
-from ._shadowstep import InputError
+from ._shadowstep import InputError, fixed_names
 from .arguments import path_of
 from .integration import Trajectory
 
-_INDICATORS = ("lyapunov", "megno", "mean_megno", "sali")
-_FIXED = ("n", "t", "energy", "modified_energy", "estimate", "order", *_INDICATORS)
+_FIXED = fixed_names()
+_INDICATORS = [name for name in _FIXED if name not in ("n", "t", "energy", "modified_energy", "estimate", "order")]
 
 
 def open(path: Union[str, os.PathLike[str]]) -> Trajectory:
@@ -89,7 +89,7 @@ def open(path: Union[str, os.PathLike[str]]) -> Trajectory:
 _AGAIN = "copy the file again, or run its scene again"
 _NUMBER = re.compile(r"[-+]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][-+]?[0-9]+)?|nan|-?inf")
 # the columns that a state at a physical end does not have
-_AT_STEPS = {"n", "t", "modified_energy", "estimate", "order", "lyapunov", "megno", "mean_megno", "sali"}
+_AT_STEPS = {"n", "t", "modified_energy", "estimate", "order", *_INDICATORS}
 _WHOLE = re.compile(r"-?[0-9]{1,18}")
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import os
 import warnings
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, Union
 
@@ -70,7 +70,7 @@ class Trajectory:
     indicators: dict[str, np.ndarray] = field(default_factory=dict)
     """Of a file with `chaos`: lyapunov, megno, mean_megno and sali, each of shape (n,)."""
     values: dict[str, np.ndarray] = field(default_factory=dict)
-    """Of a file with `values` or `elements`: each column, of shape (n,). Elements are heliocentric unless the scene has a ``centre``, and Jacobi ones in REBOUND."""
+    """Of `values`, and of a file with `elements`: each column, of shape (n,). Elements are heliocentric unless the scene has a ``centre``, and Jacobi ones in REBOUND."""
     summary: dict[str, Any] | None = None
     """What the run has shown, if that was asked for: the verdict, the error of H, close encounters, …; see ``summary_text``."""
     summary_text: str = "There is no summary: integrate(…, summary=True) makes one, and run(…).summary is that of a scene."
@@ -141,6 +141,7 @@ def integrate(
     first: str | None = None,
     gradient_kicks: str = "exact",
     every: int | None = None,
+    values: Mapping[str, str] | None = None,
     tangent: Sequence[Sequence[Number]] | np.ndarray | None = None,
     digits: Union[int, str] = "double",
     mpfr: bool = False,
@@ -183,6 +184,9 @@ def integrate(
         ``"exact"``, or ``"displaced"``, which needs no second derivatives.
     every
         The states 0, every, 2 every, … and the last one are kept; all by default.
+    values
+        Formulas whose values at the kept states are arrays in `Trajectory.values`, by their names, in the coordinates, momenta, parameters, t, the energy E and
+        quantities such as ``kinetic`` and ``distance(earth, moon)``: ``{"r": "sqrt(x^2 + y^2)"}``; ``shadowstep scene --explain output.values`` has all.
     tangent
         Tangent vectors (δq, δp) at t = 0, of 2d components each, which the derivative of each step takes along: δ ← DΦ δ, where a kick is
         δp ← δp − h a_s U_qq δq and a drift δq ← δq + h b_s T_pp δp. They are neither normalised nor made orthogonal; each costs about twice a run.
@@ -232,6 +236,9 @@ def integrate(
     >>> turned = shadowstep.integrate(shadowstep.Problem("pendulum"), "yoshida4", h="1/10", until=100, end="p < 0")
     >>> float(turned.t[-1])
     1.7
+    >>> orbit = shadowstep.integrate(shadowstep.Problem("kepler"), "yoshida4", h="1/20", until=10, values={"r": "sqrt(x^2 + y^2)", "L": "x*py - y*px"})
+    >>> bool(np.ptp(orbit.values["r"]) > 1), bool(np.ptp(orbit.values["L"]) < 1e-14)
+    (True, True)
     >>> galaxy = shadowstep.Problem("henon-heiles")
     >>> cut = shadowstep.integrate(galaxy, "blanes-moan-srkn11b", h="1/10", until=1000, section="x")
     >>> cut.q.shape, bool(abs(cut.q[:, 0]).max() < 1e-14), bool((cut.p[:, 0] > 0).all())
@@ -248,10 +255,11 @@ def integrate(
     if windows is not None and windows < _shadowstep.LEAST_WINDOWS:
         raise InputError(f"windows must be at least {_shadowstep.LEAST_WINDOWS}, not {windows}")
     run = run_of(problem, scheme, h, until, steps, first, gradient_kicks, 1 if every is None else every, digits, mpfr)
+    formulas = list(_formulas(values or {}).items())
     chosen = options_if_any(estimator, order=order, max_order=max_order, stop=stop, rule=rule, accuracy=accuracy)
     with bar(run["steps"], "steps", progress) as reach:
         events = {"end": end, "section": None if section is None else (section, direction or "up")}
-        found = _shadowstep.integrate(run, options=chosen, events=events, tangent=_texts(tangent), windows=(windows or _shadowstep.WINDOWS) if summary else None, progress=reach)
+        found = _shadowstep.integrate(run, options=chosen, events=events, tangent=_texts(tangent), values=formulas, windows=(windows or _shadowstep.WINDOWS) if summary else None, progress=reach)
     if found["summary"] is not None:
         found["summary_text"], record = found["summary"]
         found["summary"] = json.loads(record)
@@ -264,11 +272,19 @@ def integrate(
     for name in ("t", "q", "p", "energy", "modified_energy", "modified_energy_error"):
         if name in found and isinstance(found[name], list):
             found[name] = np.array(found[name], dtype=object)
+    found["values"] = {name: numbers if isinstance(numbers, np.ndarray) else np.array(numbers, dtype=object) for name, numbers in found["values"].items()}
     rows = len(found["n"])
     for name in ("q", "p"):
         found[name] = found[name].reshape(rows, len(found["coordinates"]))
     found["tangent"] = None if tangent is None else vectors_of(found["tangent"], rows)
     return Trajectory(**found)
+
+
+def _formulas(values: Mapping[str, str]) -> dict[str, str]:
+    for name, formula in values.items():
+        if not (isinstance(name, str) and isinstance(formula, str)):
+            raise InputError(f"values has {name!r}: {formula!r}, which is not a name with a formula: values={{'r': 'sqrt(x^2 + y^2)'}}")
+    return dict(values)
 
 
 def _texts(tangent: Sequence[Sequence[Number]] | np.ndarray | None) -> list[list[str]]:

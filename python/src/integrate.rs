@@ -6,14 +6,16 @@ use pyo3::types::{PyDict, PyList};
 use serde_json::json;
 use shadowstep::shadow::EstimatorSettings;
 use shadowstep_scenes::arithmetic::Arithmetic;
+use shadowstep_scenes::columns;
 use shadowstep_scenes::computation::{Computation, FollowedNumber};
 use shadowstep_scenes::integrate::{KeptStates, Samples};
 use shadowstep_scenes::posed::Posed;
 use shadowstep_scenes::run::{OrderSetting, Run};
-use shadowstep_scenes::stability::note_of_steps;
-use shadowstep_scenes::{Direction, Error, Note, Observer, estimator};
 
-use crate::derivatives::{By, Request, columns};
+use shadowstep_scenes::stability::note_of_steps;
+use shadowstep_scenes::{Direction, Error, NamedExpression, Note, Observer, estimator};
+
+use crate::derivatives::{By, Request, columns as of_vectors};
 use crate::errors::exception;
 use crate::estimator::Options;
 use crate::given::word;
@@ -31,9 +33,9 @@ pub(crate) struct Events {
 
 /// Makes a run, and gives a dictionary of its states: arrays in double precision, else lists of decimal texts. With tangent vectors, each of which begins with
 /// components of `tangent`, it is made once more with these. With a number of windows it has a summary, which compares modified energies
-/// in about as many.
+/// in about as many. Formulas with their names are columns of values.
 #[pyfunction]
-#[pyo3(signature = (run, *, options, events, tangent, windows, progress))]
+#[pyo3(signature = (run, *, options, events, tangent, windows, values, progress))]
 pub(crate) fn integrate<'py>(
     py: Python<'py>,
     run: GivenRun,
@@ -41,6 +43,7 @@ pub(crate) fn integrate<'py>(
     events: Events,
     tangent: Vec<Vec<String>>,
     windows: Option<u64>,
+    values: Vec<(String, String)>,
     progress: Option<&Bound<'py, PyAny>>,
 ) -> PyResult<Bound<'py, PyDict>> {
     let Events { end, section } = events;
@@ -48,6 +51,7 @@ pub(crate) fn integrate<'py>(
     let section = section.transpose()?;
     let estimator = options.map(|options| options.settings(py)).transpose()?;
     let is_between = estimator.as_ref().is_some_and(EstimatorSettings::is_between);
+    let names: Vec<String> = values.iter().map(|(name, _)| name.clone()).collect();
     let mut request = Request::of(py, run.read(py)?, By::directions(py, &tangent)?)?;
     let given = request.run.problem.clone();
     let found = waiting_for(py, progress, Some(&given), move |watched| {
@@ -57,8 +61,10 @@ pub(crate) fn integrate<'py>(
         let mut summarising = Summarising::new(watched, Vec::new());
         let mut watching = watched.observer();
         let observer: &mut dyn Observer = if windows.is_some() { &mut summarising } else { &mut watching };
+        let columns =
+            values.iter().map(|(name, text)| posed.system.column(name, text)).collect::<Result<Vec<_>, _>>()?;
         let rows = (run.every, section.as_ref(), end.as_deref(), windows.unwrap_or(Run::WINDOWS));
-        let (found, mut notes) = posed.run(runs, rows, estimator.as_ref(), run.arithmetic, observer)?;
+        let (found, mut notes) = posed.run(runs, (rows, &columns), estimator.as_ref(), run.arithmetic, observer)?;
         notes.extend(run.times.note.clone());
         notes.splice(..0, run.problem.notes(run.arithmetic)?);
         let mut vectors = Vec::new();
@@ -70,21 +76,30 @@ pub(crate) fn integrate<'py>(
         Ok((found, vectors, notes, posed.system, summarising.summary()?))
     });
     let (found, vectors, notes, system, summary) = found?.map_err(|error| exception(py, error))?;
-    let dictionary = found.into_dictionary(py)?;
+    let dictionary = found.into_dictionary(py, &names)?;
     dictionary.set_item("notes", PyList::new(py, notes.iter().map(Note::to_string))?)?;
     dictionary.set_item("coordinates", &system.coordinates)?;
     dictionary.set_item("momenta", &system.momenta)?;
     dictionary.set_item("is_between", is_between)?;
     dictionary.set_item("summary", summary)?;
-    dictionary.set_item("tangent", columns(py, vectors)?)?;
+    dictionary.set_item("tangent", of_vectors(py, vectors)?)?;
     Ok(dictionary)
+}
+
+/// The period of states, a section, a condition that ends the run, and the windows of the summary.
+type Rows<'a> = (u64, Option<&'a (String, Direction)>, Option<&'a str>, u64);
+
+/// The names that columns of every system may have.
+#[pyfunction]
+pub(crate) fn fixed_names() -> Vec<&'static str> {
+    columns::fixed_names().collect()
 }
 
 impl SystemWithScheme {
     fn run(
         &self,
         (times, displaced): (&Times, bool),
-        (every, section, end, windows): (u64, Option<&(String, Direction)>, Option<&str>, u64),
+        ((every, section, end, windows), values): (Rows<'_>, &[NamedExpression]),
         estimator: Option<&EstimatorSettings>,
         arithmetic: Arithmetic,
         observer: &mut dyn Observer,
@@ -96,7 +111,7 @@ impl SystemWithScheme {
         let ends = end.map(|text| system.condition("end", text)).transpose()?;
         let ends = ends.as_ref();
         let surface = section.map(|(text, direction)| system.section("section", text, *direction)).transpose()?;
-        let kept = surface.as_ref().map_or(KeptStates::Every(every), KeptStates::Crossings);
+        let kept = (surface.as_ref().map_or(KeptStates::Every(every), KeptStates::Crossings), values);
         let posed = Posed::new(system, &self.scheme.scheme, run, (arithmetic, displaced));
         let posed = Posed { until: times.physical_end.as_ref(), ends, estimator, ..posed };
         let of_steps = note_of_steps((system, system.fastest_frequency()), &self.scheme, times.h.exact());
@@ -114,7 +129,7 @@ impl SystemWithScheme {
 
 struct InTexts<'a> {
     posed: Posed<'a>,
-    kept: KeptStates<'a>,
+    kept: (KeptStates<'a>, &'a [NamedExpression]),
     observer: &'a mut dyn Observer,
 }
 
@@ -142,22 +157,22 @@ impl Integrated {
         n.last().map_or(0, |last| last.unsigned_abs())
     }
 
-    fn into_dictionary(self, py: Python<'_>) -> PyResult<Bound<'_, PyDict>> {
+    fn into_dictionary<'py>(self, py: Python<'py>, names: &[String]) -> PyResult<Bound<'py, PyDict>> {
         match self {
             Integrated::Doubles(samples) => {
-                dictionary(py, samples, |numbers| Ok(PyArray1::from_vec(py, numbers).into_any()), f64::NAN)
+                dictionary(py, (samples, names), |numbers| Ok(PyArray1::from_vec(py, numbers).into_any()), f64::NAN)
             }
             Integrated::Texts(samples) => {
-                dictionary(py, samples, |texts| Ok(PyList::new(py, texts)?.into_any()), "nan".to_owned())
+                dictionary(py, (samples, names), |texts| Ok(PyList::new(py, texts)?.into_any()), "nan".to_owned())
             }
         }
     }
 }
 
-/// The states as a dictionary; q and p are flat.
+/// The states, with the names of their values, as a dictionary; q and p are flat.
 fn dictionary<'py, T: Clone>(
     py: Python<'py>,
-    samples: Samples<T>,
+    (samples, names): (Samples<T>, &[String]),
     column: impl Fn(Vec<T>) -> PyResult<Bound<'py, PyAny>>,
     missing: T,
 ) -> PyResult<Bound<'py, PyDict>> {
@@ -168,6 +183,12 @@ fn dictionary<'py, T: Clone>(
     for (name, numbers) in columns {
         all.set_item(name, column(numbers)?)?;
     }
+    let values = PyDict::new(py);
+    for (name, numbers) in names.iter().zip(samples.values) {
+        let numbers = numbers.into_iter().map(|number| number.unwrap_or_else(|| missing.clone()));
+        values.set_item(name, column(numbers.collect())?)?;
+    }
+    all.set_item("values", values)?;
     if !samples.modified.is_empty() {
         let mut modified = samples.modified;
         let orders: Vec<i64> = modified.iter().map(|found| found.order.into()).collect();

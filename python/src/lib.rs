@@ -71,7 +71,7 @@ mod _shadowstep {
     #[pymodule_export]
     use crate::given::{Given, problem_keys, problem_names};
     #[pymodule_export]
-    use crate::integrate::integrate;
+    use crate::integrate::{fixed_names, integrate};
     #[pymodule_export]
     use crate::laboratory::{polished, searched};
     #[pymodule_export]

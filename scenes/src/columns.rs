@@ -61,7 +61,8 @@ pub(crate) struct Columns<'a, N> {
 
 impl<'a, N: RunNumber> Columns<'a, N> {
     pub(crate) fn of(output: &'a Outputs, system: &'a System, context: &N::Context) -> Self {
-        let values = output.values.iter().map(|columns| Values::new(columns, system, context));
+        let values =
+            output.values.iter().map(|columns| Values::new((&columns.expressions, columns.every), system, context));
         let groups = [energy::of(output), modified_energy::of(output), chaos::of(output)].into_iter().flatten();
         let groups = groups.chain(values.map(|values| Box::new(values) as Box<_>)).chain(states::of(output, system));
         let mut columns = Columns {

@@ -10,13 +10,14 @@ use shadowstep_schemes::document::{Reader, Text};
 use shadowstep_symbolic::Exact;
 use thiserror::Error;
 
+use crate::columns::fixed_names;
 use crate::error::Error;
 use crate::expression::{Comparison, Condition, ENERGY, Expression, TIME, name_of_quantity};
 use crate::lanes::LANES;
 use crate::quantity::{Compute, Quantity};
 use crate::quantity_of_bodies::QuantityOfBodies;
 use crate::refusal::Refusal;
-use crate::reserved_names::QUANTITIES;
+use crate::reserved_names;
 use crate::run_number::RunNumber;
 use crate::scene::split::ShownCoordinates;
 use crate::scene::{Direction, EnergyAt, NamedExpression, Surface, System};
@@ -51,6 +52,21 @@ impl System {
     /// A text that is not a formula in the numbers of the system's states, with the column of the fault.
     pub fn section(&self, name: &str, text: &str, direction: Direction) -> Result<Surface, Error> {
         alone(name, text, |text, reader| self.surface(text, direction, reader))
+    }
+
+    /// A formula that stands alone, whose values are a column of this name.
+    ///
+    /// # Errors
+    /// A text that is not a formula in the numbers of the system's states, with the column of the fault; the name of another column.
+    pub fn column(&self, name: &str, text: &str) -> Result<NamedExpression, Error> {
+        if fixed_names().any(|other| other == name) || self.columns().any(|other| other == name) {
+            return Err(Error::usage(format!("there is another column `{name}`"), "give this one another name"));
+        }
+        alone(name, text, |text, reader| {
+            let expression = Expression::new(text);
+            self.check(&expression, reader);
+            Some(NamedExpression { name: name.to_owned(), at: 0..0, expression })
+        })
     }
 
     /// The surface where a formula is 0, or faults.
@@ -102,7 +118,7 @@ impl System {
 
     /// A name of the formula that could be read in two ways.
     fn two_meanings(&self, expression: &Expression) -> Option<Refusal> {
-        let quantities = QUANTITIES.iter().filter(|(name, _)| *name != TIME || !self.explicit_time);
+        let quantities = reserved_names::quantities().filter(|(name, _)| *name != TIME || !self.explicit_time);
         let of = |names: &[String], what| names.iter().map(move |name| (name.clone(), what)).collect::<Vec<_>>();
         let parameters: Vec<_> = self.parameters.iter().map(|(name, _)| name.clone()).collect();
         let all = [
@@ -110,7 +126,7 @@ impl System {
             of(&self.momenta, "the momentum"),
             of(&parameters, "the parameter"),
         ];
-        let all = all.concat().into_iter().chain(quantities.map(|(name, what)| ((*name).to_owned(), *what)));
+        let all = all.concat().into_iter().chain(quantities.map(|(name, what)| (name.to_owned(), what)));
         let all: Vec<_> = all.collect();
         expression.names.iter().find_map(|name| {
             let meanings: Vec<_> = all.iter().filter(|(own, _)| own == name).map(|(_, what)| *what).collect();

@@ -22,7 +22,7 @@ impl Scene {
     /// run that fails. The rows of a run that fails stay in a partial file if the scene asks for checkpoints.
     pub fn run_to_file(&self, options: FileOptions, observer: &mut dyn Observer) -> Result<Outcome, Error> {
         match Target::open(self, &self.names(), options, observer)? {
-            Some((target, begun)) => self.run(target, &begun, observer),
+            Some((target, begun)) => self.run((target, self.output.format), &begun, observer),
             None => Ok(Outcome::AlreadyComplete),
         }
     }
@@ -43,7 +43,15 @@ impl Scene {
     /// # Errors
     /// A run that fails, a writer that does.
     pub fn run_into(&self, rows: &mut dyn Write, observer: &mut dyn Observer) -> Result<Outcome, Error> {
-        self.run(Target::Writer(rows), &Begun::Anew, observer)
+        self.run((Target::Writer(rows), self.output.format), &Begun::Anew, observer)
+    }
+
+    /// The same as CSV, whatever format it names.
+    ///
+    /// # Errors
+    /// As [`run_into`](Scene::run_into).
+    pub fn run_into_csv(&self, rows: &mut dyn Write, observer: &mut dyn Observer) -> Result<Outcome, Error> {
+        self.run((Target::Writer(rows), Format::Csv), &Begun::Anew, observer)
     }
 
     /// The names of the columns of its rows.
@@ -84,8 +92,13 @@ impl Scene {
         self.output.summary && observer.summarises()
     }
 
-    fn run(&self, target: Target<'_>, begun: &Begun, observer: &mut dyn Observer) -> Result<Outcome, Error> {
-        let mut rows = Rows { target, format: self.output.format, names: self.names() };
+    fn run(
+        &self,
+        (target, format): (Target<'_>, Format),
+        begun: &Begun,
+        observer: &mut dyn Observer,
+    ) -> Result<Outcome, Error> {
+        let mut rows = Rows { target, format, names: self.names() };
         let (checkpoint, steps) = (begun.checkpoint(), self.steps());
         match begun {
             Begun::Resumed(Checkpoint { n, .. }) => observer.note(&Note::Resumed { n: *n, steps }),
@@ -97,7 +110,7 @@ impl Scene {
         }
         if !matches!(begun, Begun::Resumed(_)) {
             rows.head(&Metadata::of(self))?;
-            rows.target.end_head(self.output.format == Format::Numpy, checkpoint)?;
+            rows.target.end_head(format == Format::Numpy, checkpoint)?;
         }
         let following = SceneRun { scene: self, rows: &mut rows, checkpoint, observer: &mut *observer };
         match self.arithmetic.compute(following) {

@@ -1,6 +1,7 @@
 //! What every key of a document means.
 
 use crate::keys::SECTIONS;
+use crate::quantity::QUANTITIES;
 use crate::readable::wrapped;
 use crate::schema::{Section, json_schema};
 
@@ -16,7 +17,12 @@ A number is written in digits, 0.05 or 1e-3, and is used exactly; or it is an ex
 /// assert!(shadowstep_scenes::explain().contains("step = \"1/20\""));
 /// ```
 pub fn explain() -> String {
-    explanation(INTRODUCTION, SECTIONS)
+    let mut text = explanation(INTRODUCTION, SECTIONS);
+    text += "\nQuantities of bodies in formulas of values, extremes, ends, sections and sweeps\n";
+    for own in &QUANTITIES {
+        text += &format!("\n  {}\n{}", own.written, wrapped(own.meaning, "      "));
+    }
+    text
 }
 
 /// The JSON Schema of scenes, with which editors complete and check them.

@@ -16,7 +16,7 @@
 //! let h = StepSize::try_from("1/20").unwrap();
 //! let run = Run { propagator: &scheme.name, h: &h, steps: 1000, order: None, windows: Run::WINDOWS };
 //! let posed = Posed::new(&system, &scheme.scheme, run, (Arithmetic::DOUBLE, false));
-//! let samples = posed.samples::<f64>(KeptStates::Every(100), &(), &mut ())?;
+//! let samples = posed.samples::<f64>((KeptStates::Every(100), &[]), &(), &mut ())?;
 //! assert_eq!(samples.n, (0..=10).map(|i| 100 * i).collect::<Vec<_>>());
 //! assert!(samples.energy.iter().all(|energy| (energy + 0.5).abs() < 1e-3));
 //! # Ok::<(), shadowstep_scenes::Error>(())
@@ -24,11 +24,13 @@
 
 use crate::at::{At, Place};
 use crate::column::{Column, next_multiple};
+use crate::columns::{Group as _, Values};
 use crate::computation::{FollowedNumber, RunNumber};
 use crate::error::Error;
 use crate::observer::{Observer, interrupted};
 use crate::posed::Posed;
-use crate::scene;
+use crate::results::Cell;
+use crate::scene::{self, NamedExpression};
 use crate::watch::{Approaches, Energies, Interactions};
 
 /// Which states of a run are kept.
@@ -53,6 +55,8 @@ pub struct Samples<N> {
     pub p: Vec<N>,
     /// H
     pub energy: Vec<N>,
+    /// The value of each formula at each of these states; `None` of one that is not finite.
+    pub values: Vec<Vec<Option<N>>>,
     /// The modified energies of these states, or of the middles between them and the next ones; the last one is then missing.
     pub modified: Vec<Modified<N>>,
     /// Evaluations of the gradient, those for the states beyond both ends included.
@@ -73,7 +77,7 @@ pub struct Modified<N> {
 }
 
 impl Posed<'_> {
-    /// Makes the run and keeps its states, with a summary for an observer that [wants](Observer::summarises) one.
+    /// Makes the run and keeps its states, with the values of formulas there, and a summary for an observer that [wants](Observer::summarises) one.
     ///
     /// # Errors
     /// Crossings with displaced forces; a state or an energy that is not finite; settings of the estimator that are not valid; an observer that stops.
@@ -82,7 +86,7 @@ impl Posed<'_> {
     /// If the scheme is not valid for the system.
     pub fn samples<N: FollowedNumber>(
         self,
-        kept: KeptStates<'_>,
+        (kept, values): (KeptStates<'_>, &[NamedExpression]),
         context: &N::Context,
         observer: &mut dyn Observer,
     ) -> Result<Samples<N>, Error> {
@@ -93,7 +97,11 @@ impl Posed<'_> {
         let summarised = observer.summarises();
         let energies = every.filter(|_| summarised).map(Energies::Given);
         let posed = Posed { section, energies, summarised, ..self };
-        let mut kept = Kept { samples: Samples::none(), every, approaches: Approaches::of(posed.system) };
+        let mut samples = Samples::none();
+        samples.values = vec![Vec::new(); values.len()];
+        let values = Values::new((values, 1), posed.system, context);
+        let approaches = Approaches::of(posed.system);
+        let mut kept = Kept { samples, values, cells: Vec::new(), every, approaches };
         let followed = N::follow(&posed, context, &mut [&mut kept], observer)?;
         if followed.is_stopped {
             return Err(interrupted(self.run, followed.n.unsigned_abs()));
@@ -107,15 +115,18 @@ impl Posed<'_> {
 }
 
 /// Keeps states of a run.
-struct Kept<N> {
+struct Kept<'a, N: RunNumber> {
     samples: Samples<N>,
+    values: Values<'a, N>,
+    /// Those of a state.
+    cells: Vec<Cell<N>>,
     /// The period; `None` of crossings.
     every: Option<u64>,
     /// Of planets.
     approaches: Option<Approaches>,
 }
 
-impl<N: RunNumber> Kept<N> {
+impl<N: RunNumber> Kept<'_, N> {
     fn push(&mut self, at: &mut At<'_, '_, N>) -> Result<(), Error> {
         let energy = at.energy()?.clone();
         let (n, time, samples) = (at.n, at.time(), &mut self.samples);
@@ -125,6 +136,13 @@ impl<N: RunNumber> Kept<N> {
         samples.n.push(n);
         samples.t.push(time);
         samples.energy.push(energy);
+        self.values.append(at, &mut self.cells)?;
+        for (column, cell) in samples.values.iter_mut().zip(self.cells.drain(..)) {
+            column.push(match cell {
+                Cell::Number(value) => Some(value),
+                _ => None,
+            });
+        }
         let (q, p) = at.shown_state();
         samples.q.extend_from_slice(q);
         samples.p.extend_from_slice(p);
@@ -132,7 +150,7 @@ impl<N: RunNumber> Kept<N> {
     }
 }
 
-impl<N: RunNumber> Column<N> for Kept<N> {
+impl<N: RunNumber> Column<N> for Kept<'_, N> {
     fn next(&self, n: i64) -> i64 {
         self.every.map_or(i64::MAX, |every| next_multiple(n, every))
     }
@@ -168,6 +186,7 @@ impl<N> Samples<N> {
             q: Vec::new(),
             p: Vec::new(),
             energy: Vec::new(),
+            values: Vec::new(),
             modified: Vec::new(),
             evaluations: 0,
             interactions: None,
@@ -187,6 +206,11 @@ impl<N> Samples<N> {
             q: all(&self.q),
             p: all(&self.p),
             energy: all(&self.energy),
+            values: self
+                .values
+                .iter()
+                .map(|column| column.iter().map(|value| value.as_ref().map(&number)).collect())
+                .collect(),
             modified: self.modified.iter().map(modified).collect(),
             n: self.n,
             evaluations: self.evaluations,
@@ -228,7 +252,7 @@ mod tests {
             let mut of_scene = KeptSummary::default();
             scene.run_into(&mut Vec::new(), &mut of_scene).unwrap();
             let mut own = KeptSummary::default();
-            posed(&scene).samples::<f64>(KeptStates::Every(100), &(), &mut own).unwrap();
+            posed(&scene).samples::<f64>((KeptStates::Every(100), &[]), &(), &mut own).unwrap();
             let [of_scene, own] = [of_scene, own].map(|kept| kept.0.unwrap());
             assert_eq!(own.verdict_with_reason(), of_scene.verdict_with_reason());
             assert_eq!((own.to, own.encounters), (of_scene.to, of_scene.encounters));
@@ -245,7 +269,7 @@ mod tests {
                 let text = kepler.replace("SCHEME", scheme).replace("UNTIL", until) + rows;
                 let scene = Scene::read(Source { path: "test.toml".to_owned(), text }).unwrap();
                 let mut kept = KeptSummary::default();
-                let samples = posed(&scene).samples::<f64>(KeptStates::Every(1), &(), &mut kept).unwrap();
+                let samples = posed(&scene).samples::<f64>((KeptStates::Every(1), &[]), &(), &mut kept).unwrap();
                 let found = kept.0.unwrap().energy;
                 // of a processed scheme the kernel's first state is H(0) but for round-off
                 let initial: f64 = found.initial.parse().unwrap();

@@ -180,7 +180,8 @@ pub use scene::split::{
 };
 pub use scene::{
     CheckpointInterval, Direction, EnergyAt, EnergyOfBodies, Format, Formula, InitialValueProblem, KineticEnergy,
-    Outputs, OwnPotential, PairEnergy, Parts, PotentialEnergy, Scene, SceneNumber, Surface, System, SystemIn,
+    NamedExpression, Outputs, OwnPotential, PairEnergy, Parts, PotentialEnergy, Scene, SceneNumber, Surface, System,
+    SystemIn,
 };
 pub use shell::shell_word;
 pub use shipped::{SHIPPED_SCENES, ShippedScene, scene_text};

@@ -4,8 +4,59 @@ use std::ops::Range;
 
 use shadowstep_symbolic::{Expression as Syntax, ExpressionKind};
 
-/// The function of a distance.
-const DISTANCE: &str = "distance";
+/// A quantity: how formulas write it, and what it is.
+pub(crate) struct Described {
+    function: Function,
+    /// The name alone, where it may stand without arguments, and what messages call it.
+    pub(crate) name: Option<(&'static str, &'static str)>,
+    /// The names of functions with arguments.
+    calls: &'static [&'static str],
+    pub(crate) written: &'static str,
+    pub(crate) meaning: &'static str,
+}
+
+/// The quantities; elements have a table of their own.
+pub(crate) const QUANTITIES: [Described; 5] = [
+    Described {
+        function: Function::Kinetic,
+        name: Some((KINETIC, "the kinetic energy")),
+        calls: &[],
+        written: "kinetic",
+        meaning: "The kinetic energy T(p).",
+    },
+    Described {
+        function: Function::Virial,
+        name: Some((VIRIAL, "the virial")),
+        calls: &[],
+        written: "virial",
+        meaning: "Clausius' virial -q U_q; in a periodic box of the nearest images.",
+    },
+    Described {
+        function: Function::OfBodies(DISTANCE),
+        name: None,
+        calls: &[DISTANCE],
+        written: "distance(sun, earth)",
+        meaning: "The distance of two bodies, which have the names of [[body]] or numbers.",
+    },
+    Described {
+        function: Function::OfBodies(ANGULAR_MOMENTUM),
+        name: Some((ANGULAR_MOMENTUM, "the angular momentum")),
+        calls: &[ANGULAR_MOMENTUM],
+        written: "angular_momentum, angular_momentum(z)",
+        meaning: "The angular momentum of all bodies about the origin: x py - y px in a plane, its length in space, and there its component along an axis.",
+    },
+    Described {
+        function: Function::Element(Element::SemiMajorAxis),
+        name: None,
+        calls: &[],
+        written: "a(earth), e, i, node, pericentre, M, lambda",
+        meaning: "An element of a body's osculating orbit, angles in degrees: about the first body, e(earth); another one, a(moon, earth); the bodies \
+                  before, i(earth, jacobi); or all, M(earth, barycentre).",
+    },
+];
+
+pub(crate) const DISTANCE: &str = "distance";
+pub(crate) const ANGULAR_MOMENTUM: &str = "angular_momentum";
 
 /// The names of sums over all bodies.
 pub(crate) const KINETIC: &str = "kinetic";
@@ -49,7 +100,8 @@ pub(crate) enum Function {
     Kinetic,
     /// −qᵀU_q; in a periodic box of the nearest images.
     Virial,
-    Distance,
+    /// What has a formula in the coordinates and momenta of bodies.
+    OfBodies(&'static str),
     Element(Element),
 }
 
@@ -70,25 +122,17 @@ impl Quantity {
             if found.last().is_some_and(|call| part.range.start < call.range.end) {
                 return;
             }
+            let of =
+                |is_own: &dyn Fn(&Described) -> bool| QUANTITIES.iter().find(|own| is_own(own)).map(|own| own.function);
             let (function, arguments) = match &part.kind {
-                ExpressionKind::Call { function, arguments } => (function, &arguments[..]),
-                ExpressionKind::Name(name) => {
-                    let function = match name.as_str() {
-                        KINETIC => Function::Kinetic,
-                        VIRIAL => Function::Virial,
-                        _ => return,
-                    };
-                    found.push(Quantity { function, arguments: Vec::new(), range: part.range.clone() });
-                    return;
+                ExpressionKind::Call { function: name, arguments } => {
+                    let element = ELEMENTS.iter().find(|(own, _)| own == name).map(|(_, own)| Function::Element(*own));
+                    (element.or_else(|| of(&|own| own.calls.contains(&&**name))), &arguments[..])
                 }
+                ExpressionKind::Name(name) => (of(&|own| own.name.is_some_and(|(own, _)| own == name)), &[][..]),
                 _ => return,
             };
-            let element = ELEMENTS.iter().find(|(name, _)| name == function).map(|(_, element)| *element);
-            let function = match element {
-                Some(element) => Function::Element(element),
-                None if function == DISTANCE => Function::Distance,
-                None => return,
-            };
+            let Some(function) = function else { return };
             let arguments = arguments.iter().map(|argument| formula[argument.range.clone()].to_owned()).collect();
             found.push(Quantity { function, arguments, range: part.range.clone() });
         });

@@ -1,11 +1,13 @@
-//! Quantities of bodies in the numbers of a run: the kinetic energy and the virial of all, distances, and the elements of osculating Kepler orbits.
+//! Quantities of bodies in the numbers of a run: the kinetic energy and the virial of all, those by a formula, and the elements of osculating Kepler orbits.
 
+mod by_formula;
 mod orbit;
 mod sums;
 
 use std::ops::Range;
 
 use num_traits::Zero;
+use shadowstep::systems::formula::FormulaValue;
 use shadowstep::{Rational, Real};
 
 use self::orbit::Orbit;
@@ -46,8 +48,8 @@ pub(crate) enum QuantityOfBodies {
     Kinetic,
     /// −qᵀU_q
     Virial,
-    /// Between the points with these coordinates.
-    Distance([Range<usize>; 2]),
+    /// A formula in the coordinates and momenta.
+    Formula(String),
     Element(Box<ElementOfBody>),
 }
 
@@ -66,7 +68,38 @@ pub(crate) struct ElementOfBody {
     parameter: Rational,
 }
 
+/// The number of a body.
+fn body(bodies: &Bodies, name: &str) -> Result<usize, Refusal> {
+    bodies.number(name).map_err(|hint| Refusal::new(format!("there is no body `{name}`"), hint))
+}
+
 impl ElementOfBody {
+    /// Of a body about the first one, or about another centre.
+    fn of(system: &System, bodies: &Bodies, element: Element, arguments: &[String]) -> Result<Self, Refusal> {
+        let (name, centre) = match arguments {
+            [name] => (name, None),
+            [name, centre] => (name, Some(centre)),
+            _ => {
+                return refuse(
+                    "an element is one of a body, about the first body or another centre",
+                    "write a(earth), a(moon, earth), a(earth, jacobi) or a(earth, barycentre)",
+                );
+            }
+        };
+        let number = body(bodies, name)?;
+        let centre: Vec<usize> = match centre.map(String::as_str) {
+            None => vec![0],
+            Some(word @ (JACOBI | BARYCENTRE)) if bodies.names.iter().any(|own| own == word) => {
+                let message = format!("`{word}` could be the body or the centre of mass of this name here");
+                return refuse(message, "give the body another name");
+            }
+            Some(JACOBI) => (0..number).collect(),
+            Some(BARYCENTRE) => (0..bodies.names.len()).collect(),
+            Some(other) => vec![body(bodies, other)?],
+        };
+        ElementOfBody::new(system, bodies, (element, number), &centre)
+    }
+
     fn new(
         system: &System,
         bodies: &Bodies,
@@ -135,49 +168,22 @@ impl QuantityOfBodies {
 
     /// Of the bodies of a system.
     pub(crate) fn new(quantity: &Quantity, system: &System) -> Result<QuantityOfBodies, Refusal> {
-        let element = match quantity.function {
-            Function::Kinetic => return sums::check(KINETIC, system).map(|()| QuantityOfBodies::Kinetic),
-            Function::Virial => return sums::check(VIRIAL, system).map(|()| QuantityOfBodies::Virial),
-            Function::Distance => None,
-            Function::Element(element) => Some(element),
+        let bodies = || {
+            Bodies::of(system).filter(|bodies| bodies.names.len() > 1).ok_or_else(|| {
+                Refusal::new("this system has no bodies", "write a formula in its coordinates and momenta")
+            })
         };
-        let bodies = Bodies::of(system).filter(|bodies| bodies.names.len() > 1).ok_or_else(|| Refusal {
-            message: "this system has no bodies".to_owned(),
-            hint: "write a formula in its coordinates and momenta".to_owned(),
-        })?;
-        let number = |name: &String| {
-            bodies.number(name).map_err(|hint| Refusal { message: format!("there is no body `{name}`"), hint })
-        };
-        match (element, &quantity.arguments[..]) {
-            (None, [one, other]) => {
-                let of = [number(one)?, number(other)?].map(|body| bodies.coordinates(body));
-                refuse_box(system).map(|()| QuantityOfBodies::Distance(of))
+        Ok(match quantity.function {
+            Function::Kinetic => sums::check(KINETIC, system).map(|()| QuantityOfBodies::Kinetic)?,
+            Function::Virial => sums::check(VIRIAL, system).map(|()| QuantityOfBodies::Virial)?,
+            Function::OfBodies(name) => {
+                QuantityOfBodies::Formula(by_formula::of(name, &quantity.arguments, (system, &bodies()?))?)
             }
-            (Some(element), [body]) => {
-                let body = number(body)?;
-                ElementOfBody::new(system, &bodies, (element, body), &[0])
-                    .map(|of| QuantityOfBodies::Element(Box::new(of)))
+            Function::Element(element) => {
+                let (bodies, arguments) = (bodies()?, &quantity.arguments);
+                QuantityOfBodies::Element(Box::new(ElementOfBody::of(system, &bodies, element, arguments)?))
             }
-            (Some(element), [body, centre]) => {
-                let (body, is_body) = (number(body)?, bodies.names.contains(centre));
-                let centre: Vec<usize> = match centre.as_str() {
-                    JACOBI | BARYCENTRE if is_body => {
-                        let message = format!("`{centre}` could be the body or the centre of mass of this name here");
-                        return refuse(message, "give the body another name");
-                    }
-                    JACOBI => (0..body).collect(),
-                    BARYCENTRE => (0..bodies.names.len()).collect(),
-                    _ => vec![number(centre)?],
-                };
-                ElementOfBody::new(system, &bodies, (element, body), &centre)
-                    .map(|of| QuantityOfBodies::Element(Box::new(of)))
-            }
-            (None, _) => refuse("a distance is one of two bodies", "write distance(earth, moon)"),
-            (Some(_), _) => refuse(
-                "an element is one of a body, about the first body or another centre",
-                "write a(earth), a(moon, earth), a(earth, jacobi) or a(earth, barycentre)",
-            ),
-        }
+        })
     }
 
     /// Of this system, in the numbers of a run.
@@ -185,19 +191,11 @@ impl QuantityOfBodies {
         match self {
             QuantityOfBodies::Kinetic => sums::kinetic(system, context),
             QuantityOfBodies::Virial => sums::virial(system, context),
-            QuantityOfBodies::Distance([one, other]) => {
-                let (one, other) = (one.clone(), other.clone());
-                Box::new(move |q, _| {
-                    let mut difference = q[0].clone();
-                    let mut square = q[0].clone();
-                    square.assign_zero();
-                    for (a, b) in q[one.clone()].iter().zip(&q[other.clone()]) {
-                        difference.assign_difference(a, b);
-                        square.add_product(&difference, &difference);
-                    }
-                    difference.assign_sqrt(&square);
-                    difference
-                })
+            QuantityOfBodies::Formula(formula) => {
+                let names = system.coordinates.iter().chain(&system.momenta).map(String::as_str);
+                let mut formula = FormulaValue::new(formula, &names.collect::<Vec<_>>(), &[], context)
+                    .expect("it is made of names of the system");
+                Box::new(move |q, p| formula.at(&[q, p].concat()).clone())
             }
             QuantityOfBodies::Element(of) => of.in_numbers(context),
         }

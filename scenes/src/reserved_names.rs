@@ -1,14 +1,16 @@
 //! Names with a meaning of their own: in formulas of columns and conditions, as columns, and in the languages of emitted code.
 
 use crate::expression::{ENERGY, TIME};
-use crate::quantity::{KINETIC, VIRIAL};
+use crate::quantity::QUANTITIES;
 
 /// The lists in rows of JSON lines, beside which no column of values has such a name.
 pub(crate) const LISTS: [&str; 2] = ["q", "p"];
 
 /// What names mean in formulas of columns and conditions of every system.
-pub const QUANTITIES: [(&str, &str); 4] =
-    [(TIME, "the time"), (ENERGY, "the energy H"), (KINETIC, "the kinetic energy"), (VIRIAL, "the virial")];
+pub fn quantities() -> impl Iterator<Item = (&'static str, &'static str)> {
+    let own = QUANTITIES.iter().filter_map(|own| own.name);
+    [(TIME, "the time"), (ENERGY, "the energy H")].into_iter().chain(own)
+}
 
 /// A language of emitted code.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -2,7 +2,7 @@
 
 use shadowstep_scenes::family::Meaning;
 use shadowstep_scenes::readable::{LONGEST_NUMBER, shortened};
-use shadowstep_scenes::reserved_names::QUANTITIES;
+use shadowstep_scenes::reserved_names::quantities;
 use shadowstep_scenes::schema::texts;
 use shadowstep_schemes::document::{Reader, Text};
 use toml::de::DeTable;
@@ -115,7 +115,7 @@ fn axis(reader: &mut Reader<'_>, name: &Text, value: &shadowstep_schemes::docume
 
 /// Names of columns, and of quantities in expressions.
 fn reserved() -> impl Iterator<Item = &'static str> {
-    ["run", "failure"].into_iter().chain(QUANTITIES.iter().map(|(name, _)| *name))
+    ["run", "failure"].into_iter().chain(quantities().map(|(name, _)| name))
 }
 
 /// The most axes.

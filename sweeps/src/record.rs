@@ -86,10 +86,10 @@ impl Observer for Stops<'_> {
     }
 }
 
-/// The rows of a scene's \[output\] without their head; `None` if it was stopped.
+/// The rows of a scene's \[output\] as CSV without their head; `None` if it was stopped.
 fn rows(scene: &Scene, stops: &AtomicBool) -> Result<Option<String>, Error> {
     let mut bytes = Vec::new();
-    scene.run_into(&mut bytes, &mut Stops(stops))?;
+    scene.run_into_csv(&mut bytes, &mut Stops(stops))?;
     if stops.load(Ordering::Relaxed) {
         return Ok(None);
     }

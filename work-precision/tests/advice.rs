@@ -53,7 +53,7 @@ impl Computation for Final<'_> {
         let h = StepSize::try_from(h).unwrap();
         let run = Run { propagator: &scheme.name, h: &h, steps, order: None, windows: Run::WINDOWS };
         let posed = Posed::new(system, &scheme.scheme, run, (Arithmetic::DOUBLE, false));
-        let samples = posed.samples::<N>(KeptStates::Every(steps), context, &mut ()).unwrap();
+        let samples = posed.samples::<N>((KeptStates::Every(steps), &[]), context, &mut ()).unwrap();
         samples.q[system.q.len()..].iter().map(|q| exact(&q.to_text()).unwrap()).collect()
     }
 }

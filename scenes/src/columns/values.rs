@@ -6,7 +6,7 @@ use crate::error::Error;
 use crate::evaluator::Evaluator;
 use crate::results::{Cell, Name};
 use crate::run_number::RunNumber;
-use crate::scene::{NamedExpression, System, ValueColumns};
+use crate::scene::{NamedExpression, System};
 
 /// Columns of expressions with one period.
 pub(crate) struct Values<'a, N: RunNumber> {
@@ -16,9 +16,9 @@ pub(crate) struct Values<'a, N: RunNumber> {
 }
 
 impl<'a, N: RunNumber> Values<'a, N> {
-    pub(crate) fn new(columns: &'a ValueColumns, system: &System, context: &N::Context) -> Self {
-        let evaluators = columns.expressions.iter().map(|named| named.evaluator(system, context)).collect();
-        Values { every: columns.every, columns: &columns.expressions, evaluators }
+    pub(crate) fn new((columns, every): (&'a [NamedExpression], u64), system: &System, context: &N::Context) -> Self {
+        let evaluators = columns.iter().map(|named| named.evaluator(system, context)).collect();
+        Values { every, columns, evaluators }
     }
 }
 

@@ -64,4 +64,5 @@ impl Bodies {
     }
 }
 
-const AXES: [&str; 3] = ["x", "y", "z"];
+/// The axes of space.
+pub(crate) const AXES: [&str; 3] = ["x", "y", "z"];

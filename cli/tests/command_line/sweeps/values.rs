@@ -145,6 +145,23 @@ rows = true
     }
 }
 
+/// What is kept of rows is CSV, in which format the scene ever writes them.
+#[test]
+fn rows_are_csv_whatever_the_format() {
+    let kept = |file: &str| {
+        let text = format!(
+            "problem.name = \"pendulum\"\nrun = {{ scheme = \"yoshida4\", step = \"h\", steps = 20 }}\n\
+             output = {{ file = \"{file}\", energy = true, trajectory = true }}\naxes.h = [\"1/10\", \"1/5\"]\nkeep.rows = true\n"
+        );
+        let folder = folder(&text);
+        succeeds(folder.path(), "sweep sweep.toml --out out");
+        fs::read_to_string(folder.path().join("out/rows.csv")).unwrap()
+    };
+    let csv = kept("rows.csv");
+    assert!(csv.starts_with("run,n,t,energy,") && csv.lines().count() == 43, "{csv}");
+    assert_eq!([kept("rows.jsonl"), kept("rows.npy")], [csv.clone(), csv]);
+}
+
 /// A run of a sweep is the run of a scene with the values in place of the names.
 #[test]
 fn rows_are_those_of_run() {
