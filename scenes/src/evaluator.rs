@@ -2,10 +2,10 @@
 
 use std::ops::Range;
 
-use shadowstep::Rational;
 use shadowstep::number::{Lanes, Number};
 use shadowstep::systems::formula::{FormulaError, FormulaValue};
 use shadowstep::tables::{Faults, Source};
+use shadowstep::{Rational, Real};
 use shadowstep_schemes::document::{Reader, Text};
 use shadowstep_symbolic::Exact;
 use thiserror::Error;
@@ -408,6 +408,33 @@ impl<N: RunNumber> Test<N> {
     /// Whether a state meets the condition, which has no H.
     pub(crate) fn is_met_at(&mut self, state: (&[N], &[N]), time: impl FnOnce() -> N) -> bool {
         self.met.is_of(self.difference.value_without_energy(state, time).partial_cmp(&self.zero))
+    }
+}
+
+/// A condition on q and p alone, in double precision, at several states of one system.
+pub(crate) struct TestInLanes(Test<Lanes<LANES>>);
+
+impl TestInLanes {
+    /// `None` of another condition, and of a system whose states are shown in other coordinates.
+    pub(crate) fn of(condition: &Condition, system: &System) -> Option<Self> {
+        let difference = condition.difference();
+        let has_others = difference.has_energy || difference.has_time || !difference.quantities.is_empty();
+        if has_others || system.transformed_time().is_some() || system.shown::<f64>(&()).is_some() {
+            return None;
+        }
+        Test::of_each(condition, &[system; LANES]).ok().map(TestInLanes)
+    }
+
+    /// Sets the state of a lane.
+    pub(crate) fn set<N: Real>(&mut self, lane: usize, q: &[N], p: &[N]) {
+        let point = self.0.difference.point.iter_mut().zip(q.iter().chain(p));
+        point.for_each(|(own, value)| own.0[lane] = value.to_f64());
+    }
+
+    /// The first lane whose state meets the condition.
+    pub(crate) fn first_met(&mut self) -> Option<usize> {
+        let Test { difference, met, .. } = &mut self.0;
+        difference.evaluate().0.iter().position(|difference| met.is_of(difference.partial_cmp(&0.0)))
     }
 }
 

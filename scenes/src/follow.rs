@@ -9,7 +9,6 @@ use shadowstep::shadow::run::{RunError, ShadowRun, States as _, Trajectory};
 use shadowstep::shadow::{Estimate, EstimatorSettings};
 use shadowstep::steps::integrator::{VectorIntegrator, at_output};
 use shadowstep::steps::step_to_time;
-use shadowstep::systems::system::Visitor;
 use shadowstep::{Carried, Rational};
 
 use crate::arithmetic::number_types;
@@ -22,6 +21,7 @@ use crate::moment::Moment;
 use crate::note::Note;
 use crate::observer::Observer;
 use crate::pace::Pace;
+use crate::passing::{Block, Passing, is_past};
 use crate::posed::{Followed, Posed, unreadable};
 use crate::run::Run;
 use crate::run_number::RunNumber;
@@ -98,6 +98,8 @@ struct Following<'a, 'c, N: RunNumber> {
     crossings: Option<Crossings<N>>,
     /// The condition that ends the run.
     test: Option<Test<N>>,
+    /// Where the condition is tested at many states at once.
+    block: Option<Block<N>>,
     /// The physical time that no state is to pass, and whether steps go forwards.
     until: Option<(N, bool)>,
     /// Whether a column sees each state.
@@ -162,6 +164,7 @@ impl<'a, 'c, N: RunNumber> Following<'a, 'c, N> {
             watch: None,
             crossings: posed.section.map(|surface| Crossings::new(surface, system, context)),
             test,
+            block: posed.ends.filter(|_| until.is_none()).and_then(|condition| Block::of(condition, system)),
             until,
             sees_each,
             from,
@@ -275,7 +278,7 @@ impl<'a, 'c, N: RunNumber> Following<'a, 'c, N> {
         trajectory: &mut Trajectory<&mut VectorIntegrator<'_, N>>,
         (from, n): (i64, i64),
     ) -> Result<(), RunError> {
-        let Following { watch, test, until, view, .. } = self;
+        let Following { watch, test, until, view, block, .. } = self;
         if test.is_none() && until.is_none() {
             return match watch {
                 Some(watch) => trajectory.reach_visited(n, watch),
@@ -283,10 +286,11 @@ impl<'a, 'c, N: RunNumber> Following<'a, 'c, N> {
             };
         }
         let before = Snapshot::of(from, trajectory.integrator().state());
-        let mut passing = Passing { watch, test, until, view, n: from, has_ended: false };
+        let mut passing = Passing { watch, test, until, view, block, n: from, has_ended: false };
         let made = trajectory.reach_visited(n, &mut passing);
+        let has_ended = passing.finish();
         self.seen = passing.n;
-        if !passing.has_ended {
+        if !has_ended {
             return made;
         }
         self.one_by_one = true;
@@ -562,42 +566,6 @@ impl<'a, 'c, N: RunNumber> Following<'a, 'c, N> {
         let at = At { place: Place::PhysicalEnd, ..self.view.at(self.last + 1, integrator) };
         show(self.columns, &mut None, &mut { at })
     }
-}
-
-/// Passes states until the run ends with one of them, or before it.
-struct Passing<'s, 'a, N: RunNumber> {
-    watch: &'s mut Option<Watch<N>>,
-    test: &'s mut Option<Test<N>>,
-    until: &'s Option<(N, bool)>,
-    view: &'s View<'a, N>,
-    /// The last state before.
-    n: i64,
-    has_ended: bool,
-}
-
-impl<N: RunNumber> Visitor<N> for Passing<'_, '_, N> {
-    fn visit(&mut self, q: &[N], p: &[N]) {
-        if self.has_ended {
-            return;
-        }
-        let (n, View { run, context, .. }) = (self.n + 1, self.view);
-        let is_past = self.until.as_ref().is_some_and(|until| is_past(q, until));
-        let mut is_met = |test: &mut Test<N>| test.is_met_at((q, p), || run.time_in(n, *context));
-        if is_past || self.test.as_mut().is_some_and(&mut is_met) {
-            self.has_ended = true;
-            return;
-        }
-        self.n = n;
-        if let Some(watch) = self.watch {
-            watch.visit(q, p);
-        }
-    }
-}
-
-/// Whether a state is past the physical end; `until` is its time, and whether steps go forwards.
-fn is_past<N: RunNumber>(q: &[N], (until, forwards): &(N, bool)) -> bool {
-    let t = q.last().expect("time is a coordinate");
-    if *forwards { t > until } else { t < until }
 }
 
 /// Shows a state to all columns. H, where it is computed, is of the error of H, too.

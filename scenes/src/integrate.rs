@@ -100,7 +100,7 @@ impl Posed<'_> {
         let mut samples = Samples::none();
         samples.values = vec![Vec::new(); values.len()];
         let values = Values::new((values, 1), posed.system, context);
-        let approaches = Approaches::of(posed.system);
+        let approaches = Approaches::of(posed.system, 1);
         let mut kept = Kept { samples, values, cells: Vec::new(), every, approaches };
         let followed = N::follow(&posed, context, &mut [&mut kept], observer)?;
         if followed.is_stopped {

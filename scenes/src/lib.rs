@@ -134,6 +134,7 @@ mod note;
 mod observer;
 pub mod outside;
 mod pace;
+mod passing;
 pub mod posed;
 pub mod propagator;
 mod quantity;

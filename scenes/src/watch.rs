@@ -58,6 +58,9 @@ impl Energies {
     }
 }
 
+/// The ε of planets, which costs as much as the forces of a step, is computed at every 16th state.
+const EPSILON_EVERY: u64 = 16;
+
 /// Follows the states of a run in the order of time.
 pub struct Watch<N: RunNumber> {
     energies: Energies,
@@ -229,7 +232,7 @@ impl<N: RunNumber> Watch<N> {
         self.names.clone_from(&system.coordinates);
         self.time = system.explicit_time.then(|| system.q.len() - 1);
         if let Some(observed) = &mut self.observed {
-            observed.approaches = Approaches::of(system);
+            observed.approaches = Approaches::of(system, EPSILON_EVERY);
             let state = (integrator.state().q(), integrator.state().p());
             if let Some(approaches) = &mut observed.approaches {
                 approaches.include(self.n, state);

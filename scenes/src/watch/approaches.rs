@@ -25,7 +25,8 @@ pub struct Approach {
 /// What a run has shown of the planets' interactions.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Interactions {
-    /// ε, the largest |B_Q|/|A_Q| of a planet: its part of the force that a kick makes, beside that of its Kepler orbit.
+    /// ε, the largest |B_Q|/|A_Q| of a planet: its part of the force that a kick makes, beside that of its Kepler orbit. In a summary it is that of every
+    /// 16th state, and of those where two planets are closer than before.
     pub epsilon: f64,
     /// The planet that has it.
     pub of: String,
@@ -72,14 +73,15 @@ impl Interactions {
 pub struct Approaches {
     planets: Planets,
     names: Vec<String>,
-    masses: Vec<f64>,
+    pairs: Pairs,
     shown: ShownCoordinates<f64>,
     epsilon: OfPlanets,
+    /// ε is computed at the states whose n is a multiple of this, and where two planets are closer than before.
+    every: u64,
     q: Vec<f64>,
     p: Vec<f64>,
     /// ε, and the planet that has it.
     largest: (f64, usize),
-    closest: Option<Closest>,
     in_drifts_within: Option<f64>,
     particles: Option<Particles>,
 }
@@ -93,9 +95,61 @@ struct Closest {
     hill_radius: f64,
 }
 
+/// The planets and the central body, which is the first one.
+struct Pairs {
+    places: Vec<[f64; 3]>,
+    /// The distances from the central body.
+    radii: Vec<f64>,
+    /// ((m_i + m_j)/3m_0)^(1/3) of planets i < j, in the order of j and i.
+    parts: Vec<f64>,
+    closest: Option<Closest>,
+}
+
+impl Pairs {
+    fn new(masses: &[f64]) -> Self {
+        let part = |i: usize, j: usize| ((masses[i] + masses[j]) / (3.0 * masses[0])).cbrt();
+        Pairs {
+            places: vec![[0.0; 3]; masses.len()],
+            radii: vec![0.0; masses.len()],
+            parts: (2..masses.len()).flat_map(|j| (1..j).map(move |i| part(i, j))).collect(),
+            closest: None,
+        }
+    }
+
+    /// Takes the places at the state n; whether two planets are closer than before.
+    fn include(&mut self, n: i64) -> bool {
+        // squares are within some units in the last place of what they are compared with
+        const ALMOST: f64 = 1.0 + 1e-14;
+        let Pairs { places, radii, parts, closest } = self;
+        let square =
+            |[a, b, c]: [f64; 3], [x, y, z]: [f64; 3]| (a - x) * (a - x) + (b - y) * (b - y) + (c - z) * (c - z);
+        radii.iter_mut().zip(&*places).for_each(|(radius, place)| *radius = square(places[0], *place).sqrt());
+        let limit =
+            |closest: &Option<Closest>| closest.map_or(f64::INFINITY, |own| own.hill_radii * own.hill_radii * ALMOST);
+        let (mut within, mut is_closer, mut first) = (limit(closest), false, 0);
+        for j in 2..places.len() {
+            let (own, own_radius, parts) = (places[j], radii[j], &parts[first..]);
+            first += j - 1;
+            for (i, ((place, radius), part)) in (1..).zip(places[1..j].iter().zip(&radii[1..j]).zip(parts)) {
+                let hill_radius = part * (radius + own_radius) / 2.0;
+                let square = square(*place, own);
+                if square > within * hill_radius * hill_radius {
+                    continue;
+                }
+                let hill_radii = square.sqrt() / hill_radius;
+                if closest.is_none_or(|closest| hill_radii < closest.hill_radii) {
+                    *closest = Some(Closest { n, bodies: [i, j], hill_radii, hill_radius });
+                    (within, is_closer) = (limit(closest), true);
+                }
+            }
+        }
+        is_closer
+    }
+}
+
 impl Approaches {
-    /// `None` of a system whose parts are T(p) and U(q).
-    pub fn of(system: &System) -> Option<Approaches> {
+    /// `None` of a system whose parts are T(p) and U(q). ε, which costs as much as the forces of a step, is computed where n is a multiple of `every`.
+    pub fn of(system: &System, every: u64) -> Option<Approaches> {
         let (particles, planets) = (system.particles(), system.parts.planets()?.without_particles());
         let number = |mass| <f64 as shadowstep::Number>::from_rational(mass, &());
         let masses: Vec<f64> = planets.bodies.masses().iter().map(number).collect();
@@ -105,12 +159,12 @@ impl Approaches {
             q: zeros(),
             p: zeros(),
             particles: (particles > 0).then(|| Particles::new(&masses, particles)),
-            masses,
+            pairs: Pairs::new(&masses),
             names,
             shown: planets.inertial(&()),
             epsilon: planets.epsilon(system),
+            every,
             largest: (0.0, 1),
-            closest: None,
             in_drifts_within: planets.encounters.as_ref().map(|near| number(near.shells.radius())),
             planets,
         })
@@ -120,11 +174,6 @@ impl Approaches {
     pub fn include<N: Real>(&mut self, n: i64, (q, p): (&[N], &[N])) {
         self.q.iter_mut().zip(q).for_each(|(own, q)| *own = q.to_f64());
         self.p.iter_mut().zip(p).for_each(|(own, p)| *own = p.to_f64());
-        for (planet, epsilon) in (self.epsilon)(&self.q).into_iter().enumerate() {
-            if epsilon > self.largest.0 {
-                self.largest = (epsilon, planet + 1);
-            }
-        }
         let (shown, _) = self.shown.of_state(&self.q, &self.p);
         let dimensions = self.planets.dimensions;
         if let Some(particles) = &mut self.particles {
@@ -136,18 +185,15 @@ impl Approaches {
             let relative: Vec<_> = shown.iter().zip(origin.iter().cycle()).map(|(x, origin)| x - origin).collect();
             particles.include(n, &relative, &q[relative.len()..], dimensions);
         }
-        let places: Vec<_> = shown.chunks_exact(dimensions).collect();
-        let distance = |i: usize, j: usize| -> f64 {
-            places[i].iter().zip(places[j]).map(|(a, b)| (a - b) * (a - b)).sum::<f64>().sqrt()
-        };
-        for j in 2..places.len() {
-            for i in 1..j {
-                let part = ((self.masses[i] + self.masses[j]) / (3.0 * self.masses[0])).cbrt();
-                let hill_radius = part * (distance(0, i) + distance(0, j)) / 2.0;
-                let hill_radii = distance(i, j) / hill_radius;
-                if self.closest.is_none_or(|closest| hill_radii < closest.hill_radii) {
-                    self.closest = Some(Closest { n, bodies: [i, j], hill_radii, hill_radius });
-                }
+        let place = |body: &[f64]| -> [f64; 3] { std::array::from_fn(|axis| body.get(axis).copied().unwrap_or(0.0)) };
+        self.pairs.places.iter_mut().zip(shown.chunks_exact(dimensions)).for_each(|(own, body)| *own = place(body));
+        let is_closer = self.pairs.include(n);
+        if !(is_closer || n.unsigned_abs().is_multiple_of(self.every)) {
+            return;
+        }
+        for (planet, epsilon) in (self.epsilon)(&self.q).into_iter().enumerate() {
+            if epsilon > self.largest.0 {
+                self.largest = (epsilon, planet + 1);
             }
         }
     }
@@ -161,18 +207,18 @@ impl Approaches {
         Interactions {
             epsilon: self.largest.0,
             of: self.names[self.largest.1].clone(),
-            closest: self.closest.map(named),
+            closest: self.pairs.closest.map(named),
             particles: self.particles.as_ref().and_then(|particles| particles.found(&self.names)),
             in_drifts_within: self.in_drifts_within,
         }
     }
 
     pub(super) fn fields<N>(&mut self, to: &mut dyn Fields<N>) {
-        let (bodies, (epsilon, of)) = (self.masses.len(), &mut self.largest);
+        let (bodies, (epsilon, of)) = (self.pairs.places.len(), &mut self.largest);
         to.double(epsilon);
         to.place(of, bodies);
         let none = Closest { n: 0, bodies: [0; 2], hill_radii: 0.0, hill_radius: 0.0 };
-        optional(to, &mut self.closest, &none, |to, closest| {
+        optional(to, &mut self.pairs.closest, &none, |to, closest| {
             to.whole(&mut closest.n);
             closest.bodies.iter_mut().for_each(|body| to.place(body, bodies));
             to.double(&mut closest.hill_radii);

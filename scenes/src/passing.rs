@@ -1,0 +1,106 @@
+//! States of a run that are made at once: the end is looked for among them.
+
+use std::any::TypeId;
+
+use shadowstep::systems::system::Visitor;
+
+use crate::at::View;
+use crate::evaluator::{Test, TestInLanes};
+use crate::expression::Condition;
+use crate::lanes::LANES;
+use crate::run_number::RunNumber;
+use crate::scene::System;
+use crate::watch::Watch;
+
+/// Passes states until the run ends with one of them, or before it.
+pub(crate) struct Passing<'s, 'a, N: RunNumber> {
+    pub(crate) watch: &'s mut Option<Watch<N>>,
+    pub(crate) test: &'s mut Option<Test<N>>,
+    pub(crate) until: &'s Option<(N, bool)>,
+    pub(crate) view: &'s View<'a, N>,
+    pub(crate) block: &'s mut Option<Block<N>>,
+    /// The last state before.
+    pub(crate) n: i64,
+    pub(crate) has_ended: bool,
+}
+
+/// States whose condition is tested at once: evaluated in lanes, a formula costs little more than at one state.
+pub(crate) struct Block<N> {
+    test: TestInLanes,
+    /// q and p of each.
+    states: Vec<(Vec<N>, Vec<N>)>,
+    count: usize,
+}
+
+impl<N: RunNumber> Block<N> {
+    /// In double precision, and of a condition on q and p alone.
+    pub(crate) fn of(condition: &Condition, system: &System) -> Option<Self> {
+        let test = TestInLanes::of(condition, system).filter(|_| TypeId::of::<N>() == TypeId::of::<f64>())?;
+        Some(Block { test, states: Vec::new(), count: 0 })
+    }
+
+    fn add(&mut self, q: &[N], p: &[N]) {
+        match self.states.get_mut(self.count) {
+            Some((own_q, own_p)) => {
+                own_q.clone_from_slice(q);
+                own_p.clone_from_slice(p);
+            }
+            None => self.states.push((q.to_vec(), p.to_vec())),
+        }
+        self.test.set(self.count, q, p);
+        self.count += 1;
+    }
+}
+
+impl<N: RunNumber> Passing<'_, '_, N> {
+    /// Whether the run ends with one of the states, or before it.
+    pub(crate) fn finish(&mut self) -> bool {
+        self.test_block();
+        self.has_ended
+    }
+
+    fn test_block(&mut self) {
+        let Some(block) = &mut self.block else { return };
+        let count = std::mem::take(&mut block.count);
+        let first = block.test.first_met().filter(|first| *first < count && !self.has_ended);
+        self.has_ended |= first.is_some();
+        for (q, p) in &block.states[..first.unwrap_or(count)] {
+            self.n += 1;
+            if let Some(watch) = self.watch {
+                watch.visit(q, p);
+            }
+        }
+    }
+}
+
+impl<N: RunNumber> Visitor<N> for Passing<'_, '_, N> {
+    fn visit(&mut self, q: &[N], p: &[N]) {
+        if self.has_ended {
+            return;
+        }
+        if let Some(block) = &mut self.block {
+            block.add(q, p);
+            if block.count == LANES {
+                self.test_block();
+            }
+            return;
+        }
+        let (n, View { run, context, .. }) = (self.n + 1, self.view);
+        let is_past = self.until.as_ref().is_some_and(|until| is_past(q, until));
+        let mut is_met = |test: &mut Test<N>| test.is_met_at((q, p), || run.time_in(n, *context));
+        if is_past || self.test.as_mut().is_some_and(&mut is_met) {
+            self.has_ended = true;
+            return;
+        }
+        self.n = n;
+        if let Some(watch) = self.watch {
+            watch.visit(q, p);
+        }
+    }
+}
+
+/// Whether a state is past the physical end; `until` is its time, and whether steps go forwards.
+pub(crate) fn is_past<N: RunNumber>(q: &[N], (until, forwards): &(N, bool)) -> bool {
+    let t = q.last().expect("time is a coordinate");
+    if *forwards { t > until } else { t < until }
+}
