@@ -16,6 +16,7 @@ use shadowstep_scenes::library::NamedScheme;
 use shadowstep_scenes::propagator::Propagator;
 use shadowstep_scenes::run::{OrderSetting, Run};
 use shadowstep_scenes::stability::note_of_steps;
+use shadowstep_scenes::steps::MOST_STEPS;
 use shadowstep_scenes::{Error, System};
 
 /// Everything that is to be run.
@@ -25,9 +26,9 @@ pub(crate) struct Selection {
     pub(crate) until: Rational,
     pub(crate) arithmetic: Arithmetic,
     pub(crate) estimator: EstimatorSettings,
-    /// With the number of steps of each size.
-    propagators: Vec<(Propagator, Vec<u64>)>,
-    sizes: Vec<StepSize>,
+    propagators: Vec<Propagator>,
+    /// With the number of steps, or the most where a physical time ends the runs.
+    sizes: Vec<(StepSize, u64)>,
 }
 
 impl Selection {
@@ -48,17 +49,12 @@ impl Selection {
             let (propagator, note) = propagator.fitted(arithmetic)?;
             let of_name = propagator.scheme().and_then(NamedScheme::note);
             of_name.iter().chain(&note).for_each(report::note);
-            let count = |(h, steps): &(StepSize, Option<u64>)| match steps {
-                Some(steps) => Ok(*steps),
-                None => propagator.steps_before(&until, h, (&problem.system, arithmetic)),
-            };
-            let counts = steps.iter().map(count).collect::<Result<_, _>>()?;
-            Ok((propagator, counts))
+            Ok(propagator)
         };
         let propagators = propagators.into_iter().map(fitted).collect::<Result<_, Error>>()?;
         let note_of_end = |(h, steps): &(StepSize, Option<u64>)| Note::of_end(h.exact(), (*steps)?, &until);
         steps.iter().filter_map(note_of_end).for_each(report::note);
-        let sizes = steps.into_iter().map(|(h, _)| h).collect();
+        let sizes = steps.into_iter().map(|(h, steps)| (h, steps.unwrap_or(MOST_STEPS))).collect();
         let selection = Selection { problem, until, arithmetic, estimator, propagators, sizes };
         if !arguments.no_summary {
             selection.note_large_steps();
@@ -70,9 +66,9 @@ impl Selection {
     pub(crate) fn runs(&self) -> impl Iterator<Item = (&Propagator, Run<'_>)> {
         let order = order_setting(&self.estimator)
             .map(|(name, value)| OrderSetting { name: if name == "order" { "--order" } else { "--max-order" }, value });
-        self.propagators.iter().flat_map(move |(propagator, counts)| {
+        self.propagators.iter().flat_map(move |propagator| {
             let name = propagator.name();
-            self.sizes.iter().zip(counts).map(move |(h, steps)| {
+            self.sizes.iter().map(move |(h, steps)| {
                 (propagator, Run { propagator: name, h, steps: *steps, order, windows: Run::WINDOWS })
             })
         })
@@ -89,6 +85,11 @@ impl Selection {
             1 => run.name(),
             count => format!("run {n} of {count}: {}", run.name()),
         }
+    }
+
+    /// About how many steps a run will have.
+    pub(crate) fn expected_steps(&self, run: Run<'_>) -> u64 {
+        self.problem.system.expected_steps(run, Some(&self.until))
     }
 
     /// How many runs there are.
@@ -108,8 +109,8 @@ impl Selection {
         let system = &self.problem.system;
         let frequency = system.fastest_frequency();
         let note = |scheme, h: &StepSize| note_of_steps((system, frequency), scheme, h.exact());
-        for scheme in self.propagators.iter().filter_map(|(propagator, _)| propagator.scheme()) {
-            self.sizes.iter().filter_map(|h| note(scheme, h)).for_each(report::note);
+        for scheme in self.propagators.iter().filter_map(Propagator::scheme) {
+            self.sizes.iter().filter_map(|(h, _)| note(scheme, h)).for_each(report::note);
         }
     }
 }

@@ -92,7 +92,7 @@ pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
     let mut write = writer(&selection, arguments.writes_csv(), arguments.states, &mut output)?;
     let mut summaries = Vec::new();
     for (number, (propagator, run)) in (1..).zip(selection.runs()) {
-        let progress = Progress::new(bar, selection.numbered(number, run), run.steps);
+        let progress = Progress::new(bar, selection.numbered(number, run), selection.expected_steps(run));
         let (selection, interrupt, write) = (&selection, &interrupt, &mut write);
         let plots = plots.as_mut().map(|(plots, _)| plots);
         let following = TraceRun { selection, propagator, run, several, arguments, progress, interrupt, write, plots };
@@ -140,8 +140,7 @@ impl Computation for TraceRun<'_, '_> {
         let Selection { arithmetic, estimator, problem, until, .. } = selection;
         let (settings, system) = (estimator.clone().with_errors(true), &problem.system);
         let (arithmetic, summarised) = (*arithmetic, !arguments.run.no_summary);
-        // values between states have no row for a state
-        let until = Some(until).filter(|_| system.transformed_time().is_some() && !estimator.is_between());
+        let until = Some(until).filter(|_| system.transformed_time().is_some());
         let estimates = Estimates { system, propagator, run, arithmetic, settings: &settings, summarised, until };
         let mut rows = StatesOfRun {
             selection,
@@ -150,7 +149,7 @@ impl Computation for TraceRun<'_, '_> {
             name: several.then(|| RunName { scheme: run.propagator.to_owned(), step: to_text(run.h.exact()) }),
             energy_of: system.energy(context),
             shown: system.shown(context),
-            lines: plots.as_ref().map(|plots| plots.run(run.name(), run.steps)),
+            lines: plots.as_ref().map(|plots| plots.run(run.name(), selection.expected_steps(run))),
             lines_need_states: plots.as_ref().is_some_and(|plots| plots.needs_states()),
             write: arguments.writes_rows().then_some(write),
             states: arguments.states,
@@ -161,8 +160,9 @@ impl Computation for TraceRun<'_, '_> {
             let [q, p] = found.state().map(|numbers| numbers.cloned().collect::<Vec<_>>());
             rows.take(n, (&q, &p), Some(found))
         })?;
-        if let Some((q, p)) = finished.at_until {
-            rows.take(i64::try_from(run.steps).unwrap_or(i64::MAX - 1) + 1, (&q, &p), None)?;
+        // values between states have no row for a state
+        if let Some((q, p)) = finished.at_until.filter(|_| !estimator.is_between()) {
+            rows.take(i64::try_from(finished.steps).unwrap_or(i64::MAX - 1) + 1, (&q, &p), None)?;
         }
         if let (Some(plots), Some(lines)) = (plots, rows.lines) {
             plots.add(lines);

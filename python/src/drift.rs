@@ -50,11 +50,7 @@ pub(crate) fn drift(
             }
         };
         let order = order_setting(&estimator).map(|(name, value)| OrderSetting { name, value });
-        let steps = match times.physical_end {
-            Some(_) => propagator.steps_before(&until, &times.h, (&system, arithmetic))?,
-            None => times.steps,
-        };
-        let run = Run { propagator: propagator.name(), h: &times.h, steps, order, windows: Run::WINDOWS };
+        let run = Run { propagator: propagator.name(), h: &times.h, steps: times.steps, order, windows: Run::WINDOWS };
         let request = DriftRequest {
             problem: &name,
             system: &system,

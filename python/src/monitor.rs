@@ -207,7 +207,7 @@ impl Followed {
             Steps { scheme: &posed.scheme.scheme, h, compensated, displaced: false, begin: Begin::InitialState };
         let mut integrator = posed.system.integrator(steps, posed.system.start::<f64>(&()), &())?;
         let monitor = f64::monitor(&mut *integrator, order, every).map_err(|error| of_run(&error))?;
-        let approaches = Approaches::of(&posed.system);
+        let approaches = Approaches::of(&posed.system, 1);
         let light = LightBodies::of(&posed.system, f64::from_rational(h.exact(), &()));
         let names = posed.system.coordinates.clone();
         let mut followed = Followed { integrator, monitor, newest: None, approaches, light, names };

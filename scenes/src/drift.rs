@@ -80,11 +80,6 @@ impl DriftRequest<'_> {
         controls: &mut Controls,
         follower: &mut dyn Follower,
     ) -> Result<Record, Error> {
-        if run.steps == 0 {
-            let [h, until] = [run.h.exact(), self.until].map(|time| shortened(time, LONGEST_NUMBER));
-            let none = StepsError::LongerThanRun { h, until };
-            return Err(Error::usage(none.to_string(), none.hint()));
-        }
         self.arithmetic.compute(Measurement { request: self, propagator, run, controls, follower })
     }
 
@@ -110,9 +105,16 @@ impl Computation for Measurement<'_> {
         let Measurement { request, propagator, run, controls, follower } = self;
         let DriftRequest { system, summarised, arithmetic, .. } = *request;
         let settings = request.estimator.clone().with_errors(true);
+        let until = Some(request.until).filter(|_| system.transformed_time().is_some());
         let begin = CpuTime::begin();
-        let estimates = Estimates { system, propagator, run, arithmetic, settings: &settings, summarised, until: None };
+        let estimates = Estimates { system, propagator, run, arithmetic, settings: &settings, summarised, until };
         let (found, finished) = measure::<N>(estimates, context, |n| follower.reaches(run, n))?;
+        if finished.steps == 0 {
+            let [h, until] = [run.h.exact(), request.until].map(|time| shortened(time, LONGEST_NUMBER));
+            let none = StepsError::LongerThanRun { h, until };
+            return Err(Error::usage(none.to_string(), none.hint()));
+        }
+        let run = Run { steps: finished.steps, ..run };
         let seconds = begin.elapsed();
         let control = match propagator.scheme() {
             Some(_) => controls.of::<N>(estimates, context, seconds, follower),

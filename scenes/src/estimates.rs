@@ -31,7 +31,7 @@ pub struct Estimates<'a> {
     pub settings: &'a EstimatorSettings,
     /// Whether a summary is made.
     pub summarised: bool,
-    /// The physical time to which a last step is made after those of the run, where time is transformed.
+    /// The physical time at which the run ends, where time is transformed.
     pub until: Option<&'a Rational>,
 }
 
@@ -41,6 +41,8 @@ pub(crate) type Take<'a, N> = &'a mut dyn FnMut(i64, &Estimate<'_, N>) -> Result
 /// What is known at the end of a run.
 #[derive(Clone, Debug)]
 pub struct Finished<N> {
+    /// The number of steps.
+    pub steps: u64,
     /// Evaluations of the gradient, those for the states before and after the run included.
     pub evaluations: u64,
     /// Those for the steps of the run alone.
@@ -79,7 +81,7 @@ impl Estimates<'_> {
                     take(n, &estimate)?;
                 }
                 let (energy, summary, end, at_until) = (None, None, None, None);
-                Ok(Finished { evaluations: 0, own_evaluations: 0, energy, summary, end, at_until })
+                Ok(Finished { steps: run.steps, evaluations: 0, own_evaluations: 0, energy, summary, end, at_until })
             }
         }
     }
@@ -100,10 +102,10 @@ impl Estimates<'_> {
             ..Posed::new(system, &named.scheme, run, (arithmetic, false))
         };
         let mut taking = Taking { take, end: None, at_until: None };
-        let Followed { evaluations, own_evaluations, energy, summary, .. } =
+        let Followed { n, evaluations, own_evaluations, energy, summary, .. } =
             N::follow(&posed, context, &mut [&mut taking], &mut ())?;
         let Taking { end, at_until, .. } = taking;
-        Ok(Finished { evaluations, own_evaluations, energy, summary, end, at_until })
+        Ok(Finished { steps: n.unsigned_abs(), evaluations, own_evaluations, energy, summary, end, at_until })
     }
 }
 

@@ -1,6 +1,5 @@
 //! A run with everything that determines its states, and what is computed beside them.
 
-use num_traits::ToPrimitive as _;
 use shadowstep::shadow::EstimatorSettings;
 use shadowstep::shadow::run::RunError;
 use shadowstep::tables::{AtRunTime, TableScheme};
@@ -149,11 +148,7 @@ impl<'a> Posed<'a> {
 
     /// About how many steps there will be, or at most.
     pub fn expected_steps(&self) -> u64 {
-        let steps = |until: &Rational| {
-            let rate = self.system.rate_at_start()?;
-            ((until / self.run.h.exact()).to_f64()? / rate).abs().to_u64()
-        };
-        self.until.and_then(steps).map_or(self.run.steps, |steps| steps.clamp(1, self.run.steps))
+        self.system.expected_steps(self.run, self.until)
     }
 
     /// The error of the run, with the names of coordinates and momenta.

@@ -1,24 +1,21 @@
 //! What advances a state in time: a scheme, or the exact flow.
 
+use shadowstep::Stepper;
 use shadowstep::number::Number;
 use shadowstep::problems::{Problem, ProblemMotion, Setup};
 use shadowstep::shadow::exact_flow::{self, ExactFlow, ExactFlowError};
 use shadowstep::shadow::run::ShadowRun;
 use shadowstep::shadow::{Estimator, EstimatorSettings};
 use shadowstep::tables::TableScheme;
-use shadowstep::{Rational, StepSize, Stepper};
 
 use crate::arithmetic::Arithmetic;
-use crate::computation::{Computation, FollowedNumber};
 use crate::error::Error;
 use crate::library::{self, EXACT_FLOW, NamedScheme, Schemes};
 use crate::note::Note;
-use crate::posed::Posed;
 use crate::refusal::Refusal;
 use crate::run::Run;
 use crate::run_number::RunNumber;
 use crate::scene::{SceneNumber, System};
-use crate::steps::MOST_STEPS;
 
 /// A scheme, or the exact flow, on which an estimator shows its own error.
 #[derive(Debug)]
@@ -84,42 +81,12 @@ impl Propagator {
         }
     }
 
-    /// How many steps of size h end at or before a physical time, where time is transformed: they are made to count them.
-    ///
-    /// # Errors
-    /// A state that is not finite on the way.
-    ///
-    /// # Panics
-    /// If it is the exact flow, which [`Propagator::of_system`] excludes where time is transformed.
-    pub fn steps_before(
-        &self,
-        until: &Rational,
-        h: &StepSize,
-        (system, arithmetic): (&System, Arithmetic),
-    ) -> Result<u64, Error> {
-        let named = self.scheme().expect("the exact flow is not known in transformed time");
-        let run = Run { propagator: &named.name, h, steps: MOST_STEPS, order: None, windows: Run::WINDOWS };
-        let posed = Posed { until: Some(until), ..Posed::new(system, &named.scheme, run, (arithmetic, false)) };
-        arithmetic.compute(Counting(posed))
-    }
-
     /// Its scheme, if it is one.
     pub fn scheme(&self) -> Option<&NamedScheme> {
         match self {
             Propagator::Scheme(scheme) => Some(scheme),
             Propagator::ExactFlow => None,
         }
-    }
-}
-
-/// Counts the steps of a run.
-struct Counting<'a>(Posed<'a>);
-
-impl Computation for Counting<'_> {
-    type Output = Result<u64, Error>;
-
-    fn compute<N: FollowedNumber>(self, context: &N::Context) -> Self::Output {
-        Ok(N::follow(&self.0, context, &mut [], &mut ())?.n.unsigned_abs())
     }
 }
 

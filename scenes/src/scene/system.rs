@@ -2,13 +2,15 @@
 
 use std::ops::Deref;
 
-use num_traits::Zero;
+use num_traits::{ToPrimitive as _, Zero};
 use serde_json::Value;
+use shadowstep::Rational;
 use shadowstep::problems::Setup;
 use shadowstep::systems::transformed_time::TimeTransformation;
 use shadowstep_symbolic::Exact;
 
 use crate::error::Error;
+use crate::run::Run;
 use crate::scene::own::OwnPotential;
 use crate::scene::problem::{InitialValueProblem, KineticEnergy, PotentialEnergy};
 use crate::scene::split::{
@@ -184,6 +186,12 @@ impl System {
             Parts::TransformedTime(time) => Some(time.rate_at_start(&self.problem)),
             _ => None,
         }
+    }
+
+    /// About how many steps a run has that ends at a physical time where time is transformed, or at most.
+    pub fn expected_steps(&self, run: Run<'_>, until: Option<&Rational>) -> u64 {
+        let steps = |until: &Rational| ((until / run.h.exact()).to_f64()? / self.rate_at_start()?).abs().to_u64();
+        until.and_then(steps).map_or(run.steps, |steps| steps.clamp(1, run.steps))
     }
 
     /// The physical time of a state in the coordinates of the steps, where time is transformed.
