@@ -231,8 +231,8 @@ impl Followed {
         let Followed { integrator, monitor, approaches, light, .. } = self;
         let n = i64::try_from(monitor.n()).unwrap_or(i64::MAX);
         let state = (integrator.state().q(), integrator.state().p());
-        approaches.iter_mut().for_each(|approaches| approaches.include(n, state));
-        light.iter_mut().for_each(|light| light.include(n, state));
+        approaches.iter_mut().for_each(|approaches| approaches.include(n, state.0));
+        light.iter_mut().for_each(|light| light.include(n, state.0));
     }
 }
 

@@ -1,6 +1,7 @@
 //! Expressions and conditions in the numbers of a run.
 
 use std::ops::Range;
+use std::slice::ChunksExact;
 
 use shadowstep::number::{Lanes, Number};
 use shadowstep::systems::formula::{FormulaError, FormulaValue};
@@ -425,16 +426,13 @@ impl TestInLanes {
         Test::of_each(condition, &[system; LANES]).ok().map(TestInLanes)
     }
 
-    /// Sets the state of a lane.
-    pub(crate) fn set<N: Real>(&mut self, lane: usize, q: &[N], p: &[N]) {
-        let point = self.0.difference.point.iter_mut().zip(q.iter().chain(p));
-        point.for_each(|(own, value)| own.0[lane] = value.to_f64());
-    }
-
-    /// The first lane whose state meets the condition.
-    pub(crate) fn first_met(&mut self) -> Option<usize> {
-        let Test { difference, met, .. } = &mut self.0;
-        difference.evaluate().0.iter().position(|difference| met.is_of(difference.partial_cmp(&0.0)))
+    /// The first of at most [`LANES`] states, q and p of each, that meets the condition.
+    pub(crate) fn first_met<N: Real>(&mut self, states: ChunksExact<'_, N>) -> Option<usize> {
+        let (Test { difference, met, .. }, count) = (&mut self.0, states.len());
+        for (lane, state) in states.enumerate() {
+            difference.point.iter_mut().zip(state).for_each(|(own, value)| own.0[lane] = value.to_f64());
+        }
+        difference.evaluate().0[..count].iter().position(|difference| met.is_of(difference.partial_cmp(&0.0)))
     }
 }
 

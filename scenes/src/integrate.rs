@@ -131,7 +131,7 @@ impl<N: RunNumber> Kept<'_, N> {
         let energy = at.energy()?.clone();
         let (n, time, samples) = (at.n, at.time(), &mut self.samples);
         if let Some(approaches) = &mut self.approaches {
-            approaches.include(n, at.state());
+            approaches.include(n, at.state().0);
         }
         samples.n.push(n);
         samples.t.push(time);

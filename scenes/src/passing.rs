@@ -27,28 +27,15 @@ pub(crate) struct Passing<'s, 'a, N: RunNumber> {
 /// States whose condition is tested at once: evaluated in lanes, a formula costs little more than at one state.
 pub(crate) struct Block<N> {
     test: TestInLanes,
-    /// q and p of each.
-    states: Vec<(Vec<N>, Vec<N>)>,
-    count: usize,
+    /// q and p, one state after the other.
+    numbers: Vec<N>,
 }
 
 impl<N: RunNumber> Block<N> {
     /// In double precision, and of a condition on q and p alone.
     pub(crate) fn of(condition: &Condition, system: &System) -> Option<Self> {
         let test = TestInLanes::of(condition, system).filter(|_| TypeId::of::<N>() == TypeId::of::<f64>())?;
-        Some(Block { test, states: Vec::new(), count: 0 })
-    }
-
-    fn add(&mut self, q: &[N], p: &[N]) {
-        match self.states.get_mut(self.count) {
-            Some((own_q, own_p)) => {
-                own_q.clone_from_slice(q);
-                own_p.clone_from_slice(p);
-            }
-            None => self.states.push((q.to_vec(), p.to_vec())),
-        }
-        self.test.set(self.count, q, p);
-        self.count += 1;
+        Some(Block { test, numbers: Vec::new() })
     }
 }
 
@@ -60,16 +47,17 @@ impl<N: RunNumber> Passing<'_, '_, N> {
     }
 
     fn test_block(&mut self) {
-        let Some(block) = &mut self.block else { return };
-        let count = std::mem::take(&mut block.count);
-        let first = block.test.first_met().filter(|first| *first < count && !self.has_ended);
+        let Some(Block { test, numbers }) = &mut self.block else { return };
+        let size = 2 * self.view.system.dimension();
+        let first = test.first_met(numbers.chunks_exact(size));
         self.has_ended |= first.is_some();
-        for (q, p) in &block.states[..first.unwrap_or(count)] {
-            self.n += 1;
-            if let Some(watch) = self.watch {
-                watch.visit(q, p);
-            }
+        let before = first.unwrap_or(numbers.len() / size);
+        self.n += i64::try_from(before).expect("a block is short");
+        if let Some(watch) = self.watch {
+            let states = numbers.chunks_exact(size).take(before).map(|state| state.split_at(size / 2));
+            states.for_each(|(q, p)| watch.visit(q, p));
         }
+        numbers.clear();
     }
 }
 
@@ -79,8 +67,9 @@ impl<N: RunNumber> Visitor<N> for Passing<'_, '_, N> {
             return;
         }
         if let Some(block) = &mut self.block {
-            block.add(q, p);
-            if block.count == LANES {
+            block.numbers.extend_from_slice(q);
+            block.numbers.extend_from_slice(p);
+            if block.numbers.len() == LANES * (q.len() + p.len()) {
                 self.test_block();
             }
             return;

@@ -58,7 +58,7 @@ impl Energies {
     }
 }
 
-/// The ε of planets, which costs as much as the forces of a step, is computed at every 16th state.
+/// The ε of planets, which costs as much as the forces of a step, is computed at every 16th state after the first ones.
 const EPSILON_EVERY: u64 = 16;
 
 /// Follows the states of a run in the order of time.
@@ -113,10 +113,10 @@ impl<N: RunNumber> Observed<N> {
         let Observed { monitors, pass, idle, encounters, approaches, light } = self;
         encounters.include(n, p);
         if let Some(approaches) = approaches {
-            approaches.include(n, (q, p));
+            approaches.include(n, q);
         }
         if let Some(light) = light {
-            light.include(n, (q, p));
+            light.include(n, q);
         }
         if *idle == 0 {
             return false;
@@ -235,12 +235,12 @@ impl<N: RunNumber> Watch<N> {
             observed.approaches = Approaches::of(system, EPSILON_EVERY);
             let state = (integrator.state().q(), integrator.state().p());
             if let Some(approaches) = &mut observed.approaches {
-                approaches.include(self.n, state);
+                approaches.include(self.n, state.0);
             }
             let h = <f64 as Number>::from_rational(integrator.step_size().exact(), &());
             observed.light = LightBodies::of(system, h);
             if let Some(light) = &mut observed.light {
-                light.include(self.n, state);
+                light.include(self.n, state.0);
             }
         }
         self

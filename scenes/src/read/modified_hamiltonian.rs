@@ -31,6 +31,10 @@ pub(super) fn columns(
         return reader.toml.wrong(&value.span(), "displaced forces have another modified Hamiltonian", help);
     }
     let highest = *grades.iter().max()?;
+    // a system with faults may have no formula, as one with a mass of 0
+    if !reader.toml.faults.is_empty() {
+        return None;
+    }
     let derived = SymbolicHamiltonian::of(system).and_then(|mut symbolic| match reader.is_cursory {
         true => Ok(None),
         false => Ok(Some((symbolic.modified(scheme.scheme.proved(), highest)?, symbolic))),

@@ -24,8 +24,8 @@ pub use shown_coordinates::ShownCoordinates;
 pub(crate) use slow_forces::SLOW;
 pub use slow_forces::SlowForces;
 pub use transformed_time::TransformedTime;
-pub(crate) use wisdom_holman::OfPlanets;
 pub use wisdom_holman::{CanonicalCoordinates, CloseEncounters, Planets};
+pub(crate) use wisdom_holman::{OfPlanets, Positions};
 
 use serde_json::Value;
 use shadowstep::number::CorrectlyRounded;

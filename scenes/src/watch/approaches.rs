@@ -7,7 +7,7 @@ use shadowstep_symbolic::decimal::significant;
 
 use super::particles::{ParticleApproach, Particles};
 use crate::scene::System;
-use crate::scene::split::{CanonicalCoordinates, OfPlanets, Planets, ShownCoordinates};
+use crate::scene::split::{CanonicalCoordinates, OfPlanets, Planets, Positions};
 
 /// The closest approach of two planets.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -25,8 +25,8 @@ pub struct Approach {
 /// What a run has shown of the planets' interactions.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Interactions {
-    /// ε, the largest |B_Q|/|A_Q| of a planet: its part of the force that a kick makes, beside that of its Kepler orbit. In a summary it is that of every
-    /// 16th state, and of those where two planets are closer than before.
+    /// ε, the largest |B_Q|/|A_Q| of a planet: its part of the force that a kick makes, beside that of its Kepler orbit. In a summary it is that of the first 4096
+    /// states, and then of every 16th one and of those where two planets are closer than before.
     pub epsilon: f64,
     /// The planet that has it.
     pub of: String,
@@ -69,17 +69,21 @@ impl Interactions {
     }
 }
 
+/// ε is computed at each of this number of states.
+const FIRST: u64 = 4096;
+
 /// Follows the planets of a run in double precision; ε and the closest approach of planets are those of bodies with mass.
 pub struct Approaches {
     planets: Planets,
     names: Vec<String>,
     pairs: Pairs,
-    shown: ShownCoordinates<f64>,
+    positions: Positions,
     epsilon: OfPlanets,
-    /// ε is computed at the states whose n is a multiple of this, and where two planets are closer than before.
+    /// ε is computed at the first states, at those whose n is a multiple of this, and where two planets are closer than before.
     every: u64,
     q: Vec<f64>,
-    p: Vec<f64>,
+    /// In an inertial frame.
+    shown: Vec<f64>,
     /// ε, and the planet that has it.
     largest: (f64, usize),
     in_drifts_within: Option<f64>,
@@ -97,58 +101,90 @@ struct Closest {
 
 /// The planets and the central body, which is the first one.
 struct Pairs {
-    places: Vec<[f64; 3]>,
+    /// By axis, with one number for each body, and more so that there are whole blocks.
+    places: [Vec<f64>; 3],
     /// The distances from the central body.
     radii: Vec<f64>,
-    /// ((m_i + m_j)/3m_0)^(1/3) of planets i < j, in the order of j and i.
-    parts: Vec<f64>,
+    /// For each planet j the parts ((m_i + m_j)/3m_0)^(1/3) of planets i < j, and 0 of others.
+    parts: Vec<Vec<f64>>,
     closest: Option<Closest>,
 }
 
+/// Bodies whose distances are computed at once.
+const BLOCK: usize = 4;
+
 impl Pairs {
     fn new(masses: &[f64]) -> Self {
+        let (bodies, padded) = (masses.len(), masses.len().next_multiple_of(BLOCK));
         let part = |i: usize, j: usize| ((masses[i] + masses[j]) / (3.0 * masses[0])).cbrt();
+        let parts = |j: usize| (0..padded).map(|i| if (1..j).contains(&i) { part(i, j) } else { 0.0 }).collect();
         Pairs {
-            places: vec![[0.0; 3]; masses.len()],
-            radii: vec![0.0; masses.len()],
-            parts: (2..masses.len()).flat_map(|j| (1..j).map(move |i| part(i, j))).collect(),
+            places: std::array::from_fn(|_| vec![0.0; padded]),
+            radii: vec![0.0; padded],
+            parts: (0..bodies).map(parts).collect(),
             closest: None,
         }
     }
 
+    fn bodies(&self) -> usize {
+        self.parts.len()
+    }
+
     /// Takes the places at the state n; whether two planets are closer than before.
-    fn include(&mut self, n: i64) -> bool {
-        // squares are within some units in the last place of what they are compared with
-        const ALMOST: f64 = 1.0 + 1e-14;
-        let Pairs { places, radii, parts, closest } = self;
-        let square =
-            |[a, b, c]: [f64; 3], [x, y, z]: [f64; 3]| (a - x) * (a - x) + (b - y) * (b - y) + (c - z) * (c - z);
-        radii.iter_mut().zip(&*places).for_each(|(radius, place)| *radius = square(places[0], *place).sqrt());
-        let limit =
-            |closest: &Option<Closest>| closest.map_or(f64::INFINITY, |own| own.hill_radii * own.hill_radii * ALMOST);
-        let (mut within, mut is_closer, mut first) = (limit(closest), false, 0);
-        for j in 2..places.len() {
-            let (own, own_radius, parts) = (places[j], radii[j], &parts[first..]);
-            first += j - 1;
-            for (i, ((place, radius), part)) in (1..).zip(places[1..j].iter().zip(&radii[1..j]).zip(parts)) {
-                let hill_radius = part * (radius + own_radius) / 2.0;
-                let square = square(*place, own);
-                if square > within * hill_radius * hill_radius {
-                    continue;
-                }
-                let hill_radii = square.sqrt() / hill_radius;
-                if closest.is_none_or(|closest| hill_radii < closest.hill_radii) {
-                    *closest = Some(Closest { n, bodies: [i, j], hill_radii, hill_radius });
-                    (within, is_closer) = (limit(closest), true);
-                }
+    fn include(&mut self, n: i64, places: &[f64], dimensions: usize) -> bool {
+        for (body, place) in places.chunks_exact(dimensions).enumerate() {
+            self.places.iter_mut().zip(place).for_each(|(own, x)| own[body] = *x);
+        }
+        for body in 0..self.bodies() {
+            self.radii[body] = self.square([0, body]).sqrt();
+        }
+        let near = |pairs: &Pairs| pairs.closest.map_or(f64::INFINITY, |own| own.hill_radii * own.hill_radii);
+        let mut is_closer = false;
+        for j in 2..self.bodies() {
+            if self.may_be_within(near(self), j) {
+                (1..j).for_each(|i| is_closer |= self.include_pair(n, [i, j]));
             }
+        }
+        is_closer
+    }
+
+    /// Whether the planet j may be nearer to one before it than the root of `near` Hill radii: no root and no division.
+    fn may_be_within(&self, near: f64, j: usize) -> bool {
+        // squares are within some units in the last place of what they are compared with
+        const ALMOST: f64 = 0.25 * (1.0 + 1e-14);
+        let ([x, y, z], radii, parts) =
+            (self.places.each_ref().map(|own| own.as_chunks::<BLOCK>().0), &self.radii, &self.parts[j]);
+        let [own_x, own_y, own_z] = self.places.each_ref().map(|own| own[j]);
+        let (near, own_radius) = (near * ALMOST, radii[j]);
+        let (radii, parts) = (radii.as_chunks::<BLOCK>().0, parts.as_chunks::<BLOCK>().0);
+        let mut is_near = false;
+        for block in 0..j.div_ceil(BLOCK) {
+            for i in 0..BLOCK {
+                let (a, b, c) = (x[block][i] - own_x, y[block][i] - own_y, z[block][i] - own_z);
+                let radius = parts[block][i] * (radii[block][i] + own_radius);
+                is_near |= a * a + b * b + c * c < near * radius * radius;
+            }
+        }
+        is_near
+    }
+
+    fn square(&self, [i, j]: [usize; 2]) -> f64 {
+        self.places.iter().map(|own| (own[i] - own[j]) * (own[i] - own[j])).sum()
+    }
+
+    fn include_pair(&mut self, n: i64, bodies @ [i, j]: [usize; 2]) -> bool {
+        let hill_radius = self.parts[j][i] * (self.radii[i] + self.radii[j]) / 2.0;
+        let hill_radii = self.square(bodies).sqrt() / hill_radius;
+        let is_closer = self.closest.is_none_or(|closest| hill_radii < closest.hill_radii);
+        if is_closer {
+            self.closest = Some(Closest { n, bodies, hill_radii, hill_radius });
         }
         is_closer
     }
 }
 
 impl Approaches {
-    /// `None` of a system whose parts are T(p) and U(q). ε, which costs as much as the forces of a step, is computed where n is a multiple of `every`.
+    /// `None` of a system whose parts are T(p) and U(q). ε costs as much as the forces of a step: after some thousand states it is computed where n is a multiple of `every`.
     pub fn of(system: &System, every: u64) -> Option<Approaches> {
         let (particles, planets) = (system.particles(), system.parts.planets()?.without_particles());
         let number = |mass| <f64 as shadowstep::Number>::from_rational(mass, &());
@@ -157,11 +193,11 @@ impl Approaches {
         let names = planets.names(&system.coordinates);
         Some(Approaches {
             q: zeros(),
-            p: zeros(),
+            shown: zeros(),
             particles: (particles > 0).then(|| Particles::new(&masses, particles)),
             pairs: Pairs::new(&masses),
             names,
-            shown: planets.inertial(&()),
+            positions: planets.inertial_positions(),
             epsilon: planets.epsilon(system),
             every,
             largest: (0.0, 1),
@@ -171,10 +207,10 @@ impl Approaches {
     }
 
     /// Takes the state n, in the coordinates of the steps.
-    pub fn include<N: Real>(&mut self, n: i64, (q, p): (&[N], &[N])) {
+    pub fn include<N: Real>(&mut self, n: i64, q: &[N]) {
         self.q.iter_mut().zip(q).for_each(|(own, q)| *own = q.to_f64());
-        self.p.iter_mut().zip(p).for_each(|(own, p)| *own = p.to_f64());
-        let (shown, _) = self.shown.of_state(&self.q, &self.p);
+        (self.positions)(&self.q, &mut self.shown);
+        let shown = &self.shown;
         let dimensions = self.planets.dimensions;
         if let Some(particles) = &mut self.particles {
             // particles are relative to the centre of mass, or to the first body
@@ -185,10 +221,8 @@ impl Approaches {
             let relative: Vec<_> = shown.iter().zip(origin.iter().cycle()).map(|(x, origin)| x - origin).collect();
             particles.include(n, &relative, &q[relative.len()..], dimensions);
         }
-        let place = |body: &[f64]| -> [f64; 3] { std::array::from_fn(|axis| body.get(axis).copied().unwrap_or(0.0)) };
-        self.pairs.places.iter_mut().zip(shown.chunks_exact(dimensions)).for_each(|(own, body)| *own = place(body));
-        let is_closer = self.pairs.include(n);
-        if !(is_closer || n.unsigned_abs().is_multiple_of(self.every)) {
+        let is_closer = self.pairs.include(n, shown, dimensions);
+        if !(is_closer || n.unsigned_abs() < FIRST || n.unsigned_abs().is_multiple_of(self.every)) {
             return;
         }
         for (planet, epsilon) in (self.epsilon)(&self.q).into_iter().enumerate() {
@@ -214,7 +248,7 @@ impl Approaches {
     }
 
     pub(super) fn fields<N>(&mut self, to: &mut dyn Fields<N>) {
-        let (bodies, (epsilon, of)) = (self.pairs.places.len(), &mut self.largest);
+        let (bodies, (epsilon, of)) = (self.pairs.bodies(), &mut self.largest);
         to.double(epsilon);
         to.place(of, bodies);
         let none = Closest { n: 0, bodies: [0; 2], hill_radii: 0.0, hill_radius: 0.0 };

@@ -6,7 +6,7 @@ use shadowstep::systems::wisdom_holman::Shells;
 use shadowstep::{Number, Rational, Real};
 use shadowstep_symbolic::decimal::significant;
 
-use crate::scene::split::{CanonicalCoordinates, ShownCoordinates};
+use crate::scene::split::{CanonicalCoordinates, Positions};
 use crate::scene::{GRAVITY, Parts, PotentialEnergy, System};
 
 /// The closest approach of a light planet, or of a particle of mass 0, to a heavier planet.
@@ -41,8 +41,9 @@ type Place = [f64; 3];
 pub struct LightBodies {
     names: Vec<String>,
     dimensions: usize,
-    /// The mass of each body that has one.
+    /// The mass of each body that has one, and (m/3m_0)^(1/3).
     masses: Vec<f64>,
+    parts: Vec<f64>,
     coordinates: Coordinates,
     /// 1/(3 G m_0), and |h|.
     scale: f64,
@@ -55,16 +56,17 @@ pub struct LightBodies {
     now: Vec<Place>,
     before: Vec<Place>,
     found: Vec<Closest>,
+    near: Near,
     /// Scratch space.
     q: Vec<f64>,
-    p: Vec<f64>,
+    inertial: Vec<f64>,
 }
 
 /// Those of the steps.
 enum Coordinates {
     Inertial,
     /// With those of the bodies with mass alone, in double precision.
-    Of(CanonicalCoordinates, ShownCoordinates<f64>),
+    Of(CanonicalCoordinates, Positions),
 }
 
 /// The least square of a distance in Hill radii, its n and planet, and the least number of steps.
@@ -113,45 +115,45 @@ impl LightBodies {
             None => (None, Coordinates::Inertial),
             Some(planets) => {
                 let shells = planets.encounters.as_ref().map(|near| (near.shells.clone(), near.substeps));
-                (shells, Coordinates::Of(planets.coordinates, planets.inertial(&())))
+                (shells, Coordinates::Of(planets.coordinates, planets.inertial_positions()))
             }
         };
         Some(LightBodies {
             names: names.map(|name| name.trim_start_matches('x').trim_start_matches('_').to_owned()).collect(),
             dimensions,
             scale: 1.0 / (3.0 * number(&g) * masses[0]),
+            parts: masses.iter().map(|mass| (mass / (3.0 * masses[0])).cbrt()).collect(),
             masses,
             coordinates,
             h: h.abs(),
             shells,
             found: vec![Closest::NOTHING; light.len()],
+            near: Near::new(light.len()),
             light,
             now: Vec::new(),
             before: Vec::new(),
             q: Vec::new(),
-            p: Vec::new(),
+            inertial: Vec::new(),
         })
     }
 
     /// Takes the state n after the last one, in the coordinates of the steps.
-    pub fn include<N: Real>(&mut self, n: i64, (q, p): (&[N], &[N])) {
+    pub fn include<N: Real>(&mut self, n: i64, q: &[N]) {
         std::mem::swap(&mut self.now, &mut self.before);
-        self.find_places(q, p);
+        self.find_places(q);
         if self.before.len() == self.now.len() {
             self.find_approaches(n);
         }
     }
 
     /// The places of all bodies relative to one point.
-    fn find_places<N: Real>(&mut self, q: &[N], p: &[N]) {
-        let LightBodies { now, dimensions, masses, coordinates, q: own, p: own_p, .. } = self;
-        let massive = masses.len() * *dimensions;
+    fn find_places<N: Real>(&mut self, q: &[N]) {
+        let LightBodies { now, dimensions, masses, coordinates, q: own, inertial, .. } = self;
         own.clear();
         own.extend(q.iter().map(Real::to_f64));
-        if let Coordinates::Of(kind, shown) = coordinates {
-            own_p.clear();
-            own_p.extend(p[..massive].iter().map(Real::to_f64));
-            let (inertial, _) = shown.of_state(&own[..massive], own_p);
+        if let Coordinates::Of(kind, positions) = coordinates {
+            inertial.resize(masses.len() * *dimensions, 0.0);
+            positions(&own[..inertial.len()], inertial);
             // particles are relative to the centre of mass, or to the first body
             let mut origin = [0.0; 3];
             origin[..*dimensions].copy_from_slice(match kind {
@@ -169,36 +171,45 @@ impl LightBodies {
 
     /// The least distances in the last step, in which bodies move straight.
     fn find_approaches(&mut self, n: i64) {
-        let LightBodies { masses, scale, h, shells, light, now, before, found, .. } = self;
-        for planet in 1..masses.len() {
-            let radius = length(difference(&now[planet], &now[0]));
-            let hill = (masses[planet] / (3.0 * masses[0])).cbrt() * radius;
-            // √(R³/Gm) of the Hill radius R
-            let time = (radius.powi(3) * *scale).sqrt();
-            for (body, found) in light.iter().zip(&mut *found) {
-                if *body < masses.len() && masses[*body] >= masses[planet] {
-                    continue;
-                }
-                let [a, b] = [&*before, &*now].map(|places| difference(&places[*body], &places[planet]));
-                let moved = difference(&b, &a);
-                let square = dot(&moved, &moved);
-                let part = if square > 0.0 { (-dot(&a, &moved) / square).clamp(0.0, 1.0) } else { 1.0 };
-                let nearest: Place = std::array::from_fn(|axis| a[axis] + part * moved[axis]);
-                let distance = dot(&nearest, &nearest);
-                let radii = distance / (hill * hill);
-                let is_close = radii < CLOSE * CLOSE;
-                let is_closest = radii < found.square;
-                if !is_close && !is_closest {
-                    continue;
-                }
-                let distance = distance.sqrt();
-                let free_fall = radii.powf(0.75) * time / *h;
-                let steps = (distance / square.sqrt()).min(free_fall) * substeps(shells.as_ref(), distance);
-                let was_close = found.square < CLOSE * CLOSE;
-                found.steps = if is_close && was_close { found.steps.min(steps) } else { steps };
-                if is_closest {
-                    *found = Closest { square: radii, n, planet, steps: found.steps };
-                }
+        self.near.take(&self.light, [&self.before, &self.now], &self.found);
+        for planet in 1..self.masses.len() {
+            let radius = length(difference(&self.now[planet], &self.now[0]));
+            let hill = self.parts[planet] * radius;
+            let moved = difference(&self.now[planet], &self.before[planet]);
+            if self.near.any(&self.now[planet], dot(&moved, &moved), hill * hill) {
+                // √(R³/Gm) of the Hill radius R
+                let time = (radius.powi(3) * self.scale).sqrt();
+                self.approach(n, planet, (hill, time));
+            }
+        }
+    }
+
+    /// The least distances from a planet, of its Hill radius.
+    fn approach(&mut self, n: i64, planet: usize, (hill, time): (f64, f64)) {
+        let LightBodies { masses, h, shells, light, now, before, found, .. } = self;
+        for (body, found) in light.iter().zip(found) {
+            if *body < masses.len() && masses[*body] >= masses[planet] {
+                continue;
+            }
+            let [a, b] = [&*before, &*now].map(|places| difference(&places[*body], &places[planet]));
+            let moved = difference(&b, &a);
+            let square = dot(&moved, &moved);
+            let part = if square > 0.0 { (-dot(&a, &moved) / square).clamp(0.0, 1.0) } else { 1.0 };
+            let nearest: Place = std::array::from_fn(|axis| a[axis] + part * moved[axis]);
+            let distance = dot(&nearest, &nearest);
+            let radii = distance / (hill * hill);
+            let is_close = radii < CLOSE * CLOSE;
+            let is_closest = radii < found.square;
+            if !is_close && !is_closest {
+                continue;
+            }
+            let distance = distance.sqrt();
+            let free_fall = radii.powf(0.75) * time / *h;
+            let steps = (distance / square.sqrt()).min(free_fall) * substeps(shells.as_ref(), distance);
+            let was_close = found.square < CLOSE * CLOSE;
+            found.steps = if is_close && was_close { found.steps.min(steps) } else { steps };
+            if is_closest {
+                *found = Closest { square: radii, n, planet, steps: found.steps };
             }
         }
     }
@@ -224,6 +235,52 @@ impl LightBodies {
             to.place(planet, bodies);
             to.double(steps);
         }
+    }
+}
+
+/// Light bodies computed at once.
+const BLOCK: usize = 4;
+
+/// Finds planets that may have a light body so near that its distance counts, without a root or a division: most have none.
+struct Near {
+    /// Of light bodies by axis, with more so that there are whole blocks.
+    places: [Vec<f64>; 3],
+    /// The squares of their ways in the last step.
+    moved: Vec<f64>,
+    /// Distances count whose squares are below this, in Hill radii.
+    limits: Vec<f64>,
+}
+
+impl Near {
+    fn new(light: usize) -> Self {
+        let zeros = || vec![0.0; light.next_multiple_of(BLOCK)];
+        Near { places: std::array::from_fn(|_| zeros()), moved: zeros(), limits: zeros() }
+    }
+
+    fn take(&mut self, light: &[usize], [before, now]: [&[Place]; 2], found: &[Closest]) {
+        for (own, (body, found)) in light.iter().zip(found).enumerate() {
+            self.places.iter_mut().zip(now[*body]).for_each(|(axis, x)| axis[own] = x);
+            let moved = difference(&now[*body], &before[*body]);
+            self.moved[own] = dot(&moved, &moved);
+            self.limits[own] = found.square.max(CLOSE * CLOSE);
+        }
+    }
+
+    /// Whether a planet, with the square of its way and of its Hill radius, may have one. Of the vector b between both after the step and the way m of one to the other
+    /// in it, the least square is (|b| − |m|)² ≥ |b|²/2 − |m|², and |m|² is at most twice the sum of the squares of both ways.
+    fn any(&self, [own_x, own_y, own_z]: &Place, moved: f64, hill: f64) -> bool {
+        // of round-off
+        const ALMOST: f64 = 1.0 + 1e-12;
+        let [x, y, z] = self.places.each_ref().map(|axis| axis.as_chunks::<BLOCK>().0);
+        let (ways, limits) = (self.moved.as_chunks::<BLOCK>().0, self.limits.as_chunks::<BLOCK>().0);
+        let (hill, mut is_near) = (hill * ALMOST, false);
+        for block in 0..x.len() {
+            for i in 0..BLOCK {
+                let (a, b, c) = (x[block][i] - own_x, y[block][i] - own_y, z[block][i] - own_z);
+                is_near |= 0.5 * (a * a + b * b + c * c) < 2.0 * (ways[block][i] + moved) + limits[block][i] * hill;
+            }
+        }
+        is_near
     }
 }
 

@@ -75,6 +75,9 @@ macro_rules! in_coordinates {
     };
 }
 
+/// Positions in an inertial frame, from Q.
+pub(crate) type Positions = Box<dyn FnMut(&[f64], &mut [f64])>;
+
 /// A number for each planet, from Q.
 pub(crate) type OfPlanets = Box<dyn FnMut(&[f64]) -> Vec<f64>>;
 
@@ -196,6 +199,11 @@ impl Planets {
     /// From the coordinates of the steps to inertial ones.
     pub(crate) fn inertial<N: Number + 'static>(&self, context: &N::Context) -> ShownCoordinates<N> {
         in_coordinates!(self, shown_by::<N>(context))
+    }
+
+    /// Computes positions in an inertial frame from those of the steps.
+    pub(crate) fn inertial_positions(&self) -> Positions {
+        in_coordinates!(self, positions_by::<f64>())
     }
 
     /// The bodies with mass alone.
@@ -335,6 +343,13 @@ impl Planets {
         context: &N::Context,
     ) {
         C::new(&self.bodies, context).assign_from_inertial((q, p), own);
+    }
+
+    fn positions_by<N: Number<Context = ()>, C: PlanetaryCoordinates<f64, D> + 'static, const D: usize>(
+        &self,
+    ) -> Positions {
+        let mut coordinates = C::new(&self.bodies, &());
+        Box::new(move |own, q| coordinates.assign_inertial_positions(own, q))
     }
 
     fn shown_by<N: Number + 'static, C: PlanetaryCoordinates<N, D> + 'static, const D: usize>(
