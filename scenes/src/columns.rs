@@ -36,6 +36,27 @@ pub(crate) trait Group<N: RunNumber> {
     fn append(&mut self, at: &mut At<'_, '_, N>, cells: &mut Vec<Cell<N>>) -> Result<(), Error>;
 }
 
+/// Columns that have the same names in all systems.
+struct Fixed<N: RunNumber> {
+    names: &'static [&'static str],
+    due: Due,
+    append: fn(&mut At<'_, '_, N>, &mut Vec<Cell<N>>) -> Result<(), Error>,
+}
+
+impl<N: RunNumber> Group<N> for Fixed<N> {
+    fn names(&self) -> Vec<Name> {
+        self.names.iter().copied().map(Name::from).collect()
+    }
+
+    fn due(&self) -> Due {
+        self.due
+    }
+
+    fn append(&mut self, at: &mut At<'_, '_, N>, cells: &mut Vec<Cell<N>>) -> Result<(), Error> {
+        (self.append)(at, cells)
+    }
+}
+
 /// When columns are due.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Due {
@@ -53,57 +74,50 @@ impl Due {
 }
 
 /// The columns of a scene in the numbers of its run.
-pub(crate) struct Columns<'a, N> {
-    groups: Vec<(Box<dyn Group<N> + 'a>, Due)>,
-    /// The number of cells up to the end of each group.
-    ends: Vec<usize>,
+pub(crate) struct Columns<'a, N>(Vec<Placed<'a, N>>);
+
+/// A group in a row.
+struct Placed<'a, N> {
+    group: Box<dyn Group<N> + 'a>,
+    due: Due,
+    /// The number of cells up to its end.
+    end: usize,
 }
 
 impl<'a, N: RunNumber> Columns<'a, N> {
     pub(crate) fn of(output: &'a Outputs, system: &'a System, context: &N::Context) -> Self {
-        let values =
-            output.values.iter().map(|columns| Values::new((&columns.expressions, columns.every), system, context));
-        let groups = [energy::of(output), modified_energy::of(output), chaos::of(output)].into_iter().flatten();
-        let groups = groups.chain(values.map(|values| Box::new(values) as Box<_>)).chain(states::of(output, system));
-        let mut columns = Columns {
-            groups: groups
-                .map(|group| {
-                    let due = group.due();
-                    (group, due)
-                })
-                .collect(),
-            ends: Vec::new(),
-        };
-        columns.ends = columns
-            .groups
-            .iter()
-            .scan(OF_EACH_ROW.len(), |end, (group, _)| {
-                *end += group.names().len();
-                Some(*end)
-            })
-            .collect();
-        columns
+        let fixed = [energy::of(output), modified_energy::of(output), chaos::of(output)].into_iter().flatten();
+        let values = output.values.iter().map(|own| Values::new((&own.expressions, own.every), system, context));
+        let mut groups: Vec<Box<dyn Group<N>>> = fixed.map(|group| Box::new(group) as _).collect();
+        groups.extend(values.map(|group| Box::new(group) as _));
+        groups.extend(states::of(output, system).map(|group| Box::new(group) as _));
+        let mut end = OF_EACH_ROW.len();
+        let placed = groups.into_iter().map(|group| {
+            end += group.names().len();
+            Placed { due: group.due(), group, end }
+        });
+        Columns(placed.collect())
     }
 
     fn names(&self) -> Vec<Name> {
-        let own = self.groups.iter().flat_map(|(group, _)| group.names());
+        let own = self.0.iter().flat_map(|placed| placed.group.names());
         OF_EACH_ROW.into_iter().map(Name::from).chain(own).collect()
     }
 
     /// The n of the next state after n at which something is due.
     pub(crate) fn next(&self, n: i64) -> i64 {
-        let periods = self.groups.iter().filter_map(|(_, due)| due.every);
+        let periods = self.0.iter().filter_map(|placed| placed.due.every);
         periods.map(|every| next_multiple(n, every)).min().unwrap_or(i64::MAX)
     }
 
     /// The cells of a state; none where nothing is due.
     pub(crate) fn cells(&mut self, at: &mut At<'_, '_, N>, cells: &mut Vec<Cell<N>>) -> Result<(), Error> {
         cells.clear();
-        if !self.groups.iter().any(|(_, due)| due.is_at(at)) {
+        if !self.0.iter().any(|placed| placed.due.is_at(at)) {
             return Ok(());
         }
         cells.extend([Cell::Step(at.n), Cell::Number(at.time())]);
-        for ((group, due), end) in self.groups.iter_mut().zip(&self.ends) {
+        for Placed { group, due, end } in &mut self.0 {
             if due.is_at(at) {
                 group.append(at, cells)?;
             }

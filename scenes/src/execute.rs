@@ -347,6 +347,8 @@ mod tests {
         let estimated = "modified_energy = { estimator = \"bilinear\", order = 8, every = 7 }\n";
         for (system, scheme, end, digits) in [
             (kepler, "yoshida4", "steps = 5000, end = \"t > 31/2\"", "\"double\""),
+            // of q and p alone, at n = 1374: tested at many states at once
+            (kepler, "yoshida4", "steps = 5000, end = \"x > 3/10\"", "\"double\""),
             (kepler, "bcm6-13", "steps = 5000, end = \"t > 31/2\"", "\"compensated\""),
             (&transformed, "stormer-verlet", "until = 16", "30"),
             (&transformed, "yoshida4", "until = 1000, end = \"t > 31/2\"", "\"double\""),

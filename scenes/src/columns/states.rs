@@ -8,13 +8,13 @@ use crate::results::{Cell, Name};
 use crate::run_number::RunNumber;
 use crate::scene::{Outputs, System};
 
-struct States<'a> {
+pub(super) struct States<'a> {
     every: Option<u64>,
     system: &'a System,
 }
 
-pub(super) fn of<'a, N: RunNumber>(output: &Outputs, system: &'a System) -> Option<Box<dyn Group<N> + 'a>> {
-    output.has_states().then(|| Box::new(States { every: output.trajectory, system }) as Box<_>)
+pub(super) fn of<'a>(output: &Outputs, system: &'a System) -> Option<States<'a>> {
+    output.has_states().then(|| States { every: output.trajectory, system })
 }
 
 impl<N: RunNumber> Group<N> for States<'_> {
