@@ -132,8 +132,8 @@ impl Pairs {
 
     /// Takes the places at the state n; whether two planets are closer than before.
     fn include(&mut self, n: i64, places: &[f64], dimensions: usize) -> bool {
-        for (body, place) in places.chunks_exact(dimensions).enumerate() {
-            self.places.iter_mut().zip(place).for_each(|(own, x)| own[body] = *x);
+        for (axis, own) in self.places.iter_mut().enumerate().take(dimensions) {
+            own.iter_mut().zip(places[axis..].iter().step_by(dimensions)).for_each(|(own, x)| *own = *x);
         }
         for body in 0..self.bodies() {
             self.radii[body] = self.square([0, body]).sqrt();

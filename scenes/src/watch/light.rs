@@ -52,6 +52,8 @@ pub struct LightBodies {
     shells: Option<(Shells, u32)>,
     /// The light bodies, by their numbers.
     light: Vec<usize>,
+    /// The planets that are heavier than one of them.
+    attracting: Vec<usize>,
     /// All bodies after the last step, and before it.
     now: Vec<Place>,
     before: Vec<Place>,
@@ -123,13 +125,16 @@ impl LightBodies {
             dimensions,
             scale: 1.0 / (3.0 * number(&g) * masses[0]),
             parts: masses.iter().map(|mass| (mass / (3.0 * masses[0])).cbrt()).collect(),
-            masses,
             coordinates,
             h: h.abs(),
             shells,
+            attracting: (1..masses.len())
+                .filter(|planet| light.iter().any(|body| masses.get(*body).is_none_or(|mass| *mass < masses[*planet])))
+                .collect(),
             found: vec![Closest::NOTHING; light.len()],
             near: Near::new(light.len()),
             light,
+            masses,
             now: Vec::new(),
             before: Vec::new(),
             q: Vec::new(),
@@ -151,32 +156,40 @@ impl LightBodies {
         let LightBodies { now, dimensions, masses, coordinates, q: own, inertial, .. } = self;
         own.clear();
         own.extend(q.iter().map(Real::to_f64));
-        if let Coordinates::Of(kind, positions) = coordinates {
-            inertial.resize(masses.len() * *dimensions, 0.0);
-            positions(&own[..inertial.len()], inertial);
-            // particles are relative to the centre of mass, or to the first body
-            let mut origin = [0.0; 3];
-            origin[..*dimensions].copy_from_slice(match kind {
-                CanonicalCoordinates::Jacobi => &own[..*dimensions],
-                CanonicalCoordinates::DemocraticHeliocentric => &inertial[..*dimensions],
-            });
-            for (body, inertial) in own.chunks_exact_mut(*dimensions).zip(inertial.chunks_exact(*dimensions)) {
-                body.iter_mut().zip(inertial).zip(origin).for_each(|((own, x), origin)| *own = x - origin);
+        let (massive, particles) = own.split_at(masses.len() * *dimensions);
+        let mut origin = [0.0; 3];
+        let massive = match coordinates {
+            Coordinates::Inertial => massive,
+            Coordinates::Of(kind, positions) => {
+                inertial.resize(massive.len(), 0.0);
+                positions(massive, inertial);
+                // particles are relative to the centre of mass, or to the first body
+                origin[..*dimensions].copy_from_slice(match kind {
+                    CanonicalCoordinates::Jacobi => &massive[..*dimensions],
+                    CanonicalCoordinates::DemocraticHeliocentric => &inertial[..*dimensions],
+                });
+                inertial
+            }
+        };
+        now.clear();
+        for (bodies, origin) in [(massive, origin), (particles, [0.0; 3])] {
+            match *dimensions {
+                3 => extend::<3>(now, bodies, origin),
+                2 => extend::<2>(now, bodies, origin),
+                _ => extend::<1>(now, bodies, origin),
             }
         }
-        now.clear();
-        let place = |body: &[f64]| std::array::from_fn(|axis| body.get(axis).copied().unwrap_or(0.0));
-        now.extend(own.chunks_exact(*dimensions).map(place));
     }
 
     /// The least distances in the last step, in which bodies move straight.
     fn find_approaches(&mut self, n: i64) {
         self.near.take(&self.light, [&self.before, &self.now], &self.found);
-        for planet in 1..self.masses.len() {
+        for place in 0..self.attracting.len() {
+            let planet = self.attracting[place];
             let radius = length(difference(&self.now[planet], &self.now[0]));
             let hill = self.parts[planet] * radius;
             let way = length(difference(&self.now[planet], &self.before[planet]));
-            if self.near.any(&self.now[planet], way, hill) {
+            if self.near.find(&self.now[planet], way, hill) {
                 // √(R³/Gm) of the Hill radius R
                 let time = (radius.powi(3) * self.scale).sqrt();
                 self.approach(n, planet, (hill, time));
@@ -186,9 +199,9 @@ impl LightBodies {
 
     /// The least distances from a planet, of its Hill radius.
     fn approach(&mut self, n: i64, planet: usize, (hill, time): (f64, f64)) {
-        let LightBodies { masses, h, shells, light, now, before, found, .. } = self;
-        for (body, found) in light.iter().zip(found) {
-            if *body < masses.len() && masses[*body] >= masses[planet] {
+        let LightBodies { masses, h, shells, light, now, before, found, near, .. } = self;
+        for ((body, found), is_near) in light.iter().zip(found).zip(&near.found) {
+            if !is_near || *body < masses.len() && masses[*body] >= masses[planet] {
                 continue;
             }
             let [a, b] = [&*before, &*now].map(|places| difference(&places[*body], &places[planet]));
@@ -238,6 +251,15 @@ impl LightBodies {
     }
 }
 
+/// Appends places relative to an origin.
+fn extend<const D: usize>(places: &mut Vec<Place>, bodies: &[f64], origin: Place) {
+    places.extend(bodies.as_chunks::<D>().0.iter().map(|body| {
+        let mut place = [0.0; 3];
+        (0..D).for_each(|axis| place[axis] = body[axis] - origin[axis]);
+        place
+    }));
+}
+
 /// Light bodies computed at once.
 const BLOCK: usize = 4;
 
@@ -249,12 +271,19 @@ struct Near {
     ways: Vec<f64>,
     /// Distances count that are below this, in Hill radii.
     limits: Vec<f64>,
+    /// Whether they may be so near to a planet.
+    found: Vec<bool>,
 }
 
 impl Near {
     fn new(light: usize) -> Self {
         let zeros = || vec![0.0; light.next_multiple_of(BLOCK)];
-        Near { places: std::array::from_fn(|_| zeros()), ways: zeros(), limits: zeros() }
+        Near {
+            places: std::array::from_fn(|_| zeros()),
+            ways: zeros(),
+            limits: zeros(),
+            found: vec![false; light.next_multiple_of(BLOCK)],
+        }
     }
 
     fn take(&mut self, light: &[usize], [before, now]: [&[Place]; 2], found: &[Closest]) {
@@ -265,21 +294,22 @@ impl Near {
         }
     }
 
-    /// Whether a planet may have one: after a step the distance is at most the least one in it and the ways of both.
-    fn any(&self, [own_x, own_y, own_z]: &Place, way: f64, hill_radius: f64) -> bool {
+    /// Finds those that may be near a planet, if there is one: after a step the distance is at most the least one in it and the ways of both.
+    fn find(&mut self, [own_x, own_y, own_z]: &Place, way: f64, hill_radius: f64) -> bool {
         // of round-off
         const ALMOST: f64 = 1.0 + 1e-12;
         let [x, y, z] = self.places.each_ref().map(|axis| axis.as_chunks::<BLOCK>().0);
         let (ways, limits) = (self.ways.as_chunks::<BLOCK>().0, self.limits.as_chunks::<BLOCK>().0);
-        let mut is_near = false;
+        let (found, mut any) = (self.found.as_chunks_mut::<BLOCK>().0, false);
         for block in 0..x.len() {
             for i in 0..BLOCK {
                 let (a, b, c) = (x[block][i] - own_x, y[block][i] - own_y, z[block][i] - own_z);
                 let most = ALMOST * (ways[block][i] + way + limits[block][i] * hill_radius);
-                is_near |= a * a + b * b + c * c < most * most;
+                found[block][i] = a * a + b * b + c * c < most * most;
+                any |= found[block][i];
             }
         }
-        is_near
+        any
     }
 }
 
@@ -378,7 +408,7 @@ mod tests {
             let found = Closest { square: 1.0 + 4.0 * random().abs(), ..Closest::NOTHING };
             let mut near = Near::new(5);
             near.take(&[1, 2, 3, 4, 5], [&before, &now], &[found; 5]);
-            let is_near = near.any(&now[0], length(difference(&now[0], &before[0])), hill);
+            let is_near = near.find(&now[0], length(difference(&now[0], &before[0])), hill);
             let counts = (1..6).any(|body| {
                 let [a, b] = [&before, &now].map(|places| difference(&places[body], &places[0]));
                 let parts = (0..=100).map(|part| f64::from(part) / 100.0);
