@@ -107,7 +107,6 @@ def integrate(
     events: Mapping[str, Any],
     tangent: Sequence[Sequence[str]],
     windows: int | None,
-    values: Sequence[tuple[str, str]],
     progress: Progress,
 ) -> dict[str, Any]: ...
 def ensemble(text: str, names: Sequence[str], columns: Sequence[np.ndarray], *, progress: Progress) -> dict[str, Any]: ...

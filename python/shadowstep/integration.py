@@ -255,11 +255,10 @@ def integrate(
     if windows is not None and windows < _shadowstep.LEAST_WINDOWS:
         raise InputError(f"windows must be at least {_shadowstep.LEAST_WINDOWS}, not {windows}")
     run = run_of(problem, scheme, h, until, steps, first, gradient_kicks, 1 if every is None else every, digits, mpfr)
-    formulas = list(_formulas(values or {}).items())
     chosen = options_if_any(estimator, order=order, max_order=max_order, stop=stop, rule=rule, accuracy=accuracy)
     with bar(run["steps"], "steps", progress) as reach:
-        events = {"end": end, "section": None if section is None else (section, direction or "up")}
-        found = _shadowstep.integrate(run, options=chosen, events=events, tangent=_texts(tangent), values=formulas, windows=(windows or _shadowstep.WINDOWS) if summary else None, progress=reach)
+        events = {"end": end, "section": None if section is None else (section, direction or "up"), "values": list(_formulas(values or {}).items())}
+        found = _shadowstep.integrate(run, options=chosen, events=events, tangent=_texts(tangent), windows=(windows or _shadowstep.WINDOWS) if summary else None, progress=reach)
     if found["summary"] is not None:
         found["summary_text"], record = found["summary"]
         found["summary"] = json.loads(record)

@@ -23,19 +23,21 @@ use crate::given_run::{GivenRun, SystemWithScheme, Times};
 use crate::scene::Summarising;
 use crate::waiting::waiting_for;
 
-/// What happens on the way: a condition that ends the run, and a surface of section with the name of its direction.
+/// What is looked for on the way: a condition that ends the run, a surface of section with the name of its direction, and formulas with the names of their
+/// values.
 #[derive(FromPyObject)]
 #[pyo3(from_item_all)]
 pub(crate) struct Events {
     end: Option<String>,
     section: Option<(String, String)>,
+    values: Vec<(String, String)>,
 }
 
 /// Makes a run, and gives a dictionary of its states: arrays in double precision, else lists of decimal texts. With tangent vectors, each of which begins with
 /// components of `tangent`, it is made once more with these. With a number of windows it has a summary, which compares modified energies
-/// in about as many. Formulas with their names are columns of values.
+/// in about as many.
 #[pyfunction]
-#[pyo3(signature = (run, *, options, events, tangent, windows, values, progress))]
+#[pyo3(signature = (run, *, options, events, tangent, windows, progress))]
 pub(crate) fn integrate<'py>(
     py: Python<'py>,
     run: GivenRun,
@@ -43,10 +45,9 @@ pub(crate) fn integrate<'py>(
     events: Events,
     tangent: Vec<Vec<String>>,
     windows: Option<u64>,
-    values: Vec<(String, String)>,
     progress: Option<&Bound<'py, PyAny>>,
 ) -> PyResult<Bound<'py, PyDict>> {
-    let Events { end, section } = events;
+    let Events { end, section, values } = events;
     let section = section.map(|(text, name)| Ok::<_, PyErr>((text, word(py, "direction", &name, &Direction::NAMES)?)));
     let section = section.transpose()?;
     let estimator = options.map(|options| options.settings(py)).transpose()?;

@@ -36,11 +36,13 @@ pub(crate) trait Group<N: RunNumber> {
     fn append(&mut self, at: &mut At<'_, '_, N>, cells: &mut Vec<Cell<N>>) -> Result<(), Error>;
 }
 
+type Append<N> = fn(&mut At<'_, '_, N>, &mut Vec<Cell<N>>) -> Result<(), Error>;
+
 /// Columns that have the same names in all systems.
 struct Fixed<N: RunNumber> {
     names: &'static [&'static str],
     due: Due,
-    append: fn(&mut At<'_, '_, N>, &mut Vec<Cell<N>>) -> Result<(), Error>,
+    append: Append<N>,
 }
 
 impl<N: RunNumber> Group<N> for Fixed<N> {

@@ -14,7 +14,7 @@ pub(super) struct States<'a> {
 }
 
 pub(super) fn of<'a>(output: &Outputs, system: &'a System) -> Option<States<'a>> {
-    output.has_states().then(|| States { every: output.trajectory, system })
+    output.has_states().then_some(States { every: output.trajectory, system })
 }
 
 impl<N: RunNumber> Group<N> for States<'_> {

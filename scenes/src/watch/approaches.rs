@@ -77,7 +77,7 @@ pub struct Approaches {
     planets: Planets,
     names: Vec<String>,
     pairs: Pairs,
-    positions: Positions,
+    positions: Positions<f64>,
     epsilon: OfPlanets,
     /// ε is computed at the first states, at those whose n is a multiple of this, and where two planets are closer than before.
     every: u64,

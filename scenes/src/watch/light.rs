@@ -68,7 +68,7 @@ pub struct LightBodies {
 enum Coordinates {
     Inertial,
     /// With those of the bodies with mass alone, in double precision.
-    Of(CanonicalCoordinates, Positions),
+    Of(CanonicalCoordinates, Positions<f64>),
 }
 
 /// The least square of a distance in Hill radii, its n and planet, and the least number of steps.

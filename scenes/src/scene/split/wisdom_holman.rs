@@ -76,7 +76,7 @@ macro_rules! in_coordinates {
 }
 
 /// Positions in an inertial frame, from Q.
-pub(crate) type Positions = Box<dyn FnMut(&[f64], &mut [f64])>;
+pub(crate) type Positions<N> = Box<dyn FnMut(&[N], &mut [N])>;
 
 /// A number for each planet, from Q.
 pub(crate) type OfPlanets = Box<dyn FnMut(&[f64]) -> Vec<f64>>;
@@ -202,7 +202,7 @@ impl Planets {
     }
 
     /// Computes positions in an inertial frame from those of the steps.
-    pub(crate) fn inertial_positions(&self) -> Positions {
+    pub(crate) fn inertial_positions(&self) -> Positions<f64> {
         in_coordinates!(self, positions_by::<f64>())
     }
 
@@ -345,9 +345,9 @@ impl Planets {
         C::new(&self.bodies, context).assign_from_inertial((q, p), own);
     }
 
-    fn positions_by<N: Number<Context = ()>, C: PlanetaryCoordinates<f64, D> + 'static, const D: usize>(
+    fn positions_by<N: Number<Context = ()>, C: PlanetaryCoordinates<N, D> + 'static, const D: usize>(
         &self,
-    ) -> Positions {
+    ) -> Positions<N> {
         let mut coordinates = C::new(&self.bodies, &());
         Box::new(move |own, q| coordinates.assign_inertial_positions(own, q))
     }
