@@ -31,6 +31,9 @@ const LONGEST_EXPANDED: u64 = 20_000;
 /// More distinct parts of formulas take too long.
 const MOST_NODES: usize = 100_000;
 
+/// More brackets of one order take too long: their number grows as the power of that of the parts.
+const MOST_BRACKETS: usize = 3000;
+
 /// Longer formulas are not written.
 const LONGEST: u64 = 200_000;
 
@@ -212,9 +215,22 @@ impl SymbolicHamiltonian {
         match self.has_many_parts {
             false => self.terms(&ModifiedHamiltonian::of(scheme, self.kinetic, grade)),
             true => {
+                self.refuse_many_brackets(grade)?;
                 let series = ModifiedHamiltonian::of_parts(scheme, self.parts.len(), grade);
                 self.terms(&series.map_err(|not| Refusal::new(not.to_string(), "use a scheme such as yoshida4"))?)
             }
+        }
+    }
+
+    fn refuse_many_brackets(&self, grade: u32) -> Result<(), Refusal> {
+        // of n letters and k parts there are about kⁿ/n
+        let brackets = |grade: u32| self.parts.len().saturating_pow(grade + 1) / (grade as usize + 1);
+        match (1..=grade).find(|grade| brackets(*grade) > MOST_BRACKETS) {
+            Some(grade) => Err(Refusal::new(
+                format!("H_{} of {} parts has more than {MOST_BRACKETS} brackets", grade + 1, self.parts.len()),
+                format!("ask for powers of h below {grade}"),
+            )),
+            None => Ok(()),
         }
     }
 

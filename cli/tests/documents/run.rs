@@ -72,7 +72,8 @@ fn shadowstep(words: &str, folder: &Path) -> Output {
             child.kill().unwrap();
         } else if !was_interrupted && cpu_time(child.id()) > CPU_SECONDS {
             was_interrupted = true;
-            Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap();
+            // a program in the background of a shell ignores SIGINT
+            Command::new("kill").args(["-TERM", &child.id().to_string()]).status().unwrap();
         }
         thread::sleep(TICK);
     };
