@@ -2,78 +2,24 @@
 
 mod chaos;
 mod energy;
+mod group;
 mod modified_energy;
+mod names;
 mod states;
 mod values;
 
+pub(crate) use group::Group;
+pub use names::fixed_names;
 pub(crate) use values::Values;
 
-use crate::at::{At, Place};
+use self::group::Due;
+use self::names::OF_EACH_ROW;
+use crate::at::At;
 use crate::column::next_multiple;
 use crate::computation::{Computation, FollowedNumber, RunNumber};
 use crate::error::Error;
 use crate::results::{Cell, Name};
 use crate::scene::{Outputs, Scene, System};
-
-/// The names of the columns of n and t, which each row has.
-const OF_EACH_ROW: [&str; 2] = ["n", "t"];
-
-/// The names that columns of every system may have; no coordinate and no column of a formula has one of them.
-pub fn fixed_names() -> impl Iterator<Item = &'static str> {
-    let groups: [&[&str]; 4] = [&OF_EACH_ROW, &energy::NAMES, &modified_energy::NAMES, &chaos::NAMES];
-    groups.into_iter().flatten().copied()
-}
-
-/// Columns that are due together.
-pub(crate) trait Group<N: RunNumber> {
-    /// Their names.
-    fn names(&self) -> Vec<Name>;
-
-    /// When they are due.
-    fn due(&self) -> Due;
-
-    /// Appends a cell for each name.
-    fn append(&mut self, at: &mut At<'_, '_, N>, cells: &mut Vec<Cell<N>>) -> Result<(), Error>;
-}
-
-type Append<N> = fn(&mut At<'_, '_, N>, &mut Vec<Cell<N>>) -> Result<(), Error>;
-
-/// Columns that have the same names in all systems.
-struct Fixed<N: RunNumber> {
-    names: &'static [&'static str],
-    due: Due,
-    append: Append<N>,
-}
-
-impl<N: RunNumber> Group<N> for Fixed<N> {
-    fn names(&self) -> Vec<Name> {
-        self.names.iter().copied().map(Name::from).collect()
-    }
-
-    fn due(&self) -> Due {
-        self.due
-    }
-
-    fn append(&mut self, at: &mut At<'_, '_, N>, cells: &mut Vec<Cell<N>>) -> Result<(), Error> {
-        (self.append)(at, cells)
-    }
-}
-
-/// When columns are due.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Due {
-    /// At the states whose n is a multiple of this.
-    pub(crate) every: Option<u64>,
-    /// And at all of these places.
-    pub(crate) places: &'static [Place],
-}
-
-impl Due {
-    fn is_at<N: RunNumber>(self, at: &At<'_, '_, N>) -> bool {
-        let is_multiple = |every: u64| at.is_met || at.n.unsigned_abs().is_multiple_of(every);
-        self.places.contains(&at.place) || (at.place == Place::State && self.every.is_some_and(is_multiple))
-    }
-}
 
 /// The columns of a scene in the numbers of its run.
 pub(crate) struct Columns<'a, N>(Vec<Placed<'a, N>>);

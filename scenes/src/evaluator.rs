@@ -11,7 +11,6 @@ use shadowstep_schemes::document::{Reader, Text};
 use shadowstep_symbolic::Exact;
 use thiserror::Error;
 
-use crate::columns::fixed_names;
 use crate::error::Error;
 use crate::expression::{Comparison, Condition, ENERGY, Expression, TIME, name_of_quantity};
 use crate::lanes::LANES;
@@ -24,7 +23,11 @@ use crate::scene::split::ShownCoordinates;
 use crate::scene::{Direction, EnergyAt, NamedExpression, Surface, System};
 
 /// What is read of a text that stands alone, which has this name in its faults.
-fn alone<T>(name: &str, text: &str, read: impl FnOnce(Text, &mut Reader<'_>) -> Option<T>) -> Result<T, Error> {
+pub(crate) fn alone<T>(
+    name: &str,
+    text: &str,
+    read: impl FnOnce(Text, &mut Reader<'_>) -> Option<T>,
+) -> Result<T, Error> {
     let source = Source { path: name.to_owned(), text: text.to_owned() };
     let mut reader = Reader::new(&source, Vec::new());
     let found = read(Text::alone(text), &mut reader);
@@ -53,21 +56,6 @@ impl System {
     /// A text that is not a formula in the numbers of the system's states, with the column of the fault.
     pub fn section(&self, name: &str, text: &str, direction: Direction) -> Result<Surface, Error> {
         alone(name, text, |text, reader| self.surface(text, direction, reader))
-    }
-
-    /// A formula that stands alone, whose values are a column of this name.
-    ///
-    /// # Errors
-    /// A text that is not a formula in the numbers of the system's states, with the column of the fault; the name of another column.
-    pub fn column(&self, name: &str, text: &str) -> Result<NamedExpression, Error> {
-        if fixed_names().any(|other| other == name) || self.columns().any(|other| other == name) {
-            return Err(Error::usage(format!("there is another column `{name}`"), "give this one another name"));
-        }
-        alone(name, text, |text, reader| {
-            let expression = Expression::new(text);
-            self.check(&expression, reader);
-            Some(NamedExpression { name: name.to_owned(), at: 0..0, expression })
-        })
     }
 
     /// The surface where a formula is 0, or faults.

@@ -68,11 +68,6 @@ pub(crate) struct ElementOfBody {
     parameter: Rational,
 }
 
-/// The number of a body.
-fn body(bodies: &Bodies, name: &str) -> Result<usize, Refusal> {
-    bodies.number(name).map_err(|hint| Refusal::new(format!("there is no body `{name}`"), hint))
-}
-
 impl ElementOfBody {
     /// Of a body about the first one, or about another centre.
     fn of(system: &System, bodies: &Bodies, element: Element, arguments: &[String]) -> Result<Self, Refusal> {
@@ -86,7 +81,7 @@ impl ElementOfBody {
                 );
             }
         };
-        let number = body(bodies, name)?;
+        let number = bodies.number(name)?;
         let centre: Vec<usize> = match centre.map(String::as_str) {
             None => vec![0],
             Some(word @ (JACOBI | BARYCENTRE)) if bodies.names.iter().any(|own| own == word) => {
@@ -95,7 +90,7 @@ impl ElementOfBody {
             }
             Some(JACOBI) => (0..number).collect(),
             Some(BARYCENTRE) => (0..bodies.names.len()).collect(),
-            Some(other) => vec![body(bodies, other)?],
+            Some(other) => vec![bodies.number(other)?],
         };
         ElementOfBody::new(system, bodies, (element, number), &centre)
     }
@@ -149,15 +144,6 @@ fn gravitational_constant(system: &System) -> Option<Rational> {
     };
     let g = system.parameters.iter().find(|(name, _)| name == "g").filter(|_| is_gravity);
     g.map(|(_, g)| g.value.clone())
-}
-
-fn refuse_box(system: &System) -> Result<(), Refusal> {
-    match &system.potential {
-        PotentialEnergy::Pairs(pairs) if pairs.is_in_box() => {
-            refuse("bodies in a periodic box have many distances", "write a formula in the coordinates")
-        }
-        _ => Ok(()),
-    }
 }
 
 impl QuantityOfBodies {

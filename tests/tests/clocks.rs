@@ -9,9 +9,13 @@ use crate::language::files;
 const CLOCKS: [&str; 7] =
     ["Instant::now", "SystemTime::now", "CpuTime::begin", "perf_counter", "monotonic()", "time.time()", "process_time"];
 
-const KNOWN: [(&str, &str); 8] = [
+const KNOWN: [(&str, &str); 9] = [
     ("cli/tests/command_line/output_files.rs", "a limit of minutes, which ends a test that hangs"),
     ("cli/tests/documents/main.rs", "how long new documents are drawn by `make fuzz`"),
+    (
+        "cli/tests/documents/run.rs",
+        "the CPU time after which a command is interrupted, and a limit of minutes, which tells a hang",
+    ),
     ("cli/tests/faults/main.rs", "a limit of minutes, and a seed, which is printed"),
     ("cli/tests/faults/work.rs", "the moments at which a command is disturbed"),
     ("python/notebooks/drift-of-the-modified-energy.ipynb", "a time that is printed"),

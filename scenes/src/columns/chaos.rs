@@ -1,6 +1,6 @@
 //! Indicators of chaos up to the state; one that is not defined, as at t = 0, is NaN.
 
-use super::{Due, Fixed};
+use super::group::{Due, Fixed};
 use crate::at::At;
 use crate::error::Error;
 use crate::results::Cell;

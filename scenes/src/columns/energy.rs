@@ -1,6 +1,6 @@
 //! The energy H.
 
-use super::{Due, Fixed};
+use super::group::{Due, Fixed};
 use crate::at::{At, Place};
 use crate::error::Error;
 use crate::results::Cell;

@@ -1,6 +1,6 @@
 //! The modified energy, its estimated error, and the order of the estimate.
 
-use super::{Due, Fixed};
+use super::group::{Due, Fixed};
 use crate::at::At;
 use crate::error::Error;
 use crate::results::Cell;

@@ -1,6 +1,6 @@
 //! Positions and momenta, at states or at crossings of a surface.
 
-use super::{Due, Group};
+use super::group::{Due, Group};
 use crate::at::{At, Place};
 use crate::error::Error;
 use crate::reserved_names::LISTS;

@@ -1,9 +1,11 @@
 //! Expressions.
 
-use super::{Due, Group};
+use super::group::{Due, Group};
+use super::names::fixed_names;
 use crate::at::{At, Place};
 use crate::error::Error;
-use crate::evaluator::Evaluator;
+use crate::evaluator::{Evaluator, alone};
+use crate::expression::Expression;
 use crate::results::{Cell, Name};
 use crate::run_number::RunNumber;
 use crate::scene::{NamedExpression, System};
@@ -19,6 +21,23 @@ impl<'a, N: RunNumber> Values<'a, N> {
     pub(crate) fn new((columns, every): (&'a [NamedExpression], u64), system: &System, context: &N::Context) -> Self {
         let evaluators = columns.iter().map(|named| named.evaluator(system, context)).collect();
         Values { every, columns, evaluators }
+    }
+}
+
+impl System {
+    /// A formula that stands alone, whose values are a column of this name.
+    ///
+    /// # Errors
+    /// A text that is not a formula in the numbers of the system's states, with the column of the fault; the name of another column.
+    pub fn column(&self, name: &str, text: &str) -> Result<NamedExpression, Error> {
+        if fixed_names().any(|other| other == name) || self.columns().any(|other| other == name) {
+            return Err(Error::usage(format!("there is another column `{name}`"), "give this one another name"));
+        }
+        alone(name, text, |text, reader| {
+            let expression = Expression::new(text);
+            self.check(&expression, reader);
+            Some(NamedExpression { name: name.to_owned(), at: 0..0, expression })
+        })
     }
 }
 

@@ -1,17 +1,16 @@
 //! Quantities that are formulas in the coordinates and momenta of bodies.
 
-use super::{body, refuse_box};
 use crate::quantity::{ANGULAR_MOMENTUM, DISTANCE};
 use crate::refusal::{Refusal, refuse};
-use crate::scene::System;
 use crate::scene::bodies::{AXES, Bodies};
+use crate::scene::{PotentialEnergy, System};
 
 /// The formula of a quantity.
 pub(super) fn of(name: &str, arguments: &[String], (system, bodies): (&System, &Bodies)) -> Result<String, Refusal> {
     match (name, arguments) {
         (DISTANCE, [one, other]) => {
             refuse_box(system)?;
-            distance(system, bodies, [body(bodies, one)?, body(bodies, other)?])
+            distance(system, bodies, [bodies.number(one)?, bodies.number(other)?])
         }
         (DISTANCE, _) => refuse("a distance is one of two bodies", "write distance(earth, moon)"),
         (ANGULAR_MOMENTUM, []) if bodies.dimensions == 2 => Ok(component(system, bodies, [0, 1])),
@@ -29,6 +28,15 @@ pub(super) fn of(name: &str, arguments: &[String], (system, bodies): (&System, &
         _ => {
             refuse("the angular momentum in a plane has no axis, and on a line there is none", "write angular_momentum")
         }
+    }
+}
+
+fn refuse_box(system: &System) -> Result<(), Refusal> {
+    match &system.potential {
+        PotentialEnergy::Pairs(pairs) if pairs.is_in_box() => {
+            refuse("bodies in a periodic box have many distances", "write a formula in the coordinates")
+        }
+        _ => Ok(()),
     }
 }
 

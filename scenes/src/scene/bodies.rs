@@ -4,6 +4,7 @@ use std::ops::Range;
 
 use shadowstep_symbolic::nearest;
 
+use crate::refusal::Refusal;
 use crate::scene::{PotentialEnergy, System};
 
 /// Bodies whose coordinates follow each other.
@@ -52,14 +53,15 @@ impl Bodies {
     /// The number of a body from 0.
     ///
     /// # Errors
-    /// Which bodies there are.
-    pub(crate) fn number(&self, name: &str) -> Result<usize, String> {
+    /// That there is no such body, and which there are.
+    pub(crate) fn number(&self, name: &str) -> Result<usize, Refusal> {
         self.names.iter().position(|known| known == name).ok_or_else(|| {
-            match (nearest(name, self.names.iter().map(String::as_str)), &self.names[..]) {
+            let hint = match (nearest(name, self.names.iter().map(String::as_str)), &self.names[..]) {
                 (Some(near), _) => format!("did you mean `{near}`?"),
                 (None, [first, .., last]) => format!("the bodies are {first} to {last}"),
                 (None, _) => "the system has one body".to_owned(),
-            }
+            };
+            Refusal::new(format!("there is no body `{name}`"), hint)
         })
     }
 }

@@ -159,10 +159,6 @@ fn some_of(names: &[&String]) -> String {
     format!("{}{more}", shown.join(", "))
 }
 
-fn number(bodies: &Bodies, name: &str) -> Result<usize, Refusal> {
-    bodies.number(name).map_err(|hint| Refusal { message: format!("there is no body `{name}`"), hint })
-}
-
 /// Of the origin, of every two bodies, of one from the others, or of two.
 fn distances(system: &System, names: &[&str]) -> Result<Content, Refusal> {
     let Some(bodies) = Bodies::of(system) else {
@@ -177,7 +173,7 @@ fn distances(system: &System, names: &[&str]) -> Result<Content, Refusal> {
             ),
         };
     };
-    let numbers = names.iter().map(|name| number(&bodies, name)).collect::<Result<Vec<_>, _>>()?;
+    let numbers = names.iter().map(|name| bodies.number(name)).collect::<Result<Vec<_>, _>>()?;
     let count = bodies.names.len();
     let pairs: Vec<(usize, usize)> = match numbers[..] {
         [i, j] if i == j => return refuse(format!("`{0}:{0}` is one body", names[0]), "name two bodies"),
