@@ -5,6 +5,7 @@ use shadowstep::steps::step_to_zero;
 use shadowstep::{Rational, Real};
 use shadowstep_symbolic::decimal::to_text;
 
+use crate::arithmetic::GUARD_DIGITS;
 use crate::evaluator::Evaluator;
 use crate::run::Run;
 use crate::run_number::RunNumber;
@@ -35,7 +36,10 @@ impl<N: RunNumber> Crossings<N> {
     pub(crate) fn new(Surface { expression, direction }: &Surface, system: &System, context: &N::Context) -> Self {
         let value = Evaluator::of_run(expression, system, context).expect("it was checked for the system");
         let rounded = system.q.iter().chain(&system.p).filter(|value| value.rounded);
-        let digits = rounded.map(|value| significant_digits(&value.value)).max();
+        // a number that has fewer is exact, as the root of 1
+        let digits =
+            rounded.map(|value| significant_digits(&value.value)).filter(|digits| *digits > GUARD_DIGITS as usize);
+        let digits = digits.max();
         let bits = digits.map_or(f64::INFINITY, |digits| digits as f64 * std::f64::consts::LOG2_10);
         Crossings {
             value,
