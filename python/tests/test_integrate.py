@@ -507,6 +507,40 @@ def test_crossings_are_those_of_another_program():
     assert np.allclose(times, cut.t, rtol=0, atol=1e-9)
 
 
+def test_values_are_those_of_a_scene_at_states_and_crossings(tmp_path):
+    problem = Problem("kepler", eccentricity="3/5")
+    formulas = {"L": "x*py - y*px", "H": "E + 0*t", "nothing": "log(x - 9)"}
+    scene = f'problem = {{ name = "kepler", parameters.eccentricity = "3/5" }}\nrun = {{ scheme = "yoshida4", step = "1/20", steps = 40, digits = DIGITS }}\noutput = {{ file = "a.csv", trajectory = true, values = {{ L = "{formulas["L"]}", H = "E" }} }}'
+    for digits in ("double", 30):
+        path = tmp_path / f"{digits}.toml"
+        path.write_text(scene.replace("DIGITS", f'"{digits}"' if digits == "double" else str(digits)).replace("a.csv", f"{digits}.csv"))
+        shadowstep.run(path)
+        of_scene = shadowstep.open(tmp_path / f"{digits}.csv")
+        found = integrate(problem, "yoshida4", h="1/20", steps=40, digits=digits, values=formulas)
+        for name in ("L", "H"):
+            assert np.array_equal(found.values[name], of_scene.values[name])
+        assert np.array_equal(found.values["H"], found.energy) and set(map(str, found.values["nothing"])) == {"nan"}
+    crossed = integrate(problem, "yoshida4", h="1/20", until=20, section="y", values={"x2": "x^2"})
+    assert len(crossed) and np.array_equal(crossed.values["x2"], crossed.q[:, 0] ** 2)
+    assert list(crossed.to_dataframe()["x2"]) == list(crossed.values["x2"])
+    bodies = {"m": [1, 2]}
+    pair = Problem(pair="-m_i*m_j/sqrt(r2)", dimensions=2, bodies=bodies, masses="m", q=[0, 0, 3, 1], p=[0, 0, 1, 1])
+    momentum = integrate(pair, "yoshida4", h="1/100", steps=10, values={"L": "angular_momentum"}).values["L"]
+    assert np.all(np.abs(momentum - 2) < 1e-14)  # 3·1 − 1·1, which steps conserve but for round-off
+
+
+def test_wrong_values_are_refused_with_their_names():
+    for values, message in (
+        ({"energy": "x"}, "there is another column `energy`"),
+        ({"x": "px"}, "there is another column `x`"),
+        ({"r": "x + z"}, "r:1:5: unknown name `z`"),
+        ({"r": 3}, "not a name with a formula"),
+        (["x"], "values must be a mapping"),
+    ):
+        with pytest.raises(InputError, match=message):
+            integrate(Problem("kepler"), "yoshida4", h="1/20", steps=2, values=values)
+
+
 def test_a_section_that_is_never_crossed_has_no_states():
     for digits in ("double", 40):
         with pytest.warns(UserWarning, match="does not cross section='x - 100', direction='up'"):

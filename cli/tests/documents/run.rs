@@ -21,7 +21,7 @@ const HANGS_AFTER: Duration = Duration::from_secs(600);
 const TICK: Duration = Duration::from_millis(5);
 
 /// What a command says that was interrupted between two states, runs or trajectories. One that says nothing of that hung.
-const INTERRUPTED: [&str; 3] = ["interrupted at n = ", "runs of this call are saved", "the ensemble was interrupted"];
+const INTERRUPTED: [&str; 3] = ["interrupted at n = ", "the same command computes", "the ensemble was interrupted"];
 
 /// Where the output of a command goes.
 const STDOUT: &str = "stdout.of-command";
