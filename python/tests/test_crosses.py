@@ -92,8 +92,9 @@ def finite(values):
 
 def integrated(system, way, folder):
     numbers = {"digits": digits(way), "mpfr": "--mpfr" in way.keys["numbers"]}
-    found = integrate(problem(system, folder), scheme(way), step(system, way), steps=STEPS, first=first(way), **numbers, **estimator(way))
+    found = integrate(problem(system, folder), scheme(way), step(system, way), steps=STEPS, first=first(way), values={"H": "E"}, **numbers, **estimator(way))
     finite(found.modified_energy)
+    assert np.array_equal(found.values["H"], found.energy)
     energy = found.energy.astype(float)
     assert np.all(np.abs(energy - energy[0]) < 0.1 * abs(energy[0]))
 
