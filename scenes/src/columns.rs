@@ -16,9 +16,9 @@ use self::group::Due;
 use self::names::OF_EACH_ROW;
 use crate::at::At;
 use crate::column::next_multiple;
-use crate::computation::{Computation, FollowedNumber, RunNumber};
 use crate::error::Error;
 use crate::results::{Cell, Name};
+use crate::run_number::RunNumber;
 use crate::scene::{Outputs, Scene, System};
 
 /// The columns of a scene in the numbers of its run.
@@ -33,9 +33,9 @@ struct Placed<'a, N> {
 }
 
 impl<'a, N: RunNumber> Columns<'a, N> {
-    pub(crate) fn of(output: &'a Outputs, system: &'a System, context: &N::Context) -> Self {
+    pub(crate) fn of(output: &'a Outputs, system: &'a System) -> Self {
         let fixed = [energy::of(output), modified_energy::of(output), chaos::of(output)].into_iter().flatten();
-        let values = output.values.iter().map(|own| Values::new((&own.expressions, own.every), system, context));
+        let values = output.values.iter().map(|own| Values::new(&own.expressions, own.every));
         let mut groups: Vec<Box<dyn Group<N>>> = fixed.map(|group| Box::new(group) as _).collect();
         groups.extend(values.map(|group| Box::new(group) as _));
         groups.extend(states::of(output, system).map(|group| Box::new(group) as _));
@@ -76,18 +76,8 @@ impl<'a, N: RunNumber> Columns<'a, N> {
 }
 
 impl Scene {
-    /// The names of its columns.
+    /// The names of its columns, which do not depend on the number type.
     pub(crate) fn names(&self) -> Vec<Name> {
-        self.arithmetic.compute(Names(self))
-    }
-}
-
-struct Names<'a>(&'a Scene);
-
-impl Computation for Names<'_> {
-    type Output = Vec<Name>;
-
-    fn compute<N: FollowedNumber>(self, context: &N::Context) -> Vec<Name> {
-        Columns::<N>::of(&self.0.output, &self.0.system, context).names()
+        Columns::<f64>::of(&self.output, &self.system).names()
     }
 }

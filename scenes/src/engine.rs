@@ -57,7 +57,7 @@ impl Computation for SceneRun<'_, '_> {
             resumed: Resumed { interval: output.checkpoint, checkpoint },
             ..scene.posed()
         };
-        let mut rows = StateRows { rows, columns: Columns::of(output, &scene.system, context), cells: Vec::new() };
+        let mut rows = StateRows { rows, columns: Columns::of(output, &scene.system), cells: Vec::new() };
         let extremes = if summarised { &output.extremes[..] } else { &[] };
         let mut extremes = Extremes::new(extremes, &scene.system, context);
         let columns: &mut [&mut dyn Column<N>] = &mut [&mut rows, &mut extremes];

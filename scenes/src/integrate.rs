@@ -99,7 +99,7 @@ impl Posed<'_> {
         let posed = Posed { section, energies, summarised, ..self };
         let mut samples = Samples::none();
         samples.values = vec![Vec::new(); values.len()];
-        let values = Values::new((values, 1), posed.system, context);
+        let values = Values::new(values, 1);
         let approaches = Approaches::of(posed.system, 1);
         let mut kept = Kept { samples, values, cells: Vec::new(), every, approaches };
         let followed = N::follow(&posed, context, &mut [&mut kept], observer)?;

@@ -14,13 +14,13 @@ use crate::scene::{NamedExpression, System};
 pub(crate) struct Values<'a, N: RunNumber> {
     every: u64,
     columns: &'a [NamedExpression],
+    /// From the first row on: of many columns they take long to make.
     evaluators: Vec<Evaluator<N>>,
 }
 
 impl<'a, N: RunNumber> Values<'a, N> {
-    pub(crate) fn new((columns, every): (&'a [NamedExpression], u64), system: &System, context: &N::Context) -> Self {
-        let evaluators = columns.iter().map(|named| named.evaluator(system, context)).collect();
-        Values { every, columns, evaluators }
+    pub(crate) fn new(columns: &'a [NamedExpression], every: u64) -> Self {
+        Values { every, columns, evaluators: Vec::new() }
     }
 }
 
@@ -55,6 +55,9 @@ impl<N: RunNumber> Group<N> for Values<'_, N> {
         let needs_energy = self.columns.iter().any(|column| column.expression.has_energy);
         let energy = if needs_energy { Some(at.energy()?.clone()) } else { None };
         let time = at.time();
+        if self.evaluators.len() < self.columns.len() {
+            self.evaluators = self.columns.iter().map(|named| named.evaluator(at.system, at.context)).collect();
+        }
         for evaluator in &mut self.evaluators {
             let energy = || energy.clone().expect("it is computed where a formula has it");
             let value = evaluator.value_at(at.state(), &time, energy);

@@ -236,7 +236,9 @@ impl LightBodies {
             steps: *steps,
             resolved: *square >= CLOSE * CLOSE || *steps >= LEAST_STEPS,
         };
-        self.light.iter().zip(&self.found).filter(|(_, found)| found.square.is_finite()).map(one).collect()
+        // numbers of states that are about to be infinite have no time scale
+        let is_known = |(_, found): &(&usize, &Closest)| found.square.is_finite() && found.steps.is_finite();
+        self.light.iter().zip(&self.found).filter(is_known).map(one).collect()
     }
 
     pub(super) fn fields<N>(&mut self, to: &mut dyn Fields<N>) {
