@@ -186,7 +186,7 @@ def integrate(
         The states 0, every, 2 every, … and the last one are kept; all by default.
     values
         Formulas whose values at the kept states are arrays in `Trajectory.values`, by their names, in the coordinates, momenta, parameters, t, the energy E and
-        quantities such as ``kinetic`` and ``distance(earth, moon)``: ``{"r": "sqrt(x^2 + y^2)"}``; ``shadowstep scene --explain output.values`` has all.
+        quantities such as ``kinetic`` and ``distance(earth, moon)``: ``{"r": "sqrt(x^2 + y^2)"}``; ``shadowstep scene --explain`` lists all.
     tangent
         Tangent vectors (δq, δp) at t = 0, of 2d components each, which the derivative of each step takes along: δ ← DΦ δ, where a kick is
         δp ← δp − h a_s U_qq δq and a drift δq ← δq + h b_s T_pp δp. They are neither normalised nor made orthogonal; each costs about twice a run.

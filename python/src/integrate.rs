@@ -11,7 +11,6 @@ use shadowstep_scenes::computation::{Computation, FollowedNumber};
 use shadowstep_scenes::integrate::{KeptStates, Samples};
 use shadowstep_scenes::posed::Posed;
 use shadowstep_scenes::run::{OrderSetting, Run};
-
 use shadowstep_scenes::stability::note_of_steps;
 use shadowstep_scenes::{Direction, Error, NamedExpression, Note, Observer, estimator};
 

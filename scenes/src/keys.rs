@@ -344,7 +344,7 @@ pub(crate) const OUTPUT: Section = Section::new(
             else "false";
         values: Kind::Table(&VALUES) => "{ r = \"sqrt(x^2 + y^2)\", every = 10 }",
             "Writes formulas in the coordinates, momenta, parameters, t and E as columns of these names, all of them at every n that is a multiple of \
-             `every`. A formula can have quantities of bodies, which stand below.",
+             `every`. A formula can have quantities of bodies, which `shadowstep scene --explain` lists at its end.",
             else "none";
         elements: Kind::Any(&[Kind::Truth, Kind::Table(&ELEMENTS)]) => "{ every = 100, centre = \"jacobi\" }",
             "Writes the elements of the osculating orbits of all bodies but the first as columns a_earth, e_earth, i_earth, node_earth, \

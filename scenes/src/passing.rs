@@ -34,7 +34,8 @@ pub(crate) struct Block<N> {
 impl<N: RunNumber> Block<N> {
     /// In double precision, and of a condition on q and p alone.
     pub(crate) fn of(condition: &Condition, system: &System) -> Option<Self> {
-        let test = TestInLanes::of(condition, system).filter(|_| TypeId::of::<N>() == TypeId::of::<f64>())?;
+        let is_double = TypeId::of::<N>() == TypeId::of::<f64>();
+        let test = if is_double { TestInLanes::of(condition, system)? } else { return None };
         Some(Block { test, numbers: Vec::new() })
     }
 }
