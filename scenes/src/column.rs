@@ -11,21 +11,33 @@ use crate::run_number::RunNumber;
 
 /// Takes states of a run.
 pub trait Column<N: RunNumber> {
-    /// The n of the next state that it takes after the state n. It is also shown others, as the last one.
-    fn next(&self, n: i64) -> i64;
+    /// The n of the next state that it takes after the state n; by default none. It is also shown others, as the last one.
+    fn next(&self, n: i64) -> i64 {
+        let _ = n;
+        i64::MAX
+    }
 
     /// Takes a state, or leaves it.
     ///
     /// # Errors
     /// What ends the run.
-    fn take(&mut self, at: &mut At<'_, '_, N>) -> Result<(), Error>;
+    fn take(&mut self, at: &mut At<'_, '_, N>) -> Result<(), Error> {
+        let _ = at;
+        Ok(())
+    }
 
     /// Whether it [sees](Column::see) each state.
     fn sees_each(&self) -> bool {
         false
     }
 
-    /// Sees the state n of the trajectory, at which the integrator is: each of the run, before estimates. Whether the run ends with it.
+    /// Whether the step to the next state that it sees carries [increments](shadowstep::Carried::Increments) along.
+    fn needs_increments(&self) -> bool {
+        false
+    }
+
+    /// Sees the state n of the steps, at which the integrator is: each of the run, before estimates. Whether the run ends with it. A processed scheme has the
+    /// state of the trajectory [at output](shadowstep::steps::integrator::at_output).
     fn see(&mut self, n: i64, run: Run<'_>, integrator: &mut VectorIntegrator<'_, N>) -> bool {
         let _ = (n, run, integrator);
         false

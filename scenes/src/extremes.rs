@@ -1,11 +1,9 @@
 //! The least and the greatest values of expressions along a run.
 
 use shadowstep::number::saved::{Fields, optional};
-use shadowstep::steps::integrator::VectorIntegrator;
+use shadowstep::steps::integrator::{VectorIntegrator, at_output};
 
-use crate::at::At;
 use crate::column::Column;
-use crate::error::Error;
 use crate::evaluator::Evaluator;
 use crate::extremum::Extremum;
 use crate::run::Run;
@@ -45,28 +43,22 @@ impl<'a, N: RunNumber> Extremes<'a, N> {
 }
 
 impl<N: RunNumber> Column<N> for Extremes<'_, N> {
-    fn next(&self, _: i64) -> i64 {
-        i64::MAX
-    }
-
-    fn take(&mut self, _: &mut At<'_, '_, N>) -> Result<(), Error> {
-        Ok(())
-    }
-
     fn sees_each(&self) -> bool {
         !self.0.is_empty()
     }
 
     /// Values that are not finite are left out.
     fn see(&mut self, n: i64, run: Run<'_>, integrator: &mut VectorIntegrator<'_, N>) -> bool {
-        for one in &mut self.0 {
-            let value = one.evaluator.value(integrator.system(), || run.time(n));
-            for (extremum, found) in [Extremum::Least, Extremum::Greatest].into_iter().zip(&mut one.found) {
-                if extremum.is_beyond(value, found.as_ref().map(|(value, _)| value)) {
-                    *found = Some((value.clone(), n));
+        at_output(integrator, |integrator| {
+            for one in &mut self.0 {
+                let value = one.evaluator.value(integrator.system(), || run.time(n));
+                for (extremum, found) in [Extremum::Least, Extremum::Greatest].into_iter().zip(&mut one.found) {
+                    if extremum.is_beyond(value, found.as_ref().map(|(value, _)| value)) {
+                        *found = Some((value.clone(), n));
+                    }
                 }
             }
-        }
+        });
         false
     }
 

@@ -254,8 +254,7 @@ impl<'a, 'c, N: RunNumber> Following<'a, 'c, N> {
                 let made = self.pass(&mut trajectory, (reached, next - 1));
                 made.map_err(|error| self.failed(&error))?;
             }
-            let carried = self.watch.as_ref().map_or(Carried::Nothing, Watch::carried);
-            trajectory.set_augmented(carried == Carried::Increments);
+            trajectory.set_augmented(self.needs_increments());
             let made = trajectory.advance().map_err(|error| self.failed(&error))?;
             let Some(n) = made.map(|state| state.n) else { return Ok(()) };
             let integrator = &mut **trajectory.integrator();
@@ -269,6 +268,12 @@ impl<'a, 'c, N: RunNumber> Following<'a, 'c, N> {
             }
             (reached, next) = (n, self.next(n));
         }
+    }
+
+    /// Whether the next step carries increments along.
+    fn needs_increments(&self) -> bool {
+        let of_watch = self.watch.as_ref().is_some_and(|watch| watch.carried() == Carried::Increments);
+        of_watch || self.sees_each && self.columns.iter().any(|column| column.needs_increments())
     }
 
     /// Makes the states up to n, which need not be seen or shown: the summary and the end take what they need of them. Where the end comes before n, they are made
@@ -362,7 +367,7 @@ impl<'a, 'c, N: RunNumber> Following<'a, 'c, N> {
             return true;
         }
         if n >= 0 && (self.sees_each || self.test.is_some()) {
-            at_output(integrator, |integrator| self.see_trajectory(n, integrator));
+            self.see_each(n, integrator);
         }
         // it has begun at the first state
         if let Some(watch) = self.watch.as_mut().filter(|_| n > self.seen && n > self.from.unwrap_or(0)) {
@@ -379,8 +384,8 @@ impl<'a, 'c, N: RunNumber> Following<'a, 'c, N> {
         false
     }
 
-    /// The same of the state of the trajectory, with which the run may end.
-    fn see_trajectory(&mut self, n: i64, integrator: &mut VectorIntegrator<'_, N>) {
+    /// What sees each state, with which the run may end.
+    fn see_each(&mut self, n: i64, integrator: &mut VectorIntegrator<'_, N>) {
         let (run, is_new) = (self.posed.run, n > self.seen);
         for column in self.columns.iter_mut().filter(|column| is_new && column.sees_each()) {
             if column.see(n, run, integrator) {
@@ -388,7 +393,7 @@ impl<'a, 'c, N: RunNumber> Following<'a, 'c, N> {
             }
         }
         if let Some(test) = self.test.as_mut().filter(|_| n > 0)
-            && test.is_met(integrator.system(), || run.time(n))
+            && at_output(integrator, |integrator| test.is_met(integrator.system(), || run.time(n)))
         {
             (self.last, self.is_met) = (n, true);
         }

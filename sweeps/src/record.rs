@@ -5,7 +5,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use serde::{Deserialize, Serialize};
 use shadowstep::Real;
 use shadowstep::shadow::run::{DriftRecorder, EnergyDrift, Finding};
-use shadowstep::steps::integrator::VectorIntegrator;
+use shadowstep::steps::integrator::{VectorIntegrator, at_output};
 use shadowstep_scenes::at::At;
 use shadowstep_scenes::column::Column;
 use shadowstep_scenes::computation::{Computation, FollowedNumber, RunNumber};
@@ -189,19 +189,22 @@ impl<N: RunNumber> Column<N> for KeptOfRun<'_, N> {
     }
 
     fn see(&mut self, n: i64, run: Run<'_>, integrator: &mut VectorIntegrator<'_, N>) -> bool {
-        let system = integrator.system();
-        for (test, met) in &mut self.tests {
-            if met.is_none() && test.is_met(system, || run.time(n)) {
-                let physical = self.described.time_of(system.state().q());
-                *met = Some(physical.map_or_else(|| to_text(&run.time(n)), N::to_text));
+        let KeptOfRun { tests, extremes, described, .. } = self;
+        at_output(integrator, |integrator| {
+            let system = integrator.system();
+            for (test, met) in tests {
+                if met.is_none() && test.is_met(system, || run.time(n)) {
+                    let physical = described.time_of(system.state().q());
+                    *met = Some(physical.map_or_else(|| to_text(&run.time(n)), N::to_text));
+                }
             }
-        }
-        for (evaluator, extremum, found) in &mut self.extremes {
-            let value = evaluator.value(system, || run.time(n));
-            if extremum.is_beyond(value, found.as_ref()) {
-                *found = Some(value.clone());
+            for (evaluator, extremum, found) in extremes {
+                let value = evaluator.value(system, || run.time(n));
+                if extremum.is_beyond(value, found.as_ref()) {
+                    *found = Some(value.clone());
+                }
             }
-        }
+        });
         self.keep.stop.iter().any(|&place| self.tests[place].1.is_some())
     }
 

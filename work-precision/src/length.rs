@@ -2,11 +2,16 @@
 
 use num_integer::Integer as _;
 use num_traits::{FromPrimitive, One as _, Signed};
-use shadowstep::{Carried, Number, Rational, StepSize};
+use shadowstep::steps::integrator::VectorIntegrator;
+use shadowstep::{Integrator as _, Number, Rational, StepSize};
+use shadowstep_scenes::arithmetic::Arithmetic;
+use shadowstep_scenes::column::Column;
+use shadowstep_scenes::computation::FollowedNumber as _;
 use shadowstep_scenes::library::scheme;
+use shadowstep_scenes::posed::Posed;
 use shadowstep_scenes::propagator::for_system;
 use shadowstep_scenes::readable::{LONGEST_NUMBER, shortened};
-use shadowstep_scenes::start::{Begin, Steps};
+use shadowstep_scenes::run::Run;
 use shadowstep_scenes::steps::{self, nearly_equal};
 use shadowstep_scenes::{Error, System};
 use shadowstep_symbolic::decimal::{from_text, to_significant};
@@ -50,24 +55,40 @@ pub fn length_of(system: &System, until: &Rational) -> Result<Option<Rational>, 
 fn length_by(system: &System, until: &Rational, h: &Rational) -> Result<Option<f64>, Error> {
     let scheme = for_system(scheme(SCHEME)?, system)?;
     let size = StepSize::try_from(h.clone()).map_err(|error| Error::usage(error.to_string(), "use a longer time"))?;
-    let begin = Begin::InitialState;
-    let steps = Steps { scheme: &scheme.scheme, h: &size, compensated: false, displaced: false, begin };
-    let mut integrator = system.integrator::<f64>(steps, system.start(&()), &())?;
-    let (end, h) = (<f64 as Number>::from_rational(&until.abs(), &()), <f64 as Number>::from_rational(h, &()));
-    let mut before = 0.0;
-    for made in 0..MOST_STEPS {
-        integrator.step(Carried::Nothing);
-        let t = integrator.state().q().last().map_or(f64::NAN, |t| t.abs());
-        if !t.is_finite() {
-            return Ok(None);
+    let run = Run { propagator: SCHEME, h: &size, steps: MOST_STEPS, order: None, windows: Run::WINDOWS };
+    let posed = Posed::new(system, &scheme.scheme, run, (Arithmetic::DOUBLE, false));
+    let mut steps = StepsUntil { end: <f64 as Number>::from_rational(&until.abs(), &()), before: 0.0, found: None };
+    match f64::follow(&posed, &(), &mut [&mut steps], &mut ()) {
+        Ok(_) | Err(Error::Run { .. }) => {
+            let found = steps.found.filter(|steps| *steps >= FEWEST_STEPS as f64);
+            Ok(found.map(|steps| <f64 as Number>::from_rational(h, &()) * steps))
         }
-        if t >= end {
-            let length = h * (made as f64 + (end - before) / (t - before));
-            return Ok((made >= FEWEST_STEPS).then_some(length));
-        }
-        before = t;
+        Err(error) => Err(error),
     }
-    Ok(None)
+}
+
+/// Counts the steps to a physical time, and ends the run there.
+struct StepsUntil {
+    end: f64,
+    /// The time of the state before.
+    before: f64,
+    found: Option<f64>,
+}
+
+impl Column<f64> for StepsUntil {
+    fn sees_each(&self) -> bool {
+        true
+    }
+
+    fn see(&mut self, n: i64, _: Run<'_>, integrator: &mut VectorIntegrator<'_, f64>) -> bool {
+        let t = integrator.state().q().last().map_or(f64::NAN, |t| t.abs());
+        if t < self.end {
+            self.before = t;
+            return false;
+        }
+        self.found = Some((n - 1) as f64 + (self.end - self.before) / (t - self.before));
+        true
+    }
 }
 
 /// The numbers of steps of these sizes, the least first and each once. The time of the runs must be a multiple of each size; a length in s, where time is transformed,

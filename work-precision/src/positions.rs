@@ -4,35 +4,27 @@ use num_traits::Signed;
 use shadowstep::steps::integrator::{VectorIntegrator, at_output};
 use shadowstep::steps::step_to_time;
 use shadowstep::{Integrator as _, Rational, Real};
-use shadowstep_scenes::Error;
+use shadowstep_scenes::at::At;
+use shadowstep_scenes::column::Column;
 use shadowstep_scenes::computation::RunNumber;
 use shadowstep_scenes::library::NamedScheme;
+use shadowstep_scenes::run::Run;
 use shadowstep_scenes::start::SceneIntegrator;
+use shadowstep_scenes::{Error, Observer};
 
 use crate::problem::Problem;
 
-/// Makes the steps of a run from sample to sample.
-pub(crate) struct Sampler<N: Real> {
-    steps_per_sample: u64,
+/// Keeps the positions of a run at its samples, in their order; fewer where they are not finite.
+pub(crate) struct Positions<N: Real> {
+    samples: usize,
+    /// Steps between samples.
+    every: u64,
+    /// Where time is transformed.
     in_time: Option<InTime<N>>,
+    pub(crate) found: Vec<Vec<N>>,
 }
 
-/// A run asks after this number of steps whether it is to continue.
-pub(crate) const ASKED: u64 = 16;
-
-/// Makes a step, and returns whether the run is to continue.
-pub(crate) type Step<'a, N> = &'a mut dyn FnMut(&mut VectorIntegrator<'_, N>) -> bool;
-
-/// Why a run has no position at a sample.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Ended {
-    /// A state is not finite, or its time never comes.
-    NotFinite,
-    /// It was not to continue.
-    Stopped,
-}
-
-impl<N: RunNumber> Sampler<N> {
+impl<N: RunNumber> Positions<N> {
     /// For a run of this number of steps and its samples.
     pub(crate) fn new(
         problem: Problem<'_>,
@@ -43,32 +35,45 @@ impl<N: RunNumber> Sampler<N> {
         let of_time = |length: &Rational| {
             let part = problem.until / Rational::from_integer(samples.into());
             let integrator = problem.integrator(named, steps, context)?;
-            let most = MOST_LONGER * (steps + 1);
-            Ok::<_, Error>(InTime { part, forward: length.is_positive(), integrator, most, made: 0, before: None })
+            Ok::<_, Error>(InTime { part, forward: length.is_positive(), integrator, before: None })
         };
         let in_time = problem.length.map(of_time).transpose()?;
-        Ok(Sampler { steps_per_sample: steps / samples, in_time })
+        Ok(Positions { samples: samples as usize, every: steps / samples, in_time, found: Vec::new() })
     }
 
-    /// The position at the sample i = 1, 2, …, to which this makes the steps. Samples are asked for in their order.
-    pub(crate) fn position(
-        &mut self,
-        i: u64,
-        integrator: &mut VectorIntegrator<'_, N>,
-        step: Step<'_, N>,
-    ) -> Result<Vec<N>, Ended> {
-        let q = match &mut self.in_time {
-            Some(in_time) => in_time.position(i, integrator, step)?,
-            None => {
-                for _ in 0..self.steps_per_sample {
-                    if !step(integrator) {
-                        return Err(Ended::Stopped);
-                    }
-                }
-                at_output(integrator, |integrator| integrator.state().q().to_vec())
-            }
-        };
-        if q.iter().all(N::is_finite) { Ok(q) } else { Err(Ended::NotFinite) }
+    pub(crate) fn are_complete(&self) -> bool {
+        self.found.len() == self.samples
+    }
+
+    fn is_sample(&self, n: i64) -> bool {
+        self.in_time.is_none() && n > 0 && n.unsigned_abs().is_multiple_of(self.every)
+    }
+}
+
+impl<N: RunNumber> Column<N> for Positions<N> {
+    fn next(&self, n: i64) -> i64 {
+        let every = self.every.cast_signed();
+        if self.in_time.is_none() { (n / every + 1) * every } else { i64::MAX }
+    }
+
+    fn take(&mut self, at: &mut At<'_, '_, N>) -> Result<(), Error> {
+        if self.is_sample(at.n) {
+            self.found.push(at.state().0.to_vec());
+        }
+        Ok(())
+    }
+
+    fn sees_each(&self) -> bool {
+        self.in_time.is_some()
+    }
+
+    /// Keeps also the positions of samples at states, for a column that sees each state.
+    fn see(&mut self, n: i64, _: Run<'_>, integrator: &mut VectorIntegrator<'_, N>) -> bool {
+        if self.is_sample(n) {
+            self.found.push(at_output(integrator, |integrator| integrator.state().q().to_vec()));
+        }
+        let Some(in_time) = &mut self.in_time else { return false };
+        in_time.see(integrator, (&mut self.found, self.samples)).is_none() || self.are_complete()
     }
 }
 
@@ -79,47 +84,55 @@ struct InTime<N: Real> {
     forward: bool,
     /// Makes the parts of steps, so that the run is as without samples.
     integrator: SceneIntegrator<N>,
-    /// A run that has not come to its end after this number of steps does not come there.
-    most: u64,
-    made: u64,
     /// The state before the present one.
     before: Option<(Vec<N>, Vec<N>)>,
 }
 
-/// A run may make this multiple of the steps that the length of the run in s suggests.
-const MOST_LONGER: u64 = 16;
-
 impl<N: RunNumber> InTime<N> {
-    /// Without t, which is that of the sample.
-    fn position(
-        &mut self,
-        i: u64,
-        integrator: &mut VectorIntegrator<'_, N>,
-        step: Step<'_, N>,
-    ) -> Result<Vec<N>, Ended> {
-        let time = N::from_rational(&(&self.part * Rational::from_integer(i.into())), &integrator.state().context());
-        let is_before = |t: &N| if self.forward { *t < time } else { *t > time };
-        while is_before(integrator.state().q().last().expect("time is a coordinate")) {
-            if self.made > self.most {
-                return Err(Ended::NotFinite);
+    /// Keeps the positions, without t, of the samples between the state before and the present one; `None` where there is none.
+    fn see(&mut self, present: &VectorIntegrator<'_, N>, (found, samples): (&mut Vec<Vec<N>>, usize)) -> Option<()> {
+        let (q, p) = (present.state().q(), present.state().p());
+        let context = present.state().context();
+        while found.len() < samples {
+            let time = &self.part * Rational::from_integer((found.len() + 1).into());
+            let time = N::from_rational(&time, &context);
+            let t = q.last().expect("time is a coordinate");
+            if if self.forward { *t < time } else { *t > time } {
+                break;
             }
-            let state = integrator.state();
-            self.before = Some((state.q().to_vec(), state.p().to_vec()));
-            self.made += 1;
-            if !step(integrator) {
-                return Err(Ended::Stopped);
+            let (q, p) = self.before.as_ref()?;
+            self.integrator.system().state_mut().set(q, p);
+            // none is made where the state before is at this time
+            let _ = step_to_time(&mut *self.integrator, &time);
+            let (t, q) = self.integrator.state().q().split_last()?;
+            if !(t.is_finite() && q.iter().all(N::is_finite)) {
+                return None;
             }
+            found.push(q.to_vec());
         }
-        let Some((q, p)) = &self.before else { return Err(Ended::NotFinite) };
-        self.integrator.system().state_mut().set(q, p);
-        // none is made where the state before is at this time
-        let _ = step_to_time(&mut *self.integrator, &time);
-        let (t, q) = self.integrator.state().q().split_last().expect("time is a coordinate");
-        if t.is_finite() && integrator.state().q().iter().all(N::is_finite) {
-            Ok(q.to_vec())
-        } else {
-            Err(Ended::NotFinite)
-        }
+        self.before = Some((q.to_vec(), p.to_vec()));
+        Some(())
+    }
+}
+
+/// Asks now and then whether a run is to continue.
+pub(crate) struct Asking<'a> {
+    continues: &'a dyn Fn() -> bool,
+    asked: u64,
+}
+
+impl<'a> Asking<'a> {
+    pub(crate) fn new(continues: &'a dyn Fn() -> bool) -> Self {
+        Asking { continues, asked: 0 }
+    }
+}
+
+impl Observer for Asking<'_> {
+    fn stops(&mut self) -> bool {
+        /// After this number of states that a run shows.
+        const ASKED: u64 = 16;
+        self.asked += 1;
+        self.asked.is_multiple_of(ASKED) && !(self.continues)()
     }
 }
 

@@ -9,7 +9,9 @@ use shadowstep::{Number, Rational, StepSize};
 use shadowstep_scenes::arithmetic::{Arithmetic, Numbers};
 use shadowstep_scenes::computation::{Computation, RunNumber};
 use shadowstep_scenes::library::{NamedScheme, fingerprint};
+use shadowstep_scenes::posed::Posed;
 use shadowstep_scenes::readable::{LONGEST_NUMBER, shortened};
+use shadowstep_scenes::run::Run;
 use shadowstep_scenes::start::{Begin, SceneIntegrator, Steps};
 use shadowstep_scenes::steps::MOST_STEPS;
 use shadowstep_scenes::{Error, System};
@@ -60,6 +62,20 @@ impl Problem<'_> {
         self.system.setup().filter(|setup| has_exact_flow(setup).is_ok())
     }
 
+    /// The step size of this number of steps.
+    pub(crate) fn h(&self, steps: u64) -> StepSize {
+        StepSize::try_from(self.step_size(steps)).expect("the run has a nonzero length")
+    }
+
+    /// A run of this number of steps of this size. One in transformed time is ended by what follows it: it has not come to its end after
+    /// this multiple of the steps that its length in s suggests, if it ever comes there.
+    pub(crate) fn posed<'b>(&'b self, named: &'b NamedScheme, (h, steps): (&'b StepSize, u64)) -> Posed<'b> {
+        const MOST_LONGER: u64 = 16;
+        let steps = if self.length.is_some() { MOST_LONGER * (steps + 1) } else { steps };
+        let run = Run { propagator: &named.name, h, steps, order: None, windows: Run::WINDOWS };
+        Posed::new(self.system, &named.scheme, run, (self.arithmetic, false))
+    }
+
     /// The system at t = 0 with a scheme that makes this number of steps.
     pub(crate) fn integrator<N: RunNumber>(
         &self,
@@ -67,7 +83,7 @@ impl Problem<'_> {
         steps: u64,
         context: &N::Context,
     ) -> Result<SceneIntegrator<N>, Error> {
-        let h = StepSize::try_from(self.step_size(steps)).expect("the run has a nonzero length");
+        let h = self.h(steps);
         let compensated = self.arithmetic.is_compensated();
         let (displaced, begin) = (false, Begin::InitialState);
         let steps = Steps { scheme: &named.scheme, h: &h, compensated, displaced, begin };

@@ -8,18 +8,17 @@ use serde::{Deserialize, Serialize};
 use shadowstep::problems::Setup;
 use shadowstep::shadow::exact_flow::ExactFlow;
 use shadowstep::shadow::run::States;
-use shadowstep::steps::integrator::VectorIntegrator;
 use shadowstep::{Carried, Rational, Real, StepSize};
 use shadowstep_scenes::Error;
 use shadowstep_scenes::arithmetic::Arithmetic;
-use shadowstep_scenes::computation::{Computation, RunNumber};
+use shadowstep_scenes::computation::{Computation, FollowedNumber, RunNumber};
 use shadowstep_scenes::cpu_time::CpuTime;
 use shadowstep_scenes::library::{NamedScheme, scheme};
 use shadowstep_scenes::propagator::for_system;
 use shadowstep_scenes::start::SceneIntegrator;
 use shadowstep_symbolic::decimal::from_text;
 
-use crate::positions::{ASKED, Ended, Sampler, square_distance};
+use crate::positions::{Asking, Positions, square_distance};
 use crate::problem::Problem;
 use crate::size::Size;
 use crate::timing::time_of_steps;
@@ -451,7 +450,7 @@ struct ByHalving<'a> {
 impl Computation for ByHalving<'_> {
     type Output = Result<Option<Reference>, Error>;
 
-    fn compute<N: RunNumber>(self, context: &N::Context) -> Self::Output {
+    fn compute<N: FollowedNumber>(self, context: &N::Context) -> Self::Output {
         let ByHalving { problem, scheme, named, request } = self;
         let Halving { samples, mut steps, time, continues, .. } = request;
         let begin = CpuTime::begin();
@@ -505,30 +504,21 @@ fn first_steps(problem: Problem<'_>, samples: u64) -> u64 {
 }
 
 /// The positions of a run at its samples; fewer where they are not finite. `None` if it was not to continue.
-fn positions<N: RunNumber>(
+fn positions<N: FollowedNumber>(
     problem: Problem<'_>,
     named: &NamedScheme,
     (steps, samples): (u64, u64),
     continues: &dyn Fn() -> bool,
     context: &N::Context,
 ) -> Result<Option<Vec<Vec<N>>>, Error> {
-    let mut integrator = problem.integrator(named, steps, context)?;
-    let mut sampler = Sampler::new(problem, named, (steps, samples), context)?;
-    let mut made = 0_u64;
-    let mut step = |integrator: &mut VectorIntegrator<'_, N>| {
-        integrator.step(Carried::Nothing);
-        made += 1;
-        !made.is_multiple_of(ASKED) || continues()
-    };
-    let mut positions = Vec::new();
-    for i in 1..=samples {
-        match sampler.position(i, &mut *integrator, &mut step) {
-            Ok(position) => positions.push(position),
-            Err(Ended::NotFinite) => break,
-            Err(Ended::Stopped) => return Ok(None),
-        }
+    let h = problem.h(steps);
+    let mut positions = Positions::new(problem, named, (steps, samples), context)?;
+    let posed = problem.posed(named, (&h, steps));
+    match N::follow(&posed, context, &mut [&mut positions], &mut Asking::new(continues)) {
+        Ok(followed) if followed.is_stopped => Ok(None),
+        Ok(_) | Err(Error::Run { .. }) => Ok(Some(positions.found)),
+        Err(error) => Err(error),
     }
-    Ok(Some(positions))
 }
 
 /// |a − b| of each sample.

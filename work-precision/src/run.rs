@@ -3,12 +3,15 @@
 use serde::{Deserialize, Serialize};
 use shadowstep::Real;
 use shadowstep::shadow::Verdict;
+use shadowstep::shadow::run::RunError;
 use shadowstep::steps::integrator::{VectorIntegrator, at_output};
-use shadowstep_scenes::Error;
-use shadowstep_scenes::computation::RunNumber;
+use shadowstep_scenes::column::Column;
+use shadowstep_scenes::computation::{FollowedNumber, Monitoring, RunNumber};
 use shadowstep_scenes::library::NamedScheme;
+use shadowstep_scenes::run::Run;
+use shadowstep_scenes::{EnergyAt, Error};
 
-use crate::positions::{ASKED, Ended, Sampler};
+use crate::positions::{Asking, Positions};
 use crate::problem::Problem;
 use crate::reference::Reference;
 use crate::size::Size;
@@ -84,7 +87,7 @@ impl Measurement {
     ///
     /// # Errors
     /// A system that cannot be moved.
-    pub(crate) fn of<N: RunNumber>(
+    pub(crate) fn of<N: FollowedNumber>(
         problem: Problem<'_>,
         named: &NamedScheme,
         (steps, evaluations): (u64, u64),
@@ -92,54 +95,81 @@ impl Measurement {
         continues: &dyn Fn() -> bool,
         context: &N::Context,
     ) -> Result<Option<Measurement>, Error> {
-        let mut integrator = problem.integrator::<N>(named, steps, context)?;
-        let integrator = &mut *integrator;
-        let mut sampler = Sampler::new(problem, named, (steps, reference.samples()), context)?;
-        let failed =
-            |sample: usize| Measurement::failed(steps, evaluations, sample as f64 / reference.samples() as f64);
-        let monitor = N::monitor(integrator, MONITOR_ORDER, (steps / WINDOWS).max(1));
-        let Ok(mut monitor) = monitor else { return Ok(Some(failed(0))) };
-        let conserved = EnergyError::new(at_output(integrator, |integrator| integrator.system().energy()));
-        // where time is transformed, the steps conserve another function
-        let mut energy_of = problem.system.energy_of_rows::<N>(context);
-        let mut energy_of = |integrator: &mut VectorIntegrator<'_, N>| match &mut energy_of {
-            Some(energy_of) => energy_of(integrator.state().q(), integrator.state().p()),
-            None => at_output(integrator, |integrator| integrator.system().energy()),
+        let h = problem.h(steps);
+        let mut measuring = Measuring {
+            reference,
+            expected: reference.in_two_parts(context),
+            positions: Positions::new(problem, named, (steps, reference.samples()), context)?,
+            every: (steps / WINDOWS).max(1),
+            // where time is transformed, the steps conserve another function
+            energy_of: problem.system.energy_of_rows::<N>(context),
+            begun: None,
         };
-        let mut energy = EnergyError::new(energy_of(integrator));
-        let mut made = 0_u64;
-        let (mut position, mut largest_position) = (PositionError::None, PositionError::None);
-        let mut in_first_half = (PositionError::None, Size::ZERO);
-        for (sample, expected) in reference.in_two_parts::<N>(context).iter().enumerate() {
-            let mut step = |integrator: &mut VectorIntegrator<'_, N>| {
-                // what is not finite stays so, and is seen at the sample
-                let _ = monitor.step(integrator);
-                energy.include(&energy_of(integrator));
-                made += 1;
-                !made.is_multiple_of(ASKED) || continues()
-            };
-            let q = match sampler.position(sample as u64 + 1, integrator, &mut step) {
-                Ok(q) => q,
-                Err(Ended::Stopped) => return Ok(None),
-                Err(Ended::NotFinite) => return Ok(Some(failed(sample))),
-            };
-            let distance = distance(&q, expected);
-            if !distance.is_finite() || !energy.last.is_finite() {
-                return Ok(Some(failed(sample)));
-            }
-            position = PositionError::of(distance, reference.resolved_at(sample));
-            largest_position = largest_position.or_larger(position);
-            if 2 * (sample as u64 + 1) <= reference.samples() {
-                in_first_half = (largest_position, energy.relative(&energy.largest));
-            }
+        let posed = problem.posed(named, (&h, steps));
+        match N::follow(&posed, context, &mut [&mut measuring], &mut Asking::new(continues)) {
+            Ok(followed) if followed.is_stopped => Ok(None),
+            // it has no more states that are finite
+            Ok(_) | Err(Error::Run { .. }) => Ok(Some(measuring.measurement(steps, evaluations))),
+            Err(error) => Err(error),
         }
+    }
+}
+
+/// Measures a run.
+struct Measuring<'a, N: RunNumber> {
+    reference: &'a Reference,
+    /// The positions of the reference, in two parts.
+    expected: Vec<[Vec<N>; 2]>,
+    positions: Positions<N>,
+    /// The monitor has a window every so many steps.
+    every: u64,
+    energy_of: Option<EnergyAt<N>>,
+    begun: Option<Begun<N>>,
+}
+
+/// What has been measured so far.
+struct Begun<N: RunNumber> {
+    monitor: Box<dyn Monitoring<N>>,
+    /// H(0) of the function that the steps conserve.
+    conserved: EnergyError<N>,
+    energy: EnergyError<N>,
+    /// The number of samples that were compared, and their errors.
+    compared: usize,
+    position: PositionError,
+    largest_position: PositionError,
+    in_first_half: (PositionError, Size),
+}
+
+impl<N: RunNumber> Measuring<'_, N> {
+    fn begin(&self, integrator: &mut VectorIntegrator<'_, N>, energy: N) -> Result<Begun<N>, RunError> {
+        Ok(Begun {
+            monitor: N::monitor(integrator, MONITOR_ORDER, self.every)?,
+            conserved: EnergyError::new(at_output(integrator, |integrator| integrator.system().energy())),
+            energy: EnergyError::new(energy),
+            compared: 0,
+            position: PositionError::None,
+            largest_position: PositionError::None,
+            in_first_half: (PositionError::None, Size::ZERO),
+        })
+    }
+
+    fn measurement(self, steps: u64, evaluations: u64) -> Measurement {
+        let samples = self.reference.samples();
+        let begun = match self.begun {
+            Some(begun) if begun.compared as u64 == samples => begun,
+            begun => {
+                let compared = begun.map_or(0, |begun| begun.compared);
+                return Measurement::failed(steps, evaluations, compared as f64 / samples as f64);
+            }
+        };
+        let Begun { monitor, conserved, energy, position, largest_position, in_first_half, .. } = begun;
         let report = monitor.report();
         let modified = (report.windows > 0).then(|| Modified {
             drift: conserved.relative(&report.range),
             change: conserved.relative(&report.change),
             bound: report.permanent_bound.as_ref().map(|bound| conserved.relative(bound)),
         });
-        Ok(Some(Measurement {
+        Measurement {
             steps,
             evaluations,
             position,
@@ -152,7 +182,53 @@ impl Measurement {
             fine: report.verdict.is_bounded(),
             undecided: matches!(report.verdict, Verdict::Undecided(_)),
             failed: None,
-        }))
+        }
+    }
+}
+
+impl<N: RunNumber> Begun<N> {
+    /// Takes the positions of the samples that are new; `None` where one of them, or H, is not finite.
+    fn compare(&mut self, found: &[Vec<N>], expected: &[[Vec<N>; 2]], reference: &Reference) -> Option<()> {
+        for (q, expected) in found.iter().zip(expected).skip(self.compared) {
+            let distance = distance(q, expected);
+            if !distance.is_finite() || !self.energy.last.is_finite() {
+                return None;
+            }
+            self.position = PositionError::of(distance, reference.resolved_at(self.compared));
+            self.largest_position = self.largest_position.or_larger(self.position);
+            self.compared += 1;
+            if 2 * self.compared as u64 <= reference.samples() {
+                self.in_first_half = (self.largest_position, self.energy.relative(&self.energy.largest));
+            }
+        }
+        Some(())
+    }
+}
+
+impl<N: RunNumber> Column<N> for Measuring<'_, N> {
+    fn sees_each(&self) -> bool {
+        true
+    }
+
+    fn needs_increments(&self) -> bool {
+        self.begun.as_ref().is_some_and(|begun| begun.monitor.needs_increments())
+    }
+
+    fn see(&mut self, n: i64, run: Run<'_>, integrator: &mut VectorIntegrator<'_, N>) -> bool {
+        let energy = match &mut self.energy_of {
+            Some(energy_of) => energy_of(integrator.state().q(), integrator.state().p()),
+            None => at_output(integrator, |integrator| integrator.system().energy()),
+        };
+        let Some(begun) = &mut self.begun else {
+            self.begun = self.begin(integrator, energy).ok();
+            self.positions.see(n, run, integrator);
+            return self.begun.is_none();
+        };
+        // what is not finite stays so, and is seen at the sample
+        let _ = begun.monitor.observe(integrator);
+        begun.energy.include(&energy);
+        let ends = self.positions.see(n, run, integrator);
+        begun.compare(&self.positions.found, &self.expected, self.reference).is_none() || ends
     }
 }
 
