@@ -10,6 +10,11 @@ use rug::integer::Order;
 use rug::{Assign, Float, Integer};
 use std::f64::consts::LOG10_2;
 
+/// Whether a number has a sine here, as those of limbs: the time and the memory of one grow with the exponent, which has 62 bits.
+fn has_sine(a: &Float) -> bool {
+    a.get_exp().is_none_or(|exponent| exponent <= 1 << 16)
+}
+
 impl Number for Float {
     type Context = Precision;
     type Block = [Self; BLOCK];
@@ -76,10 +81,16 @@ impl Number for Float {
     }
 
     fn assign_sin(&mut self, a: &Float) {
+        if !has_sine(a) {
+            return Assign::assign(self, Special::Nan);
+        }
         Assign::assign(self, a.sin_ref());
     }
 
     fn assign_cos(&mut self, a: &Float) {
+        if !has_sine(a) {
+            return Assign::assign(self, Special::Nan);
+        }
         Assign::assign(self, a.cos_ref());
     }
 
@@ -92,6 +103,9 @@ impl Number for Float {
     }
 
     fn assign_tan(&mut self, a: &Float) {
+        if !has_sine(a) {
+            return Assign::assign(self, Special::Nan);
+        }
         Assign::assign(self, a.tan_ref());
     }
 
@@ -120,6 +134,10 @@ impl Number for Float {
     }
 
     fn assign_sin_cos(sin: &mut Float, cos: &mut Float, a: &Float) {
+        if !has_sine(a) {
+            Assign::assign(sin, Special::Nan);
+            return Assign::assign(cos, Special::Nan);
+        }
         (sin, cos).assign(a.sin_cos_ref());
     }
 
@@ -296,6 +314,29 @@ mod tests {
         let (third, mut sum) = (Float::from_rational(&Rational::new(1.into(), 3.into()), &fine), Float::zero(&coarse));
         sum.add_product(&third, &third);
         assert_eq!((sum.prec(), sum.to_f64()), (64, 1.0 / 9.0));
+    }
+
+    /// A sine of 2^(2^28) takes minutes and gigabytes.
+    #[test]
+    fn numbers_of_large_exponents_have_no_sine() {
+        let power = |exponent: u32| Float::with_val(53, 1) << exponent;
+        let of = |x: &Float| {
+            let mut found = [float(0.0), float(0.0), float(0.0), float(0.0), float(0.0)];
+            let [sin, cos, tan, both @ ..] = &mut found;
+            sin.assign_sin(x);
+            cos.assign_cos(x);
+            tan.assign_tan(x);
+            let [of_both, and_cos] = both;
+            Float::assign_sin_cos(of_both, and_cos, x);
+            found
+        };
+        assert!(of(&power(1 << 28)).iter().all(Float::is_nan));
+        let [sin, cos, tan, of_both, and_cos] = of(&power(1000));
+        // by mpmath
+        assert_eq!((sin.to_f64(), cos.to_f64()), (-0.15920170308624243, 0.9872460775989135));
+        assert_eq!((of_both, and_cos), (sin.clone(), cos));
+        assert!((tan.to_f64() + 0.16125837995065806).abs() < 1e-16);
+        assert_eq!(of(&float(0.0)).map(|x| x.to_f64()), [0.0, 1.0, 0.0, 0.0, 1.0]);
     }
 
     proptest! {

@@ -40,7 +40,7 @@ pub(super) fn kinetic(
     }
 }
 
-/// The masses, unless all are 1.
+/// The masses, unless all are 1; masses of 1 in place of faulty ones, with which the rest is read.
 pub(super) fn masses(reader: &mut Reader<'_>, numbers: &Numbers, values: Vec<Exact>) -> Option<Vec<Exact>> {
     let mut last_fault = None;
     for (index, value) in values.iter().enumerate() {
@@ -61,7 +61,7 @@ pub(super) fn masses(reader: &mut Reader<'_>, numbers: &Numbers, values: Vec<Exa
             reader.toml.fault(at, message, help);
         }
     }
-    values.iter().any(|mass| !mass.value.is_one()).then_some(values)
+    (last_fault.is_none() && values.iter().any(|mass| !mass.value.is_one())).then_some(values)
 }
 
 /// The message for a mass that a number type does not hold, or whose inverse it does not.

@@ -20,10 +20,12 @@ pub(super) fn problem(
     let setup = setup(reader, given, name)?;
     let (coordinates, q): (Vec<_>, Vec<_>) = setup.values.positions().iter().cloned().unzip();
     let (momenta, p): (Vec<_>, Vec<_>) = setup.values.momenta().iter().cloned().unzip();
-    let masses = setup.values.masses().map(<[_]>::to_vec);
+    let mut masses = setup.values.masses().map(<[_]>::to_vec);
     if let Some(mass) = masses.as_deref().and_then(|masses| reader.arithmetic.mass_out_of_range(masses)) {
         let message = kinetic::out_of_range(mass, reader.arithmetic);
         reader.toml.fault(&name.at, message, ANY_SIZE);
+        // with which the rest is read
+        masses = None;
     }
     let (own_q, own_p) =
         given.state.values(reader, |reader, numbers| numbers.values(reader, coordinates.len()), masses.as_deref());
