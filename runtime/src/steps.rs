@@ -8,6 +8,7 @@
 //! | `processor` | the pre- and the post-map of a processed scheme |
 //! | `displacements` | gradient kicks replaced by displaced forces |
 //! | [`integrator`] | a system with its stepper, of any types: what trajectories are made of |
+//! | [`together`] | the states of systems that are advanced together |
 
 pub(crate) mod displacements;
 pub mod integrator;
@@ -20,6 +21,7 @@ pub(crate) mod step_to_zero;
 pub mod stepper;
 #[cfg(feature = "tables")]
 pub mod tables;
+pub mod together;
 pub(crate) mod weights;
 
 pub use displacements::DisplacementError;

@@ -172,10 +172,14 @@ impl Differentiation<'_> {
 
     /// The numbers of the states of the result.
     fn rows(&self) -> Vec<u64> {
-        let (every, last) = (self.every.max(1), self.run.steps);
-        let mut rows: Vec<u64> = (0..=last / every).map(|row| row * every).collect();
-        rows.extend(Some(last).filter(|last| !last.is_multiple_of(every)));
-        rows
+        let last = self.run.steps;
+        std::iter::successors(Some(0), |n| (*n < last).then(|| self.row_after(*n).min(last))).collect()
+    }
+
+    /// The next one after n.
+    fn row_after(&self, n: u64) -> u64 {
+        let every = self.every.max(1);
+        (n / every + 1).saturating_mul(every)
     }
 
     /// The system at its first state, of which the variable, if there is one, has the derivative 1.

@@ -7,8 +7,9 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use shadowstep::number::{Dual, Lanes, Number, Real};
 use shadowstep::steps::integrator::VectorIntegrator;
+use shadowstep::steps::together;
 use shadowstep::tangent::Tangents;
-use shadowstep::{Scheme as _, System};
+use shadowstep::{Carried, Scheme as _, System};
 use shadowstep_scenes::Scene;
 use shadowstep_scenes::evaluator::{Evaluator, Test};
 use shadowstep_scenes::expression::Expression;
@@ -102,16 +103,13 @@ fn follow(
 ) -> Vec<Option<Values>> {
     let mut following = LanesFollower::begin(scenes, keep, tangents, integrator.system());
     let at_once = if following.follows_all() { 1 } else { STEPS_AT_ONCE };
-    let (mut n, last) = (0, scenes[0].most_steps());
-    following.include(n, integrator.system());
-    while n < last && following.goes_on() {
-        let count = at_once.min(last - n);
-        integrator.steps(count);
-        n += count;
+    let followed = together::follow(integrator, scenes[0].most_steps(), |n, integrator| {
         following.include(n, integrator.system());
-        if stops.load(Ordering::Relaxed) {
-            return vec![None; LANES];
-        }
+        let goes_on = following.goes_on() && !stops.load(Ordering::Relaxed);
+        if goes_on { Ok((n + at_once, Carried::Nothing)) } else { Err(()) }
+    });
+    if followed.is_err() && stops.load(Ordering::Relaxed) {
+        return vec![None; LANES];
     }
     following.values.into_iter().collect()
 }

@@ -41,9 +41,10 @@ use crate::shadow::{BuildEstimator, EstimatorError, FixedBilinear};
 use crate::steps::scheme::{Scheme, ValidFor};
 use crate::steps::stepper::Stepper;
 use crate::systems::system::System;
-use follow::follow;
+use follow::InTurns;
 
-pub use seen::{Outcome, Seen};
+pub use follow::{Systems, outcomes};
+pub use seen::Outcome;
 
 /// What is computed of each of a number of trajectories.
 ///
@@ -193,8 +194,9 @@ impl Ensemble {
         let dimension = systems.first().map_or(0, |system| system.massive_coordinates());
         let build = |k| FixedBilinear::new(k).build(stepper.step_size(), dimension, &());
         let estimator = self.modified_energy.map(build).transpose().map_err(EnsembleError::Estimator)?;
-        let followed = follow(stepper, systems, (self.steps, self.every, self.merged), estimator.as_ref(), continues);
-        let mut outcomes = followed.ok_or(EnsembleError::Stopped)?;
+        let mut in_turns = InTurns { stepper, systems, merged: self.merged };
+        let outcomes = outcomes(&mut in_turns, (self.steps, self.every), estimator.as_ref(), continues);
+        let mut outcomes = outcomes.ok_or(EnsembleError::Stopped)?;
         outcomes.truncate(end - first);
         Ok(outcomes)
     }

@@ -2,8 +2,9 @@
 
 use shadowstep::number::Dual;
 use shadowstep::steps::integrator::{VectorIntegrator, at_output};
+use shadowstep::steps::together::follow;
 use shadowstep::tangent::{Adjoint, Covector, vector};
-use shadowstep::{Integrator as _, Rational, Real};
+use shadowstep::{Carried, Integrator as _, Rational, Real};
 
 use super::{Array, Base, Begun, Differentiation, Variable};
 use crate::computation::RunNumber;
@@ -69,12 +70,11 @@ impl WithDerivatives for Backward<'_, '_> {
         let steps = request.steps(request.run.h);
         let mut plain = request.system.integrator::<N>(steps, request.system.start(context), context)?;
         let start = values(&*plain);
-        let mut n = 0;
-        for row in &rows {
-            plain.steps(row - n);
-            n = *row;
+        let mut n = request.run.steps;
+        follow(&mut *plain, n, |n, _| {
             report(observer, request.run, n)?;
-        }
+            Ok::<_, Error>((request.row_after(n), Carried::Nothing))
+        })?;
         let mut begun = request.begin::<N>(None, context)?;
         begun.set_values(&*plain);
         request.check_finite(n, &begun.output())?;

@@ -2,6 +2,7 @@
 
 use shadowstep::number::Dual;
 use shadowstep::steps::integrator::at_output;
+use shadowstep::steps::together::{Together, follow};
 use shadowstep::{Carried, Integrator as _};
 
 use super::{Array, Base, Begun, Differentiation, output};
@@ -58,22 +59,21 @@ impl WithDerivatives for Forward<'_, '_> {
         }
         let mut side_by_side = SideBySide::new(request, all, context)?;
         let (mut states, mut by) = (Vec::new(), vec![Vec::new(); side_by_side.all.len()]);
-        let rows = request.rows();
-        let mut n = 0;
-        for row in &rows {
-            side_by_side.steps(row - n);
+        let mut rows = Vec::new();
+        follow(&mut side_by_side, request.run.steps, |n, side_by_side| {
             let shown = side_by_side.shown_values();
             for (k, (begun, derivatives)) in side_by_side.all.iter_mut().zip(&mut by).enumerate() {
                 let output = begun.output();
-                request.check_finite(*row, &output)?;
+                request.check_finite(n, &output)?;
                 derivatives.extend(output.iter().map(|x| x.derivatives[0].clone()));
                 // the states are the same beside each vector
                 states.extend(output.into_iter().filter(|_| k == 0 && shown.is_empty()).map(|x| x.value));
             }
             states.extend(shown);
-            n = *row;
+            rows.push(n);
             report(observer, request.run, n)?;
-        }
+            Ok::<_, Error>((request.row_after(n), Carried::Nothing))
+        })?;
         let array = |numbers: &Vec<N>| Array::of(numbers, request.arithmetic);
         let by = by.iter().take(request.by.len()).map(array).collect();
         Ok(Derivatives { n: rows, states: array(&states), by })
@@ -105,7 +105,18 @@ where
         Ok(SideBySide { all, plain })
     }
 
-    fn steps(&mut self, count: u64) {
+    /// q and then p of the plain states as they are shown, if there are any.
+    fn shown_values(&mut self) -> Vec<N> {
+        let Some((plain, shown)) = &mut self.plain else { return Vec::new() };
+        at_output(&mut **plain, |integrator| output(integrator, shown))
+    }
+}
+
+impl<N: RunNumber> Together for SideBySide<N>
+where
+    Dual<N>: SceneNumber<Context = N::Context>,
+{
+    fn advance(&mut self, count: u64, _: Carried) {
         let (nearby, own): (Vec<_>, Vec<_>) = self.all.iter_mut().partition(|begun| begun.base == Base::Nearby);
         own.into_iter().for_each(|begun| begun.integrator.steps(count));
         let Some((plain, _)) = &mut self.plain else { return };
@@ -117,11 +128,5 @@ where
                 begun.set_values(&**plain);
             }
         }
-    }
-
-    /// q and then p of the plain states as they are shown, if there are any.
-    fn shown_values(&mut self) -> Vec<N> {
-        let Some((plain, shown)) = &mut self.plain else { return Vec::new() };
-        at_output(&mut **plain, |integrator| output(integrator, shown))
     }
 }

@@ -1,9 +1,8 @@
 //! Trajectories one by one: of systems that are not computed in lanes.
 
-use shadowstep::shadow::ensemble::{Outcome, Seen};
+use shadowstep::shadow::ensemble::{Outcome, outcomes};
 use shadowstep::shadow::{BuildEstimator, FixedBilinear};
-use shadowstep::steps::integrator::{VectorIntegrator, at_output};
-use shadowstep::{Carried, Integrator as _, Number as _};
+use shadowstep::{Integrator as _, Number as _};
 use shadowstep_symbolic::Exact;
 
 use super::settings::Observed;
@@ -11,9 +10,6 @@ use crate::error::Error;
 use crate::scene::System;
 use crate::scene::split::ShownCoordinates;
 use crate::start::{Begin, SceneIntegrator, Steps};
-
-/// The interruption is looked for after this number of steps.
-const AT_ONCE: u64 = 128;
 
 /// A system with its stepper, for one trajectory after the other.
 pub(super) struct Alone {
@@ -39,43 +35,19 @@ impl Alone {
     ) -> Result<Outcome, Error> {
         let numbers = |exact: &[Exact]| exact.iter().map(|x| f64::from_rational(&x.value, &())).collect();
         let (q, p) = system.start_at((numbers(q), numbers(p)), &());
-        self.integrator.system().state_mut().set(&q, &p);
-        self.integrator.preprocess();
-        let mut outcome = follow(&mut *self.integrator, steps, observed, continues)?;
+        let integrator = &mut self.integrator;
+        integrator.system().state_mut().set(&q, &p);
+        let dimension = integrator.system().massive_coordinates();
+        let build = |k| BuildEstimator::<f64>::build(&FixedBilinear::new(k), integrator.step_size(), dimension, &());
+        let estimator = observed.modified_energy.map(build).transpose();
+        let estimator = estimator.map_err(|error| Error::usage(error.to_string(), "give another order"))?;
+        let mut found = outcomes(&mut **integrator, (steps, observed.every), estimator.as_ref(), continues)
+            .ok_or_else(|| Error::run("the ensemble was interrupted", "run it again"))?;
+        let mut outcome = found.remove(0);
         if let Some(shown) = &mut self.shown {
             let (q, p) = shown.of_state(&outcome.q, &outcome.p);
             (outcome.q, outcome.p) = (q.to_vec(), p.to_vec());
         }
         Ok(outcome)
     }
-}
-
-/// A trajectory from its beginning to its end.
-fn follow(
-    integrator: &mut VectorIntegrator<'_, f64>,
-    steps: u64,
-    Observed { every, modified_energy }: Observed,
-    continues: &dyn Fn() -> bool,
-) -> Result<Outcome, Error> {
-    let dimension = integrator.system().massive_coordinates();
-    let build = |k| BuildEstimator::<f64>::build(&FixedBilinear::new(k), integrator.step_size(), dimension, &());
-    let estimator = modified_energy.map(build).transpose();
-    let estimator = estimator.map_err(|error| Error::usage(error.to_string(), "give another order"))?;
-    let mut seen = at_output(integrator, |integrator| Seen::new(integrator.system(), estimator));
-    for n in 0..steps {
-        let carried = seen.carried(n, every, integrator.system());
-        integrator.step(carried);
-        if carried == Carried::Increments {
-            seen.push(integrator.system());
-        }
-        let made = n + 1;
-        if made % every == 0 || made == steps {
-            at_output(integrator, |integrator| seen.look(integrator.system(), made));
-        }
-        if made % AT_ONCE == 0 && !continues() {
-            return Err(Error::run("the ensemble was interrupted", "run it again"));
-        }
-    }
-    integrator.postprocess();
-    Ok(seen.outcome(integrator.system(), 0))
 }

@@ -1,61 +1,146 @@
-//! A few systems of lanes from their beginning to their end, and what is seen of each lane.
+//! Systems of an ensemble from their beginning to their end, and what is seen of each.
 
-use crate::number::Lanes;
+use crate::number::Number;
 use crate::shadow::Estimator;
+use crate::steps::integrator::{Integrator, at_output};
 use crate::steps::scheme::{Scheme, ValidFor};
 use crate::steps::stepper::Stepper;
+use crate::steps::together::{Together, follow};
+use crate::systems::coordinates::Coordinates;
 use crate::systems::increments::Carried;
-use crate::systems::system::System;
+use crate::systems::summation::Summation;
+use crate::systems::system::{AnySystem, System};
 
 use super::seen::{Outcome, Seen};
 
 /// At most this number of steps is made at once, as the caller may want to end them.
 const AT_ONCE: u64 = 128;
 
-/// The outcomes of all lanes of the systems after `steps` steps, merged or not, whose energy is looked at every `every` steps; `None` where
-/// `continues` returns false.
-pub(super) fn follow<const W: usize, S, M, E>(
-    stepper: &Stepper<S, Lanes<W>>,
-    mut systems: Vec<M>,
-    (steps, every, merged): (u64, u64, bool),
-    estimator: Option<&E>,
-    continues: impl Fn() -> bool,
-) -> Option<Vec<Outcome>>
-where
-    S: Scheme + ValidFor<M::Class>,
-    M: System<Number = Lanes<W>>,
-    E: Estimator<Lanes<W>> + Clone,
-{
-    let mut seen: Vec<_> = systems.iter_mut().map(|system| Seen::new(system, estimator.cloned())).collect();
-    systems.iter_mut().for_each(|system| stepper.preprocess(system));
-    let mut n = 0;
-    while n < steps {
-        // all have their windows at the same states
-        let carried = seen.iter_mut().zip(&systems).map(|(seen, system)| seen.carried(n, every, system));
-        let carried = carried.last();
-        let next = steps.min(n - n % every + every);
-        if carried == Some(Carried::Increments) {
-            stepper.step_each_augmented(&mut systems);
-            seen.iter_mut().zip(&systems).for_each(|(seen, system)| seen.push(system));
-            n += 1;
-        } else {
-            let count = (next - n).min(AT_ONCE);
-            match merged {
-                true => stepper.merged_steps(&mut systems, count),
-                false => stepper.steps(&mut systems, count),
-            }
-            n += count;
-        }
-        if n % AT_ONCE == 0 && !continues() {
-            return None;
-        }
-        if n == next {
-            for (seen, system) in seen.iter_mut().zip(&mut systems) {
-                stepper.at_output(system, |system| seen.look(system, n));
-            }
+/// Takes a system and its number.
+type Take<'t, T> = &'t mut dyn FnMut(
+    usize,
+    &mut AnySystem<'_, <T as Systems>::Number, <T as Systems>::Coordinates, <T as Systems>::Summation>,
+);
+
+/// Systems of an ensemble that are advanced together: one with its integrator, or several.
+pub trait Systems: Together {
+    /// The type of their numbers.
+    type Number: Number;
+    /// What holds positions, and momenta.
+    type Coordinates: Coordinates<Self::Number>;
+    /// How increments are added to q and p.
+    type Summation: Summation<Self::Number>;
+
+    /// Shows each at the state of its steps.
+    fn each(&mut self, take: Take<'_, Self>);
+
+    /// Shows each at the state of its trajectory.
+    fn each_at_output(&mut self, take: Take<'_, Self>);
+
+    /// The pre-map of a processed scheme.
+    fn preprocess_each(&mut self);
+
+    /// The post-map of a processed scheme.
+    fn postprocess_each(&mut self);
+}
+
+impl<I: Integrator + ?Sized> Systems for I {
+    type Number = I::Number;
+    type Coordinates = I::Coordinates;
+    type Summation = I::Summation;
+
+    fn each(&mut self, take: Take<'_, Self>) {
+        take(0, self.system());
+    }
+
+    fn each_at_output(&mut self, take: Take<'_, Self>) {
+        at_output(self, |integrator| take(0, integrator.system()));
+    }
+
+    fn preprocess_each(&mut self) {
+        self.preprocess();
+    }
+
+    fn postprocess_each(&mut self) {
+        self.postprocess();
+    }
+}
+
+/// Systems that take turns.
+pub(super) struct InTurns<'s, S: Scheme, M: System> {
+    pub(super) stepper: &'s Stepper<S, M::Number>,
+    pub(super) systems: Vec<M>,
+    /// Whether the last map of a step and the first of the next are made as one.
+    pub(super) merged: bool,
+}
+
+impl<S: Scheme + ValidFor<M::Class>, M: System> Together for InTurns<'_, S, M> {
+    fn advance(&mut self, steps: u64, carried: Carried) {
+        let InTurns { stepper, systems, merged } = self;
+        match (carried, merged) {
+            (Carried::Nothing, true) => stepper.merged_steps(systems, steps),
+            (Carried::Nothing, false) => stepper.steps(systems, steps),
+            _ => (0..steps).for_each(|_| stepper.step_each_augmented(systems)),
         }
     }
-    systems.iter_mut().for_each(|system| stepper.postprocess(system));
-    let outcomes = seen.iter().zip(&systems).flat_map(|(seen, system)| (0..W).map(|lane| seen.outcome(system, lane)));
-    Some(outcomes.collect())
+}
+
+impl<S: Scheme + ValidFor<M::Class>, M: System> Systems for InTurns<'_, S, M> {
+    type Number = M::Number;
+    type Coordinates = M::Coordinates;
+    type Summation = M::Summation;
+
+    fn each(&mut self, take: Take<'_, Self>) {
+        self.systems.iter_mut().enumerate().for_each(|(i, system)| take(i, system));
+    }
+
+    fn each_at_output(&mut self, take: Take<'_, Self>) {
+        let InTurns { stepper, systems, .. } = self;
+        systems.iter_mut().enumerate().for_each(|(i, system)| stepper.at_output(system, |system| take(i, system)));
+    }
+
+    fn preprocess_each(&mut self) {
+        self.systems.iter_mut().for_each(|system| self.stepper.preprocess(system));
+    }
+
+    fn postprocess_each(&mut self) {
+        self.systems.iter_mut().for_each(|system| self.stepper.postprocess(system));
+    }
+}
+
+/// The outcomes of all lanes of the systems, which are at their initial states, after `steps` steps; the energy is looked at every `every` steps. `None` where
+/// `continues` returns false.
+pub fn outcomes<T: Systems + ?Sized, E: Estimator<T::Number> + Clone>(
+    systems: &mut T,
+    (steps, every): (u64, u64),
+    estimator: Option<&E>,
+    continues: impl Fn() -> bool,
+) -> Option<Vec<Outcome>> {
+    let mut seen = Vec::new();
+    systems.each(&mut |_, system| seen.push(Seen::new(system, estimator.cloned())));
+    systems.preprocess_each();
+    let (mut carried, mut asked) = (Carried::Nothing, 0);
+    let followed = follow(systems, steps, |n, systems| {
+        if carried == Carried::Increments {
+            systems.each(&mut |i, system| seen[i].push(system));
+        }
+        if n >= asked + AT_ONCE {
+            asked = n;
+            if !continues() {
+                return Err(());
+            }
+        }
+        if n > 0 && (n == steps || n.is_multiple_of(every)) {
+            systems.each_at_output(&mut |i, system| seen[i].look(system, n));
+        }
+        // all have their windows at the same states
+        systems.each(&mut |i, system| carried = seen[i].carried(n, every, system));
+        let next = if carried == Carried::Increments { n + 1 } else { n - n % every + every };
+        Ok((next.min(n + AT_ONCE), carried))
+    });
+    followed.ok()?;
+    systems.postprocess_each();
+    let mut outcomes = Vec::new();
+    systems.each(&mut |i, system| outcomes.extend((0..T::Number::LANES).map(|lane| seen[i].outcome(system, lane))));
+    Some(outcomes)
 }

@@ -25,7 +25,7 @@ pub struct Outcome {
 }
 
 /// What is seen of the trajectories in the lanes of a system: one, where the numbers have no lanes.
-pub struct Seen<E> {
+pub(super) struct Seen<E> {
     lanes: Vec<Lane>,
     /// Without states, and with those of the present window.
     estimator: Option<E>,
@@ -49,7 +49,7 @@ struct Lane {
 
 impl<E: Clone> Seen<E> {
     /// Of a system at its first states, for a processed scheme those of its trajectories; the estimator has no states yet.
-    pub fn new<M: System + ?Sized>(system: &mut M, estimator: Option<E>) -> Self {
+    pub(super) fn new<M: System + ?Sized>(system: &mut M, estimator: Option<E>) -> Self {
         let energy = system.energy();
         let lane = |lane| Lane::from_energy(energy.lane(lane).0);
         let mut seen =
@@ -59,7 +59,7 @@ impl<E: Clone> Seen<E> {
     }
 
     /// Looks at the states after n steps.
-    pub fn look<M: System + ?Sized>(&mut self, system: &mut M, n: u64) {
+    pub(super) fn look<M: System + ?Sized>(&mut self, system: &mut M, n: u64) {
         let energy = system.energy();
         self.include(&energy, system, n);
     }
@@ -80,7 +80,7 @@ impl<E: Clone> Seen<E> {
 
     /// What the step from the present state, the n-th one, carries along: increments in a window of states for the modified energy. One begins every
     /// `every` steps, where it does not prolong the one before.
-    pub fn carried<M: System + ?Sized>(&mut self, n: u64, every: u64, system: &M) -> Carried
+    pub(super) fn carried<M: System + ?Sized>(&mut self, n: u64, every: u64, system: &M) -> Carried
     where
         E: Estimator<M::Number>,
     {
@@ -96,7 +96,7 @@ impl<E: Clone> Seen<E> {
     }
 
     /// Gives the present state, after an augmented step, to the window.
-    pub fn push<M: System + ?Sized>(&mut self, system: &M)
+    pub(super) fn push<M: System + ?Sized>(&mut self, system: &M)
     where
         E: Estimator<M::Number>,
     {
@@ -111,7 +111,7 @@ impl<E: Clone> Seen<E> {
     }
 
     /// What became of the trajectory in a lane of the system, which is at its last states.
-    pub fn outcome<M: System + ?Sized>(&self, system: &M, index: usize) -> Outcome {
+    pub(super) fn outcome<M: System + ?Sized>(&self, system: &M, index: usize) -> Outcome {
         let of_lane = |x: &[M::Number]| x.iter().map(|x| x.lane(index).0).collect();
         self.lanes[index].outcome(of_lane(system.state().q()), of_lane(system.state().p()))
     }
