@@ -175,15 +175,17 @@ impl<'a> Tables<'a> {
             let value = axis.value(number);
             cells.push(Cell::Text(value.text()));
             if axis.is_numeric() {
-                cells.push(as_double(&value));
+                cells.push(match &value {
+                    Meaning::Number(number) => Cell::double(Some(double(number))),
+                    Meaning::Word(_) => Cell::Empty,
+                });
             }
         }
         for (place, column) in self.columns.iter().enumerate() {
             let text = record.values.get(place).and_then(Option::as_ref);
             cells.push(text.map_or(Cell::Empty, |text| Cell::Text(text.clone())));
             if has_double(column, self.long_numbers) {
-                let value = text.and_then(|text| number_of(text));
-                cells.push(value.map_or(Cell::Empty, Cell::Double));
+                cells.push(Cell::double(text.and_then(|text| number_of(text))));
             }
         }
         cells.push(record.failure.as_ref().map_or(Cell::Empty, |failure| Cell::Text(failure.clone())));
@@ -234,13 +236,6 @@ impl<'a> Tables<'a> {
             }
         }
         Ok(Collected::Complete { files, runs: self.runs, failed: self.failed, notes })
-    }
-}
-
-fn as_double(value: &Meaning) -> Cell {
-    match value {
-        Meaning::Number(number) => Cell::Double(double(number)),
-        Meaning::Word(_) => Cell::Empty,
     }
 }
 

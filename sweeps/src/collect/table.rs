@@ -23,8 +23,16 @@ pub(crate) struct TableColumn {
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Cell {
     Text(String),
+    /// A finite one.
     Double(f64),
     Empty,
+}
+
+impl Cell {
+    /// None of a number that overflows.
+    pub(crate) fn double(number: Option<f64>) -> Cell {
+        number.filter(|number| number.is_finite()).map_or(Cell::Empty, Cell::Double)
+    }
 }
 
 /// A table in any format.
