@@ -91,19 +91,13 @@ fn of_scene(arguments: &SystemArguments, path: &str, arithmetic: Arithmetic) -> 
     Ok(describe(path.to_owned(), system))
 }
 
-/// The formula is read as a scene is, and its faults are named after the flags.
+/// The formula is read as a scene is, each of whose lines is that of a flag, which faults name.
 fn by_formula(arguments: &SystemArguments, formula: &str, arithmetic: Arithmetic) -> Result<Described, Error> {
-    let text = scene_of(arguments, formula)?;
+    let lines = lines_of(arguments, formula)?;
+    let text = lines.iter().map(|(_, line)| format!("{line}\n")).collect();
     let wrong = |Faults(faults): Faults| match faults.first() {
         Some(fault) => {
-            // the text below has a line for each flag
-            let flag = match fault.source_line.split(' ').next() {
-                Some("coordinates" | "q") => "--q".to_owned(),
-                Some("p") => "--p".to_owned(),
-                Some("parameters") => "--set".to_owned(),
-                Some("masses") => "--masses".to_owned(),
-                _ => format!("--potential \"{formula}\""),
-            };
+            let (flag, _) = lines.get(fault.line.saturating_sub(1)).unwrap_or(&lines[0]);
             let hint = fault.hint.clone().unwrap_or_else(|| "compare --q, --p, --masses and --set".to_owned());
             let values = fault.values.as_ref();
             let values = values.map_or(String::new(), |(found, needed)| format!(": found {found}, needed {needed}"));
@@ -116,8 +110,8 @@ fn by_formula(arguments: &SystemArguments, formula: &str, arithmetic: Arithmetic
     Ok(Described { title: format!("U = {formula}"), ..describe("formula".to_owned(), system) })
 }
 
-/// The sections [problem] and [initial] of these flags.
-fn scene_of(arguments: &SystemArguments, formula: &str) -> Result<String, Error> {
+/// The lines of [problem] and [initial], each with its flag.
+fn lines_of(arguments: &SystemArguments, formula: &str) -> Result<Vec<(String, String)>, Error> {
     let positions = arguments.q.iter().map(|text| named("--q", text, "x=0.4,y=0")).collect::<Result<Vec<_>, _>>()?;
     let momenta = if arguments.p.iter().all(|text| text.contains('=')) {
         arguments.p.iter().map(|text| named("--p", text, "px=0,py=2")).collect::<Result<Vec<_>, _>>()?
@@ -130,14 +124,21 @@ fn scene_of(arguments: &SystemArguments, formula: &str) -> Result<String, Error>
         let message = format!("--q has {} and --p has {}", values(positions.len()), values(p.len()));
         return Err(Error::usage(message, "give one momentum for each coordinate"));
     }
-    let parameters = arguments.set.iter().map(|text| assignment(text)).collect::<Result<Vec<_>, _>>()?;
-    let parameters = parameters.iter().map(|(name, value)| format!("{name} = {}", quoted(value)));
-    let mut text = format!("[problem]\npotential = {}\ncoordinates = {}\n", quoted(formula), list(&names(&positions)));
-    text += &format!("parameters = {{ {} }}\n", parameters.collect::<Vec<_>>().join(", "));
-    if !arguments.masses.is_empty() {
-        text += &format!("masses = {}\n", list(&arguments.masses));
-    }
-    Ok(text + &format!("[initial]\nq = {}\np = {}\n", list(&values(&positions)), list(&p)))
+    let set = arguments.set.iter().map(|text| assignment(text)).collect::<Result<Vec<_>, _>>()?;
+    let parameters: Vec<_> = set.iter().map(|(name, value)| format!("{name} = {}", quoted(value))).collect();
+    let masses = &arguments.masses;
+    let potential = format!("--potential \"{formula}\"");
+    let mut lines = vec![
+        (potential.as_str(), "[problem]".to_owned()),
+        (&potential, format!("potential = {}", quoted(formula))),
+        ("--q", format!("coordinates = {}", list(&names(&positions)))),
+        ("--set", format!("parameters = {{ {} }}", parameters.join(", "))),
+    ];
+    lines.extend((!masses.is_empty()).then(|| ("--masses", format!("masses = {}", list(masses)))));
+    lines.push((&potential, "[initial]".to_owned()));
+    lines.push(("--q", format!("q = {}", list(&values(&positions)))));
+    lines.push(("--p", format!("p = {}", list(&p))));
+    Ok(lines.into_iter().map(|(flag, line)| (flag.to_owned(), line)).collect())
 }
 
 fn named(flag: &str, text: &str, example: &str) -> Result<(String, String), Error> {

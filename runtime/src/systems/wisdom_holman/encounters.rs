@@ -350,8 +350,7 @@ impl<N: Number, const D: usize> Encounters<N, D> {
         state.set_remainders(&remainders);
     }
 
-    /// In how many of the next substeps no two planets can come below a distance, of at most `most`: it falls by at most v t + a t²/2 in the
-    /// time t, with their present relative speed v and the largest accelerations of their Kepler orbits, those at the pericentres.
+    /// In how many of the next substeps no two planets can come below a distance, of at most `most`.
     fn free_substeps(&mut self, distance: f64, substep: f64, most: i32) -> i32 {
         let mut free = f64::from(most);
         let Encounters { planets, points, masses, parameter, .. } = self;
@@ -390,9 +389,13 @@ fn size<N: Number>(number: &N) -> f64 {
 struct MovingPoint<const D: usize> {
     position: [f64; D],
     velocity: [f64; D],
+    /// The distance from the star.
+    radius: f64,
     speed: f64,
-    /// The largest acceleration on the orbit.
+    /// The largest acceleration on the orbit, that at the pericentre.
     acceleration: f64,
+    /// A bound of the acceleration for a time, as r does not fall below half of its present value; where that is less than the largest.
+    soon: Option<(f64, f64)>,
 }
 
 impl<const D: usize> MovingPoint<D> {
@@ -404,7 +407,11 @@ impl<const D: usize> MovingPoint<D> {
         let energy = v2 / 2.0 - parameter / r2.sqrt();
         let eccentricity = (1.0 + 2.0 * energy * momentum / (parameter * parameter)).max(0.0).sqrt();
         let pericentre = momentum / (parameter * (1.0 + eccentricity));
-        MovingPoint { position, velocity, speed: v2.sqrt(), acceleration: parameter / (pericentre * pericentre) }
+        let (radius, speed) = (r2.sqrt(), v2.sqrt());
+        let near = 4.0 * parameter / r2;
+        let soon = (2.0 * pericentre < radius).then(|| (near, time_of(radius / 2.0, speed, near)));
+        let acceleration = parameter / (pericentre * pericentre);
+        MovingPoint { position, velocity, radius, speed, acceleration, soon }
     }
 
     /// Whether two planets stay apart for a time because even opposite velocities would not bring them together: the common case, at little cost.
@@ -415,7 +422,8 @@ impl<const D: usize> MovingPoint<D> {
         self.position.iter().zip(&other.position).map(|(a, b)| (a - b).powi(2)).sum::<f64>() > reach * reach
     }
 
-    /// A time in which two planets do not come below a distance.
+    /// A time in which two planets do not come below a distance: their distance falls by at most v t + a t²/2 in the time t, with their present relative speed and
+    /// their largest accelerations.
     fn time_apart(&self, other: &Self, distance: f64) -> f64 {
         let square =
             |one: &[f64; D], other: &[f64; D]| one.iter().zip(other).map(|(a, b)| (a - b).powi(2)).sum::<f64>();
@@ -423,10 +431,43 @@ impl<const D: usize> MovingPoint<D> {
         if room <= 0.0 {
             return 0.0;
         }
-        let speed = square(&self.velocity, &other.velocity);
-        let acceleration = self.acceleration + other.acceleration;
-        2.0 * room / (speed.sqrt() + (speed + 2.0 * acceleration * room).sqrt())
+        let speed = square(&self.velocity, &other.velocity).sqrt();
+        let apart = time_of(room, speed, self.acceleration + other.acceleration);
+        if self.soon.is_none() && other.soon.is_none() && self.is_beside(other) {
+            return apart;
+        }
+        let [(one, until), (another, until_other)] = [self, other].map(MovingPoint::largest_soon);
+        let soon = time_of(room, speed, one + another).min(until).min(until_other);
+        apart.max(soon).max(self.time_between(other, distance))
     }
+
+    /// Whether neither is much nearer to the star.
+    fn is_beside(&self, other: &Self) -> bool {
+        const MUCH: f64 = 4.0;
+        self.radius * MUCH > other.radius && other.radius * MUCH > self.radius
+    }
+
+    /// The largest acceleration for a time.
+    fn largest_soon(&self) -> (f64, f64) {
+        self.soon.unwrap_or((self.acceleration, f64::INFINITY))
+    }
+
+    /// A time in which the inner one does not come near to the outer one, as the speed of an orbit falls with the distance from the star: the inner one gets further from it by at
+    /// most v t, however near to it, and how fast, it is before.
+    fn time_between(&self, other: &Self, distance: f64) -> f64 {
+        let (inner, outer) = if self.radius < other.radius { (self, other) } else { (other, self) };
+        let room = outer.radius - inner.radius - distance;
+        if room <= 0.0 {
+            return 0.0;
+        }
+        let (acceleration, until) = outer.largest_soon();
+        time_of(room, inner.speed + outer.speed, acceleration).min(until)
+    }
+}
+
+/// The least t with v t + a t²/2 = way.
+fn time_of(way: f64, speed: f64, acceleration: f64) -> f64 {
+    2.0 * way / (speed + (speed * speed + 2.0 * acceleration * way).sqrt())
 }
 
 impl<N: Number, const D: usize> System for Encounters<N, D> {
@@ -498,14 +539,16 @@ mod tests {
         let mut uniform = |a: f64, b: f64| a + (b - a) * (random.next_u64() >> 11) as f64 / (1u64 << 53) as f64;
         let mut kepler = KeplerDrift::<f64>::new(&());
         let (mut longest, mut shortest) = (0.0f64, 1.0f64);
-        for _ in 0..500 {
-            let mut point = || {
-                let r = uniform(0.3, 2.0);
-                let position = [r, uniform(-0.2, 0.2), uniform(-0.1, 0.1)];
-                let velocity = [uniform(-0.8, 0.8), uniform(0.2, 1.2) / r.sqrt(), uniform(-0.2, 0.2)];
-                MovingPoint::new(position, velocity, 1.0)
+        for case in 0..1500 {
+            // planets; two comets; a planet, and a body that passes close to the star
+            let [least, slowest] = [[0.3, 0.2], [0.3, 1e-3], [1e-4, 1e-3]][case % 3];
+            let mut point = |least: f64| {
+                let r = if uniform(0.0, 1.0) < 0.5 { least + uniform(0.0, 0.1) } else { uniform(0.3, 2.0) };
+                let position = [r, uniform(-0.2, 0.2) * r, uniform(-0.1, 0.1) * r];
+                let velocity = [uniform(-0.8, 0.8), uniform(slowest, 1.2), uniform(-0.2, 0.2)];
+                MovingPoint::new(position, velocity.map(|v| v / r.sqrt()), 1.0)
             };
-            let (one, other) = (point(), point());
+            let (one, other) = (point(least), point(0.3));
             let distance = 0.05;
             let time = one.time_apart(&other, distance);
             (longest, shortest) = (longest.max(time), shortest.min(time));
@@ -523,5 +566,20 @@ mod tests {
             }
         }
         assert!(longest > 0.3 && shortest < 0.05, "{shortest} to {longest}");
+    }
+
+    /// A body near the star, and a planet: the time is a part of the way, and not of the time of its fall.
+    #[test]
+    fn what_is_near_the_star_is_not_near_a_planet() {
+        let planet = MovingPoint::new([0.0, 1.0, 0.0], [-1.0, 0.0, 0.0], 1.0);
+        for near in [1e-2, 1e-4, 1e-8f64] {
+            let body = MovingPoint::new([near, 0.0, 0.0], [0.0, 1.5 / near.sqrt(), 0.0], 1.0);
+            let time = body.time_apart(&planet, 0.01);
+            assert!(time > 0.5 * body.speed.recip(), "{time} at {near}");
+            // on its way out
+            let far = MovingPoint::new([0.0, -3.0, 0.0], [0.0, -1.1, near], 1.0);
+            let time = far.time_apart(&planet, 0.01);
+            assert!(time > 0.5, "{time} at {near}");
+        }
     }
 }
