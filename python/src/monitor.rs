@@ -20,8 +20,8 @@ use shadowstep_scenes::arithmetic::Arithmetic;
 use shadowstep_scenes::computation::{Monitoring, RunNumber as _};
 use shadowstep_scenes::library::NamedScheme;
 use shadowstep_scenes::start::{Begin, SceneIntegrator, Steps};
-use shadowstep_scenes::watch::light::{self, LightBodies};
-use shadowstep_scenes::watch::{Approaches, Interactions, LightBody};
+use shadowstep_scenes::watch::light;
+use shadowstep_scenes::watch::{Bodies, Interactions, LightBody};
 
 use crate::errors::exception;
 use crate::given::{Given, arithmetic, step_size};
@@ -37,9 +37,7 @@ struct Followed {
     integrator: SceneIntegrator<f64>,
     monitor: Box<dyn Monitoring<f64>>,
     newest: Option<Newest>,
-    /// Of planets.
-    approaches: Option<Approaches>,
-    light: Option<LightBodies>,
+    bodies: Option<Bodies>,
     /// The names of the coordinates.
     names: Vec<String>,
 }
@@ -142,8 +140,8 @@ impl Monitor {
         let (report, planets, light) = self.ask(py, |followed, _| {
             let mut report = followed.monitor.report();
             report.coordinate_names.clone_from(&followed.names);
-            let light = followed.light.as_ref().map_or(Vec::new(), LightBodies::found);
-            (report, followed.approaches.as_ref().map(|approaches| approaches.found()), light)
+            let bodies = followed.bodies.as_ref();
+            (report, bodies.and_then(Bodies::interactions), bodies.map_or(Vec::new(), Bodies::light))
         })?;
         dictionary(py, &report, planets.as_ref(), &light)
     }
@@ -207,10 +205,9 @@ impl Followed {
             Steps { scheme: &posed.scheme.scheme, h, compensated, displaced: false, begin: Begin::InitialState };
         let mut integrator = posed.system.integrator(steps, posed.system.start::<f64>(&()), &())?;
         let monitor = f64::monitor(&mut *integrator, order, every).map_err(|error| of_run(&error))?;
-        let approaches = Approaches::of(&posed.system, 1);
-        let light = LightBodies::of(&posed.system, f64::from_rational(h.exact(), &()));
+        let bodies = Bodies::of(&posed.system, 1, Some(f64::from_rational(h.exact(), &())));
         let names = posed.system.coordinates.clone();
-        let mut followed = Followed { integrator, monitor, newest: None, approaches, light, names };
+        let mut followed = Followed { integrator, monitor, newest: None, bodies, names };
         followed.include();
         Ok(followed)
     }
@@ -228,11 +225,9 @@ impl Followed {
 
     /// Takes the bodies of the present state.
     fn include(&mut self) {
-        let Followed { integrator, monitor, approaches, light, .. } = self;
+        let Followed { integrator, monitor, bodies, .. } = self;
         let n = i64::try_from(monitor.n()).unwrap_or(i64::MAX);
-        let state = (integrator.state().q(), integrator.state().p());
-        approaches.iter_mut().for_each(|approaches| approaches.include(n, state.0));
-        light.iter_mut().for_each(|light| light.include(n, state.0));
+        bodies.iter_mut().for_each(|bodies| bodies.include(n, integrator.state().q()));
     }
 }
 

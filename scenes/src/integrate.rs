@@ -31,7 +31,7 @@ use crate::observer::{Observer, interrupted};
 use crate::posed::Posed;
 use crate::results::Cell;
 use crate::scene::{self, NamedExpression};
-use crate::watch::{Approaches, Energies, Interactions};
+use crate::watch::{Bodies, Energies, Interactions};
 
 /// Which states of a run are kept.
 #[derive(Clone, Copy, Debug)]
@@ -100,8 +100,8 @@ impl Posed<'_> {
         let mut samples = Samples::none();
         samples.values = vec![Vec::new(); values.len()];
         let values = Values::new(values, 1);
-        let approaches = Approaches::of(posed.system, 1);
-        let mut kept = Kept { samples, values, cells: Vec::new(), every, approaches };
+        let bodies = Bodies::of(posed.system, 1, None);
+        let mut kept = Kept { samples, values, cells: Vec::new(), every, bodies };
         let followed = N::follow(&posed, context, &mut [&mut kept], observer)?;
         if followed.is_stopped {
             return Err(interrupted(self.run, followed.n.unsigned_abs()));
@@ -109,7 +109,7 @@ impl Posed<'_> {
         if let Some(summary) = &followed.summary {
             observer.summary(summary);
         }
-        let (evaluations, interactions) = (followed.evaluations, kept.approaches.map(|approaches| approaches.found()));
+        let (evaluations, interactions) = (followed.evaluations, kept.bodies.and_then(|bodies| bodies.interactions()));
         Ok(Samples { evaluations, interactions, ..kept.samples })
     }
 }
@@ -122,16 +122,15 @@ struct Kept<'a, N: RunNumber> {
     cells: Vec<Cell<N>>,
     /// The period; `None` of crossings.
     every: Option<u64>,
-    /// Of planets.
-    approaches: Option<Approaches>,
+    bodies: Option<Bodies>,
 }
 
 impl<N: RunNumber> Kept<'_, N> {
     fn push(&mut self, at: &mut At<'_, '_, N>) -> Result<(), Error> {
         let energy = at.energy()?.clone();
         let (n, time, samples) = (at.n, at.time(), &mut self.samples);
-        if let Some(approaches) = &mut self.approaches {
-            approaches.include(n, at.state().0);
+        if let Some(bodies) = &mut self.bodies {
+            bodies.include(n, at.state().0);
         }
         samples.n.push(n);
         samples.t.push(time);

@@ -240,11 +240,11 @@ impl SymbolicHamiltonian {
         for (power, terms) in (1..).zip(&series.terms) {
             let mut sum = Vec::new();
             for (bracket, c) in terms {
-                sum.push((self.bracket(bracket.letters(), &mut known), c.clone()));
-                if self.graph.len() > MOST_NODES {
+                let found = self.bracket(bracket.letters(), &mut known).ok_or_else(|| {
                     let message = format!("H_{} of this system has more than {MOST_NODES} parts", power + 1);
-                    return Err(Refusal::new(message, format!("ask for powers of h below {power}")));
-                }
+                    Refusal::new(message, format!("ask for powers of h below {power}"))
+                });
+                sum.push((found?, c.clone()));
             }
             let sum = self.graph.sum(&sum);
             let formula = self.shorter(sum);
@@ -255,20 +255,20 @@ impl SymbolicHamiltonian {
         Ok(found)
     }
 
-    /// [x_1,[x_2,[…,x_n]]], with those within it that are known.
-    fn bracket<L: Letter>(&mut self, letters: &[L], known: &mut HashMap<Vec<L>, Node>) -> Node {
+    /// [x_1,[x_2,[…,x_n]]], with those within it that are known; `None` where formulas have too many parts.
+    fn bracket<L: Letter>(&mut self, letters: &[L], known: &mut HashMap<Vec<L>, Node>) -> Option<Node> {
         let [first, rest @ ..] = letters else { unreachable!("a bracket has letters") };
         if rest.is_empty() {
-            return self.parts[first.number()];
+            return Some(self.parts[first.number()]);
         }
         if let Some(node) = known.get(letters) {
-            return *node;
+            return Some(*node);
         }
-        let inner = self.bracket(rest, known);
+        let inner = self.bracket(rest, known)?;
         let node = self.graph.bracket(self.parts[first.number()], inner, self.coordinates.len() / 2);
         let node = self.shorter(node);
         known.insert(letters.to_vec(), node);
-        node
+        (self.graph.len() <= MOST_NODES).then_some(node)
     }
 
     /// H + Σ hⁿ H_(n+1) up to h^grade as a formula in q, p, t, H, and p_t in transformed time, where it is that of H' = f(T + p_t) − f(−U).

@@ -1,6 +1,7 @@
 //! Follows a run: the error of H, the modified energy by a monitor, and close encounters.
 
-pub(crate) mod approaches;
+mod approaches;
+pub(crate) mod bodies;
 pub(crate) mod encounters;
 mod energy;
 mod lasting_change;
@@ -17,11 +18,11 @@ use shadowstep::steps::integrator::{VectorIntegrator, at_output};
 use shadowstep::systems::system::Visitor;
 use shadowstep::{Carried, Integrator as _, Number, Rational, Real};
 
-pub use self::approaches::{Approach, Approaches, Interactions};
+pub use self::approaches::{Approach, Interactions};
+pub use self::bodies::Bodies;
 pub use self::encounters::Encounter;
 use self::encounters::Encounters;
 use self::energy::EnergyError;
-use self::light::LightBodies;
 pub use self::light::LightBody;
 pub use self::particles::ParticleApproach;
 use crate::run::Run;
@@ -58,7 +59,7 @@ impl Energies {
     }
 }
 
-/// The ε of planets, which costs as much as the forces of a step, is computed at every 16th state after the first ones.
+/// The ε of planets is computed at every 16th state after the first ones.
 const EPSILON_EVERY: u64 = 16;
 
 /// Follows the states of a run in the order of time.
@@ -89,8 +90,7 @@ struct Observed<N: RunNumber> {
     pass: u64,
     idle: u64,
     encounters: Encounters<N>,
-    approaches: Option<Approaches>,
-    light: Option<LightBodies>,
+    bodies: Option<Bodies>,
 }
 
 /// A monitor with a window every `every` steps.
@@ -110,13 +110,10 @@ impl<N: RunNumber> Observed<N> {
     /// Takes the state n; whether no monitor takes anything of it.
     #[inline]
     fn include(&mut self, n: i64, (q, p): (&[N], &[N])) -> bool {
-        let Observed { monitors, pass, idle, encounters, approaches, light } = self;
+        let Observed { monitors, pass, idle, encounters, bodies } = self;
         encounters.include(n, p);
-        if let Some(approaches) = approaches {
-            approaches.include(n, q);
-        }
-        if let Some(light) = light {
-            light.include(n, q);
+        if let Some(bodies) = bodies {
+            bodies.include(n, q);
         }
         if *idle == 0 {
             return false;
@@ -160,12 +157,11 @@ impl<N: RunNumber> Saved<N> for Watch<N> {
         [&mut self.from, &mut self.n].into_iter().for_each(|n| to.whole(n));
         if let Some(observed) = &mut self.observed {
             observed.leave_closer((self.from, self.n), self.windows);
-            let Observed { monitors, pass, idle, encounters, approaches, light } = observed;
+            let Observed { monitors, pass, idle, encounters, bodies } = observed;
             monitors.iter_mut().for_each(|spaced| spaced.monitor.fields(to));
             [pass, idle].into_iter().for_each(|states| to.count(states));
             encounters.fields(to);
-            approaches.iter_mut().for_each(|approaches| approaches.fields(to));
-            light.iter_mut().for_each(|light| light.fields(to));
+            bodies.iter_mut().for_each(|bodies| bodies.fields(to));
         }
     }
 }
@@ -200,8 +196,7 @@ impl<N: RunNumber> Watch<N> {
                 pass: 0,
                 idle: 0,
                 encounters: Encounters::new(&integrator.state().p()[..massive]),
-                approaches: None,
-                light: None,
+                bodies: None,
             };
             begun.idle = begun.monitors_idle();
             observed = Some(begun);
@@ -232,15 +227,10 @@ impl<N: RunNumber> Watch<N> {
         self.names.clone_from(&system.coordinates);
         self.time = system.explicit_time.then(|| system.q.len() - 1);
         if let Some(observed) = &mut self.observed {
-            observed.approaches = Approaches::of(system, EPSILON_EVERY);
-            let state = (integrator.state().q(), integrator.state().p());
-            if let Some(approaches) = &mut observed.approaches {
-                approaches.include(self.n, state.0);
-            }
             let h = <f64 as Number>::from_rational(integrator.step_size().exact(), &());
-            observed.light = LightBodies::of(system, h);
-            if let Some(light) = &mut observed.light {
-                light.include(self.n, state.0);
+            observed.bodies = Bodies::of(system, EPSILON_EVERY, Some(h));
+            if let Some(bodies) = &mut observed.bodies {
+                bodies.include(self.n, integrator.state().q());
             }
         }
         self
@@ -340,7 +330,7 @@ impl<N: RunNumber> Watch<N> {
         initial.make_absolute();
         let [largest, last] = [&self.energy.largest, &self.energy.last].map(N::clone);
         let Watch { observed, from, n, transformed, processed, time, names, .. } = self;
-        let Observed { monitors, pass, encounters, approaches, light, .. } = observed?;
+        let Observed { monitors, pass, encounters, bodies, .. } = observed?;
         let Spaced { mut monitor, .. } = monitors.into_iter().next()?;
         monitor.pass(pass);
         let mut report = monitor.report();
@@ -383,8 +373,8 @@ impl<N: RunNumber> Watch<N> {
             encounters,
             closest,
             extremes: Vec::new(),
-            interactions: approaches.map(|approaches| approaches.found()),
-            light: light.map_or(Vec::new(), |light| light.found()),
+            interactions: bodies.as_ref().and_then(Bodies::interactions),
+            light: bodies.as_ref().map_or(Vec::new(), Bodies::light),
             bounded: verdict.is_bounded(),
             verdict: verdict.to_string(),
             conclusion: if verdict == report.verdict { report.conclusion() } else { verdict.to_string() },

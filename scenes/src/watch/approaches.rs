@@ -1,13 +1,13 @@
 //! Close approaches of planets, in Hill radii, and the size of their interactions.
 
 use serde::Serialize;
-use shadowstep::Real;
 use shadowstep::number::saved::{Fields, optional};
 use shadowstep_symbolic::decimal::significant;
 
+use super::bodies::Places;
 use super::particles::{ParticleApproach, Particles};
 use crate::scene::System;
-use crate::scene::split::{CanonicalCoordinates, OfPlanets, Planets, Positions};
+use crate::scene::split::OfPlanets;
 
 /// The closest approach of two planets.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -73,17 +73,12 @@ impl Interactions {
 const FIRST: u64 = 4096;
 
 /// Follows the planets of a run in double precision; ε and the closest approach of planets are those of bodies with mass.
-pub struct Approaches {
-    planets: Planets,
+pub(super) struct Approaches {
     names: Vec<String>,
     pairs: Pairs,
-    positions: Positions<f64>,
     epsilon: OfPlanets,
     /// ε is computed at the first states, at those whose n is a multiple of this, and where two planets are closer than before.
     every: u64,
-    q: Vec<f64>,
-    /// In an inertial frame.
-    shown: Vec<f64>,
     /// ε, and the planet that has it.
     largest: (f64, usize),
     in_drifts_within: Option<f64>,
@@ -184,48 +179,32 @@ impl Pairs {
 }
 
 impl Approaches {
-    /// `None` of a system whose parts are T(p) and U(q). ε costs as much as the forces of a step: after some thousand states it is computed where n is a multiple of `every`.
-    pub fn of(system: &System, every: u64) -> Option<Approaches> {
+    /// `None` of a system whose parts are T(p) and U(q).
+    pub(super) fn of(system: &System, every: u64) -> Option<Approaches> {
         let (particles, planets) = (system.particles(), system.parts.planets()?.without_particles());
         let number = |mass| <f64 as shadowstep::Number>::from_rational(mass, &());
         let masses: Vec<f64> = planets.bodies.masses().iter().map(number).collect();
-        let zeros = || vec![0.0; masses.len() * planets.dimensions];
-        let names = planets.names(&system.coordinates);
         Some(Approaches {
-            q: zeros(),
-            shown: zeros(),
             particles: (particles > 0).then(|| Particles::new(&masses, particles)),
             pairs: Pairs::new(&masses),
-            names,
-            positions: planets.inertial_positions(),
+            names: planets.names(&system.coordinates),
             epsilon: planets.epsilon(system),
             every,
             largest: (0.0, 1),
             in_drifts_within: planets.encounters.as_ref().map(|near| number(near.shells.radius())),
-            planets,
         })
     }
 
-    /// Takes the state n, in the coordinates of the steps.
-    pub fn include<N: Real>(&mut self, n: i64, q: &[N]) {
-        self.q.iter_mut().zip(q).for_each(|(own, q)| *own = q.to_f64());
-        (self.positions)(&self.q, &mut self.shown);
-        let shown = &self.shown;
-        let dimensions = self.planets.dimensions;
+    /// Takes the state n.
+    pub(super) fn include(&mut self, n: i64, places: &Places) {
         if let Some(particles) = &mut self.particles {
-            // particles are relative to the centre of mass, or to the first body
-            let origin = match self.planets.coordinates {
-                CanonicalCoordinates::Jacobi => &self.q[..dimensions],
-                CanonicalCoordinates::DemocraticHeliocentric => &shown[..dimensions],
-            };
-            let relative: Vec<_> = shown.iter().zip(origin.iter().cycle()).map(|(x, origin)| x - origin).collect();
-            particles.include(n, &relative, &q[relative.len()..], dimensions);
+            particles.include(n, places);
         }
-        let is_closer = self.pairs.include(n, shown, dimensions);
+        let is_closer = self.pairs.include(n, places.inertial(), places.dimensions);
         if !(is_closer || n.unsigned_abs() < FIRST || n.unsigned_abs().is_multiple_of(self.every)) {
             return;
         }
-        for (planet, epsilon) in (self.epsilon)(&self.q).into_iter().enumerate() {
+        for (planet, epsilon) in (self.epsilon)(places.of_steps()).into_iter().enumerate() {
             if epsilon > self.largest.0 {
                 self.largest = (epsilon, planet + 1);
             }
@@ -233,7 +212,7 @@ impl Approaches {
     }
 
     /// What the states so far have shown.
-    pub fn found(&self) -> Interactions {
+    pub(super) fn found(&self) -> Interactions {
         let named = |Closest { n, bodies, hill_radii, hill_radius }| {
             let bodies = bodies.map(|body: usize| self.names[body].clone());
             Approach { n, bodies, hill_radii, hill_radius }

@@ -3,10 +3,10 @@
 use serde::Serialize;
 use shadowstep::number::saved::{Fields, list};
 use shadowstep::systems::wisdom_holman::Shells;
-use shadowstep::{Number, Rational, Real};
+use shadowstep::{Number, Rational};
 use shadowstep_symbolic::decimal::significant;
 
-use crate::scene::split::{CanonicalCoordinates, Positions};
+use super::bodies::Places;
 use crate::scene::{GRAVITY, Parts, PotentialEnergy, System};
 
 /// The closest approach of a light planet, or of a particle of mass 0, to a heavier planet.
@@ -38,13 +38,11 @@ const LEAST_STEPS: f64 = 10.0;
 type Place = [f64; 3];
 
 /// Follows light bodies from state to state.
-pub struct LightBodies {
+pub(super) struct LightBodies {
     names: Vec<String>,
-    dimensions: usize,
     /// The mass of each body that has one, and (m/3m_0)^(1/3).
     masses: Vec<f64>,
     parts: Vec<f64>,
-    coordinates: Coordinates,
     /// 1/(3 G m_0), and |h|.
     scale: f64,
     h: f64,
@@ -59,16 +57,6 @@ pub struct LightBodies {
     before: Vec<Place>,
     found: Vec<Closest>,
     near: Near,
-    /// Scratch space.
-    q: Vec<f64>,
-    inertial: Vec<f64>,
-}
-
-/// Those of the steps.
-enum Coordinates {
-    Inertial,
-    /// With those of the bodies with mass alone, in double precision.
-    Of(CanonicalCoordinates, Positions<f64>),
 }
 
 /// The least square of a distance in Hill radii, its n and planet, and the least number of steps.
@@ -86,7 +74,7 @@ impl Closest {
 
 impl LightBodies {
     /// Of bodies about a central one, in steps of h; `None` where none of them is light.
-    pub fn of(system: &System, h: f64) -> Option<LightBodies> {
+    pub(super) fn of(system: &System, h: f64) -> Option<LightBodies> {
         let number = |value: &Rational| <f64 as Number>::from_rational(value, &());
         let (particles, planets) =
             (system.particles(), system.parts.planets().map(|of_all| of_all.without_particles()));
@@ -113,19 +101,12 @@ impl LightBodies {
             return None;
         }
         let names = system.coordinates.iter().step_by(dimensions);
-        let (shells, coordinates) = match planets {
-            None => (None, Coordinates::Inertial),
-            Some(planets) => {
-                let shells = planets.encounters.as_ref().map(|near| (near.shells.clone(), near.substeps));
-                (shells, Coordinates::Of(planets.coordinates, planets.inertial_positions()))
-            }
-        };
+        let encounters = planets.as_ref().and_then(|planets| planets.encounters.as_ref());
+        let shells = encounters.map(|near| (near.shells.clone(), near.substeps));
         Some(LightBodies {
             names: names.map(|name| name.trim_start_matches('x').trim_start_matches('_').to_owned()).collect(),
-            dimensions,
             scale: 1.0 / (3.0 * number(&g) * masses[0]),
             parts: masses.iter().map(|mass| (mass / (3.0 * masses[0])).cbrt()).collect(),
-            coordinates,
             h: h.abs(),
             shells,
             attracting: (1..masses.len())
@@ -137,47 +118,23 @@ impl LightBodies {
             masses,
             now: Vec::new(),
             before: Vec::new(),
-            q: Vec::new(),
-            inertial: Vec::new(),
         })
     }
 
-    /// Takes the state n after the last one, in the coordinates of the steps.
-    pub fn include<N: Real>(&mut self, n: i64, q: &[N]) {
-        std::mem::swap(&mut self.now, &mut self.before);
-        self.find_places(q);
-        if self.before.len() == self.now.len() {
-            self.find_approaches(n);
-        }
-    }
-
-    /// The places of all bodies relative to one point.
-    fn find_places<N: Real>(&mut self, q: &[N]) {
-        let LightBodies { now, dimensions, masses, coordinates, q: own, inertial, .. } = self;
-        own.clear();
-        own.extend(q.iter().map(Real::to_f64));
-        let (massive, particles) = own.split_at(masses.len() * *dimensions);
-        let mut origin = [0.0; 3];
-        let massive = match coordinates {
-            Coordinates::Inertial => massive,
-            Coordinates::Of(kind, positions) => {
-                inertial.resize(massive.len(), 0.0);
-                positions(massive, inertial);
-                // particles are relative to the centre of mass, or to the first body
-                origin[..*dimensions].copy_from_slice(match kind {
-                    CanonicalCoordinates::Jacobi => &massive[..*dimensions],
-                    CanonicalCoordinates::DemocraticHeliocentric => &inertial[..*dimensions],
-                });
-                inertial
-            }
-        };
+    /// Takes the state n after the last one.
+    pub(super) fn include(&mut self, n: i64, places: &Places) {
+        let LightBodies { now, before, .. } = self;
+        std::mem::swap(now, before);
         now.clear();
-        for (bodies, origin) in [(massive, origin), (particles, [0.0; 3])] {
-            match *dimensions {
+        for (bodies, origin) in [(places.inertial(), places.origin()), (places.particles(), [0.0; 3])] {
+            match places.dimensions {
                 3 => extend::<3>(now, bodies, origin),
                 2 => extend::<2>(now, bodies, origin),
                 _ => extend::<1>(now, bodies, origin),
             }
+        }
+        if self.before.len() == self.now.len() {
+            self.find_approaches(n);
         }
     }
 
@@ -228,7 +185,7 @@ impl LightBodies {
     }
 
     /// What the states so far have shown, of each light body that was near any planet.
-    pub fn found(&self) -> Vec<LightBody> {
+    pub(super) fn found(&self) -> Vec<LightBody> {
         let one = |(body, Closest { square, n, planet, steps }): (&usize, &Closest)| LightBody {
             n: *n,
             bodies: [*planet, *body].map(|body| self.names[body].clone()),

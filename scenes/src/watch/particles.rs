@@ -1,8 +1,9 @@
 //! Particles of mass 0 that come close to planets.
 
 use serde::Serialize;
-use shadowstep::Real;
 use shadowstep::number::saved::Fields;
+
+use super::bodies::Places;
 
 /// The closest approach of a particle to a planet.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -34,17 +35,20 @@ impl Particles {
         Particles { parts, planets: Vec::new(), closest: (f64::INFINITY, 0, [0; 2]), within: vec![false; particles] }
     }
 
-    /// Takes the state n: the places of the bodies with mass, and of particles, both relative to the same point.
-    pub(super) fn include<N: Real>(&mut self, n: i64, bodies: &[f64], particles: &[N], dimensions: usize) {
+    /// Takes the state n.
+    pub(super) fn include(&mut self, n: i64, places: &Places) {
         let Particles { parts, planets, closest, within } = self;
-        let place = |body: &[f64]| -> [f64; 3] { std::array::from_fn(|axis| body.get(axis).copied().unwrap_or(0.0)) };
+        let (dimensions, origin) = (places.dimensions, places.origin());
+        let place = |body: &[f64], origin: [f64; 3]| -> [f64; 3] {
+            std::array::from_fn(|axis| body.get(axis).map_or(0.0, |x| x - origin[axis]))
+        };
         let square = |a: [f64; 3], b: [f64; 3]| (0..3).map(|axis| (a[axis] - b[axis]).powi(2)).sum::<f64>();
-        let mut places = bodies.chunks_exact(dimensions).map(place);
-        let central = places.next().unwrap_or_default();
+        let mut bodies = places.inertial().chunks_exact(dimensions).map(|body| place(body, origin));
+        let central = bodies.next().unwrap_or_default();
         planets.clear();
-        planets.extend(places.zip(parts).map(|(planet, part)| (planet, 1.0 / (*part * square(planet, central)))));
-        for (k, (particle, within)) in particles.chunks_exact(dimensions).zip(within).enumerate() {
-            let x = std::array::from_fn(|axis| particle.get(axis).map_or(0.0, Real::to_f64));
+        planets.extend(bodies.zip(parts).map(|(planet, part)| (planet, 1.0 / (*part * square(planet, central)))));
+        for (k, (particle, within)) in places.particles().chunks_exact(dimensions).zip(within).enumerate() {
+            let x = place(particle, [0.0; 3]);
             for (j, (planet, inverse)) in planets.iter().enumerate() {
                 let found = square(x, *planet) * inverse;
                 *within |= found < 1.0;
