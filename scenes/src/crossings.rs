@@ -70,8 +70,8 @@ impl<N: RunNumber> Crossings<N> {
             let state = Snapshot::of(n, integrator.state());
             integrator.system().state_mut().set(&q, &p);
             let part = step_to_zero(integrator, |integrator| self.present(integrator));
-            let taken =
-                part.filter(|_| is_zero(&self.present(integrator), [&value, &now])).map(|part| take(integrator, &part));
+            let part = part.filter(|_| is_zero(&self.present(integrator), [&value, &now]) && is_finite(integrator));
+            let taken = part.map(|part| take(integrator, &part));
             // only here: a state that is set has its gradient evaluated again
             state.restore(integrator);
             taken
@@ -131,6 +131,12 @@ fn moved<N: Real>((q, p): &Point<N>, direction: i64, bits: u32) -> Point<N> {
 /// The digits of a decimal.
 fn significant_digits(value: &Rational) -> usize {
     to_text(value).trim_start_matches(['-', '0', '.']).bytes().filter(u8::is_ascii_digit).count()
+}
+
+/// Whether the state is: a step past a singularity may have none between that is.
+fn is_finite<N: Real>(integrator: &VectorIntegrator<'_, N>) -> bool {
+    let state = integrator.state();
+    state.q().iter().chain(state.p()).all(N::is_finite)
 }
 
 /// Whether a value is 0 beside those at both ends of the step. Where the sign changes at a pole or at the turn of an angle, the least value that is
