@@ -7,6 +7,7 @@ mod energy;
 mod lasting_change;
 pub mod light;
 pub(crate) mod particles;
+mod places;
 pub(crate) mod summary;
 
 use std::mem::take;

@@ -121,7 +121,7 @@ struct Measuring<'a, N: RunNumber> {
     /// The positions of the reference, in two parts.
     expected: Vec<[Vec<N>; 2]>,
     positions: Positions<N>,
-    /// The monitor has a window every so many steps.
+    /// Steps between windows of the monitor.
     every: u64,
     energy_of: Option<EnergyAt<N>>,
     begun: Option<Begun<N>>,

@@ -4,8 +4,8 @@ use serde::Serialize;
 use shadowstep::number::saved::{Fields, optional};
 use shadowstep_symbolic::decimal::significant;
 
-use super::bodies::Places;
 use super::particles::{ParticleApproach, Particles};
+use super::places::Places;
 use crate::scene::System;
 use crate::scene::split::OfPlanets;
 

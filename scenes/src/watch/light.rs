@@ -6,7 +6,7 @@ use shadowstep::systems::wisdom_holman::Shells;
 use shadowstep::{Number, Rational};
 use shadowstep_symbolic::decimal::significant;
 
-use super::bodies::Places;
+use super::places::Places;
 use crate::scene::{GRAVITY, Parts, PotentialEnergy, System};
 
 /// The closest approach of a light planet, or of a particle of mass 0, to a heavier planet.

@@ -3,7 +3,7 @@
 use serde::Serialize;
 use shadowstep::number::saved::Fields;
 
-use super::bodies::Places;
+use super::places::Places;
 
 /// The closest approach of a particle to a planet.
 #[derive(Clone, Debug, PartialEq, Serialize)]
