@@ -14,8 +14,8 @@ fn main() {
     println!("cargo::rustc-env=SHADOWSTEP_VERSION={version}");
 }
 
-/// The commit of the folder around this one where that is a checkout of git, which a crate of crates.io has not. Not in builds for tests, which
-/// would be compiled again after each commit.
+/// The commit of the folder around this one where that is a checkout of git, which a crate of crates.io has not. Not in
+/// builds for tests, which would be compiled again after each commit.
 fn of_checkout() -> Option<String> {
     if env::var("PROFILE").as_deref() != Ok("release") || !Path::new("../.git").exists() {
         return None;

@@ -64,8 +64,8 @@ fn proved(name: &str, drift_first: bool) -> Option<Proved> {
     }
 }
 
-/// What the generated code of a step depends on, beside its weights and their number: the kinds of its maps, the first of them, whether it is the same
-/// backwards, whether it is short enough to be inlined, and whether it has a processor.
+/// What the generated code of a step depends on, beside its weights and their number: the kinds of its maps, the first
+/// of them, whether it is the same backwards, whether it is short enough to be inlined, and whether it has a processor.
 fn kind_of_step(proved: &Proved) -> (BTreeSet<MapKind>, MapKind, [bool; 3]) {
     let maps = &proved.plan.maps;
     let kinds = maps.iter().map(|&(kind, _)| kind).collect();

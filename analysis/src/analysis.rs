@@ -1,4 +1,5 @@
-//! Proved scheme → how good it is: leading errors, stability and phase of the harmonic oscillator, sizes of the weights.
+//! Proved scheme → how good it is: leading errors, stability and phase of the harmonic oscillator, sizes of the
+//! weights.
 //!
 //! ```
 //! use shadowstep_analysis::Analysis;
@@ -36,12 +37,13 @@ pub struct Analysis {
     pub quadratic: LeadingError,
     /// The leading errors after processing, for every T(p) and quadratic T; `None` for a scheme that is not processed.
     pub processed: Option<[LeadingError; 2]>,
-    /// Where the harmonic oscillator is stable; `None` for a step of more than [`stability::MOST_MAPS`](crate::stability::MOST_MAPS)
-    /// maps that does not repeat a shorter one.
+    /// Where the harmonic oscillator is stable; `None` for a step of more than
+    /// [`stability::MOST_MAPS`](crate::stability::MOST_MAPS) maps that does not repeat a shorter one.
     pub stability: Option<Stability>,
     /// How far the harmonic oscillator's phase is off.
     pub phase: PhaseError,
-    /// The largest expected error of the energy of the harmonic oscillator, of a symmetric scheme whose stability is known.
+    /// The largest expected error of the energy of the harmonic oscillator, of a symmetric scheme whose stability is
+    /// known.
     pub sampling: Option<SamplingError>,
     /// The sizes of the kicks' weights.
     pub kicks: Sizes,
@@ -100,8 +102,8 @@ impl Analysis {
         }
     }
 
-    /// The effective error for a class of kinetic energies, a Hessian–vector product counted like an evaluation of the gradient: see
-    /// [`LeadingError::effective`].
+    /// The effective error for a class of kinetic energies, a Hessian–vector product counted like an evaluation of the
+    /// gradient: see [`LeadingError::effective`].
     pub fn effective_error(&self, kinetic: Kinetic) -> f64 {
         self.error(kinetic).effective(self.evaluations + self.hessian_products)
     }

@@ -4,8 +4,9 @@ use shadowstep_schemes::{Kinetic, Proved, parse, shipped, shipped_names, shipped
 
 use crate::analysis::Analysis;
 
-/// The shipped scheme of least effective error that is meant for every T(p) and claims this order; or the nearest higher
-/// order, or else the highest that there is. Processed schemes and those of multiple time steps are left out. Only the schemes of one order are proved and analysed.
+/// The shipped scheme of least effective error that is meant for every T(p) and claims this order; or the nearest
+/// higher order, or else the highest that there is. Processed schemes and those of multiple time steps are left out.
+/// Only the schemes of one order are proved and analysed.
 ///
 /// ```
 /// use shadowstep_analysis::best_for_every_kinetic;

@@ -1,15 +1,15 @@
 //! A basis of the brackets of kick and drift, and the coordinates of a Lie polynomial in it.
 //!
-//! The brackets are right-nested, [x_1,[x_2,[…,[x_{n−1},x_n]…]]], as the literature writes error terms (Omelyan, Mryglod
-//! & Folk, Comput. Phys. Commun. 146 (2002) 188; Blanes & Moan, J. Comput. Appl. Math. 142 (2002) 313). Among those with
-//! k letters K and d letters D the basis takes, in the order of a dictionary, each that does not depend on those before
-//! it. In the dictionary the letter of which there are more comes first, K where there are as many of both; brackets end
-//! in that letter and the other one. So K and D are treated alike: for every odd n the basis is its own image when K and
-//! D are exchanged, and a scheme has the same error coefficients whether it begins with a kick or with a drift. Up to
-//! n = 5 the brackets are the papers' brackets, up to the order and the sign.
+//! The brackets are right-nested, [x_1,[x_2,[…,[x_{n−1},x_n]…]]], as the literature writes error terms (Omelyan,
+//! Mryglod & Folk, Comput. Phys. Commun. 146 (2002) 188; Blanes & Moan, J. Comput. Appl. Math. 142 (2002) 313). Among
+//! those with k letters K and d letters D the basis takes, in the order of a dictionary, each that does not depend on
+//! those before it. In the dictionary the letter of which there are more comes first, K where there are as many of
+//! both; brackets end in that letter and the other one. So K and D are treated alike: for every odd n the basis is its
+//! own image when K and D are exchanged, and a scheme has the same error coefficients whether it begins with a kick or
+//! with a drift. Up to n = 5 the brackets are the papers' brackets, up to the order and the sign.
 //!
-//! For quadratic T a bracket of k kicks and d drifts is a polynomial of degree d − k + 1 in p, so that all with k ≥ d + 2
-//! vanish, and with them the ideal that they generate. It is spanned by the right-nested brackets in which some inner
+//! For quadratic T a bracket of k kicks and d drifts is a polynomial of degree d − k + 1 in p, so that all with k ≥ d +
+//! 2 vanish, and with them the ideal that they generate. It is spanned by the right-nested brackets in which some inner
 //! bracket vanishes. They come first in the dictionary and their coordinates are dropped.
 
 use std::collections::BTreeMap;
@@ -79,7 +79,8 @@ impl Letter for usize {
     }
 }
 
-/// The bracket [x_1,[x_2,[…,[x_{n−1},x_n]…]]] of Lie derivatives: K of the kick and D of the drift, or A, B, C, … of many parts.
+/// The bracket [x_1,[x_2,[…,[x_{n−1},x_n]…]]] of Lie derivatives: K of the kick and D of the drift, or A, B, C, … of
+/// many parts.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Bracket<L = MapKind>(Vec<L>);
 
@@ -158,7 +159,8 @@ struct Basis {
 }
 
 impl Basis {
-    /// The basis of the brackets with these letters, whose Lyndon words are given; computed once for the letters and the kinetic energy.
+    /// The basis of the brackets with these letters, whose Lyndon words are given; computed once for the letters and
+    /// the kinetic energy.
     fn known<L: Letter>(words: &[Vec<L>], letters: &[L], kinetic: Kinetic) -> Arc<Basis> {
         type Known = BTreeMap<(Vec<usize>, bool), Arc<Basis>>;
         static KNOWN: Mutex<Known> = Mutex::new(BTreeMap::new());
@@ -204,8 +206,8 @@ fn basis<L: Letter>(words: &[Vec<L>], letters: &[L], kinetic: Kinetic) -> Vec<Br
     candidates
 }
 
-/// The right-nested brackets with these letters that end in the least frequent one, in the order of the dictionary in which the most frequent
-/// letters come first: the ideal of a letter is spanned by the brackets that end in it.
+/// The right-nested brackets with these letters that end in the least frequent one, in the order of the dictionary in
+/// which the most frequent letters come first: the ideal of a letter is spanned by the brackets that end in it.
 fn candidates<L: Letter>(letters: &[L]) -> Vec<Bracket<L>> {
     let mut counts: Vec<(L, usize)> = Vec::new();
     for &letter in letters {

@@ -9,8 +9,9 @@
 //! | `enclosure` | decimals → a box in which there is one solution |
 //! | `whole_numbers` | conditions of rational weights in whole numbers |
 //!
-//! The conditions are those of [`order`](shadowstep_schemes::order): in the product of the exponentials of kicks and drifts, every Lyndon word of n
-//! letters up to the order has the coefficient 1/n!. A certificate has the weights; whoever checks it computes the coefficients.
+//! The conditions are those of [`order`](shadowstep_schemes::order): in the product of the exponentials of kicks and
+//! drifts, every Lyndon word of n letters up to the order has the coefficient 1/n!. A certificate has the weights;
+//! whoever checks it computes the coefficients.
 
 mod class;
 mod closed;
@@ -51,15 +52,16 @@ pub struct Certificate {
     pub kind: Kind,
     /// The maps in their order with their weights.
     pub maps: Vec<(MapKind, Polynomial)>,
-    /// Orders for smaller classes that do not follow from the one for every T(p), and how far their conditions may be off.
+    /// Orders for smaller classes that do not follow from the one for every T(p), and how far their conditions may be
+    /// off.
     pub also: Vec<(Class, Rational)>,
     /// Of decimals, the box about them in which there is one solution, where it is known how to prove that.
     pub enclosure: Option<Enclosure>,
 }
 
 impl Certificate {
-    /// The certificate of the order for every T(p); of a processed scheme, that of its kernel. `None` with gradient kicks and inner schemes, whose conditions
-    /// are not those of words in kicks and drifts.
+    /// The certificate of the order for every T(p); of a processed scheme, that of its kernel. `None` with gradient
+    /// kicks and inner schemes, whose conditions are not those of words in kicks and drifts.
     ///
     /// ```
     /// use shadowstep_analysis::certificate::{Certificate, Kind};

@@ -1,7 +1,9 @@
-//! Closed intervals of instability: where a step of the harmonic oscillator turns by a multiple of π and its matrix is ±1.
+//! Closed intervals of instability: where a step of the harmonic oscillator turns by a multiple of π and its matrix is
+//! ±1.
 //!
-//! There the trace touches ±2 and does not leave [−2, 2] if the entries beside the diagonal are both 0: two conditions, and the hω is one more
-//! unknown. Schemes for sampling need it (Blanes, Casas and Sanz-Serna, SIAM J. Sci. Comput. 36 (2014) A1556).
+//! There the trace touches ±2 and does not leave [−2, 2] if the entries beside the diagonal are both 0: two conditions,
+//! and the hω is one more unknown. Schemes for sampling need it (Blanes, Casas and Sanz-Serna, SIAM J. Sci. Comput. 36
+//! (2014) A1556).
 
 use shadowstep_schemes::MapKind;
 use shadowstep_schemes::arithmetic::Arithmetic;

@@ -1,9 +1,9 @@
 //! The leading error of a scheme: the terms of lowest order in the logarithm of its step.
 //!
 //! A step of order p is exp(h a_1 K) exp(h b_1 D) exp(h a_2 K) … = exp(h (K + D) + h^{p+1} E + …), where E is a Lie
-//! polynomial of degree p + 1 in K and D. Its coordinates in the basis of [`super::bracket`] are the error coefficients.
-//! For quadratic T, E is what is left modulo the ideal of the brackets that vanish; the terms of the logarithm between
-//! the order for every T(p) and the order for quadratic T lie in that ideal.
+//! polynomial of degree p + 1 in K and D. Its coordinates in the basis of [`super::bracket`] are the error
+//! coefficients. For quadratic T, E is what is left modulo the ideal of the brackets that vanish; the terms of the
+//! logarithm between the order for every T(p) and the order for quadratic T lie in that ideal.
 
 use shadowstep_symbolic::{Fraction, Rational};
 
@@ -15,8 +15,8 @@ use shadowstep_schemes::claims::Kinetic;
 use shadowstep_schemes::map::Map;
 use shadowstep_schemes::order::weighed;
 
-/// Digits behind the point of the words' coefficients. They are about 1e-8 or larger before the coefficients of the exact flow
-/// are subtracted, and the difference is needed to the 16 digits of f64.
+/// Digits behind the point of the words' coefficients. They are about 1e-8 or larger before the coefficients of the
+/// exact flow are subtracted, and the difference is needed to the 16 digits of f64.
 const DIGITS: u32 = 60;
 
 /// Coefficients below this are not distinguished from 0: some digits above the words' coefficients' last.

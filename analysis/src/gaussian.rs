@@ -1,16 +1,20 @@
 //! Gaussian targets of Hamiltonian Monte Carlo, and how often a proposal is accepted.
 //!
-//! A Gaussian density and unit masses make H a sum of independent oscillators of frequencies ω_i, the roots of the eigenvalues of the inverse covariance: of a
-//! direction with standard deviation σ, ω = 1/σ. Masses other than 1 change the ω_i only.
+//! A Gaussian density and unit masses make H a sum of independent oscillators of frequencies ω_i, the roots of the
+//! eigenvalues of the inverse covariance: of a direction with standard deviation σ, ω = 1/σ. Masses other than 1 change
+//! the ω_i only.
 //!
-//! **Acceptance.** Let E_i be the expected error of the energy of oscillator i ([`crate::sampling`]). A map of determinant 1 with singular values s and 1/s takes a state
-//! (x, y) of two normal variables to one with ΔH = ((s² − 1)x² + (s⁻² − 1)y²)/2, and 2E = (s − 1/s)². So E[exp(iuΔH)] = (1 + 2E(u² − iu))^(−1/2): all that
-//! ΔH depends on is E. With u = v + i/2 this is real, and as min(1, e^−x) = e^(−x/2) e^(−|x|/2), Parseval's formula with v = sinh(s)/2 gives
+//! **Acceptance.** Let E_i be the expected error of the energy of oscillator i ([`crate::sampling`]). A map of
+//! determinant 1 with singular values s and 1/s takes a state (x, y) of two normal variables to one with ΔH = ((s² −
+//! 1)x² + (s⁻² − 1)y²)/2, and 2E = (s − 1/s)². So E[exp(iuΔH)] = (1 + 2E(u² − iu))^(−1/2): all that ΔH depends on is E.
+//! With u = v + i/2 this is real, and as min(1, e^−x) = e^(−x/2) e^(−|x|/2), Parseval's formula with v = sinh(s)/2
+//! gives
 //!
 //! E[min(1, e^−ΔH)] = (1/π) ∫ Π_i (1 + E_i cosh²(s)/2)^(−1/2) ds / cosh s,
 //!
-//! which holds for any number of oscillators. For many with small E_i it approaches 2Φ(−√(μ/2)), μ = Σ E_i, which Beskos, Pillai, Roberts, Sanz-Serna and Stuart
-//! (Bernoulli 19 (2013) 1501) prove for targets of independent, equal components, Gaussian or not.
+//! which holds for any number of oscillators. For many with small E_i it approaches 2Φ(−√(μ/2)), μ = Σ E_i, which
+//! Beskos, Pillai, Roberts, Sanz-Serna and Stuart (Bernoulli 19 (2013) 1501) prove for targets of independent, equal
+//! components, Gaussian or not.
 
 use thiserror::Error;
 
@@ -36,8 +40,8 @@ pub enum NotGaussian {
     },
 }
 
-/// The distance of points in s: the integrand is analytic for |Im s| < π/2, and of many oscillators bounded for |Im s| < π/4, so that the error of the sum is about
-/// exp(−π²/(2·distance)), 7e-18.
+/// The distance of points in s: the integrand is analytic for |Im s| < π/2, and of many oscillators bounded for |Im
+/// s| < π/4, so that the error of the sum is about exp(−π²/(2·distance)), 7e-18.
 const DISTANCE: f64 = 0.125;
 
 /// −log of an integrand that adds nothing more.
@@ -80,7 +84,8 @@ impl Gaussian {
     }
 }
 
-/// The mean of min(1, e^−ΔH) for oscillators with these expected errors: see [the module](self). Exact up to about 1e-16.
+/// The mean of min(1, e^−ΔH) for oscillators with these expected errors: see [the module](self). Exact up to about
+/// 1e-16.
 pub fn acceptance(errors: &[f64]) -> f64 {
     mean(|cosh_squared| log_product(errors, cosh_squared / 2.0) / 2.0)
 }
@@ -122,7 +127,8 @@ mod tests {
 
     use super::*;
 
-    /// Of one oscillator ΔH < 0 in a sector of the plane, and reversibility makes the acceptance twice its share: (4/π) arctan(1/s).
+    /// Of one oscillator ΔH < 0 in a sector of the plane, and reversibility makes the acceptance twice its share: (4/π)
+    /// arctan(1/s).
     #[test]
     fn that_of_one_oscillator_is_an_angle() {
         for s in [1.0_f64, 1.000_001, 1.01, 1.5, 7.0, 1e4, 1e9] {

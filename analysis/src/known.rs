@@ -78,7 +78,8 @@ pub struct Likeness {
 }
 
 impl Likeness {
-    /// The shipped scheme that maps are within 10⁻⁵ in all weights: the nearest one. Kicks and drifts may be exchanged, and the order reversed.
+    /// The shipped scheme that maps are within 10⁻⁵ in all weights: the nearest one. Kicks and drifts may be exchanged,
+    /// and the order reversed.
     ///
     /// ```
     /// use shadowstep_analysis::Likeness;
@@ -157,7 +158,8 @@ pub(crate) enum Slip {
 /// Weights that differ by less are the same here: printed digits are not judged.
 const SAME: f64 = 1e-7;
 
-/// The shipped list that a list was copied from with a slip: at least three weights are the same, and at most two others are not.
+/// The shipped list that a list was copied from with a slip: at least three weights are the same, and at most two
+/// others are not.
 pub(crate) fn slip<'a>(
     list: &[f64],
     theirs: impl Iterator<Item = (&'static Known, &'a [f64])>,

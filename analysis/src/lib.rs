@@ -7,7 +7,7 @@
 //! | [`modified`] | the whole logarithm up to a power of h: the modified Hamiltonian as a series in brackets |
 //! | [`trace`] | the trace of a step of the harmonic oscillator, and the leading error of its phase |
 //! | [`oscillator`] | matrix, trace and phase of a step of the harmonic oscillator at a given hω, in f64 |
-//! | [`sampling`] | the largest expected error of the energy of the harmonic oscillator, which schemes for Hamiltonian Monte Carlo minimise |
+//! | [`sampling`] | what schemes for Hamiltonian Monte Carlo minimise: the largest expected error of the energy |
 //! | `closed_gaps` | conditions for weights whose step has no instability where it turns by a multiple of π |
 //! | [`gaussian`] | Gaussian targets, and how often a proposal of Hamiltonian Monte Carlo is accepted |
 //! | [`proposals`] | the proposals of a scheme: error, acceptance, cost, and the steps for which it is least |

@@ -1,7 +1,8 @@
 //! The logarithm of a step, but for the exact flow: the terms of one length, by the coefficients of Lyndon words.
 //!
-//! A step of order p is exp(h a_1 K) exp(h b_1 D) exp(h a_2 K) … = exp(h (K + D) + h^{p+1} E + …). The product 1 + X of the step and
-//! exp(−h (K + D)) begins with p + 1 letters, so of log(1 + X) = X − X²/2 + X³/3 − … few powers have words of a given length.
+//! A step of order p is exp(h a_1 K) exp(h b_1 D) exp(h a_2 K) … = exp(h (K + D) + h^{p+1} E + …). The product 1 + X of
+//! the step and exp(−h (K + D)) begins with p + 1 letters, so of log(1 + X) = X − X²/2 + X³/3 − … few powers have words
+//! of a given length.
 
 use std::collections::HashMap;
 
@@ -9,7 +10,8 @@ use shadowstep_schemes::MapKind;
 use shadowstep_schemes::arithmetic::Arithmetic;
 use shadowstep_schemes::order::{Word, Words, lyndon_words};
 
-/// The logarithm of exp(h a_1 K) exp(h b_1 D) … exp(−h (K + D)) at words of one length, prepared for many steps of the same order.
+/// The logarithm of exp(h a_1 K) exp(h b_1 D) … exp(−h (K + D)) at words of one length, prepared for many steps of the
+/// same order.
 pub(crate) struct Logarithm {
     lyndon: Vec<Word>,
     words: Words,
@@ -44,8 +46,8 @@ impl Logarithm {
         self.lyndon.iter().map(|word| self.coefficient(word, &excess, arithmetic)).collect()
     }
 
-    /// The coefficients in X, by Horner's rule: the sum over the cuts of a word of the maps' coefficient of the first part times the
-    /// coefficient of the second, of n letters, in exp(−h (K + D)), which is (−1)ⁿ/n!.
+    /// The coefficients in X, by Horner's rule: the sum over the cuts of a word of the maps' coefficient of the first
+    /// part times the coefficient of the second, of n letters, in exp(−h (K + D)), which is (−1)ⁿ/n!.
     fn excess<A: Arithmetic>(&self, maps: &[(MapKind, A::Value)], arithmetic: &A) -> Vec<A::Value> {
         let (coefficients, minus_one) = (self.words.coefficients(maps, arithmetic), arithmetic.integer(-1));
         let horner = |prefixes: &Vec<usize>| {

@@ -1,16 +1,17 @@
 //! The modified Hamiltonian of a step as a series in brackets, by the Baker–Campbell–Hausdorff formula.
 //!
-//! A step is exp(h a_1 K) exp(h b_1 D) exp(h a_2 K) … of the Lie derivatives K = {·, U} and D = {·, T}, the map that acts first standing first. Its
-//! logarithm h (K + D + h E_2 + h² E_3 + …) is the Lie derivative of h H̄, and since [{·, F}, {·, G}] is the Lie derivative of
+//! A step is exp(h a_1 K) exp(h b_1 D) exp(h a_2 K) … of the Lie derivatives K = {·, U} and D = {·, T}, the map that
+//! acts first standing first. Its logarithm h (K + D + h E_2 + h² E_3 + …) is the Lie derivative of h H̄, and since
+//! [{·, F}, {·, G}] is the Lie derivative of
 //!
 //! [F, G] = F_pᵀG_q − F_qᵀG_p,
 //!
-//! H̄ = T + U + h H_2 + h² H_3 + … is the same polynomial in the functions U and T: `K` stands for U, `D` for T, `[K,D]` for −U_qᵀT_p. For parts
-//! H = H_1 + H_2 + … the letters A, B, C, … stand for these. Of a symmetric scheme H_2, H_4, … are 0. The series is asymptotic: its terms fall up to
-//! a grade that h sets, and grow beyond it.
+//! H̄ = T + U + h H_2 + h² H_3 + … is the same polynomial in the functions U and T: `K` stands for U, `D` for T,
+//! `[K,D]` for −U_qᵀT_p. For parts H = H_1 + H_2 + … the letters A, B, C, … stand for these. Of a symmetric scheme H_2,
+//! H_4, … are 0. The series is asymptotic: its terms fall up to a grade that h sets, and grow beyond it.
 //!
-//! The coefficients are those of the basis of [`bracket`](crate::bracket). Source: E. Hairer, C. Lubich & G. Wanner, Geometric Numerical Integration,
-//! III.4, III.5 and IX.
+//! The coefficients are those of the basis of [`bracket`](crate::bracket). Source: E. Hairer, C. Lubich & G. Wanner,
+//! Geometric Numerical Integration, III.4, III.5 and IX.
 
 use std::collections::HashMap;
 
@@ -29,7 +30,8 @@ use crate::bracket::{Bracket, Letter, coordinates};
 /// The highest grade that is computed for two parts.
 pub const HIGHEST_GRADE: u32 = 10;
 
-/// Exact coefficients are computed with at most this number of bits; where weights are longer, the coefficients are rounded.
+/// Exact coefficients are computed with at most this number of bits; where weights are longer, the coefficients are
+/// rounded.
 const MOST_BITS: u64 = 20_000;
 
 /// Digits beyond those of the weights, and of weights that are exact but too long.
@@ -152,8 +154,8 @@ fn series<L: Letter>(
     ModifiedHamiltonian { terms: terms.collect(), digits }
 }
 
-/// What the coefficient of a word of n letters in a power X^r/r, r ≤ n, is a multiple of 1 over, where weights are exact with the common denominator
-/// D: Dⁿ n! lcm(1, …, n). A gradient kick's weight stands for three letters.
+/// What the coefficient of a word of n letters in a power X^r/r, r ≤ n, is a multiple of 1 over, where weights are
+/// exact with the common denominator D: Dⁿ n! lcm(1, …, n). A gradient kick's weight stands for three letters.
 fn grid(denominator: &BigInt, n: u32) -> BigInt {
     let factorial: BigInt = (1..=n).map(BigInt::from).product();
     let multiple = (1..=n).map(BigInt::from).fold(BigInt::one(), |lcm, k| lcm.lcm(&k));
@@ -206,7 +208,8 @@ mod tests {
         modified.all().map(|(power, bracket, c)| format!("{power}: {c} {bracket}")).collect()
     }
 
-    /// Symplectic Euler is exp(hK) exp(hD): the series of the textbook, whose brackets are these up to Jacobi's identity (Hairer, Lubich & Wanner, III.4).
+    /// Symplectic Euler is exp(hK) exp(hD): the series of the textbook, whose brackets are these up to Jacobi's
+    /// identity (Hairer, Lubich & Wanner, III.4).
     #[test]
     fn the_series_of_baker_campbell_and_hausdorff() {
         let euler = shipped_proved("symplectic-euler").unwrap();

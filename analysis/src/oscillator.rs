@@ -35,8 +35,8 @@ impl Oscillator {
         Oscillator { maps: maps.to_vec() }
     }
 
-    /// The least hω up to `most` where the trace leaves [−2, 2], looked for at some points and at the largest |tr| between three of them. What is
-    /// narrower than about 1e-6 is not found; [`crate::stability`] decides exactly.
+    /// The least hω up to `most` where the trace leaves [−2, 2], looked for at some points and at the largest |tr|
+    /// between three of them. What is narrower than about 1e-6 is not found; [`crate::stability`] decides exactly.
     pub(crate) fn limit(&self, most: f64) -> f64 {
         let at = |n: u32| most * f64::from(n) / f64::from(POINTS_OF_LIMIT);
         let size = |h_omega: f64| self.trace(h_omega).abs();
@@ -62,7 +62,8 @@ impl Oscillator {
         Oscillator::of(&proved.scheme.maps(), |weight| weight.to_f64().unwrap_or(f64::NAN))
     }
 
-    /// Where a step with ω = 1 takes (q, p) = (1, 0) and (0, 1): the columns of its matrix, which for every ω acts on (ωq, p).
+    /// Where a step with ω = 1 takes (q, p) = (1, 0) and (0, 1): the columns of its matrix, which for every ω acts on
+    /// (ωq, p).
     pub fn columns(&self, h_omega: f64) -> [[f64; 2]; 2] {
         let mut columns = [[1.0, 0.0], [0.0, 1.0]];
         for (kind, weight) in &self.maps {
@@ -84,8 +85,8 @@ impl Oscillator {
         a + d
     }
 
-    /// ρ(hω) = (B + C)²/(−2BC) of a symmetric step with matrix [[A, B], [C, A]], see [`crate::sampling`]: infinite where it is unstable, 0 where it turns by a
-    /// multiple of π, which has BC = A² − 1 = 0, up to rounding.
+    /// ρ(hω) = (B + C)²/(−2BC) of a symmetric step with matrix [[A, B], [C, A]], see [`crate::sampling`]: infinite
+    /// where it is unstable, 0 where it turns by a multiple of π, which has BC = A² − 1 = 0, up to rounding.
     pub fn rho(&self, h_omega: f64) -> f64 {
         const ROUNDING: f64 = 1e-12;
         let [[_, c], [b, _]] = self.columns(h_omega);
@@ -96,15 +97,16 @@ impl Oscillator {
         }
     }
 
-    /// The expected error of the energy after a number of symmetric steps, ρ sin²(nφ), in units of the temperature: see [`crate::sampling`].
+    /// The expected error of the energy after a number of symmetric steps, ρ sin²(nφ), in units of the temperature: see
+    /// [`crate::sampling`].
     pub fn energy_error(&self, h_omega: f64, steps: u64) -> f64 {
         let [[a, c], [b, d]] = self.columns(h_omega);
         let turned = (-b * c).max(0.0).sqrt().atan2((a + d) / 2.0);
         self.rho(h_omega) * (steps as f64 * turned).sin().powi(2)
     }
 
-    /// The relative error of the phase (φ − hω)/hω, with the φ of 2 cos φ = tr for which it is nearest to `expected`; `None` where
-    /// the step is unstable. Rounding adds about 1e-16/(hω)² for each map.
+    /// The relative error of the phase (φ − hω)/hω, with the φ of 2 cos φ = tr for which it is nearest to `expected`;
+    /// `None` where the step is unstable. Rounding adds about 1e-16/(hω)² for each map.
     ///
     /// For a small step 0 is expected; beyond hω = π the error at a slightly smaller step continues to the right φ.
     pub fn phase_error(&self, h_omega: f64, expected: f64) -> Option<f64> {

@@ -1,8 +1,8 @@
 //! A step that repeats a shorter one, as four quarter steps do: what is stable for the one is stable for the other.
 //!
-//! The trace of a product of matrices does not change when the first factor becomes the last. So the maps are a ring, in
-//! which neighbours of one kind merge. If the ring repeats a part n times, the step is similar to the n-th power of a
-//! matrix P of determinant 1, and |tr Pⁿ| ≤ 2 wherever |tr P| ≤ 2; where |tr P| > 2, so is |tr Pⁿ|.
+//! The trace of a product of matrices does not change when the first factor becomes the last. So the maps are a ring,
+//! in which neighbours of one kind merge. If the ring repeats a part n times, the step is similar to the n-th power of
+//! a matrix P of determinant 1, and |tr Pⁿ| ≤ 2 wherever |tr P| ≤ 2; where |tr P| > 2, so is |tr Pⁿ|.
 
 use num_traits::Zero;
 use shadowstep_schemes::map::Map;

@@ -1,8 +1,8 @@
 //! A table of printed decimals → one whose order conditions hold to the requested number of digits.
 //!
 //! Papers print 12 to 40 digits, and not all of them are right: where a solution is ill-conditioned, a residual near
-//! the rounding of f64 hides weights that are off by a thousand times as much. [`polish`] takes the printed decimals for
-//! the beginning of Newton's iteration on the order conditions themselves.
+//! the rounding of f64 hides weights that are off by a thousand times as much. [`polish`] takes the printed decimals
+//! for the beginning of Newton's iteration on the order conditions themselves.
 //!
 //! | module | what it does |
 //! | --- | --- |
@@ -72,10 +72,11 @@ pub struct Request<'a> {
     /// `kick[2]`, `drift[3]`, `gamma[1]`.
     pub free: &'a [String],
     /// Whether Σ a_s³ = 0 is to hold too: where kicks are themselves split by a symmetric step of order 2, as in
-    /// heliocentric coordinates, each leaves an error (a_s h)³ (Farrés et al., Celest. Mech. Dyn. Astron. 116 (2013) 141).
+    /// heliocentric coordinates, each leaves an error (a_s h)³ (Farrés et al., Celest. Mech. Dyn. Astron. 116 (2013)
+    /// 141).
     pub split_kicks: bool,
-    /// Where about the step of the harmonic oscillator turns by a multiple of π, hω, and must not be unstable: each is one more unknown, with
-    /// two conditions.
+    /// Where about the step of the harmonic oscillator turns by a multiple of π, hω, and must not be unstable: each is
+    /// one more unknown, with two conditions.
     pub closed_gaps: &'a [f64],
 }
 

@@ -1,9 +1,9 @@
 //! Double roots that the structure of a step explains: a step P_1^g P_2^g … whose s parts have one trace t.
 //!
-//! Where t = 2 cos(πj/g) with 0 < j < g, each P_i^g is the matrix (−1)^j, and so the step is (−1)^{js}. There both terms of
-//! tr² − 4 = (α − δ)² + 4βγ have a double root, for a step with the entries α, β, γ, δ and determinant 1. So tr − 2 or
-//! tr + 2 is divisible by the square of a polynomial in t, which is one of Chebyshev's or a sum of two: no greatest common
-//! divisor is needed, which would take minutes for hundreds of digits.
+//! Where t = 2 cos(πj/g) with 0 < j < g, each P_i^g is the matrix (−1)^j, and so the step is (−1)^{js}. There both
+//! terms of tr² − 4 = (α − δ)² + 4βγ have a double root, for a step with the entries α, β, γ, δ and determinant 1. So
+//! tr − 2 or tr + 2 is divisible by the square of a polynomial in t, which is one of Chebyshev's or a sum of two: no
+//! greatest common divisor is needed, which would take minutes for hundreds of digits.
 //!
 //! A step repeated, followed by its adjoint or a rotation of it as often repeated, is of this form: A A A* A*.
 
@@ -13,8 +13,8 @@ use shadowstep_symbolic::Rational;
 
 /// Whether the second half of a ring is the first one with kicks and drifts exchanged, weights as they are.
 ///
-/// The exchange is a similarity: with J = (0, 1; −x, 0) and J² = −x the step is P·J⁻¹PJ = −x (PJ⁻¹)². So its trace is 2 − s²
-/// for s = √x·tr(PJ⁻¹), and never passes 2.
+/// The exchange is a similarity: with J = (0, 1; −x, 0) and J² = −x the step is P·J⁻¹PJ = −x (PJ⁻¹)². So its trace is
+/// 2 − s² for s = √x·tr(PJ⁻¹), and never passes 2.
 pub(crate) fn repeats_exchanged(ring: &[Map]) -> bool {
     let (first, second) = ring.split_at(ring.len() / 2);
     let is_exchanged = |(a, b): (&Map, &Map)| a.kind != b.kind && a.weight == b.weight;
@@ -39,7 +39,8 @@ impl Powers {
         sizes.flat_map(|size| ring.powers_of(size)).collect()
     }
 
-    /// The square of the polynomial in t that divides tr − level, and its value at t = 2, where x = 0; `None` if it is 1.
+    /// The square of the polynomial in t that divides tr − level, and its value at t = 2, where x = 0; `None` if it
+    /// is 1.
     pub(crate) fn square<A: Arithmetic>(
         &self,
         arithmetic: &A,
@@ -96,7 +97,8 @@ fn product<A: Arithmetic>(arithmetic: &A, a: &[A::Value], b: &[A::Value]) -> Vec
     product
 }
 
-/// The quotient of a division that leaves nothing, from the lowest term on; `constant` is the constant term of the divisor, exactly.
+/// The quotient of a division that leaves nothing, from the lowest term on; `constant` is the constant term of the
+/// divisor, exactly.
 pub(crate) fn quotient<A: Arithmetic>(
     arithmetic: &A,
     dividend: &[A::Value],
@@ -179,8 +181,8 @@ impl<'a> Ring<'a> {
         Some(Powers { part, exponent, count })
     }
 
-    /// Where the power ends that begins at the cut. It begins and ends with a map of one kind, which together are one map of
-    /// the part, or with maps of different kinds, which are whole maps of the part.
+    /// Where the power ends that begins at the cut. It begins and ends with a map of one kind, which together are one
+    /// map of the part, or with maps of different kinds, which are whole maps of the part.
     fn after_power(&self, cut: &Cut, size: usize, exponent: usize, repeats: &[usize]) -> Option<Cut> {
         let equal = repeats[(cut.map + 1) % repeats.len()];
         let maps = size * exponent;

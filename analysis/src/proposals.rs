@@ -1,9 +1,11 @@
-//! The proposals that a scheme makes in Hamiltonian Monte Carlo: their errors and acceptance on a Gaussian target, and the step for which they cost least.
+//! The proposals that a scheme makes in Hamiltonian Monte Carlo: their errors and acceptance on a Gaussian target, and
+//! the step for which they cost least.
 //!
-//! A proposal is a trajectory of n steps of size h from momenta that are drawn anew. Its expected error of the energy is Σ ρ(hω_i) sin²(nφ_i)
-//! ([`crate::sampling`]), its acceptance follows ([`crate::gaussian`]), and what it costs is n times the evaluations of the gradient in a step, divided by the acceptance:
-//! for a fixed length of time that is the cost per accepted trajectory. It is least at an acceptance that depends on the order r: in many dimensions, where the error is
-//! proportional to h^(2r), at 0.65 for order 2 (Beskos and others 2013) and at 0.80 for order 4.
+//! A proposal is a trajectory of n steps of size h from momenta that are drawn anew. Its expected error of the energy
+//! is Σ ρ(hω_i) sin²(nφ_i) ([`crate::sampling`]), its acceptance follows ([`crate::gaussian`]), and what it costs is n
+//! times the evaluations of the gradient in a step, divided by the acceptance: for a fixed length of time that is the
+//! cost per accepted trajectory. It is least at an acceptance that depends on the order r: in many dimensions, where
+//! the error is proportional to h^(2r), at 0.65 for order 2 (Beskos and others 2013) and at 0.80 for order 4.
 
 use shadowstep_schemes::Proved;
 use thiserror::Error;
@@ -28,7 +30,8 @@ pub enum Unsuited {
     NotSymmetric,
     /// A pre-map and its inverse at the ends are each other's reversal in time up to a power of h only.
     #[error(
-        "is a processed scheme, whose pre-map and post-map are not reversible in time, as Hamiltonian Monte Carlo needs them"
+        "is a processed scheme, whose pre-map and post-map are not reversible in time, as Hamiltonian Monte Carlo \
+            needs them"
     )]
     Processed,
     /// It is not for T + U.
@@ -46,7 +49,8 @@ pub struct Proposal {
     pub h: f64,
     /// The number of steps.
     pub steps: u64,
-    /// Evaluations of the gradient, Hessian–vector products counted as such. The one at the start is known from the trajectory before.
+    /// Evaluations of the gradient, Hessian–vector products counted as such. The one at the start is known from the
+    /// trajectory before.
     pub gradients: u64,
     /// The expected error of the energy in equilibrium, in units of the temperature.
     pub error: f64,
@@ -104,7 +108,8 @@ impl Proposals {
         Some(Proposal { h, steps, gradients, error, largest_error, acceptance: acceptance(&errors) })
     }
 
-    /// The proposal over a time that costs least per accepted trajectory; `None` if none of at most [`MOST_STEPS`] is accepted.
+    /// The proposal over a time that costs least per accepted trajectory; `None` if none of at most [`MOST_STEPS`] is
+    /// accepted.
     pub fn cheapest(&self, target: &Gaussian, time: f64) -> Option<Proposal> {
         let mut best: Option<Proposal> = None;
         for steps in self.numbers_of_steps(target, time) {
@@ -118,8 +123,8 @@ impl Proposals {
         best
     }
 
-    /// The proposal over a time with the fewest steps whose acceptance is at least this, where it increases with their number; `None` if none of at most
-    /// [`MOST_STEPS`] has it.
+    /// The proposal over a time with the fewest steps whose acceptance is at least this, where it increases with their
+    /// number; `None` if none of at most [`MOST_STEPS`] has it.
     pub fn with_acceptance(&self, target: &Gaussian, time: f64, wanted: f64) -> Option<Proposal> {
         let enough = |steps: u64| self.proposal(target, time, steps).filter(|found| found.acceptance >= wanted);
         let (mut too_few, mut found) = (0, None);
@@ -190,7 +195,8 @@ mod tests {
         assert_eq!(proposals("stormer-verlet").with_acceptance(&target, f64::MAX, 0.5), None);
     }
 
-    /// The matrix [[A, B], [C, D]] of steps that are reversible in time has A = D. That of a kernel between a pre-map and its inverse does not.
+    /// The matrix [[A, B], [C, D]] of steps that are reversible in time has A = D. That of a kernel between a pre-map
+    /// and its inverse does not.
     #[test]
     fn processed_schemes_are_not_reversible() {
         for name in shipped_names() {

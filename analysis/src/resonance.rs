@@ -1,10 +1,12 @@
 //! Where multiple time steps are in resonance with a fast oscillation.
 //!
-//! H = p²/2 + Ω²q²/2 + rΩ²q²/2 with T, the fast and the slow forces as parts. Its kicks act at the same q, so that a step with slow kicks a and fast kicks c
-//! is one of a scheme for two parts with kicks (c + r a)/(1 + r), of the oscillator with ω² = (1 + r) Ω²: where that is unstable is computed as for any
-//! scheme. With the exact inner flow, slow kicks open a gap below each multiple of π, from hΩ = nπ − 2 atan(nπr/2) or so.
+//! H = p²/2 + Ω²q²/2 + rΩ²q²/2 with T, the fast and the slow forces as parts. Its kicks act at the same q, so that a
+//! step with slow kicks a and fast kicks c is one of a scheme for two parts with kicks (c + r a)/(1 + r), of the
+//! oscillator with ω² = (1 + r) Ω²: where that is unstable is computed as for any scheme. With the exact inner flow,
+//! slow kicks open a gap below each multiple of π, from hΩ = nπ − 2 atan(nπr/2) or so.
 //!
-//! Sources: J. J. Biesiadecki & R. D. Skeel, J. Comput. Phys. 109 (1993) 318; Q. Ma, J. A. Izaguirre & R. D. Skeel, SIAM J. Sci. Comput. 24 (2003) 1951.
+//! Sources: J. J. Biesiadecki & R. D. Skeel, J. Comput. Phys. 109 (1993) 318; Q. Ma, J. A. Izaguirre & R. D. Skeel,
+//! SIAM J. Sci. Comput. 24 (2003) 1951.
 
 use num_traits::{One, Zero};
 use shadowstep_schemes::map::{Map, Stages};
@@ -15,8 +17,8 @@ use crate::stability::Stability;
 /// The parts 1/n of the stiffness of fast forces for which reports show resonances.
 pub const REPORTED: [i64; 2] = [100, 10];
 
-/// The limit and the gaps of hω, with slow forces of this part of the stiffness of the fast ones; `None` for a scheme without an inner scheme, and where
-/// [`Stability::of_scheme`] is.
+/// The limit and the gaps of hω, with slow forces of this part of the stiffness of the fast ones; `None` for a scheme
+/// without an inner scheme, and where [`Stability::of_scheme`] is.
 ///
 /// ```
 /// use shadowstep_analysis::resonance::resonances;

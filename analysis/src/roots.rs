@@ -77,9 +77,9 @@ impl Scaled {
         Ok(roots)
     }
 
-    /// Narrows the piece of a root to the width 2^−depth: the secant says in which of 2^k parts of the piece the root should
-    /// be. If it is there, k doubles, and so do the digits at each step; if not, the piece is halved (J. Abbott, *Quadratic
-    /// interval refinement for real roots*, ACM Commun. Comput. Algebra 48 (2014) 3).
+    /// Narrows the piece of a root to the width 2^−depth: the secant says in which of 2^k parts of the piece the root
+    /// should be. If it is there, k doubles, and so do the digits at each step; if not, the piece is halved (J. Abbott,
+    /// *Quadratic interval refinement for real roots*, ACM Commun. Comput. Algebra 48 (2014) 3).
     pub(crate) fn refine(&self, root: &mut Isolated, depth: u64) -> Result<(), InDoubt> {
         let mut left = self.value(&root.place, root.depth)?;
         let mut right = self.value(&(&root.place + 1), root.depth)?;
@@ -124,7 +124,8 @@ impl Scaled {
         (0..=degree).map(|j| binomials(j).zip(&of_degree).zip(&self.coefficients).map(term).sum()).collect()
     }
 
-    /// A bound of the error of a sum of all terms, each off by less than two units and rounded by less than another one.
+    /// A bound of the error of a sum of all terms, each off by less than two units and rounded by less than another
+    /// one.
     fn rounding(&self) -> BigInt {
         BigInt::from(3 * self.coefficients.len())
     }
@@ -140,15 +141,15 @@ struct Piece {
 }
 
 impl Piece {
-    /// How often the coefficients change their sign: an upper bound of the number of roots, off by an even number. `None`
-    /// if a sign is in doubt.
+    /// How often the coefficients change their sign: an upper bound of the number of roots, off by an even number.
+    /// `None` if a sign is in doubt.
     fn sign_changes(&self) -> Option<usize> {
         let signs: Option<Vec<_>> = self.bernstein.iter().map(|value| decided(value, &self.error)).collect();
         Some(signs?.windows(2).filter(|pair| pair[0] != pair[1]).count())
     }
 
-    /// The pieces left and right of the middle (de Casteljau). Sums stand in for means; each is halved at the end, as often
-    /// as means have been taken.
+    /// The pieces left and right of the middle (de Casteljau). Sums stand in for means; each is halved at the end, as
+    /// often as means have been taken.
     fn halves(self) -> (Piece, Piece) {
         let (mut row, error): (_, BigInt) = (self.bernstein, self.error + 1);
         let last = row.len() - 1;

@@ -1,13 +1,14 @@
-//! The measure of integrators for Hamiltonian Monte Carlo: the largest expected error of the energy of a harmonic oscillator.
+//! The measure of integrators for Hamiltonian Monte Carlo: the largest expected error of the energy of a harmonic
+//! oscillator.
 //!
-//! Let H = (p² + q²)/2 with q and p from the equilibrium at temperature 1, and the matrix of a symmetric step of size h be [[A, B], [C, A]].
-//! After L steps that turn by φ each, the mean of the error of the energy is ρ(h) sin²(Lφ) (Blanes, Casas and Sanz-Serna, SIAM J. Sci. Comput.
-//! 36 (2014) A1556), with
+//! Let H = (p² + q²)/2 with q and p from the equilibrium at temperature 1, and the matrix of a symmetric step of size h
+//! be [[A, B], [C, A]]. After L steps that turn by φ each, the mean of the error of the energy is ρ(h) sin²(Lφ)
+//! (Blanes, Casas and Sanz-Serna, SIAM J. Sci. Comput. 36 (2014) A1556), with
 //!
 //! ρ(h) = (B + C)²/(2(1 − A²)) = (B + C)²/(−2BC).
 //!
-//! Their schemes minimise its maximum over 0 < h < h̄, where h̄ is the number of evaluations of the forces: a step of Störmer–Verlet per
-//! unit of time costs as much. For independent oscillators with frequencies ω, hω stands for h.
+//! Their schemes minimise its maximum over 0 < h < h̄, where h̄ is the number of evaluations of the forces: a step of
+//! Störmer–Verlet per unit of time costs as much. For independent oscillators with frequencies ω, hω stands for h.
 
 use shadowstep_schemes::Proved;
 
@@ -27,7 +28,8 @@ pub struct SamplingError {
 const POINTS: u32 = 4000;
 
 impl SamplingError {
-    /// The error of a symmetric scheme; `None` for other ones, which are not reversible in time. For a processed scheme it is the kernel's.
+    /// The error of a symmetric scheme; `None` for other ones, which are not reversible in time. For a processed scheme
+    /// it is the kernel's.
     pub fn of(proved: &Proved, stability: Option<&Stability>) -> Option<SamplingError> {
         if !proved.proof.symmetric {
             return None;
@@ -39,7 +41,8 @@ impl SamplingError {
     }
 }
 
-/// The largest ρ over 0 < h < `range`, where the step must be stable: that of many points, and a golden-section search around it.
+/// The largest ρ over 0 < h < `range`, where the step must be stable: that of many points, and a golden-section search
+/// around it.
 pub(crate) fn largest(step: &Oscillator, range: f64) -> f64 {
     let width = range / f64::from(POINTS);
     let at = |n: u32| f64::from(n) * width;

@@ -1,9 +1,9 @@
 //! What a scheme shall be → tables that meet the order conditions, and make an error or another measure least.
 //!
-//! The weights that meet the order conditions are a manifold. From random weights, Levenberg and Marquardt's method goes to it; on it,
-//! Nelder and Mead's simplex method looks for the least value of the goal, in coordinates along the manifold, which Newton's
-//! iteration returns to. What is found in f64 gets as many digits as a table can claim, free parameters of few digits where they
-//! cost nothing, and a proof like any table.
+//! The weights that meet the order conditions are a manifold. From random weights, Levenberg and Marquardt's method
+//! goes to it; on it, Nelder and Mead's simplex method looks for the least value of the goal, in coordinates along the
+//! manifold, which Newton's iteration returns to. What is found in f64 gets as many digits as a table can claim, free
+//! parameters of few digits where they cost nothing, and a proof like any table.
 //!
 //! | module | what it is |
 //! | --- | --- |
@@ -159,7 +159,8 @@ impl Search {
         self.measured(candidate.start, &candidate.weights, &[measure])[0]
     }
 
-    /// What one start finds: the same for the same number and seed. `None` where the conditions are not met near any of some random weights.
+    /// What one start finds: the same for the same number and seed. `None` where the conditions are not met near any of
+    /// some random weights.
     pub fn start(&self, start: usize) -> Option<Candidate> {
         self.start_while(start, &|| true)
     }
@@ -252,8 +253,8 @@ impl Search {
         }
     }
 
-    /// The best candidates, at most as many as the request keeps, each scheme once: for a sum those of the least goal, for a front those that no
-    /// other surpasses in all measures, evenly along it.
+    /// The best candidates, at most as many as the request keeps, each scheme once: for a sum those of the least goal,
+    /// for a front those that no other surpasses in all measures, evenly along it.
     pub fn best<'c>(&self, candidates: &'c [Candidate]) -> Vec<&'c Candidate> {
         let mut sorted: Vec<&Candidate> =
             candidates.iter().filter(|c| c.values.iter().all(|v| v.is_finite())).collect();
@@ -285,7 +286,8 @@ impl Search {
         kept
     }
 
-    /// Whether the weights of a step are the same, but for what starts end with. Of one kernel many processors are as good.
+    /// Whether the weights of a step are the same, but for what starts end with. Of one kernel many processors are as
+    /// good.
     fn are_same(&self, one: &Candidate, other: &Candidate) -> bool {
         let names = self.space(one.start).names();
         let of_step = names.iter().filter(|name| !name.starts_with(PROCESSORS)).count();

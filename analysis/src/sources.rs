@@ -1,4 +1,5 @@
-//! Source code of others → the splitting schemes in it: which order each has, which shipped scheme it is, and what is wrong with it.
+//! Source code of others → the splitting schemes in it: which order each has, which shipped scheme it is, and what is
+//! wrong with it.
 //!
 //! | module | what it does |
 //! | --- | --- |

@@ -96,8 +96,8 @@ fn primitive(polynomial: Vec<BigInt>) -> Vec<BigInt> {
     if content.is_zero() { polynomial } else { polynomial.iter().map(|value| value / &content).collect() }
 }
 
-/// Whether a polynomial, given by its residues modulo the prime, has no multiple root there, and so none at all. One that
-/// has none fails the test only if the prime divides its discriminant.
+/// Whether a polynomial, given by its residues modulo the prime, has no multiple root there, and so none at all. One
+/// that has none fails the test only if the prime divides its discriminant.
 pub(crate) fn is_surely_squarefree(residues: &[u64]) -> bool {
     let mut a = residues.to_vec();
     let mut b: Vec<u64> = a.iter().enumerate().skip(1).map(|(k, value)| prime::product(*value, k as u64)).collect();

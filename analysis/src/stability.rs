@@ -38,8 +38,8 @@ const BITS: u64 = 512;
 pub struct Stability {
     /// The least hω beyond which the trace leaves [−2, 2], to 30 digits.
     pub limit: String,
-    /// The intervals of instability between the limit and hω = 2·(evaluations), which no limit exceeds. Two between which
-    /// all 30 digits agree are one.
+    /// The intervals of instability between the limit and hω = 2·(evaluations), which no limit exceeds. Two between
+    /// which all 30 digits agree are one.
     pub gaps: Vec<Gap>,
 }
 
@@ -55,7 +55,8 @@ pub struct Gap {
 }
 
 impl Stability {
-    /// The stability of a proved scheme; gaps that the rounding of its weights explains are left out. `None` for a step of more than [`MOST_MAPS`].
+    /// The stability of a proved scheme; gaps that the rounding of its weights explains are left out. `None` for a step
+    /// of more than [`MOST_MAPS`].
     pub fn of_scheme(proved: &Proved) -> Option<Stability> {
         Some(Stability::of(&proved.scheme.maps(), proved.plan.degree())?.resolved(proved.scheme.held))
     }
@@ -240,8 +241,8 @@ fn crossings_within(functions: &[Passing<'_>], range: u64, bits: u64) -> Result<
     for function in functions {
         let scaled = function.scaled(range, bits);
         for mut root in scaled.roots()? {
-            // some bits beyond the places where neighbours part; far beyond the limit the trace may pass from −2 to 2 within
-            // any number of digits
+            // some bits beyond the places where neighbours part; far beyond the limit the trace may pass from −2 to 2
+            // within any number of digits
             let depth = (root.depth + 64).max(bits / 3);
             scaled.refine(&mut root, depth)?;
             all.push(Crossing::of(&root, range)?);

@@ -1,8 +1,8 @@
 //! The trace of a step of the harmonic oscillator: an exact polynomial in x = (hω)².
 //!
-//! For H = (p² + ω²q²)/2 a kick is hp −= a x q, a drift q += b (hp), a gradient kick hp += 2c x² q, and a step a matrix of determinant 1.
-//! Its trace, 2 cos φ for a step that turns by φ, is Σ_k t_k x^k, where t_k has the sign (−1)^k and is a sum of products of k of the
-//! a's, or of a c in place of two, and the b's.
+//! For H = (p² + ω²q²)/2 a kick is hp −= a x q, a drift q += b (hp), a gradient kick hp += 2c x² q, and a step a matrix
+//! of determinant 1. Its trace, 2 cos φ for a step that turns by φ, is Σ_k t_k x^k, where t_k has the sign (−1)^k and
+//! is a sum of products of k of the a's, or of a c in place of two, and the b's.
 
 use std::ops::Range;
 
@@ -112,8 +112,8 @@ impl PhaseError {
     }
 }
 
-/// The leading error of the phase of a step with weights in f64 and of the order `order` for quadratic T: the coefficient c and the power of hω,
-/// where higher terms count as none.
+/// The leading error of the phase of a step with weights in f64 and of the order `order` for quadratic T: the
+/// coefficient c and the power of hω, where higher terms count as none.
 pub(crate) fn leading_phase(maps: &[(MapKind, f64)], order: u32) -> (f64, u32) {
     let m = order.div_ceil(2) as usize + 1;
     let terms = trace(maps, m, &0.0, &1.0, |sum, a, b| *sum += a * b);

@@ -452,8 +452,8 @@ fn cut(source: &Source) -> Source {
     Source { path: source.path.clone(), text: text.replace("digits = 250", "digits = 14") }
 }
 
-/// Kernel and processor are solved for together: the conditions of the kernel alone would leave weights free that those of the processed step
-/// determine.
+/// Kernel and processor are solved for together: the conditions of the kernel alone would leave weights free that those
+/// of the processed step determine.
 #[test]
 fn processed_schemes_are_polished_with_their_processors() {
     for name in ["blanes6-7", "bcm6-11", "bcm6-13", "bcm8-13", "bcm10-23", "bcr764"] {
@@ -470,11 +470,14 @@ fn processed_schemes_are_polished_with_their_processors() {
     }
 }
 
-/// bcss3 as its paper prints it: the condition that a step which turns by π is not unstable has a closed form, b1 = (1 − 2 a1)/(4 (1 − 3 a1)).
+/// bcss3 as its paper prints it: the condition that a step which turns by π is not unstable has a closed form, b1 =
+/// (1 − 2 a1)/(4 (1 − 3 a1)).
 #[test]
 fn intervals_of_instability_are_closed() {
-    let text = "name = \"printed\"\norder = 2\nkinetic = \"any\"\nsymmetric = true\nfree = [\"a1\"]\n[constants]\na1 = \"0.11888010966548\"\n\
-                a2 = \"1/2 - a1\"\nb1 = \"0.29619504261126\"\nb2 = \"1 - 2*b1\"\n[stages]\nkick = [\"a1\", \"a2\", \"a2\", \"a1\"]\n\
+    let text = "name = \"printed\"\norder = 2\nkinetic = \"any\"\nsymmetric = true\nfree = [\"a1\"]\n[constants]\na1 \
+        = \"0.11888010966548\"\n\
+                a2 = \"1/2 - a1\"\nb1 = \"0.29619504261126\"\nb2 = \"1 - 2*b1\"\n[stages]\nkick = \
+                [\"a1\", \"a2\", \"a2\", \"a1\"]\n\
                 drift = [\"b1\", \"b2\", \"b1\", 0]\n";
     let source = Source { path: "printed.toml".into(), text: text.into() };
     let wanted = Request { digits: Some(200), closed_gaps: &[2.98], ..Request::default() };

@@ -110,8 +110,8 @@ fn ten_stages_of_order_six_are_not_better() {
     is_not_better(text, "blanes-moan-s10", Measure::EffectiveError);
 }
 
-/// Schemes that are optimal by our measures too are found themselves; the others' authors had other norms of the same terms, and a start ends in
-/// the same valley.
+/// Schemes that are optimal by our measures too are found themselves; the others' authors had other norms of the same
+/// terms, and a start ends in the same valley.
 #[test]
 fn published_schemes_are_found_again() {
     for (text, weights, within) in [
@@ -177,7 +177,8 @@ fn measures_are_those_of_the_analysis() {
             for (measure, expected) in expected {
                 let Some(expected) = expected else { continue };
                 let found = search.measure(measure, proved);
-                // the differences of words of nearly equal coefficients lose some of the 16 digits, a root of the error a few more
+                // the differences of words of nearly equal coefficients lose some of the 16 digits, a root of the error
+                // a few more
                 assert!((found / expected - 1.0).abs() < 1e-6, "{} {measure:?}: {found} {expected}", table.name.value);
             }
         }

@@ -1,4 +1,5 @@
-//! Protects the reader of source code: its languages, the meanings of lists, what it finds wrong; and that it recognises every shipped scheme.
+//! Protects the reader of source code: its languages, the meanings of lists, what it finds wrong; and that it
+//! recognises every shipped scheme.
 
 use num_traits::ToPrimitive;
 use shadowstep_analysis::sources::{Checked, Language, Verdict, check};
@@ -56,12 +57,14 @@ fn c_has_arrays_sizes_suffixes_macros_and_elements() {
     );
     assert_is(
         "ruth3",
-        "constexpr std::array<double, 3> kick{7./24., 0.75, -1.0/24}; constexpr std::array<double, 3> drift{2./3, -2.0/3, 1.0};",
+        "constexpr std::array<double, 3> kick{7./24., 0.75, -1.0/24}; constexpr std::array<double, 3> drift{2./3, \
+            -2.0/3, 1.0};",
         Language::C,
     );
     assert_is(
         "mclachlan-sb3a4",
-        "const double b[] = {0.188'195'217'768'838'217'87, -0.021'528'551'102'171'551'201, 0.666'666'666'666'666'666'67,\n\
+        "const double b[] = {0.188'195'217'768'838'217'87, -0.021'528'551'102'171'551'201, \
+            0.666'666'666'666'666'666'67,\n\
         -0.021'528'551'102'171'551'201, 0.188'195'217'768'838'217'87}; const double a[] = {1, -0.5, -0.5, 1};",
         Language::C,
     );
@@ -70,9 +73,12 @@ fn c_has_arrays_sizes_suffixes_macros_and_elements() {
 /// The elements of two arrays that types derive from.
 #[test]
 fn cpp_has_casts_and_elements_of_this() {
-    let text = "struct kicks : array<T, 4> { kicks() { (*this)[0] = static_cast<T>(1); (*this)[1] = static_cast<T>(-1) / static_cast<T>(2);\n\
-        (*this)[2] = (*this)[1]; (*this)[3] = (*this)[0]; } };\nstruct drifts : array<T, 5> { drifts() { T z = sqrt(static_cast<T>(7) / static_cast<T>(8)) / 3;\n\
-        (*this)[0] = static_cast<T>(1) / static_cast<T>(2) - z / static_cast<T>(1); (*this)[1] = z - static_cast<T>(1) / static_cast<T>(3);\n\
+    let text = "struct kicks : array<T, 4> { kicks() { (*this)[0] = static_cast<T>(1); (*this)[1] = \
+        static_cast<T>(-1) / static_cast<T>(2);\n\
+        (*this)[2] = (*this)[1]; (*this)[3] = (*this)[0]; } };\nstruct drifts : array<T, 5> { drifts() { T z = \
+        sqrt(static_cast<T>(7) / static_cast<T>(8)) / 3;\n\
+        (*this)[0] = static_cast<T>(1) / static_cast<T>(2) - z / static_cast<T>(1); (*this)[1] = z - \
+        static_cast<T>(1) / static_cast<T>(3);\n\
         (*this)[2] = 2.0 / 3; (*this)[3] = (*this)[1]; (*this)[4] = (*this)[0]; } };";
     let verdict = assert_is("mclachlan-sb3a4", text, Language::C);
     assert_eq!(verdict.name, "kicks and drifts");
@@ -88,8 +94,10 @@ fn fortran_has_exponents_kinds_and_constructors() {
     );
     assert_is(
         "pefrl",
-        "      DOUBLE PRECISION A(5), B(4)\nC     the drifts\n      A(1) = 0.1786178958448091D0\n      A(2) = -0.6626458266981849D-1\n\
-      \x20     A(3) = 1D0 - 2D0*(A(1) + A(2))\n      A(4) = A(2)\n      A(5) = A(1)\n      B(1) = 0.7123418310626054D0\n      B(2) = 0.5D0 - B(1)\n\
+        "      DOUBLE PRECISION A(5), B(4)\nC     the drifts\n      A(1) = 0.1786178958448091D0\n      A(2) = \
+            -0.6626458266981849D-1\n\
+      \x20     A(3) = 1D0 - 2D0*(A(1) + A(2))\n      A(4) = A(2)\n      A(5) = A(1)\n      B(1) = \
+      0.7123418310626054D0\n      B(2) = 0.5D0 - B(1)\n\
       \x20     B(3) = B(2)\n      B(4) = B(1)\n",
         Language::FixedFortran,
     );
@@ -116,13 +124,15 @@ fn python_has_tuples_powers_arrays_and_loops() {
     );
     assert_is(
         "yoshida6-a",
-        "half = [0.784513610477560, 0.235573213359357, -1.17767998417887, 1.31518632068391]\nw = []\nfor x in half:\n    \
+        "half = [0.784513610477560, 0.235573213359357, -1.17767998417887, 1.31518632068391]\nw = []\nfor x in \
+            half:\n    \
         w.append(x)\nfor i in range(2, -1, -1):\n    w.append(half[i])\n",
         Language::Python,
     );
     assert_is(
         "bcss3",
-        "class Three:\n    def __init__(self):\n        self.a_0 = 0.11888010966548\n        self.b_1 = 0.29619504261126\n        \
+        "class Three:\n    def __init__(self):\n        self.a_0 = 0.11888010966548\n        self.b_1 = \
+            0.29619504261126\n        \
         run((self.a_0, self.b_1))\n",
         Language::Python,
     );
@@ -145,7 +155,8 @@ fn rust_has_conversions_loops_and_types() {
     assert_is(
         "suzuki-umeno8",
         "let half: [f64; 8] = [0.741_670_364_350_612_95, -0.409_100_825_800_031_6, 0.190_754_710_296_238_38_f64,\n\
-        -0.573_862_471_116_082_3, 0.299_064_181_303_655_9, 0.334_624_918_245_298_2, 0.315_293_092_396_766_6, -0.796_887_939_352_916_4];\n\
+        -0.573_862_471_116_082_3, 0.299_064_181_303_655_9, 0.334_624_918_245_298_2, 0.315_293_092_396_766_6, \
+        -0.796_887_939_352_916_4];\n\
         let mut all = Vec::new();\nfor &w in &half { all.push(w); }\nfor i in (0..7).rev() { all.push(half[i]); }\n",
         Language::Rust,
     );
@@ -166,7 +177,8 @@ fn rust_has_conversions_loops_and_types() {
 fn json_has_lists_by_keys() {
     let verdict = assert_is(
         "yoshida4",
-        "{\"yoshida\": {\"order\": 4, \"kick\": [\"0.6756035959798288\", -0.1756035959798288, -0.1756035959798288, 0.6756035959798288],\n\
+        "{\"yoshida\": {\"order\": 4, \"kick\": [\"0.6756035959798288\", -0.1756035959798288, -0.1756035959798288, \
+            0.6756035959798288],\n\
         \"drift\": [1.3512071919596578, -1.7024143839193153, 1.3512071919596578]}, \"masses\": [0.5, 1.5]}",
         Language::Json,
     );
@@ -176,7 +188,8 @@ fn json_has_lists_by_keys() {
 /// 1/3 is 0 in some languages, so that the root is 1.
 #[test]
 fn whole_numbers_are_divided_as_the_language_divides_them() {
-    let text = "w = pow(2.0, 1/3); yoshida[0] = 1/(2 - w) + 0.3512071919596578; yoshida[1] = 1 - 2*yoshida[0]; yoshida[2] = yoshida[0];";
+    let text = "w = pow(2.0, 1/3); yoshida[0] = 1/(2 - w) + 0.3512071919596578; yoshida[1] = 1 - 2*yoshida[0]; \
+        yoshida[2] = yoshida[0];";
     assert_is("yoshida4", text, Language::C);
 }
 
@@ -185,8 +198,10 @@ fn whole_numbers_are_divided_as_the_language_divides_them() {
 /// A half of a palindrome whose middle is appended twice.
 #[test]
 fn an_entry_too_many() {
-    let text = "fn eighth_order() {\n let w = [0.74167036435061, -0.40910082580003, 0.19075471029623, -0.57386247111608, 0.29906418130365,\n\
-        0.33462491824529, 0.31529309239676, -0.79688793935291];\n let mut weights = Vec::new();\n for &x in &w { weights.push(x); }\n\
+    let text = "fn eighth_order() {\n let w = [0.74167036435061, -0.40910082580003, 0.19075471029623, \
+        -0.57386247111608, 0.29906418130365,\n\
+        0.33462491824529, 0.31529309239676, -0.79688793935291];\n let mut weights = Vec::new();\n for &x in &w { \
+        weights.push(x); }\n\
         weights.push(w[7]);\n for i in (0..7).rev() { weights.push(w[i]); } }";
     let words = [
         "the weights sum to 0.203",
@@ -200,7 +215,8 @@ fn an_entry_too_many() {
 /// The three-stage scheme of BCSS under the name of a scheme of order 4.
 #[test]
 fn a_scheme_under_the_name_of_another() {
-    let text = "b1 = 0.11888010966548\na1 = 0.29619504261126\nyoshida_weights = [b1, a1, 0.5 - b1, 1 - 2*a1, 0.5 - b1, a1, b1]";
+    let text = "b1 = 0.11888010966548\na1 = 0.29619504261126\nyoshida_weights = [b1, a1, 0.5 - b1, 1 - 2*a1, 0.5 - \
+        b1, a1, b1]";
     let verdict = assert_wrong(
         &["named after Yoshida, whose schemes have order 4 and more; it is bcss3, of order 2"],
         text,
@@ -275,8 +291,8 @@ fn a_digit_a_sign_and_a_missing_entry() {
     );
 }
 
-/// Weights of thermostats with the root of 1/2 in place of that of 2: beside the right ones of order 6, and under a name.
-/// Five digits decide nothing beyond the sums; as exact numbers they have an order.
+/// Weights of thermostats with the root of 1/2 in place of that of 2: beside the right ones of order 6, and under a
+/// name. Five digits decide nothing beyond the sums; as exact numbers they have an order.
 #[test]
 fn decimals_of_few_digits_have_the_order_of_exact_numbers() {
     let text = "# fourth order\nweights = [1.3512, -1.7024, 1.3512]";
@@ -287,8 +303,10 @@ fn decimals_of_few_digits_have_the_order_of_exact_numbers() {
 
 #[test]
 fn lists_beside_a_scheme_are_schemes() {
-    let text = "def weights(self, count):\n    if count == 3:\n        self.list = [0.828981543588751, -0.657963087177502, 0.828981543588751]\n    if count == 7:\n        \
-                self.list = [0.784513610477560, 0.235573213359357, -1.17767998417887, 1.31518632068391, -1.17767998417887, 0.235573213359357, 0.784513610477560]\n";
+    let text = "def weights(self, count):\n    if count == 3:\n        self.list = [0.828981543588751, \
+        -0.657963087177502, 0.828981543588751]\n    if count == 7:\n        \
+                self.list = [0.784513610477560, 0.235573213359357, -1.17767998417887, 1.31518632068391, \
+                -1.17767998417887, 0.235573213359357, 0.784513610477560]\n";
     let found = check(text, Language::Python);
     assert_eq!(found.verdicts.iter().map(|verdict| verdict.orders[0]).collect::<Vec<_>>(), [2, 6], "{found:#?}");
     let named = text.split("    if count == 7").next().unwrap().replace("self.list", "suzuki_yoshida");
@@ -302,9 +320,11 @@ fn lists_beside_a_scheme_are_schemes() {
 /// What is not a scheme is skipped, and counted.
 #[test]
 fn other_lists_are_skipped() {
-    let text = "times = [0.5, 1.0, 1.5]\nb = [35/384, 0, 500/1113, 125/192, -2187/6784, 11/84]\nnodes = [0.2777777777777778, 0.4444444444444444, 0.2777777777777778]\n\
+    let text = "times = [0.5, 1.0, 1.5]\nb = [35/384, 0, 500/1113, 125/192, -2187/6784, 11/84]\nnodes = \
+        [0.2777777777777778, 0.4444444444444444, 0.2777777777777778]\n\
                 colours = [0.1234567890123, 0.8765432109877]\nshape = (3, 4)\n# Gauss and Legendre's weights and nodes\n\
-                weights = [0.347854845137454, 0.652145154862546, 0.652145154862546, 0.347854845137454]\nc = [0.211324865405187, 0.788675134594813]\n\
+                weights = [0.347854845137454, 0.652145154862546, 0.652145154862546, 0.347854845137454]\nc = \
+                [0.211324865405187, 0.788675134594813]\n\
                 velocities = [0.5, 1.0, 0.5]\nnode = 0.2113248654051871\n";
     let found = check(text, Language::Python);
     assert!(found.verdicts.is_empty(), "{:#?}", found.verdicts);
@@ -326,8 +346,10 @@ fn any_text_has_an_answer() {
     let texts = [
         "double w[3]; w[0] = 1.0/(2.0 - pow(2.0, 1.0/3.0)); w[1] = 1 - 2*w[0]; w[2] = w[0]; /* a */ #define X 0.5",
         "real(dp), parameter :: w(3) = (/ 1.3512071919596578_dp, &\n -1.7024143839193153d0, 1.351207191959658 /) ! order 4",
-        "a, b = 0.11888010966548, 0.29619504261126\nyoshida = [a, b, 0.5 - a, 1 - 2*b, 0.5 - a, b, a]\nfor x in range(3):\n  w.append(x)",
-        "let w = [0.784513610477560_f64, 0.235573213359357]; for &x in &w { v.push(x); } for i in (0..2).rev() { v.push(w[i]); }",
+        "a, b = 0.11888010966548, 0.29619504261126\nyoshida = [a, b, 0.5 - a, 1 - 2*b, 0.5 - a, b, a]\nfor x in \
+            range(3):\n  w.append(x)",
+        "let w = [0.784513610477560_f64, 0.235573213359357]; for &x in &w { v.push(x); } for i in (0..2).rev() { \
+            v.push(w[i]); }",
         "x = convert(T, -3//73); y = 2x'; z = T[x, 17//59, 1 - 2(x + y)]; w = big\"0.1\"",
     ];
     const SIGNS: &[u8] = b"()[]{}\"'=,;:.*/-+e09\n&!#";

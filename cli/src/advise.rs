@@ -31,10 +31,12 @@ Examples:
       --schemes +mine.toml";
 
 const MORE: &str = "\
-All schemes are run over a part of the time that --seconds allows, and their errors are extrapolated to all of it by their growth. The best choice is then \
+All schemes are run over a part of the time that --seconds allows, and their errors are extrapolated to all of it by \
+their growth. The best choice is then \
 verified by a run over all of the time. Its error is printed beside the prediction: to a tenth, or as `at most`.
 
-The error of positions is the difference to the exact flow, or to runs of a scheme of order 10 whose own error is known from half the step.
+The error of positions is the difference to the exact flow, or to runs of a scheme of order 10 whose own error is \
+known from half the step.
 
 The exit code is 1 if no scheme meets the tolerance.";
 
@@ -57,7 +59,8 @@ pub(crate) struct Arguments {
     cost: What,
     /// The schemes to choose from, as in work-precision [default: a dozen]
     ///
-    /// Beside a dominant part, such as Kepler orbits, the default includes schemes for A + εB and kernels with correctors.
+    /// Beside a dominant part, such as Kepler orbits, the default includes schemes for A + εB and kernels with
+    /// correctors.
     #[arg(long, value_name = "NAME|FILE,…", value_delimiter = ',', help_heading = SCHEMES)]
     schemes: Vec<String>,
     /// The time of the search on all cores
@@ -85,7 +88,8 @@ enum Which {
 
 #[derive(Clone, Copy, Debug, ValueEnum)]
 enum What {
-    /// Evaluations of the gradient, Hessian–vector products of gradient kicks, and flows of a dominant part such as Kepler orbits, each counted as one
+    /// Evaluations of the gradient, Hessian–vector products of gradient kicks, and flows of a dominant part such as
+    /// Kepler orbits, each counted as one
     Forces,
     /// Seconds on this machine
     Time,

@@ -1,5 +1,5 @@
-//! `shadowstep drift`: the drift of the modified energy, one run per scheme and step, beside the error of H; and on the exact
-//! flow the drift that is the estimator's own.
+//! `shadowstep drift`: the drift of the modified energy, one run per scheme and step, beside the error of H; and on the
+//! exact flow the drift that is the estimator's own.
 
 mod table;
 

@@ -26,8 +26,8 @@ pub(crate) struct Arguments {
     scheme: String,
     /// What it is written for
     ///
-    /// The targets are a module for NumPy or JAX, a header of C, a module of Julia or Fortran, a CustomIntegrator of OpenMM, an integrator of
-    /// BlackJAX or mici, a table for SUNDIALS or PETSc, and a table to print.
+    /// The targets are a module for NumPy or JAX, a header of C, a module of Julia or Fortran, a CustomIntegrator of
+    /// OpenMM, an integrator of BlackJAX or mici, a table for SUNDIALS or PETSc, and a table to print.
     #[arg(long, value_name = "TARGET", value_parser = PossibleValuesParser::new(Target::ALL.iter().map(|target| target.name())))]
     to: String,
     #[command(flatten)]

@@ -18,7 +18,8 @@ Examples:
 const MORE: &str = "\
 Results are saved in DIR/results.jsonl one by one. After Ctrl-C (exit code 3) the same command computes only what is missing.
 
-All cores are used, or the number in RAYON_NUM_THREADS; results do not depend on it. If figures are named, the report keeps the others \
+All cores are used, or the number in RAYON_NUM_THREADS; results do not depend on it. If figures are named, the report \
+keeps the others \
 whose results are in DIR already.";
 
 /// Computes the figures of Moan and Niesen's paper, and others.

@@ -1,6 +1,7 @@
 //! The headings under which help shows the arguments that commands share.
 //!
-//! A heading holds for all arguments after it, also behind a flattened struct: whatever follows one has a heading of its own.
+//! A heading holds for all arguments after it, also behind a flattened struct: whatever follows one has a heading of
+//! its own.
 
 pub(crate) const PROBLEM: &str = "Problem";
 pub(crate) const SCHEMES: &str = "Schemes and steps";

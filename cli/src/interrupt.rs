@@ -40,8 +40,8 @@ struct State {
 }
 
 impl Interrupt {
-    /// From now on the first signal asks the run to end. If it does not soon, or at a second signal, the program ends with the
-    /// error that this was interrupted, and with this hint; it leaves no incomplete files.
+    /// From now on the first signal asks the run to end. If it does not soon, or at a second signal, the program ends
+    /// with the error that this was interrupted, and with this hint; it leaves no incomplete files.
     ///
     /// It is called before the first file is created: without it a signal ends the program wherever it is.
     ///
@@ -82,8 +82,8 @@ impl Interrupt {
         self.state.asked.load(Ordering::Relaxed)
     }
 
-    /// Computes something in another thread. If that does not end in time after a signal, `save` is called before the program
-    /// ends.
+    /// Computes something in another thread. If that does not end in time after a signal, `save` is called before the
+    /// program ends.
     pub(crate) fn attended<R: Send>(&self, compute: impl FnOnce() -> R + Send, save: impl FnOnce() -> Error) -> R {
         let done = AtomicBool::new(false);
         let attendant = thread::current();

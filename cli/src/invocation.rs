@@ -16,7 +16,8 @@ struct Invocation {
 
 static INVOCATION: OnceLock<Invocation> = OnceLock::new();
 
-/// Keeps the arguments, the first of which is the name, the path of the program where that is not the running one, and all commands.
+/// Keeps the arguments, the first of which is the name, the path of the program where that is not the running one, and
+/// all commands.
 pub(crate) fn keep(arguments: &[OsString], program: Option<PathBuf>, commands: fn() -> clap::Command) {
     let _ = INVOCATION.set(Invocation { arguments: arguments.to_vec(), program, commands });
 }

@@ -1,7 +1,7 @@
 //! `shadowstep`: the energy drift of splitting schemes, and the schemes themselves, from the command line.
 //!
-//! A command is a file with its flags, `Arguments`, and its function, `execute`. It is registered by its `mod` line and its
-//! line of the list `commands!`.
+//! A command is a file with its flags, `Arguments`, and its function, `execute`. It is registered by its `mod` line and
+//! its line of the list `commands!`.
 //!
 //! | module | what it is |
 //! | --- | --- |
@@ -140,8 +140,8 @@ pub fn commands() -> clap::Command {
     Arguments::command()
 }
 
-/// Runs the program with its arguments, of which the first is its name; gives its exit code. Wrong arguments, `--help` and `--version` end the
-/// process. `program` is its path, for job scripts, where another program contains it.
+/// Runs the program with its arguments, of which the first is its name; gives its exit code. Wrong arguments, `--help`
+/// and `--version` end the process. `program` is its path, for job scripts, where another program contains it.
 pub fn main(arguments: impl IntoIterator<Item = OsString>, program: Option<PathBuf>) -> u8 {
     let arguments: Vec<OsString> = arguments.into_iter().collect();
     if completions::answer(&arguments, commands) {

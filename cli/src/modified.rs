@@ -31,7 +31,8 @@ const MORE: &str = "  \
   shadowstep modified blanes-moan-s6 --grade 6 --potential \"x^4/4\" \\
       --q x=1 --p 0 --to numpy
 
-A step of size h is the flow over h of H + h H_2 + h^2 H_3 + …. The series is asymptotic: its terms become smaller up to a power that h sets. In brackets K \
+A step of size h is the flow over h of H + h H_2 + h^2 H_3 + …. The series is asymptotic: its terms become smaller up \
+to a power that h sets. In brackets K \
 stands for U and D for T, or A, B, C, … for parts. [F,G] = F_p·G_q - F_q·G_p, so that [K,D] = -U_q·T_p.";
 
 /// What is expanded, and how far.
@@ -42,7 +43,11 @@ const SERIES: &str = "Scheme and series";
 /// Without a system the coefficients of its series are written, with one its formula.
 #[derive(Debug, Args)]
 // no system is required: a scheme is always there
-#[command(after_help = EXAMPLES, after_long_help = format!("{EXAMPLES}\n{MORE}"), mut_arg("name", |name| name.required_unless_present("scheme")))]
+#[command(
+    after_help = EXAMPLES,
+    after_long_help = format!("{EXAMPLES}\n{MORE}"),
+    mut_arg("name", |name| name.required_unless_present("scheme")),
+)]
 pub(crate) struct Arguments {
     /// A shipped scheme, such as yoshida4, or the file of a table
     #[arg(display_order = 0, help_heading = SERIES)]
@@ -53,7 +58,13 @@ pub(crate) struct Arguments {
     #[arg(long, value_name = "N", default_value_t = 4, help_heading = SERIES, value_parser = |text: &str| whole(text, 1..=HIGHEST_GRADE))]
     grade: u32,
     /// For H of this number of parts, 3 to 9, in place of T + U
-    #[arg(long, value_name = "N", help_heading = SERIES, conflicts_with_all = ["name", "problem", "potential"], value_parser = |text: &str| whole(text, 3..=9))]
+    #[arg(
+        long,
+        value_name = "N",
+        help_heading = SERIES,
+        conflicts_with_all = ["name", "problem", "potential"],
+        value_parser = |text: &str| whole(text, 3..=9),
+    )]
     parts: Option<u32>,
     /// Leaves out brackets that are 0 for T quadratic in p
     #[arg(long, help_heading = SERIES, conflicts_with_all = ["parts", "name", "problem", "potential"])]

@@ -1,7 +1,7 @@
 //! Charts of runs: energies in time, orbits, distances of bodies.
 //!
-//! A [`RunLines`] takes the states of a run one by one and keeps what a picture can show of them; [`Plots`] has those of all runs,
-//! and writes the charts.
+//! A [`RunLines`] takes the states of a run one by one and keeps what a picture can show of them; [`Plots`] has those
+//! of all runs, and writes the charts.
 //!
 //! | module | what it is |
 //! | --- | --- |
@@ -40,8 +40,10 @@ Charts:
   distance=sun          of this body from the others
   distance=sun:jupiter  of these two bodies
 
-The changes are |H - H(0)| and |H̄ - H̄*|, where H̄* is the H̄ with the least estimated error. A chart of one run also shows the estimated error of \
-H̄. Without bodies, the distance is the one from the origin. Bodies have coordinates such as x_sun, y_sun or x1, y1; orbit=x:y shows all bodies.";
+The changes are |H - H(0)| and |H̄ - H̄*|, where H̄* is the H̄ with the least estimated error. A chart of one run \
+also shows the estimated error of \
+H̄. Without bodies, the distance is the one from the origin. Bodies have coordinates such as x_sun, y_sun or x1, y1; \
+orbit=x:y shows all bodies.";
 
 /// The charts of `trace`.
 #[derive(Debug, Args)]
@@ -54,7 +56,8 @@ pub(crate) struct PlotArguments {
     plot: Option<PathBuf>,
     /// Its charts: energies,orbit=x:y
     ///
-    /// All kinds of charts are listed below. The first has the name FILE.svg, others have names such as FILE-orbit-x-y.svg.
+    /// All kinds of charts are listed below. The first has the name FILE.svg, others have names such as
+    /// FILE-orbit-x-y.svg.
     #[arg(long, value_name = "CHART,…", value_delimiter = ',', default_value = "energies", requires = "plot")]
     plot_of: Vec<String>,
 }

@@ -14,7 +14,8 @@ pub(crate) struct Progress {
     begin: Arc<Mutex<Option<Instant>>>,
 }
 
-/// The first steps of a run are no measure of the others: no time left is shown before this, and before a hundredth of the run.
+/// The first steps of a run are no measure of the others: no time left is shown before this, and before a hundredth of
+/// the run.
 const EARLY: Duration = Duration::from_secs(2);
 
 impl Progress {

@@ -33,7 +33,8 @@ pub(crate) fn step_size(flag: &str, text: &str) -> Result<StepSize, Error> {
         .map_err(|zero| Error::usage(format!("{flag} {text}: {zero}"), "write a step size such as 1/10"))
 }
 
-/// How many steps of size h, with its text, end at or before the time of --until; `None` where time is transformed, as they have to be made to count them.
+/// How many steps of size h, with its text, end at or before the time of --until; `None` where time is transformed, as
+/// they have to be made to count them.
 pub(crate) fn steps(h: (&StepSize, &str), until: &Rational, system: &System) -> Result<Option<u64>, Error> {
     let ends = (until, &*shortened(until, LONGEST_NUMBER));
     let count = match system.transformed_time() {

@@ -23,7 +23,8 @@ Example:
 const MORE: &str = "\
 If a run is stopped, running its scene again resumes it from the last checkpoint. If its file is complete, nothing is done.
 
-The summary is written to stderr: the error of H, the modified energy, close encounters, and a verdict on the step size. If rows of JSON are written \
+The summary is written to stderr: the error of H, the modified energy, close encounters, and a verdict on the step \
+size. If rows of JSON are written \
 to stdout, the summary on stderr is one object with the metadata. Beside a file of JSON lines, FILE.metadata.json has both.";
 
 /// Runs a scene: a file that describes a run and its output.
@@ -43,7 +44,8 @@ pub(crate) struct Arguments {
     force: bool,
     /// Prolongs a complete run and its charts
     ///
-    /// The scene may differ in its end only, `until` or `steps`, and must have checkpoints. The rows that are there stay; its charts are drawn again.
+    /// The scene may differ in its end only, `until` or `steps`, and must have checkpoints. The rows that are there
+    /// stay; its charts are drawn again.
     #[arg(long = "continue", conflicts_with_all = ["restart", "force"])]
     continues: bool,
     /// No summary of the run

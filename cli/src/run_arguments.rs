@@ -17,14 +17,22 @@ pub(crate) struct RunArguments {
     pub(crate) system: SystemArguments,
     /// Shipped or custom schemes: yoshida4,mine.toml
     ///
-    /// `shadowstep schemes` lists the shipped ones; custom schemes are files of tables. exact-flow is the exact solution, known for
-    /// harmonic-oscillator, pendulum and kepler; on it an estimator shows its own error.
+    /// `shadowstep schemes` lists the shipped ones; custom schemes are files of tables. exact-flow is the exact
+    /// solution, known for harmonic-oscillator, pendulum and kepler; on it an estimator shows its own error.
     #[arg(long = "scheme", value_name = "NAME|FILE,…", required = true, value_delimiter = ',', help_heading = SCHEMES)]
     pub(crate) schemes: Vec<String>,
     /// Exact step sizes, such as 1/10,0.05
     ///
     /// Of a scene with [time], they are steps of the fictitious time s.
-    #[arg(long = "step", aliases = ["h", "dt"], value_name = "H,…", required = true, value_delimiter = ',', allow_hyphen_values = true, help_heading = SCHEMES)]
+    #[arg(
+        long = "step",
+        aliases = ["h", "dt"],
+        value_name = "H,…",
+        required = true,
+        value_delimiter = ',',
+        allow_hyphen_values = true,
+        help_heading = SCHEMES,
+    )]
     pub(crate) sizes: Vec<String>,
     /// The exact time at which runs end, such as 100
     ///
@@ -52,7 +60,12 @@ pub(crate) struct RunArguments {
 #[command(next_help_heading = ESTIMATOR)]
 pub(crate) struct EstimatorArguments {
     /// How the modified energy is estimated
-    #[arg(long, value_name = "NAME", default_value = EstimatorSettings::NAMES[0], value_parser = words(EstimatorSettings::NAMES, EstimatorSettings::SUMMARIES))]
+    #[arg(
+        long,
+        value_name = "NAME",
+        default_value = EstimatorSettings::NAMES[0],
+        value_parser = words(EstimatorSettings::NAMES, EstimatorSettings::SUMMARIES),
+    )]
     pub(crate) estimator: String,
     /// The k of E_k or m of D_m, such as 24, or auto
     ///
@@ -66,19 +79,30 @@ pub(crate) struct EstimatorArguments {
     pub(crate) max_order: Option<u32>,
     /// Where --order auto stops trying m [default: full]
     ///
-    /// It requires --estimator central. Moan and Niesen's rule for an early stop is printed with <=; `early` has < instead.
-    #[arg(long, value_name = "WHEN", value_parser = words(StoppingRule::NAMES, StoppingRule::SUMMARIES).try_map(|word| word.parse::<StoppingRule>()))]
+    /// It requires --estimator central. Moan and Niesen's rule for an early stop is printed with <=; `early` has <
+    /// instead.
+    #[arg(
+        long,
+        value_name = "WHEN",
+        value_parser = words(StoppingRule::NAMES, StoppingRule::SUMMARIES)
+            .try_map(|word| word.parse::<StoppingRule>()),
+    )]
     pub(crate) stop: Option<StoppingRule>,
     /// Which m is the best for --order auto [default: least]
     ///
     /// It requires --estimator central. `least` reproduces the results of Moan and Niesen.
-    #[arg(long, value_name = "RULE", value_parser = words(SelectionRule::NAMES, SelectionRule::SUMMARIES).try_map(|word| word.parse::<SelectionRule>()))]
+    #[arg(
+        long,
+        value_name = "RULE",
+        value_parser = words(SelectionRule::NAMES, SelectionRule::SUMMARIES)
+            .try_map(|word| word.parse::<SelectionRule>()),
+    )]
     pub(crate) rule: Option<SelectionRule>,
     /// Target error of E_k with --order auto, such as 1e-20
     ///
     /// Of k = 2, 4, 8, 16, … and the largest k, the least one that meets the target error is
-    /// used. If none meets it, the most accurate is used, and its estimated error is reported. Without this flag the best of them is used
-    /// for each state.
+    /// used. If none meets it, the most accurate is used, and its estimated error is reported. Without this flag the
+    /// best of them is used for each state.
     #[arg(long, value_name = "ERROR", allow_hyphen_values = true)]
     pub(crate) accuracy: Option<String>,
 }
@@ -89,7 +113,8 @@ pub(crate) struct EstimatorArguments {
 pub(crate) struct NumberArguments {
     /// Decimal digits, such as 50 [default: double precision]
     ///
-    /// All numbers of a run have them. `advise`, `chaos` and `work-precision` have those of [run] in a scene by default.
+    /// All numbers of a run have them. `advise`, `chaos` and `work-precision` have those of [run] in a scene by
+    /// default.
     #[arg(long, value_name = "DIGITS", value_parser = |text: &str| whole(text, 1..=MOST_DIGITS))]
     digits: Option<u32>,
     /// MPFR's numbers, also for up to 307 digits
@@ -134,7 +159,8 @@ impl NumberArguments {
 pub(crate) struct SystemArguments {
     /// A problem, such as kepler, or the file of a scene
     ///
-    /// `shadowstep problems` lists the shipped problems. Of a scene, such as mine.toml, [problem] and [initial] are used.
+    /// `shadowstep problems` lists the shipped problems. Of a scene, such as mine.toml, [problem] and [initial] are
+    /// used.
     #[arg(display_order = 0, value_name = "PROBLEM|SCENE", required_unless_present_any = ["problem", "potential"])]
     name: Option<String>,
     /// The same as PROBLEM|SCENE
@@ -142,8 +168,8 @@ pub(crate) struct SystemArguments {
     problem: Option<String>,
     /// Parameters and initial values: eccentricity=1/3
     ///
-    /// Values are exact, such as "px=sqrt(2)/2". They belong to parameters and initial values of a shipped problem, or to parameters of
-    /// --potential.
+    /// Values are exact, such as "px=sqrt(2)/2". They belong to parameters and initial values of a shipped problem, or
+    /// to parameters of --potential.
     #[arg(long, value_name = "NAME=VALUE,…", value_delimiter = ',')]
     pub(crate) set: Vec<String>,
     /// U(q) in place of a problem: "-1/sqrt(x^2 + y^2)"

@@ -55,7 +55,8 @@ Other keys:
                            order is the one after processing
   closed_gaps = 1          intervals of instability near hω = π, 2π, …
 
-DIR gets the tables, search.csv with what each start found, search.svg with the shipped schemes beside them, and report.html. Starts are saved one by one \
+DIR gets the tables, search.csv with what each start found, search.svg with the shipped schemes beside them, and \
+report.html. Starts are saved one by one \
 in results.jsonl: after Ctrl-C (exit code 3) the same command computes only what is missing.
 
 The exit code is 1 if no start met the conditions.";

@@ -104,7 +104,8 @@ impl Selection {
         DriftRequest { problem: name, system, until, arithmetic: *arithmetic, estimator, summarised }
     }
 
-    /// Notes of runs whose steps are beyond the stability limit of their scheme, or too few for a revolution of a planet.
+    /// Notes of runs whose steps are beyond the stability limit of their scheme, or too few for a revolution of a
+    /// planet.
     fn note_large_steps(&self) {
         let system = &self.problem.system;
         let frequency = system.fastest_frequency();

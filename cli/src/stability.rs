@@ -27,7 +27,8 @@ Examples:
   shadowstep stability --out stability";
 
 const MORE: &str = "\
-DIR gets report.html with charts, and stability.md with all verdicts. Results are saved one by one in results.jsonl: after Ctrl-C (exit code 3) the same \
+DIR gets report.html with charts, and stability.md with all verdicts. Results are saved one by one in results.jsonl: \
+after Ctrl-C (exit code 3) the same \
 command computes only what is missing.
 
 The exit code is 1 if a row differs from theory.";
@@ -41,7 +42,8 @@ pub(crate) struct Arguments {
     cases: Vec<String>,
     /// Shipped or custom schemes: yoshida4,mine.toml
     ///
-    /// Custom schemes are files of tables. The default is the schemes that each case needs, and all shipped ones where they are cheap.
+    /// Custom schemes are files of tables. The default is the schemes that each case needs, and all shipped ones where
+    /// they are cheap.
     #[arg(long, value_name = "NAME|FILE,…", value_delimiter = ',')]
     schemes: Vec<String>,
     /// Decimal digits [default: double precision]

@@ -45,8 +45,9 @@ impl Folder {
     }
 }
 
-/// Makes a study in the folder of `--out`, or in one that is removed afterwards, and shows its progress; returns what it has found, and the
-/// worst that has happened. Files of these names that others wrote are refused, unless it is forced.
+/// Makes a study in the folder of `--out`, or in one that is removed afterwards, and shows its progress; returns what
+/// it has found, and the worst that has happened. Files of these names that others wrote are refused, unless it is
+/// forced.
 pub(crate) fn study_in<T>(
     out: Option<&Path>,
     force: bool,
@@ -137,8 +138,8 @@ impl Bar {
     }
 }
 
-/// The time of all calculations if a fraction of their cost took `elapsed`; `None` while that cannot be estimated: the first
-/// calculations may be cheaper or more expensive than those that follow.
+/// The time of all calculations if a fraction of their cost took `elapsed`; `None` while that cannot be estimated: the
+/// first calculations may be cheaper or more expensive than those that follow.
 fn in_all(elapsed: Duration, fraction: f64) -> Option<Duration> {
     if elapsed < Duration::from_secs(3) || fraction < 0.05 {
         return None;

@@ -1,4 +1,5 @@
-//! `shadowstep work-precision`: what each scheme pays for an error on a problem, from its stability limit down to round-off.
+//! `shadowstep work-precision`: what each scheme pays for an error on a problem, from its stability limit down to
+//! round-off.
 
 mod table;
 
@@ -38,11 +39,13 @@ const MORE: &str = "  \
   shadowstep work-precision --potential \"x^4/4\" --q x=1 --p 0 --until 50 \\
       --digits 40 --out quartic
 
-DIR gets work-precision.csv and work-precision.jsonl, charts as SVG, report.html, and plot.py, which draws the CSV as PDF by Matplotlib (PGF with xelatex).
+DIR gets work-precision.csv and work-precision.jsonl, charts as SVG, report.html, and plot.py, which draws the CSV as \
+PDF by Matplotlib (PGF with xelatex).
 
 Results are saved in DIR/results.jsonl one by one. After Ctrl-C (exit code 3) the same command computes only what is missing.
 
-Errors of positions are |q - q_ref|. The reference q_ref is the exact flow where it is known, else a run of a scheme of order 10 with more digits, whose \
+Errors of positions are |q - q_ref|. The reference q_ref is the exact flow where it is known, else a run of a scheme \
+of order 10 with more digits, whose \
 own error is estimated. Times are those of the bare steps of tables that are read at run time, in one thread.";
 
 /// Speed against error: what each scheme pays for an error.
@@ -55,14 +58,15 @@ pub(crate) struct Arguments {
     posed: PosedArguments,
     /// Shipped or custom schemes, such as +mine.toml [default: a dozen]
     ///
-    /// Custom schemes are files of tables; +mine.toml adds one to the default schemes. `all` are those of the catalogue that are valid for the
-    /// kinetic energy, as the default ones are. `near-integrable` are those with orders for A + εB.
+    /// Custom schemes are files of tables; +mine.toml adds one to the default schemes. `all` are those of the catalogue
+    /// that are valid for the kinetic energy, as the default ones are. `near-integrable` are those with orders for A +
+    /// εB.
     #[arg(long, value_name = "NAME|FILE,…", value_delimiter = ',', help_heading = SCHEMES)]
     schemes: Vec<String>,
     /// Exact step sizes, such as 1/10,1/20 [default: a range for each scheme]
     ///
-    /// The end time must be a multiple of each. In transformed time they are any steps of s. The default range goes from the stability limit down
-    /// to round-off, at equal numbers of evaluations for all schemes.
+    /// The end time must be a multiple of each. In transformed time they are any steps of s. The default range goes
+    /// from the stability limit down to round-off, at equal numbers of evaluations for all schemes.
     #[arg(long, aliases = ["h", "dt"], value_name = "H,…", value_delimiter = ',', allow_hyphen_values = true, help_heading = SCHEMES)]
     step: Vec<String>,
     /// Numbers of steps in place of sizes: 100,200,400
@@ -71,7 +75,14 @@ pub(crate) struct Arguments {
     /// The time for the runs of a scheme
     ///
     /// It cannot be used with --step or --steps.
-    #[arg(long, value_name = "SECONDS", default_value = "2", value_parser = seconds, conflicts_with_all = ["step", "steps"], help_heading = SCHEMES)]
+    #[arg(
+        long,
+        value_name = "SECONDS",
+        default_value = "2",
+        value_parser = seconds,
+        conflicts_with_all = ["step", "steps"],
+        help_heading = SCHEMES,
+    )]
     seconds: f64,
     /// The folder for charts, data and results
     #[arg(long, value_name = "DIR", help_heading = OUTPUT)]
@@ -112,7 +123,8 @@ pub(crate) fn seconds(text: &str) -> Result<f64, String> {
     }
 }
 
-/// The schemes, each once, that are valid for the system and have the digits of the runs, with steps that begin as those of the scene.
+/// The schemes, each once, that are valid for the system and have the digits of the runs, with steps that begin as
+/// those of the scene.
 pub(crate) fn schemes(words: &[String], posed: &PosedProblem) -> Result<Vec<NamedScheme>, Error> {
     let system = &posed.described.system;
     let mut found: Vec<NamedScheme> = Vec::new();

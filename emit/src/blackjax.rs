@@ -1,7 +1,9 @@
-//! The coefficients of a scheme for `generate_euclidean_integrator` of BlackJAX, whose steps update p and q in turn, p first and last.
+//! The coefficients of a scheme for `generate_euclidean_integrator` of BlackJAX, whose steps update p and q in turn, p
+//! first and last.
 //!
-//! After each update of q it evaluates the density with its gradient, and the last of them serves the next step. So a step costs as many evaluations as it has drifts, one more
-//! than here where a drift begins and ends it; then the first and the last kick have weight 0.
+//! After each update of q it evaluates the density with its gradient, and the last of them serves the next step. So a
+//! step costs as many evaluations as it has drifts, one more than here where a drift begins and ends it; then the first
+//! and the last kick have weight 0.
 
 use crate::language::{Language, no_action, plain_constant};
 use crate::step::{Step, literal};

@@ -1,8 +1,9 @@
 //! A proved scheme → code of other ecosystems: `shadowstep emit`.
 //!
-//! What is emitted is one file: the weights, each rounded once to `f64`, so that the decimals read back to the same bits; the step, unrolled, with as few
-//! evaluations of the gradient as the plan of the scheme has; lines of provenance; and a self-test, which compares a run of Kepler's problem with the state
-//! that Shadowstep reaches and measures the order.
+//! What is emitted is one file: the weights, each rounded once to `f64`, so that the decimals read back to the same
+//! bits; the step, unrolled, with as few evaluations of the gradient as the plan of the scheme has; lines of
+//! provenance; and a self-test, which compares a run of Kepler's problem with the state that Shadowstep reaches and
+//! measures the order.
 //!
 //! | module | what it is |
 //! | --- | --- |
@@ -121,7 +122,8 @@ impl FromStr for Target {
 
 /// A name that is not one of a target.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
-#[error("there is no target `{name}`: there are {}", Target::ALL.iter().map(|target| target.name()).collect::<Vec<_>>().join(", "))]
+#[error("there is no target `{name}`: there are \
+    {}", Target::ALL.iter().map(|target| target.name()).collect::<Vec<_>>().join(", "))]
 pub struct UnknownTarget {
     /// The name.
     pub name: String,
@@ -148,7 +150,8 @@ const LONGEST_IN_FORTRAN: usize = 45;
 /// Emits a scheme.
 ///
 /// # Errors
-/// A scheme that the target cannot express: gradient kicks, processors, steps that are not symmetric, an order that holds for quadratic T only, three parts and more.
+/// A scheme that the target cannot express: gradient kicks, processors, steps that are not symmetric, an order that
+/// holds for quadratic T only, three parts and more.
 pub fn emit(scheme: &TableScheme, target: Target) -> Result<String, Refusal> {
     let proved = scheme.proved();
     if let Some((reason, hint)) = lacks(proved, target) {

@@ -1,4 +1,5 @@
-//! The coefficients of a scheme for `SymmetricCompositionIntegrator` of mici, which takes all but the two in the middle and its mirror image: these follow from the sums, which are 1.
+//! The coefficients of a scheme for `SymmetricCompositionIntegrator` of mici, which takes all but the two in the middle
+//! and its mirror image: these follow from the sums, which are 1.
 
 use crate::language::{Language, no_action, plain_constant};
 use crate::step::{Step, literal};

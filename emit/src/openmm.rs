@@ -1,7 +1,7 @@
 //! A Python function that makes a `CustomIntegrator` of OpenMM.
 //!
-//! OpenMM evaluates forces where an expression has `f` and positions have changed since the last time, also across steps: so the force of the last
-//! kick serves the first of the next step.
+//! OpenMM evaluates forces where an expression has `f` and positions have changed since the last time, also across
+//! steps: so the force of the last kick serves the first of the next step.
 
 use crate::language::{Direction, Language, plain_constant};
 use crate::step::{Action, Step, literal};

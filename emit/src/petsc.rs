@@ -1,8 +1,9 @@
 //! A header that registers a scheme for `TSBASICSYMPLECTIC` of PETSc.
 //!
-//! In a stage PETSc adds h c_i times the right-hand side of "momentum" to p and then h d_i times the right-hand side of "position" to q
-//! (`TSStep_BasicSymplectic`; the manual page of `TSBasicSymplecticRegister` has c and d exchanged), so c are the weights of kicks and d the weights of drifts, in
-//! the order of ours. A weight of 0 costs nothing, and nothing is kept from step to step.
+//! In a stage PETSc adds h c_i times the right-hand side of "momentum" to p and then h d_i times the right-hand side of
+//! "position" to q (`TSStep_BasicSymplectic`; the manual page of `TSBasicSymplecticRegister` has c and d exchanged), so
+//! c are the weights of kicks and d the weights of drifts, in the order of ours. A weight of 0 costs nothing, and
+//! nothing is kept from step to step.
 
 use shadowstep_schemes::Rational;
 

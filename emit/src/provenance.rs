@@ -38,7 +38,8 @@ pub(crate) fn proved(step: &Step<'_>) -> String {
             let near = near_integrable(&effective.near_integrable);
             let quadratic = order(&effective.quadratic);
             format!(
-                "Proved: order {quadratic} for quadratic T{near}, with pre-map and post-map; the steps alone: {orders}; {symmetric}symmetric."
+                "Proved: order {quadratic} for quadratic T{near}, with pre-map and post-map; the steps alone: \
+                    {orders}; {symmetric}symmetric."
             )
         }
     }

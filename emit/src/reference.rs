@@ -12,7 +12,8 @@ use shadowstep::{Motion, Potential, Rational, StepSize, Stepper, UnitMasses};
 /// The steps of the run whose end a self-test compares.
 pub(crate) const STEPS: u32 = 1000;
 
-/// Their size is 1/64: the products of h with weights are exact, so that h a_s, rounded once, is h times the rounded weight.
+/// Their size is 1/64: the products of h with weights are exact, so that h a_s, rounded once, is h times the rounded
+/// weight.
 pub(crate) const HALVINGS: u32 = 6;
 
 /// The farthest that other roundings may take a run from the expected end.
@@ -27,8 +28,8 @@ const LEAST_ERROR: f64 = 5e-12;
 /// The largest error from which an order is taken.
 const LARGEST_ERROR: f64 = 0.1;
 
-/// How far below the proved order and above it an observed one may be. The self-tests accept half an order less. McLachlan and Atela's scheme of order 5
-/// shows order 6 until round-off is reached.
+/// How far below the proved order and above it an observed one may be. The self-tests accept half an order less.
+/// McLachlan and Atela's scheme of order 5 shows order 6 until round-off is reached.
 const NEAR: Range<f64> = -0.35..1.6;
 
 /// The finest step size at which the order is measured is 2^−FINEST.

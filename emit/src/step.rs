@@ -130,7 +130,8 @@ impl<'a> Step<'a> {
         &self.proved.scheme.table.name.value
     }
 
-    /// The name of the table as an identifier: `stormer_verlet`; `scheme_class` where the name is a keyword of a target, or a module that it has.
+    /// The name of the table as an identifier: `stormer_verlet`; `scheme_class` where the name is a keyword of a
+    /// target, or a module that it has.
     pub(crate) fn identifier(&self) -> String {
         let is_letter = |letter: char| letter.is_ascii_alphanumeric();
         let name: String =
@@ -170,7 +171,8 @@ impl<'a> Step<'a> {
         actions(&backwards, &self.post_weights, NOTHING)
     }
 
-    /// The order on which the self-test insists: for quadratic T, as of Kepler's problem, of the processed step where there is one.
+    /// The order on which the self-test insists: for quadratic T, as of Kepler's problem, of the processed step where
+    /// there is one.
     pub(crate) fn order(&self) -> u32 {
         let proof = &self.proved.proof;
         proof.effective.as_ref().map_or(proof.quadratic.order, |effective| effective.quadratic.order)
@@ -192,7 +194,8 @@ impl<'a> Step<'a> {
         self.proved.scheme.first() == First::Kick
     }
 
-    /// The weights of kicks and drifts, stage by stage: in each the kick comes before the drift, and a missing one has weight 0.
+    /// The weights of kicks and drifts, stage by stage: in each the kick comes before the drift, and a missing one has
+    /// weight 0.
     pub(crate) fn stages(&self) -> [Vec<Rational>; 2] {
         let stages = Stages::of(&self.proved.scheme.maps());
         [stages.kick, stages.drift]

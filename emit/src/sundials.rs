@@ -1,7 +1,8 @@
 //! A header with a table for SPRKStep of ARKODE, the symplectic steppers of SUNDIALS.
 //!
-//! In a stage SPRKStep adds h â_i f1(q) to p and then h a_i f2(p) to q (`sprkStep_TakeStep`), so â are the weights of kicks and a the weights of drifts, in the
-//! order of ours. Each stage evaluates f1 and f2 once, also where the weight is 0, and nothing is kept from step to step.
+//! In a stage SPRKStep adds h â_i f1(q) to p and then h a_i f2(p) to q (`sprkStep_TakeStep`), so â are the weights of
+//! kicks and a the weights of drifts, in the order of ours. Each stage evaluates f1 and f2 once, also where the weight
+//! is 0, and nothing is kept from step to step.
 
 use shadowstep_schemes::Rational;
 

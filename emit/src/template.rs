@@ -1,7 +1,7 @@
 //! Templates: text with places to fill in, and lines that are left out.
 //!
-//! `‹name›` stands for a value. Alone on a line it may stand for several lines, which are indented as it is, or for none. Lines between `‹if name›` or
-//! `‹if not name›` and `‹end›` are there if the condition is true.
+//! `‹name›` stands for a value. Alone on a line it may stand for several lines, which are indented as it is, or for
+//! none. Lines between `‹if name›` or `‹if not name›` and `‹end›` are there if the condition is true.
 
 use std::collections::BTreeMap;
 
@@ -93,7 +93,8 @@ mod tests {
         let mut values = Values::default();
         values.text("a", "1").lines("b", ["x".to_owned(), String::new(), "y".to_owned()]).lines("none", []);
         values.condition("yes", true).condition("no", false);
-        let template = "‹a› + ‹a›\n  ‹b›\n‹none›\n‹if yes›\nyes\n‹if no›\nno\n‹end›\n‹if not no›\nnot no\n‹end›\n‹end›\n‹if no›\n‹if yes›\nno\n‹end›\nno\n‹end›\nend";
+        let template = "‹a› + ‹a›\n  ‹b›\n‹none›\n‹if yes›\nyes\n‹if no›\nno\n‹end›\n‹if not no›\nnot \
+            no\n‹end›\n‹end›\n‹if no›\n‹if yes›\nno\n‹end›\nno\n‹end›\nend";
         assert_eq!(values.fill(template), "1 + 1\n  x\n\n  y\nyes\nnot no\nend\n");
     }
 }

@@ -1,6 +1,7 @@
 //! The emitted C, compiled and run: the bits of Shadowstep, and a self-test that can fail.
 //!
-//! `-ffp-contract=off`: else a compiler for a processor with fused products may round a product and a sum once, not twice.
+//! `-ffp-contract=off`: else a compiler for a processor with fused products may round a product and a sum once, not
+//! twice.
 
 use std::fs;
 use std::process::{Command, Output};

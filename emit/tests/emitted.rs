@@ -77,7 +77,8 @@ fn refusals() {
 /// A scheme of a name: Störmer–Verlet.
 fn named(name: &str, title: &str) -> TableScheme {
     let text = format!(
-        "name = {name:?}\ntitle = {title:?}\norder = 2\nkinetic = \"any\"\n[stages]\nkick = [\"1/2\", \"1/2\"]\ndrift = [1, 0]\n"
+        "name = {name:?}\ntitle = {title:?}\norder = 2\nkinetic = \"any\"\n[stages]\nkick = [\"1/2\", \"1/2\"]\ndrift \
+            = [1, 0]\n"
     );
     let source = Source { path: "mine.toml".to_owned(), text };
     read(&source, &|_, _| None, None).unwrap_or_else(|faults| panic!("{faults}"))

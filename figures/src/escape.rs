@@ -64,7 +64,8 @@ fn dot(a: [f64; 2], b: [f64; 2]) -> f64 {
 mod tests {
     use super::*;
 
-    /// On parabolas and hyperbolas H ≥ 0; at the same place with less speed the body is bound, and inward it may return.
+    /// On parabolas and hyperbolas H ≥ 0; at the same place with less speed the body is bound, and inward it may
+    /// return.
     #[test]
     fn only_unbounded_outward_motion_is_an_escape() {
         let time = |p: [f64; 2]| {

@@ -41,8 +41,8 @@ pub(crate) fn states(settings: &EstimatorSettings) -> f64 {
     if is_bilinear(settings) { order + 1.0 } else { 2.0 * order + 1.0 }
 }
 
-/// At least as many states as its estimates with errors need before 0, and after the last one. Building the estimator would
-/// give the number itself, but takes seconds for a large k.
+/// At least as many states as its estimates with errors need before 0, and after the last one. Building the estimator
+/// would give the number itself, but takes seconds for a large k.
 pub(crate) fn most_reach(settings: &EstimatorSettings) -> usize {
     (states(settings) / 2.0 + largest_order(settings).sqrt()).ceil() as usize + 4
 }

@@ -90,8 +90,8 @@ impl ExponentialDecay {
         Interval::about(self.c, self.c_error, self.points, self.points - 2)
     }
 
-    /// Whether the drift is exponential in 1/h: it is if exp(−c/h), c > 0, fits at least twice as well as a power of h, and is
-    /// not if the power fits twice as well.
+    /// Whether the drift is exponential in 1/h: it is if exp(−c/h), c > 0, fits at least twice as well as a power of h,
+    /// and is not if the power fits twice as well.
     pub(crate) fn is_exponential(&self) -> Verdict {
         let line = match () {
             () if 2.0 * self.deviation <= self.power_law => Verdict::Agrees,
@@ -113,8 +113,8 @@ impl ExponentialDecay {
     }
 }
 
-/// Whether all rates are that of the first, which they are if their ratios are from 0.9 to 1.1 with all of their uncertainty;
-/// and the ratios in words.
+/// Whether all rates are that of the first, which they are if their ratios are from 0.9 to 1.1 with all of their
+/// uncertainty; and the ratios in words.
 pub(crate) fn same_rates(first: &ExponentialDecay, others: &[(&str, &ExponentialDecay)]) -> (Verdict, String) {
     let ratio = |other: &ExponentialDecay| {
         let error = (first.c_error.powi(2) + other.c_error.powi(2)).sqrt() / first.c;
@@ -151,7 +151,8 @@ pub(crate) fn against_aliasing(drifts: &[(f64, f64)], theory: f64) -> Option<Str
     let (c, power) = with_power(drifts)?;
     let place = if c.within(theory, theory) == Verdict::Differs { "outside" } else { "within" };
     Some(format!(
-        "Aliasing of differences of samples gives the rate π ρ = {theory:.3} with a power of h before the exponential. Fitted with a power, c is \
+        "Aliasing of differences of samples gives the rate π ρ = {theory:.3} with a power of h before the \
+            exponential. Fitted with a power, c is \
          {c:.3} and the factor is h⁻ʳ, r = {power:.1}: π ρ is {place} that interval."
     ))
 }

@@ -1,8 +1,8 @@
 //! The figures of Moan and Niesen, “On an asymptotic method for computing the modified energy for symplectic methods”,
 //! computed again, and additional ones: charts as SVG, data as CSV, and a report as one page of HTML.
 //!
-//! [`reproduce`] computes what its folder does not have yet, on all cores, and writes the files. Each result is saved when
-//! it is complete, so that an interrupted call can be repeated without computing it again.
+//! [`reproduce`] computes what its folder does not have yet, on all cores, and writes the files. Each result is saved
+//! when it is complete, so that an interrupted call can be repeated without computing it again.
 //!
 //! ```no_run
 //! use shadowstep_figures::{Request, reproduce};

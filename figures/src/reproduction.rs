@@ -1,4 +1,5 @@
-//! From a request to the files: results are computed until no figure lacks any, then charts, data and report are written.
+//! From a request to the files: results are computed until no figure lacks any, then charts, data and report are
+//! written.
 
 use std::path::{Path, PathBuf};
 
@@ -28,7 +29,8 @@ pub struct Request {
 pub struct Reproduction {
     /// The file of the report.
     pub report: PathBuf,
-    /// How many statements agree, differ, and are not decided: `statements of the paper: 9 agree, 1 differs, 2 not decided`.
+    /// How many statements agree, differ, and are not decided:
+    /// `statements of the paper: 9 agree, 1 differs, 2 not decided`.
     pub verdicts: String,
 }
 
@@ -40,9 +42,9 @@ pub fn written() -> impl Iterator<Item = String> {
 
 /// Computes what the folder does not have yet, and writes charts, data and the report.
 ///
-/// Each figure `name` gets `name.svg`, or `name-1.svg` and so on, and its results as CSV. The report keeps the figures of
-/// earlier calls whose results are complete. A failed calculation is reported to the observer and stops no other. Files of the names
-/// that [`written`] gives are replaced.
+/// Each figure `name` gets `name.svg`, or `name-1.svg` and so on, and its results as CSV. The report keeps the figures
+/// of earlier calls whose results are complete. A failed calculation is reported to the observer and stops no other.
+/// Files of the names that [`written`] gives are replaced.
 ///
 /// # Errors
 /// An unknown figure; a folder that cannot be written, or that another process uses.
@@ -70,8 +72,8 @@ pub fn reproduce(request: &Request, observer: &mut dyn Observer) -> Result<Repro
     Ok(Reproduction { report: write_page(&request.folder, &report)?, verdicts: report.verdicts() })
 }
 
-/// The results of a figure that is not requested, if earlier runs left all of them: of the full grid, or of the coarse one. A figure that
-/// needs none is kept if its charts are there.
+/// The results of a figure that is not requested, if earlier runs left all of them: of the full grid, or of the coarse
+/// one. A figure that needs none is kept if its charts are there.
 fn kept(figure: &Figure, store: &Store, folder: &Path) -> Option<Results> {
     [false, true].into_iter().find_map(|quick| {
         let mut results = Results::new(quick);
@@ -107,20 +109,30 @@ fn write_figure(figure: &Figure, results: &Results, folder: &Path) -> Result<Sec
 }
 
 const INTRODUCTION: [&str; 4] = [
-    "P. C. Moan and J. Niesen, “On an asymptotic method for computing the modified energy for symplectic methods”, Discrete Contin. Dyn. Syst. 34 (2014) 1105, \
-     follow the modified energy of splitting schemes at 120 digits. Each of their figures is computed here again and compared with the statements of their text.",
-    "Additional figures follow. They separate what belongs to the method from what belongs to the estimator: the same estimators on the exact \
-     flow, whose energy does not change, and the permanent change of the modified energy between states with small estimated errors.",
-    "The drift is max − min of the modified energy over the states n = 0 … N of the interval. States before 0 and after N, which estimators \
-     need, are computed by the scheme and its exact inverse. The paper's sign of the rate of β, printed −h a (qᵀU_q + 2U), is +h a (qᵀU_q − 2U).",
-    "Each statement agrees, differs, or is not decided. A statement on a rate or a mean ratio agrees if its whole 95 % interval does, and differs if \
-     no part of the interval does; the interval is Student's, over the step sizes, as if these were independent. A factor that the paper prints with one \
-     digit counts as every value that rounds to it. Drifts below 10⁻¹⁰⁸, where round-off of 120 digits may be visible, are left out. Other criteria are stated beside \
+    "P. C. Moan and J. Niesen, “On an asymptotic method for computing the modified energy for symplectic methods”, \
+        Discrete Contin. Dyn. Syst. 34 (2014) 1105, \
+     follow the modified energy of splitting schemes at 120 digits. Each of their figures is computed here again and \
+     compared with the statements of their text.",
+    "Additional figures follow. They separate what belongs to the method from what belongs to the estimator: the same \
+        estimators on the exact \
+     flow, whose energy does not change, and the permanent change of the modified energy between states with small \
+     estimated errors.",
+    "The drift is max − min of the modified energy over the states n = 0 … N of the interval. States before 0 and \
+        after N, which estimators \
+     need, are computed by the scheme and its exact inverse. The paper's sign of the rate of β, printed −h a (qᵀU_q + \
+     2U), is +h a (qᵀU_q − 2U).",
+    "Each statement agrees, differs, or is not decided. A statement on a rate or a mean ratio agrees if its whole 95 \
+        % interval does, and differs if \
+     no part of the interval does; the interval is Student's, over the step sizes, as if these were independent. A \
+     factor that the paper prints with one \
+     digit counts as every value that rounds to it. Drifts below 10⁻¹⁰⁸, where round-off of 120 digits may be \
+     visible, are left out. Other criteria are stated beside \
      their results.",
 ];
 
 /// What a quick report cannot decide.
-const QUICK: &str = "A quick report: fewer step sizes, eccentricities and orders can refute a claim about all of them or confirm a claim that one \
+const QUICK: &str = "A quick report: fewer step sizes, eccentricities and orders can refute a claim about all of them \
+    or confirm a claim that one \
      exists, but not the reverse. Without `--quick` more is decided.";
 
 /// `earlier` are the figures that are not requested.

@@ -1,8 +1,8 @@
 //! The results that figures request.
 //!
-//! A figure is a function that requests results and draws them. Results that are not known yet are noted and computed, and the
-//! figure is drawn again, until none is missing. So the results that it needs and the charts that it draws are in one place,
-//! and it may request more depending on earlier results.
+//! A figure is a function that requests results and draws them. Results that are not known yet are noted and computed,
+//! and the figure is drawn again, until none is missing. So the results that it needs and the charts that it draws are
+//! in one place, and it may request more depending on earlier results.
 
 use std::cell::RefCell;
 use std::collections::HashMap;

@@ -1,4 +1,5 @@
-//! How much the modified Hamiltonian varies along a run as a series that ends at a power of h: by a scene, whose columns it is.
+//! How much the modified Hamiltonian varies along a run as a series that ends at a power of h: by a scene, whose
+//! columns it is.
 
 use std::fmt::Write as _;
 

@@ -7,9 +7,9 @@ use std::ops::{AddAssign, DivAssign, MulAssign, Neg, SubAssign};
 
 /// A number of 2 to 17 limbs; the number of limbs is chosen when it is made.
 ///
-/// It has the bits of [`Limbs`] of as many limbs, whose operations this chooses at run time. A program that offers any number of digits
-/// compiles what it computes for this one type. With the feature `precompiled` the operations are compiled in this crate; without it, in each
-/// crate that uses them.
+/// It has the bits of [`Limbs`] of as many limbs, whose operations this chooses at run time. A program that offers any
+/// number of digits compiles what it computes for this one type. With the feature `precompiled` the operations are
+/// compiled in this crate; without it, in each crate that uses them.
 ///
 /// ```
 /// use shadowstep_limbs::{AnyLimbs, LimbCount};

@@ -3,8 +3,8 @@
 use crate::Limbs;
 
 impl<const L: usize> Limbs<L> {
-    /// The number nearest to ± m 2^exponent, where m = Σ magnitude\[i\] 2^(64 i) is of any size.  With `more`, some part of a unit of m is
-    /// to be added to it before rounding: enough for quotients and roots whose remainder is not 0.
+    /// The number nearest to ± m 2^exponent, where m = Σ magnitude\[i\] 2^(64 i) is of any size. With `more`, some part
+    /// of a unit of m is to be added to it before rounding: enough for quotients and roots whose remainder is not 0.
     ///
     /// ```
     /// use shadowstep_limbs::Limbs;
@@ -60,7 +60,8 @@ impl<const L: usize> Limbs<L> {
         integer as f64 * power(self.exponent - bits) * sign
     }
 
-    /// Significand in [1/2, 1) and exponent of 2, whose product is the number to 53 bits; 0, infinities and NaN themselves with exponent 0.
+    /// Significand in [1/2, 1) and exponent of 2, whose product is the number to 53 bits; 0, infinities and NaN
+    /// themselves with exponent 0.
     pub fn to_f64_exponent(&self) -> (f64, i32) {
         match self.exponent() {
             Some(exponent) => (Limbs { exponent: 0, ..*self }.to_f64(), exponent),

@@ -1,7 +1,7 @@
 //! Decimal text: read and written with one correct rounding, however large the exponents are.
 //!
-//! A number times a power of ten is computed to some more limbs than are needed, and to twice as many as long as its error leaves the
-//! rounding open.
+//! A number times a power of ten is computed to some more limbs than are needed, and to twice as many as long as its
+//! error leaves the rounding open.
 
 use crate::natural;
 use crate::{EXPONENTS, Limbs};
@@ -33,8 +33,8 @@ fn scaled(n: &[u64], k: i64, exponent: i64, limbs: usize) -> Scaled {
     Scaled { m, exponent, error: (!is_exact).then_some(error) }
 }
 
-/// 5^k, k < 2^31, and whether it is exact: m 2^exponent with m of at most this number of limbs, too small by less than 2^34 parts of
-/// 2^(64 limbs − 64), as each of some 60 roundings is raised to at most the power k.
+/// 5^k, k < 2^31, and whether it is exact: m 2^exponent with m of at most this number of limbs, too small by less than
+/// 2^34 parts of 2^(64 limbs − 64), as each of some 60 roundings is raised to at most the power k.
 fn power_of_five(k: u64, limbs: usize) -> (Vec<u64>, i64, bool) {
     let (mut m, mut exponent, mut is_exact) = (vec![1], 0, true);
     for bit in (0..64 - k.leading_zeros()).rev() {
@@ -108,8 +108,8 @@ impl<const L: usize> Limbs<L> {
     /// How many decimal digits of a text survive being read and written: ⌊(64 L − 1) log₁₀2⌋.
     pub const DIGITS: u32 = ((64 * L as u64 - 1) * 30_102_999_566 / 100_000_000_000) as u32;
 
-    /// The decimal digits d₁d₂… of |x| = 0.d₁d₂… 10^point, correctly rounded to `count` significant ones, and the point; none of 0,
-    /// infinities and NaN.
+    /// The decimal digits d₁d₂… of |x| = 0.d₁d₂… 10^point, correctly rounded to `count` significant ones, and the
+    /// point; none of 0, infinities and NaN.
     ///
     /// ```
     /// use shadowstep_limbs::Limbs;
@@ -157,8 +157,8 @@ impl<const L: usize> Limbs<L> {
         }
     }
 
-    /// The shortest decimal text that reads back as the same number, laid out as Rust does for an `f64`: `0.1`, `-1.25e-30`, `NaN`,
-    /// `inf`.
+    /// The shortest decimal text that reads back as the same number, laid out as Rust does for an `f64`: `0.1`,
+    /// `-1.25e-30`, `NaN`, `inf`.
     ///
     /// ```
     /// use shadowstep_limbs::Limbs;
@@ -170,7 +170,8 @@ impl<const L: usize> Limbs<L> {
         if !self.is_regular() {
             return format!("{:?}", self.to_f64());
         }
-        // a text that is at most this long survives: if there is one for this number, it comes back, with zeros behind it
+        // a text that is at most this long survives: if there is one for this number, it comes back, with zeros behind
+        // it
         for count in Self::DIGITS.. {
             let (integer, point) = self.integer_of_digits(count).expect("finite and not 0");
             let mut next = integer.clone();

@@ -1,7 +1,7 @@
 //! Arithmetic of integers of a fixed number of limbs, for fixed-point numbers.
 //!
-//! An integer of N limbs is an array, the lowest limb first: Σ x\[i\] 2^(64 i).  All operations are modulo 2^(64 N) and give
-//! what they carry out; a negative number is its two's complement.
+//! An integer of N limbs is an array, the lowest limb first: Σ x\[i\] 2^(64 i). All operations are modulo 2^(64 N) and
+//! give what they carry out; a negative number is its two's complement.
 //!
 //! ```
 //! use shadowstep_limbs::fixed;
@@ -179,8 +179,8 @@ pub fn divide_limb<const N: usize>(x: &mut [u64; N], n: u64) -> (u64, bool) {
     (below, remainder != 0)
 }
 
-/// A limb whose highest bit is 1, and its reciprocal ⌊(2^128 − 1)/d⌋ − 2^64, with which the division of two limbs is two
-/// multiplications (Möller and Granlund, IEEE Transactions on Computers 60 (2011) 165, algorithm 4).
+/// A limb whose highest bit is 1, and its reciprocal ⌊(2^128 − 1)/d⌋ − 2^64, with which the division of two limbs is
+/// two multiplications (Möller and Granlund, IEEE Transactions on Computers 60 (2011) 165, algorithm 4).
 #[derive(Clone, Copy)]
 pub(crate) struct Divisor {
     limb: u64,
@@ -234,8 +234,8 @@ pub fn product<const N: usize>(a: &[u64; N], b: &[u64; N]) -> ([u64; N], [u64; N
     (low, high)
 }
 
-/// a b / 2^(64 N) of numbers ≥ 0, as its integer part and the limb below that, from the products of limbs that reach so far:
-/// too small by less than 2 N units of the limb below.
+/// a b / 2^(64 N) of numbers ≥ 0, as its integer part and the limb below that, from the products of limbs that reach so
+/// far: too small by less than 2 N units of the limb below.
 #[inline(always)]
 pub fn high_product<const N: usize>(a: &[u64; N], b: &[u64; N]) -> ([u64; N], u64) {
     let (mut high, mut below) = ([0; N], 0);

@@ -72,8 +72,8 @@ fn both<const W: usize, const L: usize>((x, y): (Limbs<W>, Limbs<W>)) -> (Limbs<
     (x.resized(), y.resized())
 }
 
-/// Elementary functions of up to 16 limbs.  They are computed with one limb more, or some, and then rounded: the error is less than
-/// (1/2 + 2^-20) ulp, so that nearly all results are correctly rounded.
+/// Elementary functions of up to 16 limbs. They are computed with one limb more, or some, and then rounded: the error
+/// is less than (1/2 + 2^-20) ulp, so that nearly all results are correctly rounded.
 impl<const L: usize> Limbs<L> {
     /// e^x
     pub fn exp(&self) -> Self {

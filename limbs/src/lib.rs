@@ -1,7 +1,8 @@
-//! Floating-point numbers of a fixed number of 64-bit limbs: correctly rounded arithmetic without allocation, C or `unsafe`.
+//! Floating-point numbers of a fixed number of 64-bit limbs: correctly rounded arithmetic without allocation, C or
+//! `unsafe`.
 //!
-//! [`Limbs<L>`](Limbs) has a significand of 64 L bits, for L from 2 to 16 (38 to 307 decimal digits), and exponents up to
-//! 2^30 in magnitude.  It is `Copy`, and all loops over its limbs have a fixed length.
+//! [`Limbs<L>`](Limbs) has a significand of 64 L bits, for L from 2 to 16 (38 to 307 decimal digits), and exponents up
+//! to 2^30 in magnitude. It is `Copy`, and all loops over its limbs have a fixed length.
 //!
 //! ```
 //! use shadowstep_limbs::Limbs;
@@ -14,24 +15,24 @@
 //!
 //! [`AnyLimbs`] has as many limbs as are chosen at run time.
 //!
-//! With the feature `precompiled`, [`AnyLimbs`] and the elementary functions are compiled in this crate, once for all crates of a program;
-//! without it, in each crate that uses them, and not at all where none does.
+//! With the feature `precompiled`, [`AnyLimbs`] and the elementary functions are compiled in this crate, once for all
+//! crates of a program; without it, in each crate that uses them, and not at all where none does.
 //!
-//! Elementary functions are there for up to 16 limbs ([`exp`](Limbs::exp) and those after it), and decimal text that reads back
-//! ([`to_text`](Limbs::to_text)).  Arithmetic never allocates; functions do so for their tables, at first use, and for sines of
-//! arguments above 2^2112.
+//! Elementary functions are there for up to 16 limbs ([`exp`](Limbs::exp) and those after it), and decimal text that
+//! reads back ([`to_text`](Limbs::to_text)). Arithmetic never allocates; functions do so for their tables, at first
+//! use, and for sines of arguments above 2^2112.
 //!
 //! # Rounding
 //!
-//! Sums, differences, products, squares, quotients, square roots and their reciprocals, and conversions round to nearest with ties to
-//! even: as MPFR does for 64 L bits.  The same input gives the same bits on every machine.
+//! Sums, differences, products, squares, quotients, square roots and their reciprocals, and conversions round to
+//! nearest with ties to even: as MPFR does for 64 L bits. The same input gives the same bits on every machine.
 //!
-//! Elementary functions err by less than (1/2 + 2^-20) ulp.  Some begin at a value of the platform's `f64` functions: where that
-//! differs, so may the last bit, if a result is that close to the middle between two numbers.
+//! Elementary functions err by less than (1/2 + 2^-20) ulp. Some begin at a value of the platform's `f64` functions:
+//! where that differs, so may the last bit, if a result is that close to the middle between two numbers.
 //!
-//! Zeros and infinities have signs, 1/0 is an infinity, and 0/0 is not a number (NaN): as IEEE 754 has it.  A result of magnitude
-//! 2^(2^30 − 1) or more is infinite.  One below 2^−2^30, the smallest number other than 0, is that number or 0, whichever is nearer:
-//! there are no denormal numbers.
+//! Zeros and infinities have signs, 1/0 is an infinity, and 0/0 is not a number (NaN): as IEEE 754 has it. A result of
+//! magnitude 2^(2^30 − 1) or more is infinite. One below 2^−2^30, the smallest number other than 0, is that number or
+//! 0, whichever is nearer: there are no denormal numbers.
 
 #![forbid(unsafe_code)]
 

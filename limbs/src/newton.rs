@@ -4,7 +4,8 @@
 
 use crate::fixed;
 
-/// The first limbs of 1/(2√M), and the limb below, which errs by less than 2^44 units.  M in (1/4, 1) is m, or half of it.
+/// The first limbs of 1/(2√M), and the limb below, which errs by less than 2^44 units. M in (1/4, 1) is m, or half of
+/// it.
 pub(crate) fn reciprocal_root<const L: usize>(m: &[u64; L], halves: bool) -> ([u64; L], u64) {
     match L {
         2 => split(&reciprocal_root_3(&placed(m, halves))),

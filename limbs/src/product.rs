@@ -76,7 +76,8 @@ fn quick_square<const L: usize>(a: &Limbs<L>) -> Option<Limbs<L>> {
     normalised(false, 2 * a.exponent, mantissa, below)
 }
 
-/// The rounded product from its upper half, unless the limb below, which is too small by less than 2 L units, is too close to a tie.
+/// The rounded product from its upper half, unless the limb below, which is too small by less than 2 L units, is too
+/// close to a tie.
 #[inline(always)]
 fn normalised<const L: usize>(
     negative: bool,

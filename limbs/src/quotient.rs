@@ -58,8 +58,8 @@ impl<const L: usize> Limbs<L> {
     }
 }
 
-/// The next limb of the quotient; the remainder, which is less than d, moves up by a limb, `next` comes below it, and the limb times d
-/// is taken away.
+/// The next limb of the quotient; the remainder, which is less than d, moves up by a limb, `next` comes below it, and
+/// the limb times d is taken away.
 #[inline(always)]
 fn next_limb<const L: usize>(remainder: &mut [u64; L], next: u64, d: &[u64; L], divisor: &TwoLimbs) -> u64 {
     let third = if L > 2 { remainder[L - 3] } else { next };
@@ -84,7 +84,8 @@ fn below<const L: usize>(remainder: &[u64; L], d: &[u64; L]) -> u64 {
     }
 }
 
-/// The two highest limbs of a divisor and their reciprocal ⌊(2^192 − 1)/d⌋ − 2^64 (Möller and Granlund, algorithms 5 and 6).
+/// The two highest limbs of a divisor and their reciprocal ⌊(2^192 − 1)/d⌋ − 2^64 (Möller and Granlund, algorithms 5
+/// and 6).
 pub(crate) struct TwoLimbs {
     limbs: u128,
     reciprocal: u64,

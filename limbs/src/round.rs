@@ -1,14 +1,15 @@
 //! Rounding to nearest, ties to even.
 //!
-//! Sums and products have two ways: a quick one that is compiled into the place of the call, whose limbs stay in registers, and a
-//! function for all cases that it leaves open.
+//! Sums and products have two ways: a quick one that is compiled into the place of the call, whose limbs stay in
+//! registers, and a function for all cases that it leaves open.
 
 use crate::{EXPONENTS, Limbs, fixed};
 
 const HALF: u64 = 1 << 63;
 
 impl<const L: usize> Limbs<L> {
-    /// Like [`rounded`](Self::rounded) for nearly all results: none where rounding carries beyond a limb, or out of range.
+    /// Like [`rounded`](Self::rounded) for nearly all results: none where rounding carries beyond a limb, or out of
+    /// range.
     #[inline(always)]
     pub(crate) fn quickly_rounded(negative: bool, exponent: i32, mut mantissa: [u64; L], below: u64) -> Option<Self> {
         let up = below > HALF || below == HALF && mantissa[0] & 1 != 0;
@@ -18,8 +19,8 @@ impl<const L: usize> Limbs<L> {
         if fits { Some(Limbs { mantissa, exponent, negative }) } else { None }
     }
 
-    /// The number nearest to (mantissa + below / 2^64) / 2^(64 L) 2^exponent, whose highest bit is 1.  Where more bits follow, the
-    /// lowest bit of `below` is 1.
+    /// The number nearest to (mantissa + below / 2^64) / 2^(64 L) 2^exponent, whose highest bit is 1. Where more bits
+    /// follow, the lowest bit of `below` is 1.
     pub(crate) fn rounded(negative: bool, mut exponent: i32, mut mantissa: [u64; L], below: u64) -> Self {
         let up = below > HALF || below == HALF && mantissa[0] & 1 != 0;
         let carries;

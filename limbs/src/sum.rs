@@ -111,7 +111,8 @@ fn doubled<const L: usize>(x: [u64; L], below: u64) -> ([u64; L], u64) {
     (double, below << 1)
 }
 
-/// A difference that lost more than a bit, thus exact, of numbers whose exponents differ by at most 1: below 0 only where they are equal.
+/// A difference that lost more than a bit, thus exact, of numbers whose exponents differ by at most 1: below 0 only
+/// where they are equal.
 fn cancelled<const L: usize>(
     mut negative: bool,
     exponent: i32,

@@ -1,4 +1,5 @@
-//! Every operation beside MPFR's, which rounds correctly: the same bits for random numbers and for those that are hard to round.
+//! Every operation beside MPFR's, which rounds correctly: the same bits for random numbers and for those that are hard
+//! to round.
 //!
 //! `cargo test --release -p shadowstep-limbs arithmetic -- --ignored` runs 10⁷ cases.
 

@@ -1,4 +1,5 @@
-//! Elementary functions beside MPFR's of more bits, for random arguments and for those that are hard to reduce or to round.
+//! Elementary functions beside MPFR's of more bits, for random arguments and for those that are hard to reduce or to
+//! round.
 //!
 //! `cargo test --release -p shadowstep-limbs functions -- --ignored` runs 10⁶ cases.
 

@@ -14,7 +14,8 @@ use crate::given::{Given, arithmetic, number};
 use crate::given_run::{GivenRun, ReadRun};
 use crate::waiting::waiting;
 
-/// A variable as Python names it: `q` or `p` with an index, `h`, or another name with the problems in which it is larger by the [distance], and by twice that.
+/// A variable as Python names it: `q` or `p` with an index, `h`, or another name with the problems in which it is
+/// larger by the [distance], and by twice that.
 type Named = (String, usize, Option<(Py<Given>, Py<Given>)>);
 
 /// By how much numbers are larger in problems at nearby values, as a text.
@@ -49,7 +50,8 @@ pub(crate) fn columns(py: Python<'_>, by: Vec<Array>) -> PyResult<Bound<'_, PyLi
     PyList::new(py, by)
 }
 
-/// The gradient of a function by each variable, and the error of the steps back. The covectors are the derivatives of the function by q and p of each state.
+/// The gradient of a function by each variable, and the error of the steps back. The covectors are the derivatives of
+/// the function by q and p of each state.
 #[pyfunction]
 #[pyo3(signature = (run, by, covectors, *, progress))]
 pub(crate) fn gradient<'py>(

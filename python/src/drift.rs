@@ -15,7 +15,8 @@ use crate::given_run::{SystemWithScheme, times};
 use crate::scheme::Table;
 use crate::waiting::{Watched, waiting_for};
 
-/// The drift of one run, with its control on the exact flow where that is wanted, as JSON. Without a scheme it is the drift on the exact flow.
+/// The drift of one run, with its control on the exact flow where that is wanted, as JSON. Without a scheme it is the
+/// drift on the exact flow.
 #[pyfunction]
 #[pyo3(signature = (problem, name, scheme, h, until, *, digits, mpfr, options, control, progress))]
 #[allow(clippy::too_many_arguments)] // the package's own function has the defaults

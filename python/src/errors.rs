@@ -13,7 +13,8 @@ create_exception!(
     InputError,
     PyValueError,
     "What was asked for is wrong: an unknown name, a number out of range, a table or a scene with faults.\n\n\
-     `hint` says what would be right, or is None; `faults` has a dictionary for each fault of a text, with its path, line and column."
+     `hint` says what would be right, or is None; `faults` has a dictionary for each fault of a text, with its path, \
+     line and column."
 );
 create_exception!(
     shadowstep,

@@ -22,8 +22,8 @@ use crate::given_run::{GivenRun, SystemWithScheme, Times};
 use crate::scene::Summarising;
 use crate::waiting::waiting_for;
 
-/// What is looked for on the way: a condition that ends the run, a surface of section with the name of its direction, and formulas with the names of their
-/// values.
+/// What is looked for on the way: a condition that ends the run, a surface of section with the name of its direction,
+/// and formulas with the names of their values.
 #[derive(FromPyObject)]
 #[pyo3(from_item_all)]
 pub(crate) struct Events {
@@ -32,9 +32,9 @@ pub(crate) struct Events {
     values: Vec<(String, String)>,
 }
 
-/// Makes a run, and gives a dictionary of its states: arrays in double precision, else lists of decimal texts. With tangent vectors, each of which begins with
-/// components of `tangent`, it is made once more with these. With a number of windows it has a summary, which compares modified energies
-/// in about as many.
+/// Makes a run, and gives a dictionary of its states: arrays in double precision, else lists of decimal texts. With
+/// tangent vectors, each of which begins with components of `tangent`, it is made once more with these. With a number
+/// of windows it has a summary, which compares modified energies in about as many.
 #[pyfunction]
 #[pyo3(signature = (run, *, options, events, tangent, windows, progress))]
 pub(crate) fn integrate<'py>(

@@ -11,7 +11,8 @@ use shadowstep_schemes::shipped;
 use crate::errors::{exception, usage};
 use crate::waiting::waiting;
 
-/// The text of a table with more digits; `word` is its text, where it has line breaks, else what [`library::source`] takes.
+/// The text of a table with more digits; `word` is its text, where it has line breaks, else what [`library::source`]
+/// takes.
 #[pyfunction]
 pub(crate) fn polished(
     py: Python<'_>,

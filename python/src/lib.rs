@@ -1,7 +1,7 @@
 //! The Python package `shadowstep`: what the library and scenes compute, from Python. There is no mathematics in it.
 //!
-//! The module `_shadowstep` takes and gives plain values; the package's own files in `shadowstep/` have the classes, docstrings and types
-//! that its users see.
+//! The module `_shadowstep` takes and gives plain values; the package's own files in `shadowstep/` have the classes,
+//! docstrings and types that its users see.
 //!
 //! | module | what it is |
 //! | --- | --- |

@@ -32,7 +32,8 @@ use crate::waiting::{Watched, answered, awaited, new_number, spawned, within, wo
 /// n, the modified energy, its error and H, all of the middle of a window.
 type Newest = (u64, f64, Option<f64>, f64);
 
-/// A system in double precision with its steps and its monitor, in a thread of its own: what they are made of cannot go from one thread to another.
+/// A system in double precision with its steps and its monitor, in a thread of its own: what they are made of cannot go
+/// from one thread to another.
 struct Followed {
     integrator: SceneIntegrator<f64>,
     monitor: Box<dyn Monitoring<f64>>,

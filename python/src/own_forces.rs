@@ -30,8 +30,8 @@ enum Function {
     Python(PythonFunction),
 }
 
-/// Of so few components each is read alone: a vector that is read from where its components were just written waits for these to be in the
-/// cache, which made a step of Kepler's problem a fifth longer.
+/// Of so few components each is read alone: a vector that is read from where its components were just written waits for
+/// these to be in the cache, which made a step of Kepler's problem a fifth longer.
 const ALONE: usize = 3;
 
 /// `double f(const double *q, double *gradient)`
@@ -51,7 +51,8 @@ impl Forces {
             Ok(0) => return Err(PyValueError::new_err("the address of the C function is 0")),
             Ok(address) => {
                 let address = address as *const c_void;
-                // SAFETY: the caller promises that this is the address of a function of this type, as the documentation asks
+                // SAFETY: the caller promises that this is the address of a function of this type, as the documentation
+                // asks
                 Function::C(unsafe { std::mem::transmute::<*const c_void, CFunction>(address) })
             }
             Err(_) if function.is_callable() => Function::Python(PythonFunction {

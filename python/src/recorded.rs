@@ -26,7 +26,8 @@ type LogEstimates = (Vec<i64>, Vec<f64>, Vec<f64>);
 /// The name of the unit of energies; that of times and how many of it a time has.
 type UnitsOf = (String, String, f64);
 
-/// The estimates E_k of a log of velocity Verlet: U with the forces of each state, or with the rate qᵀU_q − 2U; and why its states are not those of steps.
+/// The estimates E_k of a log of velocity Verlet: U with the forces of each state, or with the rate qᵀU_q − 2U; and why
+/// its states are not those of steps.
 #[pyfunction]
 #[pyo3(signature = (q, p, energies, forces, rates, masses, h, k))]
 #[allow(clippy::too_many_arguments)] // the package's own function has the defaults
@@ -186,7 +187,8 @@ impl Observer {
         self.observer.states()
     }
 
-    /// Takes the next state; `half_step` if the momenta are leapfrog's, half a step before it; with what the step to it added, where that is of another splitting.
+    /// Takes the next state; `half_step` if the momenta are leapfrog's, half a step before it; with what the step to it
+    /// added, where that is of another splitting.
     #[allow(clippy::too_many_arguments)] // the package's own function has the defaults
     fn observe(
         &mut self,

@@ -11,7 +11,8 @@ use shadowstep_scenes::{Error, FileOptions, Note, Observer, Outcome, Scene, Summ
 use crate::errors::exception;
 use crate::waiting::{Watched, waiting};
 
-/// What a run of a scene gives: the rows as CSV or JSON lines, where it has no file; the summary as text and JSON; notes.
+/// What a run of a scene gives: the rows as CSV or JSON lines, where it has no file; the summary as text and JSON;
+/// notes.
 type SceneResult = (Option<String>, Option<(String, String)>, Vec<String>);
 
 /// Runs a scene, from a file or a text. One that names a file is written there, from its last checkpoint on.

@@ -22,7 +22,8 @@ impl Table {
         found.map(Table).map_err(|error| of_library(py, error))
     }
 
-    /// The scheme of a table's text; `path` names it in messages, and `name`, if there is one, is by which it was asked for.
+    /// The scheme of a table's text; `path` names it in messages, and `name`, if there is one, is by which it was asked
+    /// for.
     #[staticmethod]
     #[pyo3(signature = (text, path, name = None))]
     fn of_text(py: Python<'_>, text: String, path: String, name: Option<String>) -> PyResult<Self> {
@@ -53,8 +54,8 @@ impl Table {
         json?.map_err(|error| pyo3::exceptions::PyRuntimeError::new_err(error.to_string()))
     }
 
-    /// What can be said without an analysis: (name, order for every T(p) or None, order for quadratic T, evaluations a step); of a processed scheme the
-    /// effective orders.
+    /// What can be said without an analysis: (name, order for every T(p) or None, order for quadratic T, evaluations a
+    /// step); of a processed scheme the effective orders.
     fn facts(&self) -> (&str, Option<u32>, u32, usize) {
         let (summary, proved) = (self.0.scheme.summary(), self.0.scheme.proved());
         let general = proved.order_for_every_kinetic().map(|order| order.order);

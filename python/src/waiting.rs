@@ -80,7 +80,8 @@ impl shadowstep_studies::Observer for Watching<'_> {
 /// The answer of a thread: what it has found, or its panic.
 pub(crate) type Answer<T> = thread::Result<T>;
 
-/// At most this number of computations wait for each other, each within the forces of the one before: their cost is a power of the evaluations in a step.
+/// At most this number of computations wait for each other, each within the forces of the one before: their cost is a
+/// power of the evaluations in a step.
 const DEEPEST: usize = 4;
 
 thread_local! {
@@ -109,12 +110,12 @@ pub(crate) fn working_for<T>(all: Vec<u64>, work: impl FnOnce() -> T) -> T {
     work()
 }
 
-/// Does some work in a thread of its own, while Python's other threads run; `progress`, if there is one, is called with the n of the
-/// state that was reached.
+/// Does some work in a thread of its own, while Python's other threads run; `progress`, if there is one, is called with
+/// the n of the state that was reached.
 ///
 /// # Errors
-/// `KeyboardInterrupt` after Ctrl-C, or what another handler of signals or `progress` raises: the work is asked to end, and not waited for where it
-/// does not end soon. `RecursionError` where forces compute what needs these forces.
+/// `KeyboardInterrupt` after Ctrl-C, or what another handler of signals or `progress` raises: the work is asked to end,
+/// and not waited for where it does not end soon. `RecursionError` where forces compute what needs these forces.
 pub(crate) fn waiting<T: Send + 'static>(
     py: Python<'_>,
     progress: Option<&Bound<'_, PyAny>>,

@@ -37,7 +37,8 @@ struct Compared {
     schemes: Vec<NamedScheme>,
 }
 
-/// What is asked for: the problem, the end of the runs, the number type, and the schemes, or the group that they are of.
+/// What is asked for: the problem, the end of the runs, the number type, and the schemes, or the group that they are
+/// of.
 struct Asked {
     problem: Given,
     until: Rational,

@@ -1,4 +1,5 @@
-//! What a step of one trajectory costs in an ensemble, as ratios to the loop over `f64`: thread CPU time, all contestants in turn.
+//! What a step of one trajectory costs in an ensemble, as ratios to the loop over `f64`: thread CPU time, all
+//! contestants in turn.
 //!
 //! `cargo bench -p shadowstep --bench ensembles`, with `-- --parts` for the first table only.
 //!

@@ -2,9 +2,9 @@
 //!
 //! `cargo bench -p shadowstep --features mpfr --bench estimators`
 //!
-//! Each contestant takes the same 1000 states three times, so that the first ones, which complete no estimate, count little; the jumps do not
-//! matter for the time. Ratios are to MPFR. "The same code" is the code for all numbers without limbs; its operations are counted, which takes
-//! some 1 ns each.
+//! Each contestant takes the same 1000 states three times, so that the first ones, which complete no estimate, count
+//! little; the jumps do not matter for the time. Ratios are to MPFR. "The same code" is the code for all numbers
+//! without limbs; its operations are counted, which takes some 1 ns each.
 
 mod timing;
 

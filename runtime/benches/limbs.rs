@@ -1,4 +1,5 @@
-//! Steps and functions in numbers of seven limbs, of a number of limbs chosen at run time, and MPFR's of 120 digits, as ratios within one run.
+//! Steps and functions in numbers of seven limbs, of a number of limbs chosen at run time, and MPFR's of 120 digits, as
+//! ratios within one run.
 //!
 //! `cargo bench -p shadowstep --bench limbs`
 

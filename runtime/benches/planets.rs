@@ -1,4 +1,5 @@
-//! What a step of planets costs in `f64`: Kepler orbits, which three planets and more drift on together, and their interactions, also with relativity's potential.
+//! What a step of planets costs in `f64`: Kepler orbits, which three planets and more drift on together, and their
+//! interactions, also with relativity's potential.
 
 mod timing;
 
@@ -13,7 +14,8 @@ use shadowstep::{Rational, Stepper, System, exact};
 
 use timing::{Contestant, compare};
 
-/// Planets of 10⁻⁵ of the star on nearly circular orbits, each 1.6 times as large as the one before, the first of radius 1.
+/// Planets of 10⁻⁵ of the star on nearly circular orbits, each 1.6 times as large as the one before, the first of
+/// radius 1.
 fn planets(count: usize) -> WisdomHolman<f64, Jacobi<f64, 3>, 3> {
     let masses = std::iter::once(Rational::one()).chain((0..count).map(|_| exact("1/100000").expect("a number")));
     let bodies = Bodies::new(Rational::one(), masses.collect()).expect("positive masses");

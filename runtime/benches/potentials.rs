@@ -1,5 +1,5 @@
-//! What potentials from formulas cost against those that a careful person writes by hand for one type of numbers, in the
-//! same step of Störmer–Verlet.
+//! What potentials from formulas cost against those that a careful person writes by hand for one type of numbers, in
+//! the same step of Störmer–Verlet.
 //!
 //! `cargo bench -p shadowstep --bench potentials`
 

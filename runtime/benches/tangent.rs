@@ -1,4 +1,5 @@
-//! What tangent vectors cost in `f64`: a step with one, and with four at once, beside a plain step; by `yoshida4` where no scheme is named.
+//! What tangent vectors cost in `f64`: a step with one, and with four at once, beside a plain step; by `yoshida4` where
+//! no scheme is named.
 
 mod timing;
 

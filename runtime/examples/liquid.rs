@@ -1,4 +1,5 @@
-//! A Lennard-Jones liquid in a periodic box: the time of a step, and what the end of the forces does to the energy. The tables of `docs/liquids.md`:
+//! A Lennard-Jones liquid in a periodic box: the time of a step, and what the end of the forces does to the energy. The
+//! tables of `docs/liquids.md`:
 //!
 //! `cargo run --release --example liquid -- time 4000`, `-- formula 4000`, `-- errors`
 
@@ -12,8 +13,8 @@ use shadowstep::{Motion, Stepper, UnitMasses, exact, tables::shipped};
 type Liquid<P> = Motion<f64, Vec<f64>, CutoffPairs<P, 3>, UnitMasses>;
 type Failure = Box<dyn std::error::Error>;
 
-/// At the density 0.8442 and a temperature near 0.7, in units of the potential: a lattice at 1.44 that was melted in 200 steps. The forces end at 2.5, smoothly from 2 on
-/// with some derivatives, or abruptly with 0.
+/// At the density 0.8442 and a temperature near 0.7, in units of the potential: a lattice at 1.44 that was melted in
+/// 200 steps. The forces end at 2.5, smoothly from 2 on with some derivatives, or abruptly with 0.
 fn liquid<P: PairPotential<f64>>(bodies: usize, derivatives: u32, pair: P) -> Result<Liquid<P>, Failure> {
     let cells = ((bodies / 4) as f64).cbrt().round() as usize;
     let cell = (4.0 / 0.8442_f64).cbrt();

@@ -1,13 +1,14 @@
-//! Correctors lower the error of the energy, and leave secular frequencies as wrong as before (Rein, Brown & Tamayo, Mon. Not. R. Astron. Soc. 490
-//! (2019) 5122): the Sun, Jupiter and Saturn by Wisdom–Holman maps of equal step size.
+//! Correctors lower the error of the energy, and leave secular frequencies as wrong as before (Rein, Brown & Tamayo,
+//! Mon. Not. R. Astron. Soc. 490 (2019) 5122): the Sun, Jupiter and Saturn by Wisdom–Holman maps of equal step size.
 //!
 //! ```sh
 //! cargo run --release -p shadowstep --example secular-frequencies -- 400 10000000         # the step in days and the time in years
 //! cargo run --release -p shadowstep --example secular-frequencies -- 400 100000000 1/10   # planets of a tenth of their masses
 //! ```
 //!
-//! For each map: the variation of H at outputs and of E_8, the mean of E_8 − H, as parts of |H|, and the frequencies g_5 of Jupiter's pericentre and g_6 of
-//! Saturn's with their errors, beside those that the [modified Hamiltonian](predicted_frequencies) predicts.
+//! For each map: the variation of H at outputs and of E_8, the mean of E_8 − H, as parts of |H|, and the frequencies
+//! g_5 of Jupiter's pericentre and g_6 of Saturn's with their errors, beside those that the
+//! [modified Hamiltonian](predicted_frequencies) predicts.
 
 use std::error::Error;
 
@@ -26,7 +27,8 @@ type Planets<N> = WisdomHolman<N, Jacobi<N, 3>, 3>;
 /// A map, and the planets before its first step.
 type Begun<N> = (Stepper<TableScheme, N>, Planets<N>);
 
-/// The initial state of Hairer, Lubich & Wanner, Geometric Numerical Integration, table I.2.2: astronomical units, days, solar masses.
+/// The initial state of Hairer, Lubich & Wanner, Geometric Numerical Integration, table I.2.2: astronomical units,
+/// days, solar masses.
 const MASSES: [&str; 3] = ["1.00000597682", "0.000954786104043", "0.000285583733151"];
 const POSITIONS: [&str; 9] =
     ["0", "0", "0", "-3.5023653", "-3.8169847", "-1.5507963", "9.0755314", "-3.0458353", "-1.6483708"];
@@ -43,7 +45,8 @@ struct Map {
     name: &'static str,
     scheme: &'static str,
     displaced: bool,
-    /// The coefficient of h²[B,[B,A]] in the modified Hamiltonian after a corrector: `shadowstep modified` writes that of `[K,[K,D]]`.
+    /// The coefficient of h²[B,[B,A]] in the modified Hamiltonian after a corrector: `shadowstep modified` writes that
+    /// of `[K,[K,D]]`.
     term: f64,
 }
 

@@ -1,4 +1,5 @@
-//! The time of 10⁶ steps of Störmer–Verlet on Kepler's problem, for `python/benches/overhead.py`: a line of seconds for each line read.
+//! The time of 10⁶ steps of Störmer–Verlet on Kepler's problem, for `python/benches/overhead.py`: a line of seconds for
+//! each line read.
 
 use std::io::{BufRead, Write, stdin, stdout};
 use std::time::Instant;

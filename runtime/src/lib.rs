@@ -20,8 +20,8 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! The numbers may be `f64`, [`number::Limbs`] of 38 to 307 digits or, with the feature `mpfr`, `rug::Float` at any precision. The
-//! energy oscillates; the *modified* energy, which the scheme conserves almost exactly, does not:
+//! The numbers may be `f64`, [`number::Limbs`] of 38 to 307 digits or, with the feature `mpfr`, `rug::Float` at any
+//! precision. The energy oscillates; the *modified* energy, which the scheme conserves almost exactly, does not:
 //!
 //! ```
 //! use shadowstep::{Motion, Real, Stepper, UnitMasses, problems::Kepler, shadow::Central, shadow::run::energy_drift, splitting_scheme};
@@ -59,7 +59,7 @@
 //! | feature | what it adds |
 //! | --- | --- |
 //! | `tables` | schemes read from tables while the program runs, and the shipped ones by name: `tables` |
-//! | `formulas` | potentials, kinetic energies and parts read as formulas while the program runs: `systems::formula`, `systems::many_parts::parts` |
+//! | `formulas` | energies and parts read as formulas at run time: `systems::formula`, `systems::many_parts::parts` |
 //! | `mpfr` | MPFR's numbers of any precision |
 //! | `serde` | settings of estimators in JSON and similar formats |
 //!

@@ -1,5 +1,5 @@
-//! Numbers of every kind behind one trait: `f64`, several of them in lanes, numbers of some limbs, MPFR numbers of any precision, and
-//! wrappers.
+//! Numbers of every kind behind one trait: `f64`, several of them in lanes, numbers of some limbs, MPFR numbers of any
+//! precision, and wrappers.
 
 mod block;
 mod correctly_rounded;
@@ -108,22 +108,25 @@ pub(crate) use without_derivatives;
 /// assert_eq!(potential, 12.5);
 /// ```
 ///
-/// There is no order, and no text: a number may be several at once, as in lanes. What compares, searches or prints needs an
-/// [`Real`] number; potentials, kinetic energies and steps do not.
+/// There is no order, and no text: a number may be several at once, as in lanes. What compares, searches or prints
+/// needs an [`Real`] number; potentials, kinetic energies and steps do not.
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is not a type of numbers that systems and steps have",
     note = "write `[1.0, 0.0]` for `f64`; many digits are those of `Motion::exact`"
 )]
 pub trait Number: Clone + fmt::Debug {
-    /// What a new number needs: `()` for `f64` and [`Limbs`], the number of limbs for [`AnyLimbs`], the precision for MPFR.
+    /// What a new number needs: `()` for `f64` and [`Limbs`], the number of limbs for [`AnyLimbs`], the precision for
+    /// MPFR.
     type Context: Clone + PartialEq + fmt::Debug;
 
     /// Whether a system keeps the increments of q and p, from which estimators then take the differences of states.
     ///
-    /// This keeps the round-off of the states out of the differences, which `f64` needs; with more digits it is not necessary.
+    /// This keeps the round-off of the states out of the differences, which `f64` needs; with more digits it is not
+    /// necessary.
     const KEEPS_INCREMENTS: bool = false;
 
-    /// Whether several of these numbers fit into a vector of the processor, so that sums over pairs of bodies take blocks of bodies.
+    /// Whether several of these numbers fit into a vector of the processor, so that sums over pairs of bodies take
+    /// blocks of bodies.
     const IN_VECTORS: bool = false;
 
     /// How many numbers this is: those in lanes, else 1.
@@ -132,11 +135,13 @@ pub trait Number: Clone + fmt::Debug {
     /// Whether a number has derivatives beside its value, as a [`Dual`] has.
     const HAS_DERIVATIVES: bool = false;
 
-    /// For a number made of 64-bit limbs, with which estimators then compute in fixed point; without it they compute with numbers.
+    /// For a number made of 64-bit limbs, with which estimators then compute in fixed point; without it they compute
+    /// with numbers.
     #[doc(hidden)]
     const LIMBS: Option<LimbAccess<Self>> = None;
 
-    /// For a number of which a system computes several at once, with the same bits, how they are put into [lanes](Number::InLanes).
+    /// For a number of which a system computes several at once, with the same bits, how they are put into
+    /// [lanes](Number::InLanes).
     #[doc(hidden)]
     const LANE_ACCESS: Option<LaneAccess<Self, Self::InLanes>> = None;
 
@@ -159,8 +164,8 @@ pub trait Number: Clone + fmt::Debug {
     /// Numbers side by side, in the form that loops over pairs compute with: `[Self; BLOCK]` unless a number has parts.
     type Block: Block<Self>;
 
-    /// Holds an intermediate result: for a big number, `&mut Self`; for one of a few bytes a copy, which can stay in the
-    /// processor's registers.
+    /// Holds an intermediate result: for a big number, `&mut Self`; for one of a few bytes a copy, which can stay in
+    /// the processor's registers.
     type Register<'a>: DerefMut<Target = Self>
     where
         Self: 'a;
@@ -168,8 +173,8 @@ pub trait Number: Clone + fmt::Debug {
     /// This number, or a copy of it, as a place for an intermediate result: its value is lost.
     fn register(&mut self) -> Self::Register<'_>;
 
-    /// Does some work, of numbers in lanes in the widest vector instructions that the processor has: of the whole loop, as all
-    /// that is not inlined into it is not compiled for them. See `number::instructions`.
+    /// Does some work, of numbers in lanes in the widest vector instructions that the processor has: of the whole loop,
+    /// as all that is not inlined into it is not compiled for them. See `number::instructions`.
     #[inline(always)]
     fn in_widest_instructions<R>(work: impl FnOnce() -> R) -> R {
         work()
@@ -184,8 +189,8 @@ pub trait Number: Clone + fmt::Debug {
     /// The context that makes more numbers like this one.
     fn context(&self) -> Self::Context;
 
-    /// A context of at most this number of bits whose numbers take those of the given one as operands, and round them; the given one where all
-    /// numbers of a computation need the same context.
+    /// A context of at most this number of bits whose numbers take those of the given one as operands, and round them;
+    /// the given one where all numbers of a computation need the same context.
     fn coarser(context: &Self::Context, bits: u32) -> Self::Context {
         let _ = bits;
         context.clone()
@@ -282,7 +287,8 @@ pub trait Number: Clone + fmt::Debug {
     /// x ← x − a b, rounded like [`add_product`](Number::add_product)
     fn subtract_product(&mut self, a: &Self, b: &Self);
 
-    /// x ← c + a b, where `product` is a b, rounded: the sum of these two, unless the number type [fuses](Fused) products
+    /// x ← c + a b, where `product` is a b, rounded: the sum of these two, unless the number type [fuses](Fused)
+    /// products
     #[inline(always)]
     fn assign_sum_with_product(&mut self, c: &Self, product: &Self, a: &Self, b: &Self) {
         let _ = (a, b);
@@ -324,13 +330,15 @@ pub trait Number: Clone + fmt::Debug {
     /// x ← NaN where x is finite, but not r² of two points in space with such a coordinate a: |a| > 3.8e153 in `f64`.
     fn make_nan_where_square_overflows(&mut self, a: &Self);
 
-    /// Derivatives of x ← those of a; x stays. Iterations end when x does not change any more, which may be before its derivatives do not.
+    /// Derivatives of x ← those of a; x stays. Iterations end when x does not change any more, which may be before its
+    /// derivatives do not.
     #[inline(always)]
     fn assign_derivatives(&mut self, a: &Self) {
         let _ = a;
     }
 
-    /// The number in a lane as m 2ⁿ, rounded to 53 bits, for decisions that depend on sizes. n is 0 of numbers that are `f64`s.
+    /// The number in a lane as m 2ⁿ, rounded to 53 bits, for decisions that depend on sizes. n is 0 of numbers that are
+    /// `f64`s.
     fn lane(&self, lane: usize) -> (f64, i64);
 
     /// The number in a lane ← m 2ⁿ

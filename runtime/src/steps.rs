@@ -1,4 +1,5 @@
-//! Schemes and their steps: a table becomes a scheme, a scheme with a step size a stepper, a stepper with a system an integrator.
+//! Schemes and their steps: a table becomes a scheme, a scheme with a step size a stepper, a stepper with a system an
+//! integrator.
 //!
 //! | module | what it is |
 //! | --- | --- |

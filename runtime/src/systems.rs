@@ -2,8 +2,8 @@
 //!
 //! | module | what it is |
 //! | --- | --- |
-//! | [`system`], `state`, `increments`, `coordinates` | a system, its state q and p with the remainders of their sums, and the increments of a step |
-//! | `maps`, `turn`, [`summation`] | the maps that a scheme composes; turns of systems whose steps are made together; how increments are added: plainly, compensated, in fixed point |
+//! | [`system`], `state`, `increments`, `coordinates` | a system, its state q and p, and the increments of a step |
+//! | `maps`, `turn`, [`summation`] | the maps of a scheme; turns of systems; how increments are added |
 //! | [`potential`](mod@potential), [`pairs`], [`kinetic`](mod@kinetic), [`formula`] | U(q) and T(p), from code or from text |
 //! | [`potential_check`] | derivatives that are compared with differences |
 //! | [`motion`] | H = T(p) + U(q) |

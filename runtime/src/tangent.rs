@@ -1,8 +1,9 @@
 //! Tangent maps: how nearby trajectories separate, with indicators of chaos and derivatives of the end state.
 //!
-//! A step Φ of a scheme takes a tangent vector δ = (δq, δp) to DΦ δ: a kick is δp ← δp − h a U_qq δq, a drift δq ← δq + h b T_pp δp, and other flows have the
-//! derivatives of their formulas. DΦ is symplectic, (DΦ)ᵀJ DΦ = J, whatever the step size. Vectors are carried along by the
-//! numbers: of [`Dual`] numbers every system, scheme and number type has its tangent map, and q and p have the bits that they have without it.
+//! A step Φ of a scheme takes a tangent vector δ = (δq, δp) to DΦ δ: a kick is δp ← δp − h a U_qq δq, a drift δq ← δq +
+//! h b T_pp δp, and other flows have the derivatives of their formulas. DΦ is symplectic, (DΦ)ᵀJ DΦ = J, whatever the
+//! step size. Vectors are carried along by the numbers: of [`Dual`] numbers every system, scheme and number type has
+//! its tangent map, and q and p have the bits that they have without it.
 //!
 //! ```
 //! use shadowstep::prelude::*;
@@ -22,9 +23,8 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! C. Skokos, *The Lyapunov characteristic exponents and their computation*, Lect. Notes Phys. 790 (2010) 63, has the theory; C. Skokos, E. Gerlach,
-//! Phys. Rev. E
-//! 82 (2010) 036704 the tangent map of splitting schemes.
+//! C. Skokos, *The Lyapunov characteristic exponents and their computation*, Lect. Notes Phys. 790 (2010) 63, has the
+//! theory; C. Skokos, E. Gerlach, Phys. Rev. E 82 (2010) 036704 the tangent map of splitting schemes.
 
 mod adjoint;
 mod frame;
@@ -47,8 +47,8 @@ use vectors::{Column, log_norm, orthonormalise, set_vector};
 
 /// A trajectory with tangent vectors, and the indicators of chaos that follow from these.
 ///
-/// The vectors are those of one integrator of numbers [`Dual<N, K>`], or of several at the same state with K vectors each, which are counted through. Of
-/// numbers in lanes each lane is a trajectory.
+/// The vectors are those of one integrator of numbers [`Dual<N, K>`], or of several at the same state with K vectors
+/// each, which are counted through. Of numbers in lanes each lane is a trajectory.
 ///
 /// | indicator | vectors | |
 /// | --- | --- | --- |
@@ -112,9 +112,9 @@ where
         Ok(found)
     }
 
-    /// The same with vectors that are made orthonormal at each observation, for the Lyapunov exponents: of m vectors, at most 2n for n degrees of freedom,
-    /// follow the m largest ones. Those of all 2n are pairs λ, −λ, and their sum is 0. With V = QR at each observation, λ_j is the mean rate at which
-    /// Σ log R_jj grows.
+    /// The same with vectors that are made orthonormal at each observation, for the Lyapunov exponents: of m vectors,
+    /// at most 2n for n degrees of freedom, follow the m largest ones. Those of all 2n are pairs λ, −λ, and their sum
+    /// is 0. With V = QR at each observation, λ_j is the mean rate at which Σ log R_jj grows.
     ///
     /// G. Benettin, L. Galgani, A. Giorgilli, J.-M. Strelcyn, Meccanica 15 (1980) 9 and 21.
     ///
@@ -129,8 +129,9 @@ where
         check(&logarithms).map(|()| found)
     }
 
-    /// Goes on with free vectors that the [integrators](Tangents::integrators_mut) have now: with the growths of all vectors, the powers of 2 by which they
-    /// [were divided](Tangents::exponents), and [what they are](Tangents::combinations), in the order of vectors and lanes. Whether these fit.
+    /// Goes on with free vectors that the [integrators](Tangents::integrators_mut) have now: with the growths of all
+    /// vectors, the powers of 2 by which they [were divided](Tangents::exponents), and
+    /// [what they are](Tangents::combinations), in the order of vectors and lanes. Whether these fit.
     pub fn resume(&mut self, growths: Vec<Growth>, exponents: Vec<i64>, combinations: &[Vec<f64>]) -> bool {
         let count = self.growths.len();
         let of_lane = |lane| {
@@ -157,7 +158,8 @@ where
         }
     }
 
-    /// What free vectors are: each as a combination of the vectors of the integrators, with logarithms of lengths; what [`resume`](Tangents::resume) needs.
+    /// What free vectors are: each as a combination of the vectors of the integrators, with logarithms of lengths; what
+    /// [`resume`](Tangents::resume) needs.
     pub fn combinations(&self) -> Vec<Vec<f64>> {
         let vectors = 0..self.count() * usize::from(self.are_free());
         vectors.flat_map(|vector| self.frames.iter().map(move |frame| frame.parts(vector))).collect()
@@ -181,8 +183,9 @@ where
         self.integrators.iter_mut().for_each(|integrator| integrator.step(Carried::Nothing));
     }
 
-    /// The growth of all vectors up to the present state, at t. A free vector that became large or small is multiplied by a power of 2. Between two
-    /// observations vectors should not have grown by more than some 10⁶, where there are several; see [`separate`](Tangents::separate).
+    /// The growth of all vectors up to the present state, at t. A free vector that became large or small is multiplied
+    /// by a power of 2. Between two observations vectors should not have grown by more than some 10⁶, where there are
+    /// several; see [`separate`](Tangents::separate).
     pub fn observe(&mut self, t: f64) {
         if let Divisors::Norms(_) = self.divisors {
             return self.observe_norms(t.abs());
@@ -205,8 +208,9 @@ where
         }
     }
 
-    /// Takes from free vectors after the first what they have along those before, so that they do not turn to one direction: what they are stays known. An
-    /// [observation](Tangents::observe) does it, too; it changes no [`growth`](Tangents::growth).
+    /// Takes from free vectors after the first what they have along those before, so that they do not turn to one
+    /// direction: what they are stays known. An [observation](Tangents::observe) does it, too; it changes no
+    /// [`growth`](Tangents::growth).
     pub fn separate(&mut self) {
         let Divisors::PowersOfTwo(exponents) = &self.divisors else { return };
         let length = |lane: usize| self.log_of_first(lane) + exponents[lane] as f64 * LN_2;
@@ -273,7 +277,8 @@ where
         &self.growths[vector * self.lanes + lane]
     }
 
-    /// The growths of all vectors of the trajectory in a lane, those that grew most first: of orthonormal vectors they have the Lyapunov exponents.
+    /// The growths of all vectors of the trajectory in a lane, those that grew most first: of orthonormal vectors they
+    /// have the Lyapunov exponents.
     pub fn spectrum(&self, lane: usize) -> Vec<&Growth> {
         let mut found: Vec<_> = self.growths.iter().skip(lane).step_by(self.lanes).collect();
         found.sort_by(|a, b| b.logarithm().total_cmp(&a.logarithm()));
@@ -296,12 +301,15 @@ where
         self.integrators.iter().flat_map(|integrator| (0..K).map(|k| vector(integrator.state(), k)))
     }
 
-    /// GALI_k at the last observation, the volume of the parallelepiped of the unit vectors along the first k ones, in the trajectory of a lane. Along chaotic
-    /// trajectories it goes to 0 exponentially, along regular ones of n degrees of freedom not at all for k ≤ n, and by a power of t beyond.
+    /// GALI_k at the last observation, the volume of the parallelepiped of the unit vectors along the first k ones, in
+    /// the trajectory of a lane. Along chaotic trajectories it goes to 0 exponentially, along regular ones of n degrees
+    /// of freedom not at all for k ≤ n, and by a power of t beyond.
     ///
-    /// It is a product of factors R_jj of V = QR at all observations, and has no floor by round-off: it is right to rounding down to 10⁻³⁰⁸, below which it is 0.
+    /// It is a product of factors R_jj of V = QR at all observations, and has no floor by round-off: it is right to
+    /// rounding down to 10⁻³⁰⁸, below which it is 0.
     ///
-    /// C. Skokos, T. Bountis, C. Antonopoulos, Physica D 231 (2007) 30; by factors C. Skokos, T. Bountis, C. Antonopoulos, Eur. Phys. J. Spec. Top. 165 (2008) 5.
+    /// C. Skokos, T. Bountis, C. Antonopoulos, Physica D 231 (2007) 30; by factors C. Skokos, T. Bountis, C.
+    /// Antonopoulos, Eur. Phys. J. Spec. Top. 165 (2008) 5.
     ///
     /// # Panics
     /// There are not as many vectors, or they are orthonormal.
@@ -311,8 +319,9 @@ where
         self.frames[lane].volume(k)
     }
 
-    /// SALI at the last observation, the smaller of |e₁ + e₂| and |e₁ − e₂| of the unit vectors along the first two: the angle between their lines. Along chaotic
-    /// trajectories it goes to 0 exponentially. It has no floor, as [`gali`](Tangents::gali).
+    /// SALI at the last observation, the smaller of |e₁ + e₂| and |e₁ − e₂| of the unit vectors along the first two:
+    /// the angle between their lines. Along chaotic trajectories it goes to 0 exponentially. It has no floor, as
+    /// [`gali`](Tangents::gali).
     ///
     /// C. Skokos, J. Phys. A 34 (2001) 10029.
     ///

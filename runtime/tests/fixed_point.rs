@@ -1,5 +1,5 @@
-//! Protects estimators in fixed point, as with `Limbs`: against the same estimators in MPFR, on the same states, with many more
-//! digits and with as many.
+//! Protects estimators in fixed point, as with `Limbs`: against the same estimators in MPFR, on the same states, with
+//! many more digits and with as many.
 
 use rug::integer::Order;
 use rug::{Float, Integer};
@@ -75,8 +75,8 @@ fn distance<const L: usize>(a: &Float, b: &Float) -> f64 {
     }
 }
 
-/// Errors in fixed point are at most five times the largest of MPFR with as many bits, among the estimates up to `near` places away, and ε
-/// Σ |q| |p|/h; and so are errors of the last terms, also where another order is selected.
+/// Errors in fixed point are at most five times the largest of MPFR with as many bits, among the estimates up to `near`
+/// places away, and ε Σ |q| |p|/h; and so are errors of the last terms, also where another order is selected.
 fn compare<const L: usize>(what: &str, states: &[Given<Limbs<L>>], settings: &EstimatorSettings, near: usize) {
     let bits = Limbs::<L>::BITS;
     let in_mpfr = |bits: u32| estimates(&floats(states, bits), settings, &Precision::bits(bits).unwrap());
@@ -194,7 +194,8 @@ fn coordinates_of_very_different_sizes() {
     all_settings(24).iter().for_each(|settings| compare("sizes", &states, settings, 99));
 }
 
-/// By 10^30 in the states of an estimate: the unit of a row follows, and the error of each estimate follows from the states near it.
+/// By 10^30 in the states of an estimate: the unit of a row follows, and the error of each estimate follows from the
+/// states near it.
 #[test]
 fn coordinates_that_grow_and_shrink() {
     for base in [4.0, 0.25] {

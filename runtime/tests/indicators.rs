@@ -13,8 +13,9 @@ fn stepper<N: Number>(scheme: &str, h: &str, context: &N::Context) -> Stepper<Ta
 
 potential! { pub struct Hill; U(x) = -x^2/2 }
 
-/// SALI and GALI of the vectors (1, 0) and (0, 1) after n steps of Störmer–Verlet with h = 1/10 on a hill, M = (1 + h²/2, b; c, 1 + h²/2) with bc = sinh²λ: the
-/// angle between v₁ = (cosh nλ, √(c/b) sinh nλ) and v₂ = (√(b/c) sinh nλ, cosh nλ) has the sine 1/(|v₁| |v₂|), as M has the determinant 1.
+/// SALI and GALI of the vectors (1, 0) and (0, 1) after n steps of Störmer–Verlet with h = 1/10 on a hill, M = (1 +
+/// h²/2, b; c, 1 + h²/2) with bc = sinh²λ: the angle between v₁ = (cosh nλ, √(c/b) sinh nλ) and v₂ = (√(b/c) sinh nλ,
+/// cosh nλ) has the sine 1/(|v₁| |v₂|), as M has the determinant 1.
 fn assert_no_floor<N: Number>(context: &N::Context, every: u32) {
     let one = || [N::from_rational(&exact("1").unwrap(), context)];
     let zero = || N::zero(context);
@@ -63,7 +64,8 @@ fn angles_between_vectors_have_no_floor() {
     }
 }
 
-/// Beside each other: in double precision along the first part of a chaotic orbit, on which its states are still those with 120 digits.
+/// Beside each other: in double precision along the first part of a chaotic orbit, on which its states are still those
+/// with 120 digits.
 #[test]
 fn angles_in_double_precision_are_those_with_more_digits() {
     fn angles<N: Number>(context: &N::Context) -> [f64; 3] {

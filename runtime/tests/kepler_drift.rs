@@ -1,4 +1,5 @@
-//! Protects the Kepler drift: its digits in every number type, its bits in lanes, its round-off in long runs, that its solver ends, and its messages.
+//! Protects the Kepler drift: its digits in every number type, its bits in lanes, its round-off in long runs, that its
+//! solver ends, and its messages.
 
 use rand_pcg::Pcg64Mcg;
 use rand_pcg::rand_core::{RngCore, SeedableRng};
@@ -54,7 +55,8 @@ fn distance<const L: usize>(a: &[Limbs<L>], b: &[Limbs<L>]) -> f64 {
     squares.fold(Limbs::ZERO, |all, square| sum(&all, &square)).sqrt().to_f64()
 }
 
-/// By how much more than the input q and v of the result change: the root of the sum of (∂/∂xᵢ · xᵢ)² over the eight numbers, relative to |q| and |v|.
+/// By how much more than the input q and v of the result change: the root of the sum of (∂/∂xᵢ · xᵢ)² over the eight
+/// numbers, relative to |q| and |v|.
 fn conditions(input: &Input<f64>, expected: &Output<Reference>) -> [f64; 2] {
     let mut squares = [0.0; 2];
     for i in 0..8 {
@@ -469,7 +471,8 @@ fn wrong_input_is_refused() {
     );
     assert_eq!(
         message(check(1.0, 1.0, &q, &[0.0])),
-        "a Kepler drift needs as many velocities as positions, and one at least, but it has 2 positions and 1 velocities"
+        "a Kepler drift needs as many velocities as positions, and one at least, but it has 2 positions and 1 \
+            velocities"
     );
     // in any lane, and the state is unchanged
     let mut lanes = new::<Lanes<4>>();
@@ -481,7 +484,8 @@ fn wrong_input_is_refused() {
     assert_eq!(q[0], Lanes::all(1.0));
 }
 
-/// Energy, angular momentum and the angle of the pericentre, relative to their first values, of orbits after a number of drifts.
+/// Energy, angular momentum and the angle of the pericentre, relative to their first values, of orbits after a number
+/// of drifts.
 fn wander(orbits: u64, drifts: u64) -> Vec<[f64; 3]> {
     let mut kepler = new::<f64>();
     let of_orbit = |seed| {
@@ -550,7 +554,8 @@ fn a_drift_of_a_planet_has_so_many_operations() {
     );
 }
 
-/// The largest error of the derivative of q and v along a direction, as a part of its size, in numbers N beside numbers with more digits.
+/// The largest error of the derivative of q and v along a direction, as a part of its size, in numbers N beside numbers
+/// with more digits.
 fn error_of_derivative<N: Number<Context = ()>>(
     input: &Input<f64>,
     number: fn(f64) -> N,
@@ -567,7 +572,8 @@ fn error_of_derivative<N: Number<Context = ()>>(
     errors.into_iter().fold(0.0, f64::max)
 }
 
-/// Of conditioned inputs, whose times are at most that of a revolution: most derivatives have all digits but two or three, and where terms cancel some fewer.
+/// Of conditioned inputs, whose times are at most that of a revolution: most derivatives have all digits but two or
+/// three, and where terms cancel some fewer.
 #[test]
 fn derivatives_have_the_digits_of_numbers() {
     let mut orbits = Orbits::new(31);
@@ -589,7 +595,8 @@ fn derivatives_have_the_digits_of_numbers() {
     check(&|input| error_of_derivative(input, Limbs::<2>::from, exactly), 2_f64.powi(-127));
 }
 
-/// Of any orbit over up to 30 revolutions: central differences of 10⁻²⁵ have an error of 10⁻⁵⁰ times third derivatives, in 96 digits.
+/// Of any orbit over up to 30 revolutions: central differences of 10⁻²⁵ have an error of 10⁻⁵⁰ times third derivatives,
+/// in 96 digits.
 #[test]
 fn derivatives_are_limits_of_differences() {
     let mut orbits = Orbits::new(37);

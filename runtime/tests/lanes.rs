@@ -129,8 +129,8 @@ fn after_five_steps<N: Number<Context = ()> + 'static>(problem: Problem, start: 
     system.q().iter().chain(system.p()).cloned().collect()
 }
 
-/// exp, log, sin and cos are functions of lanes, not the platform's: the bits do not depend on the lanes and the instructions, and are
-/// close to the bits in f64.
+/// exp, log, sin and cos are functions of lanes, not the platform's: the bits do not depend on the lanes and the
+/// instructions, and are close to the bits in f64.
 #[test]
 fn problems_with_elementary_functions() {
     for problem in PROBLEMS.iter().copied().filter(|problem| !is_algebraic(problem)) {

@@ -1,4 +1,5 @@
-//! Protects steps and estimates in numbers of seven limbs: they agree with MPFR's to 120 digits, for every shipped scheme and problem.
+//! Protects steps and estimates in numbers of seven limbs: they agree with MPFR's to 120 digits, for every shipped
+//! scheme and problem.
 
 use rug::Float;
 use shadowstep::number::{Limbs, Precision};

@@ -87,7 +87,8 @@ impl ChaosRecord {
         }
     }
 
-    /// Whether the motion is undecided, although the run was long enough, and vectors grew far more than along a regular orbit, where MEGNO is 2.
+    /// Whether the motion is undecided, although the run was long enough, and vectors grew far more than along a
+    /// regular orbit, where MEGNO is 2.
     fn grows_unsteadily(&self) -> bool {
         const FAR_MORE: f64 = 20.0;
         self.motion == Regularity::Undecided && self.mean_megno_error.is_some() && self.megno > FAR_MORE
@@ -100,8 +101,8 @@ fn displayed<S: Serializer>(regularity: &Regularity, serializer: S) -> Result<S:
 
 /// What two runs at h and h/2 say of the problem, in a sentence.
 ///
-/// Exponents of chaotic runs agree if their difference is at most the sum of their errors, or a quarter of the larger one: exponents of finite runs scatter
-/// more than their parts do.
+/// Exponents of chaotic runs agree if their difference is at most the sum of their errors, or a quarter of the larger
+/// one: exponents of finite runs scatter more than their parts do.
 pub fn conclusion(whole: &ChaosRecord, half: &ChaosRecord) -> String {
     use Regularity::{Chaotic, Regular};
     let (h, half_step) = (&whole.step, &half.step);
@@ -120,7 +121,9 @@ pub fn conclusion(whole: &ChaosRecord, half: &ChaosRecord) -> String {
         (Chaotic, Regular) => format!("chaotic at {h} and regular at {half_step}: of the step size"),
         (Regular, Chaotic) => format!("regular at {h} and chaotic at {half_step}: not decided; try smaller steps"),
         _ if [whole, half].iter().any(|record| record.grows_unsteadily()) => {
-            "not decided: vectors grew more than along a regular orbit, but not at all times; a longer run shows whether they go on".to_owned()
+            "not decided: vectors grew more than along a regular orbit, but not at all times; a longer run shows \
+                whether they go on"
+                .to_owned()
         }
         _ => "not decided: the run is too short".to_owned(),
     }
@@ -147,7 +150,8 @@ impl ChaosRequest<'_> {
     /// Makes the run with steps of h/`parts`.
     ///
     /// # Errors
-    /// A run that fails, an observer that stops; those of [`FollowingVectors::new`](crate::tangent::FollowingVectors::new).
+    /// A run that fails, an observer that stops; those of
+    /// [`FollowingVectors::new`](crate::tangent::FollowingVectors::new).
     pub fn run(&self, parts: u32, observer: &mut dyn Observer) -> Result<ChaosRecord, Error> {
         let run = self.posed.run;
         let h = StepSize::try_from(run.h.exact() / Rational::from_integer(parts.into())).expect("h is not 0");

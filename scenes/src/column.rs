@@ -11,7 +11,8 @@ use crate::run_number::RunNumber;
 
 /// Takes states of a run.
 pub trait Column<N: RunNumber> {
-    /// The n of the next state that it takes after the state n; by default none. It is also shown others, as the last one.
+    /// The n of the next state that it takes after the state n; by default none. It is also shown others, as the last
+    /// one.
     fn next(&self, n: i64) -> i64 {
         let _ = n;
         i64::MAX
@@ -36,8 +37,9 @@ pub trait Column<N: RunNumber> {
         false
     }
 
-    /// Sees the state n of the steps, at which the integrator is: each of the run, before estimates. Whether the run ends with it. A processed scheme has the
-    /// state of the trajectory [at output](shadowstep::steps::integrator::at_output).
+    /// Sees the state n of the steps, at which the integrator is: each of the run, before estimates. Whether the run
+    /// ends with it. A processed scheme has the state of the trajectory
+    /// [at output](shadowstep::steps::integrator::at_output).
     fn see(&mut self, n: i64, run: Run<'_>, integrator: &mut VectorIntegrator<'_, N>) -> bool {
         let _ = (n, run, integrator);
         false

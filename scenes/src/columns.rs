@@ -1,4 +1,5 @@
-//! The columns of rows in the order of a file. Each file here has a group of columns: their names, when they are due, and their cells at a state.
+//! The columns of rows in the order of a file. Each file here has a group of columns: their names, when they are due,
+//! and their cells at a state.
 
 mod chaos;
 mod energy;

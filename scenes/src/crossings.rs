@@ -1,4 +1,5 @@
-//! Where a run crosses a surface of section, g(q, p) = 0: a step of a part of h from the state before, at whose end g is 0.
+//! Where a run crosses a surface of section, g(q, p) = 0: a step of a part of h from the state before, at whose end g
+//! is 0.
 
 use shadowstep::steps::integrator::{VectorIntegrator, at_output};
 use shadowstep::steps::step_to_zero;
@@ -50,8 +51,9 @@ impl<N: RunNumber> Crossings<N> {
         }
     }
 
-    /// Takes the state n, the next one, at which the integrator is. If g has a zero between it and the state before, `take` sees the integrator at the
-    /// crossing, a state of the trajectory, and the part of a step from the state before; the integrator is then at its state again, to the last bit.
+    /// Takes the state n, the next one, at which the integrator is. If g has a zero between it and the state before,
+    /// `take` sees the integrator at the crossing, a state of the trajectory, and the part of a step from the state
+    /// before; the integrator is then at its state again, to the last bit.
     pub(crate) fn state<T>(
         &mut self,
         n: i64,
@@ -86,8 +88,8 @@ impl<N: RunNumber> Crossings<N> {
         self.value.value(integrator.system(), no_time).clone()
     }
 
-    /// The start as it is given, which a processed scheme has but for the round-off of its maps. Where g has no digit beyond that of the start it is 0: a
-    /// start on the surface is no crossing.
+    /// The start as it is given, which a processed scheme has but for the round-off of its maps. Where g has no digit
+    /// beyond that of the start it is 0: a start on the surface is no crossing.
     fn at_start(&mut self, integrator: &mut VectorIntegrator<'_, N>) -> (N, Point<N>) {
         let Crossings { value, start, bits_of_start, .. } = self;
         let mut at = |(q, p): &Point<N>| value.value_at_other(integrator.system(), (q, p)).clone();
@@ -139,8 +141,9 @@ fn is_finite<N: Real>(integrator: &VectorIntegrator<'_, N>) -> bool {
     state.q().iter().chain(state.p()).all(N::is_finite)
 }
 
-/// Whether a value is 0 beside those at both ends of the step. Where the sign changes at a pole or at the turn of an angle, the least value that is
-/// found is that of an end, or has its size; where there is a zero, it is the round-off of the formula, as that of an end may be.
+/// Whether a value is 0 beside those at both ends of the step. Where the sign changes at a pole or at the turn of an
+/// angle, the least value that is found is that of an end, or has its size; where there is a zero, it is the round-off
+/// of the formula, as that of an end may be.
 fn is_zero<N: Real>(value: &N, ends: [&N; 2]) -> bool {
     // in decades
     const SMALL: f64 = 3.0;

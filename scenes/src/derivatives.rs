@@ -64,14 +64,15 @@ pub enum Variable {
 pub struct Parameter {
     /// Its name, for messages.
     pub name: String,
-    /// The systems where it is larger by the [distance()], and by twice the distance, read to [more digits](precise), each with its step size.
+    /// The systems where it is larger by the [distance()], and by twice the distance, read to [more digits](precise),
+    /// each with its step size.
     pub nearby: [(Box<System>, StepSize); 2],
 }
 
 /// The value of a parameter at which constants are differentiated.
 ///
-/// At 1, 2 or ⅓ a formula may have fewer constants than beside it, as 1·x is x. Its derivative is then taken at the first value nearby, which differs by less
-/// than the digits of the run; the states stay those of the run.
+/// At 1, 2 or ⅓ a formula may have fewer constants than beside it, as 1·x is x. Its derivative is then taken at the
+/// first value nearby, which differs by less than the digits of the run; the states stay those of the run.
 #[derive(Clone, Copy, PartialEq)]
 enum Base {
     Own,

@@ -1,4 +1,5 @@
-//! The drift of the modified energy of a run, beside the error of H; and on the exact flow the drift that is the estimator's own.
+//! The drift of the modified energy of a run, beside the error of H; and on the exact flow the drift that is the
+//! estimator's own.
 //!
 //! ```
 //! use shadowstep::{StepSize, exact};

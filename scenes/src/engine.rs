@@ -33,7 +33,8 @@ pub enum Outcome {
     },
 }
 
-/// The run of a scene in any number type, from a checkpoint if there is one, until it is complete or the observer stops it.
+/// The run of a scene in any number type, from a checkpoint if there is one, until it is complete or the observer stops
+/// it.
 pub(crate) struct SceneRun<'a, 'r> {
     pub(crate) scene: &'a Scene,
     pub(crate) rows: &'a mut Rows<'r>,

@@ -1,7 +1,8 @@
 //! Ensembles: a scene with a section \[ensemble\], whose columns have a number for each trajectory.
 //!
-//! All numbers of the scene can contain the names of the columns, as they contain parameters. The trajectories are computed on all cores, those of
-//! T(p) and U(q), and those of planets with the same masses, in lanes ([`shadowstep::shadow::ensemble`]): each has the bits that it has alone, but for exp, log, sin and cos.
+//! All numbers of the scene can contain the names of the columns, as they contain parameters. The trajectories are
+//! computed on all cores, those of T(p) and U(q), and those of planets with the same masses, in lanes
+//! ([`shadowstep::shadow::ensemble`]): each has the bits that it has alone, but for exp, log, sin and cos.
 //!
 //! ```
 //! use shadowstep::tables::Source;
@@ -113,8 +114,8 @@ impl Ensemble {
     /// Reads the scene and its columns.
     ///
     /// # Errors
-    /// All faults of the text with the values of the first trajectory; a file of columns that cannot be read; a scene of which there can be no
-    /// ensemble.
+    /// All faults of the text with the values of the first trajectory; a file of columns that cannot be read; a scene
+    /// of which there can be no ensemble.
     pub fn read(source: Source) -> Result<Ensemble, Error> {
         let columns = Columns::read(&source)?;
         Ensemble::of(source, columns)
@@ -148,7 +149,8 @@ impl Ensemble {
         &self.first
     }
 
-    /// Computes all trajectories, and writes metadata and a row for each; `continues` is as for [`outcomes`](Ensemble::outcomes).
+    /// Computes all trajectories, and writes metadata and a row for each; `continues` is as for
+    /// [`outcomes`](Ensemble::outcomes).
     ///
     /// # Errors
     /// Values of a trajectory that the scene cannot have, a writer that fails; an end.
@@ -157,8 +159,8 @@ impl Ensemble {
         rows::write(&self.columns, &self.first, self.observed.modified_energy.is_some(), &outcomes, writer)
     }
 
-    /// The same into the file that the scene names. Returns whether that was complete before: then nothing is done, unless the options
-    /// restart it.
+    /// The same into the file that the scene names. Returns whether that was complete before: then nothing is done,
+    /// unless the options restart it.
     ///
     /// # Errors
     /// As [`run_into`](Ensemble::run_into); a scene without a file; a file that is not from this ensemble.
@@ -217,7 +219,8 @@ impl Ensemble {
         Alone::new(&self.first.system, self.first.steps_from(Begin::InitialState))
     }
 
-    /// Each trajectory alone; where they differ in their states only, they have a system that `of_first` sets up once for many.
+    /// Each trajectory alone; where they differ in their states only, they have a system that `of_first` sets up once
+    /// for many.
     fn one_by_one(
         &self,
         parsed: &Parsed<'_>,
@@ -292,7 +295,8 @@ impl Ensemble {
         })
     }
 
-    /// The initial state of a trajectory, if they differ in nothing else; `None` also if it has a fault, which reading its scene gives.
+    /// The initial state of a trajectory, if they differ in nothing else; `None` also if it has a fault, which reading
+    /// its scene gives.
     fn state(&self, parsed: &Parsed<'_>, t: usize) -> Option<(Vec<Exact>, Vec<Exact>)> {
         let state = || parsed.state(&self.columns.values(t), &self.first.system, self.first.arithmetic);
         (self.differing == Differing::States).then(state)?
@@ -372,7 +376,8 @@ mod tests {
     fn two_columns_of_rows_have_different_names() {
         for (names, twice) in [("energy_error", "energy_error"), ("e = [1, 2], not_finite", "not_finite")] {
             let text = format!(
-                "problem.name = \"kepler\"\n[run]\nscheme = \"yoshida4\"\nstep = \"1/100\"\nsteps = 3\ndigits = \"double\"\n\
+                "problem.name = \"kepler\"\n[run]\nscheme = \"yoshida4\"\nstep = \"1/100\"\nsteps = 3\ndigits \
+                    = \"double\"\n\
                  [output]\nenergy = true\n[ensemble]\ncolumns = {{ {names} = [1, 2] }}"
             );
             let found = Ensemble::read(Source { path: "test.toml".to_owned(), text }).unwrap_err().to_string();
@@ -405,7 +410,8 @@ mod tests {
             (
                 Differing::Systems,
                 format!(
-                    "problem = {{ potential = \"-e/sqrt(x^2 + y^2)\", {plane} }}\ninitial = {{ q = [1, \"e\"], p = [0, \"1 - e^2\"] }}"
+                    "problem = {{ potential = \"-e/sqrt(x^2 + y^2)\", {plane} }}\ninitial = {{ q = [1, \"e\"], p = \
+                        [0, \"1 - e^2\"] }}"
                 ),
             ),
             (
@@ -430,7 +436,8 @@ mod tests {
             (
                 Differing::States,
                 format!(
-                    "problem = {{ pair = \"-m_i*m_j/sqrt(r2 + 1)\", dimensions = 1, {bodies} }}\ninitial = {{ q = \"i*m + e\", p = \"e*i\" }}"
+                    "problem = {{ pair = \"-m_i*m_j/sqrt(r2 + 1)\", dimensions = 1, {bodies} }}\ninitial = {{ q \
+                        = \"i*m + e\", p = \"e*i\" }}"
                 ),
             ),
         ];
@@ -481,7 +488,8 @@ mod tests {
     fn of_planets(parts: &str, digits: &str, planets: usize, mass: &str) -> Ensemble {
         let body = |i| {
             format!(
-                "[[body]]\nname = \"p{i}\"\nmass = \"{mass}/{i}\"\na = \"{i} + s/10\"\ne = \"1/5 + s/9\"\ni = \"20 + 10*s\"\nM = \"{i}0 + 100*s\"\n"
+                "[[body]]\nname = \"p{i}\"\nmass = \"{mass}/{i}\"\na = \"{i} + s/10\"\ne = \"1/5 + s/9\"\ni = \"20 + \
+                    10*s\"\nM = \"{i}0 + 100*s\"\n"
             )
         };
         let bodies: String = (1..=planets).map(body).collect();
@@ -527,16 +535,20 @@ mod tests {
         assert_eq!(ensemble.outcomes(|| true).unwrap().len(), 21);
     }
 
-    /// Systems that are not computed in lanes: with a constant magnetic field, with one of position and time, of parts, with a cutoff, with oscillations.
+    /// Systems that are not computed in lanes: with a constant magnetic field, with one of position and time, of parts,
+    /// with a cutoff, with oscillations.
     const OF_PARTS: [&str; 5] = [
-        "potential = \"(x^2 + y^2)^2/8\"\nvector_potential = [\"-3*y/4\", \"3*x/4\"]\ncoordinates = [\"x\", \"y\"]\nmasses = [1, 2]",
-        "potential = \"(x^2 + y^2)^2/8\"\nvector_potential = [\"-y*cos(t)/2\", \"x/2 + x^3/12\"]\ncoordinates = [\"x\", \"y\"]",
+        "potential = \"(x^2 + y^2)^2/8\"\nvector_potential = [\"-3*y/4\", \"3*x/4\"]\ncoordinates = \
+            [\"x\", \"y\"]\nmasses = [1, 2]",
+        "potential = \"(x^2 + y^2)^2/8\"\nvector_potential = [\"-y*cos(t)/2\", \"x/2 + x^3/12\"]\ncoordinates = \
+            [\"x\", \"y\"]",
         "parts = [\"(px^2 + py^2)/2\", \"y*px - x*py\", \"-1/sqrt(x^2 + y^2 + 1)\"]\ncoordinates = [\"x\", \"y\"]",
         "pair = \"-1/sqrt(r2 + 1/10)\"\nbodies = 2\ndimensions = 1\ncutoff = 3",
         "name = \"henon-heiles\"\nparts = \"linear\"",
     ];
 
-    /// Trajectories that differ in their states only have one system, for as many as a thread has, and the bits that they have with a system each.
+    /// Trajectories that differ in their states only have one system, for as many as a thread has, and the bits that
+    /// they have with a system each.
     #[test]
     fn one_system_serves_many_states() {
         let many = (0..100).map(|i| format!("{i}/100")).collect::<Vec<_>>().join("\", \"");

@@ -5,8 +5,8 @@ use shadowstep::shadow::{EstimatorSettings, OptionConflict};
 /// The hint for a target error that is not valid.
 pub const ACCURACY_HINT: &str = "write a target error such as 1e-20, or remove it for the best order of each state";
 
-/// What is wrong with conflicting options, and what would be right. `option` is the name of the one that cannot be used, and
-/// `assigned` writes a name with its value, both as they are spelt where they are set.
+/// What is wrong with conflicting options, and what would be right. `option` is the name of the one that cannot be
+/// used, and `assigned` writes a name with its value, both as they are spelt where they are set.
 pub fn conflict(conflict: &OptionConflict, option: &str, assigned: impl Fn(&str, &str) -> String) -> (String, String) {
     let required = assigned(conflict.setting, conflict.required);
     let found = assigned(conflict.setting, &conflict.found);

@@ -41,7 +41,8 @@ impl System {
     /// The condition of a text that stands alone.
     ///
     /// # Errors
-    /// A text that is not one comparison of formulas in the numbers of the system's states, with the column of the fault.
+    /// A text that is not one comparison of formulas in the numbers of the system's states, with the column of the
+    /// fault.
     pub fn condition(&self, name: &str, text: &str) -> Result<Condition, Error> {
         alone(name, text, |text, reader| {
             let condition = Condition::read(reader, &text)?;

@@ -18,8 +18,8 @@ impl Scene {
     /// If the file is complete, and was made by this scene with these tables and this version, nothing is done.
     ///
     /// # Errors
-    /// A scene without a file, a file that is not from this scene or cannot be written, a checkpoint of another scene, a
-    /// run that fails. The rows of a run that fails stay in a partial file if the scene asks for checkpoints.
+    /// A scene without a file, a file that is not from this scene or cannot be written, a checkpoint of another scene,
+    /// a run that fails. The rows of a run that fails stay in a partial file if the scene asks for checkpoints.
     pub fn run_to_file(&self, options: FileOptions, observer: &mut dyn Observer) -> Result<Outcome, Error> {
         match Target::open(self, &self.names(), options, observer)? {
             Some((target, begun)) => self.run((target, self.output.format), &begun, observer),
@@ -32,8 +32,8 @@ impl Scene {
         file_hashes(self)
     }
 
-    /// The hash of the scene with an earlier end whose complete file a run of this scene goes on with, and changes only by adding rows; `None` where
-    /// there is no such file, or another.
+    /// The hash of the scene with an earlier end whose complete file a run of this scene goes on with, and changes only
+    /// by adding rows; `None` where there is no such file, or another.
     pub fn prolonged_sha256(&self) -> Option<String> {
         prolonged(self)
     }
@@ -231,7 +231,8 @@ mod tests {
         let planets = "[problem]\nparts = \"wisdom-holman-heliocentric\"\nparameters = { g = 1 }\nbarycentric = true\n\
                        [[body]]\nmass = 1\n[[body]]\nmass = 0.01\na = 1\ne = 0.3\n[[body]]\nmass = 0.01\na = 2\nM = 80";
         let many_parts = "[problem]\nparts = [\"(q1^2 + p1^2)^2 + q2^2 + p2^2\", \"-p1*p2\", \"-q1*q2\"]\n\
-                          coordinates = [\"q1\", \"q2\"]\nmomenta = [\"p1\", \"p2\"]\n[initial]\nq = [1, 0]\np = [0, \"1/3\"]";
+                          coordinates = [\"q1\", \"q2\"]\nmomenta = [\"p1\", \"p2\"]\n[initial]\nq = [1, 0]\np = \
+                          [0, \"1/3\"]";
         for system in [pairs, kinetic, planets, many_parts] {
             for output in
                 ["trajectory = true", "chaos = true", "modified_energy = { max_order = 6 }\nenergy = { every = 3 }"]
@@ -297,7 +298,8 @@ mod tests {
     fn wherever_a_run_is_stopped_its_summary_is_the_same() {
         let kepler = "problem = { name = \"kepler\", parameters = { eccentricity = \"7/10\" } }";
         let transformed = format!("{kepler}\ntime.transform = \"logarithmic\"");
-        let planets = "problem = { parts = \"wisdom-holman-heliocentric\", parameters = { g = 1 }, encounters = { within = 0.2 } }\n\
+        let planets = "problem = { parts = \"wisdom-holman-heliocentric\", parameters = { g = 1 }, encounters = { \
+            within = 0.2 } }\n\
                        body = [{ mass = 1 }, { mass = 3e-4, a = 1, e = 0.1 }, { mass = 1e-4, a = 1.2, e = 0.1, M = 80 }]";
         let particles = "problem = { parts = \"wisdom-holman\", parameters = { g = 1 } }\n\
                          body = [{ mass = 1 }, { mass = 3e-4, a = 1, e = 0.1 }, { mass = 0, a = 1.2, e = 0.1, M = 80 }]";
@@ -371,7 +373,8 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let run = |steps: u64, stop: i64| {
             let text = format!(
-                "problem.name = \"kepler\"\nrun = {{ scheme = \"yoshida4\", step = \"1/20\", steps = {steps}, end = \"x > 9\", digits = \"double\" }}\n\
+                "problem.name = \"kepler\"\nrun = {{ scheme = \"yoshida4\", step = \"1/20\", steps = {steps}, end \
+                    = \"x > 9\", digits = \"double\" }}\n\
                  [output]\nfile = \"out.csv\"\ncheckpoint = 50\nenergy = {{ every = 7 }}\n"
             );
             fs::write(folder.path().join("scene.toml"), text).unwrap();
@@ -418,7 +421,8 @@ mod tests {
         assert_eq!(prolonged.to_string(), summary_of(60, true).to_string());
     }
 
-    /// The bytes of a run to the end, from that of an earlier end, with a stop after a number of states of the prolonged one.
+    /// The bytes of a run to the end, from that of an earlier end, with a stop after a number of states of the
+    /// prolonged one.
     fn prolonged(digits: &str, system: &str, output: &str, (earlier, stop): (u64, i64)) -> String {
         let folder = tempfile::tempdir().unwrap();
         let whole = scene_in(digits, folder.path(), system, output);
@@ -464,7 +468,8 @@ mod tests {
     #[test]
     fn so_are_records_of_numpy() {
         let folder = tempfile::tempdir().unwrap();
-        let output = "modified_energy = { order = 4, every = 3 }\nenergy = true\ntrajectory = { every = 2 }\nchaos = { every = 5 }\n\
+        let output = "modified_energy = { order = 4, every = 3 }\nenergy = true\ntrajectory = { every = 2 }\nchaos = \
+            { every = 5 }\n\
                       values = { r = \"log(x)\" }";
         let text = |file: &str, steps: u64| {
             let scene = scene_in("\"double\"", folder.path(), KEPLER, output).source.text;
@@ -497,7 +502,8 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let text = |until: &str, file: &str| {
             format!(
-                "{KEPLER}\n[time]\ntransform = \"logarithmic\"\n[run]\nscheme = \"ruth3\"\nstep = \"1/20\"\nuntil = {until}\ndigits = 30\n\
+                "{KEPLER}\n[time]\ntransform = \"logarithmic\"\n[run]\nscheme = \"ruth3\"\nstep = \"1/20\"\nuntil = \
+                    {until}\ndigits = 30\n\
                  [output]\nfile = \"{file}\"\ncheckpoint = 5\ntrajectory = {{ every = 3 }}\nenergy = true\n"
             )
         };
@@ -615,8 +621,8 @@ mod tests {
     fn a_resumed_run_repeats_only_the_steps_that_an_estimate_needs() {
         let folder = tempfile::tempdir().unwrap();
         let scene = scene(folder.path(), KEPLER, "modified_energy = { estimator = \"central\", order = 2 }");
-        // each fifth state is kept, and the estimates after n need one at or before n - 5: D_2, and three states for its
-        // error
+        // each fifth state is kept, and the estimates after n need one at or before n - 5: D_2, and three states for
+        // its error
         let mut first = 0;
         for (n, kept) in [(4, None), (6, Some(0)), (16, Some(10)), (17, Some(10)), (19, Some(10)), (20, Some(15))] {
             let outcome = scene.run_to_file(FileOptions::default(), &mut StopAfter(n - first + 1)).unwrap();

@@ -6,7 +6,8 @@ use crate::readable::wrapped;
 use crate::schema::{Section, json_schema};
 
 const INTRODUCTION: &str = "\
-A scene is a TOML file with the sections [problem], [initial], [run] and [output]; with [ensemble] it describes many trajectories.
+A scene is a TOML file with the sections [problem], [initial], [run] and [output]; with [ensemble] it describes many \
+trajectories.
 
 A number is written in digits, 0.05 or 1e-3, and is used exactly; or it is an exact expression in quotes, \"1/20\" or \
 \"sqrt(2)/2\", which can contain the parameters of the problem. It is rounded once, to the digits of the run.";

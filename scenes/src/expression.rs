@@ -13,7 +13,8 @@ use crate::schema::Table;
 pub(crate) const TIME: &str = "t";
 pub(crate) const ENERGY: &str = "E";
 
-/// A formula in the coordinates, momenta and parameters of a system, the names of the axes, t and E, and quantities of its bodies.
+/// A formula in the coordinates, momenta and parameters of a system, the names of the axes, t and E, and quantities of
+/// its bodies.
 #[derive(Clone, Debug)]
 pub struct Expression {
     /// With names in the places of quantities.
@@ -125,7 +126,8 @@ fn names(syntax: &Syntax, quantities: &[Quantity]) -> Vec<String> {
     found
 }
 
-/// The formula with a name in the place of each quantity, as long as the quantity, so that all others stay in their places.
+/// The formula with a name in the place of each quantity, as long as the quantity, so that all others stay in their
+/// places.
 fn with_names(formula: &str, quantities: &[Quantity]) -> String {
     let mut text = formula.to_owned();
     for (number, Quantity { range, .. }) in quantities.iter().enumerate().rev() {

@@ -82,7 +82,8 @@ mod tests {
 
     fn read(more: &str, output: &str) -> Result<Scene, Faults> {
         let text = format!(
-            "{more}\n[run]\nscheme = \"yoshida4\"\nstep = \"1/10\"\nsteps = 100\ndigits = \"double\"\n[output]\n{output}"
+            "{more}\n[run]\nscheme = \"yoshida4\"\nstep = \"1/10\"\nsteps = 100\ndigits \
+                = \"double\"\n[output]\n{output}"
         );
         Scene::read(Source { path: "test.toml".to_owned(), text })
     }
@@ -103,7 +104,8 @@ mod tests {
         for modified in ["", "modified_energy = { estimator = \"bilinear\", order = 6 }\n"] {
             for problem in [KEPLER, "problem.name = \"kepler\"\ntime.transform = \"logarithmic\""] {
                 let output = format!(
-                    "{modified}energy = true\ntrajectory = true\nvalues = {{ x2 = \"2*x\", T = \"E + 0*t\", w = \"t/2\" }}\nextremes = {{ x = \"x\" }}"
+                    "{modified}energy = true\ntrajectory = true\nvalues = {{ x2 = \"2*x\", T = \"E + 0*t\", w \
+                        = \"t/2\" }}\nextremes = {{ x = \"x\" }}"
                 );
                 let (rows, summary) = run(&read(problem, &output).unwrap());
                 let column = |name: &str| rows[0].iter().position(|found| found == name).unwrap();

@@ -12,7 +12,8 @@ pub enum Extremum {
 }
 
 impl Extremum {
-    /// Whether a value takes the place of the one found so far: one that is not finite does not, and of equal ones the first stays.
+    /// Whether a value takes the place of the one found so far: one that is not finite does not, and of equal ones the
+    /// first stays.
     pub fn is_beyond<N: Real>(self, value: &N, found: Option<&N>) -> bool {
         value.is_finite()
             && found.is_none_or(|found| match self {

@@ -18,8 +18,8 @@ use crate::scene::{InitialValueProblem, Scene, System};
 
 /// A scene's text in which names stand for values: one scene for each choice of the values.
 ///
-/// A number can be used like a parameter in all numbers and formulas of the scene. `"$name"` in place of a whole value stands for
-/// any value: a word such as the name of a scheme, a whole number, or a number.
+/// A number can be used like a parameter in all numbers and formulas of the scene. `"$name"` in place of a whole value
+/// stands for any value: a word such as the name of a scheme, a whole number, or a number.
 ///
 /// ```
 /// use shadowstep::tables::Source;
@@ -153,8 +153,8 @@ impl Parsed<'_> {
         System::read_of(self.family.source(), &self.document, numbers(names), arithmetic)
     }
 
-    /// q and p at t = 0 with these values of the names, which only \[initial\] contains: the problem is that of another scene; `None` if
-    /// they have a fault, or depend on more than the problem.
+    /// q and p at t = 0 with these values of the names, which only \[initial\] contains: the problem is that of another
+    /// scene; `None` if they have a fault, or depend on more than the problem.
     pub(crate) fn state(
         &self,
         names: &[(String, Meaning)],
@@ -274,7 +274,8 @@ mod tests {
     fn names_are_known_to_every_kind_of_problem() {
         for problem in [
             "problem.name = \"kepler\"\nproblem.parameters.eccentricity = \"e\"\ninitial.q = [\"1 - e\", 0]",
-            "problem = { potential = \"q^2/(2*e)\", coordinates = [\"q\"], kinetic = \"pq^2*e\" }\ninitial = { q = [\"e\"], p = [0] }",
+            "problem = { potential = \"q^2/(2*e)\", coordinates = [\"q\"], kinetic = \"pq^2*e\" }\ninitial = { q = \
+                [\"e\"], p = [0] }",
             "problem = { pair = \"-m_i*m_j*e/sqrt(r2)\", dimensions = 2, bodies = { m = [1, \"e\"] } }\n\
              initial = { q = [0, 0, \"e\", 1], v = [0, 0, 0, \"e\"] }",
         ] {

@@ -1,4 +1,5 @@
-//! The one loop of runs: it makes the states in the order of time, with their modified energies if these are wanted, and shows them to columns.
+//! The one loop of runs: it makes the states in the order of time, with their modified energies if these are wanted,
+//! and shows them to columns.
 
 use std::ops::ControlFlow::{self, Break, Continue};
 use std::time::{Duration, Instant};
@@ -31,7 +32,8 @@ use crate::scene::CheckpointInterval;
 use crate::snapshots::{Snapshot, Snapshots};
 use crate::watch::{Energies, Watch};
 
-/// Where a state takes longer than this, each has its checkpoint: a program that is asked to end may not wait for the next one.
+/// Where a state takes longer than this, each has its checkpoint: a program that is asked to end may not wait for the
+/// next one.
 const LONG: Duration = Duration::from_millis(500);
 
 /// The observer is asked at each of the first states: it may stop short runs anywhere.
@@ -39,10 +41,12 @@ const ONE_BY_ONE: u64 = 256;
 
 /// A number type in which runs are made.
 pub trait FollowedNumber: RunNumber {
-    /// Makes a run and shows its states to columns; without an end that is known before, until a column, a condition or a physical time ends it.
+    /// Makes a run and shows its states to columns; without an end that is known before, until a column, a condition or
+    /// a physical time ends it.
     ///
     /// # Errors
-    /// Crossings with displaced forces; a state or an energy that is not finite; settings of the estimator that are not valid; those of the columns.
+    /// Crossings with displaced forces; a state or an energy that is not finite; settings of the estimator that are not
+    /// valid; those of the columns.
     fn follow(
         posed: &Posed<'_>,
         context: &Self::Context,
@@ -114,7 +118,8 @@ struct Following<'a, 'c, N: RunNumber> {
     is_stopped: bool,
     /// Whether a column ended the run.
     is_ended_by_column: bool,
-    /// The n of the newest output, and of the newest state that was seen: a resumed run with estimates makes some once more.
+    /// The n of the newest output, and of the newest state that was seen: a resumed run with estimates makes some once
+    /// more.
     n: i64,
     seen: i64,
     /// The n of the next output that a column takes.
@@ -276,8 +281,8 @@ impl<'a, 'c, N: RunNumber> Following<'a, 'c, N> {
         of_watch || self.sees_each && self.columns.iter().any(|column| column.needs_increments())
     }
 
-    /// Makes the states up to n, which need not be seen or shown: the summary and the end take what they need of them. Where the end comes before n, they are made
-    /// again, one by one.
+    /// Makes the states up to n, which need not be seen or shown: the summary and the end take what they need of them.
+    /// Where the end comes before n, they are made again, one by one.
     fn pass(
         &mut self,
         trajectory: &mut Trajectory<&mut VectorIntegrator<'_, N>>,
@@ -351,7 +356,8 @@ impl<'a, 'c, N: RunNumber> Following<'a, 'c, N> {
         self.due.min(checkpoint).min(watched).min(looked_up).max(n + 1).min(self.last)
     }
 
-    /// Sees the state n, at which the integrator is. Whether it is past the physical end, so that the state before is the last one.
+    /// Sees the state n, at which the integrator is. Whether it is past the physical end, so that the state before is
+    /// the last one.
     fn see(&mut self, n: i64, integrator: &mut VectorIntegrator<'_, N>) -> bool {
         if self.posed.estimator.is_some() {
             self.snapshots.offer(n, integrator.state());
@@ -402,7 +408,8 @@ impl<'a, 'c, N: RunNumber> Following<'a, 'c, N> {
         }
     }
 
-    /// Shows the output of n. Without an estimate the integrator is at the state n; with one it is ahead, and the estimate has the state.
+    /// Shows the output of n. Without an estimate the integrator is at the state n; with one it is ahead, and the
+    /// estimate has the state.
     fn output(
         &mut self,
         n: i64,
@@ -454,7 +461,8 @@ impl<'a, 'c, N: RunNumber> Following<'a, 'c, N> {
         found.unwrap_or(Ok(()))
     }
 
-    /// Keeps a moment where it is time for one, at the last state, from which the run can be prolonged, or where the run is stopped: then it ends.
+    /// Keeps a moment where it is time for one, at the last state, from which the run can be prolonged, or where the
+    /// run is stopped: then it ends.
     fn keep_if_due(&mut self, n: i64, integrator: &VectorIntegrator<'_, N>) -> Result<(), Error> {
         self.is_stopped = self.observer.stops();
         let is_due = match self.posed.resumed.interval {

@@ -18,7 +18,8 @@ pub struct Frequency {
 
 /// More iterations than these make no difference that matters for a warning.
 const MOST_ITERATIONS: usize = 200;
-/// The CPU time that they may take, which other work on the machine does not change: a run is not to wait for what it is warned of.
+/// The CPU time that they may take, which other work on the machine does not change: a run is not to wait for what it
+/// is warned of.
 const MOST_TIME: Duration = Duration::from_millis(100);
 /// The estimates of the eigenvalue agree to this part at the end.
 const TOLERANCE: f64 = 1e-7;
@@ -26,15 +27,18 @@ const TOLERANCE: f64 = 1e-7;
 const DISTANCE: f64 = 1e-6;
 
 impl System {
-    /// The largest frequency at the initial state, in double precision, from differences of the gradient by the power method;
-    /// `None` where nothing oscillates, T(p) is given by a formula or is not a part, the initial energy is not finite, or numbers overflow.
+    /// The largest frequency at the initial state, in double precision, from differences of the gradient by the power
+    /// method; `None` where nothing oscillates, T(p) is given by a formula or is not a part, the initial energy is not
+    /// finite, or numbers overflow.
     ///
-    /// An eigenvalue that the iterations do not reach in 0.1 s of CPU time, as where a gradient of thousands of bodies takes long, is underestimated.
+    /// An eigenvalue that the iterations do not reach in 0.1 s of CPU time, as where a gradient of thousands of bodies
+    /// takes long, is underestimated.
     pub fn fastest_frequency(&self) -> Option<Frequency> {
         self.fastest_motion().filter(|_| self.parts.is_kinetic_and_potential())
     }
 
-    /// The same whatever the parts of H are: the frequency of T(p) + U(q). Steps resolve it where they do not solve the fastest motion exactly.
+    /// The same whatever the parts of H are: the frequency of T(p) + U(q). Steps resolve it where they do not solve the
+    /// fastest motion exactly.
     pub fn fastest_motion(&self) -> Option<Frequency> {
         if !matches!(self.kinetic, KineticEnergy::Masses(_)) || matches!(self.potential, PotentialEnergy::OfParts) {
             return None;

@@ -38,7 +38,8 @@ use crate::watch::{Bodies, Energies, Interactions};
 pub enum KeptStates<'a> {
     /// The states n = 0, m, 2m, …, and the last one.
     Every(u64),
-    /// Where the trajectory crosses a surface that was [checked](scene::System::section) for the system: each is a part of a step after the state n.
+    /// Where the trajectory crosses a surface that was [checked](scene::System::section) for the system: each is a part
+    /// of a step after the state n.
     Crossings(&'a scene::Surface),
 }
 
@@ -57,7 +58,8 @@ pub struct Samples<N> {
     pub energy: Vec<N>,
     /// The value of each formula at each of these states; `None` of one that is not finite.
     pub values: Vec<Vec<Option<N>>>,
-    /// The modified energies of these states, or of the middles between them and the next ones; the last one is then missing.
+    /// The modified energies of these states, or of the middles between them and the next ones; the last one is then
+    /// missing.
     pub modified: Vec<Modified<N>>,
     /// Evaluations of the gradient, those for the states beyond both ends included.
     pub evaluations: u64,
@@ -77,10 +79,12 @@ pub struct Modified<N> {
 }
 
 impl Posed<'_> {
-    /// Makes the run and keeps its states, with the values of formulas there, and a summary for an observer that [wants](Observer::summarises) one.
+    /// Makes the run and keeps its states, with the values of formulas there, and a summary for an observer that
+    /// [wants](Observer::summarises) one.
     ///
     /// # Errors
-    /// Crossings with displaced forces; a state or an energy that is not finite; settings of the estimator that are not valid; an observer that stops.
+    /// Crossings with displaced forces; a state or an energy that is not finite; settings of the estimator that are not
+    /// valid; an observer that stops.
     ///
     /// # Panics
     /// If the scheme is not valid for the system.
@@ -233,7 +237,8 @@ mod tests {
     /// Whatever a run computes besides, its summary is that of the scene; only H may be computed at other states.
     #[test]
     fn the_summary_is_that_of_the_scene() {
-        let kepler = "problem.name = \"kepler\"\nrun = { scheme = \"SCHEME\", step = \"1/20\", until = 100, digits = \"double\" }\n";
+        let kepler = "problem.name = \"kepler\"\nrun = { scheme = \"SCHEME\", step = \"1/20\", until = 100, digits \
+            = \"double\" }\n";
         let planets = "problem = { name = \"outer-solar-system\", parts = \"wisdom-holman\" }\n\
                        run = { scheme = \"saba4\", step = 100, until = 100000, digits = \"double\" }\n";
         for (text, estimated) in [
@@ -261,7 +266,8 @@ mod tests {
     /// H of the states that are kept is in the summary, each once, whether windows or estimates are there before.
     #[test]
     fn the_error_of_h_is_over_all_states_that_are_kept() {
-        let kepler = "problem.name = \"kepler\"\nrun = { scheme = \"SCHEME\", step = \"1/20\", until = \"UNTIL\", digits = \"double\" }\n";
+        let kepler = "problem.name = \"kepler\"\nrun = { scheme = \"SCHEME\", step = \"1/20\", until = \"UNTIL\", \
+            digits = \"double\" }\n";
         let estimates = "output.modified_energy = { estimator = \"bilinear\", order = 8 }\n";
         for (scheme, until) in [("yoshida4", "100"), ("yoshida4", "2"), ("bcm6-13", "100"), ("bcm6-13", "2")] {
             for rows in ["output.energy = true\n", estimates] {

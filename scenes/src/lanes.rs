@@ -58,7 +58,8 @@ impl SystemInLanes {
     }
 }
 
-/// The trajectories with tangent vectors, whose directions are those that each trajectory has alone; `None` as of [`SystemInLanes::of`].
+/// The trajectories with tangent vectors, whose directions are those that each trajectory has alone; `None` as of
+/// [`SystemInLanes::of`].
 ///
 /// # Errors
 /// A vector that has no direction.
@@ -128,13 +129,15 @@ impl System {
 }
 
 impl System {
-    /// Whether several trajectories can be computed in lanes: T(p) and U(q), and no cutoff, as bodies have other neighbours in each trajectory.
+    /// Whether several trajectories can be computed in lanes: T(p) and U(q), and no cutoff, as bodies have other
+    /// neighbours in each trajectory.
     pub(crate) fn has_lanes(&self) -> bool {
         let has_cutoff = matches!(&self.potential, PotentialEnergy::Pairs(pairs) if pairs.cutoff.is_some());
         self.parts.is_kinetic_and_potential() && !has_cutoff
     }
 
-    /// Whether T or U, as formulas of q and p, have functions such as exp and sin; true where they are not given as such.
+    /// Whether T or U, as formulas of q and p, have functions such as exp and sin; true where they are not given as
+    /// such.
     pub fn has_functions(&self) -> bool {
         let kinetic = match &self.kinetic {
             KineticEnergy::Masses(_) => false,

@@ -67,7 +67,7 @@
 //! | module | what it is |
 //! | --- | --- |
 //! | `scene` | the content of a scene: plain data |
-//! | [`keys`], [`schema`] | a row for each key, from which documents are checked; `explain` lists them, [`scene_text`] writes scenes with them |
+//! | [`keys`], [`schema`] | a row for each key: documents are checked by them, and [`scene_text`] writes scenes |
 //! | [`family`] | scenes that differ in the values of some names |
 //! | [`ensemble`], [`lanes`] | many trajectories of such a family; their systems as one system of lanes |
 //! | `read` | a scene's text → a scene, or all its faults |
@@ -77,7 +77,7 @@
 //! | `crossings` | where a run crosses a surface of section |
 //! | `observer`, `note` | how a caller watches a run and stops it |
 //! | `results` | rows, the head of a file, checkpoints, and where they go |
-//! | `whole_file`, [`lock`], `temporary` | files that get their names when they are complete, that one process has alone, and that are removed if the program ends early |
+//! | `whole_file`, [`lock`], `temporary` | files that get their names when they are complete, and that one process has alone |
 //! | [`arithmetic`] | number types and their digits |
 //! | [`expression`], [`evaluator`] | formulas in the numbers of a state, and conditions on them |
 //! | [`reserved_names`] | names with a meaning of their own: in such formulas, as columns, in emitted code |

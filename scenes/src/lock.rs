@@ -1,7 +1,7 @@
 //! A lock on a file, which the system releases when the process ends in whatever way.
 //!
-//! Files that a program writes under names that are known before lie perhaps in a folder of others: symbolic links of these names are not
-//! followed, and files with other names, by hard links, are not opened.
+//! Files that a program writes under names that are known before lie perhaps in a folder of others: symbolic links of
+//! these names are not followed, and files with other names, by hard links, are not opened.
 
 use std::fs::{File, OpenOptions, TryLockError};
 use std::io::{self, ErrorKind};
@@ -56,7 +56,8 @@ pub fn open_locked(path: &Path, options: &OpenOptions) -> Result<File, LockError
 /// Opens a file as the options say; it is the file of this name, and of no other.
 ///
 /// # Errors
-/// `InvalidInput` for a symbolic link, for what is not a file, and for a file with several names; a file that cannot be opened.
+/// `InvalidInput` for a symbolic link, for what is not a file, and for a file with several names; a file that cannot be
+/// opened.
 pub fn open_itself(path: &Path, options: &OpenOptions) -> io::Result<File> {
     let refused = |what: &str| io::Error::new(ErrorKind::InvalidInput, format!("{} {what}", path.display()));
     let file = match not_following(options).open(path) {

@@ -1,6 +1,7 @@
 //! The modified Hamiltonian of a scheme's step as a formula in q and p.
 //!
-//! H = T(p) + U(q), or a sum of formulas, is a graph of formulas, in which the brackets of the [series](shadowstep_analysis::modified) are derivatives.
+//! H = T(p) + U(q), or a sum of formulas, is a graph of formulas, in which the brackets of the
+//! [series](shadowstep_analysis::modified) are derivatives.
 
 mod planets;
 mod potential;
@@ -207,7 +208,8 @@ impl SymbolicHamiltonian {
         self.graph.sum(&terms)
     }
 
-    /// The terms of the modified Hamiltonian of a scheme's step that are not 0, up to h^grade; of a processed scheme that of the processed step.
+    /// The terms of the modified Hamiltonian of a scheme's step that are not 0, up to h^grade; of a processed scheme
+    /// that of the processed step.
     ///
     /// # Errors
     /// A scheme that is not for these parts; too many parts of formulas.
@@ -271,7 +273,8 @@ impl SymbolicHamiltonian {
         (self.graph.len() <= MOST_NODES).then_some(node)
     }
 
-    /// H + Σ hⁿ H_(n+1) up to h^grade as a formula in q, p, t, H, and p_t in transformed time, where it is that of H' = f(T + p_t) − f(−U).
+    /// H + Σ hⁿ H_(n+1) up to h^grade as a formula in q, p, t, H, and p_t in transformed time, where it is that of H' =
+    /// f(T + p_t) − f(−U).
     pub(crate) fn up_to(&self, terms: &[SymbolicTerm], grade: u32, h: &StepSize) -> Derived {
         let mut graph = self.graph.clone();
         let freedoms = self.coordinates.len() / 2;
@@ -304,7 +307,8 @@ impl SymbolicHamiltonian {
         if self.graph.written_size(expanded) <= self.graph.written_size(formula) { expanded } else { formula }
     }
 
-    /// A formula as text with these names of coordinates and parameters; numbers that are no short fractions have this number of significant digits.
+    /// A formula as text with these names of coordinates and parameters; numbers that are no short fractions have this
+    /// number of significant digits.
     ///
     /// # Errors
     /// A formula that is too long.
@@ -370,7 +374,8 @@ mod tests {
         Scene::read(Source { path: "test.toml".to_owned(), text })
     }
 
-    /// The differences of the series up to the grades from the modified energy E_20 at the state in the middle of 1/h and 20 steps.
+    /// The differences of the series up to the grades from the modified energy E_20 at the state in the middle of 1/h
+    /// and 20 steps.
     fn differences(problem: &str, scheme: &str, h: u32, grades: &[u32]) -> Vec<f64> {
         let run = format!("scheme = \"{scheme}\"\nstep = \"1/{h}\"\nsteps = {}\ndigits = 60", h / 2 + 10);
         let output = format!(
@@ -393,20 +398,29 @@ mod tests {
         grades.iter().map(of).collect()
     }
 
-    /// The modified energy less the series falls like the first power of h that is left out: the estimator knows nothing of brackets.
+    /// The modified energy less the series falls like the first power of h that is left out: the estimator knows
+    /// nothing of brackets.
     #[test]
     fn the_series_is_the_modified_energy() {
         let pendulum = "problem.name = \"pendulum\"";
         let henon_heiles = "problem.name = \"henon-heiles\"";
         let oscillator = "problem.name = \"harmonic-oscillator\"\nproblem.parameters = { omega = \"3/2\" }";
         let kepler = "problem.name = \"kepler\"\nproblem.parameters = { eccentricity = \"1/5\" }";
-        let general = "[problem]\ncoordinates = [\"x\"]\nmomenta = [\"p\"]\npotential = \"x^4/4 - cos(x)\"\nkinetic = \"p^2/2 + p^4/20\"\n[initial]\nq = [\"1/2\"]\np = [\"1/3\"]";
-        let driven = "[problem]\ncoordinates = [\"x\"]\npotential = \"x^4/4 - x*cos(t)/5\"\n[initial]\nq = [\"1/2\"]\np = [\"1/3\"]";
-        let parts = "[problem]\ncoordinates = [\"x\", \"y\"]\nparts = [\"(px^2 + x^2)/2\", \"py^2/2 + x*py/5\", \"x^2*y + y^2/2 - y^3/3\"]\n[initial]\nq = [\"1/5\", \"1/7\"]\np = [\"1/10\", \"1/3\"]";
-        let chain = "[problem]\npair = \"d^2/2 + d^4/4\"\nneighbours = \"fixed\"\nbodies = 3\n[initial]\nq = [0, \"1/5\", 0]\np = [\"1/2\", 0, \"1/3\"]";
-        let bodies = "[problem]\npair = \"-m_i*m_j/sqrt(r2 + 1/10)\"\nbodies = { m = [1, 2, \"1/2\"] }\nmasses = [1, 2, \"1/2\"]\ndimensions = 2\n[initial]\nq = [[0, 0], [1, 0], [0, 1]]\np = [[0, \"-1/2\"], [0, 1], [\"1/5\", 0]]";
-        let time = "[problem]\ncoordinates = [\"x\", \"y\"]\npotential = \"-1/sqrt(x^2 + y^2)\"\n[initial]\nq = [1, 0]\np = [0, 1]\n[time]\ntransform = \"power\"\nexponent = \"-1/2\"";
-        let slow = "[problem]\ncoordinates = [\"x\"]\npotential = \"2*x^2\"\nslow = \"x^4/4\"\n[initial]\nq = [\"1/2\"]\np = [\"1/3\"]";
+        let general = "[problem]\ncoordinates = [\"x\"]\nmomenta = [\"p\"]\npotential = \"x^4/4 - cos(x)\"\nkinetic \
+            = \"p^2/2 + p^4/20\"\n[initial]\nq = [\"1/2\"]\np = [\"1/3\"]";
+        let driven = "[problem]\ncoordinates = [\"x\"]\npotential = \"x^4/4 - x*cos(t)/5\"\n[initial]\nq = \
+            [\"1/2\"]\np = [\"1/3\"]";
+        let parts = "[problem]\ncoordinates = [\"x\", \"y\"]\nparts = [\"(px^2 + x^2)/2\", \"py^2/2 + \
+            x*py/5\", \"x^2*y + y^2/2 - y^3/3\"]\n[initial]\nq = [\"1/5\", \"1/7\"]\np = [\"1/10\", \"1/3\"]";
+        let chain = "[problem]\npair = \"d^2/2 + d^4/4\"\nneighbours = \"fixed\"\nbodies = 3\n[initial]\nq = \
+            [0, \"1/5\", 0]\np = [\"1/2\", 0, \"1/3\"]";
+        let bodies = "[problem]\npair = \"-m_i*m_j/sqrt(r2 + 1/10)\"\nbodies = { m = [1, 2, \"1/2\"] }\nmasses = [1, \
+            2, \"1/2\"]\ndimensions = 2\n[initial]\nq = [[0, 0], [1, 0], [0, 1]]\np = [[0, \"-1/2\"], [0, 1], \
+            [\"1/5\", 0]]";
+        let time = "[problem]\ncoordinates = [\"x\", \"y\"]\npotential = \"-1/sqrt(x^2 + y^2)\"\n[initial]\nq = [1, \
+            0]\np = [0, 1]\n[time]\ntransform = \"power\"\nexponent = \"-1/2\"";
+        let slow = "[problem]\ncoordinates = [\"x\"]\npotential = \"2*x^2\"\nslow = \"x^4/4\"\n[initial]\nq = \
+            [\"1/2\"]\np = [\"1/3\"]";
         let planets = |parts: &str, beside: &str| {
             let body = |mass: &str, state: &str| format!("[[body]]\nmass = \"{mass}\"\n{state}\n");
             let bodies = [

@@ -7,7 +7,8 @@ use crate::watch::summary::Summary;
 
 /// Watches a run. `()` watches nothing and never stops it.
 pub trait Observer {
-    /// The run has reached the state n. Between states that it needs one by one it makes many at once, and reports the last.
+    /// The run has reached the state n. Between states that it needs one by one it makes many at once, and reports the
+    /// last.
     fn progress(&mut self, n: i64) {
         let _ = n;
     }
@@ -27,7 +28,8 @@ pub trait Observer {
         let _ = summary;
     }
 
-    /// Whether the run is to stop after its present state; asked at each of the first 256 states, then some hundred times a second.
+    /// Whether the run is to stop after its present state; asked at each of the first 256 states, then some hundred
+    /// times a second.
     fn stops(&mut self) -> bool {
         false
     }

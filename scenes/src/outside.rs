@@ -1,6 +1,8 @@
-//! The files that a text names lie in its own folder or below: a scene may come from someone else, and is not to write or read elsewhere.
+//! The files that a text names lie in its own folder or below: a scene may come from someone else, and is not to write
+//! or read elsewhere.
 //!
-//! Who runs it can allow other folders, for a process or for a call; what is given as an argument of a program is allowed.
+//! Who runs it can allow other folders, for a process or for a call; what is given as an argument of a program is
+//! allowed.
 
 use std::cell::Cell;
 use std::fs::canonicalize;

@@ -30,7 +30,8 @@ pub struct Posed<'a> {
     pub arithmetic: Arithmetic,
     /// Whether gradient kicks are by displaced forces, which the scheme must [allow](crate::library::check_displaced).
     pub displaced: bool,
-    /// The physical time at which the run ends, where time is transformed: after whole steps up to then it makes one of the exact remainder.
+    /// The physical time at which the run ends, where time is transformed: after whole steps up to then it makes one of
+    /// the exact remainder.
     pub until: Option<&'a Rational>,
     /// The condition that ends the run before, checked for the system.
     pub ends: Option<&'a Condition>,

@@ -90,7 +90,8 @@ impl Propagator {
     }
 }
 
-/// The shipped problem at its initial state, if its exact flow is known at the times of the steps; not in transformed time, whose steps end at others.
+/// The shipped problem at its initial state, if its exact flow is known at the times of the steps; not in transformed
+/// time, whose steps end at others.
 pub(crate) fn with_exact_flow(system: &System) -> Option<Setup> {
     in_ordinary_time(system).filter(|setup| exact_flow::has_exact_flow(setup).is_ok())
 }
@@ -136,8 +137,8 @@ pub fn motion<N: SceneNumber>(setup: &Setup, context: &N::Context) -> ProblemMot
 /// The scheme with steps for a system: for every T(p) or for many parts, where that is needed.
 ///
 /// # Errors
-/// A scheme that is not valid for the system: for quadratic T only where T is not, for two parts, with gradient kicks that it has not, processed
-/// in transformed time.
+/// A scheme that is not valid for the system: for quadratic T only where T is not, for two parts, with gradient kicks
+/// that it has not, processed in transformed time.
 pub fn for_system(named: NamedScheme, system: &System) -> Result<NamedScheme, Error> {
     Ok(system.needs().scheme(named, &Schemes::default())?)
 }

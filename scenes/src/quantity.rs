@@ -1,4 +1,5 @@
-//! Quantities as expressions have them: the kinetic energy and the virial of a system, distances of its bodies, and elements of their orbits.
+//! Quantities as expressions have them: the kinetic energy and the virial of a system, distances of its bodies, and
+//! elements of their orbits.
 
 use std::ops::Range;
 
@@ -43,14 +44,16 @@ pub(crate) const QUANTITIES: [Described; 5] = [
         name: Some((ANGULAR_MOMENTUM, "the angular momentum")),
         calls: &[ANGULAR_MOMENTUM],
         written: "angular_momentum, angular_momentum(z)",
-        meaning: "The angular momentum of all bodies about the origin: x py - y px in a plane, its length in space, and there its component along an axis.",
+        meaning: "The angular momentum of all bodies about the origin: x py - y px in a plane, its length in space, \
+            and there its component along an axis.",
     },
     Described {
         function: Function::Element(Element::SemiMajorAxis),
         name: None,
         calls: &[],
         written: "a(earth), e, i, node, pericentre, M, lambda",
-        meaning: "An element of a body's osculating orbit, angles in degrees: about the first body, e(earth); another one, a(moon, earth); the bodies \
+        meaning: "An element of a body's osculating orbit, angles in degrees: about the first body, e(earth); another \
+            one, a(moon, earth); the bodies \
                   before, i(earth, jacobi); or all, M(earth, barycentre).",
     },
 ];
@@ -85,7 +88,8 @@ pub(crate) const ELEMENTS: [(&str, Element); 7] = [
     ("lambda", Element::MeanLongitude),
 ];
 
-/// A name or a function call in an expression, as written: `kinetic`, `distance(earth, moon)`, `e(earth)`, `a(earth, jacobi)`.
+/// A name or a function call in an expression, as written: `kinetic`, `distance(earth, moon)`, `e(earth)`,
+/// `a(earth, jacobi)`.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Quantity {
     pub(crate) function: Function,

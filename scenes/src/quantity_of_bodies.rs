@@ -1,4 +1,5 @@
-//! Quantities of bodies in the numbers of a run: the kinetic energy and the virial of all, those by a formula, and the elements of osculating Kepler orbits.
+//! Quantities of bodies in the numbers of a run: the kinetic energy and the virial of all, those by a formula, and the
+//! elements of osculating Kepler orbits.
 
 mod by_formula;
 mod orbit;
@@ -20,8 +21,8 @@ use crate::scene::{GRAVITY, PotentialEnergy, SceneNumber, System};
 pub(crate) const JACOBI: &str = "jacobi";
 pub(crate) const BARYCENTRE: &str = "barycentre";
 
-/// The elements of every body about a centre, as names of columns with formulas: those of the first body about the barycentre only, and those of
-/// a plane without `i` and `node`; none without bodies.
+/// The elements of every body about a centre, as names of columns with formulas: those of the first body about the
+/// barycentre only, and those of a plane without `i` and `node`; none without bodies.
 pub(crate) fn elements_of(system: &System, centre: Option<&str>) -> Vec<(String, String)> {
     let Some(bodies) = Bodies::of(system) else { return Vec::new() };
     // the name of the first body, unless it could be another centre
@@ -254,7 +255,8 @@ mod tests {
     fn bodies(parts: &str, elements: &str) -> String {
         let body = |[a, e, i, node, pericentre, anomaly]: &[&str; 6]| {
             format!(
-                "[[body]]\nmass = 0.001\na = {a}\ne = {e}\ni = {i}\nnode = {node}\npericentre = {pericentre}\nM = {anomaly}\n"
+                "[[body]]\nmass = 0.001\na = {a}\ne = {e}\ni = {i}\nnode = {node}\npericentre = {pericentre}\nM = \
+                    {anomaly}\n"
             )
         };
         let planets: String = ORBITS.iter().map(body).collect();
@@ -288,7 +290,8 @@ mod tests {
 
     #[test]
     fn longitudes_and_the_barycentre_are_those_of_their_formulas() {
-        let values = "values = { l = \"lambda(5) - node(5) - pericentre(5) - M(5)\", o = \"a(1, barycentre)\", d = \"distance(1, 2)\" }\ntrajectory = true";
+        let values = "values = { l = \"lambda(5) - node(5) - pericentre(5) - M(5)\", o = \"a(1, barycentre)\", d \
+            = \"distance(1, 2)\" }\ntrajectory = true";
         let row = row(&scene(&bodies("parts = \"wisdom-holman\"", ""), values).unwrap(), 1);
         let value = |name: &str| {
             let cell = &row.iter().find(|(found, _)| found == name).unwrap().1;

@@ -152,7 +152,8 @@ pub(crate) fn read(source: &Source, document: &DeTable<'_>, names: &Names<'_>) -
     }
 }
 
-/// Whether a scene has what takes long to read: formulas of a modified Hamiltonian, a file of particles, the proof of a table.
+/// Whether a scene has what takes long to read: formulas of a modified Hamiltonian, a file of particles, the proof of a
+/// table.
 fn takes_long(document: &DeTable<'_>) -> bool {
     let value = |section: &str, key: &str| document.get(section)?.get_ref().as_table()?.get(key);
     let has_table = value("run", "scheme").and_then(|word| word.get_ref().as_str()).is_some_and(run::is_table);
@@ -199,8 +200,8 @@ pub fn source(path: &Path) -> Result<Source, Error> {
 }
 
 impl System {
-    /// Reads the sections \[problem\] and \[initial\] of a scene, whatever the others are; values are exact, and computed to the
-    /// digits of a run in this arithmetic. The notes are what the user should know of it.
+    /// Reads the sections \[problem\] and \[initial\] of a scene, whatever the others are; values are exact, and
+    /// computed to the digits of a run in this arithmetic. The notes are what the user should know of it.
     ///
     /// # Errors
     /// All faults of these sections, each with its place.
@@ -244,8 +245,8 @@ impl System {
 }
 
 impl InitialValueProblem {
-    /// q and p at t = 0 of a document that has the problem of this one, with these names in the numbers of \[initial\]; `None` if they have
-    /// a fault, or depend on more than the problem.
+    /// q and p at t = 0 of a document that has the problem of this one, with these names in the numbers of \[initial\];
+    /// `None` if they have a fault, or depend on more than the problem.
     pub(crate) fn read_state(
         &self,
         source: &Source,
@@ -315,7 +316,8 @@ fn sections(
     Some((system?, steps?, output?))
 }
 
-/// Refuses the section of an ensemble where there is to be one scene, and nothing else: its numbers contain names without values.
+/// Refuses the section of an ensemble where there is to be one scene, and nothing else: its numbers contain names
+/// without values.
 fn refuse_ensemble(source: &Source, root: &DeTable<'_>, others: &[&str]) -> Result<(), Faults> {
     match root.get_key_value(ENSEMBLE.name()).filter(|_| !others.contains(&ENSEMBLE.name())) {
         Some((key, _)) => {
@@ -373,7 +375,8 @@ mod tests {
     fn faults_of_other_keys_come_before_what_takes_long() {
         let scene = |problem: &str, scheme: &str, step: &str, output: &str| {
             faults(&format!(
-                "[problem]\n{problem}\n[run]\nscheme = \"{scheme}\"\nstep = {step}\nsteps = 10\ndigits = \"double\"\n[output]\n{output}"
+                "[problem]\n{problem}\n[run]\nscheme = \"{scheme}\"\nstep = {step}\nsteps = 10\ndigits \
+                    = \"double\"\n[output]\n{output}"
             ))
         };
         let solar = "name = \"outer-solar-system\"";
@@ -393,7 +396,8 @@ mod tests {
         }
         let table = scene("name = \"kepler\"", "none.toml", "1", "energi = true\nenergy = true");
         assert_eq!(table, ["9:1: unknown key `energi`"]);
-        let bodies = "particles = \"none.csv\"\nparameters = { g = 1 }\n[[body]]\nmass = 1\n[[body]]\nmass = 1\nq = [1, 0]\nv = [0, 1]";
+        let bodies = "particles = \"none.csv\"\nparameters = { g = 1 }\n[[body]]\nmass = 1\n[[body]]\nmass = 1\nq = \
+            [1, 0]\nv = [0, 1]";
         let particles = scene(bodies, "saba4", "1", "energi = true\nenergy = true");
         assert_eq!(particles, ["16:1: unknown key `energi`"]);
     }

@@ -1,4 +1,5 @@
-//! Names with a meaning of their own: in formulas of columns and conditions, as columns, and in the languages of emitted code.
+//! Names with a meaning of their own: in formulas of columns and conditions, as columns, and in the languages of
+//! emitted code.
 
 use crate::expression::{ENERGY, TIME};
 use crate::quantity::QUANTITIES;
@@ -24,7 +25,8 @@ pub enum Language {
 }
 
 impl Language {
-    /// The names that code cannot give to what is of a problem or a scheme: keywords, what the language predefines, and what the emitted function uses.
+    /// The names that code cannot give to what is of a problem or a scheme: keywords, what the language predefines, and
+    /// what the emitted function uses.
     pub fn reserved(self) -> &'static [&'static str] {
         match self {
             Language::Python => &PYTHON,
@@ -60,7 +62,8 @@ impl Language {
     }
 }
 
-/// Keywords, and the names of the function that [`function`](crate::modified_hamiltonian::record::FormulaRecord::function) writes.
+/// Keywords, and the names of the function that
+/// [`function`](crate::modified_hamiltonian::record::FormulaRecord::function) writes.
 const PYTHON: [&str; 39] = [
     "False",
     "None",
@@ -166,7 +169,8 @@ const RUST: [&str; 59] = [
     "total",
 ];
 
-/// Modules and types of `Base` that a module of one word could hide; keywords begin with a small letter, and modules do not.
+/// Modules and types of `Base` that a module of one word could hide; keywords begin with a small letter, and modules do
+/// not.
 const JULIA: [&str; 51] = [
     "Any",
     "Array",
@@ -229,7 +233,8 @@ mod tests {
 
     fn read(problem: &str, run: &str, output: &str) -> Result<Scene, String> {
         let text = format!(
-            "[problem]\n{problem}\n[initial]\nq = [1]\np = [0]\n[run]\nscheme = \"yoshida4\"\nstep = 0.1\n{run}\ndigits = \"double\"\n[output]\n{output}"
+            "[problem]\n{problem}\n[initial]\nq = [1]\np = [0]\n[run]\nscheme = \"yoshida4\"\nstep = \
+                0.1\n{run}\ndigits = \"double\"\n[output]\n{output}"
         );
         let source = Source { path: "test.toml".to_owned(), text };
         Scene::read(source).map_err(|Faults(faults)| {

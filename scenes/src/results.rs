@@ -1,4 +1,5 @@
-//! What a run writes: a head and rows, to a writer, to a file that is complete or absent, or to one that can be resumed.
+//! What a run writes: a head and rows, to a writer, to a file that is complete or absent, or to one that can be
+//! resumed.
 
 mod checkpoint;
 mod functions;

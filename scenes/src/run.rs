@@ -37,8 +37,8 @@ pub struct OrderSetting {
     pub value: u32,
 }
 
-/// n h where both parts of the fraction are doubles without rounding, so that their quotient is rounded once: a run that keeps each state takes a
-/// third less time than with fractions.
+/// n h where both parts of the fraction are doubles without rounding, so that their quotient is rounded once: a run
+/// that keeps each state takes a third less time than with fractions.
 fn double_multiple(h: &Rational, n: i64) -> Option<f64> {
     const EXACT: i64 = 1 << f64::MANTISSA_DIGITS;
     let is_exact = |x: &i64| (-EXACT..=EXACT).contains(x);

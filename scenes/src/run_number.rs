@@ -1,4 +1,5 @@
-//! What follows a run, in the number types of runs. It is compiled in this crate, once for each, and not again in every crate that uses it.
+//! What follows a run, in the number types of runs. It is compiled in this crate, once for each, and not again in every
+//! crate that uses it.
 
 use shadowstep::number::saved::Saved;
 use shadowstep::shadow::run::RunError;
@@ -24,7 +25,8 @@ pub trait RunNumber: SceneNumber {
         context: &Self::Context,
     ) -> Result<Box<dyn Estimator<Self>>, EstimatorError>;
 
-    /// A monitor by E_k with its error, with a window every `every` steps. With more digits than its verdict needs, the estimates have fewer.
+    /// A monitor by E_k with its error, with a window every `every` steps. With more digits than its verdict needs, the
+    /// estimates have fewer.
     ///
     /// # Errors
     /// As [`Monitor::new`].
@@ -35,8 +37,9 @@ pub trait RunNumber: SceneNumber {
     ) -> Result<Box<dyn Monitoring<Self>>, RunError>;
 }
 
-/// The most bits of the estimates of a monitor: 327 digits, more than which only MPFR's numbers have. A verdict compares changes of the modified
-/// energy with the error of H, and schemes have none that is as small; the estimated errors include the round-off of the estimates.
+/// The most bits of the estimates of a monitor: 327 digits, more than which only MPFR's numbers have. A verdict
+/// compares changes of the modified energy with the error of H, and schemes have none that is as small; the estimated
+/// errors include the round-off of the estimates.
 const BITS_OF_VERDICT: u32 = 17 * 64;
 
 /// An estimator for a verdict, which computes in at most [`BITS_OF_VERDICT`].

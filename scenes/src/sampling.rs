@@ -50,7 +50,8 @@ pub struct SamplingRecord {
 }
 
 impl SamplingTarget {
-    /// A Gaussian with trajectories of this length, by default [a quarter of its slowest period](Gaussian::quarter_period).
+    /// A Gaussian with trajectories of this length, by default
+    /// [a quarter of its slowest period](Gaussian::quarter_period).
     ///
     /// # Errors
     /// A time that is not positive, an acceptance that is not between 0 and 1, no steps.

@@ -55,7 +55,8 @@ pub struct Scene {
     pub displaced: bool,
     /// The step size h.
     pub h: StepSize,
-    /// The time at which the run ends, at the latest; `None` where time is transformed and the number of steps is given.
+    /// The time at which the run ends, at the latest; `None` where time is transformed and the number of steps is
+    /// given.
     pub until: Option<Rational>,
     /// The place of the value of `until` or `steps` in the text.
     pub(crate) end_at: Range<usize>,

@@ -1,4 +1,5 @@
-//! What a document can contain, as data: a row for each key. Reading, explanations, completion and the JSON Schema are made from the rows.
+//! What a document can contain, as data: a row for each key. Reading, explanations, completion and the JSON Schema are
+//! made from the rows.
 
 mod check;
 mod json;
@@ -16,7 +17,8 @@ pub use table::{Table, texts};
 /// A section of a document, or a table that is the value of a key.
 #[derive(Clone, Copy, Debug)]
 pub struct Section {
-    /// Its name in brackets: `[output]`, `[[body]]`, `[output.energy]`; something else for the keys before all sections.
+    /// Its name in brackets: `[output]`, `[[body]]`, `[output.energy]`; something else for the keys before all
+    /// sections.
     pub heading: &'static str,
     /// What it is about.
     pub meaning: &'static str,
@@ -30,8 +32,8 @@ pub struct Section {
 
 /// A key of a section.
 ///
-/// What it needs and excludes are keys of its section (`file`), keys of other ones (`initial.q`), keys whose value is a list (`parts[]`), or sections
-/// (`[[body]]`). Of several with `|` between them one is enough.
+/// What it needs and excludes are keys of its section (`file`), keys of other ones (`initial.q`), keys whose value is a
+/// list (`parts[]`), or sections (`[[body]]`). Of several with `|` between them one is enough.
 #[derive(Clone, Copy, Debug)]
 pub struct Key {
     /// Its own name.
@@ -108,7 +110,8 @@ pub const NAME: Kind = Kind::Text("name");
 /// Names.
 pub const NAMES: Kind = Kind::List(&NAME);
 
-/// The rows of a section: `name: kind => example, meaning, else default, needs […], excludes […];`, of which those after the meaning can be left out.
+/// The rows of a section: `name: kind => example, meaning, else default, needs […], excludes […];`, of which those
+/// after the meaning can be left out.
 #[macro_export]
 macro_rules! rows {
     ($($name:ident: $kind:expr => $example:literal, $meaning:literal $(, else $default:literal)? $(, needs [$($need:literal),*])?

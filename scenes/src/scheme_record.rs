@@ -45,7 +45,8 @@ pub struct SchemeRecord {
     stability_limit: Option<String>,
     unstable_gaps: Option<Vec<Gap>>,
     phase_error: Phase,
-    /// The largest expected error of the energy over 0 < hω < evaluations; `None` where it is not known, or not bounded.
+    /// The largest expected error of the energy over 0 < hω < evaluations; `None` where it is not known, or not
+    /// bounded.
     sampling_error: Option<f64>,
     trace: Option<Vec<String>>,
     kick_sizes: Sizes,

@@ -2,7 +2,8 @@
 
 use std::ffi::OsStr;
 
-/// A path or an argument as one word of a POSIX shell: in quotes, where it has characters that the shell reads differently.
+/// A path or an argument as one word of a POSIX shell: in quotes, where it has characters that the shell reads
+/// differently.
 ///
 /// ```
 /// use shadowstep_scenes::shell_word;

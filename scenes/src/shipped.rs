@@ -1,4 +1,5 @@
-//! Shipped scenes: each a file in `scenes/planets/`, `scenes/close-encounters/`, `scenes/many-parts/`, `scenes/schemes/`, `scenes/liquids/` or `scenes/multiple-steps/`.
+//! Shipped scenes: each a file in `scenes/planets/`, `scenes/close-encounters/`, `scenes/many-parts/`,
+//! `scenes/schemes/`, `scenes/liquids/` or `scenes/multiple-steps/`.
 
 use shadowstep::problems::{PROBLEMS, problem};
 use shadowstep_symbolic::suggestion;

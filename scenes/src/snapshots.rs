@@ -44,8 +44,8 @@ pub(crate) struct Snapshots<N> {
 }
 
 impl<N: Real> Snapshots<N> {
-    /// The steps are `reach` + 1 states ahead of an estimate n, at most: of the multiples of `reach` up to there, the last one at or before
-    /// n − reach is one of the newest four.
+    /// The steps are `reach` + 1 states ahead of an estimate n, at most: of the multiples of `reach` up to there, the
+    /// last one at or before n − reach is one of the newest four.
     const KEPT: usize = 4;
 
     /// For estimates that need `reach` states before their own.

@@ -7,8 +7,8 @@ use shadowstep_symbolic::decimal::from_text;
 /// The beginnings of formulas, and blanks that are left out before them; `'` is the mark itself.
 const MARKED: [char; 8] = ['=', '+', '-', '@', '\t', '\r', '\n', '\''];
 
-/// A text as a cell: with `'` before it where a spreadsheet would take it for a formula, and where it begins with `'`, so that who reads cells takes one away.
-/// Numbers stay as they are.
+/// A text as a cell: with `'` before it where a spreadsheet would take it for a formula, and where it begins with `'`,
+/// so that who reads cells takes one away. Numbers stay as they are.
 ///
 /// ```
 /// use shadowstep_scenes::spreadsheet::cell;

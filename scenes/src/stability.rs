@@ -14,8 +14,9 @@ use crate::scene::System;
 /// A trace this far above 2 in size is not due to rounding.
 const ROUNDING: f64 = 1e-9;
 
-/// What is to be noted of steps of size h before a run: that they are unstable at the [fastest frequency](System::fastest_frequency), else few for a revolution of a
-/// planet, else that they are near a resonance.
+/// What is to be noted of steps of size h before a run: that they are unstable at the
+/// [fastest frequency](System::fastest_frequency), else few for a revolution of a planet, else that they are near a
+/// resonance.
 pub fn note_of_steps(
     (system, frequency): (&System, Option<Frequency>),
     named: &NamedScheme,
@@ -40,8 +41,8 @@ fn unstable(frequency: Frequency, named: &NamedScheme, h: &Rational) -> Option<N
     })
 }
 
-/// A note if the fastest oscillation of fast forces and T is beyond the first resonance with the slow kicks of multiple time steps, for slow forces of a
-/// hundredth of its stiffness.
+/// A note if the fastest oscillation of fast forces and T is beyond the first resonance with the slow kicks of multiple
+/// time steps, for slow forces of a hundredth of its stiffness.
 pub(crate) fn resonant(system: &System, named: &NamedScheme, h: &Rational) -> Option<Note> {
     system.parts.slow_forces()?;
     let first = resonances(named.scheme.proved(), &Rational::new(1.into(), 100.into()))?.limit;
@@ -56,8 +57,8 @@ pub(crate) fn resonant(system: &System, named: &NamedScheme, h: &Rational) -> Op
     })
 }
 
-/// A revolution of a planet should have this number of kicks: with fewer, resonances of low order between the step size and the orbits are near
-/// (J. Wisdom and M. Holman, Astron. J. 104 (1992) 2022).
+/// A revolution of a planet should have this number of kicks: with fewer, resonances of low order between the step size
+/// and the orbits are near (J. Wisdom and M. Holman, Astron. J. 104 (1992) 2022).
 const LEAST_KICKS: f64 = 10.0;
 
 /// A note if a planet has few kicks in a revolution of its Kepler orbit at the start.

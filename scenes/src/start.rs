@@ -18,7 +18,8 @@ pub struct Steps<'a> {
     pub h: &'a StepSize,
     /// Whether q and p are sums with remainders.
     pub compensated: bool,
-    /// Whether gradient kicks are by displaced forces, which the scheme must allow: see [`shadowstep::systems::displaced`].
+    /// Whether gradient kicks are by displaced forces, which the scheme must allow: see
+    /// [`shadowstep::systems::displaced`].
     pub displaced: bool,
     /// At which state they begin.
     pub begin: Begin,
@@ -33,9 +34,11 @@ pub enum Begin {
     Step,
 }
 
-/// A system with its stepper, whatever the kind of split and the scheme: what follows a run is compiled once for each number type.
+/// A system with its stepper, whatever the kind of split and the scheme: what follows a run is compiled once for each
+/// number type.
 ///
-/// For a processed scheme the system is at a state of its kernel: see [`at_output`](shadowstep::steps::integrator::at_output).
+/// For a processed scheme the system is at a state of its kernel: see
+/// [`at_output`](shadowstep::steps::integrator::at_output).
 pub type SceneIntegrator<N> = Box<VectorIntegrator<'static, N>>;
 
 /// The class of the system was known when the scheme was read.

@@ -33,7 +33,8 @@ pub enum StepsError {
         /// The time.
         until: String,
     },
-    /// Of steps of a fictitious time more than [`MOST_STEPS`], even if physical time runs a million times as fast as at the start.
+    /// Of steps of a fictitious time more than [`MOST_STEPS`], even if physical time runs a million times as fast as at
+    /// the start.
     #[error("steps of {h} until {until} are {count} steps at the rate of physical time at the start")]
     TooSlow {
         /// The step size.
@@ -127,8 +128,9 @@ pub fn count((h, step): (&StepSize, &str), (until, end): (&Rational, &str)) -> R
 /// How many times as fast as at the start physical time may run on the whole, from s.
 const FASTEST: f64 = 1e6;
 
-/// Whether a run with steps of a fictitious time can end at this physical time: the signs must agree, as time grows with s, and the steps must not be far too many at
-/// the [rate](crate::System::rate_at_start) dt/ds of the start, where it is known.
+/// Whether a run with steps of a fictitious time can end at this physical time: the signs must agree, as time grows
+/// with s, and the steps must not be far too many at the [rate](crate::System::rate_at_start) dt/ds of the start, where
+/// it is known.
 ///
 /// # Errors
 /// A time of 0, different signs, a time that is too far away.

@@ -27,7 +27,8 @@ pub trait TangentRun {
     /// The physical time of the present state, where time is transformed.
     fn time(&self) -> Option<f64>;
 
-    /// How vectors grew, in their order; of vectors that are made orthonormal the fastest first: [`Tangents::spectrum`].
+    /// How vectors grew, in their order; of vectors that are made orthonormal the fastest first:
+    /// [`Tangents::spectrum`].
     fn growths(&self) -> Vec<&Growth>;
 
     /// [`Tangents::sali`] of two vectors and more that evolve freely.
@@ -46,7 +47,8 @@ trait ResumableRun: TangentRun {
     fn restore(&mut self, saved: &[SavedVector]) -> bool;
 }
 
-/// The number of steps after which free vectors are separated, however rarely they are measured: they grow by less than 10⁶ meanwhile at most step sizes.
+/// The number of steps after which free vectors are separated, however rarely they are measured: they grow by less than
+/// 10⁶ meanwhile at most step sizes.
 const SEPARATED_EVERY: u64 = 4;
 
 /// The number of vectors of which rows have indicators.
@@ -109,8 +111,8 @@ impl FollowingVectors {
     /// Vectors beside the steps of a system from t = 0, measured every `every` steps.
     ///
     /// # Errors
-    /// A potential that the caller computes, whose second derivatives are not known; more digits than numbers of limbs have; more vectors than a state has
-    /// components; a start where the flows have no derivatives.
+    /// A potential that the caller computes, whose second derivatives are not known; more digits than numbers of limbs
+    /// have; more vectors than a state has components; a start where the flows have no derivatives.
     pub fn new(
         arithmetic: Arithmetic,
         system: &System,
@@ -171,7 +173,8 @@ pub enum Vectors {
 impl Arithmetic {
     /// Makes a computation with a tangent vector, of dual numbers.
     ///
-    /// States have the bits of a run, in double precision and in numbers of limbs; runs in other numbers are followed in numbers of at least as many limbs.
+    /// States have the bits of a run, in double precision and in numbers of limbs; runs in other numbers are followed
+    /// in numbers of at least as many limbs.
     ///
     /// # Errors
     /// More digits than numbers of limbs have.
@@ -206,7 +209,8 @@ pub(crate) trait WithDerivatives {
         Dual<N>: SceneNumber<Context = N::Context>;
 }
 
-/// The system at its first state with vectors, each beside states of its own. Their directions are always the same ones, and none of them is special.
+/// The system at its first state with vectors, each beside states of its own. Their directions are always the same
+/// ones, and none of them is special.
 struct Begun<'a> {
     system: &'a System,
     steps: Steps<'a>,
@@ -261,7 +265,8 @@ where
     system.integrator(steps, (q, p), context)
 }
 
-/// The components of the vector k along these coordinates, the first of which has the number `first`, with these scales.
+/// The components of the vector k along these coordinates, the first of which has the number `first`, with these
+/// scales.
 fn point<N: CorrectlyRounded>(
     coordinates: &mut [Dual<N>],
     k: usize,
@@ -275,7 +280,8 @@ fn point<N: CorrectlyRounded>(
     }
 }
 
-/// Components of the size of the largest coordinate, in units of their scales: fractional parts of multiples of irrational numbers, minus ½.
+/// Components of the size of the largest coordinate, in units of their scales: fractional parts of multiples of
+/// irrational numbers, minus ½.
 pub(crate) fn components(coordinates: &[f64], k: usize, (first, scales): (usize, &[f64])) -> Vec<f64> {
     let in_scales =
         coordinates.iter().zip(scales).filter(|(_, scale)| **scale > 0.0).map(|(x, scale)| (x / scale).abs());
@@ -393,7 +399,8 @@ fn set_state<N: CorrectlyRounded>(integrator: &mut SceneIntegrator<Dual<N>>, sav
 
 #[cfg(test)]
 mod tests {
-    //! Protects the derivatives of all kinds of systems: beside differences of nearby trajectories with 57 digits, and in double precision beside those.
+    //! Protects the derivatives of all kinds of systems: beside differences of nearby trajectories with 57 digits, and
+    //! in double precision beside those.
 
     use shadowstep::number::Number;
     use shadowstep::tables::Source;
@@ -487,13 +494,21 @@ mod tests {
             ("kinetic", format!("{formula}kinetic = \"sqrt(1 + px^2 + py^2)\"\n{initial}"), "yoshida4"),
             (
                 "a cutoff in a box",
-                "[problem]\npair = \"1/r2^6 - 1/r2^3\"\nbodies = 5\ndimensions = 3\nbox = 8\ncutoff = { at = 3, from = 2, derivatives = 3 }\n\
-                 [initial]\nq = [[0,0,0],[1,\"1/3\",0],[\"5/2\",0,1],[0,7,\"15/2\"],[3,3,3]]\np = [[0,0,0],[1,0,0],[0,0,1],[0,0,0],[0,1,0]]\n"
+                "[problem]\npair = \"1/r2^6 - 1/r2^3\"\nbodies = 5\ndimensions = 3\nbox = 8\ncutoff = { at = 3, from \
+                    = 2, derivatives = 3 }\n\
+                 [initial]\nq = [[0,0,0],[1,\"1/3\",0],[\"5/2\",0,1],[0,7,\"15/2\"],[3,3,3]]\np = \
+                 [[0,0,0],[1,0,0],[0,0,1],[0,0,0],[0,1,0]]\n"
                     .to_owned(),
                 "yoshida4",
             ),
             ("springs", "[problem]\nname = \"fput-alpha\"\n".to_owned(), "blanes-moan-srkn6b"),
-            ("the power of time", "[problem]\nname = \"kepler\"\n[time]\ntransform = \"power\"\nexponent = \"-1/2\"\n".to_owned(), "yoshida4"),
+            (
+                "the power of time",
+                "[problem]\nname = \"kepler\"\n[time]\ntransform = \"power\"\nexponent \
+                = \"-1/2\"\n"
+                    .to_owned(),
+                "yoshida4",
+            ),
         ] {
             check(name, format!("{problem}{}", run.replace("SCHEME", scheme)));
         }

@@ -45,7 +45,8 @@ pub enum Energies {
     All,
     /// Those of the states that the monitor looks at, and that of the last state.
     Windows,
-    /// Those that the run gives, of the states whose n is a multiple of this number, and those between that the monitor looks at.
+    /// Those that the run gives, of the states whose n is a multiple of this number, and those between that the monitor
+    /// looks at.
     Given(u64),
 }
 
@@ -85,7 +86,8 @@ pub struct Watch<N: RunNumber> {
 }
 
 struct Observed<N: RunNumber> {
-    /// Of a run whose number of steps is not known several, with windows at larger and larger distances; the first one has the closest.
+    /// Of a run whose number of steps is not known several, with windows at larger and larger distances; the first one
+    /// has the closest.
     monitors: Vec<Spaced<N>>,
     /// Of all monitors: the states that pass unobserved, and those of them that are still to come.
     pass: u64,
@@ -100,8 +102,9 @@ struct Spaced<N: RunNumber> {
     every: u64,
 }
 
-/// The distances of windows in a run whose number of steps is not known, whatever its end is, so that it can be prolonged: at each a monitor sees twice as many
-/// windows as wanted, at most, and one of them has at least half as many, wherever the run ends.
+/// The distances of windows in a run whose number of steps is not known, whatever its end is, so that it can be
+/// prolonged: at each a monitor sees twice as many windows as wanted, at most, and one of them has at least half as
+/// many, wherever the run ends.
 fn distances(windows: u64) -> impl Iterator<Item = u64> {
     const RATIO: u64 = 4;
     std::iter::successors(Some(1), move |every| Some(every * RATIO).filter(|every| *every <= MOST_STEPS / windows))
@@ -151,7 +154,8 @@ impl<N: RunNumber> Visitor<N> for Watch<N> {
     }
 }
 
-/// All that the states so far have left: one that was begun anew on the same run, or on a longer one, goes on from it with the same bits.
+/// All that the states so far have left: one that was begun anew on the same run, or on a longer one, goes on from it
+/// with the same bits.
 impl<N: RunNumber> Saved<N> for Watch<N> {
     fn fields(&mut self, to: &mut dyn Fields<N>) {
         self.energy.fields(to);
@@ -168,8 +172,8 @@ impl<N: RunNumber> Saved<N> for Watch<N> {
 }
 
 impl<N: RunNumber> Watch<N> {
-    /// Begins at the system's present state, which is number `from` of the run; `initial` is H at t = 0. `is_open` is whether something else may end the run
-    /// before its last step.
+    /// Begins at the system's present state, which is number `from` of the run; `initial` is H at t = 0. `is_open` is
+    /// whether something else may end the run before its last step.
     ///
     /// # Errors
     /// A state or an energy that is not finite.
@@ -187,7 +191,8 @@ impl<N: RunNumber> Watch<N> {
             let distances = if is_open { distances(run.windows).collect() } else { vec![every] };
             let spaced = |every| Ok(Spaced { monitor: N::monitor(integrator, MONITOR_ORDER, every)?, every });
             let monitors = distances.into_iter().map(spaced).collect::<Result<Vec<_>, RunError>>()?;
-            // it has refused the state of the steps, which is that of the trajectory unless the scheme is a processed one
+            // it has refused the state of the steps, which is that of the trajectory unless the scheme is a processed
+            // one
             if !initial.is_finite() {
                 let value = NotFinite { quantity: Quantity::Energy, value: initial.to_text() };
                 return Err(RunError::NotFinite { step: 0, value });
@@ -257,8 +262,8 @@ impl<N: RunNumber> Watch<N> {
         }
     }
 
-    /// Takes the state n, which a step has made: the one after the last one that it took. Of a processed scheme, the monitor and encounters
-    /// follow the kernel; H is that of the trajectory.
+    /// Takes the state n, which a step has made: the one after the last one that it took. Of a processed scheme, the
+    /// monitor and encounters follow the kernel; H is that of the trajectory.
     pub fn include(&mut self, n: i64, integrator: &mut VectorIntegrator<'_, N>) {
         self.n = n;
         if self.energies == Energies::All {
@@ -397,7 +402,8 @@ fn may_have_been_missed(verdict: Verdict) -> bool {
     matches!(verdict, Verdict::Bounded | Verdict::Undecided(Missing::Resolution))
 }
 
-/// Judges what the windows show by max − min of H over all states at which it was computed; a reason where they then decide nothing.
+/// Judges what the windows show by max − min of H over all states at which it was computed; a reason where they then
+/// decide nothing.
 fn judge_by_all<N: Real>(report: &mut Report<N>, range: f64) -> Option<String> {
     if !range.is_finite() || range <= report.energy_error.to_f64() {
         return None;
@@ -438,8 +444,8 @@ fn changes<N: Real>(report: &Report<N>, verdict: Verdict) -> bool {
     }
 }
 
-/// The verdict of the monitor with its reason. Of a run that is too short for it, one on the error of H; of one that loses the energy after the
-/// monitor's last window, one on the error at the end.
+/// The verdict of the monitor with its reason. Of a run that is too short for it, one on the error of H; of one that
+/// loses the energy after the monitor's last window, one on the error at the end.
 fn conclusion<N: Real>(report: &Report<N>, [largest, last]: [f64; 2], transformed: bool) -> (Verdict, String) {
     let is_large = |part: f64| part.is_finite() && part >= KINETIC_LIMIT;
     // one with a lost coordinate is a verdict on an energy that is bounded in the windows
@@ -485,7 +491,8 @@ mod tests {
     fn summary(end: &str, digits: &str) -> Summary {
         let text = format!(
             "problem.name = \"henon-heiles\"\ninitial = {{ q = [0, \"7/10\"], p = [\"9/10\", 0] }}\n\
-             run = {{ scheme = \"yoshida4\", step = \"1/10\", until = 1000, end = \"{end}\", digits = \"{digits}\" }}\noutput.energy = true"
+             run = {{ scheme = \"yoshida4\", step = \"1/10\", until = 1000, end = \"{end}\", digits = \"{digits}\" \
+             }}\noutput.energy = true"
         );
         summary_of(text)
     }
@@ -496,7 +503,8 @@ mod tests {
         let percent = |every: u32| {
             let found = summary_of(format!(
                 "problem.name = \"pendulum\"\ninitial = {{ q = [3], p = [0] }}\n\
-                 run = {{ scheme = \"stormer-verlet\", step = \"1/2\", until = 20000, digits = \"double\" }}\noutput.energy.every = {every}"
+                 run = {{ scheme = \"stormer-verlet\", step = \"1/2\", until = 20000, digits = \"double\" \
+                 }}\noutput.energy.every = {every}"
             ));
             let (_, after) = found.conclusion.split_once("the energy error is ").expect("bounded");
             after.split_once(" % of T").expect("above a thousandth").0.parse::<f64>().unwrap()
@@ -524,13 +532,14 @@ mod tests {
     fn planets(parts: &str, bodies: &str, run: &str, rows: &str) -> Summary {
         let text = format!(
             "problem = {{ {parts}, units = {{ length = \"AU\", time = \"year\", mass = \"solar\" }} }}\n\
-             body = [{{ mass = 1 }}, {bodies}]\nrun = {{ scheme = \"stormer-verlet\", {run}, digits = \"double\" }}\noutput.energy = {rows}"
+             body = [{{ mass = 1 }}, {bodies}]\nrun = {{ scheme = \"stormer-verlet\", {run}, digits = \"double\" \
+             }}\noutput.energy = {rows}"
         );
         summary_of(text)
     }
 
-    /// Planets with steps of many revolutions: one is thrown out after 34 of 5000 steps, before the third window of the monitor. Then two that meet
-    /// after 25 of 5000.
+    /// Planets with steps of many revolutions: one is thrown out after 34 of 5000 steps, before the third window of the
+    /// monitor. Then two that meet after 25 of 5000.
     #[test]
     fn an_energy_that_changes_before_the_windows_is_not_bounded() {
         let thrown = "{ mass = 1e-3, a = 5.2, e = 0.05 }, { mass = 3e-4, a = 9.5, M = 100 }";
@@ -543,7 +552,8 @@ mod tests {
         }
     }
 
-    /// The attraction of planets that come near goes from kicks to drifts, within as few steps as there are in the shell.
+    /// The attraction of planets that come near goes from kicks to drifts, within as few steps as there are in the
+    /// shell.
     #[test]
     fn shells_with_too_few_steps_are_not_forces_that_are_not_smooth() {
         let parts = "parts = \"wisdom-holman-heliocentric\", encounters = { within = 0.2 }";
@@ -563,8 +573,8 @@ mod tests {
         assert!(found.is_bounded() && !found.reason().contains("may be lost"), "{found}");
     }
 
-    /// H − H̄ is printed where it is known: not of a binary whose pericentres are so close that H̄ is known less well than H, but on a circle, where H is
-    /// constant and H̄ another number.
+    /// H − H̄ is printed where it is known: not of a binary whose pericentres are so close that H̄ is known less well
+    /// than H, but on a circle, where H is constant and H̄ another number.
     #[test]
     fn the_methods_part_is_no_number_where_h_is_known_better() {
         let number = |text: &str| text.parse::<f64>().unwrap();
@@ -584,18 +594,21 @@ mod tests {
              run = { scheme = \"stormer-verlet\", step = \"1/20\", until = 300, digits = \"double\" }\noutput.energy = true"
                 .to_owned(),
         );
-        // where T, its Poisson bracket with U and r are 1/2, 0 and 1, H̄ − H is h²/24 |U_q|² or −h²/12 pᵀU_qq p but for h⁴
+        // where T, its Poisson bracket with U and r are 1/2, 0 and 1, H̄ − H is h²/24 |U_q|² or −h²/12 pᵀU_qq p but for
+        // h⁴
         let method = number(circle.modified_energy().unwrap().method.as_ref().unwrap());
         assert!((method / (1.0 / 400.0 / 24.0) - 1.0).abs() < 1e-2, "{circle}");
         assert!(number(&circle.energy().largest) < method / 10.0, "{circle}");
     }
 
-    /// Kepler orbits whose pericentre is in no window: what windows take for a permanent change, or for round-off, is little of the error of H.
+    /// Kepler orbits whose pericentre is in no window: what windows take for a permanent change, or for round-off, is
+    /// little of the error of H.
     #[test]
     fn what_windows_miss_is_not_decided_by_them() {
         let kepler = |q: &str, p: &str, run: &str| {
             let text = format!(
-                "problem = {{ potential = \"-1/sqrt(x^2 + y^2)\", coordinates = [\"x\", \"y\"] }}\ninitial = {{ q = {q}, p = {p} }}\n\
+                "problem = {{ potential = \"-1/sqrt(x^2 + y^2)\", coordinates = [\"x\", \"y\"] }}\ninitial = {{ q = \
+                    {q}, p = {p} }}\n\
                  run = {{ {run}, digits = \"double\" }}\noutput.energy = true"
             );
             summary_of(text)

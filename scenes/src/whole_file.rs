@@ -22,11 +22,13 @@ const DIGITS: usize = 16;
 /// How often two processes that begin at the same moment try again.
 const TRIES: u32 = 4;
 
-/// A file under a temporary name, `FILE.`*random number*`.shadowstep-partial`, which is removed unless the file is finished.
+/// A file under a temporary name, `FILE.`*random number*`.shadowstep-partial`, which is removed unless the file is
+/// finished.
 ///
-/// One process writes it at a time. The temporary file is a new one, whose name no one knows before, so that nothing that lies in the
-/// folder is opened; what a process that was killed has left of the file is removed. Where the name is a symbolic link to another name in its
-/// folder or below, the file that it leads to is written. The file is on the disk before it has its name.
+/// One process writes it at a time. The temporary file is a new one, whose name no one knows before, so that nothing
+/// that lies in the folder is opened; what a process that was killed has left of the file is removed. Where the name is
+/// a symbolic link to another name in its folder or below, the file that it leads to is written. The file is on the
+/// disk before it has its name.
 ///
 /// ```
 /// use std::io::Write;
@@ -51,8 +53,8 @@ pub struct WholeFile {
 }
 
 impl WholeFile {
-    /// Creates the temporary file beside `path`, where no file may be yet. In messages, `named` is the flag or key that gives the
-    /// path.
+    /// Creates the temporary file beside `path`, where no file may be yet. In messages, `named` is the flag or key that
+    /// gives the path.
     ///
     /// # Errors
     /// As [`WholeFile::create`]; a file that exists.
@@ -66,7 +68,8 @@ impl WholeFile {
     /// Creates the temporary file beside `path`; a file that is there is replaced by the complete new one.
     ///
     /// # Errors
-    /// A path that is not of a file, a symbolic link out of its folder, a folder that cannot be written, a file that another process is writing.
+    /// A path that is not of a file, a symbolic link out of its folder, a folder that cannot be written, a file that
+    /// another process is writing.
     pub fn create(path: &Path, named: &str) -> Result<Self, Error> {
         let path = destination(path)?;
         // asked once: another process may give the file its name meanwhile

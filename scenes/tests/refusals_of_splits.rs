@@ -6,7 +6,8 @@ use shadowstep_scenes::{Error, Scene};
 
 const HENON_HEILES: &str = "name = \"henon-heiles\"\n";
 const PLANETS: &str = "name = \"outer-solar-system\"\n";
-const FORMULAS: &str = "parts = [\"p^2/2\", \"a*q^4\", \"cos(q)\"]\ncoordinates = [\"q\"]\nmomenta = [\"p\"]\nparameters = { a = 1 }\n[initial]\nq = [1]\np = [0]\n";
+const FORMULAS: &str = "parts = [\"p^2/2\", \"a*q^4\", \"cos(q)\"]\ncoordinates = [\"q\"]\nmomenta = \
+    [\"p\"]\nparameters = { a = 1 }\n[initial]\nq = [1]\np = [0]\n";
 const LOGARITHMIC: &str = "name = \"kepler\"\n[time]\ntransform = \"logarithmic\"\n";
 
 fn source(problem: &str, digits: &str, more: &str) -> Source {

@@ -153,7 +153,8 @@ pub(crate) fn texts(names: &[Ident]) -> Vec<String> {
 }
 
 impl Definition {
-    /// Refuses a parameter that is not in the formula. After other faults: a name that is unknown there may be meant for it.
+    /// Refuses a parameter that is not in the formula. After other faults: a name that is unknown there may be meant
+    /// for it.
     pub(crate) fn check_parameters(&self) -> syn::Result<()> {
         let Some(name) = &self.unused else { return Ok(()) };
         Err(syn::Error::new(name.span(), format!("`{name}` is not in the formula; remove the parameter, or use it")))

@@ -281,20 +281,23 @@ fn documentation(proved: &Proved) -> Vec<String> {
     let doi = table.doi.as_ref().map_or(String::new(), |doi| format!(", <https://doi.org/{doi}>"));
     let costs = match (plan.middle.len(), &proved.scheme.inner) {
         (1.., Some(inner)) => format!(
-            " - Multiple time steps: a step evaluates the slow forces H_1 {} and the fast ones H_2 {}, in {} of `{}` for each drift of the outer scheme.",
+            " - Multiple time steps: a step evaluates the slow forces H_1 {} and the fast ones H_2 {}, in {} of `{}` \
+                for each drift of the outer scheme.",
             times(plan.evaluations),
             times(plan.count(MapKind::Drift)),
             counted(inner.substeps as usize, "step"),
             inner.scheme.table.name.value
         ),
         (0, _) => format!(
-            " - A step costs {}{kept}{products_of_hessian}, and {products} multiplications and {products} additions per dimension with unit masses; β adds {beta} of both.",
+            " - A step costs {}{kept}{products_of_hessian}, and {products} multiplications and {products} additions \
+                per dimension with unit masses; β adds {beta} of both.",
             counted(plan.evaluations, "gradient"),
             products = cost.products_per_dimension,
             beta = cost.products_for_beta
         ),
         (between, None) => format!(
-            " - H_1 flows where a scheme for two parts has kicks, H_n where it has drifts, and {} H_2 … H_(n−1), in both orders by turns.",
+            " - H_1 flows where a scheme for two parts has kicks, H_n where it has drifts, and {} H_2 … H_(n−1), in \
+                both orders by turns.",
             times(between)
         ),
     };
@@ -315,7 +318,8 @@ fn documentation(proved: &Proved) -> Vec<String> {
     ];
     if let (Some(processor), Some(effective)) = (&proved.scheme.processor, &proved.proof.effective) {
         let processed = format!(
-            " - Processed: these are the orders of its kernel. With its processor the effective order is {} for every T(p), {} for \
+            " - Processed: these are the orders of its kernel. With its processor the effective order is {} for every \
+                T(p), {} for \
              quadratic T{}: proved. An output costs {}.",
             order(&effective.general),
             order(&effective.quadratic),
@@ -401,8 +405,10 @@ mod tests {
 
     #[test]
     fn generated_code_of_every_kind_of_table() {
-        // kick first and drift first, compositions and stages, exact and rounded, palindromes and others, gradient kicks, processed
-        let kinds = "{blanes-moan-srkn6b,chin-4a,mclachlan-atela5,pefrl,ruth3,saba2,stormer-verlet,suzuki4,symplectic-euler,wisdom-corrector-5,yoshida4}";
+        // kick first and drift first, compositions and stages, exact and rounded, palindromes and others, gradient
+        // kicks, processed
+        let kinds = "{blanes-moan-srkn6b,chin-4a,mclachlan-atela5,pefrl,ruth3,saba2,\
+                     stormer-verlet,suzuki4,symplectic-euler,wisdom-corrector-5,yoshida4}";
         insta::glob!("../../schemes/tables", &format!("{kinds}.toml"), |path| {
             let name = path.file_stem().unwrap().to_str().unwrap();
             let proved = read(&shipped(name).unwrap(), &|base, _| shipped(base)).unwrap();

@@ -43,7 +43,8 @@ use locate::Locator;
 /// ```
 ///
 /// With `parts = 3` the steps are for H = H_1 + … + H_n of three parts and more, whatever their number
-/// (`shadowstep::systems::many_parts`). A table with an inner scheme needs it: its steps are for slow forces, fast forces and T.
+/// (`shadowstep::systems::many_parts`). A table with an inner scheme needs it: its steps are for slow forces, fast
+/// forces and T.
 ///
 /// The table is looked for beside the source file, then in the crate's root, then among the shipped ones. Its claims
 /// are proved; a claim that does not hold is a compile error that names the condition which fails. The struct gets
@@ -82,7 +83,8 @@ use locate::Locator;
 /// impl ValidFor<General> for StormerVerlet {}
 /// ```
 ///
-/// `Flows` is what the maps of a step act on: a system alone, or with what a step carries along, such as increments and β.
+/// `Flows` is what the maps of a step act on: a system alone, or with what a step carries along, such as increments and
+/// β.
 #[proc_macro_attribute]
 pub fn splitting_scheme(arguments: TokenStream, item: TokenStream) -> TokenStream {
     let arguments = parse_macro_input!(arguments as Arguments);
@@ -127,12 +129,12 @@ fn prove(arguments: &Arguments, locator: &Locator) -> Result<Proved, String> {
 /// ```
 ///
 /// Formulas have numbers (exact), `pi`, coordinates, parameters, `+ - * / ^` with rational exponents, and the functions
-/// sqrt, cbrt, exp, log, sin, cos, tan, sinh, cosh, tanh, atan, asin, acos. The struct gets `shadowstep::Potential`, with
-/// the cost of a call in its documentation; what depends on parameters only is computed once.
+/// sqrt, cbrt, exp, log, sin, cos, tan, sinh, cosh, tanh, atan, asin, acos. The struct gets `shadowstep::Potential`,
+/// with the cost of a call in its documentation; what depends on parameters only is computed once.
 ///
-/// A `pair` formula is the energy of two bodies i < j, in r2, the square of their distance, or on a line in d = q_j − q_i;
-/// properties of bodies such as masses are called `m_i` and `m_j`, and the struct has the values of all bodies as `m`.
-/// `shadowstep::systems::pairs::Pairs` sums it over all pairs, or over the neighbours in a chain.
+/// A `pair` formula is the energy of two bodies i < j, in r2, the square of their distance, or on a line in d = q_j −
+/// q_i; properties of bodies such as masses are called `m_i` and `m_j`, and the struct has the values of all bodies as
+/// `m`. `shadowstep::systems::pairs::Pairs` sums it over all pairs, or over the neighbours in a chain.
 ///
 /// ```
 /// use shadowstep::{Motion, UnitMasses, systems::pairs::{Ends, Pairs}, potential};

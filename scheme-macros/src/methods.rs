@@ -6,7 +6,8 @@ use shadowstep_symbolic::{Place, PotentialPrograms, Program};
 
 use crate::program::{Names, numbered, own, size, statement};
 
-/// The bodies of the methods that compute U, U_q and qᵀU_q − 2U (or T, T_p and pᵀT_p − 2T; of pairs a summand in place of the last).
+/// The bodies of the methods that compute U, U_q and qᵀU_q − 2U (or T, T_p and pᵀT_p − 2T; of pairs a summand in place
+/// of the last).
 pub(crate) struct Methods<'a> {
     pub(crate) programs: &'a PotentialPrograms,
     pub(crate) names: Names,
@@ -20,8 +21,8 @@ impl Methods<'_> {
         self.programs.kept() + self.programs.scratch()
     }
 
-    /// The method `prepare`, or another name for it, which computes what each program keeps, one after the other from the beginning of the
-    /// scratch space; nothing, where nothing is kept.
+    /// The method `prepare`, or another name for it, which computes what each program keeps, one after the other from
+    /// the beginning of the scratch space; nothing, where nothing is kept.
     pub(crate) fn prepare(&self, name: &str) -> Option<TokenStream> {
         let name = format_ident!("{name}");
         let PotentialPrograms { energy, gradient_and_rate, .. } = self.programs;
@@ -71,8 +72,8 @@ impl Methods<'_> {
         self.body(&self.programs.gradient_and_rate, self.programs.energy.kept, outputs)
     }
 
-    /// U of a block at once into `outputs`, one block for each: every instruction for all places of the block before the next one, so that
-    /// each is an operation on vectors.
+    /// U of a block at once into `outputs`, one block for each: every instruction for all places of the block before
+    /// the next one, so that each is an operation on vectors.
     pub(crate) fn energy_of_block(&self, lane: &Ident, outputs: &[(Ident, Ident)]) -> TokenStream {
         self.block_body(&self.programs.energy, 0, lane, outputs)
     }
@@ -87,7 +88,8 @@ impl Methods<'_> {
         self.block_body(&self.programs.gradient_and_rate, self.programs.energy.kept, lane, outputs)
     }
 
-    /// U_q at each place of a block in one loop: `argument` gives the argument and something more, which `take` gets with U_q.
+    /// U_q at each place of a block in one loop: `argument` gives the argument and something more, which `take` gets
+    /// with U_q.
     pub(crate) fn each_gradient(&self, [lane, argument, take, output]: [&Ident; 4], x: &Ident) -> TokenStream {
         let program = &self.programs.gradient;
         let constants = scratch_names(program, self.programs.energy.kept, self.programs.kept(), false);
@@ -180,8 +182,8 @@ impl Methods<'_> {
     }
 }
 
-/// Names the numbers in the scratch space: `kept` constants, of which this program's begin at `kept_before`, then, where they are wanted, its
-/// intermediate results; nothing, where it needs none.
+/// Names the numbers in the scratch space: `kept` constants, of which this program's begin at `kept_before`, then,
+/// where they are wanted, its intermediate results; nothing, where it needs none.
 fn scratch_names(program: &Program, kept_before: usize, kept: usize, intermediate: bool) -> Option<TokenStream> {
     let before = (0..kept_before).map(|_| quote! { _ });
     let constants = (0..program.kept).map(|i| numbered("constant", i));

@@ -1,4 +1,5 @@
-//! `potential! { pub struct Gravity { g } pair U(r2; m_i, m_j) = -g*m_i*m_j/sqrt(r2) }` → the energy of a pair of bodies.
+//! `potential! { pub struct Gravity { g } pair U(r2; m_i, m_j) = -g*m_i*m_j/sqrt(r2) }` → the energy of a pair of
+//! bodies.
 
 use proc_macro2::{Ident, TokenStream};
 use quote::{format_ident, quote};
@@ -192,7 +193,8 @@ fn curvature(definition: &Definition, this: &TokenStream, programs: &PotentialPr
     }
 }
 
-/// A property as the formula names it, `m_i` or `m_j`, with the list that it is from, and whether it is that of the body i.
+/// A property as the formula names it, `m_i` or `m_j`, with the list that it is from, and whether it is that of the
+/// body i.
 fn listed(definition: &Definition) -> impl Iterator<Item = (&Ident, Ident, bool)> {
     definition.properties.iter().map(|name| {
         let text = name.to_string();
@@ -322,7 +324,8 @@ fn documentation(definition: &Definition, separation: Separation, programs: &Pot
         String::new(),
         definition.equation(),
         String::new(),
-        " The energy of a pair of bodies i < j; `shadowstep::systems::pairs::Pairs` sums it over all pairs, or over neighbours."
+        " The energy of a pair of bodies i < j; `shadowstep::systems::pairs::Pairs` sums it over all pairs, or over \
+            neighbours."
             .to_owned(),
         String::new(),
         format!(" - A pair's {slope} costs {}.", programs.gradient.cost()),

@@ -9,7 +9,8 @@ pub const HIGHEST_ORDER: u32 = 10;
 /// The highest order that can be claimed and proved for a power of ε: the words with few B's are few.
 pub(crate) const HIGHEST_NEAR_INTEGRABLE_ORDER: u32 = 12;
 
-/// The same for the terms of ε alone, where higher powers have an order of their own: of each length there is one word with one B.
+/// The same for the terms of ε alone, where higher powers have an order of their own: of each length there is one word
+/// with one B.
 pub(crate) const HIGHEST_LINEAR_ORDER: u32 = 20;
 
 /// The kinetic energies for which a scheme is meant.

@@ -137,8 +137,9 @@ fn evaluated_of(step: &impl Step, held: Held, highest: u32) -> Vec<Evaluated> {
     }
 }
 
-/// Where the weights are exact, so are the values: a value of degree n is a multiple of 1/(Dⁿ n!), D the common denominator
-/// of the weights, and in fixed point with enough bits it is the only multiple within the bound of the error.
+/// Where the weights are exact, so are the values: a value of degree n is a multiple of 1/(Dⁿ n!), D the common
+/// denominator of the weights, and in fixed point with enough bits it is the only multiple within the bound of the
+/// error.
 fn evaluated_exactly(step: &impl Step, highest: u32) -> Vec<Evaluated> {
     let denominator = step.weights().fold(BigInt::one(), |lcm, weight| lcm.lcm(weight.denom()));
     let grid = |n: u32| denominator.pow(n) * factorial(n);
@@ -192,8 +193,8 @@ fn evaluated_within(step: &impl Step, digits: u32, highest: u32) -> Vec<Evaluate
 
 /// The first order that certainly fails, or the highest: exact arithmetic beyond it would be slow and decide nothing.
 ///
-/// The bits are doubled as long as exact arithmetic to that order takes more: weights of 250 digits, rounded but taken as exact, may
-/// have order 8 to 60 digits, and at 260 it is order 3 that fails.
+/// The bits are doubled as long as exact arithmetic to that order takes more: weights of 250 digits, rounded but taken
+/// as exact, may have order 8 to 60 digits, and at 260 it is order 3 that fails.
 fn worth_exactness(step: &impl Step, highest: u32, exact_bits: impl Fn(u32) -> u64) -> u32 {
     let (mut order, mut arithmetic) = (highest, FixedPoint::new(60));
     loop {
@@ -211,7 +212,8 @@ fn worth_exactness(step: &impl Step, highest: u32, exact_bits: impl Fn(u32) -> u
     }
 }
 
-/// The conditions of a family up to an order, low orders first, with their values for maps whose weights are values already.
+/// The conditions of a family up to an order, low orders first, with their values for maps whose weights are values
+/// already.
 pub(crate) fn values_at<A: Arithmetic>(
     maps: &[(MapKind, A::Value)],
     family: Family,

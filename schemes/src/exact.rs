@@ -1,7 +1,7 @@
 //! Cells → exact rationals: constants, dependent weights, compositions.
 //!
-//! A closed form such as `1/(2 - 2^(1/3))` is rounded once, to a rational of [`DIGITS`] digits, or of more where a run has more; whatever is
-//! derived from it by `1 - 2*g1` is exact again, so that the weights sum to exactly 1.
+//! A closed form such as `1/(2 - 2^(1/3))` is rounded once, to a rational of [`DIGITS`] digits, or of more where a run
+//! has more; whatever is derived from it by `1 - 2*g1` is exact again, so that the weights sum to exactly 1.
 
 use std::collections::BTreeMap;
 use std::ops::Range;

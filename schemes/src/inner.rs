@@ -1,8 +1,9 @@
 //! Multiple time steps: H = H_1 + H_2 + H_3 of slow forces, fast forces and the kinetic energy (r-RESPA).
 //!
-//! The *outer* scheme, whose weights are those of the table, composes kicks of H_1 and the flow of H_2 + H_3 in place of drifts. Each of these
-//! flows, of weight b, is made of n steps of the *inner* scheme, of weight b/n, in which H_2 has the place of kicks. Neighbouring fast kicks merge. In a
-//! [plan](crate::StepPlan) H_2 is the middle part. The order is proved by the words on three letters of the maps that a step really has.
+//! The *outer* scheme, whose weights are those of the table, composes kicks of H_1 and the flow of H_2 + H_3 in place
+//! of drifts. Each of these flows, of weight b, is made of n steps of the *inner* scheme, of weight b/n, in which H_2
+//! has the place of kicks. Neighbouring fast kicks merge. In a [plan](crate::StepPlan) H_2 is the middle part. The
+//! order is proved by the words on three letters of the maps that a step really has.
 //!
 //! Source: M. Tuckerman, B. J. Berne & G. J. Martyna, J. Chem. Phys. 97 (1992) 1990.
 
@@ -17,7 +18,8 @@ use crate::scheme::{ExactInner, ExactScheme};
 use crate::table::{self, MOST_STAGES, Table, Weights};
 
 impl ExactScheme {
-    /// The maps of a step with the weights of both its schemes: with an inner scheme, fast kicks stand as kicks behind all other maps.
+    /// The maps of a step with the weights of both its schemes: with an inner scheme, fast kicks stand as kicks behind
+    /// all other maps.
     pub fn maps_of_both(&self) -> Vec<Map> {
         let Some(inner) = &self.inner else { return self.maps() };
         let (mut maps, fast) = inner.step(&self.maps());
@@ -144,7 +146,8 @@ mod tests {
         assert_eq!(plan.evaluations, 1);
     }
 
-    /// The values of words are from an independent program: the product of exponentials in the free algebra, in exact fractions (Python).
+    /// The values of words are from an independent program: the product of exponentials in the free algebra, in exact
+    /// fractions (Python).
     #[test]
     fn orders_are_of_the_maps_that_a_step_has() {
         for (name, order, failed) in [("r-respa-4", 2, "AAB"), ("r-respa-8", 2, "AAB"), ("nested-s6", 4, "AAAAB")] {
@@ -239,7 +242,8 @@ mod tests {
         assert_eq!(
             sentences,
             [
-                "4:9: order 4 is claimed, order 2 holds for slow forces, fast forces and T: the condition of the word BBC fails",
+                "4:9: order 4 is claimed, order 2 holds for slow forces, fast forces and T: the condition of the word \
+                    BBC fails",
                 "15:8: there is no table `stormer-verle`",
                 "16:12: 0 is out of range",
                 "1:8: 3400 stages are too many",

@@ -9,7 +9,8 @@ const LINEAR: f64 = 1e-3;
 /// Iterations after which the size of the least change counts as undecided.
 const MOST_STEPS: usize = 300;
 
-/// The solutions δ of A δ = b, where A may have more rows than rank; they are the solutions of Q δ = y with orthonormal rows.
+/// The solutions δ of A δ = b, where A may have more rows than rank; they are the solutions of Q δ = y with orthonormal
+/// rows.
 pub(crate) struct LeastChange {
     q: Vec<Vec<f64>>,
     y: Vec<f64>,
@@ -45,8 +46,8 @@ impl LeastChange {
 
     /// Whether every solution surely has an entry larger than a limit.
     ///
-    /// For every λ, |λᵀy| = |(Qᵀλ)ᵀδ| ≤ Σ|(Qᵀλ)_j| max|δ_j|. Lawson's iteration of weighted least squares finds the λ with
-    /// the best bound and the δ with the least maximum (C. L. Lawson, thesis, UCLA, 1961).
+    /// For every λ, |λᵀy| = |(Qᵀλ)ᵀδ| ≤ Σ|(Qᵀλ)_j| max|δ_j|. Lawson's iteration of weighted least squares finds the λ
+    /// with the best bound and the δ with the least maximum (C. L. Lawson, thesis, UCLA, 1961).
     pub(crate) fn exceeds(&self, limit: f64) -> bool {
         if self.contradiction > limit {
             return true;
@@ -73,8 +74,8 @@ impl LeastChange {
 
     /// The entries one of which suffices: with it free, the others solve the equations and stay within a limit.
     ///
-    /// Each with its value in the solution in which the others have the least squares. The entry that was changed is among
-    /// them, as far as the equations are linear; where there are several, nothing here decides between them.
+    /// Each with its value in the solution in which the others have the least squares. The entry that was changed is
+    /// among them, as far as the equations are linear; where there are several, nothing here decides between them.
     pub(crate) fn sufficient(&self, limit: f64) -> Vec<(usize, f64)> {
         let change = self.transposed(&self.y);
         let suffices = |j: usize| {

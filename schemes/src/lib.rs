@@ -10,7 +10,7 @@
 //! | [`library`], `shipped`, `spelling` | the name of a table → its text |
 //! | [`order`], [`nystrom`], [`near_integrable`] | kicks and drifts → order conditions, for every T(p), for quadratic T, for H = A + εB |
 //! | [`arithmetic`], `conditions`, `digits` | the values of the conditions, exactly or with bounds, and how exactly they must be met |
-//! | [`decimal`], `printed`, `rounding`, `least_change` | printed decimals → whether their rounding explains how far the conditions are off |
+//! | [`decimal`], `printed`, `rounding`, `least_change` | printed decimals → whether rounding explains how far conditions are off |
 //! | [`proof`] | conditions → what is true of the scheme → the claims that differ from it |
 //! | [`many_parts`], [`part_words`] | scheme for two parts → steps for three and more, and their order conditions |
 //! | [`inner`] | outer and inner scheme → a step of slow forces, fast forces and T |
@@ -18,7 +18,8 @@
 //! | [`plan`] | scheme → the plan of a step: maps, shared constants, cost |
 //! | `pipeline` | the text of a table → [`Proved`]: scheme, proof and plan, or all faults |
 //!
-//! All but `map_kind` is with the feature `tables`: a program whose schemes are generated while it compiles needs none of it.
+//! All but `map_kind` is with the feature `tables`: a program whose schemes are generated while it compiles needs none
+//! of it.
 //!
 //! ```
 //! use shadowstep_schemes::{read, shipped};

@@ -1,11 +1,13 @@
 //! Steps for H = H_1 + … + H_n of a scheme for two parts.
 //!
-//! A scheme a_1, b_1, a_2, … for two parts whose weights have equal sums is a composition χ_(α_1) χ*_(β_1) χ_(α_2) … of the basic map
-//! χ_h = φ_n(h) ∘ … ∘ φ_1(h) and its adjoint χ*_h = φ_1(h) ∘ … ∘ φ_n(h), with α_1 = a_1, β_1 = b_1 − α_1, α_2 = a_2 − β_1, …: then φ_1 is made with the
-//! weights a and φ_n with b, and between them stand the *middle* parts, φ_2(α) … φ_(n−1)(α) after a kick, φ_(n−1)(β) … φ_2(β) after a drift. Its order
-//! for any number of parts is that for every A + B.
+//! A scheme a_1, b_1, a_2, … for two parts whose weights have equal sums is a composition χ_(α_1) χ*_(β_1) χ_(α_2) … of
+//! the basic map χ_h = φ_n(h) ∘ … ∘ φ_1(h) and its adjoint χ*_h = φ_1(h) ∘ … ∘ φ_n(h), with α_1 = a_1, β_1 = b_1 − α_1,
+//! α_2 = a_2 − β_1, …: then φ_1 is made with the weights a and φ_n with b, and between them stand the *middle* parts,
+//! φ_2(α) … φ_(n−1)(α) after a kick, φ_(n−1)(β) … φ_2(β) after a drift. Its order for any number of parts is that for
+//! every A + B.
 //!
-//! Sources: R. I. McLachlan, SIAM J. Sci. Comput. 16 (1995) 151; E. Hairer, C. Lubich & G. Wanner, Geometric Numerical Integration, II.5 and III.3.
+//! Sources: R. I. McLachlan, SIAM J. Sci. Comput. 16 (1995) 151; E. Hairer, C. Lubich & G. Wanner, Geometric Numerical
+//! Integration, II.5 and III.3.
 
 use num_traits::Zero;
 use shadowstep_symbolic::Rational;
@@ -60,7 +62,8 @@ pub enum NotForManyParts {
 shadowstep_symbolic::debug_as_text!(NotForManyParts);
 
 impl Proved {
-    /// The scheme with the plan of its steps for three parts and more, whose order is proved by the words on three letters.
+    /// The scheme with the plan of its steps for three parts and more, whose order is proved by the words on three
+    /// letters.
     ///
     /// Near-integrable orders are of two parts: what holds for more is the order in h.
     ///

@@ -72,7 +72,8 @@ impl Stages {
     }
 }
 
-/// Maps in the opposite order, in the order of [`Stages::maps`]: kicks before the gradient kicks with which they commute.
+/// Maps in the opposite order, in the order of [`Stages::maps`]: kicks before the gradient kicks with which they
+/// commute.
 pub(crate) fn reversed(maps: &[Map]) -> Vec<Map> {
     let mut reversed = Vec::new();
     maps.iter().rev().for_each(|map| append(&mut reversed, map.kind, &map.weight));

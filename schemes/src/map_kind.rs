@@ -20,8 +20,9 @@ pub enum MapKind {
     Drift,
     /// p += h³ w ∇(U_qᵀM⁻¹U_q) = 2h³ w U_qq M⁻¹U_q, for quadratic T only.
     ///
-    /// It is `exp(h³ w [K,[D,K]])` of the Lie derivatives K of the kick and D of the drift, in a product in which the map that acts first
-    /// stands first. It commutes with kicks, and is not a letter of words: its exponent is a sum of them.
+    /// It is `exp(h³ w [K,[D,K]])` of the Lie derivatives K of the kick and D of the drift, in a product in which the
+    /// map that acts first stands first. It commutes with kicks, and is not a letter of words: its exponent is a sum of
+    /// them.
     GradientKick,
 }
 

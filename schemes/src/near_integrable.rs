@@ -1,12 +1,12 @@
 //! Order conditions for near-integrable systems H = A + εB, where the flow of A takes much the larger part.
 //!
 //! A letter of a word that stands for B brings a factor ε. A scheme has order (p, q, r, …) if its local error is
-//! O(ε h^{p+1} + ε² h^{q+1} + ε³ h^{r+1} + …), the last order standing for all higher powers of ε too (McLachlan, BIT 35
-//! (1995) 258; Blanes et al., Appl. Numer. Math. 68 (2013) 58). That is the case if and only if the conditions of the
-//! Lyndon words with one B hold up to order p, of those with two up to q, and so on: the shuffle products by which the
-//! Lyndon words generate the others keep the number of B's, and their factors have fewer B's and fewer letters, for which
-//! no lower orders are claimed. A may be any Hamiltonian, not just a kinetic energy; with
-//! gradient kicks, any for which `[B,[A,B]]` has a flow of its own. These count as the words of `[B,[A,B]]`, of ε².
+//! O(ε h^{p+1} + ε² h^{q+1} + ε³ h^{r+1} + …), the last order standing for all higher powers of ε too (McLachlan, BIT
+//! 35 (1995) 258; Blanes et al., Appl. Numer. Math. 68 (2013) 58). That is the case if and only if the conditions of
+//! the Lyndon words with one B hold up to order p, of those with two up to q, and so on: the shuffle products by which
+//! the Lyndon words generate the others keep the number of B's, and their factors have fewer B's and fewer letters, for
+//! which no lower orders are claimed. A may be any Hamiltonian, not just a kinetic energy; with gradient kicks, any for
+//! which `[B,[A,B]]` has a flow of its own. These count as the words of `[B,[A,B]]`, of ε².
 
 use std::fmt;
 
@@ -57,8 +57,8 @@ impl NearIntegrable {
     }
 }
 
-/// The words whose conditions belong to a power of ε, up to an order: the sum of the dominant maps, a word without any B,
-/// belongs to every power.
+/// The words whose conditions belong to a power of ε, up to an order: the sum of the dominant maps, a word without any
+/// B, belongs to every power.
 pub fn words(power: Power, order: u32) -> Vec<Word> {
     if power.is_linear() {
         return words_with_one(power.perturbation, order as usize);
@@ -71,7 +71,8 @@ pub fn words(power: Power, order: u32) -> Vec<Word> {
     words
 }
 
-/// The Lyndon words with one B at most: A alone, and of each length the one whose B stands first or last, as the letters are ordered.
+/// The Lyndon words with one B at most: A alone, and of each length the one whose B stands first or last, as the
+/// letters are ordered.
 fn words_with_one(perturbation: MapKind, longest: usize) -> Vec<Word> {
     let dominant = perturbation.other();
     let word = |length: usize| {

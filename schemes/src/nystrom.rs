@@ -1,8 +1,8 @@
 //! Order conditions for quadratic T: bicoloured rooted trees in which a drift has at most one child.
 //!
-//! With T = ½pᵀM⁻¹p + bᵀp + c the elementary differentials of a splitting are the trees whose nodes alternate between kicks
-//! and drifts, and whose drifts, being affine in p, carry at most one kick (Runge–Kutta–Nyström trees: Hairer, Lubich
-//! & Wanner, *Geometric Numerical Integration*, III.2; Calvo & Sanz-Serna 1993). A tree's value is the sum, over
+//! With T = ½pᵀM⁻¹p + bᵀp + c the elementary differentials of a splitting are the trees whose nodes alternate between
+//! kicks and drifts, and whose drifts, being affine in p, carry at most one kick (Runge–Kutta–Nyström trees: Hairer,
+//! Lubich & Wanner, *Geometric Numerical Integration*, III.2; Calvo & Sanz-Serna 1993). A tree's value is the sum, over
 //! all ways to place its nodes at maps of the step so that each child acts before its parent, of the product of the
 //! weights; the exact flow has 1/γ(t), γ(t) the product of the sizes of all subtrees.
 //!
@@ -10,8 +10,8 @@
 //! ideal, and from five letters on its members lie among words that stay. The trees are the functionals that do not
 //! see that ideal. Some of them are redundant for a symplectic scheme; that costs time, not truth.
 //!
-//! A gradient kick p += 2c U_qq M⁻¹U_q is, with K = −U_q, 2c times the derivative of K in the direction of `D[K]`, at the q that it finds: a
-//! tree K[…] may be placed at it whole with one of its children D[K[…]], to which 2c belongs.
+//! A gradient kick p += 2c U_qq M⁻¹U_q is, with K = −U_q, 2c times the derivative of K in the direction of `D[K]`, at
+//! the q that it finds: a tree K[…] may be placed at it whole with one of its children D[K[…]], to which 2c belongs.
 
 use shadowstep_symbolic::Rational;
 
@@ -73,8 +73,8 @@ fn condition(name: &str, size: u32, density: u64) -> Condition {
     }
 }
 
-/// What a gradient kick r adds to a tree, but for c: twice the sum over the children D[K[…]] at the same map, each with the product of
-/// its own children and the others.
+/// What a gradient kick r adds to a tree, but for c: twice the sum over the children D[K[…]] at the same map, each with
+/// the product of its own children and the others.
 fn with_one_child_inside<A: Arithmetic>(
     tree: &KickTree,
     r: usize,
@@ -94,7 +94,8 @@ fn with_one_child_inside<A: Arithmetic>(
     arithmetic.product(&sum, &arithmetic.integer(2))
 }
 
-/// Σ w_r·v_r over the maps r of one kind before each map of the other kind, and over all of them; kicks include gradient kicks.
+/// Σ w_r·v_r over the maps r of one kind before each map of the other kind, and over all of them; kicks include
+/// gradient kicks.
 fn sums<A: Arithmetic>(
     kind: MapKind,
     values: &[A::Value],

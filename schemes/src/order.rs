@@ -6,7 +6,8 @@
 //! words generate the shuffle algebra: Radford 1979; for splitting schemes Murua & Sanz-Serna, Phil. Trans. R. Soc.
 //! A 357 (1999) 1079). The coefficient of a word of n letters in the exact flow is 1/n!.
 //!
-//! A gradient kick is exp(h³ c C) with `C = [K,[D,K]]` = 2KDK − DKK − KKD: a sum of words of three letters in place of a letter.
+//! A gradient kick is exp(h³ c C) with `C = [K,[D,K]]` = 2KDK − DKK − KKD: a sum of words of three letters in place of
+//! a letter.
 
 use std::collections::HashMap;
 use std::fmt;
@@ -226,7 +227,8 @@ fn multiply_by_gradient_kick<A: Arithmetic>(
     }
 }
 
-/// The coefficient in C = 2KDK − DKK − KKD of the last three letters of a word, and the word before them; `None` where C has no such word.
+/// The coefficient in C = 2KDK − DKK − KKD of the last three letters of a word, and the word before them; `None` where
+/// C has no such word.
 fn last_word_of_gradient(prefixes: &[Prefix], end: usize) -> Option<(i32, Option<usize>)> {
     let last = &prefixes[end];
     let middle = &prefixes[last.parent?];

@@ -320,7 +320,8 @@ fn stages(reader: &mut Reader<'_>, section: &Section<'_, '_>, gradient_kick: Opt
     Some(Weights::Stages { kick, gradient_kick, drift })
 }
 
-/// Refuses claims that a scheme with gradient kicks cannot make: these are p += 2h³ c U_qq M⁻¹U_q. Returns the kinetic energies that it is for.
+/// Refuses claims that a scheme with gradient kicks cannot make: these are p += 2h³ c U_qq M⁻¹U_q. Returns the kinetic
+/// energies that it is for.
 fn refuse_beside_gradient_kicks(
     reader: &mut Reader<'_>,
     root: &Section<'_, '_>,

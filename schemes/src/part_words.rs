@@ -1,7 +1,8 @@
 //! Order conditions of H = H_1 + … + H_n: words on n letters.
 //!
-//! A step is a product of the exponentials of the Lie derivatives A, B, C, … of the parts' flows, the exact flow is exp(h (A + B + C + …)). Both are
-//! group-like, so the coefficients of Lyndon words decide, as for [two letters](crate::order); the coefficient of a word of m letters in the exact flow is 1/m!.
+//! A step is a product of the exponentials of the Lie derivatives A, B, C, … of the parts' flows, the exact flow is
+//! exp(h (A + B + C + …)). Both are group-like, so the coefficients of Lyndon words decide, as for
+//! [two letters](crate::order); the coefficient of a word of m letters in the exact flow is 1/m!.
 
 use std::collections::HashMap;
 
@@ -78,8 +79,8 @@ pub(crate) fn conditions<A: Arithmetic>(
     conditions
 }
 
-/// The coefficients of words on the letters of this number of parts, and of all their prefixes, in the product of the exponentials of a step's maps and of
-/// its [middle maps](crate::many_parts).
+/// The coefficients of words on the letters of this number of parts, and of all their prefixes, in the product of the
+/// exponentials of a step's maps and of its [middle maps](crate::many_parts).
 pub fn prefix_coefficients<A: Arithmetic>(
     (maps, middle): (&[Map], &[Rational]),
     parts: usize,
@@ -167,7 +168,8 @@ pub fn letter(part: usize) -> char {
     u8::try_from(part).map_or('?', |part| char::from(b'A' + part))
 }
 
-/// The Lyndon words on this number of letters, of at most `longest` of them (Duval's algorithm), in lexicographic order.
+/// The Lyndon words on this number of letters, of at most `longest` of them (Duval's algorithm), in lexicographic
+/// order.
 pub fn lyndon_words(letters: usize, longest: usize) -> Vec<Vec<usize>> {
     let mut words = Vec::new();
     let mut word = vec![0];
@@ -189,7 +191,8 @@ pub fn lyndon_words(letters: usize, longest: usize) -> Vec<Vec<usize>> {
 mod tests {
     use super::*;
 
-    /// The values are from an independent program: the product of exponentials in the free algebra, in exact fractions (Python).
+    /// The values are from an independent program: the product of exponentials in the free algebra, in exact fractions
+    /// (Python).
     #[test]
     fn coefficients_are_those_of_the_free_algebra() {
         use MapKind::{Drift, Kick};

@@ -30,25 +30,28 @@ pub struct Proved {
 }
 
 impl Proved {
-    /// The order proved for the kinetic energies that the table is meant for; with an inner scheme, for slow forces, fast forces and T.
+    /// The order proved for the kinetic energies that the table is meant for; with an inner scheme, for slow forces,
+    /// fast forces and T.
     pub fn order(&self) -> &Order {
         self.proof.nested.as_ref().unwrap_or_else(|| self.proof.for_kinetic(self.scheme.table.kinetic))
     }
 
-    /// Whether the order claimed holds for every T(p), whatever kinetic energies the table is meant for. With gradient kicks it does not:
-    /// they contain M⁻¹.
+    /// Whether the order claimed holds for every T(p), whatever kinetic energies the table is meant for. With gradient
+    /// kicks it does not: they contain M⁻¹.
     pub fn holds_for_every_kinetic(&self) -> bool {
         self.order_for_every_kinetic().is_some_and(|order| order.order >= self.scheme.table.order.value)
     }
 
-    /// Whether there are irrational weights, all by closed forms, that are rounded to fewer digits than these: [`to_digits`](Proved::to_digits) gives more.
+    /// Whether there are irrational weights, all by closed forms, that are rounded to fewer digits than these:
+    /// [`to_digits`](Proved::to_digits) gives more.
     pub fn lacks_digits(&self, digits: u32) -> bool {
         let is_closed = |scheme: &ExactScheme| scheme.table.digits.is_none();
         let all_closed = self.scheme.all().into_iter().all(is_closed);
         all_closed && matches!(self.scheme.held, Held::Digits(held) if held < digits)
     }
 
-    /// The same scheme with irrational weights rounded to this number of digits, up to `MOST_EVALUATED_DIGITS`, and proved again.
+    /// The same scheme with irrational weights rounded to this number of digits, up to `MOST_EVALUATED_DIGITS`, and
+    /// proved again.
     ///
     /// ```
     /// use shadowstep_schemes::{scheme::Held, shipped_proved};

@@ -23,8 +23,9 @@ pub struct StepPlan {
     pub gradient_kicks: Vec<Rational>,
     /// What is done: the kind of the map and the index of its weight among the weights of its kind.
     pub maps: Vec<(MapKind, usize)>,
-    /// For [many parts](crate::many_parts): between each map and the next the index of the weight of the middle parts, which flow from H_2 to H_(n−1)
-    /// after a kick, and from H_(n−1) to H_2 after a drift. With an [inner scheme](crate::inner), these are the fast kicks.
+    /// For [many parts](crate::many_parts): between each map and the next the index of the weight of the middle parts,
+    /// which flow from H_2 to H_(n−1) after a kick, and from H_(n−1) to H_2 after a drift. With an
+    /// [inner scheme](crate::inner), these are the fast kicks.
     pub middle: Vec<usize>,
     /// Evaluations of the gradient per step, the first step of a run not counted.
     pub evaluations: usize,
@@ -32,8 +33,8 @@ pub struct StepPlan {
     pub hessian_products: usize,
 }
 
-/// Operations of one step in d dimensions with unit masses, beside the evaluations of the gradient and Hessian–vector products, which include
-/// M⁻¹U_q.
+/// Operations of one step in d dimensions with unit masses, beside the evaluations of the gradient and Hessian–vector
+/// products, which include M⁻¹U_q.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct StepCost {
     /// Multiplications per dimension, and as many additions.
@@ -43,7 +44,8 @@ pub struct StepCost {
 }
 
 impl StepPlan {
-    /// The most maps of a step that generated code inlines wherever it is called: 7 are those of Yoshida's scheme of order 4.
+    /// The most maps of a step that generated code inlines wherever it is called: 7 are those of Yoshida's scheme of
+    /// order 4.
     pub const MOST_INLINED: usize = 8;
 
     /// The plan of a scheme's step.
@@ -75,15 +77,16 @@ impl StepPlan {
         plan
     }
 
-    /// The plan of its step for three parts and more, with the weights of the middle parts between each map and the next.
+    /// The plan of its step for three parts and more, with the weights of the middle parts between each map and the
+    /// next.
     pub(crate) fn of_many_parts(maps: &[Map], middle: &[Rational]) -> StepPlan {
         let mut plan = StepPlan::of_maps(maps);
         plan.middle = middle.iter().map(|weight| index_of(weight, &mut plan.middle_weights)).collect();
         plan
     }
 
-    /// How many of the runs of kicks and gradient kicks between drifts have a map for which something is evaluated, which a run
-    /// at the end of a step leaves to one at the beginning of the next.
+    /// How many of the runs of kicks and gradient kicks between drifts have a map for which something is evaluated,
+    /// which a run at the end of a step leaves to one at the beginning of the next.
     fn evaluated(&self, needs: impl Fn(MapKind) -> bool) -> usize {
         let runs: Vec<_> = self.maps.split(|(kind, _)| *kind == MapKind::Drift).collect();
         let needing = |run: &&[(MapKind, usize)]| run.iter().any(|(kind, _)| needs(*kind));
@@ -94,14 +97,14 @@ impl StepPlan {
         runs.iter().filter(|run| needing(run)).count() - usize::from(kept)
     }
 
-    /// The evaluations of a step, Hessian–vector products counted like gradients. It is the degree in (hω)² of the harmonic
-    /// oscillator's trace.
+    /// The evaluations of a step, Hessian–vector products counted like gradients. It is the degree in (hω)² of the
+    /// harmonic oscillator's trace.
     pub fn degree(&self) -> usize {
         self.evaluations + self.hessian_products
     }
 
-    /// How many maps of a kind a step has. With an [inner scheme](crate::inner) the fast forces are evaluated once for each drift: the fast kicks at both
-    /// sides of a slow one are at the same q.
+    /// How many maps of a kind a step has. With an [inner scheme](crate::inner) the fast forces are evaluated once for
+    /// each drift: the fast kicks at both sides of a slow one are at the same q.
     pub fn count(&self, kind: MapKind) -> usize {
         self.maps.iter().filter(|(k, _)| *k == kind).count()
     }

@@ -1,8 +1,8 @@
 //! The decimals that a table prints, and how the weights depend on them.
 //!
-//! A decimal with `digits` in its table is a rounded number: it stands for any value within a unit of its last place. One
-//! with at most half as many digits is a number that was chosen, such as 0.25, and a constant that the table calls free is
-//! exact; neither moves. Decimals that are printed alike are one number.
+//! A decimal with `digits` in its table is a rounded number: it stands for any value within a unit of its last place.
+//! One with at most half as many digits is a number that was chosen, such as 0.25, and a constant that the table calls
+//! free is exact; neither moves. Decimals that are printed alike are one number.
 
 use std::collections::BTreeMap;
 use std::ops::Range;

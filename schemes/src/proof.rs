@@ -19,8 +19,8 @@ use crate::rounding::{Linearised, Unexplained};
 use crate::scheme::{ExactInner, ExactScheme, Held};
 use crate::table::Weights;
 
-/// Digits that sums of products of good weights lose without a note, where the decimals themselves are not examined; the
-/// worst of the shipped tables loses 3.
+/// Digits that sums of products of good weights lose without a note, where the decimals themselves are not examined;
+/// the worst of the shipped tables loses 3.
 const MOST_DIGITS_LOST: u32 = 5;
 
 /// Digits that products of the weights of an outer and an inner scheme may lose.
@@ -42,25 +42,28 @@ pub struct Order {
 /// What is true of a scheme.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Proof {
-    /// For every T(p), of the outer scheme where there is an [inner one](crate::inner). With gradient kicks: for all A and B, where a gradient kick is the flow of `[B,[A,B]]`, which for A = T(p) is so
-    /// for quadratic T only; see [`Proved::order_for_every_kinetic`](crate::Proved::order_for_every_kinetic).
+    /// For every T(p), of the outer scheme where there is an [inner one](crate::inner). With gradient kicks: for all A
+    /// and B, where a gradient kick is the flow of `[B,[A,B]]`, which for A = T(p) is so for quadratic T only; see
+    /// [`Proved::order_for_every_kinetic`](crate::Proved::order_for_every_kinetic).
     pub general: Order,
     /// For T = ½pᵀM⁻¹p.
     pub quadratic: Order,
-    /// For the terms of ε, ε², … of a near-integrable H = A + εB: one for each order that the table claims, the last one
-    /// for all higher powers too.
+    /// For the terms of ε, ε², … of a near-integrable H = A + εB: one for each order that the table claims, the last
+    /// one for all higher powers too.
     pub near_integrable: Vec<Order>,
     /// The step is a palindrome, exactly.
     pub symmetric: bool,
     /// The effective orders of a processed scheme; the others are the kernel's.
     pub effective: Option<Effective>,
-    /// Of the step with an [inner scheme](crate::inner), for slow forces, fast forces and T, by the words on three letters.
+    /// Of the step with an [inner scheme](crate::inner), for slow forces, fast forces and T, by the words on three
+    /// letters.
     pub nested: Option<Order>,
     /// For H of three parts and more, by the words on three letters; only [where it is asked for](crate::many_parts).
     pub many_parts: Option<Order>,
 }
 
-/// The effective orders of a processed scheme: the orders of χ⁻¹ ∘ kernel ∘ χ, and so of χ⁻¹ ∘ kernelⁿ ∘ χ after any number n of steps.
+/// The effective orders of a processed scheme: the orders of χ⁻¹ ∘ kernel ∘ χ, and so of χ⁻¹ ∘ kernelⁿ ∘ χ after any
+/// number n of steps.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Effective {
     /// For every T(p).

@@ -1,13 +1,13 @@
 //! Whether the rounding of printed decimals explains how far the order conditions are from what is needed.
 //!
-//! If the decimals are a scheme's weights, rounded, then their errors δ_j are at most a unit u_j of the last place: half a
-//! unit where they were rounded, a whole one where they were cut off. To first order J δ = needed − found, where J has the
-//! derivatives of the conditions. So among all solutions δ the least max |δ_j|/u_j must not exceed 1. For every λ it is at
-//! least λᵀ(needed − found) / Σ_j |(Jᵀλ)_j| u_j: a single λ with a value above 1 proves that rounding does not explain the
-//! table. Unit vectors λ would judge each condition by itself.
+//! If the decimals are a scheme's weights, rounded, then their errors δ_j are at most a unit u_j of the last place:
+//! half a unit where they were rounded, a whole one where they were cut off. To first order J δ = needed − found, where
+//! J has the derivatives of the conditions. So among all solutions δ the least max |δ_j|/u_j must not exceed 1. For
+//! every λ it is at least λᵀ(needed − found) / Σ_j |(Jᵀλ)_j| u_j: a single λ with a value above 1 proves that rounding
+//! does not explain the table. Unit vectors λ would judge each condition by itself.
 //!
-//! A decimal is to blame if the others need to move by no more than a unit where it may have any value. Several decimals
-//! may do: then the conditions do not show which of them is wrong.
+//! A decimal is to blame if the others need to move by no more than a unit where it may have any value. Several
+//! decimals may do: then the conditions do not show which of them is wrong.
 
 use crate::arithmetic::Arithmetic;
 use crate::conditions::{Family, evaluated, values_at};
@@ -151,7 +151,8 @@ mod tests {
         (format!("{}digits = {digits}\n{}", &text[..at], &text[at..]), digits)
     }
 
-    /// The changes, in units of the claimed digits, that come of exchanging neighbouring digits from the 8th decimal on.
+    /// The changes, in units of the claimed digits, that come of exchanging neighbouring digits from the 8th decimal
+    /// on.
     fn exchanges(decimal: &Decimal, digits: u32) -> Vec<f64> {
         let (point, bytes) = (decimal.text.find('.').unwrap(), decimal.text.as_bytes());
         let change = |i: usize| {

@@ -101,7 +101,8 @@ impl ExactScheme {
         self.stages.gradient_kick.iter().any(|c| !c.is_zero())
     }
 
-    /// The maps of a processed step, of the pre-map, the kernel and the post-map; `None` for a scheme without a processor.
+    /// The maps of a processed step, of the pre-map, the kernel and the post-map; `None` for a scheme without a
+    /// processor.
     pub fn processed_maps(&self) -> Option<Vec<Map>> {
         let processor = self.processor.as_ref()?;
         Some(joined(processor.pre().iter().chain(&self.maps()).chain(&processor.post)))
@@ -135,7 +136,8 @@ impl ExactScheme {
         }
     }
 
-    /// Whether the maps read the same from both ends, so that the step is its own adjoint; with an inner scheme, those of both.
+    /// Whether the maps read the same from both ends, so that the step is its own adjoint; with an inner scheme, those
+    /// of both.
     pub fn is_symmetric(&self) -> bool {
         let maps = self.maps();
         maps == reversed(&maps) && self.inner.as_ref().is_none_or(|inner| inner.scheme.is_symmetric())

@@ -157,7 +157,8 @@ fn with_rounding_hint(fault: Fault, table: &Table, distance: &Rational) -> Fault
 fn not_rounding(off: &Off) -> Fault {
     let Off { decimal, units } = off;
     let message = format!(
-        "rounding does not explain the digits of `{}`: the order conditions hold if it changes by {} units of its last digit",
+        "rounding does not explain the digits of `{}`: the order conditions hold if it changes by {} units of its \
+            last digit",
         decimal.name,
         in_units(*units)
     );

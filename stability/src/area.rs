@@ -18,8 +18,8 @@ const START: [[f64; 2]; 2] = [[0.0, 0.1], [0.3, 0.1]];
 /// All pairs of coordinates of (q₁, q₂, p₁, p₂), of whose unit vectors the areas are 0 or 1.
 const PAIRS: [[usize; 2]; 6] = [[0, 2], [0, 1], [1, 3], [0, 3], [2, 3], [1, 2]];
 
-/// Round-off adds to an area at random: its change is a deviate with a standard deviation that is proportional to the square root of the sum of
-/// (|δ₁| |δ₂|)² over all steps.
+/// Round-off adds to an area at random: its change is a deviate with a standard deviation that is proportional to the
+/// square root of the sum of (|δ₁| |δ₂|)² over all steps.
 #[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
 pub(crate) struct Change {
     /// The change of the area.

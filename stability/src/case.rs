@@ -40,7 +40,8 @@ pub(crate) trait Case {
     /// The time that a trial takes in double precision, in seconds, to a factor of a few.
     fn seconds(suite: &Suite, trial: &Self::Trial) -> f64;
 
-    /// Makes a trial in a number type. One that is asked not to continue ends at once, with any result, which is dropped.
+    /// Makes a trial in a number type. One that is asked not to continue ends at once, with any result, which is
+    /// dropped.
     fn measure(
         suite: &Suite,
         trial: &Self::Trial,

@@ -44,8 +44,8 @@ pub fn entries(requested: &[String]) -> Result<Vec<CaseEntry>, Error> {
     Ok(named(CASES, |entry| entry.name, "case", requested)?.into_iter().map(CaseEntry).collect())
 }
 
-/// Makes the trials that the folder does not have yet, all cases together, and gives what each case has shown. A failed trial
-/// is reported to the observer and stops no other.
+/// Makes the trials that the folder does not have yet, all cases together, and gives what each case has shown. A failed
+/// trial is reported to the observer and stops no other.
 ///
 /// # Errors
 /// A folder that cannot be written or that another process uses; an observer that stops the computation.

@@ -18,7 +18,8 @@ pub fn counts(findings: &[(CaseEntry, Finding)]) -> Counts {
     Counts::of(findings.iter().flat_map(|(_, finding)| &finding.statements).map(|row| row.verdict))
 }
 
-/// Writes charts, the page that contains them and the table of verdicts; returns the path of the page. `command` made them.
+/// Writes charts, the page that contains them and the table of verdicts; returns the path of the page. `command` made
+/// them.
 ///
 /// # Errors
 /// A file that cannot be written.
@@ -36,7 +37,8 @@ pub fn write(findings: Vec<(CaseEntry, Finding)>, command: &str, folder: &Path) 
     write_page(folder, &page)
 }
 
-const INTRODUCTION: &str = "Each case states what theory predicts. A row agrees with it, differs from it, or is not decided by what was computed.";
+const INTRODUCTION: &str = "Each case states what theory predicts. A row agrees with it, differs from it, or is not \
+    decided by what was computed.";
 
 /// The names of all files that are written, in which a `*` stands for any characters.
 pub fn written() -> impl Iterator<Item = String> {

@@ -11,15 +11,16 @@ pub(crate) const TOLERANCE: f64 = 5e-4;
 /// The steps of some turns.
 const TURN: u64 = 300;
 
-/// After this number of steps a part that grows with this rate is separated from the others. The rate is measured over as many more.
+/// After this number of steps a part that grows with this rate is separated from the others. The rate is measured over
+/// as many more.
 pub(crate) fn steps_to_see(rate: f64) -> u64 {
     (SEPARATED / rate).ceil() as u64
 }
 
 /// The growth of log|(q, p)| per step, from `count` steps on to twice as many, where `rate` is expected.
 ///
-/// A growing state may turn as well, which changes its size: the largest one of [`TURN`] steps counts, less what the expected rate makes of
-/// their places.
+/// A growing state may turn as well, which changes its size: the largest one of [`TURN`] steps counts, less what the
+/// expected rate makes of their places.
 pub(crate) fn growth(run: &mut dyn AnyIntegrator, (rate, count): (f64, u64)) -> f64 {
     // the second half of the first part is separated well enough
     let (mut scaled, turn) = (0.0, TURN.min(count / 2).max(1));

@@ -1,4 +1,5 @@
-//! Systems with their steppers, as scenes make them: in a number type, or in one that is hidden, so that cases are compiled once for all of them.
+//! Systems with their steppers, as scenes make them: in a number type, or in one that is hidden, so that cases are
+//! compiled once for all of them.
 
 use shadowstep::shadow::Verdict;
 use shadowstep::shadow::run::RunError;
@@ -11,7 +12,8 @@ use shadowstep_scenes::start::{Begin, SceneIntegrator, Steps};
 
 use crate::systems::rational;
 
-/// Steps of a scheme with plain sums. Those from a state of the scheme are the steps as they stand, of a processed scheme those of the kernel.
+/// Steps of a scheme with plain sums. Those from a state of the scheme are the steps as they stand, of a processed
+/// scheme those of the kernel.
 pub(crate) fn steps_of<'a>(scheme: &'a NamedScheme, h: &'a StepSize, begin: Begin) -> Steps<'a> {
     Steps { scheme: &scheme.scheme, h, compensated: false, displaced: false, begin }
 }

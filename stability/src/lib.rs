@@ -1,7 +1,7 @@
 //! Numerical stability on hard cases: what theory predicts of splitting schemes, what happens, and whether it agrees.
 //!
-//! [`examine`] makes the trials of the requested cases on all cores. Each result is saved when it is complete, so that an
-//! interrupted call can be repeated without computing it again.
+//! [`examine`] makes the trials of the requested cases on all cores. Each result is saved when it is complete, so that
+//! an interrupted call can be repeated without computing it again.
 //!
 //! ```
 //! use shadowstep_scenes::arithmetic::Arithmetic;
@@ -15,7 +15,8 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! A case is a file in `cases/` that implements `Case`, and its line of the list `CASES`; everything else walks that list.
+//! A case is a file in `cases/` that implements `Case`, and its line of the list `CASES`; everything else walks that
+//! list.
 //!
 //! | module | what it is |
 //! | --- | --- |

@@ -63,7 +63,8 @@ impl LinearStep {
         (self.a.to_f64() + self.d.to_f64()) / 2.0
     }
 
-    /// c q² + (d − a) q p − b p², which the step conserves, with the sign that makes it positive where the step is stable.
+    /// c q² + (d − a) q p − b p², which the step conserves, with the sign that makes it positive where the step is
+    /// stable.
     pub(crate) fn invariant(&self, q: f64, p: f64) -> f64 {
         let [a, b, c, d] = [&self.a, &self.b, &self.c, &self.d].map(|entry| entry.to_f64());
         (c * q * q + (d - a) * q * p - b * p * p) * -b.signum()

@@ -159,8 +159,9 @@ impl<C: LongCase> Case for C {
     }
 }
 
-/// Orbits that stay where they are: no coordinate is larger than `stays` times the largest one at the start, the error of H is at most
-/// 1.5 times as large in the last fourth of the run as in the first, and the monitor calls the step fine.
+/// Orbits that stay where they are: no coordinate is larger than `stays` times the largest one at the start, the error
+/// of H is at most 1.5 times as large in the last fourth of the run as in the first, and the monitor calls the step
+/// fine.
 pub(crate) fn staying(
     (suite, measured): (&Suite, &[(LongRun, LongRunResult)]),
     stays: f64,

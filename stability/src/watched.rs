@@ -57,7 +57,8 @@ fn is_alarm(verdict: Verdict) -> bool {
     matches!(verdict, Verdict::TooLarge(_) | Verdict::NotConserved | Verdict::NearResonance { .. })
 }
 
-/// Makes `steps` steps, with a window of the monitor every `every` steps; `each` gets every state with its number from 1 on.
+/// Makes `steps` steps, with a window of the monitor every `every` steps; `each` gets every state with its number from
+/// 1 on.
 pub(crate) fn watched(
     run: &mut dyn AnyIntegrator,
     every: u64,

@@ -10,8 +10,8 @@ pub type Continues<'a> = &'a dyn Fn(f64) -> bool;
 
 /// Something to compute, identified by its JSON: calculations with equal JSON are made once.
 ///
-/// Calculations of different types may share a store only if their JSON differs, as that of an `enum` does. Numbers of more
-/// than 64 bits must be texts.
+/// Calculations of different types may share a store only if their JSON differs, as that of an `enum` does. Numbers of
+/// more than 64 bits must be texts.
 pub trait Calculation: Serialize + Sync + Sized {
     /// Floating-point numbers in it must be finite, because JSON has no others.
     type Outcome: Serialize + DeserializeOwned;
@@ -38,7 +38,8 @@ pub trait Calculation: Serialize + Sync + Sized {
     /// The approximate time of the calculation without what is shared, in a unit common to all calculations of a study.
     fn cost(&self) -> f64;
 
-    /// Makes the calculation in one thread. One that is asked not to continue ends soon, with any result, which is dropped.
+    /// Makes the calculation in one thread. One that is asked not to continue ends soon, with any result, which is
+    /// dropped.
     ///
     /// # Errors
     /// A calculation that fails; the others continue.

@@ -1,9 +1,10 @@
 //! Charts: curves over two or three axes, as SVG pictures.
 //!
-//! A [`Chart`] has a title, two axes and curves. A curve is recognised by its marker and, beyond the ninth, by its dashes as well as by
-//! its colour; the colours are those of Okabe and Ito, which people with any colour vision can distinguish. Labels have the colours of
-//! their curves and stand at the right ends of these, without overlaps, or are listed in their order. [`Chart::svg`] follows `prefers-color-scheme`; [`Chart::svg_for_print`] has fixed
-//! colours on white.
+//! A [`Chart`] has a title, two axes and curves. A curve is recognised by its marker and, beyond the ninth, by its
+//! dashes as well as by its colour; the colours are those of Okabe and Ito, which people with any colour vision can
+//! distinguish. Labels have the colours of their curves and stand at the right ends of these, without overlaps, or are
+//! listed in their order. [`Chart::svg`] follows `prefers-color-scheme`; [`Chart::svg_for_print`] has fixed colours on
+//! white.
 //!
 //! Axes are linear, or logarithmic: then the points hold log₁₀ of the values, so that 1e-400 is −400 instead of 0.
 //! [`log10_of`] takes logarithms of plain numbers.
@@ -67,7 +68,8 @@ pub struct Chart {
     pub notes: Vec<String>,
     /// Whether one unit is as long on both axes, unless the curves are much longer in one direction.
     pub equal_scales: bool,
-    /// Whether the labels are listed in the order of the curves, as for charts that are compared; else they stand where the curves end.
+    /// Whether the labels are listed in the order of the curves, as for charts that are compared; else they stand where
+    /// the curves end.
     pub listed: bool,
 }
 
@@ -88,7 +90,8 @@ impl Chart {
     }
 }
 
-/// (x, y) with log₁₀ of each coordinate whose axis is logarithmic. A value that is not positive becomes NaN, a missing point.
+/// (x, y) with log₁₀ of each coordinate whose axis is logarithmic. A value that is not positive becomes NaN, a missing
+/// point.
 pub fn log10_of(points: &[(f64, f64)], (x_is_log, y_is_log): (bool, bool)) -> Vec<(f64, f64)> {
     let log10 = |value: f64| if value > 0.0 { value.log10() } else { f64::NAN };
     let of = |value: f64, is_log: bool| if is_log { log10(value) } else { value };
@@ -157,8 +160,8 @@ pub struct Curve {
     pub(crate) look: Look,
     /// Which vertical axis it belongs to.
     pub(crate) side: Side,
-    /// The number of its colour, markers, and dashes. There are 9 colours, also of dashes, and 12 markers; a line with markers is
-    /// dashed from the tenth on, so that 12 curves differ in print as well.
+    /// The number of its colour, markers, and dashes. There are 9 colours, also of dashes, and 12 markers; a line with
+    /// markers is dashed from the tenth on, so that 12 curves differ in print as well.
     pub colour: usize,
 }
 

@@ -15,8 +15,8 @@ use crate::{Error, Store};
 /// The name of the page.
 pub const PAGE: &str = "report.html";
 
-/// Refuses a folder that has files of these names, in which a `*` stands for any characters, without outcomes of this program beside
-/// them: others wrote them, and they are not replaced.
+/// Refuses a folder that has files of these names, in which a `*` stands for any characters, without outcomes of this
+/// program beside them: others wrote them, and they are not replaced.
 ///
 /// # Errors
 /// Such a file.
@@ -48,7 +48,8 @@ pub fn write_file(folder: &Path, name: &str, text: &str) -> Result<(), Error> {
     file.finish()
 }
 
-/// Writes charts as `name.svg`, or as `name-1.svg` and so on if there are several; returns their SVG and the names of the files.
+/// Writes charts as `name.svg`, or as `name-1.svg` and so on if there are several; returns their SVG and the names of
+/// the files.
 ///
 /// # Errors
 /// A file that cannot be written; a chart that cannot be drawn.

@@ -1,16 +1,17 @@
 //! Heat maps: cells over two quantities, coloured by a third, as SVG pictures.
 //!
-//! A [`HeatMap`] has two axes, a colour scale, and one or more panels of cells, such as one for each scheme. All panels have the same axes
-//! and one common colour scale. Axes hold numbers or words; the border between two cells lies midway between their values, on a
-//! logarithmic axis midway between the logarithms. So values may have any distances and any order.
+//! A [`HeatMap`] has two axes, a colour scale, and one or more panels of cells, such as one for each scheme. All panels
+//! have the same axes and one common colour scale. Axes hold numbers or words; the border between two cells lies midway
+//! between their values, on a logarithmic axis midway between the logarithms. So values may have any distances and any
+//! order.
 //!
-//! Numbers of one sign have the colours of viridis, from dark to bright, which increase in lightness evenly, also in grey print and
-//! for people with any colour vision. Where a linear or a symmetric logarithmic scale has values of both signs, colours go from blue
-//! through white at 0 to red; in grey print, the sign is not visible. Words, such as verdicts, have colours of their own, and marks
-//! within cells that are large enough.
+//! Numbers of one sign have the colours of viridis, from dark to bright, which increase in lightness evenly, also in
+//! grey print and for people with any colour vision. Where a linear or a symmetric logarithmic scale has values of both
+//! signs, colours go from blue through white at 0 to red; in grey print, the sign is not visible. Words, such as
+//! verdicts, have colours of their own, and marks within cells that are large enough.
 //!
-//! A cell without a value is hatched. Zero and negative numbers on a logarithmic scale, and infinite numbers, have colours that the scale
-//! does not contain. Each of these has an entry in the legend, with the number of its cells.
+//! A cell without a value is hatched. Zero and negative numbers on a logarithmic scale, and infinite numbers, have
+//! colours that the scale does not contain. Each of these has an entry in the legend, with the number of its cells.
 //!
 //! ```
 //! use shadowstep_studies::heat_map::{CellAxis, Colour, HeatMap, Panel};
@@ -30,10 +31,10 @@
 //! # Ok::<(), shadowstep_studies::Error>(())
 //! ```
 //!
-//! Fewer than 10 000 cells of at least two pixels are rectangles, of which neighbours with one colour are one. Others are an image within the
-//! picture (PNG, lossless, without smoothing) of about a byte for each cell: 2000 × 2000 cells without any order are 5.4 MB of SVG, those
-//! of an escape map 0.08 MB. If the cells have different sizes, the image has four pixels for each unit of the picture, so
-//! that borders are exact to an eighth of a unit.
+//! Fewer than 10 000 cells of at least two pixels are rectangles, of which neighbours with one colour are one. Others
+//! are an image within the picture (PNG, lossless, without smoothing) of about a byte for each cell: 2000 × 2000 cells
+//! without any order are 5.4 MB of SVG, those of an escape map 0.08 MB. If the cells have different sizes, the image
+//! has four pixels for each unit of the picture, so that borders are exact to an eighth of a unit.
 //!
 //! | module | what it is |
 //! | --- | --- |
@@ -94,8 +95,8 @@ pub(crate) enum Values {
     Linear(Vec<f64>),
     /// Different positive numbers in any order, drawn by their logarithms.
     Logarithmic(Vec<f64>),
-    /// Names, such as those of schemes; they are drawn from left to right, and downwards, in cells of one size. If there are
-    /// too many for labels beside each other, only every n-th cell has one.
+    /// Names, such as those of schemes; they are drawn from left to right, and downwards, in cells of one size. If
+    /// there are too many for labels beside each other, only every n-th cell has one.
     Words(Vec<String>),
 }
 
@@ -104,8 +105,8 @@ pub(crate) enum Values {
 pub struct Panel {
     /// Above the panel.
     pub title: String,
-    /// Row by row: of nx values of x and ny of y, the value at (i, j) is `cells[i + nx·j]`. `None` and NaN are cells without a value, such
-    /// as those of failed runs. With [`Colour::words`], the number of the word, from 0.
+    /// Row by row: of nx values of x and ny of y, the value at (i, j) is `cells[i + nx·j]`. `None` and NaN are cells
+    /// without a value, such as those of failed runs. With [`Colour::words`], the number of the word, from 0.
     pub cells: Vec<Option<f64>>,
 }
 
@@ -116,8 +117,9 @@ pub struct Colour {
     pub label: String,
     /// From numbers to colours.
     pub(crate) scale: ColourScale,
-    /// The values at the ends of the colour bar; `None` for the smallest and the largest one. Where values of both signs occur, the bar
-    /// is extended to be the same on both sides of 0. Cells beyond have the colours of the ends, and are counted in the legend.
+    /// The values at the ends of the colour bar; `None` for the smallest and the largest one. Where values of both
+    /// signs occur, the bar is extended to be the same on both sides of 0. Cells beyond have the colours of the ends,
+    /// and are counted in the legend.
     pub range: Option<(f64, f64)>,
 }
 
@@ -131,11 +133,12 @@ pub(crate) enum ColourScale {
     /// For values of both signs over many decades: with the threshold c, v/c for |v| ≤ c, and ±(1 + log₁₀|v/c|) beyond.
     /// The label states c.
     SymmetricLogarithmic {
-        /// c > 0; `None` for the power of ten below which about 5 % of the nonzero |v| lie, but no less than 10⁻¹² of the largest.
+        /// c > 0; `None` for the power of ten below which about 5 % of the nonzero |v| lie, but no less than 10⁻¹² of
+        /// the largest.
         linear_within: Option<f64>,
     },
-    /// One of these three. Without its smallest 5 %, does the nonzero |v| extend over more than three decades? If not, linear. If so,
-    /// logarithmic, or symmetric if some value is negative.
+    /// One of these three. Without its smallest 5 %, does the nonzero |v| extend over more than three decades? If not,
+    /// linear. If so, logarithmic, or symmetric if some value is negative.
     Automatic,
     /// Up to 12 words, such as verdicts; a cell holds the number of its word, from 0.
     Words(Vec<String>),
@@ -188,7 +191,8 @@ impl Colour {
         Colour { label: label.into(), scale, range: None }
     }
 
-    /// The same from one value to another, so that several pictures have the same colours, or a few extreme values do not hide the others.
+    /// The same from one value to another, so that several pictures have the same colours, or a few extreme values do
+    /// not hide the others.
     pub fn over(self, least: f64, most: f64) -> Self {
         Colour { range: Some((least, most)), ..self }
     }

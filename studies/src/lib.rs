@@ -1,4 +1,5 @@
-//! Studies: calculations on all cores whose outcomes are saved one by one, and what is made of them: charts, verdicts, a page of HTML.
+//! Studies: calculations on all cores whose outcomes are saved one by one, and what is made of them: charts, verdicts,
+//! a page of HTML.
 //!
 //! | module | what it is |
 //! | --- | --- |

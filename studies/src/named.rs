@@ -4,7 +4,8 @@ use shadowstep_symbolic::suggestion;
 
 use crate::Error;
 
-/// The parts with these names, in the order of the list; all, if none is named. `what` is the word for a part: figure, case.
+/// The parts with these names, in the order of the list; all, if none is named. `what` is the word for a part: figure,
+/// case.
 ///
 /// # Errors
 /// An unknown name.

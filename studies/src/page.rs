@@ -32,7 +32,8 @@ pub struct Section {
     pub of_paper: Option<String>,
     /// What it shows.
     pub finding: Finding,
-    /// Its charts as `<svg>` elements without `id`s, as [`Chart::svg`](crate::chart::Chart::svg) gives them. They are not escaped.
+    /// Its charts as `<svg>` elements without `id`s, as [`Chart::svg`](crate::chart::Chart::svg) gives them. They are
+    /// not escaped.
     pub svgs: Vec<String>,
     /// Names of the files beside the page: SVG, CSV.
     pub files: Vec<String>,
@@ -118,7 +119,9 @@ impl Report {
             @if self.is_of_paper() && highlighted().next().is_some() {
                 div class="pictures" {
                     @for (_, figure) in highlighted().take(MOST_PICTURES) {
-                        @if let (Some(svg), Some((_, caption))) = (figure.svgs.first(), figure.finding.charts.first()) { (picture(svg, caption)) }
+                        @if let (Some(svg), Some((_, caption))) = (figure.svgs.first(), figure.finding.charts.first()) {
+                            (picture(svg, caption))
+                        }
                     }
                 }
             }
@@ -129,7 +132,8 @@ impl Report {
         let rows = [("statements of the paper", true), ("additional statements", false)];
         html! {
             table class="counts" {
-                thead { tr { th {} th scope="col" { "agree" } th scope="col" { "differ" } th scope="col" { "not decided" } } }
+                thead { tr { th {} th scope="col" { "agree" } th scope="col" { "differ" } th scope="col" { "not \
+                    decided" } } }
                 tbody {
                     @for (what, counts) in rows.map(|(what, of_paper)| (what, self.count(of_paper))) {
                         tr {
@@ -150,7 +154,11 @@ impl Report {
                         a href={ "#figure-" (n + 1) } { (set(&figure.title)) }
                         @if let Some(of_paper) = &figure.of_paper { " (" (of_paper) ")" }
                         " "
-                        @if self.is_of_paper() { (figure.badge()) } @else if !figure.finding.statements.is_empty() { "– " (figure.all_counts()) }
+                        @if self.is_of_paper() {
+                            (figure.badge())
+                        } @else if !figure.finding.statements.is_empty() {
+                            "– " (figure.all_counts())
+                        }
                     }
                 }
             }
@@ -248,7 +256,14 @@ fn statements(statements: &[Statement], whole: bool) -> Markup {
             thead { tr { th scope="col" { @if whole { "statement" } } th scope="col" { "found" } th scope="col" { "verdict" } } }
             tbody {
                 @for row in statements {
-                    tr { td { (set(&row.statement)) } td { (set(&row.found)) @if let Some(reason) = row.verdict.reason() { div class="reason" { (set(reason)) } } } td { (badge(row.verdict.word())) } }
+                    tr {
+                        td { (set(&row.statement)) }
+                        td {
+                            (set(&row.found))
+                            @if let Some(reason) = row.verdict.reason() { div class="reason" { (set(reason)) } }
+                        }
+                        td { (badge(row.verdict.word())) }
+                    }
                 }
             }
         }
@@ -359,14 +374,15 @@ mod tests {
         }
         let html = page.html();
         assert!(!html.contains("<b>") && !html.contains("\"it\""));
-        // title and heading, introduction, name, value; contents, finding with its link, its picture, heading, stated, finding, link
-        // twice; caption, header, cell, picture; statement, found
+        // title and heading, introduction, name, value; contents, finding with its link, its picture, heading, stated,
+        // finding, link twice; caption, header, cell, picture; statement, found
         assert_eq!(html.matches("&lt;b&gt; &amp; &quot;it&quot;").count(), 20);
     }
 
     #[test]
     fn verdicts_are_counted() {
-        let counts = "statements of the paper: 4 agree, 1 differs, 2 not decided; additional statements: 1 agrees, 0 differ, 0 not decided";
+        let counts = "statements of the paper: 4 agree, 1 differs, 2 not decided; additional statements: 1 agrees, 0 \
+            differ, 0 not decided";
         assert_eq!(report().verdicts(), counts);
         let mut fewer = report();
         fewer.sections.truncate(1);

@@ -1,5 +1,5 @@
-//! What all pictures have in common: the sizes of their texts, raised and lowered characters, the minus sign, and colours on light and dark
-//! screens.
+//! What all pictures have in common: the sizes of their texts, raised and lowered characters, the minus sign, and
+//! colours on light and dark screens.
 
 use maud::{PreEscaped, html};
 
@@ -52,8 +52,8 @@ pub(crate) struct Frame<'a> {
 }
 
 impl Frame<'_> {
-    /// The whole picture, with a style and a background. It has no `id`s, so that one page can contain many pictures. A minus sign is that
-    /// of ASCII, so that numbers can be searched and copied.
+    /// The whole picture, with a style and a background. It has no `id`s, so that one page can contain many pictures. A
+    /// minus sign is that of ASCII, so that numbers can be searched and copied.
     pub(crate) fn around(&self, content: &str, theme: Theme) -> String {
         let ((width, height), view) = (self.size, format!("0 0 {} {}", self.view.0, self.view.1));
         let svg = html! {

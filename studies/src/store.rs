@@ -1,7 +1,8 @@
 //! The file of outcomes: a header, and one line per calculation that is done.
 //!
-//! A line is written as soon as its calculation is done, so that all lines but the last are complete however the program ends. It has a
-//! hash, so that a damaged one is refused. The process holds a lock on the file, which the system releases when the process ends.
+//! A line is written as soon as its calculation is done, so that all lines but the last are complete however the
+//! program ends. It has a hash, so that a damaged one is refused. The process holds a lock on the file, which the
+//! system releases when the process ends.
 
 use std::collections::HashMap;
 use std::fmt::Display;
@@ -51,7 +52,8 @@ struct Line {
 impl Store {
     /// Opens `results.jsonl` in a folder, which is created if it does not exist.
     ///
-    /// A file of another version of the program is renamed. An incomplete last line, from an interrupted program, is dropped.
+    /// A file of another version of the program is renamed. An incomplete last line, from an interrupted program, is
+    /// dropped.
     /// # Errors
     /// Another process has the file; a line is not an outcome of a calculation.
     pub fn open(folder: &Path, observer: &mut dyn Observer) -> Result<Store, Error> {
@@ -108,11 +110,12 @@ impl Store {
         Ok(Store { path, file, outcomes })
     }
 
-    /// Makes the calculations whose outcomes the store lacks, the most expensive first, and returns all outcomes in the order of the
-    /// calculations; `None` for one that fails, which is reported to the observer and stops no other.
+    /// Makes the calculations whose outcomes the store lacks, the most expensive first, and returns all outcomes in the
+    /// order of the calculations; `None` for one that fails, which is reported to the observer and stops no other.
     ///
-    /// It uses all threads of the current rayon pool: one per core, or the number of `RAYON_NUM_THREADS` or of the caller's pool.
-    /// Outcomes are always read back from their JSON, so that they depend neither on the threads nor on earlier calls.
+    /// It uses all threads of the current rayon pool: one per core, or the number of `RAYON_NUM_THREADS` or of the
+    /// caller's pool. Outcomes are always read back from their JSON, so that they depend neither on the threads nor on
+    /// earlier calls.
     ///
     /// # Errors
     /// A store that cannot be written; an observer that stops the computation.

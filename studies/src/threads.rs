@@ -50,8 +50,8 @@ fn groups<C: Calculation>(calculations: &[C], due: &[usize]) -> Vec<Group> {
     groups
 }
 
-/// Makes the calculations at these places, the most expensive first; each idle thread takes the next group. Returns the failures, each
-/// with the place of its calculation.
+/// Makes the calculations at these places, the most expensive first; each idle thread takes the next group. Returns the
+/// failures, each with the place of its calculation.
 pub(crate) fn compute<C: Calculation>(
     calculations: &[C],
     due: &[usize],

@@ -90,7 +90,8 @@ fn scaled(n: f64, exponent: i32) -> f64 {
     if exponent < 0 { n / 10f64.powi(-exponent) } else { n * 10f64.powi(exponent) }
 }
 
-/// n · 10^exponent as text, without an exponent where that is short; else with the exponent of the largest n of an axis.
+/// n · 10^exponent as text, without an exponent where that is short; else with the exponent of the largest n of an
+/// axis.
 fn decimal(n: i64, exponent: i32, largest: u64) -> String {
     let sign = if n < 0 { "−" } else { "" };
     let n = n.unsigned_abs();

@@ -58,7 +58,8 @@ impl From<bool> for Verdict {
 
 /// Which of the values that a statement is about were computed: all of the grid of a full report, or some of them.
 ///
-/// What some of the values cannot decide is not decided, so that no verdict on a coarse grid contradicts the one on the whole grid.
+/// What some of the values cannot decide is not decided, so that no verdict on a coarse grid contradicts the one on the
+/// whole grid.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Coverage {
     /// All of them.

@@ -1,7 +1,7 @@
 //! What a sweep costs besides its steps: reading scenes, keeping records, writing and collecting chunks.
 //!
-//! `cargo bench -p shadowstep-sweeps`; with RUNS=100000 for 10⁵ runs, with ROUNDS=1 for one round in place of five. Both contestants make
-//! equally many steps on all cores, in turns.
+//! `cargo bench -p shadowstep-sweeps`; with RUNS=100000 for 10⁵ runs, with ROUNDS=1 for one round in place of five.
+//! Both contestants make equally many steps on all cores, in turns.
 
 use std::env;
 use std::fs;

@@ -1,4 +1,5 @@
-//! What a run of a sweep costs one by one and together with others: CPU time of the process, which computes in one thread, in turns.
+//! What a run of a sweep costs one by one and together with others: CPU time of the process, which computes in one
+//! thread, in turns.
 //!
 //! `cargo bench -p shadowstep-sweeps --bench together`; with ROUNDS=1 for one round in place of five.
 
@@ -88,7 +89,8 @@ fn ensemble(trajectories: u32, steps: u32) {
     let text = format!(
         "problem = {{ potential = \"(x^2 + y^2)/2 + x^2*y - y^3/3\", coordinates = [\"x\", \"y\"] }}\n\
          initial = {{ q = [0, \"y0\"], p = [\"0.1 + u\", 0] }}\n\
-         run = {{ scheme = \"yoshida4\", step = \"1/10\", steps = {steps}, digits = \"double\" }}\noutput.energy = {{ every = 100 }}\n\
+         run = {{ scheme = \"yoshida4\", step = \"1/10\", steps = {steps}, digits = \"double\" }}\noutput.energy = {{ \
+         every = 100 }}\n\
          ensemble.columns = {{ y0 = [{}], u = [{}] }}\n",
         column(|t| 0.1 * (0.7 * t).sin()),
         column(|t| 0.1 * (1.3 * t).cos())
@@ -100,7 +102,8 @@ fn ensemble(trajectories: u32, steps: u32) {
     let of_one = |seconds: f64| 1e6 * seconds / f64::from(trajectories);
     let (read, run) = (of_one(read - begin), of_one(cpu_seconds() - read));
     println!(
-        "An ensemble of {trajectories} trajectories of {steps} steps: read {read:.1} µs, computed and written {run:.1} µs a trajectory"
+        "An ensemble of {trajectories} trajectories of {steps} steps: read {read:.1} µs, computed and written \
+            {run:.1} µs a trajectory"
     );
 }
 

@@ -211,7 +211,8 @@ mod tests {
     #[test]
     fn every_combination_is_there_once() {
         let text = "zip = [[\"b\", \"e\"], [\"d\", \"f\"]]\n[axes]\na = [1, 2, 3]\nb = \"1 … 2 in 5 values\"\nc = [7]\n\
-                    d = { draws = 2, uniform = [0, 1], seed = 1 }\ne = \"1 … 100 in 4 steps of log\"\nf = [\"x\", \"y\"]";
+                    d = { draws = 2, uniform = [0, 1], seed = 1 }\ne = \"1 … 100 in 4 steps of log\"\nf = \
+                    [\"x\", \"y\"]";
         let axes = read(text).unwrap();
         assert_eq!(axes.runs(), 3 * 5 * 2);
         let numbers: BTreeSet<Vec<u64>> = (0..axes.runs()).map(|run| axes.numbers(run)).collect();

@@ -1,7 +1,7 @@
 //! Chunks: which runs one has, and its file.
 //!
-//! A file has a header, a record a line in the order of the runs, and a hash of all that. Its bytes depend on the plan only, not on
-//! who computes it, when, or with how many threads.
+//! A file has a header, a record a line in the order of the runs, and a hash of all that. Its bytes depend on the plan
+//! only, not on who computes it, when, or with how many threads.
 
 use std::fs::File;
 use std::io::{self, BufRead, BufReader, Write};
@@ -81,8 +81,8 @@ impl Chunk {
     }
 }
 
-/// Writes the file of a chunk from its records in the order of the runs: under a temporary name, synchronised with the disk, and
-/// then renamed. Several processes may do it at the same time.
+/// Writes the file of a chunk from its records in the order of the runs: under a temporary name, synchronised with the
+/// disk, and then renamed. Several processes may do it at the same time.
 pub(crate) fn write(folder: &Path, chunk: Chunk, header: &Header, records: &[String]) -> Result<(), Error> {
     let path = chunk.path(folder);
     let parent = path.parent().unwrap_or(folder);
@@ -112,7 +112,8 @@ pub(crate) fn write(folder: &Path, chunk: Chunk, header: &Header, records: &[Str
     Ok(())
 }
 
-/// Removes what processes that were killed have left, when all chunks are there: one that is still at work comes to the same files.
+/// Removes what processes that were killed have left, when all chunks are there: one that is still at work comes to the
+/// same files.
 pub(crate) fn remove_left(folder: &Path) {
     let is_left = |path: &PathBuf| {
         let name = path.file_name().unwrap_or_default().to_string_lossy();
@@ -197,8 +198,8 @@ pub(crate) fn open(path: &Path) -> io::Result<File> {
     File::open(path)
 }
 
-/// Gives each record of a chunk's file to `take`, in the order of the runs; returns the header. Only when this returns is it known
-/// that the file is whole.
+/// Gives each record of a chunk's file to `take`, in the order of the runs; returns the header. Only when this returns
+/// is it known that the file is whole.
 pub(crate) fn read(
     folder: &Path,
     chunk: Chunk,

@@ -272,7 +272,8 @@ fn functions_differ(functions: &[(Option<String>, u64)]) -> Option<String> {
     let others: Vec<u64> = functions.iter().filter(|(own, _)| own != first).map(|(_, chunk)| *chunk).collect();
     (!others.is_empty()).then(|| {
         format!(
-            "chunks {} were computed with other elementary functions (of another C library or processor) than chunk 1: the last digits \
+            "chunks {} were computed with other elementary functions (of another C library or processor) than chunk \
+                1: the last digits \
              of their results may differ",
             ranges(&others)
         )

@@ -32,7 +32,8 @@ pub struct Computed {
 
 /// Computes chunks that are not there yet, with all threads of the current rayon pool. A run that fails stops nothing.
 ///
-/// The bytes of the files do not depend on the number of threads, nor on earlier calls that were interrupted at any moment.
+/// The bytes of the files do not depend on the number of threads, nor on earlier calls that were interrupted at any
+/// moment.
 ///
 /// # Errors
 /// A file that cannot be written; an observer that stops the computation.
@@ -79,7 +80,8 @@ pub fn compute(
     }
 }
 
-/// Bytes of a thread's stack: without optimisation a run of long numbers has many copies of them there, more than the usual 2 MiB.
+/// Bytes of a thread's stack: without optimisation a run of long numbers has many copies of them there, more than the
+/// usual 2 MiB.
 const STACK: usize = 4 << 20;
 
 /// At its end a thread is counted off before the waiting thread wakes, be it by a panic.

@@ -13,7 +13,8 @@ use crate::manifest::{self, Manifest, VERSION, check_chunks};
 use crate::plan::SweepPlan;
 use crate::slurm::SCRIPTS;
 
-/// Refuses a folder with files that [`collect`](crate::collect()) would replace, and without a sweep beside them: others wrote them.
+/// Refuses a folder with files that [`collect`](crate::collect()) would replace, and without a sweep beside them:
+/// others wrote them.
 ///
 /// # Errors
 /// Such a file.
@@ -24,8 +25,9 @@ pub fn refuse_foreign(folder: &Path) -> Result<(), Error> {
     files::refuse_foreign(folder, written().map(str::to_owned))
 }
 
-/// Removes what is not from this plan, so that the sweep begins in the folder: files that [`collect`](crate::collect()) would replace, and the
-/// plan, chunks and job scripts of another sweep. A folder of this sweep stays as it is, as processes may be at work in it.
+/// Removes what is not from this plan, so that the sweep begins in the folder: files that [`collect`](crate::collect())
+/// would replace, and the plan, chunks and job scripts of another sweep. A folder of this sweep stays as it is, as
+/// processes may be at work in it.
 ///
 /// # Errors
 /// A number of chunks that the sweep cannot have, before anything is removed; a file that cannot be removed.

@@ -10,11 +10,14 @@ use toml::de::DeTable;
 use crate::values::{Description, NAMES_OF_VALUES, VALUES};
 
 const INTRODUCTION: &str = "\
-A sweep is a TOML file: the sections of a scene, or `scene` with the path of one, and [axes], [keep] and [picture]. `shadowstep scene \
---explain` explains those of a scene; [output] can be left out. There is one run for each choice of a value on each axis; the last axis \
+A sweep is a TOML file: the sections of a scene, or `scene` with the path of one, and [axes], [keep] and [picture]. \
+`shadowstep scene \
+--explain` explains those of a scene; [output] can be left out. There is one run for each choice of a value on each \
+axis; the last axis \
 varies fastest.
 
-The name of an axis stands for its value: in every number of the scene, as a parameter does, step = \"h\" or q = [\"1 - e\", 0]; and \
+The name of an axis stands for its value: in every number of the scene, as a parameter does, step = \"h\" or q = [\"1 \
+- e\", 0]; and \
 \"$scheme\" in place of a whole value, scheme = \"$scheme\" or steps = \"$n\".";
 
 /// The most draws.
@@ -47,12 +50,15 @@ pub(crate) const AXES: Section = Section::new(
         e: AXIS => "[0, \"1/10\", 0.25]", "A list of exact numbers.", else "none";
         scheme: AXIS => "[\"yoshida4\", \"mine.toml\"]", "A list of words, for \"$scheme\".", else "none";
         h: AXIS => "\"1/10 … 1/100 in 19 steps of 1/h\"",
-            "A range, also with ... in place of …: equal distances of the value, `of 1/h` of its reciprocal, `of log(h)` of its logarithm. `in 20 \
-             values` counts values, `in 19 steps` what is between them. Values are exact; those of logarithms are rounded to 12 digits, irrational ends \
+            "A range, also with ... in place of …: equal distances of the value, `of 1/h` of its reciprocal, `of \
+                log(h)` of its logarithm. `in 20 \
+             values` counts values, `in 19 steps` what is between them. Values are exact; those of logarithms are \
+             rounded to 12 digits, irrational ends \
              to 30, and exact from there on.",
             else "none";
         phase: AXIS => "{ draws = 100, uniform = [0, \"2*pi\"], seed = 1 }",
-            "Random draws, uniform = [a, b], log = [a, b] (whose logarithm is uniform) or normal = [mean, deviation]. A draw depends on the seed, the \
+            "Random draws, uniform = [a, b], log = [a, b] (whose logarithm is uniform) or normal = [mean, deviation]. \
+                A draw depends on the seed, the \
              name of the axis and its number only; it is rounded to 17 digits, and exact from there on.",
             else "none";
     },
@@ -65,8 +71,10 @@ pub(crate) const DRAWS: Section = Section::new(
     rows! {
         draws: Kind::Whole(1, MOST_DRAWS) => "100", "How many.";
         seed: Kind::Whole(0, u64::MAX) => "1", "The seed.";
-        uniform: NUMBERS => "[0, \"2*pi\"]", "The least and the greatest value.", else "none", excludes ["log", "normal"];
-        log: NUMBERS => "[\"1e-6\", \"1e-3\"]", "The same of values whose logarithm is uniform.", else "none", excludes ["normal"];
+        uniform: NUMBERS => "[0, \"2*pi\"]", "The least and the greatest \
+            value.", else "none", excludes ["log", "normal"];
+        log: NUMBERS => "[\"1e-6\", \"1e-3\"]", "The same of values whose logarithm is \
+            uniform.", else "none", excludes ["normal"];
         normal: NUMBERS => "[0, \"1/10\"]", "The mean and the standard deviation.", else "none";
     },
 )
@@ -76,18 +84,24 @@ pub(crate) const KEEP: Section = Section::new(
     "[keep]",
     "What is kept of each run. Nothing else is computed.",
     rows! {
-        values: Kind::List(&Kind::Word(&NAMES_OF_VALUES)) => "[\"verdict\", \"energy_error\"]", "Values that every run has; see below.", else "none";
+        values: Kind::List(&Kind::Word(&NAMES_OF_VALUES)) => "[\"verdict\", \"energy_error\"]", "Values that every \
+            run has; see below.", else "none";
         state: Kind::Truth => "true", "Whether q and p of the last state are kept.", else "false";
         at_end: Kind::Names(&FORMULA) => "{ L = \"x*py - y*px\" }",
             "Formulas at the last state: in the coordinates, momenta and parameters, the axes, t and E.", else "none";
-        min: Kind::Names(&FORMULA) => "{ closest = \"x^2 + y^2\" }", "The least values of formulas over all states of the run.", else "none";
-        max: Kind::Names(&FORMULA) => "{ E_max = \"E\" }", "The greatest values of formulas over all states of the run.", else "none";
+        min: Kind::Names(&FORMULA) => "{ closest = \"x^2 + y^2\" }", "The least values of formulas over all states of \
+            the run.", else "none";
+        max: Kind::Names(&FORMULA) => "{ E_max = \"E\" }", "The greatest values of formulas over all states of the \
+            run.", else "none";
         first_time: Kind::Names(&CONDITION) => "{ escape = \"x^2 + y^2 > 100\" }",
-            "Conditions, one comparison each. The value is the time of the first state that meets it, and nothing where no state does.", else "none";
+            "Conditions, one comparison each. The value is the time of the first state that meets it, and nothing \
+                where no state does.", else "none";
         stop: NAMES => "[\"escape\"]",
-            "Names of first_time: a run ends at the first state that meets one of them.", else "none", needs ["first_time"];
+            "Names of first_time: a run ends at the first state that meets one of \
+                them.", else "none", needs ["first_time"];
         rows: Kind::Truth => "true",
-            "Whether the rows of the scene's [output] are kept, in rows.csv with the number of the run; each run is made twice then.", else "false";
+            "Whether the rows of the scene's [output] are kept, in rows.csv with the number of the run; each run is \
+                made twice then.", else "false";
     },
 );
 
@@ -96,7 +110,8 @@ pub(crate) const PICTURE: Section = Section::new(
     "A map of a value over two axes, or curves over one. It can be changed without computing anything again.",
     rows! {
         x: NAME => "\"h\"", "The axis in horizontal direction.", else "the first axis of numbers";
-        y: NAME => "\"e\"", "The axis in vertical direction, for a map.", else "the next axis of numbers; without one, curves are drawn";
+        y: NAME => "\"e\"", "The axis in vertical direction, for a map.", else "the next axis of numbers; without \
+            one, curves are drawn";
         curves: NAME => "\"scheme\"",
             "The axis that has a curve for each value, in place of y.", else "the first axis of words", excludes ["y"];
         panels: NAME => "\"scheme\"",
@@ -108,7 +123,8 @@ pub(crate) const PICTURE: Section = Section::new(
         range: NUMBERS => "[1, 100]",
             "The values at the ends of a map's colours, which values beyond share.", else "the least and the largest value";
         title: Kind::Text("title") => "\"Permanent change\"", "The title.", else "the name of the sweep's file";
-        label: Kind::Text("label") => "\"|change of the modified energy|\"", "What the value is called.", else "the name of the column";
+        label: Kind::Text("label") => "\"|change of the modified energy|\"", "What the value is called.", else "the \
+            name of the column";
     },
 );
 

@@ -1,4 +1,5 @@
-//! Sweeps: many runs of a scene over axes of parameters, divided into chunks that can be computed anywhere and in any order.
+//! Sweeps: many runs of a scene over axes of parameters, divided into chunks that can be computed anywhere and in any
+//! order.
 //!
 //! ```
 //! use shadowstep_sweeps::{Chunk, Collected, Manifest, SweepPlan, TableFormat, collect, compute};

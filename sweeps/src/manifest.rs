@@ -1,4 +1,5 @@
-//! `plan.json` in the folder of a sweep: what its chunks are of. With it, results are collected without the sweep's files.
+//! `plan.json` in the folder of a sweep: what its chunks are of. With it, results are collected without the sweep's
+//! files.
 
 use std::io::{self, Write};
 use std::path::Path;

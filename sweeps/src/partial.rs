@@ -1,8 +1,8 @@
 //! The records of a chunk that is not complete, in the order in which they were made.
 //!
-//! Each process has its own file, `chunks/00003-of-00016.partial-…`, and appends to it. A process that begins takes the records that
-//! others have left, copies them and removes their files: it does no harm if another process is still at work, which keeps its
-//! records in memory. So no locks are needed, which network file systems may not have.
+//! Each process has its own file, `chunks/00003-of-00016.partial-…`, and appends to it. A process that begins takes the
+//! records that others have left, copies them and removes their files: it does no harm if another process is still at
+//! work, which keeps its records in memory. So no locks are needed, which network file systems may not have.
 
 use std::collections::BTreeMap;
 use std::fs::{self, File};

@@ -260,8 +260,8 @@ const TRIED: u64 = 64;
 /// The CPU time for which others are tried: a scene with a fault may have formulas that take long.
 const PATIENCE: Duration = Duration::from_secs(1);
 
-/// A scene of the sweep with the number of its run. Where the first run has faults, as one at the corner of a map may have, others are
-/// tried, spread over all.
+/// A scene of the sweep with the number of its run. Where the first run has faults, as one at the corner of a map may
+/// have, others are tried, spread over all.
 fn first_scene(family: &Family, axes: &Axes) -> Result<Scene, Faults> {
     let scene = |run| family.scene(&axes.values(run));
     // all of few; of many, the multiples of the golden ratio are spread evenly

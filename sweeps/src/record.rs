@@ -27,7 +27,8 @@ use crate::values::{Need, RunValue};
 pub struct Record {
     /// Its number.
     pub run: u64,
-    /// The value of each column; `None` where there is none, as the time of a condition that no state meets. Empty if it failed.
+    /// The value of each column; `None` where there is none, as the time of a condition that no state meets. Empty if
+    /// it failed.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub values: Vec<Option<String>>,
     /// Why it failed.

@@ -1,7 +1,8 @@
 //! Sweeps on a cluster with Slurm: a job array computes the chunks, a job after it collects them.
 //!
-//! Two job scripts are written into the folder of the sweep and kept. Whoever needs other options of sbatch edits them: a script that is
-//! there is submitted as it is. Slurm starts the tasks, again if a node is lost; here is only what is submitted and what became of it.
+//! Two job scripts are written into the folder of the sweep and kept. Whoever needs other options of sbatch edits them:
+//! a script that is there is submitted as it is. Slurm starts the tasks, again if a node is lost; here is only what is
+//! submitted and what became of it.
 //!
 //! | module | what it is |
 //! | --- | --- |

@@ -12,8 +12,8 @@ const COUNT: &str = "SLURM_ARRAY_TASK_COUNT";
 const MIN: &str = "SLURM_ARRAY_TASK_MIN";
 const MAX: &str = "SLURM_ARRAY_TASK_MAX";
 
-/// The chunk of this task, from the variables of the environment; `None` outside of arrays. `chunks` is the number of chunks of a
-/// folder that has been begun; in a new one, the array decides, whose tasks must be 1, 2, … then.
+/// The chunk of this task, from the variables of the environment; `None` outside of arrays. `chunks` is the number of
+/// chunks of a folder that has been begun; in a new one, the array decides, whose tasks must be 1, 2, … then.
 ///
 /// ```
 /// use shadowstep_sweeps::{Chunk, chunk_of_task};

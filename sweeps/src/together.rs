@@ -1,7 +1,7 @@
 //! Runs that are computed together: they differ in the numbers of their systems only, and each is a lane.
 //!
-//! What is kept of a run has the bytes that it has alone. A run whose state or energy is found to be infinite or NaN is left to be made alone,
-//! which gives the message.
+//! What is kept of a run has the bytes that it has alone. A run whose state or energy is found to be infinite or NaN is
+//! left to be made alone, which gives the message.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -39,7 +39,8 @@ pub(crate) fn allows(keep: &Keep) -> bool {
 
 /// Whether a run can be computed together with others like it.
 ///
-/// exp, log, sin, … of lanes are not those of the platform, which a run has alone; nor have lanes the maps of processed schemes and displaced forces.
+/// exp, log, sin, … of lanes are not those of the platform, which a run has alone; nor have lanes the maps of processed
+/// schemes and displaced forces.
 pub(crate) fn suits(scene: &Scene, keep: &Keep) -> bool {
     sums(scene).is_some()
         && scene.scheme.scheme.processor().is_empty()
@@ -278,7 +279,8 @@ mod tests {
     use crate::plan::SweepPlan;
     use crate::record::measured;
 
-    const HENON_HEILES: &str = "problem = { potential = \"(x^2 + y^2)/2 + x^2*y - y^3/3\", coordinates = [\"x\", \"y\"] }\n\
+    const HENON_HEILES: &str = "problem = { potential = \"(x^2 + y^2)/2 + x^2*y - y^3/3\", coordinates = \
+        [\"x\", \"y\"] }\n\
          initial = { q = [0, \"y0\"], p = [\"1/2\", \"v0\"] }\n\
          run = { scheme = \"yoshida4\", step = \"1/10\", steps = 300, digits = \"double\" }\n\
          [axes]\ny0 = \"0 … 6/5 in 6 values\"\nv0 = \"-1/2 … 1/2 in 5 values\"\n";
@@ -313,7 +315,8 @@ mod tests {
         // of 30, some leave the well until H overflows
         let ends = together(&format!("{HENON_HEILES}[keep]\nstate = true\nat_end = {{ E1 = \"E*t + y0\" }}\n"));
         assert!((5..30).contains(&ends), "{ends}");
-        let energies = "values = [\"steps\", \"energy_error\", \"relative_energy_error\", \"last_energy_error\", \"force_evaluations\"]";
+        let energies = "values = \
+            [\"steps\", \"energy_error\", \"relative_energy_error\", \"last_energy_error\", \"force_evaluations\"]";
         assert_eq!(together(&format!("{HENON_HEILES}[keep]\n{energies}\n")), ends);
         let escape =
             "first_time = { escape = \"x^2 + y^2 > 9\", turn = \"px < 0\", late = \"t > 10\" }\nstop = [\"escape\"]";
@@ -333,13 +336,16 @@ mod tests {
     #[test]
     fn masses_parameters_and_bodies_differ() {
         let run = "run = { scheme = \"ruth3\", step = \"1/20\", steps = 50, digits = \"compensated\" }\n";
-        let keep = "[axes]\na = \"1/3 … 2 in 7 values\"\n[keep]\nstate = true\nvalues = [\"energy_error\", \"sali\", \"megno\"]\nat_end = { x = \"a*t\" }\n";
+        let keep = "[axes]\na = \"1/3 … 2 in 7 values\"\n[keep]\nstate = true\nvalues = \
+            [\"energy_error\", \"sali\", \"megno\"]\nat_end = { x = \"a*t\" }\n";
         for problem in [
             "problem = { name = \"harmonic-oscillator\", parameters.omega = \"a\" }\n",
             "problem = { name = \"kepler\", parameters.eccentricity = \"a/3\" }\n",
             "problem = { name = \"figure-eight\", parameters.m_2 = \"a\" }\n",
-            "problem = { potential = \"u^2*v^2/a\", coordinates = [\"u\", \"v\"], masses = [1, \"a\"] }\ninitial = { q = [1, \"a\"], p = [0, 1] }\n",
-            "problem = { potential = \"u^2/2\", coordinates = [\"u\"], kinetic = \"sqrt(1 + pu^2*a)\" }\ninitial = { q = [\"a\"], p = [0] }\n",
+            "problem = { potential = \"u^2*v^2/a\", coordinates = [\"u\", \"v\"], masses = [1, \"a\"] }\ninitial = { \
+                q = [1, \"a\"], p = [0, 1] }\n",
+            "problem = { potential = \"u^2/2\", coordinates = [\"u\"], kinetic = \"sqrt(1 + pu^2*a)\" }\ninitial = { \
+                q = [\"a\"], p = [0] }\n",
             "problem = { pair = \"-m_i*m_j*a/sqrt(r2)\", dimensions = 2, bodies = { m = [1, \"a\"] }, masses = \"m\" }\n\
              initial = { q = [0, 0, \"a\", 1], v = [0, 0, 0, \"a\"] }\n",
         ] {
@@ -351,8 +357,10 @@ mod tests {
     #[test]
     fn quantities_of_bodies_are_those_of_runs_alone() {
         let text = "problem = { name = \"figure-eight\", parameters.m_2 = \"a\" }\n\
-            run = { scheme = \"ruth3\", step = \"1/20\", steps = 50, digits = \"double\" }\n[axes]\na = \"1/3 … 2 in 7 values\"\n[keep]\n\
-            at_end = { angle = \"M(2) + pericentre(3, jacobi)\" }\nmin = { d = \"distance(1, 2)\" }\nmax = { e = \"e(3, barycentre)\" }\n";
+            run = { scheme = \"ruth3\", step = \"1/20\", steps = 50, digits = \"double\" }\n[axes]\na = \"1/3 … 2 in \
+            7 values\"\n[keep]\n\
+            at_end = { angle = \"M(2) + pericentre(3, jacobi)\" }\nmin = { d = \"distance(1, 2)\" }\nmax = { e \
+            = \"e(3, barycentre)\" }\n";
         assert_eq!(together(text), 7);
     }
 

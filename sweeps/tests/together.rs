@@ -6,8 +6,8 @@ use std::sync::atomic::AtomicBool;
 use shadowstep::tables::Source;
 use shadowstep_sweeps::{Collected, Manifest, SweepPlan, TableFormat, collect, compute};
 
-/// 300 runs: with the square root of a negative number, with a potential that is infinite at the start, with orbits that
-/// leave, with two schemes and step sizes.
+/// 300 runs: with the square root of a negative number, with a potential that is infinite at the start, with orbits
+/// that leave, with two schemes and step sizes.
 const SWEEP: &str = r#"
 problem = { potential = "(x^2 + y^2)/2 + x^2*y - y^3/3 + c/x", coordinates = ["x", "y"] }
 initial = { q = ["c", "y0"], p = ["sqrt(1/2 - y0^2)", "1/5"] }

@@ -41,15 +41,15 @@ const ATTEMPTS: u32 = 4;
 /// value of a function, or with `pi` (unless a name hides it), the value of the whole expression is
 /// correctly rounded to `digits` significant decimal digits (at least 1, at most 5000), half to even.
 ///
-/// sin, cos and tan of a rational multiple of π subtract the nearest multiple of π/2 exactly, so that `sin(1000000*pi/9)` takes
-/// no more than `sin(pi/9)`.
+/// sin, cos and tan of a rational multiple of π subtract the nearest multiple of π/2 exactly, so that
+/// `sin(1000000*pi/9)` takes no more than `sin(pi/9)`.
 ///
 /// The functions are sqrt, cbrt, exp, log (the natural logarithm), sin, cos, tan, sinh, cosh, tanh,
 /// atan, asin and acos. They are enclosed rigorously, in integer arithmetic alone.
 ///
-/// Numbers that cannot be distinguished with eight times these digits count as equal: an irrational expression and zero,
-/// so that `sin(pi)` is 0; an expression and the middle between two decimals; the argument of a root or function and the
-/// boundary of its domain, so that `asin(sin(pi/2))` is pi/2 and `log(sin(pi))` and `tan(pi/2)` have no value.
+/// Numbers that cannot be distinguished with eight times these digits count as equal: an irrational expression and
+/// zero, so that `sin(pi)` is 0; an expression and the middle between two decimals; the argument of a root or function
+/// and the boundary of its domain, so that `asin(sin(pi/2))` is pi/2 and `log(sin(pi))` and `tan(pi/2)` have no value.
 ///
 /// # Errors
 /// A [`SemanticError`] for an unknown name or function, a division by zero, `0^0`, an even root

@@ -29,6 +29,7 @@ impl Separation {
 pub enum Summand {
     /// A pair's own rate, d u'(d) − 2u or 2r²u'(r²) − 2u: the sum of these is the rate.
     Rate,
-    /// A pair's energy u: the rate is qᵀU_q − 2 Σ u. Its round-off grows with q, as it does for other products with q in estimates.
+    /// A pair's energy u: the rate is qᵀU_q − 2 Σ u. Its round-off grows with q, as it does for other products with q
+    /// in estimates.
     Energy,
 }

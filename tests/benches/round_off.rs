@@ -1,10 +1,12 @@
-//! What round-off makes of the modified energy in double precision: plain sums, compensated ones, and fixed point, over many phases.
+//! What round-off makes of the modified energy in double precision: plain sums, compensated ones, and fixed point, over
+//! many phases.
 //!
-//! `cargo bench -p shadowstep-tests --bench round_off` prints the tables of `docs/round-off.md`; `-- STEPS PHASES NAME` sets the length of the
-//! runs, how many there are, and the cases whose names contain NAME, such as `-- 1e8 8 yoshida4`.
+//! `cargo bench -p shadowstep-tests --bench round_off` prints the tables of `docs/round-off.md`; `-- STEPS PHASES NAME`
+//! sets the length of the runs, how many there are, and the cases whose names contain NAME, such as
+//! `-- 1e8 8 yoshida4`.
 //!
-//! The modified energy is computed at the state in `f64` with its remainders, by steps of 50 digits around it, so that no round-off of
-//! the estimate is in the results.
+//! The modified energy is computed at the state in `f64` with its remainders, by steps of 50 digits around it, so that
+//! no round-off of the estimate is in the results.
 
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -56,7 +58,8 @@ fn star(phase: usize) -> Start {
     ([0.1 * cos, 0.12 * sin], [0.11 * sin, 0.1 * cos])
 }
 
-/// Steps to the next apocentre, where the estimates of the modified energy are best: there qᵀp changes its sign from + to −.
+/// Steps to the next apocentre, where the estimates of the modified energy are best: there qᵀp changes its sign from +
+/// to −.
 fn step_to_apocentre<S: Scheme + ValidFor<M::Class>, M: System<Number = f64>>(
     stepper: &Stepper<S, f64>,
     system: &mut M,

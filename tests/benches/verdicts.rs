@@ -1,8 +1,8 @@
-//! How often the monitor's verdicts are right: matrices of scenes, schemes and steps, each watched with six k, against runs of ten
-//! times the length and with half the step.
+//! How often the monitor's verdicts are right: matrices of scenes, schemes and steps, each watched with six k, against
+//! runs of ten times the length and with half the step.
 //!
-//! `cargo bench -p shadowstep-tests --bench verdicts` prints the tables of `docs/monitor.md`; `-- NAME` runs the scenes whose names
-//! contain NAME. It takes some minutes.
+//! `cargo bench -p shadowstep-tests --bench verdicts` prints the tables of `docs/monitor.md`; `-- NAME` runs the scenes
+//! whose names contain NAME. It takes some minutes.
 
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
@@ -31,7 +31,8 @@ struct Case<'a> {
 enum Truth {
     Bounded,
     Borderline,
-    /// As it does with half the step, where it shrinks with h as the order predicts: the trajectory comes to other places.
+    /// As it does with half the step, where it shrinks with h as the order predicts: the trajectory comes to other
+    /// places.
     GrowsAtHalf,
     Grows,
     RoundOff,
@@ -65,7 +66,8 @@ impl From<Verdict> for Conclusion {
 
 /// The error of H after each of two numbers of steps: the width of the middle 98 % of its values, and max − min.
 ///
-/// Close encounters become closer the longer a run is, so that its largest error grows also where the modified energy is conserved.
+/// Close encounters become closer the longer a run is, so that its largest error grows also where the modified energy
+/// is conserved.
 fn energy_errors(case: Case<'_>, part: f64, steps: [u64; 2]) -> [[f64; 2]; 2] {
     let stepper = stepper(case.scheme, case.scene.limit, part);
     let mut motion = case.scene.motion();
@@ -95,8 +97,9 @@ fn widths(values: &[f64]) -> [f64; 2] {
     [values[last - last / 100] - values[last / 100], values[last] - values[0]]
 }
 
-/// The error of H is bounded if it grows by half or less in ten times the length and stays below 0.3 of T; it grows if it trebles or
-/// comes to 0.6 of T. It is round-off if it is of the size of that, or grows with half the step as well and is not smaller there.
+/// The error of H is bounded if it grows by half or less in ten times the length and stays below 0.3 of T; it grows if
+/// it trebles or comes to 0.6 of T. It is round-off if it is of the size of that, or grows with half the step as well
+/// and is not smaller there.
 fn truth(case: Case<'_>, report: &Report<f64>) -> Truth {
     let n = case.scene.steps;
     let [[short, _], [long, largest]] = energy_errors(case, case.part, [n, 10 * n]);
@@ -240,7 +243,8 @@ fn report(title: &str, outcomes: &[Outcome]) {
     let tried: Vec<bool> = advised.iter().filter_map(|(_, decided)| *decided).collect();
     let decided = tried.iter().filter(|&&decided| decided).count();
     println!(
-        "Undecided with k = 8: {}; of {} for which a run at most {LONGEST} times as long is advised, it decides {decided}.",
+        "Undecided with k = 8: {}; of {} for which a run at most {LONGEST} times as long is advised, it decides \
+            {decided}.",
         advised.len(),
         tried.len()
     );

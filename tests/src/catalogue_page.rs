@@ -1,4 +1,5 @@
-//! The pages of the documentation on the shipped schemes, one of them all and one for each family, from their tables, proofs and analysis.
+//! The pages of the documentation on the shipped schemes, one of them all and one for each family, from their tables,
+//! proofs and analysis.
 
 use std::fmt::Write as _;
 
@@ -15,7 +16,8 @@ use crate::rational;
 /// Digits of a constant that a person reads.
 const SHOWN: usize = 25;
 
-const GENERATED: &str = "<!-- Generated from schemes/tables/*.toml; `UPDATE_DOCS=1 cargo test -p shadowstep-tests documentation` writes it. -->\n\n";
+const GENERATED: &str = "<!-- Generated from schemes/tables/*.toml; `UPDATE_DOCS=1 cargo test -p shadowstep-tests \
+    documentation` writes it. -->\n\n";
 
 const HEAD: &str = "\
 # The shipped schemes
@@ -31,22 +33,32 @@ field above each long table chooses rows: a word, or conditions such as `order=4
 
 - *order*: for every T(p), and for quadratic T = ½pᵀM⁻¹p. A scheme whose table says `kinetic = \"quadratic\"` is meant for
   quadratic T.
-- *A + εB*: of near-integrable schemes, the orders in the powers of ε for near-integrable systems: (8,6,4) has the local error O(εh⁹ + ε²h⁷ + ε³h⁵).
-  They pay only if the drift solves A exactly and εB is small, as where drifts are Kepler motions and kicks the attractions of
-  planets ([parts with flows of their own](planets.md)). With H = T + U nothing is small, and such a scheme gains nothing over its order for T + U.
+- *A + εB*: of near-integrable schemes, the orders in the powers of ε for near-integrable systems: (8,6,4) has the \
+local error O(εh⁹ + ε²h⁷ + ε³h⁵).
+  They pay only if the drift solves A exactly and εB is small, as where drifts are Kepler motions and kicks the \
+  attractions of
+  planets ([parts with flows of their own](planets.md)). With H = T + U nothing is small, and such a scheme gains \
+  nothing over its order for T + U.
   In these tables drifts are the flow of A, and kicks that of εB.
-- *effective*: of processed schemes, the orders of the trajectory, which is read through the post-map; all else is of the kernel. They are listed by
+- *effective*: of processed schemes, the orders of the trajectory, which is read through the post-map; all else is of \
+the kernel. They are listed by
   this order: see [processed schemes](gradient-kicks-and-processing.md#processed-schemes).
 - *sampling*: `bcss2`, `bcss3`, `bcss4` and `predescu3` have order 2 and a small error of the energy in the mean over states in
-  equilibrium, as Hamiltonian Monte Carlo needs. The *expected energy error* below is the largest ρ(h) of the harmonic oscillator over
-  0 < hω < forces, where ρ(h) sin²(Lφ) is the mean of H − H(0) after L steps that turn by φ, in units of the temperature; the first three
+  equilibrium, as Hamiltonian Monte Carlo needs. The *expected energy error* below is the largest ρ(h) of the \
+  harmonic oscillator over
+  0 < hω < forces, where ρ(h) sin²(Lφ) is the mean of H − H(0) after L steps that turn by φ, in units of the \
+  temperature; the first three
   were published to minimise it. [*Hamiltonian Monte Carlo*](sampling.md) has their steps, acceptance and cost.
-- *first*: each scheme is listed in the roles of its publication. `first = \"drift\"` or `\"kick\"` exchanges the roles of kick and drift,
+- *first*: each scheme is listed in the roles of its publication. `first = \"drift\"` or `\"kick\"` exchanges the \
+roles of kick and drift,
   so that every table for every T(p) has its twin, as velocity and position Verlet are; it is proved anew.
 - *forces*: evaluations of U_q a step, the first kick taking over what the last one of the step before evaluated.
-- *gradient kicks*: a stage with a weight c_s has also p += 2h³ c_s U_qq M⁻¹U_q, the flow of h³ c_s [B,[A,B]] for T = ½pᵀM⁻¹p and
-  B = U(q). *forces* 2 + 1 means 2 evaluations of U_q and 1 Hessian–vector product U_qq M⁻¹U_q a step, which in the effective error
-  and the stability per force is counted as a force; [the formula of β](gradient-kicks-and-processing.md#gradient-kicks) is on a page of its own. There is no order for
+- *gradient kicks*: a stage with a weight c_s has also p += 2h³ c_s U_qq M⁻¹U_q, the flow of h³ c_s [B,[A,B]] for T = \
+½pᵀM⁻¹p and
+  B = U(q). *forces* 2 + 1 means 2 evaluations of U_q and 1 Hessian–vector product U_qq M⁻¹U_q a step, which in the \
+  effective error
+  and the stability per force is counted as a force; [the formula of \
+  β](gradient-kicks-and-processing.md#gradient-kicks) is on a page of its own. There is no order for
   every T(p).
 - *operations*: products and additions a step and dimension besides these, one for each kick and each drift.
 - *effective error*: forces · ‖E‖^{1/order}, where h^{order+1} E is the leading error of the step's logarithm in
@@ -135,7 +147,8 @@ impl Family {
 }
 
 const COLUMNS: [&str; 2] = [
-    "| name | order | quadratic T | forces | operations | symmetric | effective error | for quadratic T | stable to hω | per force |",
+    "| name | order | quadratic T | forces | operations | symmetric | effective error | for quadratic T | stable to \
+        hω | per force |",
     "| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |",
 ];
 
@@ -178,12 +191,14 @@ pub fn catalogue_pages() -> Vec<(String, String)> {
 }
 
 const WEIGHTS: &str = "\
-[*The shipped schemes*](../schemes.md) compares them, and explains the terms. Constants are rounded to 25 digits here; the tables have 250 of them or closed
+[*The shipped schemes*](../schemes.md) compares them, and explains the terms. Constants are rounded to 25 digits \
+here; the tables have 250 of them or closed
 forms, and `shadowstep schemes show NAME --json` writes every weight as an exact fraction.
 ";
 
 const MULTIPLE_STEPS: &str = "\
-[Multiple time steps](multiple-time-steps.md), for slow forces, fast forces and T, whose orders are proved for these three parts. *resonance*: the first interval of hω in
+[Multiple time steps](multiple-time-steps.md), for slow forces, fast forces and T, whose orders are proved for these \
+three parts. *resonance*: the first interval of hω in
 which an oscillation is unstable that has 1/100 of the stiffness of its fast forces in the slow ones.
 
 | name | order | slow forces | fast forces | outer scheme | inner scheme | resonance |
@@ -217,7 +232,8 @@ fn nested_section(proved: &Proved) -> String {
     let inner = table.inner.as_ref().expect("it has one");
     let symmetric = if proved.proof.symmetric { "symmetric" } else { "not symmetric" };
     format!(
-        "{}.\n\n```text\n{}inner: {} of {}\n```\n\n- order {} for slow forces, fast forces and T\n- {symmetric}, begins with a slow kick; {}\n- {}\n",
+        "{}.\n\n```text\n{}inner: {} of {}\n```\n\n- order {} for slow forces, fast forces and T\n- {symmetric}, \
+            begins with a slow kick; {}\n- {}\n",
         named(table),
         weights(table),
         inner.substeps,
@@ -290,7 +306,8 @@ fn processed(proved: &Proved) -> Option<String> {
         false => format!("{} for every T(p), ", effective.general.order),
     };
     Some(format!(
-        "processed: effective order {general}{} for quadratic T{near}; {} evaluations of U_q and {} kicks and drifts for an output, \
+        "processed: effective order {general}{} for quadratic T{near}; {} evaluations of U_q and {} kicks and drifts \
+            for an output, \
          and as many once at the beginning",
         effective.quadratic.order,
         processor.evaluations(),

@@ -68,7 +68,8 @@ pub fn coordinates<M: System>(system: &M) -> Vec<M::Number> {
     [system.state().q(), system.state().p()].concat()
 }
 
-/// Checks that the increments of the last augmented step are the changes of q and p since `before`, to ε of the coordinate times 10^`digits_lost`.
+/// Checks that the increments of the last augmented step are the changes of q and p since `before`, to ε of the
+/// coordinate times 10^`digits_lost`.
 ///
 /// # Panics
 /// If one is not.

@@ -1,7 +1,8 @@
 //! The runs on which the monitor's verdicts are calibrated, and others on which they are tested.
 //!
-//! A matrix is made of scenes, schemes and steps. The thresholds of the verdicts were chosen with the [calibration](Matrix::calibration)
-//! matrix only; the [held-out](Matrix::held_out) one has other scenes, schemes and steps.
+//! A matrix is made of scenes, schemes and steps. The thresholds of the verdicts were chosen with the
+//! [calibration](Matrix::calibration) matrix only; the [held-out](Matrix::held_out) one has other scenes, schemes and
+//! steps.
 
 use shadowstep::problems::{ProblemMotion, problem};
 use shadowstep::systems::kinetic::Quadratic;

@@ -1,5 +1,5 @@
-//! The readers of files and formulas on any bytes: `make fuzz` searches for inputs on which they panic, hang or need too much memory,
-//! and `tests/tests/corpus.rs` replays those in `fuzz/corpus`.
+//! The readers of files and formulas on any bytes: `make fuzz` searches for inputs on which they panic, hang or need
+//! too much memory, and `tests/tests/corpus.rs` replays those in `fuzz/corpus`.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -170,7 +170,8 @@ impl Stopped {
         let state = serde_json::to_string(&content.state).expect("texts and numbers are JSON");
         let Content { n, bytes, .. } = content;
         let checkpoint = format!(
-            "{{\"identity\":{},\"n\":{n},\"is_last\":false,\"bytes\":{bytes},\"head\":0,\"hashed_from\":0,\"sha256\":\"{rows}\",\"state\":{state}}}",
+            "{{\"identity\":{},\"n\":{n},\"is_last\":false,\"bytes\":{bytes},\"head\":0,\"hashed_from\":0,\
+             \"sha256\":\"{rows}\",\"state\":{state}}}",
             self.identity
         );
         let seal = hexadecimal(checkpoint.as_bytes());
@@ -202,7 +203,8 @@ static STOPPED: LazyLock<Stopped> = LazyLock::new(|| {
     stopped
 });
 
-/// Resumes a run from a checkpoint: of these bytes, or where they are the content of one, of that with a hash that fits.
+/// Resumes a run from a checkpoint: of these bytes, or where they are the content of one, of that with a hash that
+/// fits.
 pub fn checkpoint(bytes: &[u8]) {
     let text = match serde_json::from_slice(bytes) {
         Ok(content) => STOPPED.sealed(&content).into_bytes(),

@@ -35,9 +35,9 @@ pub struct Shipped<N: 'static, C: 'static = Quadratic> {
 }
 
 impl<N, C> Shipped<N, C> {
-    /// The k for which a step of 2^−k shows an order best in a computation with this number of digits: as small a step as the
-    /// digits of the table allow. A table with D digits moves at order 3 or so by 10^−D, which must stay far below the
-    /// error C h^{p+1}.
+    /// The k for which a step of 2^−k shows an order best in a computation with this number of digits: as small a step
+    /// as the digits of the table allow. A table with D digits moves at order 3 or so by 10^−D, which must stay far
+    /// below the error C h^{p+1}.
     pub fn halvings(&self, order: u32, computed: u32) -> u32 {
         match self.twin.proved().scheme.held {
             Held::Digits(digits) if order > 2 && digits < computed => {

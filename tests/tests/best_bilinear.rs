@@ -1,5 +1,5 @@
-//! Protects the choice of k of the bilinear estimator: its rule, its accuracy on the exact flow of Kepler's problem, whose energy
-//! is −1/2, and what it does where digits run out.
+//! Protects the choice of k of the bilinear estimator: its rule, its accuracy on the exact flow of Kepler's problem,
+//! whose energy is −1/2, and what it does where digits run out.
 
 use rug::Float;
 use shadowstep::Number;

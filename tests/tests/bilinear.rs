@@ -1,5 +1,5 @@
-//! Protects the bilinear estimator: its weights against their definition and against printed tables, in exact arithmetic;
-//! its order; its closed form; runs between states; schemes of all kinds.
+//! Protects the bilinear estimator: its weights against their definition and against printed tables, in exact
+//! arithmetic; its order; its closed form; runs between states; schemes of all kinds.
 
 use std::collections::BTreeMap;
 
@@ -35,8 +35,8 @@ fn binomial(n: u32, r: u32) -> Rational {
     (0..r).map(|i| Rational::new((n - i).into(), (i + 1).into())).product()
 }
 
-/// With q = e^{xt} and p = e^{yt}, Σ P_ij q_i p_j is (x − y) Σ_i w_i e^{−i(x+y)}, w_i = C(k,i)²/C(2k,k), up to terms of degree
-/// 2k + 1 in x and y: the estimate is the mean with the weights w of ½(q'p − qp'), to the order 2k.
+/// With q = e^{xt} and p = e^{yt}, Σ P_ij q_i p_j is (x − y) Σ_i w_i e^{−i(x+y)}, w_i = C(k,i)²/C(2k,k), up to terms of
+/// degree 2k + 1 in x and y: the estimate is the mean with the weights w of ½(q'p − qp'), to the order 2k.
 #[test]
 fn weights_have_their_defining_property() {
     for k in 1..=12 {
@@ -243,7 +243,8 @@ fn the_modified_energy_of_kepler_is_conserved() {
     assert!(sixteen < eight / 10.0 && eight < four / 10.0 && eight < 1e-8, "{four:e} {eight:e} {sixteen:e}");
 }
 
-/// max − min of E_k over 1 + ⌈√k⌉ windows on either side, or the largest |E_k − the mean of the two E_{k−1} within| of these.
+/// max − min of E_k over 1 + ⌈√k⌉ windows on either side, or the largest |E_k − the mean of the two E_{k−1} within| of
+/// these.
 #[test]
 fn the_error_is_its_rule_written_out() {
     for (k, around) in [(2, 3), (3, 3), (6, 4), (9, 4)] {

@@ -4,9 +4,10 @@ use shadowstep_schemes::proof::Order;
 use shadowstep_schemes::{First, MapKind, Proved, read, read_first, shipped, shipped_names};
 
 /// From the publications, except for the order for every T(p) of schemes for quadratic T, which they do not state.
-/// Columns: name; order for every T(p) and for quadratic T; evaluations per step, and Hessian–vector products of gradient kicks, or of slow and fast forces; palindrome;
-/// first map; near-integrable orders; of a processed scheme, whose other columns belong to its kernel, the effective orders for every T(p), for
-/// quadratic T and the near-integrable ones.
+/// Columns: name; order for every T(p) and for quadratic T; evaluations per step, and Hessian–vector products of
+/// gradient kicks, or of slow and fast forces; palindrome; first map; near-integrable orders; of a processed scheme,
+/// whose other columns belong to its kernel, the effective orders for every T(p), for quadratic T and the
+/// near-integrable ones.
 const CATALOGUE: &str = "
 aba104                    4  4   7  yes  drift  10,4
 aba1064                   4  4   8  yes  drift  10,6,4

@@ -1,4 +1,5 @@
-//! Tests and notebooks that read a clock, each with why: none asserts a time, or a ratio of times, which other work on the machine changes.
+//! Tests and notebooks that read a clock, each with why: none asserts a time, or a ratio of times, which other work on
+//! the machine changes.
 
 use std::fs;
 use std::path::Path;

@@ -1,4 +1,5 @@
-//! Protects gradient kicks by displaced forces: the formula, the rate of β, steps there and back, what is not symplectic, and refusals.
+//! Protects gradient kicks by displaced forces: the formula, the rate of β, steps there and back, what is not
+//! symplectic, and refusals.
 
 use rug::Float;
 use shadowstep::number::{Limbs, Number, Real};
@@ -39,8 +40,8 @@ fn oscillators(context: &<Float as Number>::Context) -> LinearPart<Float, HenonH
     LinearPart::new(HenonHeiles, &["3", "1/2"].map(rational), &stiffness, &q, &p).expect("the dimensions agree")
 }
 
-/// The formula for Chin's 4A with h = 1/3, whose kick in the middle has a = 2/3 and c = 1/72: p −= h a B_q(q′), q′ = q − δ M⁻¹B_q(q), δ = 2h²c/a; and
-/// β += h a (qᵀB_q − 2B) at q′.
+/// The formula for Chin's 4A with h = 1/3, whose kick in the middle has a = 2/3 and c = 1/72: p −= h a B_q(q′), q′ =
+/// q − δ M⁻¹B_q(q), δ = 2h²c/a; and β += h a (qᵀB_q − 2B) at q′.
 fn is_the_formula(mut system: impl System<Number = Float>, inverse_masses: &[Float]) {
     let number = |text: &str| Float::from_rational(&rational(text), &precision(DIGITS));
     let (kick, gradient_kick, delta) = (number("2/9"), number("2*(1/3)^3/72"), number("2*(1/3)^2*(1/72)/(2/3)"));
@@ -205,7 +206,8 @@ fn displaced_forces_are_symplectic_with_one_degree_of_freedom_only() {
     assert!(exact < -36.0 && one < -36.0 && displaced > -9.0, "10^{exact}, 10^{displaced}, 10^{one}");
 }
 
-/// β belongs to a potential whose gradient differs from the force by δ², which limits the modified energy: to ε³h⁴ for planets.
+/// β belongs to a potential whose gradient differs from the force by δ², which limits the modified energy: to ε³h⁴ for
+/// planets.
 #[test]
 fn the_modified_energy_is_known_to_the_square_of_the_displacement() {
     let drift = |h: &str, steps: u64, displaced: bool| {

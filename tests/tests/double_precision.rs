@@ -28,8 +28,8 @@ fn estimates(h: &str, steps: u64, settings: &impl BuildEstimator<f64>) -> Vec<(f
 
 /// The scatter at each of the last `orbits` apocentres: max − min of the estimates within `reach` steps of it.
 ///
-/// The modified energy itself is moved by the round-off of the steps, by 3e-13 in 10⁶ of them; what these few move it by is in
-/// the scatter.
+/// The modified energy itself is moved by the round-off of the steps, by 3e-13 in 10⁶ of them; what these few move it
+/// by is in the scatter.
 fn scatters(estimates: &[(f64, f64)], reach: usize, orbits: usize) -> Vec<f64> {
     let is_apocentre = |&n: &usize| {
         let r = |n: usize| estimates[n].0;

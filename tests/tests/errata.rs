@@ -515,8 +515,10 @@ fn a_digit_lost() {
 /// The middle weight of REBOUND's leapfrog of order 6.
 #[test]
 fn sixteen_digits_of_order_6() {
-    let text = "name = \"leapfrog6\"\norder = 6\nkinetic = \"any\"\n[constants]\ng1 = \"0.1867\"\ng2 = \"0.5554970237124784\"\n\
-                g3 = \"0.1294669489134754\"\ng4 = \"-0.843265623387734\"\ng5 = \"0.9432033015235604\"\n[composition]\nbase = \"stormer-verlet\"\n\
+    let text = "name = \"leapfrog6\"\norder = 6\nkinetic = \"any\"\n[constants]\ng1 = \"0.1867\"\ng2 \
+        = \"0.5554970237124784\"\n\
+                g3 = \"0.1294669489134754\"\ng4 = \"-0.843265623387734\"\ng5 \
+                = \"0.9432033015235604\"\n[composition]\nbase = \"stormer-verlet\"\n\
                 gamma = [\"g1\", \"g2\", \"g3\", \"g4\", \"g5\", \"g4\", \"g3\", \"g2\", \"g1\"]\n";
     let polished = polished(text, &["g1".to_owned()]);
     let middle = polished.weights.iter().find(|w| w.name == "g5").unwrap();
@@ -525,7 +527,8 @@ fn sixteen_digits_of_order_6() {
     assert!((off(middle) / 1e-16 - 13.0).abs() < 0.5 && (off(middle) / (f64::EPSILON / 2.0) - 12.0).abs() < 0.5);
 }
 
-/// Kepler's problem with eccentricity 1/2 in steps of 1/20: the mean errors of H in tenths of 10⁴ outputs, the least and the greatest.
+/// Kepler's problem with eccentricity 1/2 in steps of 1/20: the mean errors of H in tenths of 10⁴ outputs, the least
+/// and the greatest.
 fn errors_at_outputs(fitted: bool) -> [f64; 2] {
     let (mut q, mut p) = ([0.5_f64, 0.0], [0.0, 3.0_f64.sqrt()]);
     let kick = |q: [f64; 2], p: &mut [f64; 2], h: f64| {

@@ -1,5 +1,5 @@
-//! Protects the exact flow: its energies, its closed forms, its β against independent integrals; and what the estimators show on it,
-//! against numbers of an independent program.
+//! Protects the exact flow: its energies, its closed forms, its β against independent integrals; and what the
+//! estimators show on it, against numbers of an independent program.
 
 use rug::Float;
 use rug::float::Constant;
@@ -138,8 +138,8 @@ fn the_state_0_is_the_start_and_states_do_not_depend_on_the_way_to_them() {
     }
 }
 
-/// The derivatives satisfy the equations of motion and β' = qᵀU_q − 2U: differences at 40 digits, D_30 of steps far below
-/// the distance of the nearest singularity, 0.03 for e = 0.9 and 0.3 for e = 0.6.
+/// The derivatives satisfy the equations of motion and β' = qᵀU_q − 2U: differences at 40 digits, D_30 of steps far
+/// below the distance of the nearest singularity, 0.03 for e = 0.9 and 0.3 for e = 0.6.
 #[test]
 fn derivatives_are_those_of_the_system_and_of_beta() {
     let m = 30;
@@ -175,7 +175,8 @@ fn derivatives_are_those_of_the_system_and_of_beta() {
     }
 }
 
-/// After half a period 2π/2 the orbit of a = 1 is at its apocentre, and β = 3E has grown by 3π; after a period it is back.
+/// After half a period 2π/2 the orbit of a = 1 is at its apocentre, and β = 3E has grown by 3π; after a period it is
+/// back.
 #[test]
 fn kepler_at_its_apocentre() {
     let pi = step_size(&Float::with_val(400, Constant::Pi).to_text());
@@ -241,8 +242,8 @@ fn quarter_period(k: &Float) -> Float {
     Float::with_val(k.prec(), Constant::Pi) / 2u32 / a
 }
 
-/// sin(q/2) = k sn(t, k) with k = p(0)/2: after K(k) the pendulum turns, sin(q/2) = k, and after 4K(k) it is back; rotation,
-/// k > 1, is round once after 2K(1/k)/k.
+/// sin(q/2) = k sn(t, k) with k = p(0)/2: after K(k) the pendulum turns, sin(q/2) = k, and after 4K(k) it is back;
+/// rotation, k > 1, is round once after 2K(1/k)/k.
 #[test]
 fn the_pendulum_has_jacobis_periods() {
     for p in ["1/10", "1", "199/100"] {
@@ -364,7 +365,8 @@ fn what_has_no_exact_flow_is_refused() {
     let refusal = |set: &[(&str, &str)]| has_exact_flow(&setup("kepler", set)).unwrap_err().to_string();
     let unbound =
         "the exact flow of kepler is computed for bound orbits only: this initial state has H = |p|^2/2 - 1/|q| >= 0";
-    let radial = "the exact flow of kepler is computed for ellipses only: this initial state has no angular momentum, x py - y px = 0";
+    let radial = "the exact flow of kepler is computed for ellipses only: this initial state has no angular momentum, \
+        x py - y px = 0";
     assert_eq!(refusal(&[("x", "1"), ("py", "2")]), unbound);
     assert_eq!(refusal(&[("x", "2"), ("py", "1")]), unbound);
     assert_eq!(refusal(&[("px", "1"), ("py", "0")]), radial);

@@ -1,7 +1,7 @@
 //! Protects Hamiltonians that depend on time: orders that are those proved, β, and the integrals that the steps keep.
 //!
-//! Yardsticks: extrapolation with derivatives written here; Mathieu's exponent from its continued fraction; closed forms of forced and of damped
-//! oscillators; the integral of a potential that turns.
+//! Yardsticks: extrapolation with derivatives written here; Mathieu's exponent from its continued fraction; closed
+//! forms of forced and of damped oscillators; the integral of a potential that turns.
 
 use std::slice::from_mut;
 
@@ -71,7 +71,8 @@ fn schemes_of_each_class_have_their_order() {
     }
 }
 
-/// β belongs to H + p_t: the modified energy of a chaotic orbit moves by what the estimator leaves, far less than H + p_t, and H itself by more.
+/// β belongs to H + p_t: the modified energy of a chaotic orbit moves by what the estimator leaves, far less than H +
+/// p_t, and H itself by more.
 #[test]
 fn the_modified_energy_is_that_of_the_extended_hamiltonian() {
     let context = precision(DIGITS);
@@ -141,7 +142,8 @@ fn a_damped_oscillator_has_its_closed_form() {
     assert!((slope - 4.0).abs() < 0.05, "{slope}");
 }
 
-/// A potential that turns with the rate w: p_t + w (x p_y − y p_x) is conserved by each kick and each drift, so to round-off.
+/// A potential that turns with the rate w: p_t + w (x p_y − y p_x) is conserved by each kick and each drift, so to
+/// round-off.
 #[test]
 fn steps_keep_jacobis_integral_of_a_bar() {
     let bar = "log(1/100 + (x*cos(t) + y*sin(t))^2 + (y*cos(t) - x*sin(t))^2*25/16)/2";

@@ -1,4 +1,5 @@
-//! Protects potentials from formulas: compiled and read at run time they have the same bits; a wrong text has its place.
+//! Protects potentials from formulas: compiled and read at run time they have the same bits; a wrong text has its
+//! place.
 
 use rug::Float;
 use shadowstep::problems::{HarmonicOscillator, HenonHeiles, Kepler, Pendulum, Scattering};

@@ -40,8 +40,8 @@ fn error(problem: Problem, k: u32, step: impl FnOnce(&mut AnyMotion<Float>)) -> 
     log10_largest_distance(&[system.q(), system.p()].concat(), &exact) / std::f64::consts::LOG10_2
 }
 
-/// Steps of 2^(1−k) and 2^−k show the order up to c 2^−k/ln 2, where c is the ratio of the errors' constants: some 14 at
-/// most.
+/// Steps of 2^(1−k) and 2^−k show the order up to c 2^−k/ln 2, where c is the ratio of the errors' constants: some 14
+/// at most.
 fn tolerance(k: u32) -> f64 {
     20.0 / f64::from(1 << k)
 }

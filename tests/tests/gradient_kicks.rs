@@ -72,8 +72,9 @@ mine.toml:3:11: gradient kicks are for quadratic T only
     assert_eq!(table.for_every_kinetic().unwrap_err().order, 0);
 }
 
-/// Near-integrable orders of the leapfrog with [B,[A,B]] and a corrector: (8,4,3) for a weight of 1/24, where [A,[A,B]] is taken out by the corrector. A weight
-/// of 1/12, which takes [B,[A,B]] out of the kernel alone, leaves it to the processed scheme.
+/// Near-integrable orders of the leapfrog with [B,[A,B]] and a corrector: (8,4,3) for a weight of 1/24, where [A,[A,B]]
+/// is taken out by the corrector. A weight of 1/12, which takes [B,[A,B]] out of the kernel alone, leaves it to the
+/// processed scheme.
 #[test]
 fn near_integrable_orders_are_proved_with_gradient_kicks() {
     let table = shadowstep_schemes::shipped("wisdom-kernel-7").unwrap().text;

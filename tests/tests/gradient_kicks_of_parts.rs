@@ -1,4 +1,5 @@
-//! Protects gradient kicks of systems with flows of their own: their force and rate of β, steps there and back, the modified energy.
+//! Protects gradient kicks of systems with flows of their own: their force and rate of β, steps there and back, the
+//! modified energy.
 
 use rug::Float;
 use shadowstep::number::{CorrectlyRounded, Limbs, Number, Real};
@@ -15,7 +16,8 @@ use shadowstep_tests::{
 
 const DIGITS: u32 = 90;
 
-/// Three planets in space, so that pairs of planets, of planets with the central body and with centres of mass are there.
+/// Three planets in space, so that pairs of planets, of planets with the central body and with centres of mass are
+/// there.
 fn planets<N: Number>(context: &N::Context) -> WisdomHolman<N, Jacobi<N, 3>, 3> {
     let masses = ["1", "1/1000", "1/3000", "1/500"].map(rational);
     let bodies = Bodies::new(rational("4*pi^2"), masses.to_vec()).expect("they are bodies");
@@ -56,8 +58,8 @@ fn gradient_and_rate(system: &mut impl System<Number = Float>, q: &[Float]) -> (
     (system.state().p().iter().map(|p| -p.clone()).collect(), system.state().increments().beta.clone())
 }
 
-/// The gradient kick is the flow of W = −½B_qᵀM⁻¹B_q, and its rate is the derivative of a kick's in the direction −M⁻¹B_q, by
-/// central differences.
+/// The gradient kick is the flow of W = −½B_qᵀM⁻¹B_q, and its rate is the derivative of a kick's in the direction
+/// −M⁻¹B_q, by central differences.
 fn is_the_derivative_of_kicks(mut system: impl System<Number = Float>, inverse_masses: &[Float]) {
     let q = system.state().q().to_vec();
     let bits = q[0].prec();

@@ -1,5 +1,5 @@
-//! Protects the grammar of tables: every fault of a text, of its cells and of what it is composed of, each with its whole
-//! message and its place.
+//! Protects the grammar of tables: every fault of a text, of its cells and of what it is composed of, each with its
+//! whole message and its place.
 
 use shadowstep_schemes::{Faults, Proved, Source, read};
 use shadowstep_tests::refusals::{assert_message, assert_refused, judge};
@@ -594,13 +594,15 @@ fn a_composition_of_absurd_size() {
 fn constants_from_below() {
     let table = |x: &str, y: &str| {
         format!(
-            "name = \"mine\"\norder = 2\nkinetic = \"any\"\nreference = \"none\"\n\n[constants]\nx = \"{x}\"\ny = \"{y}\"\n\n\
+            "name = \"mine\"\norder = 2\nkinetic = \"any\"\nreference = \"none\"\n\n[constants]\nx = \"{x}\"\ny \
+                = \"{y}\"\n\n\
              [stages]\nkick = [\"y\", \"y\"]\ndrift = [1, 0]\n"
         )
     };
     assert_eq!(
         judge(&table("y + 1", "1/2")).unwrap_err().to_string(),
-        "mine.toml:7:6: `y` is not known yet\n  7 | x = \"y + 1\"\n    |      ^\n  hint: a constant may use those above it only"
+        "mine.toml:7:6: `y` is not known yet\n  7 | x = \"y + 1\"\n    |      ^\n  hint: a constant may use those \
+            above it only"
     );
     assert!(judge(&table("0", "1 - y")).unwrap_err().to_string().contains("`y` is not known yet"));
 }

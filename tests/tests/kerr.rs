@@ -1,7 +1,9 @@
-//! Protects parts with the flows of monomials, and transformed time of many parts: geodesics of Kerr's metric, as the shipped scene has them.
+//! Protects parts with the flows of monomials, and transformed time of many parts: geodesics of Kerr's metric, as the
+//! shipped scene has them.
 //!
-//! Yardsticks in closed form: Carter's constant; the roots of the quartic R(r) and of Θ, where the orbit turns; the radial period in the time of Mino by
-//! a complete elliptic integral (R. Fujita, W. Hikida, Class. Quantum Grav. 26 (2009) 135002, eqs. 14 and 15).
+//! Yardsticks in closed form: Carter's constant; the roots of the quartic R(r) and of Θ, where the orbit turns; the
+//! radial period in the time of Mino by a complete elliptic integral (R. Fujita, W. Hikida, Class. Quantum Grav. 26
+//! (2009) 135002, eqs. 14 and 15).
 
 use std::f64::consts::PI;
 
@@ -87,7 +89,8 @@ fn columns(parts: Option<&str>, rest: &str) -> Vec<Vec<f64>> {
 /// n, t, r, th, tau, pr, pth, ptau at the crossings of a surface.
 fn turns(parts: Option<&str>, section: &str, step: &str) -> Vec<Vec<f64>> {
     let rest = format!(
-        "[run]\nscheme = \"kahan-li8\"\nstep = {step}\nsteps = 3000\ndigits = \"double\"\n[output]\ntrajectory = {section}\n"
+        "[run]\nscheme = \"kahan-li8\"\nstep = {step}\nsteps = 3000\ndigits = \"double\"\n[output]\ntrajectory = \
+            {section}\n"
     );
     columns(parts, &rest)
 }
@@ -120,7 +123,8 @@ fn orbits_turn_at_the_roots() {
 fn carters_constant_is_kept() {
     let errors = ["1", "1/2", "1/4"].map(|step| {
         let rest = format!(
-            "[run]\nscheme = \"blanes-moan-s6\"\nstep = \"{step}\"\nuntil = 500\ndigits = \"double\"\n[output]\nvalues = {{ carter = \
+            "[run]\nscheme = \"blanes-moan-s6\"\nstep = \"{step}\"\nuntil = 500\ndigits \
+                = \"double\"\n[output]\nvalues = {{ carter = \
              \"pth^2 + cos(th)^2*(a^2*(1 - en^2) + (lz/sin(th))^2)\" }}\n"
         );
         farthest_from(columns(None, &rest)[2].iter().copied(), carter())
@@ -133,7 +137,8 @@ fn carters_constant_is_kept() {
 /// In the time of Mino, dτ = Σ dλ, r moves by itself, with a period in closed form; other parts, other flows.
 #[test]
 fn the_period_in_minos_time_is_an_elliptic_integral() {
-    let parts = "\n\"((a*en*sin(th) - lz/sin(th))^2 - ((r^2 + a^2)*en - a*lz)^2/(r^2 - 2*r + a^2))/2 + (r^2 + (a*cos(th))^2)*ptau\",\n\
+    let parts = "\n\"((a*en*sin(th) - lz/sin(th))^2 - ((r^2 + a^2)*en - a*lz)^2/(r^2 - 2*r + a^2))/2 + (r^2 + \
+        (a*cos(th))^2)*ptau\",\n\
                  \"r^2*pr^2/2\", \"-r*pr^2\", \"(a^2*pr^2 + pth^2)/2\"";
     let [r1, r2, r3, r4] = radii();
     let square_of_k = (r1 - r2) * (r3 - r4) / ((r1 - r3) * (r2 - r4));

@@ -1,4 +1,5 @@
-//! Protects plain language: the phrases that the page of language forbids are in no comment, on no page, in no Python file and in no template.
+//! Protects plain language: the phrases that the page of language forbids are in no comment, on no page, in no Python
+//! file and in no template.
 
 use std::path::{Path, PathBuf};
 use std::{fs, io};
@@ -117,4 +118,20 @@ fn formulas_of_rustdoc_keep_their_backslashes() {
         let lost: Vec<_> = lost_backslashes(&fs::read_to_string(&path).unwrap()).collect();
         assert!(lost.is_empty(), "{}: lines {lost:?}: write \\thinspace in place of \\,", path.display());
     }
+}
+
+/// Lines of Rust that need no scrolling: rustfmt breaks code at 120 columns, but neither comments nor texts.
+#[test]
+fn lines_of_sources_have_at_most_140_characters() {
+    const MOST: usize = 140;
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).parent().expect("the tests are in a folder of the project");
+    let mut all = Vec::new();
+    files(root, &mut all).unwrap();
+    let mut long = Vec::new();
+    for path in all.iter().filter(|path| path.extension().is_some_and(|ending| ending == "rs")) {
+        let text = fs::read_to_string(path).unwrap();
+        let lines = (1..).zip(text.lines()).filter(|(_, line)| line.chars().count() > MOST);
+        long.extend(lines.map(|(number, _)| format!("{}:{number}", path.display())));
+    }
+    assert!(long.is_empty(), "more than {MOST} characters:\n{}", long.join("\n"));
 }

@@ -1,4 +1,5 @@
-//! Protects users from licences that they do not expect: every dependency can be used under MIT OR Apache-2.0, except GMP and MPFR.
+//! Protects users from licences that they do not expect: every dependency can be used under MIT OR Apache-2.0, except
+//! GMP and MPFR.
 
 use std::process::Command;
 

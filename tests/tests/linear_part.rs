@@ -1,4 +1,5 @@
-//! Protects systems whose oscillations are solved exactly: the flow, the orders, the modified energy, and steps above the limit of T(p) and U(q).
+//! Protects systems whose oscillations are solved exactly: the flow, the orders, the modified energy, and steps above
+//! the limit of T(p) and U(q).
 //!
 //! Yardsticks: cos and sin of one oscillator; the same system with T(p) and U(q), extrapolated from leapfrog steps.
 
@@ -77,7 +78,8 @@ fn the_orders_are_those_proved() {
         };
         let order = error(k - 1) - error(k) - 1.0;
         println!("{}: {order:.3}, proved {proved}", scheme.name);
-        // c h/ln 2 with c of size 1 to 10; near-integrable schemes may show a higher power of h with a small constant first
+        // c h/ln 2 with c of size 1 to 10; near-integrable schemes may show a higher power of h with a small constant
+        // first
         let near = scheme.twin.proved().scheme.table.near_integrable.is_some();
         let off = if near { f64::from(proved) - order } else { (order - f64::from(proved)).abs() };
         assert!(off < 0.15, "{}: {order} measured, {proved} proved", scheme.name);
@@ -132,7 +134,8 @@ fn stiff() -> (StiffFput<f64>, Vec<f64>, Vec<f64>) {
     (StiffFput { omega: 50.0 }, q, vec![1.0, 0.0, 0.0, 1.0, 0.0, 0.0])
 }
 
-/// Above hω = 2 Störmer–Verlet with T(p) and U(q) is unstable, and the monitor reports it; with the oscillations solved exactly it is not.
+/// Above hω = 2 Störmer–Verlet with T(p) and U(q) is unstable, and the monitor reports it; with the oscillations solved
+/// exactly it is not.
 #[test]
 fn a_step_above_the_limit_of_the_stiff_springs_is_bounded() {
     let stepper = stepper::<f64>("stormer-verlet", "1/20", &());
@@ -169,8 +172,8 @@ fn verdict<M: System<Number = f64, Class = Quadratic>>(scheme: &str, part: &str,
     monitor.report().verdict
 }
 
-/// With T(p) and U(q) Störmer–Verlet ends at hω = 2, and PEFRL has a gap around π. With the oscillations solved exactly there is a narrow resonance at π,
-/// where 2ω is 2π/h, and both sides of it are fine.
+/// With T(p) and U(q) Störmer–Verlet ends at hω = 2, and PEFRL has a gap around π. With the oscillations solved exactly
+/// there is a narrow resonance at π, where 2ω is 2π/h, and both sides of it are fine.
 #[test]
 fn the_resonances_move() {
     let (potential, q, p) = stiff();

@@ -1,6 +1,8 @@
-//! Protects Hamiltonians of three parts and more: the flow and β of each kind of part, the orders, the modified energy, and steps that are steps.
+//! Protects Hamiltonians of three parts and more: the flow and β of each kind of part, the orders, the modified energy,
+//! and steps that are steps.
 //!
-//! Yardstick: Gragg's extrapolated midpoint rule on the equations of motion of the formulas, which does not depend on the split.
+//! Yardstick: Gragg's extrapolated midpoint rule on the equations of motion of the formulas, which does not depend on
+//! the split.
 
 use rug::Float;
 use shadowstep::number::{CorrectlyRounded, Number};
@@ -254,7 +256,8 @@ fn the_modified_energy_converges() {
     assert!((order(1) - 16.0).abs() < 1.0, "{found:?}");
 }
 
-/// A half of pᵀH_p, whatever is added to U; its difference is exact but for round-off where T is quadratic, and off by some 1e-6 of T elsewhere.
+/// A half of pᵀH_p, whatever is added to U; its difference is exact but for round-off where T is quadratic, and off by
+/// some 1e-6 of T elsewhere.
 #[test]
 fn the_energy_that_errors_are_compared_with_has_no_constants() {
     let kinetic_of = |formulas: &[&str]| {

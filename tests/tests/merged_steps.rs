@@ -1,5 +1,5 @@
-//! Protects steps whose ends are made as one map: the same states up to round-off for every table and number type, n + 1 kicks for n
-//! steps, the bits of the merged maps one by one, in all lanes and vector instructions.
+//! Protects steps whose ends are made as one map: the same states up to round-off for every table and number type, n +
+//! 1 kicks for n steps, the bits of the merged maps one by one, in all lanes and vector instructions.
 
 use proptest::prelude::*;
 use shadowstep::number::counting::{Counting, Operations, count};

@@ -231,8 +231,8 @@ fn term_sizes(diagonal: &[Float]) -> Vec<Option<Float>> {
 
 const TRIANGLE_DIGITS: u32 = 120;
 
-/// Three problems, with schemes of different kinds: `check` gets the scheme's name, the diagonal of the triangle, and the
-/// estimate with these settings.
+/// Three problems, with schemes of different kinds: `check` gets the scheme's name, the diagonal of the triangle, and
+/// the estimate with these settings.
 fn against_the_triangle(reach: usize, settings: Central, mut check: impl FnMut(&str, &[Float], &Estimated<Float>)) {
     let context = precision(TRIANGLE_DIGITS);
     let h = step_size("1/20");
@@ -327,9 +327,9 @@ fn best_m_is_its_rule_written_out() {
     }
 }
 
-/// The early stop: all m up to the first one, at least 13 (`first`), at which the largest of the eleven terms before it is less
-/// than the largest of the eleven terms that end with it. (The paper prints ≤, which is met whenever the oldest term is
-/// not the largest, so at the first ripple.)
+/// The early stop: all m up to the first one, at least 13 (`first`), at which the largest of the eleven terms before it
+/// is less than the largest of the eleven terms that end with it. (The paper prints ≤, which is met whenever the oldest
+/// term is not the largest, so at the first ripple.)
 fn first_stop(sizes: &[Option<Float>], first: usize) -> usize {
     let last = sizes.len() - 1;
     let largest = |range: std::ops::RangeInclusive<usize>| {

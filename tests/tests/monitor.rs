@@ -1,5 +1,6 @@
-//! Protects the monitor of the modified energy: it changes no bit and costs nothing between its windows; its values equal
-//! a run's; its numbers against closed forms; its verdicts on problems, hard cases and wrong forces, and on runs that were held out; its errors and words.
+//! Protects the monitor of the modified energy: it changes no bit and costs nothing between its windows; its values
+//! equal a run's; its numbers against closed forms; its verdicts on problems, hard cases and wrong forces, and on runs
+//! that were held out; its errors and words.
 
 mod correct_loops;
 mod forces;
@@ -45,8 +46,8 @@ fn watch_by(settings: &Bilinear, name: &str, set: &[(&str, &str)], scheme: &str,
 const BOUNDED: Verdict = Verdict::Bounded;
 const ENERGY_ERROR: Verdict = Verdict::TooLarge(Criterion::EnergyError);
 
-/// Steps of the size h, which `step` makes, watched by a monitor with a stepper of the size `monitored`; `step` gets whether the
-/// monitor needs increments.
+/// Steps of the size h, which `step` makes, watched by a monitor with a stepper of the size `monitored`; `step` gets
+/// whether the monitor needs increments.
 fn watch_loop<N: Real, P: Potential<N>>(
     mut motion: Start<N, P>,
     (h, monitored): (&str, &str),

@@ -1,5 +1,5 @@
-//! Protects multiple time steps: a nested step is the loops that its table describes, has the order proved, its modified energy, and as many
-//! evaluations of slow and fast forces as are said.
+//! Protects multiple time steps: a nested step is the loops that its table describes, has the order proved, its
+//! modified energy, and as many evaluations of slow and fast forces as are said.
 
 use std::cell::Cell;
 use std::rc::Rc;

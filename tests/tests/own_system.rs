@@ -1,8 +1,8 @@
 //! Protects the trait `System` for systems with flows of their own: all schemes that are valid for every T(p) advance
 //! one, and runs and the monitor follow its modified energy.
 //!
-//! H = A + B with A = (q² + p²)²/4, which is not a T(p), and B = q³/10. The flow of A turns (q, p) by the angle r²t, r² = q² + p². Along it
-//! β grows by qA_q + pA_p − 2A = 2A, as A is of degree 4; along the flow of B by qB_q − 2B = B.
+//! H = A + B with A = (q² + p²)²/4, which is not a T(p), and B = q³/10. The flow of A turns (q, p) by the angle r²t,
+//! r² = q² + p². Along it β grows by qA_q + pA_p − 2A = 2A, as A is of degree 4; along the flow of B by qB_q − 2B = B.
 
 use rug::Float;
 use shadowstep::shadow::run::{ShadowRun, energy_drift};
@@ -188,8 +188,8 @@ fn the_drift_is_the_flow_of_a() {
     assert_eq!([start[0] + q[0], start[1] + p[0]], rotor.point());
 }
 
-/// Every scheme for every T(p), generated and read at run time: back is the inverse of forth, augmented steps have the bits of plain
-/// ones, and increments are what the states change by.
+/// Every scheme for every T(p), generated and read at run time: back is the inverse of forth, augmented steps have the
+/// bits of plain ones, and increments are what the states change by.
 fn steps_are_steps<N: Bits>(context: &N::Context) {
     for scheme in all_for_every_kinetic::<N>(&rational(STEP), context) {
         let (steps, start) = (&scheme.generated, Rotor::<N>::new(START, context));

@@ -1,4 +1,5 @@
-//! Protects what registries show of the packages: every crate that is published has an address, a page, words to be found by; the address stands in one place.
+//! Protects what registries show of the packages: every crate that is published has an address, a page, words to be
+//! found by; the address stands in one place.
 
 use std::path::Path;
 use std::process::Command;

@@ -1,6 +1,8 @@
-//! Protects particles of mass 0: they move as bodies of a mass that moves nothing, change no bit of the bodies, and have no part in energies.
+//! Protects particles of mass 0: they move as bodies of a mass that moves nothing, change no bit of the bodies, and
+//! have no part in energies.
 //!
-//! Yardsticks: the same bodies alone; bodies of 1e-40 of the central mass, which move the others by that; and a leapfrog in a loop.
+//! Yardsticks: the same bodies alone; bodies of 1e-40 of the central mass, which move the others by that; and a
+//! leapfrog in a loop.
 
 use shadowstep::number::{DoubleDouble, Limbs, Number, Real};
 use shadowstep::shadow::run::ShadowRun;
@@ -35,7 +37,8 @@ fn particle(k: usize) -> ([String; 3], [String; 3]) {
     (q.map(|x| format!("{x:.6}")), v.map(|x| format!("{x:.6}")))
 }
 
-/// Masses, and inertial positions and momenta, of the bodies and some particles; those of mass 0 have velocities for momenta.
+/// Masses, and inertial positions and momenta, of the bodies and some particles; those of mass 0 have velocities for
+/// momenta.
 fn state<N: Number>(particles: usize, mass: &str, context: &N::Context) -> (Vec<Rational>, [Vec<N>; 2]) {
     let own = |texts: &[&str; 3]| texts.map(rational);
     let mut all: Vec<_> = BODIES.iter().map(|(mass, q, v)| (rational(mass), own(q), own(v))).collect();
@@ -166,7 +169,8 @@ where
     [q, p].concat()
 }
 
-/// Bodies of 1e-40 move the others, and each other, by some 1e-40 of their distances and velocities, which are below 100.
+/// Bodies of 1e-40 move the others, and each other, by some 1e-40 of their distances and velocities, which are below
+/// 100.
 #[test]
 fn particles_move_as_bodies_of_a_mass_that_moves_nothing() {
     let mut all = Vec::new();

@@ -1,4 +1,5 @@
-//! Protects the permanent change of the modified energy: nothing on the exact flow, the same by every estimator on schemes.
+//! Protects the permanent change of the modified energy: nothing on the exact flow, the same by every estimator on
+//! schemes.
 
 use rug::Float;
 use shadowstep::problems::{Setup, problem};

@@ -1,5 +1,5 @@
-//! Protects the initial data of the problems: against energies that are published or follow by hand, against orbits that
-//! are known, and against invariants that no wrong force would keep.
+//! Protects the initial data of the problems: against energies that are published or follow by hand, against orbits
+//! that are known, and against invariants that no wrong force would keep.
 
 use num_traits::{One, Zero};
 use rug::Float;

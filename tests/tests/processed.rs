@@ -1,5 +1,5 @@
-//! Protects processed schemes: the proof of the effective order apart from the kernel's, and a run that makes the steps of the kernel and is
-//! read through the post-map.
+//! Protects processed schemes: the proof of the effective order apart from the kernel's, and a run that makes the steps
+//! of the kernel and is read through the post-map.
 
 use rug::Float;
 use shadowstep::number::Real;
@@ -42,7 +42,13 @@ fn the_effective_order_is_proved_apart_from_that_of_the_kernel() {
 fn a_changed_digit_of_the_processor_is_refused_by_a_named_condition() {
     // 33737961615779 of b6, two digits exchanged
     let faults = refused("wisdom-corrector-17", "33737961615779", "33737961651779");
-    assert!(faults.contains("effective order 18 is claimed, effective order 2 holds for the terms of ε: the condition of the word KDD fails"), "{faults}");
+    assert!(
+        faults.contains(
+            "effective order 18 is claimed, effective order 2 holds for the terms of ε: the condition \
+        of the word KDD fails"
+        ),
+        "{faults}"
+    );
     let faults = refused("wisdom-corrector-7", "near_integrable = [8, 2]", "near_integrable = [10, 2]");
     assert!(faults.contains("effective order 10 is claimed, effective order 8 holds for the terms of ε"), "{faults}");
     // the kernel's own claims concern the kernel

@@ -1,8 +1,8 @@
 //! Protects what a user does with a table of their own: editing it rebuilds the crate that names it, a wrong edit is a
 //! compile error with the table's place, a name that is not there is answered with the nearest one.
 //!
-//! A small crate outside this workspace, with the library as a path dependency and without its features, so that no C is
-//! compiled. The library has no warnings then, either.
+//! A small crate outside this workspace, with the library as a path dependency and without its features, so that no C
+//! is compiled. The library has no warnings then, either.
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};

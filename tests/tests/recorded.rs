@@ -1,5 +1,5 @@
-//! Protects the modified energy of recorded trajectories: of one of ours it equals the run's own, of an oscillator the theoretical
-//! value; and logs that cannot be used are refused.
+//! Protects the modified energy of recorded trajectories: of one of ours it equals the run's own, of an oscillator the
+//! theoretical value; and logs that cannot be used are refused.
 
 mod cases;
 mod causes;

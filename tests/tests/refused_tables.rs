@@ -1,5 +1,5 @@
-//! Protects the compiler's refusals of wrong claims, each with its message, the value found and the value needed. Tables
-//! that are wrong in published codes are in errata.rs.
+//! Protects the compiler's refusals of wrong claims, each with its message, the value found and the value needed.
+//! Tables that are wrong in published codes are in errata.rs.
 
 use shadowstep_tests::refusals::{assert_orders, assert_refused, judge};
 

@@ -1,5 +1,5 @@
-//! Protects the errors that estimators report, on the exact flow of Kepler's problem: the energy is −1/2, so every error is
-//! known.
+//! Protects the errors that estimators report, on the exact flow of Kepler's problem: the energy is −1/2, so every
+//! error is known.
 
 use rug::Float;
 use shadowstep::Number;
@@ -69,8 +69,8 @@ fn ratios<N: CorrectlyRounded, M: BuildEstimator<N>>(
     old
 }
 
-/// Errors are at most a tenth more than estimated; where they are round-off, which may be alike at some states one after the
-/// other, four times as much.
+/// Errors are at most a tenth more than estimated; where they are round-off, which may be alike at some states one
+/// after the other, four times as much.
 fn assert_reliable(name: &str, digits: u32, found: &Found) {
     let is_round_off = found.error < 10_f64.powi(2 - digits as i32);
     let allowed = if is_round_off { 4.0 } else { 1.1 };

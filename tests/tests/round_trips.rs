@@ -1,5 +1,5 @@
-//! Protects what is written and read back: settings of estimators, weights of tables, values of scenes. Round trips of exact numbers are in
-//! `symbolic/tests/decimal.rs`.
+//! Protects what is written and read back: settings of estimators, weights of tables, values of scenes. Round trips of
+//! exact numbers are in `symbolic/tests/decimal.rs`.
 
 use proptest::prelude::*;
 use shadowstep::Rational;
@@ -67,7 +67,8 @@ proptest! {
         (h, steps, digits) in (1..1000_i64, 1..10_000_u64, 20..500_u32),
     ) {
         let text = format!(
-            "[problem]\npotential = \"k*(x^2 + y^2 + z^2)\"\ncoordinates = [\"x\", \"y\", \"z\"]\nparameters = {{ k = \"{}\" }}\n\
+            "[problem]\npotential = \"k*(x^2 + y^2 + z^2)\"\ncoordinates = [\"x\", \"y\", \"z\"]\nparameters = {{ k \
+                = \"{}\" }}\n\
              [initial]\nq = [{}]\np = [{}]\n[run]\nscheme = \"ruth3\"\nstep = \"{h}/1001\"\nsteps = {steps}\n\
              digits = {digits}\n[output]\nenergy = true\n",
             to_text(&k), list(&q), list(&p)

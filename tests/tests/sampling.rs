@@ -10,8 +10,9 @@ use shadowstep_schemes::MapKind;
 use shadowstep_schemes::{First, Proved, Source, read, read_first, shipped, shipped_proved, to_significant};
 use shadowstep_tests::rational;
 
-/// The largest ρ(hω) for 0 < hω < forces, sampled. For an oscillator in equilibrium the expected error of the energy, for any number of
-/// steps, is at most ρ, times the temperature: (B + C)²/(2(1 − A²)) for the matrix (A B; C A) of a step (Blanes, Casas, Sanz-Serna 2014).
+/// The largest ρ(hω) for 0 < hω < forces, sampled. For an oscillator in equilibrium the expected error of the energy,
+/// for any number of steps, is at most ρ, times the temperature: (B + C)²/(2(1 − A²)) for the matrix (A B; C A) of a
+/// step (Blanes, Casas, Sanz-Serna 2014).
 fn largest_rho(proved: &Proved) -> f64 {
     const POINTS: u32 = 20_000;
     let weight = |weight: &_| to_significant(weight, 18).parse::<f64>().unwrap();

@@ -1,5 +1,5 @@
-//! Protects what a user meets first: step sizes and what each form of them means, motions with their errors, masses from numbers,
-//! a potential from a closure.
+//! Protects what a user meets first: step sizes and what each form of them means, motions with their errors, masses
+//! from numbers, a potential from a closure.
 
 use num_traits::{One, Signed, Zero};
 use rug::Float;
@@ -98,8 +98,8 @@ fn weights_are_rounded_once() {
     check::<Float>(&precision(40));
 }
 
-/// In `f64` the decimal and the double nearest to it give weights that differ in the last place at most; with more digits they are two
-/// step sizes.
+/// In `f64` the decimal and the double nearest to it give weights that differ in the last place at most; with more
+/// digits they are two step sizes.
 #[test]
 fn decimals_and_doubles_differ_where_there_are_digits_for_it() {
     let [fraction, decimal] = ["1/20", "0.05"].map(|h| Stepper::<_, f64>::new(Yoshida4, h).unwrap());

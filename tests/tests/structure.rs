@@ -1,5 +1,5 @@
-//! Protects the structure of the workspace: no files of a crate import each other in a circle, nor do modules of a folder, so that a file or a
-//! module can be read, tested and moved with only what it imports.
+//! Protects the structure of the workspace: no files of a crate import each other in a circle, nor do modules of a
+//! folder, so that a file or a module can be read, tested and moved with only what it imports.
 
 mod circles;
 mod imports;
@@ -51,7 +51,8 @@ fn folders(imports: &Imports) -> BTreeSet<PathBuf> {
     files.filter_map(|file| file.parent()).map(Path::to_path_buf).collect()
 }
 
-/// The workspace's folder, and of every crate in it (libraries, programs, tests, benchmarks) the package and the root file.
+/// The workspace's folder, and of every crate in it (libraries, programs, tests, benchmarks) the package and the root
+/// file.
 fn workspace() -> (PathBuf, Vec<(String, PathBuf)>) {
     let metadata = Command::new(env!("CARGO"))
         .args(["metadata", "--no-deps", "--format-version", "1", "--manifest-path"])

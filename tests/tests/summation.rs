@@ -1,4 +1,5 @@
-//! Protects compensated sums and fixed point: sums lose nothing, states are saved with their remainders, steps are undone to the last bit.
+//! Protects compensated sums and fixed point: sums lose nothing, states are saved with their remainders, steps are
+//! undone to the last bit.
 
 use num_traits::Signed;
 use rug::Float;
@@ -54,8 +55,8 @@ fn exactly<N: Exactly>(values: &[N], remainders: &[N]) -> Vec<Rational> {
     values.iter().zip(remainders).map(|(x, rest)| x.exactly() + rest.exactly()).collect()
 }
 
-/// After a + e and an increment δ the exact sum of the new a and e is a and the sum y of e and δ, which alone is rounded; but for ε y
-/// where y is larger than a.
+/// After a + e and an increment δ the exact sum of the new a and e is a and the sum y of e and δ, which alone is
+/// rounded; but for ε y where y is larger than a.
 fn no_part_of_a_sum_is_lost<N: Exactly>(problem: Problem, context: &N::Context) {
     let mut motion = system::<N>(problem, Masses::Unit, context).compensated();
     let mut gradient = vec![N::zero(context); motion.q().len()];
@@ -200,7 +201,8 @@ fn a_run_from_a_state_with_remainders_has_the_states_of_the_steps() {
     assert_eq!(all_bits(trajectory.integrator().system()), all_bits(&steps));
 }
 
-/// Systems of other parts than T(p) and U(q): beside the same steps in double-double compensated sums are off by less than plain ones, and have remainders.
+/// Systems of other parts than T(p) and U(q): beside the same steps in double-double compensated sums are off by less
+/// than plain ones, and have remainders.
 #[test]
 fn every_system_has_compensated_sums() {
     fn off<M: System<Number = f64>, D: System<Number = DoubleDouble, Class = M::Class>, S>(

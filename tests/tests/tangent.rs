@@ -1,5 +1,5 @@
-//! Protects tangent maps: symplectic for every shipped scheme, limits of differences at 70 digits, undone by the step back, beside q and p that have the
-//! bits they have alone; indicators beside closed forms.
+//! Protects tangent maps: symplectic for every shipped scheme, limits of differences at 70 digits, undone by the step
+//! back, beside q and p that have the bits they have alone; indicators beside closed forms.
 
 use shadowstep::number::{Dual, Lanes, Limbs, Number, Real, with_parameter};
 use shadowstep::problems::HenonHeiles;
@@ -190,7 +190,8 @@ fn gradients_backwards_are_those_of_vectors_forwards() {
     twins().for_each(|(name, scheme)| assert_adjoint(&name, &scheme));
 }
 
-/// L = λ·(q, p) at the end of a chaotic orbit: its derivatives along a vector and by h, forwards and backwards, and whether the steps back end at the initial state.
+/// L = λ·(q, p) at the end of a chaotic orbit: its derivatives along a vector and by h, forwards and backwards, and
+/// whether the steps back end at the initial state.
 fn along_and_back<M>(sums: impl Fn(Star<Dual<f64>>) -> M, steps: u64) -> ([f64; 2], [f64; 2], bool)
 where
     M: System<Number = Dual<f64>, Class = Quadratic>,
@@ -243,7 +244,8 @@ fn gradients_in_fixed_point_are_those_of_the_steps_on_chaotic_orbits() {
 
 potential! { pub struct Saddle; U(x, y) = -x^2/2 + y^2/2 }
 
-/// Of U = −x²/2 + y²/2 one exponent of the exact flow is 1, another −1, and two are 0; a step of Störmer–Verlet has eigenvalues e^±λh with cosh λh = 1 + h²/2.
+/// Of U = −x²/2 + y²/2 one exponent of the exact flow is 1, another −1, and two are 0; a step of Störmer–Verlet has
+/// eigenvalues e^±λh with cosh λh = 1 + h²/2.
 #[test]
 fn exponents_of_a_saddle_are_those_of_its_steps() {
     let h: f64 = 0.1;

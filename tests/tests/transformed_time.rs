@@ -1,7 +1,8 @@
-//! Protects transformed time: orbits that leapfrog steps keep, orders that are those proved, the modified energy of H′, and runs that end at
-//! physical times.
+//! Protects transformed time: orbits that leapfrog steps keep, orders that are those proved, the modified energy of H′,
+//! and runs that end at physical times.
 //!
-//! Yardsticks: the ellipse and the period of Kepler's orbits; the extrapolation of leapfrog steps of H′ with derivatives written here.
+//! Yardsticks: the ellipse and the period of Kepler's orbits; the extrapolation of leapfrog steps of H′ with
+//! derivatives written here.
 
 use rug::Float;
 use shadowstep::number::{Limbs, Number, Real};
@@ -248,7 +249,8 @@ const RUN: &str = "[run]\nscheme = \"sofroniou-spaletta8-21\"\nfirst = \"drift\"
 #[test]
 fn a_scene_ends_at_its_physical_time() {
     let text = format!(
-        "[problem]\nname = \"kepler\"\nparameters = {{ eccentricity = \"0.99\" }}\n[time]\ntransform = \"logarithmic\"\n{RUN}"
+        "[problem]\nname = \"kepler\"\nparameters = {{ eccentricity = \"0.99\" }}\n[time]\ntransform \
+            = \"logarithmic\"\n{RUN}"
     );
     let scene = scene(&text).expect("it is a scene");
     let rows = rows(&scene);

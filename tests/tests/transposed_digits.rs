@@ -1,5 +1,6 @@
-//! Protects the check of printed digits: published tables have no note as printed, those apart of which the last digits are
-//! wrong in print; after an exchange of two neighbouring digits they are refused or noted, and a decimal that is named alone is the changed one.
+//! Protects the check of printed digits: published tables have no note as printed, those apart of which the last digits
+//! are wrong in print; after an exchange of two neighbouring digits they are refused or noted, and a decimal that is
+//! named alone is the changed one.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
@@ -8,7 +9,8 @@ use shadowstep_schemes::{Proved, Source, read, shipped, shipped_names, shipped_p
 
 const FOLDER: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../analysis/tests/published");
 
-/// Tables of which some last digits are wrong in print, with the decimal that is off by most, in units of its last place.
+/// Tables of which some last digits are wrong in print, with the decimal that is off by most, in units of its last
+/// place.
 const WRONG_IN_PRINT: [(&str, &str, &str); 6] = [
     ("yoshida6-b", "g2", "3.6"),
     ("yoshida6-c", "g3", "111"),
@@ -20,7 +22,8 @@ const WRONG_IN_PRINT: [(&str, &str, &str); 6] = [
 
 const NOTE: &str = "rounding does not explain the digits";
 
-/// A published table and the digits that it may claim: as many as its shortest decimal has, those apart that were chosen.
+/// A published table and the digits that it may claim: as many as its shortest decimal has, those apart that were
+/// chosen.
 struct Table {
     name: String,
     text: String,

@@ -1,7 +1,8 @@
-//! Protects Wisdom–Holman systems: coordinates that are canonical, orders that are those proved for H = A + εB, and the modified energy.
+//! Protects Wisdom–Holman systems: coordinates that are canonical, orders that are those proved for H = A + εB, and the
+//! modified energy.
 //!
-//! Yardsticks: the same bodies with H = T(p) + U(q) in inertial coordinates, whose flow is extrapolated from leapfrog steps; and the
-//! energies of both.
+//! Yardsticks: the same bodies with H = T(p) + U(q) in inertial coordinates, whose flow is extrapolated from leapfrog
+//! steps; and the energies of both.
 
 use rug::Float;
 use shadowstep::number::{Limbs, Number, Precision, Real};
@@ -187,7 +188,8 @@ fn quadratic(name: &str) -> TableScheme {
     tables::shipped(name).expect("it is listed")
 }
 
-/// q and v of the planets after a time 2^−k, in `steps` steps of a scheme, with planets of 1e-40 times `times` of the central mass.
+/// q and v of the planets after a time 2^−k, in `steps` steps of a scheme, with planets of 1e-40 times `times` of the
+/// central mass.
 fn end<C, K>(scheme: TableScheme<K>, k: u32, steps: u64, times: i64) -> Vec<Fine>
 where
     C: PlanetaryCoordinates<Fine, 2>,
@@ -206,7 +208,8 @@ where
     q.into_iter().skip(2).chain(p.into_iter().enumerate().skip(2).map(velocity)).collect()
 }
 
-/// log₂ of the terms of ε, ε², ε³ of a step's error, by differences in ε: what is left of higher powers is 1e-40 of them.
+/// log₂ of the terms of ε, ε², ε³ of a step's error, by differences in ε: what is left of higher powers is 1e-40 of
+/// them.
 ///
 /// `exact` has the ends of the flow for each factor of ε.
 fn terms<C, K>(scheme: &TableScheme<K>, k: u32, exact: &impl Fn(i64) -> Vec<Fine>) -> [f64; 3]
@@ -230,7 +233,8 @@ where
     })
 }
 
-/// The flow is approximated by 32 steps of order (10, 6, 4) of the same system: its error is 32^−4 of the largest error measured here, or less.
+/// The flow is approximated by 32 steps of order (10, 6, 4) of the same system: its error is 32^−4 of the largest error
+/// measured here, or less.
 fn orders_in_epsilon<C, K>(names: &[&str], scheme: fn(&str) -> TableScheme<K>)
 where
     C: PlanetaryCoordinates<Fine, 2>,
@@ -303,7 +307,8 @@ fn the_modified_energy_is_conserved() {
     let jacobi = [("1/4", 400), ("1/2", 200), ("1", 100)].map(|(h, steps)| variations::<Jacobi<_, 2>>(h, steps));
     let heliocentric = variations::<DemocraticHeliocentric<_, 2>>("1/4", 400);
     println!("{jacobi:?} {heliocentric:?}");
-    // H varies by ε h², E_k by far less: measured 2.2e-9, 4.2e-17, 6.3e-22; 9.0e-9, 5.8e-13, 2.3e-14; 3.9e-8, 1.1e-9, 4.8e-10
+    // H varies by ε h², E_k by far less: measured 2.2e-9, 4.2e-17, 6.3e-22; 9.0e-9, 5.8e-13, 2.3e-14; 3.9e-8, 1.1e-9,
+    // 4.8e-10
     let bounds = [[1e-16, 2e-21], [1e-12, 5e-14], [3e-9, 1e-9]];
     for ([energy, k8, k24], [bound8, bound24]) in jacobi.into_iter().zip(bounds).chain([(heliocentric, bounds[0])]) {
         assert!(energy > 2e-9 && k8 < bound8 && k24 < bound24, "H {energy:e}, E_8 {k8:e}, E_24 {k24:e}");

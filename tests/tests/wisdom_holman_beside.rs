@@ -1,7 +1,9 @@
-//! Protects potentials beside the attraction of planets: formulas of bodies, their exact flow with the attraction, and what is conserved.
+//! Protects potentials beside the attraction of planets: formulas of bodies, their exact flow with the attraction, and
+//! what is conserved.
 //!
-//! Yardsticks: the same H as one formula in inertial coordinates, whose flow is extrapolated from leapfrog steps; the closed solution of a Kepler orbit
-//! with a 1/r² potential; the first-order theory of the nodes of satellites about an oblate body.
+//! Yardsticks: the same H as one formula in inertial coordinates, whose flow is extrapolated from leapfrog steps; the
+//! closed solution of a Kepler orbit with a 1/r² potential; the first-order theory of the nodes of satellites about an
+//! oblate body.
 
 use rug::Float;
 use shadowstep::number::{Limbs, Number, Real};
@@ -191,8 +193,9 @@ fn potentials_that_do_not_fit_are_refused() {
 // ---------------------------------------------------------------------------------------------------------------
 // A planet with a 1/r² potential: its orbit in closed form
 
-/// H = P²/2m′ − κ/r − C/r² has the radial motion of a Kepler orbit with L² − 2m′C in place of L², and turns L/√(L² − 2m′C) times as far. So
-/// after the period of a Kepler orbit of this energy, T = 2π√(m′a³/κ) with a = κ/2|E|, the state is turned by 2π/√(1 − 2m′C/L²).
+/// H = P²/2m′ − κ/r − C/r² has the radial motion of a Kepler orbit with L² − 2m′C in place of L², and turns L/√(L² −
+/// 2m′C) times as far. So after the period of a Kepler orbit of this energy, T = 2π√(m′a³/κ) with a = κ/2|E|, the state
+/// is turned by 2π/√(1 − 2m′C/L²).
 #[test]
 fn the_pericentre_turns_as_in_the_closed_solution() {
     // m′ = 1/11, κ = 1/10, C = 3m/c² = 3/1000, from the pericentre at 7/10 with the velocity 8/5
@@ -229,7 +232,8 @@ fn the_pericentre_turns_as_in_the_closed_solution() {
 
 const OBLATE: &str = "g*m0*m*j2*radius^2/(2*r^3)*(3*z^2/r^2 - 1)";
 
-/// The mean rate of the node as a part of that of the first-order theory, −3/2 n J2 (R/p)² cos i, less 1, and the largest change of J_z as a part of it; and of J_x.
+/// The mean rate of the node as a part of that of the first-order theory, −3/2 n J2 (R/p)² cos i, less 1, and the
+/// largest change of J_z as a part of it; and of J_x.
 fn satellite<N: Real>(j2: &str, context: &N::Context) -> [f64; 3] {
     const STEPS: u64 = 8000;
     let masses = ["1", "1/1000000"];

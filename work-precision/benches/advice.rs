@@ -1,8 +1,9 @@
-//! Advice against brute force: thirteen problems and four tolerances. The advised scheme and step are compared with the cheapest of all runs of
-//! all schemes over all of the time, and their error is measured beside an independent reference.
+//! Advice against brute force: thirteen problems and four tolerances. The advised scheme and step are compared with the
+//! cheapest of all runs of all schemes over all of the time, and their error is measured beside an independent
+//! reference.
 //!
-//! `cargo bench -p shadowstep-work-precision --bench advice` prints the table of `docs/work-precision.md`; `-- NAME` runs the
-//! problems whose names contain NAME. It takes some minutes.
+//! `cargo bench -p shadowstep-work-precision --bench advice` prints the table of `docs/work-precision.md`; `-- NAME`
+//! runs the problems whose names contain NAME. It takes some minutes.
 
 use std::path::Path;
 use std::time::Duration;

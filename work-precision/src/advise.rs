@@ -1,4 +1,5 @@
-//! Advice: a scheme and a step size for an error, from runs over a part of the time, verified by one run over all of it.
+//! Advice: a scheme and a step size for an error, from runs over a part of the time, verified by one run over all of
+//! it.
 
 use std::f64::consts::TAU;
 use std::ops::Range;
@@ -38,8 +39,8 @@ pub struct AdviceRequest<'a> {
     pub tolerance: Size,
     /// What is to be small.
     pub cost: Cost,
-    /// The time for the search on all cores, in seconds: the reference, the runs of the schemes and the times of their steps. The runs that verify
-    /// a choice take what they take.
+    /// The time for the search on all cores, in seconds: the reference, the runs of the schemes and the times of their
+    /// steps. The runs that verify a choice take what they take.
     pub seconds: f64,
     /// Outcomes are saved in this folder.
     pub folder: PathBuf,
@@ -97,7 +98,8 @@ const OF_SEARCH: [f64; 3] = [0.08, 0.7, 0.1];
 const PART_OF_TIME: f64 = 0.125;
 /// Where the time was over, errors are extrapolated by the proved order to at most this multiple of the steps.
 const MOST_EXTRAPOLATED: f64 = 100.0;
-/// A run that missed the tolerance is made again with at most this multiple of its steps: what it misses by more is hardly of the order, but round-off.
+/// A run that missed the tolerance is made again with at most this multiple of its steps: what it misses by more is
+/// hardly of the order, but round-off.
 const MOST_REFINED: f64 = 10.0;
 /// A run with a small error has about this number of evaluations in a turn of the fastest oscillation.
 const EVALUATIONS_PER_TURN: f64 = 400.0;
@@ -119,7 +121,8 @@ const ROUND_OFF: f64 = 2.0;
 const OF_RUN: f64 = 30.0;
 
 impl<'a> AdviceRequest<'a> {
-    /// Studies the schemes over a part of the time that takes seconds, extrapolates to all of it, and verifies the best.
+    /// Studies the schemes over a part of the time that takes seconds, extrapolates to all of it, and verifies the
+    /// best.
     ///
     /// # Errors
     /// As [`Request::study`].
@@ -361,8 +364,8 @@ impl<'a> AdviceRequest<'a> {
         (larger.steps < choice.steps).then_some(larger)
     }
 
-    /// The error of a run over all of the time; of positions beside a reference over all of it, which becomes a better one where it does not resolve the
-    /// error. `None` where the run has no finite states there.
+    /// The error of a run over all of the time; of positions beside a reference over all of it, which becomes a better
+    /// one where it does not resolve the error. `None` where the run has no finite states there.
     fn verify(
         &self,
         choice: &Choice<'a>,

@@ -7,8 +7,8 @@ pub(crate) type Curve = Vec<(f64, f64)>;
 
 /// What a scheme pays for an error of at most this size; `None` where no run meets it.
 ///
-/// That is the cost of the first of two successive runs that meet it, as one alone may do so by accident; between the run before, which
-/// does not, and this one both are powers of each other.
+/// That is the cost of the first of two successive runs that meet it, as one alone may do so by accident; between the
+/// run before, which does not, and this one both are powers of each other.
 pub(crate) fn cost_of(curve: &Curve, error: Size) -> Option<f64> {
     let target = error.log10();
     let meets = |i: usize| curve.get(i).is_none_or(|(_, error)| *error <= target);

@@ -1,4 +1,5 @@
-//! What a study is made of: the reference, the runs of each scheme, the time of their steps. Each is identified by its JSON.
+//! What a study is made of: the reference, the runs of each scheme, the time of their steps. Each is identified by its
+//! JSON.
 
 use std::time::Duration;
 

@@ -25,21 +25,23 @@ pub(crate) struct Picture {
 }
 
 impl Study<'_> {
-    /// The errors of the position and of H, against evaluations and against time: in all of them the same schemes, in one order and with the
-    /// same looks.
+    /// The errors of the position and of H, against evaluations and against time: in all of them the same schemes, in
+    /// one order and with the same looks.
     pub(crate) fn pictures(&self) -> Vec<Picture> {
         let each = [
             (
                 Of::Position,
                 Cost::Evaluations,
-                "The error of the position at the end, |q − q of the reference|, against the evaluations of the gradient. Points are runs; \
+                "The error of the position at the end, |q − q of the reference|, against the evaluations of the \
+                    gradient. Points are runs; \
                  schemes have them at equal numbers of evaluations, as nearly as whole steps allow.",
             ),
             (Of::Position, Cost::Seconds, "The same against the time of the steps alone."),
             (
                 Of::Energy,
                 Cost::Evaluations,
-                "The largest |H(t) − H(0)|, as a part of |H(0)| unless that is 0, against the evaluations of the gradient.",
+                "The largest |H(t) − H(0)|, as a part of |H(0)| unless that is 0, against the evaluations of the \
+                    gradient.",
             ),
             (Of::Energy, Cost::Seconds, "The same against the time of the steps alone."),
         ];
@@ -90,8 +92,8 @@ fn without_lost_runs(curves: &mut [best::Curve], largest: f64) {
     }
 }
 
-/// The schemes that are drawn, in their order: those that need the least for an error of 1e-1, 1e-2, … in any of the charts, then those that need
-/// the least more than these.
+/// The schemes that are drawn, in their order: those that need the least for an error of 1e-1, 1e-2, … in any of the
+/// charts, then those that need the least more than these.
 fn shown(charts: &[Vec<best::Curve>]) -> Vec<usize> {
     let schemes = charts.first().map_or(0, Vec::len);
     let (mut extra, mut is_best) = (vec![0.0; schemes], vec![false; schemes]);
@@ -136,7 +138,8 @@ mod tests {
         assert_eq!(in_other_units, [[(1.0, 8.0), (2.0, 7.0)]]);
     }
 
-    /// Twenty schemes of order 2, of which each is a little more expensive than the last; and one that is the best for small errors only.
+    /// Twenty schemes of order 2, of which each is a little more expensive than the last; and one that is the best for
+    /// small errors only.
     #[test]
     fn the_best_schemes_are_drawn() {
         let of_order =

@@ -31,7 +31,8 @@ pub struct Choice<'a> {
     pub seconds_per_step: f64,
     /// The largest stable step for the fastest oscillation, linearised at the start; `None` where nothing oscillates.
     pub stable_step: Option<f64>,
-    /// The largest step of the scheme up to which the monitor's verdict was bounded or round-off; `None` if it was at no step.
+    /// The largest step of the scheme up to which the monitor's verdict was bounded or round-off; `None` if it was at
+    /// no step.
     pub conserved_up_to: Option<f64>,
     /// The smallest step whose verdict was none of bounded, round-off and undecided.
     pub lost_from: Option<f64>,
@@ -74,7 +75,8 @@ impl Choice<'_> {
         <f64 as Number>::from_rational(&self.step, &()).abs()
     }
 
-    /// The predicted error of steps of this size, log₁₀: between two runs that are powers of each other, beyond them by the order.
+    /// The predicted error of steps of this size, log₁₀: between two runs that are powers of each other, beyond them by
+    /// the order.
     pub(crate) fn predicted(&self, h: f64) -> f64 {
         let steps = self.length / h;
         match self.curve.iter().position(|(known, _)| *known >= steps) {
@@ -95,9 +97,10 @@ impl Choice<'_> {
         cost_of(&self.curve, error).map(|steps| self.length / steps)
     }
 
-    /// With the error that the run of its steps had. Runs over a part of the time say how errors depend on the step: all are multiplied, so that the prediction
-    /// is this error. Those over all of the time are what they are beside one more: near a resonance of the step its error says nothing of theirs. A part of the
-    /// time may not show a resonance: an error far above the prediction is one, if it is the first.
+    /// With the error that the run of its steps had. Runs over a part of the time say how errors depend on the step:
+    /// all are multiplied, so that the prediction is this error. Those over all of the time are what they are beside
+    /// one more: near a resonance of the step its error says nothing of theirs. A part of the time may not show a
+    /// resonance: an error far above the prediction is one, if it is the first.
     pub(crate) fn corrected(&self, found: Size) -> Choice<'_> {
         let shift = found.log10() - self.predicted(self.size());
         let is_resonance = shift > RESONANCE && !self.missed;
@@ -118,7 +121,8 @@ fn by_order((steps, error): (f64, f64), order: f64, others: f64) -> f64 {
     error - order * (others / steps).log10()
 }
 
-/// The order of the last two runs, at least the proved one: errors of a dominant part's perturbation fall with a higher one at first.
+/// The order of the last two runs, at least the proved one: errors of a dominant part's perturbation fall with a higher
+/// one at first.
 pub(crate) fn last_order(curve: &Curve, proved: f64) -> f64 {
     match curve[..] {
         [.., (a, above), (b, below)] => ((above - below) / (b / a).log10()).clamp(proved, MOST_ORDER.max(proved)),

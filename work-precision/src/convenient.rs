@@ -9,8 +9,9 @@ const DIGITS: [i64; 22] =
 /// A convenient step is preferred to one that is larger by this factor at most.
 const PREFERENCE: f64 = 1.09;
 
-/// The largest step size of at most h of which the time is a multiple: a convenient one, which is a number of up to three digits or 1 divided
-/// by a whole one, where such a one is about as large; else the time divided by the fewest steps. Without a time, the largest convenient one.
+/// The largest step size of at most h of which the time is a multiple: a convenient one, which is a number of up to
+/// three digits or 1 divided by a whole one, where such a one is about as large; else the time divided by the fewest
+/// steps. Without a time, the largest convenient one.
 ///
 /// # Panics
 /// If h is not positive and finite.

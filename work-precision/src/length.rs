@@ -1,4 +1,5 @@
-//! The length of a run in the fictitious time s, where time is transformed, and how many steps of given sizes there are.
+//! The length of a run in the fictitious time s, where time is transformed, and how many steps of given sizes there
+//! are.
 
 use num_integer::Integer as _;
 use num_traits::{FromPrimitive, One as _, Signed};
@@ -27,8 +28,8 @@ const MOST_HALVINGS: u32 = 60;
 /// The lengths with a step and with half of it agree to this part.
 const AGREE: f64 = 0.01;
 
-/// The length in s of a run to the physical time `until`, to about a hundredth, with three digits: which multiple of it a step is says about how many there are.
-/// `None` where time is not transformed.
+/// The length in s of a run to the physical time `until`, to about a hundredth, with three digits: which multiple of it
+/// a step is says about how many there are. `None` where time is not transformed.
 ///
 /// # Errors
 /// A system that has no states up to this time.
@@ -51,7 +52,8 @@ pub fn length_of(system: &System, until: &Rational) -> Result<Option<Rational>, 
     Err(Error::run(message, "use a shorter time, or remove [time]"))
 }
 
-/// The length by steps of this size, linearly in the last of them; `None` if there are few, or too many, or a state is not finite.
+/// The length by steps of this size, linearly in the last of them; `None` if there are few, or too many, or a state is
+/// not finite.
 fn length_by(system: &System, until: &Rational, h: &Rational) -> Result<Option<f64>, Error> {
     let scheme = for_system(scheme(SCHEME)?, system)?;
     let size = StepSize::try_from(h.clone()).map_err(|error| Error::usage(error.to_string(), "use a longer time"))?;
@@ -91,8 +93,8 @@ impl Column<f64> for StepsUntil {
     }
 }
 
-/// The numbers of steps of these sizes, the least first and each once. The time of the runs must be a multiple of each size; a length in s, where time is transformed,
-/// becomes one.
+/// The numbers of steps of these sizes, the least first and each once. The time of the runs must be a multiple of each
+/// size; a length in s, where time is transformed, becomes one.
 ///
 /// # Errors
 /// Sizes that do not divide the time, have another sign, or are longer than it.

@@ -12,7 +12,7 @@
 //! | [`timing`] | the time of a step |
 //! | [`work`] | what else a step costs: Hessian–vector products, flows of a dominant part |
 //! | [`of`], [`order`], `best` | which error; the measured order; the scheme that needs the least for an error |
-//! | [`advise`], `choice`, `verified`, `convenient`, [`no_advice`] | advice on scheme and step size; what is expected of them; how well an error is known; step sizes that are easy to write; why there is no advice |
+//! | [`advise`], `choice`, `verified`, `convenient`, [`no_advice`] | advice on scheme and step size, or why there is none |
 //! | [`schemes`] | the schemes that are compared if none are named |
 //! | [`files`] | what is written: data, charts, a page |
 //! | `charts` | work–precision diagrams |

@@ -20,15 +20,18 @@ impl Advice<'_> {
         if let Some((choice, resolved)) = unverified.as_deref() {
             let Choice { scheme, error, .. } = choice;
             return Some(format!(
-                "No advice is verified: {}, step {}, is expected to have the error {error} from runs {runs}; over all of the time errors are known above \
-                 {resolved} alone, as there was too little time for a better reference. Use more seconds, or a shorter time.",
+                "No advice is verified: {}, step {}, is expected to have the error {error} from runs {runs}; over all \
+                    of the time errors are known above \
+                 {resolved} alone, as there was too little time for a better reference. Use more seconds, or a \
+                 shorter time.",
                 scheme.name,
                 choice.step_text()
             ));
         }
         Some(match least {
             _ if *missed > 0 => format!(
-                "No advice: runs over all of the time, {missed} of them, were expected to meet the tolerance from runs {runs}, and missed it. Use more seconds.{}",
+                "No advice: runs over all of the time, {missed} of them, were expected to meet the tolerance from \
+                    runs {runs}, and missed it. Use more seconds.{}",
                 if is_position {
                     ""
                 } else {
@@ -36,10 +39,12 @@ impl Advice<'_> {
                 }
             ),
             _ if *overflow => format!(
-                "No advice {limit}: a state, its energy or its error overflows in every run {runs}, as with steps that are too large, or numbers that are."
+                "No advice {limit}: a state, its energy or its error overflows in every run {runs}, as with steps \
+                    that are too large, or numbers that are."
             ),
             Some((error, name)) if is_position && *resolved > request.tolerance => format!(
-                "No advice: errors are known above {resolved} alone {runs}, as there was too little time for a better reference; the smallest one was {error}, \
+                "No advice: errors are known above {resolved} alone {runs}, as there was too little time for a better \
+                    reference; the smallest one was {error}, \
                  of {name}. Use more seconds, a shorter time, or more digits."
             ),
             Some((error, name)) => {
@@ -54,7 +59,8 @@ impl Advice<'_> {
                 "No advice: there are no positions to compare with {limit}, {runs}. Use a shorter time, or more seconds."
             ),
             None if is_position => format!(
-                "No advice: the positions of the reference change by {reference} with its step {runs}, as they do where the motion is chaotic. Ask for the \
+                "No advice: the positions of the reference change by {reference} with its step {runs}, as they do \
+                    where the motion is chaotic. Ask for the \
                  error of the energy, or for a shorter time."
             ),
             None => format!("No advice: no error is known {runs}."),

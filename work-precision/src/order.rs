@@ -21,8 +21,8 @@ const LEAST_POINTS: usize = 4;
 const LARGEST_RESIDUAL: f64 = 0.1;
 
 impl MeasuredOrder {
-    /// The order that the most neighbouring steps show within 0.1 decades; of several such ranges the one with the largest steps,
-    /// where round-off is least. Points are (h, log₁₀ error) in the order of h.
+    /// The order that the most neighbouring steps show within 0.1 decades; of several such ranges the one with the
+    /// largest steps, where round-off is least. Points are (h, log₁₀ error) in the order of h.
     pub(crate) fn of(points: &[(f64, f64)]) -> Option<MeasuredOrder> {
         let mut best: Option<MeasuredOrder> = None;
         for first in 0..points.len() {

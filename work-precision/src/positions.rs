@@ -77,7 +77,8 @@ impl<N: RunNumber> Column<N> for Positions<N> {
     }
 }
 
-/// Samples at physical times, where time is transformed: none of them is that of a state, and from the state before each a part of a step is made.
+/// Samples at physical times, where time is transformed: none of them is that of a state, and from the state before
+/// each a part of a step is made.
 struct InTime<N: Real> {
     /// The time between samples.
     part: Rational,
@@ -89,7 +90,8 @@ struct InTime<N: Real> {
 }
 
 impl<N: RunNumber> InTime<N> {
-    /// Keeps the positions, without t, of the samples between the state before and the present one; `None` where there is none.
+    /// Keeps the positions, without t, of the samples between the state before and the present one; `None` where there
+    /// is none.
     fn see(&mut self, present: &VectorIntegrator<'_, N>, (found, samples): (&mut Vec<Vec<N>>, usize)) -> Option<()> {
         let (q, p) = (present.state().q(), present.state().p());
         let context = present.state().context();

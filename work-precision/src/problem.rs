@@ -23,7 +23,8 @@ pub(crate) const MOST_SAMPLES: u64 = 64;
 /// More turns than this are more steps than there may be, even with a hundred turns in a step.
 const MOST_TURNS: f64 = 100.0 * MOST_STEPS as f64;
 
-/// A system from t = 0 to `until` in a number type. Where time is transformed, `until` is a physical time, and steps are in s.
+/// A system from t = 0 to `until` in a number type. Where time is transformed, `until` is a physical time, and steps
+/// are in s.
 #[derive(Clone, Copy, Debug)]
 pub struct Problem<'a> {
     /// H and the initial state.
@@ -32,7 +33,8 @@ pub struct Problem<'a> {
     pub until: &'a Rational,
     /// The number type.
     pub arithmetic: Arithmetic,
-    /// About the [length](crate::length::length_of) of the runs in s, where time is transformed: runs of n steps have steps of an nth of it.
+    /// About the [length](crate::length::length_of) of the runs in s, where time is transformed: runs of n steps have
+    /// steps of an nth of it.
     pub length: Option<&'a Rational>,
 }
 
@@ -67,8 +69,8 @@ impl Problem<'_> {
         StepSize::try_from(self.step_size(steps)).expect("the run has a nonzero length")
     }
 
-    /// A run of this number of steps of this size. One in transformed time is ended by what follows it: it has not come to its end after
-    /// this multiple of the steps that its length in s suggests, if it ever comes there.
+    /// A run of this number of steps of this size. One in transformed time is ended by what follows it: it has not come
+    /// to its end after this multiple of the steps that its length in s suggests, if it ever comes there.
     pub(crate) fn posed<'b>(&'b self, named: &'b NamedScheme, (h, steps): (&'b StepSize, u64)) -> Posed<'b> {
         const MOST_LONGER: u64 = 16;
         let steps = if self.length.is_some() { MOST_LONGER * (steps + 1) } else { steps };
@@ -111,7 +113,8 @@ impl Problem<'_> {
         }
         let until = shortened(self.until, LONGEST_NUMBER);
         let message = format!(
-            "until {until} the fastest oscillation at the start makes {turns:.1e} turns: which are too many steps of any scheme"
+            "until {until} the fastest oscillation at the start makes {turns:.1e} turns: which are too many steps of \
+                any scheme"
         );
         Err(Error::usage(message, "the limit is 1e10 steps: give an earlier time"))
     }

@@ -1,5 +1,6 @@
-//! The positions with which those of the schemes are compared: of the exact flow where it is known, else of a scheme of order 10
-//! with more digits and small steps, with an estimate of its own error; in double precision with compensated sums where forces have no more digits.
+//! The positions with which those of the schemes are compared: of the exact flow where it is known, else of a scheme of
+//! order 10 with more digits and small steps, with an estimate of its own error; in double precision with compensated
+//! sums where forces have no more digits.
 
 use std::time::Duration;
 
@@ -55,14 +56,16 @@ struct Scheme {
     name: &'static str,
     /// Its evaluations in a step.
     evaluations: f64,
-    /// Where half the step divides the differences by this and more, it shows its order, and the error is less than the last difference by this factor; log₁₀.
+    /// Where half the step divides the differences by this and more, it shows its order, and the error is less than the
+    /// last difference by this factor; log₁₀.
     gain: f64,
 }
 
 impl Scheme {
     /// Of order 10 for every T(p): half the step divides its error by 1024.
     const ANY: Scheme = Scheme { name: "sofroniou-spaletta10-35", evaluations: 35.0, gain: 2.4 };
-    /// Beside Kepler orbits, of order (10, 6, 4), a quarter of the cost for errors above 1e-14: half the step divides its error by 16 at least.
+    /// Beside Kepler orbits, of order (10, 6, 4), a quarter of the cost for errors above 1e-14: half the step divides
+    /// its error by 16 at least.
     const PLANETS: Scheme = Scheme { name: "abah1064", evaluations: 9.0, gain: 0.9 };
 
     /// The one for positions with an error of about this size, with steps for the system.
@@ -84,7 +87,8 @@ const ROUND_OFF_DIGITS: u32 = 4;
 const KNOWN: f64 = 0.7;
 /// No run goes on beyond this multiple of the time, which the first two may take.
 const LONGEST: u32 = 6;
-/// A difference that half the step improves by less than this has come to round-off, or the steps are still too large; log₁₀.
+/// A difference that half the step improves by less than this has come to round-off, or the steps are still too large;
+/// log₁₀.
 const STALLED: f64 = 0.3;
 
 /// Positions q(i T/samples), i = 1, …, samples, as decimal texts, and their errors.
@@ -184,8 +188,8 @@ impl Reference {
         Reference { positions: vec![origin; count], errors: vec![Size::INFINITE; count], origin: Origin::None }
     }
 
-    /// The same with errors of about this size: in the numbers of the runs with compensated sums, where their round-off is smaller, else with
-    /// more digits. None is known where there is no time for it.
+    /// The same with errors of about this size: in the numbers of the runs with compensated sums, where their round-off
+    /// is smaller, else with more digits. None is known where there is no time for it.
     ///
     /// # Errors
     /// As [`Reference::compute`].
@@ -242,7 +246,8 @@ impl Reference {
             Origin::None => "No positions are compared.".to_owned(),
             Origin::ExactFlow => "Positions are compared with the exact flow.".to_owned(),
             Origin::Scheme { name, steps, digits } => format!(
-                "Positions are compared with those of {name} in {steps} steps with {digits} digits, whose error is about {}.",
+                "Positions are compared with those of {name} in {steps} steps with {digits} digits, whose error is \
+                    about {}.",
                 self.error()
             ),
         }
@@ -347,8 +352,8 @@ fn has_forces_in_doubles(problem: Problem<'_>) -> bool {
     problem.system.check_digits(Arithmetic::DOUBLE_DOUBLE).is_err()
 }
 
-/// The number type of a reference. Forces of a function stay in double precision: smaller steps of a higher order are better until round-off, and its error is
-/// known by what half the step changes, which has the round-off of two runs.
+/// The number type of a reference. Forces of a function stay in double precision: smaller steps of a higher order are
+/// better until round-off, and its error is known by what half the step changes, which has the round-off of two runs.
 fn more_digits(problem: Problem<'_>) -> Result<Arithmetic, Error> {
     if has_forces_in_doubles(problem) {
         return Ok(Arithmetic::COMPENSATED);
@@ -373,7 +378,8 @@ fn resolving_numbers(problem: Problem<'_>, error: Size) -> Option<Arithmetic> {
     (error.log10() > resolved || has_forces_in_doubles(problem)).then_some(own)
 }
 
-/// The numbers in which a reference with errors of about this size is computed, and its scheme; `None` where the flow is exact.
+/// The numbers in which a reference with errors of about this size is computed, and its scheme; `None` where the flow
+/// is exact.
 pub(crate) fn method_of_reference(
     problem: Problem<'_>,
     error: Size,
@@ -411,7 +417,8 @@ fn of_scheme(
     arithmetic.compute(ByHalving { problem, scheme, named, request })
 }
 
-/// What two runs at round-off, which differ by this at each sample, show of the error of one of them: they may agree by chance, for a while or at all samples.
+/// What two runs at round-off, which differ by this at each sample, show of the error of one of them: they may agree by
+/// chance, for a while or at all samples.
 fn round_off(differences: &[Size], largest: f64) -> Vec<Size> {
     /// The error beside the largest difference so far, and beside the round-off of a position; log₁₀.
     const BESIDE_DIFFERENCE: f64 = 0.3;

@@ -83,7 +83,8 @@ pub struct Modified {
 }
 
 impl Measurement {
-    /// Makes a run of this number of steps, with as many evaluations, and measures it; `None` if it was not to continue.
+    /// Makes a run of this number of steps, with as many evaluations, and measures it; `None` if it was not to
+    /// continue.
     ///
     /// # Errors
     /// A system that cannot be moved.

@@ -40,8 +40,8 @@ const GENERAL: [&str; 12] = [
     "sofroniou-spaletta10-35",
 ];
 
-/// Beside a dominant part: near-integrable schemes and kernels with correctors of some orders, and the best of others. Those that are not valid for a
-/// system are left out.
+/// Beside a dominant part: near-integrable schemes and kernels with correctors of some orders, and the best of others.
+/// Those that are not valid for a system are left out.
 const DOMINANT: [&str; 16] = [
     "stormer-verlet",
     "wisdom-kernel-7",
@@ -93,7 +93,8 @@ impl Group {
         }
     }
 
-    /// Its schemes that are valid for a system and have the digits of the runs, with steps that begin with a map, where one is given.
+    /// Its schemes that are valid for a system and have the digits of the runs, with steps that begin with a map, where
+    /// one is given.
     ///
     /// # Errors
     /// None is.
@@ -143,7 +144,8 @@ mod tests {
         for name in QUADRATIC.into_iter().chain(DOMINANT) {
             assert!(scheme(name).is_ok(), "{name}");
         }
-        let relativistic = "problem = { kinetic = 'sqrt(1 + p^2)', momenta = ['p'], potential = 'x^2', coordinates = ['x'] }\ninitial = { q = [1], p = [0] }";
+        let relativistic = "problem = { kinetic = 'sqrt(1 + p^2)', momenta = ['p'], potential = 'x^2', coordinates = \
+            ['x'] }\ninitial = { q = [1], p = [0] }";
         assert_eq!(names(Group::Default, "problem.name = 'kepler'"), QUADRATIC);
         assert_eq!(names(Group::Default, relativistic), GENERAL);
     }

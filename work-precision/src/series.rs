@@ -1,5 +1,5 @@
-//! The numbers of steps with which a scheme runs: equal numbers of evaluations for all schemes, from about the stability limit down to
-//! round-off, or to the end of a budget of time.
+//! The numbers of steps with which a scheme runs: equal numbers of evaluations for all schemes, from about the
+//! stability limit down to round-off, or to the end of a budget of time.
 
 use std::f64::consts::TAU;
 use std::time::Duration;
@@ -140,8 +140,9 @@ impl SeriesOf<'_> {
         Ok(Series { runs, end })
     }
 
-    /// Makes runs between the last one that misses the target and the first one that meets it, until their errors are close: where errors fall like
-    /// exponentials of the step, an error between two that are decades apart is not known.
+    /// Makes runs between the last one that misses the target and the first one that meets it, until their errors are
+    /// close: where errors fall like exponentials of the step, an error between two that are decades apart is not
+    /// known.
     fn refine(&self, runs: &mut Vec<Measurement>, target: Target, continues: &dyn Fn() -> bool) -> Result<(), Error> {
         for _ in 0..MOST_REFINED {
             let Some((at, steps)) = self.between(runs, target) else { break };
@@ -162,7 +163,8 @@ impl SeriesOf<'_> {
         (error(before) - error(after) > CLOSE && is_new).then_some((at, mean))
     }
 
-    /// The number of steps of the run with this index: the scheme's evaluations are about samples · 2^(index/2), and the samples are at states.
+    /// The number of steps of the run with this index: the scheme's evaluations are about samples · 2^(index/2), and
+    /// the samples are at states.
     fn steps(&self, index: i32) -> u64 {
         let each = self.scheme.scheme.summary().evaluations as f64;
         let per_sample = (f64::from(index) / RUNS_PER_DOUBLING).exp2() / each;
@@ -181,14 +183,16 @@ impl SeriesOf<'_> {
     }
 }
 
-/// The number of steps of 1.5 times the stability limit of the fastest oscillation; one in a turn of it where that is solved exactly.
+/// The number of steps of 1.5 times the stability limit of the fastest oscillation; one in a turn of it where that is
+/// solved exactly.
 pub(crate) fn coarsest(problem: Problem<'_>, scheme: &NamedScheme) -> f64 {
     let step = stable_step(problem, scheme).map(|limit| BEYOND * limit);
     let turn = || problem.system.fastest_motion().filter(|_| problem.length.is_none()).map(|motion| TAU / motion.omega);
     step.or_else(turn).map_or(1.0, |step| (problem.duration() / step).max(1.0))
 }
 
-/// The largest stable step for the fastest oscillation, linearised at the initial state; `None` where nothing oscillates.
+/// The largest stable step for the fastest oscillation, linearised at the initial state; `None` where nothing
+/// oscillates.
 pub(crate) fn stable_step(problem: Problem<'_>, scheme: &NamedScheme) -> Option<f64> {
     let stability = Stability::of_scheme(scheme.scheme.proved());
     // no limit exceeds 2 a force
@@ -197,7 +201,8 @@ pub(crate) fn stable_step(problem: Problem<'_>, scheme: &NamedScheme) -> Option<
     problem.system.fastest_frequency().map(|frequency| limit / frequency.omega)
 }
 
-/// The seconds that a run of this number of steps takes for each of them with all that is measured, by the beginning of the run.
+/// The seconds that a run of this number of steps takes for each of them with all that is measured, by the beginning of
+/// the run.
 pub(crate) fn seconds_per_step(
     problem: Problem<'_>,
     scheme: &NamedScheme,

@@ -22,7 +22,8 @@ use crate::size::Size;
 use crate::timing::{SHORTEST, StepTime};
 use crate::work::Work;
 
-/// The coarsest run has this number of steps between samples, so that rounding to samples changes the number of steps little.
+/// The coarsest run has this number of steps between samples, so that rounding to samples changes the number of steps
+/// little.
 const STEPS_PER_SAMPLE: u64 = 8;
 
 /// Errors of halves of a run are known from this number of samples on.
@@ -99,8 +100,8 @@ impl<'a> Request<'a> {
     /// Makes all runs that the folder lacks, on all cores, and then times the steps of all schemes by turns.
     ///
     /// # Errors
-    /// H that is not finite at t = 0; no reference; a folder that cannot be written or that another process uses; an observer that stops. A scheme that fails is
-    /// reported to the observer.
+    /// H that is not finite at t = 0; no reference; a folder that cannot be written or that another process uses; an
+    /// observer that stops. A scheme that fails is reported to the observer.
     pub fn study(&self, observer: &mut dyn Observer) -> Result<Study<'a>, Error> {
         self.problem.check_energy()?;
         self.problem.check_duration()?;
@@ -164,7 +165,8 @@ impl<'a> Request<'a> {
     }
 }
 
-/// The proved order of a scheme for the kinetic energy of a problem; of a processed scheme the effective one, as its runs are read through the post-map.
+/// The proved order of a scheme for the kinetic energy of a problem; of a processed scheme the effective one, as its
+/// runs are read through the post-map.
 pub(crate) fn proved_order(scheme: &NamedScheme, problem: Problem<'_>) -> u32 {
     if let Some(effective) = &scheme.scheme.proved().proof.effective {
         let kinetic = if problem.system.has_general_kinetic() { Kinetic::Any } else { Kinetic::Quadratic };
@@ -188,7 +190,10 @@ impl Study<'_> {
     pub fn remark_on_times(&self) -> Option<String> {
         let spread = self.schemes.iter().map(|studied| studied.time.median / studied.time.least).fold(1.0, f64::max);
         (spread > LARGEST_SPREAD).then(|| {
-            format!("Medians of times are up to {spread:.1} times the shortest repeat: the machine has other load, and times mean little.")
+            format!(
+                "Medians of times are up to {spread:.1} times the shortest repeat: the machine has other load, \
+                and times mean little."
+            )
         })
     }
 

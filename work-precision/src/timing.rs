@@ -26,7 +26,8 @@ pub struct StepTime {
     pub most: f64,
 }
 
-/// The time of a step of each scheme, with a number of steps to the end, from repeats that take at least the shortest time.
+/// The time of a step of each scheme, with a number of steps to the end, from repeats that take at least the shortest
+/// time.
 pub(crate) fn time_of_steps(
     problem: Problem<'_>,
     schemes: &[(&NamedScheme, u64)],

@@ -63,7 +63,8 @@ fn distance(a: &[Rational], b: &[Rational]) -> f64 {
     <f64 as Number>::from_rational(&square, &()).sqrt()
 }
 
-/// The error of the advised run beside a scheme that no reference is computed by, with 25 digits and half the step until that is known to a hundredth.
+/// The error of the advised run beside a scheme that no reference is computed by, with 25 digits and half the step
+/// until that is known to a hundredth.
 fn true_error(problem: Problem<'_>, choice: &Choice<'_>) -> f64 {
     let Problem { system, until, .. } = problem;
     let run = Final { system, scheme: choice.scheme, h: choice.step.clone(), steps: choice.steps };
@@ -135,7 +136,8 @@ fn verify(drawn: &Drawn, seconds: f64) -> Option<bool> {
 /// Half the step divides the difference by 2.75 here, not by 16 as the order says.
 #[test]
 fn an_error_that_does_not_follow_the_order_yet_is_verified() {
-    let text = "problem = { potential = '-1/sqrt(x^2 + y^2 + 1/20)', coordinates = ['x', 'y'] }\ninitial = { q = [1, 0], p = [0, '1/2'] }";
+    let text = "problem = { potential = '-1/sqrt(x^2 + y^2 + 1/20)', coordinates = ['x', 'y'] }\ninitial = { q = [1, \
+        0], p = [0, '1/2'] }";
     for exponent in [-6, -7] {
         let (tolerance, until) = (10_f64.powi(exponent), Rational::from_integer(20.into()));
         let drawn = Drawn { text: text.to_owned(), until, tolerance, schemes: schemes(&["blanes-moan-srkn6b"]) };

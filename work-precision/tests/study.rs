@@ -57,13 +57,14 @@ fn schemes_show_their_orders_beside_the_exact_flow() {
     }
 }
 
-/// Kinetic energies with linear and constant terms have the orders of Nyström schemes, of gradient kicks too, and their modified energy is
-/// conserved, as β has the terms of T; with a cubic term these schemes are refused.
+/// Kinetic energies with linear and constant terms have the orders of Nyström schemes, of gradient kicks too, and their
+/// modified energy is conserved, as β has the terms of T; with a cubic term these schemes are refused.
 #[test]
 fn kinetic_energies_of_degree_two_at_most_have_the_orders_for_quadratic_ones() {
     let system = |kinetic: &str| {
         let text = format!(
-            "problem = {{ kinetic = '{kinetic}', momenta = ['px', 'ps'], potential = '-(1 + cos(s)/4)*cos(x)', coordinates = ['x', 's'] }}\n\
+            "problem = {{ kinetic = '{kinetic}', momenta = ['px', 'ps'], potential = '-(1 + cos(s)/4)*cos(x)', \
+                coordinates = ['x', 's'] }}\n\
              initial = {{ q = [1, 0], p = ['1/5', 0] }}"
         );
         System::read(&Source { path: "time.toml".to_owned(), text }, Arithmetic::DOUBLE).unwrap().0
@@ -159,7 +160,8 @@ fn a_reference_that_overflows_in_the_numbers_of_the_runs_is_none() {
     assert!(message.contains("there is no reference: its positions overflow in double precision"), "{message}");
 }
 
-/// Of Kepler orbits and their interactions no fastest frequency is known: the reference begins with a step a sample, not a step a day.
+/// Of Kepler orbits and their interactions no fastest frequency is known: the reference begins with a step a sample,
+/// not a step a day.
 #[test]
 fn a_reference_of_planets_begins_with_few_steps() {
     let text = "[problem]\nname = \"outer-solar-system\"\nparts = \"wisdom-holman\"".to_owned();

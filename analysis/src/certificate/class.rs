@@ -13,7 +13,8 @@ pub enum Class {
     EveryKinetic(u32),
     /// The order for T = ½pᵀM⁻¹p: Nyström trees.
     Quadratic(u32),
-    /// The orders of the terms of ε, ε², … of H = A + εB, the last one of all higher powers too: Lyndon words by their letters of B.
+    /// The orders of the terms of ε, ε², … of H = A + εB, the last one of all higher powers too: Lyndon words by their
+    /// letters of B.
     NearIntegrable {
         /// The maps of B.
         perturbation: MapKind,

@@ -13,7 +13,8 @@ use crate::certificate::ring::{Polynomial, Ring, constant};
 /// The largest exponent of a root in a formula.
 const LARGEST_POWER: u32 = 60;
 
-/// Kicks and drifts in their order, neighbours of one kind merged; `None` where a cell is not made of roots, or there are gradient kicks.
+/// Kicks and drifts in their order, neighbours of one kind merged; `None` where a cell is not made of roots, or there
+/// are gradient kicks.
 pub(super) fn maps(scheme: &ExactScheme, ring: &Ring) -> Option<Vec<(MapKind, Polynomial)>> {
     let mut maps: Vec<(MapKind, Polynomial)> = Vec::new();
     for (kick, drift) in stages(scheme, ring)? {

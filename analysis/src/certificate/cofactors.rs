@@ -9,8 +9,9 @@ use super::ring::{Polynomial, Ring, Root, add, sum};
 use super::{Certificate, Class, Kind};
 
 impl Certificate {
-    /// The conditions for every T(p), each with the polynomials q₁, q₂, … in the roots x₁, x₂, … for which `value − needed = Σ q_i (x_i^k_i − r_i)`, by division with remainder
-    /// 0; `None` for decimals, which meet no equation.
+    /// The conditions for every T(p), each with the polynomials q₁, q₂, … in the roots x₁, x₂, … for which
+    /// `value − needed = Σ q_i (x_i^k_i − r_i)`, by division with remainder 0; `None` for decimals, which meet no
+    /// equation.
     ///
     /// ```
     /// use shadowstep_analysis::certificate::Certificate;

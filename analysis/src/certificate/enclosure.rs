@@ -1,8 +1,9 @@
 //! Boxes around decimals in which there is one solution of the order conditions, by Newton's method with bounds.
 //!
-//! The conditions F are as many as weights are solved for; the other weights are held. Of palindromes they are those of odd degree: even degrees hold by
-//! symmetry. With Y near the inverse of F′ and the box X of radius r about the decimals u, a solution is in X, and one only, if
-//! `|Y F(u)| + |1 − Y F′(X)| r < r` in every row (Krawczyk 1969). Here Y and r are proposed; whoever checks the certificate computes the bounds.
+//! The conditions F are as many as weights are solved for; the other weights are held. Of palindromes they are those of
+//! odd degree: even degrees hold by symmetry. With Y near the inverse of F′ and the box X of radius r about the
+//! decimals u, a solution is in X, and one only, if `|Y F(u)| + |1 − Y F′(X)| r < r` in every row (Krawczyk 1969). Here
+//! Y and r are proposed; whoever checks the certificate computes the bounds.
 
 use std::fmt;
 
@@ -32,8 +33,8 @@ pub struct Enclosure {
 /// The weights of an enclosure.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Form {
-    /// γ₁, … of a palindromic composition of Störmer–Verlet, its first half without the middle one, which the sum gives. The conditions are those of the
-    /// words in the errors of a step.
+    /// γ₁, … of a palindromic composition of Störmer–Verlet, its first half without the middle one, which the sum
+    /// gives. The conditions are those of the words in the errors of a step.
     Composition,
     /// Kicks and drifts of a palindrome, its first half with the middle one.
     Palindrome,

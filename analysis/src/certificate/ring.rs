@@ -1,6 +1,8 @@
-//! Numbers that formulas with roots are made of: polynomials over the rationals in x₁, x₂, …, each a root of a number before it.
+//! Numbers that formulas with roots are made of: polynomials over the rationals in x₁, x₂, …, each a root of a number
+//! before it.
 //!
-//! An identity of such polynomials modulo x_i^k_i = r_i holds for whichever roots the x_i are, so that it needs no decimals.
+//! An identity of such polynomials modulo x_i^k_i = r_i holds for whichever roots the x_i are, so that it needs no
+//! decimals.
 
 use std::cell::RefCell;
 use std::collections::BTreeMap;
@@ -9,7 +11,8 @@ use num_traits::{One, Signed, Zero};
 use shadowstep_schemes::Rational;
 use shadowstep_schemes::arithmetic::Arithmetic;
 
-/// A polynomial: the coefficients of the products of powers of the roots, without those that are 0. Exponents end with one that is not 0.
+/// A polynomial: the coefficients of the products of powers of the roots, without those that are 0. Exponents end with
+/// one that is not 0.
 pub type Polynomial = BTreeMap<Vec<u32>, Rational>;
 
 /// x^power = of
@@ -22,7 +25,8 @@ pub struct Root {
 }
 
 impl Root {
-    /// The rational number that this root is another one times, such as 5 of √30 over √(6/5): without it, identities between them would not hold.
+    /// The rational number that this root is another one times, such as 5 of √30 over √(6/5): without it, identities
+    /// between them would not hold.
     fn over(&self, other: &Root) -> Option<Rational> {
         let ((_, numerator), (_, denominator)) = (self.of.first_key_value()?, other.of.first_key_value()?);
         let ratio = numerator / denominator;

@@ -1,4 +1,5 @@
-//! Order conditions in whole numbers: no fraction is reduced, which takes most of the time for weights of hundreds of digits.
+//! Order conditions in whole numbers: no fraction is reduced, which takes most of the time for weights of hundreds of
+//! digits.
 
 use num_bigint::BigInt;
 use num_integer::Integer as _;
@@ -6,8 +7,8 @@ use num_traits::{One, Zero};
 use shadowstep_schemes::Rational;
 use shadowstep_schemes::arithmetic::Arithmetic;
 
-/// Numbers times scale^m, m the degree in the weights. The scale is a multiple of all denominators and of order!, so that a product of k weights can be
-/// divided by k! exactly.
+/// Numbers times scale^m, m the degree in the weights. The scale is a multiple of all denominators and of order!, so
+/// that a product of k weights can be divided by k! exactly.
 pub(super) struct WholeNumbers {
     scale: BigInt,
 }

@@ -1,10 +1,10 @@
 //! Order conditions of compositions of a symmetric scheme, in the γ's alone.
 //!
 //! A symmetric scheme of order p, run with the step γh, is exp(γh Y₁ + (γh)^(p+1) Y_(p+1) + (γh)^(p+3) Y_(p+3) + …),
-//! where Y₁ is the whole motion and the others are its errors. The composition agrees with exp(hY₁) up to order n if and
-//! only if the coefficients of the Lyndon words in these letters agree whose degrees add up to at most n: 1 for the word
-//! Y₁, 0 for the others. They are far fewer than the words in kicks and drifts: up to order 10, 16 of odd degree, which
-//! a palindrome needs only (McLachlan, SIAM J. Sci. Comput. 16 (1995) 151; Murua & Sanz-Serna 1999).
+//! where Y₁ is the whole motion and the others are its errors. The composition agrees with exp(hY₁) up to order n if
+//! and only if the coefficients of the Lyndon words in these letters agree whose degrees add up to at most n: 1 for the
+//! word Y₁, 0 for the others. They are far fewer than the words in kicks and drifts: up to order 10, 16 of odd degree,
+//! which a palindrome needs only (McLachlan, SIAM J. Sci. Comput. 16 (1995) 151; Murua & Sanz-Serna 1999).
 
 use num_traits::{One, Zero};
 use shadowstep_symbolic::Rational;

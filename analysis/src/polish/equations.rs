@@ -64,7 +64,8 @@ pub(super) struct Row {
 }
 
 impl Conditions {
-    /// Those of an order and of near-integrable orders, of a step that is a composition of a base with this order, or no composition.
+    /// Those of an order and of near-integrable orders, of a step that is a composition of a base with this order, or
+    /// no composition.
     fn of(
         (order, kinetic): (u32, Kinetic),
         near_integrable: Option<&NearIntegrable>,

@@ -155,7 +155,8 @@ impl Problem<'_> {
         // slopes that are shorter vanish, but for rounding
         let shortest = (u64::from(bits) / 2).max(longest.saturating_sub(VANISHING));
         for (row, length) in rows.into_iter().zip(lengths) {
-            // a condition that does not depend on the decimals is not scaled, nor one that the others imply so that its slopes vanish with theirs
+            // a condition that does not depend on the decimals is not scaled, nor one that the others imply so that its
+            // slopes vanish with theirs
             let scaled = |x| if length.bits() > shortest { (x << bits) / &length } else { x };
             linear.off.push(scaled(row.off));
             linear.columns.iter_mut().zip(row.slopes).for_each(|(column, slope)| column.push(scaled(slope)));

@@ -1,5 +1,5 @@
-//! What holds of the table as printed: an order higher than claimed, or the order claimed for other kinetic energies; and
-//! stages that are Störmer–Verlet steps.
+//! What holds of the table as printed: an order higher than claimed, or the order claimed for other kinetic energies;
+//! and stages that are Störmer–Verlet steps.
 
 use num_traits::{Signed, Zero};
 use shadowstep_symbolic::Rational;
@@ -49,8 +49,8 @@ pub(super) fn quadratic_only(table: &Table, proof: &Proof) -> Option<String> {
         .then(|| format!("order {claimed} holds for quadratic T as printed: write `kinetic = \"quadratic\"`"))
 }
 
-/// The hint where the stages are Störmer–Verlet steps γ_1 h, γ_2 h, …: kicks γ_1/2, (γ_1 + γ_2)/2, …, γ_n/2 and drifts γ_s,
-/// or the same with kick and drift exchanged. As stages they must meet far more conditions than there are γ's, and
+/// The hint where the stages are Störmer–Verlet steps γ_1 h, γ_2 h, …: kicks γ_1/2, (γ_1 + γ_2)/2, …, γ_n/2 and drifts
+/// γ_s, or the same with kick and drift exchanged. As stages they must meet far more conditions than there are γ's, and
 /// these may be singular.
 pub(super) fn verlet_steps(scheme: &ExactScheme, model: &Model) -> Option<String> {
     let maps = scheme.maps();

@@ -12,8 +12,8 @@ use shadowstep_schemes::exact::DIGITS;
 /// Digits written beyond the requested ones, so that the conditions, sums of many products, hold to the requested ones.
 const WRITTEN_BEYOND: u32 = 10;
 
-/// The most bits of the denominator of what fractions and formulas add to a sum: longer ones are closed forms, which are
-/// no exact part of a formula.
+/// The most bits of the denominator of what fractions and formulas add to a sum: longer ones are closed forms, which
+/// are no exact part of a formula.
 const LONGEST_REST: u64 = 64;
 
 /// The values as they are written, rounded once, and how.

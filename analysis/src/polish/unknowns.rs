@@ -1,8 +1,8 @@
 //! Table → its printed decimals as unknowns, and the weights as functions of them.
 //!
 //! A decimal that stands alone, as a constant or in a list of weights, is an unknown; fractions, whole numbers and
-//! formulas stay what they are. In a palindrome two decimals that mirror each other are one unknown, and so are decimals
-//! that are printed alike.
+//! formulas stay what they are. In a palindrome two decimals that mirror each other are one unknown, and so are
+//! decimals that are printed alike.
 
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -161,8 +161,8 @@ impl Model {
 
     /// The lists of weights with their derivatives.
     ///
-    /// The derivatives are differences with a step of a few units of the arithmetic's square root: exact where the cells
-    /// are linear in the unknowns, as all but a few tables' are, and else with half of the digits, which Newton's
+    /// The derivatives are differences with a step of a few units of the arithmetic's square root: exact where the
+    /// cells are linear in the unknowns, as all but a few tables' are, and else with half of the digits, which Newton's
     /// iteration needs.
     pub(super) fn duals(&self, x: &[Rational], arithmetic: Duals) -> Result<Vec<Vec<Dual>>, SemanticError> {
         let digits = (f64::from(arithmetic.bits) * std::f64::consts::LOG10_2).ceil() as u32 + 5;

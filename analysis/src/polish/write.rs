@@ -116,7 +116,8 @@ pub(super) fn text(
     Ok(text)
 }
 
-/// The list of the free parameters and its place: the free parameters of the table, and the decimals that stay as printed.
+/// The list of the free parameters and its place: the free parameters of the table, and the decimals that stay as
+/// printed.
 fn free<'a>(table: &'a Table, as_printed: impl Iterator<Item = &'a String>) -> Option<(Option<Range<usize>>, String)> {
     let mut names: Vec<_> = table.free.iter().map(|name| &name.value).collect();
     let known = names.len();

@@ -15,8 +15,8 @@ const MOST_DIGITS: usize = 15;
 const LOST: f64 = 1e-7;
 
 impl Search {
-    /// The table of a candidate. Where the conditions leave weights free, these have the fewest digits with which the goal stays what it
-    /// is to 1e-7 of it; the others are solved for.
+    /// The table of a candidate. Where the conditions leave weights free, these have the fewest digits with which the
+    /// goal stays what it is to 1e-7 of it; the others are solved for.
     ///
     /// # Errors
     /// As for [`polish`](fn@polish::polish): conditions that do not determine the weights well enough.

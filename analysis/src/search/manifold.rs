@@ -20,8 +20,9 @@ const MOST_CHORDS: usize = 30;
 /// Directions with a smaller part along the manifold than this are across it.
 const ALONG: f64 = 1e-6;
 
-/// Weights near `from` that meet the conditions, by Levenberg and Marquardt's method on those in `moving`: the steps −Jᵀ(JJᵀ + μ)⁻¹c
-/// are the shortest ones that solve the linear equations, for dependent conditions too. `None` where there are none near.
+/// Weights near `from` that meet the conditions, by Levenberg and Marquardt's method on those in `moving`: the steps
+/// −Jᵀ(JJᵀ + μ)⁻¹c are the shortest ones that solve the linear equations, for dependent conditions too. `None` where
+/// there are none near.
 pub(super) fn nearest(space: &Space, from: &[f64], moving: &[usize]) -> Option<Vec<f64>> {
     let mut x = from.to_vec();
     let mut linear = space.linear(&x);
@@ -49,7 +50,8 @@ pub(super) fn nearest(space: &Space, from: &[f64], moving: &[usize]) -> Option<V
     (linear.largest() < NEARLY_MET).then_some(x)
 }
 
-/// Jᵀ(JJᵀ + μ)⁻¹c along some unknowns; μ is relative to the mean of the diagonal. `None` where rounding made the matrix indefinite.
+/// Jᵀ(JJᵀ + μ)⁻¹c along some unknowns; μ is relative to the mean of the diagonal. `None` where rounding made the matrix
+/// indefinite.
 fn shortest_step(slopes: &[Vec<f64>], off: &[f64], moving: &[usize], damping: f64) -> Option<Vec<f64>> {
     let multipliers = Cholesky::of(slopes, moving, damping)?.solve(off);
     let along = |&u: &usize| slopes.iter().zip(&multipliers).map(|(row, y)| row[u] * y).sum();
@@ -112,8 +114,8 @@ impl Tangent {
         Tangent { directions, coordinates, linear, factors }
     }
 
-    /// Weights near some that are near those of the tangent, and meet the conditions: Newton's iteration with the slopes of the tangent, which are not
-    /// computed again. `None` where it does not converge.
+    /// Weights near some that are near those of the tangent, and meet the conditions: Newton's iteration with the
+    /// slopes of the tangent, which are not computed again. `None` where it does not converge.
     pub(super) fn nearest(&self, space: &Space, from: &[f64]) -> Option<Vec<f64>> {
         let (mut x, mut last) = (from.to_vec(), f64::INFINITY);
         for _ in 0..MOST_CHORDS {
@@ -143,8 +145,8 @@ impl Tangent {
     }
 }
 
-/// Orthonormal vectors that span what some vectors span, by Gram and Schmidt's method, the longest one first each time; and which vectors they
-/// began as.
+/// Orthonormal vectors that span what some vectors span, by Gram and Schmidt's method, the longest one first each time;
+/// and which vectors they began as.
 pub(super) fn orthonormal(mut vectors: Vec<Vec<f64>>) -> (Vec<Vec<f64>>, Vec<usize>) {
     let (mut basis, mut places): (Vec<Vec<f64>>, Vec<usize>) = (Vec::new(), Vec::new());
     let length = |v: &[f64]| v.iter().map(|x| x * x).sum::<f64>().sqrt();

@@ -1,4 +1,5 @@
-//! What a search makes small: errors, instability, phase, sampling error, sizes of weights; each computed in f64 from the maps of a step.
+//! What a search makes small: errors, instability, phase, sampling error, sizes of weights; each computed in f64 from
+//! the maps of a step.
 
 use num_bigint::BigInt;
 use num_traits::{One, ToPrimitive, Zero};
@@ -16,15 +17,17 @@ use crate::trace::leading_phase;
 /// A measure of a scheme: the less, the better.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Measure {
-    /// s·‖E‖^{1/p} after processing, if there is any, see [`LeadingError::effective`](crate::error::LeadingError::effective); for A + εB that of the terms of ε², of the order claimed for them.
+    /// s·‖E‖^{1/p} after processing, if there is any, see
+    /// [`LeadingError::effective`](crate::error::LeadingError::effective); for A + εB that of the terms of ε², of the
+    /// order claimed for them.
     EffectiveError,
     /// Evaluations per unit of hω at the limit of stability: 1/2 for Störmer–Verlet, which no scheme is below.
     Instability,
     /// s·|c|^{1/r} for the leading error c (hω)^r of the phase of the harmonic oscillator.
     PhaseError,
-    /// The largest expected error of the energy in sampling, see [`SamplingError`](crate::sampling::SamplingError), over 0 < hω < forces and
-    /// Hessian–vector products of a step; where a step
-    /// is unstable in the range, 1 and how far the limit is from its end.
+    /// The largest expected error of the energy in sampling, see [`SamplingError`](crate::sampling::SamplingError),
+    /// over 0 < hω < forces and Hessian–vector products of a step; where a step is unstable in the range, 1 and how far
+    /// the limit is from its end.
     SamplingError,
     /// max |w| over kicks and drifts.
     LargestWeight,
@@ -75,7 +78,8 @@ impl Measures {
         };
         let least = match table.kinetic {
             Kinetic::Any => order,
-            // that for every T(p), of which a consistent step has 1, and 2 if it is symmetric, which a processed one is not
+            // that for every T(p), of which a consistent step has 1, and 2 if it is symmetric, which a processed one is
+            // not
             Kinetic::Quadratic => 1 + u32::from(symmetric && table.processor.is_none()),
         };
         let squares = near_integrable.as_ref().and_then(|claim| claim.powers().nth(1));
@@ -88,7 +92,8 @@ impl Measures {
         Measures { order, error }
     }
 
-    /// A measure of a step of maps, of a processed scheme those of the kernel and of the processed step. The step costs `cost` evaluations.
+    /// A measure of a step of maps, of a processed scheme those of the kernel and of the processed step. The step costs
+    /// `cost` evaluations.
     pub(super) fn value(&self, measure: Measure, (maps, processed): (Maps<'_>, Option<Maps<'_>>), cost: usize) -> f64 {
         let cost = cost as f64;
         let weights = || maps.iter().filter(|(kind, _)| *kind != MapKind::GradientKick).map(|(_, weight)| *weight);

@@ -1,13 +1,13 @@
 //! Nelder and Mead's simplex method: the least value of a function that may have kinks, without derivatives.
 //!
-//! J. A. Nelder, R. Mead, A simplex method for function minimization, Comput. J. 7 (1965) 308; expansion, contraction and shrinking
-//! as usual, by 2, 1/2 and 1/2.
+//! J. A. Nelder, R. Mead, A simplex method for function minimization, Comput. J. 7 (1965) 308; expansion, contraction
+//! and shrinking as usual, by 2, 1/2 and 1/2.
 
 /// A corner of the simplex: where, and the value there.
 type Corner = (Vec<f64>, f64);
 
-/// The least value that is found from a simplex, and where it is. It ends when all corners' values agree to `tolerance`, relatively, or after
-/// `evaluations`. A function value that is not finite is larger than all others.
+/// The least value that is found from a simplex, and where it is. It ends when all corners' values agree to
+/// `tolerance`, relatively, or after `evaluations`. A function value that is not finite is larger than all others.
 pub(super) fn minimise(
     function: &mut dyn FnMut(&[f64]) -> f64,
     simplex: Vec<Vec<f64>>,

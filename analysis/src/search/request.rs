@@ -28,7 +28,8 @@ pub struct Request {
     pub gradient_kicks: bool,
     /// The orders for A + εB with the flow of A as drift, as they are written; empty for none.
     pub near_integrable: Vec<u32>,
-    /// The stages of the post-map of a processed scheme, whose orders are those after processing; `None` for no processor.
+    /// The stages of the post-map of a processed scheme, whose orders are those after processing; `None` for no
+    /// processor.
     pub processor: Option<usize>,
     /// The intervals of instability near hω = π, 2π, … that are closed; `None` for those that the goal needs.
     pub closed_gaps: Option<usize>,
@@ -89,8 +90,8 @@ const MOST_STAGES: usize = 40;
 const MOST_STARTS: usize = 1_000_000;
 
 impl Request {
-    /// How many intervals of instability are closed for a step of this number of evaluations: the sampling error, a maximum over 0 < hω < evaluations, is
-    /// infinite in those that are not.
+    /// How many intervals of instability are closed for a step of this number of evaluations: the sampling error, a
+    /// maximum over 0 < hω < evaluations, is infinite in those that are not.
     pub(super) fn closed_gaps_at(&self, evaluations: usize) -> usize {
         let needed = || match self.goal.measures().contains(&Measure::SamplingError) {
             // where the phase is ahead, they are a little before the multiples of π
@@ -103,7 +104,8 @@ impl Request {
     /// Reads the file of a search.
     ///
     /// # Errors
-    /// All faults of the text: of the TOML, unknown or missing keys, values of the wrong kind, and what cannot be together.
+    /// All faults of the text: of the TOML, unknown or missing keys, values of the wrong kind, and what cannot be
+    /// together.
     ///
     /// ```
     /// use shadowstep_analysis::search::Request;

@@ -14,8 +14,8 @@ use crate::polish::{Cell, Equations, Model, NotPolished, maps, processed_maps, r
 
 /// Weights as functions of unknowns, and the conditions that they must meet.
 ///
-/// The unknowns are the weights that are different and, where intervals of instability are closed, the hω at which each is: there the step of the
-/// harmonic oscillator turns by a multiple of π, with the matrix ±1.
+/// The unknowns are the weights that are different and, where intervals of instability are closed, the hω at which each
+/// is: there the step of the harmonic oscillator turns by a multiple of π, with the matrix ±1.
 pub(super) struct Space {
     pub(super) table: Table,
     /// How many intervals of instability are closed, near hω = π, 2π, ….

@@ -123,7 +123,8 @@ impl Context {
         self.names.iter().flat_map(|(_, words)| words).any(|word| is_hint(&&**word) || AUTHORS.contains(&&**word))
     }
 
-    /// The order that is claimed: by the name of the list, else that of its function, a key beside it, or the comment above.
+    /// The order that is claimed: by the name of the list, else that of its function, a key beside it, or the comment
+    /// above.
     pub(super) fn order(&self) -> Option<Claim> {
         let by_name = self.names.iter().find_map(|(name, words)| {
             let order = order_in(words).or_else(|| numbered_author(words))?;

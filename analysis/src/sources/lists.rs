@@ -1,5 +1,5 @@
-//! Tokens → lists of numbers with their names: literal lists, elements that are set one by one, lists that loops append to, and constants with one
-//! name and an index.
+//! Tokens → lists of numbers with their names: literal lists, elements that are set one by one, lists that loops append
+//! to, and constants with one name and an index.
 
 use std::collections::BTreeMap;
 use std::ops::Range;

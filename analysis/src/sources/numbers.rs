@@ -88,7 +88,8 @@ impl Numbers {
         found
     }
 
-    /// The digits that the decimals of these numbers have, of the shortest that is more than half as long as the longest; `None` without decimals.
+    /// The digits that the decimals of these numbers have, of the shortest that is more than half as long as the
+    /// longest; `None` without decimals.
     ///
     /// Digits are counted as those of tables: of numbers below 1 from the point on.
     pub(super) fn digits(&self, ids: &BTreeSet<Id>) -> Option<u32> {

@@ -1,6 +1,7 @@
 //! Text of a language → numbers, names, symbols and comments with their bytes.
 //!
-//! Tokens are distinguished only as far as lists of numbers need it. Any other character is a symbol, so that every text has tokens.
+//! Tokens are distinguished only as far as lists of numbers need it. Any other character is a symbol, so that every
+//! text has tokens.
 
 use std::ops::Range;
 

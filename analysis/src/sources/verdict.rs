@@ -86,7 +86,8 @@ impl Verdict {
         self.judge_digits(recognised, Claims { order: order.order, kinetic, first: best.claims.first });
     }
 
-    /// Proofs with a kick and a drift first, and with the claims of the shipped scheme: with a wrong digit it is that scheme to fewer digits.
+    /// Proofs with a kick and a drift first, and with the claims of the shipped scheme: with a wrong digit it is that
+    /// scheme to fewer digits.
     fn tries(&self, recognised: &Recognised<'_>) -> Vec<Try> {
         let firsts: &[_] =
             if recognised.reading.role.steps == Steps::Composition { &[None] } else { &[None, Some(First::Drift)] };
@@ -220,7 +221,8 @@ impl Try {
 /// Fewer digits than these decide no order beyond that of the sums.
 const FEW: u32 = 10;
 
-/// The scheme with as many digits as the claims allow; `None` where they do not hold. Decimals of few digits are also taken as exact numbers.
+/// The scheme with as many digits as the claims allow; `None` where they do not hold. Decimals of few digits are also
+/// taken as exact numbers.
 fn proved(recognised: &Recognised<'_>, claims: Claims) -> Option<Proved> {
     let with = |digits| with_claims(recognised, claims, digits).ok();
     let Some(digits) = recognised.digits() else { return with(None) };

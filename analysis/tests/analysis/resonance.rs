@@ -1,4 +1,5 @@
-//! Resonances of multiple time steps, beside the impulse method with the exact inner flow and beside steps that are made.
+//! Resonances of multiple time steps, beside the impulse method with the exact inner flow and beside steps that are
+//! made.
 
 use shadowstep_analysis::oscillator::Oscillator;
 use shadowstep_analysis::resonance::{of_oscillator, resonances};

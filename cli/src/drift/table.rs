@@ -174,7 +174,8 @@ fn in_groups(table: &str, records: &[(Run<'_>, Record)], coloured: bool) -> Stri
     text + lines[lines.len() - 1] + "\n"
 }
 
-/// The verdict on each run, and its close encounters; of several runs, the reason only where the verdict is neither bounded nor round-off.
+/// The verdict on each run, and its close encounters; of several runs, the reason only where the verdict is neither
+/// bounded nor round-off.
 fn verdicts(records: &[(Run<'_>, Record)], coloured: bool) -> String {
     let line = |(run, record): &(Run<'_>, Record)| {
         let summary: &Summary = record.summary.as_ref()?;

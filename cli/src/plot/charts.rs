@@ -45,7 +45,9 @@ fn energies(title: String, runs: &[(&RunOfChart, &Lines)]) -> Chart {
     };
     let mut chart = Chart::new(title, Axis::linear("time t"), Axis::log10(label), curves);
     chart.notes = vec![
-        "|H − H(0)|, and |H̄ − H̄*| of the modified energy H̄, H̄* the one with the least estimated error; changes of 0 are left out.".to_owned(),
+        "|H − H(0)|, and |H̄ − H̄*| of the modified energy H̄, H̄* the one with the least estimated error; changes of \
+            0 are left out."
+            .to_owned(),
     ];
     if let [(_, Lines::Energies { reference: Some((t, error)), .. })] = runs {
         let error = power(*error);

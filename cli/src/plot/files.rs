@@ -39,8 +39,8 @@ impl PlotFiles {
         Ok(files)
     }
 
-    /// The files of a scene's charts; those that exist must be from this unchanged scene, with `--continue` from that which is
-    /// prolonged, or are replaced with `--force`.
+    /// The files of a scene's charts; those that exist must be from this unchanged scene, with `--continue` from that
+    /// which is prolonged, or are replaced with `--force`.
     pub(crate) fn of_scene(scene: &Scene, plot: &Plot, (force, continues): (bool, bool)) -> Result<Self, Error> {
         let metadata = scene.metadata();
         let hash = metadata["scene_sha256"].as_str().unwrap_or_default();
@@ -64,7 +64,8 @@ impl PlotFiles {
         Ok(files)
     }
 
-    /// Shows that a scene's charts can be written, by files under temporary names: signals must be handled, so that none stays.
+    /// Shows that a scene's charts can be written, by files under temporary names: signals must be handled, so that
+    /// none stays.
     pub(crate) fn can_be_written(&self, scene: &Scene, plot: &Plot) -> Result<(), Error> {
         let mut new = self.paths.iter().filter(|path| !path.is_file());
         new.try_for_each(|path| self.open(path).map(drop).map_err(|error| at(scene, plot, error)))

@@ -49,8 +49,8 @@ pub(crate) struct RunLines<N> {
     charts: Vec<Followed<N>>,
 }
 
-/// The modified energy from which changes are measured: that with the smallest estimated error, or the first one where no errors are known. The first
-/// one of a run may be the one that is known worst, as at a pericentre.
+/// The modified energy from which changes are measured: that with the smallest estimated error, or the first one where
+/// no errors are known. The first one of a run may be the one that is known worst, as at a pericentre.
 struct Reference<N> {
     t: f64,
     value: N,

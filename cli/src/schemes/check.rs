@@ -32,7 +32,8 @@ pub(crate) struct Arguments {
     files: Vec<String>,
     /// Reads the lists of weights in source code
     ///
-    /// Of each list in C, C++, Fortran, Python, Julia, Rust or JSON: which scheme it is, its order, and what is wrong with it.
+    /// Of each list in C, C++, Fortran, Python, Julia, Rust or JSON: which scheme it is, its order, and what is wrong
+    /// with it.
     #[arg(long, value_name = "FILE", num_args = 1.., conflicts_with = "files")]
     from: Vec<String>,
 }

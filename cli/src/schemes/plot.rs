@@ -151,7 +151,8 @@ impl Gaps {
         self.visible().filter(|(from, to)| to.is_none_or(|to| to - from > NARROW))
     }
 
-    /// Where stability ends and begins again, and the narrow gaps, which the trace does not show; from the ninth on without labels.
+    /// Where stability ends and begins again, and the narrow gaps, which the trace does not show; from the ninth on
+    /// without labels.
     fn marks(&self) -> Vec<Mark> {
         let (mut marks, mut stable) = (Vec::new(), "stable to");
         for (from, to) in self.visible() {

@@ -1,4 +1,5 @@
-//! `shadowstep schemes polish`: printed decimals to weights of many digits: the table, and a report on how far the printed ones were off.
+//! `shadowstep schemes polish`: printed decimals to weights of many digits: the table, and a report on how far the
+//! printed ones were off.
 
 use std::io::Write;
 
@@ -23,7 +24,8 @@ Example:
   shadowstep schemes polish printed.toml --digits 300 --output polished.toml";
 
 const MORE: &str = "\
-Decimals that stand alone are changed, as constants or in the lists of weights; fractions and formulas stay as they are. If the \
+Decimals that stand alone are changed, as constants or in the lists of weights; fractions and formulas stay as they \
+are. If the \
 conditions leave some decimals free, these stay as printed, and the report on stderr names them.
 
 The exit code is 1 if the conditions cannot be solved.";

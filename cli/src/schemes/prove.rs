@@ -56,7 +56,8 @@ pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
         Error::usage(message, "certificates are of schemes of kicks and drifts")
     })?;
     if matches!((&certificate.kind, &certificate.enclosure), (Kind::Decimal(_), None)) {
-        let message = "no exact scheme is enclosed near these decimals: the certificate has only how far the conditions are off, which proves no order";
+        let message = "no exact scheme is enclosed near these decimals: the certificate has only how far the \
+            conditions are off, which proves no order";
         report::note(message);
     }
     // what is refused writes no file

@@ -42,7 +42,8 @@ pub(crate) struct Arguments {
     json: bool,
     /// Draws stages, stability and phase error into a new file
     ///
-    /// The stages are drawn along the step, its stability and the error of its phase over hω. The file has a name such as yoshida4.svg.
+    /// The stages are drawn along the step, its stability and the error of its phase over hω. The file has a name such
+    /// as yoshida4.svg.
     #[arg(long, value_name = "FILE")]
     plot: Option<PathBuf>,
     /// Replaces the file of --plot if it exists
@@ -185,7 +186,8 @@ fn nested_facts(proved: &Proved, inner: &ExactInner) -> Vec<(String, String)> {
     facts.into_iter().filter(|(_, fact)| !fact.is_empty()).map(|(what, fact)| (what.to_owned(), fact)).collect()
 }
 
-/// The first resonance of an oscillation for each of the ratios, and how many there are up to hω = 2·(drifts of a step).
+/// The first resonance of an oscillation for each of the ratios, and how many there are up to hω = 2·(drifts of a
+/// step).
 fn resonance_facts(proved: &Proved, substeps: usize) -> Vec<String> {
     let fact = |parts: i64| {
         let found = resonances(proved, &Rational::new(1.into(), parts.into()))?;
@@ -197,7 +199,8 @@ fn resonance_facts(proved: &Proved, substeps: usize) -> Vec<String> {
             more => format!(", and in {more} other intervals up to {}", 2 * substeps),
         };
         Some(format!(
-            "an oscillation whose slow forces have 1/{parts} of the stiffness of its fast ones is unstable for hω from {} {to}, {:.3e} wide{others}",
+            "an oscillation whose slow forces have 1/{parts} of the stiffness of its fast ones is unstable for hω \
+                from {} {to}, {:.3e} wide{others}",
             shortened_text(&first.from),
             first.width
         ))
@@ -261,7 +264,8 @@ fn near_integrable_fact(proved: &Proved) -> String {
     claim.map_or_else(String::new, |dominant| {
         let orders = near_integrable_text(&orders);
         format!(
-            "orders {orders} in the powers of ε, where the {dominant}s move by A; this pays only if they solve A exactly and εB \
+            "orders {orders} in the powers of ε, where the {dominant}s move by A; this pays only if they solve A \
+                exactly and εB \
              is small, and with H = T + U it gains nothing"
         )
     })
@@ -296,7 +300,8 @@ fn proof_text(proved: &Proved) -> String {
             };
             let radius = to_significant(&enclosure.radius, 2);
             format!(
-                "certified enclosure: one solution of the conditions for every T(p) within {radius} of the weights{held}"
+                "certified enclosure: one solution of the conditions for every T(p) within {radius} of the \
+                    weights{held}"
             )
         }
         (Kind::Decimal(_), None) => "decimal: the conditions hold to the digits of the weights".to_owned(),

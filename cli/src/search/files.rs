@@ -52,7 +52,8 @@ pub(super) fn write(search: &Search, candidates: &[Candidate], rows: &[Row], fol
     write_page(folder, &Report { sections, ..Report::new("Search for schemes", &command) })
 }
 
-const CAPTION: &str = "What each start found, the schemes that were kept, and those shipped of the same order and class. Less is better on both axes.";
+const CAPTION: &str = "What each start found, the schemes that were kept, and those shipped of the same order and \
+    class. Less is better on both axes.";
 
 fn starts(search: &Search, candidates: &[Candidate], command: &str) -> Result<String, Error> {
     let names = search.request.goal.measures().into_iter().map(|measure| measure.name().to_owned());

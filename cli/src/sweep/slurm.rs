@@ -19,7 +19,8 @@ use crate::report::{self, Status};
 pub(super) struct SlurmArguments {
     /// Submits the missing chunks as a job array
     ///
-    /// Another job collects them. The job scripts DIR/array.sbatch and DIR/collect.sbatch are written unless they are there, and shown.
+    /// Another job collects them. The job scripts DIR/array.sbatch and DIR/collect.sbatch are written unless they are
+    /// there, and shown.
     #[arg(long, conflicts_with_all = ["chunk", "format"])]
     submit: bool,
     /// Writes and shows the job scripts, and submits nothing

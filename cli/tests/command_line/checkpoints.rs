@@ -1,4 +1,5 @@
-//! A run that is stopped at any moment is resumed from its checkpoint, and its file has the bytes of an undisturbed run.
+//! A run that is stopped at any moment is resumed from its checkpoint, and its file has the bytes of an undisturbed
+//! run.
 
 use std::fs;
 use std::path::Path;
@@ -50,7 +51,8 @@ file = "out.jsonl"
 checkpoint = 50
 "#;
 
-/// Whether a folder has nothing but the scene, its complete file, and what belongs to it: metadata of JSON lines, the last checkpoint.
+/// Whether a folder has nothing but the scene, its complete file, and what belongs to it: metadata of JSON lines, the
+/// last checkpoint.
 fn is_complete(folder: &Path, file: &str) -> bool {
     let checkpoint = format!("{file}.checkpoint");
     let names = names(folder).into_iter().filter(|name| !name.ends_with(".jsonl.metadata.json"));

@@ -1,4 +1,5 @@
-//! Complete files: they are those of their checkpoints, and of the inputs that are there now; they go on by `--continue`.
+//! Complete files: they are those of their checkpoints, and of the inputs that are there now; they go on by
+//! `--continue`.
 
 use std::fs;
 use std::path::Path;
@@ -7,15 +8,19 @@ use tempfile::TempDir;
 
 use crate::scenes::{folder, run};
 
-const KEPLER: &str = "[problem]\nname = \"kepler\"\n[run]\nscheme = \"mine.toml\"\nstep = \"1/20\"\nsteps = 20\ndigits = \"double\"\n\
+const KEPLER: &str = "[problem]\nname = \"kepler\"\n[run]\nscheme = \"mine.toml\"\nstep = \"1/20\"\nsteps = \
+    20\ndigits = \"double\"\n\
                       [output]\ntrajectory = true\nenergy = true\nfile = \"out.csv\"\n";
 
 const PLANETS: &str = "[problem]\nparameters.g = 40\nparticles = \"p.csv\"\n[[body]]\nname = \"sun\"\nmass = 1\n\
-                       [[body]]\nname = \"jupiter\"\nmass = 0.001\na = 5\n[run]\nscheme = \"saba4\"\nstep = \"1/20\"\nsteps = 20\n\
+                       [[body]]\nname = \"jupiter\"\nmass = 0.001\na = 5\n[run]\nscheme = \"saba4\"\nstep \
+                       = \"1/20\"\nsteps = 20\n\
                        digits = \"double\"\n[output]\nenergy = true\nfile = \"out.csv\"\n";
 
-const ENSEMBLE: &str = "[problem]\nname = \"kepler\"\nparameters.eccentricity = \"e\"\n[run]\nscheme = \"ruth3\"\nstep = \"1/20\"\nsteps = 20\n\
-                        digits = \"double\"\n[output]\nenergy = true\nfile = \"out.csv\"\n[ensemble]\nfile = \"c.csv\"\n";
+const ENSEMBLE: &str = "[problem]\nname = \"kepler\"\nparameters.eccentricity = \"e\"\n[run]\nscheme \
+    = \"ruth3\"\nstep = \"1/20\"\nsteps = 20\n\
+                        digits = \"double\"\n[output]\nenergy = true\nfile = \"out.csv\"\n[ensemble]\nfile \
+                        = \"c.csv\"\n";
 
 const TABLE: &str = "name = \"mine\"\norder = 2\nkinetic = \"any\"\nsymmetric = true\nreference = \"L. Verlet\"\n\
                      [composition]\nbase = \"base\"\ngamma = [\"1\"]\n";

@@ -26,7 +26,8 @@ fn limbs_and_mpfr_agree_to_the_digits_of_the_run() {
 fn a_verdict_at_many_digits_is_that_at_fewer() {
     let summary = |digits: u32| {
         let scene = format!(
-            "[problem]\nname = \"kepler\"\n[run]\nscheme = \"stormer-verlet\"\nstep = \"1/20\"\nsteps = 600\ndigits = {digits}\n\
+            "[problem]\nname = \"kepler\"\n[run]\nscheme = \"stormer-verlet\"\nstep = \"1/20\"\nsteps = 600\ndigits = \
+                {digits}\n\
              [output]\nenergy = {{ every = 600 }}\nformat = \"jsonl\"\n"
         );
         let said: Value = serde_json::from_str(&summarised(folder(&scene).path(), "").err).unwrap();

@@ -65,7 +65,8 @@ fn a_record_contains_the_run() {
     assert_eq!((&record["order_least"], &record["order_most"]), (&Value::from(3), &Value::from(3)));
     assert_eq!(text(record, "estimator"), "central");
     assert_eq!(record["steps"], 40);
-    // 40 steps, 3 beyond each end and 3 more for the errors there, 3 forces each: ruth3 begins with a kick and ends with a drift
+    // 40 steps, 3 beyond each end and 3 more for the errors there, 3 forces each: ruth3 begins with a kick and ends
+    // with a drift
     assert_eq!(record["force_evaluations"], (40 + 6 + 6) * 3);
     let parameters = &record["parameters"];
     assert_eq!(text(parameters, "eccentricity"), "1/3");
@@ -134,7 +135,8 @@ fn auto_chooses_among_the_orders_allowed() {
 
 #[test]
 fn the_early_stop_uses_lower_orders_with_almost_the_same_error() {
-    let words = "drift --problem kepler --scheme stormer-verlet --step 1/10 --until 14 --digits 60 --estimator central --max-order 100 --json";
+    let words = "drift --problem kepler --scheme stormer-verlet --step 1/10 --until 14 --digits 60 --estimator \
+        central --max-order 100 --json";
     let record = |stop: &str| objects(&quietly(&format!("{words} --stop {stop}"))).remove(0);
     let (full, early) = (record("full"), record("early"));
     let least = |record: &serde_json::Value| record["order_least"].as_u64().unwrap();
@@ -147,7 +149,8 @@ fn the_early_stop_uses_lower_orders_with_almost_the_same_error() {
 /// With ≤, as the paper prints it, the search ends at the first ripple.
 #[test]
 fn the_printed_stop_is_worse_than_the_early_one() {
-    let words = "drift --problem kepler --scheme stormer-verlet --step 1/20 --until 7 --digits 60 --estimator central --max-order 100 --json";
+    let words = "drift --problem kepler --scheme stormer-verlet --step 1/20 --until 7 --digits 60 --estimator central \
+        --max-order 100 --json";
     let record = |stop: &str| objects(&quietly(&format!("{words} --stop {stop}"))).remove(0);
     let [early, printed] = ["early", "printed"].map(record);
     assert_eq!(printed["stop"], "printed");
@@ -157,7 +160,8 @@ fn the_printed_stop_is_worse_than_the_early_one() {
 
 #[test]
 fn the_robust_rule_is_another_one() {
-    let words = "drift --problem kepler --scheme stormer-verlet --step 1/20 --until 7 --digits 60 --estimator central --max-order 60";
+    let words = "drift --problem kepler --scheme stormer-verlet --step 1/20 --until 7 --digits 60 --estimator central \
+        --max-order 60";
     let drift = |rule: &str| objects(&quietly(&format!("{words} --json {rule}"))).remove(0);
     let [least, paper, robust] = ["", "--rule least", "--rule robust"].map(drift);
     assert_eq!((text(&least, "minimum"), text(&least, "drift")), (text(&paper, "minimum"), text(&paper, "drift")));
@@ -183,7 +187,8 @@ fn a_scene_can_run_backwards_in_time() {
 
 #[test]
 fn people_get_a_table() {
-    let words = "drift --problem kepler --scheme stormer-verlet,yoshida4 --step 1/10 --until 10 --digits 30 --estimator central --order 4";
+    let words = "drift --problem kepler --scheme stormer-verlet,yoshida4 --step 1/10 --until 10 --digits 30 \
+        --estimator central --order 4";
     let table = quietly(words);
     let [title, values, how, rest, ..] = table.lines().collect::<Vec<_>>()[..] else { panic!("{table}") };
     assert!(title.contains("Kepler") && title.contains("1/sqrt(x^2 + y^2)"), "{title}");
@@ -400,7 +405,8 @@ fn round_off_is_not_resolved() {
 fn set_takes_several_values_with_commas() {
     let trace = |set: &str| {
         quietly(&format!(
-            "trace --potential depth*x^2+width*x^4 {set} --q x=1 --p 0 --scheme ruth3 --step 1/10 --until 1 --double --no-summary"
+            "trace --potential depth*x^2+width*x^4 {set} --q x=1 --p 0 --scheme ruth3 --step 1/10 --until 1 --double \
+                --no-summary"
         ))
     };
     assert_eq!(trace("--set depth=2,width=1/2"), trace("--set depth=2 --set width=1/2"));
@@ -414,7 +420,8 @@ fn a_scene_or_a_formula_may_be_the_problem() {
     let scene = folder.path().join("mine.toml");
     std::fs::write(
         &scene,
-        "[problem]\npotential = \"-1/sqrt(x^2 + y^2)\"\ncoordinates = [\"x\", \"y\"]\n[initial]\nq = [\"2/5\", 0]\np = [0, 2]\n",
+        "[problem]\npotential = \"-1/sqrt(x^2 + y^2)\"\ncoordinates = [\"x\", \"y\"]\n[initial]\nq = [\"2/5\", 0]\np \
+            = [0, 2]\n",
     )
     .unwrap();
     let words = "--scheme yoshida4,ruth3 --step 1/20 --until 5 --digits 30 --order 4 --no-control --no-summary --json";

@@ -32,7 +32,8 @@ fn files(folder: &Path) -> Vec<(String, String)> {
 fn a_figure_is_charts_data_and_a_section_of_the_report() {
     let folder = TempDir::new().unwrap();
     let output = figures(folder.path(), &FAST, "2");
-    let counts = "statements of the paper: 1 agrees, 1 differs, 0 not decided; additional statements: 1 agrees, 0 differ, 2 not decided";
+    let counts = "statements of the paper: 1 agrees, 1 differs, 0 not decided; additional statements: 1 agrees, 0 \
+        differ, 2 not decided";
     assert_eq!(output, format!("{}\n{counts}\n", folder.path().join("report.html").display()));
     let files = files(folder.path());
     let names: Vec<&str> = files.iter().map(|(name, _)| name.as_str()).collect();

@@ -1,4 +1,5 @@
-//! Help: `-h` is a screen, `--help` has everything; neither has lines that are too long or broken twice, and long lists have headings.
+//! Help: `-h` is a screen, `--help` has everything; neither has lines that are too long or broken twice, and long lists
+//! have headings.
 
 use std::process::Stdio;
 

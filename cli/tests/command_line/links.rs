@@ -1,4 +1,5 @@
-//! A folder of someone else has links of the names that commands write: no file outside of it changes, and nothing is written through a link.
+//! A folder of someone else has links of the names that commands write: no file outside of it changes, and nothing is
+//! written through a link.
 
 use std::fs;
 use std::os::unix::fs::symlink;
@@ -8,11 +9,14 @@ use tempfile::TempDir;
 
 use crate::program::{Finished, shadowstep};
 
-const SCENE: &str = "[problem]\nname = \"kepler\"\n[run]\nscheme = \"yoshida4\"\nstep = \"1/20\"\nsteps = 20\ndigits = \"double\"\n\
+const SCENE: &str = "[problem]\nname = \"kepler\"\n[run]\nscheme = \"yoshida4\"\nstep = \"1/20\"\nsteps = 20\ndigits \
+    = \"double\"\n\
                      [output]\nenergy = true\n";
 
-const SWEEP: &str = "[problem]\nname = \"kepler\"\nparameters.eccentricity = \"e\"\n[run]\nscheme = \"yoshida4\"\nstep = \"1/20\"\n\
-                     steps = 20\ndigits = \"double\"\n[output]\nenergy = true\n[axes]\ne = [0.1, 0.2]\n[keep]\nvalues = [\"energy_error\"]\n";
+const SWEEP: &str = "[problem]\nname = \"kepler\"\nparameters.eccentricity = \"e\"\n[run]\nscheme \
+    = \"yoshida4\"\nstep = \"1/20\"\n\
+                     steps = 20\ndigits = \"double\"\n[output]\nenergy = true\n[axes]\ne = [0.1, 0.2]\n[keep]\nvalues \
+                     = [\"energy_error\"]\n";
 
 const PRECIOUS: &str = "export PRECIOUS=1\n";
 
@@ -57,7 +61,8 @@ impl Untrusted {
 
 const TRACE: &str = "trace kepler --scheme yoshida4 --step 1/20 --until 1 --double --order 2 --csv --no-summary";
 
-/// Commands, the name of a link that they meet, and the exit code, 2 or more; 0 where they have no use of the name, or replace the link itself.
+/// Commands, the name of a link that they meet, and the exit code, 2 or more; 0 where they have no use of the name, or
+/// replace the link itself.
 fn commands() -> Vec<(String, &'static str, i32)> {
     let mut all = Vec::new();
     let mut add = |words: &str, links: &[(&'static str, i32)]| {

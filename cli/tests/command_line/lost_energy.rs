@@ -1,4 +1,5 @@
-//! Runs that lose their energy end with a report that the step size is too large: of every command, as text and as JSON.
+//! Runs that lose their energy end with a report that the step size is too large: of every command, as text and as
+//! JSON.
 
 use crate::program::{objects, shadowstep};
 use crate::scenes::{folder, summarised};

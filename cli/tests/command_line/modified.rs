@@ -1,4 +1,5 @@
-//! `shadowstep modified`: series, formulas in all notations, refusals. The formulas are held against modified energies in `scenes`.
+//! `shadowstep modified`: series, formulas in all notations, refusals. The formulas are held against modified energies
+//! in `scenes`.
 
 use std::fs;
 use std::process::Command;
@@ -13,7 +14,8 @@ fn out(command: &str) -> String {
     result.out
 }
 
-/// The leapfrog's series is in every textbook; that of three parts and of yoshida4 agree with `bch_expansion` of PennyLane 0.45.1 to 3e-16.
+/// The leapfrog's series is in every textbook; that of three parts and of yoshida4 agree with `bch_expansion` of
+/// PennyLane 0.45.1 to 3e-16.
 #[test]
 fn series_have_exact_coefficients_and_rounded_ones() {
     assert_eq!(
@@ -27,7 +29,8 @@ fn series_have_exact_coefficients_and_rounded_ones() {
     let json = out("modified symplectic-euler --grade 1 --json");
     assert_eq!(
         json,
-        "{\"scheme\":\"symplectic-euler\",\"kinetic\":\"any\",\"parts\":2,\"exact\":true,\"terms\":[{\"power\":1,\"bracket\":\"[K,D]\",\"coefficient\":\"1/2\"}]}\n"
+        "{\"scheme\":\"symplectic-euler\",\"kinetic\":\"any\",\"parts\":2,\"exact\":true,\
+         \"terms\":[{\"power\":1,\"bracket\":\"[K,D]\",\"coefficient\":\"1/2\"}]}\n"
     );
     assert!(out("modified yoshida4 --quadratic").contains("T + U with quadratic T"));
     assert!(out("modified chin-4a").contains("T + U with quadratic T"), "gradient kicks are for quadratic T only");
@@ -86,7 +89,8 @@ fn function(names: [&[String]; 2], notation: &str) -> String {
     let values: Vec<_> = parameters.iter().map(|k| format!("{k} = 1")).collect();
     let zeros = vec!["0"; coordinates.len()].join(", ");
     let text = format!(
-        "[problem]\npotential = \"{potential}\"\ncoordinates = [{}]\nparameters = {{ {} }}\n[initial]\nq = [{zeros}]\np = [{zeros}]\n",
+        "[problem]\npotential = \"{potential}\"\ncoordinates = [{}]\nparameters = {{ {} }}\n[initial]\nq = \
+            [{zeros}]\np = [{zeros}]\n",
         quoted(coordinates),
         values.join(", ")
     );
@@ -130,11 +134,14 @@ fn value(code: &str, language: Language, count: usize) -> f64 {
     }
 }
 
-/// Keywords, names of the function, functions of formulas and of the languages; `pi` and columns are no names of a problem.
+/// Keywords, names of the function, functions of formulas and of the languages; `pi` and columns are no names of a
+/// problem.
 #[test]
 fn code_computes_the_same_whatever_the_names_are() {
-    let others = "sin cos exp log sqrt cbrt atan powi x px E f64 i32 usize fn_ h_ total_ np_ math numpy print float abs sum list int \
-                  union raw safe auto match case type drop Box Vec String Option Result Default Clone Copy Send Sync Fn FnMut Drop \
+    let others = "sin cos exp log sqrt cbrt atan powi x px E f64 i32 usize fn_ h_ total_ np_ math numpy print float \
+        abs sum list int \
+                  union raw safe auto match case type drop Box Vec String Option Result Default Clone Copy Send Sync \
+                  Fn FnMut Drop \
                   Iterator From Into ToString std core main println assert panic vec u e d H result";
     for (language, notation) in [(Language::Python, "numpy"), (Language::Rust, "rust")] {
         let mut names: Vec<String> = language.reserved().iter().map(|name| (*name).to_owned()).collect();
@@ -177,7 +184,8 @@ fn a_name_of_the_series_is_noted_and_one_of_transformed_time_is_refused() {
     let path = folder.path().join("h.toml");
     let write = |parameter: &str, time: &str| {
         let text = format!(
-            "[problem]\npotential = \"-1/sqrt(h^2 + {parameter})\"\ncoordinates = [\"h\"]\nparameters = {{ {parameter} = 1 }}\n[initial]\nq = [1]\np = [0]\n{time}"
+            "[problem]\npotential = \"-1/sqrt(h^2 + {parameter})\"\ncoordinates = [\"h\"]\nparameters = {{ \
+                {parameter} = 1 }}\n[initial]\nq = [1]\np = [0]\n{time}"
         );
         fs::write(&path, text).unwrap();
         shadowstep(&format!("modified stormer-verlet {} --grade 2", path.display()))

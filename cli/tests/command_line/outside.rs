@@ -1,5 +1,5 @@
-//! The files that a scene or a sweep names lie in its folder or below, unless `--allow-outside` is given; of files that are something else, no
-//! line is shown.
+//! The files that a scene or a sweep names lie in its folder or below, unless `--allow-outside` is given; of files that
+//! are something else, no line is shown.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -19,7 +19,8 @@ const BODIES: &str = "[[body]]\nname = \"sun\"\nmass = 1\n[[body]]\nname = \"jup
 /// A line of a file that no message shows.
 const SECRET: &str = "root:$6$topsecret:19000";
 
-/// Scenes and sweeps in which FILE is the name of a file that is read or written; what is a good content for one that is read.
+/// Scenes and sweeps in which FILE is the name of a file that is read or written; what is a good content for one that
+/// is read.
 fn texts() -> Vec<(&'static str, String, Option<&'static str>)> {
     let run = RUN.replace("SCHEME", "yoshida4");
     let table = "name = \"mine\"\norder = 2\nkinetic = \"any\"\nsymmetric = true\nreference = \"L. Verlet\"\n\

@@ -4,8 +4,8 @@ use std::f64::consts::TAU;
 
 use crate::scenes::{folder, summarised};
 
-/// Two planets of 1e-5 of the star on circles whose radii differ by this number of mutual Hill radii, with this number of steps in a
-/// revolution of the inner one; what the summary of 60 revolutions says, in one line.
+/// Two planets of 1e-5 of the star on circles whose radii differ by this number of mutual Hill radii, with this number
+/// of steps in a revolution of the inner one; what the summary of 60 revolutions says, in one line.
 fn report(separation: f64, steps: f64) -> String {
     let radius = (2e-5_f64 / 3.0).cbrt() * separation / 2.0;
     let scene = format!(
@@ -45,7 +45,8 @@ fn interactions_are_those_of_all_states() {
 
 #[test]
 fn few_steps_in_a_revolution_are_noted() {
-    let note = "note: inner has 1.5 steps of 1 kick in a revolution: with fewer than 10 kicks the step size may be in resonance with the orbit";
+    let note = "note: inner has 1.5 steps of 1 kick in a revolution: with fewer than 10 kicks the step size may be in \
+        resonance with the orbit";
     let said = report(8.0, 1.5);
     assert!(said.contains(note), "{said}");
     let said = report(8.0, 30.0);

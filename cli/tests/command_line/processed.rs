@@ -157,7 +157,8 @@ fn the_measure_of_schemes_for_sampling_is_shown() {
     assert!(shown.contains("sampling:") && shown.contains("3.990e-4"), "{shown}");
 }
 
-/// The planets by Wisdom and Holman's parts: the error of H is O(εh² + ε²h²) of an energy that is itself of the size of ε.
+/// The planets by Wisdom and Holman's parts: the error of H is O(εh² + ε²h²) of an energy that is itself of the size of
+/// ε.
 const PLANETS: &str = r#"
 [problem]
 name = "outer-solar-system"

@@ -1,4 +1,5 @@
-//! Protects certificates: a program that shares no code with this one verifies those of all shipped schemes, and refuses wrong ones.
+//! Protects certificates: a program that shares no code with this one verifies those of all shipped schemes, and
+//! refuses wrong ones.
 
 use std::fs;
 use std::process::Command;

@@ -1,4 +1,5 @@
-//! `shadowstep sampling`: what it lists, and what it refuses. The numbers are tested in `tests/tests/sampling.rs` and `analysis`.
+//! `shadowstep sampling`: what it lists, and what it refuses. The numbers are tested in `tests/tests/sampling.rs` and
+//! `analysis`.
 
 use std::fs;
 
@@ -48,7 +49,8 @@ fn wrong_requests_are_refused_in_a_sentence() {
         ),
         (
             "bcm6-11",
-            "bcm6-11 is a processed scheme, whose pre-map and post-map are not reversible in time, as Hamiltonian Monte Carlo needs them",
+            "bcm6-11 is a processed scheme, whose pre-map and post-map are not reversible in time, as Hamiltonian \
+                Monte Carlo needs them",
         ),
         ("r-respa-4", "r-respa-4 is made for H of three parts and more, not for T + U"),
         ("bcss3 --frequencies 1,0", "--frequencies 1,0: frequency 2 is 0, and must be positive and finite"),

@@ -122,7 +122,8 @@ fn the_rows_and_the_end_are_those_of_trace_and_drift_in_transformed_time() {
     let kepler = "problem.name = \"kepler\"\ntime.transform = \"logarithmic\"\n";
     let run_of = |digits: &str, format: &str| {
         format!(
-            "{kepler}run = {{ scheme = \"yoshida4\", step = \"1/20\", until = 10, digits = {digits} }}\n[output]\nformat = \"{format}\"\n\
+            "{kepler}run = {{ scheme = \"yoshida4\", step = \"1/20\", until = 10, digits = {digits} \
+                }}\n[output]\nformat = \"{format}\"\n\
              energy = true\nmodified_energy = {{ order = 8 }}\ntrajectory = true\n"
         )
     };
@@ -242,7 +243,8 @@ fn the_same_scene_gives_the_same_bytes() {
 fn masses_velocities_and_parameters() {
     // a spring k between the wall and a mass m: the period of q = cos(t) is 2 pi for k = m
     let scene = "[problem]\npotential = \"k*x^2/2\"\ncoordinates = [\"x\"]\nparameters = { m = 3, k = \"m\" }\n\
-                 masses = [\"m\"]\n[initial]\nq = [0]\nv = [\"1/m\"]\n[run]\nscheme = \"yoshida4\"\nstep = \"1/(10*m)\"\n\
+                 masses = [\"m\"]\n[initial]\nq = [0]\nv = [\"1/m\"]\n[run]\nscheme = \"yoshida4\"\nstep \
+                 = \"1/(10*m)\"\n\
                  until = \"m/3\"\ndigits = 20\n[output]\nformat = \"jsonl\"\ntrajectory = true\n";
     let lines = objects(&printed(scene));
     assert_eq!(lines.len(), 31);
@@ -286,7 +288,8 @@ fn a_run_that_fails_leaves_the_old_file() {
 fn where_only_the_estimators_states_fail_a_lower_order_is_the_hint() {
     let scene = |modified: &str| {
         format!(
-            "[problem]\nname = \"henon-heiles\"\n[initial]\nq = [0, 1.1]\np = [0.1, 0]\n[run]\nscheme = \"stormer-verlet\"\n\
+            "[problem]\nname = \"henon-heiles\"\n[initial]\nq = [0, 1.1]\np = [0.1, 0]\n[run]\nscheme \
+                = \"stormer-verlet\"\n\
              step = 0.1\nuntil = 3\ndigits = 120\n[output]\nmodified_energy = {modified}\n"
         )
     };
@@ -502,8 +505,8 @@ fn a_scene_may_leave_the_summary_out() {
     assert!(with.err.contains("\n  verdict  "), "{}", with.err);
 }
 
-/// H is computed at each 100th state, of which there are 201, and in the windows of the monitor, of which 253 are at other states; all states of a
-/// short run are known.
+/// H is computed at each 100th state, of which there are 201, and in the windows of the monitor, of which 253 are at
+/// other states; all states of a short run are known.
 #[test]
 fn an_error_of_some_states_is_not_called_the_largest_of_all() {
     let kepler = |steps: u32| {
@@ -716,7 +719,8 @@ fn an_ensemble_of_a_processed_scheme_is_read_through_the_post_map() {
 
 #[test]
 fn masses_and_parameters_of_shipped_problems_differ_in_the_trajectories_of_an_ensemble() {
-    let run_of = "[run]\nscheme = \"yoshida4\"\nstep = \"1/20\"\nsteps = 40\ndigits = \"double\"\n[output]\nfile = \"out.csv\"\n";
+    let run_of = "[run]\nscheme = \"yoshida4\"\nstep = \"1/20\"\nsteps = 40\ndigits = \"double\"\n[output]\nfile \
+        = \"out.csv\"\n";
     let masses = "[problem]\npotential = \"x^2*y^2/2\"\ncoordinates = [\"x\", \"y\"]\nmasses = [1, \"a\"]\n\
                   [initial]\nq = [1, \"1/2\"]\np = [0, 1]\n";
     let oscillator = "[problem]\nname = \"harmonic-oscillator\"\nparameters.omega = \"a\"\n";

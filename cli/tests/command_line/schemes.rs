@@ -240,17 +240,20 @@ fn other_names_and_near_integrable_orders_are_shown() {
     assert!(listed.iter().any(|scheme| scheme["near_integrable"] == serde_json::json!([4, 2])));
 }
 
-/// With 12 digits the conditions still hold to 11: that order 6 is proved to 11 digits is true, but not that the table has the digits of such a scheme.
+/// With 12 digits the conditions still hold to 11: that order 6 is proved to 11 digits is true, but not that the table
+/// has the digits of such a scheme.
 #[test]
 fn a_digit_that_rounding_does_not_explain_is_a_negative_answer() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("kahan-li.toml").display().to_string();
     let table = |second: &str| {
         format!(
-            "name = \"mine\"\norder = 6\nkinetic = \"any\"\nsymmetric = true\ndigits = 12\nreference = \"Kahan and Li\"\n[constants]\n\
+            "name = \"mine\"\norder = 6\nkinetic = \"any\"\nsymmetric = true\ndigits = 12\nreference = \"Kahan and \
+                Li\"\n[constants]\n\
              g1 = \"0.392161444007\"\ng2 = \"{second}\"\ng3 = \"-0.706246172558\"\ng4 = \"0.082213596294\"\n\
              g5 = \"1 - 2*(g1 + g2 + g3 + g4)\"\n\
-             [composition]\nbase = \"stormer-verlet\"\ngamma = [\"g1\", \"g2\", \"g3\", \"g4\", \"g5\", \"g4\", \"g3\", \"g2\", \"g1\"]\n"
+             [composition]\nbase = \"stormer-verlet\"\ngamma = \
+             [\"g1\", \"g2\", \"g3\", \"g4\", \"g5\", \"g4\", \"g3\", \"g2\", \"g1\"]\n"
         )
     };
     let check = |second: &str| {
@@ -266,7 +269,8 @@ fn a_digit_that_rounding_does_not_explain_is_a_negative_answer() {
     );
     let exchanged = check("0.332599136798");
     assert_eq!(exchanged.code, 1, "{}", exchanged.out);
-    let verdict = "to 11 digits, symmetric; its printed digits are not all those of such a scheme; is kahan-li6 to 10 digits\nnote: ";
+    let verdict = "to 11 digits, symmetric; its printed digits are not all those of such a scheme; is kahan-li6 to 10 \
+        digits\nnote: ";
     assert!(exchanged.out.contains(verdict), "{}", exchanged.out);
     assert!(exchanged.out.contains("rounding does not explain the digits of `g2`"), "{}", exchanged.out);
 }
@@ -546,7 +550,8 @@ fn a_scheme_of_multiple_time_steps_is_shown_as_one() {
         "order 2, exactly; of order 3, the condition of the word AAB fails: found 1/8, needed 1/6",
         "4 steps of stormer-verlet in each drift of the outer scheme",
         "1 evaluation of the slow forces, 4 of the fast ones",
-        "1/100 of the stiffness of its fast ones is unstable for hω from 3.04630 to 3.07673, 3.043e-2 wide, and in 2 other intervals up to 8",
+        "1/100 of the stiffness of its fast ones is unstable for hω from 3.04630 to 3.07673, 3.043e-2 wide, and in 2 \
+            other intervals up to 8",
     ] {
         assert!(shown.contains(fact), "{fact}: {shown}");
     }
@@ -561,8 +566,10 @@ fn a_scheme_of_multiple_time_steps_is_shown_as_one() {
 #[test]
 fn a_scheme_with_the_other_map_first_is_called_so() {
     let folder = tempfile::tempdir().unwrap();
-    let table = "name = \"mine\"\ntitle = \"drifts first\"\norder = 4\nkinetic = \"any\"\n[constants]\nw = \"1/(2 - 2^(1/3))\"\nv = \"1 - 2*w\"\n\
-                 [stages]\nkick = [\"0\", \"w\", \"v\", \"w\"]\ndrift = [\"w/2\", \"(w + v)/2\", \"(w + v)/2\", \"w/2\"]\n";
+    let table = "name = \"mine\"\ntitle = \"drifts first\"\norder = 4\nkinetic = \"any\"\n[constants]\nw = \"1/(2 - \
+        2^(1/3))\"\nv = \"1 - 2*w\"\n\
+                 [stages]\nkick = [\"0\", \"w\", \"v\", \"w\"]\ndrift = [\"w/2\", \"(w + v)/2\", \"(w + \
+                 v)/2\", \"w/2\"]\n";
     let path = write(folder.path(), "mine.toml", table);
     let checked = shadowstep(&format!("schemes check {path}"));
     assert!(checked.out.ends_with("; is yoshida4 exactly, with the other map first\n"), "{}", checked.out);

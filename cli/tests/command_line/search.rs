@@ -1,4 +1,5 @@
-//! `shadowstep search`: its files, what it resumes, refusals. What searches find is held against published schemes in `analysis`.
+//! `shadowstep search`: its files, what it resumes, refusals. What searches find is held against published schemes in
+//! `analysis`.
 
 use std::fs;
 use std::path::Path;
@@ -49,15 +50,18 @@ fn processed_schemes_and_fronts_have_tables_too() {
     let folder = tempfile::tempdir().unwrap();
     for (text, found) in [
         (
-            "order = 4\nkinetic = \"any\"\nstages = 5\nbase = \"stormer-verlet\"\nprocessor = 4\nminimise = \"effective-error\"\nstarts = 2\n",
+            "order = 4\nkinetic = \"any\"\nstages = 5\nbase = \"stormer-verlet\"\nprocessor = 4\nminimise \
+                = \"effective-error\"\nstarts = 2\n",
             "[processor]\norder = 4\n",
         ),
         (
-            "order = 2\nkinetic = \"any\"\nstages = [2, 3]\nfront = [\"effective-error\", \"instability\"]\nstarts = 3\nkeep = 2\n",
+            "order = 2\nkinetic = \"any\"\nstages = [2, 3]\nfront = [\"effective-error\", \"instability\"]\nstarts = \
+                3\nkeep = 2\n",
             "order = 2\n",
         ),
         (
-            "order = 4\nkinetic = \"quadratic\"\nstages = 2\nfirst = \"drift\"\ngradient_kicks = true\nminimise = \"phase-error\"\nstarts = 2\n",
+            "order = 4\nkinetic = \"quadratic\"\nstages = 2\nfirst = \"drift\"\ngradient_kicks = true\nminimise \
+                = \"phase-error\"\nstarts = 2\n",
             "gradient_kick = [0, \"c1\", \"c1\"]\n",
         ),
     ] {

@@ -17,7 +17,8 @@ fn no_message_has_301_digits() {
     let scene = |problem: &str, run: &str, more: &str| {
         let path = folder.path().join("scene.toml");
         let text = format!(
-            "[problem]\n{problem}\n[run]\nscheme = \"yoshida4\"\n{run}\ndigits = \"double\"\n[output]\nenergy = true\n{more}"
+            "[problem]\n{problem}\n[run]\nscheme = \"yoshida4\"\n{run}\ndigits = \"double\"\n[output]\nenergy = \
+                true\n{more}"
         );
         fs::write(&path, text).unwrap();
         format!("run {}", path.display())

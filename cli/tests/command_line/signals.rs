@@ -1,4 +1,5 @@
-//! Ctrl-C and SIGTERM where no state comes for a long time: the program ends all the same, and leaves nothing incomplete.
+//! Ctrl-C and SIGTERM where no state comes for a long time: the program ends all the same, and leaves nothing
+//! incomplete.
 
 use std::process::{Child, Command, Stdio};
 

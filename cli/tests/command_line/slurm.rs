@@ -1,4 +1,5 @@
-//! `shadowstep sweep --submit` and `--status`, with programs in place of those of Slurm. `make test-cluster` uses a real cluster.
+//! `shadowstep sweep --submit` and `--status`, with programs in place of those of Slurm. `make test-cluster` uses a
+//! real cluster.
 
 use std::fs;
 use std::os::unix::fs::PermissionsExt;

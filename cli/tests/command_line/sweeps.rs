@@ -1,5 +1,5 @@
-//! `shadowstep sweep` and `shadowstep collect`: chunks in any order and by any number of processes come to the files of a sweep that
-//! nothing disturbed.
+//! `shadowstep sweep` and `shadowstep collect`: chunks in any order and by any number of processes come to the files of
+//! a sweep that nothing disturbed.
 
 mod chunks;
 mod collected;

@@ -2,7 +2,8 @@
 
 use crate::program::{objects, quietly, shadowstep, text};
 
-const RUN: &str = "trace --problem kepler --scheme stormer-verlet --step 1/32 --until 1/2 --digits 30 --estimator central --order 5 --no-summary";
+const RUN: &str = "trace --problem kepler --scheme stormer-verlet --step 1/32 --until 1/2 --digits 30 --estimator \
+    central --order 5 --no-summary";
 
 #[test]
 fn there_is_a_line_per_state() {
@@ -198,7 +199,8 @@ fn double_double_is_a_number_type() {
     let error = x(&last("--double-double")) - x(&last("--digits 50"));
     let error = <f64 as shadowstep::Number>::from_rational(&error, &());
     assert!(error != 0.0 && error.abs() < 1e-28, "{error:e}");
-    let drift = "drift kepler --scheme yoshida4 --step 1/20 --until 10 --estimator central --no-control --no-summary --json --double-double";
+    let drift = "drift kepler --scheme yoshida4 --step 1/20 --until 10 --estimator central --no-control --no-summary \
+        --json --double-double";
     assert_eq!(objects(&quietly(drift))[0]["digits"], "double-double");
     for other in ["--double", "--digits 30", "--compensated"] {
         assert_eq!(shadowstep(&format!("{drift} {other}")).code, 2, "{other}");
@@ -217,7 +219,8 @@ fn compensated_sums_are_a_number_type() {
     // the same as at 40 digits, but for less
     let precise = x(&last("--digits 40"));
     assert!((x(&compensated) - precise).abs() < 0.5 * (x(&plain) - precise).abs(), "{plain}, {compensated}, {precise}");
-    let drift = "drift kepler --scheme yoshida4 --step 1/20 --until 10 --estimator central --no-control --no-summary --json --compensated";
+    let drift = "drift kepler --scheme yoshida4 --step 1/20 --until 10 --estimator central --no-control --no-summary \
+        --json --compensated";
     assert_eq!(objects(&quietly(drift))[0]["digits"], "compensated");
     for other in ["--double", "--digits 30"] {
         assert_eq!(shadowstep(&format!("{drift} {other}")).code, 2, "{other}");

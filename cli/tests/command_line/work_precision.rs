@@ -12,7 +12,8 @@ fn a_study_is_data_charts_and_a_page() {
     let folder = TempDir::new().unwrap();
     let out = folder.path().display();
     let command = format!(
-        "work-precision kepler --until 10 --schemes stormer-verlet,yoshida4 --step 1/20,1/40,1/80,1/160 --digits 25 --out {out}"
+        "work-precision kepler --until 10 --schemes stormer-verlet,yoshida4 --step 1/20,1/40,1/80,1/160 --digits 25 \
+            --out {out}"
     );
     let printed = quietly(&command);
     assert!(printed.lines().all(|line| line.chars().count() <= 80 || line.contains("report.html")), "{printed}");
@@ -169,14 +170,16 @@ fn advice_in_transformed_time_is_for_the_run_of_the_scene() {
     assert!((error / verified - 1.0).abs() < 0.1, "{error:e} {printed}");
 }
 
-/// Steps begin as those of the scene's run, whose error that of the diagram is, also where the time and the number type are given.
+/// Steps begin as those of the scene's run, whose error that of the diagram is, also where the time and the number type
+/// are given.
 #[test]
 fn steps_begin_with_the_map_of_the_scene() {
     let folder = TempDir::new().unwrap();
     let (scene, out) = (folder.path().join("scene.toml"), folder.path().join("out"));
     let written = |first: &str, step: &str| {
         let text = format!(
-            "problem.name = 'kepler'\nrun = {{ scheme = 'stormer-verlet', first = '{first}', step = '{step}', until = 1, digits = 'double' }}\n\
+            "problem.name = 'kepler'\nrun = {{ scheme = 'stormer-verlet', first = '{first}', step = '{step}', until = \
+                1, digits = 'double' }}\n\
              output = {{ trajectory = true, format = 'jsonl' }}"
         );
         fs::write(&scene, text).unwrap();

@@ -1,4 +1,5 @@
-//! Files are created and replaced in one way, `WholeFile`, or opened by `open_locked` and `open_itself`; what does it otherwise has a reason.
+//! Files are created and replaced in one way, `WholeFile`, or opened by `open_locked` and `open_itself`; what does it
+//! otherwise has a reason.
 
 use std::fs;
 use std::path::{Path, PathBuf};

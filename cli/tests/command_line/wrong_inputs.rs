@@ -1,5 +1,5 @@
-//! Wrong inputs of all kinds with their messages and exit codes, in one snapshot that people read: each message states what is
-//! wrong, where, and what would be right.
+//! Wrong inputs of all kinds with their messages and exit codes, in one snapshot that people read: each message states
+//! what is wrong, where, and what would be right.
 
 use std::fs;
 use std::path::Path;

@@ -92,7 +92,8 @@ fn ended(scene: &Scene, mut command: Command, check: impl FnOnce(&Output) -> Res
     }
 }
 
-/// The sentence of a refusal, after its place: `scene.toml:LINE:COLUMN: `. That of any scheme and trajectory is one reason.
+/// The sentence of a refusal, after its place: `scene.toml:LINE:COLUMN: `. That of any scheme and trajectory is one
+/// reason.
 fn refused(err: &str, scheme: &str) -> Option<Cell> {
     let line = err.lines().find(|line| !line.starts_with("note: ") && !line.trim().is_empty())?;
     let is_number = |part: &str| !part.is_empty() && part.bytes().all(|byte| byte.is_ascii_digit());
@@ -174,8 +175,8 @@ fn of_ensemble(table: &Table) -> Result<(), String> {
     expect(errors.len() == 2 && errors.iter().all(|error| *error < 0.1), || format!("{errors:?}"))
 }
 
-/// The first row has the state at the end of the scene's run, with its time and energy where it has these; but for the last bits of functions in lanes
-/// and of H in other coordinates.
+/// The first row has the state at the end of the scene's run, with its time and energy where it has these; but for the
+/// last bits of functions in lanes and of H in other coordinates.
 fn has_end_of_run(scene: &Scene, table: &Table) -> Result<(), String> {
     let folder = folder();
     let output = running(scene, folder.path(), "").arg("--no-summary").output().unwrap();
@@ -344,7 +345,8 @@ fn chaos(scene: &Scene, folder: &Path) -> Outcome {
 }
 
 const SWEPT: &str = "[axes]\nh = [\"STEP\", \"(STEP)/2\"]\nx0 = [\"A\", \"B\"]\n\
-                     [keep]\nstate = true\nvalues = [\"energy_error\", \"drift\"]\nat_end = { end_energy = \"E\", end_t = \"t\" }\n";
+                     [keep]\nstate = true\nvalues = [\"energy_error\", \"drift\"]\nat_end = { end_energy = \"E\", \
+                     end_t = \"t\" }\n";
 
 fn axes(scene: &Scene, [a, b]: [&str; 2]) -> String {
     SWEPT.replace("STEP", scene.step()).replace("\"A\"", &format!("\"{a}\"")).replace("\"B\"", &format!("\"{b}\""))

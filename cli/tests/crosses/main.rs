@@ -1,6 +1,7 @@
-//! Crosses: everything that a scene may have, with everything that is done with a scene. Each cell works, with plausible results, or is refused by one
-//! sentence that says why; each row has a variant with a fault, which is refused with its place. What is refused is in docs/what-works-with-what.md, which
-//! this test keeps true, so that a cell that worked cannot become one that is refused unseen.
+//! Crosses: everything that a scene may have, with everything that is done with a scene. Each cell works, with
+//! plausible results, or is refused by one sentence that says why; each row has a variant with a fault, which is
+//! refused with its place. What is refused is in docs/what-works-with-what.md, which this test keeps true, so that a
+//! cell that worked cannot become one that is refused unseen.
 #![cfg(target_os = "linux")]
 
 mod commands;

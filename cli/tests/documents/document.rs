@@ -34,7 +34,8 @@ impl Document {
         }
     }
 
-    /// Its keys with their sections and values: `cutoff.at = 2` of \[problem\] is `cutoff` of `problem`, and `at` of `problem.cutoff`.
+    /// Its keys with their sections and values: `cutoff.at = 2` of \[problem\] is `cutoff` of `problem`, and `at` of
+    /// `problem.cutoff`.
     pub(crate) fn keys(&self) -> BTreeSet<(String, String, String)> {
         let mut keys = BTreeSet::new();
         for file in self.files.iter().filter(|file| file.name.ends_with(".toml")) {

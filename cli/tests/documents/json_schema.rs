@@ -1,4 +1,5 @@
-//! The JSON Schemas of scenes and sweeps, by a validator that shares no code with them; and what reading takes from documents.
+//! The JSON Schemas of scenes and sweeps, by a validator that shares no code with them; and what reading takes from
+//! documents.
 
 use std::fs;
 use std::path::Path;

@@ -1,7 +1,8 @@
-//! Random documents: scenes and sweeps of all keys in all combinations, each of which runs or is refused by a sentence. No command panics, hangs, ends with
-//! another exit code than 0 to 3, or writes a number that is not finite.
+//! Random documents: scenes and sweeps of all keys in all combinations, each of which runs or is refused by a sentence.
+//! No command panics, hangs, ends with another exit code than 0 to 3, or writes a number that is not finite.
 //!
-//! A document has a number, which is its seed: `DOCUMENT=17 cargo test -p shadowstep-cli --features mpfr --test documents` runs that one, and
+//! A document has a number, which is its seed:
+//! `DOCUMENT=17 cargo test -p shadowstep-cli --features mpfr --test documents` runs that one, and
 //! `make fuzz READERS=documents` new ones for SECONDS.
 #![cfg(target_os = "linux")]
 
@@ -57,7 +58,8 @@ fn fault(document: &Document) -> Option<(String, String)> {
     }
 }
 
-/// Runs documents; how many ran to their end, and how many were interrupted. Faults are shown with the shortest document of each kind.
+/// Runs documents; how many ran to their end, and how many were interrupted. Faults are shown with the shortest
+/// document of each kind.
 fn try_all(numbers: Range<u64>) -> [u64; 2] {
     let all: Vec<(u64, End)> = numbers.into_par_iter().map(|number| (number, run(&document(number)))).collect();
     let mut kinds = BTreeMap::<String, Vec<u64>>::new();

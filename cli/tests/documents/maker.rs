@@ -125,7 +125,8 @@ impl Maker {
         }
     }
 
-    /// A formula: this template with names for X and Y (coordinates), P and R (momenta), A (a parameter, or a number where there is none).
+    /// A formula: this template with names for X and Y (coordinates), P and R (momenta), A (a parameter, or a number
+    /// where there is none).
     pub(crate) fn filled(&mut self, template: &str, system: &System) -> String {
         let mut pair = |names: &[String]| {
             let first = if names.is_empty() { 0 } else { self.below(names.len()) };

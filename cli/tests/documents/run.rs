@@ -1,4 +1,5 @@
-//! Runs documents, each command in a process of its own that is interrupted after some CPU time, and judges how they end.
+//! Runs documents, each command in a process of its own that is interrupted after some CPU time, and judges how they
+//! end.
 
 use std::fs::{self, File};
 use std::os::unix::process::ExitStatusExt;
@@ -20,7 +21,8 @@ const HANGS_AFTER: Duration = Duration::from_secs(600);
 /// How often a command is looked at.
 const TICK: Duration = Duration::from_millis(5);
 
-/// What a command says that was interrupted between two states, runs or trajectories. One that says nothing of that hung.
+/// What a command says that was interrupted between two states, runs or trajectories. One that says nothing of that
+/// hung.
 const INTERRUPTED: [&str; 3] = ["interrupted at n = ", "the same command computes", "the ensemble was interrupted"];
 
 /// Where the output of a command goes.
@@ -119,7 +121,8 @@ fn judged(output: &Output, folder: &Path) -> End {
     }
 }
 
-/// A number that is not finite, in rows, metadata or the summary. Trajectories of ensembles and runs of sweeps may say that they failed.
+/// A number that is not finite, in rows, metadata or the summary. Trajectories of ensembles and runs of sweeps may say
+/// that they failed.
 fn not_finite(output: &Output, folder: &Path) -> Option<String> {
     let files = fs::read_dir(folder).unwrap().chain(fs::read_dir(folder.join("out")).into_iter().flatten());
     let is_text = |path: &Path| {

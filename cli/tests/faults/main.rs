@@ -1,8 +1,9 @@
-//! Faults: the program is killed, interrupted, started twice; disks are full or read-only, folders vanish, clocks jump, checkpoints
-//! are damaged. Whatever happens, no file has its name before it is complete, nothing that is damaged is used, and the command, given
-//! again, comes to the bytes of one that was never disturbed.
+//! Faults: the program is killed, interrupted, started twice; disks are full or read-only, folders vanish, clocks jump,
+//! checkpoints are damaged. Whatever happens, no file has its name before it is complete, nothing that is damaged is
+//! used, and the command, given again, comes to the bytes of one that was never disturbed.
 //!
-//! The disturbances are random; `FAULTS_SEED=7 cargo test -p shadowstep-cli --test faults` repeats those of a seed, which is printed.
+//! The disturbances are random; `FAULTS_SEED=7 cargo test -p shadowstep-cli --test faults` repeats those of a seed,
+//! which is printed.
 #![cfg(target_os = "linux")]
 
 mod commands;

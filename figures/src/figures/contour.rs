@@ -14,7 +14,8 @@ pub(super) const FIGURE: Figure = Figure {
     draw,
 };
 
-/// A point of the contour about −mh, …, mh at the distance ρ, h = 1: straight above and below, half circles at the ends.
+/// A point of the contour about −mh, …, mh at the distance ρ, h = 1: straight above and below, half circles at the
+/// ends.
 fn contour(m: f64, rho: f64, part: f64) -> (f64, f64) {
     let (straight, half) = (2.0 * m, PI * rho);
     let way = part * 2.0 * (straight + half);
@@ -43,7 +44,8 @@ fn excess(m: u32, rho: f64) -> f64 {
 
 fn draw(_: &Results) -> Finding {
     let mut finding = Finding::on(&[
-        "The error of D_m is an integral of y(z) and a kernel K_m(z) along a contour γ that includes −mh, …, mh and excludes the singularities \
+        "The error of D_m is an integral of y(z) and a kernel K_m(z) along a contour γ that includes −mh, …, mh and \
+            excludes the singularities \
          of y, at the distance ρ from the real axis. Along γ, |K_m| has its maximum at z = iρ.",
     ]);
     let (m, rho) = (4.0, 1.6);
@@ -68,7 +70,8 @@ fn draw(_: &Results) -> Finding {
     finding.check(
         "Along γ the kernel has its maximum in modulus at z = iρ.",
         format!(
-            "at 4000 points of γ, for {} pairs of m = {} to {} and ρ/h = {} to {}, the largest |K_m| is at most {:.6} times |K_m(iρ)|",
+            "at 4000 points of γ, for {} pairs of m = {} to {} and ρ/h = {} to {}, the largest |K_m| is at most {:.6} \
+                times |K_m(iρ)|",
             all().count(),
             orders[0],
             orders[orders.len() - 1],

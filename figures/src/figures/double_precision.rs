@@ -49,8 +49,8 @@ fn draw(results: &Results) -> Finding {
     finding
 }
 
-/// The blocks by a running sum of β, by increments of β, and by increments of q, p and β; a part of them in a quick report, which is
-/// shorter.
+/// The blocks by a running sum of β, by increments of β, and by increments of q, p and β; a part of them in a quick
+/// report, which is shorter.
 fn compare(finding: &mut Finding, [all_sums, all_beta, all_increments]: &[&Vec<Block>; 3], coverage: Coverage) {
     let [Some(sums), Some(beta), Some(increments)] = [all_sums.last(), all_beta.last(), all_increments.last()] else {
         return;
@@ -82,7 +82,8 @@ fn compare(finding: &mut Finding, [all_sums, all_beta, all_increments]: &[&Vec<B
         coverage.every(all_increments.iter().zip(*all_beta).all(|(own, other)| own.scatter < other.scatter)),
     );
     finding.found(format!(
-        "The mean wanders by {} in {} steps: this is the round-off of the states, which does not depend on how differences are taken.",
+        "The mean wanders by {} in {} steps: this is the round-off of the states, which does not depend on how \
+            differences are taken.",
         scientific(increments.wander.abs()),
         increments.steps
     ));

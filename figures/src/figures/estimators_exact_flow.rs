@@ -16,7 +16,8 @@ pub(super) const FIGURE: Figure =
 
 fn draw(results: &Results) -> Finding {
     let mut finding = additional(
-        "The states of Kepler's exact flow (e = 0.6) at t = n h, with β along it: the modified energy of this trajectory is −1/2 at every state, so all variation of the estimates is the estimator's own error.",
+        "The states of Kepler's exact flow (e = 0.6) at t = n h, with β along it: the modified energy of this \
+            trajectory is −1/2 at every state, so all variation of the estimates is the estimator's own error.",
     );
     let orders = results.grid(&ORDERS, &[1, 3, 8, 24, 200]);
     for n in [10, 20, 40] {
@@ -27,7 +28,8 @@ fn draw(results: &Results) -> Finding {
         let least = |points: &[(f64, f64)]| points.iter().map(|(_, y)| *y).fold(f64::INFINITY, f64::min);
         let states = |(_, states): Family, orders: &[u32]| orders.iter().map(|&order| states(order)).max().unwrap_or(0);
         finding.found(format!(
-            "h = 1/{n}: the variation is {} by the best m with up to {} states, at least {} by these fixed m, and at least {} by the bilinear estimator with up to {} states.",
+            "h = 1/{n}: the variation is {} by the best m with up to {} states, at least {} by these fixed m, and at \
+                least {} by the bilinear estimator with up to {} states.",
             power(best.last().map_or(f64::NAN, |(_, y)| *y)),
             states(BEST_UP_TO, orders),
             power(least(&central)),

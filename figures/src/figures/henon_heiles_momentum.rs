@@ -18,7 +18,8 @@ pub(super) const FIGURE: Figure = Figure {
 
 fn draw(results: &Results) -> Finding {
     let mut finding = Finding::on(&[
-        "The drift as p₁(0) is varied, q₁ = q₂ = p₂ = 0, for h = 0.25, 0.1, 0.05: there is no abrupt change in energy preservation when \
+        "The drift as p₁(0) is varied, q₁ = q₂ = p₂ = 0, for h = 0.25, 0.1, 0.05: there is no abrupt change in energy \
+            preservation when \
          moving from the regular motions (H < 1/12, p₁ < 1/√6 ≈ 0.4) to the chaotic regime.",
     ]);
     let all: Vec<u32> = (1..=28).map(|n| 2 * n).collect();
@@ -51,8 +52,8 @@ fn draw(results: &Results) -> Finding {
 const CHAOS: f64 = 0.408_248_290_463_863;
 const ESCAPE: f64 = 0.577_350_269_189_626;
 
-/// The change of the drift about H = 1/12 must not be steeper than those below it: the largest of them, and, as slopes scatter,
-/// up to twice the largest is not decided.
+/// The change of the drift about H = 1/12 must not be steeper than those below it: the largest of them, and, as slopes
+/// scatter, up to twice the largest is not decided.
 fn check_change(finding: &mut Finding, n: u32, points: &[(f64, f64)]) {
     let slopes = |of: &dyn Fn(f64, f64) -> bool| -> Vec<f64> {
         let within = points.windows(2).filter(|pair| of(pair[0].0, pair[1].0));

@@ -21,10 +21,13 @@ pub(super) const FIGURE: Figure = Figure {
 
 fn draw(results: &Results) -> Finding {
     let mut finding = Finding::on(&[
-        "The drift against the step size with p₁(0) = 0.1. The expected exponential smallness is indeed present, and there is no problem \
-         in using the algorithm other than allowing for large values of m (capped at 200). The effect of round-off error becomes \
+        "The drift against the step size with p₁(0) = 0.1. The expected exponential smallness is indeed present, and \
+            there is no problem \
+         in using the algorithm other than allowing for large values of m (capped at 200). The effect of round-off \
+         error becomes \
          visible when 1/h exceeds 20.",
-        "The fourth-order methods of Yoshida and of Blanes and Moan show the same as for Kepler's problem: Störmer–Verlet preserves the \
+        "The fourth-order methods of Yoshida and of Blanes and Moan show the same as for Kepler's problem: \
+            Störmer–Verlet preserves the \
          energy slightly better, and the value of c is the same.",
     ]);
     let steps = results.grid(&STEPS, &FEW_STEPS);
@@ -88,8 +91,8 @@ fn rates(finding: &mut Finding, fits: &[Fitted]) {
     finding.table("Rates", &DECAY_HEADER, rows);
 }
 
-/// Where the drifts leave the fitted line: the round-off is visible at the first step from which on all are above it by three
-/// standard deviations.
+/// Where the drifts leave the fitted line: the round-off is visible at the first step from which on all are above it by
+/// three standard deviations.
 fn round_off(finding: &mut Finding, points: &[(f64, f64)], fit: &ExponentialDecay) {
     let line = |n: f64| fit.a - fit.c * std::f64::consts::LOG10_E * n;
     let on_it = points.iter().rposition(|(n, y)| *y <= line(*n) + 3.0 * fit.deviation);

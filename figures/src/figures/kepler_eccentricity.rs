@@ -30,7 +30,8 @@ fn of(n: u32, e: u32) -> Run {
 fn draw(results: &Results) -> Finding {
     let mut finding = Finding::on(&[
         "Almost circular orbits show much better preservation of the energy than highly elliptical ones.",
-        "An instability occurs at a critical eccentricity which depends on the step size: the topology of the energy levels of the modified \
+        "An instability occurs at a critical eccentricity which depends on the step size: the topology of the energy \
+            levels of the modified \
          energy changes, which leads to unbounded trajectories.",
     ]);
     let scans: Vec<Scan> = STEPS.iter().filter_map(|&n| Scan::of(results, n)).collect();
@@ -102,8 +103,8 @@ impl Scan {
         self.found.iter().rev().find(|(_, returns, _)| returns.is_none()).map(|(e, ..)| thousandths(*e))
     }
 
-    /// The range within which the instability begins: from the last e before the first escape to the e from which on all
-    /// escape.
+    /// The range within which the instability begins: from the last e before the first escape to the e from which on
+    /// all escape.
     fn range(&self) -> Option<(f64, f64)> {
         let before = |e: f64| self.found.iter().map(|(e, ..)| thousandths(*e)).rfind(|other| *other < e);
         let after = |e: f64| self.found.iter().map(|(e, ..)| thousandths(*e)).find(|other| *other > e);
@@ -151,7 +152,8 @@ fn check_escapes(finding: &mut Finding, scans: &[Scan], coverage: Coverage) {
     topology(finding, scans, coverage);
 }
 
-/// Where the instability begins. Between the eccentricities of a coarse scan others may escape, so that it gives an upper bound only.
+/// Where the instability begins. Between the eccentricities of a coarse scan others may escape, so that it gives an
+/// upper bound only.
 fn onset(scans: &[Scan], coverage: Coverage) -> (String, Verdict) {
     let ranges: Vec<_> = scans.iter().map(Scan::range).collect();
     let of = |scan: &Scan| {
@@ -178,8 +180,8 @@ fn depends_on_step(ranges: &[Option<(f64, f64)>]) -> Verdict {
     if ranges.windows(2).all(apart) { Verdict::Agrees } else { Verdict::NotDecided(OVERLAP) }
 }
 
-/// A level set that is unbounded from the start is left on the first way out; an escape after a return needs a change of the
-/// modified energy itself.
+/// A level set that is unbounded from the start is left on the first way out; an escape after a return needs a change
+/// of the modified energy itself.
 fn topology(finding: &mut Finding, scans: &[Scan], coverage: Coverage) {
     for scan in scans {
         let (all, late) =
@@ -191,7 +193,8 @@ fn topology(finding: &mut Finding, scans: &[Scan], coverage: Coverage) {
             late => format!(", {late} after an encounter that changed the modified energy"),
         };
         let found = format!(
-            "{} of {all} orbits that escape do so on the first way out{others}; up to h² the level set of the start is unbounded from e = \
+            "{} of {all} orbits that escape do so on the first way out{others}; up to h² the level set of the start \
+                is unbounded from e = \
              {critical:.3} on",
             all - late
         );
@@ -202,8 +205,10 @@ fn topology(finding: &mut Finding, scans: &[Scan], coverage: Coverage) {
         finding.check(&statement, found, verdict);
     }
     finding.found(
-        "A body has escaped when it is farther than 2, moves outward, and H̄ = H + h² (pᵀU_qq p/12 − |U_q|²/24), the modified energy up to \
-         h², is at least 0: the level set then reaches infinity. |q| > 3 is not an escape: orbits of negative energy pass it and return.",
+        "A body has escaped when it is farther than 2, moves outward, and H̄ = H + h² (pᵀU_qq p/12 − |U_q|²/24), the \
+            modified energy up to \
+         h², is at least 0: the level set then reaches infinity. |q| > 3 is not an escape: orbits of negative energy \
+         pass it and return.",
     );
 }
 
@@ -230,8 +235,8 @@ fn table(finding: &mut Finding, scans: &[Scan]) {
     );
 }
 
-/// The orbits on both sides of the instability, at h = 1/10: one that stays, the last that stays, the next, which escapes, and the
-/// first escape if that is before them.
+/// The orbits on both sides of the instability, at h = 1/10: one that stays, the last that stays, the next, which
+/// escapes, and the first escape if that is before them.
 fn orbits(results: &Results, finding: &mut Finding, scans: &[Scan]) {
     let Some(scan) = scans.iter().find(|scan| scan.n == 10) else { return };
     let bound = |below: u32| scan.found.iter().rev().find(|(e, returns, _)| *e < below && returns.is_none());
@@ -254,7 +259,8 @@ fn orbits(results: &Results, finding: &mut Finding, scans: &[Scan]) {
             Axis::linear("q₂").over(FRAME[1].0, FRAME[1].1),
             shown.iter().enumerate().map(curve).collect(),
         ),
-        "Störmer–Verlet, t ≤ 100; the states are joined by lines. The exact orbit reaches |q| = 1 + e. An orbit that is bound has a modified \
+        "Störmer–Verlet, t ≤ 100; the states are joined by lines. The exact orbit reaches |q| = 1 + e. An orbit that \
+            is bound has a modified \
          energy below 0, and returns.",
     );
 }
@@ -264,7 +270,8 @@ const FRAME: [(f64, f64); 2] = [(-30.0, 10.0), (-16.0, 16.0)];
 
 const STAYS: &str = "stays";
 
-/// What an orbit without an escape does: it stays in the frame, or leaves that and returns to it, perhaps after the run.
+/// What an orbit without an escape does: it stays in the frame, or leaves that and returns to it, perhaps after the
+/// run.
 fn of_bound(points: &[(f64, f64)]) -> &'static str {
     let [x, y] = FRAME;
     let within = |point: &(f64, f64)| (x.0..=x.1).contains(&point.0) && (y.0..=y.1).contains(&point.1);
@@ -300,7 +307,8 @@ mod tests {
         assert_eq!((never.is_one_value(Coverage::All), never.range()), (None, None));
     }
 
-    /// The full scan of h = 1/5 finds an escape at 0.634 that the coarse one, with a first escape at 0.665, has no value for.
+    /// The full scan of h = 1/5 finds an escape at 0.634 that the coarse one, with a first escape at 0.665, has no
+    /// value for.
     #[test]
     fn a_coarse_scan_bounds_the_onset_from_above_only() {
         let at = |n: u32, e: u32| Scan { n, found: vec![(e - 5, None, 1.0), (e, Some(0), 9.0)] };

@@ -28,10 +28,13 @@ fn largest_off(energies: &Energies, at: impl Fn(f64) -> bool) -> f64 {
 
 fn draw(results: &Results) -> Finding {
     let mut finding = Finding::on(&[
-        "The modified energy less the initial one, for several step sizes (Störmer–Verlet) and for the methods at h = 0.1. There \
-         are peaks when the particle is near the singularity, and the energy essentially recovers its value after this point \
+        "The modified energy less the initial one, for several step sizes (Störmer–Verlet) and for the methods at h = \
+            0.1. There \
+         are peaks when the particle is near the singularity, and the energy essentially recovers its value after \
+         this point \
          before another close encounter.",
-        "The methods give rather different results, even though the maximal variation is almost the same. The Blanes–Moan \
+        "The methods give rather different results, even though the maximal variation is almost the same. The \
+            Blanes–Moan \
          method seems to preserve the modified energy better after the close encounter.",
     ]);
     let steps = results.grid(&[10, 20, 30], &[10, 20]);
@@ -84,7 +87,8 @@ fn in_time(finding: &mut Finding, title: &str, of: &Labelled, from_apocentre: bo
     let (y, caption) = if from_apocentre {
         (
             "|H̄ − H̄ at the first apocentre|",
-            "The start is a pericentre, where the estimate is worst; relative to an apocentre the changes between encounters are visible.",
+            "The start is a pericentre, where the estimate is worst; relative to an apocentre the changes between \
+                encounters are visible.",
         )
     } else {
         ("|H̄ − H̄ at the start|", "t ≤ 40 of [0, 100]; the start is a pericentre.")

@@ -28,11 +28,14 @@ fn fine(points: &[(f64, f64)]) -> Vec<(f64, f64)> {
 
 fn draw(results: &Results) -> Finding {
     let mut finding = Finding::on(&[
-        "The plots for the drift of Yoshida's method and of the Blanes–Moan method look the same as for Störmer–Verlet; in particular \
+        "The plots for the drift of Yoshida's method and of the Blanes–Moan method look the same as for \
+            Störmer–Verlet; in particular \
          the constant c in exp(−c/h) is the same.",
-        "The drift of Störmer–Verlet is about a factor of three smaller than that of Yoshida's method and a factor of four smaller than that of \
+        "The drift of Störmer–Verlet is about a factor of three smaller than that of Yoshida's method and a factor of \
+            four smaller than that of \
          Blanes and Moan.",
-        "The Blanes–Moan method has coordinate errors that are typically three orders of magnitude smaller than those of Yoshida's method at \
+        "The Blanes–Moan method has coordinate errors that are typically three orders of magnitude smaller than those \
+            of Yoshida's method at \
          the same computational cost.",
     ]);
     let steps = results.grid(&STEPS, &FEW_STEPS);
@@ -77,7 +80,8 @@ fn relative_to_the_flow(finding: &mut Finding, of: &[Labelled], control: &[(f64,
     let list: Vec<_> =
         ratios.iter().map(|(label, ratio)| format!("{label} {:.2} to {:.2}", ratio.least, ratio.most)).collect();
     finding.highlight(format!(
-        "In the paper's measure the exact flow of Kepler's problem (e = 0.6) drifts, too, although its energy does not change: at h ≤ 1/10 the \
+        "In the paper's measure the exact flow of Kepler's problem (e = 0.6) drifts, too, although its energy does \
+            not change: at h ≤ 1/10 the \
          drifts of the schemes are within a factor of {farthest:.1} of its drift ({}).",
         list.join(", ")
     ));
@@ -109,7 +113,8 @@ fn compare_rates(finding: &mut Finding, of: &[Labelled], control: &[(f64, f64)])
     finding.table("Rates", &DECAY_HEADER, rows);
 }
 
-/// Errors of the coordinates of Blanes and Moan's schemes at h, of six force evaluations per step, and of Yoshida's at h/2, of three.
+/// Errors of the coordinates of Blanes and Moan's schemes at h, of six force evaluations per step, and of Yoshida's at
+/// h/2, of three.
 fn compare_coordinates(results: &Results, finding: &mut Finding) {
     let steps = results.grid(&[5, 6, 7, 8, 9, 10, 12, 14, 16, 20, 25, 30], &[5, 10, 20]);
     let of = |scheme: &'static str, n: u32, per_step: u32| {
@@ -126,7 +131,10 @@ fn compare_coordinates(results: &Results, finding: &mut Finding) {
         let Some(gain) = Interval::of_mean(&gains) else { continue };
         let (least, most) = gains.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), y| (a.min(*y), b.max(*y)));
         finding.check(
-            format!("The coordinate errors of {label} are typically three orders of magnitude smaller than Yoshida's at equal cost."),
+            format!(
+                "The coordinate errors of {label} are typically three orders of magnitude smaller than Yoshida's \
+                at equal cost."
+            ),
             format!(
                 "by {gain} orders in the mean of {} costs, {least:.2} to {most:.2}; 2.5 to 3.5 counts as three",
                 gain.count

@@ -21,7 +21,8 @@ pub(super) const FIGURE: Figure =
 fn draw(results: &Results) -> Finding {
     let mut finding = Finding::on(&[
         "The drift against the step size, e = 0.6: the theoretical exp(−c/h) behaviour.",
-        "In contrast with the pendulum, the T_{m,m} do not converge as m → ∞: the m of 2 … 200 with the smallest |T_{m,m} − T_{m−1,m−1}| is taken.",
+        "In contrast with the pendulum, the T_{m,m} do not converge as m → ∞: the m of 2 … 200 with the smallest \
+            |T_{m,m} − T_{m−1,m−1}| is taken.",
     ]);
     let steps = results.grid(&STEPS, &FEW_STEPS);
     let best = drifts(results, "stormer-verlet", steps, &BEST);

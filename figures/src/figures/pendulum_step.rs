@@ -31,7 +31,8 @@ fn largest(quick: bool) -> u32 {
     if quick { 400 } else { HIGHEST_ORDER }
 }
 
-/// 3 ρ²/h²: from about m = ρ²/h² on T_{m,m} has converged, as the remainder is about exp(ρ²/(h² m)) by lemma 3 of the paper.
+/// 3 ρ²/h²: from about m = ρ²/h² on T_{m,m} has converged, as the remainder is about exp(ρ²/(h² m)) by lemma 3 of the
+/// paper.
 fn of_limit(n: u32) -> u32 {
     (3.0 * (singularity(1.0) * f64::from(n)).powi(2)) as u32
 }
@@ -43,7 +44,8 @@ fn limits(steps: &[u32], quick: bool) -> Vec<(u32, u32)> {
 
 fn draw(results: &Results) -> Finding {
     let mut finding = Finding::on(&[
-        "The drift, max − min of the modified energy over [0, 100], computed from T_{m,m} for m = 2, 5, 10, 15, 20, 30, 40. The \
+        "The drift, max − min of the modified energy over [0, 100], computed from T_{m,m} for m = 2, 5, 10, 15, 20, \
+            30, 40. The \
          approximations T_{m,m} converge for this problem.",
         "The limit, the thick line, follows the exp(−c/h) behaviour that the theory predicts.",
     ]);

@@ -46,7 +46,8 @@ fn drift_and_change(results: &Results, finding: &mut Finding, changes: &[Curve])
             Axis::log10("modified energy over [0, 100]"),
             curves,
         ),
-        "Above, the drift by the best m, of four schemes and of the exact flow, whose energy does not change. Below, the permanent \
+        "Above, the drift by the best m, of four schemes and of the exact flow, whose energy does not change. Below, \
+            the permanent \
          change.",
     );
 }
@@ -62,14 +63,19 @@ fn findings(finding: &mut Finding, changes: &[Curve], drifts: &[Vec<(f64, f64)>;
     let rates: Vec<_> = changes.iter().filter_map(|curve| Some(kepler::rate(&curve.points)?.c)).collect();
     let (slow, fast) = rates.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), c| (a.min(*c), b.max(*c)));
     finding.highlight(format!(
-        "The permanent change of the modified energy, between states whose estimates are accurate, is {least:.1} to {most:.1} decades below the \
-         paper's drift at the step sizes that both have. It falls like exp(−c/h) with c = {slow:.2} to {fast:.2} over h ≤ 1/10, near 2π ρ = {:.3}.",
+        "The permanent change of the modified energy, between states whose estimates are accurate, is {least:.1} to \
+            {most:.1} decades below the \
+         paper's drift at the step sizes that both have. It falls like exp(−c/h) with c = {slow:.2} to {fast:.2} over \
+         h ≤ 1/10, near 2π ρ = {:.3}.",
         2.0 * rho
     ));
     let at = |scheme: usize, n: usize| drifts[scheme][n].1;
     let all = drifts[0].len();
     let first = (0..all).filter(|&n| at(2, n).min(at(3, n)) > at(0, n).max(at(1, n))).count();
-    finding.found(format!("The drifts by the best m of S6 and SRKN6b are the two largest of the four schemes at {first} of {all} step sizes."));
+    finding.found(format!(
+        "The drifts by the best m of S6 and SRKN6b are the two largest of the four schemes at \
+        {first} of {all} step sizes."
+    ));
 }
 
 /// log₁₀ of the permanent change and of its largest jump, by E_24.
@@ -88,8 +94,10 @@ fn changes(results: &Results, steps: &[u32], x: impl Fn(f64, f64) -> f64) -> Vec
 
 fn draw(results: &Results) -> Finding {
     let mut finding = additional(
-        "The permanent change of the modified energy over [0, 100], Kepler, e = 0.6: max − min over the low-error states, which are near the \
-         apocentres; by E_24. It is the range of a sum of jumps, one per encounter. Each jump is a sinusoidal function of the position of the \
+        "The permanent change of the modified energy over [0, 100], Kepler, e = 0.6: max − min over the low-error \
+            states, which are near the \
+         apocentres; by E_24. It is the range of a sum of jumps, one per encounter. Each jump is a sinusoidal \
+         function of the position of the \
          encounter within a step, so the sum also depends on the start and on the ratio of the period to the step size.",
     );
     let all = [5, 6, 7, 8, 9, 10, 12, 14, 16, 18, 20, 23, 26, 30, 35, 40];
@@ -130,14 +138,16 @@ fn rank(finding: &mut Finding, equal_steps: &[Curve], equal_cost: &[Curve], cove
     finding.check(
         "At equal step sizes S6 and SRKN6b change least.",
         format!(
-            "at {least} of {} step sizes at which all changes are resolved; by at most {:.2} times the smaller change of the others",
+            "at {least} of {} step sizes at which all changes are resolved; by at most {:.2} times the smaller change \
+                of the others",
             others.len(),
             10_f64.powf(most)
         ),
         of_counts(least, others.len(), coverage),
     );
     finding.found(format!(
-        "Störmer–Verlet changes more than Yoshida 4 at {larger} of {count} step sizes: which of the two changes more depends on the phases of the encounters."
+        "Störmer–Verlet changes more than Yoshida 4 at {larger} of {count} step sizes: which of the two changes more \
+            depends on the phases of the encounters."
     ));
     let verlet = &equal_cost[0].points;
     let behind =

@@ -61,7 +61,9 @@ fn shown(ratio: f64) -> String {
 
 fn draw(results: &Results) -> Finding {
     let mut finding = additional(
-        "On the exact flow of Kepler's problem the error of an estimate is known. The paper uses |T_{m,m} − T_{m−1,m−1}| as its estimate. Here the estimate is the largest of the differences of the estimates at a few states on either side, of their last terms, and of the last digit.",
+        "On the exact flow of Kepler's problem the error of an estimate is known. The paper uses |T_{m,m} − \
+            T_{m−1,m−1}| as its estimate. Here the estimate is the largest of the differences of the estimates at a \
+            few states on either side, of their last terms, and of the last digit.",
     );
     for (label, estimator) in [&estimators()[2], &estimators()[4]] {
         along_an_orbit(results, &mut finding, label, estimator);

@@ -1,4 +1,5 @@
-//! Scattering at a hill that vanishes far away: there H is the modified energy, and its change is observed without an estimator.
+//! Scattering at a hill that vanishes far away: there H is the modified energy, and its change is observed without an
+//! estimator.
 
 use shadowstep::Real;
 use shadowstep::problems::Problem;
@@ -51,7 +52,8 @@ fn draw(results: &Results) -> Finding {
     let mut finding = Finding::on(&[
         "Benettin and Giorgilli's experiment: a potential that vanishes fast, a start far away. Where U vanishes the methods \
          conserve H itself, so |H(y₀) − H(y_T)| can be observed; it is of the order exp(−C/h).",
-        "Repeated with the authors' method, the experiment had zero error: a matter that warrants further investigation.",
+        "Repeated with the authors' method, the experiment had zero error: a matter that warrants further \
+            investigation.",
     ]);
     let steps = results.grid(&STEPS, &[2, 4, 6, 8, 12, 16]);
     let against = |y: &dyn Fn(u32) -> f64| -> Vec<(f64, f64)> { steps.iter().map(|&n| (f64::from(n), y(n))).collect() };
@@ -78,7 +80,8 @@ fn draw(results: &Results) -> Finding {
     finding.check(
         "The experiment has zero error.",
         format!(
-            "at h = 1/8 the change is up to {}; among 12 starts the smallest is {}: a start for which it vanishes would look \
+            "at h = 1/8 the change is up to {}; among 12 starts the smallest is {}: a start for which it vanishes \
+                would look \
              like zero error",
             power(largest(results, 8)),
             power(smallest)

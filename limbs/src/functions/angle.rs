@@ -1,4 +1,5 @@
-//! Inverse trigonometric functions: the angle of a point, of an `f64` near it and of the rest by the series of the arc tangent.
+//! Inverse trigonometric functions: the angle of a point, of an `f64` near it and of the rest by the series of the arc
+//! tangent.
 
 use super::constants::QUARTER_PI;
 use super::fraction::{fraction, number, square};

@@ -1,4 +1,5 @@
-//! Constants as fractions of limbs, the lowest first, rounded down; `tests/functions.rs` compares what follows from them with MPFR's.
+//! Constants as fractions of limbs, the lowest first, rounded down; `tests/functions.rs` compares what follows from
+//! them with MPFR's.
 
 /// π/4
 #[rustfmt::skip]

@@ -1,6 +1,7 @@
 //! The exponential function, and the hyperbolic ones.
 //!
-//! x = k log 2 + i/64 + d with |d| ≤ 1/128, and e^d = sinh d + √(1 + sinh² d): the series of the hyperbolic sine has half of the terms.
+//! x = k log 2 + i/64 + d with |d| ≤ 1/128, and e^d = sinh d + √(1 + sinh² d): the series of the hyperbolic sine has
+//! half of the terms.
 
 use super::constants::LOG_2;
 use super::fraction::{fraction, number, product, split, square};

@@ -2,10 +2,11 @@
 
 use super::tables::Coefficient;
 
-/// Σ ± u^n c\[n\] from n = 1 on, for 0 ≤ u < 2^-bits, to a few units of the last limb; all signs are +, or they alternate and begin with +.
+/// Σ ± u^n c\[n\] from n = 1 on, for 0 ≤ u < 2^-bits, to a few units of the last limb; all signs are +, or they
+/// alternate and begin with +.
 ///
-/// By Horner's rule: the sum from n on is multiplied by u^n, so its lowest n bits/64 limbs are left out, and so are its highest ones
-/// that are 0.  Its product with u has the limbs of the sum from n − 1 on.
+/// By Horner's rule: the sum from n on is multiplied by u^n, so its lowest n bits/64 limbs are left out, and so are its
+/// highest ones that are 0. Its product with u has the limbs of the sum from n − 1 on.
 #[inline(always)]
 pub(super) fn series<const W: usize>(u: &[u64; W], bits: usize, c: &[Coefficient], alternate: bool) -> [u64; W] {
     let bits = bits.min(64 * W);

@@ -1,6 +1,7 @@
 //! Sine, cosine and tangent.
 //!
-//! x = k π/2 + r with |r| ≤ π/4, however large x is: 2/π is multiplied with as many limbs as are needed (Payne and Hanek).  Then
+//! x = k π/2 + r with |r| ≤ π/4, however large x is: 2/π is multiplied with as many limbs as are needed (Payne and
+//! Hanek). Then
 //! |r| = i/64 + d with |d| ≤ 1/128, sin d by its series and cos d = √(1 − sin² d).
 
 use super::constants::{QUARTER_PI, TWO_OVER_PI};
@@ -75,7 +76,8 @@ fn cos_from<const W: usize>(sin: &[u64; W]) -> Option<[u64; W]> {
     Some(root_of_fraction(&m))
 }
 
-/// k modulo 4 and r = x − k π/2, |r| ≤ π/4, of x > 0: with the relative error of a number, however close x is to a multiple of π/2.
+/// k modulo 4 and r = x − k π/2, |r| ≤ π/4, of x > 0: with the relative error of a number, however close x is to a
+/// multiple of π/2.
 #[inline(always)]
 fn reduced<const W: usize>(x: &Limbs<W>) -> (u64, Limbs<W>) {
     if x.exponent < 0 {
@@ -91,7 +93,8 @@ fn reduced<const W: usize>(x: &Limbs<W>) -> (u64, Limbs<W>) {
     (quadrant, &part * &number(&top(&QUARTER_PI), 1))
 }
 
-/// The integer k nearest to 2 x/π, modulo 4, and 2 x/π − k from a number of limbs after the point, and how many of their leading bits are 0.
+/// The integer k nearest to 2 x/π, modulo 4, and 2 x/π − k from a number of limbs after the point, and how many of
+/// their leading bits are 0.
 #[inline(always)]
 fn quarters<const W: usize>(x: &Limbs<W>, limbs: usize) -> (u64, Limbs<W>, u32) {
     let (up, bits) = (x.exponent as usize / 64, x.exponent as u32 % 64);

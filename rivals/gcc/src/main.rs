@@ -1,6 +1,8 @@
-//! Steps in `f64` and `Fused` beside steps in C, in one process: ratios to C by gcc -O3, then to C by gcc -O3 -march=native.
+//! Steps in `f64` and `Fused` beside steps in C, in one process: ratios to C by gcc -O3, then to C by gcc -O3
+//! -march=native.
 //!
-//! `cargo run --release`, for any processor of the architecture; `RUSTFLAGS="-C target-cpu=native" cargo run --release`, for this one.
+//! `cargo run --release`, for any processor of the architecture;
+//! `RUSTFLAGS="-C target-cpu=native" cargo run --release`, for this one.
 
 #[path = "../../../runtime/benches/timing/mod.rs"]
 mod timing;
@@ -219,7 +221,8 @@ where
     P: Potential<f64> + Potential<Fused> + Copy + 'a,
 {
     let plain = setting.ours::<f64, _, _, _>(["f64, step", "f64, steps", "f64, merged"], of, potential, UnitMasses);
-    let fused = setting.ours::<Fused, _, _, _>(["Fused, step", "Fused, steps", "Fused, merged"], of, potential, UnitMasses);
+    let fused = setting.ours::<Fused, _, _, _>(["Fused, step", "Fused, steps", "Fused, \
+        merged"], of, potential, UnitMasses);
     plain.into_iter().chain(fused).collect()
 }
 

@@ -1,5 +1,6 @@
-//! The protocol of all contestants: a request is a line `PROBLEM METHOD PARAMETER SAMPLES UNTIL`, its answer a line with the
-//! seconds that the integration took and the state q, p after each of the samples, which are equally far apart in time.
+//! The protocol of all contestants: a request is a line `PROBLEM METHOD PARAMETER SAMPLES UNTIL`, its answer a line
+//! with the seconds that the integration took and the state q, p after each of the samples, which are equally far apart
+//! in time.
 
 use std::fmt::Write as _;
 use std::io::BufRead as _;

@@ -1,6 +1,7 @@
 //! Steps in `f64` as they are compiled in a crate of one's own, with Cargo's default release profile.
 //!
-//! `cargo run --release`, for any processor of the architecture; `RUSTFLAGS="-C target-cpu=native" cargo run --release`, for this one.
+//! `cargo run --release`, for any processor of the architecture;
+//! `RUSTFLAGS="-C target-cpu=native" cargo run --release`, for this one.
 
 #[path = "../../../runtime/benches/timing/mod.rs"]
 mod timing;
@@ -60,7 +61,8 @@ where
     ]
 }
 
-/// A function of its own, as a user has it: inlined into the timing it would be compiled differently for each contestant.
+/// A function of its own, as a user has it: inlined into the timing it would be compiled differently for each
+/// contestant.
 #[inline(never)]
 fn loop_of_steps<S, V, P, K>(stepper: &Stepper<S, f64>, motion: &mut Run<V, P, K>, count: u32)
 where

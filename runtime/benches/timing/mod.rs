@@ -1,4 +1,5 @@
-//! Medians over rounds in which all contestants take turns, and ratios within one round, of the CPU time of this thread.
+//! Medians over rounds in which all contestants take turns, and ratios within one round, of the CPU time of this
+//! thread.
 
 use std::time::Duration;
 

@@ -3,10 +3,11 @@
 /// How many numbers are in a [`Block`]: a vector of AVX-512, two of AVX2, four of SSE2.
 pub const BLOCK: usize = 8;
 
-/// [`BLOCK`] numbers side by side: of dual numbers all values, and beside them all derivatives of each direction, so that a loop over the numbers is one of
-/// vector operations.
+/// [`BLOCK`] numbers side by side: of dual numbers all values, and beside them all derivatives of each direction, so
+/// that a loop over the numbers is one of vector operations.
 ///
-/// *Columns* are a list in this form in the memory of as many numbers: of dual numbers all values, then all first derivatives, and so on.
+/// *Columns* are a list in this form in the memory of as many numbers: of dual numbers all values, then all first
+/// derivatives, and so on.
 pub trait Block<N>: Clone {
     /// The same number at all places.
     fn filled(x: &N) -> Self;

@@ -17,10 +17,11 @@ mod trigonometric;
 
 pub use machine::Machine;
 
-/// A number of about 32 digits: the sum of two machine numbers, of which the second is at most half a last place of the first.
+/// A number of about 32 digits: the sum of two machine numbers, of which the second is at most half a last place of the
+/// first.
 ///
-/// The machine number is `f64`, or lanes of it. The arithmetic is double-word arithmetic whose bounds are proved; with u = 2⁻⁵³, the
-/// relative errors are at most
+/// The machine number is `f64`, or lanes of it. The arithmetic is double-word arithmetic whose bounds are proved; with
+/// u = 2⁻⁵³, the relative errors are at most
 ///
 /// | operation | algorithm | bound | largest found |
 /// | --- | --- | --- | --- |
@@ -36,24 +37,26 @@ pub use machine::Machine;
 /// | atan; asin; acos | a step of Newton from an `f64` | 38u²; 25u²; 30u² | 4.11u²; 3.02u²; 3.95u² |
 /// | n-th root, n > 2 | a step of Halley from an `f64` | 12u² | 2.72u² |
 ///
-/// u² = 2⁻¹⁰⁶ = 1.2e-32. x + a b has an error of at most u² (|x + a b| + 2|x| + 9|a b|) (1 + 20u), of which two thirds were found: the
-/// product enters the sum without being rounded to a double word first. AccurateDWPlusDW's first two sums and its Fast2Sums stay exact for
+/// u² = 2⁻¹⁰⁶ = 1.2e-32. x + a b has an error of at most u² (|x + a b| + 2|x| + 9|a b|) (1 + 20u), of which two thirds
+/// were found: the product enters the sum without being rounded to a double word first. AccurateDWPlusDW's first two
+/// sums and its Fast2Sums stay exact for
 /// |low| ≤ 3.1u |high|, and what it neglects is u times its third sum and u times its fourth.
 ///
-/// Sources: M. Joldes, J.-M. Muller, V. Popescu, "Tight and rigorous error bounds for basic building blocks of double-word
-/// arithmetic", ACM Trans. Math. Softw. 44 (2017) 15; the bound of products from J.-M. Muller, L. Rideau, "Formalization of double-word
-/// arithmetic …", ibid. 48 (2022) 9; the root from V. Lefèvre, N. Louvet, J.-M. Muller, J. Picot, L. Rideau, "Accurate calculation of
-/// Euclidean norms using double-word arithmetic", ibid. 49 (2023) 1. The bounds of functions are sums of the bounds of their operations. All
-/// are tested against MPFR; the last column is from `cargo test --release --features mpfr -p shadowstep --lib double_double -- --ignored --nocapture`, 10⁷ random and
+/// Sources: M. Joldes, J.-M. Muller, V. Popescu, "Tight and rigorous error bounds for basic building blocks of
+/// double-word arithmetic", ACM Trans. Math. Softw. 44 (2017) 15; the bound of products from J.-M. Muller, L. Rideau,
+/// "Formalization of double-word arithmetic …", ibid. 48 (2022) 9; the root from V. Lefèvre, N. Louvet, J.-M. Muller,
+/// J. Picot, L. Rideau, "Accurate calculation of Euclidean norms using double-word arithmetic", ibid. 49 (2023) 1. The
+/// bounds of functions are sums of the bounds of their operations. All are tested against MPFR; the last column is from
+/// `cargo test --release --features mpfr -p shadowstep --lib double_double -- --ignored --nocapture`, 10⁷ random and
 /// adversarial cases.
 ///
-/// The bounds hold where neither the result nor a product of high parts, nor half of it, nor its last place underflows or overflows: for
-/// numbers and results between 2⁻⁹⁰⁰ and 2¹⁰²². Below, digits are lost; near 1.8e308 a result may be NaN. Beyond, it is infinite, as
-/// in `f64`.
+/// The bounds hold where neither the result nor a product of high parts, nor half of it, nor its last place underflows
+/// or overflows: for numbers and results between 2⁻⁹⁰⁰ and 2¹⁰²². Below, digits are lost; near 1.8e308 a result may be
+/// NaN. Beyond, it is infinite, as in `f64`.
 ///
-/// Errors of products are found by a fused multiply-add where the processor has it, else from halves of 26 bits (Dekker). Both are exact, so that
-/// the bits are the same on every machine, but where 2⁻⁹⁶⁹ is above the product. Among the functions, atan, asin, acos and roots of
-/// an order above 2 begin with the platform's `f64`.
+/// Errors of products are found by a fused multiply-add where the processor has it, else from halves of 26 bits
+/// (Dekker). Both are exact, so that the bits are the same on every machine, but where 2⁻⁹⁶⁹ is above the product.
+/// Among the functions, atan, asin, acos and roots of an order above 2 begin with the platform's `f64`.
 ///
 /// ```
 /// use shadowstep::number::{DoubleDouble, Number, Real};

@@ -15,12 +15,13 @@ use crate::Rational;
 
 /// A dual number x + Σ ẋ_k ε_k with ε_j ε_k = 0: a number x and its derivatives ẋ_1, …, ẋ_K along K directions.
 ///
-/// Every operation is that of `N` on the numbers, and its derivative on the derivatives. So a step of a splitting scheme, whatever the
-/// system, advances q and p with the bits that they have in `N`, and with them K tangent vectors by the derivative of the step: by the
-/// *tangent map*. See [`tangent`](crate::tangent).
+/// Every operation is that of `N` on the numbers, and its derivative on the derivatives. So a step of a splitting
+/// scheme, whatever the system, advances q and p with the bits that they have in `N`, and with them K tangent vectors
+/// by the derivative of the step: by the *tangent map*. See [`tangent`](crate::tangent).
 ///
-/// A derivative is rounded as `N` is, so that it is as exact as the condition of the formula allows. Where a function has no
-/// derivative, as √x at 0, derivatives are infinite or NaN. |x|, the larger and the smaller of two numbers have the derivative of the branch that is taken.
+/// A derivative is rounded as `N` is, so that it is as exact as the condition of the formula allows. Where a function
+/// has no derivative, as √x at 0, derivatives are infinite or NaN. |x|, the larger and the smaller of two numbers have
+/// the derivative of the branch that is taken.
 ///
 /// Comparisons and texts are those of x.
 ///
@@ -34,8 +35,8 @@ use crate::Rational;
 /// assert_eq!((y.value, y.derivatives), (8.0, [12.0])); // x³ and 3x²
 /// ```
 ///
-/// W. K. Clifford, *Preliminary sketch of biquaternions*, Proc. London Math. Soc. 4 (1873) 381; as a way to derivatives R. E. Wengert, *A simple
-/// automatic derivative evaluation program*, Comm. ACM 7 (1964) 463.
+/// W. K. Clifford, *Preliminary sketch of biquaternions*, Proc. London Math. Soc. 4 (1873) 381; as a way to derivatives
+/// R. E. Wengert, *A simple automatic derivative evaluation program*, Comm. ACM 7 (1964) 463.
 #[derive(Clone, Copy, Debug)]
 #[repr(C)]
 pub struct Dual<N, const K: usize = 1> {

@@ -3,7 +3,8 @@
 use crate::Rational;
 use crate::number::Number;
 
-/// The distance from 1 to the next number, |3 (4/3 − 1) − 1|: of 4/3 = 1.0101…₂ a third of the last place is rounded away, and nothing after that.
+/// The distance from 1 to the next number, |3 (4/3 − 1) − 1|: of 4/3 = 1.0101…₂ a third of the last place is rounded
+/// away, and nothing after that.
 pub(crate) fn epsilon<N: Number>(context: &N::Context) -> N {
     let rational = |above: u32, below: u32| N::from_rational(&Rational::new(above.into(), below.into()), context);
     let (mut epsilon, one) = (rational(4, 3), rational(1, 1));

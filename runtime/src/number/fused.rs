@@ -8,13 +8,15 @@ use super::{BLOCK, Number, Real};
 use crate::Rational;
 use crate::number::instructions;
 
-/// An `f64` whose sums with a product, such as [`add_product`](Number::add_product), round once, as [`f64::mul_add`] does.
+/// An `f64` whose sums with a product, such as [`add_product`](Number::add_product), round once, as [`f64::mul_add`]
+/// does.
 ///
 /// Results have other bits than in `f64`, the same on all machines apart from elementary functions.
 ///
-/// The instruction of the processor is used by [`Stepper::steps`](crate::Stepper::steps), wherever the program runs, and by all loops in a program
-/// that is built for such a processor (`-C target-cpu=native`) or for ARM64. Elsewhere, as in a loop of
-/// [`Stepper::step`](crate::Stepper::step), each product is a call of a function: the results are the same, but it is slower than `f64`.
+/// The instruction of the processor is used by [`Stepper::steps`](crate::Stepper::steps), wherever the program runs,
+/// and by all loops in a program that is built for such a processor (`-C target-cpu=native`) or for ARM64. Elsewhere,
+/// as in a loop of [`Stepper::step`](crate::Stepper::step), each product is a call of a function: the results are the
+/// same, but it is slower than `f64`.
 ///
 /// ```
 /// use shadowstep::number::Fused;

@@ -1,8 +1,9 @@
 //! Vector instructions, chosen at run time: one program for all processors of an architecture.
 //!
-//! The compiler makes vector operations of loops over [lanes](crate::number::Lanes), for the processors that the program is built for: on
-//! x86-64 those with SSE2. Here a whole loop is compiled three times, and the widest version that the processor can execute is called.
-//! Results have the same bits in all of them: operations are rounded as they are written, as Rust never contracts a b + c.
+//! The compiler makes vector operations of loops over [lanes](crate::number::Lanes), for the processors that the
+//! program is built for: on x86-64 those with SSE2. Here a whole loop is compiled three times, and the widest version
+//! that the processor can execute is called. Results have the same bits in all of them: operations are rounded as they
+//! are written, as Rust never contracts a b + c.
 //!
 //! ```
 //! use shadowstep::number::instructions::{self, Instructions};
@@ -21,8 +22,9 @@
 //! }
 //! ```
 //!
-//! What is not inlined into the loop is compiled for the processors that the program is built for, and is slower there. So functions on the way
-//! are `#[inline(always)]`: in this crate and from [`potential!`](crate::potential!) they are; in a custom potential they should be.
+//! What is not inlined into the loop is compiled for the processors that the program is built for, and is slower there.
+//! So functions on the way are `#[inline(always)]`: in this crate and from [`potential!`](crate::potential!) they are;
+//! in a custom potential they should be.
 
 use std::cell::Cell;
 
@@ -40,7 +42,8 @@ pub enum Instructions {
 }
 
 thread_local! {
-    /// What [`widest`] means in this thread, once it is known: the widest available, or what [`Instructions::only`] allows.
+    /// What [`widest`] means in this thread, once it is known: the widest available, or what [`Instructions::only`]
+    /// allows.
     static CHOSEN: Cell<Option<Instructions>> = const { Cell::new(None) };
 }
 
@@ -114,13 +117,15 @@ pub fn widest<R>(work: impl FnOnce() -> R) -> R {
 /// From this number of turns on the choice of instructions costs less than it gains.
 const LONG: usize = 64;
 
-/// [`widest`] for a long loop of `turns` turns, with numbers several of which fit into a vector; else the work as it is.
+/// [`widest`] for a long loop of `turns` turns, with numbers several of which fit into a vector; else the work as it
+/// is.
 #[inline(always)]
 pub(crate) fn widest_if_long<R>(in_vectors: bool, turns: usize, work: impl FnOnce() -> R) -> R {
     if in_vectors && turns >= LONG { widest(work) } else { work() }
 }
 
-/// [`Number::in_widest_instructions`] for energies and β. Tangent maps compute neither: of dual numbers in lanes they are compiled once only.
+/// [`Number::in_widest_instructions`] for energies and β. Tangent maps compute neither: of dual numbers in lanes they
+/// are compiled once only.
 #[inline(always)]
 pub(crate) fn widest_for_energies<N: Number, R>(work: impl FnOnce() -> R) -> R {
     if N::HAS_DERIVATIVES && N::LANES > 1 { work() } else { N::in_widest_instructions(work) }

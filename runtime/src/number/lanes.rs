@@ -10,14 +10,15 @@ use std::ops::{Deref, DerefMut};
 
 /// W numbers of a kind, `f64`, on which every operation works at once: W trajectories of one system, one a lane.
 ///
-/// Steps, potentials, kinetic energies, sums and the estimators of a fixed order work on lanes as on any [`Number`]. The
-/// compiler makes vector operations of them, the widest that a function may use.
+/// Steps, potentials, kinetic energies, sums and the estimators of a fixed order work on lanes as on any [`Number`].
+/// The compiler makes vector operations of them, the widest that a function may use.
 ///
-/// **Bits.** A lane has the bits that `f64` has in its place, for arithmetic and roots and for tan, sinh, cosh, tanh, arctan, arcsin and arccos, which are the
-/// platform's. exp, log, sin and cos are functions of vectors of this crate: they have the same bits on every processor, but not always the bits of
-/// the platform's functions, which `f64` has. Their errors are below 0.9 units in the last place, and below 1.01 where exp is
-/// subnormal; beyond |x| = 1 647 099, which is 2²⁰·π/2, sin and cos are the platform's. A number does not depend on the numbers in other lanes, nor
-/// on the instructions.
+/// **Bits.** A lane has the bits that `f64` has in its place, for arithmetic and roots and for tan, sinh, cosh, tanh,
+/// arctan, arcsin and arccos, which are the platform's. exp, log, sin and cos are functions of vectors of this crate:
+/// they have the same bits on every processor, but not always the bits of the platform's functions, which `f64` has.
+/// Their errors are below 0.9 units in the last place, and below 1.01 where exp is subnormal; beyond |x| = 1 647 099,
+/// which is 2²⁰·π/2, sin and cos are the platform's. A number does not depend on the numbers in other lanes, nor on the
+/// instructions.
 ///
 /// Lanes are aligned to 64 bytes, so that four lanes take the memory of eight.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -8,7 +8,8 @@ pub struct LimbAccess<N> {
     pub limbs: fn(&N) -> usize,
     /// The number in parts.
     pub parts: fn(&N) -> Parts<'_>,
-    /// x ← the number nearest to Σ magnitude\[i\] 2^(64 i + exponent), or to its opposite: `assign(x, negative, magnitude, exponent)`.
+    /// x ← the number nearest to Σ magnitude\[i\] 2^(64 i + exponent), or to its opposite:
+    /// `assign(x, negative, magnitude, exponent)`.
     pub assign: fn(&mut N, bool, &[u64], i64),
     /// x ← NaN
     pub assign_nan: fn(&mut N),

@@ -1,7 +1,8 @@
-//! Numbers of limbs as a [`Number`]: [`Limbs`], whose number of limbs is part of the type, and [`AnyLimbs`], for which it is chosen at run
-//! time.
+//! Numbers of limbs as a [`Number`]: [`Limbs`], whose number of limbs is part of the type, and [`AnyLimbs`], for which
+//! it is chosen at run time.
 //!
-//! All functions are `inline`, so that only the crates that use these numbers compile them: most programs compute in `f64`.
+//! All functions are `inline`, so that only the crates that use these numbers compile them: most programs compute in
+//! `f64`.
 
 use super::{BLOCK, LimbAccess, Number, Parts, Real};
 use crate::Rational;
@@ -11,7 +12,8 @@ use std::f64::consts::LOG10_2;
 
 /// How a number of limbs is made.
 trait Nearest: Number {
-    /// The number nearest to ± Σ magnitude\[i\] 2^(64 i + exponent), where `more` stands for some part of a unit of that sum.
+    /// The number nearest to ± Σ magnitude\[i\] 2^(64 i + exponent), where `more` stands for some part of a unit of
+    /// that sum.
     fn nearest(negative: bool, magnitude: &[u64], exponent: i64, more: bool, context: &Self::Context) -> Self;
 
     /// The same number as an `f64`.
@@ -42,8 +44,8 @@ impl Nearest for AnyLimbs {
 
 /// Implements [`Number`] and [`Real`], with what is different for a type.
 ///
-/// Sums, products, quotients, square roots and their reciprocals are correctly rounded, a b + c with two roundings, and elementary
-/// functions err by little more than half an ulp.
+/// Sums, products, quotients, square roots and their reciprocals are correctly rounded, a b + c with two roundings, and
+/// elementary functions err by little more than half an ulp.
 macro_rules! number_of_limbs {
     ([$($L:tt)*] $Limbs:ty { $($own:item)* }) => {
         impl<$($L)*> Number for $Limbs {

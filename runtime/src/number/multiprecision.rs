@@ -10,7 +10,8 @@ use rug::integer::Order;
 use rug::{Assign, Float, Integer};
 use std::f64::consts::LOG10_2;
 
-/// Whether a number has a sine here, as those of limbs: the time and the memory of one grow with the exponent, which has 62 bits.
+/// Whether a number has a sine here, as those of limbs: the time and the memory of one grow with the exponent, which
+/// has 62 bits.
 fn has_sine(a: &Float) -> bool {
     a.get_exp().is_none_or(|exponent| exponent <= 1 << 16)
 }

@@ -5,10 +5,12 @@ use std::mem::needs_drop;
 use crate::number::Number;
 use crate::number::instructions;
 
-/// In how many partial sums the coordinates of a long state are added up, which do not wait for one another: as many on all machines.
+/// In how many partial sums the coordinates of a long state are added up, which do not wait for one another: as many on
+/// all machines.
 const LANES: usize = 8;
 
-/// For this number of coordinates and more, [`add_sum`] adds numbers that [keep increments](Number::KEEPS_INCREMENTS) in partial sums.
+/// For this number of coordinates and more, [`add_sum`] adds numbers that [keep increments](Number::KEEPS_INCREMENTS)
+/// in partial sums.
 pub(crate) const LONG: usize = 64;
 
 /// sum ← sum + what `add` adds for each coordinate, which gets the coordinate of each of these vectors.

@@ -1,7 +1,7 @@
 //! Saving what follows a run, and going on from it with the same bits.
 //!
-//! What changes along a run is gone through in one order, number by number, by one method for both ways: it writes the numbers, or replaces those of
-//! something that was begun anew with the same settings.
+//! What changes along a run is gone through in one order, number by number, by one method for both ways: it writes the
+//! numbers, or replaces those of something that was begun anew with the same settings.
 
 /// Writes the numbers that it is given, or replaces them.
 pub trait Fields<N> {

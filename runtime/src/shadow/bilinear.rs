@@ -23,10 +23,11 @@ use crate::systems::increments::Increments;
 /// vectors and some k²/2 of numbers; therefore a k above [`LARGEST_K`](Self::LARGEST_K) is refused.
 ///
 /// **Its error** is estimated by the larger of two: the range, max − min over the 1 + ⌈√k⌉ windows on either side (the
-/// modified energy is constant, so what changes from window to window is the estimator's error, or round-off), and the largest
-/// of their last terms |E_k − E_{k−1}|, the mean of E_{k−1} over the two windows within. The range alone does not detect an error that
-/// is the same everywhere, as on a circular orbit; the difference alone has zeros. That needs 1 + ⌈√k⌉ states more on each side;
-/// see [Errors](crate::shadow#errors). For k = 1 there is no E_{k−1}, and no estimate.
+/// modified energy is constant, so what changes from window to window is the estimator's error, or round-off), and the
+/// largest of their last terms |E_k − E_{k−1}|, the mean of E_{k−1} over the two windows within. The range alone does
+/// not detect an error that is the same everywhere, as on a circular orbit; the difference alone has zeros. That needs
+/// 1 + ⌈√k⌉ states more on each side; see [Errors](crate::shadow#errors). For k = 1 there is no E_{k−1}, and no
+/// estimate.
 ///
 /// ```
 /// use shadowstep::{Motion, Stepper, UnitMasses, problems::Kepler, shadow::run::energy_drift, shadow::Bilinear, tables::shipped};
@@ -38,14 +39,15 @@ use crate::systems::increments::Increments;
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 ///
-/// **The best k of each state** is taken from the ladder 2, 4, 8, …, up to the largest even one allowed: the smallest k whose
-/// estimated error is at most the target error. Where there is none, or no target error is set, it is the smallest k whose estimated
-/// error is at most twice the least of all: where more states would only add round-off, or where a close encounter sets a limit, k
-/// stays small. [`Estimate::order`] is the k used.
+/// **The best k of each state** is taken from the ladder 2, 4, 8, …, up to the largest even one allowed: the smallest k
+/// whose estimated error is at most the target error. Where there is none, or no target error is set, it is the
+/// smallest k whose estimated error is at most twice the least of all: where more states would only add round-off, or
+/// where a close encounter sets a limit, k stays small. [`Estimate::order`] is the k used.
 ///
-/// All k of the ladder are computed at every state, whatever the target error, as an error is known only with the estimates of
-/// neighbouring windows: K products of vectors and some ⅔K² of numbers a state, K the largest k; and K/2 + 1 + ⌈√K⌉ states on each
-/// side. What a longer ladder gains: the largest error of an orbit of the exact flow of Kepler's problem, at 120 digits,
+/// All k of the ladder are computed at every state, whatever the target error, as an error is known only with the
+/// estimates of neighbouring windows: K products of vectors and some ⅔K² of numbers a state, K the largest k; and K/2 +
+/// 1 + ⌈√K⌉ states on each side. What a longer ladder gains: the largest error of an orbit of the exact flow of
+/// Kepler's problem, at 120 digits,
 ///
 /// | K | e = 0.3, h = 1/20 | e = 0.6, h = 1/10 | 1/20 | 1/40 | e = 0.9, h = 1/40 |
 /// | --- | --- | --- | --- | --- | --- |
@@ -103,12 +105,14 @@ impl Bilinear {
         Bilinear::Fixed { k, with_error: true }
     }
 
-    /// The best k of each state, of 2, 4, 8, 16, … and `largest`: as accurate as the step size, these k and the precision allow.
+    /// The best k of each state, of 2, 4, 8, 16, … and `largest`: as accurate as the step size, these k and the
+    /// precision allow.
     pub fn best(largest: u32) -> Self {
         Bilinear::Best { largest, accuracy: None }
     }
 
-    /// For each state the least k of 2, 4, 8, 16, … and `largest` that meets a target error; the best of them where none does.
+    /// For each state the least k of 2, 4, 8, 16, … and `largest` that meets a target error; the best of them where
+    /// none does.
     pub fn best_to(largest: u32, accuracy: Rational) -> Self {
         Bilinear::Best { largest, accuracy: Some(accuracy) }
     }
@@ -245,7 +249,8 @@ impl<N: Real> BilinearEstimator<N> {
     }
 }
 
-/// E_k at one k. Nothing is compared, so that it works also on numbers without an order, such as [lanes](crate::number::Lanes).
+/// E_k at one k. Nothing is compared, so that it works also on numbers without an order, such as
+/// [lanes](crate::number::Lanes).
 ///
 /// ```
 /// use shadowstep::number::Lanes;

@@ -17,9 +17,9 @@ use crate::systems::increments::Increments;
 
 /// Central differences (Moan & Niesen): T_{m,m} = ½(−qᵀD_m p + pᵀD_m q − D_m β).
 ///
-/// **Its error** is estimated by the larger of two: the range, max − min of the values at the state and at three states on either
-/// side, and the largest of their last terms |T_{m,m} − T_{m−1,m−1}|. That needs three states more on each side; see
-/// [Errors](crate::shadow#errors). For m = 1 there is no term before the last, and no estimate.
+/// **Its error** is estimated by the larger of two: the range, max − min of the values at the state and at three states
+/// on either side, and the largest of their last terms |T_{m,m} − T_{m−1,m−1}|. That needs three states more on each
+/// side; see [Errors](crate::shadow#errors). For m = 1 there is no term before the last, and no estimate.
 ///
 /// ```
 /// use shadowstep::{Motion, Stepper, UnitMasses, problems::Kepler, shadow::run::ShadowRun, tables::shipped};
@@ -59,9 +59,9 @@ pub enum Central {
 
 /// The number of values on either side from which the error is estimated.
 ///
-/// Near a close encounter errors alternate in sign, so that a few are enough. On the orbits of the table in `shadow`, at 150 digits,
-/// the largest true error/estimate of the best m ≤ 20 by the least term is 4.0 with one, 1.0 with two and 0.98 with three. With five it
-/// is not less, and the estimates of most states are three times as large.
+/// Near a close encounter errors alternate in sign, so that a few are enough. On the orbits of the table in `shadow`,
+/// at 150 digits, the largest true error/estimate of the best m ≤ 20 by the least term is 4.0 with one, 1.0 with two
+/// and 0.98 with three. With five it is not less, and the estimates of most states are three times as large.
 const AROUND: usize = 3;
 
 impl Central {
@@ -75,8 +75,8 @@ impl Central {
         Central::Fixed { m, with_error: true }
     }
 
-    /// The paper's best: at each state the m of 2..=`largest` with the smallest |T_{m,m} − T_{m−1,m−1}|, the first of equal ones; no
-    /// estimate of the error.
+    /// The paper's best: at each state the m of 2..=`largest` with the smallest |T_{m,m} − T_{m−1,m−1}|, the first of
+    /// equal ones; no estimate of the error.
     pub fn best(largest: u32, stop: StoppingRule) -> Self {
         Central::Best { largest, stop, rule: SelectionRule::Least, with_error: false }
     }
@@ -194,7 +194,8 @@ impl<N: Real> Estimator<N> for CentralEstimator<N> {
     }
 }
 
-/// D_m at one m. Nothing is compared, so that it works also on numbers without an order, such as [lanes](crate::number::Lanes).
+/// D_m at one m. Nothing is compared, so that it works also on numbers without an order, such as
+/// [lanes](crate::number::Lanes).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct FixedCentral {
     m: u32,

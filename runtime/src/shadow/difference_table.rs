@@ -21,8 +21,8 @@ impl<N: Number> DifferenceTable<N> {
         DifferenceTable { newest: levels.clone(), before: levels, mean: zeros, pushed: 0 }
     }
 
-    /// ∇^0, ∇^1, … of the next state, as far as there are states before it. The increments are first differences, of q and p too
-    /// where they are known.
+    /// ∇^0, ∇^1, … of the next state, as far as there are states before it. The increments are first differences, of q
+    /// and p too where they are known.
     pub(super) fn push(&mut self, q: &[N], p: &[N], increments: Increments<'_, N>) {
         std::mem::swap(&mut self.newest, &mut self.before);
         for (entry, value) in self.newest[0].iter_mut().zip(q.iter().chain(p)) {

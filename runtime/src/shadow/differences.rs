@@ -2,8 +2,8 @@
 //!
 //! T_{m,m} is the sum of the first m terms of Stirling's series, and term k needs ∇^{2k−1} of (q, p, β) at the states
 //! n + k and n + k − 1 only. The table of backward differences of the newest state is updated with 2M vector
-//! subtractions a step; with the table of the state before, it completes one term of each of M states whose search for the best m
-//! has not ended before.
+//! subtractions a step; with the table of the state before, it completes one term of each of M states whose search for
+//! the best m has not ended before.
 
 use crate::Rational;
 use crate::number::Real;
@@ -24,28 +24,31 @@ pub enum StoppingRule {
     Early,
     /// As [`Early`](StoppingRule::Early), but with ≤ as Moan & Niesen, section 5.2, print it.
     ///
-    /// That also stops where the oldest of the twelve terms is not the largest, thus at the first ripple. The paper states that
-    /// the result can hardly be distinguished from the full search. That is true of < only: for Störmer–Verlet on the pendulum,
-    /// h = 1/10, 120 digits, the drift over [0, 100] is 1.6e-25 by the full search, 2.8e-25 with < and 7.3e-17 with ≤; on
-    /// Kepler, e = 0.6, h = 1/20, it is 1.0e-7, 1.2e-7 and 2.8e-6.
+    /// That also stops where the oldest of the twelve terms is not the largest, thus at the first ripple. The paper
+    /// states that the result can hardly be distinguished from the full search. That is true of < only: for
+    /// Störmer–Verlet on the pendulum, h = 1/10, 120 digits, the drift over [0, 100] is 1.6e-25 by the full search,
+    /// 2.8e-25 with < and 7.3e-17 with ≤; on Kepler, e = 0.6, h = 1/20, it is 1.0e-7, 1.2e-7 and 2.8e-6.
     Printed,
 }
 
 /// The number of successive terms in the early stopping rule.
 const STOP_WINDOW: usize = 11;
 
-/// The rule that selects the best m, by the sizes e_j = |T_{j,j} − T_{j−1,j−1}| of the terms. Among equal ones it is the first.
+/// The rule that selects the best m, by the sizes e_j = |T_{j,j} − T_{j−1,j−1}| of the terms. Among equal ones it is
+/// the first.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SelectionRule {
-    /// The smallest e_m (Moan & Niesen), which reproduces their results. A term may be small by chance, far from the m where the
-    /// series is most accurate.
+    /// The smallest e_m (Moan & Niesen), which reproduces their results. A term may be small by chance, far from the m
+    /// where the series is most accurate.
     Least,
-    /// Minimises the maximum of the ten neighbouring terms e_{m−5}, …, e_{m+4}, as far as they are among those computed.
+    /// Minimises the maximum of the ten neighbouring terms e_{m−5}, …, e_{m+4}, as far as they are among those
+    /// computed.
     ///
-    /// On the exact flow of Kepler's problem, whose energy is known, e = 0.3, 0.6 and 0.9, h = 1/10, 3/31, 2/21, 1/20 and 1/40,
-    /// m ≤ 100, the largest error of an orbit is on none of the 15 more than by the other rule; it is less by a factor of 1.6 in
-    /// the mean, 6.4 at most. From state to state errors are smaller as often as larger. With the terms e_{m−9}, …, e_m the largest
-    /// error is the same and the others three times as large in the mean; with e_m, …, e_{m+9} twice.
+    /// On the exact flow of Kepler's problem, whose energy is known, e = 0.3, 0.6 and 0.9, h = 1/10, 3/31, 2/21, 1/20
+    /// and 1/40, m ≤ 100, the largest error of an orbit is on none of the 15 more than by the other rule; it is less by
+    /// a factor of 1.6 in the mean, 6.4 at most. From state to state errors are smaller as often as larger. With the
+    /// terms e_{m−9}, …, e_m the largest error is the same and the others three times as large in the mean; with e_m,
+    /// …, e_{m+9} twice.
     Robust,
 }
 
@@ -135,8 +138,8 @@ impl<N: Real> AllOrders<N> {
         newest
     }
 
-    /// Term k of the state n is complete when n + k has come, and is computed if the search has not ended before it. States with
-    /// fewer than M before them get no value.
+    /// Term k of the state n is complete when n + k has come, and is computed if the search has not ended before it.
+    /// States with fewer than M before them get no value.
     fn add_terms(&mut self, newest: usize) {
         let size = self.ring.len();
         let newest_with_value = (self.pushed - 1).saturating_sub(self.largest);

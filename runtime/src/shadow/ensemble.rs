@@ -1,4 +1,5 @@
-//! Ensembles: many trajectories of systems that differ in their initial states and parameters, in lanes and on all cores.
+//! Ensembles: many trajectories of systems that differ in their initial states and parameters, in lanes and on all
+//! cores.
 //!
 //! ```
 //! use shadowstep::shadow::ensemble::Ensemble;
@@ -48,8 +49,8 @@ pub use seen::Outcome;
 
 /// What is computed of each of a number of trajectories.
 ///
-/// A trajectory has the bits that it has alone: they depend neither on the other trajectories, nor on the number of lanes and threads, nor on
-/// the processor's vector instructions. (Elementary functions are taken from [`Lanes`].)
+/// A trajectory has the bits that it has alone: they depend neither on the other trajectories, nor on the number of
+/// lanes and threads, nor on the processor's vector instructions. (Elementary functions are taken from [`Lanes`].)
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Ensemble {
     /// How many trajectories there are.
@@ -58,11 +59,12 @@ pub struct Ensemble {
     pub steps: u64,
     /// The energy is looked at every `every` steps, at the beginning and at the end; at least 1.
     pub every: u64,
-    /// The k of [E_k](FixedBilinear), where the drift of the modified energy is computed: from the k + 1 states that begin with each state
-    /// whose energy is computed.
+    /// The k of [E_k](FixedBilinear), where the drift of the modified energy is computed: from the k + 1 states that
+    /// begin with each state whose energy is computed.
     pub modified_energy: Option<u32>,
-    /// Whether, between states whose energy is computed, the last map of a step and the first of the next are made as one: faster, with the
-    /// bits of [`Stepper::merged_steps`] in stretches of 128 steps at most. By default they are not.
+    /// Whether, between states whose energy is computed, the last map of a step and the first of the next are made as
+    /// one: faster, with the bits of [`Stepper::merged_steps`] in stretches of 128 steps at most. By default they are
+    /// not.
     pub merged: bool,
     /// Threads; `None` means as many as the processor has.
     pub threads: Option<NonZero<usize>>,
@@ -121,8 +123,8 @@ pub enum EnsembleError<E> {
     EveryZero,
 }
 
-/// How many trajectories take turns in a thread: several systems of lanes, so that one need not wait for another, which together fit into the
-/// nearest cache.
+/// How many trajectories take turns in a thread: several systems of lanes, so that one need not wait for another, which
+/// together fit into the nearest cache.
 const AT_ONCE: usize = 64;
 
 impl Ensemble {
@@ -145,7 +147,8 @@ impl Ensemble {
         self.run_while(stepper, system, || true)
     }
 
-    /// The same, and `continues` is asked every few milliseconds in each thread: where it returns false, the computation ends.
+    /// The same, and `continues` is asked every few milliseconds in each thread: where it returns false, the
+    /// computation ends.
     ///
     /// # Errors
     /// As [`run`](Ensemble::run); [`EnsembleError::Stopped`].

@@ -1,8 +1,9 @@
 //! The estimated error of an estimate, from the neighbouring estimates.
 //!
-//! The modified energy is constant along a trajectory, so what changes from one estimate to the next is the estimator's error, or
-//! round-off. What is the same in all of them, as on a circular orbit, only the last term of the series shows. Neither is enough:
-//! the spread vanishes on a circle, and the last term is far too small where the differences alias, near a close encounter.
+//! The modified energy is constant along a trajectory, so what changes from one estimate to the next is the estimator's
+//! error, or round-off. What is the same in all of them, as on a circular orbit, only the last term of the series
+//! shows. Neither is enough: the spread vanishes on a circle, and the last term is far too small where the differences
+//! alias, near a close encounter.
 
 use std::collections::VecDeque;
 use std::mem::take;
@@ -10,8 +11,9 @@ use std::mem::take;
 use crate::number::saved::{Fields, list};
 use crate::number::{Number, epsilon};
 
-/// The newest 2·`around` + 1 values of an estimator. The one in the middle has an error: the largest of max − min of them all, of
-/// their last terms, and of the last place of the value, as on a circle all values may agree by chance in all their digits.
+/// The newest 2·`around` + 1 values of an estimator. The one in the middle has an error: the largest of max − min of
+/// them all, of their last terms, and of the last place of the value, as on a circle all values may agree by chance in
+/// all their digits.
 #[derive(Clone, Debug)]
 pub(super) struct ErrorEstimate<N> {
     around: usize,
@@ -121,9 +123,9 @@ impl<N: Number> ErrorEstimate<N> {
 
 /// From how many values on either side the error of E_k is estimated.
 ///
-/// The error is a bump of a few steps' width that grows like √k. With three, the largest true error/estimate on the orbits of
-/// the tests grows from 1.0 for k ≤ 8 to 2.9 for k = 96; with ⌈k/2⌉ it is 1.0, and estimates are many decades too large where the error
-/// changes fast; with this it is 1.01.
+/// The error is a bump of a few steps' width that grows like √k. With three, the largest true error/estimate on the
+/// orbits of the tests grows from 1.0 for k ≤ 8 to 2.9 for k = 96; with ⌈k/2⌉ it is 1.0, and estimates are many decades
+/// too large where the error changes fast; with this it is 1.01.
 pub(super) fn around(k: u32) -> usize {
     let root = k.isqrt();
     1 + root as usize + usize::from(root * root < k)

@@ -62,21 +62,22 @@ impl EstimatorError {
 
 /// Computes modified energies from the states of a trajectory.
 ///
-/// States come in the order of time, each with what the step that led to it added to q, p and β. Once `states` of them have
-/// come, every one completes an estimate: of the middle of the newest `states`, which is a state if they are odd in number,
-/// and else half a step after one.
+/// States come in the order of time, each with what the step that led to it added to q, p and β. Once `states` of them
+/// have come, every one completes an estimate: of the middle of the newest `states`, which is a state if they are odd
+/// in number, and else half a step after one.
 pub trait Estimator<N: Number> {
     /// How many states an estimate needs: at least 2.
     fn states(&self) -> usize;
 
     /// Takes the next state; gives the estimate that it completes.
     ///
-    /// All states come with increments of q and p, or none of them does; the latter are subtracted from one another. A state that
-    /// comes without them after one with them starts a new sequence: estimates that need states from before it are not valid.
+    /// All states come with increments of q and p, or none of them does; the latter are subtracted from one another. A
+    /// state that comes without them after one with them starts a new sequence: estimates that need states from before
+    /// it are not valid.
     fn push(&mut self, q: &[N], p: &[N], increments: Increments<'_, N>) -> Option<Estimate<'_, N>>;
 
-    /// As [`push`](Estimator::push), for all states of a trajectory, where q and p of the estimates are not used: they may be empty, so that no state needs to be
-    /// kept for them.
+    /// As [`push`](Estimator::push), for all states of a trajectory, where q and p of the estimates are not used: they
+    /// may be empty, so that no state needs to be kept for them.
     #[inline(always)]
     fn push_for_value(&mut self, q: &[N], p: &[N], increments: Increments<'_, N>) -> Option<Estimate<'_, N>> {
         self.push(q, p, increments)
@@ -102,11 +103,11 @@ impl<N: Number, E: Estimator<N> + ?Sized> Estimator<N> for Box<E> {
 pub struct Estimate<'a, N> {
     /// The modified energy.
     pub value: &'a N,
-    /// Size of the last term, |T_{m,m} − T_{m−1,m−1}| or |E_k − E_{k−1}|, where it is known: by this the best m is selected. It is
-    /// not an estimate of the error, which can be larger by many orders of magnitude.
+    /// Size of the last term, |T_{m,m} − T_{m−1,m−1}| or |E_k − E_{k−1}|, where it is known: by this the best m is
+    /// selected. It is not an estimate of the error, which can be larger by many orders of magnitude.
     pub last_term: Option<&'a N>,
-    /// An estimate of the error, see [Errors](crate::shadow#errors); `None` where it is not computed, and where none is reliable:
-    /// for m = 1 and k = 1.
+    /// An estimate of the error, see [Errors](crate::shadow#errors); `None` where it is not computed, and where none is
+    /// reliable: for m = 1 and k = 1.
     pub error: Option<&'a N>,
     /// The m of D_m, the k of the bilinear estimator.
     pub order: u32,
@@ -114,7 +115,8 @@ pub struct Estimate<'a, N> {
     pub q: &'a [N],
     /// Momenta of that state.
     pub p: &'a [N],
-    /// Positions and momenta of particles of mass 0 in it, which follow these and have no part in the estimate: of a [`ShadowRun`](crate::shadow::run::ShadowRun).
+    /// Positions and momenta of particles of mass 0 in it, which follow these and have no part in the estimate: of a
+    /// [`ShadowRun`](crate::shadow::run::ShadowRun).
     pub particles: (&'a [N], &'a [N]),
 }
 

@@ -1,7 +1,7 @@
 //! States of the exact flow, whose energy is known: on them the variation of an estimate is the error of the estimator.
 //!
-//! A scheme's trajectory lies on the flow of a modified Hamiltonian H̄ that is not known. The states at t = n h of the exact
-//! flow of H, with β' = qᵀU_q − 2U, are a trajectory with H̄ = H.
+//! A scheme's trajectory lies on the flow of a modified Hamiltonian H̄ that is not known. The states at t = n h of the
+//! exact flow of H, with β' = qᵀU_q − 2U, are a trajectory with H̄ = H.
 //!
 //! ```
 //! use shadowstep::number::{Limbs, Real};
@@ -16,8 +16,8 @@
 //! ```
 //!
 //! States are computed with 20 digits more than the run has and as many as its length and its initial state
-//! require in addition, and rounded once: also `f64` states are the nearest ones. Where that takes more than 1088 bits, MPFR
-//! computes them (feature `mpfr`).
+//! require in addition, and rounded once: also `f64` states are the nearest ones. Where that takes more than 1088 bits,
+//! MPFR computes them (feature `mpfr`).
 
 use thiserror::Error;
 
@@ -31,7 +31,8 @@ use crate::systems::problems::exact_flow::solution::{Request, SolutionError};
 use crate::systems::problems::exact_flow::solver::Solver;
 use crate::systems::problems::{PROBLEMS, Problem, Setup};
 
-/// A problem, initial state or time for which the exact flow cannot be computed, or settings of an estimator that are not valid.
+/// A problem, initial state or time for which the exact flow cannot be computed, or settings of an estimator that are
+/// not valid.
 #[derive(Clone, PartialEq, Eq, Error)]
 pub enum ExactFlowError {
     /// No solution of the problem is known.
@@ -52,7 +53,8 @@ pub enum ExactFlowError {
 
 shadowstep_symbolic::debug_as_text!(ExactFlowError);
 
-/// The states of the exact flow of a problem in the order of time, n = −reach, …, steps + reach, with the β of each step.
+/// The states of the exact flow of a problem in the order of time, n = −reach, …, steps + reach, with the β of each
+/// step.
 ///
 /// The flow begins at the exact initial values of the problem, to the digits that these have been computed to, not at
 /// rounded ones. [`problems`] lists the problems whose exact flow is known.
@@ -70,8 +72,8 @@ impl<N: CorrectlyRounded> ExactFlow<N> {
     /// Begins at the initial state of the problem with steps of size h.
     ///
     /// # Errors
-    /// As [`has_exact_flow`]; a time so long, or an initial state so near to a separatrix or a collision, that too many digits
-    /// would be needed.
+    /// As [`has_exact_flow`]; a time so long, or an initial state so near to a separatrix or a collision, that too many
+    /// digits would be needed.
     pub fn new(
         setup: &Setup,
         h: &StepSize,
@@ -111,7 +113,8 @@ impl<N: CorrectlyRounded> States for ExactFlow<N> {
 }
 
 impl<N: CorrectlyRounded, E: Estimator<N>> ShadowRun<ExactFlow<N>, E> {
-    /// The estimates along the exact flow of a problem from its initial state. Each is H plus the error of the estimator.
+    /// The estimates along the exact flow of a problem from its initial state. Each is H plus the error of the
+    /// estimator.
     ///
     /// # Errors
     /// As [`ExactFlow::new`].

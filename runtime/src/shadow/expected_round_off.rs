@@ -8,11 +8,11 @@ use crate::number::{Number, epsilon};
 /// Second differences need this number of states.
 const STATES: usize = 3;
 
-/// The walk that round-off is expected to make, √(Σ kick²), by Brouwer's law: errors of the states are independent, so that the
-/// energy goes like the square root of the number of steps (D. Brouwer, Astron. J. 46 (1937) 149).
+/// The walk that round-off is expected to make, √(Σ kick²), by Brouwer's law: errors of the states are independent, so
+/// that the energy goes like the square root of the number of steps (D. Brouwer, Astron. J. 46 (1937) 149).
 ///
-/// A step rounds q and p by c ε|q| and c ε|p| at least, which moves H by U_q δq and T_p δp; T_p is Δq/h, and U_q is −Δp/h. In
-/// compensated sums the increments are rounded.
+/// A step rounds q and p by c ε|q| and c ε|p| at least, which moves H by U_q δq and T_p δp; T_p is Δq/h, and U_q is
+/// −Δp/h. In compensated sums the increments are rounded.
 #[derive(Clone, Debug)]
 pub(crate) struct ExpectedRoundOff<N> {
     compensated: bool,
@@ -84,8 +84,8 @@ pub(super) fn add_squares<N: Number>(sum: &mut N, [q0, q1]: [&[N]; 2], [p0, p1]:
     }
 }
 
-/// Adds Σ (2 (Δq Δp)² + (δ²q p)² + (δ²p q)²) in the same way: Δq and Δp are rounded by cε of them, and the force is that at q rounded by
-/// cε|q|, which changes it by h U_qq cε q, with h U_qq Δq = −δ²p; so does the drift with p.
+/// Adds Σ (2 (Δq Δp)² + (δ²q p)² + (δ²p q)²) in the same way: Δq and Δp are rounded by cε of them, and the force is
+/// that at q rounded by cε|q|, which changes it by h U_qq cε q, with h U_qq Δq = −δ²p; so does the drift with p.
 pub(super) fn add_squares_of_increments<N: Number>(
     sum: &mut N,
     [q0, q1, q2]: [&[N]; 3],
@@ -110,8 +110,9 @@ pub(super) fn add_squares_of_increments<N: Number>(
 
 /// (c ε/h)², with ε the distance from 1 to the next number.
 ///
-/// A rounding of x is off by at most half the last place of x, by 1/√12 of it rms; and that place is ε|x|/m for a mantissa m
-/// between 1 and 2, of which the mean square with the density 1/(m log 2) is 3ε²x²/(8 log 2). So c² = 1/(32 log 2), c = 0.2123.
+/// A rounding of x is off by at most half the last place of x, by 1/√12 of it rms; and that place is ε|x|/m for a
+/// mantissa m between 1 and 2, of which the mean square with the density 1/(m log 2) is 3ε²x²/(8 log 2). So c² = 1/(32
+/// log 2), c = 0.2123.
 pub(super) fn kick_factor<N: Number>(epsilon: &N, h: &Rational, context: &N::Context) -> N {
     let mut factor = epsilon.clone();
     factor.multiply(&N::from_rational(&(Rational::new(2123.into(), 10_000.into()) / h), context));

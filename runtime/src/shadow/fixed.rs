@@ -1,9 +1,10 @@
 //! Fixed-point numbers of 64-bit limbs, for the estimators of numbers that are made of limbs.
 //!
-//! A *row* is a number in two's complement: Σ limb\[i\] 2^(64 (low + i) − offset), the lowest limb first. Rows of the same `low` are
-//! added limb by limb, without a search for leading bits and without rounding. A number is put into a row with all its bits, at the limbs
-//! where its exponent puts it: its `low` follows from its size, so that rows keep the relative precision of floating point. Where a row
-//! meets one with a larger `low`, the limbs below that are dropped: an error of one unit of the coarser row.
+//! A *row* is a number in two's complement: Σ limb\[i\] 2^(64 (low + i) − offset), the lowest limb first. Rows of the
+//! same `low` are added limb by limb, without a search for leading bits and without rounding. A number is put into a
+//! row with all its bits, at the limbs where its exponent puts it: its `low` follows from its size, so that rows keep
+//! the relative precision of floating point. Where a row meets one with a larger `low`, the limbs below that are
+//! dropped: an error of one unit of the coarser row.
 //!
 //! Where numbers are subtracted and multiplied many times, rows are of smaller [`digits`] with signs.
 
@@ -33,8 +34,8 @@ const NOT_FINITE: i64 = i64::MAX;
 /// Numbers in [2^−(offset + 2), 2^(62 − offset)) have the same `low`.
 type Offset = i64;
 
-/// Calls an inlined function with its first argument, a number of limbs or digits: a constant up to 10, as 120 decimal digits
-/// and their differences need, so that its loops are unrolled.
+/// Calls an inlined function with its first argument, a number of limbs or digits: a constant up to 10, as 120 decimal
+/// digits and their differences need, so that its loops are unrolled.
 macro_rules! by_limbs {
     ($function:ident($limbs:expr, $($argument:expr),*)) => {
         by_limbs!($function, $limbs, ($($argument),*), 1 2 3 4 5 6 7 8 9 10)
@@ -49,8 +50,8 @@ macro_rules! by_limbs {
 }
 use by_limbs;
 
-/// Writes |x| into a row with two free bits above it; returns `low`, and whether x < 0. Bits below the row are dropped: a row of one limb
-/// more than the significand has them all.
+/// Writes |x| into a row with two free bits above it; returns `low`, and whether x < 0. Bits below the row are dropped:
+/// a row of one limb more than the significand has them all.
 fn write_magnitude(parts: Parts<'_>, offset: Offset, row: &mut [u64]) -> (i64, bool) {
     let (negative, exponent, significand) = match parts {
         Parts::Regular { negative, exponent, significand } => (negative, exponent, significand),

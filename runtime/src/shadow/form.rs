@@ -25,8 +25,8 @@ pub(super) struct Products<N> {
     reach: usize,
 }
 
-/// q_i·p − p_i·q + (β − β_i) of each state in the window and the i-th before it, by i = 1, 2, …, as they are summed: for each i
-/// one after the other in memory, the state n in place n mod the number of states.
+/// q_i·p − p_i·q + (β − β_i) of each state in the window and the i-th before it, by i = 1, 2, …, as they are summed:
+/// for each i one after the other in memory, the state n in place n mod the number of states.
 #[derive(Clone, Debug)]
 enum Pairs<N> {
     Numbers(Vec<N>),
@@ -119,7 +119,8 @@ pub(super) struct Form<N> {
     pub(super) error_estimate: ErrorEstimate<N>,
 }
 
-/// The weights of the value and of the last term; the latter are empty or `None` where no error is computed, and for k = 1.
+/// The weights of the value and of the last term; the latter are empty or `None` where no error is computed, and for
+/// k = 1.
 #[derive(Clone, Debug)]
 enum Weights<N> {
     Numbers {
@@ -155,8 +156,8 @@ impl<N: Number> Form<N> {
         self.has_error
     }
 
-    /// How many states before the newest one of a value the state in the middle is to which its error is known; for an odd k
-    /// the one just before the middle.
+    /// How many states before the newest one of a value the state in the middle is to which its error is known; for an
+    /// odd k the one just before the middle.
     pub(super) fn delay(&self) -> usize {
         self.k().div_ceil(2) + self.error_estimate.around()
     }
@@ -255,7 +256,8 @@ fn integer_weights<N: Number>(k: u32, h: &Rational, context: &N::Context) -> (In
     (IntegerWeights::new(&of_halves(k, |lag, j| of_k.product(lag, j))), N::from_rational(&factor, context))
 }
 
-/// The same for the last term, with C(2k,k) = C(2k−2,k−1) 2(2k − 1)/k: k times the integers of E_k less 2k − 1 times the ones of E_{k−1} at two places.
+/// The same for the last term, with C(2k,k) = C(2k−2,k−1) 2(2k − 1)/k: k times the integers of E_k less 2k − 1 times
+/// the ones of E_{k−1} at two places.
 fn integer_last_term_weights<N: Number>(k: u32, h: &Rational, context: &N::Context) -> (IntegerWeights, N) {
     let [of_k, before] = [k, k - 1].map(BilinearWeights::new);
     let factor = (h * Rational::from_integer(of_k.of_2k() * k)).recip();
@@ -272,8 +274,8 @@ fn of_halves<N>(k: u32, weight: impl Fn(usize, usize) -> N) -> Vec<Vec<N>> {
     (1..=k).map(|lag| (0..(k - lag + 1).div_ceil(2)).map(|j| weight(lag, j)).collect()).collect()
 }
 
-/// Adds Σ_j w_{j+ℓ,j} (the pair of the states j + ℓ and j), j = 0..=last, for each row of weights that is not empty; two pairs at once,
-/// whose sum all rows use.
+/// Adds Σ_j w_{j+ℓ,j} (the pair of the states j + ℓ and j), j = 0..=last, for each row of weights that is not empty;
+/// two pairs at once, whose sum all rows use.
 fn add_row<N: Number>(sums: &mut [(&[N], &mut N); 2], pairs: &[N], of_lag: OfLag, sum: &mut N) {
     let last = of_lag.last;
     for j in 0..=last / 2 {

@@ -4,8 +4,8 @@
 //!
 //! q_i·p − p_i·q + β − β_i = Σ_m (q·δp_m − p·δq_m + δβ_m),
 //!
-//! so that E_k is a form in the products of each state with the k newest steps, the *lags*. They are computed once, when the state comes, and kept for
-//! all windows that they belong to.
+//! so that E_k is a form in the products of each state with the k newest steps, the *lags*. They are computed once,
+//! when the state comes, and kept for all windows that they belong to.
 
 mod form;
 mod long;
@@ -29,7 +29,8 @@ pub(super) struct LaggedEstimator<N> {
     /// k, or a larger number for which there is a loop of fixed length.
     lags: usize,
     products: LaggedProducts<N>,
-    /// The products of the newest states: a ring that is stored twice, so that the newest ones are contiguous wherever they begin.
+    /// The products of the newest states: a ring that is stored twice, so that the newest ones are contiguous wherever
+    /// they begin.
     kept: Vec<N>,
     value: LaggedForm<N>,
     /// Without it no error is computed.
@@ -52,7 +53,8 @@ pub(super) struct LaggedEstimator<N> {
 }
 
 impl<N: Number> LaggedEstimator<N> {
-    /// In larger windows the round-off of the weights, which is alike in all windows of a circular orbit, is more than the estimated error.
+    /// In larger windows the round-off of the weights, which is alike in all windows of a circular orbit, is more than
+    /// the estimated error.
     pub(super) const LARGEST_K: u32 = 8;
 
     pub(super) fn new(k: u32, with_error: bool, h: &Rational, dimension: usize, context: &N::Context) -> Self {
@@ -123,7 +125,8 @@ impl<N: Number> LaggedEstimator<N> {
         self.estimate::<STATE>(q.len())
     }
 
-    /// Adds the products of the next state, and returns whether it ends a window of k known steps, whose value `newest` then is.
+    /// Adds the products of the next state, and returns whether it ends a window of k known steps, whose value `newest`
+    /// then is.
     #[inline(always)]
     fn add<const K: usize>(&mut self, [q, p]: [&[N]; 2], increments: Increments<'_, N>) -> bool {
         let place = self.pushed % K;
@@ -319,8 +322,8 @@ mod tests {
         }
     }
 
-    /// The error of E_k by round-off, rms, by lags and by pairs of states, for the same states and increments: the right value is computed with
-    /// four limbs.
+    /// The error of E_k by round-off, rms, by lags and by pairs of states, for the same states and increments: the
+    /// right value is computed with four limbs.
     fn round_off(k: u32, problem: &str, h: &str) -> [f64; 2] {
         const STEPS: u32 = 500;
         let mut system = problems::problem(problem).unwrap().setup(&[], 20).unwrap().motion::<f64>(&()).unwrap();

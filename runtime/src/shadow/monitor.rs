@@ -64,9 +64,11 @@ use crate::steps::step_size::StepSize;
 use crate::systems::increments::{Carried, Increments};
 use crate::systems::system::System;
 
-/// Follows the modified energy H̄ of the states that an [integrator](crate::Integrator) makes: [`ShadowEnergy`] without a stepper.
+/// Follows the modified energy H̄ of the states that an [integrator](crate::Integrator) makes: [`ShadowEnergy`] without
+/// a stepper.
 ///
-/// It takes every state with [`observe`](Monitor::observe), after a step that carries along what [`carried`](Monitor::carried) says.
+/// It takes every state with [`observe`](Monitor::observe), after a step that carries along what
+/// [`carried`](Monitor::carried) says.
 #[derive(Clone, Debug)]
 pub struct Monitor<N: Real, E> {
     h: StepSize,
@@ -129,7 +131,8 @@ impl<N: Real, E: Estimator<N>> Monitor<N, E> {
         Self::begin(&h, stages, integrator.system(), settings)
     }
 
-    /// `stages` are the evaluations in a step of a processed scheme, whose post-map evaluates the forces too, between two steps of the kernel.
+    /// `stages` are the evaluations in a step of a processed scheme, whose post-map evaluates the forces too, between
+    /// two steps of the kernel.
     fn begin<M: System<Number = N> + ?Sized>(
         h: &StepSize,
         stages: Option<u64>,
@@ -167,8 +170,9 @@ impl<N: Real, E: Estimator<N>> Monitor<N, E> {
         Ok(monitor)
     }
 
-    /// One window every `steps` steps, of as many states as the estimator needs, at a place among these steps that changes from
-    /// window to window. If the windows leave no plain steps between them, as with 0, all steps are augmented.
+    /// One window every `steps` steps, of as many states as the estimator needs, at a place among these steps that
+    /// changes from window to window. If the windows leave no plain steps between them, as with 0, all steps are
+    /// augmented.
     #[must_use]
     pub fn every(mut self, steps: u64) -> Self {
         let states = self.schedule.states();
@@ -187,7 +191,8 @@ impl<N: Real, E: Estimator<N>> Monitor<N, E> {
         self.n
     }
 
-    /// How many of the following states it takes nothing of: they may [`pass`](Monitor::pass) by plain steps, and need not be observed.
+    /// How many of the following states it takes nothing of: they may [`pass`](Monitor::pass) by plain steps, and need
+    /// not be observed.
     pub fn idle(&self) -> u64 {
         let next = self.n + 1;
         if self.fastest.begins(next) { 0 } else { self.schedule.idle(next).min(self.kinetic.idle(next)) }
@@ -208,7 +213,8 @@ impl<N: Real, E: Estimator<N>> Monitor<N, E> {
         self.schedule.needs_increments(self.n + 1)
     }
 
-    /// What the next step is to carry along: increments within windows, [`Carried::Rate`] just before one, which saves an evaluation.
+    /// What the next step is to carry along: increments within windows, [`Carried::Rate`] just before one, which saves
+    /// an evaluation.
     #[inline]
     pub fn carried(&self) -> Carried {
         match self.n + 1 {
@@ -231,12 +237,12 @@ impl<N: Real, E: Estimator<N>> Monitor<N, E> {
         self.observe(integrator.system())
     }
 
-    /// Takes the state that a step has made, an augmented one where [`needs_increments`](Monitor::needs_increments) was true;
-    /// gives the estimate that it completes.
+    /// Takes the state that a step has made, an augmented one where [`needs_increments`](Monitor::needs_increments) was
+    /// true; gives the estimate that it completes.
     ///
     /// # Errors
-    /// A state of a window, or its energy or modified energy, that is not finite. What is not finite stays so: between the
-    /// windows it is found by the next one. A system of another dimension than at the start.
+    /// A state of a window, or its energy or modified energy, that is not finite. What is not finite stays so: between
+    /// the windows it is found by the next one. A system of another dimension than at the start.
     #[inline]
     pub fn observe<M: System<Number = N> + ?Sized>(
         &mut self,
@@ -321,8 +327,8 @@ impl<N: Real, E: Estimator<N>> Monitor<N, E> {
     }
 }
 
-/// All that the states so far have left, at any of them: a monitor that was begun anew, with the same estimator and an integrator of the same kind, goes on from it
-/// with the same bits, also with windows at other distances.
+/// All that the states so far have left, at any of them: a monitor that was begun anew, with the same estimator and an
+/// integrator of the same kind, goes on from it with the same bits, also with windows at other distances.
 impl<N: Real, E: Estimator<N> + Saved<N>> Saved<N> for Monitor<N, E> {
     fn fields(&mut self, to: &mut dyn Fields<N>) {
         let Monitor { estimator, schedule, energies, kinetic, n, newest, statistics, blocks, .. } = self;

@@ -1,11 +1,11 @@
 //! The modified energy of trajectories that other programs have computed.
 //!
-//! A program that integrates by velocity Verlet follows a modified Hamiltonian as a [`Stepper`](crate::Stepper) does, and what it logs is enough to
-//! estimate its value H̄: q and p at equal distances h in time, U, and the forces. `docs/recorded-trajectories.md` lists which integrators of
-//! which programs these are.
+//! A program that integrates by velocity Verlet follows a modified Hamiltonian as a [`Stepper`](crate::Stepper) does,
+//! and what it logs is enough to estimate its value H̄: q and p at equal distances h in time, U, and the forces.
+//! `docs/recorded-trajectories.md` lists which integrators of which programs these are.
 //!
-//! [`Recorded`] estimates along a log of velocity Verlet, [`Repeated`] along states of any scheme, and [`Observer`] state by state, with a
-//! [diagnosis](Diagnosis) of what moves the energy.
+//! [`Recorded`] estimates along a log of velocity Verlet, [`Repeated`] along states of any scheme, and [`Observer`]
+//! state by state, with a [diagnosis](Diagnosis) of what moves the energy.
 //!
 //! | module | what it is |
 //! | --- | --- |

@@ -5,53 +5,59 @@
 //! $$D_m y(0) = \frac1h \sum_{j=1}^m d_{m,j} \thinspace \bigl( y(jh) - y(-jh) \bigr), \qquad
 //! d_{m,j} = \frac{(-1)^{j+1} (m!)^2}{j \thinspace (m-j)! \thinspace (m+j)!}$$
 //!
-//! (Moan & Niesen, eq. 4; they are the diagonal of the Richardson table, eq. 5.) The same $D_m$ is the sum of the first $m$
-//! terms of Stirling's series: $D_m y = \frac1h \sum_{k=1}^m c_k \thinspace \mu\delta^{2k-1} y$ with $c_1 = 1$ and
+//! (Moan & Niesen, eq. 4; they are the diagonal of the Richardson table, eq. 5.) The same $D_m$ is the sum of the first
+//! $m$ terms of Stirling's series: $D_m y = \frac1h \sum_{k=1}^m c_k \thinspace \mu\delta^{2k-1} y$ with $c_1 = 1$ and
 //! $c_{k+1} = -c_k \thinspace k^2 / (2k (2k+1))$.
 //!
-//! **Proof.** Let $D_m y(0)$ be the derivative at 0 of the polynomial of degree $2m$ that interpolates $y$ at $-mh, \ldots, mh$. Its
-//! weights are $\ell_j'(0)$, with $\ell_j$ the Lagrange polynomials of the nodes $-m, \ldots, m$. For $j \neq 0$ only the derivative of the
-//! factor $x - 0$ remains at 0:
+//! **Proof.** Let $D_m y(0)$ be the derivative at 0 of the polynomial of degree $2m$ that interpolates $y$ at $-mh,
+//! \ldots, mh$. Its weights are $\ell_j'(0)$, with $\ell_j$ the Lagrange polynomials of the nodes $-m, \ldots, m$. For
+//! $j \neq 0$ only the derivative of the factor $x - 0$ remains at 0:
 //!
 //! $$\ell_j'(0) = \frac1j \prod_{i \neq 0, j} \frac{-i}{j-i}, \qquad
 //! \prod_{i \neq 0, j} (-i) = \frac{(-1)^m (m!)^2}{-j}, \qquad
 //! \prod_{i \neq 0, j} (j-i) = \frac{(-1)^{m-j} (m+j)! \thinspace (m-j)!}{j},$$
 //!
-//! whose quotient is $d_{m,j}$; and $\ell_0'(0) = 0$, as the nodes are symmetric. Each entry $T_{m,m}$ of the Richardson table is a
-//! combination of the same values that is exact for the same polynomials, and there is one only. ∎
+//! whose quotient is $d_{m,j}$; and $\ell_0'(0) = 0$, as the nodes are symmetric. Each entry $T_{m,m}$ of the
+//! Richardson table is a combination of the same values that is exact for the same polynomials, and there is one only.
+//! ∎
 //!
 //! # The bilinear estimator
 //!
 //! With states counted back from the newest, $i = 0, \ldots, k$,
 //!
-//! $$E_k = \frac1{2h} \sum_{i>j} P_{ij} \thinspace \bigl( q_i \cdot p_j - p_i \cdot q_j + \beta_j - \beta_i \bigr), \qquad
-//! P_{ij} = \frac{2 \thinspace (-1)^{i-j} \thinspace C(k,i) \thinspace C(k,j)}{(i-j) \thinspace C(2k,k)}$$
+//! $$E_k = \frac1{2h} \sum_{i>j} P_{ij} \thinspace \bigl( q_i \cdot p_j - p_i \cdot q_j + \beta_j - \beta_i \bigr),
+//! \qquad P_{ij} = \frac{2 \thinspace (-1)^{i-j} \thinspace C(k,i) \thinspace C(k,j)}{(i-j) \thinspace C(2k,k)}$$
 //!
-//! with binomial coefficients $C$. This is the estimator of Skeel & Hardy (SIAM J. Sci. Comput. 23 (2001) 1172) and Engle, Skeel & Drees
-//! (J. Comput. Phys. 206 (2005) 432), whose weights were printed as tables for $k = 2, 4, \ldots, 12$, in closed formula.
+//! with binomial coefficients $C$. This is the estimator of Skeel & Hardy (SIAM J. Sci. Comput. 23 (2001) 1172) and
+//! Engle, Skeel & Drees (J. Comput. Phys. 206 (2005) 432), whose weights were printed as tables for $k = 2, 4, \ldots,
+//! 12$, in closed formula.
 //!
-//! **Proof.** Let $X = e^{-x}$ and $Y = e^{-y}$ shift the first and the second factor of a product back by a step, $x$ and $y$ being
-//! $h \thinspace d/dt$ on each. $P$ is antisymmetric, so that the sum over $i > j$ of $P_{ij} (q_i \cdot p_j - p_i \cdot q_j)$ is that over all
-//! $i \neq j$ of $P_{ij} \thinspace q_i \cdot p_j$, which is $2F/C(2k,k)$ on $q \cdot p$ with
+//! **Proof.** Let $X = e^{-x}$ and $Y = e^{-y}$ shift the first and the second factor of a product back by a step, $x$
+//! and $y$ being $h \thinspace d/dt$ on each. $P$ is antisymmetric, so that the sum over $i > j$ of $P_{ij} (q_i \cdot
+//! p_j - p_i \cdot q_j)$ is that over all $i \neq j$ of $P_{ij} \thinspace q_i \cdot p_j$, which is $2F/C(2k,k)$ on $q
+//! \cdot p$ with
 //!
-//! $$F(X, Y) = \sum_{i \neq j} \frac{(-1)^{i-j} \thinspace C(k,i) \thinspace C(k,j)}{i-j} \thinspace X^i \thinspace Y^j .$$
+//! $$F(X, Y) = \sum_{i \neq j} \frac{(-1)^{i-j} \thinspace C(k,i) \thinspace C(k,j)}{i-j} \thinspace X^i \thinspace Y^j
+//! .$$
 //!
 //! Then, with $G(z) = \sum_i C(k,i)^2 \thinspace z^i$,
 //!
-//! $$(X \partial_X - Y \partial_Y) \thinspace F = \sum_{i \neq j} (-1)^{i-j} \thinspace C(k,i) \thinspace C(k,j) \thinspace X^i \thinspace Y^j = (1-X)^k \thinspace (1-Y)^k - G(XY) .$$
+//! $$(X \partial_X - Y \partial_Y) \thinspace F = \sum_{i \neq j} (-1)^{i-j} \thinspace C(k,i) \thinspace C(k,j)
+//! \thinspace X^i \thinspace Y^j = (1-X)^k \thinspace (1-Y)^k - G(XY) .$$
 //!
 //! In $s = x + y$ and $d = x - y$ the operator is $-2 \partial_d$, and $F$ is odd in $d$, so
 //!
 //! $$F = \tfrac12 \thinspace d \thinspace G(e^{-s}) - \tfrac12 \int_0^d (1-X)^k \thinspace (1-Y)^k \thinspace dd' .$$
 //!
 //! The second term is of degree $2k + 1$ in $h$. The first is the mean of $\frac12 (x - y)$, the derivative in
-//! $\frac12 h (q' \cdot p - q \cdot p')$, at the states $i$ with the weights $C(k,i)^2$. So, as $G(1) = C(2k,k)$, and in the same way for
-//! $\beta$, whose weights are $\sum_j P_{ij}$,
+//! $\frac12 h (q' \cdot p - q \cdot p')$, at the states $i$ with the weights $C(k,i)^2$. So, as $G(1) = C(2k,k)$, and
+//! in the same way for $\beta$, whose weights are $\sum_j P_{ij}$,
 //!
-//! $$E_k = \sum_i \frac{C(k,i)^2}{C(2k,k)} \cdot \tfrac12 \bigl( q' \cdot p - q \cdot p' - \beta' \bigr)(\text{state } i) + O(h^{2k}) :$$
+//! $$E_k = \sum_i \frac{C(k,i)^2}{C(2k,k)} \cdot \tfrac12 \bigl( q' \cdot p - q \cdot p' - \beta' \bigr)(\text{state }
+//! i) + O(h^{2k}) :$$
 //!
-//! a mean of the modified energy over the window, about its middle, $k/2$ steps back. ∎ Nothing is assumed of the scheme but that
-//! it has a modified Hamiltonian: it need not be a palindrome.
+//! a mean of the modified energy over the window, about its middle, $k/2$ steps back. ∎ Nothing is assumed of the
+//! scheme but that it has a modified Hamiltonian: it need not be a palindrome.
 
 use std::collections::BTreeMap;
 use std::sync::{Arc, LazyLock, Mutex};
@@ -98,8 +104,8 @@ pub(crate) fn stirling(m: u32) -> Vec<Rational> {
         .collect()
 }
 
-/// P_ij of [`crate::shadow::Bilinear`], states counted back from the newest, i > j ≥ 0: row ℓ − 1, ℓ = i − j = 1..k, has
-/// P_{j+ℓ,j} for j = 0..=k−ℓ, which reads the same backwards.
+/// P_ij of [`crate::shadow::Bilinear`], states counted back from the newest, i > j ≥ 0: row ℓ − 1, ℓ = i − j = 1..k,
+/// has P_{j+ℓ,j} for j = 0..=k−ℓ, which reads the same backwards.
 ///
 /// P_ij = 2 (−1)^{i−j} C(k,i) C(k,j) / ((i−j) C(2k,k)), and P_ji = −P_ij.
 ///

@@ -70,11 +70,11 @@ impl<N: Number> Window<N> {
         (&stored.q, &stored.p)
     }
 
-    /// q_i·p − p_i·q + (β − β_i) for the newest state and the i-th before it, i = 1, 2, …: as many as there is room for, of those
-    /// that have come. Returns how many.
+    /// q_i·p − p_i·q + (β − β_i) for the newest state and the i-th before it, i = 1, 2, …: as many as there is room
+    /// for, of those that have come. Returns how many.
     ///
-    /// The first terms are also q_i·(p − p_i) − p_i·(q − q_i), and are computed so where the differences are known as sums
-    /// of increments.
+    /// The first terms are also q_i·(p − p_i) − p_i·(q − q_i), and are computed so where the differences are known as
+    /// sums of increments.
     pub(super) fn pairs(&mut self, pairs: &mut [N]) -> usize {
         let count = self.reach(pairs.len());
         self.sum.assign_zero();

@@ -17,8 +17,8 @@ use crate::systems::system::{AnySystem, System, Visitor};
 
 /// A system with the stepper that advances it: what trajectories and estimates along them are made of.
 ///
-/// [`Stepper::with`] makes one. As a `dyn Integrator` it hides the types of the scheme and of the system, so that what follows a run is compiled once
-/// for each number type.
+/// [`Stepper::with`] makes one. As a `dyn Integrator` it hides the types of the scheme and of the system, so that what
+/// follows a run is compiled once for each number type.
 ///
 /// ```
 /// use shadowstep::{Carried, Integrator, Motion, Stepper, UnitMasses, steps::integrator::VectorIntegrator};
@@ -84,8 +84,9 @@ pub trait Integrator {
     /// `count` plain steps, of which the visitor sees the states: see [`Stepper::steps_visited`].
     fn steps_visited(&mut self, count: u64, visitor: &mut dyn Visitor<Self::Number>);
 
-    /// One plain step of the size part·h from a state of the trajectory to another one: of a processed scheme the pre-map, the kernel and the post-map,
-    /// all of part·h. The weights are those of the stepper times the part (its third power those of gradient kicks), each rounded once more.
+    /// One plain step of the size part·h from a state of the trajectory to another one: of a processed scheme the
+    /// pre-map, the kernel and the post-map, all of part·h. The weights are those of the stepper times the part (its
+    /// third power those of gradient kicks), each rounded once more.
     fn part_of_step(&mut self, part: &Self::Number);
 
     /// Whether the scheme is a processed one, whose steps are those of its kernel.
@@ -97,7 +98,8 @@ pub trait Integrator {
     /// The post-map of a processed scheme: see [`Stepper::postprocess`].
     fn postprocess(&mut self);
 
-    /// The state of the trajectory that belongs to a state q, p of the kernel, which the system need not be at: q and p become it.
+    /// The state of the trajectory that belongs to a state q, p of the kernel, which the system need not be at: q and p
+    /// become it.
     fn postprocess_state(&mut self, q: &mut [Self::Number], p: &mut [Self::Number]) {
         if !self.is_processed() {
             return;
@@ -115,7 +117,8 @@ pub trait Integrator {
 pub type VectorIntegrator<'a, N> =
     dyn Integrator<Number = N, Coordinates = Vec<N>, Summation = Option<Compensated<N, Vec<N>>>> + 'a;
 
-/// Reads the system at the state of the trajectory that belongs to the present one of the kernel: see [`Stepper::at_output`].
+/// Reads the system at the state of the trajectory that belongs to the present one of the kernel: see
+/// [`Stepper::at_output`].
 pub fn at_output<I: Integrator + ?Sized, R>(integrator: &mut I, read: impl FnOnce(&mut I) -> R) -> R {
     if !integrator.is_processed() {
         return read(integrator);

@@ -10,7 +10,8 @@ pub enum MismatchError {
     Precision,
     /// The scheme has gradient kicks, which the system does not support.
     #[error(
-        "{scheme} has gradient kicks, which this system has not: its potential needs a Hessian–vector product (write it as a formula, or implement \
+        "{scheme} has gradient kicks, which this system has not: its potential needs a Hessian–vector product (write \
+            it as a formula, or implement \
          `Potential::hessian`), or displaced forces in its place (`Stepper::displacements`)"
     )]
     NoGradientKicks {

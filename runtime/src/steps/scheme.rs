@@ -7,18 +7,19 @@ use crate::number::Number;
 pub use crate::steps::weights::{WeightLists, Weights};
 pub use crate::systems::maps::{Flows, MapKind, MapSequence, PartOrder, Sequence};
 
-/// A splitting scheme. [`crate::splitting_scheme`] implements it for a table at compile time, [`crate::steps::tables`] at run
-/// time; both give the same bits.
+/// A splitting scheme. [`crate::splitting_scheme`] implements it for a table at compile time, [`crate::steps::tables`]
+/// at run time; both give the same bits.
 ///
-/// A scheme with a step size is a [`Stepper`](crate::Stepper), which makes the steps: it alone has the weights of a step and the flows of a system, so
-/// weights of another scheme or step size cannot be used by mistake.
+/// A scheme with a step size is a [`Stepper`](crate::Stepper), which makes the steps: it alone has the weights of a
+/// step and the flows of a system, so weights of another scheme or step size cannot be used by mistake.
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is not a splitting scheme",
-    note = "a scheme is a struct with `#[splitting_scheme(\"yoshida4.toml\")]`, or a table: `tables::shipped(\"yoshida4\").unwrap()`"
+    note = "a scheme is a struct with `#[splitting_scheme(\"yoshida4.toml\")]`, or a table: \
+        `tables::shipped(\"yoshida4\").unwrap()`"
 )]
 pub trait Scheme {
-    /// Whether [`forward`](Scheme::forward) is inlined wherever it is called, as generated code of a short step: then many steps are made by it, else by
-    /// a loop over the [`sequence`](Scheme::sequence).
+    /// Whether [`forward`](Scheme::forward) is inlined wherever it is called, as generated code of a short step: then
+    /// many steps are made by it, else by a loop over the [`sequence`](Scheme::sequence).
     const IS_INLINED: bool = false;
 
     /// Holds the weights of a step, each rounded once.
@@ -33,8 +34,8 @@ pub trait Scheme {
     /// The maps of a step in their order.
     fn sequence(&self) -> Sequence<'_>;
 
-    /// The kicks and drifts of the post-map χ⁻¹ of a processed scheme χ⁻¹ ∘ kernelⁿ ∘ χ, in the order in which they act, with their exact
-    /// weights. The pre-map χ is its exact inverse, and the steps are those of the kernel: see
+    /// The kicks and drifts of the post-map χ⁻¹ of a processed scheme χ⁻¹ ∘ kernelⁿ ∘ χ, in the order in which they
+    /// act, with their exact weights. The pre-map χ is its exact inverse, and the steps are those of the kernel: see
     /// [`Stepper::preprocess`](crate::Stepper::preprocess). Other schemes have none.
     fn processor(&self) -> Vec<(MapKind, Rational)> {
         Vec::new()
@@ -47,12 +48,15 @@ pub trait Scheme {
     fn back<F: Flows>(&self, weights: &Self::Weights<F::Number>, flows: &mut F);
 }
 
-/// Schemes whose claimed order is proved for a class of systems: of [`Quadratic`](crate::systems::kinetic::Quadratic) or [`General`](crate::systems::kinetic::General) kinetic energies, or of
+/// Schemes whose claimed order is proved for a class of systems: of [`Quadratic`](crate::systems::kinetic::Quadratic)
+/// or [`General`](crate::systems::kinetic::General) kinetic energies, or of
 /// [`ManyParts`](crate::systems::many_parts::ManyParts).
 ///
-/// [`crate::splitting_scheme`] implements it for quadratic T, and for every T(p) where that is proved of the table, or with `parts = 3` for three parts and
-/// more; for a table read at run time, [`crate::steps::tables::TableScheme::for_every_kinetic`] and
-/// [`for_many_parts`](crate::steps::tables::TableScheme::for_many_parts) check it. Code that advances a system of any class requires it:
+/// [`crate::splitting_scheme`] implements it for quadratic T, and for every T(p) where that is proved of the table, or
+/// with `parts = 3` for three parts and more; for a table read at run time,
+/// [`crate::steps::tables::TableScheme::for_every_kinetic`] and
+/// [`for_many_parts`](crate::steps::tables::TableScheme::for_many_parts) check it. Code that advances a system of any
+/// class requires it:
 ///
 /// ```
 /// use shadowstep::{Scheme, Stepper, System, ValidFor};
@@ -65,12 +69,13 @@ pub trait Scheme {
     message = "the order of `{Self}` is not known to hold for systems of the class `{Class}`",
     note = "`General`, every T(p), takes a scheme whose table states `kinetic = \"any\"`, such as `yoshida4.toml`",
     note = "`ManyParts`, three parts and more, takes a scheme with `parts = 3`, or a table by `for_many_parts`",
-    note = "a table read at run time is checked by `for_every_kinetic`; in generic code write `S: Scheme + ValidFor<M::Class>`"
+    note = "a table read at run time is checked by `for_every_kinetic`; in generic code write `S: Scheme + \
+        ValidFor<M::Class>`"
 )]
 pub trait ValidFor<Class> {}
 
-/// No system is of these classes. From a single implementation the compiler would conclude which class is meant, and report types that differ instead of
-/// a scheme that is not valid.
+/// No system is of these classes. From a single implementation the compiler would conclude which class is meant, and
+/// report types that differ instead of a scheme that is not valid.
 enum NoClass<const FIRST: bool> {}
 
 impl<S: Scheme> ValidFor<NoClass<true>> for S {}

@@ -49,7 +49,8 @@ impl<S: Scheme, N: Number> MapSequence<N> for Maps<'_, S, N> {
     }
 }
 
-/// The maps of steps of H of two parts where the last map of a step and the first of the next, which are of one kind, are made as one.
+/// The maps of steps of H of two parts where the last map of a step and the first of the next, which are of one kind,
+/// are made as one.
 pub(crate) struct MergedMaps<'a, S: Scheme, N: Number> {
     pub(crate) maps: Maps<'a, S, N>,
     /// The weight of the merged map.

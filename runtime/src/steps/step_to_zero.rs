@@ -1,4 +1,5 @@
-//! Steps of a part of h to where a function of the state is 0: to a physical time in transformed time, to a surface of section.
+//! Steps of a part of h to where a function of the state is 0: to a physical time in transformed time, to a surface of
+//! section.
 
 use crate::number::{Number, Real};
 use crate::steps::integrator::Integrator;
@@ -6,8 +7,8 @@ use crate::steps::integrator::Integrator;
 /// More iterations than any number type needs: bisections alone find double precision in 60.
 const MOST_ITERATIONS: u32 = 400;
 
-/// Makes one step after which the physical time, the last coordinate, is `until` to the last digits, and returns its size as a part of h.
-/// The step of the integrator itself must not end before `until`.
+/// Makes one step after which the physical time, the last coordinate, is `until` to the last digits, and returns its
+/// size as a part of h. The step of the integrator itself must not end before `until`.
 ///
 /// States and `None` are as of [`step_to_zero`].
 pub fn step_to_time<I>(integrator: &mut I, until: &I::Number) -> Option<I::Number>
@@ -21,14 +22,15 @@ where
     })
 }
 
-/// Makes one step after which a function of the state is 0 to the last digits, and returns its size as a part of h: a point of the trajectory with the
-/// error of a step of the scheme, as in M. Hénon, Physica D 5 (1982) 412. The function must not have the same sign at the present state and after the step of the integrator itself.
+/// Makes one step after which a function of the state is 0 to the last digits, and returns its size as a part of h: a
+/// point of the trajectory with the error of a step of the scheme, as in M. Hénon, Physica D 5 (1982) 412. The function
+/// must not have the same sign at the present state and after the step of the integrator itself.
 ///
-/// The step is an [`Integrator::part_of_step`]: of a processed scheme the present state has to be one of the trajectory, after the
-/// [post-map](Integrator::postprocess), and so is the one at the end.
+/// The step is an [`Integrator::part_of_step`]: of a processed scheme the present state has to be one of the
+/// trajectory, after the [post-map](Integrator::postprocess), and so is the one at the end.
 ///
-/// The size is found by the secant method, within a bracket that shrinks in each iteration, with a trial step in each. `None` if the function
-/// is 0 already, or if it is not finite after a trial step; the system is then as it was.
+/// The size is found by the secant method, within a bracket that shrinks in each iteration, with a trial step in each.
+/// `None` if the function is 0 already, or if it is not finite after a trial step; the system is then as it was.
 pub fn step_to_zero<I>(integrator: &mut I, value: impl FnMut(&mut I) -> I::Number) -> Option<I::Number>
 where
     I: Integrator<Number: Real> + ?Sized,

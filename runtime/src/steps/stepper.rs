@@ -15,11 +15,11 @@ use crate::systems::maps::MapKind;
 use crate::systems::state::Saved;
 use crate::systems::system::{Carrying, System, Visitor};
 
-/// A scheme, its step size h and its weights h·a_s, h·b_s and 2h³·c_s of gradient kicks, each an exact product rounded once to the number
-/// type.
+/// A scheme, its step size h and its weights h·a_s, h·b_s and 2h³·c_s of gradient kicks, each an exact product rounded
+/// once to the number type.
 ///
-/// Loops, runs and the [monitor](crate::shadow::ShadowEnergy) take a stepper, so that the scheme and the step size of the
-/// weights are always those of the steps.
+/// Loops, runs and the [monitor](crate::shadow::ShadowEnergy) take a stepper, so that the scheme and the step size of
+/// the weights are always those of the steps.
 ///
 /// ```
 /// use shadowstep::{Motion, Stepper, UnitMasses, problems::Kepler, splitting_scheme};
@@ -41,9 +41,9 @@ use crate::systems::system::{Carrying, System, Visitor};
 ///
 /// # Processed schemes
 ///
-/// A processed scheme is χ⁻¹ ∘ kernelⁿ ∘ χ. The steps are those of its kernel: [`preprocess`](Stepper::preprocess) once before the
-/// first of them, and read a state through [`at_output`](Stepper::at_output), as often as one is wanted. For other schemes both do
-/// nothing, so that a loop may always have them.
+/// A processed scheme is χ⁻¹ ∘ kernelⁿ ∘ χ. The steps are those of its kernel: [`preprocess`](Stepper::preprocess) once
+/// before the first of them, and read a state through [`at_output`](Stepper::at_output), as often as one is wanted. For
+/// other schemes both do nothing, so that a loop may always have them.
 ///
 /// ```
 /// use shadowstep::{Motion, Stepper, UnitMasses, potential, tables::shipped};
@@ -130,11 +130,12 @@ impl<S: Scheme, N: Number> Stepper<S, N> {
         self.back.view()
     }
 
-    /// How far the gradient kicks of its steps displace positions, for a system that makes them by displaced forces in place of second derivatives: see
-    /// [`Displacements`].
+    /// How far the gradient kicks of its steps displace positions, for a system that makes them by displaced forces in
+    /// place of second derivatives: see [`Displacements`].
     ///
     /// # Errors
-    /// A scheme without gradient kicks; a gradient kick without a kick at the same q; gradient kicks of equal weight with kicks of different weights.
+    /// A scheme without gradient kicks; a gradient kick without a kick at the same q; gradient kicks of equal weight
+    /// with kicks of different weights.
     pub fn displacements(&self) -> Result<Displacements<N>, DisplacementError>
     where
         N: Real,
@@ -142,7 +143,8 @@ impl<S: Scheme, N: Number> Stepper<S, N> {
         displacements(&self.scheme, self.h(), self.weights().gradient_kicks)
     }
 
-    /// Refuses a system whose numbers have another precision than the weights, or that has not the gradient kicks of the scheme.
+    /// Refuses a system whose numbers have another precision than the weights, or that has not the gradient kicks of
+    /// the scheme.
     pub(crate) fn check<M: System<Number = N> + ?Sized>(&self, system: &M) -> Result<(), MismatchError> {
         let context = system.state().context();
         if !self.weights().iter().all(|weight| weight.context() == context) {
@@ -173,8 +175,8 @@ impl<S: Scheme, N: Number> Stepper<S, N> {
         self.scheme.forward(&self.forward, &mut Carrying { system, carried: Carried::Nothing });
     }
 
-    /// One step before an augmented one, with the bits of [`Stepper::step`]: what it evaluates last, such as the rate qᵀU_q − 2U beside the gradient, is kept
-    /// for the augmented step, which then costs no evaluation more.
+    /// One step before an augmented one, with the bits of [`Stepper::step`]: what it evaluates last, such as the rate
+    /// qᵀU_q − 2U beside the gradient, is kept for the augmented step, which then costs no evaluation more.
     #[inline]
     pub fn step_before_augmented<M: System<Number = N>>(&self, system: &mut M)
     where
@@ -188,18 +190,20 @@ impl<S: Scheme, N: Number> Stepper<S, N> {
         !self.processor.is_identity()
     }
 
-    /// The pre-map χ of a processed scheme, which takes an initial state to that at which the kernel begins; nothing for other schemes.
+    /// The pre-map χ of a processed scheme, which takes an initial state to that at which the kernel begins; nothing
+    /// for other schemes.
     pub fn preprocess<M: System<Number = N>>(&self, system: &mut M) {
         self.processor.preprocess(system);
     }
 
-    /// The post-map χ⁻¹ of a processed scheme, which takes a state of the kernel to one of the trajectory; nothing for other schemes.
+    /// The post-map χ⁻¹ of a processed scheme, which takes a state of the kernel to one of the trajectory; nothing for
+    /// other schemes.
     pub fn postprocess<M: System<Number = N>>(&self, system: &mut M) {
         self.processor.postprocess(system);
     }
 
-    /// Reads the system at the state of the trajectory that belongs to the present one of the kernel: through the post-map, after which the
-    /// system has its state back, to the last bit. For other schemes it is at its own state.
+    /// Reads the system at the state of the trajectory that belongs to the present one of the kernel: through the
+    /// post-map, after which the system has its state back, to the last bit. For other schemes it is at its own state.
     pub fn at_output<M: System<Number = N>, R>(&self, system: &mut M, read: impl FnOnce(&mut M) -> R) -> R {
         if !self.is_processed() {
             return read(system);
@@ -213,15 +217,16 @@ impl<S: Scheme, N: Number> Stepper<S, N> {
 
     /// `count` steps of each of several systems, with the bits that [`Stepper::step`] gives.
     ///
-    /// Of [lanes](crate::number::Lanes) this is one loop in the widest vector instructions that the processor has. The systems take turns: all
-    /// kicks and drifts of one up to its next evaluation of the gradient, then those of the next, so that operations of one need not wait for the
-    /// results of another; fewer than 8 steps, and those with gradient kicks, map by map. Four systems of 16 lanes are good, or one of many
-    /// coordinates. Potentials behind a `dyn`, of up to three coordinates, take turns as those of a known type do if they are
+    /// Of [lanes](crate::number::Lanes) this is one loop in the widest vector instructions that the processor has. The
+    /// systems take turns: all kicks and drifts of one up to its next evaluation of the gradient, then those of the
+    /// next, so that operations of one need not wait for the results of another; fewer than 8 steps, and those with
+    /// gradient kicks, map by map. Four systems of 16 lanes are good, or one of many coordinates. Potentials behind a
+    /// `dyn`, of up to three coordinates, take turns as those of a known type do if they are
     /// [`Vectorised`](crate::systems::potential::Vectorised). Each map, and each instruction, of four systems with one
     /// [formula](crate::systems::formula::FormulaPotential) is carried out for all of them before the next one.
     ///
-    /// [`Fused`](crate::number::Fused) numbers need it for the instructions of their products. Of `f64` in arrays it is as fast as a loop of steps or
-    /// a little faster, with schemes from tables by 9 to 29 %.
+    /// [`Fused`](crate::number::Fused) numbers need it for the instructions of their products. Of `f64` in arrays it is
+    /// as fast as a loop of steps or a little faster, with schemes from tables by 9 to 29 %.
     pub fn steps<M: System<Number = N>>(&self, systems: &mut [M], count: u64)
     where
         S: ValidFor<M::Class>,
@@ -231,8 +236,8 @@ impl<S: Scheme, N: Number> Stepper<S, N> {
 
     /// `count` steps of a system, with the bits that [`Stepper::step`] gives; the visitor sees the state after each.
     ///
-    /// It is for what needs each state of a long run and little of it: of `f64` in vectors, behind a `dyn`, a step takes less time than one by one, as
-    /// with [`Stepper::steps`].
+    /// It is for what needs each state of a long run and little of it: of `f64` in vectors, behind a `dyn`, a step
+    /// takes less time than one by one, as with [`Stepper::steps`].
     pub fn steps_visited<M: System<Number = N>>(&self, system: &mut M, count: u64, visitor: &mut dyn Visitor<N>)
     where
         S: ValidFor<M::Class>,
@@ -240,16 +245,16 @@ impl<S: Scheme, N: Number> Stepper<S, N> {
         system.advance_visited(&self.maps(), count, visitor);
     }
 
-    /// `count` steps of each of several systems, where the last map of a step and the first of the next are made as one: n steps of
-    /// Störmer–Verlet are n + 1 kicks and n drifts.
+    /// `count` steps of each of several systems, where the last map of a step and the first of the next are made as
+    /// one: n steps of Störmer–Verlet are n + 1 kicks and n drifts.
     ///
-    /// This is a map less a step, and its bits are other ones than those of [`Stepper::steps`]: the merged map has the weight h(w + w′),
-    /// the exact product rounded once, and q or p is rounded once where it was twice. Of two kicks no gradient is saved, as that of the
-    /// last serves the first anyway; two drifts are a flow less, such as a Kepler orbit. As no state between two steps is made, take it
-    /// for stretches of steps in which none is wanted.
+    /// This is a map less a step, and its bits are other ones than those of [`Stepper::steps`]: the merged map has the
+    /// weight h(w + w′), the exact product rounded once, and q or p is rounded once where it was twice. Of two kicks no
+    /// gradient is saved, as that of the last serves the first anyway; two drifts are a flow less, such as a Kepler
+    /// orbit. As no state between two steps is made, take it for stretches of steps in which none is wanted.
     ///
-    /// Where a step begins and ends with different maps, or with a gradient kick, and for three parts and more, these are its steps. As
-    /// [`Stepper::steps`] it is compiled for the widest vector instructions.
+    /// Where a step begins and ends with different maps, or with a gradient kick, and for three parts and more, these
+    /// are its steps. As [`Stepper::steps`] it is compiled for the widest vector instructions.
     ///
     /// ```
     /// use shadowstep::{Motion, Stepper, UnitMasses, problems::Kepler, tables::shipped};
@@ -272,8 +277,9 @@ impl<S: Scheme, N: Number> Stepper<S, N> {
         }
     }
 
-    /// One step of each of several systems with its [increments](crate::State::increments) of q, p and β, with the bits that
-    /// [`Stepper::step_augmented`] gives. Of lanes it is compiled for the widest vector instructions, as [`Stepper::steps`] is.
+    /// One step of each of several systems with its [increments](crate::State::increments) of q, p and β, with the bits
+    /// that [`Stepper::step_augmented`] gives. Of lanes it is compiled for the widest vector instructions, as
+    /// [`Stepper::steps`] is.
     pub fn step_each_augmented<M: System<Number = N>>(&self, systems: &mut [M])
     where
         S: ValidFor<M::Class>,
@@ -344,7 +350,8 @@ fn times<N: Number, W: WeightLists<N>>(exact: Weights<&[Rational]>, h: &Rational
     W::from_vecs(exact.map(number(h.clone()), number(twice_cube)))
 }
 
-/// h(w + w′) of the weights of the last map of a step and the first of the next, where both are kicks or both are drifts of H of two parts.
+/// h(w + w′) of the weights of the last map of a step and the first of the next, where both are kicks or both are
+/// drifts of H of two parts.
 fn merged_weight<N: Number>(
     scheme: &impl Scheme,
     exact: Weights<&[Rational]>,

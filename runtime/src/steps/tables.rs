@@ -18,8 +18,8 @@ use crate::systems::maps::{Flows, PartOrder, Sequence};
 
 /// A proved scheme with the plan of its step. A clone shares them.
 ///
-/// It is valid for systems with quadratic T; a `TableScheme<General>`, which [`TableScheme::for_every_kinetic`] makes, for
-/// all.
+/// It is valid for systems with quadratic T; a `TableScheme<General>`, which [`TableScheme::for_every_kinetic`] makes,
+/// for all.
 #[derive(Debug)]
 pub struct TableScheme<Class = Quadratic> {
     proved: Arc<Proved>,
@@ -138,8 +138,8 @@ impl ValidFor<General> for TableScheme<General> {}
 
 impl ValidFor<ManyParts> for TableScheme<ManyParts> {}
 
-/// The class of a scheme where that of the system is known at run time only: its steps are made after one of the conversions of [`TableScheme`], which
-/// check it.
+/// The class of a scheme where that of the system is known at run time only: its steps are made after one of the
+/// conversions of [`TableScheme`], which check it.
 #[derive(Clone, Copy, Debug)]
 pub enum AtRunTime {}
 
@@ -152,8 +152,8 @@ impl TableScheme<AtRunTime> {
 }
 
 impl<Class> TableScheme<Class> {
-    /// The scheme for systems of [three parts and more](crate::systems::many_parts). The words on three letters are looked at with each call, which for
-    /// order 10 takes a moment.
+    /// The scheme for systems of [three parts and more](crate::systems::many_parts). The words on three letters are
+    /// looked at with each call, which for order 10 takes a moment.
     ///
     /// # Errors
     /// A scheme with gradient kicks, with a processor, or whose order is for quadratic T only.
@@ -166,8 +166,8 @@ impl<Class> TableScheme<Class> {
         TableScheme { proved: self.proved, class: PhantomData }
     }
 
-    /// The same scheme for numbers of this many digits: irrational weights that are closed forms have 300, and are rounded to these, up to 5000, and proved
-    /// again.
+    /// The same scheme for numbers of this many digits: irrational weights that are closed forms have 300, and are
+    /// rounded to these, up to 5000, and proved again.
     ///
     /// ```
     /// use shadowstep::tables::shipped;

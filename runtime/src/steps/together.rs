@@ -1,4 +1,5 @@
-//! The loop over the states of what is advanced together: a system, several in turns, lanes, a system beside its derivatives.
+//! The loop over the states of what is advanced together: a system, several in turns, lanes, a system beside its
+//! derivatives.
 
 use crate::steps::integrator::Integrator;
 use crate::systems::increments::Carried;
@@ -18,8 +19,8 @@ impl<I: Integrator + ?Sized> Together for I {
     }
 }
 
-/// Shows the state 0, which is the present one, and then others up to the last one; `see` takes the number of a state, and says which is the next one to be
-/// shown, and what the steps to it carry along.
+/// Shows the state 0, which is the present one, and then others up to the last one; `see` takes the number of a state,
+/// and says which is the next one to be shown, and what the steps to it carry along.
 ///
 /// ```
 /// use shadowstep::steps::together::follow;

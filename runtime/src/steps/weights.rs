@@ -47,7 +47,8 @@ impl<'a, T> Weights<&'a [T]> {
         self.kicks.iter().chain(self.drifts).chain(self.middle_parts).chain(self.gradient_kicks)
     }
 
-    /// Functions of the weights: `linear` of those that steps multiply by h, `cubic` of those of gradient kicks, which they multiply by 2h³.
+    /// Functions of the weights: `linear` of those that steps multiply by h, `cubic` of those of gradient kicks, which
+    /// they multiply by 2h³.
     pub fn map<U>(&self, mut linear: impl FnMut(&T) -> U, cubic: impl FnMut(&T) -> U) -> Weights<Vec<U>> {
         Weights {
             kicks: self.kicks.iter().map(&mut linear).collect(),

@@ -10,8 +10,8 @@ pub trait Coordinates<N>: AsRef<[N]> + AsMut<[N]> + Clone {}
 
 impl<N, V: AsRef<[N]> + AsMut<[N]> + Clone> Coordinates<N> for V {}
 
-/// `visit` for each coordinate and its partner: a loop of its own, as that over a `zip` of the standard library calls functions that are not inlined
-/// into other codegen units.
+/// `visit` for each coordinate and its partner: a loop of its own, as that over a `zip` of the standard library calls
+/// functions that are not inlined into other codegen units.
 #[inline(always)]
 pub(crate) fn for_each_two<N: Number>(own: &mut [N], other: &[N], mut visit: impl FnMut(&mut N, &N)) {
     let length = own.len().min(other.len());
@@ -43,8 +43,8 @@ pub(crate) fn for_each_three<N: Number>(own: &mut [N], a: &[N], b: &[N], mut vis
     }
 }
 
-/// Lanes of four coordinates and more: where the compiler sees the index of a loop over them, it makes vectors of one lane of several coordinates, which
-/// are gathered from their places.
+/// Lanes of four coordinates and more: where the compiler sees the index of a loop over them, it makes vectors of one
+/// lane of several coordinates, which are gathered from their places.
 #[inline(always)]
 fn are_many<N: Number>(length: usize) -> bool {
     N::LANES > 1 && length >= 4
@@ -56,8 +56,8 @@ pub(crate) fn index<N: Number>(i: usize, length: usize) -> usize {
     if are_many::<N>(length) { black_box(i) } else { i }
 }
 
-/// The first of the initial values q1, q2, …, p1, p2, … that is infinite or NaN. One of several numbers in lanes may be so: the other trajectories go
-/// on without it.
+/// The first of the initial values q1, q2, …, p1, p2, … that is infinite or NaN. One of several numbers in lanes may be
+/// so: the other trajectories go on without it.
 pub(crate) fn first_not_finite<N: Number>(q: &[N], p: &[N]) -> Option<String> {
     let not_finite = |x: &N| N::LANES == 1 && !x.is_finite();
     let first = |name: &str, values: &[N]| Some(format!("{name}{}", values.iter().position(not_finite)? + 1));

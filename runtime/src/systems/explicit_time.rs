@@ -1,9 +1,10 @@
 //! Hamiltonians H(q, p, t) that depend on time: t is a coordinate, and p_t its momentum.
 //!
-//! H + p_t does not depend on the time of its own flow, along which t grows by what time passes. So whatever splits H + p_t has the kicks of
-//! U(q, t) at the times that its order needs (J. M. Sanz-Serna and M. P. Calvo, *Numerical Hamiltonian Problems*, Chapman & Hall 1994, Section
-//! 10.1). T + p_t is at most quadratic in the momenta where T is: Runge–Kutta–Nyström schemes keep their order. The steps conserve a modified
-//! function of H + p_t, which is what the estimators give; p_t is minus the work that the explicit time does.
+//! H + p_t does not depend on the time of its own flow, along which t grows by what time passes. So whatever splits H +
+//! p_t has the kicks of U(q, t) at the times that its order needs (J. M. Sanz-Serna and M. P. Calvo, *Numerical
+//! Hamiltonian Problems*, Chapman & Hall 1994, Section 10.1). T + p_t is at most quadratic in the momenta where T is:
+//! Runge–Kutta–Nyström schemes keep their order. The steps conserve a modified function of H + p_t, which is what the
+//! estimators give; p_t is minus the work that the explicit time does.
 
 use crate::number::Number;
 use crate::systems::kinetic::Kinetic;

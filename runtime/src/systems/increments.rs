@@ -9,12 +9,14 @@ use crate::systems::coordinates::Coordinates;
 pub enum Carried {
     /// Nothing: a plain step.
     Nothing,
-    /// The rate of β, not β itself: a plain step before an augmented one. What it evaluates last, such as qᵀU_q − 2U beside the gradient, is kept for that.
+    /// The rate of β, not β itself: a plain step before an augmented one. What it evaluates last, such as qᵀU_q − 2U
+    /// beside the gradient, is kept for that.
     Rate,
     /// The [increments](Increments) of q, p and β: an augmented step.
     ///
-    /// Along each flow β grows by the integral of qᵀH_q + pᵀH_p − 2H, H being A or B (Moan & Niesen, eq. 2, whose printed sign is
-    /// wrong): by weight·(qᵀU_q − 2U) in a kick, and by weight·(pᵀT_p − 2T) in a drift, which is 0 for quadratic T.
+    /// Along each flow β grows by the integral of qᵀH_q + pᵀH_p − 2H, H being A or B (Moan & Niesen, eq. 2, whose
+    /// printed sign is wrong): by weight·(qᵀU_q − 2U) in a kick, and by weight·(pᵀT_p − 2T) in a drift, which is 0 for
+    /// quadratic T.
     Increments,
 }
 
@@ -37,8 +39,8 @@ impl Carried {
 /// For a number type that does not [keep increments](Number::KEEPS_INCREMENTS), q and p are empty.
 #[derive(Debug)]
 pub struct Increments<'a, N> {
-    /// To q: the sum of what its flows added, without the round-off of q itself. For an exact flow it must be computed without
-    /// cancellation, not as a difference of states.
+    /// To q: the sum of what its flows added, without the round-off of q itself. For an exact flow it must be computed
+    /// without cancellation, not as a difference of states.
     pub q: &'a [N],
     /// To p: the sum of what its flows added, without the round-off of p itself.
     pub p: &'a [N],

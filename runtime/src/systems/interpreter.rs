@@ -96,7 +96,8 @@ impl<N: Number> Interpreter<N> {
         &mut self.compute(&self.energy, x, registers)[0]
     }
 
-    /// The function of one number at blocks of them: the registers of [`BLOCKS`] blocks are side by side, and so are the results.
+    /// The function of one number at blocks of them: the registers of [`BLOCKS`] blocks are side by side, and so are
+    /// the results.
     pub(crate) fn energies<'r, const W: usize>(&self, x: &[[N; W]], registers: &'r mut [[N; W]]) -> &'r mut [[N; W]] {
         self.compute_blocks(&self.energy, x, registers)
     }
@@ -135,8 +136,9 @@ impl<N: Number> Interpreter<N> {
         self.compute(&self.gradient, x, registers)
     }
 
-    /// The gradients of several systems at their x, in whose registers there is what was prepared for each: one instruction after the other, for all
-    /// of them; the index of the first register of results. Not inlined: compiled once for each kind of instructions.
+    /// The gradients of several systems at their x, in whose registers there is what was prepared for each: one
+    /// instruction after the other, for all of them; the index of the first register of results. Not inlined: compiled
+    /// once for each kind of instructions.
     #[inline(never)]
     pub(crate) fn gradients<const W: usize>(&self, x: &[[N; W]], registers: &mut [[N; W]]) -> usize {
         N::in_widest_instructions(
@@ -146,7 +148,8 @@ impl<N: Number> Interpreter<N> {
         self.layout.outputs
     }
 
-    /// Its gradient at x, then its rate, of a pair its summand, and something more; all may be swapped with other numbers.
+    /// Its gradient at x, then its rate, of a pair its summand, and something more; all may be swapped with other
+    /// numbers.
     pub(crate) fn gradient_and_rate<'r>(&self, x: &[N], registers: &'r mut [N]) -> &'r mut [N] {
         self.compute(&self.gradient_and_rate, x, registers)
     }
@@ -236,8 +239,9 @@ fn execute<N: Number, const W: usize, const B: usize>(
         return assign_sin_cos::<N, W, B>(target, cos, a, [before, after], x);
     }
     let of = Operands::<_, B> { sides: [before, after, x], blocks };
-    // The same operation on each number of the blocks. Results are written when all is read, as for all that the compiler knows the places are the same:
-    // of numbers in vectors a block at once, of lanes one after the other. Long numbers are not copied.
+    // The same operation on each number of the blocks. Results are written when all is read, as for all that the
+    // compiler knows the places are the same: of numbers in vectors a block at once, of lanes one after the other. Long
+    // numbers are not copied.
     macro_rules! each {
         ($operation:ident $(, $name:ident)*; $($constant:expr)?) => {{
             $(let $name = of.at($name);)*

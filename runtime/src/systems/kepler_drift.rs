@@ -13,7 +13,8 @@ use equation::{Equation, value};
 pub use input::KeplerDriftError;
 use passage::Passage;
 
-/// The exact flow of A = |p|²/(2m) − κ/|q|, in terms of the velocity v = p/m and the gravity parameter μ = κ/m: q̈ = −μq/|q|³.
+/// The exact flow of A = |p|²/(2m) − κ/|q|, in terms of the velocity v = p/m and the gravity parameter μ = κ/m: q̈ =
+/// −μq/|q|³.
 ///
 /// **Formulas.** With r₀ = |q|, η = q·v, α = 2μ/r₀ − v² (which is μ/a), ζ = μ − αr₀ and G_k(s) = sᵏ c_k(αs²), where
 /// c_k(z) = Σ (−z)ⁿ/(2n + k)! are Stumpff's functions, the universal anomaly s = ∫dt/r is the root of Kepler's equation
@@ -22,17 +23,19 @@ use passage::Passage;
 ///
 /// Δq = (f − 1)q + gv, Δv = ḟq + (ġ − 1)v with f − 1 = −μG₂/r₀, g = r₀G₁ + ηG₂, ḟ = −μG₁/(r₀r), ġ − 1 = −μG₂/r.
 ///
-/// Ellipses, parabolas and hyperbolas are one case, and increments have no cancellation of f and ġ with 1. Whole revolutions are taken off t
-/// first, of which s keeps its part. Along the flow β grows by ∫(qᵀA_q + pᵀA_p − 2A) dt = 3κs.
+/// Ellipses, parabolas and hyperbolas are one case, and increments have no cancellation of f and ġ with 1. Whole
+/// revolutions are taken off t first, of which s keeps its part. Along the flow β grows by ∫(qᵀA_q + pᵀA_p − 2A) dt =
+/// 3κs.
 ///
-/// **Solution.** In `f64`, a step of a fraction of a revolution begins with the series of s in t and is refined by two steps of third order.
-/// Elsewhere, and always with more digits, s is found in `f64` by Laguerre's steps between two bounds, at most 400; then steps in the number type
-/// triple the digits. Where the terms of r or t cancel, as on hyperbolic passages of the centre, an `f64` drift is computed in double-double. A lane
-/// has the bits that it has alone.
+/// **Solution.** In `f64`, a step of a fraction of a revolution begins with the series of s in t and is refined by two
+/// steps of third order. Elsewhere, and always with more digits, s is found in `f64` by Laguerre's steps between two
+/// bounds, at most 400; then steps in the number type triple the digits. Where the terms of r or t cancel, as on
+/// hyperbolic passages of the centre, an `f64` drift is computed in double-double. A lane has the bits that it has
+/// alone.
 ///
-/// **Errors** of q and v, relative to |q| and |v|, in units of u (1 + K): u = 2⁻⁵³ for `f64`, 2⁻¹⁰⁶ for double-doubles, and K is the condition of the
-/// problem, the root of the sum of squares of relative changes of the result by relative changes of μ, q, v and t. Of 10⁵ random orbits from any point, over 10⁻⁶
-/// to 30 periods of both signs:
+/// **Errors** of q and v, relative to |q| and |v|, in units of u (1 + K): u = 2⁻⁵³ for `f64`, 2⁻¹⁰⁶ for double-doubles,
+/// and K is the condition of the problem, the root of the sum of squares of relative changes of the result by relative
+/// changes of μ, q, v and t. Of 10⁵ random orbits from any point, over 10⁻⁶ to 30 periods of both signs:
 ///
 /// | orbits | `f64`: median | 99 % | largest | double-double: median | 99 % | largest |
 /// | --- | --- | --- | --- | --- | --- | --- |
@@ -41,11 +44,13 @@ use passage::Passage;
 /// | \|1 − e\| ≤ 10⁻⁸ | 0.32 | 1.60 | 7.7 | 0.14 | 1.61 | 8.6 |
 /// | 1 + 10⁻⁶ ≤ e ≤ 10 | 0.32 | 1.62 | 5.0 | 0.14 | 8.31 | 341 |
 ///
-/// In number types of more digits than `f64`, a hyperbolic passage loses as many digits as |ηG₁|/(r₀ + r) has, which grows like r₀/|a|. Numbers of five limbs (96 digits) agreed
-/// with mpmath's of 60 digits on 10⁵ cases, to 1.3e-61 (1 + K).
+/// In number types of more digits than `f64`, a hyperbolic passage loses as many digits as |ηG₁|/(r₀ + r) has, which
+/// grows like r₀/|a|. Numbers of five limbs (96 digits) agreed with mpmath's of 60 digits on 10⁵ cases, to 1.3e-61 (1 +
+/// K).
 ///
-/// **Long runs.** Errors wander like √n: means over the orbits are below 2 standard errors at each n. Root mean squares over 32 orbits (0.01 < e < 0.3, 15 to 100 steps a
-/// period, `f64`) of the relative error of energy and angular momentum and of the angle of the pericentre:
+/// **Long runs.** Errors wander like √n: means over the orbits are below 2 standard errors at each n. Root mean squares
+/// over 32 orbits (0.01 < e < 0.3, 15 to 100 steps a period, `f64`) of the relative error of energy and angular
+/// momentum and of the angle of the pericentre:
 ///
 /// | drifts | energy | angular momentum | angle |
 /// | --- | --- | --- | --- |
@@ -54,13 +59,15 @@ use passage::Passage;
 /// | 10⁶ | 1.1e-13 | 5.5e-14 | 6.9e-13 |
 /// | 10⁷ | 3.9e-13 | 1.9e-13 | 1.6e-12 |
 ///
-/// Both tables are from `cargo test --release -p shadowstep kepler_drift -- --ignored --nocapture`. What a drift costs: `cargo bench -p shadowstep --bench
-/// kepler_drift`; for planets about 105 ns in `f64` and 24 ns an orbit in `Lanes<16>` with AVX-512.
+/// Both tables are from `cargo test --release -p shadowstep kepler_drift -- --ignored --nocapture`. What a drift costs:
+/// `cargo bench -p shadowstep --bench kepler_drift`; for planets about 105 ns in `f64` and 24 ns an orbit in
+/// `Lanes<16>` with AVX-512.
 ///
-/// **Radial orbits** (of no angular momentum) pass through the centre as ellipses and hyperbolas do whose pericentre goes to 0: the body comes back
-/// where it came from. At the centre itself v is infinite or NaN.
+/// **Radial orbits** (of no angular momentum) pass through the centre as ellipses and hyperbolas do whose pericentre
+/// goes to 0: the body comes back where it came from. At the centre itself v is infinite or NaN.
 ///
-/// **Range.** In `f64`, products such as r₀² and μs³ must not overflow or underflow. What is too large becomes infinite or NaN; nothing panics.
+/// **Range.** In `f64`, products such as r₀² and μs³ must not overflow or underflow. What is too large becomes infinite
+/// or NaN; nothing panics.
 ///
 /// ```
 /// use shadowstep::systems::kepler_drift::KeplerDrift;
@@ -72,8 +79,9 @@ use passage::Passage;
 /// assert!((s - 1.0).abs() < 1e-15); // ∫dt/r
 /// ```
 ///
-/// Sources: K. Stumpff, Himmelsmechanik I (1959); E. Everhart, E. T. Pitkin, Am. J. Phys. 51 (1983) 712; J. M. A. Danby, Fundamentals of
-/// Celestial Mechanics, 2nd ed. (1988), ch. 6; J. Wisdom, D. M. Hernandez, MNRAS 453 (2015) 3015; H. Rein, D. Tamayo, MNRAS 452 (2015) 376.
+/// Sources: K. Stumpff, Himmelsmechanik I (1959); E. Everhart, E. T. Pitkin, Am. J. Phys. 51 (1983) 712; J. M. A.
+/// Danby, Fundamentals of Celestial Mechanics, 2nd ed. (1988), ch. 6; J. Wisdom, D. M. Hernandez, MNRAS 453 (2015)
+/// 3015; H. Rein, D. Tamayo, MNRAS 452 (2015) 376.
 #[derive(Clone, Debug)]
 pub struct KeplerDrift<N: Number> {
     /// Of dual numbers that of their values: derivatives follow from its solution.
@@ -103,7 +111,8 @@ impl<N: Number> KeplerDrift<N> {
         }
     }
 
-    /// q, v ← the state after the time t, positive or negative, around a centre of gravity parameter μ; s = ∫dt/r is returned.
+    /// q, v ← the state after the time t, positive or negative, around a centre of gravity parameter μ; s = ∫dt/r is
+    /// returned.
     ///
     /// Positions and velocities have the same dimension. [Wrong input](KeplerDrift::check) makes NaNs, in its own lane.
     #[inline(always)]
@@ -132,8 +141,8 @@ impl<N: Number> KeplerDrift<N> {
     /// Checks the input of a drift.
     ///
     /// # Errors
-    /// μ is not positive and finite; the time, a position or a velocity is not finite; q is 0; q and v differ in their dimensions. With lanes, in any of
-    /// them.
+    /// μ is not positive and finite; the time, a position or a velocity is not finite; q is 0; q and v differ in their
+    /// dimensions. With lanes, in any of them.
     ///
     /// ```
     /// use shadowstep::systems::kepler_drift::KeplerDrift;
@@ -197,7 +206,8 @@ impl<N: Number> KeplerDrift<N> {
         }
     }
 
-    /// Increments of all coordinates ← the ones by Gauss's functions, and in lanes where these have lost digits, the ones of more digits.
+    /// Increments of all coordinates ← the ones by Gauss's functions, and in lanes where these have lost digits, the
+    /// ones of more digits.
     #[cold]
     fn pass_centre(&mut self, mu: &N, t: &N, q: &[N], v: &[N]) {
         self.increments.clear();

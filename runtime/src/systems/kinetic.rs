@@ -17,8 +17,9 @@ use crate::systems::coordinates::{for_each_three, for_each_two};
 use num_traits::Signed;
 use shadowstep_symbolic::decimal::{to_significant, to_text};
 
-/// The class of T = ½pᵀM⁻¹p + bᵀp + c, at most quadratic in p. Every scheme has its order for these ([`crate::ValidFor`]): each bracket with U takes a
-/// degree, so that \[U,\[U,\[U,T\]\]\] = 0, and the force of gradient kicks has M⁻¹ only.
+/// The class of T = ½pᵀM⁻¹p + bᵀp + c, at most quadratic in p. Every scheme has its order for these
+/// ([`crate::ValidFor`]): each bracket with U takes a degree, so that \[U,\[U,\[U,T\]\]\] = 0, and the force of
+/// gradient kicks has M⁻¹ only.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Quadratic {}
 
@@ -90,8 +91,8 @@ pub trait Kinetic<N: Number> {
     /// energy ← T(p)
     fn energy(&self, p: &[N], energy: &mut N, scratch: &mut [N]);
 
-    /// energy, which is T(p), ← an energy of the size of those exchanged in the motion, with which the monitor compares the error of H.
-    /// By default it is T itself.
+    /// energy, which is T(p), ← an energy of the size of those exchanged in the motion, with which the monitor compares
+    /// the error of H. By default it is T itself.
     fn exchanged_energy(&self, p: &[N], energy: &mut N, scratch: &mut [N]) {
         let _ = (p, energy, scratch);
     }
@@ -101,13 +102,14 @@ pub trait Kinetic<N: Number> {
         None
     }
 
-    /// Whether T of the class [`Quadratic`] has terms bᵀp, so that T_p(0) = b is not 0: gradient kicks subtract it. By default it has none.
+    /// Whether T of the class [`Quadratic`] has terms bᵀp, so that T_p(0) = b is not 0: gradient kicks subtract it. By
+    /// default it has none.
     fn has_linear_terms(&self) -> bool {
         false
     }
 
-    /// How many coordinates of a state of this dimension have an energy, the first ones: by default all. Those after them are of particles of
-    /// mass 0.
+    /// How many coordinates of a state of this dimension have an energy, the first ones: by default all. Those after
+    /// them are of particles of mass 0.
     fn massive_coordinates(&self, dimension: usize) -> usize {
         dimension
     }
@@ -332,8 +334,8 @@ impl<N: Real> DiagonalMasses<N> {
 }
 
 impl<const W: usize> DiagonalMasses<Lanes<W>> {
-    /// Masses that differ in the trajectories of an [ensemble](crate::shadow::ensemble): the masses of one in each lane, with the bits that they have
-    /// alone.
+    /// Masses that differ in the trajectories of an [ensemble](crate::shadow::ensemble): the masses of one in each
+    /// lane, with the bits that they have alone.
     ///
     /// ```
     /// use shadowstep::{DiagonalMasses, Motion, Stepper, shadow::ensemble::Ensemble, problems::HenonHeiles, tables::shipped};
@@ -432,9 +434,9 @@ impl<N: Real> FullMasses<N> {
     /// The rows of M⁻¹, each entry rounded once.
     ///
     /// # Errors
-    /// A matrix that is not square or not symmetric, has a diagonal entry that is not positive or overflows or underflows,
-    /// or is not positive definite. The last is decided by the pivots of Gauss's elimination: in row i of d one must be
-    /// larger than d ε times the diagonal entry, ε the last place of 1, as a smaller one may be round-off.
+    /// A matrix that is not square or not symmetric, has a diagonal entry that is not positive or overflows or
+    /// underflows, or is not positive definite. The last is decided by the pivots of Gauss's elimination: in row i of d
+    /// one must be larger than d ε times the diagonal entry, ε the last place of 1, as a smaller one may be round-off.
     pub fn from_inverse(rows: &[Vec<Rational>], context: &N::Context) -> Result<Self, MassError> {
         for (i, row) in rows.iter().enumerate() {
             if row.len() != rows.len() {

@@ -1,12 +1,13 @@
 //! Oscillations solved exactly: H = A + B with A = ½pᵀM⁻¹p + ½qᵀKq, and B = U(q) − ½qᵀKq.
 //!
-//! With T(p) and U(q) as parts a step must resolve the fastest oscillation: hω has a limit, and there are resonances at hω = mπ below it. Here the drift is
-//! the exact flow of all oscillations, of any frequency, and a kick is by what is left of the force. K may be any symmetric matrix, as B is the rest of
-//! U; mostly it is U_qq at the equilibrium. The flow of a quadratic form adds nothing to β; a kick adds qᵀB_q − 2B = qᵀU_q − 2U times its
-//! weight: that of U itself, as of ½qᵀKq it is 0.
+//! With T(p) and U(q) as parts a step must resolve the fastest oscillation: hω has a limit, and there are resonances at
+//! hω = mπ below it. Here the drift is the exact flow of all oscillations, of any frequency, and a kick is by what is
+//! left of the force. K may be any symmetric matrix, as B is the rest of U; mostly it is U_qq at the equilibrium. The
+//! flow of a quadratic form adds nothing to β; a kick adds qᵀB_q − 2B = qᵀU_q − 2U times its weight: that of U itself,
+//! as of ½qᵀKq it is 0.
 //!
-//! Source: Deuflhard, Z. Angew. Math. Phys. 30 (1979) 177; Hairer, Lubich & Wanner, Geometric Numerical Integration, chapter XIII, where this is the
-//! method without filters: its own resonances are at h(ω_i ± ω_j ± …) = 2πm.
+//! Source: Deuflhard, Z. Angew. Math. Phys. 30 (1979) 177; Hairer, Lubich & Wanner, Geometric Numerical Integration,
+//! chapter XIII, where this is the method without filters: its own resonances are at h(ω_i ± ω_j ± …) = 2πm.
 
 mod rotation;
 
@@ -56,7 +57,8 @@ pub struct LinearPart<N, P> {
     gradient: Vec<N>,
     rate: N,
     kept: bool,
-    /// Once there was a gradient kick, with the potential's scratch space; what it keeps belongs to the q of the last evaluation.
+    /// Once there was a gradient kick, with the potential's scratch space; what it keeps belongs to the q of the last
+    /// evaluation.
     gradient_kicks: Option<Box<(GradientKicks<N>, Vec<N>)>>,
     scratch_of_kinetic: Vec<N>,
     /// T of an energy.
@@ -64,12 +66,13 @@ pub struct LinearPart<N, P> {
 }
 
 impl<N: CorrectlyRounded, P: Potential<N>> LinearPart<N, P> {
-    /// The system at q, p, with the masses of the coordinates and K, row by row; the flow is computed in more digits than the numbers have, and rounded
-    /// once.
+    /// The system at q, p, with the masses of the coordinates and K, row by row; the flow is computed in more digits
+    /// than the numbers have, and rounded once.
     ///
     /// # Errors
-    /// q, p, the masses, K and the potential that do not have the same dimension, at least 1; masses that are not positive; an infinite q or p, or
-    /// one that is NaN; numbers of more than [`QUADRATIC_FLOW_DIGITS`](crate::systems::QUADRATIC_FLOW_DIGITS).
+    /// q, p, the masses, K and the potential that do not have the same dimension, at least 1; masses that are not
+    /// positive; an infinite q or p, or one that is NaN; numbers of more than
+    /// [`QUADRATIC_FLOW_DIGITS`](crate::systems::QUADRATIC_FLOW_DIGITS).
     pub fn new(
         potential: P,
         masses: &[Rational],
@@ -121,15 +124,16 @@ impl<N: CorrectlyRounded, P: Potential<N>> LinearPart<N, P> {
         })
     }
 
-    /// The same system with [compensated sums](crate::systems::summation::Compensated) if `compensated` is true, else with plain ones: the round-off of a kick or drift is ε times the increment, in place of ε
-    /// times the coordinate.
+    /// The same system with [compensated sums](crate::systems::summation::Compensated) if `compensated` is true, else
+    /// with plain ones: the round-off of a kick or drift is ε times the increment, in place of ε times the coordinate.
     #[must_use]
     pub fn compensated_if(mut self, compensated: bool) -> Self {
         self.state = self.state.compensated_if(compensated);
         self
     }
 
-    /// The same system with gradient kicks by displaced forces, of the stepper that computed these: see [`Displacements`].
+    /// The same system with gradient kicks by displaced forces, of the stepper that computed these: see
+    /// [`Displacements`].
     #[must_use]
     pub fn displaced(mut self, displacements: Displacements<N>) -> Self {
         let (dimension, context) = (self.state.q.len(), self.state.context());
@@ -160,7 +164,8 @@ impl<N: CorrectlyRounded, P: Potential<N>> LinearPart<N, P> {
 /// Room for gradient kicks, and the scratch space of the potential for them.
 fn room<N: Number, P: Potential<N>>(potential: &P, context: &N::Context) -> (GradientKicks<N>, Vec<N>) {
     let hessian = potential.hessian().expect(
-        "gradient kicks need the Hessian–vector product of the potential: write it as a formula, or implement `Potential::hessian`",
+        "gradient kicks need the Hessian–vector product of the potential: write it as a formula, or implement \
+            `Potential::hessian`",
     );
     let mut scratch = vec![N::zero(context); hessian.hessian_scratch()];
     hessian.prepare_hessian(&mut scratch, context);

@@ -1,10 +1,13 @@
 //! Hamiltonians of three parts and more: H = H_1 + H_2 + … + H_n, each with a flow that has a formula.
 //!
-//! A step is the composition of the basic map φ_n ∘ … ∘ φ_2 ∘ φ_1 and its adjoint that a scheme for two parts is (R. I. McLachlan, SIAM J. Sci. Comput.
-//! 16 (1995) 151): H_1 flows where the scheme has kicks, H_n where it has drifts, and the others between them. The order for n parts is that for every A + B;
-//! [`for_many_parts`](crate::steps::tables::TableScheme::for_many_parts) and `#[splitting_scheme("…", parts = 3)]` prove it by the words on three letters.
+//! A step is the composition of the basic map φ_n ∘ … ∘ φ_2 ∘ φ_1 and its adjoint that a scheme for two parts is (R. I.
+//! McLachlan, SIAM J. Sci. Comput. 16 (1995) 151): H_1 flows where the scheme has kicks, H_n where it has drifts, and
+//! the others between them. The order for n parts is that for every A + B;
+//! [`for_many_parts`](crate::steps::tables::TableScheme::for_many_parts) and `#[splitting_scheme("…", parts = 3)]`
+//! prove it by the words on three letters.
 //!
-//! A scheme with an inner scheme (`shadowstep_schemes::inner`) has multiple time steps, for three parts: slow forces, fast forces and T.
+//! A scheme with an inner scheme (`shadowstep_schemes::inner`) has multiple time steps, for three parts: slow forces,
+//! fast forces and T.
 //!
 //! The flows, found from the formula of each part, exactly; β grows by ∫(qᵀA_q + pᵀA_p − 2A) dt:
 //!
@@ -110,8 +113,8 @@ impl<N: Number> SystemOfParts<N> {
         })
     }
 
-    /// The same system with [compensated sums](crate::systems::summation::Compensated) if `compensated` is true, else with plain ones: the round-off of a flow is ε times the increment, in place of ε times the
-    /// coordinate.
+    /// The same system with [compensated sums](crate::systems::summation::Compensated) if `compensated` is true, else
+    /// with plain ones: the round-off of a flow is ε times the increment, in place of ε times the coordinate.
     #[must_use]
     pub fn compensated_if(mut self, compensated: bool) -> Self {
         self.state = self.state.compensated_if(compensated);
@@ -189,8 +192,8 @@ impl<N: Number> System for SystemOfParts<N> {
         energy.assign(&sum(parts, q, p));
     }
 
-    /// `kinetic` ← |½ pᵀH_p|, which is T for a quadratic T(p) + U(q), and does not depend on constants in H. It is a difference of H at momenta that
-    /// are 1/1024 longer and shorter: the monitor needs its size only.
+    /// `kinetic` ← |½ pᵀH_p|, which is T for a quadratic T(p) + U(q), and does not depend on constants in H. It is a
+    /// difference of H at momenta that are 1/1024 longer and shorter: the monitor needs its size only.
     fn assign_kinetic_energy(&mut self, at: Option<(&[N], &[N])>, kinetic: &mut N) {
         const PARTS: i32 = 1024;
         let SystemOfParts { parts, state, scaled, .. } = self;

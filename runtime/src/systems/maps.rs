@@ -61,10 +61,11 @@ pub trait Flows {
 /// The maps of a step in their order.
 #[derive(Clone, Copy, Debug)]
 pub struct Sequence<'a> {
-    /// The kind of each map, and the place of its weight among the [`Weights`](crate::steps::scheme::Weights) of this kind.
+    /// The kind of each map, and the place of its weight among the [`Weights`](crate::steps::scheme::Weights) of this
+    /// kind.
     pub maps: &'a [(MapKind, usize)],
-    /// Of H of [three parts and more](crate::systems::many_parts): between each map and the next the place of the weight of the middle parts. Other schemes have
-    /// none.
+    /// Of H of [three parts and more](crate::systems::many_parts): between each map and the next the place of the
+    /// weight of the middle parts. Other schemes have none.
     pub middle_parts: &'a [usize],
 }
 

@@ -121,7 +121,8 @@ impl Powers {
         self.norm
     }
 
-    /// Σ c_k Aᵏ over k = 1, 2, … as long as terms have digits; `next` makes c_k of the coefficient before, and c_0 is 1.
+    /// Σ c_k Aᵏ over k = 1, 2, … as long as terms have digits; `next` makes c_k of the coefficient before, and c_0
+    /// is 1.
     pub(crate) fn series(&mut self, mut next: impl FnMut(i32, &mut AnyLimbs)) -> Matrix<AnyLimbs> {
         let Powers { powers, norm, count, .. } = self;
         let zero = AnyLimbs::zero(*count);
@@ -201,8 +202,8 @@ impl<N: CorrectlyRounded> Form<N> {
         hamiltonian(&self.exact, |s| AnyLimbs::from_rational(&(s * time), &count))
     }
 
-    /// The derivatives of e^{tJS} along the directions k in which t or S has one. The derivative of e^A along Ȧ is the upper right part of the exponential of
-    /// (A, Ȧ; 0, A).
+    /// The derivatives of e^{tJS} along the directions k in which t or S has one. The derivative of e^A along Ȧ is the
+    /// upper right part of the exponential of (A, Ȧ; 0, A).
     ///
     /// C. Van Loan, *Computing integrals involving the matrix exponential*, IEEE Trans. Automat. Contr. 23 (1978) 395.
     pub(crate) fn derivatives_of_flow(&self, time: &N, count: LimbCount) -> Vec<(usize, Matrix<AnyLimbs>)> {
@@ -250,7 +251,8 @@ mod tests {
         assert!(fits(QUADRATIC_FLOW_DIGITS) && !fits(QUADRATIC_FLOW_DIGITS + 1));
     }
 
-    /// Two degrees of freedom in a magnetic field: flows over many times cost few products of matrices, and are those of one exponential each.
+    /// Two degrees of freedom in a magnetic field: flows over many times cost few products of matrices, and are those
+    /// of one exponential each.
     #[test]
     fn flows_over_many_times_share_the_powers() {
         let exact =

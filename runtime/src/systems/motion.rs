@@ -29,8 +29,8 @@ use hamiltonian::{Evaluated, Hamiltonian};
 ///
 /// The gradient of the last kick is kept as long as q stays, so that the next step's first kick costs no evaluation.
 ///
-/// `S` is [how increments are added](crate::systems::summation) to q and p: plainly, [compensated](Motion::compensated) or in
-/// [fixed point](Motion::fixed_point).
+/// `S` is [how increments are added](crate::systems::summation) to q and p: plainly, [compensated](Motion::compensated)
+/// or in [fixed point](Motion::fixed_point).
 #[derive(Clone, Debug)]
 pub struct Motion<N, V, P, K, S = Plain> {
     hamiltonian: Hamiltonian<N, P, K>,
@@ -47,15 +47,16 @@ where
     /// The system at q, p.
     ///
     /// # Errors
-    /// q, p, the potential and the kinetic energy that do not have the same dimension, at least 1; numbers of q and p of different
-    /// precision; an infinite q or p, or one that is NaN; an energy that is, as at a collision. In lanes, trajectories of finite energy go on without the others.
+    /// q, p, the potential and the kinetic energy that do not have the same dimension, at least 1; numbers of q and p
+    /// of different precision; an infinite q or p, or one that is NaN; an energy that is, as at a collision. In lanes,
+    /// trajectories of finite energy go on without the others.
     pub fn new(potential: P, kinetic: K, q: V, p: V) -> Result<Self, MotionError> {
         let mut motion = Motion::of_any_energy(potential, kinetic, q, p)?;
         if N::LANES > 1 || motion.energy().is_finite() { Ok(motion) } else { Err(MotionError::Energy) }
     }
 
-    /// The system at q, p, where U may be infinite and is not evaluated: for a state that is set later. A run from there ends with an error, which names the
-    /// value.
+    /// The system at q, p, where U may be infinite and is not evaluated: for a state that is set later. A run from
+    /// there ends with an error, which names the value.
     ///
     /// # Errors
     /// As [`Motion::new`], but for the energy.
@@ -67,8 +68,9 @@ where
         Ok(Motion { hamiltonian, at })
     }
 
-    /// The same system with compensated sums: the round-off of a kick or drift is ε times the increment, in place of ε times the
-    /// coordinate, so that it is smaller by a factor like h. See [`Compensated`]; `docs/round-off.md` has what it gains and costs.
+    /// The same system with compensated sums: the round-off of a kick or drift is ε times the increment, in place of ε
+    /// times the coordinate, so that it is smaller by a factor like h. See [`Compensated`]; `docs/round-off.md` has
+    /// what it gains and costs.
     ///
     /// ```
     /// use shadowstep::{Motion, Stepper, UnitMasses, potential, tables::shipped};
@@ -100,8 +102,9 @@ where
         self.with(|state| state.compensated_if(compensated))
     }
 
-    /// The same system with gradient kicks by displaced forces, of the stepper that computed these: see [`Displacements`]. They take a force in place of a
-    /// Hessian–vector product, which the potential then need not have, and are not exactly symplectic.
+    /// The same system with gradient kicks by displaced forces, of the stepper that computed these: see
+    /// [`Displacements`]. They take a force in place of a Hessian–vector product, which the potential then need not
+    /// have, and are not exactly symplectic.
     ///
     /// ```
     /// use shadowstep::{Motion, Stepper, UnitMasses, systems::potential::from_fn, tables::shipped};
@@ -136,8 +139,8 @@ where
     P: Potential<AnyLimbs>,
     K: Kinetic<AnyLimbs>,
 {
-    /// The system at exact initial values, in numbers of at least this many decimal digits. A value is a formula without names, such as `2/5`, `0.4` or
-    /// `sqrt(3)/2`; it is rounded once.
+    /// The system at exact initial values, in numbers of at least this many decimal digits. A value is a formula
+    /// without names, such as `2/5`, `0.4` or `sqrt(3)/2`; it is rounded once.
     ///
     /// ```
     /// use shadowstep::{Motion, Number, Real, Stepper, UnitMasses, problems::Kepler, tables::shipped};
@@ -178,11 +181,11 @@ where
     P: Potential<N>,
     K: Kinetic<N>,
 {
-    /// The same system in fixed point, of `f64` or its dual numbers: [`Stepper::step_back`](crate::Stepper::step_back) undoes a step to the last bit. See
-    /// [`FixedPoint`].
+    /// The same system in fixed point, of `f64` or its dual numbers: [`Stepper::step_back`](crate::Stepper::step_back)
+    /// undoes a step to the last bit. See [`FixedPoint`].
     ///
-    /// The ranges are the largest |q_i| and |p_i| that a run may reach; a coordinate that leaves its range by a factor of 2 becomes NaN. The
-    /// state is rounded to 2⁻⁶² of the ranges.
+    /// The ranges are the largest |q_i| and |p_i| that a run may reach; a coordinate that leaves its range by a factor
+    /// of 2 becomes NaN. The state is rounded to 2⁻⁶² of the ranges.
     ///
     /// ```
     /// use shadowstep::{Motion, Stepper, UnitMasses, problems::Kepler, tables::shipped};
@@ -260,7 +263,8 @@ where
         &self.hamiltonian.potential
     }
 
-    /// The number of evaluations of the gradient U_q, those at displaced positions included; those of T_p in drifts are not counted.
+    /// The number of evaluations of the gradient U_q, those at displaced positions included; those of T_p in drifts are
+    /// not counted.
     pub fn evaluations(&self) -> u64 {
         self.at.state.evaluations
     }
@@ -277,9 +281,9 @@ where
         self.at.state.context()
     }
 
-    /// H = T(p) + U(q) at the present state; NaN where squares of distances overflow, a coordinate above 3.8e153 in `f64`:
-    /// there a potential such as −1/r would be 0. A potential may renew what it keeps, such as a list of neighbours, and so needs `&mut`; of a motion that is
-    /// shared, `motion.clone().energy()` is the same.
+    /// H = T(p) + U(q) at the present state; NaN where squares of distances overflow, a coordinate above 3.8e153 in
+    /// `f64`: there a potential such as −1/r would be 0. A potential may renew what it keeps, such as a list of
+    /// neighbours, and so needs `&mut`; of a motion that is shared, `motion.clone().energy()` is the same.
     pub fn energy(&mut self) -> N {
         let mut energy = self.beta().clone();
         let state = &self.at.state;
@@ -382,7 +386,8 @@ pub enum MotionError {
         error: FormulaError,
     },
     /// More digits than 17 limbs hold, or none.
-    #[error("the initial values cannot be rounded to {digits} digits: give a number from 1 to {most}", most = Precision::of_bits(LimbCount::MOST.bits()).in_digits())]
+    #[error("the initial values cannot be rounded to {digits} digits: give a number from 1 to \
+        {most}", most = Precision::of_bits(LimbCount::MOST.bits()).in_digits())]
     NumberOfDigits {
         /// The digits that were asked for.
         digits: u32,

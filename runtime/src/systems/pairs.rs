@@ -80,8 +80,8 @@ const LEAST_BODIES: usize = 2 * BLOCK;
 struct HasVectors<N>(PhantomData<N>);
 
 impl<N: Number> HasVectors<N> {
-    /// Blocks of numbers without derivatives. Dual numbers have [blocks of their own](DualBlocks) for the gradient. For their energy and β there are none, as
-    /// tangent maps compute neither.
+    /// Blocks of numbers without derivatives. Dual numbers have [blocks of their own](DualBlocks) for the gradient. For
+    /// their energy and β there are none, as tangent maps compute neither.
     const PLAIN: bool = N::IN_VECTORS && !N::HAS_DERIVATIVES;
 }
 
@@ -251,8 +251,8 @@ impl<P, const D: usize> Pairs<P, D> {
         }
     }
 
-    /// Whether numbers of a few bytes are summed over blocks: all pairs of many bodies, and chains on a line of many bodies without
-    /// properties, so that all springs are alike.
+    /// Whether numbers of a few bytes are summed over blocks: all pairs of many bodies, and chains on a line of many
+    /// bodies without properties, so that all springs are alike.
     fn is_in_blocks(&self) -> bool {
         let suits = match self.which {
             Which::All => true,
@@ -266,8 +266,8 @@ impl<P, const D: usize> Pairs<P, D> {
         N::KEEPS_INCREMENTS && self.is_in_blocks()
     }
 
-    /// The place of a pair in its block; `None` for the pairs that are left over. The last bodies are in a block with some that had
-    /// their turn, if there are as many after the body i.
+    /// The place of a pair in its block; `None` for the pairs that are left over. The last bodies are in a block with
+    /// some that had their turn, if there are as many after the body i.
     fn place_in_block(&self, i: usize, j: usize) -> Option<usize> {
         let (place, count) = match self.which {
             Which::All => (j - i - 1, self.bodies - i - 1),

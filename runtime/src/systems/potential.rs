@@ -21,15 +21,16 @@ use crate::number::Number;
 
 /// A potential U(q) with its gradient, for one kind of numbers or, written once, for all.
 ///
-/// **Smoothness.** A scheme of order r needs U with at least r continuous derivatives. Where the m-th derivative of U jumps, as at a cutoff, a
-/// crossing changes the energy by a part of the size of h^m, so that orders above m gain nothing in the long run: a truncated potential
-/// has m = 0, a shifted one m = 1, a force-shifted one m = 2.
+/// **Smoothness.** A scheme of order r needs U with at least r continuous derivatives. Where the m-th derivative of U
+/// jumps, as at a cutoff, a crossing changes the energy by a part of the size of h^m, so that orders above m gain
+/// nothing in the long run: a truncated potential has m = 0, a shifted one m = 1, a force-shifted one m = 2.
 ///
-/// **The gradient must belong to the energy**, and the rate must be qᵀU_q − 2U of the same coordinates: with periodic images q stays
-/// unwrapped, and the rate is not the virial of the images. [`check_potential`](crate::check_potential) compares them.
+/// **The gradient must belong to the energy**, and the rate must be qᵀU_q − 2U of the same coordinates: with periodic
+/// images q stays unwrapped, and the rate is not the virial of the images. [`check_potential`](crate::check_potential)
+/// compares them.
 ///
-/// A potential declares how many numbers of scratch space it needs, and gets them with every call: big numbers are allocated
-/// once, not per call.
+/// A potential declares how many numbers of scratch space it needs, and gets them with every call: big numbers are
+/// allocated once, not per call.
 ///
 /// ```
 /// use shadowstep::{Number, Potential};
@@ -60,14 +61,14 @@ pub trait Potential<N: Number> {
         0
     }
 
-    /// Prepares the scratch space: values that do not depend on q. Called once, before all other calls, and again when the
-    /// potential has changed.
+    /// Prepares the scratch space: values that do not depend on q. Called once, before all other calls, and again when
+    /// the potential has changed.
     fn prepare(&self, scratch: &mut [N], context: &N::Context) {
         let _ = (scratch, context);
     }
 
-    /// Prepares what depends on q, such as a list of neighbours. Called before each evaluation at q, also where q is the same as
-    /// before. The default does nothing.
+    /// Prepares what depends on q, such as a list of neighbours. Called before each evaluation at q, also where q is
+    /// the same as before. The default does nothing.
     ///
     /// A list that is kept while no particle has moved by half of its margin:
     ///
@@ -131,8 +132,8 @@ pub trait Potential<N: Number> {
     /// gradient ← U_q(q), rate ← qᵀU_q − 2U
     ///
     /// The rate is what a kick adds to β (Moan & Niesen, eq. 2, whose printed sign is wrong). A term of U that is
-    /// homogeneous of degree k adds (k − 2) times itself, a quadratic one nothing; this costs less than the definition, which is the
-    /// default implementation.
+    /// homogeneous of degree k adds (k − 2) times itself, a quadratic one nothing; this costs less than the definition,
+    /// which is the default implementation.
     fn gradient_and_rate(&self, q: &[N], gradient: &mut [N], rate: &mut N, scratch: &mut [N]) {
         self.gradient(q, gradient, scratch);
         self.energy(q, rate, scratch);
@@ -147,9 +148,10 @@ pub trait Potential<N: Number> {
         None
     }
 
-    /// Makes steps of systems with a few coordinates, compiled for the type of the potential; false, and nothing is done, where this potential and the
-    /// others, one of each system, are not of one type. There is no need to implement it: the default calls [`update`](Potential::update) and
-    /// [`gradient`](Potential::gradient), of one system alone that is not in lanes.
+    /// Makes steps of systems with a few coordinates, compiled for the type of the potential; false, and nothing is
+    /// done, where this potential and the others, one of each system, are not of one type. There is no need to
+    /// implement it: the default calls [`update`](Potential::update) and [`gradient`](Potential::gradient), of one
+    /// system alone that is not in lanes.
     fn advance_few(&mut self, others: Vec<&mut dyn Any>, steps: &mut FewCoordinates<'_, N>) -> bool {
         let is_alone = others.is_empty() && N::LANES == 1;
         if is_alone {
@@ -158,7 +160,8 @@ pub trait Potential<N: Number> {
         is_alone
     }
 
-    /// Itself, where [`advance_few`](Potential::advance_few) finds other potentials of its type; the default is nothing.
+    /// Itself, where [`advance_few`](Potential::advance_few) finds other potentials of its type; the default is
+    /// nothing.
     fn as_any(&mut self) -> Option<&mut dyn Any> {
         None
     }

@@ -19,16 +19,17 @@ use crate::systems::potential::Potential;
 
 /// Compares the gradient and the rate of a potential with its energy at states of your choice.
 ///
-/// - The gradient U_q with the derivatives of the energy, by differences that are extrapolated to 0 and have an estimated error: along
-///   three directions in which all coordinates change; where one differs, a coordinate is found by bisection.
+/// - The gradient U_q with the derivatives of the energy, by differences that are extrapolated to 0 and have an
+///   estimated error: along three directions in which all coordinates change; where one differs, a coordinate is found
+///   by bisection.
 /// - The gradient that comes with the rate with the gradient alone.
 /// - The rate with qᵀU_q − 2U.
-/// - Where there is a Hessian–vector product U_qq v, it and its rate with the derivatives of the gradient and of the rate along v, in two
-///   directions.
+/// - Where there is a Hessian–vector product U_qq v, it and its rate with the derivatives of the gradient and of the
+///   rate along v, in two directions.
 ///
-/// A comparison costs some 120 evaluations of the energy at a state, whatever the dimension, and 80 log₂ d more to find a coordinate.
-/// States in which forces act, and no symmetry makes them vanish, test most. Where forces are not smooth, as at a cutoff, the
-/// differences have large errors and the comparison is undecided.
+/// A comparison costs some 120 evaluations of the energy at a state, whatever the dimension, and 80 log₂ d more to find
+/// a coordinate. States in which forces act, and no symmetry makes them vanish, test most. Where forces are not smooth,
+/// as at a cutoff, the differences have large errors and the comparison is undecided.
 ///
 /// ```
 /// use shadowstep::systems::potential::from_fn;

@@ -55,8 +55,8 @@ use crate::systems::problems::exact_flow::solver::Solver;
 use crate::systems::wisdom_holman::Bodies;
 use definition::Definition;
 
-/// Makes the enum of all problems and everything that depends on which one it is, from one list `Variant: module`, whose
-/// module has a type `Entry` that implements [`Definition`].
+/// Makes the enum of all problems and everything that depends on which one it is, from one list `Variant: module`,
+/// whose module has a type `Entry` that implements [`Definition`].
 macro_rules! registry {
     ($($Name:ident: $module:ident,)+) => {
         /// A shipped problem.
@@ -81,7 +81,8 @@ macro_rules! registry {
                 match self { $(Problem::$Name => <$module::Entry as Definition>::EXACT_FLOW,)+ }
             }
 
-            /// Whether U has functions such as exp and sin, which in [lanes](crate::number::Lanes) are not those of the platform.
+            /// Whether U has functions such as exp and sin, which in [lanes](crate::number::Lanes) are not those of the
+            /// platform.
             pub const fn has_functions(self) -> bool {
                 match self { $(Problem::$Name => <$module::Entry as Definition>::HAS_FUNCTIONS,)+ }
             }
@@ -286,8 +287,8 @@ impl Setup {
         Some((Bodies::new(self.values.value("g").clone(), masses.collect()).ok()?, dimensions))
     }
 
-    /// The potential energy of several trajectories of one problem, whose parameters may differ: each lane has the parameters of one. Numbers are lanes, or
-    /// made of lanes.
+    /// The potential energy of several trajectories of one problem, whose parameters may differ: each lane has the
+    /// parameters of one. Numbers are lanes, or made of lanes.
     ///
     /// # Panics
     /// If they are not all of one problem.

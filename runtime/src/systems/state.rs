@@ -7,10 +7,11 @@ use crate::systems::increments::{Carried, Increments, OwnedIncrements};
 use crate::systems::kinetic::Kinetic;
 use crate::systems::summation::{Compensated, Half, Plain, Remainders, Summation};
 
-/// q and p, [how increments are added](crate::systems::summation) to them, the [increments](Increments) of the last augmented step, and the number of evaluations
-/// of the gradient.
+/// q and p, [how increments are added](crate::systems::summation) to them, the [increments](Increments) of the last
+/// augmented step, and the number of evaluations of the gradient.
 ///
-/// A [`System`](crate::System) has one, and its flows change q and p by the methods of it: these add what is carried along to the increments.
+/// A [`System`](crate::System) has one, and its flows change q and p by the methods of it: these add what is carried
+/// along to the increments.
 #[derive(Clone, Debug)]
 pub struct State<N, V = Vec<N>, S = Plain> {
     pub(crate) q: V,
@@ -85,12 +86,14 @@ impl<N: Number, V: Coordinates<N>, S: Summation<N>> State<N, V, S> {
         self.increments.beta.is_finite() && self.q().iter().chain(self.p()).all(N::is_finite)
     }
 
-    /// What the state has beyond q and p, such as the remainders of [compensated sums](crate::systems::summation): the state is q and p with these.
+    /// What the state has beyond q and p, such as the remainders of [compensated sums](crate::systems::summation): the
+    /// state is q and p with these.
     pub fn remainders(&self) -> Remainders<N> {
         self.sums.remainders(self.q(), self.p())
     }
 
-    /// Whether the round-off of a kick or drift is ε times its increment, as with compensated sums, in place of ε times q and p.
+    /// Whether the round-off of a kick or drift is ε times its increment, as with compensated sums, in place of ε times
+    /// q and p.
     pub fn is_compensated(&self) -> bool {
         self.sums.is_compensated()
     }
@@ -188,7 +191,8 @@ impl<N: Number, V: Coordinates<N>, S: Summation<N>> State<N, V, S> {
         );
     }
 
-    /// Changes a coordinate or a momentum, and its increment if these are carried along; `add` adds to a number what the flow adds.
+    /// Changes a coordinate or a momentum, and its increment if these are carried along; `add` adds to a number what
+    /// the flow adds.
     #[inline]
     pub fn change(&mut self, half: Half, index: usize, carried: Carried, add: impl Fn(&mut N)) {
         let State { q, p, sums, increments, .. } = self;

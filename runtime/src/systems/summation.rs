@@ -1,13 +1,13 @@
 //! How a motion adds the increments of kicks and drifts to its coordinates: plainly, compensated, or in fixed point.
 //!
-//! A run of n steps adds n increments of the size h to coordinates of the size 1. In `f64` each sum is rounded by ε times the
-//! coordinate, ε = 2⁻⁵³, so that most of the round-off of a run comes from the sums, not from the forces.
+//! A run of n steps adds n increments of the size h to coordinates of the size 1. In `f64` each sum is rounded by ε
+//! times the coordinate, ε = 2⁻⁵³, so that most of the round-off of a run comes from the sums, not from the forces.
 //!
 //! | | q and p | round-off of a kick or drift | made by |
 //! | --- | --- | --- | --- |
 //! | [`Plain`] | rounded after each sum | ε times the coordinate | [`Motion::new`](crate::Motion::new) |
 //! | [`Compensated`] | with the remainder of each sum | ε times the increment | [`Motion::compensated`](crate::Motion::compensated) |
-//! | [`FixedPoint`] | multiples of a power of two | that, or ε times the increment; undone exactly by the step back | [`Motion::fixed_point`](crate::Motion::fixed_point) |
+//! | [`FixedPoint`] | multiples of a power of two | that, or ε times the increment | [`fixed_point`](crate::Motion::fixed_point) |
 
 mod compensated;
 mod fixed_point;
@@ -31,8 +31,8 @@ pub trait Summation<N: Number>: Clone {
     /// q ← q + weight·T_p(p)
     fn drift<K: Kinetic<N>>(&mut self, kinetic: &K, weight: &N, p: &[N], q: &mut [N], scratch: &mut [N]);
 
-    /// The drift, with the same bits of q; what it adds to q, where the numbers [keep increments](Number::KEEPS_INCREMENTS), and to β
-    /// is added to the increments.
+    /// The drift, with the same bits of q; what it adds to q, where the numbers
+    /// [keep increments](Number::KEEPS_INCREMENTS), and to β is added to the increments.
     fn drift_augmented<K: Kinetic<N>>(
         &mut self,
         kinetic: &K,
@@ -110,7 +110,8 @@ pub struct Plain;
 impl<N: Number> Summation<N> for Plain {
     #[inline(always)]
     fn kick(&mut self, weight: &N, gradient: &[N], p: &mut [N]) {
-        // a copy, as for all that the compiler knows the reference may be to a coordinate that is written; with two coordinates it made steps from tables slower
+        // a copy, as for all that the compiler knows the reference may be to a coordinate that is written; with two
+        // coordinates it made steps from tables slower
         let copy = (!needs_drop::<N>() && p.len() > 4).then(|| weight.clone());
         let weight = copy.as_ref().unwrap_or(weight);
         for_each_two(

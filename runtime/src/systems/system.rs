@@ -9,17 +9,20 @@ use crate::systems::summation::Summation;
 
 /// A Hamiltonian system H = A + B with its state, where the flows of A (*drifts*) and of B (*kicks*) are known.
 ///
-/// Mostly A = T(p) and B = U(q): [`Motion`](crate::Motion) is such a system, made of a kinetic energy and a potential. A system with other flows
-/// implements this trait; then schemes, trajectories, energy drifts and the [monitor](crate::shadow::ShadowEnergy) work on it.
+/// Mostly A = T(p) and B = U(q): [`Motion`](crate::Motion) is such a system, made of a kinetic energy and a potential.
+/// A system with other flows implements this trait; then schemes, trajectories, energy drifts and the
+/// [monitor](crate::shadow::ShadowEnergy) work on it.
 ///
-/// Each flow is written once, for all that may be [carried](Carried) along: it changes q and p with the same bits whatever that is.
+/// Each flow is written once, for all that may be [carried](Carried) along: it changes q and p with the same bits
+/// whatever that is.
 pub trait System {
     /// The type of its numbers.
     type Number: Number;
 
-    /// What is known of A and B: [`ManyParts`](crate::systems::many_parts::ManyParts) if H has three parts and more, [`Quadratic`](crate::systems::kinetic::Quadratic) if A = ½pᵀM⁻¹p + f(q) and B = U(q), else
-    /// [`General`](crate::systems::kinetic::General). Schemes whose order holds for quadratic T only do not advance the latter. (Their order holds with any f, as
-    /// the brackets that vanish do so by their degree in p.)
+    /// What is known of A and B: [`ManyParts`](crate::systems::many_parts::ManyParts) if H has three parts and more,
+    /// [`Quadratic`](crate::systems::kinetic::Quadratic) if A = ½pᵀM⁻¹p + f(q) and B = U(q), else
+    /// [`General`](crate::systems::kinetic::General). Schemes whose order holds for quadratic T only do not advance the
+    /// latter. (Their order holds with any f, as the brackets that vanish do so by their degree in p.)
     type Class
     where
         Self: Sized;
@@ -52,8 +55,8 @@ pub trait System {
 
     /// The gradient kick p ← p + weight·U_qq M⁻¹U_q of B = U(q) and A = ½pᵀM⁻¹p; its weight is 2h³ c.
     ///
-    /// It is the flow of h³ c `[B,[A,B]]`: of the Hamiltonian −½U_qᵀM⁻¹U_q for the time `weight`. With v = M⁻¹U_q it adds
-    /// −weight·vᵀ∂(qᵀU_q − 2U)/∂q to β.
+    /// It is the flow of h³ c `[B,[A,B]]`: of the Hamiltonian −½U_qᵀM⁻¹U_q for the time `weight`. With v = M⁻¹U_q it
+    /// adds −weight·vᵀ∂(qᵀU_q − 2U)/∂q to β.
     ///
     /// # Panics
     /// By default, as where [`has_gradient_kicks`](System::has_gradient_kicks) is false.
@@ -62,8 +65,8 @@ pub trait System {
         panic!("this system has no gradient kicks, which the scheme needs: see `System::gradient_kick`");
     }
 
-    /// The flows of the middle parts H_2, …, H_(n−1) of H = H_1 + … + H_n for the time `weight`, one after the other; kicks are then the flow of
-    /// H_1, and drifts that of H_n. See [`many_parts`](crate::systems::many_parts).
+    /// The flows of the middle parts H_2, …, H_(n−1) of H = H_1 + … + H_n for the time `weight`, one after the other;
+    /// kicks are then the flow of H_1, and drifts that of H_n. See [`many_parts`](crate::systems::many_parts).
     ///
     /// # Panics
     /// By default, as H has two parts.
@@ -72,8 +75,8 @@ pub trait System {
         panic!("this system has two parts, and the scheme is for three and more: see `System::middle_parts`");
     }
 
-    /// `count` steps of several systems, with the bits that their kicks and drifts have one by one; increments are those of all these steps.
-    /// [`Motion`](crate::Motion) does it in the widest instructions.
+    /// `count` steps of several systems, with the bits that their kicks and drifts have one by one; increments are
+    /// those of all these steps. [`Motion`](crate::Motion) does it in the widest instructions.
     fn advance(systems: &mut [Self], maps: &impl MapSequence<Self::Number>, count: u64, carried: Carried)
     where
         Self: Sized,
@@ -84,8 +87,8 @@ pub trait System {
         maps.each(0..count, count, &mut Each { systems, carried });
     }
 
-    /// `count` plain steps, with the bits that [`advance`](System::advance) gives, and the visitor sees the state after each.
-    /// [`Motion`](crate::Motion) does it in less time than one by one.
+    /// `count` plain steps, with the bits that [`advance`](System::advance) gives, and the visitor sees the state after
+    /// each. [`Motion`](crate::Motion) does it in less time than one by one.
     fn advance_visited(
         &mut self,
         maps: &impl MapSequence<Self::Number>,
@@ -105,12 +108,13 @@ pub trait System {
 
     /// kinetic ← T, there as well.
     ///
-    /// The monitor compares the error of H with T: for an A that is not a kinetic energy, `kinetic` is any energy of the size of
-    /// those exchanged in the motion.
+    /// The monitor compares the error of H with T: for an A that is not a kinetic energy, `kinetic` is any energy of
+    /// the size of those exchanged in the motion.
     fn assign_kinetic_energy(&mut self, at: Option<Point<'_, Self::Number>>, kinetic: &mut Self::Number);
 
-    /// How many of the first coordinates have an energy: by default all. Those after them are of particles of mass 0, which move in the field of the bodies
-    /// with mass and whose momenta are divided by their mass; the modified energy does not contain them.
+    /// How many of the first coordinates have an energy: by default all. Those after them are of particles of mass 0,
+    /// which move in the field of the bodies with mass and whose momenta are divided by their mass; the modified energy
+    /// does not contain them.
     fn massive_coordinates(&self) -> usize {
         self.state().q().len()
     }

@@ -1,9 +1,10 @@
 //! Transformed time: steps that become short in close encounters, and stay symplectic.
 //!
-//! H = T(p) + U(q) is extended by the time t as a coordinate, with the momentum p_t = −H(0). For a function f that grows,
-//! H′ = f(T + p_t) − f(−U) has two parts with explicit flows. Along a solution H′ = 0, and q, p and t are those of H in the *fictitious
-//! time* s with dt/ds = f′(T + p_t) = f′(−U) (Preto & Tremaine, Astron. J. 118 (1999) 2532; Mikkola & Tanikawa, Celest. Mech. Dyn. Astron. 74
-//! (1999) 287). With f = ln the leapfrog that begins with a drift keeps every Kepler orbit on its ellipse.
+//! H = T(p) + U(q) is extended by the time t as a coordinate, with the momentum p_t = −H(0). For a function f that
+//! grows, H′ = f(T + p_t) − f(−U) has two parts with explicit flows. Along a solution H′ = 0, and q, p and t are those
+//! of H in the *fictitious time* s with dt/ds = f′(T + p_t) = f′(−U) (Preto & Tremaine, Astron. J. 118 (1999) 2532;
+//! Mikkola & Tanikawa, Celest. Mech. Dyn. Astron. 74 (1999) 287). With f = ln the leapfrog that begins with a drift
+//! keeps every Kepler orbit on its ellipse.
 //!
 //! | part | flow for a weight w | increment of β |
 //! | --- | --- | --- |
@@ -122,7 +123,8 @@ impl<N: Number, P: Potential<N>> Potential<N> for TransformedPotential<P> {
     }
 }
 
-/// f(T + p_t) of a kinetic energy T, in p and p_t: the last momentum is p_t. Where T + p_t is not positive the drift is not finite.
+/// f(T + p_t) of a kinetic energy T, in p and p_t: the last momentum is p_t. Where T + p_t is not positive the drift is
+/// not finite.
 #[derive(Clone, Debug)]
 pub struct TransformedKinetic<K> {
     time: TimeTransformation,

@@ -1,6 +1,8 @@
-//! Turns of systems whose steps are made together: all kicks and drifts of one system between two evaluations of its gradient.
+//! Turns of systems whose steps are made together: all kicks and drifts of one system between two evaluations of its
+//! gradient.
 //!
-//! So an evaluation of one system need not wait for the results of another, and what is between two evaluations stays in the processor's registers.
+//! So an evaluation of one system need not wait for the results of another, and what is between two evaluations stays
+//! in the processor's registers.
 
 use std::mem::take;
 
@@ -18,8 +20,8 @@ pub(crate) struct Turn<'a, N> {
 
 /// Systems that take turns.
 pub(crate) trait InTurns<N> {
-    /// Whether states are held in registers. Then each kind of turn is compiled without branches, which take longer than the maps; of others it is one
-    /// piece of code.
+    /// Whether states are held in registers. Then each kind of turn is compiled without branches, which take longer
+    /// than the maps; of others it is one piece of code.
     const IN_REGISTERS: bool;
 
     /// The maps of one turn, of all systems.

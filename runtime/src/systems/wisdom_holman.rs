@@ -1,21 +1,28 @@
-//! Planetary systems H = A + B with A solved exactly: Kepler orbits about the central body, and the interactions of the planets.
+//! Planetary systems H = A + B with A solved exactly: Kepler orbits about the central body, and the interactions of the
+//! planets.
 //!
-//! Schemes for H = A + εB, such as the SABA and ABAH families, gain their factor ε only where A is the larger part *and* its flow is exact
-//! (Wisdom & Holman, Astron. J. 102 (1991) 1528; Laskar & Robutel, Celest. Mech. 80 (2001) 39). Here a drift moves the centre of mass and
-//! each planet on its Kepler orbit, A = P₀²/2M + Σ (P_i²/2m_i′ − κ_i/|Q_i|), and a kick is by the rest of the forces.
+//! Schemes for H = A + εB, such as the SABA and ABAH families, gain their factor ε only where A is the larger part
+//! *and* its flow is exact (Wisdom & Holman, Astron. J. 102 (1991) 1528; Laskar & Robutel, Celest. Mech. 80 (2001) 39).
+//! Here a drift moves the centre of mass and each planet on its Kepler orbit, A = P₀²/2M + Σ (P_i²/2m_i′ − κ_i/|Q_i|),
+//! and a kick is by the rest of the forces.
 //!
-//! Along an exact flow of A the modified energy's β grows by ∫(qᵀA_q + pᵀA_p − 2A) dt (Moan & Niesen, eq. 2). A quadratic form adds
-//! nothing; of p²/2m − κ/r the integrand is 3κ/r, and ∫dt/r is the universal anomaly s, which the [Kepler drift](crate::systems::kepler_drift)
-//! has found anyway: **β += 3κ s**. B is homogeneous of degree −1, so that a kick adds −3B times its weight.
+//! Along an exact flow of A the modified energy's β grows by ∫(qᵀA_q + pᵀA_p − 2A) dt (Moan & Niesen, eq. 2). A
+//! quadratic form adds nothing; of p²/2m − κ/r the integrand is 3κ/r, and ∫dt/r is the universal anomaly s, which the
+//! [Kepler drift](crate::systems::kepler_drift) has found anyway: **β += 3κ s**. B is homogeneous of degree −1, so that
+//! a kick adds −3B times its weight.
 //!
-//! In `f64` three planets and more drift together, each in a lane of [`Lanes`](crate::number::Lanes), with the bits that they have one by one.
+//! In `f64` three planets and more drift together, each in a lane of [`Lanes`](crate::number::Lanes), with the bits
+//! that they have one by one.
 //!
-//! In Jacobi coordinates B depends on Q only, and of A only T = Σ P²/2m′ does not commute with it. So `[B,[A,B]]` is `[B,[T,B]]`, and a gradient kick
-//! is the flow of −½B_QᵀM′⁻¹B_Q as for H = T + U. With v = M′⁻¹B_Q its rate of β is −vᵀ∂(−3B)/∂Q = 3vᵀB_Q.
+//! In Jacobi coordinates B depends on Q only, and of A only T = Σ P²/2m′ does not commute with it. So `[B,[A,B]]` is
+//! `[B,[T,B]]`, and a gradient kick is the flow of −½B_QᵀM′⁻¹B_Q as for H = T + U. With v = M′⁻¹B_Q its rate of β is
+//! −vᵀ∂(−3B)/∂Q = 3vᵀB_Q.
 //!
-//! Particles of mass 0 come after the bodies with mass. Their momenta are divided by their mass, and they have no energy.
+//! Particles of mass 0 come after the bodies with mass. Their momenta are divided by their mass, and they have no
+//! energy.
 //!
-//! B may have a potential of the inertial positions beside the attraction, of any form ([`WisdomHolman::beside`]): relativity, an oblate body, a tide.
+//! B may have a potential of the inertial positions beside the attraction, of any form ([`WisdomHolman::beside`]):
+//! relativity, an oblate body, a tide.
 
 mod beside;
 mod bodies;
@@ -121,8 +128,8 @@ impl<N: Number, C: PlanetaryCoordinates<N, D>, const D: usize> WisdomHolman<N, C
 
     /// The same system with a potential of the inertial positions, body after body, as a part of B.
     ///
-    /// Kicks are its flow together with the attraction; β and the modified energy take it for what it is, of whatever degree. Gradient kicks need its
-    /// [second derivatives](Potential::hessian), unless they are by displaced forces.
+    /// Kicks are its flow together with the attraction; β and the modified energy take it for what it is, of whatever
+    /// degree. Gradient kicks need its [second derivatives](Potential::hessian), unless they are by displaced forces.
     ///
     /// ```
     /// use shadowstep::systems::potential::from_fn;
@@ -149,7 +156,8 @@ impl<N: Number, C: PlanetaryCoordinates<N, D>, const D: usize> WisdomHolman<N, C
     /// ```
     ///
     /// # Errors
-    /// A potential of another dimension; coordinates in which kicks depend on momenta, so that B would have no exact flow.
+    /// A potential of another dimension; coordinates in which kicks depend on momenta, so that B would have no exact
+    /// flow.
     pub fn beside<P: Potential<N>>(self, potential: Option<P>) -> Result<WisdomHolman<N, C, D, P>, BodiesError> {
         let WisdomHolman { coordinates, state, gradient, rate, gradient_kicks, orbits, .. } = self;
         let dimension = state.q.len();
@@ -174,15 +182,16 @@ impl<N: Number, C: PlanetaryCoordinates<N, D>, const D: usize> WisdomHolman<N, C
 }
 
 impl<N: Number, C: PlanetaryCoordinates<N, D>, const D: usize, P: Potential<N>> WisdomHolman<N, C, D, P> {
-    /// The same system with [compensated sums](crate::systems::summation::Compensated): the round-off of a kick or drift is ε times the increment, in place of ε
-    /// times the coordinate.
+    /// The same system with [compensated sums](crate::systems::summation::Compensated): the round-off of a kick or
+    /// drift is ε times the increment, in place of ε times the coordinate.
     #[must_use]
     pub fn compensated(mut self) -> Self {
         self.state = self.state.compensated_if(true);
         self
     }
 
-    /// The same system with gradient kicks by displaced forces, of the stepper that computed these: see [`Displacements`].
+    /// The same system with gradient kicks by displaced forces, of the stepper that computed these: see
+    /// [`Displacements`].
     #[must_use]
     pub fn displaced(mut self, displacements: Displacements<N>) -> Self {
         let (dimension, context) = (self.state.q.len(), self.state.context());

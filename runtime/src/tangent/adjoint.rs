@@ -10,16 +10,17 @@ use crate::systems::summation::Remainders;
 /// A covector (∂L/∂q, ∂L/∂p).
 pub type Covector<N> = (Vec<N>, Vec<N>);
 
-/// The derivatives λ = ∂L/∂(q, p) of a function L of states of a trajectory by the present state, which go backwards along it: λ ← DΦᵀ λ with each step back,
-/// and derivatives by parameters, ∂L/∂θ ← ∂L/∂θ + λ·∂Φ/∂θ.
+/// The derivatives λ = ∂L/∂(q, p) of a function L of states of a trajectory by the present state, which go backwards
+/// along it: λ ← DΦᵀ λ with each step back, and derivatives by parameters, ∂L/∂θ ← ∂L/∂θ + λ·∂Φ/∂θ.
 ///
-/// The memory does not grow with the steps, and the derivatives by all q and p cost one vector: as the tangent map M of a step is symplectic, Mᵀ = J M⁻¹ J⁻¹
-/// with J = (0, 1; −1, 0), and M⁻¹ is the tangent map of the step back. A parameter costs one vector more: with z = Φ⁻¹(Φ(z)),
-/// DΦ⁻¹ ∂Φ/∂θ = −∂Φ⁻¹/∂θ.
+/// The memory does not grow with the steps, and the derivatives by all q and p cost one vector: as the tangent map M of
+/// a step is symplectic, Mᵀ = J M⁻¹ J⁻¹ with J = (0, 1; −1, 0), and M⁻¹ is the tangent map of the step back. A
+/// parameter costs one vector more: with z = Φ⁻¹(Φ(z)), DΦ⁻¹ ∂Φ/∂θ = −∂Φ⁻¹/∂θ.
 ///
-/// Steps back make the states of the steps up to round-off, so that on chaotic trajectories the gradient is as uncertain as the states; more digits help. In
-/// [fixed point](crate::Motion::fixed_point) they make them to the last bit, and the gradient is that of the steps whatever their number.
-/// Gradient kicks by displaced forces are not exactly symplectic, nor are then the gradients exact.
+/// Steps back make the states of the steps up to round-off, so that on chaotic trajectories the gradient is as
+/// uncertain as the states; more digits help. In [fixed point](crate::Motion::fixed_point) they make them to the last
+/// bit, and the gradient is that of the steps whatever their number. Gradient kicks by displaced forces are not exactly
+/// symplectic, nor are then the gradients exact.
 #[derive(Debug)]
 pub struct Adjoint<I: Integrator> {
     /// Its vector is J⁻¹ λ = (−λ_p, λ_q).
@@ -46,8 +47,8 @@ where
         Adjoint { integrator, parameters: Vec::new() }
     }
 
-    /// Derivatives by a parameter, too: by an integrator for the same steps, whose constants have the derivatives by it: see
-    /// [`with_parameter`](crate::number::with_parameter).
+    /// Derivatives by a parameter, too: by an integrator for the same steps, whose constants have the derivatives by
+    /// it: see [`with_parameter`](crate::number::with_parameter).
     pub fn add_parameter(&mut self, integrator: I) {
         let sum = Dual::zero(&self.integrator.state().context());
         self.parameters.push(Parameter { integrator, sum });
@@ -156,8 +157,9 @@ fn covector<N: Number, I: Integrator<Number = Dual<N>>>(integrator: &I) -> Covec
     (of_q, of_p)
 }
 
-/// ∂L/∂(q, p) at the beginning, of a function L of the state after `count` steps: the integrator makes these steps, `at_end` gives ∂L/∂(q, p) at its end state,
-/// and as many steps back take that to the beginning, where the integrator is then.
+/// ∂L/∂(q, p) at the beginning, of a function L of the state after `count` steps: the integrator makes these steps,
+/// `at_end` gives ∂L/∂(q, p) at its end state, and as many steps back take that to the beginning, where the integrator
+/// is then.
 ///
 /// See [`Adjoint`], which has derivatives by parameters, and of functions of several states.
 ///

@@ -2,8 +2,9 @@
 
 /// The vectors v_1, …, v_k of a trajectory as V = Q M: the columns of Q are orthonormal, M is upper triangular.
 ///
-/// Free vectors turn to the direction that grows fastest, until round-off hides what distinguishes them. So v_1 alone is carried along freely, the others are
-/// columns of Q: as a step takes Q to Q′ R, M becomes R M. The logarithms of M_jj are the sums of those of R_jj, which have no floor.
+/// Free vectors turn to the direction that grows fastest, until round-off hides what distinguishes them. So v_1 alone
+/// is carried along freely, the others are columns of Q: as a step takes Q to Q′ R, M becomes R M. The logarithms of
+/// M_jj are the sums of those of R_jj, which have no floor.
 #[derive(Clone, Debug)]
 pub(super) struct Frame {
     columns: Vec<Column>,
@@ -66,7 +67,8 @@ impl Frame {
         self.columns[1..k].iter().map(logarithm).sum::<f64>().exp().min(1.0)
     }
 
-    /// The smaller of |e₁ + e₂| and |e₁ − e₂|: with e₂ = ±(cos φ, sin φ), 2 sin(φ/2) without a difference of nearly equal numbers.
+    /// The smaller of |e₁ + e₂| and |e₁ − e₂|: with e₂ = ±(cos φ, sin φ), 2 sin(φ/2) without a difference of nearly
+    /// equal numbers.
     pub(super) fn smaller_distance(&self) -> f64 {
         let (sine, cosine) = (self.sine(1), self.columns[1].direction[0].abs());
         let along = sine / (1.0 + cosine);
@@ -95,8 +97,8 @@ impl Frame {
 mod tests {
     use super::*;
 
-    /// Of the cat map's matrix (2, 1; 1, 1) with the exponent λ = log((3 + √5)/2), after n steps: sin φ = |v₁ ∧ v₂|/(|v₁| |v₂|) for v₁ = Mⁿ(1, 0), v₂ = Mⁿ(0, 1),
-    /// whose components are Fibonacci's numbers.
+    /// Of the cat map's matrix (2, 1; 1, 1) with the exponent λ = log((3 + √5)/2), after n steps: sin φ = |v₁ ∧
+    /// v₂|/(|v₁| |v₂|) for v₁ = Mⁿ(1, 0), v₂ = Mⁿ(0, 1), whose components are Fibonacci's numbers.
     #[test]
     fn angles_have_no_floor() {
         let mut frame = Frame::new(2);

@@ -6,10 +6,12 @@ use std::fmt;
 ///
 /// With L(t) = log(|δ(t)|/|δ(0)|):
 ///
-/// - the finite-time Lyapunov exponent is L(t)/t. G. Benettin, L. Galgani, A. Giorgilli, J.-M. Strelcyn, Meccanica 15 (1980) 9;
-/// - MEGNO is Y(t) = (2/t) ∫₀ᵗ L′(s) s ds, and its mean Ȳ(t) = (1/t) ∫₀ᵗ Y(s) ds. Along a quasiperiodic trajectory vectors grow like t, and both
-///   tend to 2 (to 0 where all frequencies are constant, as vectors do not grow); along a chaotic one Y grows like λt and Ȳ like λt/2.
-///   P. M. Cincotta, C. Simó, Astron. Astrophys. Suppl. 147 (2000) 205; P. M. Cincotta, C. M. Giordano, C. Simó, Physica D 182 (2003) 151.
+/// - the finite-time Lyapunov exponent is L(t)/t. G. Benettin, L. Galgani, A. Giorgilli, J.-M. Strelcyn, Meccanica 15
+///   (1980) 9;
+/// - MEGNO is Y(t) = (2/t) ∫₀ᵗ L′(s) s ds, and its mean Ȳ(t) = (1/t) ∫₀ᵗ Y(s) ds. Along a quasiperiodic trajectory
+///   vectors grow like t, and both tend to 2 (to 0 where all frequencies are constant, as vectors do not grow); along a
+///   chaotic one Y grows like λt and Ȳ like λt/2. P. M. Cincotta, C. Simó, Astron. Astrophys. Suppl. 147 (2000) 205; P.
+///   M. Cincotta, C. M. Giordano, C. Simó, Physica D 182 (2003) 151.
 ///
 /// Integrals are sums by the midpoint rule over the intervals between observations.
 #[derive(Clone, Debug)]
@@ -47,10 +49,11 @@ impl fmt::Display for Regularity {
 
 /// A Lyapunov exponent with its error.
 ///
-/// The error is half the width of an interval that is meant to have the exponent of the limit t → ∞ in it with a probability of 90 to 95 %. It is the largest one of three,
-/// Student's intervals of 95 % by the means over 6, 4 and 3 parts of the trajectory: motion that stays long near regular orbits makes short parts alike, and
-/// their scatter too small. Where parts are independent the probability is 99 %; along orbits that stay near regular ones for a time as long as the
-/// run it is smaller, as the run does not show it.
+/// The error is half the width of an interval that is meant to have the exponent of the limit t → ∞ in it with a
+/// probability of 90 to 95 %. It is the largest one of three, Student's intervals of 95 % by the means over 6, 4 and 3
+/// parts of the trajectory: motion that stays long near regular orbits makes short parts alike, and their scatter too
+/// small. Where parts are independent the probability is 99 %; along orbits that stay near regular ones for a time as
+/// long as the run it is smaller, as the run does not show it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Exponent {
     /// λ
@@ -59,7 +62,8 @@ pub struct Exponent {
     pub error: f64,
 }
 
-/// Into how many parts the last three quarters are divided, with the quantile of 97.5 % of Student's distribution of a degree of freedom less.
+/// Into how many parts the last three quarters are divided, with the quantile of 97.5 % of Student's distribution of a
+/// degree of freedom less.
 const PARTS: [(usize, f64); 3] = [(6, 2.570_58), (4, 3.182_45), (3, 4.302_65)];
 
 /// Up to this mean MEGNO a trajectory is regular: the mean of regular ones tends to 2 or, without shear, to 0.
@@ -68,7 +72,8 @@ const REGULAR: f64 = 2.5;
 /// From this mean of Y over a half of the run on it may be chaotic: growth by a power of t would be t⁴.
 const CHAOTIC: f64 = 8.0;
 
-/// By at least this factor Y is larger in the second half of a chaotic run than in its second quarter. Y ∝ t would have 2; growth by a power of t has 1.
+/// By at least this factor Y is larger in the second half of a chaotic run than in its second quarter. Y ∝ t would have
+/// 2; growth by a power of t has 1.
 const STEADY: f64 = 1.4;
 
 impl Growth {
@@ -82,8 +87,8 @@ impl Growth {
         [self.initial, self.time, self.logarithm, self.weighted, self.integral]
     }
 
-    /// Growth with these [`parts`](Growth::parts), that goes on. The [exponent](Growth::exponent) with its error and the
-    /// [regularity](Growth::regularity) need observations of the whole trajectory, which it has not.
+    /// Growth with these [`parts`](Growth::parts), that goes on. The [exponent](Growth::exponent) with its error and
+    /// the [regularity](Growth::regularity) need observations of the whole trajectory, which it has not.
     pub fn of_parts([initial, time, logarithm, weighted, integral]: [f64; 5]) -> Self {
         Growth { initial, time, logarithm, weighted, integral, marks: Marks::default() }
     }
@@ -124,15 +129,15 @@ impl Growth {
         (self.time > 0.0).then(|| self.integral / self.time)
     }
 
-    /// The error of Ȳ as that of its limit: |Ȳ(t) − Ȳ(t/2)|, which is what is left of c/t; half of Ȳ and more along a chaotic trajectory, where it has no limit.
-    /// `None` of fewer than 64 observations.
+    /// The error of Ȳ as that of its limit: |Ȳ(t) − Ȳ(t/2)|, which is what is left of c/t; half of Ȳ and more along a
+    /// chaotic trajectory, where it has no limit. `None` of fewer than 64 observations.
     pub fn mean_megno_error(&self) -> Option<f64> {
         let [time, _, integral] = self.marks.near(self.time / 2.0)?;
         Some((self.mean_megno()? - integral / time).abs())
     }
 
-    /// The exponent over the last three quarters of the trajectory, where vectors have turned to the direction that grows fastest, with its error from
-    /// parts of them; `None` of fewer than 64 observations.
+    /// The exponent over the last three quarters of the trajectory, where vectors have turned to the direction that
+    /// grows fastest, with its error from parts of them; `None` of fewer than 64 observations.
     pub fn exponent(&self) -> Option<Exponent> {
         let at: Vec<_> = (4..=16).map(|i| self.marks.near(self.time * f64::from(i) / 16.0)).collect::<Option<_>>()?;
         let rates = |parts: usize| -> Vec<f64> {
@@ -151,8 +156,9 @@ impl Growth {
 
     /// Whether the motion is regular or chaotic, as far as the trajectory shows it.
     ///
-    /// Y₂ is the mean of Y over the second quarter of the trajectory, Y₃₄ that over its second half. Regular: −½ ≤ Y₃₄ ≤ 2.5 and Y₂ ≤ 2.5. Chaotic:
-    /// Y₃₄ ≥ 8 and Y₃₄ ≥ 1.4 Y₂, so that vectors grow faster than t⁴, and their growth does not slow down.
+    /// Y₂ is the mean of Y over the second quarter of the trajectory, Y₃₄ that over its second half. Regular: −½ ≤
+    /// Y₃₄ ≤ 2.5 and Y₂ ≤ 2.5. Chaotic: Y₃₄ ≥ 8 and Y₃₄ ≥ 1.4 Y₂, so that vectors grow faster than t⁴, and their growth
+    /// does not slow down.
     pub fn regularity(&self) -> Regularity {
         let marks = [0.25, 0.5, 1.0].map(|part| self.marks.near(self.time * part));
         let [Some(quarter), Some(half), Some(end)] = marks else { return Regularity::Undecided };
@@ -258,7 +264,8 @@ mod tests {
         assert!(growth(100.0, 10, |t| t).exponent().is_none() && growth(100.0, 10, |t| t).mean_megno_error().is_none());
     }
 
-    /// Of 1000 series of rates 1 + noise, how many have 1 within the error: `memory` is the correlation of two rates beside one another.
+    /// Of 1000 series of rates 1 + noise, how many have 1 within the error: `memory` is the correlation of two rates
+    /// beside one another.
     fn coverage(memory: f64) -> f64 {
         let mut seed = 1_u64;
         // of the variance 1
@@ -282,8 +289,8 @@ mod tests {
         covers.count() as f64 / 1000.0
     }
 
-    /// With a memory of 0.99 rates are alike over 100 of the 768 observations from which the exponent follows. Twice the standard error of six parts had coverages
-    /// of 0.90 and 0.73.
+    /// With a memory of 0.99 rates are alike over 100 of the 768 observations from which the exponent follows. Twice
+    /// the standard error of six parts had coverages of 0.90 and 0.73.
     #[test]
     fn errors_cover_the_exponent() {
         for (memory, least) in [(0.0, 0.97), (0.99, 0.92)] {

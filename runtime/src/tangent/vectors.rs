@@ -68,10 +68,11 @@ pub(super) struct Column<N> {
     pub(super) logarithms: Vec<f64>,
 }
 
-/// The vectors ← orthonormal ones that span the same spaces, V = QR, and R. Beside a vector that depends on those before it, with R_jj = 0, Q has another one.
+/// The vectors ← orthonormal ones that span the same spaces, V = QR, and R. Beside a vector that depends on those
+/// before it, with R_jj = 0, Q has another one.
 ///
-/// By the modified Gram–Schmidt process, twice, as once leaves vectors that are nearly parallel not orthogonal: L. Giraud, J. Langou, M. Rozložník,
-/// J. van den Eshof, Numer. Math. 101 (2005) 87.
+/// By the modified Gram–Schmidt process, twice, as once leaves vectors that are nearly parallel not orthogonal: L.
+/// Giraud, J. Langou, M. Rozložník, J. van den Eshof, Numer. Math. 101 (2005) 87.
 pub(super) fn orthonormalise<N: Number>(vectors: &mut [Vec<N>]) -> Vec<Column<N>> {
     let mut columns = Vec::with_capacity(vectors.len());
     for j in 0..vectors.len() {

@@ -28,7 +28,8 @@ impl System {
     /// A formula that stands alone, whose values are a column of this name.
     ///
     /// # Errors
-    /// A text that is not a formula in the numbers of the system's states, with the column of the fault; the name of another column.
+    /// A text that is not a formula in the numbers of the system's states, with the column of the fault; the name of
+    /// another column.
     pub fn column(&self, name: &str, text: &str) -> Result<NamedExpression, Error> {
         if fixed_names().any(|other| other == name) || self.columns().any(|other| other == name) {
             return Err(Error::usage(format!("there is another column `{name}`"), "give this one another name"));

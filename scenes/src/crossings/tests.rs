@@ -4,7 +4,8 @@ use shadowstep_symbolic::decimal::{from_text, to_significant};
 
 fn read(step: &str, trajectory: &str, more: &str) -> Result<Scene, Faults> {
     let text = format!(
-        "problem.name = \"henon-heiles\"\n[run]\nscheme = \"blanes-moan-srkn11b\"\nstep = \"{step}\"\nuntil = 60\ndigits = 40\n[output]\n\
+        "problem.name = \"henon-heiles\"\n[run]\nscheme = \"blanes-moan-srkn11b\"\nstep = \"{step}\"\nuntil = \
+            60\ndigits = 40\n[output]\n\
          trajectory = {trajectory}\n{more}"
     );
     Scene::read(Source { path: "test.toml".to_owned(), text })
@@ -23,7 +24,8 @@ fn number(text: &str) -> f64 {
     text.parse().unwrap()
 }
 
-/// Differences of halved steps fall as the order of the scheme says: the crossing is a point of the trajectory with the error of a step.
+/// Differences of halved steps fall as the order of the scheme says: the crossing is a point of the trajectory with the
+/// error of a step.
 #[test]
 fn crossings_have_the_order_of_the_scheme() {
     let of_step = |step: &str| rows(&read(step, "{ section = \"x\" }", "").unwrap());
@@ -47,16 +49,19 @@ fn distance(a: &str, b: &str) -> f64 {
 
 fn of_formula(problem: &str, [scheme, step]: [&str; 2], trajectory: &str) -> Vec<Vec<String>> {
     let text = format!(
-        "{problem}\n[run]\nscheme = \"{scheme}\"\nstep = \"{step}\"\nuntil = 4\ndigits = 40\n[output]\ntrajectory = {trajectory}"
+        "{problem}\n[run]\nscheme = \"{scheme}\"\nstep = \"{step}\"\nuntil = 4\ndigits = 40\n[output]\ntrajectory = \
+            {trajectory}"
     );
     rows(&Scene::read(Source { path: "test.toml".to_owned(), text }).unwrap())
 }
 
-/// x = cos(3t/2) grows through 0 at t = π: a crossing is as accurate as the states, also of a processed scheme, whose kernel is not.
+/// x = cos(3t/2) grows through 0 at t = π: a crossing is as accurate as the states, also of a processed scheme, whose
+/// kernel is not.
 #[test]
 fn crossings_of_processed_schemes_are_points_of_the_trajectory() {
     const PI: &str = "3.14159265358979323846264338327950288419716939937511";
-    let oscillator = "[problem]\npotential = \"9/8*x^2 + y^2/2\"\ncoordinates = [\"x\", \"y\"]\n[initial]\nq = [1, \"1/3\"]\np = [0, 0]";
+    let oscillator = "[problem]\npotential = \"9/8*x^2 + y^2/2\"\ncoordinates = [\"x\", \"y\"]\n[initial]\nq = \
+        [1, \"1/3\"]\np = [0, 0]";
     let schemes = shadowstep_schemes::shipped_names();
     let is_processed = |name: &&str| shadowstep_schemes::shipped_proved(name).unwrap().scheme.processor.is_some();
     let processed: Vec<&str> = schemes.into_iter().filter(is_processed).collect();
@@ -102,13 +107,15 @@ fn times(scene: &str, digits: &str, section: &str) -> Vec<f64> {
     rows.iter().map(|row| number(&row[1])).collect()
 }
 
-/// Round-off of the maps of processed schemes moves a start off the surface; one that is off it by more than round-off is a crossing.
+/// Round-off of the maps of processed schemes moves a start off the surface; one that is off it by more than round-off
+/// is a crossing.
 #[test]
 fn a_start_on_the_surface_is_no_crossing_of_processed_schemes() {
     for scheme in ["bcm-rkn6-4", "bcm10-23", "escorihuela6-8", "wisdom-corrector-17"] {
         let oscillator = |x: &str| {
             format!(
-                "[problem]\npotential = \"x^2/2 + y^2\"\ncoordinates = [\"x\", \"y\"]\n[initial]\nq = [{x}, 1]\np = [\"2/3\", \"1/7\"]\n\
+                "[problem]\npotential = \"x^2/2 + y^2\"\ncoordinates = [\"x\", \"y\"]\n[initial]\nq = [{x}, 1]\np = \
+                    [\"2/3\", \"1/7\"]\n\
                  [run]\nscheme = \"{scheme}\"\nstep = \"1/16\"\nuntil = 1"
             )
         };
@@ -134,8 +141,10 @@ fn a_start_at_the_pericentre_is_no_crossing() {
     for parts in ["wisdom-holman", "wisdom-holman-heliocentric", "kinetic-potential"] {
         for angle in 1..4 {
             let scene = format!(
-                "[problem]\nparts = \"{parts}\"\nparameters = {{ g = 1 }}\n[[body]]\nmass = 1\n[[body]]\nmass = \"1/1000\"\na = 1\ne = \"1/{angle}0\"\ni = \"{angle}/5\"\npericentre = \"{angle}\"\n\
-                 node = \"{angle}/3\"\nM = 0\n[[body]]\nmass = \"1/3000\"\na = 3\ne = \"1/3\"\n[run]\nscheme = \"abah864\"\nstep = \"1/10\"\nuntil = 7"
+                "[problem]\nparts = \"{parts}\"\nparameters = {{ g = 1 }}\n[[body]]\nmass = 1\n[[body]]\nmass \
+                    = \"1/1000\"\na = 1\ne = \"1/{angle}0\"\ni = \"{angle}/5\"\npericentre = \"{angle}\"\n\
+                 node = \"{angle}/3\"\nM = 0\n[[body]]\nmass = \"1/3000\"\na = 3\ne = \"1/3\"\n[run]\nscheme \
+                 = \"abah864\"\nstep = \"1/10\"\nuntil = 7"
             );
             let of = |x: &str| format!("({x}2 - {x}1)*(1000*p{x}2 - p{x}1)");
             let section = ["x", "y", "z"].map(of).join(" + ");
@@ -166,7 +175,8 @@ fn a_jump_is_no_crossing() {
     assert_eq!(count("1/y"), 0);
 }
 
-/// Up and down are both together, x = 0 at the start being no crossing, and the run itself goes on as without a section.
+/// Up and down are both together, x = 0 at the start being no crossing, and the run itself goes on as without a
+/// section.
 #[test]
 fn a_section_changes_nothing_else() {
     let count = |direction: &str| {
@@ -199,8 +209,10 @@ fn a_surface_that_is_not_crossed_costs_no_forces() {
 fn a_section_may_be_one_of_explicit_time() {
     for time in ["", "[time]\ntransform = \"logarithmic\"\n"] {
         let text = format!(
-            "[problem]\npotential = \"-(1 + sin(t)/10)/sqrt(x^2 + 1)\"\ncoordinates = [\"x\"]\n[initial]\nq = [1]\np = [0]\n{time}[run]\n\
-             scheme = \"blanes-moan-s6\"\nstep = \"1/10\"\nuntil = 20\ndigits = 30\n[output]\ntrajectory = {{ section = \"cos(t)\" }}"
+            "[problem]\npotential = \"-(1 + sin(t)/10)/sqrt(x^2 + 1)\"\ncoordinates = [\"x\"]\n[initial]\nq = [1]\np \
+                = [0]\n{time}[run]\n\
+             scheme = \"blanes-moan-s6\"\nstep = \"1/10\"\nuntil = 20\ndigits = 30\n[output]\ntrajectory = {{ section \
+             = \"cos(t)\" }}"
         );
         let rows = rows(&Scene::read(Source { path: "test.toml".to_owned(), text }).unwrap());
         // cos grows through 0 at 3π/2, 7π/2 and 11π/2

@@ -20,13 +20,14 @@ use crate::tangent::WithDerivatives;
 pub struct Gradient {
     /// The derivative by each variable.
     pub by: Array,
-    /// How far the steps back end from the initial state: the largest error of a coordinate as a part of the largest coordinate at the start or at the
-    /// end, or the same of momenta.
+    /// How far the steps back end from the initial state: the largest error of a coordinate as a part of the largest
+    /// coordinate at the start or at the end, or the same of momenta.
     pub reversal_error: f64,
 }
 
 impl Differentiation<'_> {
-    /// The gradient of a function L by the variables. The covectors are ∂L/∂q and then ∂L/∂p of each state, one state after the other.
+    /// The gradient of a function L by the variables. The covectors are ∂L/∂q and then ∂L/∂p of each state, one state
+    /// after the other.
     ///
     /// The run is made once more forwards, and then backwards: see [`Adjoint`].
     ///

@@ -10,16 +10,17 @@ use crate::error::Error;
 use crate::scene::System;
 use crate::scene::split::State;
 
-/// Of the largest derivative. The difference is right to the distance, at most 10⁻²⁵ of the second derivative; a derivative that is missing is wrong by a size
-/// of order 1.
+/// Of the largest derivative. The difference is right to the distance, at most 10⁻²⁵ of the second derivative; a
+/// derivative that is missing is wrong by a size of order 1.
 const TOLERANCE: f64 = 1e-9;
 
-/// Of the distance and the largest coordinate or momentum: where all derivatives are 0, a difference has only its error.
+/// Of the distance and the largest coordinate or momentum: where all derivatives are 0, a difference has only its
+/// error.
 const TOLERANCE_OF_ZERO: f64 = 1e4;
 
 impl Differentiation<'_> {
-    /// The value of a parameter at which the derivative of the first step is the difference of two steps: its own, if formulas have the same form there
-    /// and nearby.
+    /// The value of a parameter at which the derivative of the first step is the difference of two steps: its own, if
+    /// formulas have the same form there and nearby.
     pub(super) fn base(&self, parameter: &Parameter) -> Result<Base, Error> {
         let arithmetic = precise(self.arithmetic)?;
         let Numbers::Digits(_, Digits::Limbs(count)) = arithmetic.numbers() else { unreachable!("they have limbs") };
@@ -68,7 +69,8 @@ impl Differentiation<'_> {
     }
 }
 
-/// A state beside another one, from which nothing vanishes by symmetry: a part that a state at rest does not show is not missed.
+/// A state beside another one, from which nothing vanishes by symmetry: a part that a state at rest does not show is
+/// not missed.
 fn beside<N: Number>((mut q, mut p): State<N>, context: &N::Context) -> State<N> {
     for (i, x) in (1..).zip(q.iter_mut().chain(&mut p)) {
         x.multiply(&N::from_rational(&Rational::new((8192 + i % 7).into(), 8192.into()), context));

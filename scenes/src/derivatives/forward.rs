@@ -29,8 +29,8 @@ impl Differentiation<'_> {
     /// Makes the run with a tangent vector for each variable.
     ///
     /// # Errors
-    /// A state or a derivative that is not finite; forces of the caller, which have no second derivatives; a parameter by which derivatives are not
-    /// known; more digits than numbers of limbs have; an observer that stops.
+    /// A state or a derivative that is not finite; forces of the caller, which have no second derivatives; a parameter
+    /// by which derivatives are not known; more digits than numbers of limbs have; an observer that stops.
     pub fn forward(&self, observer: &mut dyn Observer) -> Result<Derivatives, Error> {
         let bases = self.bases()?;
         self.arithmetic.compute_with_derivatives(Forward { request: self, bases, observer })?
@@ -80,7 +80,8 @@ impl WithDerivatives for Forward<'_, '_> {
     }
 }
 
-/// The states with each vector; beside those whose constants are differentiated at a value nearby the plain ones, which are those of the run.
+/// The states with each vector; beside those whose constants are differentiated at a value nearby the plain ones, which
+/// are those of the run.
 struct SideBySide<N: RunNumber> {
     all: Vec<Begun<N>>,
     plain: Option<(SceneIntegrator<N>, Option<ShownCoordinates<N>>)>,

@@ -1,5 +1,5 @@
-//! Protects derivatives by numbers of the text, of each kind of split and scheme: forwards beside differences of runs at nearby values, with 60 digits;
-//! backwards beside those forwards.
+//! Protects derivatives by numbers of the text, of each kind of split and scheme: forwards beside differences of runs
+//! at nearby values, with 60 digits; backwards beside those forwards.
 
 use shadowstep::tables::Source;
 use shadowstep::{Rational, StepSize};
@@ -137,13 +137,16 @@ fn nearest(x: &Rational) -> f64 {
     shadowstep::Number::from_rational(x, &())
 }
 
-const OSCILLATOR: &str = "[problem]\npotential = \"k*x^2/2 + x^4/4 + x^2*y^2 + y^2\"\ncoordinates = [\"x\", \"y\"]\nparameters = { k = \"θ\" }\n\
+const OSCILLATOR: &str = "[problem]\npotential = \"k*x^2/2 + x^4/4 + x^2*y^2 + y^2\"\ncoordinates = \
+    [\"x\", \"y\"]\nparameters = { k = \"θ\" }\n\
                           [initial]\nq = [1, \"1/3\"]\np = [0, \"1/7\"]\n";
-const MASSES: &str = "[problem]\npotential = \"x^2/2 + x^4/4 + x^2*y^2 + y^2\"\ncoordinates = [\"x\", \"y\"]\nmasses = [\"θ\", 3]\n\
+const MASSES: &str = "[problem]\npotential = \"x^2/2 + x^4/4 + x^2*y^2 + y^2\"\ncoordinates = [\"x\", \"y\"]\nmasses \
+    = [\"θ\", 3]\n\
                       [initial]\nq = [1, \"1/3\"]\np = [0, \"1/7\"]\n";
 const BODIES: &str = "[problem]\npair = \"-m_i*m_j/sqrt(r2)\"\ndimensions = 2\nbodies = { m = [1, \"θ\", \"1/500\"] }\n\
                       [initial]\nq = [[0, 0], [1, 0], [0, 2]]\nv = [[0, 0], [0, 1], [\"-0.7\", 0]]\n";
-const PLANETS: &str = "[problem]\nparts = \"wisdom-holman\"\nparameters = { g = 1 }\n[[body]]\nname = \"sun\"\nmass = 1\nq = [0, 0, 0]\nv = [0, 0, 0]\n\
+const PLANETS: &str = "[problem]\nparts = \"wisdom-holman\"\nparameters = { g = 1 }\n[[body]]\nname = \"sun\"\nmass = \
+    1\nq = [0, 0, 0]\nv = [0, 0, 0]\n\
                        [[body]]\nname = \"a\"\nmass = \"θ\"\nq = [1, 0, 0]\nv = [0, 1, \"1/10\"]\n\
                        [[body]]\nname = \"b\"\nmass = \"1/2000\"\nq = [0, 2, 0]\nv = [\"-0.7\", 0, 0]\n";
 
@@ -193,9 +196,11 @@ fn by_the_step_size() {
 
 #[test]
 fn by_parameters_of_other_splits() {
-    let transformed = "[problem]\nname = \"kepler\"\nparameters = { eccentricity = \"θ\" }\n[time]\ntransform = \"power\"\nexponent = \"-1/2\"\n";
+    let transformed = "[problem]\nname = \"kepler\"\nparameters = { eccentricity = \"θ\" }\n[time]\ntransform \
+        = \"power\"\nexponent = \"-1/2\"\n";
     Case { text: transformed, scheme: "yoshida4", h: "1/20", theta: "1/3" }.check();
-    let formulas = "[problem]\ncoordinates = [\"x\", \"y\"]\nparts = [\"px^2/2 + py^2/2 + x^2/2\", \"k*x^2*y - y^3/3 + y^2/2\"]\nparameters = { k = \"θ\" }\n\
+    let formulas = "[problem]\ncoordinates = [\"x\", \"y\"]\nparts = [\"px^2/2 + py^2/2 + x^2/2\", \"k*x^2*y - y^3/3 \
+        + y^2/2\"]\nparameters = { k = \"θ\" }\n\
                     [initial]\nq = [\"1/5\", \"1/3\"]\np = [0, \"1/7\"]\n";
     Case { text: formulas, scheme: "yoshida4", h: "1/20", theta: "6/5" }.check();
 }
@@ -205,10 +210,12 @@ fn by_parameters_of_other_splits() {
 fn by_what_a_matrix_depends_on() {
     let initial = "[initial]\nq = [\"1/5\", \"1/3\"]\np = [\"1/9\", \"1/7\"]\n";
     let quadratic = format!(
-        "[problem]\ncoordinates = [\"x\", \"y\"]\nparts = [\"px^2/2 + py^2/2 + k*x^2/2 + x*py - k^2*y*px + y^2\", \"x^4/4 + k*sin(x)*y^2\"]\nparameters = {{ k = \"θ\" }}\n{initial}"
+        "[problem]\ncoordinates = [\"x\", \"y\"]\nparts = [\"px^2/2 + py^2/2 + k*x^2/2 + x*py - k^2*y*px + \
+            y^2\", \"x^4/4 + k*sin(x)*y^2\"]\nparameters = {{ k = \"θ\" }}\n{initial}"
     );
     let linear = format!(
-        "[problem]\ncoordinates = [\"x\", \"y\"]\npotential = \"k*x^2 + x*y + 2*y^2 + k*x^2*y - y^3/3\"\nmasses = [1, \"m\"]\nparameters = {{ k = 5, m = 2 }}\nparts = \"linear\"\n{initial}"
+        "[problem]\ncoordinates = [\"x\", \"y\"]\npotential = \"k*x^2 + x*y + 2*y^2 + k*x^2*y - y^3/3\"\nmasses = \
+            [1, \"m\"]\nparameters = {{ k = 5, m = 2 }}\nparts = \"linear\"\n{initial}"
     );
     for scheme in ["stormer-verlet", "yoshida4"] {
         Case { text: quadratic.clone().leak(), scheme, h: "1/10", theta: "6/5" }.check();
@@ -230,7 +237,8 @@ fn by_what_a_matrix_depends_on() {
 fn derivatives_follow_the_symbol_whatever_its_value() {
     let of_parts = |parts: &str| {
         format!(
-            "[problem]\ncoordinates = [\"x\", \"y\"]\nparts = [{parts}]\nparameters = {{ k = \"θ\" }}\n[initial]\nq = [\"4/5\", \"1/3\"]\np = [\"1/9\", \"1/7\"]\n"
+            "[problem]\ncoordinates = [\"x\", \"y\"]\nparts = [{parts}]\nparameters = {{ k = \"θ\" }}\n[initial]\nq = \
+                [\"4/5\", \"1/3\"]\np = [\"1/9\", \"1/7\"]\n"
         )
     };
     let texts = [

@@ -1,8 +1,8 @@
 //! The control: the same estimates on the exact flow, whose energy does not change.
 //!
-//! A state of it may cost far more than a step: on Kepler's problem a sine and a cosine of all digits. So the control is made where
-//! these states take no longer than the run itself, or than a second, as the first of them show; and it is given up where it
-//! takes twice that time.
+//! A state of it may cost far more than a step: on Kepler's problem a sine and a cosine of all digits. So the control
+//! is made where these states take no longer than the run itself, or than a second, as the first of them show; and it
+//! is given up where it takes twice that time.
 
 use std::collections::BTreeMap;
 use std::time::Duration;
@@ -99,8 +99,8 @@ impl Controls {
     }
 }
 
-/// How long the states of the exact flow will take, measured on the first ones; `None` if that is too short to matter, or if
-/// the flow cannot be followed, which the control reports.
+/// How long the states of the exact flow will take, measured on the first ones; `None` if that is too short to matter,
+/// or if the flow cannot be followed, which the control reports.
 fn expected<N: CorrectlyRounded>(setup: &Setup, run: Run<'_>, context: &N::Context) -> Option<Duration> {
     const SAMPLE: u32 = 3;
     let mut flow = ExactFlow::<N>::new(setup, run.h, run.steps, 0, context).ok()?;

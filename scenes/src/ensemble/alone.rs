@@ -25,7 +25,8 @@ impl Alone {
         Ok(Alone { integrator, shown: system.shown(&()) })
     }
 
-    /// What becomes of the trajectory from an initial state of the system, after this number of steps; `continues` is asked now and then.
+    /// What becomes of the trajectory from an initial state of the system, after this number of steps; `continues` is
+    /// asked now and then.
     pub(super) fn outcome(
         &mut self,
         (system, steps): (&System, u64),

@@ -11,7 +11,8 @@ use crate::scene::System;
 use crate::scene::split::{CanonicalCoordinates, Planets};
 use crate::start::Steps;
 
-/// The planets of a system, if there are steps of them in lanes: kicks by the attraction of the bodies alone, and no close encounters.
+/// The planets of a system, if there are steps of them in lanes: kicks by the attraction of the bodies alone, and no
+/// close encounters.
 pub(super) fn in_lanes_of(system: &System) -> Option<&Planets> {
     let planets = system.parts.planets()?;
     (planets.encounters.is_none() && !system.problem.has_energies_of_bodies()).then_some(planets)

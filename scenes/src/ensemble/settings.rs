@@ -22,7 +22,8 @@ pub(super) struct Observed {
 /// What the scene asks for.
 ///
 /// # Errors
-/// What an ensemble cannot have: other numbers than doubles, rows of states, checkpoints, charts, JSON lines, other estimators.
+/// What an ensemble cannot have: other numbers than doubles, rows of states, checkpoints, charts, JSON lines, other
+/// estimators.
 pub(super) fn settings(source: &Source, scene: &Scene) -> Result<Observed, Error> {
     let mut reader = Reader::new(source, Vec::new());
     refuse_numbers(&mut reader, scene);

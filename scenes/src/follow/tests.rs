@@ -16,7 +16,8 @@ fn read(text: &str) -> Result<Scene, Faults> {
 
 fn pendulum(end: &str, output: &str) -> Result<Scene, Faults> {
     read(&format!(
-        "problem.name = \"pendulum\"\n[run]\nscheme = \"yoshida4\"\nstep = \"1/10\"\nuntil = 100\nend = {end}\ndigits = \"double\"\n[output]\n{output}"
+        "problem.name = \"pendulum\"\n[run]\nscheme = \"yoshida4\"\nstep = \"1/10\"\nuntil = 100\nend = {end}\ndigits \
+            = \"double\"\n[output]\n{output}"
     ))
 }
 
@@ -27,7 +28,8 @@ fn rows(scene: &Scene) -> Vec<String> {
     text.lines().filter(|line| !line.starts_with('#')).map(str::to_owned).collect()
 }
 
-/// The first state at which p < 0 is the last one, whatever is written, and the rows before are those of a run that goes on.
+/// The first state at which p < 0 is the last one, whatever is written, and the rows before are those of a run that
+/// goes on.
 #[test]
 fn a_condition_ends_a_run_at_the_first_state_that_meets_it() {
     for output in ["trajectory = true", "trajectory = true\nmodified_energy = { estimator = \"bilinear\", order = 4 }"]
@@ -48,7 +50,8 @@ fn a_condition_ends_a_run_at_the_first_state_that_meets_it() {
 #[test]
 fn a_condition_ends_a_run_in_transformed_time() {
     let text = "problem.name = \"kepler\"\ntime.transform = \"logarithmic\"\noutput.trajectory = true\n\
-                run = { scheme = \"stormer-verlet\", first = \"drift\", step = \"1/20\", until = 20, end = \"t > 3\", digits = \"double\" }";
+                run = { scheme = \"stormer-verlet\", first = \"drift\", step = \"1/20\", until = 20, end = \"t > 3\", \
+                digits = \"double\" }";
     let rows = rows(&read(text).unwrap());
     let time = |row: &String| row.split(',').nth(1).unwrap().parse::<f64>().unwrap();
     assert!(time(&rows[rows.len() - 2]) <= 3.0 && time(&rows[rows.len() - 1]) > 3.0);
@@ -66,7 +69,8 @@ fn faults_of_a_condition_have_their_places() {
     assert_eq!(fault("1"), "6:7: this value is of the wrong kind");
 }
 
-/// The step is from a state of the trajectory to another one: a part of a step of the kernel alone would have the kernel's error.
+/// The step is from a state of the trajectory to another one: a part of a step of the kernel alone would have the
+/// kernel's error.
 #[test]
 fn a_last_step_of_a_processed_scheme_has_its_effective_order() {
     // Kepler's orbit of a = 1 and e = 1/2 from its pericentre, whose H is −1/2; E − e sin E = 3 was solved by mpmath

@@ -69,7 +69,8 @@ impl SymbolicHamiltonian {
     }
 }
 
-/// Q_i = q_i − Σ_{j<i} m_j q_j/η_{i−1}, P_i = (η_{i−1} p_i − m_i Σ_{j<i} p_j)/η_i, m_i′ = m_i η_{i−1}/η_i, κ_i = g m_i η_{i−1}
+/// Q_i = q_i − Σ_{j<i} m_j q_j/η_{i−1}, P_i = (η_{i−1} p_i − m_i Σ_{j<i} p_j)/η_i, m_i′ = m_i η_{i−1}/η_i, κ_i = g m_i
+/// η_{i−1}
 fn jacobi(masses: &[Rational], i: usize) -> OnOrbit {
     let inner: Rational = masses[..i].iter().sum();
     let with = &inner + &masses[i];

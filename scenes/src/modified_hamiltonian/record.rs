@@ -121,8 +121,8 @@ pub struct FormulaRecord {
     pub hamiltonian: String,
     /// H_2, H_3, …, but those that are 0.
     pub terms: Vec<FormulaTerm>,
-    /// The names of coordinates, momenta and parameters in them, as the system has them and as they are written: others where these are
-    /// [reserved](crate::reserved_names) in the language of the notation.
+    /// The names of coordinates, momenta and parameters in them, as the system has them and as they are written: others
+    /// where these are [reserved](crate::reserved_names) in the language of the notation.
     #[serde(skip)]
     pub names: Vec<(String, String)>,
     /// The lowest power of h whose term may not be 0 and is left out.
@@ -196,7 +196,8 @@ impl FormulaRecord {
         sum_of(self.terms.iter().map(|term| term.power), self.remainder)
     }
 
-    /// A function of h, positions, momenta and parameters in the notation of the formulas, which is that of Rust or NumPy.
+    /// A function of h, positions, momenta and parameters in the notation of the formulas, which is that of Rust or
+    /// NumPy.
     pub fn function(&self, title: &str, notation: Notation) -> String {
         let FormulaRecord { hamiltonian, terms, names, .. } = self;
         let others = names.iter().filter(|(own, written)| own != written);
@@ -212,7 +213,8 @@ impl FormulaRecord {
                     .map(|term| format!("    total += h.powi({})*({});\n", term.power, term.formula))
                     .collect();
                 format!(
-                    "/// {title}\npub fn modified_hamiltonian(h: f64{names}) -> f64 {{\n    let mut total = {hamiltonian};\n{lines}    total\n}}\n"
+                    "/// {title}\npub fn modified_hamiltonian(h: f64{names}) -> f64 {{\n    let mut total = \
+                        {hamiltonian};\n{lines}    total\n}}\n"
                 )
             }
             _ => {
@@ -220,7 +222,8 @@ impl FormulaRecord {
                     terms.iter().map(|term| format!("    total += h**{}*({})\n", term.power, term.formula)).collect();
                 let names: String = names.map(|name| format!(", {name}")).collect();
                 format!(
-                    "import numpy as np\n\n\ndef modified_hamiltonian(h{names}):\n    \"\"\"{title}\"\"\"\n    total = {hamiltonian}\n{lines}    return total\n"
+                    "import numpy as np\n\n\ndef modified_hamiltonian(h{names}):\n    \"\"\"{title}\"\"\"\n    total \
+                        = {hamiltonian}\n{lines}    return total\n"
                 )
             }
         }

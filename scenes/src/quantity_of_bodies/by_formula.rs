@@ -64,7 +64,8 @@ mod tests {
     /// The values of a formula at each of ten steps.
     fn values(problem: &str, formula: &str) -> Vec<f64> {
         let text = format!(
-            "{problem}\n[run]\nscheme = \"yoshida4\"\nstep = \"1/100\"\nsteps = 10\n[output]\nvalues = {{ v = \"{formula}\" }}\n"
+            "{problem}\n[run]\nscheme = \"yoshida4\"\nstep = \"1/100\"\nsteps = 10\n[output]\nvalues = {{ v \
+                = \"{formula}\" }}\n"
         );
         let scene =
             Scene::read(Source { path: "test.toml".to_owned(), text }).unwrap_or_else(|faults| panic!("{faults}"));
@@ -75,7 +76,8 @@ mod tests {
         rows.map(|row| row.rsplit(',').next().unwrap().parse().unwrap()).collect()
     }
 
-    const SPACE: &str = "[problem]\nparameters = { g = 1 }\n[[body]]\nname = \"sun\"\nmass = 2\nq = [0, 0, 0]\nv = [0, 0, 0]\n\
+    const SPACE: &str = "[problem]\nparameters = { g = 1 }\n[[body]]\nname = \"sun\"\nmass = 2\nq = [0, 0, 0]\nv = \
+        [0, 0, 0]\n\
                          [[body]]\nname = \"earth\"\nmass = 3\nq = [1, 0, 2]\nv = [0, 1, 5]\n\
                          [[body]]\nname = \"comet\"\nmass = 0\nq = [4, 0, 1]\nv = [1, 1, 0]";
 

@@ -1,8 +1,9 @@
 //! The osculating Kepler orbit of a body: position and velocity relative to a centre → elements.
 //!
-//! With h = r × v, e = (v × h)/μ − r/|r|, 1/a = 2/r − v²/μ: a direction of the ascending node n = (−h_y, h_x, 0)/|…|, or (1, 0, 0) where the orbit is in the plane of
-//! the reference, m = h × n/|h|, so that Ω = ∠(h_x, −h_y), ω = ∠(e·m, e·n), and M from E − e sin E or e sinh E − E. This is the inverse of `read/elements.rs`; C. D. Murray &
-//! S. F. Dermott, *Solar System Dynamics*, section 2.8.
+//! With h = r × v, e = (v × h)/μ − r/|r|, 1/a = 2/r − v²/μ: a direction of the ascending node n = (−h_y, h_x, 0)/|…|,
+//! or (1, 0, 0) where the orbit is in the plane of the reference, m = h × n/|h|, so that Ω = ∠(h_x, −h_y), ω = ∠(e·m,
+//! e·n), and M from E − e sin E or e sinh E − E. This is the inverse of `read/elements.rs`; C. D. Murray & S. F.
+//! Dermott, *Solar System Dynamics*, section 2.8.
 
 use std::mem::swap;
 
@@ -19,7 +20,8 @@ pub(super) struct Orbit<N> {
 }
 
 impl<N: Real> Orbit<N> {
-    /// An element; angles in degrees, from 0 to 360, but the mean anomaly of a hyperbola. Not finite where there is none, as the anomaly of a parabola.
+    /// An element; angles in degrees, from 0 to 360, but the mean anomaly of a hyperbola. Not finite where there is
+    /// none, as the anomaly of a parabola.
     pub(super) fn element(&self, element: Element) -> N {
         let momentum = cross(&self.position, &self.velocity);
         match element {

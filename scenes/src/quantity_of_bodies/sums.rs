@@ -79,7 +79,8 @@ mod tests {
     }
 
     const YOSHIDA: &str = "scheme = \"yoshida4\"";
-    const BODIES: &str = "[problem]\nparameters = { g = 1 }\nPARTS\n[[body]]\nmass = 1\n[[body]]\nmass = 0.01\nq = [1, 0, 0]\nv = [0, 1, 0.1]\n\
+    const BODIES: &str = "[problem]\nparameters = { g = 1 }\nPARTS\n[[body]]\nmass = 1\n[[body]]\nmass = 0.01\nq = \
+        [1, 0, 0]\nv = [0, 1, 0.1]\n\
                           [[body]]\nmass = 0\nq = [0, 2, 0]\nv = [-0.7, 0, 0]\n";
 
     /// A potential of degree k has qᵀU_q = kU.
@@ -88,8 +89,10 @@ mod tests {
         let gravity = "kinetic + virial - E";
         let box_of = |cutoff: &str| {
             format!(
-                "[problem]\npair = \"1/r2^6\"\ndimensions = 2\nbodies = 9\ncutoff = {cutoff}\nbox = 3.6\nmasses = \"2\"\n[initial]\n\
-                 q = [[0, 0], [1.2, 0.1], [2.3, -0.1], [0.1, 1.2], [1.1, 1.1], [2.5, 1.2], [0, 2.4], [1.2, 2.3], [2.4, 2.5]]\nv = [[1, 0], [0, 0], [0, 0], [0, 0], [-1, 0], [0, 0], [0, 0], [0, 0], [0, 0]]"
+                "[problem]\npair = \"1/r2^6\"\ndimensions = 2\nbodies = 9\ncutoff = {cutoff}\nbox = 3.6\nmasses \
+                    = \"2\"\n[initial]\n\
+                 q = [[0, 0], [1.2, 0.1], [2.3, -0.1], [0.1, 1.2], [1.1, 1.1], [2.5, 1.2], [0, 2.4], [1.2, 2.3], \
+                 [2.4, 2.5]]\nv = [[1, 0], [0, 0], [0, 0], [0, 0], [-1, 0], [0, 0], [0, 0], [0, 0], [0, 0]]"
             )
         };
         for (problem, run, formula) in [
@@ -99,12 +102,16 @@ mod tests {
             (BODIES.replace("PARTS", ""), YOSHIDA.to_owned(), gravity),
             (BODIES.replace("PARTS", "parts = \"wisdom-holman\""), "scheme = \"saba4\"".to_owned(), gravity),
             (
-                "[problem]\npotential = \"x^4/3\"\nslow = \"x^4/7\"\ncoordinates = [\"x\"]\n[initial]\nq = [1]\np = [0]".to_owned(),
+                "[problem]\npotential = \"x^4/3\"\nslow = \"x^4/7\"\ncoordinates = [\"x\"]\n[initial]\nq = [1]\np = \
+                    [0]"
+                .to_owned(),
                 "scheme = \"r-respa-4\"".to_owned(),
                 "virial + 4*(E - kinetic)",
             ),
             (
-                "[problem]\npotential = \"x^4/(3 + t)\"\ncoordinates = [\"x\"]\n[initial]\nq = [1]\np = [0.2]".to_owned(),
+                "[problem]\npotential = \"x^4/(3 + t)\"\ncoordinates = [\"x\"]\n[initial]\nq = [1]\np = \
+                    [0.2]"
+                    .to_owned(),
                 YOSHIDA.to_owned(),
                 "virial + 4*x^4/(3 + t) + kinetic - px^2/2",
             ),
@@ -124,7 +131,8 @@ mod tests {
             fault(of_parts, "values = { T = \"2*kinetic\" }").split_once(": ").unwrap().1,
             "`kinetic` is of systems T(p) + U(q), and H is not given so"
         );
-        let named = "[problem]\npotential = \"virial*x^2\"\nparameters = { virial = 1 }\ncoordinates = [\"x\"]\n[initial]\nq = [1]\np = [0]";
+        let named = "[problem]\npotential = \"virial*x^2\"\nparameters = { virial = 1 }\ncoordinates = \
+            [\"x\"]\n[initial]\nq = [1]\np = [0]";
         assert_eq!(
             fault(named, "values = { T = \"2*virial\" }").split_once(": ").unwrap().1,
             "`virial` could be the parameter or the virial here"

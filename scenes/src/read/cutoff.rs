@@ -73,7 +73,8 @@ mod tests {
     /// The faults of a system of pairs with these lines in [problem], without their places.
     fn faults(lines: &str) -> String {
         let text = format!(
-            "[problem]\npair = \"1/r2^3\"\ndimensions = 2\nbodies = 2\n{lines}\n[initial]\nq = [[0, 0], [1, 0]]\np = [0, 0, 0, 0]\n"
+            "[problem]\npair = \"1/r2^3\"\ndimensions = 2\nbodies = 2\n{lines}\n[initial]\nq = [[0, 0], [1, 0]]\np = \
+                [0, 0, 0, 0]\n"
         );
         match System::read(&Source { path: "test.toml".to_owned(), text }, Arithmetic::DOUBLE) {
             Ok(_) => String::new(),

@@ -1,7 +1,8 @@
 //! `hamiltonian`: an H(q, p) whose parts have no known flows, in M. Tao's extended phase space.
 //!
-//! Beside q, p there are x, y, which begin there too, and H(q, y) + H(x, p) + ω(|q − x|² + |p − y|²)/2 has three parts: in the first q and y stay, in the
-//! second x and p, and the third is a rotation. Where q = x and p = y both are the motion of H; the third part holds them together.
+//! Beside q, p there are x, y, which begin there too, and H(q, y) + H(x, p) + ω(|q − x|² + |p − y|²)/2 has three parts:
+//! in the first q and y stay, in the second x and p, and the third is a rotation. Where q = x and p = y both are the
+//! motion of H; the third part holds them together.
 //!
 //! Source: M. Tao, Phys. Rev. E 94 (2016) 043303.
 

@@ -29,7 +29,8 @@ pub(super) struct Elements {
 /// A position or velocity.
 pub(super) type Vector = [Rational; 3];
 
-/// An ellipse: the equation for E by Newton's method, and position and velocity in the plane of the orbit, x to the pericentre.
+/// An ellipse: the equation for E by Newton's method, and position and velocity in the plane of the orbit, x to the
+/// pericentre.
 const ELLIPSE: [&str; 5] = [
     "E - (E - e*sin(E) - M)/(1 - e*cos(E))",
     "a*(cos(E) - e)",
@@ -190,11 +191,12 @@ const DIGITS_BEYOND: u32 = 55;
 /// The names in the formulas.
 const NAMES: [&str; 10] = ["i", "O", "w", "M", "a", "e", "mu", "E", "x", "y"];
 
-/// What is smaller than round-off by fewer decades is round-off, too, in units that are not extreme, such as the sine of two right angles.
+/// What is smaller than round-off by fewer decades is round-off, too, in units that are not extreme, such as the sine
+/// of two right angles.
 const ROUND_OFF: f64 = 25.6;
 
-/// Computes formulas in numbers of limbs, in a small part of the time: for very many orbits. The results have the digits of [`Formulas`] but the last ones, as
-/// these round what is in between.
+/// Computes formulas in numbers of limbs, in a small part of the time: for very many orbits. The results have the
+/// digits of [`Formulas`] but the last ones, as these round what is in between.
 pub(super) struct InLimbs {
     digits: u32,
     count: LimbCount,

@@ -46,7 +46,8 @@ mod tests {
     /// Two planets that come within 0.13 Hill radii.
     fn scene(problem: &str) -> Result<Scene, Vec<String>> {
         let text = format!(
-            "[problem]\nparameters = {{ g = 1 }}\n{problem}\n[[body]]\nmass = 1\n[[body]]\nmass = \"1/5000\"\nq = [1, 0]\nv = [0, 1]\n\
+            "[problem]\nparameters = {{ g = 1 }}\n{problem}\n[[body]]\nmass = 1\n[[body]]\nmass = \"1/5000\"\nq = [1, \
+                0]\nv = [0, 1]\n\
              [[body]]\nmass = \"1/20000\"\nq = [\"1.127\", \"0.34\"]\nv = [\"-0.311\", \"0.852\"]\n\
              [run]\nscheme = \"stormer-verlet\"\nstep = \"1/80\"\nuntil = 10\ndigits = \"double\"\n[output]\nenergy = true"
         );

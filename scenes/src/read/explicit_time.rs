@@ -1,6 +1,7 @@
 //! t in the formulas of a scene: H depends on time. Then t is a coordinate, after all others, and `pt` its momentum.
 //!
-//! Where only U depends on t, the parts are T(p) + p_t and U(q, t), with all schemes for T and U. Where T does, too, they are formulas of parts.
+//! Where only U depends on t, the parts are T(p) + p_t and U(q, t), with all schemes for T and U. Where T does, too,
+//! they are formulas of parts.
 
 use num_traits::Zero;
 use shadowstep_schemes::document::Text;

@@ -65,7 +65,8 @@ impl<'t, 'i> Given<'t, 'i> {
         parameters
     }
 
-    /// The names of the coordinates and momenta as they are given, valid or not: by default, momenta are named after the coordinates.
+    /// The names of the coordinates and momenta as they are given, valid or not: by default, momenta are named after
+    /// the coordinates.
     pub(super) fn variables(&self, coordinates: &Placed<Vec<Text>>) -> (Vec<String>, Vec<String>) {
         let texts = |list: &Placed<Vec<Text>>| list.value.iter().map(|name| name.value.clone()).collect::<Vec<_>>();
         let coordinates = texts(coordinates);

@@ -44,7 +44,8 @@ pub(super) struct LengthAndTime {
 }
 
 impl HorizonsVector {
-    /// The first vector of the file that a key names, relative to the folder of the scene; a fault has the line of the file.
+    /// The first vector of the file that a key names, relative to the folder of the scene; a fault has the line of the
+    /// file.
     pub(super) fn open(reader: &mut Reader<'_>, name: &Text) -> Option<HorizonsVector> {
         let path = reader.path(name)?;
         let text = match read_text(&path, LARGEST_FILE) {
@@ -132,7 +133,8 @@ impl HorizonsVector {
         [position.iter().map(|x| x / length).collect(), velocity.iter().map(|v| v / &speed).collect()]
     }
 
-    /// The centre, if it is not the central body of this name: one that is not named after a planet can be the Sun, and no body is at a barycentre.
+    /// The centre, if it is not the central body of this name: one that is not named after a planet can be the Sun, and
+    /// no body is at a barycentre.
     pub(super) fn other_centre(&self, name: Option<&str>) -> Option<&str> {
         let centre = self.centre.split(" (").next().unwrap_or(&self.centre);
         let name = name.unwrap_or("sun").replace('_', " ").to_lowercase();
@@ -179,11 +181,15 @@ mod tests {
     /// As Horizons writes it, with other numbers.
     fn table(target: &str, centre: &str, units: &str, row: &str) -> String {
         format!(
-            "*******\nTarget body name: {target}                     {{source: DE441}}\nCenter body name: {centre}   {{source: DE441}}\n\
-             Start time      : A.D. 2000-Jan-01 12:00:00.0000 TDB\nOutput units    : {units}\nOutput type     : GEOMETRIC cartesian states\n\
+            "*******\nTarget body name: {target}                     {{source: DE441}}\nCenter body name: {centre}   \
+                {{source: DE441}}\n\
+             Start time      : A.D. 2000-Jan-01 12:00:00.0000 TDB\nOutput units    : {units}\nOutput type     : \
+             GEOMETRIC cartesian states\n\
              Output format   : 2 (position and velocity)\nReference frame : Ecliptic of J2000.0\n*******\n\
-             \u{20}           JDTDB,            Calendar Date (TDB),       X,      Y,      Z,     VX,     VY,    VZ,\n*******\n$$SOE\n\
-             2451545.000000000, A.D. 2000-Jan-01 12:00:00.0000, {row},\n2451546.000000000, later, 9, 9, 9, 9, 9, 9,\n$$EOE\n"
+             \u{20}           JDTDB,            Calendar Date (TDB),       X,      Y,      Z,     VX,     VY,    \
+             VZ,\n*******\n$$SOE\n\
+             2451545.000000000, A.D. 2000-Jan-01 12:00:00.0000, {row},\n2451546.000000000, later, 9, 9, 9, 9, 9, \
+             9,\n$$EOE\n"
         )
     }
 
@@ -225,13 +231,15 @@ mod tests {
         ("   A1= 4.5E-13  A2=-2.9E-14", "noted, below a line of non-gravitational forces"),
     ];
 
-    const EARTH: &str = "-1.495978707E+08,  7.479893535E+07, 1.495978707E+05, 1.731456836805555E+01, 0.000000000000000E+00, -1.731456836805555E+00";
+    const EARTH: &str = "-1.495978707E+08,  7.479893535E+07, 1.495978707E+05, 1.731456836805555E+01, \
+        0.000000000000000E+00, -1.731456836805555E+00";
 
     fn scene(folder: &Path, problem: &str, earth: &str) -> Result<Scene, Vec<String>> {
         let path = folder.join("scene.toml");
         let text = format!(
             "[problem]\n{problem}\n[[body]]\nmass = 1\nhorizons = \"sun.txt\"\n[[body]]\nmass = 0.001\n{earth}\n\
-             [run]\nscheme = \"yoshida4\"\nstep = 1\nsteps = 2\ndigits = \"double\"\n[output]\nfile = \"out.csv\"\nenergy = true\n"
+             [run]\nscheme = \"yoshida4\"\nstep = 1\nsteps = 2\ndigits = \"double\"\n[output]\nfile \
+             = \"out.csv\"\nenergy = true\n"
         );
         fs::write(&path, text).unwrap();
         Scene::open(&path).map_err(|error| match error {
@@ -317,7 +325,8 @@ mod tests {
         }
     }
 
-    /// Without a state the first body is at the centre of the tables: of the Sun and the Earth, relative to the barycentre, it is neither.
+    /// Without a state the first body is at the centre of the tables: of the Sun and the Earth, relative to the
+    /// barycentre, it is neither.
     #[test]
     fn the_central_body_is_that_of_the_tables() {
         let folder = tempfile::tempdir().unwrap();
@@ -337,7 +346,8 @@ mod tests {
             let text = |central: &str| {
                 let other = if name.is_empty() { "" } else { "name = \"mars\"" };
                 format!(
-                    "[problem]\n{UNITS}\n[[body]]\nmass = 1\n{name}\n{central}\n[[body]]\nmass = 0.001\n{other}\nhorizons = \"planet.txt\"\n\
+                    "[problem]\n{UNITS}\n[[body]]\nmass = 1\n{name}\n{central}\n[[body]]\nmass = \
+                        0.001\n{other}\nhorizons = \"planet.txt\"\n\
                      [run]\nscheme = \"yoshida4\"\nstep = 1\nsteps = 2\ndigits = \"double\"\n[output]\nenergy = true\n"
                 )
             };

@@ -1,7 +1,7 @@
 //! `vector_potential`: charges in a magnetic field, H = Σ (p_i − A_i)²/(2 m_i) + U with p = m v + A.
 //!
-//! Where the sum is a quadratic form, as in a constant field, it is one part: a rotation. Otherwise each summand is a part, whose flow has a formula
-//! where A_i does not depend on q_i: then p_i − A_i is constant along it.
+//! Where the sum is a quadratic form, as in a constant field, it is one part: a rotation. Otherwise each summand is a
+//! part, whose flow has a formula where A_i does not depend on q_i: then p_i − A_i is constant along it.
 
 use num_traits::Zero;
 use shadowstep::Rational;
@@ -91,7 +91,8 @@ fn parts(
     for (summand, name) in summands.iter().zip(&names) {
         if let Err(PartError::NoFlow(_)) = Formula::part(&summand.value, (&coordinates, &momenta), parameters) {
             let message = format!("this component of A depends on {name}, its own coordinate");
-            let help = "use another gauge: A + grad f is the same field; a constant field may have any linear A without constant terms";
+            let help = "use another gauge: A + grad f is the same field; a constant field may have any linear A \
+                without constant terms";
             reader.toml.fault(&summand.at, message, help);
         }
     }
@@ -123,13 +124,16 @@ mod tests {
 
     fn read(field: &str, more: &str, run: &str) -> Result<Scene, Faults> {
         let text = format!(
-            "[problem]\npotential = \"0\"\nvector_potential = {field}\ncoordinates = [\"x\", \"y\"]\nparameters = {{ b = \"3/2\" }}\n{more}\n\
-             [initial]\nq = [2, 1]\nv = [\"1/2\", 0]\n[run]\nscheme = \"stormer-verlet\"\nstep = \"1/2\"\n{run}\ndigits = 30\n[output]\nenergy = true"
+            "[problem]\npotential = \"0\"\nvector_potential = {field}\ncoordinates = [\"x\", \"y\"]\nparameters = {{ \
+                b = \"3/2\" }}\n{more}\n\
+             [initial]\nq = [2, 1]\nv = [\"1/2\", 0]\n[run]\nscheme = \"stormer-verlet\"\nstep \
+             = \"1/2\"\n{run}\ndigits = 30\n[output]\nenergy = true"
         );
         Scene::read(Source { path: "test.toml".to_owned(), text })
     }
 
-    /// A charge in a constant field goes round a circle with the frequency b/m, whatever the step is: about (2, 1 − m v/b).
+    /// A charge in a constant field goes round a circle with the frequency b/m, whatever the step is: about (2, 1 − m
+    /// v/b).
     #[test]
     fn a_constant_field_is_a_rotation_in_every_gauge() {
         for gauge in ["[\"-b*y/2\", \"b*x/2\"]", "[\"-b*y\", \"0\"]", "[\"-b*y + x\", \"y\"]"] {

@@ -14,8 +14,10 @@ use crate::scene::split::Formulas;
 use crate::scene::{Formula, InitialValueProblem, KineticEnergy, Parts, PotentialEnergy, System};
 
 /// What a part may be.
-const KNOWN: &str = "a part is a function of variables none of which is the momentum of another, such as T(p), U(q) or x*py, a quadratic \
-                     form, f((q^2 + p^2)/2) or f(q*p) of one pair, p^2/(2*m) - k/r, or a sum of these in different coordinates";
+const KNOWN: &str = "a part is a function of variables none of which is the momentum of another, such as T(p), U(q) \
+    or x*py, a quadratic \
+                     form, f((q^2 + p^2)/2) or f(q*p) of one pair, p^2/(2*m) - k/r, or a sum of these in different \
+                     coordinates";
 
 /// The system of these parts.
 pub(super) fn system(reader: &mut Reader<'_>, given: &Given<'_, '_>, formulas: Placed<Vec<Text>>) -> Option<System> {
@@ -198,7 +200,8 @@ mod tests {
     #[test]
     fn near_integrable_claims_are_of_two_parts() {
         let text = format!(
-            "[problem]\nparts = [\"p^2/2\", \"q^4\", \"cos(q)\"]\ncoordinates = [\"q\"]\nmomenta = [\"p\"]\n[initial]\nq = [1]\np = [0]\n{}",
+            "[problem]\nparts = [\"p^2/2\", \"q^4\", \"cos(q)\"]\ncoordinates = [\"q\"]\nmomenta = \
+                [\"p\"]\n[initial]\nq = [1]\np = [0]\n{}",
             RUN.replace("yoshida4", "saba2")
         );
         let notes: Vec<_> = read(&text).unwrap().notes.iter().map(ToString::to_string).collect();

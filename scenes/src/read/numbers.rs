@@ -56,7 +56,8 @@ impl Numbers {
         }
     }
 
-    /// The same of a list that may leave out what it determines: the last coordinate, t = 0, where H depends on it, and the second copies of the others.
+    /// The same of a list that may leave out what it determines: the last coordinate, t = 0, where H depends on it, and
+    /// the second copies of the others.
     pub(super) fn values_of_all(
         &self,
         reader: &mut Reader<'_>,

@@ -74,7 +74,8 @@ mod tests {
         })
     }
 
-    const RUN: &str = "[run]\nscheme = \"yoshida8-d\"\nstep = \"1/50\"\nsteps = 100\ndigits = 40\n[output]\nenergy = true\ntrajectory = true";
+    const RUN: &str = "[run]\nscheme = \"yoshida8-d\"\nstep = \"1/50\"\nsteps = 100\ndigits = 40\n[output]\nenergy = \
+        true\ntrajectory = true";
 
     /// Two planets in the plane, with these lines in [problem].
     fn scene(problem: &str) -> String {
@@ -94,12 +95,15 @@ mod tests {
 
     #[test]
     fn steps_are_those_of_one_formula() {
-        let own = "central = \"-3*(g*m0)^2*m/(c^2*r^2)\"\nexternal = \"k*m*(x^2/2 + r^4*y/50)\"\nparameters = { g = 1, c = 5, k = \"1/20\" }";
-        let pairs = "-0.1/sqrt((x1 - x2)^2 + (y1 - y2)^2) - 0.01/sqrt((x1 - x3)^2 + (y1 - y3)^2) - 0.001/sqrt((x2 - x3)^2 + (y2 - y3)^2)";
+        let own = "central = \"-3*(g*m0)^2*m/(c^2*r^2)\"\nexternal = \"k*m*(x^2/2 + r^4*y/50)\"\nparameters = { g = \
+            1, c = 5, k = \"1/20\" }";
+        let pairs = "-0.1/sqrt((x1 - x2)^2 + (y1 - y2)^2) - 0.01/sqrt((x1 - x3)^2 + (y1 - y3)^2) - 0.001/sqrt((x2 - \
+            x3)^2 + (y2 - y3)^2)";
         let central = "-0.3/(c^2*((x1 - x2)^2 + (y1 - y2)^2)) - 0.03/(c^2*((x1 - x3)^2 + (y1 - y3)^2))";
         let tide = |body: u8| format!("(x{body}^2/2 + (x{body}^2 + y{body}^2)^2*y{body}/50)");
         let formula = format!(
-            "[problem]\npotential = \"{pairs} {central} + k*({} + 0.1*{} + 0.01*{})\"\nparameters = {{ c = 5, k = \"1/20\" }}\n\
+            "[problem]\npotential = \"{pairs} {central} + k*({} + 0.1*{} + 0.01*{})\"\nparameters = {{ c = 5, k \
+                = \"1/20\" }}\n\
              coordinates = [\"x1\", \"y1\", \"x2\", \"y2\", \"x3\", \"y3\"]\nmasses = [1, 1, 0.1, 0.1, 0.01, 0.01]\n\
              [initial]\nq = [0, 0, 2, 0, 0, 4]\nv = [0, 0, 0, 0.6, -0.5, 0]\n{RUN}",
             tide(1),

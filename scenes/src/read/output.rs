@@ -217,7 +217,8 @@ mod tests {
 
     fn with(output: &str) -> Result<Scene, Faults> {
         let text = format!(
-            "problem.name = \"pendulum\"\nrun = {{ scheme = \"yoshida4\", step = \"1/10\", steps = 9000 }}\n[output]\nenergy = {{ every = 100 }}\n{output}\n"
+            "problem.name = \"pendulum\"\nrun = {{ scheme = \"yoshida4\", step = \"1/10\", steps = 9000 \
+                }}\n[output]\nenergy = {{ every = 100 }}\n{output}\n"
         );
         Scene::read(Source { path: "test.toml".to_owned(), text })
     }

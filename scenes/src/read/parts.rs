@@ -10,7 +10,8 @@ use crate::scene::split::{CanonicalCoordinates, KineticAndPotential, LINEAR, Lin
 use crate::scene::{InitialValueProblem, Parts, System};
 use crate::schema::Table;
 
-/// The parts of a problem, or why it has none of this kind; with the bodies that attract each other and their dimensions, if it is a problem of these.
+/// The parts of a problem, or why it has none of this kind; with the bodies that attract each other and their
+/// dimensions, if it is a problem of these.
 pub(super) type Split = fn(&InitialValueProblem, Arithmetic, Option<(Bodies, usize)>) -> Result<Parts, Refusal>;
 
 const KINETIC_AND_POTENTIAL: Split = |_, _, _| Ok(Parts::KineticAndPotential(KineticAndPotential));

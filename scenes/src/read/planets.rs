@@ -137,7 +137,8 @@ pub(super) fn system(
     parts::split(reader, given, problem, split, Some((bodies, dimensions)))
 }
 
-/// Refuses tables of Horizons of different centres, frames or epochs, and a central body without a state that is not their centre.
+/// Refuses tables of Horizons of different centres, frames or epochs, and a central body without a state that is not
+/// their centre.
 fn agree(reader: &mut Reader<'_>, bodies: &[&GivenBody]) {
     let tables = || {
         bodies.iter().filter_map(|body| body.horizons.as_ref()).filter_map(|(at, table)| Some((at, table.as_ref()?)))
@@ -147,7 +148,8 @@ fn agree(reader: &mut Reader<'_>, bodies: &[&GivenBody]) {
         let name = central.name.as_ref().map(|name| name.value.as_str());
         if let Some(centre) = first.other_centre(name) {
             let message = format!("the states are relative to {centre}, where the first body would be");
-            let help = "give the first body a table of its own with this centre, or ask Horizons for tables whose centre is \
+            let help = "give the first body a table of its own with this centre, or ask Horizons for tables whose \
+                centre is \
                         that body, CENTER='500@10' for the Sun; one of another centre has its name: name = \"earth\"";
             reader.toml.fault(at, message, help);
         }
@@ -355,7 +357,8 @@ impl Placing {
         }
     }
 
-    /// Refuses energies that are not proportional to the mass, where there is a particle: the limit of force by mass is not that of a unit mass then.
+    /// Refuses energies that are not proportional to the mass, where there is a particle: the limit of force by mass is
+    /// not that of a unit mass then.
     fn refuse_forces_on_particles(
         &self,
         reader: &mut Reader<'_>,
@@ -449,7 +452,8 @@ mod tests {
     /// Two planets, the second by elements, with these lines in [problem].
     fn scene(problem: &str, second: &str) -> String {
         format!(
-            "[problem]\n{problem}\n[[body]]\nmass = 1\n[[body]]\nmass = 0.1\nq = [2, 0]\nv = [0, 1]\n[[body]]\nmass = 0.01\n{second}\n\
+            "[problem]\n{problem}\n[[body]]\nmass = 1\n[[body]]\nmass = 0.1\nq = [2, 0]\nv = [0, 1]\n[[body]]\nmass = \
+                0.01\n{second}\n\
              [run]\nscheme = \"abah864\"\nstep = 1\nsteps = 9\ndigits = \"double\"\n[output]\nenergy = true"
         )
     }
@@ -510,7 +514,8 @@ mod tests {
             let place = fault.split_once(": ").unwrap().1;
             assert!(faults.iter().any(|found| found.ends_with(place)), "{second}: {faults:?} for {fault}");
         }
-        let text = "[problem]\nname = \"kepler\"\nparts = \"wisdom-holman\"\n[run]\nscheme = \"abah864\"\nstep = 1\nsteps = 9\n[output]\nenergy = true";
+        let text = "[problem]\nname = \"kepler\"\nparts = \"wisdom-holman\"\n[run]\nscheme = \"abah864\"\nstep = \
+            1\nsteps = 9\n[output]\nenergy = true";
         let faults = read(text).unwrap_err();
         assert_eq!(faults, ["3:9: only bodies that attract each other have these parts"]);
     }

@@ -99,7 +99,8 @@ fn setup(reader: &mut Reader<'_>, given: &Given<'_, '_>, name: &Text) -> Option<
     }
 }
 
-/// The problem with the values of the parameters that are given, which were evaluated; `None` where its text is to say what is wrong.
+/// The problem with the values of the parameters that are given, which were evaluated; `None` where its text is to say
+/// what is wrong.
 fn setup_with_numbers(
     reader: &Reader<'_>,
     problem: Problem,
@@ -111,7 +112,8 @@ fn setup_with_numbers(
     problem.setup_with_numbers(&set.collect::<Option<Vec<_>>>()?, reader.arithmetic.value_digits()).ok()
 }
 
-/// The text of a parameter's value: its formula, or its value where that may contain names that the problem does not know.
+/// The text of a parameter's value: its formula, or its value where that may contain names that the problem does not
+/// know.
 fn text(reader: &Reader<'_>, name: &str, formula: &Text) -> String {
     match reader.known.get(name).filter(|_| !reader.names.is_empty()) {
         Some(value) => reader.arithmetic.text(value),

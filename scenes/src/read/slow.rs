@@ -29,7 +29,8 @@ mod tests {
 
     fn read(problem: &str, initial: &str, scheme: &str) -> Result<Scene, Faults> {
         let text = format!(
-            "[problem]\n{problem}\n[initial]\n{initial}\n[run]\nscheme = \"{scheme}\"\nstep = \"1/50\"\nsteps = 9\n[output]\nenergy = true"
+            "[problem]\n{problem}\n[initial]\n{initial}\n[run]\nscheme = \"{scheme}\"\nstep = \"1/50\"\nsteps = \
+                9\n[output]\nenergy = true"
         );
         Scene::read(Source { path: "test.toml".to_owned(), text })
     }
@@ -74,7 +75,8 @@ mod tests {
         let sum = "2/(1 + (q1 - q2)^2) + 3/(1 + (q1 - q3)^2) + 6/(1 + (q2 - q3)^2)";
         let parts = |slow: &str| {
             format!(
-                "parts = [\"{slow}\", \"{fast}\", \"(p1^2 + p2^2 + p3^2)/2\"]\ncoordinates = [\"q1\", \"q2\", \"q3\"]\nmomenta = [\"p1\", \"p2\", \"p3\"]"
+                "parts = [\"{slow}\", \"{fast}\", \"(p1^2 + p2^2 + p3^2)/2\"]\ncoordinates = \
+                    [\"q1\", \"q2\", \"q3\"]\nmomenta = [\"p1\", \"p2\", \"p3\"]"
             )
         };
         assert_near(&end(&slow, start, "r-respa-8"), &end(&parts(sum), start, "r-respa-8"));

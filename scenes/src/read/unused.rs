@@ -8,7 +8,8 @@ use crate::keys::PROBLEM;
 use crate::schema::Table;
 use shadowstep_schemes::document::Text;
 
-/// Refuses parameters of a problem's own formulas that are in no text of the scene: `masss = 2` changes nothing. Those of shipped problems are known.
+/// Refuses parameters of a problem's own formulas that are in no text of the scene: `masss = 2` changes nothing. Those
+/// of shipped problems are known.
 pub(super) fn refuse_unused_parameters(reader: &mut Reader<'_>, root: &DeTable<'_>) {
     let problem = Table::of(reader.toml.source, root, &PROBLEM);
     let Some(DeValue::Table(parameters)) = problem.get("parameters").map(|value| value.get_ref()) else { return };
@@ -53,7 +54,8 @@ mod tests {
     fn parameters_that_are_in_no_formula_are_refused() {
         let read = |parameters: &str| {
             let text = format!(
-                "[problem]\npotential = \"depth*x^2/width\"\ncoordinates = [\"x\"]\nparameters = {{ {parameters} }}\n[initial]\nq = [\"a\"]\np = [0]"
+                "[problem]\npotential = \"depth*x^2/width\"\ncoordinates = [\"x\"]\nparameters = {{ {parameters} \
+                    }}\n[initial]\nq = [\"a\"]\np = [0]"
             );
             System::read(&Source { path: "test.toml".to_owned(), text }, Arithmetic::DOUBLE).map(drop)
         };

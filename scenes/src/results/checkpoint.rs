@@ -202,7 +202,8 @@ impl Checkpoint {
         Ok(sealed.checkpoint)
     }
 
-    /// Refuses what no run of the scene writes: a checkpoint may have been made by another program, with a hash that fits.
+    /// Refuses what no run of the scene writes: a checkpoint may have been made by another program, with a hash that
+    /// fits.
     fn check(&self, identity: &Identity) -> Result<(), String> {
         let Identity { steps, vectors, .. } = *identity;
         let is_of_run = |n: i64| u64::try_from(n).is_ok_and(|n| n <= steps);

@@ -33,8 +33,8 @@ const FUNCTIONS: [Function; 16] = [
 /// Of each function. Of 100 000 values in double precision, two versions of a C library differ in 10 or more.
 const ARGUMENTS: u32 = 20_000;
 
-/// The hash of many values of the elementary functions of double precision: equal where these have the same bits, as far as the
-/// values show. Their last bits depend on the processor and on the C library.
+/// The hash of many values of the elementary functions of double precision: equal where these have the same bits, as
+/// far as the values show. Their last bits depend on the processor and on the C library.
 pub fn elementary_functions() -> &'static str {
     static HASH: OnceLock<String> = OnceLock::new();
     HASH.get_or_init(|| {

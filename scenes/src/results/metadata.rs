@@ -1,4 +1,5 @@
-//! The head of a file: everything that determines its numbers, and nothing that differs in another run of the same scene.
+//! The head of a file: everything that determines its numbers, and nothing that differs in another run of the same
+//! scene.
 
 use std::path::Path;
 

@@ -1,7 +1,7 @@
 //! Rows as NumPy's own format of arrays, .npy: records of doubles that Python maps into memory.
 //!
-//! The head has the names of the fields and the number of records, which is known at the end: it is written then, in the place that is kept
-//! for it. Source: NumPy Enhancement Proposal 1.
+//! The head has the names of the fields and the number of records, which is known at the end: it is written then, in
+//! the place that is kept for it. Source: NumPy Enhancement Proposal 1.
 
 use std::fmt::Write as _;
 use std::fs::File;
@@ -77,7 +77,8 @@ pub(crate) fn records(
 mod tests {
     use super::*;
 
-    /// A head of more bytes than a format of Rust, or version 1 of NumPy's, can have is aligned, and has its length in front.
+    /// A head of more bytes than a format of Rust, or version 1 of NumPy's, can have is aligned, and has its length in
+    /// front.
     #[test]
     fn heads_of_any_length() {
         for values in [0, 1, 4_000, 100_000] {

@@ -26,8 +26,8 @@ pub(crate) enum Origin {
 }
 
 impl Origin {
-    /// Of the file of a scene, whose text has this hash, and which was made with these `inputs`: what stands in metadata, and what differs where
-    /// it does not.
+    /// Of the file of a scene, whose text has this hash, and which was made with these `inputs`: what stands in
+    /// metadata, and what differs where it does not.
     pub(crate) fn of<'a>(
         path: &Path,
         format: Format,

@@ -2,9 +2,10 @@
 //!
 //! Rows go to `FILE.partial`. `FILE.checkpoint` has the length of its valid bytes and the state from which the run is
 //! resumed. It is written after those bytes are on the disk, under another name until it is complete. When all rows are
-//! written, `FILE.partial` is renamed to `FILE`. The last checkpoint, that of the last state, stays beside it: a run of the
-//! same scene with a later end begins with the rows of `FILE`, and goes on from there. A run holds a lock on `FILE.partial`,
-//! which the system releases however the run ends. Rows that no checkpoint belongs to are removed when the run stops.
+//! written, `FILE.partial` is renamed to `FILE`. The last checkpoint, that of the last state, stays beside it: a run of
+//! the same scene with a later end begins with the rows of `FILE`, and goes on from there. A run holds a lock on
+//! `FILE.partial`, which the system releases however the run ends. Rows that no checkpoint belongs to are removed when
+//! the run stops.
 
 use std::fs::{self, File, OpenOptions};
 use std::io::{self, BufReader, BufWriter, ErrorKind, Read, Seek, SeekFrom, Write};
@@ -93,8 +94,8 @@ impl Begun {
 
 impl Resumable {
     /// Creates the file, or opens it at its checkpoint. With `restart` it is always created. A partial file that has no
-    /// checkpoint and is not from this program is replaced with `force` only. Without `saves`, no checkpoints are made. `earlier` is the
-    /// checkpoint from which a complete file is prolonged.
+    /// checkpoint and is not from this program is replaced with `force` only. Without `saves`, no checkpoints are made.
+    /// `earlier` is the checkpoint from which a complete file is prolonged.
     pub(crate) fn open(
         path: &Path,
         identity: Identity,
@@ -152,7 +153,8 @@ impl Resumable {
         }
     }
 
-    /// The rows begin here: the head is written, which another one [replaces](Resumable::finish) at the end where that is `written_anew`.
+    /// The rows begin here: the head is written, which another one [replaces](Resumable::finish) at the end where that
+    /// is `written_anew`.
     pub(crate) fn end_head(&mut self, written_anew: bool) {
         self.head = self.bytes;
         if written_anew {
@@ -179,7 +181,8 @@ impl Resumable {
         fs::metadata(beside(path, PARTIAL)).is_ok_and(|partial| partial.len() > 0)
     }
 
-    /// The last checkpoint of a complete file that is of the same scene with an earlier end, if the file was not changed.
+    /// The last checkpoint of a complete file that is of the same scene with an earlier end, if the file was not
+    /// changed.
     pub(crate) fn earlier_end(path: &Path, identity: &Identity) -> Option<Checkpoint> {
         let text = read_text(beside(path, CHECKPOINT), LARGEST_CHECKPOINT).ok()?;
         let earlier = Checkpoint::of_earlier_end(&text, identity)?;
@@ -187,8 +190,9 @@ impl Resumable {
         (hexadecimal(&hash.finalize()) == earlier.sha256).then_some(earlier)
     }
 
-    /// In what a complete file differs from its last checkpoint, as the predicate of a sentence; `None` where there is no such checkpoint. `head` is
-    /// what begins a file of this number of bytes after its head, in formats whose head is written at the end.
+    /// In what a complete file differs from its last checkpoint, as the predicate of a sentence; `None` where there is
+    /// no such checkpoint. `head` is what begins a file of this number of bytes after its head, in formats whose head
+    /// is written at the end.
     pub(crate) fn damage(
         path: &Path,
         identity: &Identity,

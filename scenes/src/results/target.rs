@@ -150,7 +150,8 @@ impl<'a> Target<'a> {
         }
     }
 
-    /// The head is written, which another one may replace at the end, and after it the rows of a file that is prolonged.
+    /// The head is written, which another one may replace at the end, and after it the rows of a file that is
+    /// prolonged.
     pub(crate) fn end_head(&mut self, written_anew: bool, earlier: Option<&Checkpoint>) -> Result<(), Error> {
         let Target::File(file) = self else { return Ok(()) };
         file.end_head(written_anew);

@@ -14,7 +14,8 @@ pub(crate) struct Bodies {
 }
 
 impl Bodies {
-    /// Those with coordinates such as x_sun, y_sun, x_jupiter, y_jupiter, or those of a sum over pairs; `None` without bodies.
+    /// Those with coordinates such as x_sun, y_sun, x_jupiter, y_jupiter, or those of a sum over pairs; `None` without
+    /// bodies.
     pub(crate) fn of(system: &System) -> Option<Bodies> {
         Bodies::named(system).or_else(|| match &system.potential {
             PotentialEnergy::Pairs(pairs) => {

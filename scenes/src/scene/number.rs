@@ -1,4 +1,5 @@
-//! Systems in the number types of scenes. They are compiled in this crate, once for each, and not again in every crate that uses them.
+//! Systems in the number types of scenes. They are compiled in this crate, once for each, and not again in every crate
+//! that uses them.
 
 use shadowstep::number::{AnyLimbs, CorrectlyRounded, Dual};
 use shadowstep::problems::{CubicSpring, ProblemMotion, Setup};
@@ -100,8 +101,8 @@ impl System {
     /// A state of another dimension.
     ///
     /// # Panics
-    /// If the step size is 0, the scheme is not valid for the parts or has gradient kicks that cannot be displaced as wanted, which reading a system
-    /// and its scheme excludes.
+    /// If the step size is 0, the scheme is not valid for the parts or has gradient kicks that cannot be displaced as
+    /// wanted, which reading a system and its scheme excludes.
     pub fn integrator<N: SceneNumber>(
         &self,
         steps: Steps<'_>,

@@ -10,7 +10,8 @@ use crate::expression::Expression;
 use crate::scene::format::Format;
 use crate::scene::plot::Plot;
 
-/// What is to be written, and where. Periods are in steps: something is written at each n that is a multiple of its own.
+/// What is to be written, and where. Periods are in steps: something is written at each n that is a multiple of its
+/// own.
 #[derive(Clone, Debug)]
 pub struct Outputs {
     /// The file, and the place of its name in the scene.

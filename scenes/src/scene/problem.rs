@@ -201,7 +201,8 @@ impl InitialValueProblem {
         self.coordinates.len() - usize::from(self.explicit_time)
     }
 
-    /// The masses of the coordinates, t excepted; of a system whose T is given by them. Those of particles are 1, by which their momenta are velocities.
+    /// The masses of the coordinates, t excepted; of a system whose T is given by them. Those of particles are 1, by
+    /// which their momenta are velocities.
     pub(crate) fn exact_masses(&self) -> Vec<Rational> {
         match &self.kinetic {
             KineticEnergy::Masses(Some(masses)) => masses.iter().map(|mass| mass.value.clone()).collect(),

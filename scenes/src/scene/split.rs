@@ -87,12 +87,14 @@ pub(crate) trait Split {
         None
     }
 
-    /// The function of the transformed time: the last coordinate is then t, its momentum p_t = −H(0), and the steps conserve another function than H.
+    /// The function of the transformed time: the last coordinate is then t, its momentum p_t = −H(0), and the steps
+    /// conserve another function than H.
     fn transformed_time(&self) -> Option<TimeTransformation> {
         None
     }
 
-    /// Whether one of two parts, the drifts, is much larger than the other: schemes with orders for A + εB have an advantage.
+    /// Whether one of two parts, the drifts, is much larger than the other: schemes with orders for A + εB have an
+    /// advantage.
     fn has_dominant_part(&self) -> bool {
         false
     }

@@ -175,7 +175,8 @@ impl System {
         ask!(&self.parts, split => split.needs(&self.problem))
     }
 
-    /// The function of the transformed time, if time is transformed. The last coordinate of states is then t, its momentum p_t = −H(0).
+    /// The function of the transformed time, if time is transformed. The last coordinate of states is then t, its
+    /// momentum p_t = −H(0).
     pub fn transformed_time(&self) -> Option<TimeTransformation> {
         ask!(&self.parts, split => split.transformed_time())
     }

@@ -20,7 +20,8 @@ pub fn json_schema(title: &str, keys: &[Key], sections: &[&'static Section], req
         "properties": properties,
         "required": required,
         "additionalProperties": false,
-        "$defs": { "name": { "type": "string", "pattern": "^\\$", "description": "An axis or a column that stands for the value." } },
+        "$defs": { "name": { "type": "string", "pattern": "^\\$", "description": "An axis or a column that stands for \
+            the value." } },
     });
     format!("{schema:#}\n")
 }

@@ -25,8 +25,9 @@ pub struct Approach {
 /// What a run has shown of the planets' interactions.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Interactions {
-    /// ε, the largest |B_Q|/|A_Q| of a planet: its part of the force that a kick makes, beside that of its Kepler orbit. In a summary it is that of the first 4096
-    /// states, and then of every 16th one and of those where two planets are closer than before.
+    /// ε, the largest |B_Q|/|A_Q| of a planet: its part of the force that a kick makes, beside that of its Kepler
+    /// orbit. In a summary it is that of the first 4096 states, and then of every 16th one and of those where two
+    /// planets are closer than before.
     pub epsilon: f64,
     /// The planet that has it.
     pub of: String,
@@ -44,7 +45,8 @@ pub struct Interactions {
 const CLOSE: f64 = 1.0;
 
 impl Interactions {
-    /// The approach in which H was not a sum of Kepler orbits and small interactions, or in which attraction went from kicks to drifts.
+    /// The approach in which H was not a sum of Kepler orbits and small interactions, or in which attraction went from
+    /// kicks to drifts.
     pub(crate) fn encounter(&self) -> Option<&Approach> {
         let is_in_drifts = |Approach { hill_radii, hill_radius, .. }: &Approach| {
             self.in_drifts_within.is_some_and(|within| hill_radii * hill_radius < within)
@@ -72,12 +74,14 @@ impl Interactions {
 /// ε is computed at each of this number of states.
 const FIRST: u64 = 4096;
 
-/// Follows the planets of a run in double precision; ε and the closest approach of planets are those of bodies with mass.
+/// Follows the planets of a run in double precision; ε and the closest approach of planets are those of bodies with
+/// mass.
 pub(super) struct Approaches {
     names: Vec<String>,
     pairs: Pairs,
     epsilon: OfPlanets,
-    /// ε is computed at the first states, at those whose n is a multiple of this, and where two planets are closer than before.
+    /// ε is computed at the first states, at those whose n is a multiple of this, and where two planets are closer than
+    /// before.
     every: u64,
     /// ε, and the planet that has it.
     largest: (f64, usize),

@@ -16,15 +16,17 @@ pub struct Bodies {
 }
 
 impl Bodies {
-    /// `None` of a system without planets and light bodies. ε of planets, which costs as much as the forces of a step, is that of some thousand states, and then of
-    /// those whose n is a multiple of `every`; light bodies are followed in steps of h, if that is given.
+    /// `None` of a system without planets and light bodies. ε of planets, which costs as much as the forces of a step,
+    /// is that of some thousand states, and then of those whose n is a multiple of `every`; light bodies are followed
+    /// in steps of h, if that is given.
     pub fn of(system: &System, every: u64, h: Option<f64>) -> Option<Bodies> {
         let approaches = Approaches::of(system, every);
         let light = h.and_then(|h| LightBodies::of(system, h));
         (approaches.is_some() || light.is_some()).then(|| Bodies { places: Places::of(system), approaches, light })
     }
 
-    /// Takes the state n after the last one, in the coordinates of the steps; not one whose bodies are so far away that cubes of distances overflow.
+    /// Takes the state n after the last one, in the coordinates of the steps; not one whose bodies are so far away that
+    /// cubes of distances overflow.
     pub fn include<N: Real>(&mut self, n: i64, q: &[N]) {
         let Bodies { places, approaches, light } = self;
         if !places.take(q) {

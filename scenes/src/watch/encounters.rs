@@ -1,8 +1,9 @@
 //! Close encounters: times at which the force is large for a short part of the run.
 //!
 //! |Δp|, what a step adds to the momenta, is the mean force of the step times h. A *passage* is the interval around a peak of |Δp| in
-//! which it is at least half of the peak. It is a close encounter if the time since the passage before it is at least four times as
-//! long as it lasts: of an ellipse with an eccentricity of 0.5 or more each pericentre is one, of an oscillation nothing is.
+//! which it is at least half of the peak. It is a close encounter if the time since the passage before it is at least
+//! four times as long as it lasts: of an ellipse with an eccentricity of 0.5 or more each pericentre is one, of an
+//! oscillation nothing is.
 
 use shadowstep::Real;
 use shadowstep::number::saved::{Fields, list, optional};

@@ -1,5 +1,5 @@
-//! A change of H from one state to the next that lasts: at a close encounter, or where a step was too large. The windows of a monitor may miss its
-//! beginning, if the run has few states before it.
+//! A change of H from one state to the next that lasts: at a close encounter, or where a step was too large. The
+//! windows of a monitor may miss its beginning, if the run has few states before it.
 
 use shadowstep::number::saved::{Fields, optional};
 

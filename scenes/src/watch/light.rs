@@ -1,4 +1,5 @@
-//! Light bodies that come close to planets: whether the steps resolve what turns their orbits, as the energy does not show it.
+//! Light bodies that come close to planets: whether the steps resolve what turns their orbits, as the energy does not
+//! show it.
 
 use serde::Serialize;
 use shadowstep::number::saved::{Fields, list};
@@ -18,8 +19,8 @@ pub struct LightBody {
     pub bodies: [String; 2],
     /// The distance in Hill radii of the planet, (m/3m_0)^(1/3) r.
     pub hill_radii: f64,
-    /// How many steps, or substeps, there are in the local time scale, the smaller of d/v and √(d³/Gm), with the distance d from the planet and the relative
-    /// speed v: the least number within one Hill radius.
+    /// How many steps, or substeps, there are in the local time scale, the smaller of d/v and √(d³/Gm), with the
+    /// distance d from the planet and the relative speed v: the least number within one Hill radius.
     pub steps: f64,
     /// Whether that is enough, or the body stayed beyond one Hill radius.
     pub resolved: bool,
@@ -31,8 +32,9 @@ const LIGHT: f64 = 1e-2;
 /// Beyond this many Hill radii of a planet what the steps miss of its attraction is little.
 const CLOSE: f64 = 1.0;
 
-/// The steps in the local time scale that resolve an approach. Of 21 particles that passed Jupiter within a Hill radius, by steps of 1e-4 to 0.1 years of `stormer-verlet`, the velocities afterwards
-/// were off by at most 8e-4 of themselves with more than 7 steps, 4e-3 with 2 to 4, 0.05 with 1 to 2, and by all of them with fewer.
+/// The steps in the local time scale that resolve an approach. Of 21 particles that passed Jupiter within a Hill
+/// radius, by steps of 1e-4 to 0.1 years of `stormer-verlet`, the velocities afterwards were off by at most 8e-4 of
+/// themselves with more than 7 steps, 4e-3 with 2 to 4, 0.05 with 1 to 2, and by all of them with fewer.
 const LEAST_STEPS: f64 = 10.0;
 
 type Place = [f64; 3];
@@ -222,7 +224,8 @@ fn extend<const D: usize>(places: &mut Vec<Place>, bodies: &[f64], origin: Place
 /// Light bodies computed at once.
 const BLOCK: usize = 4;
 
-/// Finds planets that may have a light body so near that its distance counts, without a root or a division: most have none.
+/// Finds planets that may have a light body so near that its distance counts, without a root or a division: most have
+/// none.
 struct Near {
     /// Of light bodies by axis, with more so that there are whole blocks.
     places: [Vec<f64>; 3],
@@ -253,7 +256,8 @@ impl Near {
         }
     }
 
-    /// Finds those that may be near a planet, if there is one: after a step the distance is at most the least one in it and the ways of both.
+    /// Finds those that may be near a planet, if there is one: after a step the distance is at most the least one in it
+    /// and the ways of both.
     fn find(&mut self, [own_x, own_y, own_z]: &Place, way: f64, hill_radius: f64) -> bool {
         // of round-off
         const ALMOST: f64 = 1.0 + 1e-12;
@@ -330,8 +334,10 @@ pub fn not_resolved(bodies: &[LightBody], time: impl Fn(i64) -> String) -> Optio
     let others = if others > 0 { format!(" and {others} others") } else { String::new() };
     (!lost.is_empty()).then(|| {
         format!(
-            "fewer than {LEAST_STEPS} steps in the local time scale of a light body, whose orbit is wrong afterwards and has no part in the energy: \
-             {shown}{others}; use a smaller step size, or parts = \"wisdom-holman-heliocentric\" with encounters = {{ within = … }} of some 3 Hill radii"
+            "fewer than {LEAST_STEPS} steps in the local time scale of a light body, whose orbit is wrong afterwards \
+                and has no part in the energy: \
+             {shown}{others}; use a smaller step size, or parts = \"wisdom-holman-heliocentric\" with encounters = {{ \
+             within = … }} of some 3 Hill radii"
         )
     })
 }
@@ -386,7 +392,8 @@ mod tests {
     /// A comet that passes Jupiter at 0.023 Hill radii at t = 1.5375 years, with its semi-major axis after 5 years.
     fn comet(problem: &str, mass: &str, run: &str) -> (Summary, f64) {
         let text = format!(
-            "[problem]\n{problem}\nunits = {{ length = \"AU\", time = \"year\", mass = \"solar\" }}\n[[body]]\nname = \"sun\"\nmass = 1\n\
+            "[problem]\n{problem}\nunits = {{ length = \"AU\", time = \"year\", mass = \"solar\" }}\n[[body]]\nname \
+                = \"sun\"\nmass = 1\n\
              [[body]]\nname = \"jupiter\"\nmass = \"1/1047.35\"\nq = [5.2, 0]\nv = [0, 2.756674112]\n\
              [[body]]\nname = \"comet\"\nmass = {mass}\nq = [3.4, -1]\nv = [1.88, 3.25]\n\
              [run]\n{run}\nuntil = 5\ndigits = \"double\"\n[output]\nvalues = {{ a = \"a(comet)\", every = 20 }}"

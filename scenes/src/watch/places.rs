@@ -35,7 +35,8 @@ impl Places {
         }
     }
 
-    /// Takes a state in the coordinates of the steps; whether its bodies are so near that cubes of distances do not overflow.
+    /// Takes a state in the coordinates of the steps; whether its bodies are so near that cubes of distances do not
+    /// overflow.
     pub(super) fn take<N: Real>(&mut self, q: &[N]) -> bool {
         const FARTHEST: f64 = 1e100;
         self.q.clear();

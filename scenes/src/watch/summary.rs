@@ -18,7 +18,8 @@ use crate::watch::{Approach, Interactions};
 
 /// What a run has shown.
 ///
-/// It is displayed as lines for people, and serialised as an object. Numbers are texts that read back to the same numbers.
+/// It is displayed as lines for people, and serialised as an object. Numbers are texts that read back to the same
+/// numbers.
 #[derive(Clone, Debug)]
 pub struct Summary {
     /// The scheme and the step size.
@@ -87,10 +88,12 @@ pub struct ModifiedEnergySummary {
     pub method_resolution: String,
     /// The expected effect of round-off on H̄.
     pub round_off: String,
-    /// max − min of H̄ over states with small estimated errors, as [`PermanentChange`](shadowstep::shadow::run::PermanentChange) of all states:
-    /// here of the half of 32 to 64 parts of the run with the smaller errors, one state each.
+    /// max − min of H̄ over states with small estimated errors, as
+    /// [`PermanentChange`](shadowstep::shadow::run::PermanentChange) of all states: here of the half of 32 to 64 parts
+    /// of the run with the smaller errors, one state each.
     pub permanent_change: String,
-    /// A net change of the energy, from the beginning of the run to its end, is excluded above this; `None` where nothing is excluded.
+    /// A net change of the energy, from the beginning of the run to its end, is excluded above this; `None` where
+    /// nothing is excluded.
     pub permanent_bound: Option<String>,
     /// To what H̄ is known.
     pub resolution: Option<String>,
@@ -139,15 +142,18 @@ impl Summary {
         let part = change.gap / kinetic;
         let [before, after] = change.between.map(|n| self.time(n));
         self.reason = format!(
-            "H changed by {part:.1e} of T between {before} and {after}, and did not come back in this run: a step that is too \
-             large there, forces that are not smooth, or something other than the scheme that changed the state have such effects"
+            "H changed by {part:.1e} of T between {before} and {after}, and did not come back in this run: a step \
+                that is too \
+             large there, forces that are not smooth, or something other than the scheme that changed the state have \
+             such effects"
         );
         self.verdict = Verdict::Undecided(Missing::Resolution).to_string();
         self.conclusion.clone_from(&self.verdict);
         self.bounded = false;
     }
 
-    /// Replaces a verdict that is worse than bounded where planets came so close that the splitting is not valid: that is the cause then.
+    /// Replaces a verdict that is worse than bounded where planets came so close that the splitting is not valid: that
+    /// is the cause then.
     pub(crate) fn name_close_planets(&mut self) {
         let Some(Approach { n, bodies: [i, j], hill_radii, hill_radius }) =
             self.interactions.as_ref().and_then(Interactions::encounter)
@@ -161,14 +167,17 @@ impl Summary {
             let larger =
                 if given < 3.0 * hill_radius { format!(", {within} is 3 of these radii") } else { String::new() };
             self.reason = format!(
-                "{i} and {j} came within {hill_radii} Hill radii of each other at {time}, and their attraction goes from kicks to drifts within \
+                "{i} and {j} came within {hill_radii} Hill radii of each other at {time}, and their attraction goes \
+                    from kicks to drifts within \
                  too few steps: use a smaller step size, or a larger distance in encounters = {{ within = … }}{larger}"
             );
             self.verdict = Verdict::TooLarge(Criterion::EnergyError).to_string();
         } else {
             self.reason = format!(
-                "{i} and {j} came within {hill_radii} Hill radii of each other at {time}, where kicks are not small beside the Kepler orbits, as \
-                 these parts require: smaller steps do not help; write parts = \"wisdom-holman-heliocentric\" with encounters = {{ within = \
+                "{i} and {j} came within {hill_radii} Hill radii of each other at {time}, where kicks are not small \
+                    beside the Kepler orbits, as \
+                 these parts require: smaller steps do not help; write parts = \"wisdom-holman-heliocentric\" with \
+                 encounters = {{ within = \
                  {within} }}, 3 of these radii"
             );
             self.verdict = "the splitting is not valid in a close encounter".to_owned();
@@ -304,7 +313,8 @@ impl Summary {
     }
 }
 
-/// A passage of fewer steps is not resolved: on a Kepler orbit with 4 H changed in it by more than the monitor's states excluded.
+/// A passage of fewer steps is not resolved: on a Kepler orbit with 4 H changed in it by more than the monitor's states
+/// excluded.
 const RESOLVED: i64 = 6;
 
 /// How many of the closest encounters the text has.

@@ -125,7 +125,8 @@ fn add_multiple(sum: &mut [u64], others: &[u64], limb: u64) {
     add_to(high, &[carry]);
 }
 
-/// sum += low·others + high·(2⁶⁴ others + before), for which there is room: two chains of carries at once take little longer than one.
+/// sum += low·others + high·(2⁶⁴ others + before), for which there is room: two chains of carries at once take little
+/// longer than one.
 fn add_multiples(sum: &mut [u64], (before, others): (u64, &[u64]), [low, high]: [u64; 2]) {
     let (own, rest) = sum.split_at_mut(others.len());
     let (mut previous, mut low_carry, mut high_carry) = (before, 0, 0);

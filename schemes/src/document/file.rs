@@ -7,7 +7,8 @@ use std::path::Path;
 /// The most bytes of a table.
 pub const LARGEST_TABLE: u64 = 1 << 20;
 
-/// Refuses named pipes and sockets: to open one waits for its other end. A program's own descriptors, such as `/dev/stdin`, are opened already.
+/// Refuses named pipes and sockets: to open one waits for its other end. A program's own descriptors, such as
+/// `/dev/stdin`, are opened already.
 ///
 /// # Errors
 /// `InvalidInput` for such a path.
@@ -35,8 +36,8 @@ fn is_pipe(_: FileType) -> bool {
 /// Reads a text of at most `most` bytes in UTF-8.
 ///
 /// # Errors
-/// Errors of the file system; a path that [`refuse_pipe`] refuses; `FileTooLarge` for a longer file, of which no more is read; `InvalidData` for a file that is not
-/// in UTF-8.
+/// Errors of the file system; a path that [`refuse_pipe`] refuses; `FileTooLarge` for a longer file, of which no more
+/// is read; `InvalidData` for a file that is not in UTF-8.
 ///
 /// ```
 /// use shadowstep_schemes::document::read_text;

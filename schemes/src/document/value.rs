@@ -83,8 +83,8 @@ impl Text {
         Placed { value: self.value, at }
     }
 
-    /// The value of the text as a number or an expression in `known` numbers. An irrational value is rounded to `digits`
-    /// significant digits. All formulas of a document share a budget.
+    /// The value of the text as a number or an expression in `known` numbers. An irrational value is rounded to
+    /// `digits` significant digits. All formulas of a document share a budget.
     ///
     /// # Errors
     /// A text that is not a number or expression, or has no value; `Error::range` is a range of the text.

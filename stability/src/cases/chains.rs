@@ -51,7 +51,8 @@ const SCHEMES: [&str; 2] = ["stormer-verlet", "blanes-moan-srkn6b"];
 impl Case for Chains {
     const NAME: &'static str = "chains";
     const TITLE: &'static str = "Chains of 1 to 10⁵ coordinates";
-    const THEORY: &'static str = "Time and memory of a step are proportional to the number of bodies, from 100 bodies on to within what caches of the \
+    const THEORY: &'static str = "Time and memory of a step are proportional to the number of bodies, from 100 bodies \
+        on to within what caches of the \
         processor make.";
     const REVISION: u32 = 1;
 
@@ -84,7 +85,8 @@ impl Case for Chains {
             let numbers = all.iter().map(|(_, cost)| cost.numbers).fold(0.0, f64::max);
             let finite = all.iter().all(|(_, cost)| cost.finite);
             let found = format!(
-                "from 100 to 100 000 bodies {least:.2} to {largest:.2} ns a body and evaluation; {numbers:.0} numbers a body at most"
+                "from 100 to 100 000 bodies {least:.2} to {largest:.2} ns a body and evaluation; {numbers:.0} numbers \
+                    a body at most"
             );
             finding.check(name, found, Verdict::from(largest <= LINEAR * least && finite));
             let points =

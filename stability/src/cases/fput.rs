@@ -40,7 +40,8 @@ const BODIES: usize = 32;
 const SAMPLES: u64 = 400;
 /// Steps of 1/10 for each evaluation: the fastest mode has ω = 2.
 const STEPS_A_UNIT: i64 = 10;
-/// Fermi, Pasta, Ulam and Tsingou found the energy back in the first mode to 3 % after 29 000 steps of √(1/8), t = 10 250.
+/// Fermi, Pasta, Ulam and Tsingou found the energy back in the first mode to 3 % after 29 000 steps of √(1/8), t = 10
+/// 250.
 const RECURS: (f64, f64) = (9_800.0, 10_700.0);
 const BACK: f64 = 0.95;
 const SPREAD: f64 = 0.3;
@@ -48,8 +49,10 @@ const SPREAD: f64 = 0.3;
 impl Case for Fput {
     const NAME: &'static str = "fput";
     const TITLE: &'static str = "The chain of Fermi, Pasta, Ulam and Tsingou to its recurrence";
-    const THEORY: &'static str = "The energy leaves the first mode, for all but a few per cent of it, and comes back to 97 % at t = 10 250 (the report of \
-        1955: 29 000 steps of √(1/8)): the chain is nearly integrable. A symplectic scheme that resolves the fastest mode shows it, and the \
+    const THEORY: &'static str = "The energy leaves the first mode, for all but a few per cent of it, and comes back \
+        to 97 % at t = 10 250 (the report of \
+        1955: 29 000 steps of √(1/8)): the chain is nearly integrable. A symplectic scheme that resolves the fastest \
+        mode shows it, and the \
         monitor calls the step fine.";
     const REVISION: u32 = 2;
 

@@ -78,8 +78,10 @@ const FRAMES: [Frame; 13] = [
 impl Case for Frames {
     const NAME: &'static str = "frames";
     const TITLE: &'static str = "Rotated, translated and moving frames, units, masses";
-    const THEORY: &'static str = "A splitting scheme commutes with rotations, translations, motions of the frame and changes of units, so that the error of H is the same in \
-        all frames, up to round-off. That of a coordinate of size L is εL a step: from an offset of 1e8 positions keep eight digits of sixteen. Of \
+    const THEORY: &'static str = "A splitting scheme commutes with rotations, translations, motions of the frame and \
+        changes of units, so that the error of H is the same in \
+        all frames, up to round-off. That of a coordinate of size L is εL a step: from an offset of 1e8 positions \
+        keep eight digits of sixteen. Of \
         two bodies the relative motion depends on the total mass only.";
     const REVISION: u32 = 3;
 
@@ -178,7 +180,8 @@ impl Frame {
         }
     }
 
-    /// The part of H that a number of roundings of coordinates changes over this time, by Brouwer's law with the largest force.
+    /// The part of H that a number of roundings of coordinates changes over this time, by Brouwer's law with the
+    /// largest force.
     fn round_off(self, roundings: f64, duration: f64) -> f64 {
         let size = match self {
             Frame::Translated(distance) => distance,

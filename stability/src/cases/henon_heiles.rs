@@ -75,7 +75,8 @@ impl OrbitKind {
 impl Case for HenonHeiles {
     const NAME: &'static str = "henon-heiles";
     const TITLE: &'static str = "Hénon–Heiles: regular, chaotic, escaping";
-    const THEORY: &'static str = "Chaos is not an error: neighbouring orbits separate exponentially, and the error of H is as bounded as for regular \
+    const THEORY: &'static str = "Chaos is not an error: neighbouring orbits separate exponentially, and the error of \
+        H is as bounded as for regular \
         orbits; the monitor calls the step fine. Above H = 1/6 orbits escape, whatever the step.";
     const REVISION: u32 = 3;
 
@@ -148,7 +149,8 @@ impl Case for HenonHeiles {
                 (kind, None) => {
                     let chaotic = one.growth > CHAOTIC;
                     let found = format!(
-                        "a distance grows to 1e{:.1} of its size; error of H {first:.1e} and {second:.1e} in the halves; the monitor: {}",
+                        "a distance grows to 1e{:.1} of its size; error of H {first:.1e} and {second:.1e} in the \
+                            halves; the monitor: {}",
                         one.growth, one.watched.verdict
                     );
                     let as_exact = Verdict::from(bounded && chaotic == (kind == OrbitKind::Chaotic));

@@ -1,5 +1,5 @@
-//! Kepler's problem with eccentricities from 0 to 0.999 and steps from fine to hopeless: when the monitor says that a step is too
-//! large, and when the orbit is lost.
+//! Kepler's problem with eccentricities from 0 to 0.999 and steps from fine to hopeless: when the monitor says that a
+//! step is too large, and when the orbit is lost.
 
 use std::f64::consts::TAU;
 
@@ -39,9 +39,11 @@ pub(super) struct Trial {
 #[derive(Serialize, Deserialize)]
 pub(super) struct Orbit {
     watched: Watched,
-    /// The first state at which it is unbound, or its semi-major axis has changed by a factor of 2: far from the centre.
+    /// The first state at which it is unbound, or its semi-major axis has changed by a factor of 2: far from the
+    /// centre.
     lost: Option<u64>,
-    /// The largest change of the energy between apocentres as a part of it, in the first and in the second half of the run.
+    /// The largest change of the energy between apocentres as a part of it, in the first and in the second half of the
+    /// run.
     changes: [f64; 2],
 }
 
@@ -67,8 +69,10 @@ const SCHEMES: [&str; 5] = ["stormer-verlet", "mclachlan-atela4", "yoshida4", "b
 impl Case for Kepler {
     const NAME: &'static str = "kepler";
     const TITLE: &'static str = "Kepler orbits with e = 0 … 0.999 and steps from fine to hopeless";
-    const THEORY: &'static str = "Steps that do not resolve the pericentre change the energy of the orbit at each passage, until the orbit is lost. The \
-        modified energy changes with it: the monitor says that the step is too large, before the orbit is lost if that takes some passages, and \
+    const THEORY: &'static str = "Steps that do not resolve the pericentre change the energy of the orbit at each \
+        passage, until the orbit is lost. The \
+        modified energy changes with it: the monitor says that the step is too large, before the orbit is lost if \
+        that takes some passages, and \
         does not say it of orbits that are kept.";
     const REVISION: u32 = 4;
 
@@ -262,7 +266,8 @@ impl Counts {
         let early =
             parts.get(parts.len() / 2).map_or(String::new(), |part| format!(" (after {part:.2} of the time, median)"));
         format!(
-            "{lost} lost: {at_once} before a verdict is possible, {before} reported before{early}, {after} with or after the loss, {not_reported} called fine; {kept} kept, \
+            "{lost} lost: {at_once} before a verdict is possible, {before} reported before{early}, {after} with or \
+                after the loss, {not_reported} called fine; {kept} kept, \
              {false_alarms} of them reported; {changed} changed without a loss, {changed_reported} of them reported"
         )
     }

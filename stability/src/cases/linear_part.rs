@@ -1,4 +1,5 @@
-//! Oscillators that drifts solve exactly, with a quadratic perturbation in the kicks: where its resonances are, and how fast states grow there.
+//! Oscillators that drifts solve exactly, with a quadratic perturbation in the kicks: where its resonances are, and how
+//! fast states grow there.
 
 use std::f64::consts::{PI, TAU};
 
@@ -55,7 +56,8 @@ enum At {
 pub(super) struct StepsResult {
     /// log of the largest modulus of an eigenvalue of a step.
     predicted: f64,
-    /// How fast log|(q, p)| grows a step; or, where no growth is predicted, log of the largest |(q, p)| in the second half of the steps beside that of the first.
+    /// How fast log|(q, p)| grows a step; or, where no growth is predicted, log of the largest |(q, p)| in the second
+    /// half of the steps beside that of the first.
     found: f64,
     /// The growth is too slow to be seen in this number of steps.
     too_slow: bool,
@@ -99,10 +101,14 @@ impl At {
 impl Case for LinearPartCase {
     const NAME: &'static str = "linear-part";
     const TITLE: &'static str = "Oscillations solved exactly, with a perturbation in the kicks";
-    const THEORY: &'static str = "H = A + B with two oscillators, ω₁ = 1 and ω₂ = 1.6, as A, which drifts solve, and B = δ(q₁ + q₂)²/2, δ = 0.01, in the \
-        kicks. There is no limit of hω. A step is a symplectic matrix; its eigenvalues leave the unit circle in narrow bands about 2ω_i h = 2πm and \
-        (ω₁ + ω₂)h = 2πm, and |(q, p)| grows like exp(λn) there, with the largest log of their moduli as λ. Of Störmer–Verlet λ is nearly hδ/2ω_i or \
-        hδ/2√(ω₁ω₂); kicks at several places within a step act against each other there. At (ω₂ − ω₁)h = 2πm both have the same sign, and nothing grows.";
+    const THEORY: &'static str = "H = A + B with two oscillators, ω₁ = 1 and ω₂ = 1.6, as A, which drifts solve, and \
+        B = δ(q₁ + q₂)²/2, δ = 0.01, in the \
+        kicks. There is no limit of hω. A step is a symplectic matrix; its eigenvalues leave the unit circle in \
+        narrow bands about 2ω_i h = 2πm and \
+        (ω₁ + ω₂)h = 2πm, and |(q, p)| grows like exp(λn) there, with the largest log of their moduli as λ. Of \
+        Störmer–Verlet λ is nearly hδ/2ω_i or \
+        hδ/2√(ω₁ω₂); kicks at several places within a step act against each other there. At (ω₂ − ω₁)h = 2πm both \
+        have the same sign, and nothing grows.";
     const REVISION: u32 = 1;
 
     type Trial = Trial;
@@ -169,7 +175,8 @@ impl Case for LinearPartCase {
         let (x, y) = (Axis::linear("h"), Axis::log10("growth per step, from the eigenvalues"));
         finding.chart(
             Chart::new("Where a step with an exact linear part is unstable", x, y, curves),
-            "The bands are at 2ω₂h = 2π, (ω₁ + ω₂)h = 2π and 2ω₁h = 2π; schemes without a mark have none at these step sizes.",
+            "The bands are at 2ω₂h = 2π, (ω₁ + ω₂)h = 2π and 2ω₁h = 2π; schemes without a mark have none at these \
+                step sizes.",
         );
         finding
     }
@@ -293,7 +300,8 @@ impl Matrix {
 
     /// log of the largest modulus of an eigenvalue μ, 0 if all are on the unit circle.
     ///
-    /// With μ also 1/μ is one. z = μ + 1/μ has z² − tr M z + (tr² M − tr M²)/2 − 2 = 0, and log|μ| = arcosh((|z/2 − 1| + |z/2 + 1|)/2).
+    /// With μ also 1/μ is one. z = μ + 1/μ has z² − tr M z + (tr² M − tr M²)/2 − 2 = 0, and log|μ| = arcosh((|z/2 −
+    /// 1| + |z/2 + 1|)/2).
     fn growth(&self) -> f64 {
         let (trace, trace_of_square) = (self.trace(), self.after(self).trace());
         let discriminant = trace * trace - 2.0 * (trace * trace - trace_of_square) + 8.0;

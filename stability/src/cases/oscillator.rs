@@ -45,8 +45,8 @@ pub(super) struct Point {
 
 /// From well inside to just beyond the limit, as parts of it.
 const PARTS: [&str; 8] = ["1/2", "9/10", "99/100", "999/1000", "1001/1000", "101/100", "11/10", "6/5"];
-/// Where a step is stable, its matrix differs from a rotation by a factor of 1/√(1 − (tr/2)²), 22 at a thousandth inside a simple limit, and
-/// round-off of 1e5 steps grows to 1e-9 or so.
+/// Where a step is stable, its matrix differs from a rotation by a factor of 1/√(1 − (tr/2)²), 22 at a thousandth
+/// inside a simple limit, and round-off of 1e5 steps grows to 1e-9 or so.
 const BOUND_TOLERANCE: f64 = 1e-6;
 /// Gaps below this width are narrower than the rounding of the weights to double precision.
 const NARROW: f64 = 1e-9;
@@ -54,8 +54,10 @@ const NARROW: f64 = 1e-9;
 impl Case for Oscillator {
     const NAME: &'static str = "oscillator";
     const TITLE: &'static str = "Harmonic oscillator about the stability limit";
-    const THEORY: &'static str = "A step of H = (p² + ω²q²)/2 is a matrix of determinant 1. While its trace, an exact polynomial in (hω)², is within \
-        [−2, 2], all states stay on an ellipse; beyond, |(q, p)| grows like exp(λn) after n steps with λ = arcosh(|tr|/2). Beyond the first \
+    const THEORY: &'static str = "A step of H = (p² + ω²q²)/2 is a matrix of determinant 1. While its trace, an exact \
+        polynomial in (hω)², is within \
+        [−2, 2], all states stay on an ellipse; beyond, |(q, p)| grows like exp(λn) after n steps with λ = \
+        arcosh(|tr|/2). Beyond the first \
         limit come gaps and windows of stability.";
     const REVISION: u32 = 1;
 
@@ -106,8 +108,18 @@ impl Case for Oscillator {
         let axes = ["growth per step, from the trace", "|found / predicted − 1|"].map(Axis::log10);
         let [x, y] = axes;
         finding.chart(
-            Chart { listed: true, ..Chart::new("The deviation of the growth from that of the trace", x, y, curves.collect()) },
-            "Beyond the stability limit and in the gaps. Each mark is a step size at which the trace is outside [−2, 2]; without those that do not deviate; the first twelve schemes.",
+            Chart {
+                listed: true,
+                ..Chart::new(
+                    "The deviation of the growth from that of the \
+                trace",
+                    x,
+                    y,
+                    curves.collect(),
+                )
+            },
+            "Beyond the stability limit and in the gaps. Each mark is a step size at which the trace is outside [−2, \
+                2]; without those that do not deviate; the first twelve schemes.",
         );
         finding
     }
@@ -213,7 +225,8 @@ mod tests {
         assert!(point_of(&verlet, "1.9").found.abs() < 1e-2);
     }
 
-    /// Takahashi and Imada's kicks are by 1 − h²/12 of the force, so that the trace is 2 − h² + h⁴/12, at least −1, and 2 again at h² = 12.
+    /// Takahashi and Imada's kicks are by 1 − h²/12 of the force, so that the trace is 2 − h² + h⁴/12, at least −1, and
+    /// 2 again at h² = 12.
     #[test]
     fn gradient_kicks_are_a_part_of_the_trace() {
         let scheme = scheme("takahashi-imada").unwrap();

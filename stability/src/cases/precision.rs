@@ -53,7 +53,8 @@ const REFUSED: &str = "Nothing was measured; weights with more digits would deci
 impl Case for Precision {
     const NAME: &'static str = "precision";
     const TITLE: &'static str = "From 16 to 5000 digits";
-    const THEORY: &'static str = "A run with D digits agrees with the same run with 2D digits to nearly D digits. Weights that are closed \
+    const THEORY: &'static str = "A run with D digits agrees with the same run with 2D digits to nearly D digits. \
+        Weights that are closed \
         forms have as many digits.";
     const REVISION: u32 = 2;
 

@@ -38,7 +38,8 @@ pub(super) struct Trial {
 /// What a run has shown.
 #[derive(Serialize, Deserialize)]
 pub(super) struct Variation {
-    /// Largest over least value of the invariant of the linear step; `None` if the scheme is unstable before it turns so far.
+    /// Largest over least value of the invariant of the linear step; `None` if the scheme is unstable before it turns
+    /// so far.
     ratio: Option<f64>,
     /// What the monitor reported.
     verdict: String,
@@ -55,20 +56,26 @@ const AMPLITUDE: (i64, i64) = (1, 20);
 const OFF: f64 = 0.08;
 /// An orbit that has left.
 const LEFT: f64 = 100.0;
-/// Off a resonance the invariant varies by a few times the relative anharmonic force: 1/20 for the cubic U, a 400th for the quartic one.
+/// Off a resonance the invariant varies by a few times the relative anharmonic force: 1/20 for the cubic U, a 400th for
+/// the quartic one.
 const SMALL_CUBIC: f64 = 1.5;
 const SMALL_QUARTIC: f64 = 1.05;
-/// At n = 4 the quartic term confines Störmer–Verlet's orbits to a factor of √2 of the invariant; other schemes have less.
+/// At n = 4 the quartic term confines Störmer–Verlet's orbits to a factor of √2 of the invariant; other schemes have
+/// less.
 const CONFINED: f64 = 1.6;
 const SCHEMES: [&str; 4] = ["stormer-verlet", "yoshida4", "blanes-moan-s6", "blanes-moan-srkn6b"];
 
 impl Case for Resonances {
     const NAME: &'static str = "resonances";
     const TITLE: &'static str = "Step-size resonances, hω = 2 sin(π/n) for Störmer–Verlet";
-    const THEORY: &'static str = "Where a step turns the oscillator q²/2 by exactly 1/n of a turn, a term q^n of U acts in the same direction at \
-        every n-th step, and no modified energy of the usual form exists. At n = 3 and U = q²/2 + q³/3 small orbits change the quadratic invariant of the \
-        linear step by more than off the resonance, those of Störmer–Verlet without a bound, which the monitor does not call fine. At n = 4 and \
-        U = q²/2 + q⁴/4 they are confined; at n = 5, 7 and off the resonances the invariant varies in proportion to the anharmonic force only.";
+    const THEORY: &'static str = "Where a step turns the oscillator q²/2 by exactly 1/n of a turn, a term q^n of U \
+        acts in the same direction at \
+        every n-th step, and no modified energy of the usual form exists. At n = 3 and U = q²/2 + q³/3 small orbits \
+        change the quadratic invariant of the \
+        linear step by more than off the resonance, those of Störmer–Verlet without a bound, which the monitor does \
+        not call fine. At n = 4 and \
+        U = q²/2 + q⁴/4 they are confined; at n = 5, 7 and off the resonances the invariant varies in proportion to \
+        the anharmonic force only.";
     const REVISION: u32 = 1;
 
     type Trial = Trial;
@@ -113,7 +120,8 @@ impl Case for Resonances {
         let (x, y) = (Axis::linear("turns a step, approximately"), Axis::log10("relative variation of the invariant"));
         finding.chart(
             Chart::new("How far steps near resonances carry small orbits", x, y, curves),
-            "U = q²/2 + q³/3 at a third of a turn and 8 % beside it, q²/2 + q⁴/4 at 1/4, 1/5 and 1/7; an orbit that leaves is at 99.",
+            "U = q²/2 + q³/3 at a third of a turn and 8 % beside it, q²/2 + q⁴/4 at 1/4, 1/5 and 1/7; an orbit that \
+                leaves is at 99.",
         );
         finding
     }

@@ -67,8 +67,11 @@ const SCHEMES: [&str; 3] = ["stormer-verlet", "blanes-moan-srkn6b", "kahan-li8"]
 impl Case for RoundOff {
     const NAME: &'static str = "round-off";
     const TITLE: &'static str = "Round-off over 10⁵ to 10⁸ steps in double precision";
-    const THEORY: &'static str = "Brouwer's law: where rounding is unbiased, the modified energy wanders like √n, by about ε in each evaluation. A bias \
-        makes it drift like n. Compensated sums round by ε of the increments instead of the coordinates, and wander at least ten times less. The changes are those of 32 orbits that begin at different phases; their root mean square grows like n^a, with \
+    const THEORY: &'static str = "Brouwer's law: where rounding is unbiased, the modified energy wanders like √n, by \
+        about ε in each evaluation. A bias \
+        makes it drift like n. Compensated sums round by ε of the increments instead of the coordinates, and wander \
+        at least ten times less. The changes are those of 32 orbits that begin at different phases; their root mean \
+        square grows like n^a, with \
         a = ½ for a wander and 1 for a drift.";
     const REVISION: u32 = 2;
 
@@ -228,8 +231,8 @@ impl Wander {
         let last = steps.len() - 1;
         let mean = at(last).sum::<f64>() / phases;
         let variance = at(last).map(|change| (change - mean).powi(2)).sum::<f64>() / (phases - 1.0);
-        // of each phase the exponent between the first and the last number of steps is not defined, that of the rms is: its error is that
-        // of two root mean squares of `phases` values, 1/√(2 phases) each
+        // of each phase the exponent between the first and the last number of steps is not defined, that of the rms is:
+        // its error is that of two root mean squares of `phases` values, 1/√(2 phases) each
         let decades = (rms[last].0 / rms[0].0).ln();
         let exponent = (rms[last].1 / rms[0].1).ln() / decades;
         let exponent_error = (1.0 / phases).sqrt() / decades;

@@ -62,7 +62,8 @@ pub(super) enum Measured {
 /// How vectors grew.
 #[derive(Serialize, Deserialize)]
 pub(super) struct Grown {
-    /// The exponents of as many vectors as are orthonormal, the largest first, or of one that is free: with their errors.
+    /// The exponents of as many vectors as are orthonormal, the largest first, or of one that is free: with their
+    /// errors.
     exponents: Vec<[f64; 2]>,
     mean_megno: f64,
     regular: bool,
@@ -72,7 +73,8 @@ pub(super) struct Grown {
 /// Schemes whose steps for T + U are the standard map, or a map that is conjugate to it.
 const MAPS: [&str; 2] = ["symplectic-euler", "stormer-verlet"];
 
-/// K of the standard map. log(K/2) is the mean of log|K cos q|, to which its exponent tends for large K: with an error of order 1/K².
+/// K of the standard map. log(K/2) is the mean of log|K cos q|, to which its exponent tends for large K: with an error
+/// of order 1/K².
 const K: f64 = 100.0;
 
 impl Followed {
@@ -133,11 +135,16 @@ impl Trial {
 impl Case for TangentMaps {
     const NAME: &'static str = "tangent-maps";
     const TITLE: &'static str = "Tangent maps and Lyapunov exponents";
-    const THEORY: &'static str = "The derivative M of a step is symplectic: the area δq₁·δp₂ − δp₁·δq₂ of two tangent vectors stays. Round-off in double \
-        precision adds at most ε √(evaluations Σ (|δ₁| |δ₂|)²) to it, with the sum over all steps, which along a regular orbit grows like n^{5/2}; pairs \
-        that are replaced after 100 steps stay short, and the sum of their changes shows the least deviation in the mean. Arnold's cat map is a step of U = −q²/2, with the exponents \
-        ±log((3 + √5)/2). A step of the pendulum is the standard map with K = h²; for large K its exponents are ±log(K/2). Where motion is regular vectors grow \
-        like t, so that the exponent over the last three quarters of T is (4/3) log 4/T, and MEGNO tends to 2; both are 0 for a harmonic oscillator. Exponents \
+    const THEORY: &'static str = "The derivative M of a step is symplectic: the area δq₁·δp₂ − δp₁·δq₂ of two tangent \
+        vectors stays. Round-off in double \
+        precision adds at most ε √(evaluations Σ (|δ₁| |δ₂|)²) to it, with the sum over all steps, which along a \
+        regular orbit grows like n^{5/2}; pairs \
+        that are replaced after 100 steps stay short, and the sum of their changes shows the least deviation in the \
+        mean. Arnold's cat map is a step of U = −q²/2, with the exponents \
+        ±log((3 + √5)/2). A step of the pendulum is the standard map with K = h²; for large K its exponents are \
+        ±log(K/2). Where motion is regular vectors grow \
+        like t, so that the exponent over the last three quarters of T is (4/3) log 4/T, and MEGNO tends to 2; both \
+        are 0 for a harmonic oscillator. Exponents \
         of a chaotic orbit are pairs ±λ and ±0, the same for all schemes.";
     const REVISION: u32 = 1;
 
@@ -268,7 +275,8 @@ fn judge_areas(areas: &Areas, steps: u64, evaluations: usize) -> (String, Verdic
     let many = part(&areas.of_many_pairs);
     let (steps, mean) = (steps as f64, areas.of_many_pairs.area.abs() / steps as f64);
     let found = format!(
-        "{steps:.0e} steps, vectors of length {:.0e}: the area 1 changes by {last:.0e}, {one:.2} of the bound at most; pairs of 100 steps: by {mean:.0e} a step in the \
+        "{steps:.0e} steps, vectors of length {:.0e}: the area 1 changes by {last:.0e}, {one:.2} of the bound at \
+            most; pairs of 100 steps: by {mean:.0e} a step in the \
          mean, {many:.2} of the bound",
         areas.length,
     );

@@ -55,7 +55,8 @@ pub(super) struct Orbit {
     verdict: String,
 }
 
-/// The round-off of a leapfrog may be this multiple of ε: steps of schemes of high order are long, and some of their leapfrogs longer still.
+/// The round-off of a leapfrog may be this multiple of ε: steps of schemes of high order are long, and some of their
+/// leapfrogs longer still.
 const MOST: f64 = 100.0;
 /// A step of so much for each force evaluation.
 const STEP: f64 = 0.05;
@@ -64,11 +65,16 @@ const SCHEMES: [&str; 4] = ["stormer-verlet", "yoshida4", "sofroniou-spaletta6-1
 impl Case for TransformedTime {
     const NAME: &'static str = "transformed-time";
     const TITLE: &'static str = "Kepler orbits with e = 0.9 … 1 − 10⁻⁸ in logarithmic time";
-    const THEORY: &'static str = "The leapfrog that begins with a drift, with a step h of logarithmic time, takes a Kepler orbit (a = 1) from the eccentric anomaly E \
-        to E + 2 arctan(h/2) on the same ellipse, whatever e and h, and adds h − e Δ(sin E) to the time (proved with the half-angle formulas). So a \
-        composition of such steps γ_i h is at E = 2n Σ arctan(γ_i h/2) after n steps, at the time nh − e sin E: only the time of a period is off, by the same \
-        part for all e. Round-off makes H′ wander like ε√N over N leapfrogs, the angular momentum L like ε√N/L of it, and the phase like ε N^{3/2}: all \
-        stay below a hundred times that. The monitor never calls the step too large; where a step ends near the pericentre, it may see this round-off \
+    const THEORY: &'static str = "The leapfrog that begins with a drift, with a step h of logarithmic time, takes a \
+        Kepler orbit (a = 1) from the eccentric anomaly E \
+        to E + 2 arctan(h/2) on the same ellipse, whatever e and h, and adds h − e Δ(sin E) to the time (proved with \
+        the half-angle formulas). So a \
+        composition of such steps γ_i h is at E = 2n Σ arctan(γ_i h/2) after n steps, at the time nh − e sin E: only \
+        the time of a period is off, by the same \
+        part for all e. Round-off makes H′ wander like ε√N over N leapfrogs, the angular momentum L like ε√N/L of it, \
+        and the phase like ε N^{3/2}: all \
+        stay below a hundred times that. The monitor never calls the step too large; where a step ends near the \
+        pericentre, it may see this round-off \
         of H′.";
     const REVISION: u32 = 1;
 
@@ -113,7 +119,8 @@ impl Case for TransformedTime {
             finding.check(
                 name,
                 format!(
-                    "8 orbits of {} steps: H′ at most {energy:.1} ε√N, L {momentum:.1} ε√N/L; off the closed form by {position:.1e} ε N^(3/2) in place, \
+                    "8 orbits of {} steps: H′ at most {energy:.1} ε√N, L {momentum:.1} ε√N/L; off the closed form by \
+                        {position:.1e} ε N^(3/2) in place, \
                      {time:.1e} ε N^(3/2) in time; a period is off by {:.1e} of it; the monitor: {}",
                     all[0].1.steps,
                     all[0].1.period,
@@ -162,7 +169,8 @@ fn system() -> System {
     system
 }
 
-/// The γ_i of a composition of leapfrogs, which are the kicks of a step that begins with a drift; `None` of another scheme.
+/// The γ_i of a composition of leapfrogs, which are the kicks of a step that begins with a drift; `None` of another
+/// scheme.
 fn gammas(scheme: &TableScheme) -> Option<Vec<Rational>> {
     let proved = scheme.proved();
     let exact = &proved.scheme;

@@ -41,8 +41,8 @@ fn text(size: f64, anchor: (HPos, VPos)) -> TextStyle<'static> {
 impl Chart {
     /// The SVG text, for a separate file or as a part of an HTML page.
     ///
-    /// It has no `id`s and no scripts; text stays text, and on dark screens the picture is dark. Of a line, at most four points are
-    /// written for each column of a pixel; of [`Curve::dots`], all.
+    /// It has no `id`s and no scripts; text stays text, and on dark screens the picture is dark. Of a line, at most
+    /// four points are written for each column of a pixel; of [`Curve::dots`], all.
     ///
     /// # Errors
     /// The picture cannot be drawn.
@@ -148,8 +148,8 @@ impl Chart {
         Ok(())
     }
 
-    /// The labels of the marks, before the curves: in the middle of their jumps, or one below the other, at the end and on the side where
-    /// there is room.
+    /// The labels of the marks, before the curves: in the middle of their jumps, or one below the other, at the end and
+    /// on the side where there is room.
     fn label_marks(
         &self,
         area: &Area<'_>,
@@ -182,7 +182,8 @@ impl Chart {
         Ok(())
     }
 
-    /// At the right, each curve's label at the height where the curve ends, or as near as there is room; or one below the other.
+    /// At the right, each curve's label at the height where the curve ends, or as near as there is room; or one below
+    /// the other.
     fn label_ends(&self, area: &Area<'_>, ends: &[Option<Pixel>], columns: Range<i32>, rows: Range<i32>) -> DrawResult {
         // curves without visible points are labelled below the others
         let wanted: Vec<_> = ends.iter().map(|end| f64::from(end.map_or(rows.end, |(_, y)| y))).collect();
@@ -222,7 +223,8 @@ impl Chart {
     }
 }
 
-/// The row of a label at a jump: in its middle, which it covers; but above a low jump, or below that at the top of the chart.
+/// The row of a label at a jump: in its middle, which it covers; but above a low jump, or below that at the top of the
+/// chart.
 fn at_a_jump([from, to]: [i32; 2], rows: &Range<i32>) -> i32 {
     let half = fine(LINE * 0.6);
     match (from - to).abs() > 4 * half {

@@ -1,7 +1,7 @@
 //! Colours and dashes that a style sheet can change.
 //!
-//! plotters writes plain colours, without dashes and classes. So each kind of part is drawn in a placeholder colour, which
-//! is then replaced by its attributes.
+//! plotters writes plain colours, without dashes and classes. So each kind of part is drawn in a placeholder colour,
+//! which is then replaced by its attributes.
 
 use plotters::style::RGBColor;
 

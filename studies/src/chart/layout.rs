@@ -146,8 +146,8 @@ impl Layout {
     }
 }
 
-/// Both axes with one scale, and the height of the plot. A high range of y makes the plot higher, up to a square; beyond, one of the
-/// ranges becomes longer. Axes of which one would be much too long stay as they are.
+/// Both axes with one scale, and the height of the plot. A high range of y makes the plot higher, up to a square;
+/// beyond, one of the ranges becomes longer. Axes of which one would be much too long stay as they are.
 fn with_equal_scales(chart: &Chart, (x, y): (Span, Span), room: f64, least: f64) -> (Span, Span, f64) {
     let ratio = |x: &Span, y: &Span| (y.range.1 - y.range.0) / (x.range.1 - x.range.0);
     if !(1.0 / MOST_UNEQUAL..=MOST_UNEQUAL).contains(&ratio(&x, &y)) {

@@ -1,7 +1,8 @@
 //! Lines of many points: what a picture can show of them.
 
-/// The path with at most four points within each column of this width: where the line enters it, its lowest, its highest and
-/// where it leaves it, in their order. Columns with fewer points stay as they are, so the drawn line is the same to within a column.
+/// The path with at most four points within each column of this width: where the line enters it, its lowest, its
+/// highest and where it leaves it, in their order. Columns with fewer points stay as they are, so the drawn line is the
+/// same to within a column.
 pub(super) fn thinned(path: &[(i32, i32)], column: i32) -> Vec<(i32, i32)> {
     let same_column = |a: &(i32, i32), b: &(i32, i32)| a.0.div_euclid(column) == b.0.div_euclid(column);
     let mut thin = Vec::with_capacity(path.len().min(4096));

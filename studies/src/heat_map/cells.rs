@@ -13,8 +13,8 @@ const APART: f64 = 4.0;
 /// Smaller cells have no marks.
 const LEAST_MARKED: f64 = 9.0;
 
-/// The cells of a panel as one path for each colour; neighbours of one colour in a row are one rectangle. Cells without a value are
-/// left out.
+/// The cells of a panel as one path for each colour; neighbours of one colour in a row are one rectangle. Cells without
+/// a value are left out.
 pub(super) fn rectangles(shades: &Shades<'_>, numbers: &[u8], place: Place, (x, y): (&[f64], &[f64])) -> Markup {
     let mut paths = vec![String::new(); 256];
     let columns = x.len() - 1;
@@ -63,8 +63,8 @@ pub(super) fn marks(shades: &Shades<'_>, numbers: &[u8], place: Place, (x, y): (
     }
 }
 
-/// The mark of a colour in the middle of each of these cells, as one path: colours of words and special values are recognised without
-/// seeing colours.
+/// The mark of a colour in the middle of each of these cells, as one path: colours of words and special values are
+/// recognised without seeing colours.
 pub(super) fn mark(shades: &Shades<'_>, number: u8, cells: &[Place]) -> Markup {
     let strokes = strokes(shades, number);
     let mut path = String::new();

@@ -27,11 +27,12 @@ struct Common<'a> {
 impl HeatMap {
     /// The SVG text, for a separate file or as a part of an HTML page.
     ///
-    /// It has no `id`s and no scripts; text stays text, and on dark screens the picture is dark. The number of elements does not
-    /// depend on the number of cells.
+    /// It has no `id`s and no scripts; text stays text, and on dark screens the picture is dark. The number of elements
+    /// does not depend on the number of cells.
     ///
     /// # Errors
-    /// An axis or a panel has values that do not fit, such as too few cells, a value twice, or −1 on a logarithmic axis.
+    /// An axis or a panel has values that do not fit, such as too few cells, a value twice, or −1 on a logarithmic
+    /// axis.
     pub fn svg(&self) -> Result<String, Error> {
         self.svg_of(Theme::LightAndDark)
     }

@@ -51,7 +51,8 @@ impl Measure {
         }
     }
 
-    /// The place of a finite value, in the units of the measure; −∞ for 0 and NaN for negative values on a logarithmic scale.
+    /// The place of a finite value, in the units of the measure; −∞ for 0 and NaN for negative values on a logarithmic
+    /// scale.
     pub(super) fn at(self, value: f64) -> f64 {
         match self {
             Measure::Linear => value,
@@ -71,7 +72,8 @@ impl Measure {
         (least <= most).then_some((least, most))
     }
 
-    /// The values at the ends of the colour bar, for values in this range; if both signs occur, it is the same on both sides of 0.
+    /// The values at the ends of the colour bar, for values in this range; if both signs occur, it is the same on both
+    /// sides of 0.
     pub(super) fn ends(self, (least, most): (f64, f64)) -> (f64, f64) {
         let farthest = most.max(-least);
         if self != Measure::Log10 && least < 0.0 && most > 0.0 { (-farthest, farthest) } else { (least, most) }

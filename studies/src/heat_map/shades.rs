@@ -24,8 +24,8 @@ pub(super) const ABOVE: u8 = LEVELS + 6;
 pub(super) const SPECIAL: [(u8, &str); 5] =
     [(ZERO, "0"), (NEGATIVE, "negative"), (MINUS_INFINITE, "−∞"), (INFINITE, "∞"), (MISSING, "no value")];
 
-/// The eight of Okabe and Ito (2008) and four others, which people with any colour vision can distinguish; neighbours in this order
-/// differ in lightness as well.
+/// The eight of Okabe and Ito (2008) and four others, which people with any colour vision can distinguish; neighbours
+/// in this order differ in lightness as well.
 const OF_WORDS: [[u8; 3]; 12] = [
     [0x00, 0x72, 0xB2],
     [0xF0, 0xE4, 0x42],

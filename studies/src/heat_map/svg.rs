@@ -55,5 +55,6 @@ pub(super) fn text((x, y): (f64, f64), anchor: Anchor, size: f64, content: &str)
 
 /// The same, turned about its place by an angle in degrees, clockwise.
 pub(super) fn turned((x, y): (f64, f64), angle: i32, anchor: Anchor, content: &str) -> Markup {
-    html! { g transform=(format!("translate({} {}) rotate({angle})", length(x), length(y))) { (text((0.0, 0.0), anchor, TEXT, content)) } }
+    html! { g transform=(format!("translate({} {}) \
+    rotate({angle})", length(x), length(y))) { (text((0.0, 0.0), anchor, TEXT, content)) } }
 }

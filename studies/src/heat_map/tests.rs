@@ -201,7 +201,8 @@ fn frames(svg: &str) -> Vec<[f64; 4]> {
     panels.map(|tag| ["x", "y", "width", "height"].map(|name| number(tag, name))).collect()
 }
 
-/// Of 1, 10 and 1000 by their logarithms, the borders are at −1/2, 1/2, 2 and 4; of 0, 1, 3 they are at −1/2, 1/2, 2 and 4, too.
+/// Of 1, 10 and 1000 by their logarithms, the borders are at −1/2, 1/2, 2 and 4; of 0, 1, 3 they are at −1/2, 1/2, 2
+/// and 4, too.
 #[test]
 fn cells_end_midway_between_values() {
     for x in [CellAxis::logarithmic("x", vec![1.0, 10.0, 1000.0]), CellAxis::linear("x", vec![0.0, 1.0, 3.0])] {

@@ -1,4 +1,5 @@
-//! Random numbers: each draw is made from the seed, the name of the axis and its number alone, with the same bits everywhere.
+//! Random numbers: each draw is made from the seed, the name of the axis and its number alone, with the same bits
+//! everywhere.
 
 use num_traits::Signed;
 use rand_pcg::Pcg64;
@@ -161,9 +162,9 @@ mod tests {
         assert_eq!(first("b", 7), shadowstep::exact("0.60776989488985872").unwrap());
     }
 
-    /// Of n independent numbers with variance v, the mean has the standard deviation √(v/n), and the variance that they show
-    /// √((m₄ − v²)/n), with the fourth central moment m₄: 1/80 and v = 1/12 if uniform on [0, 1], 3 and v = 1 if normal. Five of
-    /// these are exceeded with a probability below 10⁻⁶; for this seed it is certain whether they are.
+    /// Of n independent numbers with variance v, the mean has the standard deviation √(v/n), and the variance that they
+    /// show √((m₄ − v²)/n), with the fourth central moment m₄: 1/80 and v = 1/12 if uniform on [0, 1], 3 and v = 1 if
+    /// normal. Five of these are exceeded with a probability below 10⁻⁶; for this seed it is certain whether they are.
     #[test]
     fn mean_and_variance_are_those_of_the_distribution() {
         const N: f64 = 4000.0;

@@ -105,7 +105,8 @@ impl Picture {
         panels.map(of).collect()
     }
 
-    /// A chart for each panel, with a curve for each value of an axis; `None` for too many, or where the values are words.
+    /// A chart for each panel, with a curve for each value of an axis; `None` for too many, or where the values are
+    /// words.
     fn charts(&self, cells: &Cells, axes: &Axes, (title, label): (&str, &str)) -> Option<Vec<Chart>> {
         let [count, curves, panels] = cells.counts;
         if curves.max(panels) > MOST_CURVES || !cells.words().is_empty() {

@@ -7,7 +7,8 @@ use super::script::{ARRAY, COLLECT, LOGS};
 use crate::chunk::CHUNKS_FOLDER;
 use crate::manifest;
 
-/// The files and folders that are not there when a sweep is submitted. Unless they are kept, they are removed at the end.
+/// The files and folders that are not there when a sweep is submitted. Unless they are kept, they are removed at the
+/// end.
 #[derive(Debug)]
 pub struct Added(Vec<PathBuf>);
 

@@ -66,8 +66,8 @@ impl Scripts {
     /// Reads the scripts of the folder, and writes those that it lacks.
     ///
     /// # Errors
-    /// Resources or chunks that contradict a script that is there; a script of another folder; a path that a script cannot hold; files that
-    /// cannot be read or written.
+    /// Resources or chunks that contradict a script that is there; a script of another folder; a path that a script
+    /// cannot hold; files that cannot be read or written.
     pub fn prepare(command: &SweepCommand, resources: &Resources) -> Result<Self, Error> {
         check_words(resources)?;
         check_path(&command.folder)?;
@@ -194,7 +194,8 @@ fn array_text(command: &SweepCommand, resources: &Resources) -> String {
     let SweepCommand { program, sweep, folder, chunks } = command;
     let mut text = "\
 #!/bin/sh
-# Each task computes one chunk of the sweep. A chunk that is complete is kept, so that a task can be requeued or submitted again.
+# Each task computes one chunk of the sweep. A chunk that is complete is kept, so that a task can be requeued or \
+submitted again.
 # This file can be edited: other options of sbatch, such as --account, or modules to load.
 "
     .to_owned();
@@ -292,7 +293,8 @@ mod tests {
     fn the_array_has_the_flags_as_options() {
         let expected = "\
 #!/bin/sh
-# Each task computes one chunk of the sweep. A chunk that is complete is kept, so that a task can be requeued or submitted again.
+# Each task computes one chunk of the sweep. A chunk that is complete is kept, so that a task can be requeued or \
+submitted again.
 # This file can be edited: other options of sbatch, such as --account, or modules to load.
 #SBATCH --job-name=my-map
 #SBATCH --partition=short
@@ -305,7 +307,8 @@ mod tests {
 #SBATCH --output=/scratch/me/map/slurm-logs/%A_%a.log
 
 export RAYON_NUM_THREADS=\"${SLURM_CPUS_PER_TASK:-1}\"
-exec '/opt/shadow step/bin/shadowstep' sweep '/home/me/my map.toml' --out /scratch/me/map --chunk \"$SLURM_ARRAY_TASK_ID/16\"
+exec '/opt/shadow step/bin/shadowstep' sweep '/home/me/my map.toml' --out /scratch/me/map \
+--chunk \"$SLURM_ARRAY_TASK_ID/16\"
 ";
         assert_eq!(array_text(&command(Path::new("/scratch/me/map")), &resources()), expected);
     }
@@ -327,7 +330,8 @@ exec '/opt/shadow step/bin/shadowstep' collect '/scratch/100% mine'
 
     #[test]
     fn options_are_found_in_every_form_before_the_first_command() {
-        let text = "#!/bin/sh\n#SBATCH -p short --time 30\n#SBATCH -c4 --array=1-16%8\n#SBATCH --time=40\n\nrun\n#SBATCH --mem=1G\n";
+        let text = "#!/bin/sh\n#SBATCH -p short --time 30\n#SBATCH -c4 --array=1-16%8\n#SBATCH \
+            --time=40\n\nrun\n#SBATCH --mem=1G\n";
         let script = Script { path: "array.sbatch".into(), text: text.to_owned() };
         assert_eq!(script.option("--partition"), Some((2, "short".to_owned())));
         assert_eq!(script.option("--time"), Some((4, "40".to_owned())));

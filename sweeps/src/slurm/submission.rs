@@ -31,7 +31,8 @@ pub enum Submitted {
 
 /// Submits the chunks that are missing and have no task that is pending or running, and a job that collects after them.
 ///
-/// The numbers of the jobs are saved in the folder of the sweep. What was added to the folder stays as soon as an array is submitted.
+/// The numbers of the jobs are saved in the folder of the sweep. What was added to the folder stays as soon as an array
+/// is submitted.
 ///
 /// # Errors
 /// Slurm is not there, or refuses; the numbers of the jobs cannot be read or written.

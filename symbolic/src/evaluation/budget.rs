@@ -2,9 +2,9 @@
 
 use std::cell::Cell;
 
-/// A limit of the time that formulas take together, a few seconds on any machine. It is counted, not measured, so that the
-/// same text has the same result everywhere: an operation on numbers of b bits counts b², for their common divisors take
-/// most of the time, and a function of them counts as a hundred operations.
+/// A limit of the time that formulas take together, a few seconds on any machine. It is counted, not measured, so that
+/// the same text has the same result everywhere: an operation on numbers of b bits counts b², for their common divisors
+/// take most of the time, and a function of them counts as a hundred operations.
 ///
 /// ```
 /// use shadowstep_symbolic::{Budget, evaluate_within, parse};

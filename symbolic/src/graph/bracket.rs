@@ -6,10 +6,11 @@ use crate::graph::{Graph, Node};
 use crate::number::rational::Rational;
 
 impl Graph {
-    /// [F, G] = F_pᵀG_q − F_qᵀG_p, where the first `freedoms` coordinates are positions and as many after them their momenta.
+    /// [F, G] = F_pᵀG_q − F_qᵀG_p, where the first `freedoms` coordinates are positions and as many after them their
+    /// momenta.
     ///
-    /// So [U, T] = −U_qᵀT_p. It is −{F, G} with Poisson's bracket {F, G} = F_qᵀG_p − F_pᵀG_q, and the Lie derivatives {·, F} have [{·, F}, {·, G}] =
-    /// {·, [F, G]}.
+    /// So [U, T] = −U_qᵀT_p. It is −{F, G} with Poisson's bracket {F, G} = F_qᵀG_p − F_pᵀG_q, and the Lie derivatives
+    /// {·, F} have [{·, F}, {·, G}] = {·, [F, G]}.
     ///
     /// ```
     /// use shadowstep_symbolic::{Graph, parse};

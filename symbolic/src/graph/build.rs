@@ -17,12 +17,12 @@ use crate::text::syntax::{Expression, ExpressionKind, Operation};
 impl Graph {
     /// The formula of an expression whose names are coordinates and parameters, known by their index.
     ///
-    /// The functions are sqrt, cbrt, exp, log, sin, cos, tan, sinh, cosh, tanh, atan, asin and acos; `pi` is π, unless a
-    /// coordinate or parameter has that name; exponents are rational numbers.
+    /// The functions are sqrt, cbrt, exp, log, sin, cos, tan, sinh, cosh, tanh, atan, asin and acos; `pi` is π, unless
+    /// a coordinate or parameter has that name; exponents are rational numbers.
     ///
     /// # Errors
-    /// A [`SemanticError`] at the first unknown name, unknown or not smooth function, wrong number of arguments, exponent
-    /// that is not rational or too large, and constant part that has no real value or too many digits.
+    /// A [`SemanticError`] at the first unknown name, unknown or not smooth function, wrong number of arguments,
+    /// exponent that is not rational or too large, and constant part that has no real value or too many digits.
     pub fn build(
         &mut self,
         expression: &Expression,

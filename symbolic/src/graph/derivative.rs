@@ -10,8 +10,8 @@ use crate::number::rational::Rational;
 impl Graph {
     /// ∂(node)/∂q_i for the coordinate q_i with index i.
     ///
-    /// A derivative that is not defined anywhere, such as the derivative of asin(√(x²)/x), becomes a formula without a value, such
-    /// as 0^(−1/2).
+    /// A derivative that is not defined anywhere, such as the derivative of asin(√(x²)/x), becomes a formula without a
+    /// value, such as 0^(−1/2).
     pub fn derivative(&mut self, node: Node, coordinate: usize) -> Node {
         self.derived(node, Derivation::Along(coordinate))
     }

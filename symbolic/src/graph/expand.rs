@@ -12,14 +12,15 @@ const HIGHEST: u32 = 16;
 const MOST_TERMS: usize = 4000;
 
 impl Graph {
-    /// Whether the formula is 0, for all values for which it is defined. A formula that is 0 by other rules than the rules of polynomials in its parts is not
-    /// found to be so.
+    /// Whether the formula is 0, for all values for which it is defined. A formula that is 0 by other rules than the
+    /// rules of polynomials in its parts is not found to be so.
     pub fn vanishes(&mut self, node: Node) -> bool {
         let expanded = self.multiplied_out(node);
         self.is_zero(expanded)
     }
 
-    /// The formula with products of sums multiplied out, but those that have too many terms, and the arguments of functions.
+    /// The formula with products of sums multiplied out, but those that have too many terms, and the arguments of
+    /// functions.
     pub fn multiplied_out(&mut self, node: Node) -> Node {
         match &*self.shared_form(node) {
             Form::Sum { constant, terms } => {

@@ -1,7 +1,7 @@
 //! Hamiltonians whose flow has a formula.
 //!
-//! A Hamiltonian is given in q_1, …, q_d, p_1, …, p_d, the coordinates 0, …, 2d − 1 of the graph. Its terms are taken together where they share a degree
-//! of freedom (q_i, p_i); what does not share one commutes, and flows by itself.
+//! A Hamiltonian is given in q_1, …, q_d, p_1, …, p_d, the coordinates 0, …, 2d − 1 of the graph. Its terms are taken
+//! together where they share a degree of freedom (q_i, p_i); what does not share one commutes, and flows by itself.
 
 use std::collections::{BTreeSet, HashMap};
 
@@ -19,7 +19,8 @@ const MOST_EXPONENT: u32 = 64;
 /// A Hamiltonian, or a part of one, whose flow is known.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum ExplicitFlow {
-    /// A function of variables none of which is the momentum of another: they stay, and their partners change at constant rates.
+    /// A function of variables none of which is the momentum of another: they stay, and their partners change at
+    /// constant rates.
     Commuting {
         /// The variables, by their index among q and p.
         variables: Vec<usize>,
@@ -82,7 +83,8 @@ pub struct NoFlow {
 impl Graph {
     /// The commuting flows that the flow of a Hamiltonian consists of.
     ///
-    /// It has no parameters; see [`Graph::replaced`]. What is found is exact: formulas that the rules do not simplify far enough are refused.
+    /// It has no parameters; see [`Graph::replaced`]. What is found is exact: formulas that the rules do not simplify
+    /// far enough are refused.
     ///
     /// ```
     /// use shadowstep_symbolic::{ExplicitFlow, Graph, parse};

@@ -53,7 +53,8 @@ impl Graph {
         self.below(nodes).into_iter().filter_map(parameter).collect()
     }
 
-    /// The number of symbols of the formula of a node as text, in which common parts are written as often as they occur.
+    /// The number of symbols of the formula of a node as text, in which common parts are written as often as they
+    /// occur.
     pub fn written_size(&self, node: Node) -> u64 {
         let mut sizes = HashMap::new();
         for part in self.below(&[node]) {
@@ -63,7 +64,8 @@ impl Graph {
         sizes[&node]
     }
 
-    /// The formula of a node with these names of coordinates and parameters. Numbers that are no short fractions have `digits` significant digits.
+    /// The formula of a node with these names of coordinates and parameters. Numbers that are no short fractions have
+    /// `digits` significant digits.
     ///
     /// ```
     /// use shadowstep_symbolic::{Graph, Notation, parse};

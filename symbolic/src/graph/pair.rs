@@ -14,8 +14,8 @@ impl Separation {
     }
 }
 
-/// Whether the formula of a pair in r² is symmetric in the bodies i and j, as far as its simplified form shows; `None` for
-/// an invalid formula, and for one in d, which has a direction.
+/// Whether the formula of a pair in r² is symmetric in the bodies i and j, as far as its simplified form shows; `None`
+/// for an invalid formula, and for one in d, which has a direction.
 pub fn is_symmetric(
     expression: &Expression,
     separation: Separation,

@@ -5,8 +5,8 @@ use crate::graph::{Form, Graph, Node};
 impl Graph {
     /// Whether f = ½xᵀAx in the first `coordinates` coordinates x, where A does not depend on x.
     ///
-    /// This holds if f is homogeneous of degree 2 (xᵀf_x − 2f = 0) and no second derivative depends on x. Both are checked
-    /// on simplified formulas; where the rules do not simplify far enough, the result is false.
+    /// This holds if f is homogeneous of degree 2 (xᵀf_x − 2f = 0) and no second derivative depends on x. Both are
+    /// checked on simplified formulas; where the rules do not simplify far enough, the result is false.
     ///
     /// ```
     /// use shadowstep_symbolic::{Graph, parse};
@@ -26,8 +26,8 @@ impl Graph {
         self.is_zero(rate) && self.is_at_most_quadratic(node, coordinates)
     }
 
-    /// Whether f = ½xᵀAx + bᵀx + c in the first `coordinates` coordinates x: no second derivative depends on x. Where the rules do not simplify far
-    /// enough, the result is false.
+    /// Whether f = ½xᵀAx + bᵀx + c in the first `coordinates` coordinates x: no second derivative depends on x. Where
+    /// the rules do not simplify far enough, the result is false.
     ///
     /// ```
     /// use shadowstep_symbolic::{Graph, parse};

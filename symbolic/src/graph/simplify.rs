@@ -183,8 +183,8 @@ pub(crate) fn common_size(constant: &Rational, terms: &[(Node, Rational)]) -> Op
     shared.into_iter().all(|coefficient| coefficient.abs() == size).then_some(size)
 }
 
-/// (Π b^a)^n = Π b^(a n): for an n with an odd denominator always; else only for one factor, whose power a must have the
-/// sign of b, so that √(x²) does not become x.
+/// (Π b^a)^n = Π b^(a n): for an n with an odd denominator always; else only for one factor, whose power a must have
+/// the sign of b, so that √(x²) does not become x.
 fn expanded_product(factors: &[(Node, Rational)], exponent: &Rational) -> Option<Vec<(Node, Rational)>> {
     let allowed = match factors {
         _ if exponent.denom().is_odd() => true,

@@ -9,8 +9,8 @@ use crate::number::rational::Rational;
 
 /// A number between (middle − radius)/2^bits and (middle + radius)/2^bits.
 ///
-/// The operands of an operation have the same bits. Shifts and quotients of the middle and of the radius are each off by
-/// less than one unit, so the radius grows by two.
+/// The operands of an operation have the same bits. Shifts and quotients of the middle and of the radius are each off
+/// by less than one unit, so the radius grows by two.
 #[derive(Debug, Clone)]
 pub(crate) struct Ball {
     middle: BigInt,

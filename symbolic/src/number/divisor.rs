@@ -1,8 +1,9 @@
 //! The greatest common divisor of long numbers.
 //!
-//! The binary algorithm of `num_integer` takes a pass over both numbers for every bit or two of the longer one, even beside a number of
-//! one digit. Here a division comes first, and numbers lose 30 bits in a pass (D. H. Lehmer, Amer. Math. Monthly 45 (1938) 227;
-//! D. E. Knuth, The Art of Computer Programming 2, 4.5.2, Algorithm L) until they are of the machine's size.
+//! The binary algorithm of `num_integer` takes a pass over both numbers for every bit or two of the longer one, even
+//! beside a number of one digit. Here a division comes first, and numbers lose 30 bits in a pass (D. H. Lehmer, Amer.
+//! Math. Monthly 45 (1938) 227; D. E. Knuth, The Art of Computer Programming 2, 4.5.2, Algorithm L) until they are of
+//! the machine's size.
 
 use num_bigint::{BigInt, BigUint};
 use num_integer::Integer;
@@ -63,7 +64,8 @@ fn of_long(mut a: BigUint, mut b: BigUint) -> BigUint {
     }
 }
 
-/// Several steps of Euclid's algorithm at once: a ← |u a + v b|, b ← |w a + x b|, where u and v, w and x differ in sign.
+/// Several steps of Euclid's algorithm at once: a ← |u a + v b|, b ← |w a + x b|, where u and v, w and x differ in
+/// sign.
 struct Quotients {
     u: i64,
     v: i64,

@@ -1,7 +1,7 @@
 //! The elementary functions of enclosed numbers.
 //!
-//! Each function reduces a rational number to the range where its [series](crate::number::series) is short. The image of
-//! an interval under a monotone function is enclosed by the values at its ends.
+//! Each function reduces a rational number to the range where its [series](crate::number::series) is short. The image
+//! of an interval under a monotone function is enclosed by the values at its ends.
 
 use num_bigint::BigInt;
 use num_traits::{One, Signed, ToPrimitive, Zero};
@@ -61,8 +61,8 @@ pub(crate) fn sin_and_cos(interval: &Interval, digits: u32) -> (Interval, Interv
     (spread(sin), spread(cos))
 }
 
-/// sin and cos of a multiple of π, from its exact distance to the nearest multiple of π/2: they are known to all digits also next to
-/// their zeros, and the zeros are 0.
+/// sin and cos of a multiple of π, from its exact distance to the nearest multiple of π/2: they are known to all digits
+/// also next to their zeros, and the zeros are 0.
 pub(crate) fn sin_and_cos_of_pi(multiple: &Rational, digits: u32) -> (Interval, Interval) {
     let half = Rational::new(1.into(), 2.into());
     let quarter = (multiple * Rational::from_integer(2.into()) + &half).floor();
@@ -168,8 +168,8 @@ fn sin_and_cos_of_number(x: &Rational, digits: u32) -> (Interval, Interval) {
     (sin.to_interval(0), cos.to_interval(0))
 }
 
-/// k mod 4 and x − k π/2 to `certain` bits, for the nearest k or one next to it. The loop ends, as x is rational and not
-/// 0.
+/// k mod 4 and x − k π/2 to `certain` bits, for the nearest k or one next to it. The loop ends, as x is rational and
+/// not 0.
 fn reduced(x: &Rational, certain: u64) -> (u8, Ball) {
     if integer_bits(x) == 0 {
         // between -1 and 1: the series needs no more

@@ -1,7 +1,8 @@
 //! Exact rationals.
 //!
-//! Comparisons, hashes and the search for common divisors are not taken from `num_rational`: the first two recurse along continued
-//! fractions, for long numbers beyond the end of the stack, and the last takes a pass over the numbers for every bit.
+//! Comparisons, hashes and the search for common divisors are not taken from `num_rational`: the first two recurse
+//! along continued fractions, for long numbers beyond the end of the stack, and the last takes a pass over the numbers
+//! for every bit.
 
 use std::cmp::Ordering;
 use std::fmt;

@@ -1,7 +1,7 @@
 //! sin, cos, sinh, cosh, arctan and artanh by their power series, and with them π and log 2, as balls.
 //!
-//! A series is short for a small argument. So the argument is halved about √bits times, and the result doubled as often;
-//! extra bits compensate for the errors that the doublings magnify.
+//! A series is short for a small argument. So the argument is halved about √bits times, and the result doubled as
+//! often; extra bits compensate for the errors that the doublings magnify.
 
 use std::cell::RefCell;
 use std::collections::HashMap;
@@ -118,12 +118,13 @@ pub(crate) fn log_two(bits: u64) -> Ball {
     remembered(Curve::Hyperbola, bits, || combination(Curve::Hyperbola, &[(18, 26), (-2, 4801), (8, 8749)], bits))
 }
 
-/// The most values of π/2 and log 2 that a thread keeps: the formulas of a document need them with few different numbers of bits.
+/// The most values of π/2 and log 2 that a thread keeps: the formulas of a document need them with few different
+/// numbers of bits.
 const MOST_REMEMBERED: usize = 32;
 
 thread_local! {
-    /// Values of π/2 (of the circle) and log 2 (of the hyperbola), by their bits. One with more bits does not stand for one with
-    /// fewer: what is computed must not depend on what was computed before.
+    /// Values of π/2 (of the circle) and log 2 (of the hyperbola), by their bits. One with more bits does not stand for
+    /// one with fewer: what is computed must not depend on what was computed before.
     static REMEMBERED: RefCell<HashMap<(Curve, u64), Ball>> = RefCell::default();
 }
 

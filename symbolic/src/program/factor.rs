@@ -12,15 +12,16 @@ use crate::number::rational::Rational;
 use crate::program::Program;
 use crate::program::lower;
 
-/// The largest total size of the nodes of all programs that are tried: only very long formulas, or long numbers, exceed it.
+/// The largest total size of the nodes of all programs that are tried: only very long formulas, or long numbers, exceed
+/// it.
 const MOST_WORK: usize = 20_000;
 
 impl Graph {
     /// A program that computes all outputs together, such as the components of a gradient and the rate.
     ///
-    /// Common parts of the outputs are computed once. Sums and products of parameters and numbers are constants, which are
-    /// prepared once, and so are rationals that are neither integers nor 1 over an integer. Common factors are factored
-    /// out of sums where that saves time. The graph is not changed.
+    /// Common parts of the outputs are computed once. Sums and products of parameters and numbers are constants, which
+    /// are prepared once, and so are rationals that are neither integers nor 1 over an integer. Common factors are
+    /// factored out of sums where that saves time. The graph is not changed.
     ///
     /// ```
     /// use shadowstep_symbolic::{Graph, parse};
@@ -75,8 +76,8 @@ fn improvement(
     None
 }
 
-/// The number of parts of a node, and more where its numbers are long: their common divisors take a time that grows with the square
-/// of their bits.
+/// The number of parts of a node, and more where its numbers are long: their common divisors take a time that grows
+/// with the square of their bits.
 fn size(graph: &Graph, node: Node) -> usize {
     let thousands =
         graph.own_numbers(node).map(|number| number.numer().bits().max(number.denom().bits()) as usize / 1000);

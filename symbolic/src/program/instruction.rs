@@ -24,8 +24,8 @@ pub enum Place {
 
 /// One operation. Its first place is its target; `P` is [`Place`], or another type for places.
 ///
-/// An `Assign…` does not read its target. The other operands of an operation are never at its target, so that the target
-/// can be borrowed mutably and the operands immutably.
+/// An `Assign…` does not read its target. The other operands of an operation are never at its target, so that the
+/// target can be borrowed mutably and the operands immutably.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Instruction<P = Place> {
     /// x ← an exact number, rounded once; in [`Program::prepare`](crate::Program::prepare) only

@@ -1,8 +1,8 @@
 //! From nodes to a program.
 //!
 //! [`collect`] lists what is computed: sums, products of atoms, functions. [`products`] and [`sums`] find their common
-//! parts. [`sequence`] splits them into operations with two operands, in order. [`places`] assigns a place to each result
-//! and writes the instructions. [`known_products`] gives sums the factors of their products.
+//! parts. [`sequence`] splits them into operations with two operands, in order. [`places`] assigns a place to each
+//! result and writes the instructions. [`known_products`] gives sums the factors of their products.
 
 mod collect;
 mod known_products;

@@ -12,8 +12,8 @@ use crate::separation::{Separation, Summand};
 pub struct PotentialPrograms {
     /// One output: U.
     pub energy: Program,
-    /// An output per coordinate: U_q. The operations are the same as in `gradient_and_rate`, so that a trajectory has the same
-    /// bits whether qᵀU_q − 2U is computed or not; the constants are the same.
+    /// An output per coordinate: U_q. The operations are the same as in `gradient_and_rate`, so that a trajectory has
+    /// the same bits whether qᵀU_q − 2U is computed or not; the constants are the same.
     pub gradient: Program,
     /// U_q, and as the last output qᵀU_q − 2U; of a pair its summand.
     pub gradient_and_rate: Program,
@@ -36,16 +36,16 @@ impl Graph {
     }
 }
 
-/// A pair's energy is computed in place of its rate if that saves at least this number of operations a pair. qᵀU_q takes two operations a pair for seven bodies
-/// in space, less for more bodies, and more for fewer.
+/// A pair's energy is computed in place of its rate if that saves at least this number of operations a pair. qᵀU_q
+/// takes two operations a pair for seven bodies in space, less for more bodies, and more for fewer.
 const WORTH_AN_ENERGY: u64 = 2;
 
 impl Graph {
-    /// The programs of a pair's energy u, a formula of [`Graph::build_pair`], with in place of the gradient its slope s,
-    /// by which ∂u/∂q_j = s (q_j − q_i) for u(r²), ∂u/∂q_j = s for u(d); the rate is Σ qᵀu_q − 2u over both bodies.
+    /// The programs of a pair's energy u, a formula of [`Graph::build_pair`], with in place of the gradient its slope
+    /// s, by which ∂u/∂q_j = s (q_j − q_i) for u(r²), ∂u/∂q_j = s for u(d); the rate is Σ qᵀu_q − 2u over both bodies.
     ///
-    /// So s = 2u'(r²) with the rate 2r²u'(r²) − 2u, or s = u'(d) with the rate d u'(d) − 2u. The last output is u in place of the rate,
-    /// where that saves operations and s is computed by the same ones.
+    /// So s = 2u'(r²) with the rate 2r²u'(r²) − 2u, or s = u'(d) with the rate d u'(d) − 2u. The last output is u in
+    /// place of the rate, where that saves operations and s is computed by the same ones.
     pub fn pair(&mut self, energy: Node, separation: Separation) -> PotentialPrograms {
         let degree = Rational::from_integer(separation.degree().into());
         let derivative = self.derivative(energy, 0);
@@ -65,11 +65,12 @@ impl Graph {
 }
 
 impl Graph {
-    /// The programs of the potential's derivative vᵀU_q in the direction of v, whose components are the properties 0, 1, …, for a graph
-    /// without others.
+    /// The programs of the potential's derivative vᵀU_q in the direction of v, whose components are the properties 0,
+    /// 1, …, for a graph without others.
     ///
     /// - `energy` computes nothing;
-    /// - `gradient` has the Hessian–vector product U_qq v: one derivative of U_q, so that its cost grows like the cost of U_q;
+    /// - `gradient` has the Hessian–vector product U_qq v: one derivative of U_q, so that its cost grows like the cost
+    ///   of U_q;
     /// - `gradient_and_rate` has after it vᵀ∂(qᵀU_q − 2U)/∂q = qᵀU_qq v − vᵀU_q, derived from the simplified rate.
     pub fn hessian_product(&mut self, energy: Node, coordinates: usize) -> PotentialPrograms {
         let directional = |graph: &mut Graph, node| graph.derived(node, Derivation::Directional);
@@ -82,10 +83,10 @@ impl Graph {
 
     /// The programs of a pair's second derivatives, in place of the programs of [`Graph::hessian_product`].
     ///
-    /// `gradient` has the slope s of [`Graph::pair`] and a curvature t, `gradient_and_rate` after them a slope r of the rate. For u(r²), with
-    /// the differences d of the positions and w = v_j − v_i of a vector v, the pair adds s w + t (dᵀw) d to the product U_qq v of the
-    /// body j, and r dᵀw to vᵀ∂(qᵀU_q − 2U)/∂q: t = 4u″(r²), r = 2∂(2r²u′ − 2u)/∂(r²). For u(d) it adds t w and r w: t = u″(d),
-    /// r = ∂(d u′ − 2u)/∂d.
+    /// `gradient` has the slope s of [`Graph::pair`] and a curvature t, `gradient_and_rate` after them a slope r of the
+    /// rate. For u(r²), with the differences d of the positions and w = v_j − v_i of a vector v, the pair adds s w + t
+    /// (dᵀw) d to the product U_qq v of the body j, and r dᵀw to vᵀ∂(qᵀU_q − 2U)/∂q: t = 4u″(r²), r = 2∂(2r²u′ −
+    /// 2u)/∂(r²). For u(d) it adds t w and r w: t = u″(d), r = ∂(d u′ − 2u)/∂d.
     pub fn pair_curvature(&mut self, energy: Node, separation: Separation) -> PotentialPrograms {
         let degree = Rational::from_integer(separation.degree().into());
         let derivative = self.derivative(energy, 0);

@@ -87,8 +87,8 @@ pub fn to_significant(value: &impl Ratio, digits: usize) -> String {
     format!("{}{body}", sign(value))
 }
 
-/// Writes a number of double precision with this number of significant digits, zeros at the end included, for messages and tables whose numbers are of any
-/// size: `2.100`, `0.01234`, `1.235e-7`. Scientific outside 1e-4..1e6.
+/// Writes a number of double precision with this number of significant digits, zeros at the end included, for messages
+/// and tables whose numbers are of any size: `2.100`, `0.01234`, `1.235e-7`. Scientific outside 1e-4..1e6.
 pub fn significant(value: f64, digits: usize) -> String {
     let scientific = format!("{value:.*e}", digits.saturating_sub(1));
     // infinities and NaN have no exponent
@@ -120,7 +120,8 @@ fn plain(digits: &str, exponent: i64) -> String {
     }
 }
 
-/// The exponents of 2 and 5 of a denominator without other factors; `None` also of one that needs more than [`MOST_PLACES`].
+/// The exponents of 2 and 5 of a denominator without other factors; `None` also of one that needs more than
+/// [`MOST_PLACES`].
 fn twos_and_fives(denominator: &BigInt) -> Option<(u64, u64)> {
     let twos = denominator.trailing_zeros().unwrap_or(0);
     let (rest, fives) = rounding::without_fives(denominator >> twos, MOST_PLACES);

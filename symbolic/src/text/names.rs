@@ -51,7 +51,8 @@ pub(crate) fn callee<'a>(name: &str, arguments: &'a [Expression]) -> Result<(Cal
     }
 }
 
-/// The fault of a name that is neither known nor `pi`. Known names that begin with `__` stand for parts of a formula, and are not offered.
+/// The fault of a name that is neither known nor `pi`. Known names that begin with `__` stand for parts of a formula,
+/// and are not offered.
 pub(crate) fn unknown_name(name: &str, known: &[&str]) -> SemanticFault {
     let known: Vec<&str> = known.iter().copied().filter(|known| !known.starts_with("__")).collect();
     let hint = hint(name, &known, &[PI], "known names", "the only known name is `pi`");

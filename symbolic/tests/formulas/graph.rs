@@ -206,8 +206,10 @@ fn faults_have_a_message_and_a_place() {
         ("2^pi", 2..4, exponent.into()),
         ("x^a", 2..3, exponent.into()),
         ("x^sqrt(2)", 2..9, exponent.into()),
-        ("x^20000", 2..7, "the exponent 20000 is out of range: numerators up to 10000 and roots up to order 100 are allowed".into()),
-        ("x^(1/101)", 2..9, "the exponent 1/101 is out of range: numerators up to 10000 and roots up to order 100 are allowed".into()),
+        ("x^20000", 2..7, "the exponent 20000 is out of range: numerators up to 10000 and roots up to order 100 are \
+            allowed".into()),
+        ("x^(1/101)", 2..9, "the exponent 1/101 is out of range: numerators up to 10000 and roots up to order 100 are \
+            allowed".into()),
         (
             "y + (x^1000)^1000",
             4..17,
@@ -220,7 +222,8 @@ fn faults_have_a_message_and_a_place() {
         ("log(2 - 2)", 0..10, "log(0) has no real value: the argument must be positive".into()),
         ("x + asin(3/2)", 4..13, "asin(3/2) has no real value: the argument must be from -1 to 1".into()),
         ("acos(-2)", 0..8, "acos(-2) has no real value: the argument must be from -1 to 1".into()),
-        ("x*10^10000*10^10000*10^10000*10^10000", 0..37, "a number is too long: it has more than about 30000 digits".into()),
+        ("x*10^10000*10^10000*10^10000*10^10000", 0..37, "a number is too long: it has more than about 30000 \
+            digits".into()),
         ("x + (10^9000)^9", 4..15, "a number is too long: it has more than about 30000 digits".into()),
     ];
     for (text, range, message) in table {

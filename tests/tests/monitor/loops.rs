@@ -98,7 +98,8 @@ fn a_slow_oscillation_is_no_push() {
     }
 }
 
-/// A momentum that is kicked once, between windows, and an angle that is wrapped where the potential has no such period.
+/// A momentum that is kicked once, between windows, and an angle that is wrapped where the potential has no such
+/// period.
 #[test]
 fn a_moved_state_is_named_as_a_cause() {
     let (mut n, mut kicked) = (0, false);

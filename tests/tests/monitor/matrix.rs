@@ -1,4 +1,5 @@
-//! Runs that were not used to choose the thresholds: `cargo bench -p shadowstep-tests --bench verdicts` has all of them.
+//! Runs that were not used to choose the thresholds: `cargo bench -p shadowstep-tests --bench verdicts` has all of
+//! them.
 
 use super::*;
 use shadowstep_tests::matrix::{Matrix, Scene, stepper};
@@ -40,8 +41,8 @@ fn longer(scene: &Scene, scheme: &str, part: f64) -> f64 {
     largest - least
 }
 
-/// Whichever k there is: no verdict contradicts another one, none that is fine is followed by a larger error, and none that is too
-/// large is followed by the same, small one.
+/// Whichever k there is: no verdict contradicts another one, none that is fine is followed by a larger error, and none
+/// that is too large is followed by the same, small one.
 #[test]
 fn verdicts_hold_for_the_trajectory() {
     let matrix = Matrix::held_out();

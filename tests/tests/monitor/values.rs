@@ -49,7 +49,8 @@ fn steps_between_windows_cost_what_plain_steps_cost() {
                 with_more += 1;
             }
         }
-        // the step to the first state of a window keeps its rate for the next one; T is computed at 200 states, 179 of which are elsewhere
+        // the step to the first state of a window keeps its rate for the next one; T is computed at 200 states, 179 of
+        // which are elsewhere
         let more = 50 + 179;
         assert_eq!((with_beta, as_plain, with_more), (50 * 8, 5000 - 50 * 8 - more, more), "{name}");
         assert_eq!(watched.evaluations(), plain.evaluations(), "{name}");
@@ -134,8 +135,8 @@ fn values_are_those_of_a_run() {
 // ---------------------------------------------------------------------------------------------------------------
 // Numbers
 
-/// From q = 1, p = 0 Störmer–Verlet keeps I = p² + (1 − x²)q² = 1 − x², x = h/2; then H = ½(I + x²q²) with q = cos nθ, θ = 2 arcsin x,
-/// and H̄ = ½ I c with c = arcsin x/(x √(1 − x²)).
+/// From q = 1, p = 0 Störmer–Verlet keeps I = p² + (1 − x²)q² = 1 − x², x = h/2; then H = ½(I + x²q²) with q = cos nθ,
+/// θ = 2 arcsin x, and H̄ = ½ I c with c = arcsin x/(x √(1 − x²)).
 #[test]
 fn the_parts_of_the_oscillator_are_in_closed_form() {
     let verlet = stepper("stormer-verlet", "3/10", &());
@@ -154,7 +155,8 @@ fn the_parts_of_the_oscillator_are_in_closed_form() {
     let rms = (a * a + a * b + 3.0 / 8.0 * b * b).sqrt();
     // E_8 is off by some (h/2)^16 = 1e-13; round-off walks
     assert!((report.modified - modified).abs() < 1e-12, "{} and {modified}", report.modified);
-    // 2000 phases come within π/400 of all, and b changes by the square of that; means are as good as the phases are even
+    // 2000 phases come within π/400 of all, and b changes by the square of that; means are as good as the phases are
+    // even
     for (found, right, tolerance) in [
         (report.energy_error, b, 1e-4),
         (report.method_least, least, 1e-4),
@@ -169,7 +171,8 @@ fn the_parts_of_the_oscillator_are_in_closed_form() {
     assert!((report.steps_per_turn.unwrap() - turn).abs() < 1e-6 * turn && report.irregular.unwrap().abs() < 1e-6);
 }
 
-/// The pendulum is nearly at rest for most of its period of 53 steps or so, and middles of windows 312 steps apart miss half of what is left.
+/// The pendulum is nearly at rest for most of its period of 53 steps or so, and middles of windows 312 steps apart miss
+/// half of what is left.
 #[test]
 fn the_mean_kinetic_energy_sees_all_phases() {
     for every in [10, 100, 312] {
@@ -187,7 +190,8 @@ fn the_mean_kinetic_energy_sees_all_phases() {
     }
 }
 
-/// At many digits H̄ is closer to its closed form than an `f64` could show; smaller numbers than an `f64` has are printed.
+/// At many digits H̄ is closer to its closed form than an `f64` could show; smaller numbers than an `f64` has are
+/// printed.
 #[test]
 fn many_digits_are_kept() {
     const DIGITS: u32 = 400;

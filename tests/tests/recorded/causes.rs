@@ -1,12 +1,12 @@
-//! What moves the energy of a fluid of 27 particles: faults that other programs have, each made here. It is found from all states, and from windows of
-//! nine with gaps between them.
+//! What moves the energy of a fluid of 27 particles: faults that other programs have, each made here. It is found from
+//! all states, and from windows of nine with gaps between them.
 
 use shadowstep::shadow::recorded::{Cause, Derivatives, Diagnosis, Logged as State, Observer, Window};
 
 use super::*;
 
-/// Steps of velocity Verlet of the fluid with a fault: `evaluate` gives U and writes the gradient of the state n, `after` changes q and p after a
-/// step, and what is logged is rounded by `store`.
+/// Steps of velocity Verlet of the fluid with a fault: `evaluate` gives U and writes the gradient of the state n,
+/// `after` changes q and p after a step, and what is logged is rounded by `store`.
 struct Run<E, A> {
     h: f64,
     steps: usize,
@@ -99,7 +99,8 @@ fn noise_is_found_with_its_size() {
     }
 }
 
-/// With large steps the motion is in the differences of the forces, too: such noise may be undecided, and is not the time step or a cutoff.
+/// With large steps the motion is in the differences of the forces, too: such noise may be undecided, and is not the
+/// time step or a cutoff.
 #[test]
 fn noise_with_large_steps_is_not_taken_for_something_else() {
     let mut found_as_noise = 0;

@@ -50,7 +50,8 @@ fn a_move_whose_image_is_not_decided_is_refused() {
     assert!(moved.iter().zip([0.0, 0.0, 0.0, 0.0, 0.1, 0.0]).all(|(a, b)| (a - b).abs() < 1e-14), "{moved:?}");
     assert_eq!(
         sentence(unwrapping.next(&[0.0, 0.0, 3.0, 0.0, 0.0, 0.0])),
-        "particle 0 moved by 0.38 of box vector 2 from state 1 to 2, at least: which image it came to is not decided; log states more often, \
+        "particle 0 moved by 0.38 of box vector 2 from state 1 to 2, at least: which image it came to is not decided; \
+            log states more often, \
          or unwrapped positions"
     );
     let mut along = Unwrapping::new(cell).unwrap().along([true, true, false]);

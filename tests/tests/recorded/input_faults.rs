@@ -73,7 +73,8 @@ fn a_step_that_is_far_too_large_is_the_time_step() {
     }
 }
 
-/// Frames of a file that is not sorted by atoms, as LAMMPS writes it unless it is asked to: of every `every`-th state the atoms are in another order.
+/// Frames of a file that is not sorted by atoms, as LAMMPS writes it unless it is asked to: of every `every`-th state
+/// the atoms are in another order.
 fn permuted(mut logged: Logged, every: usize) -> Logged {
     let dimension = logged.dimension;
     for n in (every - 1..logged.energies.len()).step_by(every) {

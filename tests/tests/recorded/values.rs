@@ -13,8 +13,8 @@ fn motion(fluid: Fluid) -> Motion<f64, Vec<f64>, Fluid, UnitMasses> {
     Motion::new(fluid, UnitMasses, q, p).unwrap()
 }
 
-/// The same estimates of the same trajectory, from its own increments and from what was logged of it. They differ by the round-off of rates:
-/// of some multiples of ε Σ|q_i U_qi|, which is 1e-12 here.
+/// The same estimates of the same trajectory, from its own increments and from what was logged of it. They differ by
+/// the round-off of rates: of some multiples of ε Σ|q_i U_qi|, which is 1e-12 here.
 #[test]
 fn of_our_own_trajectory_they_are_those_of_the_run() {
     let (fluid, h) = (fluid(), step_size("0.004"));
@@ -97,7 +97,8 @@ fn repeated_steps_give_the_bits_of_the_run() {
     assert!((of_p.slope + 0.0099).abs() < 5e-3, "{of_p:?}");
 }
 
-/// Of any scheme, the increments that a program sums in its steps give the estimates of the run, and of the same states at other steps they do not.
+/// Of any scheme, the increments that a program sums in its steps give the estimates of the run, and of the same states
+/// at other steps they do not.
 #[test]
 fn increments_of_any_splitting_give_the_estimates_of_the_run() {
     let fluid = fluid();

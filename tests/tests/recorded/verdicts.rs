@@ -6,7 +6,8 @@ use shadowstep::shadow::recorded::{Cause, Diagnosis};
 
 use super::cases::{Case, Fault, Outcome, Random, System};
 
-/// A case that looks random: step sizes from resolved to unstable, faults from those that are hardly seen to large ones.
+/// A case that looks random: step sizes from resolved to unstable, faults from those that are hardly seen to large
+/// ones.
 fn drawn(seed: u64) -> Case {
     let mut random = Random::new(seed ^ 0x5eed);
     let system = System::ALL[(random.part() * 4.0) as usize];
@@ -29,8 +30,8 @@ fn drawn(seed: u64) -> Case {
     Case { system, turn, fault, seed }
 }
 
-/// Whether the cause is right: the fault's own; or nothing, where the fault does little beside the method; or the time step, where it moves H̄ without the
-/// fault, too.
+/// Whether the cause is right: the fault's own; or nothing, where the fault does little beside the method; or the time
+/// step, where it moves H̄ without the fault, too.
 fn is_right(case: Case, found: &Diagnosis, effect: f64) -> bool {
     let without = || {
         Case { fault: Fault::None, ..case }.outcome().is_none_or(|Outcome { found: [without, _], .. }| {

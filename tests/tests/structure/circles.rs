@@ -9,7 +9,8 @@ use petgraph::graphmap::DiGraphMap;
 
 use super::imports::Imports;
 
-/// The strongly connected components of more than one file: each file imports from every other, directly or through more.
+/// The strongly connected components of more than one file: each file imports from every other, directly or through
+/// more.
 pub(crate) fn circles(imports: &Imports) -> BTreeSet<BTreeSet<PathBuf>> {
     let graph: DiGraphMap<&Path, ()> = imports.keys().map(|(from, to)| (from.as_path(), to.as_path())).collect();
     let groups = tarjan_scc(&graph).into_iter().filter(|files| files.len() > 1);

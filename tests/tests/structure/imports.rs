@@ -1,5 +1,5 @@
-//! The imports between the files of a crate: `use` declarations and paths, each resolved to the file that defines the name,
-//! through any re-export.
+//! The imports between the files of a crate: `use` declarations and paths, each resolved to the file that defines the
+//! name, through any re-export.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
@@ -21,7 +21,8 @@ enum Target {
     Elsewhere,
 }
 
-/// All imports of a crate. `mod child;` is not an import, nor is a re-export of a name that the file does not use itself.
+/// All imports of a crate. `mod child;` is not an import, nor is a re-export of a name that the file does not use
+/// itself.
 pub(crate) fn imports(source: &Crate) -> Imports {
     let mut found = Imports::new();
     let mut take = |from: &Path, targets: Vec<Target>| {

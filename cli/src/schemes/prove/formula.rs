@@ -1,7 +1,8 @@
 //! The coefficient of a word in a product of exponentials of kicks and drifts, as a formula in their names.
 //!
-//! It is the sum over the maps in which the runs of equal letters begin. A run `L^q` that begins in map i, before a run that begins in map k, has
-//! `(S_i^q − S_i'^q)/q!`: S_i is the sum of the weights of L from i to k, and S_i' without that of i. The first run may begin anywhere before the second.
+//! It is the sum over the maps in which the runs of equal letters begin. A run `L^q` that begins in map i, before a run
+//! that begins in map k, has `(S_i^q − S_i'^q)/q!`: S_i is the sum of the weights of L from i to k, and S_i' without
+//! that of i. The first run may begin anywhere before the second.
 
 use shadowstep_schemes::MapKind;
 

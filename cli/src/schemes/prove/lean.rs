@@ -1,7 +1,8 @@
-//! A certificate as a file of Lean 4 with Mathlib: the weights, the coefficients of the words, and a theorem for each condition.
+//! A certificate as a file of Lean 4 with Mathlib: the weights, the coefficients of the words, and a theorem for each
+//! condition.
 //!
-//! Rational conditions are left to `norm_num`. Those in roots are sums of the roots' equations with factors that are computed here, so that
-//! `linear_combination` has only an identity of polynomials to check.
+//! Rational conditions are left to `norm_num`. Those in roots are sums of the roots' equations with factors that are
+//! computed here, so that `linear_combination` has only an identity of polynomials to check.
 
 use num_traits::{One, Signed};
 use shadowstep_analysis::certificate::{Certificate, Kind, Polynomial, Root};
@@ -68,7 +69,8 @@ fn head(proved: &Proved, certificate: &Certificate, roots: &[Root]) -> String {
     let of_roots = match roots {
         [] => String::new(),
         _ => format!(
-            "The weights are polynomials in real numbers with {}. The conditions hold for all such numbers; the table has one choice of them.",
+            "The weights are polynomials in real numbers with {}. The conditions hold for all such numbers; the table \
+                has one choice of them.",
             (0..roots.len()).map(|place| equation(roots, place)).collect::<Vec<_>>().join(" and ")
         ),
     };
@@ -81,15 +83,21 @@ fn head(proved: &Proved, certificate: &Certificate, roots: &[Root]) -> String {
             or_none(&table.doi)
         ),
         format!(
-            "With H = T(p) + U(q), K is the Lie derivative of the kick and D that of the drift. A step is the product, in the order in which the maps act, {}. \
-            The exact motion is exp(h (K + D)). Order {order} means that a step differs from it by O(h^{}). It does so if, for each Lyndon word of m ≤ {order} letters K \
-            and D, the coefficient of the word in the product is 1/m! (Murua & Sanz-Serna 1999). Each theorem is the condition of a word; \
-            that the formulas are the coefficients of the words is for the reader to see, and not part of the theorems.",
+            "With H = T(p) + U(q), K is the Lie derivative of the kick and D that of the drift. A step is the \
+                product, in the order in which the maps act, {}. \
+            The exact motion is exp(h (K + D)). Order {order} means that a step differs from it by O(h^{}). It does \
+            so if, for each Lyndon word of m ≤ {order} letters K \
+            and D, the coefficient of the word in the product is 1/m! (Murua & Sanz-Serna 1999). Each theorem is the \
+            condition of a word; \
+            that the formulas are the coefficients of the words is for the reader to see, and not part of the \
+            theorems.",
             factors.join(" "),
             order + 1
         ),
         format!(
-            "A formula sums over the maps in which the runs of equal letters of a word begin. A run of q letters has (S^q − S'^q)/q!, S the sum of the weights from the map in which it begins to the next run, S' without that map; \
+            "A formula sums over the maps in which the runs of equal letters of a word begin. A run of q letters has \
+                (S^q − S'^q)/q!, S the sum of the weights from the map in which it begins to the next run, S' without \
+                that map; \
             the first run has S^q/q! with all weights before the second. {of_roots}"
         ),
     ];

@@ -348,8 +348,10 @@ fn exact_values_are_texts_with_doubles_beside_them() {
 /// A file of particles that was edited: what is there was made with another one.
 #[test]
 fn another_file_of_particles_is_another_sweep() {
-    let sweep = "[problem]\nparameters.g = 40\nparticles = \"p.csv\"\n[[body]]\nname = \"sun\"\nmass = 1\n[[body]]\nname = \"jupiter\"\n\
-                 mass = 0.001\na = 5\n[run]\nscheme = \"saba4\"\nstep = \"h\"\nsteps = 20\ndigits = \"double\"\n[axes]\n\
+    let sweep = "[problem]\nparameters.g = 40\nparticles = \"p.csv\"\n[[body]]\nname = \"sun\"\nmass = \
+        1\n[[body]]\nname = \"jupiter\"\n\
+                 mass = 0.001\na = 5\n[run]\nscheme = \"saba4\"\nstep = \"h\"\nsteps = 20\ndigits \
+                 = \"double\"\n[axes]\n\
                  h = [\"1/20\", \"1/40\"]\n[keep]\nvalues = [\"energy_error\"]\nstate = true\n";
     let folder = folder(sweep);
     fs::write(folder.path().join("p.csv"), "a,e\n3,0.1\n").unwrap();

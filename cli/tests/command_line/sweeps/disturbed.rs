@@ -50,7 +50,8 @@ fn saved(out: &Path) -> usize {
     entries.filter_map(|entry| entry.metadata().ok()).map(|file| file.len() as usize).sum()
 }
 
-/// Most kills come when another random number of records is saved, whatever the speed of the machine; the others come at the start.
+/// Most kills come when another random number of records is saved, whatever the speed of the machine; the others come
+/// at the start.
 #[test]
 fn killed_fifty_times_it_comes_to_the_same_bytes() {
     let wanted = undisturbed(LONG);
@@ -206,7 +207,8 @@ fn folders_that_cannot_be_written_are_named() {
     }
 }
 
-/// 10⁹ runs, of which no list would fit into 32 MiB: what is computed of them is one chunk, or what can be done until a signal.
+/// 10⁹ runs, of which no list would fit into 32 MiB: what is computed of them is one chunk, or what can be done until a
+/// signal.
 #[cfg(target_os = "linux")]
 #[test]
 fn a_billion_runs_are_never_listed() {

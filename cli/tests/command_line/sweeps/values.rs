@@ -151,7 +151,8 @@ fn rows_are_csv_whatever_the_format() {
     let kept = |file: &str| {
         let text = format!(
             "problem.name = \"pendulum\"\nrun = {{ scheme = \"yoshida4\", step = \"h\", steps = 20 }}\n\
-             output = {{ file = \"{file}\", energy = true, trajectory = true }}\naxes.h = [\"1/10\", \"1/5\"]\nkeep.rows = true\n"
+             output = {{ file = \"{file}\", energy = true, trajectory = true }}\naxes.h = \
+             [\"1/10\", \"1/5\"]\nkeep.rows = true\n"
         );
         let folder = folder(&text);
         succeeds(folder.path(), "sweep sweep.toml --out out");
@@ -168,10 +169,12 @@ fn rows_are_those_of_run() {
     for (scene, ..) in SCENES {
         let text = |step: &str, digits: &str| {
             format!(
-                "{scene}\n[run]\nscheme = \"yoshida4\"\nstep = \"{step}\"\nsteps = 7\ndigits = {digits}\n[output]\ntrajectory = true\n"
+                "{scene}\n[run]\nscheme = \"yoshida4\"\nstep = \"{step}\"\nsteps = 7\ndigits = \
+                    {digits}\n[output]\ntrajectory = true\n"
             )
         };
-        let keep = "[axes]\nd = [\"double\", \"compensated\", 40]\nh = [\"1/10\", \"1/7\"]\n[keep]\nrows = true\nstate = true\n";
+        let keep = "[axes]\nd = [\"double\", \"compensated\", 40]\nh = [\"1/10\", \"1/7\"]\n[keep]\nrows = \
+            true\nstate = true\n";
         let folder = folder(&format!("{}{keep}", text("h", "\"$d\"")));
         succeeds(folder.path(), "sweep sweep.toml --out out");
         let runs = rows_of_runs(folder.path());
@@ -210,7 +213,8 @@ fn a_manifest_describes_its_columns() {
 fn texts_that_a_spreadsheet_would_compute_are_marked() {
     let folder = folder(
         "problem.name = \"pendulum\"\nrun = { scheme = \"$scheme\", step = \"h\", steps = 4, digits = \"double\" }\n\
-         axes = { scheme = [\"=1+1.toml\", \"yoshida4\"], h = [\"-1/3\", \"1/10\"] }\nkeep.values = [\"energy_error\"]\n",
+         axes = { scheme = [\"=1+1.toml\", \"yoshida4\"], h = [\"-1/3\", \"1/10\"] }\nkeep.values = \
+         [\"energy_error\"]\n",
     );
     let table = "name = \"mine\"\norder = 2\nkinetic = \"any\"\n[stages]\nkick = [\"1/2\", \"1/2\"]\ndrift = [1, 0]\n";
     fs::write(folder.path().join("=1+1.toml"), table).unwrap();

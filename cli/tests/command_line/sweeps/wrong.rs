@@ -1,5 +1,5 @@
-//! Wrong sweeps with their messages and exit codes, in one snapshot that people read: each message states what is wrong, where, and
-//! what would be right.
+//! Wrong sweeps with their messages and exit codes, in one snapshot that people read: each message states what is
+//! wrong, where, and what would be right.
 
 use std::fs;
 

@@ -1,7 +1,7 @@
 //! Shadowstep in logarithmic time on close encounters: the error of the end state against CPU time.
 //!
-//! `close_encounters` prints a line `PROBLEM SCHEME STEP FORCES SECONDS ERROR` for each run; `close_encounters reference PROBLEM` the
-//! positions at the end, from 77 digits.
+//! `close_encounters` prints a line `PROBLEM SCHEME STEP FORCES SECONDS ERROR` for each run;
+//! `close_encounters reference PROBLEM` the positions at the end, from 77 digits.
 
 use std::time::Duration;
 

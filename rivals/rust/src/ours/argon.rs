@@ -1,5 +1,5 @@
-//! 500 argon atoms in free space: 5×5×5 cells of the face-centred cubic crystal, with the units, mass and Lennard-Jones potential
-//! of the shipped problem argon-crystal (nanometres, nanoseconds, kilograms).
+//! 500 argon atoms in free space: 5×5×5 cells of the face-centred cubic crystal, with the units, mass and Lennard-Jones
+//! potential of the shipped problem argon-crystal (nanometres, nanoseconds, kilograms).
 
 use crate::initial::Initial;
 

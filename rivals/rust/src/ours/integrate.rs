@@ -17,10 +17,11 @@ use crate::problems::exact_text;
 use crate::protocol::{Answer, Request};
 use crate::schemes::{WithGeneralScheme, WithScheme, with_drift_first, with_scheme};
 
-/// Does what a request asks for. `kepler-120` is Kepler's problem at 120 digits; `fused/SCHEME` computes with fused products, and
-/// `fused-compensated/SCHEME` with compensated sums as well; `lanes/SCHEME` with many trajectories at once; `wisdom-holman/SCHEME` with the
-/// Kepler orbits of the planets and their interactions as parts; `logarithmic/SCHEME` in logarithmic time, `logarithmic-compensated/SCHEME` with
-/// fused products and compensated sums as well.
+/// Does what a request asks for. `kepler-120` is Kepler's problem at 120 digits; `fused/SCHEME` computes with fused
+/// products, and `fused-compensated/SCHEME` with compensated sums as well; `lanes/SCHEME` with many trajectories at
+/// once; `wisdom-holman/SCHEME` with the Kepler orbits of the planets and their interactions as parts;
+/// `logarithmic/SCHEME` in logarithmic time, `logarithmic-compensated/SCHEME` with fused products and compensated sums
+/// as well.
 pub fn answer(request: &Request) -> Answer {
     let name = request.problem.strip_suffix("-120").unwrap_or(&request.problem);
     let initial = Initial::of(name);
@@ -233,7 +234,8 @@ impl WithScheme for RunPlanets<'_> {
     }
 }
 
-/// Steps of s whose mean is a step of the physical time, as the semi-major axis is 1; a sample is one step of the exact remainder away from them.
+/// Steps of s whose mean is a step of the physical time, as the semi-major axis is 1; a sample is one step of the exact
+/// remainder away from them.
 struct RunLogarithmic<'a, N, M> {
     request: &'a Request,
     number: fn(f64) -> N,

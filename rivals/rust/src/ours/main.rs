@@ -1,7 +1,7 @@
 //! Shadowstep as a contestant, and what all contestants share: initial states, weights of schemes, reference solutions.
 //!
-//! `ours` answers requests; `ours initial PROBLEM` prints parameters, masses, q and p, a line each; `ours weights SCHEME` the maps of
-//! a step; `ours reference PROBLEM UNTIL STEPS` the final q at 40 digits.
+//! `ours` answers requests; `ours initial PROBLEM` prints parameters, masses, q and p, a line each;
+//! `ours weights SCHEME` the maps of a step; `ours reference PROBLEM UNTIL STEPS` the final q at 40 digits.
 
 mod argon;
 mod initial;

@@ -11,7 +11,8 @@ use crate::number::Real;
 
 /// A text of this many digits survives being read and printed.
 const SURVIVING_DIGITS: i64 = 31;
-/// Nearly all numbers have at most this number of digits; others have a low part of 0, or one that is far below the high part.
+/// Nearly all numbers have at most this number of digits; others have a low part of 0, or one that is far below the
+/// high part.
 const USUAL_DIGITS: i64 = 36;
 
 /// The shortest text that reads back.

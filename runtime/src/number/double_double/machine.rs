@@ -32,7 +32,8 @@ pub trait Machine:
     /// The pair in lanes where `test` is finite; else the plain result and 0.
     fn if_finite(test: Self, pair: (Self, Self), plain: Self) -> (Self, Self);
 
-    /// `less` in lanes where a < b, else `otherwise`; pairs are compared by their first numbers, then by their second ones.
+    /// `less` in lanes where a < b, else `otherwise`; pairs are compared by their first numbers, then by their second
+    /// ones.
     fn where_less(a: (Self, Self), b: (Self, Self), less: (Self, Self), otherwise: (Self, Self)) -> (Self, Self);
 
     /// Applies functions to the pair of each lane.

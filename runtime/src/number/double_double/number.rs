@@ -28,8 +28,8 @@ macro_rules! functions {
     )*};
 }
 
-/// Increments are not kept. Without them, E_8 of Kepler's problem (e = 0.6) scatters by 0.15 u²/h from step to step: by 2e-31 with
-/// h = 1/100, 2e-30 with h = 1/1000. To keep them would cost two more sums a coordinate and map.
+/// Increments are not kept. Without them, E_8 of Kepler's problem (e = 0.6) scatters by 0.15 u²/h from step to step: by
+/// 2e-31 with h = 1/100, 2e-30 with h = 1/1000. To keep them would cost two more sums a coordinate and map.
 impl<T: Machine> Number for DoubleDouble<T> {
     type Context = ();
     type Block = [Self; BLOCK];

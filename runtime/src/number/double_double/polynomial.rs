@@ -2,7 +2,8 @@
 
 use super::DoubleDouble;
 
-/// c₀ + x (c₁ + x (c₂ + …)) over `double` and then `single`, which are so small that `f64` is enough for the sum of their terms.
+/// c₀ + x (c₁ + x (c₂ + …)) over `double` and then `single`, which are so small that `f64` is enough for the sum of
+/// their terms.
 #[inline(always)]
 pub(super) fn polynomial(x: DoubleDouble, double: &[(f64, f64)], single: &[(f64, f64)]) -> DoubleDouble {
     let tail = single.iter().rev().fold(0.0, |sum, &(c, _)| sum * x.high + c);

@@ -2,8 +2,8 @@
 
 /// a b − p, where p = a b is rounded, exactly.
 ///
-/// By a fused multiply-add where the processor has it: where it is known at compile time, by [`f64::mul_add`]; else by the one
-/// instruction, as `mul_add` would call a function of the C library.
+/// By a fused multiply-add where the processor has it: where it is known at compile time, by [`f64::mul_add`]; else by
+/// the one instruction, as `mul_add` would call a function of the C library.
 #[inline(always)]
 pub(super) fn error_of_product(a: f64, b: f64, product: f64) -> f64 {
     if cfg!(any(target_feature = "fma", target_arch = "aarch64")) {

@@ -61,7 +61,8 @@ proptest! {
         prop_assert_eq!(number(&x.to_text()), x);
     }
 
-    /// The exact number to as many digits, and one digit less does not read back; at the ends of exponents and beside ties, too.
+    /// The exact number to as many digits, and one digit less does not read back; at the ends of exponents and beside
+    /// ties, too.
     #[test]
     fn text_is_the_shortest(bits: u64, ratio in -0.5..0.5, end in 0..6) {
         let high = f64::from_bits(bits & !(1 << 63));
@@ -152,7 +153,8 @@ proptest! {
                 let (some, others, more) = (operations(a, b, c), products(a, b, c), functions(a));
                 for (i, (found, own)) in found.iter().zip(some.iter().chain(&others).chain(&more)).enumerate() {
                     let found = bits(found.0.0[lane], found.1.0[lane]);
-                    prop_assert_eq!(found, bits(own.high, own.low), "{:?} operation {}: {:?} {:?} {:?}", instructions, i, a, b, c);
+                    prop_assert_eq!(found, bits(own.high, own.low), "{:?} operation {}: {:?} {:?} \
+                        {:?}", instructions, i, a, b, c);
                 }
             }
         }

@@ -113,7 +113,8 @@ fn shifted(x: f64, bits: i32) -> BigInt {
     (BigInt::from(mantissa) * i32::from(sign)) << (i32::from(exponent) + bits)
 }
 
-/// From the `f64` z near it: arctan x = z + (x cos z − sin z)/(cos z + x sin z), the arctangent of the quotient being the quotient
+/// From the `f64` z near it: arctan x = z + (x cos z − sin z)/(cos z + x sin z), the arctangent of the quotient being
+/// the quotient
 pub(super) fn atan(x: DoubleDouble) -> DoubleDouble {
     let z = x.high.atan();
     if x.high.is_infinite() {

@@ -61,7 +61,8 @@ impl<N: Number, const K: usize> Block<Dual<N, K>> for DualBlock<N::Block, K> {
 fn column<N, const K: usize>(columns: &[Dual<N, K>], k: usize) -> &[N] {
     let length = columns.len();
     assert!(k <= K, "there are K derivatives");
-    // SAFETY: a `Dual` is `repr(C)`, K + 1 of N and nothing else, so that these are initialised numbers in the same memory
+    // SAFETY: a `Dual` is `repr(C)`, K + 1 of N and nothing else, so that these are initialised numbers in the same
+    // memory
     unsafe { std::slice::from_raw_parts(columns.as_ptr().cast::<N>().add(k * length), length) }
 }
 

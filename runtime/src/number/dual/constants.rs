@@ -1,7 +1,8 @@
 //! Derivatives of the constants of a computation by a parameter.
 //!
-//! Constants enter numbers as rationals, rounded once. What makes them, from the text of a scene to the masses of planets, knows nothing of derivatives; but
-//! it is exact, so that its difference at two values of the parameter has as many digits as one wants.
+//! Constants enter numbers as rationals, rounded once. What makes them, from the text of a scene to the masses of
+//! planets, knows nothing of derivatives; but it is exact, so that its difference at two values of the parameter has as
+//! many digits as one wants.
 
 use std::cell::RefCell;
 
@@ -52,11 +53,13 @@ pub(super) fn derivative(value: &Rational) -> Option<Rational> {
     })
 }
 
-/// What `make` gives of [dual numbers](super::Dual) whose constants have their derivatives by a parameter, along the first direction.
+/// What `make` gives of [dual numbers](super::Dual) whose constants have their derivatives by a parameter, along the
+/// first direction.
 ///
-/// `make` gets 0, where it makes what is wanted; 1 and 2, where it makes the same with the parameter at the same value and at one that
-/// is larger by `distance`, both exactly or to many digits: the derivatives are the differences of the constants of these two, divided by the distance, with an
-/// error of the size of the distance. Every constant is one that [`Number::from_rational`](super::Number::from_rational) makes on this thread.
+/// `make` gets 0, where it makes what is wanted; 1 and 2, where it makes the same with the parameter at the same value
+/// and at one that is larger by `distance`, both exactly or to many digits: the derivatives are the differences of the
+/// constants of these two, divided by the distance, with an error of the size of the distance. Every constant is one
+/// that [`Number::from_rational`](super::Number::from_rational) makes on this thread.
 ///
 /// ```
 /// use shadowstep::number::{Dual, Number, with_parameter};

@@ -1,8 +1,9 @@
-//! exp, log, sin and cos of several `f64` at once: without branches, so that the compiler makes vector operations of the loops.
+//! exp, log, sin and cos of several `f64` at once: without branches, so that the compiler makes vector operations of
+//! the loops.
 //!
-//! Polynomials and reductions are taken from fdlibm (Copyright (C) 1993 by Sun Microsystems, Inc.; permission to use, copy, modify, and distribute is
-//! freely granted, provided that this notice is preserved), with every case of an argument computed and the right one selected. No operation
-//! is fused: the bits are the same on all processors.
+//! Polynomials and reductions are taken from fdlibm (Copyright (C) 1993 by Sun Microsystems, Inc.; permission to use,
+//! copy, modify, and distribute is freely granted, provided that this notice is preserved), with every case of an
+//! argument computed and the right one selected. No operation is fused: the bits are the same on all processors.
 
 use crate::number::instructions;
 
@@ -165,7 +166,8 @@ fn selected(n: u64, sin: f64, cos: f64) -> f64 {
     f64::from_bits(value ^ ((n & 2) << 62))
 }
 
-/// x = n π/2 + r₀ + r₁, |r₀| ≤ π/4; of n only the last bits. π/2 is taken in parts of 33 bits, whose products with n are exact.
+/// x = n π/2 + r₀ + r₁, |r₀| ≤ π/4; of n only the last bits. π/2 is taken in parts of 33 bits, whose products with n
+/// are exact.
 #[inline(always)]
 #[allow(clippy::excessive_precision, reason = "as in the source")]
 fn reduced(x: f64) -> (u64, [f64; 2]) {

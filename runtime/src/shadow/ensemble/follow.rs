@@ -108,8 +108,8 @@ impl<S: Scheme + ValidFor<M::Class>, M: System> Systems for InTurns<'_, S, M> {
     }
 }
 
-/// The outcomes of all lanes of the systems, which are at their initial states, after `steps` steps; the energy is looked at every `every` steps. `None` where
-/// `continues` returns false.
+/// The outcomes of all lanes of the systems, which are at their initial states, after `steps` steps; the energy is
+/// looked at every `every` steps. `None` where `continues` returns false.
 pub fn outcomes<T: Systems + ?Sized, E: Estimator<T::Number> + Clone>(
     systems: &mut T,
     (steps, every): (u64, u64),

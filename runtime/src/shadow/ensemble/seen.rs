@@ -14,13 +14,16 @@ pub struct Outcome {
     pub p: Vec<f64>,
     /// H at the beginning and at the end; NaN at the end of a trajectory that is not finite.
     pub energies: [f64; 2],
-    /// The largest |H − H₀|/|H₀| that was seen, H₀ at the beginning: finite ones only; `None` where H₀ is 0 or not finite.
+    /// The largest |H − H₀|/|H₀| that was seen, H₀ at the beginning: finite ones only; `None` where H₀ is 0 or not
+    /// finite.
     pub energy_error: Option<f64>,
     /// max − min of the modified energy; `None` where it was not asked for, or no k + 1 states were finite.
     pub modified_drift: Option<f64>,
-    /// The first estimate of the modified energy and the last one; `None` as before, NaN for the last one of a trajectory that is not finite.
+    /// The first estimate of the modified energy and the last one; `None` as before, NaN for the last one of a
+    /// trajectory that is not finite.
     pub modified_energies: Option<[f64; 2]>,
-    /// The first step after which the state or the energy was found to be infinite or NaN. Other trajectories do not notice.
+    /// The first step after which the state or the energy was found to be infinite or NaN. Other trajectories do not
+    /// notice.
     pub not_finite: Option<u64>,
 }
 
@@ -48,7 +51,8 @@ struct Lane {
 }
 
 impl<E: Clone> Seen<E> {
-    /// Of a system at its first states, for a processed scheme those of its trajectories; the estimator has no states yet.
+    /// Of a system at its first states, for a processed scheme those of its trajectories; the estimator has no states
+    /// yet.
     pub(super) fn new<M: System + ?Sized>(system: &mut M, estimator: Option<E>) -> Self {
         let energy = system.energy();
         let lane = |lane| Lane::from_energy(energy.lane(lane).0);
@@ -78,8 +82,8 @@ impl<E: Clone> Seen<E> {
         }
     }
 
-    /// What the step from the present state, the n-th one, carries along: increments in a window of states for the modified energy. One begins every
-    /// `every` steps, where it does not prolong the one before.
+    /// What the step from the present state, the n-th one, carries along: increments in a window of states for the
+    /// modified energy. One begins every `every` steps, where it does not prolong the one before.
     pub(super) fn carried<M: System + ?Sized>(&mut self, n: u64, every: u64, system: &M) -> Carried
     where
         E: Estimator<M::Number>,

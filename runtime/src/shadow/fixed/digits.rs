@@ -1,7 +1,8 @@
 //! Numbers in fixed point as digits of 57 bits with signs, in words of 64.
 //!
-//! A word has room for several sums of digits, and two words for those of products, so that carries are settled once for many operations, and no operation
-//! waits for another's. Signs are those of the digits: a difference or a product is one without a test.
+//! A word has room for several sums of digits, and two words for those of products, so that carries are settled once
+//! for many operations, and no operation waits for another's. Signs are those of the digits: a difference or a product
+//! is one without a test.
 
 use super::{MOST_LIMBS, NOT_FINITE, Offset, ZERO, negate};
 use crate::number::Parts;
@@ -37,8 +38,8 @@ pub(super) struct Highest {
 /// How many times digits may double before they are settled.
 pub(super) const SUMS: usize = 5;
 
-/// Writes x; returns the place of the lowest digit. Bits below it are dropped: |x| is smaller than 2^(BITS (place + count) − offset − 2), but not
-/// than 2^−BITS times that.
+/// Writes x; returns the place of the lowest digit. Bits below it are dropped: |x| is smaller than 2^(BITS (place +
+/// count) − offset − 2), but not than 2^−BITS times that.
 pub(super) fn write(parts: Parts<'_>, offset: Offset, digits: &mut [i64]) -> i64 {
     let (negative, exponent, significand) = match parts {
         Parts::Regular { negative, exponent, significand } => (negative, exponent, significand),
@@ -90,8 +91,9 @@ pub(super) fn join(next: &mut i64, highest: &mut i64) {
     *highest = 0;
 }
 
-/// Adds f a to columns, where a has n digits, and f has n + 1, its highest one first: from the column n − 1 on, which is one below the unit of a times the
-/// highest digit of f. The columns below are lost, less than 32 n units of the column n.
+/// Adds f a to columns, where a has n digits, and f has n + 1, its highest one first: from the column n − 1 on, which
+/// is one below the unit of a times the highest digit of f. The columns below are lost, less than 32 n units of the
+/// column n.
 #[inline(always)]
 pub(super) fn add_product(n: usize, columns: &mut [i128], f: &[i64], a: &[i64]) {
     let (columns, f, a) = (&mut columns[..n + 1], &f[..n + 1], &a[..n]);
@@ -126,8 +128,8 @@ pub(super) fn carry(columns: &mut [i128]) {
     *highest += carry;
 }
 
-/// Writes the magnitude of the number in columns, of which the highest is smaller than 2^60, into limbs, as many as are needed; returns them, and whether
-/// it is below 0.
+/// Writes the magnitude of the number in columns, of which the highest is smaller than 2^60, into limbs, as many as are
+/// needed; returns them, and whether it is below 0.
 pub(super) fn magnitude<'l>(columns: &[i128], limbs: &'l mut [u64]) -> (&'l [u64], bool) {
     let Some((highest, rest)) = columns.split_last() else { unreachable!("there is a column") };
     let (mut at, mut bits, mut limb) = (0, 0, 0);

@@ -4,7 +4,8 @@
 //!
 //! E_k = 1/(h C(2k,k)) Σ_ℓ Σ_j C(k,j+ℓ) C(k,j) (−1)^ℓ B(j + ℓ, j)/ℓ
 //!
-//! For k ≤ 34 a weight is one limb. Sums have a limb below the unit of the coarsest row, and are rounded once at the end.
+//! For k ≤ 34 a weight is one limb. Sums have a limb below the unit of the coarsest row, and are rounded once at the
+//! end.
 
 use num_bigint::{BigInt, Sign};
 
@@ -118,7 +119,8 @@ impl<'a> Sums<'a> {
         Sums { rows, weights, weights_are_limbs, low: ZERO, limbs: [[0; MOST_OF_SUM]; 2] }
     }
 
-    /// Adds the rows of a lag with the weights of each kind; those at the same distance from both ends have the same weight.
+    /// Adds the rows of a lag with the weights of each kind; those at the same distance from both ends have the same
+    /// weight.
     pub(in crate::shadow) fn add(&mut self, of_lag: OfLag) {
         by_limbs!(add_rows(self.rows.size, self, of_lag));
     }
@@ -187,7 +189,8 @@ fn add_rows(len: usize, sums: &mut Sums<'_>, of_lag: OfLag) {
     }
 }
 
-/// Adds two rows at the place of the sum, where weights have one limb: what nearly all are. Nothing is called, so that the limbs stay in registers.
+/// Adds two rows at the place of the sum, where weights have one limb: what nearly all are. Nothing is called, so that
+/// the limbs stay in registers.
 #[inline(always)]
 fn add_pair(len: usize, sums: &mut Sums<'_>, [a, b]: [&[u64]; 2], (lag, j): (usize, usize)) {
     let mut row = [0; MOST_OF_ROW];

@@ -1,7 +1,9 @@
-//! Products of the newest state with those before it, in fixed point: the pairs of states of which no increments are known but those of β.
+//! Products of the newest state with those before it, in fixed point: the pairs of states of which no increments are
+//! known but those of β.
 //!
-//! Coordinates are magnitudes with signs. Their offset is such that the upper half of a product has the offset of pairs, and is added to a pair without a
-//! shift. As both factors may have a limb of leading zeros, a pair is summed with a limb below its row.
+//! Coordinates are magnitudes with signs. Their offset is such that the upper half of a product has the offset of
+//! pairs, and is added to a pair without a shift. As both factors may have a limb of leading zeros, a pair is summed
+//! with a limb below its row.
 
 use shadowstep_limbs::fixed;
 
@@ -84,7 +86,8 @@ impl StateRows {
         self.of_beta.set(place, of_beta);
     }
 
-    /// Writes (q_i·p − p_i·q + β − β_i)/((−1)^i i) of the newest state and the i-th before it, i = 1, 2, …, `count`, to the rows of lags.
+    /// Writes (q_i·p − p_i·q + β − β_i)/((−1)^i i) of the newest state and the i-th before it, i = 1, 2, …, `count`, to
+    /// the rows of lags.
     pub(in crate::shadow) fn write_pairs(&self, newest: usize, count: usize, rows: &mut Rows) {
         let write = match self.size {
             3 => Self::write_pairs_of::<3>,
@@ -290,8 +293,8 @@ mod tests {
         }
     }
 
-    /// A row of a number of L limbs has 64 L − 1 bits or more, and a pair is rounded once: its error is 2^(1 − 64 L) of its largest term, whatever sizes
-    /// coordinates have.
+    /// A row of a number of L limbs has 64 L − 1 bits or more, and a pair is rounded once: its error is 2^(1 − 64 L) of
+    /// its largest term, whatever sizes coordinates have.
     #[test]
     fn pairs_are_exact_to_the_last_place_of_their_largest_term() {
         let mut random = Pcg64Mcg::seed_from_u64(37);

@@ -1,24 +1,28 @@
 //! The table of differences in fixed point.
 //!
-//! A number takes as many [digits](super::digits) as its bits need at any place, and the table has room for one more. The differences of a level are
-//! exact in the rows of the level before, and their carries are settled at every fifth. A level has only as many digits as its differences need; and at the
-//! levels 57, 114, … the lowest digit of its rows is dropped: term k of Stirling's series has c_k ≈ 2^{1−2k} √(π/k), so that a unit of a difference of
-//! order 2k − 1 counts 2^{2k−1} times less than one of a state. Each term is multiplied to the precision that its difference has: for one of n digits only
-//! the n + 1 upper digits of q and p are used, and the columns of the product from the digit below its unit on.
+//! A number takes as many [digits](super::digits) as its bits need at any place, and the table has room for one more.
+//! The differences of a level are exact in the rows of the level before, and their carries are settled at every fifth.
+//! A level has only as many digits as its differences need; and at the levels 57, 114, … the lowest digit of its rows
+//! is dropped: term k of Stirling's series has c_k ≈ 2^{1−2k} √(π/k), so that a unit of a difference of order 2k − 1
+//! counts 2^{2k−1} times less than one of a state. Each term is multiplied to the precision that its difference has:
+//! for one of n digits only the n + 1 upper digits of q and p are used, and the columns of the product from the digit
+//! below its unit on.
 
 use super::digits::{self, BITS, MORE, MOST_DIGITS, SUMS, digits_of, magnitude};
 use super::{NOT_FINITE, Offset, ZERO, by_limbs};
 use crate::number::{LimbAccess, Number, Parts, instructions};
 use crate::systems::increments::Increments;
 
-/// The offset of q and p, so that numbers in [2^−10, 2^47) have the same place; and the offset of their products and of β.
+/// The offset of q and p, so that numbers in [2^−10, 2^47) have the same place; and the offset of their products and of
+/// β.
 const OFFSET: Offset = 8;
 const OFFSET_OF_PRODUCTS: Offset = 2 * OFFSET;
 
 /// The most columns of a term: one below the unit of its difference, and two above its digits.
 const MOST_COLUMNS: usize = MOST_DIGITS + 3;
 
-/// How many products fit into columns before their carries are settled: each is smaller than 2^(57 + 62) times its number of digits.
+/// How many products fit into columns before their carries are settled: each is smaller than 2^(57 + 62) times its
+/// number of digits.
 const UNSETTLED: usize = 8;
 
 /// ∇^r of (q, p, β) at the newest state, r = 0..2M−1, and at the one before.
@@ -29,7 +33,8 @@ pub(in crate::shadow) struct FixedTable<N> {
     digits: usize,
     newest: Vec<Level>,
     before: Vec<Level>,
-    /// p and −q of the newest M + 1 states, the factors of δq and δp, with their highest digits first; the state n in place n mod their number.
+    /// p and −q of the newest M + 1 states, the factors of δq and δp, with their highest digits first; the state n in
+    /// place n mod their number.
     factors: Vec<Level>,
     /// That of the newest state.
     place: usize,
@@ -161,7 +166,8 @@ impl Level {
         self.len = self.len.max(len);
     }
 
-    /// Sets the rows to p and −q, of as many digits as there is room for, and `low` to what the place of a product is above that of its other factor.
+    /// Sets the rows to p and −q, of as many digits as there is room for, and `low` to what the place of a product is
+    /// above that of its other factor.
     fn set_factors<'a>(&mut self, q: impl Iterator<Item = Parts<'a>>, p: impl Iterator<Item = Parts<'a>>) {
         self.set(0, self.room, p.chain(q.map(negative)), OFFSET);
         self.rows_mut().for_each(<[i64]>::reverse);
@@ -265,7 +271,8 @@ fn have_one_place(a: i64, b: i64) -> bool {
 }
 
 impl SumOfTerm {
-    /// Computes it; returns its columns, or `None` if it is not finite. Not inlined: it is compiled once for all number types.
+    /// Computes it; returns its columns, or `None` if it is not finite. Not inlined: it is compiled once for all number
+    /// types.
     #[inline(never)]
     fn compute(&mut self, factors: &Level, [newest, before]: [&Level; 2]) -> Option<&mut [i128]> {
         let len = newest.len.max(before.len);

@@ -7,7 +7,8 @@ use crate::shadow::weights::BilinearWeights;
 /// The weights of a form.
 #[derive(Clone, Debug)]
 pub(super) struct LaggedForm<N> {
-    /// For each state of a window, the newest first, the weights of its products with the steps before it, the oldest first.
+    /// For each state of a window, the newest first, the weights of its products with the steps before it, the oldest
+    /// first.
     weights: Vec<N>,
 }
 
@@ -23,7 +24,8 @@ impl<N: Number> LaggedForm<N> {
         LaggedForm { weights }
     }
 
-    /// value ← the form at the window that a state ends, from its products and the products of the states before it, the newest last.
+    /// value ← the form at the window that a state ends, from its products and the products of the states before it,
+    /// the newest last.
     #[inline(always)]
     pub(super) fn evaluate<const K: usize>(&self, products: &[N; K], before: &[[N; K]; K], value: &mut N) {
         let weights: &[[N; K]; K] = self.weights.as_chunks().0.try_into().expect("as many states as lags");
@@ -65,8 +67,8 @@ fn of_pair(weights: &BilinearWeights, lag: usize, j: usize, h: &Rational) -> Rat
     Rational::new(weights.numerator(lag, j) * h.denom(), weights.denominator(lag) * h.numer() * 2)
 }
 
-/// A pair is a sum over the steps between its states, so that the weight of the state j with the m-th step before it, m = 0, 1, …, is the
-/// sum of the weights of all pairs with a state j + ℓ before that step: ℓ > m.
+/// A pair is a sum over the steps between its states, so that the weight of the state j with the m-th step before it,
+/// m = 0, 1, …, is the sum of the weights of all pairs with a state j + ℓ before that step: ℓ > m.
 fn of_steps(k: u32, weight: impl Fn(usize, usize) -> Rational) -> Vec<Vec<Rational>> {
     let of_state = |j: usize| {
         let mut sum = zero();

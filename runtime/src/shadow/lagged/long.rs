@@ -9,7 +9,8 @@ const LANES: usize = 8;
 /// This number of lags take turns.
 const AT_ONCE: usize = 4;
 
-/// Some of what a step added to q and p. Each is a line of a processor's cache, which vectors of `f64` then do not cross.
+/// Some of what a step added to q and p. Each is a line of a processor's cache, which vectors of `f64` then do not
+/// cross.
 #[derive(Clone, Debug)]
 #[repr(align(64))]
 struct Group<N> {

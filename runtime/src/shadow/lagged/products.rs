@@ -28,8 +28,8 @@ impl<N: Number> LaggedProducts<N> {
         self.long.fields(to);
     }
 
-    /// Takes what a step added, and the state that it led to; q·δp − p·δq + δβ of the newest K = `lags` steps, the oldest first. Steps have the places
-    /// 0 to K − 1 in turn. Those before the newest `known` steps may be left out.
+    /// Takes what a step added, and the state that it led to; q·δp − p·δq + δβ of the newest K = `lags` steps, the
+    /// oldest first. Steps have the places 0 to K − 1 in turn. Those before the newest `known` steps may be left out.
     #[inline(always)]
     pub(super) fn of_state<const K: usize>(
         &mut self,

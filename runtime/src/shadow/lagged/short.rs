@@ -13,7 +13,8 @@ const STEPS: usize = 8;
 struct Row<N>([N; 2 * STEPS]);
 
 impl<N: Number> Row<N> {
-    /// The steps before the newest, whose place this is, the oldest first; and in place of the newest the one K steps before it.
+    /// The steps before the newest, whose place this is, the oldest first; and in place of the newest the one K steps
+    /// before it.
     #[inline(always)]
     fn before<const K: usize>(&self, place: usize) -> &[N; K] {
         self.0[place % K + 1..].first_chunk().expect("K of 2 K")

@@ -1,5 +1,5 @@
-//! The energies of a run in fixed memory: of each of at most 64 equal parts the most accurate modified energy, and the means of H
-//! and H̄.
+//! The energies of a run in fixed memory: of each of at most 64 equal parts the most accurate modified energy, and the
+//! means of H and H̄.
 
 use super::arithmetic::{integer, quotient};
 use super::estimated::Estimated;
@@ -14,8 +14,8 @@ const BLOCKS: usize = 64;
 pub(super) struct Block<N> {
     /// The estimate with the smallest error.
     ///
-    /// The modified energy is constant while the error of its estimates is not: near a close encounter it can be larger by many
-    /// orders of magnitude.
+    /// The modified energy is constant while the error of its estimates is not: near a close encounter it can be larger
+    /// by many orders of magnitude.
     pub(super) best: Estimated<N>,
     /// Σ (H − H_0), H_0 the energy of the first state.
     energy: N,
@@ -175,8 +175,8 @@ mod tests {
 
     #[test]
     fn merged_blocks_keep_the_most_accurate() {
-        // 64 of 16 estimates become 32 of 32, each with accurate ones; ties go to the newest of a block, to the first of
-        // two blocks
+        // 64 of 16 estimates become 32 of 32, each with accurate ones; ties go to the newest of a block, to the first
+        // of two blocks
         let all = blocks(1024);
         assert_eq!((all.best().count(), all.size), (32, 32));
         let found = values(&all.accurate());

@@ -5,8 +5,8 @@
 pub(super) struct Change {
     pub(super) value: f64,
     pub(super) error: f64,
-    /// The last mean less the first one: a straight line underestimates a jump near an end of the run. 0 of fewer than 4 numbers, as where they are in an
-    /// oscillation is chance.
+    /// The last mean less the first one: a straight line underestimates a jump near an end of the run. 0 of fewer than
+    /// 4 numbers, as where they are in an oscillation is chance.
     pub(super) of_ends: f64,
 }
 
@@ -20,8 +20,8 @@ const LARGEST_CORRELATION: f64 = 0.95;
 impl Change {
     /// Of means of `size` numbers each; `None` for fewer than 16 means, or numbers that are not finite.
     ///
-    /// The standard error for independent residuals is multiplied by √((1 + r)/(1 − r)), r the correlation of successive ones: a slow
-    /// oscillation or a random walk is not known better for being sampled often.
+    /// The standard error for independent residuals is multiplied by √((1 + r)/(1 − r)), r the correlation of
+    /// successive ones: a slow oscillation or a random walk is not known better for being sampled often.
     pub(super) fn of(series: &[f64], size: u64) -> Option<Change> {
         let count = series.len() as f64;
         if series.len() < 16 || !series.iter().all(|value| value.is_finite()) {

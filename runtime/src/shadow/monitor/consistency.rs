@@ -26,7 +26,8 @@ impl<N: Real> Consistency<N> {
         Consistency { rounding, mismatch: false, mismatches: 0, two, x: zero(), y: zero() }
     }
 
-    /// Compares a vector after a step with the one before and with what the step added. Returns whether what has changed is certainly finite.
+    /// Compares a vector after a step with the one before and with what the step added. Returns whether what has
+    /// changed is certainly finite.
     #[inline(always)]
     pub(super) fn compare(&mut self, before: &[N], after: &[N], added: &[N]) -> bool {
         let Consistency { rounding, two, x, y, .. } = self;
@@ -61,8 +62,8 @@ pub(super) fn square_rounding<N: Real>(context: &N::Context) -> N {
     rounding
 }
 
-/// Whether a state differs from the one before plus its increments, by more than 1/1000 of these and 1000 ε of its numbers: of q, or of p. `None` where squares
-/// are not finite.
+/// Whether a state differs from the one before plus its increments, by more than 1/1000 of these and 1000 ε of its
+/// numbers: of q, or of p. `None` where squares are not finite.
 ///
 /// Increments that a plain step left behind belong to an earlier step, or are 0.
 #[inline(always)]

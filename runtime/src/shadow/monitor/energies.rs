@@ -6,7 +6,8 @@ use crate::number::saved::Fields;
 
 /// H of the windows whose middle has come, but not yet their end.
 ///
-/// They are found at the middle itself, where the gradient of the last kick is known, from which H follows without an evaluation.
+/// They are found at the middle itself, where the gradient of the last kick is known, from which H follows without an
+/// evaluation.
 #[derive(Clone, Debug)]
 pub(super) struct Energies<N> {
     /// Where the next middle is.
@@ -23,7 +24,8 @@ pub(super) struct Energies<N> {
     checks: u64,
 }
 
-/// The rate is checked in this number of windows, then in one window of as many; of windows that overlap, in windows that have no state in common.
+/// The rate is checked in this number of windows, then in one window of as many; of windows that overlap, in windows
+/// that have no state in common.
 const CHECKS: u64 = 8;
 /// There a part of the windows is enough: they have as many states as windows with plain steps between them.
 const CHECKS_OF_OVERLAPPING: u64 = 64;

@@ -138,8 +138,8 @@ impl<N: Real> Fastest<N> {
         Sums { squares: of(0), products: of(1), fourths: of(2) }
     }
 
-    /// A coordinate that turned fast in the first five states, and turns at most a third as fast, or not at all, in the windows since; counted from
-    /// 0, with the angle by which it turned.
+    /// A coordinate that turned fast in the first five states, and turns at most a third as fast, or not at all, in the
+    /// windows since; counted from 0, with the angle by which it turned.
     pub(super) fn lost(&self) -> Option<(usize, f64)> {
         if self.begun < STATES {
             return None;
@@ -151,8 +151,9 @@ impl<N: Real> Fastest<N> {
             .reduce(|fastest, other| if other.1 > fastest.1 { other } else { fastest })
     }
 
-    /// The angle by which a coordinate turned in the first five states, π where it turned by more than half a turn a step; `None` where
-    /// the second difference in the middle is small beside its neighbours or is round-off, so that it decides nothing.
+    /// The angle by which a coordinate turned in the first five states, π where it turned by more than half a turn a
+    /// step; `None` where the second difference in the middle is small beside its neighbours or is round-off, so that
+    /// it decides nothing.
     fn angle_at_start(&self, i: usize) -> Option<f64> {
         let p = |n: usize| &self.start[n][i];
         let [mut before, mut middle, mut after] = [(); 3].map(|()| self.x.clone());

@@ -16,7 +16,8 @@ pub(super) struct Kicks<N> {
     /// Evaluations of the gradient up to the newest state, and in the step to it.
     evaluations: u64,
     stages: u64,
-    /// The newest state is one that was restored, up to which this run has made no evaluations: those of the next step are taken for the same.
+    /// The newest state is one that was restored, up to which this run has made no evaluations: those of the next step
+    /// are taken for the same.
     restored: bool,
     /// The most of them that are counted as stages of a step.
     pub(super) most_stages: u64,
@@ -78,8 +79,8 @@ impl<N: Real> Kicks<N> {
         self.compensated = system.state().is_compensated();
     }
 
-    /// Adds s (cε/h)² Σ ((Δq p)² + (Δp q)²): T_p is Δq/h, U_q is −Δp/h, and s stages round q and p by cε|q| and cε|p| each; where sums are
-    /// compensated, Δq and Δp.
+    /// Adds s (cε/h)² Σ ((Δq p)² + (Δp q)²): T_p is Δq/h, U_q is −Δp/h, and s stages round q and p by cε|q| and cε|p|
+    /// each; where sums are compensated, Δq and Δp.
     #[inline(always)]
     pub(super) fn add(&mut self, [before, s0, s1]: &[StateView<'_, N>; STATES_KEPT]) {
         let Kicks { two, x, y, z, .. } = self;

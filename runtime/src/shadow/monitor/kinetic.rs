@@ -10,8 +10,8 @@ const STATES_IN_A_DISTANCE: u64 = 4;
 
 /// T at one state of each stretch of some steps.
 ///
-/// Its place there is irregular: middles of windows, which are spread evenly, do not see all phases of a motion whose period has one of some ratios to
-/// their distance, and their mean of T was up to a factor of 2 off.
+/// Its place there is irregular: middles of windows, which are spread evenly, do not see all phases of a motion whose
+/// period has one of some ratios to their distance, and their mean of T was up to a factor of 2 off.
 #[derive(Clone, Debug)]
 pub(super) struct MeanKinetic<N> {
     /// The steps of a stretch.
@@ -83,7 +83,8 @@ impl<N: Real> MeanKinetic<N> {
     }
 }
 
-/// The state in a stretch, which is at an independent place in each: the finaliser of SplitMix64 (Steele, Lea and Flood 2014), scaled.
+/// The state in a stretch, which is at an independent place in each: the finaliser of SplitMix64 (Steele, Lea and Flood
+/// 2014), scaled.
 #[inline]
 fn state_of(number: u64, stretch: u64) -> u64 {
     if stretch == 1 {

@@ -1,5 +1,6 @@
-//! The newest states of a window, and what follows from them besides H̄: the effect of round-off on the energy ([`Kicks`]), the angle by which
-//! the fastest motion turns ([`TurningSums`]), and whether the states belong to the increments ([`Consistency`]).
+//! The newest states of a window, and what follows from them besides H̄: the effect of round-off on the energy
+//! ([`Kicks`]), the angle by which the fastest motion turns ([`TurningSums`]), and whether the states belong to the
+//! increments ([`Consistency`]).
 
 use super::arithmetic::{integer, quotient};
 use super::consistency::Consistency;
@@ -74,7 +75,8 @@ impl<N: Real> NewestStates<N> {
         self
     }
 
-    /// Takes the next state of a window, to which an augmented step may have led. Returns whether q and p are certainly finite, if those before were.
+    /// Takes the next state of a window, to which an augmented step may have led. Returns whether q and p are certainly
+    /// finite, if those before were.
     #[inline(always)]
     pub(super) fn push<M: System<Number = N> + ?Sized>(&mut self, system: &M, is_augmented: bool) -> bool {
         let TrajectoryState { q, p, increments: added, .. } = TrajectoryState::massive(system, 0);
@@ -168,8 +170,8 @@ impl<N: Real> NewestStates<N> {
         self.kicks.moves
     }
 
-    /// Σ ½(p_0 + p_1)ᵀ(q_1 − q_0) over the last steps of the windows, as a part of h Σ 2T: 1 where a step is a small part of a turn, and
-    /// sin φ/φ where it turns by φ.
+    /// Σ ½(p_0 + p_1)ᵀ(q_1 − q_0) over the last steps of the windows, as a part of h Σ 2T: 1 where a step is a small
+    /// part of a turn, and sin φ/φ where it turns by φ.
     pub(super) fn action(&self, h: &Rational) -> f64 {
         let mut whole = N::from_rational(h, &self.kinetic.context());
         whole.multiply(&self.kinetic);

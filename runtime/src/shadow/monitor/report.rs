@@ -19,11 +19,12 @@ use crate::shadow::Estimator;
 
 /// The energies of a run.
 ///
-/// The energy error is split: H − H̄ is the method's part, and bounded; H̄ itself moves only by round-off and by what the
-/// method does not conserve.
+/// The energy error is split: H − H̄ is the method's part, and bounded; H̄ itself moves only by round-off and by what
+/// the method does not conserve.
 ///
-/// Near a close encounter the errors of the estimates of H̄ can exceed all its changes. So H̄ is followed by the most accurate estimate of
-/// each of 32 to 64 equal parts of the run, that with the smallest error, and by the half of these with the smaller errors.
+/// Near a close encounter the errors of the estimates of H̄ can exceed all its changes. So H̄ is followed by the most
+/// accurate estimate of each of 32 to 64 equal parts of the run, that with the smallest error, and by the half of these
+/// with the smaller errors.
 ///
 /// It is printed as some lines with the numbers and [a sentence](Report::reason).
 #[derive(Clone, Debug)]
@@ -48,8 +49,8 @@ pub struct Report<N> {
     pub method_resolution: N,
     /// The newest accurate H̄.
     pub modified: N,
-    /// The permanent change of H̄: max − min of the accurate estimates. Where H̄ oscillates with the estimates' errors, as near a resonance,
-    /// these may all be of the same phase; `moved` includes all windows.
+    /// The permanent change of H̄: max − min of the accurate estimates. Where H̄ oscillates with the estimates' errors,
+    /// as near a resonance, these may all be of the same phase; `moved` includes all windows.
     pub range: N,
     /// The net change of H̄: the newest accurate estimate less the first one.
     pub change: N,
@@ -57,11 +58,13 @@ pub struct Report<N> {
     pub moved: N,
     /// How H̄ depends on time, from 16 accurate estimates on.
     pub trend: Option<Trend>,
-    /// A net change of the energy, from the beginning to the end of these steps, is excluded above this; `None` for fewer than 16 windows or parts of a run.
+    /// A net change of the energy, from the beginning to the end of these steps, is excluded above this; `None` for
+    /// fewer than 16 windows or parts of a run.
     ///
-    /// It is the least of three: the range of the accurate H̄ and of those of the first and the last part of the run, and three times their errors; and |a| + 3 s of the linear change a and its
-    /// standard error s, or the last mean less the first one where that is more, for the means of H and for those of all H̄, in 32 to 63 parts of the run. The means of H do not depend on the
-    /// estimator. It is not below the effect of round-off.
+    /// It is the least of three: the range of the accurate H̄ and of those of the first and the last part of the run,
+    /// and three times their errors; and |a| + 3 s of the linear change a and its standard error s, or the last mean
+    /// less the first one where that is more, for the means of H and for those of all H̄, in 32 to 63 parts of the run.
+    /// The means of H do not depend on the estimator. It is not below the effect of round-off.
     pub permanent_bound: Option<N>,
     /// How far H̄ moved where that is a permanent change: beyond errors and round-off, and not back and forth.
     pub permanent_change: Option<N>,
@@ -75,33 +78,34 @@ pub struct Report<N> {
     pub worst_error: Option<N>,
     /// The effect of round-off on the energy in one step, rms.
     ///
-    /// δH = U_qᵀδq + T_pᵀδp with δq and δp a rounding of each coordinate, 0.2123 ε|q_i| and 0.2123 ε|p_i| rms, once for each
-    /// evaluation of the gradient that a step needs; U_q and T_p are taken from the last step of each window.
+    /// δH = U_qᵀδq + T_pᵀδp with δq and δp a rounding of each coordinate, 0.2123 ε|q_i| and 0.2123 ε|p_i| rms, once for
+    /// each evaluation of the gradient that a step needs; U_q and T_p are taken from the last step of each window.
     pub kick: N,
     /// The expected effect of round-off on H̄: √steps times the kick (Brouwer's law).
     ///
-    /// Where nothing else moves H̄, the range was 0.5 to 6.5 times this in `f64`; the range of a random walk is 1.6 times its √n in the
-    /// mean.
+    /// Where nothing else moves H̄, the range was 0.5 to 6.5 times this in `f64`; the range of a random walk is 1.6
+    /// times its √n in the mean.
     pub round_off: N,
-    /// In how many steps the fastest motion turns once; `None` where nothing turns, or windows have fewer than 5 states.
+    /// In how many steps the fastest motion turns once; `None` where nothing turns, or windows have fewer than 5
+    /// states.
     ///
-    /// From second and fourth differences of p at the last states of each window, which an oscillation by θ a step makes so that
-    /// δ⁴p = −4 sin²(θ/2) δ²p; by least squares over all coordinates and windows. Steps so short that a fourth difference is a few last
-    /// places of p leave the angle uncertain.
+    /// From second and fourth differences of p at the last states of each window, which an oscillation by θ a step
+    /// makes so that δ⁴p = −4 sin²(θ/2) δ²p; by least squares over all coordinates and windows. Steps so short that a
+    /// fourth difference is a few last places of p leave the angle uncertain.
     pub steps_per_turn: Option<f64>,
     /// The names of the coordinates in texts; without them they are numbered from 1.
     pub coordinate_names: Vec<String>,
-    /// The coordinate that turns fastest, counted from 0, and in how many steps it turns once: each coordinate by itself, in the first five
-    /// states and in the windows. A light body may turn faster than all that has energy.
+    /// The coordinate that turns fastest, counted from 0, and in how many steps it turns once: each coordinate by
+    /// itself, in the first five states and in the windows. A light body may turn faster than all that has energy.
     pub fastest_coordinate: Option<(usize, f64)>,
-    /// A coordinate that turned once in this many steps, 6 or fewer, in the first five states, and no longer does in the windows, while all that
-    /// the energy shows is ten times slower: the steps did not resolve it.
+    /// A coordinate that turned once in this many steps, 6 or fewer, in the first five states, and no longer does in
+    /// the windows, while all that the energy shows is ten times slower: the steps did not resolve it.
     pub lost_coordinate: Option<(usize, f64)>,
     /// The relative residual of that equation: 0 for one oscillation, 1 for noise.
     pub irregular: Option<f64>,
-    /// In how many windows a state differs from the increments: there was a plain step where an augmented one was needed, or q or p
-    /// were changed from outside, by more than 1/1000 of what a step adds. Detected in `f64` only, where augmented steps
-    /// [keep the increments](crate::Increments) of q and p.
+    /// In how many windows a state differs from the increments: there was a plain step where an augmented one was
+    /// needed, or q or p were changed from outside, by more than 1/1000 of what a step adds. Detected in `f64` only,
+    /// where augmented steps [keep the increments](crate::Increments) of q and p.
     pub mismatches: u64,
     /// In how many of the windows where they were compared, some of all, U and ½(qᵀU_q − rate) differ.
     pub wrong_rates: u64,
@@ -177,8 +181,8 @@ impl<N: Real, E: Estimator<N>> Monitor<N, E> {
         self.fastest.lost().map(|(i, angle)| (i, TAU / angle)).filter(|(_, steps)| SLOWER * steps <= shown)
     }
 
-    /// What a net change is excluded above by estimates: the range of the accurate ones and of those of the first and the last part of the run, and
-    /// three times the largest error of these.
+    /// What a net change is excluded above by estimates: the range of the accurate ones and of those of the first and
+    /// the last part of the run, and three times the largest error of these.
     fn excluded(&self) -> N {
         let (mut best, mut accurate) = (self.blocks.best(), self.blocks.accurate());
         accurate.extend(best.next().into_iter().chain(best.last()));
@@ -260,8 +264,9 @@ impl<N: Real> Report<N> {
         }
     }
 
-    /// The root mean square of H − H̄, and its least and largest value; `None` where they are no more than the errors of H̄: where H̄ is known less well than
-    /// H − H̄, or less well than H changes while H − H̄ is not three times its error.
+    /// The root mean square of H − H̄, and its least and largest value; `None` where they are no more than the errors
+    /// of H̄: where H̄ is known less well than H − H̄, or less well than H changes while H − H̄ is not three times its
+    /// error.
     pub fn method(&self) -> Option<[&N; 3]> {
         let mut error = self.method_resolution.clone();
         if error > self.energy_error {

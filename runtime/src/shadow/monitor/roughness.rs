@@ -1,8 +1,8 @@
 //! Whether the forces are smooth along the windows, and if not, which derivative of the potential jumps.
 //!
-//! Where U is smooth and the steps resolve the motion, the last term E_k − E_{k−1} falls like h^(2k−2) with the step. Where the m-th
-//! derivative of U jumps it is of the size of h^m, whatever k. So last terms are computed from the states of a window, and from every
-//! second one of them, as if the step were 2h.
+//! Where U is smooth and the steps resolve the motion, the last term E_k − E_{k−1} falls like h^(2k−2) with the step.
+//! Where the m-th derivative of U jumps it is of the size of h^m, whatever k. So last terms are computed from the
+//! states of a window, and from every second one of them, as if the step were 2h.
 
 use super::arithmetic::{integer, quotient, root};
 use crate::number::Real;
@@ -22,17 +22,18 @@ const ANGLE_LIMIT: f64 = 0.35;
 const ROUND_OFF_FACTOR: i32 = 1000;
 /// Forces are smooth if the last terms at 2h are more than this many times those at h.
 const LARGEST_RATIO: f64 = 16.0;
-/// Where the m-th derivative jumps, log₂ of that ratio is m − 1.5 to m + 1: measured on oscillators, for m = 1 to 4, orders 2 to 6 and
-/// k = 6 to 12. It is less where the jumps change H̄ itself by more.
+/// Where the m-th derivative jumps, log₂ of that ratio is m − 1.5 to m + 1: measured on oscillators, for m = 1 to 4,
+/// orders 2 to 6 and k = 6 to 12. It is less where the jumps change H̄ itself by more.
 const LOGARITHM: [f64; 2] = [-1.5, 1.0];
 /// Windows that a statement needs.
 const LEAST_WINDOWS: u64 = 16;
 
-/// Forces that are not smooth: while the motion turns little in a step, the last terms of modified energies from every second state of
-/// the windows are not much larger than those from all states.
+/// Forces that are not smooth: while the motion turns little in a step, the last terms of modified energies from every
+/// second state of the windows are not much larger than those from all states.
 ///
-/// The lowest derivative of U that jumps is in a range of orders; U itself is its derivative of order 0. Where that is m, a crossing
-/// changes the energy by a part of the size of h^m, so that a scheme of an order above m gains nothing by it.
+/// The lowest derivative of U that jumps is in a range of orders; U itself is its derivative of order 0. Where that is
+/// m, a crossing changes the energy by a part of the size of h^m, so that a scheme of an order above m gains nothing by
+/// it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Rough {
     /// The smallest possible order m.
@@ -105,7 +106,8 @@ impl<N: Real> Roughness<N> {
         self.spacings.as_ref().is_some_and(Spacings::is_complete)
     }
 
-    /// The last terms of a window in which the motion turns by `angle` a step, and a step rounds the energy by √`square_kick`.
+    /// The last terms of a window in which the motion turns by `angle` a step, and a step rounds the energy by
+    /// √`square_kick`.
     pub(super) fn end(&mut self, angle: Option<f64>, square_kick: &N) {
         let Some(spacings) = &mut self.spacings else { return };
         spacings.count = 0;
@@ -292,7 +294,8 @@ mod tests {
         }
     }
 
-    /// Where windows overlap one of them begins at each state or two, and the checks still need states that follow each other.
+    /// Where windows overlap one of them begins at each state or two, and the checks still need states that follow each
+    /// other.
     #[test]
     fn windows_that_overlap_are_checked_as_others() {
         for every in [1, 2, 5, 16] {

@@ -18,12 +18,14 @@ const RESERVED: u64 = 64;
 
 /// One window of `states` states in every `every` steps.
 ///
-/// A window begins at another one of its steps each time, at any of them where no two windows can then overlap: windows at equal distances would
-/// see an oscillation whose period divides the distance always in the same phase, and take it for a constant.
+/// A window begins at another one of its steps each time, at any of them where no two windows can then overlap: windows
+/// at equal distances would see an oscillation whose period divides the distance always in the same phase, and take it
+/// for a constant.
 ///
-/// Places by the golden section spread phases evenly, so that means over few windows are accurate, but for some ratios of `every` and the period, such
-/// as 1.382, 1.764 and 3.146, part of the phases is not seen: more than a tenth for 3 of 100 ratios, in 200 windows. Irregular places would
-/// leave no ratio, but the means of parts of runs are then known less well, and more verdicts are undecided: 314 of 2634, in place of 256 of 2628.
+/// Places by the golden section spread phases evenly, so that means over few windows are accurate, but for some ratios
+/// of `every` and the period, such as 1.382, 1.764 and 3.146, part of the phases is not seen: more than a tenth for 3
+/// of 100 ratios, in 200 windows. Irregular places would leave no ratio, but the means of parts of runs are then known
+/// less well, and more verdicts are undecided: 314 of 2634, in place of 256 of 2628.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Schedule {
     states: u64,
@@ -64,7 +66,8 @@ impl Schedule {
         self.takes(n) && !self.needs_increments(n)
     }
 
-    /// Whether the step to the state n must be augmented: not to the first one of a window, of which only q and p are used.
+    /// Whether the step to the state n must be augmented: not to the first one of a window, of which only q and p are
+    /// used.
     #[inline]
     pub(super) fn needs_increments(&self, n: u64) -> bool {
         self.overlaps() || n + self.states > self.end + 1
@@ -100,8 +103,9 @@ impl Schedule {
         self.states as usize
     }
 
-    /// How many states there are in the n-th pause between windows, where one of four is looked at closely: the states of three windows, or as many in
-    /// the mean where windows overlap, another number each time, as equal distances would see an oscillation always in the same phase.
+    /// How many states there are in the n-th pause between windows, where one of four is looked at closely: the states
+    /// of three windows, or as many in the mean where windows overlap, another number each time, as equal distances
+    /// would see an oscillation always in the same phase.
     #[inline]
     pub(super) fn pause(&self, n: u64) -> u64 {
         if self.overlaps() { 2 * self.states + spread(n, 2 * self.states + 1) } else { 3 * self.states }
@@ -123,8 +127,8 @@ impl Schedule {
         if self.overlaps() || self.states <= self.least_distance() { self.every } else { self.every - self.states + 1 }
     }
 
-    /// The least distance of the first states of successive windows that begin at any of their steps: successive multiples of the golden section
-    /// mod 1 differ by 0.618… or by −0.382….
+    /// The least distance of the first states of successive windows that begin at any of their steps: successive
+    /// multiples of the golden section mod 1 differ by 0.618… or by −0.382….
     fn least_distance(&self) -> u64 {
         (self.every * 618 / 1000).saturating_sub(1)
     }

@@ -13,12 +13,12 @@ use crate::systems::system::System;
 /// Follows the modified energy H̄ of the trajectory that a loop computes.
 ///
 /// It takes all states, and keeps the states of *windows*: as many as the estimator needs, at every step or
-/// [every n steps](Monitor::every). Only the steps within windows are augmented; the others are plain steps, with the same
-/// bits and cost. From the windows it keeps extremes, sums and 64 estimates, however
-/// long the run: nothing is allocated after the beginning.
+/// [every n steps](Monitor::every). Only the steps within windows are augmented; the others are plain steps, with the
+/// same bits and cost. From the windows it keeps extremes, sums and 64 estimates, however long the run: nothing is
+/// allocated after the beginning.
 ///
-/// The [`Report`](super::Report) splits the energy error into the method's part H − H̄, the range of H̄ beside the expected effect of round-off,
-/// and its permanent change; and it has a [verdict](super::Verdict) on the step size.
+/// The [`Report`](super::Report) splits the energy error into the method's part H − H̄, the range of H̄ beside the
+/// expected effect of round-off, and its permanent change; and it has a [verdict](super::Verdict) on the step size.
 ///
 /// ```
 /// use shadowstep::shadow::{Bilinear, ShadowEnergy, Verdict};
@@ -60,8 +60,9 @@ use crate::systems::system::System;
 ///   the energy error is 1.9 % of T; in 20000 steps a net change above 7.41e-14 of T, or 7.41e-17 of T per unit time, is excluded
 /// ```
 ///
-/// A loop that does nothing else is `monitor.steps(&mut comet, 20_000)?`. Where a loop does more than steps, it can make them itself: with increments where
-/// [`needs_increments`](Monitor::needs_increments) is true, and with [`observe`](Monitor::observe) after each.
+/// A loop that does nothing else is `monitor.steps(&mut comet, 20_000)?`. Where a loop does more than steps, it can
+/// make them itself: with increments where [`needs_increments`](Monitor::needs_increments) is true, and with
+/// [`observe`](Monitor::observe) after each.
 ///
 /// ```
 /// # use shadowstep::shadow::{Bilinear, ShadowEnergy};
@@ -83,13 +84,14 @@ use crate::systems::system::System;
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 ///
-/// Only the stepper may change the state, and the system must stay the same. Where increments were not computed or the state was
-/// changed otherwise, the verdict is [`Verdict::Inconsistent`](super::Verdict::Inconsistent) as far as that can be detected.
+/// Only the stepper may change the state, and the system must stay the same. Where increments were not computed or the
+/// state was changed otherwise, the verdict is [`Verdict::Inconsistent`](super::Verdict::Inconsistent) as far as that
+/// can be detected.
 ///
 /// # Cost
 ///
-/// For a hundred bodies, with a window in 100 steps, a monitor costs a few per cent of the loop; `docs/monitor.md` has the
-/// measurements, and `cargo bench -p shadowstep --bench monitor` repeats them.
+/// For a hundred bodies, with a window in 100 steps, a monitor costs a few per cent of the loop; `docs/monitor.md` has
+/// the measurements, and `cargo bench -p shadowstep --bench monitor` repeats them.
 #[derive(Clone, Debug)]
 pub struct ShadowEnergy<S: Scheme, N: Real, E> {
     stepper: Stepper<S, N>,
@@ -109,8 +111,8 @@ impl<S: Scheme, N: Real, E: Estimator<N>> ShadowEnergy<S, N, E> {
     /// Begins at the system's present state, which is number 0. There is a window at every step.
     ///
     /// # Errors
-    /// A state or an energy that is not finite; settings of the estimator that are not valid; a stepper whose weights have another
-    /// precision than the system.
+    /// A state or an energy that is not finite; settings of the estimator that are not valid; a stepper whose weights
+    /// have another precision than the system.
     pub fn new<M: System<Number = N>>(
         stepper: Stepper<S, N>,
         system: &mut M,
@@ -147,7 +149,8 @@ impl<S: Scheme, N: Real, E: Estimator<N>> ShadowEnergy<S, N, E> {
     }
 
     /// `count` steps with the bits and the report that [`step`](ShadowEnergy::step) gives, those between the windows as
-    /// [`Stepper::steps`]: less time where forces cost little and windows are rare, for loops that do not look at each state.
+    /// [`Stepper::steps`]: less time where forces cost little and windows are rare, for loops that do not look at each
+    /// state.
     ///
     /// # Errors
     /// As [`observe`](Monitor::observe).

@@ -99,8 +99,8 @@ impl<N: Real> Statistics<N> {
         [sum_of_squares, method_errors, errors, distances].into_iter().for_each(|sum| to.number(sum));
     }
 
-    /// The root mean square of H − H̄ with the H̄ of the same window, as a part of the root mean square of the errors: small where H̄ changes with H
-    /// from state to state. NaN without errors.
+    /// The root mean square of H − H̄ with the H̄ of the same window, as a part of the root mean square of the errors:
+    /// small where H̄ changes with H from state to state. NaN without errors.
     pub(super) fn distance_of_error(&self) -> f64 {
         quotient(&self.distances, &self.errors).to_f64().sqrt()
     }

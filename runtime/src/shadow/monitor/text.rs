@@ -67,7 +67,8 @@ impl<N: Real> Report<N> {
             Verdict::Undecided(Missing::Resolution) => self.what_would_decide(),
             Verdict::Inconsistent => self.why_inconsistent(),
             Verdict::RoundOff => format!(
-                "{moved}, and round-off makes {}: for this energy a larger step size is sufficient{}, or more digits are needed",
+                "{moved}, and round-off makes {}: for this energy a larger step size is sufficient{}, or more digits \
+                    are needed",
                 self.in_parts(&self.round_off),
                 self.resolved_coordinate()
             ),
@@ -77,19 +78,22 @@ impl<N: Real> Report<N> {
                 self.steps_per_turn.unwrap_or_default()
             ),
             Verdict::Drifts => format!(
-                "{moved}, linearly in time: by {} in all, where round-off makes {}. The scheme conserves it, so the cause is a force \
+                "{moved}, linearly in time: by {} in all, where round-off makes {}. The scheme conserves it, so the \
+                    cause is a force \
                  that is not −U_q, a state that is changed between the steps, or a resonance; {check}",
                 short(&self.change),
                 short(&self.round_off)
             ),
             Verdict::NotTheGradient => format!(
-                "the modified energy changes from state to state as the energy does, which no scheme does: the forces are not its gradient, or \
+                "the modified energy changes from state to state as the energy does, which no scheme does: the forces \
+                    are not its gradient, or \
                  something else acts; {check}"
             ),
             Verdict::NotSmooth => self.why_not_smooth(),
             Verdict::NotConserved => format!(
                 "{}, and {moved}, permanently, where round-off makes {}: the error grows with the length of the \
-                 run. A smaller step resolves encounters better; forces that are not smooth, or something other than the scheme, have \
+                 run. A smaller step resolves encounters better; forces that are not smooth, or something other than \
+                 the scheme, have \
                  such effects, too",
                 self.size(),
                 self.in_parts(&self.round_off)
@@ -120,13 +124,15 @@ impl<N: Real> Report<N> {
         })
     }
 
-    /// A coordinate with little energy that the steps hardly resolve, if there is one: the verdict concerns the energy only.
+    /// A coordinate with little energy that the steps hardly resolve, if there is one: the verdict concerns the energy
+    /// only.
     fn light_coordinate(&self) -> String {
         let others = self.steps_per_turn.unwrap_or(f64::INFINITY);
         let light = self.fastest_coordinate.filter(|(_, steps)| *steps < FEW_STEPS && 2.0 * steps < others);
         light.map_or(String::new(), |(i, steps)| {
             format!(
-                ". A motion with too little energy to be seen in this verdict, {}, turns, or turned at the start, once in {steps:.1} steps: \
+                ". A motion with too little energy to be seen in this verdict, {}, turns, or turned at the start, \
+                    once in {steps:.1} steps: \
                  it may be lost",
                 self.coordinate(i)
             )
@@ -154,7 +160,8 @@ impl<N: Real> Report<N> {
                 .map_or(String::new(), |steps| format!("the fastest motion turns once in {steps:.0} steps, "));
             return format!(
                 "{}, of which in {} steps {} were a permanent change; {turns}and the cause may be the step size, \
-                 forces that are not smooth, or something other than the scheme that changed the state: a longer run, and windows of 17 \
+                 forces that are not smooth, or something other than the scheme that changed the state: a longer run, \
+                 and windows of 17 \
                  states or more, would tell",
                 self.size(),
                 self.steps,
@@ -189,19 +196,22 @@ impl<N: Real> Report<N> {
     fn why_inconsistent(&self) -> String {
         if self.mismatches > 0 {
             return format!(
-                "in {} of {} windows the states differ from the increments of the steps: plain steps were made where needs_increments() \
+                "in {} of {} windows the states differ from the increments of the steps: plain steps were made where \
+                    needs_increments() \
                  is true, or q or p were changed between the steps",
                 self.mismatches, self.windows
             );
         }
         if self.wrong_rates > 0 {
             return format!(
-                "in {} windows the rate is not qᵀU_q − 2U: compare them (in Rust with check_potential). A virial by nearest images is not qᵀU_q",
+                "in {} windows the rate is not qᵀU_q − 2U: compare them (in Rust with check_potential). A virial by \
+                    nearest images is not qᵀU_q",
                 self.wrong_rates
             );
         }
         format!(
-            "the states do not belong to the increments, or the rate is not qᵀU_q − 2U (compare them, in Rust with check_potential): H − H̄ is {} rms, \
+            "the states do not belong to the increments, or the rate is not qᵀU_q − 2U (compare them, in Rust with \
+                check_potential): H − H̄ is {} rms, \
              and H̄ moved by {}, too much beside an energy error of {}",
             short(&self.method_rms),
             short(&self.moved),
@@ -227,7 +237,8 @@ impl<N: Real> Report<N> {
             Criterion::Lost => {
                 let (i, steps) = self.lost_coordinate.expect("the verdict follows from it");
                 format!(
-                    "{} turned once in {steps:.1} steps at the start, and no longer does: the steps do not resolve it, however little \
+                    "{} turned once in {steps:.1} steps at the start, and no longer does: the steps do not resolve \
+                        it, however little \
                      of the energy it has",
                     self.coordinate(i)
                 )

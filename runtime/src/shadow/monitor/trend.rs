@@ -6,8 +6,8 @@ use crate::number::Real;
 
 /// How the modified energy depends on time: by (max − min)²/Σ(differences)² of successive accurate estimates.
 ///
-/// For 64 numbers of noise 999 of 1000 samples are below 0.4 (for 16 numbers 95 of 100 below 0.8), and for random walks 98 of 100
-/// are between 0.5 and 8. A drift of the size of its noise is above 8 from 32 numbers on.
+/// For 64 numbers of noise 999 of 1000 samples are below 0.4 (for 16 numbers 95 of 100 below 0.8), and for random walks
+/// 98 of 100 are between 0.5 and 8. A drift of the size of its noise is above 8 from 32 numbers on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Trend {
     /// Constant but for scatter: below 0.5.
@@ -44,8 +44,8 @@ impl TrendRatio {
         }
     }
 
-    /// Equal differences make one less than the count. The slow oscillation of the outer planets' H̄, which looks like a drift in
-    /// 20 000 steps of 200 days, made a third of that.
+    /// Equal differences make one less than the count. The slow oscillation of the outer planets' H̄, which looks like
+    /// a drift in 20 000 steps of 200 days, made a third of that.
     pub(super) fn is_straight(self) -> bool {
         2.0 * self.ratio > (self.count - 1) as f64
     }

@@ -8,7 +8,8 @@ use crate::number::saved::Fields;
 /// States that the turning needs: three second differences.
 pub(super) const STATES: usize = 5;
 
-/// Over the windows, and over the coordinates of each; δ²p and δ⁴p are second and fourth differences, centred at the same state.
+/// Over the windows, and over the coordinates of each; δ²p and δ⁴p are second and fourth differences, centred at the
+/// same state.
 ///
 /// With short steps, δ²p_0 + δ²p_2 = 2 cos θ δ²p_1 would lose θ; δ⁴p keeps it.
 #[derive(Clone, Debug)]

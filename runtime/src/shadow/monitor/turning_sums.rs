@@ -8,7 +8,8 @@ use crate::number::Real;
 use crate::number::partial_sums::PartialSums;
 use crate::number::saved::Fields;
 
-/// A fourth difference of p is off by less than this number of last places of p: rms by √(20 s) · 0.2123, s the stages of a step.
+/// A fourth difference of p is off by less than this number of last places of p: rms by √(20 s) · 0.2123, s the stages
+/// of a step.
 const LAST_PLACES: f64 = 10.0;
 
 /// Over the windows, and in the newest.

@@ -68,7 +68,8 @@ impl Changes {
         changes.filter(|(_, steps, _)| *steps >= LAG as u64)
     }
 
-    /// Changes from state to state, or from window to window where these have one estimate each; the latter are reduced to one step as if they added up like noise.
+    /// Changes from state to state, or from window to window where these have one estimate each; the latter are reduced
+    /// to one step as if they added up like noise.
     fn sizes(&self) -> Vec<f64> {
         match self.is_of_single_estimates() {
             true => self.between().map(|(_, steps, change)| change.abs() / seen(steps).sqrt()).collect(),
@@ -90,8 +91,8 @@ impl Changes {
         sum / count as f64
     }
 
-    /// The mean square of what H̄ changes by over eight steps, or from window to window, divided by that over one step, each reduced to one step as if
-    /// what it does in one step and in another were independent: 1 if it is.
+    /// The mean square of what H̄ changes by over eight steps, or from window to window, divided by that over one step,
+    /// each reduced to one step as if what it does in one step and in another were independent: 1 if it is.
     pub(super) fn growth(&self) -> f64 {
         let in_one = if self.is_of_single_estimates() {
             self.of_seven.0 / self.of_seven.1 as f64 / SEEN_BY_SEVEN
@@ -103,8 +104,8 @@ impl Changes {
         self.square_in_a_step() / in_one
     }
 
-    /// The standard deviation of what one estimate has and the next ones, of other states, have not: what does not add up, as errors of stored states do
-    /// not. 0 where all that H̄ changes by adds up.
+    /// The standard deviation of what one estimate has and the next ones, of other states, have not: what does not add
+    /// up, as errors of stored states do not. 0 where all that H̄ changes by adds up.
     pub(super) fn scatter(&self) -> f64 {
         let mut apart: Vec<(i64, f64)> = Vec::new();
         for &(n, value) in &self.values {
@@ -122,16 +123,16 @@ impl Changes {
         scatter.max(0.0).sqrt()
     }
 
-    /// The rms of changes from state to state as a multiple of what it would be with a normal distribution of the same median: 1 for noise,
-    /// large where H̄ changes at few states only.
+    /// The rms of changes from state to state as a multiple of what it would be with a normal distribution of the same
+    /// median: 1 for noise, large where H̄ changes at few states only.
     pub(super) fn isolation(&self) -> f64 {
         let sizes = self.sizes();
         let rms = (sizes.iter().map(|size| size * size).sum::<f64>() / sizes.len() as f64).sqrt();
         rms / (NORMAL * median(sizes))
     }
 
-    /// Sudden changes, the largest first. At the ends of a window, where a change may be the beginning of a larger one, there are none; nor in windows of
-    /// one estimate each, but from one to the next.
+    /// Sudden changes, the largest first. At the ends of a window, where a change may be the beginning of a larger one,
+    /// there are none; nor in windows of one estimate each, but from one to the next.
     pub(super) fn jumps(&self) -> Vec<Jump> {
         let usual = NORMAL * median(self.sizes());
         if self.is_of_single_estimates() {

@@ -14,8 +14,9 @@ const ERROR_FACTOR: f64 = 3.0;
 
 /// What moves the energy of a trajectory that another program has computed.
 ///
-/// H̄ is constant but for what is not a step of the scheme in a smooth potential, so what it changes by is the size of the cause. The energy error, max − min of
-/// H, contains the part H − H̄ of the method in addition, which oscillates. Printed, it is a few lines with the numbers.
+/// H̄ is constant but for what is not a step of the scheme in a smooth potential, so what it changes by is the size of
+/// the cause. The energy error, max − min of H, contains the part H − H̄ of the method in addition, which oscillates.
+/// Printed, it is a few lines with the numbers.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Diagnosis {
     /// How many states follow each other at least.
@@ -40,7 +41,8 @@ pub struct Diagnosis {
     pub range: f64,
     /// That beyond three errors of the estimates on both sides, or 0.
     pub moved: f64,
-    /// The median of the estimated errors of H̄; in windows of nine states with three times the scatter of H̄, the part that does not add up.
+    /// The median of the estimated errors of H̄; in windows of nine states with three times the scatter of H̄, the part
+    /// that does not add up.
     pub known_to: f64,
     /// The time from the first estimate to the last.
     pub time: f64,
@@ -50,24 +52,28 @@ pub struct Diagnosis {
     pub energy_smoothness: Option<Smoothness>,
     /// What H̄ changes by in a step, rms, if what it does in one step and in another is independent.
     pub in_a_step: f64,
-    /// The mean square of what H̄ changes by in a step, as a multiple of what errors of the forces would make that are independent from step to step and
-    /// of the size of their differences, h²Σ(σv)²: 1 for noise of the forces.
+    /// The mean square of what H̄ changes by in a step, as a multiple of what errors of the forces would make that are
+    /// independent from step to step and of the size of their differences, h²Σ(σv)²: 1 for noise of the forces.
     pub excess: Option<f64>,
-    /// The mean square of what H̄ changes by over eight steps, or from window to window, divided by that over one step, each reduced to one step as if
-    /// what it does in one step and in another were independent: 1 if it is, 2 and more where it changes slowly, small where it goes to and fro.
+    /// The mean square of what H̄ changes by over eight steps, or from window to window, divided by that over one step,
+    /// each reduced to one step as if what it does in one step and in another were independent: 1 if it is, 2 and more
+    /// where it changes slowly, small where it goes to and fro.
     pub growth: f64,
-    /// The rms of what H̄ changes by from state to state, as a multiple of the rms of a normal distribution with the same median: 1 for noise, large where H̄
-    /// changes at few states only.
+    /// The rms of what H̄ changes by from state to state, as a multiple of the rms of a normal distribution with the
+    /// same median: 1 for noise, large where H̄ changes at few states only.
     pub isolation: f64,
     /// These states, with the largest change first.
     pub jumps: Vec<Jump>,
     /// By how much logged q and p differ from the steps; `None` where no gradients are logged.
     pub differences: Option<[Differences; 2]>,
-    /// max − min of the work of these differences, Σ g·r_q + v·r_p over the steps: what H̄ changes by, if the states are from other steps.
+    /// max − min of the work of these differences, Σ g·r_q + v·r_p over the steps: what H̄ changes by, if the states
+    /// are from other steps.
     pub work: f64,
-    /// The rms of the work g·r_q, and v·r_p, of a step, if the differences of the coordinates are independent, as those of rounded states are.
+    /// The rms of the work g·r_q, and v·r_p, of a step, if the differences of the coordinates are independent, as those
+    /// of rounded states are.
     pub work_in_a_step: [f64; 2],
-    /// The first state whose coordinates are those of the step in another order, as where a file is not sorted by atoms.
+    /// The first state whose coordinates are those of the step in another order, as where a file is not sorted by
+    /// atoms.
     pub reordered: Option<i64>,
     /// What moves the energy.
     pub cause: Cause,

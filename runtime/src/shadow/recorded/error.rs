@@ -60,7 +60,8 @@ pub enum RecordedError {
     },
     /// States with gradients after states without them.
     #[error(
-        "state {n} has {found}, and the states before have not: all states of a log have gradients, or all have rates, or all have increments"
+        "state {n} has {found}, and the states before have not: all states of a log have gradients, or all have \
+            rates, or all have increments"
     )]
     Mixed {
         /// n of the state.
@@ -90,7 +91,8 @@ pub enum RecordedError {
     },
     /// A particle that moved too far for its image to be known.
     #[error(
-        "particle {particle} moved by {turns:.2} of box vector {vector} from state {} to {n}, at least: which image it came to is not decided; \
+        "particle {particle} moved by {turns:.2} of box vector {vector} from state {} to {n}, at least: which image \
+            it came to is not decided; \
          log states more often, or unwrapped positions", .n - 1
     )]
     Undecided {

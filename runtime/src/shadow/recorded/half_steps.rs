@@ -4,11 +4,12 @@ use super::error::RecordedError;
 use crate::number::Number;
 use crate::steps::step_size::StepSize;
 
-/// The momenta p_n = ½(p_{n−1/2} + p_{n+1/2}) of the states n = 0, 1, … from the momenta of leapfrog, which are half a step before and after.
+/// The momenta p_n = ½(p_{n−1/2} + p_{n+1/2}) of the states n = 0, 1, … from the momenta of leapfrog, which are half a
+/// step before and after.
 ///
-/// In leapfrog p_{n+1/2} = p_{n−1/2} − h U_q(q_n), so that p_{n±1/2} = p_n ∓ ½h U_q(q_n) with p_n of velocity Verlet: the two make the same
-/// trajectory, and the mean is its p_n exactly, not an approximation. `half_steps` has a row more than there are states, that before the
-/// first state included; where that is not known, leave the first state out.
+/// In leapfrog p_{n+1/2} = p_{n−1/2} − h U_q(q_n), so that p_{n±1/2} = p_n ∓ ½h U_q(q_n) with p_n of velocity Verlet:
+/// the two make the same trajectory, and the mean is its p_n exactly, not an approximation. `half_steps` has a row more
+/// than there are states, that before the first state included; where that is not known, leave the first state out.
 ///
 /// ```
 /// use shadowstep::shadow::recorded::integer_momenta;
@@ -30,7 +31,8 @@ pub fn integer_momenta(dimension: usize, states: usize, half_steps: &[f64]) -> R
     Ok(half_steps.iter().zip(&half_steps[dimension..]).map(|(before, after)| 0.5 * before + 0.5 * after).collect())
 }
 
-/// The momenta p_n = p_{n−1/2} − ½h U_q(q_n) from the momenta of leapfrog half a step before each state, and the gradients at the states, in place.
+/// The momenta p_n = p_{n−1/2} − ½h U_q(q_n) from the momenta of leapfrog half a step before each state, and the
+/// gradients at the states, in place.
 ///
 /// The same momenta as by [`integer_momenta`], for programs that log forces: each state needs nothing of another one.
 ///

@@ -1,6 +1,7 @@
 //! The thresholds that tell apart what moves the energy.
 //!
-//! They were chosen on trajectories like those of `tests/tests/recorded/verdicts.rs`, drawn with other seeds than its tests have.
+//! They were chosen on trajectories like those of `tests/tests/recorded/verdicts.rs`, drawn with other seeds than its
+//! tests have.
 
 use super::cause::Cause;
 use super::changes::Jump;
@@ -16,10 +17,12 @@ pub(super) const LEAST_ESTIMATES: usize = 32;
 const LARGEST_MISFIT: f64 = 1e-3;
 /// and by more than this part of themselves, a few last places of an `f32`, and are not rounded each by itself:
 const SINGLE: f64 = 2.4e-7;
-/// the correlation of rounded ones is below this, or, where they change by less than their last digit in a step, below the second, and these do not wander.
+/// the correlation of rounded ones is below this, or, where they change by less than their last digit in a step, below
+/// the second, and these do not wander.
 const ROUNDED: [f64; 2] = [-0.2, 0.3];
 const WANDERING: f64 = 0.5;
-/// Of differences whose work is what H̄ ranges over, these are below this: a thermostat's do not wander as far as independent ones.
+/// Of differences whose work is what H̄ ranges over, these are below this: a thermostat's do not wander as far as
+/// independent ones.
 const AT_HOME: f64 = 0.3;
 /// Numbers that differ by more than this part of themselves are not rounded ones.
 const COARSE: f64 = 1e-2;
@@ -27,10 +30,11 @@ const COARSE: f64 = 1e-2;
 const MOVED: f64 = 0.1;
 /// It is at rest if it is known to that part, and ranges over less than this one with its errors.
 const RANGE: f64 = 0.25;
-/// From this part on that is certain only where the steps resolve the motion and H̄ does not go to and fro: estimates are means over nine states, in which
-/// what U jumps by, or forces that are not −U_q, may cancel.
+/// From this part on that is certain only where the steps resolve the motion and H̄ does not go to and fro: estimates
+/// are means over nine states, in which what U jumps by, or forces that are not −U_q, may cancel.
 const CANCELS: f64 = 0.02;
-/// States that are rounded make errors of H̄ that are smaller than the work of the differences in a step; this many times that is none.
+/// States that are rounded make errors of H̄ that are smaller than the work of the differences in a step; this many
+/// times that is none.
 const OF_ROUNDING: f64 = 5.0;
 /// The work of the differences from steps is what moves H̄, if it is this part of its range or more, up to the inverse.
 const OF_WORK: f64 = 0.3;
@@ -42,7 +46,8 @@ const LITTLE: f64 = 0.03;
 const NOISE_EXCESS: f64 = 0.5;
 /// motion that the steps do not resolve makes one below this.
 const MOTION_EXCESS: f64 = 0.05;
-/// Forces that jump, or whose derivatives do, make an excess below this: from it on, noise beside the motion may have their exponent.
+/// Forces that jump, or whose derivatives do, make an excess below this: from it on, noise beside the motion may have
+/// their exponent.
 const fn of_kinks(window: Window) -> f64 {
     match window {
         Window::Nine => 0.5,
@@ -52,7 +57,8 @@ const fn of_kinks(window: Window) -> f64 {
 /// H̄ changes at few states only where the isolation is above this; what grows unevenly has one up to the second.
 const ISOLATED: f64 = 3.0;
 const JUMPS_ISOLATED: f64 = 5.0;
-/// What H̄ changes by in one step and in another is independent where the growth is between these, which windows of nine states know worse, and
+/// What H̄ changes by in one step and in another is independent where the growth is between these, which windows of
+/// nine states know worse, and
 const fn independent(window: Window) -> [f64; 2] {
     match window {
         Window::Nine => [0.4, 4.0],
@@ -61,17 +67,20 @@ const fn independent(window: Window) -> [f64; 2] {
 }
 /// the isolation below this.
 const ALIKE: f64 = 2.0;
-/// U is too smooth for the changes of H̄ where its differences are below this part of them, and may be noisy where they are above the second.
+/// U is too smooth for the changes of H̄ where its differences are below this part of them, and may be noisy where they
+/// are above the second.
 const SMOOTH_ENERGY: f64 = 0.15;
 const NOISY_ENERGY: f64 = 2.2;
-/// The steps do not resolve the motion where differences of smooth forces are this part of the forces or more: both are six steps a turn.
+/// The steps do not resolve the motion where differences of smooth forces are this part of the forces or more: both are
+/// six steps a turn.
 const fn unresolved(window: Window) -> f64 {
     match window {
         Window::Nine => 0.05,
         Window::Seventeen => 0.01,
     }
 }
-/// They are too large for it where these are this part: about four steps a turn; or the second, where H̄ does not go to and fro.
+/// They are too large for it where these are this part: about four steps a turn; or the second, where H̄ does not go to
+/// and fro.
 const fn too_large(window: Window) -> [f64; 2] {
     match window {
         Window::Nine => [0.15, 0.25],
@@ -85,7 +94,8 @@ const fn very_slow(window: Window) -> f64 {
         Window::Seventeen => 2.1,
     }
 }
-/// Exponents of a U that is noise are below this, of forces that are below the second; between it and the third they may have kinks.
+/// Exponents of a U that is noise are below this, of forces that are below the second; between it and the third they
+/// may have kinks.
 const NOISE: f64 = 0.5;
 const NOISE_OF_FORCES: f64 = 0.25;
 const LEAST_OF_KINKS: f64 = 0.75;
@@ -120,7 +130,8 @@ impl Diagnosis {
         self.is_slow() && self.growth >= very_slow(self.window)
     }
 
-    /// Whether H̄ changes at few states, by as much as the kinetic energy: steps that are too large there, or another state.
+    /// Whether H̄ changes at few states, by as much as the kinetic energy: steps that are too large there, or another
+    /// state.
     pub(super) fn has_large_jumps(&self) -> bool {
         self.isolation > ISOLATED && self.energy_error >= KINETIC_LIMIT * self.usual_kinetic
     }
@@ -136,8 +147,8 @@ impl Diagnosis {
         self.smoothness.is_some_and(|forces| forces.differences < unresolved(self.window) * forces.size)
     }
 
-    /// Whether what the motion has of the forces between the steps is what H̄ changes by: it is much, and H̄ goes to and fro, or it is more, and that of few
-    /// states.
+    /// Whether what the motion has of the forces between the steps is what H̄ changes by: it is much, and H̄ goes to
+    /// and fro, or it is more, and that of few states.
     fn is_of_motion(&self) -> bool {
         let Some(forces) = self.smoothness else { return false };
         let [to_and_fro, at_few] = too_large(self.window).map(|part| forces.differences > part * forces.size);
@@ -203,7 +214,8 @@ fn at_rest(found: &Diagnosis) -> Option<Cause> {
         .then_some(Cause::NoisyEnergy { size: of_energy.differences })
 }
 
-/// Whether the work of the differences of the states from the steps, of q or of p, whichever is more, is that of rounded numbers.
+/// Whether the work of the differences of the states from the steps, of q or of p, whichever is more, is that of
+/// rounded numbers.
 fn has_rounded_work(found: &Diagnosis) -> bool {
     let [of_q, of_p] = found.work_in_a_step;
     let most = found.differences.map(|[q, p]| if of_q > of_p { q } else { p });

@@ -26,14 +26,16 @@ pub enum Derivatives<'a> {
     Step(&'a [f64], MadeStep<'a>),
 }
 
-/// What a step of any splitting from a state q_n, p_n added, as the program has summed it along its kicks and drifts. Before the first step it is not read.
+/// What a step of any splitting from a state q_n, p_n added, as the program has summed it along its kicks and drifts.
+/// Before the first step it is not read.
 ///
 /// A kick by h a_s U_q, and a drift by h b_s M⁻¹p, add to
 ///
 /// $$\Delta p = -\sum_s h a_s U_q(q_s), \quad \Delta q = \sum_s h b_s M^{-1} p_s, \quad
 /// \Delta\beta' = \sum_s h a_s \left( (q_s - q_n)^{\mathsf T} U_q(q_s) - 2U(q_s) \right),$$
 ///
-/// so that q_s − q_n is what Δq has become before the kick: wherever q is counted from, and whatever image of a periodic box the program has of it.
+/// so that q_s − q_n is what Δq has become before the kick: wherever q is counted from, and whatever image of a
+/// periodic box the program has of it.
 #[derive(Clone, Copy, Debug)]
 pub struct MadeStep<'a> {
     /// Δq
@@ -80,7 +82,8 @@ enum LoggedDerivatives<'a> {
 }
 
 impl<'a> Log<'a> {
-    /// A log of q, p, U and U_q: for each state `dimension` numbers of `q`, `p` and `gradients`, one after the other, and one of `energies`.
+    /// A log of q, p, U and U_q: for each state `dimension` numbers of `q`, `p` and `gradients`, one after the other,
+    /// and one of `energies`.
     ///
     /// # Errors
     /// Arrays that are not of as many states; no coordinates.

@@ -123,8 +123,8 @@ pub struct Differences {
     pub of_numbers: f64,
     /// Σ r_n r_{n−1}/Σ r²: −½ if each x is rounded by itself, as where it was stored with few digits.
     pub correlation: f64,
-    /// The mean square of the sums of r over steps that follow each other, divided by that of independent r: small if each x is rounded by itself, 1 if
-    /// the r are independent, large if they are alike.
+    /// The mean square of the sums of r over steps that follow each other, divided by that of independent r: small if
+    /// each x is rounded by itself, 1 if the r are independent, large if they are alike.
     pub wandering: f64,
     /// Σ r Δx/Σ Δx²: by what part the increments are too small, on the average.
     pub slope: f64,

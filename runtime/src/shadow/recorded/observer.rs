@@ -12,12 +12,12 @@ use crate::shadow::run::{Quantity, check_value};
 use crate::shadow::{Bilinear, BilinearEstimator, BuildEstimator, Estimator};
 use crate::steps::step_size::StepSize;
 
-/// Follows the modified energy H̄ of a trajectory that another program computes by velocity Verlet, or by another splitting whose [increments](super::MadeStep) it
-/// sums, and says [what moves the energy](Diagnosis).
+/// Follows the modified energy H̄ of a trajectory that another program computes by velocity Verlet, or by another
+/// splitting whose [increments](super::MadeStep) it sums, and says [what moves the energy](Diagnosis).
 ///
-/// It takes states that follow each other by a step, or windows of such states with [gaps](Observer::begin) between them. From the 17th state of a window on
-/// each gives an estimate E_8 with its error, of the state eight before it; with [windows of nine](Window::Nine), from the ninth on, of the state four before
-/// it.
+/// It takes states that follow each other by a step, or windows of such states with [gaps](Observer::begin) between
+/// them. From the 17th state of a window on each gives an estimate E_8 with its error, of the state eight before it;
+/// with [windows of nine](Window::Nine), from the ninth on, of the state four before it.
 ///
 /// ```
 /// use shadowstep::StepSize;
@@ -137,7 +137,8 @@ impl Observer {
     /// Takes the next state; gives the estimate that it completes.
     ///
     /// # Errors
-    /// A state of another dimension; a number, or a modified energy, that is not finite; gradients where there were none, or the reverse.
+    /// A state of another dimension; a number, or a modified energy, that is not finite; gradients where there were
+    /// none, or the reverse.
     pub fn observe(&mut self, logged: &Logged<'_>) -> Result<Option<Value>, RecordedError> {
         self.steps.check(self.steps.next(), logged)?;
         self.steps.push(logged)?;

@@ -7,11 +7,12 @@ use crate::shadow::{BuildEstimator, Estimator};
 use crate::steps::integrator::Integrator;
 use crate::systems::increments::{Carried, Increments};
 
-/// The states q, p that another program has computed by a scheme, n = 0, 1, …: from each the step is made again by the same scheme, which gives
-/// its increments of q, p and β.
+/// The states q, p that another program has computed by a scheme, n = 0, 1, …: from each the step is made again by the
+/// same scheme, which gives its increments of q, p and β.
 ///
-/// It is for every scheme and system, where [`Recorded`](super::Recorded) is for velocity Verlet; and it needs the system, with its potential, where
-/// that needs what was logged. By how much the ends of the steps differ from the next logged states is [known](Repeated::differences).
+/// It is for every scheme and system, where [`Recorded`](super::Recorded) is for velocity Verlet; and it needs the
+/// system, with its potential, where that needs what was logged. By how much the ends of the steps differ from the next
+/// logged states is [known](Repeated::differences).
 ///
 /// ```
 /// use shadowstep::shadow::recorded::Repeated;
@@ -58,7 +59,8 @@ pub struct Repeated<'a, I> {
 }
 
 impl<'a, I: Integrator<Number = f64>> Repeated<'a, I> {
-    /// States q and p, of each as many numbers as the system has coordinates, one after the other. The present state of the system has no effect.
+    /// States q and p, of each as many numbers as the system has coordinates, one after the other. The present state of
+    /// the system has no effect.
     ///
     /// # Errors
     /// Arrays that are not of as many states; steps that do not suit the system: see [`Integrator::check`].
@@ -87,7 +89,8 @@ impl<'a, I: Integrator<Number = f64>> Repeated<'a, I> {
         Ok(ShadowRun::of(self, estimator, &h))
     }
 
-    /// By how much q and p of the states so far differ from the increments of the steps to them; `None` before the first step.
+    /// By how much q and p of the states so far differ from the increments of the steps to them; `None` before the
+    /// first step.
     pub fn differences(&self) -> Option<[Differences; 2]> {
         let [of_q, of_p] = &self.misfits;
         Some([of_q.found()?, of_p.found()?])

@@ -1,4 +1,5 @@
-//! Whether logged forces, or U, are smooth along the trajectory, from what is left of them where a polynomial in time is taken away.
+//! Whether logged forces, or U, are smooth along the trajectory, from what is left of them where a polynomial in time
+//! is taken away.
 
 use super::window::Window;
 
@@ -34,8 +35,8 @@ const NINE: [[Filter; 2]; 2] = [
 /// Eighth differences of states a step apart, and of every second one.
 const SEVENTEEN: [[Filter; 1]; 2] = [[Filter::of(EIGHTH, 1)], [Filter::of(EIGHTH, 2)]];
 
-/// log₂ of the ratio of the squares that [`NINE`] finds in forces whose p-th derivative jumps, at all places in turn, and 2p + 1: the
-/// exponent. For noise both are 0.
+/// log₂ of the ratio of the squares that [`NINE`] finds in forces whose p-th derivative jumps, at all places in turn,
+/// and 2p + 1: the exponent. For noise both are 0.
 const EXPONENTS: [(f64, f64); 5] = [(0.0, 0.0), (0.5481, 1.0), (1.8637, 3.0), (3.3715, 5.0), (5.1819, 7.0)];
 
 impl Window {
@@ -63,9 +64,9 @@ impl Window {
 
 /// Sums of squares of what the filters of a window leave of the gradients.
 ///
-/// The mean square S of what a filter leaves, divided by Σ weights², is σ² for noise of variance σ². For eighth differences it doubles with the
-/// distance where U' jumps, as twice as many jumps are seen; where U'' jumps it is 2³ times as large. Where the forces are smooth and the steps
-/// resolve the motion, it is 2¹⁶ times as large.
+/// The mean square S of what a filter leaves, divided by Σ weights², is σ² for noise of variance σ². For eighth
+/// differences it doubles with the distance where U' jumps, as twice as many jumps are seen; where U'' jumps it is 2³
+/// times as large. Where the forces are smooth and the steps resolve the motion, it is 2¹⁶ times as large.
 #[derive(Clone, Debug)]
 pub(super) struct Roughness {
     window: Window,
@@ -131,7 +132,8 @@ impl Roughness {
         self.gradients += gradient.iter().map(|x| x * x).sum::<f64>();
     }
 
-    /// The mean of Σ (σ v)² of a state, where what is left is noise of each component, of its size σ; v is the velocity.
+    /// The mean of Σ (σ v)² of a state, where what is left is noise of each component, of its size σ; v is the
+    /// velocity.
     pub(super) fn power(&self) -> f64 {
         self.powers / (self.count as f64 / self.dimension as f64)
     }
@@ -153,12 +155,14 @@ impl Roughness {
 pub struct Smoothness {
     /// The root mean square of a component of U_q, or of U.
     pub size: f64,
-    /// The root mean square of its differences in time, which for noise is its size in a component: of eighth differences, divided by
-    /// √C(16, 8); in windows of nine states, of the coefficients of the orthogonal polynomials of degree 7 and 8.
+    /// The root mean square of its differences in time, which for noise is its size in a component: of eighth
+    /// differences, divided by √C(16, 8); in windows of nine states, of the coefficients of the orthogonal polynomials
+    /// of degree 7 and 8.
     pub differences: f64,
-    /// 0 for noise, 1 where U′ jumps, 3 where U″ does, large where the forces are smooth and the steps resolve the motion; of U, 1 where U jumps. It is log₂ of how many times
-    /// as large the squares of the differences are where the distance of the states is doubled, then 16 at most; in windows of nine states it follows
-    /// from the ratio of the squares of the coefficients of degree 5 and 6 to the squares of the coefficients of degree 7 and 8.
+    /// 0 for noise, 1 where U′ jumps, 3 where U″ does, large where the forces are smooth and the steps resolve the
+    /// motion; of U, 1 where U jumps. It is log₂ of how many times as large the squares of the differences are where
+    /// the distance of the states is doubled, then 16 at most; in windows of nine states it follows from the ratio of
+    /// the squares of the coefficients of degree 5 and 6 to the squares of the coefficients of degree 7 and 8.
     pub exponent: f64,
 }
 

@@ -16,10 +16,11 @@ use crate::steps::step_size::StepSize;
 /// \Delta p = -\tfrac h2 \left( U_q(q_n) + U_q(q_{n+1}) \right), \quad
 /// \Delta\beta = \tfrac h2 \left( r_n + r_{n+1} \right), \quad r = q^{\mathsf T} U_q - 2U$$
 ///
-/// (β by Moan & Niesen, eq. 2, whose printed sign is wrong). So the round-off of differences of logged states, ε|q||p|/h in an energy, does not enter;
-/// by how much these differ from the increments is [known](Recorded::differences). q is counted from the first state: a constant displacement of q
-/// is a canonical transformation, and does not change H̄. Where rates are logged and no gradients, Δq and Δp are differences of states,
-/// and q is as logged.
+/// (β by Moan & Niesen, eq. 2, whose printed sign is wrong). So the round-off of differences of logged states,
+/// ε|q||p|/h in an energy, does not enter; by how much these differ from the increments is
+/// [known](Recorded::differences). q is counted from the first state: a constant displacement of q is a canonical
+/// transformation, and does not change H̄. Where rates are logged and no gradients, Δq and Δp are differences of
+/// states, and q is as logged.
 ///
 /// ```
 /// use shadowstep::shadow::recorded::{Log, Recorded};
@@ -82,13 +83,15 @@ impl<'a> Recorded<'a> {
         Ok(ShadowRun::of(self, estimator, h))
     }
 
-    /// By how much q and p of the states so far differ from the increments of steps; `None` before the first step, and where no gradients are logged.
+    /// By how much q and p of the states so far differ from the increments of steps; `None` before the first step, and
+    /// where no gradients are logged.
     pub fn differences(&self) -> Option<[Differences; 2]> {
         self.steps.differences()
     }
 
-    /// Why the states so far are not those of velocity Verlet with these masses, gradients and step size, a sentence; `None` if they are, or no gradients are
-    /// logged. The rule is that of [`Cause::OtherSteps`](super::Cause::OtherSteps).
+    /// Why the states so far are not those of velocity Verlet with these masses, gradients and step size, a sentence;
+    /// `None` if they are, or no gradients are logged. The rule is that of
+    /// [`Cause::OtherSteps`](super::Cause::OtherSteps).
     pub fn other_steps(&self) -> Option<String> {
         let (reordered, differences) = (self.steps.reordered(), self.steps.differences());
         (reordered.is_some() || differences.is_some_and(is_of_other_steps)).then(|| other_steps(reordered, differences))

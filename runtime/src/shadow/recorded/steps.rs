@@ -15,9 +15,10 @@ use crate::systems::increments::{Increments, OwnedIncrements};
 /// \Delta p = -\tfrac h2 \left( U_q(q_n) + U_q(q_{n+1}) \right), \quad
 /// \Delta\beta = \tfrac h2 \left( r_n + r_{n+1} \right), \quad r = q^{\mathsf T} U_q - 2U.$$
 ///
-/// q is counted from the first state: a constant displacement of q is a canonical transformation, and changes H̄ by nothing but round-off. Where
-/// rates are logged and no gradients, Δq and Δp are differences of states, and q is as logged, as the rate belongs to it. Where a [step](MadeStep) of another
-/// splitting is logged, its increments are these.
+/// q is counted from the first state: a constant displacement of q is a canonical transformation, and changes H̄ by
+/// nothing but round-off. Where rates are logged and no gradients, Δq and Δp are differences of states, and q is as
+/// logged, as the rate belongs to it. Where a [step](MadeStep) of another splitting is logged, its increments are
+/// these.
 #[derive(Clone, Debug)]
 pub(super) struct LoggedSteps {
     h: f64,
@@ -249,7 +250,8 @@ impl LoggedSteps {
         self.reordered
     }
 
-    /// By how much logged q and p differ from the steps; `None` before the first step, and where no gradients are logged.
+    /// By how much logged q and p differ from the steps; `None` before the first step, and where no gradients are
+    /// logged.
     pub(super) fn differences(&self) -> Option<[Differences; 2]> {
         let [of_q, of_p] = &self.misfits;
         Some([of_q.found()?, of_p.found()?])

@@ -20,12 +20,14 @@ impl Diagnosis {
                 format!("the modified energy is conserved: it is known to {:.1e}, and {moved}", self.known_to)
             }
             Cause::Digits => format!(
-                "the modified energy is known to {:.1e} only, as the states are stored with few digits: q to {:.1e} of itself",
+                "the modified energy is known to {:.1e} only, as the states are stored with few digits: q to {:.1e} \
+                    of itself",
                 self.known_to,
                 self.differences.map_or(f64::NAN, |[of_q, _]| of_q.of_numbers / 2_f64.sqrt())
             ),
             Cause::NoisyEnergy { size } => format!(
-                "the modified energy is known to {:.1e} only, as the logged U has errors of {size:.1e} rms that are independent from state to state; the \
+                "the modified energy is known to {:.1e} only, as the logged U has errors of {size:.1e} rms that are \
+                    independent from state to state; the \
                  states do not show that anything moves the energy",
                 self.known_to
             ),
@@ -37,12 +39,14 @@ impl Diagnosis {
                 format!("{moved}: U jumps all the time, by {size:.2e} rms in a step, as where a potential is truncated")
             }
             Cause::Noise { size } => format!(
-                "{moved}: the forces have errors that are independent from step to step, of {size:.2e} rms in each component, {:.1e} of the forces",
+                "{moved}: the forces have errors that are independent from step to step, of {size:.2e} rms in each \
+                    component, {:.1e} of the forces",
                 size / self.smoothness.map_or(f64::NAN, |smoothness| smoothness.size)
             ),
             Cause::ForcesNotSmooth => format!("{moved}: the forces are not smooth, as at a cutoff"),
             Cause::TimeStep if self.is_too_large_a_step() => format!(
-                "the time step is too large: H − H̄, the method's part of the energy error, ranges over {:.2e}, {:.1e} of T",
+                "the time step is too large: H − H̄, the method's part of the energy error, ranges over {:.2e}, \
+                    {:.1e} of T",
                 self.method_error,
                 self.method_error / self.kinetic
             ),
@@ -63,7 +67,8 @@ impl Diagnosis {
         let moved = self.moved();
         let (undecided, next) = if self.may_cancel() {
             (
-                "to and fro, or with steps that do not resolve the motion; estimates are means over nine states, in which what U jumps by, or forces that \
+                "to and fro, or with steps that do not resolve the motion; estimates are means over nine states, in \
+                    which what U jumps by, or forces that \
                  are not −U_q, may cancel"
                     .to_owned(),
                 "steps of half the size tell whether anything does",
@@ -76,7 +81,12 @@ impl Diagnosis {
         } else if excess > 1.0 {
             ("by more than errors of the forces explain: U jumps, or the forces are not −U_q".to_owned(), SMALLER)
         } else if self.is_independent() {
-            ("independently from step to step: the forces have errors, or are not smooth, or the steps are too large".to_owned(), SMALLER)
+            (
+                "independently from step to step: the forces have errors, or are not smooth, or the steps are too \
+                large"
+                    .to_owned(),
+                SMALLER,
+            )
         } else if !self.is_resolved() {
             ("with steps that do not resolve the motion: that moves it, or hides what does".to_owned(), SMALLER)
         } else {
@@ -115,8 +125,10 @@ pub(super) fn other_steps(reordered: Option<i64>, differences: Option<[Differenc
     }
     let [of_q, of_p] = differences.map_or([f64::NAN; 2], |differences| differences.map(|of| of.of_increments));
     format!(
-        "the states are not those of velocity Verlet with these masses, forces and step size: the steps differ by {of_q:.1e} (q) and {of_p:.1e} \
-         (p) of themselves, as with other masses or units of time, a thermostat, a constraint, another integrator or step size, velocities in place of \
+        "the states are not those of velocity Verlet with these masses, forces and step size: the steps differ by \
+            {of_q:.1e} (q) and {of_p:.1e} \
+         (p) of themselves, as with other masses or units of time, a thermostat, a constraint, another integrator or \
+         step size, velocities in place of \
          momenta, wrapped positions, or momenta at half steps"
     )
 }

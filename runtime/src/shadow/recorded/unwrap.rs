@@ -2,16 +2,18 @@
 
 use super::error::RecordedError;
 
-/// A move by more than this part of a box vector between two states is not decided: it may be one by the rest, to the other side.
+/// A move by more than this part of a box vector between two states is not decided: it may be one by the rest, to the
+/// other side.
 const DECIDED: f64 = 0.25;
 
 /// Follows particles in a periodic box, whose logged positions are images in the box.
 ///
-/// Each particle goes to the nearest image of its next position: of a move s in box vectors it takes s − round(s) from state to state. That is
-/// the right image if no particle moves by half of a box vector in a step; a move by more than a quarter is refused, with its place.
+/// Each particle goes to the nearest image of its next position: of a move s in box vectors it takes s − round(s) from
+/// state to state. That is the right image if no particle moves by half of a box vector in a step; a move by more than
+/// a quarter is refused, with its place.
 ///
-/// β is the integral of qᵀU_q − 2U, which jumps where a coordinate is wrapped. The box stays the same: with a barostat there is no
-/// modified energy of this kind.
+/// β is the integral of qᵀU_q − 2U, which jumps where a coordinate is wrapped. The box stays the same: with a barostat
+/// there is no modified energy of this kind.
 ///
 /// ```
 /// use shadowstep::shadow::recorded::Unwrapping;

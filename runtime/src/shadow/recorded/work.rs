@@ -1,6 +1,7 @@
 //! What differences of logged states from the steps do to the energy.
 
-/// The sums of g·r_q + v·r_p, the work of the differences r of logged states from the steps between them, with the mean g and v of both states.
+/// The sums of g·r_q + v·r_p, the work of the differences r of logged states from the steps between them, with the mean
+/// g and v of both states.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Work {
     of_step: f64,

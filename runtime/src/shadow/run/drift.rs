@@ -52,7 +52,8 @@ pub fn energy_drift<I: Integrator<Number: Real>>(
 }
 
 impl<T: States, E: Estimator<T::Number>> ShadowRun<T, E> {
-    /// Runs to the end and keeps the extremes of the modified energy. The evaluations are left 0; [`energy_drift`] counts them.
+    /// Runs to the end and keeps the extremes of the modified energy. The evaluations are left 0; [`energy_drift`]
+    /// counts them.
     ///
     /// # Errors
     /// As [`advance`](ShadowRun::advance).

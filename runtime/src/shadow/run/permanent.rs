@@ -1,19 +1,19 @@
 //! The permanent change of the modified energy.
 //!
-//! Where a motion is fast, as in a close encounter, an estimate has a large error for a few steps. The modified energy itself
-//! changes there, too, permanently and by far less. Between encounters the estimates are right to many more digits: a change is
-//! measured from one such *low-error state* to another. These are the states whose estimated error is at most the geometric mean of
-//! the smallest and the largest error of the run; turning points need not be known, and where all errors are alike about half of the
-//! states have low errors.
+//! Where a motion is fast, as in a close encounter, an estimate has a large error for a few steps. The modified energy
+//! itself changes there, too, permanently and by far less. Between encounters the estimates are right to many more
+//! digits: a change is measured from one such *low-error state* to another. These are the states whose estimated error
+//! is at most the geometric mean of the smallest and the largest error of the run; turning points need not be known,
+//! and where all errors are alike about half of the states have low errors.
 //!
-//! A change is *resolved* where low-error states lie on both sides of a peak of the error, and where it exceeds what errors and
-//! round-off can produce. It is the range of what the encounters add, one after the other: each adds an amount that depends, like a
-//! sine, on its phase within a step, so the sum oscillates (a beat of the step with the period) and may return. The
-//! largest of these amounts is the largest *jump*.
+//! A change is *resolved* where low-error states lie on both sides of a peak of the error, and where it exceeds what
+//! errors and round-off can produce. It is the range of what the encounters add, one after the other: each adds an
+//! amount that depends, like a sine, on its phase within a step, so the sum oscillates (a beat of the step with the
+//! period) and may return. The largest of these amounts is the largest *jump*.
 //!
-//! Three definitions were compared on the exact flow, where all they find is their own error, and on Störmer–Verlet (Kepler, e = 0.6,
-//! h = 1/20, t = 0 to 100, 80 digits; averages with the weights exp(−1/(1 − x²)) over the first and the last 252 steps, two
-//! periods):
+//! Three definitions were compared on the exact flow, where all they find is their own error, and on Störmer–Verlet
+//! (Kepler, e = 0.6, h = 1/20, t = 0 to 100, 80 digits; averages with the weights exp(−1/(1 − x²)) over the first and
+//! the last 252 steps, two periods):
 //!
 //! | | exact flow, D_m | E_16 | E_24 | Störmer–Verlet, D_m | E_16 | E_24 |
 //! | --- | --- | --- | --- | --- | --- | --- |
@@ -36,11 +36,12 @@ pub struct PermanentChange<N> {
     pub change: N,
     /// From the first low-error state to the last one.
     pub first_to_last: N,
-    /// The largest change from one low-error interval to the next, across the peak of the error between them; 0 if there is one
-    /// interval only.
+    /// The largest change from one low-error interval to the next, across the peak of the error between them; 0 if
+    /// there is one interval only.
     pub largest_jump: N,
-    /// What a change has to exceed to be resolved: four times the largest estimated error of a low-error state, or eight times the
-    /// random walk that the round-off of the steps is expected to make (Brouwer's law), whichever is larger.
+    /// What a change has to exceed to be resolved: four times the largest estimated error of a low-error state, or
+    /// eight times the random walk that the round-off of the steps is expected to make (Brouwer's law), whichever is
+    /// larger.
     pub resolution: N,
     /// Whether the change is resolved.
     pub finding: Finding,

@@ -49,9 +49,9 @@ impl<I: Integrator<Number: Real>, E: Estimator<I::Number>> ShadowRun<Trajectory<
 
     /// Resumes a run: the estimates of n = `from` + reach + 1, …, steps, with the bits of the run from 0.
     ///
-    /// The system is at the state `from` of that run. An estimate depends only on the states n − reach, …, n + reach and
-    /// the increments between them. States after 0 are all made by steps forward; those before 0 are not, so the estimates of
-    /// n ≤ reach cannot be computed this way.
+    /// The system is at the state `from` of that run. An estimate depends only on the states n − reach, …, n + reach
+    /// and the increments between them. States after 0 are all made by steps forward; those before 0 are not, so the
+    /// estimates of n ≤ reach cannot be computed this way.
     ///
     /// # Errors
     /// An energy at `from` that is not finite; settings of the estimator that are not valid.
@@ -115,7 +115,8 @@ impl<T: States, E: Estimator<T::Number>> ShadowRun<T, E> {
         self.after > self.reach
     }
 
-    /// The next n with its estimate, of the state n or of the middle between it and the next one; `None` after the last.
+    /// The next n with its estimate, of the state n or of the middle between it and the next one; `None` after the
+    /// last.
     ///
     /// # Errors
     /// A state that is not finite, up to the last one that the estimator needs, or a modified energy that is not.
@@ -123,8 +124,9 @@ impl<T: States, E: Estimator<T::Number>> ShadowRun<T, E> {
         Ok(self.advance_with(|_, _| ())?.map(|(estimated, _)| estimated))
     }
 
-    /// As [`advance`](Self::advance), and calls `watch` with the n of each state on the way and the source of states, which is
-    /// there: those before and after the run, which only the estimator needs, included. Returns the source of states, too.
+    /// As [`advance`](Self::advance), and calls `watch` with the n of each state on the way and the source of states,
+    /// which is there: those before and after the run, which only the estimator needs, included. Returns the source of
+    /// states, too.
     ///
     /// # Errors
     /// As [`advance`](Self::advance).

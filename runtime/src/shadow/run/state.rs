@@ -82,7 +82,8 @@ pub trait States {
     /// A state that is not finite.
     fn advance(&mut self) -> Result<Option<TrajectoryState<'_, Self::Number>>, RunError>;
 
-    /// Whether the round-off of a step comes from its increments only: see [`State::is_compensated`](crate::State::is_compensated). By default it is not.
+    /// Whether the round-off of a step comes from its increments only: see
+    /// [`State::is_compensated`](crate::State::is_compensated). By default it is not.
     fn is_compensated(&self) -> bool {
         false
     }

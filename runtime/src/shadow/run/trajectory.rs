@@ -10,8 +10,8 @@ use crate::systems::state::{Saved, State};
 use crate::systems::summation::Summation;
 use crate::systems::system::Visitor;
 
-/// The states of a trajectory in the order of time: for an estimator n = −reach, …, steps + reach with the increments of each
-/// step, or [plain](Trajectory::plain) ones without them.
+/// The states of a trajectory in the order of time: for an estimator n = −reach, …, steps + reach with the increments
+/// of each step, or [plain](Trajectory::plain) ones without them.
 ///
 /// States before 0 are made with the scheme's exact inverse from the state 0.
 pub struct Trajectory<I: Integrator> {
@@ -45,7 +45,8 @@ impl<I: Integrator<Number: Real>> Trajectory<I> {
     /// Begins at the system's present state.
     ///
     /// # Errors
-    /// An initial energy, or a state before 0, that is not finite; steps that do not suit the system: see [`Integrator::check`].
+    /// An initial energy, or a state before 0, that is not finite; steps that do not suit the system: see
+    /// [`Integrator::check`].
     pub fn new(integrator: I, steps: u64, reach: usize) -> Result<Self, RunError> {
         let mut trajectory = Self::after(integrator, 0)?;
         trajectory.extend(steps, reach);
@@ -55,7 +56,8 @@ impl<I: Integrator<Number: Real>> Trajectory<I> {
 
     /// The states n = `from`, …, steps, whose increments are all 0; the system is at the state `from`.
     ///
-    /// They have the bits of the states with increments, and the bits of a trajectory from 0 where `from` is one of its states.
+    /// They have the bits of the states with increments, and the bits of a trajectory from 0 where `from` is one of its
+    /// states.
     ///
     /// # Errors
     /// An energy at `from` that is not finite; steps that do not suit the system.
@@ -68,8 +70,8 @@ impl<I: Integrator<Number: Real>> Trajectory<I> {
         Ok(trajectory)
     }
 
-    /// The states after `from`, with increments, up to a last one that [`extend`](Self::extend) sets; the system is at the state
-    /// `from`.
+    /// The states after `from`, with increments, up to a last one that [`extend`](Self::extend) sets; the system is at
+    /// the state `from`.
     pub(super) fn after(mut integrator: I, from: i64) -> Result<Self, RunError> {
         integrator.check()?;
         check_energy(&integrator.system().energy(), integrator.state().q(), from)?;
@@ -111,8 +113,8 @@ impl<I: Integrator<Number: Real>> Trajectory<I> {
         self.augmented = augmented;
     }
 
-    /// Goes to the state n, or to the last one if that comes before: the states between are made in less time than by [`advance`](States::advance), with
-    /// the same bits and checks.
+    /// Goes to the state n, or to the last one if that comes before: the states between are made in less time than by
+    /// [`advance`](States::advance), with the same bits and checks.
     ///
     /// # Errors
     /// As `advance`.
@@ -121,7 +123,8 @@ impl<I: Integrator<Number: Real>> Trajectory<I> {
         if n <= self.n { Ok(()) } else { self.make_until(n, None) }
     }
 
-    /// The same, and the visitor sees the states between and the last one; of a run that fails also some that are not finite.
+    /// The same, and the visitor sees the states between and the last one; of a run that fails also some that are not
+    /// finite.
     ///
     /// # Errors
     /// As `advance`.

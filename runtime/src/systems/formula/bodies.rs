@@ -25,8 +25,9 @@ pub enum RelativeTo {
     Origin,
 }
 
-/// The sum over bodies of an energy of each, from a formula in its position x, y, z, the distance r = √(x² + y² + z²), its mass m, the mass m0 of the
-/// first body, and parameters. The potential has the inertial positions, body after body.
+/// The sum over bodies of an energy of each, from a formula in its position x, y, z, the distance r = √(x² + y² + z²),
+/// its mass m, the mass m0 of the first body, and parameters. The potential has the inertial positions, body after
+/// body.
 ///
 /// ```
 /// use shadowstep::systems::formula::{FormulaOfBodies, RelativeTo};
@@ -89,8 +90,8 @@ impl<N: Number> FormulaOfBodies<N> {
         })
     }
 
-    /// The same, where the last bodies are particles of mass 0, which are given as ones of mass 1: these have a force for a unit mass, that of an energy proportional to the mass, and no
-    /// energy, and do not react on the first body.
+    /// The same, where the last bodies are particles of mass 0, which are given as ones of mass 1: these have a force
+    /// for a unit mass, that of an energy proportional to the mass, and no energy, and do not react on the first body.
     #[must_use]
     pub fn with_particles(self, particles: usize) -> Self {
         FormulaOfBodies { particles, ..self }

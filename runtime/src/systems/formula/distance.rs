@@ -4,7 +4,8 @@ use std::collections::HashMap;
 
 use shadowstep_symbolic::{Graph, Node, Rational};
 
-/// The formula with the coordinate after the first `dimensions`, which is the distance, replaced by the length of these.
+/// The formula with the coordinate after the first `dimensions`, which is the distance, replaced by the length of
+/// these.
 pub(super) fn without_distance(graph: &mut Graph, node: Node, dimensions: usize) -> Node {
     let whole = |n: i64| Rational::from_integer(n.into());
     let distance = graph.coordinate(dimensions);

@@ -13,7 +13,8 @@ use crate::systems::kinetic::{General, Kinetic, Quadratic};
 /// A kinetic energy from a formula read at run time: a list of operations, executed without allocation.
 ///
 /// It is taken as a general T(p), which schemes for quadratic T only do not move;
-/// [`into_quadratic`](FormulaKinetic::into_quadratic) turns one that is at most quadratic in p into a quadratic kinetic energy.
+/// [`into_quadratic`](FormulaKinetic::into_quadratic) turns one that is at most quadratic in p into a quadratic kinetic
+/// energy.
 ///
 /// ```
 /// use shadowstep::{Motion, systems::formula::{FormulaKinetic, FormulaPotential}};

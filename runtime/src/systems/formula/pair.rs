@@ -102,7 +102,8 @@ impl<N: Number> FormulaPair<N> {
         }
     }
 
-    /// The registers of blocks of this length, with the properties of the bodies i and j of each place; none where blocks have another length.
+    /// The registers of blocks of this length, with the properties of the bodies i and j of each place; none where
+    /// blocks have another length.
     #[inline(always)]
     fn blocks<'s, const W: usize>(
         &self,

@@ -6,7 +6,8 @@ use crate::number::Number;
 
 /// What the derivatives of a drift along all directions have in common.
 ///
-/// With z = αs², ∂G_k/∂s = G_(k−1) and ∂G_k/∂α = (k G_(k+2) − s G_(k+1))/2, so that Kepler's equation t = r₀s + ηG₂ + ζG₃ gives
+/// With z = αs², ∂G_k/∂s = G_(k−1) and ∂G_k/∂α = (k G_(k+2) − s G_(k+1))/2, so that Kepler's equation t = r₀s + ηG₂ +
+/// ζG₃ gives
 ///
 /// r ṡ = ṫ − s ṙ₀ − G₂ η̇ − G₃ ζ̇ − (η ∂G₂/∂α + ζ ∂G₃/∂α) α̇.
 ///

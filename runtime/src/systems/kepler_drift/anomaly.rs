@@ -2,8 +2,8 @@
 
 use std::f64::consts::{PI, TAU};
 
-/// An orbit by what is known of its first point: μ and the numbers of Kepler's equation t = r₀s + ηG₂(s) + ζG₃(s), all scaled by powers of 2 such
-/// that the squared velocities μ/r₀ and |α| are below 4.
+/// An orbit by what is known of its first point: μ and the numbers of Kepler's equation t = r₀s + ηG₂(s) + ζG₃(s), all
+/// scaled by powers of 2 such that the squared velocities μ/r₀ and |α| are below 4.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Orbit {
     pub(super) mu: f64,
@@ -29,7 +29,8 @@ impl Orbit {
         if self.alpha > 0.0 && count.is_finite() { count } else { 0.0 }
     }
 
-    /// s of the time t, at most half a revolution, to some 10 digits: further steps in another number type refine it. NaN if a number is not finite.
+    /// s of the time t, at most half a revolution, to some 10 digits: further steps in another number type refine it.
+    /// NaN if a number is not finite.
     pub(super) fn anomaly(&self, t: f64) -> f64 {
         let finite = [t, self.mu, self.r0, self.eta, self.alpha, self.zeta].into_iter().all(f64::is_finite);
         if t == 0.0 || !finite {
@@ -75,8 +76,8 @@ impl Orbit {
         (s, MOST_STEPS)
     }
 
-    /// A first s: of short steps by the series in t, of bound orbits by Danby's (Fundamentals of Celestial Mechanics, eq. 6.8.20), of long hyperbolic
-    /// flights by the leading exponential, else of the parabola.
+    /// A first s: of short steps by the series in t, of bound orbits by Danby's (Fundamentals of Celestial Mechanics,
+    /// eq. 6.8.20), of long hyperbolic flights by the leading exponential, else of the parabola.
     fn guess(&self, t: f64) -> f64 {
         let (tau, w, z) = (t / self.r0, self.eta / self.r0, self.zeta / self.r0);
         if (tau * w).abs() < 0.3 && (tau * tau * z).abs() < 0.3 {
@@ -193,7 +194,8 @@ mod tests {
         low + (high - low) * (random.next_u64() >> 11) as f64 * 2_f64.powi(-53)
     }
 
-    /// An orbit of any eccentricity, from any point, also a nearly or exactly radial one; r₀ = 1 and the larger of the squared velocities is 1.
+    /// An orbit of any eccentricity, from any point, also a nearly or exactly radial one; r₀ = 1 and the larger of the
+    /// squared velocities is 1.
     fn orbit(random: &mut Pcg64Mcg) -> Orbit {
         let mu = 10_f64.powf(number(random, -6.0, 0.0).max(-5.0));
         let square = if mu < 1.0 { number(random, 0.0, 2.0) } else { 0.0 } + 2.0 * number(random, 0.0, 1.0).powi(8);

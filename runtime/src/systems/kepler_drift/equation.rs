@@ -1,7 +1,7 @@
 //! Kepler's equation in any number type: t = r₀s + ηG₂(s) + ζG₃(s), with G_k = sᵏ c_k(αs²).
 //!
-//! Functions are inlined, so that lanes use the widest instructions; not without optimisation, as the frame of one function with every intermediate
-//! result of double-doubles in lanes overflows the stack.
+//! Functions are inlined, so that lanes use the widest instructions; not without optimisation, as the frame of one
+//! function with every intermediate result of double-doubles in lanes overflows the stack.
 
 use std::cmp::Ordering;
 
@@ -10,7 +10,8 @@ use super::stumpff::{Stumpff, Terms};
 use crate::Rational;
 use crate::number::{Number, epsilon, scaled};
 
-/// The equation of an orbit and a time, its root s as far as it is known, and all that is computed at s. No call allocates.
+/// The equation of an orbit and a time, its root s as far as it is known, and all that is computed at s. No call
+/// allocates.
 #[derive(Clone, Debug)]
 pub(super) struct Equation<N> {
     /// Whether the numbers have the 53 bits of `f64` or fewer.
@@ -126,13 +127,15 @@ impl<N: Number> Equation<N> {
             self.refine();
         }
         self.take_last_step();
-        // of numbers that are dual twice: the last step from an error d leaves d³ in s and d² in its derivatives; of an f64, d is small enough for these too
+        // of numbers that are dual twice: the last step from an error d leaves d³ in s and d² in its derivatives; of an
+        // f64, d is small enough for these too
         if N::HAS_DERIVATIVES && !self.is_double {
             self.settle_derivatives();
         }
     }
 
-    /// One more step, of which the derivatives are taken: those of the solution, as the step itself is 0 up to round-off.
+    /// One more step, of which the derivatives are taken: those of the solution, as the step itself is 0 up to
+    /// round-off.
     fn settle_derivatives(&mut self) {
         let solution = |own: &mut Self| {
             let [g1, g2, _] = &own.g;
@@ -242,7 +245,8 @@ impl<N: Number> Equation<N> {
         self.step.subtract_product(&self.newton, inverse);
     }
 
-    /// Whether Newton's step was short (the two terms of the step may cancel by chance), so that what is left of the error is below 10⁻⁶ of the orbit's own scales.
+    /// Whether Newton's step was short (the two terms of the step may cancel by chance), so that what is left of the
+    /// error is below 10⁻⁶ of the orbit's own scales.
     #[inline(always)]
     fn is_close(&self, lane: usize) -> bool {
         let [mu, alpha, s, z, r, slope, step] =
@@ -272,7 +276,8 @@ impl<N: Number> Equation<N> {
         self.s.set_lane(lane, orbit.anomaly(self.scaled_time(lane, velocity)), -velocity.0);
     }
 
-    /// The orbit of a lane in units of 2ⁿ, in which it has the size 1, and the exponents of the units of velocity and length.
+    /// The orbit of a lane in units of 2ⁿ, in which it has the size 1, and the exponents of the units of velocity and
+    /// length.
     fn orbit(&self, lane: usize) -> (Orbit, (i64, i64)) {
         let numbers = [&self.mu, &self.r0, &self.eta, &self.alpha, &self.zeta];
         let [mu, r0, eta, alpha, zeta] = numbers.map(|x| x.lane(lane));
@@ -404,7 +409,8 @@ impl<N: Number> Equation<N> {
         }
     }
 
-    /// Whether terms of r or of t cancel in some lane: on the way to the pericentre and past it, of hyperbolas above all.
+    /// Whether terms of r or of t cancel in some lane: on the way to the pericentre and past it, of hyperbolas above
+    /// all.
     #[inline(always)]
     pub(super) fn cancels(&self) -> bool {
         self.is_double && self.is_long && (0..N::LANES).any(|lane| self.cancels_in(lane))

@@ -15,7 +15,8 @@ pub enum KeplerDriftError {
     Time(f64),
     /// Position and velocity of different dimensions, or of none.
     #[error(
-        "a Kepler drift needs as many velocities as positions, and one at least, but it has {positions} positions and {velocities} velocities"
+        "a Kepler drift needs as many velocities as positions, and one at least, but it has {positions} positions and \
+            {velocities} velocities"
     )]
     Dimensions {
         /// of positions

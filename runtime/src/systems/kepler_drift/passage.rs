@@ -1,5 +1,5 @@
-//! Passages of the centre in double-double, rounded: on long steps to the pericentre and past it the terms of t or r are larger than their sum, and `f64`
-//! would lose digits that the orbit does not.
+//! Passages of the centre in double-double, rounded: on long steps to the pericentre and past it the terms of t or r
+//! are larger than their sum, and `f64` would lose digits that the orbit does not.
 
 use super::equation::Equation;
 use crate::number::{DoubleDouble, Number};

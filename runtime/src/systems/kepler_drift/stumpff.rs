@@ -6,11 +6,12 @@ use crate::number::scaled;
 
 /// c_k(z) = Σ (−z)ⁿ/(2n + k)!, n = 0, 1, …: c₀ = cos √z and c₁ = sin √z/√z where z > 0, cosh and sinh where z < 0.
 ///
-/// z is divided by 4 until the series are short, and c₀ … c₃ are doubled back: c₃(4z) = (c₂ + c₀c₃)/4, c₂(4z) = c₁²/2, c₁(4z) = c₀c₁; with
-/// c₀ = 1 − z c₂ at each z, as 2c₀² − 1 would lose two bits each time. (K. Stumpff, Himmelsmechanik I, 1959; J. M. A. Danby, Fundamentals
-/// of Celestial Mechanics, 2nd ed., 1988, sec. 6.9)
+/// z is divided by 4 until the series are short, and c₀ … c₃ are doubled back: c₃(4z) = (c₂ + c₀c₃)/4, c₂(4z) = c₁²/2,
+/// c₁(4z) = c₀c₁; with c₀ = 1 − z c₂ at each z, as 2c₀² − 1 would lose two bits each time. (K. Stumpff, Himmelsmechanik
+/// I, 1959; J. M. A. Danby, Fundamentals of Celestial Mechanics, 2nd ed., 1988, sec. 6.9)
 ///
-/// The first terms are quotients by 6, 12, 20 and 30: 1/6 as an `f64` has an error, the same in each of millions of drifts.
+/// The first terms are quotients by 6, 12, 20 and 30: 1/6 as an `f64` has an error, the same in each of millions of
+/// drifts.
 #[derive(Clone, Debug)]
 pub(super) struct Stumpff<N> {
     /// c₀ … c₃ of the last z.

@@ -3,7 +3,8 @@
 use super::{InverseMasses, Kinetic};
 use crate::number::Number;
 
-/// T of the first coordinates. Those after them are of particles of mass 0, whose momenta are divided by their mass: they have no energy, and drift by K as those of mass 1.
+/// T of the first coordinates. Those after them are of particles of mass 0, whose momenta are divided by their mass:
+/// they have no energy, and drift by K as those of mass 1.
 ///
 /// See [`PairsAndParticles`](crate::systems::pairs::PairsAndParticles).
 #[derive(Clone, Debug)]

@@ -1,7 +1,7 @@
 //! The exact flow of A = ½pᵀM⁻¹p + ½qᵀKq over the times of a step's drifts.
 //!
-//! With W = M⁻¹K, C = cos(t√W) and S = sin(t√W)/√W, both series in W, the flow is q ← C q + S M⁻¹p, p ← Cᵀ p − K S q. Increments need C − 1, which is
-//! computed without cancellation: by its series for a small t, and then by doubling t.
+//! With W = M⁻¹K, C = cos(t√W) and S = sin(t√W)/√W, both series in W, the flow is q ← C q + S M⁻¹p, p ← Cᵀ p − K S q.
+//! Increments need C − 1, which is computed without cancellation: by its series for a small t, and then by doubling t.
 
 use shadowstep_symbolic::decimal::from_text;
 

@@ -1,4 +1,5 @@
-//! A function of variables none of which is the momentum of another: they stay, and their partners change at constant rates.
+//! A function of variables none of which is the momentum of another: they stay, and their partners change at constant
+//! rates.
 
 use shadowstep_symbolic::PotentialPrograms;
 

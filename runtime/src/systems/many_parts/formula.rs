@@ -53,7 +53,8 @@ pub struct PartFormula {
 }
 
 impl PartFormula {
-    /// The part of a formula, with the names of the coordinates, as many of their momenta, and the exact values of parameters.
+    /// The part of a formula, with the names of the coordinates, as many of their momenta, and the exact values of
+    /// parameters.
     ///
     /// # Errors
     /// A text that is not a valid formula, unknown or repeated names, a part whose flow has no formula.

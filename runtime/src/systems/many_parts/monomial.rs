@@ -1,6 +1,7 @@
 //! A = c q^α p^β of one pair of variables, α ≠ β.
 //!
-//! A stays, so that q p grows like q p + (β − α) t A: with 1 + s = 1 + (β − α) t A/(q p), q ← q (1 + s)^{β/(β − α)} and p ← p (1 + s)^{−α/(β − α)}.
+//! A stays, so that q p grows like q p + (β − α) t A: with 1 + s = 1 + (β − α) t A/(q p), q ← q (1 + s)^{β/(β − α)} and
+//! p ← p (1 + s)^{−α/(β − α)}.
 
 use num_integer::Integer as _;
 use num_traits::One as _;
@@ -16,7 +17,8 @@ pub(super) struct Monomial<N> {
     exponents: [i32; 2],
     /// β − α
     difference: i32,
-    /// y is this root of 1 + s, or of √(1 + s): a real root of a negative number would go on behind the singularity, where there is no flow.
+    /// y is this root of 1 + s, or of √(1 + s): a real root of a negative number would go on behind the singularity,
+    /// where there is no flow.
     root: u32,
     of_square_root: bool,
     /// The powers of y by which q and p are multiplied.

@@ -10,13 +10,15 @@ pub trait Part<N: Number> {
     /// energy ← energy + A at a state.
     fn add_energy(&mut self, q: &[N], p: &[N], energy: &mut N);
 
-    /// The exact flow over a time, and its part of the increments: β grows by ∫(qᵀA_q + pᵀA_p − 2A) dt. The state has the same bits with them and without.
+    /// The exact flow over a time, and its part of the increments: β grows by ∫(qᵀA_q + pᵀA_p − 2A) dt. The state has
+    /// the same bits with them and without.
     ///
-    /// `continues` says that the state is the one that the last flow of this part has made, or another with the same q if it
-    /// [is a potential](Part::is_potential): what stays along the flow is then known.
+    /// `continues` says that the state is the one that the last flow of this part has made, or another with the same q
+    /// if it [is a potential](Part::is_potential): what stays along the flow is then known.
     fn flow(&mut self, time: &N, state: &mut FlowState<'_, N>, continues: bool);
 
-    /// Whether it is a function of q only, of this number of coordinates: what it evaluates then stays along the flows of other potentials.
+    /// Whether it is a function of q only, of this number of coordinates: what it evaluates then stays along the flows
+    /// of other potentials.
     fn is_potential(&self, _coordinates: usize) -> bool {
         false
     }

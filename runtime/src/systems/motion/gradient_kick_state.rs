@@ -33,7 +33,8 @@ impl<N: Number> GradientKickState<N> {
     /// If the potential has no Hessian–vector product.
     pub(super) fn new(potential: &impl Potential<N>, context: &N::Context) -> Self {
         let hessian = potential.hessian().expect(
-            "gradient kicks need the Hessian–vector product of the potential: write it as a formula, or implement `Potential::hessian`",
+            "gradient kicks need the Hessian–vector product of the potential: write it as a formula, or implement \
+                `Potential::hessian`",
         );
         let mut scratch = vec![N::zero(context); hessian.hessian_scratch()];
         hessian.prepare_hessian(&mut scratch, context);

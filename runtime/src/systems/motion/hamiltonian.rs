@@ -152,7 +152,8 @@ impl<N: Number, P: Potential<N>, K: Kinetic<N>> Hamiltonian<N, P, K> {
         self.add_kinetic_energy((q, p), energy);
     }
 
-    /// Of an energy U(q), energy ← T(p) + U(q); NaN where U is finite though squares of positions overflow: an infinite r² makes 0 of 1/r.
+    /// Of an energy U(q), energy ← T(p) + U(q); NaN where U is finite though squares of positions overflow: an infinite
+    /// r² makes 0 of 1/r.
     #[inline(always)]
     pub(super) fn add_kinetic_energy(&mut self, (q, p): (&[N], &[N]), energy: &mut N) {
         self.kinetic.energy(p, &mut self.kinetic_energy, &mut self.kinetic_scratch);
@@ -245,7 +246,8 @@ impl<N: Number, V: Coordinates<N>, P: Potential<N>, K: Kinetic<N>, S: Summation<
     }
 }
 
-/// The maps of the first, of each middle and of the last of `count` steps; `None` unless a step has kicks and drifts and nothing else.
+/// The maps of the first, of each middle and of the last of `count` steps; `None` unless a step has kicks and drifts
+/// and nothing else.
 pub(super) fn kicks_and_drifts<N: Number>(maps: &impl MapSequence<N>, count: u64) -> Option<[Repeated<N>; 3]> {
     let mut has_others = false;
     let mut list = |step: u64| {

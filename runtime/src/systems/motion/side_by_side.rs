@@ -1,4 +1,5 @@
-//! Steps of several systems side by side, whose gradients are one [program](GradientProgram): coordinate by coordinate, those of all systems.
+//! Steps of several systems side by side, whose gradients are one [program](GradientProgram): coordinate by coordinate,
+//! those of all systems.
 
 use std::array::from_fn;
 
@@ -17,7 +18,8 @@ use crate::systems::potential::{GradientProgram, Potential, SYSTEMS};
 use crate::systems::summation::{Compensated, Remainders, Summation};
 use crate::systems::turn::{InTurns, Turn, advance_in_turns};
 
-/// `count` plain steps of the first motions, as many as have one program with their neighbours; the others are returned.
+/// `count` plain steps of the first motions, as many as have one program with their neighbours; the others are
+/// returned.
 #[inline(always)]
 pub(super) fn advance_first<'m, N, V, P, K, S>(
     motions: &'m mut [Motion<N, V, P, K, S>],

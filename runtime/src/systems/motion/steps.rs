@@ -68,7 +68,8 @@ where
     }
 
     fn advance(motions: &mut [Self], maps: &impl MapSequence<N>, count: u64, carried: Carried) {
-        // two functions: in one of both the compiler would no longer inline the gradient, which has to be compiled for these instructions
+        // two functions: in one of both the compiler would no longer inline the gradient, which has to be compiled for
+        // these instructions
         if carried == Carried::Nothing {
             N::in_widest_instructions(
                 #[inline(always)]

@@ -1,6 +1,7 @@
 //! Steps of several motions, which take [turns](Turn).
 //!
-//! Of states in vectors, which are in memory, each map of a turn is made for all systems; so are few steps, and those with gradient kicks.
+//! Of states in vectors, which are in memory, each map of a turn is made for all systems; so are few steps, and those
+//! with gradient kicks.
 
 use std::mem::needs_drop;
 

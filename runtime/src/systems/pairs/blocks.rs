@@ -1,7 +1,8 @@
-//! The sum over all pairs for numbers of a few bytes: of each body with a block of others at once, in vectors of the processor.
+//! The sum over all pairs for numbers of a few bytes: of each body with a block of others at once, in vectors of the
+//! processor.
 //!
-//! What a body gets from its blocks, and the summands of pairs, are added up in a sum for each place in a block: sums that do not wait for one another, and that are the
-//! same whatever the vectors.
+//! What a body gets from its blocks, and the summands of pairs, are added up in a sum for each place in a block: sums
+//! that do not wait for one another, and that are the same whatever the vectors.
 
 use std::hint::black_box;
 
@@ -67,7 +68,8 @@ pub(super) struct Blocks<'a, P, const D: usize> {
 }
 
 impl<P, const D: usize> Blocks<'_, P, D> {
-    /// gradient ← U_q, and the sum of the summands of pairs where it is wanted; `axes` is the scratch space of blocks, `pair` the scratch space of the pair.
+    /// gradient ← U_q, and the sum of the summands of pairs where it is wanted; `axes` is the scratch space of blocks,
+    /// `pair` the scratch space of the pair.
     pub(super) fn sum<N: Number>(
         &self,
         (q, gradient): (&[N], &mut [N]),
@@ -110,7 +112,8 @@ impl<P, const D: usize> Blocks<'_, P, D> {
         );
     }
 
-    /// Adds the forces to the gradient, and the summands of pairs to their sum; without forces, the energies to the sum.
+    /// Adds the forces to the gradient, and the summands of pairs to their sum; without forces, the energies to the
+    /// sum.
     #[inline(always)]
     fn add_blocks<N: Number, const FORCES: bool, const SUM: bool>(
         &self,
@@ -207,8 +210,8 @@ impl<P, const D: usize> Blocks<'_, P, D> {
         }
     }
 
-    /// The forces of the body i at q_i with a block of bodies from j on, in place of their differences, and their summands; without forces,
-    /// their energies.
+    /// The forces of the body i at q_i with a block of bodies from j on, in place of their differences, and their
+    /// summands; without forces, their energies.
     #[inline(always)]
     fn forces<N: Number, const FORCES: bool, const SUM: bool, const B: usize>(
         &self,

@@ -1,6 +1,8 @@
-//! The sum over the neighbours in a chain on a line, for numbers of a few bytes: blocks of springs at once, in vectors of the processor.
+//! The sum over the neighbours in a chain on a line, for numbers of a few bytes: blocks of springs at once, in vectors
+//! of the processor.
 //!
-//! A body's gradient is the slope of the spring before it, which is carried on, less the slope of the spring after it: the bits of the plain loop.
+//! A body's gradient is the slope of the spring before it, which is carried on, less the slope of the spring after it:
+//! the bits of the plain loop.
 
 use std::slice::{from_mut, from_ref};
 
@@ -134,7 +136,8 @@ impl<P> Chain<'_, P> {
         }
         let own: &mut [N; BLOCK] = gradient[first..].first_chunk_mut().expect("the block is within the bodies");
         for l in 0..BLOCK {
-            // 0 − 0 where a slope is −0; in the first place, where nothing is carried that is −0, only for the vectors of the compiler
+            // 0 − 0 where a slope is −0; in the first place, where nothing is carried that is −0, only for the vectors
+            // of the compiler
             own[l].assign_sum(&zeros[0], if l == 0 { carried } else { &slope[l - 1] });
             own[l].subtract(&slope[l]);
         }

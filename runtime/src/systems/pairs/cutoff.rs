@@ -10,9 +10,10 @@ pub const MOST_DERIVATIVES: u32 = 8;
 
 /// The distance r_c from which on two bodies do not interact, in D dimensions.
 ///
-/// Without a [switch](Cutoff::switched) the energy of a pair is u(r²) up to r_c and 0 from there on. It jumps at r_c by u(r_c²), and so does the force:
-/// no scheme conserves such an energy, and orders gain nothing. With a switch it is S(t) u(r²), where t = (r_c² − r²)/(r_c² − r_s²) falls from 1 to 0
-/// between r_s and r_c, and S is the polynomial of degree 2n + 1 whose first n derivatives vanish at both ends: n continuous derivatives of U.
+/// Without a [switch](Cutoff::switched) the energy of a pair is u(r²) up to r_c and 0 from there on. It jumps at r_c by
+/// u(r_c²), and so does the force: no scheme conserves such an energy, and orders gain nothing. With a switch it is
+/// S(t) u(r²), where t = (r_c² − r²)/(r_c² − r_s²) falls from 1 to 0 between r_s and r_c, and S is the polynomial of
+/// degree 2n + 1 whose first n derivatives vanish at both ends: n continuous derivatives of U.
 ///
 /// In a [box](Cutoff::in_box) a body interacts with the nearest image of each other one.
 ///
@@ -53,7 +54,8 @@ impl<const D: usize> Cutoff<D> {
         }
     }
 
-    /// The same cutoff, to which the energy falls smoothly from the distance r_s on, with this number of continuous derivatives.
+    /// The same cutoff, to which the energy falls smoothly from the distance r_s on, with this number of continuous
+    /// derivatives.
     ///
     /// # Errors
     /// A distance that is negative or not below r_c; derivatives that are not 1 to [`MOST_DERIVATIVES`].
@@ -67,7 +69,8 @@ impl<const D: usize> Cutoff<D> {
         Ok(Cutoff { switch: Some(Switch { from, derivatives }), ..self })
     }
 
-    /// The same cutoff in a box with these sides, periodic along each axis: a body interacts with the nearest image of another one. Positions stay unwrapped.
+    /// The same cutoff in a box with these sides, periodic along each axis: a body interacts with the nearest image of
+    /// another one. Positions stay unwrapped.
     ///
     /// # Errors
     /// A side shorter than 2 r_c, where two images of a body would interact with another one.

@@ -13,10 +13,11 @@ use crate::number::partial_sums::add_sum;
 use crate::number::{Number, scaled};
 use crate::systems::potential::{HessianProduct, Potential};
 
-/// The potential U = Σ φ(r²) over the pairs of bodies in D dimensions that are closer than a [`Cutoff`], of r² = |q_j − q_i|², in a box of the nearest images.
+/// The potential U = Σ φ(r²) over the pairs of bodies in D dimensions that are closer than a [`Cutoff`], of r² = |q_j −
+/// q_i|², in a box of the nearest images.
 ///
-/// Pairs are found by a list of neighbours, so that the time of an evaluation grows as the number of bodies. What is computed is a function of q to the last
-/// bit, whatever was computed before.
+/// Pairs are found by a list of neighbours, so that the time of an evaluation grows as the number of bodies. What is
+/// computed is a function of q to the last bit, whatever was computed before.
 ///
 /// ```
 /// use shadowstep::problems::LennardJones;
@@ -117,7 +118,8 @@ const fn constants(dimensions: usize) -> usize {
     3 + COEFFICIENTS + dimensions
 }
 
-/// Pairs of a body with others that are closer than the cutoff, in blocks; there is room for B of them, of which the last one is filled in part.
+/// Pairs of a body with others that are closer than the cutoff, in blocks; there is room for B of them, of which the
+/// last one is filled in part.
 pub(super) struct Near<N, const D: usize, const W: usize, const B: usize> {
     pub(super) count: usize,
     others: [[u32; W]; B],
@@ -241,9 +243,10 @@ impl<P, const D: usize> CutoffPairs<P, D> {
         self.sides.map(|sides| sides.map(|side| 1.0 / side))
     }
 
-    /// virial ← −Σ r·∂u/∂r over the pairs, where r is from a body to the nearest image of the other: Clausius' virial, with which (2T + virial)/(DV) is the
-    /// pressure in the box. In open space it is −qᵀU_q. It is minus the derivative by λ, at λ = 1, of U(λq) in a box of λ times the sides.
-    /// The scratch space is one that [`prepare`](Potential::prepare) has prepared.
+    /// virial ← −Σ r·∂u/∂r over the pairs, where r is from a body to the nearest image of the other: Clausius' virial,
+    /// with which (2T + virial)/(DV) is the pressure in the box. In open space it is −qᵀU_q. It is minus the derivative
+    /// by λ, at λ = 1, of U(λq) in a box of λ times the sides. The scratch space is one that
+    /// [`prepare`](Potential::prepare) has prepared.
     pub fn virial<N: Number>(&mut self, q: &[N], virial: &mut N, scratch: &mut [N])
     where
         P: PairPotential<N>,
@@ -254,7 +257,8 @@ impl<P, const D: usize> CutoffPairs<P, D> {
         virial.negate();
     }
 
-    /// Adds U_q to the gradient and U to the sum, as these are wanted. Numbers in vectors have a loop of their own for each.
+    /// Adds U_q to the gradient and U to the sum, as these are wanted. Numbers in vectors have a loop of their own for
+    /// each.
     fn sum<N: Number>(&self, wanted: Wanted, q: &[N], gradient: &mut [N], sum: &mut N, scratch: &mut [N])
     where
         P: PairPotential<N>,
@@ -278,7 +282,8 @@ impl<P, const D: usize> CutoffPairs<P, D> {
         }
     }
 
-    /// The same without vectors, for long numbers and for what is not computed in each step: compiled once for whatever is wanted.
+    /// The same without vectors, for long numbers and for what is not computed in each step: compiled once for whatever
+    /// is wanted.
     #[inline(never)]
     fn sum_one_by_one<N: Number>(&self, wanted: Wanted, q: &[N], gradient: &mut [N], sum: &mut N, scratch: &mut [N])
     where

@@ -29,7 +29,8 @@ where
     Limbs::from_rational(&Rational::from_float(x).unwrap(), &())
 }
 
-/// Bodies in disorder, no two of which are very close: on a grid of `each` places along an axis with a distance of 1, beginning anywhere.
+/// Bodies in disorder, no two of which are very close: on a grid of `each` places along an axis with a distance of 1,
+/// beginning anywhere.
 fn places(bodies: usize, each: usize, dimensions: usize, seed: u64) -> Vec<f64> {
     let mut state = seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) | 1;
     let mut random = move || {
@@ -224,7 +225,8 @@ fn more_digits_confirm_double_precision() {
     assert!((rate - exact_rate).abs() < 1e-13 * 1536.0 * 60.0 * size);
 }
 
-/// What is computed does not depend on the list that is there; and the list is made again when, and only when, a body has moved by half of the skin.
+/// What is computed does not depend on the list that is there; and the list is made again when, and only when, a body
+/// has moved by half of the skin.
 #[test]
 fn lists_leave_no_trace() {
     let mut kept = fluid::<f64>(true);

@@ -1,6 +1,8 @@
-//! The sum over all pairs for dual numbers of a few bytes: of each body with a block of others, in one loop that the compiler makes vector operations of.
+//! The sum over all pairs for dual numbers of a few bytes: of each body with a block of others, in one loop that the
+//! compiler makes vector operations of.
 //!
-//! It is added up in the order in which numbers are, of many bodies that of [`Blocks`](super::blocks::Blocks), so that it has the same bits.
+//! It is added up in the order in which numbers are, of many bodies that of [`Blocks`](super::blocks::Blocks), so that
+//! it has the same bits.
 
 use std::hint::black_box;
 
@@ -22,8 +24,9 @@ pub(super) struct DualBlocks<'a, P, const D: usize> {
 /// A number for each axis and place in a block.
 type OfAxes<N, const D: usize> = [<N as Number>::Block; D];
 
-/// The coordinates of a block of bodies, their gradient before and after forces are added, and the sums of the other body, one for each place. These are variables
-/// apart, each of which few places name: so the compiler sees that nothing else refers to them, and makes vector operations of the loop.
+/// The coordinates of a block of bodies, their gradient before and after forces are added, and the sums of the other
+/// body, one for each place. These are variables apart, each of which few places name: so the compiler sees that
+/// nothing else refers to them, and makes vector operations of the loop.
 type Room<'a, N, const D: usize> = [&'a mut OfAxes<N, D>; 4];
 
 impl<P, const D: usize> DualBlocks<'_, P, D> {

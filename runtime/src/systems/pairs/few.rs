@@ -1,6 +1,8 @@
-//! The sum over all pairs of a few bodies, for numbers of a few bytes: unrolled, so that sums are in registers, with two to four pairs of a body at once.
+//! The sum over all pairs of a few bodies, for numbers of a few bytes: unrolled, so that sums are in registers, with
+//! two to four pairs of a body at once.
 //!
-//! The gradient is added up in the order of the plain loop over i < j, so that it has its bits, and so is the sum of the summands of pairs.
+//! The gradient is added up in the order of the plain loop over i < j, so that it has its bits, and so is the sum of
+//! the summands of pairs.
 
 use std::hint::black_box;
 use std::slice::{from_mut, from_ref};
@@ -18,14 +20,15 @@ pub(super) struct Few<'a, P, const D: usize> {
     pub(super) bodies: usize,
 }
 
-/// A coordinate; by itself where the program is built for wide vectors: a wide read would wait until the narrower writes of the drift before it are done.
+/// A coordinate; by itself where the program is built for wide vectors: a wide read would wait until the narrower
+/// writes of the drift before it are done.
 #[inline(always)]
 fn read<N: Number>(coordinate: &N) -> N {
     if cfg!(target_feature = "avx") { black_box(coordinate).clone() } else { coordinate.clone() }
 }
 
-/// The sum of a fixed number of bodies, by groups of pairs: the body i, the first other one, and how many. Bodies are side by side, axis by axis. The compiler does
-/// not unroll loops of this size.
+/// The sum of a fixed number of bodies, by groups of pairs: the body i, the first other one, and how many. Bodies are
+/// side by side, axis by axis. The compiler does not unroll loops of this size.
 macro_rules! unrolled {
     ($few:ident, $q:ident, $gradient:ident, $total:ident, $scratch:ident, $bodies:literal: $($i:literal $j:literal $width:literal),*) => {{
         const BODIES: &str = "there are as many bodies";
@@ -40,7 +43,8 @@ macro_rules! unrolled {
 }
 
 impl<P, const D: usize> Few<'_, P, D> {
-    /// gradient ← U_q, and the sum of the summands of pairs where it is wanted; `scratch` is the scratch space of the pair.
+    /// gradient ← U_q, and the sum of the summands of pairs where it is wanted; `scratch` is the scratch space of the
+    /// pair.
     #[inline(always)]
     pub(super) fn sum<N: Number>(&self, (q, gradient): (&[N], &mut [N]), total: Option<&mut N>, scratch: &mut [N])
     where

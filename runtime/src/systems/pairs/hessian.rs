@@ -6,8 +6,8 @@ use crate::number::Number;
 use crate::systems::potential::HessianProduct;
 use shadowstep_symbolic::Separation;
 
-/// The scratch space of a call, followed by the pair's: differences of positions and of the vector, their product, x and what the
-/// pair computes of it.
+/// The scratch space of a call, followed by the pair's: differences of positions and of the vector, their product, x
+/// and what the pair computes of it.
 struct Scratch<'a, N, const D: usize> {
     difference: &'a mut [N; D],
     direction: &'a mut [N; D],

@@ -1,4 +1,5 @@
-//! The sum over all pairs of a few bodies whose energy is a formula read at run time: pairs are listed, and many are evaluated at once.
+//! The sum over all pairs of a few bodies whose energy is a formula read at run time: pairs are listed, and many are
+//! evaluated at once.
 //!
 //! What is summed is added up in the order of the plain loop over i < j, so that it has its bits.
 
@@ -33,7 +34,8 @@ struct Sums<'a, N, const D: usize> {
 }
 
 impl<P, const D: usize> Listed<'_, P, D> {
-    /// gradient ← U_q, and the sum of the summands of pairs where it is wanted; `scratch` is the scratch space of the pair.
+    /// gradient ← U_q, and the sum of the summands of pairs where it is wanted; `scratch` is the scratch space of the
+    /// pair.
     pub(super) fn sum<N: Number>(&self, q: &[N], gradient: &mut [N], mut total: Option<&mut N>, scratch: &mut [N])
     where
         P: PairPotential<N>,

@@ -1,7 +1,8 @@
 //! Lists of the bodies that may be within the cutoff of each other: Verlet's, made by cells.
 //!
-//! A list has all pairs up to the cutoff and a skin. It is made again as soon as a body has moved by half of the skin, so that no pair can be missed. What is computed
-//! from it does not depend on when it was made: partners are sorted, and those beyond the cutoff do not count.
+//! A list has all pairs up to the cutoff and a skin. It is made again as soon as a body has moved by half of the skin,
+//! so that no pair can be missed. What is computed from it does not depend on when it was made: partners are sorted,
+//! and those beyond the cutoff do not count.
 
 use super::pair::BLOCK;
 use crate::number::{Number, instructions, scaled};
@@ -66,7 +67,8 @@ impl Neighbours {
         &self.partners[self.starts[body]..self.starts[body + 1]]
     }
 
-    /// Makes the list for these positions, in a box with these sides or in open space, unless that which is there still has all pairs.
+    /// Makes the list for these positions, in a box with these sides or in open space, unless that which is there still
+    /// has all pairs.
     pub(super) fn update<N: Number, const D: usize>(&mut self, q: &[N], sides: Option<&[f64; D]>) {
         if self.is_current::<N, D>(q) {
             return;
@@ -285,7 +287,8 @@ impl<const D: usize> Cells<D> {
         }
     }
 
-    /// Adds those of a stretch of bodies, in an image of the box along the last axis, that are near and have smaller numbers.
+    /// Adds those of a stretch of bodies, in an image of the box along the last axis, that are near and have smaller
+    /// numbers.
     #[inline(always)]
     fn add_near(
         &self,

@@ -8,7 +8,8 @@ use crate::number::Number;
 
 pub use crate::number::BLOCK;
 
-/// How many blocks of pairs are evaluated at once at most: of one block, an instruction of a formula takes longer to read than to carry out.
+/// How many blocks of pairs are evaluated at once at most: of one block, an instruction of a formula takes longer to
+/// read than to carry out.
 pub(crate) const BLOCKS_AT_ONCE: usize = 4;
 
 /// What the energy u of a pair of bodies depends on.
@@ -48,7 +49,8 @@ pub trait PairPotential<N: Number>: Pair {
         None
     }
 
-    /// The energies of pairs of bodies i < j in up to four blocks, one x for each; `bodies` gives i and j of each place, counted through all blocks.
+    /// The energies of pairs of bodies i < j in up to four blocks, one x for each; `bodies` gives i and j of each
+    /// place, counted through all blocks.
     #[inline(always)]
     fn energies_of<const W: usize>(
         &self,
@@ -113,8 +115,9 @@ pub trait PairPotential<N: Number>: Pair {
         self.slopes_of(|l| [i, j + l], x, slopes, scratch);
     }
 
-    /// The slopes of the body i with a block of bodies j, j + 1, …: `x` gives x of each and something more, which `take` gets with the slope. What is computed of numbers
-    /// with derivatives is one loop in it, without calls, which the compiler makes vector operations of.
+    /// The slopes of the body i with a block of bodies j, j + 1, …: `x` gives x of each and something more, which
+    /// `take` gets with the slope. What is computed of numbers with derivatives is one loop in it, without calls, which
+    /// the compiler makes vector operations of.
     #[inline(always)]
     fn each_slope<M>(
         &self,
@@ -159,8 +162,9 @@ pub trait PairCurvature<N: Number> {
         let _ = (scratch, context);
     }
 
-    /// slope as [`PairPotential::slope`], curvature ← u″(d) or 4u″(r²): of a vector with the difference w = v_j − v_i the pair adds
-    /// curvature·w, or slope·w + curvature·(dᵀw) d with d = q_j − q_i, to the Hessian–vector product of the body j.
+    /// slope as [`PairPotential::slope`], curvature ← u″(d) or 4u″(r²): of a vector with the difference w = v_j − v_i
+    /// the pair adds curvature·w, or slope·w + curvature·(dᵀw) d with d = q_j − q_i, to the Hessian–vector product of
+    /// the body j.
     fn curvature(&self, i: usize, j: usize, x: &N, slope: &mut N, curvature: &mut N, scratch: &mut [N]);
 
     /// The same, and rate ← the derivative of the pair's rate: it adds rate·w, or rate·dᵀw, to vᵀ∂(qᵀU_q − 2U)/∂q.

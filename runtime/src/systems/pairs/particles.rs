@@ -1,6 +1,7 @@
 //! Particles of mass 0: the forces of bodies on them, which they do not return.
 //!
-//! A particle has an acceleration only, the limit of its force divided by its mass, and so has a momentum divided by its mass: both are those of a unit mass.
+//! A particle has an acceleration only, the limit of its force divided by its mass, and so has a momentum divided by
+//! its mass: both are those of a unit mass.
 
 use std::slice::{from_mut, from_ref};
 
@@ -10,7 +11,8 @@ use crate::Rational;
 use crate::number::{Number, instructions};
 use crate::systems::potential::{HessianProduct, Potential};
 
-/// The forces of some bodies on particles. The pair's properties are those of the bodies, and then [`BLOCK`] times those of a particle, of mass 1.
+/// The forces of some bodies on particles. The pair's properties are those of the bodies, and then [`BLOCK`] times
+/// those of a particle, of mass 1.
 pub(crate) struct Field<'a, P, const D: usize> {
     pub(crate) pair: &'a P,
     /// How many bodies attract.
@@ -118,7 +120,8 @@ impl<P, const D: usize> Field<'_, P, D> {
         }
     }
 
-    /// product ← the derivative of that in a direction, in which bodies and particles move; `scratch` is that of the pair's second derivatives.
+    /// product ← the derivative of that in a direction, in which bodies and particles move; `scratch` is that of the
+    /// pair's second derivatives.
     pub(crate) fn assign_product<N: Number>(
         &self,
         [bodies, of_bodies]: [&[N]; 2],
@@ -158,10 +161,11 @@ impl<P, const D: usize> Field<'_, P, D> {
     }
 }
 
-/// All pairs of bodies, and after them particles of mass 0, which the bodies move and which move no body: U is that of the bodies.
+/// All pairs of bodies, and after them particles of mass 0, which the bodies move and which move no body: U is that of
+/// the bodies.
 ///
-/// The gradient of a particle is minus its acceleration, of bodies that of [`Pairs`], with the same bits. So a sum over b bodies and n particles has b(b − 1)/2 + b n
-/// pairs.
+/// The gradient of a particle is minus its acceleration, of bodies that of [`Pairs`], with the same bits. So a sum over
+/// b bodies and n particles has b(b − 1)/2 + b n pairs.
 #[derive(Clone, Debug)]
 pub struct PairsAndParticles<P, const D: usize> {
     pairs: Pairs<P, D>,
@@ -169,7 +173,8 @@ pub struct PairsAndParticles<P, const D: usize> {
 }
 
 impl<P: super::Pair, const D: usize> PairsAndParticles<P, D> {
-    /// Of bodies with these masses, where `pair` makes the energy of two bodies from the masses of all: the energy is proportional to both.
+    /// Of bodies with these masses, where `pair` makes the energy of two bodies from the masses of all: the energy is
+    /// proportional to both.
     ///
     /// ```
     /// use shadowstep::systems::kinetic::WithParticles;

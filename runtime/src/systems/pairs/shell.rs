@@ -8,8 +8,9 @@ use super::switch::{COEFFICIENTS, Polynomial};
 use crate::Rational;
 use crate::number::Number;
 
-/// The energy w u(r²) of a pair with w = S_out − S_in, where S_out and S_in fall from 1 to 0 between the two distances of a [switch](super::Switch) each: those of a shell. Without a cutoff
-/// S_out is 1, without a smaller one S_in is 0. Shells whose cutoffs follow each other have the sum u.
+/// The energy w u(r²) of a pair with w = S_out − S_in, where S_out and S_in fall from 1 to 0 between the two distances
+/// of a [switch](super::Switch) each: those of a shell. Without a cutoff S_out is 1, without a smaller one S_in is 0.
+/// Shells whose cutoffs follow each other have the sum u.
 ///
 /// Of pairs in r² with a rate of their own.
 #[derive(Clone, Debug)]
@@ -20,7 +21,8 @@ pub(crate) struct Shell<P> {
     polynomial: Polynomial,
 }
 
-/// What is in the scratch space before that of the pair: the coefficients, the numbers of both switches, and t, S, S′, w, w′ and u.
+/// What is in the scratch space before that of the pair: the coefficients, the numbers of both switches, and t, S, S′,
+/// w, w′ and u.
 const OWN: usize = COEFFICIENTS + 4 + 6;
 
 impl<P> Shell<P> {
@@ -38,7 +40,8 @@ impl<P> Shell<P> {
         Shell { pair, switches: [outer, inner].map(|cutoff| cutoff.map(squares)), polynomial }
     }
 
-    /// w and w′ = dw/dr² in the scratch space, which is given in its parts: those two, a place for u, and that of the pair.
+    /// w and w′ = dw/dr² in the scratch space, which is given in its parts: those two, a place for u, and that of the
+    /// pair.
     fn weigh<'s, N: Number>(&self, x: &N, scratch: &'s mut [N]) -> ([&'s mut N; 3], &'s mut [N]) {
         let (own, pair) = scratch.split_at_mut(OWN);
         let (constants, places) = own.split_at_mut(COEFFICIENTS + 4);

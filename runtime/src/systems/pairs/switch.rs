@@ -4,7 +4,8 @@ use super::cutoff::MOST_DERIVATIVES;
 use crate::Rational;
 use crate::number::Number;
 
-/// S(t) = tⁿ⁺¹ Σ C(n + k, k) (1 − t)ᵏ, k = 0, …, n: from 0 at t = 0 to 1 at t = 1, with S′(t) = (2n + 1)!/(n!)² tⁿ (1 − t)ⁿ.
+/// S(t) = tⁿ⁺¹ Σ C(n + k, k) (1 − t)ᵏ, k = 0, …, n: from 0 at t = 0 to 1 at t = 1, with S′(t) = (2n + 1)!/(n!)² tⁿ (1 −
+/// t)ⁿ.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Polynomial {
     /// n

@@ -240,7 +240,8 @@ fn dual<N: Number<Context = ()>>(number: impl Fn(f64) -> N, x: f64, index: usize
     Dual::new(number(x), [1.3, 2.9].map(|k| number((k * index as f64).sin())))
 }
 
-/// Values have the bits of plain numbers, and both have the bits of the sum with the rate, which takes one dual number after the other.
+/// Values have the bits of plain numbers, and both have the bits of the sum with the rate, which takes one dual number
+/// after the other.
 fn dual_numbers_agree<N, P, Q, const D: usize>(number: impl Fn(f64) -> N, plain: &Pairs<P, D>, pairs: &Pairs<Q, D>)
 where
     N: Number<Context = ()> + PartialEq,

@@ -15,8 +15,9 @@ use crate::systems::turn::{InTurns, Turn, advance_in_turns};
 /// Steps of one or several systems H = ½pᵀM⁻¹p + U(q) with at most three coordinates and a diagonal M, for
 /// [`Potential::advance_few`](super::Potential::advance_few).
 ///
-/// A step in which the potential and the masses are each behind a `dyn` passes q, p and U_q through memory between its maps. Here one call
-/// makes many steps, compiled for the type of the potential, so that these stay in registers. The bits are the same as with the maps one by one.
+/// A step in which the potential and the masses are each behind a `dyn` passes q, p and U_q through memory between its
+/// maps. Here one call makes many steps, compiled for the type of the potential, so that these stay in registers. The
+/// bits are the same as with the maps one by one.
 pub struct FewCoordinates<'a, N> {
     pub(crate) systems: Vec<FewOfSystem<'a, N>>,
     pub(crate) maps: [Repeated<N>; 3],
@@ -52,7 +53,8 @@ impl<N, P: ?Sized, F: Fn(&mut P, &[N], &mut [N], &mut [N]) + Copy> Evaluate<N, P
 /// More coordinates are not held in registers.
 const MOST: usize = 3;
 
-/// States that are visited at once: the state of the steps leaves the registers only then, and the processor makes the next steps meanwhile.
+/// States that are visited at once: the state of the steps leaves the registers only then, and the processor makes the
+/// next steps meanwhile.
 const AT_ONCE: usize = 4;
 
 impl<N: Number> FewCoordinates<'_, N> {
@@ -67,7 +69,8 @@ impl<N: Number> FewCoordinates<'_, N> {
         Self::FIT && (Self::IN_LANES || systems == 1) && (1..=MOST).contains(&dimension)
     }
 
-    /// Makes the steps with these potentials of this dimension, one of each system; `evaluate` computes the gradient of one, with scratch space.
+    /// Makes the steps with these potentials of this dimension, one of each system; `evaluate` computes the gradient of
+    /// one, with scratch space.
     ///
     /// # Panics
     /// If they are not as many as the systems, or of more than three coordinates.

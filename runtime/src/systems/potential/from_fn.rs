@@ -2,10 +2,11 @@
 
 use crate::systems::potential::Potential;
 
-/// A potential of `dimension` coordinates from a function that writes the gradient U_q(q) into its second argument and returns U(q).
+/// A potential of `dimension` coordinates from a function that writes the gradient U_q(q) into its second argument and
+/// returns U(q).
 ///
-/// It computes in `f64`. The rate qᵀU_q − 2U is computed from both. A potential that evaluates the gradient alone faster, or in
-/// other number types, implements [`Potential`] or is a formula of [`crate::potential!`].
+/// It computes in `f64`. The rate qᵀU_q − 2U is computed from both. A potential that evaluates the gradient alone
+/// faster, or in other number types, implements [`Potential`] or is a formula of [`crate::potential!`].
 ///
 /// ```
 /// use shadowstep::{Motion, Stepper, UnitMasses, systems::potential::from_fn, splitting_scheme};

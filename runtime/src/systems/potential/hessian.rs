@@ -4,8 +4,9 @@ use crate::number::Number;
 
 /// The Hessian–vector product U_qq v of a potential.
 ///
-/// With v = M⁻¹U_q it is the force of a gradient kick, p += 2h³ c U_qq M⁻¹U_q. A formula of [`crate::potential!`] has it, derived; a
-/// custom potential implements this and returns itself from [`Potential::hessian`](crate::Potential::hessian).
+/// With v = M⁻¹U_q it is the force of a gradient kick, p += 2h³ c U_qq M⁻¹U_q. A formula of [`crate::potential!`] has
+/// it, derived; a custom potential implements this and returns itself from
+/// [`Potential::hessian`](crate::Potential::hessian).
 ///
 /// ```
 /// use shadowstep::systems::potential::HessianProduct;
@@ -54,7 +55,7 @@ pub trait HessianProduct<N: Number> {
 
     /// The product with the same bits, and rate ← vᵀ∂(qᵀU_q − 2U)/∂q = qᵀU_qq v − vᵀU_q.
     ///
-    /// A term of U that is homogeneous of degree k adds (k − 2) times its own vᵀU_q, a quadratic one nothing. With v = M⁻¹U_q, a gradient
-    /// kick adds −2h³ c times the rate to β.
+    /// A term of U that is homogeneous of degree k adds (k − 2) times its own vᵀU_q, a quadratic one nothing. With v =
+    /// M⁻¹U_q, a gradient kick adds −2h³ c times the rate to β.
     fn hessian_product_and_rate(&self, q: &[N], v: &[N], product: &mut [N], rate: &mut N, scratch: &mut [N]);
 }

@@ -9,9 +9,9 @@ use crate::number::Number;
 /// A potential behind a `dyn`, for [lanes](crate::number::Lanes): each call is compiled for the widest
 /// instructions that the processor has.
 ///
-/// A call of a `dyn Potential` is not inlined into the loop of steps, and so not compiled together with it. A potential whose type is known is,
-/// and does not need this. Other numbers than lanes are computed as without it. Many steps of systems with up to three coordinates, whose potentials are of
-/// one type, are one call.
+/// A call of a `dyn Potential` is not inlined into the loop of steps, and so not compiled together with it. A potential
+/// whose type is known is, and does not need this. Other numbers than lanes are computed as without it. Many steps of
+/// systems with up to three coordinates, whose potentials are of one type, are one call.
 ///
 /// ```
 /// use shadowstep::systems::potential::{Potential, Vectorised};
@@ -76,7 +76,8 @@ impl<N: Number, P: Potential<N> + 'static> Potential<N> for Vectorised<P> {
         N::in_widest_instructions(
             #[inline(always)]
             || {
-                // not before: here it is a constant of the type, of which the steps are compiled for this dimension alone
+                // not before: here it is a constant of the type, of which the steps are compiled for this dimension
+                // alone
                 let dimension = potentials[0].dimension();
                 steps.advance(
                     dimension,

@@ -13,9 +13,9 @@ const HALVINGS: usize = 20;
 /// The columns of the table; each raises the order by 2.
 const COLUMNS: usize = 8;
 
-/// d/dt U(q + t v) at t = 0, by Ridders' method (Adv. Eng. Softw. 4 (1982) 75): central differences at t = 1, 1/2, 1/4, …, extrapolated by
-/// Richardson's scheme. The value with the smallest error is taken: its change from its neighbours in the table, and what the rounding of
-/// the energies makes.
+/// d/dt U(q + t v) at t = 0, by Ridders' method (Adv. Eng. Softw. 4 (1982) 75): central differences at t = 1, 1/2, 1/4,
+/// …, extrapolated by Richardson's scheme. The value with the smallest error is taken: its change from its neighbours
+/// in the table, and what the rounding of the energies makes.
 ///
 /// Distances at which U is not finite are left out; where no two are left, value and error are NaN.
 pub(super) fn directional_derivative<N: Real>(

@@ -16,11 +16,12 @@ pub(super) trait Definition {
     /// How the exact flow is computed, where a solution is known.
     const EXACT_FLOW: Option<Solver> = None;
 
-    /// Whether U has functions such as exp and sin, which in [lanes](crate::number::Lanes) are not those of the platform.
+    /// Whether U has functions such as exp and sin, which in [lanes](crate::number::Lanes) are not those of the
+    /// platform.
     const HAS_FUNCTIONS: bool = false;
 
-    /// In how many dimensions bodies with the masses of the coordinates attract each other by Newton's law with the constant `g`; `None`
-    /// of other problems.
+    /// In how many dimensions bodies with the masses of the coordinates attract each other by Newton's law with the
+    /// constant `g`; `None` of other problems.
     const GRAVITY: Option<usize> = None;
 
     /// U(q); `number` gives the parameters by their names.

@@ -6,8 +6,8 @@ use super::initial::{Body, Initial};
 use crate::number::Number;
 use crate::systems::potential::Potential;
 
-/// The third body starts in the middle, with −2 times the velocity of the other two. Copies of these values with 0.46620368
-/// lack a digit: their total momentum is not 0.
+/// The third body starts in the middle, with −2 times the velocity of the other two. Copies of these values with
+/// 0.46620368 lack a digit: their total momentum is not 0.
 const BODIES: [Body<2>; 3] = [
     Body { name: "1", mass: "m_1", position: ["0.97000436", "-0.24308753"], velocity: ["0.466203685", "0.43236573"] },
     Body { name: "2", mass: "m_2", position: ["-0.97000436", "0.24308753"], velocity: ["0.466203685", "0.43236573"] },
@@ -26,7 +26,8 @@ impl Definition for Entry {
         initial: || Initial::of_bodies(&BODIES),
         step: "1/100",
         until: "6.32591398",
-        source: "Chenciner & Montgomery, Annals of Mathematics 152 (2000) 881; initial values by C. Simó; period 6.32591398",
+        source: "Chenciner & Montgomery, Annals of Mathematics 152 (2000) 881; initial values by C. Simó; period \
+            6.32591398",
     };
 
     const GRAVITY: Option<usize> = Some(2);

@@ -29,7 +29,8 @@ impl Definition for Entry {
         initial: || Initial::of_chain(BODIES, |i| format!("sin({i}*pi/33)/sin(16*pi/33)"), |_| "0".to_owned()),
         step: "0.025",
         until: "1000",
-        source: "Fermi, Pasta, Ulam & Tsingou, Los Alamos report LA-1940 (1955): first mode, at rest. Common today: steps of 0.025 until 48000",
+        source: "Fermi, Pasta, Ulam & Tsingou, Los Alamos report LA-1940 (1955): first mode, at rest. Common today: \
+            steps of 0.025 until 48000",
     };
 
     fn potential<N: Number + 'static>(number: &dyn Fn(&str) -> N) -> Box<dyn Potential<N>> {

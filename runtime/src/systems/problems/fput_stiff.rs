@@ -22,7 +22,8 @@ impl Definition for Entry {
     const DESCRIPTION: Description = Description {
         name: "fput-stiff",
         title: "Fermi–Pasta–Ulam–Tsingou chain of three stiff springs",
-        hamiltonian: "sum (y0i^2 + y1i^2)/2 + omega^2/2 sum x1i^2 + ((x01 - x11)^4 + (x02 - x12 - x01 - x11)^4 + (x03 - x13 - x02 - x12)^4 + (x03 + x13)^4)/4",
+        hamiltonian: "sum (y0i^2 + y1i^2)/2 + omega^2/2 sum x1i^2 + ((x01 - x11)^4 + (x02 - x12 - x01 - x11)^4 + (x03 \
+            - x13 - x02 - x12)^4 + (x03 + x13)^4)/4",
         parameters: &[Parameter::positive("omega", "50", "frequency of the stiff springs")],
         initial: || {
             let positions = [("x01", "1"), ("x02", "0"), ("x03", "0"), ("x11", "1/omega"), ("x12", "0"), ("x13", "0")];
@@ -31,7 +32,8 @@ impl Definition for Entry {
         },
         step: "1/1000",
         until: "10",
-        source: "Hairer, Lubich & Wanner, Geometric Numerical Integration, section I.5.1: H(0) = 2.00120008, steps of 0.001 and 0.03",
+        source: "Hairer, Lubich & Wanner, Geometric Numerical Integration, section I.5.1: H(0) = 2.00120008, steps of \
+            0.001 and 0.03",
     };
 
     fn potential<N: Number + 'static>(number: &dyn Fn(&str) -> N) -> Box<dyn Potential<N>> {

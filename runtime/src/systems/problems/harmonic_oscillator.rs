@@ -28,7 +28,8 @@ impl Definition for Entry {
         initial: || Initial::new([("q", "1")], [("p", "0")]),
         step: "1/20",
         until: "100",
-        source: "closed form of the modified Hamiltonian of kick-drift-kick Störmer–Verlet: ½(p² + (1−x²)ω²q²)·arcsin(x)/(x√(1−x²)), x = hω/2",
+        source: "closed form of the modified Hamiltonian of kick-drift-kick Störmer–Verlet: ½(p² + \
+            (1−x²)ω²q²)·arcsin(x)/(x√(1−x²)), x = hω/2",
     };
 
     const EXACT_FLOW: Option<Solver> = Some(Solver::of::<exact_flow::ClosedForm>());

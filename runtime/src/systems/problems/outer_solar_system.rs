@@ -67,7 +67,8 @@ impl Definition for Entry {
         initial: || Initial::of_bodies(&BODIES),
         step: "100",
         until: "200000",
-        source: "Hairer, Lubich & Wanner, Geometric Numerical Integration, table I.2.2: steps of 100 to 200 days over 200000 days",
+        source: "Hairer, Lubich & Wanner, Geometric Numerical Integration, table I.2.2: steps of 100 to 200 days over \
+            200000 days",
     };
 
     const GRAVITY: Option<usize> = Some(3);

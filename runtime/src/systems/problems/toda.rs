@@ -28,7 +28,8 @@ impl Definition for Entry {
         initial: || Initial::of_chain(BODIES, |_| "0".to_owned(), |i| format!("sin({i}*pi/100)")),
         step: "1/20",
         until: "100",
-        source: "Toda, Journal of the Physical Society of Japan 22 (1967) 431: integrable, with solitons; the wave is our choice",
+        source: "Toda, Journal of the Physical Society of Japan 22 (1967) 431: integrable, with solitons; the wave is \
+            our choice",
     };
 
     const HAS_FUNCTIONS: bool = true;

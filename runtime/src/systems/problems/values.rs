@@ -16,8 +16,8 @@ pub struct Values {
 }
 
 impl Values {
-    /// The values by name, of which the first `parameters` are parameters and the rest is the state; and a mass for each
-    /// coordinate, or none if all are 1.
+    /// The values by name, of which the first `parameters` are parameters and the rest is the state; and a mass for
+    /// each coordinate, or none if all are 1.
     pub(super) fn new(named: Vec<(String, Exact)>, parameters: usize, masses: Option<Vec<Exact>>) -> Self {
         Values { named, parameters, masses }
     }

@@ -7,15 +7,17 @@ use crate::systems::kinetic::Kinetic;
 
 /// q and p with the remainder of each sum, which is added to the next increment.
 ///
-/// An increment δ changes a coordinate a and its remainder e by y = δ + e, rounded: a' is a + y rounded, and e' = y − (a' − a). Where y is not
-/// larger than a, no part of it is lost: a' + e' = a + y exactly. Elsewhere, as where a coordinate passes 0, ε y may be lost. So the
-/// round-off of a kick or drift is of the size ε δ, where a plain sum has ε a.
+/// An increment δ changes a coordinate a and its remainder e by y = δ + e, rounded: a' is a + y rounded, and e' = y −
+/// (a' − a). Where y is not larger than a, no part of it is lost: a' + e' = a + y exactly. Elsewhere, as where a
+/// coordinate passes 0, ε y may be lost. So the round-off of a kick or drift is of the size ε δ, where a plain sum has
+/// ε a.
 ///
-/// What is left comes from the increments: from the force at the rounded q, and its own rounding. Exact products and the remainder of p in
-/// drifts were tried, and gain no more than the spread of the measurement.
+/// What is left comes from the increments: from the force at the rounded q, and its own rounding. Exact products and
+/// the remainder of p in drifts were tried, and gain no more than the spread of the measurement.
 ///
-/// W. Kahan, *Further remarks on reducing truncation errors*, Comm. ACM 8 (1965) 40, and for steps of integrators O. Møller,
-/// BIT 5 (1965) 37; E. Hairer, C. Lubich, G. Wanner, *Geometric Numerical Integration*, 2nd ed. (2006), section VIII.5.
+/// W. Kahan, *Further remarks on reducing truncation errors*, Comm. ACM 8 (1965) 40, and for steps of integrators O.
+/// Møller, BIT 5 (1965) 37; E. Hairer, C. Lubich, G. Wanner, *Geometric Numerical Integration*, 2nd ed. (2006), section
+/// VIII.5.
 #[derive(Clone, Debug)]
 pub struct Compensated<N, V> {
     q: V,

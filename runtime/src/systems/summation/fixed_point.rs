@@ -1,4 +1,5 @@
-//! Sums in fixed point: each coordinate is a whole multiple of a power of two, so that steps are undone to the last bit.
+//! Sums in fixed point: each coordinate is a whole multiple of a power of two, so that steps are undone to the last
+//! bit.
 
 use thiserror::Error;
 
@@ -53,20 +54,24 @@ impl<const K: usize> InDouble for Dual<f64, K> {
 
 /// q and p as whole multiples of powers of two, in 64 bits.
 ///
-/// A kick adds −weight·gradient, rounded to a multiple, to p; a drift adds to q in the same way. The sums are exact, and an increment depends on the
-/// other half of the state only: the kick or drift with the negative weight takes away the same number, and
-/// [`Stepper::step_back`](crate::Stepper::step_back) undoes a step to the last bit, whatever the scheme.
+/// A kick adds −weight·gradient, rounded to a multiple, to p; a drift adds to q in the same way. The sums are exact,
+/// and an increment depends on the other half of the state only: the kick or drift with the negative weight takes away
+/// the same number, and [`Stepper::step_back`](crate::Stepper::step_back) undoes a step to the last bit, whatever the
+/// scheme.
 ///
-/// The coordinate i is a multiple of 2⁻⁶² times its range, rounded up to a power of two. Sums are as good as [`Compensated`](super::Compensated)
-/// ones where the coordinate is not much smaller than its range. A coordinate that exceeds twice its range, rounded up so, or gets an increment larger than
-/// that range, becomes NaN and stays so until it is set.
+/// The coordinate i is a multiple of 2⁻⁶² times its range, rounded up to a power of two. Sums are as good as
+/// [`Compensated`](super::Compensated) ones where the coordinate is not much smaller than its range. A coordinate that
+/// exceeds twice its range, rounded up so, or gets an increment larger than that range, becomes NaN and stays so until
+/// it is set.
 ///
-/// Derivatives of dual numbers are added plainly, and are undone up to round-off: a gradient by [steps back](crate::tangent::Adjoint) is then one along the very
-/// states of the steps.
+/// Derivatives of dual numbers are added plainly, and are undone up to round-off: a gradient by
+/// [steps back](crate::tangent::Adjoint) is then one along the very states of the steps.
 ///
-/// A step is undone only where the gradient depends on q alone: not on a list of neighbours that was made for earlier positions.
+/// A step is undone only where the gradient depends on q alone: not on a list of neighbours that was made for earlier
+/// positions.
 ///
-/// H. Rein, D. Tamayo, *JANUS: a bit-wise reversible integrator for N-body dynamics*, Mon. Not. R. Astron. Soc. 473 (2018) 3351.
+/// H. Rein, D. Tamayo, *JANUS: a bit-wise reversible integrator for N-body dynamics*, Mon. Not. R. Astron. Soc. 473
+/// (2018) 3351.
 #[derive(Clone, Debug)]
 pub struct FixedPoint<V> {
     q: Multiples,

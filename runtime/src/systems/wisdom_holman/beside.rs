@@ -1,7 +1,8 @@
 //! A potential beside the attraction of the bodies, as a part of B.
 //!
-//! It is a function V(x) of the inertial positions x = LQ, which are linear in those of the steps. So V_Q = LᵀV_x, which is how momenta are converted,
-//! V_QQ v = LᵀV_xx Lv, and the rate of β is the same in both: QᵀV_Q − 2V = xᵀV_x − 2V.
+//! It is a function V(x) of the inertial positions x = LQ, which are linear in those of the steps. So V_Q = LᵀV_x,
+//! which is how momenta are converted, V_QQ v = LᵀV_xx Lv, and the rate of β is the same in both: QᵀV_Q − 2V = xᵀV_x −
+//! 2V.
 
 use crate::number::Number;
 use crate::systems::potential::Potential;

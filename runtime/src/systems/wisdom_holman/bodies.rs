@@ -6,8 +6,8 @@ use thiserror::Error;
 
 use crate::Rational;
 
-/// The gravitational constant and the masses of the bodies, the central one first. All are exact. Bodies of mass 0, *particles*, come last: they move in the
-/// field of the others.
+/// The gravitational constant and the masses of the bodies, the central one first. All are exact. Bodies of mass 0,
+/// *particles*, come last: they move in the field of the others.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Bodies {
     pub(super) g: Rational,
@@ -20,7 +20,8 @@ impl Bodies {
     /// Bodies of these masses.
     ///
     /// # Errors
-    /// Fewer than two bodies with mass; a negative mass, or a body without mass before one with mass; a gravitational constant that is not positive.
+    /// Fewer than two bodies with mass; a negative mass, or a body without mass before one with mass; a gravitational
+    /// constant that is not positive.
     pub fn new(g: Rational, mut masses: Vec<Rational>) -> Result<Self, BodiesError> {
         let massive = masses.iter().rposition(|mass| !mass.is_zero()).map_or(0, |last| last + 1);
         let particles = masses.split_off(massive).len();
@@ -116,7 +117,8 @@ pub enum BodiesError {
     },
     /// A potential beside the attraction in heliocentric coordinates.
     #[error(
-        "in heliocentric coordinates kicks move the planets, so that a potential beside their attraction has no exact flow with them"
+        "in heliocentric coordinates kicks move the planets, so that a potential beside their attraction has no exact \
+            flow with them"
     )]
     NoFlow,
     /// An initial value is infinite or NaN.

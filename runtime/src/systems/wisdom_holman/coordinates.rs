@@ -7,13 +7,15 @@ use super::orbits::Orbits;
 
 /// Canonical coordinates in which a planetary system is a sum of Kepler orbits and interactions.
 ///
-/// Q₀ is the centre of mass and P₀ the total momentum; Q_i and P_i, i ≥ 1, are those of the planets. All is linear in the inertial
-/// positions and momenta.
+/// Q₀ is the centre of mass and P₀ the total momentum; Q_i and P_i, i ≥ 1, are those of the planets. All is linear in
+/// the inertial positions and momenta.
 pub trait PlanetaryCoordinates<N: Number, const D: usize> {
-    /// [`Quadratic`](crate::systems::kinetic::Quadratic) where the kick depends on Q only, else [`General`](crate::systems::kinetic::General).
+    /// [`Quadratic`](crate::systems::kinetic::Quadratic) where the kick depends on Q only, else
+    /// [`General`](crate::systems::kinetic::General).
     type Class;
 
-    /// Whether the kick depends on Q only, so that `[B,[A,B]]` has a flow of its own, gradient kicks, and B may have other potentials.
+    /// Whether the kick depends on Q only, so that `[B,[A,B]]` has a flow of its own, gradient kicks, and B may have
+    /// other potentials.
     const HAS_GRADIENT_KICKS: bool;
 
     /// The coordinates for bodies of these masses.
@@ -25,7 +27,8 @@ pub trait PlanetaryCoordinates<N: Number, const D: usize> {
     /// canonical ← the coordinates of inertial positions, body after body.
     fn assign_positions(&mut self, inertial: &[N], canonical: &mut [N]);
 
-    /// canonical ← the coordinates of inertial momenta. A gradient by inertial positions becomes one by Q in the same way, as the coordinates are canonical.
+    /// canonical ← the coordinates of inertial momenta. A gradient by inertial positions becomes one by Q in the same
+    /// way, as the coordinates are canonical.
     fn assign_momenta(&mut self, inertial: &[N], canonical: &mut [N]);
 
     /// inertial ← the positions with these coordinates.

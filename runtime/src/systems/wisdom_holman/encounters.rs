@@ -21,16 +21,21 @@ use super::particles::AttractionInShell;
 
 /// A planetary system whose planets may come close to each other, in [`DemocraticHeliocentric`] coordinates.
 ///
-/// The attraction u of two planets is divided by switches at distances R_0 > R_1 > …, R_(k+1) = R_k/3^(2/3): S_k falls from 1 at R_(k+1) to 0 at R_k. Kicks have (1 − S_0) u; the
-/// [shells](Shells) (S_k − S_(k+1)) u are parts of A. A drift is n_0 leapfrogs of shell 0 and the flow of all that is further in over this time, which is three leapfrogs of shell 1 and of what is further in, and
-/// so on to the Kepler orbits (SyMBA: M. J. Duncan, H. F. Levison & M. H. Lee, Astron. J. 116 (1998) 2067). n_0 is the least number of substeps that are at most τ. While no two planets can come below R_k, by
-/// a bound from their speeds and accelerations, substeps of shell k are one Kepler drift, as its kicks are 0.
+/// The attraction u of two planets is divided by switches at distances R_0 > R_1 > …, R_(k+1) = R_k/3^(2/3): S_k falls
+/// from 1 at R_(k+1) to 0 at R_k. Kicks have (1 − S_0) u; the [shells](Shells) (S_k − S_(k+1)) u are parts of A. A
+/// drift is n_0 leapfrogs of shell 0 and the flow of all that is further in over this time, which is three leapfrogs of
+/// shell 1 and of what is further in, and so on to the Kepler orbits (SyMBA: M. J. Duncan, H. F. Levison & M. H. Lee,
+/// Astron. J. 116 (1998) 2067). n_0 is the least number of substeps that are at most τ. While no two planets can come
+/// below R_k, by a bound from their speeds and accelerations, substeps of shell k are one Kepler drift, as its kicks
+/// are 0.
 ///
-/// So a step is one map for all states, a composition of exact flows: β and the modified energy are exact as elsewhere. Its order in h is that of the scheme or 2, whichever is lower, but terms of order 2
-/// from the substeps have the factor (τ/h)².
+/// So a step is one map for all states, a composition of exact flows: β and the modified energy are exact as elsewhere.
+/// Its order in h is that of the scheme or 2, whichever is lower, but terms of order 2 from the substeps have the
+/// factor (τ/h)².
 ///
-/// Particles of mass 0 are attracted by planets in the same shells. One that may come below R_0 in a drift makes it with copies of the bodies, in as many substeps as it needs: so the bodies, and other
-/// particles, have the bits that they have without it.
+/// Particles of mass 0 are attracted by planets in the same shells. One that may come below R_0 in a drift makes it
+/// with copies of the bodies, in as many substeps as it needs: so the bodies, and other particles, have the bits that
+/// they have without it.
 ///
 /// ```
 /// use shadowstep::systems::wisdom_holman::{Bodies, Encounters, Shells};
@@ -63,7 +68,8 @@ pub struct Encounters<N: Number, const D: usize> {
     parameter: f64,
     /// Scratch space.
     points: Vec<MovingPoint<D>>,
-    /// The bodies with one particle, which takes part in the shells; `None` where there are no particles, and in this system itself.
+    /// The bodies with one particle, which takes part in the shells; `None` where there are no particles, and in this
+    /// system itself.
     with_one: Option<Box<Encounters<N, D>>>,
     /// The particles that may come close to planets in a drift.
     near: Vec<usize>,
@@ -108,7 +114,8 @@ impl Shells {
         &self.radii[0]
     }
 
-    /// Into how many parts a substep of shell 0 is divided where two planets are at a distance: 3^k between R_(k+1) and R_k. `None` beyond R_0.
+    /// Into how many parts a substep of shell 0 is divided where two planets are at a distance: 3^k between R_(k+1) and
+    /// R_k. `None` beyond R_0.
     pub fn division_at(&self, distance: f64) -> Option<f64> {
         let inside = self.radii[..LEVELS].iter().take_while(|radius| distance < double(radius)).count();
         let shell = i32::try_from(inside).ok()?.checked_sub(1).filter(|shell| *shell >= 0)?;
@@ -394,7 +401,8 @@ struct MovingPoint<const D: usize> {
     speed: f64,
     /// The largest acceleration on the orbit, that at the pericentre.
     acceleration: f64,
-    /// A bound of the acceleration for a time, as r does not fall below half of its present value; where that is less than the largest.
+    /// A bound of the acceleration for a time, as r does not fall below half of its present value; where that is less
+    /// than the largest.
     soon: Option<(f64, f64)>,
 }
 
@@ -414,7 +422,8 @@ impl<const D: usize> MovingPoint<D> {
         MovingPoint { position, velocity, radius, speed, acceleration, soon }
     }
 
-    /// Whether two planets stay apart for a time because even opposite velocities would not bring them together: the common case, at little cost.
+    /// Whether two planets stay apart for a time because even opposite velocities would not bring them together: the
+    /// common case, at little cost.
     fn stays_apart(&self, other: &Self, distance: f64, time: f64) -> bool {
         let acceleration = self.acceleration + other.acceleration;
         let way = (self.speed + other.speed + acceleration * time / 2.0) * time;
@@ -422,8 +431,8 @@ impl<const D: usize> MovingPoint<D> {
         self.position.iter().zip(&other.position).map(|(a, b)| (a - b).powi(2)).sum::<f64>() > reach * reach
     }
 
-    /// A time in which two planets do not come below a distance: their distance falls by at most v t + a t²/2 in the time t, with their present relative speed and
-    /// their largest accelerations.
+    /// A time in which two planets do not come below a distance: their distance falls by at most v t + a t²/2 in the
+    /// time t, with their present relative speed and their largest accelerations.
     fn time_apart(&self, other: &Self, distance: f64) -> f64 {
         let square =
             |one: &[f64; D], other: &[f64; D]| one.iter().zip(other).map(|(a, b)| (a - b).powi(2)).sum::<f64>();
@@ -452,8 +461,9 @@ impl<const D: usize> MovingPoint<D> {
         self.soon.unwrap_or((self.acceleration, f64::INFINITY))
     }
 
-    /// A time in which the inner one does not come near to the outer one, as the speed of an orbit falls with the distance from the star: the inner one gets further from it by at
-    /// most v t, however near to it, and how fast, it is before.
+    /// A time in which the inner one does not come near to the outer one, as the speed of an orbit falls with the
+    /// distance from the star: the inner one gets further from it by at most v t, however near to it, and how fast, it
+    /// is before.
     fn time_between(&self, other: &Self, distance: f64) -> f64 {
         let (inner, outer) = if self.radius < other.radius { (self, other) } else { (other, self) };
         let room = outer.radius - inner.radius - distance;

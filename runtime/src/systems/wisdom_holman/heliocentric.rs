@@ -13,15 +13,16 @@ use super::particles::Particles;
 
 /// Democratic heliocentric coordinates: Q_i = q_i − q_0 and P_i = p_i − (m_i/M) P₀, so that
 ///
-/// A = P₀²/2M + Σ (P_i²/2m_i − G m_0 m_i/|Q_i|), B = |Σ P_i|²/2m_0 − G Σ_{i<j} m_i m_j/|Q_i − Q_j|, where all sums are over the planets.
+/// A = P₀²/2M + Σ (P_i²/2m_i − G m_0 m_i/|Q_i|), B = |Σ P_i|²/2m_0 − G Σ_{i<j} m_i m_j/|Q_i − Q_j|, where all sums are
+/// over the planets.
 ///
-/// The first term of B is the kinetic energy of the central body. It commutes with the second one: it moves all planets alike, which changes none of
-/// their differences, and the attraction between them does not change the sum of their momenta. So a kick is the *jump* by Σ P_i/m_0 and then the
-/// attraction, together the exact flow of B; the jump is a quadratic form and adds nothing to β. B depends on P, hence schemes for
-/// quadratic T only are refused.
+/// The first term of B is the kinetic energy of the central body. It commutes with the second one: it moves all planets
+/// alike, which changes none of their differences, and the attraction between them does not change the sum of their
+/// momenta. So a kick is the *jump* by Σ P_i/m_0 and then the attraction, together the exact flow of B; the jump is a
+/// quadratic form and adds nothing to β. B depends on P, hence schemes for quadratic T only are refused.
 ///
-/// The order of the planets has no meaning here, which suits orbits that cross. The error in ε is larger than in [Jacobi](super::Jacobi)
-/// coordinates.
+/// The order of the planets has no meaning here, which suits orbits that cross. The error in ε is larger than in
+/// [Jacobi](super::Jacobi) coordinates.
 ///
 /// Source: Duncan, Levison & Lee, Astron. J. 116 (1998) 2067.
 #[derive(Clone, Debug)]

@@ -166,7 +166,8 @@ impl<N: Number, const D: usize> Interactions<N, D> {
         self.planets.energy(x, energy, &mut self.scratch);
     }
 
-    /// Adds u_x of the attraction between two masses at the distance |x| to a gradient and, if asked for, its −3u to a rate.
+    /// Adds u_x of the attraction between two masses at the distance |x| to a gradient and, if asked for, its −3u to a
+    /// rate.
     pub(super) fn add_single(
         &mut self,
         (i, j): (usize, usize),

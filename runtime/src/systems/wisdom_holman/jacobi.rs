@@ -10,16 +10,18 @@ use super::interactions::Interactions;
 use super::orbits::{Orbit, Orbits};
 use super::particles::Particles;
 
-/// Jacobi coordinates: Q_i is the position relative to the centre of mass of the bodies 0 … i−1, and with η_i = m_0 + … + m_i
+/// Jacobi coordinates: Q_i is the position relative to the centre of mass of the bodies 0 … i−1, and with η_i = m_0 +
+/// … + m_i
 ///
 /// P_i = (η_{i−1} p_i − m_i (p_0 + … + p_{i−1}))/η_i,
 /// A = P₀²/2M + Σ (P_i²/2m_i′ − κ_i/|Q_i|), m_i′ = m_i η_{i−1}/η_i, κ_i = G m_i η_{i−1}.
 ///
-/// B, the rest of the potential, depends on Q only: T = Σ P_i²/2m_i′ is a part of A. So schemes for quadratic T keep their order: where a bracket
-/// of A and B vanishes for A = T, it vanishes for A = T + f(Q) as well, for it vanishes by its degree in P. The orbits of the first two
-/// bodies have no interaction in B.
+/// B, the rest of the potential, depends on Q only: T = Σ P_i²/2m_i′ is a part of A. So schemes for quadratic T keep
+/// their order: where a bracket of A and B vanishes for A = T, it vanishes for A = T + f(Q) as well, for it vanishes by
+/// its degree in P. The orbits of the first two bodies have no interaction in B.
 ///
-/// Source: Wisdom & Holman, Astron. J. 102 (1991) 1528, section 3; Rein & Tamayo, Mon. Not. R. Astron. Soc. 452 (2015) 376, section 2.2.
+/// Source: Wisdom & Holman, Astron. J. 102 (1991) 1528, section 3; Rein & Tamayo, Mon. Not. R. Astron. Soc. 452 (2015)
+/// 376, section 2.2.
 #[derive(Clone, Debug)]
 pub struct Jacobi<N, const D: usize> {
     orbits: Orbits<N>,
@@ -33,7 +35,8 @@ pub struct Jacobi<N, const D: usize> {
     direction: Vec<N>,
     /// A running sum.
     sum: [N; D],
-    /// Particles, and what attracts them: the bodies, less the mass of all in their centre. Positions are relative to that.
+    /// Particles, and what attracts them: the bodies, less the mass of all in their centre. Positions are relative to
+    /// that.
     particles: Option<Box<Particles<N, D>>>,
 }
 
@@ -168,7 +171,8 @@ impl<N: Number, const D: usize> PlanetaryCoordinates<N, D> for Jacobi<N, D> {
         }
     }
 
-    /// By the chain rule: as the gradient, with second derivatives in the direction that v has in heliocentric positions.
+    /// By the chain rule: as the gradient, with second derivatives in the direction that v has in heliocentric
+    /// positions.
     fn hessian_product(&mut self, q: &[N], v: &[N], product: &mut [N]) {
         let Jacobi { shares, interactions, relative, slopes, direction, sum, particles, .. } = self;
         let bodies = shares.len() + 1;
@@ -223,8 +227,8 @@ fn assign_relative<N: Number, const D: usize>(shares: &[[N; 2]], q: &[N], relati
     }
 }
 
-/// attracting ← the positions of the central body, the centre of mass and the planets, relative to the second of these; from those of the centre and the planets relative to the
-/// first.
+/// attracting ← the positions of the central body, the centre of mass and the planets, relative to the second of these;
+/// from those of the centre and the planets relative to the first.
 fn assign_attracting<N: Number, const D: usize>((relative, centre): (&[N], &[N; D]), attracting: &mut [N]) {
     let (fixed, planets) = attracting.split_at_mut(2 * D);
     let (central, own) = fixed.split_at_mut(D);
@@ -240,7 +244,8 @@ fn assign_attracting<N: Number, const D: usize>((relative, centre): (&[N], &[N; 
     }
 }
 
-/// The derivative by Q_i from that by x_i = Q_i + Σ_{j<i} m_j/η_j Q_j, from the last planet to the first; `sum` is that by all x_k, k > i.
+/// The derivative by Q_i from that by x_i = Q_i + Σ_{j<i} m_j/η_j Q_j, from the last planet to the first; `sum` is that
+/// by all x_k, k > i.
 #[inline(always)]
 fn gather<N: Number, const D: usize>(share: &N, slope: &[N; D], sum: &mut [N; D], gradient: &mut [N; D]) {
     for ((gradient, slope), sum) in gradient.iter_mut().zip(slope).zip(sum) {

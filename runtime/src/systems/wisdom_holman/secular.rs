@@ -1,11 +1,12 @@
 //! Secular frequencies: how fast the pericentres of planets turn.
 //!
-//! In the mean over the revolutions e exp(iϖ) of a planet is a sum of terms z exp(iωt) with the slow frequencies g_1, g_2, … of the system. The
-//! largest of them is found by frequency analysis: the ω at which |∫ z(t) exp(−iωt) w(t) dt| is largest, w being a power of Hann's window
-//! (Laskar, Icarus 88 (1990) 266). Of a system that is regular its error falls with a high power of the time.
+//! In the mean over the revolutions e exp(iϖ) of a planet is a sum of terms z exp(iωt) with the slow frequencies g_1,
+//! g_2, … of the system. The largest of them is found by frequency analysis: the ω at which |∫ z(t) exp(−iωt) w(t) dt|
+//! is largest, w being a power of Hann's window (Laskar, Icarus 88 (1990) 266). Of a system that is regular its error
+//! falls with a high power of the time.
 //!
-//! Conjugate maps have the same frequencies, so that those of a processed scheme are the frequencies of its kernel. Of two planets the modified
-//! Hamiltonian [predicts](predicted_frequencies) how wrong they are.
+//! Conjugate maps have the same frequencies, so that those of a processed scheme are the frequencies of its kernel. Of
+//! two planets the modified Hamiltonian [predicts](predicted_frequencies) how wrong they are.
 
 mod prediction;
 
@@ -14,10 +15,12 @@ pub use prediction::{PredictedFrequency, predicted_frequencies};
 use super::{Jacobi, PlanetaryCoordinates, WisdomHolman};
 use crate::number::Real;
 
-/// e cos ϖ and e sin ϖ of a planet: in three dimensions e times the first two components of the direction of the pericentre.
+/// e cos ϖ and e sin ϖ of a planet: in three dimensions e times the first two components of the direction of the
+/// pericentre.
 pub type Eccentricity = [f64; 2];
 
-/// e exp(iϖ) of each planet on its Kepler orbit in Jacobi coordinates: of the vector v × (Q × v)/μ − Q/|Q| with v = P/m.
+/// e exp(iϖ) of each planet on its Kepler orbit in Jacobi coordinates: of the vector v × (Q × v)/μ − Q/|Q| with v =
+/// P/m.
 pub fn eccentricities<N: Real, const D: usize>(system: &WisdomHolman<N, Jacobi<N, D>, D>) -> Vec<Eccentricity> {
     let numbers = |values: &[N]| values.iter().map(Real::to_f64).collect::<Vec<_>>();
     let (q, p) = (numbers(system.state.q()), numbers(system.state.p()));
@@ -38,8 +41,8 @@ pub fn eccentricities<N: Real, const D: usize>(system: &WisdomHolman<N, Jacobi<N
 pub struct Frequency {
     /// ω, in radians per unit of time.
     pub omega: f64,
-    /// The largest difference of the frequencies of both halves of the samples from it: mostly far more than its error, which falls with
-    /// the length.
+    /// The largest difference of the frequencies of both halves of the samples from it: mostly far more than its error,
+    /// which falls with the length.
     pub uncertainty: f64,
 }
 
@@ -66,7 +69,8 @@ pub fn main_frequency(samples: &[Eccentricity], interval: f64, largest: f64) -> 
     Frequency { omega, uncertainty: (first - omega).abs().max((second - omega).abs()) }
 }
 
-/// The ω at which the spectrum is largest: the best of a grid finer than its lines, and then the middle of shrinking intervals.
+/// The ω at which the spectrum is largest: the best of a grid finer than its lines, and then the middle of shrinking
+/// intervals.
 fn strongest(samples: &[Eccentricity], interval: f64, largest: f64) -> f64 {
     let width = std::f64::consts::TAU / (samples.len() as f64 * interval);
     let reach = (largest / width).ceil() as i64 * 2;

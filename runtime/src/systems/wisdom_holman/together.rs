@@ -119,7 +119,8 @@ mod tests {
         low + (high - low) * (random.next_u64() >> 11) as f64 * 2_f64.powi(-53)
     }
 
-    /// q and v of a planet at a distance of 0.7 to 50, with 0.2 to 1.9 times the velocity of a circle: an ellipse, or from √2 on a hyperbola.
+    /// q and v of a planet at a distance of 0.7 to 50, with 0.2 to 1.9 times the velocity of a circle: an ellipse, or
+    /// from √2 on a hyperbola.
     fn planet<const D: usize>(random: &mut Pcg64Mcg) -> [[f64; D]; 2] {
         let r = number(random, 0.7_f64.ln(), 50_f64.ln()).exp();
         [r, number(random, 0.2, 1.9) / r.sqrt()].map(|size| {

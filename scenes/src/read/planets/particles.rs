@@ -16,7 +16,8 @@ const MOST_PARTICLES: usize = 1_000_000;
 /// The columns of positions and of velocities.
 const COORDINATES: [[&str; 3]; 2] = [["x", "y", "z"], ["vx", "vy", "vz"]];
 
-const HELP: &str = "the first line has the names of the columns: x, y, z, vx, vy, vz, or a, e, i, node, pericentre, and M or lambda; and name, if they have names";
+const HELP: &str = "the first line has the names of the columns: x, y, z, vx, vy, vz, or a, e, i, node, pericentre, \
+    and M or lambda; and name, if they have names";
 
 /// The particles of a file of this name, its path relative to the folder of the scene; its faults are reported.
 pub(super) fn of_file(reader: &mut Reader<'_>, name: &Text) -> Option<Vec<GivenBody>> {
@@ -152,7 +153,8 @@ mod tests {
     #[test]
     fn particles_of_a_file_are_bodies_of_mass_0() {
         let file = "# of the main belt\nname, a, e, M\nceres, 2.77, 0.08, 1/3\nvesta, 2.36, 0.09, 20\n";
-        let bodies = "[[body]]\nname = \"ceres\"\nmass = 0\na = 2.77\ne = 0.08\nM = \"1/3\"\n[[body]]\nname = \"vesta\"\nmass = 0\na = 2.36\ne = 0.09\nM = 20\n";
+        let bodies = "[[body]]\nname = \"ceres\"\nmass = 0\na = 2.77\ne = 0.08\nM = \"1/3\"\n[[body]]\nname \
+            = \"vesta\"\nmass = 0\na = 2.36\ne = 0.09\nM = 20\n";
         for parts in PARTS {
             let of_file = rows(&read(&format!("{parts}\nparticles = \"particles.csv\""), "", file).unwrap());
             assert_eq!(of_file, rows(&read(parts, bodies, "").unwrap()), "{parts}");

@@ -105,8 +105,8 @@ impl Linear {
     }
 }
 
-/// Differences are of gradients so far apart: their error is of the size of its square, and round-off is less. Those of both distances agree,
-/// unless U has no second derivatives there.
+/// Differences are of gradients so far apart: their error is of the size of its square, and round-off is less. Those of
+/// both distances agree, unless U has no second derivatives there.
 const DISTANCES: [&str; 2] = ["1e-60", "2e-60"];
 
 /// How far they may differ as a part of the largest of them, or at all: a U that is finite has less.

@@ -35,7 +35,8 @@ impl Needs {
         Needs { class, parts: 2, no_gradient_kicks: None, no_processor: None, no_ensembles: None }
     }
 
-    /// The scheme with the steps that are needed: for many parts, those of many parts. The schemes that have been read keep these.
+    /// The scheme with the steps that are needed: for many parts, those of many parts. The schemes that have been read
+    /// keep these.
     ///
     /// # Errors
     /// A scheme that is not valid.

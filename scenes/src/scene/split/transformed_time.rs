@@ -152,7 +152,8 @@ fn wrong_sign(problem: &InitialValueProblem) -> Option<String> {
     let energy = potential_at_start(problem);
     (energy >= 0.0 || !energy.is_finite()).then(|| {
         format!(
-            "transformed time requires a finite U < 0 on the whole orbit, as time runs at a rate that is a function of -U; at t = 0 U is {}",
+            "transformed time requires a finite U < 0 on the whole orbit, as time runs at a rate that is a function \
+                of -U; at t = 0 U is {}",
             energy.to_text()
         )
     })
@@ -181,8 +182,10 @@ mod tests {
         let rows = |dimensions: usize, cutoff: &str| {
             let (zeros, row) = (", 0".repeat(dimensions - 1), |x: &str| format!("{x}{}", ", 0".repeat(dimensions - 1)));
             let text = format!(
-                "[problem]\npair = \"-1/sqrt(r2 + 1/10)\"\ndimensions = {dimensions}\nbodies = 2\n{cutoff}\n[initial]\nq = [{}, 1{zeros}]\np = [{}, \"-1/3\"{zeros}]\n\
-                 [time]\ntransform = \"logarithmic\"\n[run]\nscheme = \"yoshida4\"\nstep = \"1/10\"\nuntil = 2\ndigits = \"double\"\n[output]\nenergy = true\ntrajectory = true",
+                "[problem]\npair = \"-1/sqrt(r2 + 1/10)\"\ndimensions = {dimensions}\nbodies = \
+                    2\n{cutoff}\n[initial]\nq = [{}, 1{zeros}]\np = [{}, \"-1/3\"{zeros}]\n\
+                 [time]\ntransform = \"logarithmic\"\n[run]\nscheme = \"yoshida4\"\nstep = \"1/10\"\nuntil = \
+                 2\ndigits = \"double\"\n[output]\nenergy = true\ntrajectory = true",
                 row("0"),
                 row("0")
             );

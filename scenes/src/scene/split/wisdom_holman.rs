@@ -185,7 +185,8 @@ impl Planets {
         let has_more = problem.has_energies_of_bodies();
         match bodies {
             Some(_) if has_more && coordinates == CanonicalCoordinates::DemocraticHeliocentric => Err(Refusal::new(
-                "in heliocentric coordinates kicks move the planets, so that `central` and `external` have no exact flow with them",
+                "in heliocentric coordinates kicks move the planets, so that `central` and `external` have no exact \
+                    flow with them",
                 "write parts = \"wisdom-holman\" for Jacobi coordinates",
             )),
             Some((bodies, dimensions)) => Ok(Planets { coordinates, bodies, dimensions, encounters: None }),
@@ -217,8 +218,8 @@ impl Planets {
         names.map(|name| name.trim_start_matches('x').trim_start_matches('_').to_owned()).collect()
     }
 
-    /// The shortest period of the planets' Kepler orbits at a state in the coordinates of the steps, and the planet, counted from 1; `None` where
-    /// no orbit is an ellipse.
+    /// The shortest period of the planets' Kepler orbits at a state in the coordinates of the steps, and the planet,
+    /// counted from 1; `None` where no orbit is an ellipse.
     pub(crate) fn shortest_period(&self, q: &[f64], p: &[f64]) -> Option<(usize, f64)> {
         in_coordinates!(self, shortest::<f64>((q, p)))
     }
@@ -373,8 +374,10 @@ mod tests {
     fn run(parts: &str, beside: &str, particle: bool) -> (Vec<Vec<f64>>, Option<f64>) {
         let particle = if particle { "[[body]]\nmass = 0\na = 2\ne = 0.1\nM = 70\n" } else { "" };
         let text = format!(
-            "[problem]\nparameters = {{ g = 1 }}\nparts = \"{parts}\"\n{beside}\n[[body]]\nmass = 1\n[[body]]\nmass = 1e-3\na = 1\ni = 20\n{particle}\
-             [run]\nscheme = \"yoshida6-a\"\nstep = \"1/20\"\nuntil = 5\ndigits = \"double\"\n[output]\nenergy = true\ntrajectory = true"
+            "[problem]\nparameters = {{ g = 1 }}\nparts = \"{parts}\"\n{beside}\n[[body]]\nmass = 1\n[[body]]\nmass = \
+                1e-3\na = 1\ni = 20\n{particle}\
+             [run]\nscheme = \"yoshida6-a\"\nstep = \"1/20\"\nuntil = 5\ndigits = \"double\"\n[output]\nenergy = \
+             true\ntrajectory = true"
         );
         let scene = Scene::read(Source { path: "test.toml".to_owned(), text }).unwrap();
         let (mut rows, mut keep) = (Vec::new(), KeptSummary::default());
@@ -385,7 +388,8 @@ mod tests {
         (rows, keep.0.unwrap().interactions().map(|found| found.epsilon))
     }
 
-    /// Bodies with mass have the bits and the interactions that they have without particles, and particles move as with the parts T(p) and U(q).
+    /// Bodies with mass have the bits and the interactions that they have without particles, and particles move as with
+    /// the parts T(p) and U(q).
     #[test]
     fn energies_of_bodies_and_particles_go_together() {
         for beside in [

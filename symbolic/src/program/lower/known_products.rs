@@ -1,8 +1,8 @@
 //! Sums with products that have a place of their own.
 //!
-//! A product that only one sum needs is added to it by one operation, `add_product`. One that has a place, as another result needs it too or
-//! the sum is computed there, is rounded before it is added. The number types that fuse products with sums can do so here as well, if the
-//! operation has the factors beside the product.
+//! A product that only one sum needs is added to it by one operation, `add_product`. One that has a place, as another
+//! result needs it too or the sum is computed there, is rounded before it is added. The number types that fuse products
+//! with sums can do so here as well, if the operation has the factors beside the product.
 
 use std::collections::HashMap;
 

@@ -1,4 +1,5 @@
-//! The harmonic oscillator: q = q₀ cos ωt + (p₀/ω) sin ωt, p = p₀ cos ωt − ω q₀ sin ωt. U is homogeneous of degree 2: β is 0.
+//! The harmonic oscillator: q = q₀ cos ωt + (p₀/ω) sin ωt, p = p₀ cos ωt − ω q₀ sin ωt. U is homogeneous of degree 2: β
+//! is 0.
 
 use crate::Rational;
 use crate::number::HighPrecision;

@@ -1,7 +1,8 @@
 //! Kepler's problem H = |p|²/2 − 1/|q|: the ellipse through any bound initial state, by the difference x = E − E₀ of
 //! eccentric anomalies.
 //!
-//! With r = |q|, 1/a = 2/r₀ − |p₀|², ω = a^{−3/2}, σ = e cos E₀ = 1 − r₀/a and τ = e sin E₀ = q₀·p₀/√a, Kepler's equation is
+//! With r = |q|, 1/a = 2/r₀ − |p₀|², ω = a^{−3/2}, σ = e cos E₀ = 1 − r₀/a and τ = e sin E₀ = q₀·p₀/√a, Kepler's
+//! equation is
 //!
 //! ωt = x − σ sin x + τ(1 − cos x),
 //!
@@ -10,8 +11,9 @@
 //! f = 1 − (a/r₀)(1 − cos x), g = ((1 − σ) sin x + τ(1 − cos x))/ω, f' = −√a sin x/(r r₀), g' = 1 − (a/r)(1 − cos x),
 //! r = a(1 − σ cos x + τ sin x)
 //!
-//! (J. M. A. Danby, *Fundamentals of Celestial Mechanics*, 2nd ed., sections 6.3 and 6.7). Neither the pericentre nor E₀ is
-//! needed; a circle has neither. U is homogeneous of degree −1: β' = qᵀU_q − 2U = 3/r, and as dt = √a r dx, β = 3√a x.
+//! (J. M. A. Danby, *Fundamentals of Celestial Mechanics*, 2nd ed., sections 6.3 and 6.7). Neither the pericentre nor
+//! E₀ is needed; a circle has neither. U is homogeneous of degree −1: β' = qᵀU_q − 2U = 3/r, and as dt = √a r dx, β =
+//! 3√a x.
 
 use num_traits::Zero;
 
@@ -60,8 +62,8 @@ impl<R: HighPrecision> Ellipse<R> {
 
     /// x, sin x and 1 − cos x for ωt = `mean`.
     ///
-    /// Newton's method doubles the digits, so that only its last step needs a sine and a cosine of all digits; the sine and cosine of the final x
-    /// differ from them by the terms of a series in the last change.
+    /// Newton's method doubles the digits, so that only its last step needs a sine and a cosine of all digits; the sine
+    /// and cosine of the final x differ from them by the terms of a series in the last change.
     fn anomaly(&self, mean: &Value<R>) -> (Value<R>, Value<R>, Value<R>) {
         let all = self.sigma.bits();
         // the bits of the angle before its point
@@ -179,7 +181,8 @@ impl Method for KeplersEquation {
         // 1/a is a difference of numbers of size 2/r₀
         let parabolic = log2(&rough.a.0) - log2(&rough.r.0);
         let angle = log2(&rough.omega.0) + request.longest.log2();
-        // 1 − e is at least this; r, the slope of Kepler's equation, gets as small, and errors grow as 1/r² in the forces
+        // 1 − e is at least this; r, the slope of Kepler's equation, gets as small, and errors grow as 1/r² in the
+        // forces
         let [x, y] = &rough.q[..] else { unreachable!("two coordinates") };
         let [px, py] = &rough.p[..] else { unreachable!("two coordinates") };
         let momentum = x.clone() * py - y.clone() * px;

@@ -1,16 +1,16 @@
 //! The pendulum H = p²/2 − cos q from any initial state, by the addition theorems of Jacobi's elliptic functions.
 //!
 //! With S = sin(q/2), C = cos(q/2), P = p/2 and k² = S² + P² = (H + 1)/2, a state at the time t after the bottom is
-//! S = k sn(t, k), C = dn(t, k), P = k cn(t, k): oscillations for k < 1, the separatrix for k = 1, rotations for k > 1. For a step
-//! of τ, whose values from the bottom have the index τ, the theorems are
+//! S = k sn(t, k), C = dn(t, k), P = k cn(t, k): oscillations for k < 1, the separatrix for k = 1, rotations for k > 1.
+//! For a step of τ, whose values from the bottom have the index τ, the theorems are
 //!
 //! S' = k(S P_τ C_τ + S_τ P C)/D, C' = (k² C C_τ − S S_τ P P_τ)/D, P' = k(P P_τ − S S_τ C C_τ)/D, D = k² − S² S_τ²,
 //!
 //! and with ∫p² dt = 4(E(t) − (1 − k²)t), E(u + v) = E(u) + E(v) − k² sn u sn v sn(u + v), a step adds
 //! ∫p² dt = I_τ − 4 S S_τ S'/k. As p' = −sin q, β' = q sin q + 2 cos q has the integral β = 2∫p² dt − qp − 2Ht + const.
 //!
-//! So a step costs some products, a quotient and an arc tangent. S_τ, C_τ, P_τ and I_τ come from one Taylor series. Off the curve
-//! S² + C² = 1, S² + P² = k² errors would grow exponentially: each step returns to it.
+//! So a step costs some products, a quotient and an arc tangent. S_τ, C_τ, P_τ and I_τ come from one Taylor series. Off
+//! the curve S² + C² = 1, S² + P² = k² errors would grow exponentially: each step returns to it.
 
 use std::f64::consts::{LOG2_E, TAU};
 
@@ -19,7 +19,8 @@ use crate::number::value::Value;
 use crate::number::{HighPrecision, Number};
 use crate::systems::problems::exact_flow::solution::{Method, Point, Request, Solution, SolutionError, log2};
 
-/// The largest number of bits for the growth of errors: with more a run takes too long. On the separatrix they suffice to
+/// The largest number of bits for the growth of errors: with more a run takes too long. On the separatrix they suffice
+/// to
 /// |t| = 2772.
 const MOST_GROWTH: u32 = 4000;
 

@@ -5,8 +5,9 @@
 //! (k+1) q^{k+1} = p^k, (k+1) p^{k+1} = −s^k, k s^k = Σ_{j=1}^k j q^j c^{k−j}, k c^k = −Σ_{j=1}^k j q^j s^{k−j},
 //! (k+1) β^{k+1} = 2c^k + Σ_{j=0}^k q^j s^{k−j}.
 //!
-//! The order is as high as the digits require; if the step is too long for that, it is cut to ρ/e², with ρ the radius of
-//! convergence, as À. Jorba and M. Zou do (Experiment. Math. 14 (2005) 99): for B bits K = ½B log 2 terms then suffice.
+//! The order is as high as the digits require; if the step is too long for that, it is cut to ρ/e², with ρ the radius
+//! of convergence, as À. Jorba and M. Zou do (Experiment. Math. 14 (2005) 99): for B bits K = ½B log 2 terms then
+//! suffice.
 
 use std::f64::consts::{LN_2, LOG2_E};
 

@@ -18,19 +18,23 @@ pub struct PredictedFrequency {
 }
 
 /// The frequencies of the pericentres of two planets near the plane of their first two coordinates, and what the term
-/// factor · B_QᵀM′⁻¹B_Q of a modified Hamiltonian adds: first that of the mode with the larger part of the inner planet.
+/// factor · B_QᵀM′⁻¹B_Q of a modified Hamiltonian adds: first that of the mode with the larger part of the inner
+/// planet.
 ///
-/// A Wisdom–Holman map has `A + B + h²(α [A,[A,B]] + β [B,[B,A]]) + …`, and `[B,[B,A]]` is B_QᵀM′⁻¹B_Q. A change of coordinates, as by a corrector, that
-/// takes `α [A,[A,B]]` out adds `−α [B,[A,B]] = α [B,[B,A]]`, so that secular frequencies depend on **factor = (α + β) h²**. The leapfrog with drifts
-/// first has α = −1/24 and β = 1/12, thus h²/24, with a corrector and without.
+/// A Wisdom–Holman map has `A + B + h²(α [A,[A,B]] + β [B,[B,A]]) + …`, and `[B,[B,A]]` is B_QᵀM′⁻¹B_Q. A change of
+/// coordinates, as by a corrector, that takes `α [A,[A,B]]` out adds `−α [B,[A,B]] = α [B,[B,A]]`, so that secular
+/// frequencies depend on **factor = (α + β) h²**. The leapfrog with drifts first has α = −1/24 and β = 1/12, thus
+/// h²/24, with a corrector and without.
 ///
-/// The means F of B and of the term are of second order in e, ½ Σ S_jk e_j e_k cos(ϖ_j − ϖ_k). With the actions Γ_j = Λ_j e_j²/2, Λ = m′√(μa), the
-/// frequencies are the eigenvalues of −S_jk/√(Λ_jΛ_k) of B (as of Laplace and Lagrange), and the change is vᵀ(…)v of the term by the eigenvectors v of B.
+/// The means F of B and of the term are of second order in e, ½ Σ S_jk e_j e_k cos(ϖ_j − ϖ_k). With the actions Γ_j =
+/// Λ_j e_j²/2, Λ = m′√(μa), the frequencies are the eigenvalues of −S_jk/√(Λ_jΛ_k) of B (as of Laplace and Lagrange),
+/// and the change is vᵀ(…)v of the term by the eigenvectors v of B.
 ///
-/// The errors are of second order in the masses, where near resonances have small divisors, of order e², and of the next power of h.
-/// `None` unless there are two planets on elliptic orbits.
+/// The errors are of second order in the masses, where near resonances have small divisors, of order e², and of the
+/// next power of h. `None` unless there are two planets on elliptic orbits.
 ///
-/// Source: C. D. Murray & S. F. Dermott, *Solar System Dynamics*, 7.1–7.3; H. Rein, G. Brown & D. Tamayo, Mon. Not. R. Astron. Soc. 490 (2019) 5122.
+/// Source: C. D. Murray & S. F. Dermott, *Solar System Dynamics*, 7.1–7.3; H. Rein, G. Brown & D. Tamayo, Mon. Not. R.
+/// Astron. Soc. 490 (2019) 5122.
 pub fn predicted_frequencies<const D: usize>(
     system: &WisdomHolman<f64, Jacobi<f64, D>, D>,
     factor: f64,

@@ -6,8 +6,8 @@ use crate::systems::increments::Carried;
 use crate::systems::system::System as _;
 use crate::systems::wisdom_holman::Bodies;
 
-/// Two planets of this part of a central mass of 1 with G = 1, at the pericentres of orbits of 1 and `outer` with these eccentricities, the second
-/// pericentre opposite.
+/// Two planets of this part of a central mass of 1 with G = 1, at the pericentres of orbits of 1 and `outer` with these
+/// eccentricities, the second pericentre opposite.
 fn planets(mass: &str, outer: f64, e: [f64; 2]) -> WisdomHolman<f64, Jacobi<f64, 2>, 2> {
     let masses = ["1", mass, mass].map(|mass| exact(mass).unwrap());
     let bodies = Bodies::new(exact("1").unwrap(), masses.to_vec()).unwrap();
@@ -75,7 +75,8 @@ fn frequencies_are_those_of_laplace_and_lagrange() {
     }
 }
 
-/// Far from the other planet B_Q of the inner one is the tide, and the mean of its square 5/2 m²a²(1 + 3e²/2)/a_2⁶ times m′.
+/// Far from the other planet B_Q of the inner one is the tide, and the mean of its square 5/2 m²a²(1 + 3e²/2)/a_2⁶
+/// times m′.
 #[test]
 fn the_change_is_that_of_the_tide_squared() {
     let (mass, outer, factor) = (1e-3, 40.0_f64, 0.1);
