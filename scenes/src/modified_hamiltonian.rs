@@ -29,8 +29,9 @@ const MOMENTUM_OF_TIME: &str = "pt";
 /// Longer formulas are not multiplied out.
 const LONGEST_EXPANDED: u64 = 20_000;
 
-/// More distinct parts of formulas take too long.
+/// More distinct parts of formulas take too long, and fewer of numbers with more bits than this.
 const MOST_NODES: usize = 100_000;
+const SHORT_NUMBER: u64 = 500;
 
 /// More brackets of one order take too long: their number grows as the power of that of the parts.
 const MOST_BRACKETS: usize = 3000;
@@ -48,6 +49,7 @@ pub(crate) struct SymbolicHamiltonian {
     parts: Vec<Node>,
     has_many_parts: bool,
     has_transformed_time: bool,
+    most_nodes: usize,
     /// Of T.
     kinetic: Kinetic,
     /// Those of q, then those of p.
@@ -83,6 +85,7 @@ impl SymbolicHamiltonian {
             parts: Vec::new(),
             has_many_parts: false,
             has_transformed_time: false,
+            most_nodes: MOST_NODES,
             kinetic: Kinetic::Any,
             coordinates,
             parameters: system.parameters.iter().map(|(name, _)| name.clone()).collect(),
@@ -214,6 +217,10 @@ impl SymbolicHamiltonian {
     /// # Errors
     /// A scheme that is not for these parts; too many parts of formulas.
     pub(crate) fn modified(&mut self, scheme: &Proved, grade: u32) -> Result<Vec<SymbolicTerm>, Refusal> {
+        let numbers = self.parts.iter().flat_map(|part| self.graph.numbers(*part));
+        let bits = numbers.map(|number| number.numer().bits() + number.denom().bits()).max().unwrap_or(0);
+        // irrational ones have all digits of the run
+        self.most_nodes = MOST_NODES / usize::try_from((bits / SHORT_NUMBER).max(1)).unwrap_or(MOST_NODES);
         match self.has_many_parts {
             false => self.terms(&ModifiedHamiltonian::of(scheme, self.kinetic, grade)),
             true => {
@@ -243,7 +250,7 @@ impl SymbolicHamiltonian {
             let mut sum = Vec::new();
             for (bracket, c) in terms {
                 let found = self.bracket(bracket.letters(), &mut known).ok_or_else(|| {
-                    let message = format!("H_{} of this system has more than {MOST_NODES} parts", power + 1);
+                    let message = format!("H_{} of this system has more than {} parts", power + 1, self.most_nodes);
                     Refusal::new(message, format!("ask for powers of h below {power}"))
                 });
                 sum.push((found?, c.clone()));
@@ -270,7 +277,7 @@ impl SymbolicHamiltonian {
         let node = self.graph.bracket(self.parts[first.number()], inner, self.coordinates.len() / 2);
         let node = self.shorter(node);
         known.insert(letters.to_vec(), node);
-        (self.graph.len() <= MOST_NODES).then_some(node)
+        (self.graph.len() <= self.most_nodes).then_some(node)
     }
 
     /// H + Σ hⁿ H_(n+1) up to h^grade as a formula in q, p, t, H, and p_t in transformed time, where it is that of H' =
@@ -303,7 +310,7 @@ impl SymbolicHamiltonian {
         if self.graph.written_size(formula) > LONGEST_EXPANDED {
             return formula;
         }
-        let expanded = self.graph.multiplied_out(formula);
+        let expanded = self.graph.multiplied_out_within(formula, self.most_nodes);
         if self.graph.written_size(expanded) <= self.graph.written_size(formula) { expanded } else { formula }
     }
 

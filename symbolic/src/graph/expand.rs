@@ -22,24 +22,31 @@ impl Graph {
     /// The formula with products of sums multiplied out, but those that have too many terms, and the arguments of
     /// functions.
     pub fn multiplied_out(&mut self, node: Node) -> Node {
+        self.multiplied_out_within(node, usize::MAX)
+    }
+
+    /// The same, as long as the graph has at most this number of parts: then products stay as they are.
+    pub fn multiplied_out_within(&mut self, node: Node, most: usize) -> Node {
         match &*self.shared_form(node) {
             Form::Sum { constant, terms } => {
-                let mut expanded: Vec<_> =
-                    terms.iter().map(|(part, factor)| (self.multiplied_out(*part), factor.clone())).collect();
+                let mut expanded: Vec<_> = terms
+                    .iter()
+                    .map(|(part, factor)| (self.multiplied_out_within(*part, most), factor.clone()))
+                    .collect();
                 expanded.push((self.number(constant.clone()), Rational::one()));
                 self.sum(&expanded)
             }
-            Form::Product(factors) => self.product_of_sums(factors).unwrap_or(node),
+            Form::Product(factors) => self.product_of_sums(factors, most).unwrap_or(node),
             _ => node,
         }
     }
 
     /// The product of powers of sums, unless it has too many terms.
-    fn product_of_sums(&mut self, factors: &[(Node, Rational)]) -> Option<Node> {
+    fn product_of_sums(&mut self, factors: &[(Node, Rational)], most: usize) -> Option<Node> {
         let mut terms = vec![self.number(Rational::one())];
         for (base, exponent) in factors {
             let power = exponent.to_integer().to_u32().filter(|n| exponent.is_integer() && *n <= HIGHEST);
-            let expanded = self.multiplied_out(*base);
+            let expanded = self.multiplied_out_within(*base, most);
             let (parts, count) = match (&*self.shared_form(expanded), power) {
                 (Form::Sum { constant, terms }, Some(power)) => {
                     let mut parts: Vec<Node> = terms.iter().map(|(part, c)| self.scaled(*part, c)).collect();
@@ -51,6 +58,9 @@ impl Graph {
             for _ in 0..count {
                 let mut product = Vec::new();
                 for left in &terms {
+                    if self.len() > most {
+                        return None;
+                    }
                     for right in &parts {
                         product.push((self.times(*left, *right), Rational::one()));
                     }
