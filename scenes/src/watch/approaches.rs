@@ -209,7 +209,8 @@ impl Approaches {
             return;
         }
         for (planet, epsilon) in (self.epsilon)(places.of_steps()).into_iter().enumerate() {
-            if epsilon > self.largest.0 {
+            // forces may overflow in double precision
+            if epsilon > self.largest.0 && epsilon.is_finite() {
                 self.largest = (epsilon, planet + 1);
             }
         }
