@@ -5,7 +5,6 @@
 //! | `class` | classes of Hamiltonians, their conditions |
 //! | `ring` | polynomials in roots, with exact arithmetic |
 //! | `closed` | cells with roots → weights as such polynomials |
-//! | `cofactors` | a condition as a sum of the roots' equations |
 //! | `enclosure` | decimals → a box in which there is one solution |
 //! | `whole_numbers` | conditions of rational weights in whole numbers |
 //!
@@ -15,7 +14,6 @@
 
 mod class;
 mod closed;
-mod cofactors;
 mod enclosure;
 mod ring;
 mod whole_numbers;

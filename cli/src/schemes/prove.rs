@@ -1,11 +1,8 @@
 //! `shadowstep schemes prove`: the proof of an order as a certificate.
 
-mod formula;
-mod lean;
-
 use std::io::Write;
 
-use clap::{Args, ValueEnum};
+use clap::Args;
 use num_traits::Zero;
 use serde_json::{Value, json};
 use shadowstep_analysis::certificate::{Certificate, Class, Enclosure, Kind, Polynomial};
@@ -18,32 +15,21 @@ use crate::report::{self, Status};
 
 const EXAMPLES: &str = "\
 Examples:
-  shadowstep schemes prove yoshida4 --to json > yoshida4.json
-  python3 tests/certificates/check.py yoshida4.json
-  shadowstep schemes prove yoshida4 --to lean --output Yoshida4.lean";
+  shadowstep schemes prove yoshida4 > yoshida4.json
+  python3 tests/certificates/check.py yoshida4.json";
 
 /// Writes the proof of the order as a certificate.
 ///
-/// The order is the one for every T(p). Other programs can check the certificate.
+/// The order is the one for every T(p). The certificate is a JSON object (order, kind, roots, maps, bound), which
+/// other programs can check.
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
 pub(crate) struct Arguments {
     /// A shipped scheme, such as yoshida4, or the file of a table
     #[arg(value_name = "NAME|FILE")]
     name: String,
-    /// The form of the certificate
-    #[arg(long, value_enum, default_value = "json")]
-    to: Form,
     #[command(flatten)]
     output: OutputArguments,
-}
-
-#[derive(Clone, Copy, Debug, ValueEnum)]
-enum Form {
-    /// One JSON object: order, kind, roots, maps, bound
-    Json,
-    /// A file of Lean 4 with Mathlib: a theorem for each condition; of rational weights and of polynomials in roots
-    Lean,
 }
 
 pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
@@ -61,12 +47,9 @@ pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
         report::note(message);
     }
     // what is refused writes no file
-    let text = match arguments.to {
-        Form::Json => serde_json::to_string(&record(&scheme.proved().scheme.table.name.value, &certificate))? + "\n",
-        Form::Lean => lean::text(scheme.proved(), &certificate)?,
-    };
+    let text = serde_json::to_string(&record(&scheme.proved().scheme.table.name.value, &certificate))?;
     let mut output = Output::of(&arguments.output)?;
-    write!(output, "{text}")?;
+    writeln!(output, "{text}")?;
     output.finish()?;
     Ok(Status::Success)
 }
@@ -122,7 +105,7 @@ fn enclosure(enclosure: &Enclosure) -> Value {
 }
 
 /// The word for a kind of proof.
-pub(super) fn kind(kind: &Kind) -> &'static str {
+fn kind(kind: &Kind) -> &'static str {
     match kind {
         Kind::Exact => "exact",
         Kind::Algebraic(_) => "algebraic",

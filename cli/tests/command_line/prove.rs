@@ -5,14 +5,11 @@ use std::fs;
 use std::process::Command;
 
 use serde_json::Value;
-use shadowstep_analysis::certificate::{Certificate, Kind};
 use shadowstep_schemes::{shipped_names, shipped_proved};
 
 use crate::program::{objects, quietly, shadowstep};
 
 const CHECKER: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../tests/certificates/check.py");
-
-const READER: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../tests/certificates/read_lean.py");
 
 /// Whether a program accepts files, and what it writes.
 fn accepted(program: &str, paths: &[String]) -> (bool, String) {
@@ -119,7 +116,7 @@ drift = ["xi", "chi", "1 - 2*(chi + xi)", "chi", "xi"]
 fn wrong_certificates_are_refused() {
     let folder = tempfile::tempdir().unwrap();
     let refused = |name: &str, change: &dyn Fn(&mut Value)| {
-        let mut certificate = objects(&quietly(&format!("schemes prove {name} --to json"))).remove(0);
+        let mut certificate = objects(&quietly(&format!("schemes prove {name}"))).remove(0);
         change(&mut certificate);
         let path = folder.path().join("wrong.json").display().to_string();
         fs::write(&path, certificate.to_string()).unwrap();
@@ -222,65 +219,4 @@ fn decimals_that_stand_for_no_scheme_are_refused() {
     fs::write(&path, certificate.to_string()).unwrap();
     let output = Command::new("python3").args(["-B", "-O", CHECKER, &path]).output().expect("python3 runs");
     assert!(!output.status.success());
-}
-
-/// The files of Lean of a scheme and of its certificate, in a folder.
-fn lean_and_json(name: &str, folder: &std::path::Path) -> [String; 2] {
-    [("lean", "lean"), ("json", "json")].map(|(form, end)| {
-        let path = folder.join(format!("{name}.{end}"));
-        fs::write(&path, quietly(&format!("schemes prove {name} --to {form}"))).unwrap();
-        path.display().to_string()
-    })
-}
-
-/// What Lean would check, parsed and evaluated by a program that shares no code with this one.
-#[test]
-fn lean_has_the_conditions_of_rational_weights_and_of_roots() {
-    let folder = tempfile::tempdir().unwrap();
-    let (mut paths, mut refused) = (Vec::new(), Vec::new());
-    for name in shipped_names() {
-        let Some(certificate) = Certificate::of(shipped_proved(name).unwrap()) else { continue };
-        let what = match (&certificate.kind, &certificate.enclosure) {
-            (Kind::Decimal(_), Some(_)) => "is an enclosure of a solution",
-            (Kind::Decimal(_), None) => "is a bound for decimals",
-            _ if ["suzuki6", "triplejump6"].contains(&name) => "products of weights",
-            _ => {
-                paths.extend(lean_and_json(name, folder.path()));
-                continue;
-            }
-        };
-        let result = shadowstep(&format!("schemes prove {name} --to lean"));
-        assert!(result.code == 2 && result.err.contains(what) && result.err.contains("--to json"), "{}", result.err);
-        refused.push(name);
-    }
-    assert!(paths.len() >= 2 * 28 && refused.len() >= 50, "{paths:?} {refused:?}");
-    let (is_accepted, out) = accepted(READER, &paths);
-    assert!(is_accepted && out.lines().count() == paths.len() / 2, "{out}");
-    assert!(out.contains("yoshida4: 8 theorems"), "{out}");
-}
-
-#[test]
-fn the_reader_of_lean_refuses_what_is_wrong() {
-    let folder = tempfile::tempdir().unwrap();
-    for (name, from, to, says) in [
-        ("ruth3", "def a1 : ℚ := 7/24", "def a1 : ℚ := 5/24", "the weight a1"),
-        ("ruth3", "coefficient_KD = 1/2 := by", "coefficient_KD = 1/3 := by", "what is needed of KD"),
-        ("ruth3", "a1 ^ 2 / 2 * b1", "a1 ^ 2 / 3 * b1", "the formula of KKD"),
-        ("ruth3", "    condition_KKD,\n", "", "KKD in the order"),
-        ("yoshida4", "1/864 * x ^ 3", "1/865 * x ^ 3", "the condition of KKD"),
-        ("yoshida4", "(hx : x ^ 3 = 2) : coefficient_KKD", ": coefficient_KKD", "the hypotheses of KKD"),
-        (
-            "yoshida4",
-            "(hx : x ^ 3 = 2) : coefficient_KKD",
-            "(hx : x ^ 3 = 3) : coefficient_KKD",
-            "the condition of KKD",
-        ),
-    ] {
-        let paths = lean_and_json(name, folder.path());
-        let text = fs::read_to_string(&paths[0]).unwrap();
-        assert!(text.contains(from), "{name} has no {from}: {text}");
-        fs::write(&paths[0], text.replacen(from, to, 1)).unwrap();
-        let (is_accepted, out) = accepted(READER, &paths);
-        assert!(!is_accepted && out.contains(says), "{from}: {out}");
-    }
 }
