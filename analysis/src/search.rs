@@ -40,7 +40,7 @@ mod space;
 use std::f64::consts::PI;
 
 use rand_pcg::Pcg64Mcg;
-use rand_pcg::rand_core::{RngCore, SeedableRng};
+use rand_pcg::rand_core::{Rng, SeedableRng};
 use shadowstep_schemes::Proved;
 use shadowstep_schemes::document::Faults;
 use shadowstep_schemes::library::Library;

@@ -2,7 +2,7 @@
 //! solver ends, and its messages.
 
 use rand_pcg::Pcg64Mcg;
-use rand_pcg::rand_core::{RngCore, SeedableRng};
+use rand_pcg::rand_core::{Rng, SeedableRng};
 use shadowstep::exact;
 use shadowstep::number::counting::Counting;
 use shadowstep::number::{AnyLimbs, DoubleDouble, Dual, Fused, Lanes, LimbCount, Limbs, Number, Real};

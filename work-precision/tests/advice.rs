@@ -1,7 +1,7 @@
 //! The verified error of advice beside the error of the same run, on problems that are drawn.
 
 use rand_pcg::Pcg64Mcg;
-use rand_pcg::rand_core::RngCore;
+use rand_pcg::rand_core::Rng;
 use shadowstep::tables::Source;
 use shadowstep::{Number, Rational, StepSize, exact};
 use shadowstep_scenes::System;

@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 
 use num_traits::FromPrimitive;
 use rand_pcg::Pcg64Mcg;
-use rand_pcg::rand_core::{RngCore, SeedableRng};
+use rand_pcg::rand_core::{Rng, SeedableRng};
 use serde::{Deserialize, Serialize};
 use shadowstep::{Rational, Scheme};
 use shadowstep_scenes::Error;

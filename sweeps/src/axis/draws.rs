@@ -3,7 +3,7 @@
 
 use num_traits::Signed;
 use rand_pcg::Pcg64;
-use rand_pcg::rand_core::RngCore;
+use rand_pcg::rand_core::Rng;
 use sha2::{Digest, Sha256};
 use shadowstep::Rational;
 use shadowstep_scenes::schema::Table;

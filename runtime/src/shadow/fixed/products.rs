@@ -259,7 +259,7 @@ mod tests {
     use num_bigint::{BigInt, BigUint, Sign};
     use num_traits::Signed;
     use rand_pcg::Pcg64Mcg;
-    use rand_pcg::rand_core::{RngCore, SeedableRng};
+    use rand_pcg::rand_core::{Rng, SeedableRng};
 
     use super::*;
 

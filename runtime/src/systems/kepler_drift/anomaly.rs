@@ -188,7 +188,7 @@ fn stumpff(z: f64) -> [f64; 4] {
 mod tests {
     use super::*;
     use rand_pcg::Pcg64Mcg;
-    use rand_pcg::rand_core::{RngCore, SeedableRng};
+    use rand_pcg::rand_core::{Rng, SeedableRng};
 
     fn number(random: &mut Pcg64Mcg, low: f64, high: f64) -> f64 {
         low + (high - low) * (random.next_u64() >> 11) as f64 * 2_f64.powi(-53)

@@ -537,7 +537,7 @@ impl<N: Number, const D: usize> System for Encounters<N, D> {
 #[cfg(test)]
 mod tests {
     use rand_pcg::Pcg64Mcg;
-    use rand_pcg::rand_core::{RngCore, SeedableRng};
+    use rand_pcg::rand_core::{Rng, SeedableRng};
 
     use super::MovingPoint;
     use crate::systems::kepler_drift::KeplerDrift;

@@ -112,7 +112,7 @@ mod tests {
     use crate::systems::system::System;
     use crate::{Rational, exact};
     use rand_pcg::Pcg64Mcg;
-    use rand_pcg::rand_core::{RngCore, SeedableRng};
+    use rand_pcg::rand_core::{Rng, SeedableRng};
     use std::array::from_fn;
 
     fn number(random: &mut Pcg64Mcg, low: f64, high: f64) -> f64 {

@@ -1,7 +1,7 @@
 //! Random and adversarial numbers.
 
 use rand_pcg::Pcg64Mcg;
-use rand_pcg::rand_core::{RngCore, SeedableRng};
+use rand_pcg::rand_core::{Rng, SeedableRng};
 use rug::Float;
 
 use super::super::DoubleDouble;
