@@ -125,15 +125,13 @@ fn python_has_tuples_powers_arrays_and_loops() {
     assert_is(
         "yoshida6-a",
         "half = [0.784513610477560, 0.235573213359357, -1.17767998417887, 1.31518632068391]\nw = []\nfor x in \
-            half:\n    \
-        w.append(x)\nfor i in range(2, -1, -1):\n    w.append(half[i])\n",
+        half:\n    w.append(x)\nfor i in range(2, -1, -1):\n    w.append(half[i])\n",
         Language::Python,
     );
     assert_is(
         "bcss3",
         "class Three:\n    def __init__(self):\n        self.a_0 = 0.11888010966548\n        self.b_1 = \
-            0.29619504261126\n        \
-        run((self.a_0, self.b_1))\n",
+        0.29619504261126\n        run((self.a_0, self.b_1))\n",
         Language::Python,
     );
 }
@@ -304,9 +302,9 @@ fn decimals_of_few_digits_have_the_order_of_exact_numbers() {
 #[test]
 fn lists_beside_a_scheme_are_schemes() {
     let text = "def weights(self, count):\n    if count == 3:\n        self.list = [0.828981543588751, \
-        -0.657963087177502, 0.828981543588751]\n    if count == 7:\n        \
-                self.list = [0.784513610477560, 0.235573213359357, -1.17767998417887, 1.31518632068391, \
-                -1.17767998417887, 0.235573213359357, 0.784513610477560]\n";
+        -0.657963087177502, 0.828981543588751]\n    if count == 7:\n        self.list = [0.784513610477560, \
+        0.235573213359357, -1.17767998417887, 1.31518632068391, -1.17767998417887, 0.235573213359357, \
+        0.784513610477560]\n";
     let found = check(text, Language::Python);
     assert_eq!(found.verdicts.iter().map(|verdict| verdict.orders[0]).collect::<Vec<_>>(), [2, 6], "{found:#?}");
     let named = text.split("    if count == 7").next().unwrap().replace("self.list", "suzuki_yoshida");

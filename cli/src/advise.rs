@@ -32,11 +32,11 @@ Examples:
 
 const MORE: &str = "\
 All schemes are run over a part of the time that --seconds allows, and their errors are extrapolated to all of it by \
-their growth. The best choice is then \
-verified by a run over all of the time. Its error is printed beside the prediction: to a tenth, or as `at most`.
+their growth. The best choice is then verified by a run over all of the time. Its error is printed beside the \
+prediction: to a tenth, or as `at most`.
 
-The error of positions is the difference to the exact flow, or to runs of a scheme of order 10 whose own error is \
-known from half the step.
+The error of positions is the difference to the exact flow, or to runs of a \
+scheme of order 10 whose own error is known from half the step.
 
 The exit code is 1 if no scheme meets the tolerance.";
 

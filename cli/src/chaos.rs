@@ -29,10 +29,9 @@ const MORE: &str = "\
 The run is made at the step size and at half of it, with tangent vectors. Chaos that only the larger step has is \
 caused by that step.
 
-The exponent is the largest Lyapunov exponent over the last three quarters of the run, with half the width of its \
-interval of 95 %. The mean of MEGNO tends to 2 on \
-regular orbits, to 0 where all frequencies are constant, and grows with the time on chaotic ones. SALI tends to 0 \
-exponentially on chaotic ones.";
+The exponent is the largest Lyapunov exponent over the last three quarters of the run, with \
+half the width of its interval of 95 %. The mean of MEGNO tends to 2 on regular orbits, to 0 where all frequencies \
+are constant, and grows with the time on chaotic ones. SALI tends to 0 exponentially on chaotic ones.";
 
 const VECTORS: &str = "Tangent vectors";
 

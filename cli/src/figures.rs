@@ -16,11 +16,11 @@ Examples:
   shadowstep figures kepler-schemes kepler-orders --out figures";
 
 const MORE: &str = "\
-Results are saved in DIR/results.jsonl one by one. After Ctrl-C (exit code 3) the same command computes only what is missing.
+Results are saved in DIR/results.jsonl one by one. After Ctrl-C (exit code 3) the same command computes only what is \
+missing.
 
-All cores are used, or the number in RAYON_NUM_THREADS; results do not depend on it. If figures are named, the report \
-keeps the others \
-whose results are in DIR already.";
+All cores are used, or the number in RAYON_NUM_THREADS; results do not depend on it. If figures are named, \
+the report keeps the others whose results are in DIR already.";
 
 /// Computes the figures of Moan and Niesen's paper, and others.
 ///

@@ -34,16 +34,19 @@ use lines::RunOfChart;
 pub(crate) const KINDS: &str = "\
 Charts:
   energies              the changes of H and of the modified energy H̄ in time
-  orbit=x:y             a coordinate or momentum against another
-  orbit=x:px            the same, as a phase portrait
+  orbit=x:y             a \
+coordinate or momentum against another
+  orbit=x:px            the same, as a phase \
+portrait
   distance              of every two bodies in time, or from the origin
-  distance=sun          of this body from the others
+  distance=sun          of this body \
+from the others
   distance=sun:jupiter  of these two bodies
 
-The changes are |H - H(0)| and |H̄ - H̄*|, where H̄* is the H̄ with the least estimated error. A chart of one run \
-also shows the estimated error of \
-H̄. Without bodies, the distance is the one from the origin. Bodies have coordinates such as x_sun, y_sun or x1, y1; \
-orbit=x:y shows all bodies.";
+The changes are |H - H(0)| and |H̄ - H̄*|, where H̄* is \
+the H̄ with the least estimated error. A chart of one run also shows the estimated error of H̄. Without bodies, the \
+distance is the one from the origin. Bodies have coordinates such as x_sun, y_sun or x1, y1; orbit=x:y shows all \
+bodies.";
 
 /// The charts of `trace`.
 #[derive(Debug, Args)]

@@ -21,11 +21,12 @@ Example:
   shadowstep run scene.toml";
 
 const MORE: &str = "\
-If a run is stopped, running its scene again resumes it from the last checkpoint. If its file is complete, nothing is done.
+If a run is stopped, running its scene again resumes it from the last checkpoint. If its file is complete, nothing is \
+done.
 
-The summary is written to stderr: the error of H, the modified energy, close encounters, and a verdict on the step \
-size. If rows of JSON are written \
-to stdout, the summary on stderr is one object with the metadata. Beside a file of JSON lines, FILE.metadata.json has both.";
+The summary is written to stderr: the error of H, the modified energy, close encounters, and a verdict on the \
+step size. If rows of JSON are written to stdout, the summary on stderr is one object with the metadata. Beside a \
+file of JSON lines, FILE.metadata.json has both.";
 
 /// Runs a scene: a file that describes a run and its output.
 #[derive(Debug, Args)]

@@ -27,8 +27,7 @@ Examples:
 
 const MORE: &str = "\
 H = p^2/2 + U with a Gaussian exp(-U) is a sum of oscillators: along a direction with standard deviation σ, ω = 1/σ. \
-Its results are exact; other \
-targets have other errors. docs/sampling.md describes them.";
+Its results are exact; other targets have other errors. docs/sampling.md describes them.";
 
 /// Schemes for Hamiltonian Monte Carlo on a Gaussian.
 ///
@@ -174,8 +173,8 @@ fn legend(target: &SamplingTarget) -> String {
     };
     let text = format!(
         "Trajectories of length {time} of {of}. {chosen}\nerror: the mean of ΔH in equilibrium, in units of the \
-            temperature; any length: its maximum over all numbers of \
-         such steps; cost: gradients per accepted trajectory, Hessian–vector products of gradient kicks counted as such."
+         temperature; any length: its maximum over all numbers of such steps; cost: gradients per accepted \
+         trajectory, Hessian–vector products of gradient kicks counted as such."
     );
     text.lines().map(|line| wrapped_to(line, "", 80)).collect()
 }

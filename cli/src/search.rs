@@ -34,30 +34,38 @@ This command writes rkn4-1.toml, rkn4-2.toml, …, the best first:
 
 const MORE: &str = "\
 Several measures are added with weights:
-  minimise = { effective-error = 1, largest-weight = 0.1 }
+  minimise = { effective-error = 1, largest-weight = 0.1 \
+}
 
 Measures:
   effective-error
-  instability              forces per unit of hω at the limit of stability
+  instability              forces per unit of hω at the limit of \
+stability
   phase-error
   sampling-error
   largest-weight
   negative-weights
 
 Other keys:
-  front = [\"effective-error\", \"instability\"]
-                           in place of `minimise`: keeps the schemes that no
+  front = \
+[\"effective-error\", \"instability\"]
+                           in place of `minimise`: keeps the schemes that \
+no
                            other surpasses in all of these measures
-  name, base = \"stormer-verlet\", first = \"drift\", symmetric = false,
+  name, base = \"stormer-verlet\", first = \
+\"drift\", symmetric = false,
   gradient_kicks = true, near_integrable = [8, 4], largest_weight = 1,
-  starts = 100, seed = 1, keep = 3
-  processor = 6            stages of the post-map of a processed scheme, whose
+  starts = 100, \
+seed = 1, keep = 3
+  processor = 6            stages of the post-map of a processed scheme, \
+whose
                            order is the one after processing
-  closed_gaps = 1          intervals of instability near hω = π, 2π, …
+  closed_gaps = 1          intervals of \
+instability near hω = π, 2π, …
 
-DIR gets the tables, search.csv with what each start found, search.svg with the shipped schemes beside them, and \
-report.html. Starts are saved one by one \
-in results.jsonl: after Ctrl-C (exit code 3) the same command computes only what is missing.
+DIR gets the tables, search.csv with what each start found, search.svg with the \
+shipped schemes beside them, and report.html. Starts are saved one by one in results.jsonl: after Ctrl-C (exit code \
+3) the same command computes only what is missing.
 
 The exit code is 1 if no start met the conditions.";
 

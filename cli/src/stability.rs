@@ -28,10 +28,10 @@ Examples:
 
 const MORE: &str = "\
 DIR gets report.html with charts, and stability.md with all verdicts. Results are saved one by one in results.jsonl: \
-after Ctrl-C (exit code 3) the same \
-command computes only what is missing.
+after Ctrl-C (exit code 3) the same command computes only what is missing.
 
-The exit code is 1 if a row differs from theory.";
+The exit code is 1 if a row differs from \
+theory.";
 
 /// Hard cases: what theory predicts, and whether it happens.
 #[derive(Debug, Args)]

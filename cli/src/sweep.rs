@@ -29,8 +29,8 @@ Examples:
 
 const MORE: &str = "\
 After Ctrl-C (exit code 3), or a crash at any moment, the same command computes only what is missing. Results do not \
-depend on the number \
-of threads: all cores, or the number in RAYON_NUM_THREADS. A run that fails is recorded and stops nothing.
+depend on the number of threads: all cores, or the number in RAYON_NUM_THREADS. A run that fails is recorded and \
+stops nothing.
 
 In a task of a Slurm array, the chunk is the one of the task.";
 

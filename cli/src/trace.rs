@@ -31,12 +31,11 @@ Examples:
 const MORE: &str = "\
 A line has n, t, energy, modified_energy, estimate and order: the m or k used. The estimate is the estimated error of \
 modified_energy, of the right size also near close encounters. With --order 1 there is no reliable estimate: it is \
-empty, in \
-JSON null. Lines of several runs begin with scheme and step. In transformed time --until is a physical time, too: a \
-last line, without a modified energy, is for \
-the state after a step to it.
+empty, in JSON null. Lines of several runs begin with scheme and step. In transformed time --until is a physical \
+time, too: a last line, without a modified energy, is for the state after a step to it.
 
-The summary of each run is written to stderr: for CSV as text, for JSON as one object a line, {\"summary\": …}.";
+The summary of each run is \
+written to stderr: for CSV as text, for JSON as one object a line, {\"summary\": …}.";
 
 /// What can be done after an interruption.
 const NOT_RESUMED: &str = "begin again; `shadowstep run` with a checkpoint in its scene can be resumed";

@@ -152,8 +152,8 @@ pub(crate) fn against_aliasing(drifts: &[(f64, f64)], theory: f64) -> Option<Str
     let place = if c.within(theory, theory) == Verdict::Differs { "outside" } else { "within" };
     Some(format!(
         "Aliasing of differences of samples gives the rate π ρ = {theory:.3} with a power of h before the \
-            exponential. Fitted with a power, c is \
-         {c:.3} and the factor is h⁻ʳ, r = {power:.1}: π ρ is {place} that interval."
+         exponential. Fitted with a power, c is {c:.3} and the factor is h⁻ʳ, r = {power:.1}: π ρ is {place} that \
+         interval."
     ))
 }
 

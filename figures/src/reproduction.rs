@@ -110,30 +110,24 @@ fn write_figure(figure: &Figure, results: &Results, folder: &Path) -> Result<Sec
 
 const INTRODUCTION: [&str; 4] = [
     "P. C. Moan and J. Niesen, “On an asymptotic method for computing the modified energy for symplectic methods”, \
-        Discrete Contin. Dyn. Syst. 34 (2014) 1105, \
-     follow the modified energy of splitting schemes at 120 digits. Each of their figures is computed here again and \
-     compared with the statements of their text.",
+     Discrete Contin. Dyn. Syst. 34 (2014) 1105, follow the modified energy of splitting schemes at 120 digits. Each \
+     of their figures is computed here again and compared with the statements of their text.",
     "Additional figures follow. They separate what belongs to the method from what belongs to the estimator: the same \
-        estimators on the exact \
-     flow, whose energy does not change, and the permanent change of the modified energy between states with small \
-     estimated errors.",
+     estimators on the exact flow, whose energy does not change, and the permanent change of the modified energy \
+     between states with small estimated errors.",
     "The drift is max − min of the modified energy over the states n = 0 … N of the interval. States before 0 and \
-        after N, which estimators \
-     need, are computed by the scheme and its exact inverse. The paper's sign of the rate of β, printed −h a (qᵀU_q + \
-     2U), is +h a (qᵀU_q − 2U).",
+     after N, which estimators need, are computed by the scheme and its exact inverse. The paper's sign of the rate \
+     of β, printed −h a (qᵀU_q + 2U), is +h a (qᵀU_q − 2U).",
     "Each statement agrees, differs, or is not decided. A statement on a rate or a mean ratio agrees if its whole 95 \
-        % interval does, and differs if \
-     no part of the interval does; the interval is Student's, over the step sizes, as if these were independent. A \
-     factor that the paper prints with one \
-     digit counts as every value that rounds to it. Drifts below 10⁻¹⁰⁸, where round-off of 120 digits may be \
-     visible, are left out. Other criteria are stated beside \
-     their results.",
+     % interval does, and differs if no part of the interval does; the interval is Student's, over the step sizes, as \
+     if these were independent. A factor that the paper prints with one digit counts as every value that rounds to \
+     it. Drifts below 10⁻¹⁰⁸, where round-off of 120 digits may be visible, are left out. Other criteria are stated \
+     beside their results.",
 ];
 
 /// What a quick report cannot decide.
 const QUICK: &str = "A quick report: fewer step sizes, eccentricities and orders can refute a claim about all of them \
-    or confirm a claim that one \
-     exists, but not the reverse. Without `--quick` more is decided.";
+    or confirm a claim that one exists, but not the reverse. Without `--quick` more is decided.";
 
 /// `earlier` are the figures that are not requested.
 fn report(request: &Request, sections: Vec<Section>, earlier: &[String]) -> Report {

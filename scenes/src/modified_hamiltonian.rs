@@ -21,6 +21,7 @@ use shadowstep_symbolic::{Function, Graph, Node, Notation, parse};
 
 use crate::expression::{Derived, TIME};
 use crate::refusal::Refusal;
+use crate::scene::split::Planets;
 use crate::scene::{InitialValueProblem, KineticEnergy, Parts, System};
 
 /// The name of the momentum of t in transformed time.
@@ -106,13 +107,7 @@ impl SymbolicHamiltonian {
                 symbolic.kinetic = Kinetic::Quadratic;
             }
             Parts::WisdomHolman(planets) => {
-                let orbits = symbolic.orbits(planets)?;
-                let [potential, kinetic] = symbolic.potential_and_kinetic(problem)?;
-                let rest = symbolic.minus(kinetic, orbits.kinetic);
-                let rest = symbolic.graph.multiplied_out(rest);
-                let attraction = symbolic.minus(potential, orbits.potential);
-                symbolic.parts =
-                    vec![symbolic.graph.plus(attraction, rest), symbolic.graph.plus(orbits.kinetic, orbits.potential)];
+                symbolic.parts = symbolic.perturbation_and_orbits(planets, problem)?.to_vec();
                 if !system.has_general_kinetic() {
                     symbolic.kinetic = Kinetic::Quadratic;
                 }
@@ -138,6 +133,20 @@ impl SymbolicHamiltonian {
     fn potential_and_kinetic(&mut self, problem: &InitialValueProblem) -> Result<[Node; 2], Refusal> {
         let kinetic = self.kinetic(problem);
         Ok([self.potential(problem, &problem.potential, kinetic)?, kinetic])
+    }
+
+    /// The interactions of planets, and their Kepler orbits.
+    fn perturbation_and_orbits(
+        &mut self,
+        planets: &Planets,
+        problem: &InitialValueProblem,
+    ) -> Result<[Node; 2], Refusal> {
+        let orbits = self.orbits(planets)?;
+        let [potential, kinetic] = self.potential_and_kinetic(problem)?;
+        let rest = self.minus(kinetic, orbits.kinetic);
+        let rest = self.graph.multiplied_out(rest);
+        let attraction = self.minus(potential, orbits.potential);
+        Ok([self.graph.plus(attraction, rest), self.graph.plus(orbits.kinetic, orbits.potential)])
     }
 
     fn minus(&mut self, one: Node, other: Node) -> Node {

@@ -198,23 +198,21 @@ impl fmt::Display for Note {
                 write!(
                     f,
                     "{where_}the fastest oscillation has omega = {omega}, and h omega = {h_omega} is beyond the \
-                        stability limit \
-                     {limit}of {scheme}: {how}"
+                     stability limit {limit}of {scheme}: {how}"
                 )
             }
             Note::Resonant { scheme, h_omega, omega, from } => write!(
                 f,
                 "the fastest oscillation of fast forces and T has omega = {omega} at the start, and h omega = \
-                    {h_omega}: from \
-                 {from} on, in intervals of h omega, oscillations are in resonance with the slow kicks of {scheme}"
+                 {h_omega}: from {from} on, in intervals of h omega, oscillations are in resonance with the slow \
+                 kicks of {scheme}"
             ),
             Note::FewKicks { planet, steps, kicks, least } => {
                 let kicks = if *kicks == 1 { "1 kick".to_owned() } else { format!("{kicks} kicks") };
                 write!(
                     f,
                     "{planet} has {steps} steps of {kicks} in a revolution: with fewer than {least} kicks the step \
-                        size may be in resonance \
-                     with the orbit"
+                     size may be in resonance with the orbit"
                 )
             }
             Note::MassesAreOne { property } => {
@@ -226,8 +224,7 @@ impl fmt::Display for Note {
             Note::AbruptCutoff => write!(
                 f,
                 "the energy of a pair jumps at the cutoff, so that no scheme conserves it; `cutoff = {{ at = \"5/2\", \
-                    from = 2, derivatives = 3 }}` \
-                 ends it smoothly"
+                 from = 2, derivatives = 3 }}` ends it smoothly"
             ),
             Note::ForcesLeftOut { target, forces } => {
                 write!(f, "the orbit of {target} has non-gravitational forces ({forces}), which are not in H")

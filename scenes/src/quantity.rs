@@ -53,8 +53,7 @@ pub(crate) const QUANTITIES: [Described; 5] = [
         calls: &[],
         written: "a(earth), e, i, node, pericentre, M, lambda",
         meaning: "An element of a body's osculating orbit, angles in degrees: about the first body, e(earth); another \
-            one, a(moon, earth); the bodies \
-                  before, i(earth, jacobi); or all, M(earth, barycentre).",
+            one, a(moon, earth); the bodies before, i(earth, jacobi); or all, M(earth, barycentre).",
     },
 ];
 

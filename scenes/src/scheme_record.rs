@@ -199,34 +199,14 @@ impl SchemeRecord {
         let (proof, weights, table) = (&proved.proof, &proved.scheme, &proved.scheme.table);
         let fractions = |weights: &[Rational]| weights.iter().map(Rational::to_string).collect::<Vec<_>>();
         let maps = weights.maps().into_iter();
-        // the value of a condition of rounded weights is known to this number of digits only
-        let exact = |value: &Rational| match weights.held {
-            Held::Digits(_) if to_text(value).len() > CONDITION_DIGITS => to_significant(value, CONDITION_DIGITS),
-            _ => to_text(value),
-        };
         let cost = scheme.plan().cost();
-        let effective = |kinetic| analysis.processed_effective_error(kinetic);
-        let processed = proof.effective.as_ref().zip(analysis.processed.as_ref()).map(|(proved_effective, errors)| {
-            let general = (!weights.has_gradient_kicks()).then_some(&proved_effective.general);
-            let orders = (general, &proved_effective.quadratic, effective_near_integrable(proof));
-            Orders::of(orders, [&errors[0], &errors[1]], effective, exact)
-        });
-        let of_kernel = || {
-            let orders = (proved.order_for_every_kinetic(), &proof.quadratic, near_integrable(proof));
-            Orders::of(
-                orders,
-                [&analysis.general, &analysis.quadratic],
-                |kinetic| analysis.effective_error(kinetic),
-                exact,
-            )
-        };
-        let is_processed = processed.is_some();
+        let (orders, kernel) = orders(proved, analysis);
         SchemeRecord {
             name: table.name.value.clone(),
             aliases: aliases(table),
             title: table.title.clone(),
-            orders: processed.unwrap_or_else(of_kernel),
-            kernel: is_processed.then(of_kernel),
+            orders,
+            kernel,
             dominant: table.near_integrable.as_ref().map(|claim| claim.dominant.to_string()),
             free: table.free.iter().map(|name| name.value.clone()).collect(),
             digits: digits(weights.held),
@@ -256,6 +236,29 @@ impl SchemeRecord {
             processor: processor(proved),
             inner: inner(proved),
         }
+    }
+}
+
+/// The orders; of a processed scheme those after processing, and those of the steps alone.
+fn orders(proved: &Proved, analysis: &Analysis) -> (Orders, Option<Orders>) {
+    let (proof, scheme) = (&proved.proof, &proved.scheme);
+    // the value of a condition of rounded weights is known to this number of digits only
+    let exact = |value: &Rational| match scheme.held {
+        Held::Digits(_) if to_text(value).len() > CONDITION_DIGITS => to_significant(value, CONDITION_DIGITS),
+        _ => to_text(value),
+    };
+    let effective = |kinetic| analysis.processed_effective_error(kinetic);
+    let processed = proof.effective.as_ref().zip(analysis.processed.as_ref()).map(|(proved_effective, errors)| {
+        let general = (!scheme.has_gradient_kicks()).then_some(&proved_effective.general);
+        let orders = (general, &proved_effective.quadratic, effective_near_integrable(proof));
+        Orders::of(orders, [&errors[0], &errors[1]], effective, exact)
+    });
+    let orders = (proved.order_for_every_kinetic(), &proof.quadratic, near_integrable(proof));
+    let errors = [&analysis.general, &analysis.quadratic];
+    let of_steps = Orders::of(orders, errors, |kinetic| analysis.effective_error(kinetic), exact);
+    match processed {
+        Some(processed) => (processed, Some(of_steps)),
+        None => (of_steps, None),
     }
 }
 

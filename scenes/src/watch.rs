@@ -357,17 +357,8 @@ impl<N: RunNumber> Watch<N> {
         let lasting = self.energy.lasting.found().filter(|_| may_have_been_missed(verdict));
         let (encounters, closest) = encounters.found(n);
         // what was measured is not excluded
-        let bound = report.permanent_bound.as_ref().filter(|_| !verdict.loses_the_energy() && lasting.is_none());
-        let bound = bound.map(|bound| if *bound < report.range { &report.range } else { bound });
-        let modified_energy = (report.windows > 0).then(|| ModifiedEnergySummary {
-            method: report.method().map(|[rms, ..]| rms.to_text()),
-            method_resolution: report.method_resolution.to_text(),
-            round_off: report.round_off.to_text(),
-            permanent_change: report.range.to_text(),
-            permanent_bound: bound.map(N::to_text),
-            resolution: report.resolution.as_ref().map(N::to_text),
-            windows: report.windows,
-        });
+        let is_excluded = !verdict.loses_the_energy() && lasting.is_none();
+        let modified_energy = modified_energy(&report, is_excluded);
         let mut summary = Summary {
             run: run.name(),
             h: run.h.exact().clone(),
@@ -375,6 +366,7 @@ impl<N: RunNumber> Watch<N> {
             from,
             to: n,
             energy,
+            has_windows: report.windows > 0,
             modified_energy,
             encounters,
             closest,
@@ -395,6 +387,22 @@ impl<N: RunNumber> Watch<N> {
         summary.name_light_bodies();
         Some(summary)
     }
+}
+
+/// What the windows show of H̄, if there are some whose sums do not overflow, and whether they exclude a net change.
+fn modified_energy<N: Real>(report: &Report<N>, is_excluded: bool) -> Option<ModifiedEnergySummary> {
+    let bound = report.permanent_bound.as_ref().filter(|_| is_excluded);
+    let bound = bound.map(|bound| if *bound < report.range { &report.range } else { bound });
+    let sums = [&report.method_resolution, &report.round_off, &report.range];
+    (report.windows > 0 && sums.into_iter().all(N::is_finite)).then(|| ModifiedEnergySummary {
+        method: report.method().map(|[rms, ..]| rms.to_text()),
+        method_resolution: report.method_resolution.to_text(),
+        round_off: report.round_off.to_text(),
+        permanent_change: report.range.to_text(),
+        permanent_bound: bound.map(N::to_text),
+        resolution: report.resolution.as_ref().map(N::to_text),
+        windows: report.windows,
+    })
 }
 
 /// Whether a monitor that saw no lasting change of H may have missed one between its windows, or before them.

@@ -319,8 +319,7 @@ fn documentation(proved: &Proved) -> Vec<String> {
     if let (Some(processor), Some(effective)) = (&proved.scheme.processor, &proved.proof.effective) {
         let processed = format!(
             " - Processed: these are the orders of its kernel. With its processor the effective order is {} for every \
-                T(p), {} for \
-             quadratic T{}: proved. An output costs {}.",
+             T(p), {} for quadratic T{}: proved. An output costs {}.",
             order(&effective.general),
             order(&effective.quadratic),
             near_integrable(&effective.near_integrable),

@@ -273,8 +273,7 @@ fn functions_differ(functions: &[(Option<String>, u64)]) -> Option<String> {
     (!others.is_empty()).then(|| {
         format!(
             "chunks {} were computed with other elementary functions (of another C library or processor) than chunk \
-                1: the last digits \
-             of their results may differ",
+             1: the last digits of their results may differ",
             ranges(&others)
         )
     })

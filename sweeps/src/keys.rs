@@ -11,14 +11,12 @@ use crate::values::{Description, NAMES_OF_VALUES, VALUES};
 
 const INTRODUCTION: &str = "\
 A sweep is a TOML file: the sections of a scene, or `scene` with the path of one, and [axes], [keep] and [picture]. \
-`shadowstep scene \
---explain` explains those of a scene; [output] can be left out. There is one run for each choice of a value on each \
-axis; the last axis \
-varies fastest.
+`shadowstep scene --explain` explains those of a scene; [output] can be left out. There is one run for each choice of \
+a value on each axis; the last axis varies fastest.
 
-The name of an axis stands for its value: in every number of the scene, as a parameter does, step = \"h\" or q = [\"1 \
-- e\", 0]; and \
-\"$scheme\" in place of a whole value, scheme = \"$scheme\" or steps = \"$n\".";
+The name of an axis stands for its value: in every number of the \
+scene, as a parameter does, step = \"h\" or q = [\"1 - e\", 0]; and \"$scheme\" in place of a whole value, scheme = \
+\"$scheme\" or steps = \"$n\".";
 
 /// The most draws.
 const MOST_DRAWS: u64 = 1_000_000_000_000;
@@ -51,15 +49,13 @@ pub(crate) const AXES: Section = Section::new(
         scheme: AXIS => "[\"yoshida4\", \"mine.toml\"]", "A list of words, for \"$scheme\".", else "none";
         h: AXIS => "\"1/10 … 1/100 in 19 steps of 1/h\"",
             "A range, also with ... in place of …: equal distances of the value, `of 1/h` of its reciprocal, `of \
-                log(h)` of its logarithm. `in 20 \
-             values` counts values, `in 19 steps` what is between them. Values are exact; those of logarithms are \
-             rounded to 12 digits, irrational ends \
-             to 30, and exact from there on.",
+             log(h)` of its logarithm. `in 20 values` counts values, `in 19 steps` what is between them. Values are \
+             exact; those of logarithms are rounded to 12 digits, irrational ends to 30, and exact from there on.",
             else "none";
         phase: AXIS => "{ draws = 100, uniform = [0, \"2*pi\"], seed = 1 }",
             "Random draws, uniform = [a, b], log = [a, b] (whose logarithm is uniform) or normal = [mean, deviation]. \
-                A draw depends on the seed, the \
-             name of the axis and its number only; it is rounded to 17 digits, and exact from there on.",
+             A draw depends on the seed, the name of the axis and its number only; it is rounded to 17 digits, and \
+             exact from there on.",
             else "none";
     },
 )

@@ -307,8 +307,7 @@ fn processed(proved: &Proved) -> Option<String> {
     };
     Some(format!(
         "processed: effective order {general}{} for quadratic T{near}; {} evaluations of U_q and {} kicks and drifts \
-            for an output, \
-         and as many once at the beginning",
+         for an output, and as many once at the beginning",
         effective.quadratic.order,
         processor.evaluations(),
         processor.post.len()

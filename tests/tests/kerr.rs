@@ -123,9 +123,8 @@ fn orbits_turn_at_the_roots() {
 fn carters_constant_is_kept() {
     let errors = ["1", "1/2", "1/4"].map(|step| {
         let rest = format!(
-            "[run]\nscheme = \"blanes-moan-s6\"\nstep = \"{step}\"\nuntil = 500\ndigits \
-                = \"double\"\n[output]\nvalues = {{ carter = \
-             \"pth^2 + cos(th)^2*(a^2*(1 - en^2) + (lz/sin(th))^2)\" }}\n"
+            "[run]\nscheme = \"blanes-moan-s6\"\nstep = \"{step}\"\nuntil = 500\ndigits = \
+             \"double\"\n[output]\nvalues = {{ carter = \"pth^2 + cos(th)^2*(a^2*(1 - en^2) + (lz/sin(th))^2)\" }}\n"
         );
         farthest_from(columns(None, &rest)[2].iter().copied(), carter())
     });

@@ -33,8 +33,8 @@ impl Study<'_> {
                 Of::Position,
                 Cost::Evaluations,
                 "The error of the position at the end, |q − q of the reference|, against the evaluations of the \
-                    gradient. Points are runs; \
-                 schemes have them at equal numbers of evaluations, as nearly as whole steps allow.",
+                 gradient. Points are runs; schemes have them at equal numbers of evaluations, as nearly as whole \
+                 steps allow.",
             ),
             (Of::Position, Cost::Seconds, "The same against the time of the steps alone."),
             (

@@ -58,10 +58,8 @@ pub fn write(study: &Study<'_>, title: Title<'_>, folder: &Path) -> Result<PathB
 }
 
 const TIMES: &str = "Times are those of the bare steps of tables that are read at run time, in one thread: medians of \
-    nine repeats, all \
-                     schemes by turns. Orders are slopes of the largest range of steps in which no error is off the \
-                     line by more than 0.1 \
-                     decades.";
+    nine repeats, all schemes by turns. Orders are slopes of the largest range of steps in which no error is off the \
+    line by more than 0.1 decades.";
 
 /// The names of all files that are written.
 pub fn written() -> impl Iterator<Item = String> {

@@ -21,9 +21,8 @@ impl Advice<'_> {
             let Choice { scheme, error, .. } = choice;
             return Some(format!(
                 "No advice is verified: {}, step {}, is expected to have the error {error} from runs {runs}; over all \
-                    of the time errors are known above \
-                 {resolved} alone, as there was too little time for a better reference. Use more seconds, or a \
-                 shorter time.",
+                 of the time errors are known above {resolved} alone, as there was too little time for a better \
+                 reference. Use more seconds, or a shorter time.",
                 scheme.name,
                 choice.step_text()
             ));
@@ -44,8 +43,7 @@ impl Advice<'_> {
             ),
             Some((error, name)) if is_position && *resolved > request.tolerance => format!(
                 "No advice: errors are known above {resolved} alone {runs}, as there was too little time for a better \
-                    reference; the smallest one was {error}, \
-                 of {name}. Use more seconds, a shorter time, or more digits."
+                 reference; the smallest one was {error}, of {name}. Use more seconds, a shorter time, or more digits."
             ),
             Some((error, name)) => {
                 let more =
@@ -60,8 +58,7 @@ impl Advice<'_> {
             ),
             None if is_position => format!(
                 "No advice: the positions of the reference change by {reference} with its step {runs}, as they do \
-                    where the motion is chaotic. Ask for the \
-                 error of the energy, or for a shorter time."
+                 where the motion is chaotic. Ask for the error of the energy, or for a shorter time."
             ),
             None => format!("No advice: no error is known {runs}."),
         })

@@ -81,9 +81,8 @@ pub(super) fn table_of(columns: &[Column], records: &[Record]) -> String {
 pub(super) fn legend(is_wide: bool, kinetic: Option<Kinetic>) -> String {
     let error = "effective error: forces · ‖leading error‖^(1/order), which compares schemes of one order";
     let stable = "stable a force: the stability limit hω of the harmonic oscillator, by the forces of a step; forces \
-        2+1: 2 forces and 1 \
-                  Hessian–vector product of a gradient kick, which is counted as a force; of processed schemes \
-                  (proc.) orders and effective errors are those after processing, of their kernels `show` has them";
+        2+1: 2 forces and 1 Hessian–vector product of a gradient kick, which is counted as a force; of processed \
+        schemes (proc.) orders and effective errors are those after processing, of their kernels `show` has them";
     if is_wide {
         return format!(
             "{error}; {stable}; products per dimension: what a step takes beside its forces with unit masses, and as many \

@@ -25,10 +25,10 @@ Example:
 
 const MORE: &str = "\
 Decimals that stand alone are changed, as constants or in the lists of weights; fractions and formulas stay as they \
-are. If the \
-conditions leave some decimals free, these stay as printed, and the report on stderr names them.
+are. If the conditions leave some decimals free, these stay as printed, and the report on stderr names them.
 
-The exit code is 1 if the conditions cannot be solved.";
+The \
+exit code is 1 if the conditions cannot be solved.";
 
 /// Solves a table's order conditions from its printed decimals.
 ///

@@ -265,8 +265,7 @@ fn near_integrable_fact(proved: &Proved) -> String {
         let orders = near_integrable_text(&orders);
         format!(
             "orders {orders} in the powers of ε, where the {dominant}s move by A; this pays only if they solve A \
-                exactly and εB \
-             is small, and with H = T + U it gains nothing"
+             exactly and εB is small, and with H = T + U it gains nothing"
         )
     })
 }

@@ -139,10 +139,8 @@ fn value(code: &str, language: Language, count: usize) -> f64 {
 #[test]
 fn code_computes_the_same_whatever_the_names_are() {
     let others = "sin cos exp log sqrt cbrt atan powi x px E f64 i32 usize fn_ h_ total_ np_ math numpy print float \
-        abs sum list int \
-                  union raw safe auto match case type drop Box Vec String Option Result Default Clone Copy Send Sync \
-                  Fn FnMut Drop \
-                  Iterator From Into ToString std core main println assert panic vec u e d H result";
+        abs sum list int union raw safe auto match case type drop Box Vec String Option Result Default Clone Copy \
+        Send Sync Fn FnMut Drop Iterator From Into ToString std core main println assert panic vec u e d H result";
     for (language, notation) in [(Language::Python, "numpy"), (Language::Rust, "rust")] {
         let mut names: Vec<String> = language.reserved().iter().map(|name| (*name).to_owned()).collect();
         names.extend(others.split_whitespace().map(str::to_owned));

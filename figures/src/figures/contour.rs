@@ -45,8 +45,8 @@ fn excess(m: u32, rho: f64) -> f64 {
 fn draw(_: &Results) -> Finding {
     let mut finding = Finding::on(&[
         "The error of D_m is an integral of y(z) and a kernel K_m(z) along a contour γ that includes −mh, …, mh and \
-            excludes the singularities \
-         of y, at the distance ρ from the real axis. Along γ, |K_m| has its maximum at z = iρ.",
+         excludes the singularities of y, at the distance ρ from the real axis. Along γ, |K_m| has its maximum at z = \
+         iρ.",
     ]);
     let (m, rho) = (4.0, 1.6);
     let around = (0..=400).map(|i| contour(m, rho, f64::from(i) / 400.0)).collect();

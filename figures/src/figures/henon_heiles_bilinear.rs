@@ -16,8 +16,7 @@ pub(super) const FIGURE: Figure =
 fn draw(results: &Results) -> Finding {
     let mut finding = additional(
         "The Hénon–Heiles problem, p₁(0) = 0.1, by the bilinear estimator E_k of k + 1 states and by central \
-            differences with the best m up to 200 \
-         (401 states).",
+         differences with the best m up to 200 (401 states).",
     );
     let steps = results.grid(&STEPS, &FEW_STEPS);
     let [best, _] = drifts(results, "stormer-verlet", steps, &BEST);

@@ -19,8 +19,7 @@ pub(super) const FIGURE: Figure = Figure {
 fn draw(results: &Results) -> Finding {
     let mut finding = Finding::on(&[
         "The drift as p₁(0) is varied, q₁ = q₂ = p₂ = 0, for h = 0.25, 0.1, 0.05: there is no abrupt change in energy \
-            preservation when \
-         moving from the regular motions (H < 1/12, p₁ < 1/√6 ≈ 0.4) to the chaotic regime.",
+         preservation when moving from the regular motions (H < 1/12, p₁ < 1/√6 ≈ 0.4) to the chaotic regime.",
     ]);
     let all: Vec<u32> = (1..=28).map(|n| 2 * n).collect();
     let hundredths = results.grid(&all, &[2, 12, 30, 42, 56]);

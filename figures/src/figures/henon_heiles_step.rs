@@ -22,13 +22,10 @@ pub(super) const FIGURE: Figure = Figure {
 fn draw(results: &Results) -> Finding {
     let mut finding = Finding::on(&[
         "The drift against the step size with p₁(0) = 0.1. The expected exponential smallness is indeed present, and \
-            there is no problem \
-         in using the algorithm other than allowing for large values of m (capped at 200). The effect of round-off \
-         error becomes \
-         visible when 1/h exceeds 20.",
+         there is no problem in using the algorithm other than allowing for large values of m (capped at 200). The \
+         effect of round-off error becomes visible when 1/h exceeds 20.",
         "The fourth-order methods of Yoshida and of Blanes and Moan show the same as for Kepler's problem: \
-            Störmer–Verlet preserves the \
-         energy slightly better, and the value of c is the same.",
+         Störmer–Verlet preserves the energy slightly better, and the value of c is the same.",
     ]);
     let steps = results.grid(&STEPS, &FEW_STEPS);
     let of = SCHEMES.map(|(scheme, label)| (label, drifts(results, scheme, steps, &BEST)));

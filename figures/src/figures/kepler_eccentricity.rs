@@ -31,8 +31,7 @@ fn draw(results: &Results) -> Finding {
     let mut finding = Finding::on(&[
         "Almost circular orbits show much better preservation of the energy than highly elliptical ones.",
         "An instability occurs at a critical eccentricity which depends on the step size: the topology of the energy \
-            levels of the modified \
-         energy changes, which leads to unbounded trajectories.",
+         levels of the modified energy changes, which leads to unbounded trajectories.",
     ]);
     let scans: Vec<Scan> = STEPS.iter().filter_map(|&n| Scan::of(results, n)).collect();
     drifts(results, &mut finding, &scans);
@@ -194,8 +193,7 @@ fn topology(finding: &mut Finding, scans: &[Scan], coverage: Coverage) {
         };
         let found = format!(
             "{} of {all} orbits that escape do so on the first way out{others}; up to h² the level set of the start \
-                is unbounded from e = \
-             {critical:.3} on",
+             is unbounded from e = {critical:.3} on",
             all - late
         );
         let statement = format!(
@@ -206,9 +204,8 @@ fn topology(finding: &mut Finding, scans: &[Scan], coverage: Coverage) {
     }
     finding.found(
         "A body has escaped when it is farther than 2, moves outward, and H̄ = H + h² (pᵀU_qq p/12 − |U_q|²/24), the \
-            modified energy up to \
-         h², is at least 0: the level set then reaches infinity. |q| > 3 is not an escape: orbits of negative energy \
-         pass it and return.",
+         modified energy up to h², is at least 0: the level set then reaches infinity. |q| > 3 is not an escape: \
+         orbits of negative energy pass it and return.",
     );
 }
 
@@ -260,8 +257,7 @@ fn orbits(results: &Results, finding: &mut Finding, scans: &[Scan]) {
             shown.iter().enumerate().map(curve).collect(),
         ),
         "Störmer–Verlet, t ≤ 100; the states are joined by lines. The exact orbit reaches |q| = 1 + e. An orbit that \
-            is bound has a modified \
-         energy below 0, and returns.",
+         is bound has a modified energy below 0, and returns.",
     );
 }
 

@@ -29,13 +29,10 @@ fn largest_off(energies: &Energies, at: impl Fn(f64) -> bool) -> f64 {
 fn draw(results: &Results) -> Finding {
     let mut finding = Finding::on(&[
         "The modified energy less the initial one, for several step sizes (Störmer–Verlet) and for the methods at h = \
-            0.1. There \
-         are peaks when the particle is near the singularity, and the energy essentially recovers its value after \
-         this point \
-         before another close encounter.",
+         0.1. There are peaks when the particle is near the singularity, and the energy essentially recovers its \
+         value after this point before another close encounter.",
         "The methods give rather different results, even though the maximal variation is almost the same. The \
-            Blanes–Moan \
-         method seems to preserve the modified energy better after the close encounter.",
+         Blanes–Moan method seems to preserve the modified energy better after the close encounter.",
     ]);
     let steps = results.grid(&[10, 20, 30], &[10, 20]);
     let of_steps: Labelled =

@@ -26,8 +26,7 @@ fn draw(results: &Results) -> Finding {
         "The change per step, the accumulated change, and the optimal m, capped at 200, for Störmer–Verlet with h = 1/20 and \
          e = 0.6. Near the singularity quite a high m is used; away from it a lower one suffices.",
         "The ad-hoc criterion stops at the first m with max_{j=m−11…m−1} |T_{j,j} − T_{j−1,j−1}| ≤ max_{j=m−10…m} \
-            |T_{j,j} − T_{j−1,j−1}|. The \
-         plots are nearly indistinguishable from those of the full search.",
+         |T_{j,j} − T_{j−1,j−1}|. The plots are nearly indistinguishable from those of the full search.",
     ]);
     let rules = [
         ("full search", StoppingRule::Full),
@@ -58,8 +57,7 @@ fn draw(results: &Results) -> Finding {
     }
     finding.found(
         "With ≤ the search also ends where the oldest of the twelve terms is not the largest, thus at the first \
-            ripple. This program's `--stop \
-         early` has <, and `--stop printed` has ≤.",
+         ripple. This program's `--stop early` has <, and `--stop printed` has ≤.",
     );
     finding
 }

@@ -29,14 +29,11 @@ fn fine(points: &[(f64, f64)]) -> Vec<(f64, f64)> {
 fn draw(results: &Results) -> Finding {
     let mut finding = Finding::on(&[
         "The plots for the drift of Yoshida's method and of the Blanes–Moan method look the same as for \
-            Störmer–Verlet; in particular \
-         the constant c in exp(−c/h) is the same.",
+         Störmer–Verlet; in particular the constant c in exp(−c/h) is the same.",
         "The drift of Störmer–Verlet is about a factor of three smaller than that of Yoshida's method and a factor of \
-            four smaller than that of \
-         Blanes and Moan.",
+         four smaller than that of Blanes and Moan.",
         "The Blanes–Moan method has coordinate errors that are typically three orders of magnitude smaller than those \
-            of Yoshida's method at \
-         the same computational cost.",
+         of Yoshida's method at the same computational cost.",
     ]);
     let steps = results.grid(&STEPS, &FEW_STEPS);
     let of = SCHEMES.map(|(scheme, label)| (label, drifts(results, scheme, steps, &BEST)));
@@ -81,8 +78,7 @@ fn relative_to_the_flow(finding: &mut Finding, of: &[Labelled], control: &[(f64,
         ratios.iter().map(|(label, ratio)| format!("{label} {:.2} to {:.2}", ratio.least, ratio.most)).collect();
     finding.highlight(format!(
         "In the paper's measure the exact flow of Kepler's problem (e = 0.6) drifts, too, although its energy does \
-            not change: at h ≤ 1/10 the \
-         drifts of the schemes are within a factor of {farthest:.1} of its drift ({}).",
+         not change: at h ≤ 1/10 the drifts of the schemes are within a factor of {farthest:.1} of its drift ({}).",
         list.join(", ")
     ));
 }

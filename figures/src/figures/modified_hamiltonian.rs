@@ -60,8 +60,8 @@ fn run(step: &str) -> Run {
 fn draw(results: &Results) -> Finding {
     let mut finding = additional(
         "max − min over [0, 100] of the modified Hamiltonian of Störmer–Verlet on the pendulum, as the series H + h² \
-            H_3 + h⁴ H_5 + … up to h^g, \
-         whose terms are formulas in q and p, and of E_24, which uses 25 states and no formula.",
+         H_3 + h⁴ H_5 + … up to h^g, whose terms are formulas in q and p, and of E_24, which uses 25 states and no \
+         formula.",
     );
     let at = |&step: &&'static str| {
         let series = results.series(&run(step))?;

@@ -23,8 +23,7 @@ pub(super) const FIGURE: Figure =
 fn draw(results: &Results) -> Finding {
     let mut finding = additional(
         "The pendulum by the bilinear estimator E_k of k + 1 states and by T_{m,m} with m = 200 (401 states), each \
-            also on the exact flow, whose \
-         energy does not change.",
+         also on the exact flow, whose energy does not change.",
     );
     let steps = results.grid(&[2, 3, 4, 5, 6, 7, 8, 10, 12, 14, 16, 18, 20], &[2, 4, 7, 10]);
     let drifts = |propagator: &'static str, estimator: &EstimatorSettings| -> Vec<(f64, f64)> {
@@ -122,8 +121,7 @@ fn own_drift(finding: &mut Finding, of: &[(u32, Vec<(f64, f64)>)], control: &[(f
         format!("What E_{k} shows of the scheme is a drift of the modified energy, and not the error of E_{k}."),
         format!(
             "from E_{before} to E_{k} it changes by less than 0.1 decades, and is more than ten times that of the \
-                exact flow, at {} of {} steps{}; \
-             where it does not, it is open",
+             exact flow, at {} of {} steps{}; where it does not, it is open",
             settled.len(),
             all.len(),
             if settled.is_empty() { String::new() } else { format!(" (h = {})", settled.join(", ")) },

@@ -22,8 +22,7 @@ fn draw(results: &Results) -> Finding {
     let mut finding = Finding::on(&[
         "The drift as a function of the initial momentum p(0), q(0) = 0.",
         "The Störmer–Verlet method shows improved energy preservation near the equilibrium point, revealing the \
-            dependence \
-         exp(−c/(h ‖f‖)), in which ‖f‖ decreases as p → 0.",
+         dependence exp(−c/(h ‖f‖)), in which ‖f‖ decreases as p → 0.",
     ]);
     let all: Vec<u32> = (1..=19).chain([21]).chain((22..=30).step_by(2)).collect();
     let tenths = results.grid(&all, &[1, 5, 10, 15, 19, 21, 30]);

@@ -45,8 +45,7 @@ fn limits(steps: &[u32], quick: bool) -> Vec<(u32, u32)> {
 fn draw(results: &Results) -> Finding {
     let mut finding = Finding::on(&[
         "The drift, max − min of the modified energy over [0, 100], computed from T_{m,m} for m = 2, 5, 10, 15, 20, \
-            30, 40. The \
-         approximations T_{m,m} converge for this problem.",
+         30, 40. The approximations T_{m,m} converge for this problem.",
         "The limit, the thick line, follows the exp(−c/h) behaviour that the theory predicts.",
     ]);
     let steps = results.grid(&STEPS, &[2, 4, 6, 10, 14, 20]);

@@ -47,8 +47,7 @@ fn drift_and_change(results: &Results, finding: &mut Finding, changes: &[Curve])
             curves,
         ),
         "Above, the drift by the best m, of four schemes and of the exact flow, whose energy does not change. Below, \
-            the permanent \
-         change.",
+         the permanent change.",
     );
 }
 
@@ -64,9 +63,8 @@ fn findings(finding: &mut Finding, changes: &[Curve], drifts: &[Vec<(f64, f64)>;
     let (slow, fast) = rates.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), c| (a.min(*c), b.max(*c)));
     finding.highlight(format!(
         "The permanent change of the modified energy, between states whose estimates are accurate, is {least:.1} to \
-            {most:.1} decades below the \
-         paper's drift at the step sizes that both have. It falls like exp(−c/h) with c = {slow:.2} to {fast:.2} over \
-         h ≤ 1/10, near 2π ρ = {:.3}.",
+         {most:.1} decades below the paper's drift at the step sizes that both have. It falls like exp(−c/h) with c = \
+         {slow:.2} to {fast:.2} over h ≤ 1/10, near 2π ρ = {:.3}.",
         2.0 * rho
     ));
     let at = |scheme: usize, n: usize| drifts[scheme][n].1;
@@ -95,10 +93,9 @@ fn changes(results: &Results, steps: &[u32], x: impl Fn(f64, f64) -> f64) -> Vec
 fn draw(results: &Results) -> Finding {
     let mut finding = additional(
         "The permanent change of the modified energy over [0, 100], Kepler, e = 0.6: max − min over the low-error \
-            states, which are near the \
-         apocentres; by E_24. It is the range of a sum of jumps, one per encounter. Each jump is a sinusoidal \
-         function of the position of the \
-         encounter within a step, so the sum also depends on the start and on the ratio of the period to the step size.",
+         states, which are near the apocentres; by E_24. It is the range of a sum of jumps, one per encounter. Each \
+         jump is a sinusoidal function of the position of the encounter within a step, so the sum also depends on the \
+         start and on the ratio of the period to the step size.",
     );
     let all = [5, 6, 7, 8, 9, 10, 12, 14, 16, 18, 20, 23, 26, 30, 35, 40];
     let steps = results.grid(&all, &[5, 7, 10, 14, 20, 30, 40]);

@@ -81,8 +81,7 @@ fn draw(results: &Results) -> Finding {
         "The experiment has zero error.",
         format!(
             "at h = 1/8 the change is up to {}; among 12 starts the smallest is {}: a start for which it vanishes \
-                would look \
-             like zero error",
+             would look like zero error",
             power(largest(results, 8)),
             power(smallest)
         ),

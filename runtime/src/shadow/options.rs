@@ -118,8 +118,7 @@ impl StoppingRule {
         "At the first m >= 13 whose term is larger than the eleven before it: the paper's rule, with < where the \
             paper prints <=",
         "The paper's rule with <=, as it is printed: at the first ripple of the terms. On Kepler's problem, e = 0.6, \
-            h = 1/20, it \
-         gives 27 times the drift of the full search, where `early` gives 1.2 times",
+         h = 1/20, it gives 27 times the drift of the full search, where `early` gives 1.2 times",
     ];
 
     /// Its word.

@@ -11,8 +11,8 @@ pub enum MismatchError {
     /// The scheme has gradient kicks, which the system does not support.
     #[error(
         "{scheme} has gradient kicks, which this system has not: its potential needs a Hessian–vector product (write \
-            it as a formula, or implement \
-         `Potential::hessian`), or displaced forces in its place (`Stepper::displacements`)"
+         it as a formula, or implement `Potential::hessian`), or displaced forces in its place \
+         (`Stepper::displacements`)"
     )]
     NoGradientKicks {
         /// The scheme's name.

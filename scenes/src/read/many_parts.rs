@@ -15,9 +15,8 @@ use crate::scene::{Formula, InitialValueProblem, KineticEnergy, Parts, Potential
 
 /// What a part may be.
 const KNOWN: &str = "a part is a function of variables none of which is the momentum of another, such as T(p), U(q) \
-    or x*py, a quadratic \
-                     form, f((q^2 + p^2)/2) or f(q*p) of one pair, p^2/(2*m) - k/r, or a sum of these in different \
-                     coordinates";
+    or x*py, a quadratic form, f((q^2 + p^2)/2) or f(q*p) of one pair, p^2/(2*m) - k/r, or a sum of these in \
+    different coordinates";
 
 /// The system of these parts.
 pub(super) fn system(reader: &mut Reader<'_>, given: &Given<'_, '_>, formulas: Placed<Vec<Text>>) -> Option<System> {

@@ -4,7 +4,7 @@ use std::time::Duration;
 
 use shadowstep::Rational;
 use shadowstep::shadow::{EstimatorOptions, EstimatorSettings, HIGHEST_ORDER, check_accuracy};
-
+use shadowstep_schemes::document::Text;
 use shadowstep_symbolic::Exact;
 
 use super::modified_hamiltonian;
@@ -34,22 +34,9 @@ pub(super) fn read(
     let extremes = values::extremes(reader, output, system);
     let summary = output.truth("summary").unwrap_or(true);
     let checkpoint = interval(reader, output);
-    if let Some(name) = file.as_ref().filter(|name| name.value.ends_with(['/', '\\'])) {
-        reader.toml.fault(&name.at, format!("`{}` is a folder", name.value), "give the name of a file");
-    }
-    let format = match (output.word("format", &FORMATS), &file) {
-        (Some(format), _) => Some(format),
-        (None, None) => Some(Format::Csv),
-        (None, Some(name)) => Format::of(&name.value).or_else(|| {
-            let message = format!("the name `{}` does not give the format", name.value);
-            reader.toml.wrong(&name.at, message, "use the ending .csv, .jsonl or .npy, or add `format = \"csv\"`")
-        }),
-    };
+    let format = format(reader, output, file.as_ref());
     let file = file.and_then(|name| Some((reader.path(&name)?, name.at)));
     let format = format?;
-    if format == Format::Numpy {
-        check_numpy(reader, output);
-    }
     let mut outputs = Outputs {
         file,
         format,
@@ -85,6 +72,25 @@ pub(super) fn read(
     refuse_names_of_lists(reader, &outputs);
     outputs.plot = plot::read(reader, output, system, &outputs);
     Some(outputs)
+}
+
+/// The format, by its key or by the name of the file.
+fn format(reader: &mut Reader<'_>, output: &Table<'_, '_>, file: Option<&Text>) -> Option<Format> {
+    if let Some(name) = file.filter(|name| name.value.ends_with(['/', '\\'])) {
+        reader.toml.fault(&name.at, format!("`{}` is a folder", name.value), "give the name of a file");
+    }
+    let format = match (output.word("format", &FORMATS), file) {
+        (Some(format), _) => Some(format),
+        (None, None) => Some(Format::Csv),
+        (None, Some(name)) => Format::of(&name.value).or_else(|| {
+            let message = format!("the name `{}` does not give the format", name.value);
+            reader.toml.wrong(&name.at, message, "use the ending .csv, .jsonl or .npy, or add `format = \"csv\"`")
+        }),
+    };
+    if format == Some(Format::Numpy) {
+        check_numpy(reader, output);
+    }
+    format
 }
 
 const FORMATS: [(&str, Format); 3] = [("csv", Format::Csv), ("jsonl", Format::JsonLines), ("npy", Format::Numpy)];

@@ -149,8 +149,7 @@ fn agree(reader: &mut Reader<'_>, bodies: &[&GivenBody]) {
         if let Some(centre) = first.other_centre(name) {
             let message = format!("the states are relative to {centre}, where the first body would be");
             let help = "give the first body a table of its own with this centre, or ask Horizons for tables whose \
-                centre is \
-                        that body, CENTER='500@10' for the Sun; one of another centre has its name: name = \"earth\"";
+                centre is that body, CENTER='500@10' for the Sun; one of another centre has its name: name = \"earth\"";
             reader.toml.fault(at, message, help);
         }
     }

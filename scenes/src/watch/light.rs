@@ -335,9 +335,8 @@ pub fn not_resolved(bodies: &[LightBody], time: impl Fn(i64) -> String) -> Optio
     (!lost.is_empty()).then(|| {
         format!(
             "fewer than {LEAST_STEPS} steps in the local time scale of a light body, whose orbit is wrong afterwards \
-                and has no part in the energy: \
-             {shown}{others}; use a smaller step size, or parts = \"wisdom-holman-heliocentric\" with encounters = {{ \
-             within = … }} of some 3 Hill radii"
+             and has no part in the energy: {shown}{others}; use a smaller step size, or parts = \
+             \"wisdom-holman-heliocentric\" with encounters = {{ within = … }} of some 3 Hill radii"
         )
     })
 }

@@ -31,7 +31,9 @@ pub struct Summary {
     pub(crate) from: i64,
     pub(crate) to: i64,
     pub(crate) energy: EnergySummary,
-    /// `None` without an estimate.
+    /// Whether H̄ was estimated at all.
+    pub(crate) has_windows: bool,
+    /// `None` without an estimate, or where its sums overflow.
     pub(crate) modified_energy: Option<ModifiedEnergySummary>,
     /// How many close encounters there were, and the closest of them.
     pub(crate) encounters: u64,
@@ -143,9 +145,8 @@ impl Summary {
         let [before, after] = change.between.map(|n| self.time(n));
         self.reason = format!(
             "H changed by {part:.1e} of T between {before} and {after}, and did not come back in this run: a step \
-                that is too \
-             large there, forces that are not smooth, or something other than the scheme that changed the state have \
-             such effects"
+             that is too large there, forces that are not smooth, or something other than the scheme that changed the \
+             state have such effects"
         );
         self.verdict = Verdict::Undecided(Missing::Resolution).to_string();
         self.conclusion.clone_from(&self.verdict);
@@ -168,17 +169,15 @@ impl Summary {
                 if given < 3.0 * hill_radius { format!(", {within} is 3 of these radii") } else { String::new() };
             self.reason = format!(
                 "{i} and {j} came within {hill_radii} Hill radii of each other at {time}, and their attraction goes \
-                    from kicks to drifts within \
-                 too few steps: use a smaller step size, or a larger distance in encounters = {{ within = … }}{larger}"
+                 from kicks to drifts within too few steps: use a smaller step size, or a larger distance in \
+                 encounters = {{ within = … }}{larger}"
             );
             self.verdict = Verdict::TooLarge(Criterion::EnergyError).to_string();
         } else {
             self.reason = format!(
                 "{i} and {j} came within {hill_radii} Hill radii of each other at {time}, where kicks are not small \
-                    beside the Kepler orbits, as \
-                 these parts require: smaller steps do not help; write parts = \"wisdom-holman-heliocentric\" with \
-                 encounters = {{ within = \
-                 {within} }}, 3 of these radii"
+                 beside the Kepler orbits, as these parts require: smaller steps do not help; write parts = \
+                 \"wisdom-holman-heliocentric\" with encounters = {{ within = {within} }}, 3 of these radii"
             );
             self.verdict = "the splitting is not valid in a close encounter".to_owned();
         }
@@ -297,7 +296,8 @@ impl Summary {
 
     fn modified_energy_text(&self) -> String {
         let Some(modified) = &self.modified_energy else {
-            return "the run is too short for an estimate".to_owned();
+            let why = if self.has_windows { "its estimates overflow" } else { "the run is too short for an estimate" };
+            return why.to_owned();
         };
         let ModifiedEnergySummary { method, method_resolution, round_off, permanent_change, resolution, .. } = modified;
         let known = resolution.as_ref().map_or(String::new(), |error| format!(", known to {}", short(error)));

@@ -33,10 +33,9 @@ impl LongCase for Argon {
     const NAME: &'static str = "argon";
     const TITLE: &'static str = "A crystal of seven argon atoms at steps from 10 to 120 fs";
     const THEORY: &'static str = "A step is stable while hω is below the stability limit of the scheme. The largest \
-        frequency ω of the crystal \
-        at its start grows several times in collisions, which reach steeper parts of the potential: up to a fourth of \
-        the limit the error of H is bounded, \
-        beyond the limit atoms leave, and between these the monitor does not call a step fine with which the error grows.";
+        frequency ω of the crystal at its start grows several times in collisions, which reach steeper parts of the \
+        potential: up to a fourth of the limit the error of H is bounded, beyond the limit atoms leave, and between \
+        these the monitor does not call a step fine with which the error grows.";
     const REVISION: u32 = 4;
     const EVALUATION: f64 = 200e-9;
 

@@ -52,8 +52,7 @@ impl Case for Chains {
     const NAME: &'static str = "chains";
     const TITLE: &'static str = "Chains of 1 to 10⁵ coordinates";
     const THEORY: &'static str = "Time and memory of a step are proportional to the number of bodies, from 100 bodies \
-        on to within what caches of the \
-        processor make.";
+        on to within what caches of the processor make.";
     const REVISION: u32 = 1;
 
     type Trial = Trial;

@@ -47,12 +47,10 @@ impl Case for ClosePlanets {
     const NAME: &'static str = "close-planets";
     const TITLE: &'static str = "Two planets 2 to 8 Hill radii from each other";
     const THEORY: &'static str = "Planets on circular orbits whose radii differ by more than 2√3 mutual Hill radii \
-        are Hill stable: they never have a close \
-        encounter (Gladman, Icarus 106 (1993) 247), so the interactions stay small, the error of H is bounded and the \
-        step is fine. Below 2.4 they are in the \
-        chaotic zone and come within a Hill radius of each other, where the kicks are no longer the smaller part. A \
-        run names the closest approach, and an energy \
-        that is lost there is not called fine.";
+        are Hill stable: they never have a close encounter (Gladman, Icarus 106 (1993) 247), so the interactions stay \
+        small, the error of H is bounded and the step is fine. Below 2.4 they are in the chaotic zone and come within \
+        a Hill radius of each other, where the kicks are no longer the smaller part. A run names the closest \
+        approach, and an energy that is lost there is not called fine.";
     const REVISION: u32 = 1;
 
     type Trial = Trial;

@@ -18,8 +18,7 @@ impl LongCase for FigureEight {
     const NAME: &'static str = "figure-eight";
     const TITLE: &'static str = "Three bodies on a figure eight";
     const THEORY: &'static str = "The orbit is stable, so that the three bodies stay near it with every symplectic \
-        scheme whose steps resolve it, and \
-        the error of H is bounded.";
+        scheme whose steps resolve it, and the error of H is bounded.";
     const REVISION: u32 = 3;
     const EVALUATION: f64 = 60e-9;
 

@@ -50,10 +50,8 @@ impl Case for Fput {
     const NAME: &'static str = "fput";
     const TITLE: &'static str = "The chain of Fermi, Pasta, Ulam and Tsingou to its recurrence";
     const THEORY: &'static str = "The energy leaves the first mode, for all but a few per cent of it, and comes back \
-        to 97 % at t = 10 250 (the report of \
-        1955: 29 000 steps of √(1/8)): the chain is nearly integrable. A symplectic scheme that resolves the fastest \
-        mode shows it, and the \
-        monitor calls the step fine.";
+        to 97 % at t = 10 250 (the report of 1955: 29 000 steps of √(1/8)): the chain is nearly integrable. A \
+        symplectic scheme that resolves the fastest mode shows it, and the monitor calls the step fine.";
     const REVISION: u32 = 2;
 
     type Trial = Trial;

@@ -79,10 +79,9 @@ impl Case for Frames {
     const NAME: &'static str = "frames";
     const TITLE: &'static str = "Rotated, translated and moving frames, units, masses";
     const THEORY: &'static str = "A splitting scheme commutes with rotations, translations, motions of the frame and \
-        changes of units, so that the error of H is the same in \
-        all frames, up to round-off. That of a coordinate of size L is εL a step: from an offset of 1e8 positions \
-        keep eight digits of sixteen. Of \
-        two bodies the relative motion depends on the total mass only.";
+        changes of units, so that the error of H is the same in all frames, up to round-off. That of a coordinate of \
+        size L is εL a step: from an offset of 1e8 positions keep eight digits of sixteen. Of two bodies the relative \
+        motion depends on the total mass only.";
     const REVISION: u32 = 3;
 
     type Trial = Trial;

@@ -76,8 +76,8 @@ impl Case for HenonHeiles {
     const NAME: &'static str = "henon-heiles";
     const TITLE: &'static str = "Hénon–Heiles: regular, chaotic, escaping";
     const THEORY: &'static str = "Chaos is not an error: neighbouring orbits separate exponentially, and the error of \
-        H is as bounded as for regular \
-        orbits; the monitor calls the step fine. Above H = 1/6 orbits escape, whatever the step.";
+        H is as bounded as for regular orbits; the monitor calls the step fine. Above H = 1/6 orbits escape, whatever \
+        the step.";
     const REVISION: u32 = 3;
 
     type Trial = Trial;

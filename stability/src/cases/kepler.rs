@@ -70,10 +70,8 @@ impl Case for Kepler {
     const NAME: &'static str = "kepler";
     const TITLE: &'static str = "Kepler orbits with e = 0 … 0.999 and steps from fine to hopeless";
     const THEORY: &'static str = "Steps that do not resolve the pericentre change the energy of the orbit at each \
-        passage, until the orbit is lost. The \
-        modified energy changes with it: the monitor says that the step is too large, before the orbit is lost if \
-        that takes some passages, and \
-        does not say it of orbits that are kept.";
+        passage, until the orbit is lost. The modified energy changes with it: the monitor says that the step is too \
+        large, before the orbit is lost if that takes some passages, and does not say it of orbits that are kept.";
     const REVISION: u32 = 4;
 
     type Trial = Trial;
@@ -267,8 +265,8 @@ impl Counts {
             parts.get(parts.len() / 2).map_or(String::new(), |part| format!(" (after {part:.2} of the time, median)"));
         format!(
             "{lost} lost: {at_once} before a verdict is possible, {before} reported before{early}, {after} with or \
-                after the loss, {not_reported} called fine; {kept} kept, \
-             {false_alarms} of them reported; {changed} changed without a loss, {changed_reported} of them reported"
+             after the loss, {not_reported} called fine; {kept} kept, {false_alarms} of them reported; {changed} \
+             changed without a loss, {changed_reported} of them reported"
         )
     }
 

@@ -102,11 +102,9 @@ impl Case for LinearPartCase {
     const NAME: &'static str = "linear-part";
     const TITLE: &'static str = "Oscillations solved exactly, with a perturbation in the kicks";
     const THEORY: &'static str = "H = A + B with two oscillators, ω₁ = 1 and ω₂ = 1.6, as A, which drifts solve, and \
-        B = δ(q₁ + q₂)²/2, δ = 0.01, in the \
-        kicks. There is no limit of hω. A step is a symplectic matrix; its eigenvalues leave the unit circle in \
-        narrow bands about 2ω_i h = 2πm and \
-        (ω₁ + ω₂)h = 2πm, and |(q, p)| grows like exp(λn) there, with the largest log of their moduli as λ. Of \
-        Störmer–Verlet λ is nearly hδ/2ω_i or \
+        B = δ(q₁ + q₂)²/2, δ = 0.01, in the kicks. There is no limit of hω. A step is a symplectic matrix; its \
+        eigenvalues leave the unit circle in narrow bands about 2ω_i h = 2πm and (ω₁ + ω₂)h = 2πm, and |(q, p)| grows \
+        like exp(λn) there, with the largest log of their moduli as λ. Of Störmer–Verlet λ is nearly hδ/2ω_i or \
         hδ/2√(ω₁ω₂); kicks at several places within a step act against each other there. At (ω₂ − ω₁)h = 2πm both \
         have the same sign, and nothing grows.";
     const REVISION: u32 = 1;

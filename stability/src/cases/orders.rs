@@ -65,13 +65,11 @@ impl Case for Orders {
     const NAME: &'static str = "orders";
     const TITLE: &'static str = "Orders on nonlinear problems, at 100 digits";
     const THEORY: &'static str = "Where order r is proved, the error of the state after a fixed time is proportional \
-        to h^r for small h: measured against \
-        Kepler's equation on an orbit with e = 0.2. Gradient kicks have their order for quadratic T; a processor \
-        raises the order of the kernel to the \
-        effective one. A composition has its order for three parts too: the same orbit with H split into p_x²/2 + κ x \
-        p_y, p_y²/2 − κ x p_y and −1/r, no two of which \
-        commute. For H = A + εB with A = p²/2, B = −cos q and ε = 1e-40 the error of H is ε times a power of h, which \
-        is the order of the terms of ε.";
+        to h^r for small h: measured against Kepler's equation on an orbit with e = 0.2. Gradient kicks have their \
+        order for quadratic T; a processor raises the order of the kernel to the effective one. A composition has its \
+        order for three parts too: the same orbit with H split into p_x²/2 + κ x p_y, p_y²/2 − κ x p_y and −1/r, no \
+        two of which commute. For H = A + εB with A = p²/2, B = −cos q and ε = 1e-40 the error of H is ε times a \
+        power of h, which is the order of the terms of ε.";
     const REVISION: u32 = 2;
 
     type Trial = Trial;

@@ -55,10 +55,8 @@ impl Case for Oscillator {
     const NAME: &'static str = "oscillator";
     const TITLE: &'static str = "Harmonic oscillator about the stability limit";
     const THEORY: &'static str = "A step of H = (p² + ω²q²)/2 is a matrix of determinant 1. While its trace, an exact \
-        polynomial in (hω)², is within \
-        [−2, 2], all states stay on an ellipse; beyond, |(q, p)| grows like exp(λn) after n steps with λ = \
-        arcosh(|tr|/2). Beyond the first \
-        limit come gaps and windows of stability.";
+        polynomial in (hω)², is within [−2, 2], all states stay on an ellipse; beyond, |(q, p)| grows like exp(λn) \
+        after n steps with λ = arcosh(|tr|/2). Beyond the first limit come gaps and windows of stability.";
     const REVISION: u32 = 1;
 
     type Trial = Trial;

@@ -17,8 +17,7 @@ impl LongCase for OuterPlanets {
     const NAME: &'static str = "outer-planets";
     const TITLE: &'static str = "The Sun and the outer planets for 10⁸ days";
     const THEORY: &'static str = "Over 274 000 years no planet leaves. The error of H oscillates with the planets and \
-        does not grow, until round-off is \
-        as large: that wanders like √t.";
+        does not grow, until round-off is as large: that wanders like √t.";
     const REVISION: u32 = 4;
     const EVALUATION: f64 = 200e-9;
 

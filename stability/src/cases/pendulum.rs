@@ -47,11 +47,9 @@ impl Case for Pendulum {
     const NAME: &'static str = "pendulum";
     const TITLE: &'static str = "The pendulum at its separatrix";
     const THEORY: &'static str = "Below p(0) = 2 the pendulum swings, above it turns over. A scheme follows a \
-        modified pendulum whose separatrix is \
-        off by its energy error: what starts farther from it than that moves as the exact one, what starts nearer may \
-        do either. Steps that are too large make \
-        a chaotic layer of the separatrix, in which the pendulum does both; only there the monitor does not call the \
-        step fine.";
+        modified pendulum whose separatrix is off by its energy error: what starts farther from it than that moves as \
+        the exact one, what starts nearer may do either. Steps that are too large make a chaotic layer of the \
+        separatrix, in which the pendulum does both; only there the monitor does not call the step fine.";
     const REVISION: u32 = 2;
 
     type Trial = Trial;

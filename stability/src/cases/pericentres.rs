@@ -44,14 +44,11 @@ impl Case for Pericentres {
     const NAME: &'static str = "pericentres";
     const TITLE: &'static str = "Wisdom–Holman maps at the pericentre, e = 0.5 … 0.98";
     const THEORY: &'static str = "A planet alone is on its Kepler orbit with any step. With another planet the kicks \
-        act at a few places of the pericentre \
-        passage. P_f = 2π√((1 − e)³/(1 + e)) is the time of a revolution with the angular velocity there: steps that \
-        resolve it keep the error of H \
-        bounded, and steps that do not make step-size resonances overlap, so that the energy wanders (Rauch and \
-        Holman, Astron. J. 117 (1999) 1087). \
-        With 16 steps in P_f and more the error of H is the same oscillation from the first to the last passages, and \
-        the monitor calls it fine. With one it is larger by more \
-        than the 16² of a scheme of order 2.";
+        act at a few places of the pericentre passage. P_f = 2π√((1 − e)³/(1 + e)) is the time of a revolution with \
+        the angular velocity there: steps that resolve it keep the error of H bounded, and steps that do not make \
+        step-size resonances overlap, so that the energy wanders (Rauch and Holman, Astron. J. 117 (1999) 1087). With \
+        16 steps in P_f and more the error of H is the same oscillation from the first to the last passages, and the \
+        monitor calls it fine. With one it is larger by more than the 16² of a scheme of order 2.";
     const REVISION: u32 = 1;
 
     type Trial = Trial;

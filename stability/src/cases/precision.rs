@@ -54,8 +54,7 @@ impl Case for Precision {
     const NAME: &'static str = "precision";
     const TITLE: &'static str = "From 16 to 5000 digits";
     const THEORY: &'static str = "A run with D digits agrees with the same run with 2D digits to nearly D digits. \
-        Weights that are closed \
-        forms have as many digits.";
+        Weights that are closed forms have as many digits.";
     const REVISION: u32 = 2;
 
     type Trial = Trial;

@@ -55,11 +55,9 @@ impl Case for Processing {
     const NAME: &'static str = "processing";
     const TITLE: &'static str = "Processed schemes that are read at every step";
     const THEORY: &'static str = "A processed run is a run of its kernel, seen through the post-map: reading it at \
-        every step changes no bit of it, and \
-        the error of H at the outputs stays as bounded as that of any symplectic scheme, and is smaller than that of \
-        the kernel, whose effective order it \
-        raises. Schemes for A + εB are on the outer planets as Kepler orbits and their interactions, others on \
-        Kepler's problem.";
+        every step changes no bit of it, and the error of H at the outputs stays as bounded as that of any symplectic \
+        scheme, and is smaller than that of the kernel, whose effective order it raises. Schemes for A + εB are on \
+        the outer planets as Kepler orbits and their interactions, others on Kepler's problem.";
     const REVISION: u32 = 1;
 
     type Trial = Trial;

@@ -32,8 +32,8 @@ impl Case for Pythagorean {
     const NAME: &'static str = "pythagorean";
     const TITLE: &'static str = "The Pythagorean problem of three bodies";
     const THEORY: &'static str = "Bodies of masses 3, 4, 5 fall from rest into close encounters, which no fixed step \
-        of practical size resolves: the \
-        energy is lost in one of them. A run as users make it says so at its end, and names the encounter.";
+        of practical size resolves: the energy is lost in one of them. A run as users make it says so at its end, and \
+        names the encounter.";
     const REVISION: u32 = 2;
 
     type Trial = Trial;

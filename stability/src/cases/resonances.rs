@@ -69,13 +69,11 @@ impl Case for Resonances {
     const NAME: &'static str = "resonances";
     const TITLE: &'static str = "Step-size resonances, hω = 2 sin(π/n) for Störmer–Verlet";
     const THEORY: &'static str = "Where a step turns the oscillator q²/2 by exactly 1/n of a turn, a term q^n of U \
-        acts in the same direction at \
-        every n-th step, and no modified energy of the usual form exists. At n = 3 and U = q²/2 + q³/3 small orbits \
-        change the quadratic invariant of the \
-        linear step by more than off the resonance, those of Störmer–Verlet without a bound, which the monitor does \
-        not call fine. At n = 4 and \
-        U = q²/2 + q⁴/4 they are confined; at n = 5, 7 and off the resonances the invariant varies in proportion to \
-        the anharmonic force only.";
+        acts in the same direction at every n-th step, and no modified energy of the usual form exists. At n = 3 and \
+        U = q²/2 + q³/3 small orbits change the quadratic invariant of the linear step by more than off the \
+        resonance, those of Störmer–Verlet without a bound, which the monitor does not call fine. At n = 4 and U = \
+        q²/2 + q⁴/4 they are confined; at n = 5, 7 and off the resonances the invariant varies in proportion to the \
+        anharmonic force only.";
     const REVISION: u32 = 1;
 
     type Trial = Trial;

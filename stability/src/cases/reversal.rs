@@ -64,10 +64,9 @@ impl Case for Reversal {
     const NAME: &'static str = "reversal";
     const TITLE: &'static str = "Time reversal";
     const THEORY: &'static str = "The inverse of a step undoes it up to round-off, which drives the phase of a \
-        regular motion by less than \
-        10 n^{3/2} ε in n steps forth and back. For a palindromic scheme the step of −h is the inverse, bit for bit; \
-        for others it is another map. In fixed \
-        point the inverse undoes each step to the last bit.";
+        regular motion by less than 10 n^{3/2} ε in n steps forth and back. For a palindromic scheme the step of −h \
+        is the inverse, bit for bit; for others it is another map. In fixed point the inverse undoes each step to the \
+        last bit.";
     const REVISION: u32 = 3;
 
     type Trial = Trial;

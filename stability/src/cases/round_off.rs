@@ -68,11 +68,9 @@ impl Case for RoundOff {
     const NAME: &'static str = "round-off";
     const TITLE: &'static str = "Round-off over 10⁵ to 10⁸ steps in double precision";
     const THEORY: &'static str = "Brouwer's law: where rounding is unbiased, the modified energy wanders like √n, by \
-        about ε in each evaluation. A bias \
-        makes it drift like n. Compensated sums round by ε of the increments instead of the coordinates, and wander \
-        at least ten times less. The changes are those of 32 orbits that begin at different phases; their root mean \
-        square grows like n^a, with \
-        a = ½ for a wander and 1 for a drift.";
+        about ε in each evaluation. A bias makes it drift like n. Compensated sums round by ε of the increments \
+        instead of the coordinates, and wander at least ten times less. The changes are those of 32 orbits that begin \
+        at different phases; their root mean square grows like n^a, with a = ½ for a wander and 1 for a drift.";
     const REVISION: u32 = 2;
 
     type Trial = Trial;

@@ -28,12 +28,10 @@ impl LongCase for StiffSprings {
     const NAME: &'static str = "stiff-springs";
     const TITLE: &'static str = "Stiff springs up to the stability limit";
     const THEORY: &'static str = "Three stiff springs of ω = 50 in a chain with soft ones, which raise the stiff \
-        frequencies by a part of 1e-3 and more as \
-        amplitudes grow. With hω at 0.75 and 0.95 of the stability limit all stays bounded; at 0.995 a step that \
-        enlarges amplitudes may be \
-        carried beyond the limit. At 1.005 amplitudes grow, unless the unstable gap is so narrow that they leave it \
-        as the frequency shifts. What grows is \
-        not called fine.";
+        frequencies by a part of 1e-3 and more as amplitudes grow. With hω at 0.75 and 0.95 of the stability limit \
+        all stays bounded; at 0.995 a step that enlarges amplitudes may be carried beyond the limit. At 1.005 \
+        amplitudes grow, unless the unstable gap is so narrow that they leave it as the frequency shifts. What grows \
+        is not called fine.";
     const REVISION: u32 = 3;
     const EVALUATION: f64 = 60e-9;
 

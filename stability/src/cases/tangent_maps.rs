@@ -136,16 +136,13 @@ impl Case for TangentMaps {
     const NAME: &'static str = "tangent-maps";
     const TITLE: &'static str = "Tangent maps and Lyapunov exponents";
     const THEORY: &'static str = "The derivative M of a step is symplectic: the area δq₁·δp₂ − δp₁·δq₂ of two tangent \
-        vectors stays. Round-off in double \
-        precision adds at most ε √(evaluations Σ (|δ₁| |δ₂|)²) to it, with the sum over all steps, which along a \
-        regular orbit grows like n^{5/2}; pairs \
-        that are replaced after 100 steps stay short, and the sum of their changes shows the least deviation in the \
-        mean. Arnold's cat map is a step of U = −q²/2, with the exponents \
-        ±log((3 + √5)/2). A step of the pendulum is the standard map with K = h²; for large K its exponents are \
-        ±log(K/2). Where motion is regular vectors grow \
-        like t, so that the exponent over the last three quarters of T is (4/3) log 4/T, and MEGNO tends to 2; both \
-        are 0 for a harmonic oscillator. Exponents \
-        of a chaotic orbit are pairs ±λ and ±0, the same for all schemes.";
+        vectors stays. Round-off in double precision adds at most ε √(evaluations Σ (|δ₁| |δ₂|)²) to it, with the sum \
+        over all steps, which along a regular orbit grows like n^{5/2}; pairs that are replaced after 100 steps stay \
+        short, and the sum of their changes shows the least deviation in the mean. Arnold's cat map is a step of U = \
+        −q²/2, with the exponents ±log((3 + √5)/2). A step of the pendulum is the standard map with K = h²; for large \
+        K its exponents are ±log(K/2). Where motion is regular vectors grow like t, so that the exponent over the \
+        last three quarters of T is (4/3) log 4/T, and MEGNO tends to 2; both are 0 for a harmonic oscillator. \
+        Exponents of a chaotic orbit are pairs ±λ and ±0, the same for all schemes.";
     const REVISION: u32 = 1;
 
     type Trial = Trial;
@@ -276,8 +273,7 @@ fn judge_areas(areas: &Areas, steps: u64, evaluations: usize) -> (String, Verdic
     let (steps, mean) = (steps as f64, areas.of_many_pairs.area.abs() / steps as f64);
     let found = format!(
         "{steps:.0e} steps, vectors of length {:.0e}: the area 1 changes by {last:.0e}, {one:.2} of the bound at \
-            most; pairs of 100 steps: by {mean:.0e} a step in the \
-         mean, {many:.2} of the bound",
+         most; pairs of 100 steps: by {mean:.0e} a step in the mean, {many:.2} of the bound",
         areas.length,
     );
     (found, Verdict::from(one <= 1.0 && many <= 1.0))

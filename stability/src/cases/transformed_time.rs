@@ -66,16 +66,12 @@ impl Case for TransformedTime {
     const NAME: &'static str = "transformed-time";
     const TITLE: &'static str = "Kepler orbits with e = 0.9 … 1 − 10⁻⁸ in logarithmic time";
     const THEORY: &'static str = "The leapfrog that begins with a drift, with a step h of logarithmic time, takes a \
-        Kepler orbit (a = 1) from the eccentric anomaly E \
-        to E + 2 arctan(h/2) on the same ellipse, whatever e and h, and adds h − e Δ(sin E) to the time (proved with \
-        the half-angle formulas). So a \
-        composition of such steps γ_i h is at E = 2n Σ arctan(γ_i h/2) after n steps, at the time nh − e sin E: only \
-        the time of a period is off, by the same \
-        part for all e. Round-off makes H′ wander like ε√N over N leapfrogs, the angular momentum L like ε√N/L of it, \
-        and the phase like ε N^{3/2}: all \
-        stay below a hundred times that. The monitor never calls the step too large; where a step ends near the \
-        pericentre, it may see this round-off \
-        of H′.";
+        Kepler orbit (a = 1) from the eccentric anomaly E to E + 2 arctan(h/2) on the same ellipse, whatever e and h, \
+        and adds h − e Δ(sin E) to the time (proved with the half-angle formulas). So a composition of such steps γ_i \
+        h is at E = 2n Σ arctan(γ_i h/2) after n steps, at the time nh − e sin E: only the time of a period is off, \
+        by the same part for all e. Round-off makes H′ wander like ε√N over N leapfrogs, the angular momentum L like \
+        ε√N/L of it, and the phase like ε N^{3/2}: all stay below a hundred times that. The monitor never calls the \
+        step too large; where a step ends near the pericentre, it may see this round-off of H′.";
     const REVISION: u32 = 1;
 
     type Trial = Trial;
@@ -120,8 +116,8 @@ impl Case for TransformedTime {
                 name,
                 format!(
                     "8 orbits of {} steps: H′ at most {energy:.1} ε√N, L {momentum:.1} ε√N/L; off the closed form by \
-                        {position:.1e} ε N^(3/2) in place, \
-                     {time:.1e} ε N^(3/2) in time; a period is off by {:.1e} of it; the monitor: {}",
+                     {position:.1e} ε N^(3/2) in place, {time:.1e} ε N^(3/2) in time; a period is off by {:.1e} of \
+                     it; the monitor: {}",
                     all[0].1.steps,
                     all[0].1.period,
                     verdicts(all)

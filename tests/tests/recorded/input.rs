@@ -51,8 +51,7 @@ fn a_move_whose_image_is_not_decided_is_refused() {
     assert_eq!(
         sentence(unwrapping.next(&[0.0, 0.0, 3.0, 0.0, 0.0, 0.0])),
         "particle 0 moved by 0.38 of box vector 2 from state 1 to 2, at least: which image it came to is not decided; \
-            log states more often, \
-         or unwrapped positions"
+         log states more often, or unwrapped positions"
     );
     let mut along = Unwrapping::new(cell).unwrap().along([true, true, false]);
     along.next(&[0.0; 3]).unwrap();

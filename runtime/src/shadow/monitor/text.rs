@@ -79,22 +79,19 @@ impl<N: Real> Report<N> {
             ),
             Verdict::Drifts => format!(
                 "{moved}, linearly in time: by {} in all, where round-off makes {}. The scheme conserves it, so the \
-                    cause is a force \
-                 that is not −U_q, a state that is changed between the steps, or a resonance; {check}",
+                 cause is a force that is not −U_q, a state that is changed between the steps, or a resonance; {check}",
                 short(&self.change),
                 short(&self.round_off)
             ),
             Verdict::NotTheGradient => format!(
                 "the modified energy changes from state to state as the energy does, which no scheme does: the forces \
-                    are not its gradient, or \
-                 something else acts; {check}"
+                 are not its gradient, or something else acts; {check}"
             ),
             Verdict::NotSmooth => self.why_not_smooth(),
             Verdict::NotConserved => format!(
-                "{}, and {moved}, permanently, where round-off makes {}: the error grows with the length of the \
-                 run. A smaller step resolves encounters better; forces that are not smooth, or something other than \
-                 the scheme, have \
-                 such effects, too",
+                "{}, and {moved}, permanently, where round-off makes {}: the error grows with the length of the run. \
+                 A smaller step resolves encounters better; forces that are not smooth, or something other than the \
+                 scheme, have such effects, too",
                 self.size(),
                 self.in_parts(&self.round_off)
             ),
@@ -132,8 +129,7 @@ impl<N: Real> Report<N> {
         light.map_or(String::new(), |(i, steps)| {
             format!(
                 ". A motion with too little energy to be seen in this verdict, {}, turns, or turned at the start, \
-                    once in {steps:.1} steps: \
-                 it may be lost",
+                 once in {steps:.1} steps: it may be lost",
                 self.coordinate(i)
             )
         })
@@ -161,8 +157,7 @@ impl<N: Real> Report<N> {
             return format!(
                 "{}, of which in {} steps {} were a permanent change; {turns}and the cause may be the step size, \
                  forces that are not smooth, or something other than the scheme that changed the state: a longer run, \
-                 and windows of 17 \
-                 states or more, would tell",
+                 and windows of 17 states or more, would tell",
                 self.size(),
                 self.steps,
                 self.in_parts(change),
@@ -197,8 +192,7 @@ impl<N: Real> Report<N> {
         if self.mismatches > 0 {
             return format!(
                 "in {} of {} windows the states differ from the increments of the steps: plain steps were made where \
-                    needs_increments() \
-                 is true, or q or p were changed between the steps",
+                 needs_increments() is true, or q or p were changed between the steps",
                 self.mismatches, self.windows
             );
         }
@@ -211,8 +205,7 @@ impl<N: Real> Report<N> {
         }
         format!(
             "the states do not belong to the increments, or the rate is not qᵀU_q − 2U (compare them, in Rust with \
-                check_potential): H − H̄ is {} rms, \
-             and H̄ moved by {}, too much beside an energy error of {}",
+             check_potential): H − H̄ is {} rms, and H̄ moved by {}, too much beside an energy error of {}",
             short(&self.method_rms),
             short(&self.moved),
             short(&self.energy_error)
@@ -238,8 +231,7 @@ impl<N: Real> Report<N> {
                 let (i, steps) = self.lost_coordinate.expect("the verdict follows from it");
                 format!(
                     "{} turned once in {steps:.1} steps at the start, and no longer does: the steps do not resolve \
-                        it, however little \
-                     of the energy it has",
+                     it, however little of the energy it has",
                     self.coordinate(i)
                 )
             }

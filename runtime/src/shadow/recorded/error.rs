@@ -92,8 +92,7 @@ pub enum RecordedError {
     /// A particle that moved too far for its image to be known.
     #[error(
         "particle {particle} moved by {turns:.2} of box vector {vector} from state {} to {n}, at least: which image \
-            it came to is not decided; \
-         log states more often, or unwrapped positions", .n - 1
+         it came to is not decided; log states more often, or unwrapped positions", .n - 1
     )]
     Undecided {
         /// n of the state after the move.

@@ -27,8 +27,7 @@ impl Diagnosis {
             ),
             Cause::NoisyEnergy { size } => format!(
                 "the modified energy is known to {:.1e} only, as the logged U has errors of {size:.1e} rms that are \
-                    independent from state to state; the \
-                 states do not show that anything moves the energy",
+                 independent from state to state; the states do not show that anything moves the energy",
                 self.known_to
             ),
             Cause::Jumps { size } => {
@@ -68,8 +67,7 @@ impl Diagnosis {
         let (undecided, next) = if self.may_cancel() {
             (
                 "to and fro, or with steps that do not resolve the motion; estimates are means over nine states, in \
-                    which what U jumps by, or forces that \
-                 are not −U_q, may cancel"
+                 which what U jumps by, or forces that are not −U_q, may cancel"
                     .to_owned(),
                 "steps of half the size tell whether anything does",
             )
@@ -126,10 +124,9 @@ pub(super) fn other_steps(reordered: Option<i64>, differences: Option<[Differenc
     let [of_q, of_p] = differences.map_or([f64::NAN; 2], |differences| differences.map(|of| of.of_increments));
     format!(
         "the states are not those of velocity Verlet with these masses, forces and step size: the steps differ by \
-            {of_q:.1e} (q) and {of_p:.1e} \
-         (p) of themselves, as with other masses or units of time, a thermostat, a constraint, another integrator or \
-         step size, velocities in place of \
-         momenta, wrapped positions, or momenta at half steps"
+         {of_q:.1e} (q) and {of_p:.1e} (p) of themselves, as with other masses or units of time, a thermostat, a \
+         constraint, another integrator or step size, velocities in place of momenta, wrapped positions, or momenta \
+         at half steps"
     )
 }
 
