@@ -20,7 +20,7 @@ use shadowstep_scenes::{Error, Observer, Scene, System};
 use shadowstep_symbolic::decimal::to_text;
 
 use crate::keep::Keep;
-use crate::values::{Need, RunValue};
+use crate::values::{Need, RunValue, finite};
 
 /// What a run has given.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -253,7 +253,7 @@ impl<N: Real> RunValues<'_, N> {
             RunValue::Motion | RunValue::Lyapunov | RunValue::LyapunovError | RunValue::Megno => {
                 tangents.and_then(|tangents| kept.of_growth(tangents.growths()[0]))
             }
-            RunValue::Sali => tangents.as_mut().and_then(|tangents| tangents.sali()).map(|sali| sali.to_text()),
+            RunValue::Sali => tangents.as_mut().and_then(|tangents| tangents.sali()).and_then(finite),
             RunValue::Steps => Some(followed.n.to_string()),
             RunValue::ForceEvaluations => Some(followed.evaluations.to_string()),
         }

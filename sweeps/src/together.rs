@@ -20,7 +20,7 @@ use shadowstep_symbolic::decimal::to_text;
 
 use crate::keep::Keep;
 use crate::record::Values;
-use crate::values::{Need, RunValue};
+use crate::values::{Need, RunValue, finite};
 
 /// The most steps of runs that are computed together: all of them are lost where a call is stopped.
 const MOST_STEPS: u64 = 1_000_000;
@@ -232,10 +232,9 @@ impl<'a> LanesFollower<'a> {
             }
             let values = self.keep.values.iter().map(|kept| self.value(*kept, lane, n, system.state().evaluations()));
             let times = self.tests.iter().map(|(_, met)| met[lane].map(|n| to_text(&run.time(n.cast_signed()))));
-            let text = |x: f64| x.is_finite().then(|| x.to_text());
-            let ends = at_end.iter().map(of_lane).map(text);
-            let state = state.iter().copied().filter(|_| self.keep.state).map(text);
-            let extremes = self.extremes.iter().map(|(_, _, found)| found[lane].and_then(text));
+            let ends = at_end.iter().map(of_lane).map(finite);
+            let state = state.iter().copied().filter(|_| self.keep.state).map(finite);
+            let extremes = self.extremes.iter().map(|(_, _, found)| found[lane].and_then(finite));
             self.values[lane] = Some(values.chain(times).chain(ends).chain(extremes).chain(state).collect());
         }
     }
@@ -252,7 +251,7 @@ impl<'a> LanesFollower<'a> {
             RunValue::LastEnergyError => Some(energies().last.0[lane].to_text()),
             RunValue::Steps => Some(n.to_string()),
             RunValue::ForceEvaluations => Some(evaluations.to_string()),
-            RunValue::Sali => Some(tangents().sali(lane).to_text()),
+            RunValue::Sali => finite(tangents().sali(lane)),
             _ => kept.of_growth(tangents().growth(0, lane)),
         }
     }

@@ -124,6 +124,11 @@ pub(crate) const VALUES: [Description; 18] = [
     ),
 ];
 
+/// A number as a text; none of one that is infinite or NaN, as those of vectors that overflow.
+pub(crate) fn finite(x: f64) -> Option<String> {
+    x.is_finite().then(|| x.to_text())
+}
+
 impl RunValue {
     pub(crate) fn description(self) -> &'static Description {
         VALUES.iter().find(|value| value.kept == self).expect("each value has its description")
@@ -131,12 +136,11 @@ impl RunValue {
 
     /// The value that the growth of the first tangent vector has; `None` of other values.
     pub(crate) fn of_growth(self, growth: &Growth) -> Option<String> {
-        let text = |x: f64| x.is_finite().then(|| x.to_text());
         match self {
             RunValue::Motion => Some(growth.regularity().to_string()),
-            RunValue::Lyapunov => growth.exponent().and_then(|found| text(found.value)),
-            RunValue::LyapunovError => growth.exponent().and_then(|found| text(found.error)),
-            RunValue::Megno => growth.mean_megno().and_then(text),
+            RunValue::Lyapunov => growth.exponent().and_then(|found| finite(found.value)),
+            RunValue::LyapunovError => growth.exponent().and_then(|found| finite(found.error)),
+            RunValue::Megno => growth.mean_megno().and_then(finite),
             _ => None,
         }
     }

@@ -335,7 +335,7 @@ mod tests {
         let [sin, cos, tan, of_both, and_cos] = of(&power(1000));
         // by mpmath
         assert_eq!((sin.to_f64(), cos.to_f64()), (-0.15920170308624243, 0.9872460775989135));
-        assert_eq!((of_both, and_cos), (sin.clone(), cos));
+        assert_eq!((of_both, and_cos), (sin, cos));
         assert!((tan.to_f64() + 0.16125837995065806).abs() < 1e-16);
         assert_eq!(of(&float(0.0)).map(|x| x.to_f64()), [0.0, 1.0, 0.0, 0.0, 1.0]);
     }
