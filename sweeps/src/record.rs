@@ -168,7 +168,7 @@ impl<'a, N: RunNumber> KeptOfRun<'a, N> {
         let mut found = RunValues { drift: drift.as_ref(), followed: &followed, tangents };
         let values: Values = keep.values.iter().map(|kept| found.value(*kept)).collect();
         let times = tests.into_iter().map(|(_, met)| met);
-        let extremes = extremes.iter().map(|(_, _, found)| found.as_ref().map(N::to_text));
+        let extremes = extremes.into_iter().map(|(_, _, found)| found.and_then(finite));
         values.into_iter().chain(times).chain(expressions).chain(extremes).chain(state).collect()
     }
 }
@@ -210,7 +210,7 @@ impl<N: RunNumber> Column<N> for KeptOfRun<'_, N> {
     }
 
     fn end(&mut self, at: &mut At<'_, '_, N>) -> Result<(), Error> {
-        let text = |number: &N| number.is_finite().then(|| number.to_text());
+        let text = |number: &N| finite(number.clone());
         let (time, energy) = (at.time(), at.energy()?.clone());
         let expressions = self.at_end.iter_mut().map(|end| text(end.value_at(at.state(), &time, || energy.clone())));
         let expressions = expressions.collect();
@@ -242,13 +242,13 @@ impl<N: Real> RunValues<'_, N> {
             RunValue::LastEnergyError => energy.map(|energy| energy.last.clone()),
             RunValue::MethodError => summary?.modified_energy()?.method.clone(),
             RunValue::CloseEncounters => summary.map(|summary| summary.encounters().to_string()),
-            RunValue::Drift => drift.map(|drift| drift.drift.to_text()),
+            RunValue::Drift => drift.and_then(|drift| finite(drift.drift.clone())),
             // of a change on one side of an encounter only, nothing is known
             RunValue::PermanentChange => {
                 let known = permanent.filter(|permanent| permanent.finding != Finding::OneSided);
-                known.map(|permanent| permanent.change.to_text())
+                known.and_then(|permanent| finite(permanent.change.clone()))
             }
-            RunValue::PermanentResolution => permanent.map(|permanent| permanent.resolution.to_text()),
+            RunValue::PermanentResolution => permanent.and_then(|permanent| finite(permanent.resolution.clone())),
             RunValue::PermanentFinding => permanent.map(|permanent| finding(permanent.finding).to_owned()),
             RunValue::Motion | RunValue::Lyapunov | RunValue::LyapunovError | RunValue::Megno => {
                 tangents.and_then(|tangents| kept.of_growth(tangents.growths()[0]))

@@ -124,8 +124,8 @@ pub(crate) const VALUES: [Description; 18] = [
     ),
 ];
 
-/// A number as a text; none of one that is infinite or NaN, as those of vectors that overflow.
-pub(crate) fn finite(x: f64) -> Option<String> {
+/// A number as a text; none of one that is infinite or NaN, as those of estimates and vectors that overflow.
+pub(crate) fn finite<N: Real>(x: N) -> Option<String> {
     x.is_finite().then(|| x.to_text())
 }
 
