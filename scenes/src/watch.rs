@@ -191,12 +191,6 @@ impl<N: RunNumber> Watch<N> {
             let distances = if is_open { distances(run.windows).collect() } else { vec![every] };
             let spaced = |every| Ok(Spaced { monitor: N::monitor(integrator, MONITOR_ORDER, every)?, every });
             let monitors = distances.into_iter().map(spaced).collect::<Result<Vec<_>, RunError>>()?;
-            // it has refused the state of the steps, which is that of the trajectory unless the scheme is a processed
-            // one
-            if !initial.is_finite() {
-                let value = NotFinite { quantity: Quantity::Energy, value: initial.to_text() };
-                return Err(RunError::NotFinite { step: 0, value });
-            }
             let mut begun = Observed {
                 monitors,
                 pass: 0,
@@ -206,6 +200,11 @@ impl<N: RunNumber> Watch<N> {
             };
             begun.idle = begun.monitors_idle();
             observed = Some(begun);
+        }
+        // the state of the steps was checked, which is that of the trajectory unless the scheme is a processed one
+        if !initial.is_finite() {
+            let value = NotFinite { quantity: Quantity::Energy, value: initial.to_text() };
+            return Err(RunError::NotFinite { step: 0, value });
         }
         let mut energy = EnergyError::new(initial);
         if from == 0 {
