@@ -35,7 +35,8 @@ impl<N: RunNumber> Positions<N> {
         let of_time = |length: &Rational| {
             let part = problem.until / Rational::from_integer(samples.into());
             let integrator = problem.integrator(named, steps, context)?;
-            Ok::<_, Error>(InTime { part, forward: length.is_positive(), integrator, before: None })
+            let (forward, next) = (length.is_positive(), N::from_rational(&part, context));
+            Ok::<_, Error>(InTime { part, forward, integrator, before: None, next })
         };
         let in_time = problem.length.map(of_time).transpose()?;
         Ok(Positions { samples: samples as usize, every: steps / samples, in_time, found: Vec::new() })
@@ -87,6 +88,8 @@ struct InTime<N: Real> {
     integrator: SceneIntegrator<N>,
     /// The state before the present one.
     before: Option<(Vec<N>, Vec<N>)>,
+    /// The time of the next sample.
+    next: N,
 }
 
 impl<N: RunNumber> InTime<N> {
@@ -94,23 +97,22 @@ impl<N: RunNumber> InTime<N> {
     /// is none.
     fn see(&mut self, present: &VectorIntegrator<'_, N>, (found, samples): (&mut Vec<Vec<N>>, usize)) -> Option<()> {
         let (q, p) = (present.state().q(), present.state().p());
-        let context = present.state().context();
         while found.len() < samples {
-            let time = &self.part * Rational::from_integer((found.len() + 1).into());
-            let time = N::from_rational(&time, &context);
             let t = q.last().expect("time is a coordinate");
-            if if self.forward { *t < time } else { *t > time } {
+            if if self.forward { *t < self.next } else { *t > self.next } {
                 break;
             }
             let (q, p) = self.before.as_ref()?;
             self.integrator.system().state_mut().set(q, p);
             // none is made where the state before is at this time
-            let _ = step_to_time(&mut *self.integrator, &time);
+            let _ = step_to_time(&mut *self.integrator, &self.next);
             let (t, q) = self.integrator.state().q().split_last()?;
             if !(t.is_finite() && q.iter().all(N::is_finite)) {
                 return None;
             }
             found.push(q.to_vec());
+            let time = &self.part * Rational::from_integer((found.len() + 1).into());
+            self.next = N::from_rational(&time, &present.state().context());
         }
         self.before = Some((q.to_vec(), p.to_vec()));
         Some(())
