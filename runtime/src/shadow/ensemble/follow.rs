@@ -133,6 +133,10 @@ pub fn outcomes<T: Systems + ?Sized, E: Estimator<T::Number> + Clone>(
         if n > 0 && (n == steps || n.is_multiple_of(every)) {
             systems.each_at_output(&mut |i, system| seen[i].look(system, n));
         }
+        if n == steps {
+            // no window begins there
+            return Ok((n, Carried::Nothing));
+        }
         // all have their windows at the same states
         systems.each(&mut |i, system| carried = seen[i].carried(n, every, system));
         let next = if carried == Carried::Increments { n + 1 } else { n - n % every + every };
