@@ -70,6 +70,6 @@ pub trait Column<N: RunNumber> {
 }
 
 /// The next multiple of `every` after n.
-pub(crate) fn next_multiple(n: i64, every: u64) -> i64 {
+pub fn next_multiple(n: i64, every: u64) -> i64 {
     n.saturating_add_unsigned(every - n.unsigned_abs() % every)
 }

@@ -5,7 +5,7 @@ use shadowstep::steps::integrator::{VectorIntegrator, at_output};
 use shadowstep::steps::step_to_time;
 use shadowstep::{Integrator as _, Rational, Real};
 use shadowstep_scenes::at::At;
-use shadowstep_scenes::column::Column;
+use shadowstep_scenes::column::{Column, next_multiple};
 use shadowstep_scenes::computation::RunNumber;
 use shadowstep_scenes::library::NamedScheme;
 use shadowstep_scenes::run::Run;
@@ -53,8 +53,7 @@ impl<N: RunNumber> Positions<N> {
 
 impl<N: RunNumber> Column<N> for Positions<N> {
     fn next(&self, n: i64) -> i64 {
-        let every = self.every.cast_signed();
-        if self.in_time.is_none() { (n / every + 1) * every } else { i64::MAX }
+        if self.in_time.is_none() { next_multiple(n, self.every) } else { i64::MAX }
     }
 
     fn take(&mut self, at: &mut At<'_, '_, N>) -> Result<(), Error> {
