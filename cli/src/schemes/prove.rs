@@ -28,8 +28,15 @@ pub(crate) struct Arguments {
     /// A shipped scheme, such as yoshida4, or the file of a table
     #[arg(value_name = "NAME|FILE")]
     name: String,
+    /// The form of the certificate, which version 0.2 had two of
+    #[arg(long = "to", hide = true, value_name = "FORM", value_parser = json_alone)]
+    _to: Option<()>,
     #[command(flatten)]
     output: OutputArguments,
+}
+
+fn json_alone(form: &str) -> Result<(), &'static str> {
+    if form == "json" { Ok(()) } else { Err("certificates are JSON; leave --to out") }
 }
 
 pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {

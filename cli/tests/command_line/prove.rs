@@ -220,3 +220,12 @@ fn decimals_that_stand_for_no_scheme_are_refused() {
     let output = Command::new("python3").args(["-B", "-O", CHECKER, &path]).output().expect("python3 runs");
     assert!(!output.status.success());
 }
+
+/// Version 0.2 had `--to`, with two forms.
+#[test]
+fn certificates_are_json_alone() {
+    assert_eq!(quietly("schemes prove ruth3 --to json"), quietly("schemes prove ruth3"));
+    let refused = shadowstep("schemes prove ruth3 --to lean");
+    assert!(refused.code == 2 && refused.err.contains("certificates are JSON; leave --to out"), "{}", refused.err);
+    assert!(!shadowstep("schemes prove --help").out.contains("--to"));
+}
