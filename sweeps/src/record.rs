@@ -168,7 +168,7 @@ impl<'a, N: RunNumber> KeptOfRun<'a, N> {
         let mut found = RunValues { drift: drift.as_ref(), followed: &followed, tangents };
         let values: Values = keep.values.iter().map(|kept| found.value(*kept)).collect();
         let times = tests.into_iter().map(|(_, met)| met);
-        let extremes = extremes.into_iter().map(|(_, _, found)| found.and_then(finite));
+        let extremes = extremes.iter().map(|(_, _, found)| found.as_ref().and_then(finite));
         values.into_iter().chain(times).chain(expressions).chain(extremes).chain(state).collect()
     }
 }
@@ -210,12 +210,11 @@ impl<N: RunNumber> Column<N> for KeptOfRun<'_, N> {
     }
 
     fn end(&mut self, at: &mut At<'_, '_, N>) -> Result<(), Error> {
-        let text = |number: &N| finite(number.clone());
         let (time, energy) = (at.time(), at.energy()?.clone());
-        let expressions = self.at_end.iter_mut().map(|end| text(end.value_at(at.state(), &time, || energy.clone())));
+        let expressions = self.at_end.iter_mut().map(|end| finite(end.value_at(at.state(), &time, || energy.clone())));
         let expressions = expressions.collect();
         let (q, p) = at.shown_state();
-        let state = if self.keep.state { q.iter().chain(p).map(text).collect() } else { Vec::new() };
+        let state = if self.keep.state { q.iter().chain(p).map(finite).collect() } else { Vec::new() };
         self.end = [expressions, state];
         Ok(())
     }
@@ -242,18 +241,18 @@ impl<N: Real> RunValues<'_, N> {
             RunValue::LastEnergyError => energy.map(|energy| energy.last.clone()),
             RunValue::MethodError => summary?.modified_energy()?.method.clone(),
             RunValue::CloseEncounters => summary.map(|summary| summary.encounters().to_string()),
-            RunValue::Drift => drift.and_then(|drift| finite(drift.drift.clone())),
+            RunValue::Drift => drift.and_then(|drift| finite(&drift.drift)),
             // of a change on one side of an encounter only, nothing is known
             RunValue::PermanentChange => {
                 let known = permanent.filter(|permanent| permanent.finding != Finding::OneSided);
-                known.and_then(|permanent| finite(permanent.change.clone()))
+                known.and_then(|permanent| finite(&permanent.change))
             }
-            RunValue::PermanentResolution => permanent.and_then(|permanent| finite(permanent.resolution.clone())),
+            RunValue::PermanentResolution => permanent.and_then(|permanent| finite(&permanent.resolution)),
             RunValue::PermanentFinding => permanent.map(|permanent| finding(permanent.finding).to_owned()),
             RunValue::Motion | RunValue::Lyapunov | RunValue::LyapunovError | RunValue::Megno => {
                 tangents.and_then(|tangents| kept.of_growth(tangents.growths()[0]))
             }
-            RunValue::Sali => tangents.as_mut().and_then(|tangents| tangents.sali()).and_then(finite),
+            RunValue::Sali => tangents.as_mut().and_then(|tangents| tangents.sali()).and_then(|sali| finite(&sali)),
             RunValue::Steps => Some(followed.n.to_string()),
             RunValue::ForceEvaluations => Some(followed.evaluations.to_string()),
         }

@@ -232,9 +232,9 @@ impl<'a> LanesFollower<'a> {
             }
             let values = self.keep.values.iter().map(|kept| self.value(*kept, lane, n, system.state().evaluations()));
             let times = self.tests.iter().map(|(_, met)| met[lane].map(|n| to_text(&run.time(n.cast_signed()))));
-            let ends = at_end.iter().map(of_lane).map(finite);
-            let state = state.iter().copied().filter(|_| self.keep.state).map(finite);
-            let extremes = self.extremes.iter().map(|(_, _, found)| found[lane].and_then(finite));
+            let ends = at_end.iter().map(of_lane).map(|x| finite(&x));
+            let state = state.iter().filter(|_| self.keep.state).map(finite);
+            let extremes = self.extremes.iter().map(|(_, _, found)| found[lane].as_ref().and_then(finite));
             self.values[lane] = Some(values.chain(times).chain(ends).chain(extremes).chain(state).collect());
         }
     }
@@ -251,7 +251,7 @@ impl<'a> LanesFollower<'a> {
             RunValue::LastEnergyError => Some(energies().last.0[lane].to_text()),
             RunValue::Steps => Some(n.to_string()),
             RunValue::ForceEvaluations => Some(evaluations.to_string()),
-            RunValue::Sali => finite(tangents().sali(lane)),
+            RunValue::Sali => finite(&tangents().sali(lane)),
             _ => kept.of_growth(tangents().growth(0, lane)),
         }
     }

@@ -125,7 +125,7 @@ pub(crate) const VALUES: [Description; 18] = [
 ];
 
 /// A number as a text; none of one that is infinite or NaN, as those of estimates and vectors that overflow.
-pub(crate) fn finite<N: Real>(x: N) -> Option<String> {
+pub(crate) fn finite<N: Real>(x: &N) -> Option<String> {
     x.is_finite().then(|| x.to_text())
 }
 
@@ -138,9 +138,9 @@ impl RunValue {
     pub(crate) fn of_growth(self, growth: &Growth) -> Option<String> {
         match self {
             RunValue::Motion => Some(growth.regularity().to_string()),
-            RunValue::Lyapunov => growth.exponent().and_then(|found| finite(found.value)),
-            RunValue::LyapunovError => growth.exponent().and_then(|found| finite(found.error)),
-            RunValue::Megno => growth.mean_megno().and_then(finite),
+            RunValue::Lyapunov => growth.exponent().and_then(|found| finite(&found.value)),
+            RunValue::LyapunovError => growth.exponent().and_then(|found| finite(&found.error)),
+            RunValue::Megno => growth.mean_megno().and_then(|megno| finite(&megno)),
             _ => None,
         }
     }
