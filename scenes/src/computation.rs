@@ -9,7 +9,7 @@ use shadowstep_symbolic::Exact;
 
 use crate::arithmetic::{Arithmetic, Digits, Numbers};
 pub use crate::follow::FollowedNumber;
-pub use crate::run_number::{Monitoring, RunNumber};
+pub use crate::run_number::{RunMonitor, RunNumber};
 
 /// A computation that can be made in every number type.
 pub trait Computation {

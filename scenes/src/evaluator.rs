@@ -1,7 +1,6 @@
 //! Expressions and conditions in the numbers of a run.
 
 use std::ops::Range;
-use std::slice::ChunksExact;
 
 use shadowstep::number::{Lanes, Number};
 use shadowstep::systems::formula::{FormulaError, FormulaValue};
@@ -415,12 +414,20 @@ impl TestInLanes {
         Test::of_each(condition, &[system; LANES]).ok().map(TestInLanes)
     }
 
-    /// The first of at most [`LANES`] states, q and p of each, that meets the condition.
-    pub(crate) fn first_met<N: Real>(&mut self, states: ChunksExact<'_, N>) -> Option<usize> {
-        let (Test { difference, met, .. }, count) = (&mut self.0, states.len());
-        for (lane, state) in states.enumerate() {
-            difference.point.iter_mut().zip(state).for_each(|(own, value)| own.0[lane] = value.to_f64());
-        }
+    /// Sets the state in a lane.
+    #[inline(always)]
+    pub(crate) fn set<N: Real>(&mut self, lane: usize, (q, p): (&[N], &[N])) {
+        let (of_q, of_p) = self.0.difference.point.split_at_mut(q.len());
+        let set = |own: &mut [Lanes<LANES>], values: &[N]| {
+            own.iter_mut().zip(values).for_each(|(own, value)| own.0[lane] = value.to_f64());
+        };
+        set(of_q, q);
+        set(of_p, p);
+    }
+
+    /// The first lane, of this many, whose state meets the condition.
+    pub(crate) fn first_met(&mut self, count: usize) -> Option<usize> {
+        let Test { difference, met, .. } = &mut self.0;
         difference.evaluate().0[..count].iter().position(|difference| met.is_of(difference.partial_cmp(&0.0)))
     }
 }

@@ -27,7 +27,9 @@ pub(crate) struct Passing<'s, 'a, N: RunNumber> {
 /// States whose condition is tested at once: evaluated in lanes, a formula costs little more than at one state.
 pub(crate) struct Block<N> {
     test: TestInLanes,
-    /// q and p, one state after the other.
+    /// How many states there are.
+    count: usize,
+    /// q and p, one state after the other, where a watch sees those before the end.
     numbers: Vec<N>,
 }
 
@@ -36,7 +38,7 @@ impl<N: RunNumber> Block<N> {
     pub(crate) fn of(condition: &Condition, system: &System) -> Option<Self> {
         let is_double = TypeId::of::<N>() == TypeId::of::<f64>();
         let test = if is_double { TestInLanes::of(condition, system)? } else { return None };
-        Some(Block { test, numbers: Vec::new() })
+        Some(Block { test, count: 0, numbers: Vec::new() })
     }
 }
 
@@ -48,12 +50,13 @@ impl<N: RunNumber> Passing<'_, '_, N> {
     }
 
     fn test_block(&mut self) {
-        let Some(Block { test, numbers }) = &mut self.block else { return };
+        let Some(Block { test, count, numbers }) = &mut self.block else { return };
         let size = 2 * self.view.system.dimension();
-        let first = test.first_met(numbers.chunks_exact(size));
+        let first = test.first_met(*count);
         self.has_ended |= first.is_some();
-        let before = first.unwrap_or(numbers.len() / size);
+        let before = first.unwrap_or(*count);
         self.n += i64::try_from(before).expect("a block is short");
+        *count = 0;
         if let Some(watch) = self.watch {
             let states = numbers.chunks_exact(size).take(before).map(|state| state.split_at(size / 2));
             states.for_each(|(q, p)| watch.visit(q, p));
@@ -68,9 +71,13 @@ impl<N: RunNumber> Visitor<N> for Passing<'_, '_, N> {
             return;
         }
         if let Some(block) = &mut self.block {
-            block.numbers.extend_from_slice(q);
-            block.numbers.extend_from_slice(p);
-            if block.numbers.len() == LANES * (q.len() + p.len()) {
+            block.test.set(block.count, (q, p));
+            block.count += 1;
+            if self.watch.is_some() {
+                block.numbers.extend_from_slice(q);
+                block.numbers.extend_from_slice(p);
+            }
+            if block.count == LANES {
                 self.test_block();
             }
             return;
