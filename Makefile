@@ -135,8 +135,8 @@ bench: deps
 	    printf '\n## %s\n\n`cargo bench -p shadowstep --bench %s`\n' "$$name" "$$name"; \
 	    cargo bench -p shadowstep --features mpfr --locked --bench "$$name"; \
 	  done; \
-	  printf '\n## In a crate of one'"'"'s own\n\n`cargo run --release` in `rivals/user`\n'; \
-	  cargo run --release --locked --quiet --manifest-path rivals/user/Cargo.toml; } > docs/benchmarks.md.new
+	  printf '\n## In a crate of one'"'"'s own\n\n`cargo run --release` in `evidence/rivals/user`\n'; \
+	  cargo run --release --locked --quiet --manifest-path evidence/rivals/user/Cargo.toml; } > docs/benchmarks.md.new
 	mv docs/benchmarks.md.new docs/benchmarks.md
 	cat docs/benchmarks.md
 
@@ -147,13 +147,13 @@ stability: deps
 
 # Speed against error of Shadowstep and of what one would use instead: writes docs/speed-against-error.md.
 rivals: deps
-	rivals/run.sh
+	evidence/rivals/run.sh
 
 # Fuzzes the readers of tables, formulas, scenes, sweeps, checkpoints and source code, and runs random documents, SECONDS each:
 # `make fuzz SECONDS=600 READERS="table scene documents"`.
 SECONDS = 60
 fuzz: deps
-	SECONDS_EACH=$(SECONDS) fuzz/run.sh $(READERS)
+	SECONDS_EACH=$(SECONDS) evidence/fuzz/run.sh $(READERS)
 
 # A short run in MPFR with modified energies under valgrind: an invalid access or an uninitialised value is an error. Leaks are not looked
 # for: each thread has MPFR's caches of constants until the program ends.

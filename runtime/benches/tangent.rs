@@ -20,7 +20,7 @@ use timing::{Contestant, compare};
 /// What most systems are advanced by: the scheme and the step size.
 const YOSHIDA_4: (&str, &str) = ("yoshida4", "1/100");
 
-/// Of one drift and one kick, as WHFast's: `rivals/tangent.py` makes the same steps.
+/// Of one drift and one kick, as WHFast's: `evidence/rivals/tangent.py` makes the same steps.
 const LEAPFROG: (&str, &str) = ("stormer-verlet", "3/10");
 
 /// A number with its vectors, of fixed components.

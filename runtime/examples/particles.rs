@@ -1,4 +1,4 @@
-//! Particles of mass 0 in the field of planets, a step of Wisdom & Holman's map each: `rivals/particles.py` runs it
+//! Particles of mass 0 in the field of planets, a step of Wisdom & Holman's map each: `evidence/rivals/particles.py` runs it
 //! beside REBOUND, for `docs/planets.md`.
 //!
 //! A line of input is a file of bodies, a line `m x y z vx vy vz` each, those of mass 0 last; G; h; and a number of

@@ -167,7 +167,7 @@ mod tests {
     /// The full set, to first order; `tests/tests/transposed_digits.rs` reads such tables.
     #[test]
     fn rounding_explains_no_exchange_of_digits_in_a_published_table() {
-        let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../analysis/tests/published");
+        let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../crates/analysis/tests/published");
         let files = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
         let mut count = 0;
         for path in files.filter(|path| path.extension().is_some_and(|extension| extension == "toml")) {

@@ -7,7 +7,7 @@ from pathlib import Path
 
 from commands import BUILT, Failed, Missing, found
 
-RIVALS = Path(__file__).parents[2] / "rivals/rust/Cargo.toml"
+RIVALS = Path(__file__).parents[2] / "evidence/rivals/rust/Cargo.toml"
 LIBRARIES = ["arkode/libsundials_arkode.a", "nvector/serial/libsundials_nvecserial.a", "sundials/libsundials_core.a"]
 
 

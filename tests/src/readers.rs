@@ -1,5 +1,5 @@
 //! The readers of files and formulas on any bytes: `make fuzz` searches for inputs on which they panic, hang or need
-//! too much memory, and `tests/tests/corpus.rs` replays those in `fuzz/corpus`.
+//! too much memory, and `tests/tests/corpus.rs` replays those in `evidence/fuzz/corpus`.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -17,7 +17,7 @@ use shadowstep_sweeps::SweepPlan;
 use shadowstep_symbolic::{Budget, Exact, evaluate_within, exact, parse};
 use tempfile::TempDir;
 
-/// A reader: what it reads, which is the name of its folder in `fuzz/corpus`, and how.
+/// A reader: what it reads, which is the name of its folder in `evidence/fuzz/corpus`, and how.
 pub type Reader = (&'static str, fn(&[u8]));
 
 /// All readers.

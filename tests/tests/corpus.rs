@@ -7,7 +7,7 @@ use shadowstep_tests::readers::READERS;
 
 #[test]
 fn the_corpus_is_read() {
-    let corpus = Path::new(env!("CARGO_MANIFEST_DIR")).join("../fuzz/corpus");
+    let corpus = Path::new(env!("CARGO_MANIFEST_DIR")).join("../evidence/fuzz/corpus");
     for (name, reader) in READERS {
         let files = fs::read_dir(corpus.join(name)).unwrap().map(|entry| entry.unwrap().path());
         let mut files: Vec<_> = files.collect();

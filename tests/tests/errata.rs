@@ -13,7 +13,7 @@ use shadowstep_tests::refusals::{assert_orders, assert_refused, judge, judge_nam
 use toml::Table;
 
 const PAGE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../docs/errata-of-published-tables.md");
-const ANALYSIS_TESTS: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../analysis/tests");
+const ANALYSIS_TESTS: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../crates/analysis/tests");
 const DIGITS: [&str; 2] = ["<!-- digits: begin -->", "<!-- digits: end -->"];
 
 static TEXT: LazyLock<String> = LazyLock::new(|| fs::read_to_string(PAGE).unwrap());
@@ -51,7 +51,7 @@ fn says(text: &str) {
     assert!(words(&TEXT).contains(&words(text)), "the page does not say: {text}");
 }
 
-/// A table as printed, of `analysis/tests/published`.
+/// A table as printed, of `crates/analysis/tests/published`.
 fn printed(name: &str) -> String {
     fs::read_to_string(format!("{ANALYSIS_TESTS}/published/{name}.toml")).expect(name)
 }

@@ -1,5 +1,5 @@
 //! Protects what is written and read back: settings of estimators, weights of tables, values of scenes. Round trips of
-//! exact numbers are in `symbolic/tests/decimal.rs`.
+//! exact numbers are in `crates/symbolic/tests/decimal.rs`.
 
 use proptest::prelude::*;
 use shadowstep::Rational;

@@ -7,7 +7,7 @@ use std::fs;
 
 use shadowstep_schemes::{Proved, Source, read, shipped, shipped_names, shipped_proved};
 
-const FOLDER: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../analysis/tests/published");
+const FOLDER: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../crates/analysis/tests/published");
 
 /// Tables of which some last digits are wrong in print, with the decimal that is off by most, in units of its last
 /// place.

@@ -16,7 +16,7 @@ use crate::report::{self, Status};
 const EXAMPLES: &str = "\
 Examples:
   shadowstep schemes prove yoshida4 > yoshida4.json
-  python3 tests/certificates/check.py yoshida4.json";
+  python3 evidence/certificates/check.py yoshida4.json";
 
 /// Writes the proof of the order as a certificate.
 ///

@@ -99,7 +99,7 @@ const REMARK: &str = "seems to be misprinted";
 
 /// The report on a published table with other digits in one place.
 fn with_misprint(name: &str, right: &str, wrong: &str) -> String {
-    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../analysis/tests/published");
+    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../crates/analysis/tests/published");
     let text = fs::read_to_string(format!("{folder}/{name}.toml")).unwrap();
     assert!(text.contains(right), "{name}: {right}");
     let (_folder, path) = printed(&text.replace(right, wrong));
@@ -126,7 +126,7 @@ fn a_misprinted_weight_is_named() {
 /// Yoshida's C and D are wrong throughout, and the small weight of his 6C was printed to digits that were not computed.
 #[test]
 fn an_error_as_large_as_the_others_is_not_a_misprint() {
-    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../analysis/tests/published");
+    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../crates/analysis/tests/published");
     for file in fs::read_dir(folder).unwrap().map(|file| file.unwrap().path()) {
         let name = file.file_stem().unwrap().to_str().unwrap();
         if name.starts_with("yoshida") {

@@ -9,7 +9,7 @@ use shadowstep_schemes::{shipped_names, shipped_proved};
 
 use crate::program::{objects, quietly, shadowstep};
 
-const CHECKER: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../tests/certificates/check.py");
+const CHECKER: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../evidence/certificates/check.py");
 
 /// Whether a program accepts files, and what it writes.
 fn accepted(program: &str, paths: &[String]) -> (bool, String) {

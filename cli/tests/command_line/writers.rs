@@ -25,20 +25,23 @@ const CALLS_OF_PYTHON: [&str; 8] =
 
 /// Files that have such calls, and why.
 const REASONS: [(&str, &str); 11] = [
-    ("scenes/src/whole_file.rs", "it is the way"),
+    ("crates/scenes/src/whole_file.rs", "it is the way"),
     (
-        "scenes/src/results/resumable.rs",
+        "crates/scenes/src/results/resumable.rs",
         "what is resumed has names that are known, and is opened by open_locked; a checkpoint is a new file",
     ),
     (
-        "studies/src/store.rs",
+        "crates/studies/src/store.rs",
         "outcomes are appended, by open_locked; a folder that the user names; another version's file is renamed",
     ),
-    ("sweeps/src/chunk.rs", "several processes write a chunk: new files of random names; folders that are not links"),
-    ("sweeps/src/partial.rs", "as chunk.rs"),
-    ("sweeps/src/manifest.rs", "as chunk.rs; the first of several processes writes the plan"),
-    ("sweeps/src/slurm/script.rs", "as manifest.rs"),
-    ("sweeps/src/slurm/jobs.rs", "a line is appended, by open_itself"),
+    (
+        "crates/sweeps/src/chunk.rs",
+        "several processes write a chunk: new files of random names; folders that are not links",
+    ),
+    ("crates/sweeps/src/partial.rs", "as chunk.rs"),
+    ("crates/sweeps/src/manifest.rs", "as chunk.rs; the first of several processes writes the plan"),
+    ("crates/sweeps/src/slurm/script.rs", "as manifest.rs"),
+    ("crates/sweeps/src/slurm/jobs.rs", "a line is appended, by open_itself"),
     ("cli/src/man.rs", "a folder that the user names"),
     ("cli/src/terminal.rs", "a new folder among the temporary ones of the system"),
     ("python/shadowstep/work_precision.py", "a new folder among the temporary ones of the system"),
@@ -65,7 +68,8 @@ fn code(text: &str) -> impl Iterator<Item = &str> {
 fn files_are_written_in_one_way() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap();
     let mut all = Vec::new();
-    let crates = fs::read_dir(root).unwrap().map(|entry| entry.unwrap().path());
+    let folders = [root.to_owned(), root.join("crates"), root.join("evidence")];
+    let crates = folders.iter().flat_map(|folder| fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()));
     crates
         .filter(|folder| folder.join("src").is_dir() && !["fuzz", "tests"].iter().any(|own| folder.ends_with(own)))
         .for_each(|folder| files(&folder.join("src"), &mut all));
