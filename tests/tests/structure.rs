@@ -5,6 +5,7 @@ mod circles;
 mod imports;
 mod made_up;
 mod source;
+mod way_of_a_run;
 
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};

@@ -137,7 +137,16 @@ pub(crate) struct View<'a, N: RunNumber> {
     pub(crate) vectors: Option<FollowingVectors>,
 }
 
-impl<N: RunNumber> View<'_, N> {
+impl<'a, N: RunNumber> View<'a, N> {
+    pub(crate) fn new(
+        system: &'a System,
+        run: Run<'a>,
+        context: &'a N::Context,
+        vectors: Option<FollowingVectors>,
+    ) -> Self {
+        View { system, run, context, shown: system.shown(context), energy_of: system.energy_of_rows(context), vectors }
+    }
+
     /// The state of the integrator.
     pub(crate) fn at<'s, 'i>(&'s mut self, n: i64, integrator: &'s mut VectorIntegrator<'i, N>) -> At<'s, 'i, N> {
         let View { system, run, context, shown, energy_of, vectors } = self;

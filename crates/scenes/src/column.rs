@@ -8,6 +8,7 @@ use crate::error::Error;
 use crate::moment::Moment;
 use crate::run::Run;
 use crate::run_number::RunNumber;
+use crate::watch::Watch;
 
 /// Takes states of a run.
 pub trait Column<N: RunNumber> {
@@ -72,4 +73,17 @@ pub trait Column<N: RunNumber> {
 /// The next multiple of `every` after n.
 pub fn next_multiple(n: i64, every: u64) -> i64 {
     n.saturating_add_unsigned(every - n.unsigned_abs() % every)
+}
+
+/// Shows a state to all columns. H, where it is computed, is of the error of H, too.
+pub(crate) fn show<N: RunNumber>(
+    columns: &mut [&mut dyn Column<N>],
+    watch: &mut Option<Watch<N>>,
+    at: &mut At<'_, '_, N>,
+) -> Result<(), Error> {
+    columns.iter_mut().try_for_each(|column| column.take(at))?;
+    if let (Some(watch), Some(energy), None) = (watch, &at.energy, &at.energy_of) {
+        watch.include_energy(at.n, energy);
+    }
+    Ok(())
 }

@@ -7,9 +7,48 @@ use shadowstep::number::Float;
 use shadowstep::number::{AnyLimbs, DoubleDouble};
 use shadowstep_symbolic::Exact;
 
-use crate::arithmetic::{Arithmetic, Digits, Numbers};
-pub use crate::follow::FollowedNumber;
+use crate::arithmetic::{Arithmetic, Digits, Numbers, number_types};
+use crate::column::Column;
+use crate::error::Error;
+use crate::follow;
+use crate::observer::Observer;
+use crate::posed::{Followed, Posed};
 pub use crate::run_number::{RunMonitor, RunNumber};
+
+/// A number type in which runs are made.
+pub trait FollowedNumber: RunNumber {
+    /// Makes a run and shows its states to columns; without an end that is known before, until a column, a condition or
+    /// a physical time ends it.
+    ///
+    /// # Errors
+    /// Crossings with displaced forces; a state or an energy that is not finite; settings of the estimator that are not
+    /// valid; those of the columns.
+    fn follow(
+        posed: &Posed<'_>,
+        context: &Self::Context,
+        columns: &mut [&mut dyn Column<Self>],
+        observer: &mut dyn Observer,
+    ) -> Result<Followed, Error>;
+}
+
+// not inlined: callers in other crates would compile it once more
+macro_rules! followed_numbers {
+    ($($number:ty),*) => {$(
+        impl FollowedNumber for $number {
+            #[inline(never)]
+            fn follow(
+                posed: &Posed<'_>,
+                context: &Self::Context,
+                columns: &mut [&mut dyn Column<Self>],
+                observer: &mut dyn Observer,
+            ) -> Result<Followed, Error> {
+                follow::follow(posed, context, columns, observer)
+            }
+        }
+    )*};
+}
+
+number_types!(followed_numbers);
 
 /// A computation that can be made in every number type.
 pub trait Computation {

@@ -2,9 +2,7 @@
 //! and shows them to columns.
 
 use std::ops::ControlFlow::{self, Break, Continue};
-use std::time::{Duration, Instant};
 
-use num_traits::Signed;
 use shadowstep::number::saved::{Fields, Saved as _};
 use shadowstep::shadow::run::{RunError, ShadowRun, States as _, Trajectory};
 use shadowstep::shadow::{Estimate, EstimatorSettings};
@@ -12,69 +10,28 @@ use shadowstep::steps::integrator::{VectorIntegrator, at_output};
 use shadowstep::steps::step_to_time;
 use shadowstep::{Carried, Rational};
 
-use crate::arithmetic::number_types;
 use crate::at::{At, Place, View};
-use crate::column::{Column, next_multiple};
+use crate::column::{Column, next_multiple, show};
 use crate::crossings::{Crossings, NEEDS_PARTS_OF_STEPS};
 use crate::error::Error;
-use crate::evaluator::Test;
-use crate::moment::Moment;
+use crate::moment::{Moment, Moments};
 use crate::note::Note;
 use crate::observer::Observer;
 use crate::pace::Pace;
-use crate::passing::{Block, Passing, is_past};
+use crate::passing::{Ends, Passing};
 use crate::posed::{Followed, Posed, unreadable};
 use crate::run::Run;
 use crate::run_number::RunNumber;
-use crate::saved_state::SavedState;
 use crate::saved_summary::SavedSummary;
 use crate::scene::CheckpointInterval;
-use crate::snapshots::{Snapshot, Snapshots};
-use crate::watch::{Energies, Watch};
-
-/// Where a state takes longer than this, each has its checkpoint: a program that is asked to end may not wait for the
-/// next one.
-const LONG: Duration = Duration::from_millis(500);
+use crate::snapshots::Snapshot;
+use crate::watch::Watch;
 
 /// The observer is asked at each of the first states: it may stop short runs anywhere.
 const ONE_BY_ONE: u64 = 256;
 
-/// A number type in which runs are made.
-pub trait FollowedNumber: RunNumber {
-    /// Makes a run and shows its states to columns; without an end that is known before, until a column, a condition or
-    /// a physical time ends it.
-    ///
-    /// # Errors
-    /// Crossings with displaced forces; a state or an energy that is not finite; settings of the estimator that are not
-    /// valid; those of the columns.
-    fn follow(
-        posed: &Posed<'_>,
-        context: &Self::Context,
-        columns: &mut [&mut dyn Column<Self>],
-        observer: &mut dyn Observer,
-    ) -> Result<Followed, Error>;
-}
-
-// not inlined: callers in other crates would compile it once more
-macro_rules! followed_numbers {
-    ($($number:ty),*) => {$(
-        impl FollowedNumber for $number {
-            #[inline(never)]
-            fn follow(
-                posed: &Posed<'_>,
-                context: &Self::Context,
-                columns: &mut [&mut dyn Column<Self>],
-                observer: &mut dyn Observer,
-            ) -> Result<Followed, Error> {
-                follow(posed, context, columns, observer)
-            }
-        }
-    )*};
-}
-
-number_types!(followed_numbers);
-
-fn follow<N: RunNumber>(
+/// Makes a run and shows its states to columns.
+pub(crate) fn follow<N: RunNumber>(
     posed: &Posed<'_>,
     context: &N::Context,
     columns: &mut [&mut dyn Column<N>],
@@ -100,12 +57,7 @@ struct Following<'a, 'c, N: RunNumber> {
     view: View<'a, N>,
     watch: Option<Watch<N>>,
     crossings: Option<Crossings<N>>,
-    /// The condition that ends the run.
-    test: Option<Test<N>>,
-    /// Where the condition is tested at many states at once.
-    block: Option<Block<N>>,
-    /// The physical time that no state is to pass, and whether steps go forwards.
-    until: Option<(N, bool)>,
+    ends: Ends<N>,
     /// Whether a column sees each state.
     sees_each: bool,
     /// The state from which the run is resumed; `None` at its beginning.
@@ -128,16 +80,11 @@ struct Following<'a, 'c, N: RunNumber> {
     written: i64,
     /// The last state; until it is known the newest one, of a run with a physical end.
     state: Option<Snapshot<N>>,
-    /// The states from which estimates can be computed again.
-    snapshots: Snapshots<N>,
+    moments: Moments<N>,
     /// Evaluations of the gradient at the first state and at the last one.
     evaluations: [u64; 2],
     /// Of asking the observer.
     pace: Pace,
-    last_checkpoint: Instant,
-    last_state: Instant,
-    /// Whether the last state was kept as that.
-    is_kept: bool,
 }
 
 impl<'a, 'c, N: RunNumber> Following<'a, 'c, N> {
@@ -150,27 +97,14 @@ impl<'a, 'c, N: RunNumber> Following<'a, 'c, N> {
     ) -> Result<Self, Error> {
         let Posed { system, run, .. } = *posed;
         let first = from.unwrap_or(0);
-        let test = |condition| Test::new(condition, system, context).expect("it was checked with the system");
-        let until = posed.until.map(|until| (N::from_rational(until, context), until.is_positive()));
-        let test = posed.ends.map(test);
+        let ends = Ends::of(posed, context);
         let sees_each = columns.iter().any(|column| column.sees_each());
-        // H, and the trajectory of a processed scheme, are known at the present state only
-        let needs_system = |test: &Test<N>| test.has_energy() || integrator.is_processed();
         let mut following = Following {
-            one_by_one: sees_each || posed.section.is_some() || test.as_ref().is_some_and(needs_system),
-            view: View {
-                system,
-                run,
-                context,
-                shown: system.shown(context),
-                energy_of: system.energy_of_rows(context),
-                vectors: posed.tangents()?,
-            },
+            one_by_one: sees_each || posed.section.is_some() || ends.need_system(integrator.is_processed()),
+            view: View::new(system, run, context, posed.tangents()?),
             watch: None,
             crossings: posed.section.map(|surface| Crossings::new(surface, system, context)),
-            test,
-            block: posed.ends.filter(|_| until.is_none()).and_then(|condition| Block::of(condition, system)),
-            until,
+            ends,
             sees_each,
             from,
             last: i64::try_from(run.steps).unwrap_or(i64::MAX),
@@ -182,38 +116,16 @@ impl<'a, 'c, N: RunNumber> Following<'a, 'c, N> {
             due: 0,
             written: posed.resumed.checkpoint.map_or(-1, |checkpoint| checkpoint.n),
             state: None,
-            snapshots: Snapshots::new(0),
+            moments: Moments::new(posed.resumed.interval),
             evaluations: [0; 2],
             pace: Pace::new(first.unsigned_abs() + ONE_BY_ONE),
-            last_checkpoint: Instant::now(),
-            last_state: Instant::now(),
-            is_kept: false,
             posed,
             columns,
             observer,
         };
-        following.watch = following.watch(integrator)?;
+        following.watch = posed.watch(integrator, (first, following.view.energy_of.is_some()), context)?;
         following.resume_summary()?;
         Ok(following)
-    }
-
-    /// Follows the run for the error of H and a summary, where these are wanted.
-    fn watch(&self, integrator: &mut VectorIntegrator<'_, N>) -> Result<Option<Watch<N>>, Error> {
-        let Posed { system, energies, summarised, .. } = *self.posed;
-        if energies.is_none() && !summarised {
-            return Ok(None);
-        }
-        let energies = match energies {
-            // the rows have another function than the steps conserve
-            Some(Energies::Given(_)) if self.view.energy_of.is_some() => Energies::Windows,
-            energies => energies.unwrap_or(Energies::Windows),
-        };
-        let (q, p) = system.start(self.view.context);
-        let initial = integrator.energy_at(&q, &p);
-        let (run, from) = (self.posed.run, self.from.unwrap_or(0));
-        let watch = Watch::begin(integrator, run, (from, initial), energies, (summarised, self.posed.is_open()));
-        let watch = watch.map_err(|error| self.posed.named(run, &error))?;
-        Ok(Some(watch.of_system(system, integrator)))
     }
 
     /// Goes on with the summary from that of the run before.
@@ -288,15 +200,15 @@ impl<'a, 'c, N: RunNumber> Following<'a, 'c, N> {
         trajectory: &mut Trajectory<&mut VectorIntegrator<'_, N>>,
         (from, n): (i64, i64),
     ) -> Result<(), RunError> {
-        let Following { watch, test, until, view, block, .. } = self;
-        if test.is_none() && until.is_none() {
+        let Following { watch, ends, view, .. } = self;
+        if ends.are_none() {
             return match watch {
                 Some(watch) => trajectory.reach_visited(n, watch),
                 None => trajectory.reach(n),
             };
         }
         let before = Snapshot::of(from, trajectory.integrator().state());
-        let mut passing = Passing { watch, test, until, view, block, n: from, has_ended: false };
+        let mut passing = Passing { watch, ends, view, n: from, has_ended: false };
         let made = trajectory.reach_visited(n, &mut passing);
         let has_ended = passing.finish();
         self.seen = passing.n;
@@ -321,10 +233,8 @@ impl<'a, 'c, N: RunNumber> Following<'a, 'c, N> {
             Some(from) => ShadowRun::resume(integrator, from, steps, &settings),
         };
         let mut run = begun.map_err(|error| self.failed(&error))?;
-        self.snapshots = Snapshots::new(run.reach());
-        if let Some(from) = self.from {
-            self.snapshots.begin(Snapshot::of(from, run.integrator().state()));
-        }
+        let first = self.from.map(|from| Snapshot::of(from, run.integrator().state()));
+        self.moments.estimate(run.reach(), first);
         loop {
             let next = run.advance_with(|n, trajectory| {
                 self.see(n, *trajectory.integrator());
@@ -359,20 +269,18 @@ impl<'a, 'c, N: RunNumber> Following<'a, 'c, N> {
     /// Sees the state n, at which the integrator is. Whether it is past the physical end, so that the state before is
     /// the last one.
     fn see(&mut self, n: i64, integrator: &mut VectorIntegrator<'_, N>) -> bool {
-        if self.posed.estimator.is_some() {
-            self.snapshots.offer(n, integrator.state());
-        }
+        self.moments.offer(n, integrator.state());
         if n == 0 {
             self.evaluations[0] = integrator.state().evaluations();
         }
         if n > self.last {
             return false;
         }
-        if self.until.as_ref().is_some_and(|until| is_past(integrator.state().q(), until)) {
-            (self.last, self.until) = (n - 1, None);
+        if self.ends.are_passed(integrator.state().q()) {
+            (self.last, self.ends.until) = (n - 1, None);
             return true;
         }
-        if n >= 0 && (self.sees_each || self.test.is_some()) {
+        if n >= 0 && (self.sees_each || self.ends.test.is_some()) {
             self.see_each(n, integrator);
         }
         // it has begun at the first state
@@ -380,7 +288,7 @@ impl<'a, 'c, N: RunNumber> Following<'a, 'c, N> {
             watch.include(n, integrator);
         }
         self.seen = self.seen.max(n);
-        if n == self.last || self.until.is_some() {
+        if n == self.last || self.ends.until.is_some() {
             self.evaluations[1] = integrator.state().evaluations();
             match &mut self.state {
                 Some(state) => state.update(n, integrator.state()),
@@ -398,13 +306,13 @@ impl<'a, 'c, N: RunNumber> Following<'a, 'c, N> {
                 (self.last, self.is_ended_by_column) = (n, true);
             }
         }
-        if let Some(test) = self.test.as_mut().filter(|_| n > 0)
+        if let Some(test) = self.ends.test.as_mut().filter(|_| n > 0)
             && at_output(integrator, |integrator| test.is_met(integrator.system(), || run.time(n)))
         {
             (self.last, self.is_met) = (n, true);
         }
         if self.last == n {
-            self.until = None;
+            self.ends.until = None;
         }
     }
 
@@ -433,13 +341,7 @@ impl<'a, 'c, N: RunNumber> Following<'a, 'c, N> {
                 None => at_output(integrator, |integrator| {
                     show(columns, watch, &mut At { is_last, is_met, ..view.at(n, integrator) })
                 })?,
-                Some(estimate) => {
-                    show(
-                        columns,
-                        watch,
-                        &mut At { is_last, is_met, estimate: Some(estimate), ..view.at(n, integrator) },
-                    )?;
-                }
+                estimate => show(columns, watch, &mut At { is_last, is_met, estimate, ..view.at(n, integrator) })?,
             }
         }
         self.observer.progress(n);
@@ -465,53 +367,28 @@ impl<'a, 'c, N: RunNumber> Following<'a, 'c, N> {
     /// run is stopped: then it ends.
     fn keep_if_due(&mut self, n: i64, integrator: &VectorIntegrator<'_, N>) -> Result<(), Error> {
         self.is_stopped = self.observer.stops();
-        let is_due = match self.posed.resumed.interval {
-            None => false,
-            Some(interval) => self.is_time_for_a_moment(n, interval) || n == self.last,
-        };
-        if n <= self.written || !(is_due || self.is_stopped) {
+        if n <= self.written || !(self.moments.is_due(n, self.last) || self.is_stopped) {
             return Ok(());
         }
-        self.keep_at(n, || Snapshot::of(n, integrator.state()))
+        self.keep(n, || Snapshot::of(n, integrator.state()))
     }
 
-    /// Keeps the moment of the state n, from which the run can be resumed, or with estimates from an earlier one.
-    fn keep_at(&mut self, n: i64, state: impl FnOnce() -> Snapshot<N>) -> Result<(), Error> {
-        let state = match self.posed.estimator {
-            None => Some(state()),
-            Some(_) => self.snapshots.for_those_after(n).cloned(),
-        };
-        self.keep(n, state.as_ref())
-    }
-
-    fn is_time_for_a_moment(&mut self, n: i64, interval: CheckpointInterval) -> bool {
-        let now = Instant::now();
-        let took = now.duration_since(std::mem::replace(&mut self.last_state, now));
-        took >= LONG
-            || match interval {
-                CheckpointInterval::Steps(every) => n.unsigned_abs().is_multiple_of(every),
-                CheckpointInterval::Time(time) => now.duration_since(self.last_checkpoint) >= time,
-            }
-    }
-
-    /// `state` is the one from which the run can be resumed; `None` for the state at t = 0.
+    /// Keeps the moment of the state n.
     #[cold]
-    fn keep(&mut self, n: i64, state: Option<&Snapshot<N>>) -> Result<(), Error> {
+    fn keep(&mut self, n: i64, state: impl FnOnce() -> Snapshot<N>) -> Result<(), Error> {
         let vectors = match &self.view.vectors {
             None => Some(Vec::new()),
             Some(vectors) => vectors.saved(),
         };
-        match (state.map(SavedState::of), vectors) {
-            (Some(None), _) | (_, None) => self.observer.note(&Note::NoCheckpoint { n }),
-            (saved, Some(vectors)) => {
-                let summarised = self.posed.summarised;
-                let summary = summarised.then(|| SavedSummary::of(self.seen, |to| self.fields(to))).flatten();
-                let moment = Moment { n, is_last: n == self.last, state: saved.flatten(), vectors, summary };
-                self.columns.iter_mut().try_for_each(|column| column.keep(&moment))?;
-                self.is_kept = moment.is_last;
-            }
-        }
-        self.last_checkpoint = Instant::now();
+        let (Some(state), Some(vectors)) = (self.moments.begin(n, state), vectors) else {
+            self.observer.note(&Note::NoCheckpoint { n });
+            return Ok(());
+        };
+        let summarised = self.posed.summarised;
+        let summary = summarised.then(|| SavedSummary::of(self.seen, |to| self.fields(to))).flatten();
+        let moment = Moment { n, is_last: n == self.last, state, vectors, summary };
+        self.columns.iter_mut().try_for_each(|column| column.keep(&moment))?;
+        self.moments.is_kept_at_end = moment.is_last;
         Ok(())
     }
 
@@ -533,9 +410,9 @@ impl<'a, 'c, N: RunNumber> Following<'a, 'c, N> {
         }
         followed.n = self.last;
         let last = self.state.take().expect("the last state was seen");
-        if self.posed.resumed.interval.is_some() && !self.is_kept && self.last > self.written {
+        if self.moments.lacks_end() && self.last > self.written {
             // that it is the last one was known later
-            self.keep_at(self.last, || last.clone())?;
+            self.keep(self.last, || last.clone())?;
         }
         let (mut q, mut p) = (last.q, last.p);
         integrator.postprocess_state(&mut q, &mut p);
@@ -579,19 +456,6 @@ impl<'a, 'c, N: RunNumber> Following<'a, 'c, N> {
         let at = At { place: Place::PhysicalEnd, ..self.view.at(self.last + 1, integrator) };
         show(self.columns, &mut None, &mut { at })
     }
-}
-
-/// Shows a state to all columns. H, where it is computed, is of the error of H, too.
-fn show<N: RunNumber>(
-    columns: &mut [&mut dyn Column<N>],
-    watch: &mut Option<Watch<N>>,
-    at: &mut At<'_, '_, N>,
-) -> Result<(), Error> {
-    columns.iter_mut().try_for_each(|column| column.take(at))?;
-    if let (Some(watch), Some(energy), None) = (watch, &at.energy, &at.energy_of) {
-        watch.include_energy(at.n, energy);
-    }
-    Ok(())
 }
 
 #[cfg(test)]

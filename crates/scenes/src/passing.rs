@@ -2,12 +2,14 @@
 
 use std::any::TypeId;
 
+use num_traits::Signed;
 use shadowstep::systems::system::Visitor;
 
 use crate::at::View;
 use crate::evaluator::{Test, TestInLanes};
 use crate::expression::Condition;
 use crate::lanes::LANES;
+use crate::posed::Posed;
 use crate::run_number::RunNumber;
 use crate::scene::System;
 use crate::watch::Watch;
@@ -15,13 +17,49 @@ use crate::watch::Watch;
 /// Passes states until the run ends with one of them, or before it.
 pub(crate) struct Passing<'s, 'a, N: RunNumber> {
     pub(crate) watch: &'s mut Option<Watch<N>>,
-    pub(crate) test: &'s mut Option<Test<N>>,
-    pub(crate) until: &'s Option<(N, bool)>,
+    pub(crate) ends: &'s mut Ends<N>,
     pub(crate) view: &'s View<'a, N>,
-    pub(crate) block: &'s mut Option<Block<N>>,
     /// The last state before.
     pub(crate) n: i64,
     pub(crate) has_ended: bool,
+}
+
+/// What ends a run before its most steps.
+pub(crate) struct Ends<N> {
+    /// A condition.
+    pub(crate) test: Option<Test<N>>,
+    /// Where the condition is tested at many states at once.
+    block: Option<Block<N>>,
+    /// The physical time that no state is to pass, and whether steps go forwards.
+    pub(crate) until: Option<(N, bool)>,
+}
+
+impl<N: RunNumber> Ends<N> {
+    pub(crate) fn of(posed: &Posed<'_>, context: &N::Context) -> Self {
+        let Posed { system, ends, until, .. } = *posed;
+        let test = |condition| Test::new(condition, system, context).expect("it was checked with the system");
+        Ends {
+            test: ends.map(test),
+            block: ends.filter(|_| until.is_none()).and_then(|condition| Block::of(condition, system)),
+            until: until.map(|until| (N::from_rational(until, context), until.is_positive())),
+        }
+    }
+
+    pub(crate) fn are_none(&self) -> bool {
+        self.test.is_none() && self.until.is_none()
+    }
+
+    /// Whether they need more than q and p of a state: H, and the trajectory of a processed scheme, are known at the
+    /// present state only.
+    pub(crate) fn need_system(&self, is_processed: bool) -> bool {
+        self.test.as_ref().is_some_and(|test| test.has_energy() || is_processed)
+    }
+
+    /// Whether a state is past the physical end.
+    pub(crate) fn are_passed(&self, q: &[N]) -> bool {
+        let t = || q.last().expect("time is a coordinate");
+        self.until.as_ref().is_some_and(|(until, forwards)| if *forwards { t() > until } else { t() < until })
+    }
 }
 
 /// States whose condition is tested at once: evaluated in lanes, a formula costs little more than at one state.
@@ -50,7 +88,7 @@ impl<N: RunNumber> Passing<'_, '_, N> {
     }
 
     fn test_block(&mut self) {
-        let Some(Block { test, count, numbers }) = &mut self.block else { return };
+        let Some(Block { test, count, numbers }) = &mut self.ends.block else { return };
         let size = 2 * self.view.system.dimension();
         let first = test.first_met(*count);
         self.has_ended |= first.is_some();
@@ -70,7 +108,7 @@ impl<N: RunNumber> Visitor<N> for Passing<'_, '_, N> {
         if self.has_ended {
             return;
         }
-        if let Some(block) = &mut self.block {
+        if let Some(block) = &mut self.ends.block {
             block.test.set(block.count, (q, p));
             block.count += 1;
             if self.watch.is_some() {
@@ -83,9 +121,8 @@ impl<N: RunNumber> Visitor<N> for Passing<'_, '_, N> {
             return;
         }
         let (n, View { run, context, .. }) = (self.n + 1, self.view);
-        let is_past = self.until.as_ref().is_some_and(|until| is_past(q, until));
         let mut is_met = |test: &mut Test<N>| test.is_met_at((q, p), || run.time_in(n, *context));
-        if is_past || self.test.as_mut().is_some_and(&mut is_met) {
+        if self.ends.are_passed(q) || self.ends.test.as_mut().is_some_and(&mut is_met) {
             self.has_ended = true;
             return;
         }
@@ -94,10 +131,4 @@ impl<N: RunNumber> Visitor<N> for Passing<'_, '_, N> {
             watch.visit(q, p);
         }
     }
-}
-
-/// Whether a state is past the physical end; `until` is its time, and whether steps go forwards.
-pub(crate) fn is_past<N: RunNumber>(q: &[N], (until, forwards): &(N, bool)) -> bool {
-    let t = q.last().expect("time is a coordinate");
-    if *forwards { t > until } else { t < until }
 }

@@ -2,8 +2,9 @@
 
 use shadowstep::shadow::EstimatorSettings;
 use shadowstep::shadow::run::RunError;
+use shadowstep::steps::integrator::VectorIntegrator;
 use shadowstep::tables::{AtRunTime, TableScheme};
-use shadowstep::{MotionError, Rational};
+use shadowstep::{Integrator as _, MotionError, Rational};
 
 use crate::arithmetic::Arithmetic;
 use crate::error::Error;
@@ -14,8 +15,8 @@ use crate::run_number::RunNumber;
 use crate::scene::{CheckpointInterval, Scene, Surface, System};
 use crate::start::{Begin, SceneIntegrator, Steps};
 use crate::tangent::{FollowingVectors, Vectors};
-use crate::watch::Energies;
 use crate::watch::summary::{EnergySummary, Summary};
+use crate::watch::{Energies, Watch};
 
 /// A run from t = 0: all that determines its states, and what is computed beside them.
 #[derive(Clone, Copy)]
@@ -140,6 +141,29 @@ impl<'a> Posed<'a> {
             Some(Checkpoint { n, vectors: saved, .. }) if !vectors.restore(*n, saved) => Err(unreadable(*n)),
             _ => Ok(Some(vectors)),
         }
+    }
+
+    /// Follows the run for the error of H and a summary, where these are wanted.
+    /// `from` is the n of its state, with whether rows have another function than the steps conserve.
+    pub(crate) fn watch<N: RunNumber>(
+        &self,
+        integrator: &mut VectorIntegrator<'_, N>,
+        (from, has_other_energy): (i64, bool),
+        context: &N::Context,
+    ) -> Result<Option<Watch<N>>, Error> {
+        let Posed { system, run, energies, summarised, .. } = *self;
+        if energies.is_none() && !summarised {
+            return Ok(None);
+        }
+        let energies = match energies {
+            Some(Energies::Given(_)) if has_other_energy => Energies::Windows,
+            energies => energies.unwrap_or(Energies::Windows),
+        };
+        let (q, p) = system.start(context);
+        let initial = integrator.energy_at(&q, &p);
+        let watch = Watch::begin(integrator, run, (from, initial), energies, (summarised, self.is_open()));
+        let watch = watch.map_err(|error| self.named(run, &error))?;
+        Ok(Some(watch.of_system(system, integrator)))
     }
 
     /// Whether something else than the number of steps may end the run.
