@@ -25,33 +25,7 @@ pub(crate) fn emit(definition: &Definition) -> syn::Result<TokenStream> {
     } else {
         quote! { <N> }
     };
-    let x = &definition.arguments[0];
-    let [i, j, energy, slope, summand, scratch] = ["i", "j", "energy", "slope", "summand", "scratch"].map(own);
-    let methods =
-        Methods { programs: &programs, names: definition.names(), arguments: property_values(definition, [&i, &j]) };
-    let [xs, energies, slopes, summands, lane] = ["xs", "energies", "slopes", "summands", "lane"].map(own);
-    let in_lane = Methods {
-        programs: &programs,
-        names: definition.names(),
-        arguments: values_in_lane(definition, [&i, &xs, &lane]),
-    };
-    let block = own("block");
-    let property_blocks = property_blocks(definition, [&j, &block]);
-    let each =
-        Methods { programs: &programs, names: definition.names(), arguments: values_of_copies(definition, &lane) };
-    let property_copies = property_copies(definition, [&i, &j]);
-    let each_body = each.each_gradient([&lane, &xs, &slopes, &slope], x);
-    let prepare =
-        methods.prepare("prepare").unwrap_or_else(|| quote! { fn prepare(&self, _: &mut [N], _: &N::Context) {} });
-    let energy_body = methods.energy(&energy);
-    let slope_body = methods.gradient(&[quote! { #slope }]);
-    let summand_body = methods.gradient_and_rate(&[quote! { #slope }, quote! { #summand }]);
-    let outputs = [(slopes.clone(), slope.clone()), (summands.clone(), summand.clone())];
-    let energies_body = in_lane.energy_of_block(&lane, &[(energies.clone(), energy.clone())]);
-    let slopes_body = in_lane.gradient_of_block(&lane, &outputs[..1]);
-    let summands_body = in_lane.gradient_and_rate_of_block(&lane, &outputs);
-    let width = own("W");
-    let scratch_size = size(methods.scratch());
+    let [one_by_one, in_blocks, each] = [one_by_one, in_blocks, each].map(|methods| methods(definition, &programs));
     let kind = format_ident!("{separation:?}");
     let given = programs.summand;
     let given = format_ident!("{given:?}");
@@ -66,85 +40,9 @@ pub(crate) fn emit(definition: &Definition) -> syn::Result<TokenStream> {
 
         #[allow(unused_variables, clippy::all)]
         impl<N: ::shadowstep::Number> ::shadowstep::systems::pairs::PairPotential<N> for #this {
-            fn scratch(&self) -> usize { #scratch_size }
-            #prepare
-            fn energy(&self, #i: usize, #j: usize, #x: &N, #energy: &mut N, #scratch: &mut [N]) {
-                #energy_body
-            }
-            #[inline(always)]
-            fn slope(&self, #i: usize, #j: usize, #x: &N, #slope: &mut N, #scratch: &mut [N]) {
-                #slope_body
-            }
-            #[inline(always)]
-            fn slope_and_summand(
-                &self,
-                #i: usize,
-                #j: usize,
-                #x: &N,
-                #slope: &mut N,
-                #summand: &mut N,
-                #scratch: &mut [N],
-            ) {
-                #summand_body
-            }
-            #[inline(always)]
-            fn energies<const #width: usize>(
-                &self,
-                #i: usize,
-                #j: usize,
-                #xs: &[[N; #width]],
-                #energies: &mut [[N; #width]],
-                #scratch: &mut [N],
-            ) {
-                for #block in 0..#xs.len() {
-                    let (#xs, #energies) = (&#xs[#block], &mut #energies[#block]);
-                    #property_blocks
-                    #energies_body
-                }
-            }
-            #[inline(always)]
-            fn slopes<const #width: usize>(
-                &self,
-                #i: usize,
-                #j: usize,
-                #xs: &[[N; #width]],
-                #slopes: &mut [[N; #width]],
-                #scratch: &mut [N],
-            ) {
-                for #block in 0..#xs.len() {
-                    let (#xs, #slopes) = (&#xs[#block], &mut #slopes[#block]);
-                    #property_blocks
-                    #slopes_body
-                }
-            }
-            #[inline(always)]
-            fn slopes_and_summands<const #width: usize>(
-                &self,
-                #i: usize,
-                #j: usize,
-                #xs: &[[N; #width]],
-                #slopes: &mut [[N; #width]],
-                #summands: &mut [[N; #width]],
-                #scratch: &mut [N],
-            ) {
-                for #block in 0..#xs.len() {
-                    let (#xs, #slopes, #summands) =
-                        (&#xs[#block], &mut #slopes[#block], &mut #summands[#block]);
-                    #property_blocks
-                    #summands_body
-                }
-            }
-            #[inline(always)]
-            fn each_slope<M>(
-                &self,
-                (#i, #j): (usize, usize),
-                #xs: impl ::core::ops::Fn(usize) -> (N, M),
-                mut #slopes: impl ::core::ops::FnMut(usize, N, M),
-                #scratch: &mut [N],
-            ) {
-                #property_copies
-                #each_body
-            }
+            #one_by_one
+            #in_blocks
+            #each
             fn curved(&self) -> ::core::option::Option<&dyn ::shadowstep::systems::pairs::PairCurvature<N>> {
                 ::core::option::Option::Some(self)
             }
@@ -152,6 +50,100 @@ pub(crate) fn emit(definition: &Definition) -> syn::Result<TokenStream> {
 
         #curvature
     })
+}
+
+/// The scratch space, and the methods of one pair.
+fn one_by_one(definition: &Definition, programs: &PotentialPrograms) -> TokenStream {
+    let x = &definition.arguments[0];
+    let [i, j, energy, slope, summand, scratch] = ["i", "j", "energy", "slope", "summand", "scratch"].map(own);
+    let methods = Methods { programs, names: definition.names(), arguments: property_values(definition, [&i, &j]) };
+    let prepare =
+        methods.prepare("prepare").unwrap_or_else(|| quote! { fn prepare(&self, _: &mut [N], _: &N::Context) {} });
+    let energy_body = methods.energy(&energy);
+    let slope_body = methods.gradient(&[quote! { #slope }]);
+    let summand_body = methods.gradient_and_rate(&[quote! { #slope }, quote! { #summand }]);
+    let scratch_size = size(methods.scratch());
+    quote! {
+        fn scratch(&self) -> usize { #scratch_size }
+        #prepare
+        fn energy(&self, #i: usize, #j: usize, #x: &N, #energy: &mut N, #scratch: &mut [N]) {
+            #energy_body
+        }
+        #[inline(always)]
+        fn slope(&self, #i: usize, #j: usize, #x: &N, #slope: &mut N, #scratch: &mut [N]) {
+            #slope_body
+        }
+        #[inline(always)]
+        fn slope_and_summand(
+            &self,
+            #i: usize,
+            #j: usize,
+            #x: &N,
+            #slope: &mut N,
+            #summand: &mut N,
+            #scratch: &mut [N],
+        ) {
+            #summand_body
+        }
+    }
+}
+
+/// The methods of blocks of pairs: a loop over the places of each.
+fn in_blocks(definition: &Definition, programs: &PotentialPrograms) -> TokenStream {
+    let [i, j, xs, scratch, lane, block, width] = ["i", "j", "xs", "scratch", "lane", "block", "W"].map(own);
+    let in_lane =
+        Methods { programs, names: definition.names(), arguments: values_in_lane(definition, [&i, &xs, &lane]) };
+    let property_blocks = property_blocks(definition, [&j, &block]);
+    let [energies, slopes, summands] =
+        [["energies", "energy"], ["slopes", "slope"], ["summands", "summand"]].map(|[all, one]| (own(all), own(one)));
+    let method = |name: &str, outputs: &[(Ident, Ident)], body: TokenStream| {
+        let name = format_ident!("{name}");
+        let outputs = outputs.iter().map(|(all, _)| all).collect::<Vec<_>>();
+        quote! {
+            #[inline(always)]
+            fn #name<const #width: usize>(
+                &self,
+                #i: usize,
+                #j: usize,
+                #xs: &[[N; #width]],
+                #(#outputs: &mut [[N; #width]],)*
+                #scratch: &mut [N],
+            ) {
+                for #block in 0..#xs.len() {
+                    let (#xs, #(#outputs),*) = (&#xs[#block], #(&mut #outputs[#block]),*);
+                    #property_blocks
+                    #body
+                }
+            }
+        }
+    };
+    let both = [slopes, summands];
+    let of_energies = std::slice::from_ref(&energies);
+    let energies = method("energies", of_energies, in_lane.energy_of_block(&lane, of_energies));
+    let slopes = method("slopes", &both[..1], in_lane.gradient_of_block(&lane, &both[..1]));
+    let summands = method("slopes_and_summands", &both, in_lane.gradient_and_rate_of_block(&lane, &both));
+    quote! { #energies #slopes #summands }
+}
+
+/// The slopes of a block in one loop, which takes them.
+fn each(definition: &Definition, programs: &PotentialPrograms) -> TokenStream {
+    let [i, j, xs, slopes, slope, scratch, lane] = ["i", "j", "xs", "slopes", "slope", "scratch", "lane"].map(own);
+    let methods = Methods { programs, names: definition.names(), arguments: values_of_copies(definition, &lane) };
+    let property_copies = property_copies(definition, [&i, &j]);
+    let body = methods.each_gradient([&lane, &xs, &slopes, &slope], &definition.arguments[0]);
+    quote! {
+        #[inline(always)]
+        fn each_slope<M>(
+            &self,
+            (#i, #j): (usize, usize),
+            #xs: impl ::core::ops::Fn(usize) -> (N, M),
+            mut #slopes: impl ::core::ops::FnMut(usize, N, M),
+            #scratch: &mut [N],
+        ) {
+            #property_copies
+            #body
+        }
+    }
 }
 
 /// The implementation of the second derivatives.

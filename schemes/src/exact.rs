@@ -66,58 +66,11 @@ fn scheme_within(
     let mut cells = Cells { table: &table, digits, known, rounded: false, budget, faults: Vec::new() };
     cells.constants();
     cells.free();
-    let weights = match &table.weights {
-        None => None,
-        Some(Weights::Stages { kick, gradient_kick, drift }) => {
-            let stages = Stages {
-                kick: cells.weights(&kick.value),
-                gradient_kick: gradient_kick.as_ref().map_or_else(Vec::new, |list| cells.weights(&list.value)),
-                drift: cells.weights(&drift.value),
-            };
-            Some((stages, cells.held(), None))
-        }
-        Some(Weights::Composition { base, gamma }) => {
-            let gamma = cells.weights(&gamma.value);
-            let base_at = base.at.clone();
-            let (base, base_faults) = base_scheme(&table, base, library, digits, above);
-            cells.faults.extend(base_faults);
-            let size = base.as_ref().map_or(0, |base| gamma.len() * base.stages.kick.len());
-            if size > MOST_UNMERGED {
-                cells.faults.push(table.too_long(size));
-            }
-            let nested = base.as_ref().filter(|base| base.inner.is_some());
-            cells.faults.extend(nested.map(|base| {
-                let message = format!("{} has an inner scheme, which a base cannot have", base.table.name.value);
-                table.source.fault(&base_at, message).hint("compose its outer scheme, and write [inner] here")
-            }));
-            base.filter(|_| size <= MOST_UNMERGED).map(|base| {
-                let stages = Stages::of(&base.stages.repeated(&gamma).maps());
-                (stages, cells.held().weaker(base.held), Some(Box::new(base)))
-            })
-        }
-    };
+    let found = |base: &Placed<String>| base_scheme(&table, base, library, digits, above);
+    let weights = cells.stages(found);
     let processor = weights.as_ref().and_then(|(_, held, base)| cells.processor(*held, base.as_deref()));
-    if let Some((stages, ..)) = weights.as_ref().filter(|(stages, ..)| stages.kick.len() > MOST_STAGES) {
-        cells.faults.push(table.too_long(stages.kick.len()));
-    }
-    if let Some((Stages { kick, gradient_kick, drift }, Held::Exactly, _)) = &weights
-        && cells.faults.is_empty()
-        && !have_short_denominator(kick.iter().chain(gradient_kick).chain(drift).chain(weights_of(processor.as_ref())))
-    {
-        let digits = LONGEST_DENOMINATOR * 3 / 10;
-        let message = format!("the common denominator of the weights has more than {digits} digits");
-        let hint = "round the weights, and write `digits = …`";
-        cells.faults.push(table.source.fault(&table.name.at, message).hint(hint));
-    }
-    let inner = weights.as_ref().and_then(|(stages, ..)| {
-        let claim = table.inner.as_ref()?;
-        let (scheme, of_inner) = base_scheme(&table, &claim.base, library, digits, above);
-        cells.faults.extend(of_inner);
-        let scheme = Box::new(scheme?);
-        let inner = ExactInner { scheme, substeps: claim.substeps };
-        cells.faults.extend(inner.refused(&table, claim, stages));
-        Some(inner)
-    });
+    cells.check_length(weights.as_ref(), processor.as_ref());
+    let inner = weights.as_ref().and_then(|(stages, ..)| cells.inner(stages, found));
     let good = cells.faults.is_empty();
     faults.extend(cells.faults);
     let scheme = weights.filter(|_| good).map(|(stages, held, base)| {
@@ -125,6 +78,74 @@ fn scheme_within(
         ExactScheme { table, stages, held, base, processor, inner }
     });
     (scheme, faults)
+}
+
+/// The stages of a table, to which digits they hold, and the base of a composition.
+type Weighted = (Stages, Held, Option<Box<ExactScheme>>);
+
+impl Cells<'_> {
+    /// The stages; `found` gives a base with its faults.
+    fn stages(&mut self, found: impl Fn(&Placed<String>) -> (Option<ExactScheme>, Vec<Fault>)) -> Option<Weighted> {
+        match self.table.weights.as_ref()? {
+            Weights::Stages { kick, gradient_kick, drift } => {
+                let stages = Stages {
+                    kick: self.weights(&kick.value),
+                    gradient_kick: gradient_kick.as_ref().map_or_else(Vec::new, |list| self.weights(&list.value)),
+                    drift: self.weights(&drift.value),
+                };
+                Some((stages, self.held(), None))
+            }
+            Weights::Composition { base, gamma } => {
+                let gamma = self.weights(&gamma.value);
+                let (scheme, faults) = found(base);
+                self.faults.extend(faults);
+                let scheme = scheme?;
+                let size = gamma.len() * scheme.stages.kick.len();
+                if size > MOST_UNMERGED {
+                    self.faults.push(self.table.too_long(size));
+                }
+                if scheme.inner.is_some() {
+                    let message = format!("{} has an inner scheme, which a base cannot have", scheme.table.name.value);
+                    let fault = self.table.source.fault(&base.at, message);
+                    self.faults.push(fault.hint("compose its outer scheme, and write [inner] here"));
+                }
+                if size > MOST_UNMERGED {
+                    return None;
+                }
+                let stages = Stages::of(&scheme.stages.repeated(&gamma).maps());
+                Some((stages, self.held().weaker(scheme.held), Some(Box::new(scheme))))
+            }
+        }
+    }
+
+    /// Refuses too many stages, and exact weights that are too long.
+    fn check_length(&mut self, weights: Option<&Weighted>, processor: Option<&ExactProcessor>) {
+        let Some((Stages { kick, gradient_kick, drift }, held, _)) = weights else { return };
+        if kick.len() > MOST_STAGES {
+            self.faults.push(self.table.too_long(kick.len()));
+        }
+        let weights = kick.iter().chain(gradient_kick).chain(drift).chain(weights_of(processor));
+        if *held == Held::Exactly && self.faults.is_empty() && !have_short_denominator(weights) {
+            let digits = LONGEST_DENOMINATOR * 3 / 10;
+            let message = format!("the common denominator of the weights has more than {digits} digits");
+            let hint = "round the weights, and write `digits = …`";
+            self.faults.push(self.table.source.fault(&self.table.name.at, message).hint(hint));
+        }
+    }
+
+    /// The scheme of fast forces within these stages.
+    fn inner(
+        &mut self,
+        stages: &Stages,
+        found: impl Fn(&Placed<String>) -> (Option<ExactScheme>, Vec<Fault>),
+    ) -> Option<ExactInner> {
+        let claim = self.table.inner.as_ref()?;
+        let (scheme, faults) = found(&claim.base);
+        self.faults.extend(faults);
+        let inner = ExactInner { scheme: Box::new(scheme?), substeps: claim.substeps };
+        self.faults.extend(inner.refused(self.table, claim, stages));
+        Some(inner)
+    }
 }
 
 fn weights_of(processor: Option<&ExactProcessor>) -> impl Iterator<Item = &Rational> {

@@ -172,59 +172,21 @@ impl fmt::Display for Note {
             }
             Note::Ends { condition, steps, is_met: true } => write!(f, "{condition} ends the run at n = {steps}"),
             Note::Ends { condition, steps, is_met: false } => write!(f, "{condition} is not met up to n = {steps}"),
-            Note::OrderHoldsTo { scheme, order, digits } => {
-                write!(
-                    f,
-                    "{scheme} has order {order} to {} only; errors below that have a lower order",
-                    digits_of(*digits)
-                )
-            }
-            Note::NameOfShipped { path, scheme } => {
-                write!(f, "the table in {path} is named {scheme} like a shipped scheme, and has other weights")
-            }
-            Note::NearIntegrable { scheme, order } => {
-                write!(
-                    f,
-                    "the near-integrable orders of {scheme} are for two parts; for more it has order {order} in h"
-                )
-            }
-            Note::Unstable { scheme, limit, h_omega, omega, quadratic } => {
-                let digits = |limit: &String| from_text(limit).map(|limit| format!("{} ", to_significant(&limit, 6)));
-                let limit = limit.as_ref().and_then(|limit| digits(limit).ok()).unwrap_or_default();
-                let (where_, how) = match quadratic {
-                    true => ("", "the steps diverge"),
-                    false => ("linearised at the start, ", "the steps may diverge"),
-                };
-                write!(
-                    f,
-                    "{where_}the fastest oscillation has omega = {omega}, and h omega = {h_omega} is beyond the \
-                     stability limit {limit}of {scheme}: {how}"
-                )
-            }
-            Note::Resonant { scheme, h_omega, omega, from } => write!(
-                f,
-                "the fastest oscillation of fast forces and T has omega = {omega} at the start, and h omega = \
-                 {h_omega}: from {from} on, in intervals of h omega, oscillations are in resonance with the slow \
-                 kicks of {scheme}"
-            ),
-            Note::FewKicks { planet, steps, kicks, least } => {
-                let kicks = if *kicks == 1 { "1 kick".to_owned() } else { format!("{kicks} kicks") };
-                write!(
-                    f,
-                    "{planet} has {steps} steps of {kicks} in a revolution: with fewer than {least} kicks the step \
-                     size may be in resonance with the orbit"
-                )
-            }
+            Note::OrderHoldsTo { .. }
+            | Note::NameOfShipped { .. }
+            | Note::NearIntegrable { .. }
+            | Note::Unstable { .. }
+            | Note::FewKicks { .. }
+            | Note::Resonant { .. } => f.write_str(&self.of_scheme()),
             Note::MassesAreOne { property } => {
                 write!(f, "all masses of T are 1; `masses = \"{property}\"` uses the property {property}")
             }
             Note::AsymmetricPair { formula } => {
                 write!(f, "{formula} changes if bodies are exchanged; body i is the one with the smaller number")
             }
-            Note::AbruptCutoff => write!(
-                f,
-                "the energy of a pair jumps at the cutoff, so that no scheme conserves it; `cutoff = {{ at = \"5/2\", \
-                 from = 2, derivatives = 3 }}` ends it smoothly"
+            Note::AbruptCutoff => f.write_str(
+                "the energy of a pair jumps at the cutoff, so that no scheme conserves it; `cutoff = { at = \"5/2\", \
+                 from = 2, derivatives = 3 }` ends it smoothly",
             ),
             Note::ForcesLeftOut { target, forces } => {
                 write!(f, "the orbit of {target} has non-gravitational forces ({forces}), which are not in H")
@@ -238,10 +200,8 @@ impl fmt::Display for Note {
                 write!(f, "{} has no partial file: the run begins again", checkpoint.display())
             }
             Note::SummaryOfPart { n } => {
-                write!(
-                    f,
-                    "the summary and its verdict are of the steps after n = {n} only: those before were made without a summary"
-                )
+                write!(f, "the summary and its verdict are of the steps after n = {n} only: ")?;
+                f.write_str("those before were made without a summary")
             }
             Note::NoCheckpoint { n } => {
                 write!(f, "no checkpoint at n = {n}: a number is below 1e-10000 or above 1e10000")
@@ -249,6 +209,49 @@ impl fmt::Display for Note {
             Note::RowsKept { partial } => {
                 write!(f, "the rows up to there stay in {} until the next run", partial.display())
             }
+        }
+    }
+}
+
+impl Note {
+    /// A note of a scheme, or of its steps.
+    fn of_scheme(&self) -> String {
+        match self {
+            Note::OrderHoldsTo { scheme, order, digits } => {
+                let digits = digits_of(*digits);
+                format!("{scheme} has order {order} to {digits} only; errors below that have a lower order")
+            }
+            Note::NameOfShipped { path, scheme } => {
+                format!("the table in {path} is named {scheme} like a shipped scheme, and has other weights")
+            }
+            Note::NearIntegrable { scheme, order } => {
+                format!("the near-integrable orders of {scheme} are for two parts; for more it has order {order} in h")
+            }
+            Note::Unstable { scheme, limit, h_omega, omega, quadratic } => {
+                let digits = |limit: &String| from_text(limit).map(|limit| format!("{} ", to_significant(&limit, 6)));
+                let limit = limit.as_ref().and_then(|limit| digits(limit).ok()).unwrap_or_default();
+                let (place, effect) = match quadratic {
+                    true => ("", "the steps diverge"),
+                    false => ("linearised at the start, ", "the steps may diverge"),
+                };
+                format!(
+                    "{place}the fastest oscillation has omega = {omega}, and h omega = {h_omega} is beyond the \
+                     stability limit {limit}of {scheme}: {effect}"
+                )
+            }
+            Note::Resonant { scheme, h_omega, omega, from } => format!(
+                "the fastest oscillation of fast forces and T has omega = {omega} at the start, and h omega = \
+                 {h_omega}: from {from} on, in intervals of h omega, oscillations are in resonance with the slow \
+                 kicks of {scheme}"
+            ),
+            Note::FewKicks { planet, steps, kicks, least } => {
+                let kicks = if *kicks == 1 { "1 kick".to_owned() } else { format!("{kicks} kicks") };
+                format!(
+                    "{planet} has {steps} steps of {kicks} in a revolution: with fewer than {least} kicks the step \
+                     size may be in resonance with the orbit"
+                )
+            }
+            other => other.to_string(),
         }
     }
 }

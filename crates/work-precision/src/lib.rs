@@ -35,6 +35,7 @@ mod positions;
 pub mod problem;
 mod records;
 pub mod reference;
+mod reference_scheme;
 pub mod run;
 pub mod schemes;
 pub mod series;

@@ -220,6 +220,36 @@ fn execute_all<N: Number, const W: usize, const B: usize>(
     }
 }
 
+/// The same operation on each number of the blocks. Results are written when all is read, as for all that the compiler
+/// knows the places are the same: of numbers in vectors a block at once, of lanes one after the other. Long numbers are
+/// not copied.
+macro_rules! each_number {
+    ($N:ident, $W:ident, $of:ident, $target:ident, $operation:ident $(, $name:ident)*; $($constant:expr)?) => {{
+        $(let $name = $of.at($name);)*
+        for block in 0..$of.blocks {
+            // else the compiler would make vectors of one number of each block
+            let block = if $W == 1 { block } else { black_box(block) };
+            if $N::IN_VECTORS && $W > 1 {
+                let mut results = $target[block].clone();
+                for l in 0..$W {
+                    results[l].$operation($(&$name[block][l],)* $($constant)?);
+                }
+                $target[block] = results;
+            } else {
+                for l in 0..$W {
+                    if $N::LANES > 1 {
+                        let mut result = $target[block][l].clone();
+                        result.$operation($(&$name[block][l],)* $($constant)?);
+                        $target[block][l] = result;
+                    } else {
+                        $target[block][l].$operation($(&$name[block][l],)* $($constant)?);
+                    }
+                }
+            }
+        }
+    }};
+}
+
 /// Carries out an instruction on the first blocks of each register, which has B of them.
 #[inline(always)]
 fn execute<N: Number, const W: usize, const B: usize>(
@@ -239,34 +269,10 @@ fn execute<N: Number, const W: usize, const B: usize>(
         return assign_sin_cos::<N, W, B>(target, cos, a, [before, after], x);
     }
     let of = Operands::<_, B> { sides: [before, after, x], blocks };
-    // The same operation on each number of the blocks. Results are written when all is read, as for all that the
-    // compiler knows the places are the same: of numbers in vectors a block at once, of lanes one after the other. Long
-    // numbers are not copied.
     macro_rules! each {
-        ($operation:ident $(, $name:ident)*; $($constant:expr)?) => {{
-            $(let $name = of.at($name);)*
-            for block in 0..blocks {
-                // else the compiler would make vectors of one number of each block
-                let block = if W == 1 { block } else { black_box(block) };
-                if N::IN_VECTORS && W > 1 {
-                    let mut results = target[block].clone();
-                    for l in 0..W {
-                        results[l].$operation($(&$name[block][l],)* $($constant)?);
-                    }
-                    target[block] = results;
-                } else {
-                    for l in 0..W {
-                        if N::LANES > 1 {
-                            let mut result = target[block][l].clone();
-                            result.$operation($(&$name[block][l],)* $($constant)?);
-                            target[block][l] = result;
-                        } else {
-                            target[block][l].$operation($(&$name[block][l],)* $($constant)?);
-                        }
-                    }
-                }
-            }
-        }};
+        ($operation:ident $(, $name:ident)*; $($constant:expr)?) => {
+            each_number!(N, W, of, target, $operation $(, $name)*; $($constant)?)
+        };
     }
     match *instruction {
         I::AssignZero(_) => each!(assign_zero;),

@@ -8,13 +8,17 @@ mod cutoff_pairs;
 #[cfg(test)]
 mod cutoff_tests;
 mod dual_blocks;
+mod ends;
+mod error;
 mod few;
 mod gravity;
 mod hessian;
 mod listed;
+mod near;
 mod neighbours;
 mod pair;
 mod particles;
+mod scratch;
 mod shell;
 mod switch;
 #[cfg(test)]
@@ -22,6 +26,7 @@ mod tests;
 
 pub use cutoff::{Cutoff, CutoffError, MOST_DERIVATIVES, Switch};
 pub use cutoff_pairs::CutoffPairs;
+pub use error::PairsError;
 pub use gravity::Gravity;
 #[cfg(feature = "formulas")]
 pub(crate) use pair::BLOCKS_AT_ONCE;
@@ -33,8 +38,6 @@ pub(crate) use shell::Shell;
 
 use std::marker::PhantomData;
 
-use thiserror::Error;
-
 use crate::number::Number;
 use crate::number::instructions;
 use crate::number::partial_sums::add_sum;
@@ -42,8 +45,10 @@ use crate::systems::potential::{HessianProduct, Potential};
 use blocks::{Blocks, Places, sum_of_places};
 use chain::Chain;
 use dual_blocks::DualBlocks;
+use ends::{End, each_neighbour, each_pair};
 use few::Few;
 use listed::Listed;
+use scratch::{Scratch, own_scratch, parts};
 
 /// The potential U = Σ u over pairs of bodies in D dimensions.
 ///
@@ -134,100 +139,6 @@ impl<P: Pair, const D: usize> Pairs<P, D> {
     /// The pair's energy.
     pub fn pair(&self) -> &P {
         &self.pair
-    }
-}
-
-/// Bodies and a pair's energy that do not fit together.
-#[derive(Clone, Copy, PartialEq, Eq, Error)]
-pub enum PairsError {
-    /// There is nothing to sum over.
-    #[error("a sum over pairs needs at least one body and one dimension")]
-    Empty,
-    /// A formula in d for bodies that are not on a line.
-    #[error("a formula in d is for bodies on a line, not in {dimensions} dimensions; write it in r2")]
-    Separation {
-        /// The dimensions.
-        dimensions: usize,
-    },
-    /// A formula in d with a cutoff.
-    #[error("a cutoff is for formulas in r2; write the pair's energy in r2")]
-    Cutoff,
-    /// A property with too few or too many values.
-    #[error("a property has {values} values for {bodies} bodies; give one for each body")]
-    Property {
-        /// The number of its values.
-        values: usize,
-        /// The number of bodies.
-        bodies: usize,
-    },
-    /// Walls at the ends of a chain of bodies with properties.
-    #[error("fixed ends are for pairs without properties, as walls have none")]
-    WallsWithoutProperties,
-}
-
-shadowstep_symbolic::debug_as_text!(PairsError);
-
-/// The scratch space of a call.
-struct Scratch<'a, N: Number + 'a, const D: usize> {
-    difference: [N::Register<'a>; D],
-    squared: N::Register<'a>,
-    slope: N::Register<'a>,
-    result: N::Register<'a>,
-    pair: &'a mut [N],
-}
-
-/// difference, squared, slope, result
-const fn own_scratch(dimensions: usize) -> usize {
-    dimensions + 3
-}
-
-#[inline(always)]
-fn parts<N: Number, const D: usize>(scratch: &mut [N]) -> Scratch<'_, N, D> {
-    let (difference, rest) = scratch.split_first_chunk_mut::<D>().expect("as much as asked for");
-    let [squared, slope, result, pair @ ..] = rest else { unreachable!("as much as asked for") };
-    let difference = difference.each_mut().map(N::register);
-    let [squared, slope, result] = [squared, slope, result].map(N::register);
-    Scratch { difference, squared, slope, result, pair }
-}
-
-/// A body, or a wall at 0, with its number.
-enum End<'a, N, const D: usize> {
-    Wall,
-    Body(usize, &'a [N; D]),
-}
-
-// derived, it would ask for numbers that are `Copy`
-impl<N, const D: usize> Copy for End<'_, N, D> {}
-
-impl<N, const D: usize> Clone for End<'_, N, D> {
-    fn clone(&self) -> Self {
-        *self
-    }
-}
-
-impl<N: Number, const D: usize> End<'_, N, D> {
-    /// A wall is asked for no properties.
-    fn number(self) -> usize {
-        match self {
-            End::Wall => 0,
-            End::Body(number, _) => number,
-        }
-    }
-
-    /// difference ← q_j − q_i
-    #[inline(always)]
-    fn subtract(i: Self, j: Self, difference: &mut [N::Register<'_>; D]) {
-        for (axis, difference) in difference.iter_mut().enumerate() {
-            match (i, j) {
-                (End::Body(_, i), End::Body(_, j)) => difference.assign_difference(&j[axis], &i[axis]),
-                (End::Wall, End::Body(_, j)) => difference.assign(&j[axis]),
-                (End::Body(_, i), End::Wall) => {
-                    difference.assign(&i[axis]);
-                    difference.negate();
-                }
-                (End::Wall, End::Wall) => difference.assign_zero(),
-            }
-        }
     }
 }
 
@@ -432,34 +343,6 @@ impl<P, const D: usize> Pairs<P, D> {
     }
 }
 
-/// Visits all pairs i < j.
-#[inline(always)]
-fn each_pair<'q, N, const D: usize>(q: &'q [N], mut visit: impl FnMut(End<'q, N, D>, End<'q, N, D>)) {
-    let (q, _) = q.as_chunks::<D>();
-    for (i, q_i) in q.iter().enumerate() {
-        for (j, q_j) in q.iter().enumerate().skip(i + 1) {
-            visit(End::Body(i, q_i), End::Body(j, q_j));
-        }
-    }
-}
-
-/// Visits the pairs of neighbours in a chain.
-#[inline(always)]
-fn each_neighbour<'q, N, const D: usize>(q: &'q [N], ends: Ends, mut visit: impl FnMut(End<'q, N, D>, End<'q, N, D>)) {
-    let (q, _) = q.as_chunks::<D>();
-    let body = |number: usize| End::Body(number, &q[number]);
-    let last = q.len() - 1;
-    if ends == Ends::Fixed {
-        visit(End::Wall, body(0));
-    }
-    (0..last).for_each(|i| visit(body(i), body(i + 1)));
-    match ends {
-        Ends::Free => {}
-        Ends::Fixed => visit(body(last), End::Wall),
-        Ends::Periodic => visit(body(last), body(0)),
-    }
-}
-
 impl<N: Number, P: PairPotential<N>, const D: usize> Potential<N> for Pairs<P, D> {
     fn dimension(&self) -> usize {
         self.bodies * D
@@ -474,16 +357,13 @@ impl<N: Number, P: PairPotential<N>, const D: usize> Potential<N> for Pairs<P, D
     }
 
     fn energy(&self, q: &[N], energy: &mut N, scratch: &mut [N]) {
-        if HasVectors::<N>::PLAIN
-            && let Some((axes, pair)) = self.blocks(scratch)
-        {
-            return self.all_blocks().energy(q, energy, axes, pair);
-        }
-        if HasVectors::<N>::PLAIN
-            && P::SEVERAL_BLOCKS
-            && let Some(listed) = self.listed()
-        {
-            return listed.energy(q, energy, &mut scratch[own_scratch(D)..]);
+        if HasVectors::<N>::PLAIN {
+            if let Some((axes, pair)) = self.blocks(scratch) {
+                return self.all_blocks().energy(q, energy, axes, pair);
+            }
+            if let Some(listed) = self.listed().filter(|_| P::SEVERAL_BLOCKS) {
+                return listed.energy(q, energy, &mut scratch[own_scratch(D)..]);
+            }
         }
         energy.assign_zero();
         if self.which != Which::All || !self.is_in_order_of_blocks::<N>() {
@@ -503,27 +383,8 @@ impl<N: Number, P: PairPotential<N>, const D: usize> Potential<N> for Pairs<P, D
             let (bodies, in_order_of_blocks) = (self.bodies, self.is_in_blocks());
             return DualBlocks::<_, D> { pair: &self.pair, bodies, in_order_of_blocks }.sum((q, gradient), axes, pair);
         }
-        if HasVectors::<N>::PLAIN
-            && let Some((axes, pair)) = self.blocks(scratch)
-        {
-            return self.all_blocks().sum((q, gradient), None, axes, pair);
-        }
-        if N::IN_VECTORS
-            && let Some(ends) = self.chain_in_blocks::<N>()
-        {
-            let chain = Chain { pair: &self.pair, ends };
-            return chain.sum((q, gradient), None, &mut scratch[own_scratch(D)..]);
-        }
-        if N::IN_VECTORS
-            && P::SEVERAL_BLOCKS
-            && let Some(listed) = self.listed()
-        {
-            return listed.sum(q, gradient, None, &mut scratch[own_scratch(D)..]);
-        }
-        if N::IN_VECTORS
-            && let Some(few) = self.few()
-        {
-            return few.sum((q, gradient), None, &mut scratch[own_scratch(D)..]);
+        if N::IN_VECTORS && self.sum_in_vectors((q, gradient), None, scratch) {
+            return;
         }
         N::in_widest_instructions(
             #[inline(always)]
@@ -536,7 +397,12 @@ impl<N: Number, P: PairPotential<N>, const D: usize> Potential<N> for Pairs<P, D
     }
 
     fn gradient_and_rate(&self, q: &[N], gradient: &mut [N], rate: &mut N, scratch: &mut [N]) {
-        self.gradient_and_total(q, gradient, rate, scratch);
+        if !(HasVectors::<N>::PLAIN && self.sum_in_vectors((q, gradient), Some(rate), scratch)) {
+            instructions::widest_for_energies::<N, _>(
+                #[inline(always)]
+                || self.sum_one_by_one(q, gradient, rate, scratch),
+            );
+        }
         if self.pair.summand() == Summand::Energy {
             // qᵀU_q − 2U
             rate.multiply_integer(-2);
@@ -567,38 +433,37 @@ impl<P, const D: usize> Pairs<P, D> {
         });
     }
 
-    /// gradient ← U_q, and the sum of the summands of pairs.
+    /// gradient ← U_q, and the sum of the summands of pairs where it is wanted, for numbers in vectors whose pairs are
+    /// evaluated many at once. Whether they are.
     #[inline(always)]
-    fn gradient_and_total<N: Number>(&self, q: &[N], gradient: &mut [N], total: &mut N, scratch: &mut [N])
+    fn sum_in_vectors<N: Number>(
+        &self,
+        (q, gradient): (&[N], &mut [N]),
+        total: Option<&mut N>,
+        scratch: &mut [N],
+    ) -> bool
     where
         P: PairPotential<N>,
     {
         if HasVectors::<N>::PLAIN
             && let Some((axes, pair)) = self.blocks(scratch)
         {
-            return self.all_blocks().sum((q, gradient), Some(total), axes, pair);
+            self.all_blocks().sum((q, gradient), total, axes, pair);
+            return true;
         }
-        if HasVectors::<N>::PLAIN
-            && let Some(ends) = self.chain_in_blocks::<N>()
-        {
-            let chain = Chain { pair: &self.pair, ends };
-            return chain.sum((q, gradient), Some(total), &mut scratch[own_scratch(D)..]);
-        }
-        if HasVectors::<N>::PLAIN
-            && P::SEVERAL_BLOCKS
+        let pair = &mut scratch[own_scratch(D)..];
+        if let Some(ends) = self.chain_in_blocks::<N>() {
+            Chain { pair: &self.pair, ends }.sum((q, gradient), total, pair);
+        } else if P::SEVERAL_BLOCKS
             && let Some(listed) = self.listed()
         {
-            return listed.sum(q, gradient, Some(total), &mut scratch[own_scratch(D)..]);
+            listed.sum(q, gradient, total, pair);
+        } else if let Some(few) = self.few() {
+            few.sum((q, gradient), total, pair);
+        } else {
+            return false;
         }
-        if HasVectors::<N>::PLAIN
-            && let Some(few) = self.few()
-        {
-            return few.sum((q, gradient), Some(total), &mut scratch[own_scratch(D)..]);
-        }
-        instructions::widest_for_energies::<N, _>(
-            #[inline(always)]
-            || self.sum_one_by_one(q, gradient, total, scratch),
-        );
+        true
     }
 
     /// The sum of one pair after the other.

@@ -71,14 +71,7 @@ impl<P: Number> Slopes<P> {
         let Equation { mu, r0, pull, eta, alpha, zeta, s, .. } = equation;
         let [g1, g2, _] = &equation.g;
         let Slopes { inverse_r0, inverse_r, g0, g3, of_g: [a1, a2], of_time } = self;
-        let zero = || P::zero(&s.context());
-        let (mut of_r0, mut of_eta, mut of_alpha) = (zero(), zero(), zero());
-        for [q, v, of_q, of_v] in coordinates {
-            of_r0.add_product(q, of_q);
-            of_eta.add_product(q, of_v);
-            of_eta.add_product(v, of_q);
-            of_alpha.subtract_product(v, of_v);
-        }
+        let [mut of_r0, of_eta, mut of_alpha] = of_products(coordinates, &s.context());
         of_r0.multiply(inverse_r0);
         let mut of_pull = of_mu.clone();
         of_pull.subtract_product(pull, &of_r0);
@@ -106,12 +99,6 @@ impl<P: Number> Slopes<P> {
             of_r.add_product(a, b);
         }
         // f − 1 = −μG₂/r₀, g = r₀G₁ + ηG₂, ḟ = −μG₁/(r₀r), ġ − 1 = −μG₂/r
-        let minus_sum = |[(a, b), (c, d)]: [(&P, &P); 2]| {
-            let mut sum = product(a, b);
-            sum.add_product(c, d);
-            sum.negate();
-            sum
-        };
         let of_f = minus_sum([(&of_pull, g2), (pull, &of_g2)]);
         let mut of_g = minus_sum([(&of_r0, g1), (r0, &of_g1)]);
         of_g.negate();
@@ -128,6 +115,28 @@ impl<P: Number> Slopes<P> {
         }
         Along { anomaly: of_s, gauss: [of_f, of_g, of_f_dot, of_g_dot] }
     }
+}
+
+/// The derivatives of ½qᵀq, qᵀv and −½vᵀv.
+#[inline(always)]
+fn of_products<'a, P: Number + 'a>(coordinates: impl Iterator<Item = [&'a P; 4]>, context: &P::Context) -> [P; 3] {
+    let [mut of_qq, mut of_qv, mut of_vv] = std::array::from_fn(|_| P::zero(context));
+    for [q, v, of_q, of_v] in coordinates {
+        of_qq.add_product(q, of_q);
+        of_qv.add_product(q, of_v);
+        of_qv.add_product(v, of_q);
+        of_vv.subtract_product(v, of_v);
+    }
+    [of_qq, of_qv, of_vv]
+}
+
+/// −(ab + cd)
+#[inline(always)]
+fn minus_sum<P: Number>([(a, b), (c, d)]: [(&P, &P); 2]) -> P {
+    let mut sum = product(a, b);
+    sum.add_product(c, d);
+    sum.negate();
+    sum
 }
 
 impl<P: Number> Equation<P> {

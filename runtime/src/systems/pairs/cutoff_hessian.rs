@@ -1,6 +1,7 @@
 //! The Hessian–vector product of a sum over pairs up to a cutoff, one pair after the other.
 
-use super::cutoff_pairs::{Constants, CutoffPairs, Near, clear_far_lanes, is_below};
+use super::cutoff_pairs::CutoffPairs;
+use super::near::{Constants, Near, clear_far_lanes, is_below};
 use super::pair::{PairCurvature, PairPotential};
 use crate::number::Number;
 use crate::systems::potential::{HessianProduct, Potential};

@@ -1,7 +1,8 @@
 //! The Hessian–vector product of a sum over pairs, one pair after the other.
 
+use super::Pairs;
+use super::ends::End;
 use super::pair::{PairCurvature, PairPotential};
-use super::{End, Pairs};
 use crate::number::Number;
 use crate::systems::potential::HessianProduct;
 use shadowstep_symbolic::Separation;
@@ -89,13 +90,13 @@ impl<P, const D: usize> Pairs<P, D> {
     ) where
         P: PairPotential<N>,
     {
-        difference(i, j, s.difference);
+        End::subtract(i, j, &mut s.difference.each_mut());
         // walls do not move
         let moving = |end: End<'_, N, D>| match end {
             End::Wall => End::Wall,
             End::Body(number, _) => End::Body(number, &vectors[number]),
         };
-        difference(moving(i), moving(j), s.direction);
+        End::subtract(moving(i), moving(j), &mut s.direction.each_mut());
         let separation = self.pair.separation();
         let x = match separation {
             Separation::Difference => &s.difference[0],
@@ -126,21 +127,6 @@ impl<P, const D: usize> Pairs<P, D> {
         }
         if let Some(rate) = rate {
             rate.add_product(of_rate, s.along);
-        }
-    }
-}
-
-/// difference ← the vector of j less the vector of i
-fn difference<N: Number, const D: usize>(i: End<'_, N, D>, j: End<'_, N, D>, difference: &mut [N; D]) {
-    for (axis, difference) in difference.iter_mut().enumerate() {
-        match (i, j) {
-            (End::Body(_, i), End::Body(_, j)) => difference.assign_difference(&j[axis], &i[axis]),
-            (End::Wall, End::Body(_, j)) => difference.assign(&j[axis]),
-            (End::Body(_, i), End::Wall) => {
-                difference.assign(&i[axis]);
-                difference.negate();
-            }
-            (End::Wall, End::Wall) => difference.assign_zero(),
         }
     }
 }

@@ -6,7 +6,8 @@
 use std::slice::{from_mut, from_ref};
 
 use super::pair::{BLOCK, PairPotential};
-use super::{Pairs, PairsError, Which, parts};
+use super::scratch::parts;
+use super::{Pairs, PairsError, Which};
 use crate::Rational;
 use crate::number::{Number, instructions};
 use crate::systems::potential::{HessianProduct, Potential};
