@@ -13,7 +13,7 @@ use crate::terminal::Terminal;
 
 const EXAMPLE: &str = "\
 If chunks are missing, the exit code is 1, and their numbers are written to stdout as `sbatch --array=` takes them:
-  sbatch --array=$(shadowstep collect DIR) DIR/array.sbatch";
+  sbatch --array=$(shadowstep collect DIR) SCRIPT";
 
 /// Checks the chunks of a sweep; writes its table and picture.
 #[derive(Debug, Args)]

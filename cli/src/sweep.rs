@@ -1,6 +1,4 @@
-//! `shadowstep sweep`: many runs of a scene, on this machine, a chunk at a time, or as jobs of Slurm.
-
-mod slurm;
+//! `shadowstep sweep`: many runs of a scene, on this machine or a chunk at a time; a job script for Slurm.
 
 use std::env;
 use std::io::Write;
@@ -9,22 +7,23 @@ use std::path::PathBuf;
 use clap::Args;
 use shadowstep_scenes::Error;
 use shadowstep_sweeps::{
-    Chunk, Computed, Manifest, SweepPlan, chunk_of_task, compute, explain, is_there, refuse_foreign, remove_foreign,
-    sweep_schema,
+    Chunk, Computed, Manifest, SweepPlan, chunk_of_task, compute, explain, is_there, job_script, refuse_foreign,
+    remove_foreign, sweep_schema,
 };
 
 use crate::collect::{Format, collected};
 use crate::headings::OUTPUT;
+use crate::invocation;
 use crate::output::Output;
+use crate::quantity::whole;
 use crate::report::{self, Status};
 use crate::terminal::{SAVED, Terminal};
-use slurm::SlurmArguments;
 
 const EXAMPLES: &str = "\
 Examples:
   shadowstep sweep sweep.toml --out DIR                # all runs on all cores
   shadowstep sweep sweep.toml --out DIR --chunk 3/16   # chunk 3 of 16
-  shadowstep sweep sweep.toml --out DIR --submit       # a job array of Slurm
+  shadowstep sweep sweep.toml --out DIR --job-script 16 > sweep.sbatch
   shadowstep collect DIR                               # chunks of any machine";
 
 const MORE: &str = "\
@@ -34,7 +33,7 @@ stops nothing.
 
 In a task of a Slurm array, the chunk is the one of the task.";
 
-/// The sweep itself, beside its output and Slurm.
+/// The sweep itself, beside its output.
 const RUNS: &str = "Runs";
 
 /// Makes many runs of a scene, over axes of parameters.
@@ -52,6 +51,13 @@ pub(crate) struct Arguments {
     /// If it is there already, nothing is done.
     #[arg(long, value_name = "I/N", help_heading = RUNS, value_parser = chunk)]
     chunk: Option<Chunk>,
+    /// Writes a script for sbatch of Slurm: N tasks, a chunk each
+    ///
+    /// It is written to stdout, and nothing is computed. `sbatch SCRIPT` submits all chunks, and
+    /// `sbatch --array=$(shadowstep collect DIR) SCRIPT` those that are missing; squeue and sacct show their states.
+    #[arg(long, value_name = "N", help_heading = RUNS, conflicts_with_all = ["chunk", "format"],
+        value_parser = |text: &str| whole(text, 1..=99_999))]
+    job_script: Option<u32>,
     /// The format of the table
     #[arg(long, value_enum, default_value_t = Format::Csv, help_heading = OUTPUT, conflicts_with = "chunk")]
     format: Format,
@@ -64,10 +70,8 @@ pub(crate) struct Arguments {
     /// Replaces files in --out that are not from this sweep
     ///
     /// They are results of another sweep, or of this one before it was changed, and files of other programs.
-    #[arg(long, help_heading = OUTPUT, conflicts_with = "status")]
+    #[arg(long, help_heading = OUTPUT)]
     force: bool,
-    #[command(flatten)]
-    slurm: SlurmArguments,
 }
 
 /// `3/16`
@@ -82,23 +86,26 @@ fn chunk(text: &str) -> Result<Chunk, String> {
 
 /// Computes the runs that are asked for.
 pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
-    let Arguments { sweep: Some(sweep), out: Some(out), chunk, format, force, slurm, .. } = arguments else {
+    let Arguments { sweep: Some(sweep), out: Some(out), chunk, job_script, format, force, .. } = arguments else {
         let mut output = Output::stdout();
         write!(output, "{}", if arguments.schema { sweep_schema() } else { explain() })?;
         output.finish()?;
         return Ok(Status::Success);
     };
-    if let Some(status) = slurm.asked(sweep, out) {
-        return status;
-    }
+    let tasks = job_script.map(u64::from);
     let plan = SweepPlan::open(sweep)?;
     if *force {
-        remove_foreign(out, &plan, chunk.map(|chunk| chunk.of).or(slurm.chunks.map(u64::from)))?
+        remove_foreign(out, &plan, chunk.map(|chunk| chunk.of).or(tasks))?
     } else {
         refuse_foreign(out)?
     }
-    if slurm.submits() {
-        return slurm.submit(&plan, sweep, out);
+    if let Some(tasks) = tasks {
+        let unknown = |error| Error::usage(format!("this program has no path: {error}"), "call it by its path");
+        let script = job_script(&plan, out, tasks, &invocation::program().map_err(unknown)?)?;
+        let mut output = Output::stdout();
+        write!(output, "{script}")?;
+        output.finish()?;
+        return Ok(Status::Success);
     }
     let begun = Manifest::is_in(out).then(|| Manifest::read(out)).transpose()?;
     let chunk = match chunk {

@@ -24,7 +24,6 @@ PROGRAMS = "munged", "slurmctld", "slurmd", "sbatch", "squeue", "scontrol"
 # - cred_expire: a task that is requeued starts again after 5 s, not 120 s.
 # - KillWait: a cancelled task that ignores SIGTERM is killed after 2 s.
 # - MinJobAge: squeue and scontrol know tasks that have ended for 10 minutes, as there is no database.
-# - MaxArraySize: tasks have numbers below 100, so that a larger array is refused.
 # - batch_sched_delay, sched_min_interval, bf_interval: tasks start at once.
 CONFIGURATION = """\
 ClusterName=private
@@ -56,7 +55,6 @@ SlurmdTimeout=5
 MessageTimeout=4
 KillWait=2
 MinJobAge=600
-MaxArraySize=100
 SchedulerParameters=batch_sched_delay=0,sched_min_interval=0,bf_interval=1
 """
 

@@ -10,9 +10,10 @@ from processes import Failed, kill, wait_for
 from slurm import Cluster
 from sweep import CHUNKS, list_of, say
 
-SUBMIT = f"shadowstep sweep map.toml --out map --submit --chunks {CHUNKS} --time 10 --memory 500M --cpus 1"
-MISSING = "shadowstep sweep map.toml --out map --submit"
-STATUS = "shadowstep sweep map.toml --out map --status"
+SCRIPT = f"shadowstep sweep map.toml --out map --job-script {CHUNKS} > map.sbatch"
+SUBMIT = 'sbatch --dependency=afterany:$(sbatch --parsable --time=10 --mem=500M map.sbatch) --wrap "shadowstep collect map"'
+MISSING = "sbatch --time=10 --mem=500M --array=$(shadowstep collect map) map.sbatch"
+COLLECT = "shadowstep collect map"
 LONGEST = 150
 
 
@@ -54,25 +55,16 @@ def slurm(page, reference, make):
     with Cluster(make.folder("cluster")) as cluster, reporting(cluster):
         say(f"up: munged, slurmctld and the nodes {', '.join(cluster.nodes)} with {cluster.cpus} CPUs each")
         sweep = make.sweep("slurm 100%", cluster.environment)
-        shown = sweep.run(page.command(SUBMIT + " --dry-run"))
-        if cluster.ask("squeue", "--noheader", "--states=all"):
-            raise Failed("--dry-run has submitted a job")
-        if (sweep.results / "array.sbatch").read_text() not in shown:
-            raise Failed("--dry-run does not show array.sbatch")
-        say(sweep.run(page.command(SUBMIT)).splitlines()[-1])
+        sweep.run(page.command(SCRIPT))
+        say(sweep.run(page.command(SUBMIT)).strip())
         lost = failures(cluster)
+        say_lines(sweep.run(page.command("squeue --me")))
         wait_for("all tasks and the collecting job end", lambda: has_ended(cluster), LONGEST)
         check_missing(page, sweep, lost)
-        refusals(sweep, cluster)
-        too_many_tasks(make, cluster)
-        say(sweep.run(page.command(MISSING)).splitlines()[-1])
-        wait_for("all tasks and the collecting job end", lambda: has_ended(cluster), LONGEST)
+        say(sweep.run(page.command(MISSING)).strip())
+        wait_for("all tasks end", lambda: has_ended(cluster), LONGEST)
+        sweep.run(COLLECT)
         sweep.compare(reference)
-        say_lines(sweep.run(page.command(STATUS)))
-        jobs = (sweep.results / "slurm-jobs.jsonl").read_bytes()
-        sweep.run(MISSING)
-        if jobs != (sweep.results / "slurm-jobs.jsonl").read_bytes():
-            raise Failed("a complete sweep was submitted")
         check_again(page, sweep, reference, cluster)
         say(f"states of tasks that have ended: {ends(cluster)}")
 
@@ -106,27 +98,23 @@ def failures(cluster):
 
 
 def check_missing(page, sweep, lost):
-    """The collecting job must have failed and listed what is missing, and --status must name it."""
+    """The collecting job must have listed what is missing, as `collect` does."""
     missing = sweep.missing()
     if not missing or not missing <= lost:
         raise Failed(f"the chunks {list_of(missing)} are missing, and the tasks {list_of(lost)} were ended")
-    log = "".join(path.read_text() for path in (sweep.results / "slurm-logs").glob("collect-*.log"))
+    log = "".join(path.read_text() for path in sweep.folder.glob("slurm-*.out"))
     if list_of(missing) not in log.splitlines():
         raise Failed(f"the log of the collecting job does not list {list_of(missing)}:\n{log}")
-    status = sweep.run(page.command(STATUS), status=1)
-    say_lines(status)
-    if f"missing: {list_of(missing)}\n" not in status:
-        raise Failed(f"--status does not list {list_of(missing)}")
-    listed = sweep.run(page.command("shadowstep collect map"), status=1).strip()
+    listed = sweep.run(page.command(COLLECT), status=1).strip()
     if listed != list_of(missing):
-        raise Failed(f"`shadowstep collect map` lists {listed}, not {list_of(missing)}")
+        raise Failed(f"`{COLLECT}` lists {listed}, not {list_of(missing)}")
 
 
 def check_again(page, sweep, reference, cluster):
     """An array that is submitted once more computes nothing but chunks that are missing."""
     before = files(sweep, sweep.chunks())
-    sweep.run(page.command("sbatch map/array.sbatch"))
-    sweep.run(page.command("sbatch --array=3,7-9 map/array.sbatch"))
+    sweep.run("sbatch map.sbatch")
+    sweep.run("sbatch --array=3,7-9 map.sbatch")
     wait_for("all tasks end", lambda: has_ended(cluster), LONGEST)
     if before != files(sweep, sweep.chunks()):
         raise Failed("tasks of complete chunks have changed files")
@@ -139,30 +127,13 @@ def check_again(page, sweep, reference, cluster):
     say("chunks 3,7-9 were removed, and computed again by a custom job script")
 
 
-def refusals(sweep, cluster):
-    """What contradicts the scripts is refused, and nothing is submitted."""
-    jobs = cluster.ask("squeue", "--noheader", "--states=all")
-    sweep.run(f"{MISSING} --partition other", status=2)
-    sweep.run(f"{MISSING} --chunks 5", status=2)
-    if jobs != cluster.ask("squeue", "--noheader", "--states=all"):
-        raise Failed("what is refused has submitted a job")
-
-
-def too_many_tasks(make, cluster):
-    """An array that is longer than the site allows is refused with the name of the limit, and leaves no script."""
-    sweep = make.sweep("too-many", cluster.environment)
-    process = sweep.start(f"{MISSING} --chunks 150")
-    _, errors = process.communicate()
-    if process.returncode != 3 or "MaxArraySize" not in errors or (sweep.results / "array.sbatch").exists():
-        raise Failed(f"an array of 150 tasks: exit status {process.returncode}\n{errors}")
-
-
 def two_networks(page, reference, make):
     """Each node has a network of its own. One is cut off, and its tasks are computed twice: by it and by the other."""
     folder = make.folder("networks")
     with Network(("n1", "n2"), folder) as network, Cluster(folder, network=network) as cluster, reporting(cluster):
         say(f"up: slurmctld at {network.outside}, n1 at {network.address('n1')}, n2 at {network.address('n2')}")
         sweep = make.sweep("slurm-networks", cluster.environment)
+        sweep.run(page.command(SCRIPT))
         sweep.run(page.command(SUBMIT))
         stale = wait_for("n2 is computing chunks", lambda: computing(cluster, sweep, "n2"), 60)
         for pid, _ in stale:

@@ -37,8 +37,6 @@ mod search;
 mod short_messages;
 #[cfg(unix)]
 mod signals;
-#[cfg(unix)]
-mod slurm;
 mod stability;
 mod sweeps;
 mod trace;

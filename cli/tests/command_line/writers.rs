@@ -24,7 +24,7 @@ const CALLS_OF_PYTHON: [&str; 8] =
     ["\"wb\"", ", \"w\")", ", \"w\",", "write_text", "write_bytes", "os.replace", "mkdir", "tempfile."];
 
 /// Files that have such calls, and why.
-const REASONS: [(&str, &str); 11] = [
+const REASONS: [(&str, &str); 9] = [
     ("crates/scenes/src/whole_file.rs", "it is the way"),
     (
         "crates/scenes/src/results/resumable.rs",
@@ -40,8 +40,6 @@ const REASONS: [(&str, &str); 11] = [
     ),
     ("crates/sweeps/src/partial.rs", "as chunk.rs"),
     ("crates/sweeps/src/manifest.rs", "as chunk.rs; the first of several processes writes the plan"),
-    ("crates/sweeps/src/slurm/script.rs", "as manifest.rs"),
-    ("crates/sweeps/src/slurm/jobs.rs", "a line is appended, by open_itself"),
     ("cli/src/man.rs", "a folder that the user names"),
     ("cli/src/terminal.rs", "a new folder among the temporary ones of the system"),
     ("python/shadowstep/work_precision.py", "a new folder among the temporary ones of the system"),

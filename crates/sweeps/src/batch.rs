@@ -17,7 +17,7 @@ const MOST_RUNS: usize = 4 * LANES;
 impl SweepPlan {
     /// How many runs a thread takes at once.
     pub(crate) fn batch(&self) -> usize {
-        if allows(self.keep()) { MOST_RUNS } else { 1 }
+        if allows(&self.keep) { MOST_RUNS } else { 1 }
     }
 
     /// Makes these runs, and gives the record of each to `each` when it is made; runs that were stopped have none.
@@ -31,7 +31,7 @@ impl SweepPlan {
         stops: &AtomicBool,
         mut each: impl FnMut(Record) -> Result<(), Error>,
     ) -> Result<(), Error> {
-        let keep = self.keep();
+        let keep = &self.keep;
         let mut scenes = Vec::new();
         for &run in runs {
             match parsed.scene(&self.axes().values(run)) {

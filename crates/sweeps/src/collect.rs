@@ -14,7 +14,7 @@ use shadowstep_scenes::{Error, WholeFile};
 use shadowstep_studies::{Observer, Progress};
 
 use crate::axes::Axes;
-use crate::chunk::{self, Unusable};
+use crate::chunk;
 use crate::keep::Column;
 use crate::manifest::Manifest;
 use crate::picture::{Cells, Picture, double, number_of};
@@ -22,7 +22,8 @@ use crate::plan;
 use crate::record::Record;
 use csv_table::CsvTable;
 pub(crate) use missing::header;
-pub use missing::{Missing, ranges};
+pub use missing::Missing;
+use missing::ranges;
 use parquet_table::ParquetTable;
 use table::{Cell, Head, Table, TableColumn};
 
@@ -88,8 +89,7 @@ pub fn collect(folder: &Path, format: TableFormat, observer: &mut dyn Observer) 
         let found = chunk::read(folder, chunk, manifest.runs, |record| tables.take(&record))?;
         match found {
             Ok(header) => functions.push((header.functions, chunk.number)),
-            Err(Unusable::Missing) => damaged.add(chunk, "it is missing"),
-            Err(Unusable::Damaged(why)) => damaged.add(chunk, &why),
+            Err(why) => damaged.add(chunk, &why),
         }
         if observer.stops() {
             return Err(Error::run("interrupted: nothing is written", "the same command collects the results"));
@@ -258,7 +258,7 @@ fn head(manifest: &Manifest, axes: &Axes) -> Head {
     }
     columns.push(text("failure"));
     let lines = [
-        ("shadowstep", manifest.shadowstep.clone()),
+        ("shadowstep", manifest.digests.shadowstep.clone()),
         ("sweep", manifest.digests.sweep.clone()),
         ("tables", manifest.digests.tables.clone()),
         ("runs", manifest.runs.to_string()),

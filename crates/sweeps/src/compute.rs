@@ -1,17 +1,18 @@
 //! Computing chunks with several threads.
 
 use std::path::Path;
-use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::mpsc::{self, Receiver, RecvTimeoutError};
 use std::sync::{Mutex, MutexGuard, PoisonError};
-use std::thread::{self, Thread};
+use std::thread;
 use std::time::Duration;
 
 use shadowstep_scenes::Error;
 use shadowstep_scenes::family::Parsed;
 use shadowstep_studies::{Observer, Progress};
 
-use crate::chunk::{self, Chunk, Header};
-use crate::manifest::{Manifest, VERSION};
+use crate::chunk::{self, Chunk};
+use crate::manifest::Manifest;
 use crate::partial::Partial;
 use crate::plan::SweepPlan;
 use crate::record::Record;
@@ -44,23 +45,26 @@ pub fn compute(
     chunks: impl IntoIterator<Item = Chunk, IntoIter: Send + Clone>,
     observer: &mut dyn Observer,
 ) -> Result<Computed, Error> {
-    let (chunks, parsed) = (chunks.into_iter(), plan.family().parsed()?);
-    let runs = |chunk: Chunk| chunk.runs(manifest.runs);
-    let all = chunks.clone().map(runs).map(|runs| runs.end - runs.start).sum();
+    let (chunks, parsed) = (chunks.into_iter(), plan.family.parsed()?);
+    let all = chunks.clone().map(|chunk| chunk.count(manifest.runs)).sum();
     let stops = AtomicBool::new(false);
     let state = Mutex::new(State { chunks, open: Vec::new(), computed: Computed::default(), saved: 0, error: None });
-    let (threads, attendant) = (rayon::current_num_threads(), thread::current());
+    let threads = rayon::current_num_threads();
     let due = Due { plan, parsed: &parsed, manifest, folder, stops: &stops, threads };
-    let working = AtomicUsize::new(threads);
-    let work = || {
-        let _end = Ends { working: &working, attendant: &attendant };
-        due.work(&state);
-    };
+    let (works, working) = mpsc::channel::<()>();
     let made = thread::scope(|scope| {
+        let spawn = |_| {
+            // dropped when the thread ends, be it by a panic
+            let works = works.clone();
+            let work = || {
+                let _works = works;
+                due.work(&state);
+            };
+            thread::Builder::new().stack_size(STACK).spawn_scoped(scope, work).ok()
+        };
         // where memory is limited there are fewer threads
-        let spawn = |_| thread::Builder::new().stack_size(STACK).spawn_scoped(scope, work).ok();
         let workers: Vec<_> = (0..threads).map_while(spawn).collect();
-        (workers.len()..threads).for_each(|_| drop(Ends { working: &working, attendant: &attendant }));
+        drop(works);
         attend(&working, &state, &stops, all, observer);
         let made = workers.len();
         workers.into_iter().for_each(|worker| worker.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic)));
@@ -84,30 +88,17 @@ pub fn compute(
 /// usual 2 MiB.
 const STACK: usize = 4 << 20;
 
-/// At its end a thread is counted off before the waiting thread wakes, be it by a panic.
-struct Ends<'a> {
-    working: &'a AtomicUsize,
-    attendant: &'a Thread,
-}
-
-impl Drop for Ends<'_> {
-    fn drop(&mut self) {
-        self.working.fetch_sub(1, Ordering::Release);
-        self.attendant.unpark();
-    }
-}
-
 /// Waits for the threads; shows the progress, and stops them when the observer asks for it.
 fn attend<I>(
-    working: &AtomicUsize,
+    working: &Receiver<()>,
     state: &Mutex<State<I>>,
     stops: &AtomicBool,
     all: u64,
     observer: &mut dyn Observer,
 ) {
-    let mut shown = u64::MAX;
-    while working.load(Ordering::Acquire) > 0 {
-        thread::park_timeout(TICK);
+    let (mut shown, mut is_working) = (u64::MAX, true);
+    while is_working {
+        is_working = working.recv_timeout(TICK) == Err(RecvTimeoutError::Timeout);
         if observer.stops() {
             stops.store(true, Ordering::Relaxed);
         }
@@ -137,23 +128,11 @@ struct Due<'a> {
 /// What is being computed. At most one chunk is open for each thread, whatever the number of runs.
 struct State<I> {
     chunks: I,
-    open: Vec<Open>,
+    open: Vec<Partial>,
     computed: Computed,
     /// How many runs were saved by earlier calls.
     saved: u64,
     error: Option<Error>,
-}
-
-/// A chunk of which some runs are not saved.
-struct Open {
-    chunk: Chunk,
-    header: Header,
-    partial: Partial,
-    /// The next run that may have to be made.
-    next: u64,
-    end: u64,
-    /// How many are being made.
-    running: usize,
 }
 
 impl Due<'_> {
@@ -162,9 +141,10 @@ impl Due<'_> {
         while !self.stops.load(Ordering::Relaxed) {
             let next = self.next(&mut locked(state));
             let done = match next {
-                Ok(Some(Work::Runs(chunk, runs))) => self.make(state, chunk, &runs),
-                Ok(Some(Work::Finish(open))) => self.finish(open),
                 Ok(None) => return,
+                Ok(Some((chunk, runs))) => {
+                    self.plan.make(self.parsed, &runs, self.stops, |record| self.keep(state, chunk, &record))
+                }
                 Err(error) => Err(error),
             };
             if let Err(error) = done {
@@ -175,77 +155,41 @@ impl Due<'_> {
     }
 
     /// The next runs, of an open chunk or of one that is opened for them.
-    fn next<I: Iterator<Item = Chunk>>(&self, state: &mut State<I>) -> Result<Option<Work>, Error> {
+    fn next<I: Iterator<Item = Chunk>>(&self, state: &mut State<I>) -> Result<Option<(Chunk, Vec<u64>)>, Error> {
         loop {
-            for open in &mut state.open {
-                let runs = open.take(self.plan.batch(), self.threads);
+            for partial in &mut state.open {
+                let runs = partial.take(self.plan.batch(), self.threads);
                 if !runs.is_empty() {
-                    return Ok(Some(Work::Runs(open.chunk, runs)));
+                    return Ok(Some((partial.header.chunk, runs)));
                 }
-            }
-            // a chunk all of whose runs were saved before
-            if let Some(place) = state.open.iter().position(Open::is_complete) {
-                return Ok(Some(Work::Finish(state.open.swap_remove(place))));
             }
             let Some(chunk) = state.chunks.next() else { return Ok(None) };
             if is_there(self.manifest, self.folder, chunk) {
-                let runs = chunk.runs(self.manifest.runs);
-                state.saved += runs.end - runs.start;
+                state.saved += chunk.count(self.manifest.runs);
                 continue;
             }
-            let header = header(self.plan, self.manifest, chunk);
-            let runs = chunk.runs(self.manifest.runs);
-            let partial = Partial::open(self.folder, chunk, &header, runs.clone())?;
+            let partial = Partial::open(self.folder, self.manifest.header(self.plan, chunk))?;
             state.saved += partial.records.len() as u64;
-            state.open.push(Open { chunk, header, partial, next: runs.start, end: runs.end, running: 0 });
+            match partial.is_complete() {
+                true => partial.finish(self.folder)?,
+                false => state.open.push(partial),
+            }
         }
     }
 
-    /// Makes runs and keeps their records.
-    fn make<I>(&self, state: &Mutex<State<I>>, chunk: Chunk, runs: &[u64]) -> Result<(), Error> {
-        self.plan.make(self.parsed, runs, self.stops, |record| self.keep(state, chunk, &record))
-    }
-
+    /// Keeps a record, and the chunk of which it is the last one.
     fn keep<I>(&self, state: &Mutex<State<I>>, chunk: Chunk, record: &Record) -> Result<(), Error> {
         let mut state = locked(state);
-        let place =
-            state.open.iter().position(|open| open.chunk == chunk).expect("a chunk stays open while it has runs");
-        state.open[place].running -= 1;
-        state.open[place].partial.keep(record)?;
+        let is_of = |partial: &Partial| partial.header.chunk == chunk;
+        let place = state.open.iter().position(is_of).expect("a chunk stays open while it has runs");
+        state.open[place].keep(record)?;
         state.computed.include(record);
-        if state.open[place].is_complete() {
-            let open = state.open.swap_remove(place);
-            drop(state);
-            return self.finish(open);
+        if !state.open[place].is_complete() {
+            return Ok(());
         }
-        Ok(())
-    }
-
-    fn finish(&self, open: Open) -> Result<(), Error> {
-        chunk::write(self.folder, open.chunk, &open.header, &open.partial.into_records())
-    }
-}
-
-/// What a thread does next.
-enum Work {
-    Runs(Chunk, Vec<u64>),
-    Finish(Open),
-}
-
-impl Open {
-    /// Takes runs that are not saved, `most` at most, and fewer at the end of the chunk, so that all threads have some.
-    fn take(&mut self, most: usize, threads: usize) -> Vec<u64> {
-        let left = usize::try_from(self.end - self.next).unwrap_or(usize::MAX);
-        let most = most.min(left.div_ceil(2 * threads));
-        let saved = &self.partial.records;
-        let runs: Vec<u64> = (self.next..self.end).filter(|run| !saved.contains_key(run)).take(most).collect();
-        self.next = runs.last().filter(|_| runs.len() == most).map_or(self.end, |last| last + 1);
-        self.running += runs.len();
-        runs
-    }
-
-    fn is_complete(&self) -> bool {
-        self.next == self.end && self.running == 0
+        let complete = state.open.swap_remove(place);
+        drop(state);
+        complete.finish(self.folder)
     }
 }
 
@@ -259,20 +203,6 @@ impl Computed {
                 *first = (record.run, failure.clone());
             }
         }
-    }
-}
-
-/// The header of a chunk that this process makes.
-fn header(plan: &SweepPlan, manifest: &Manifest, chunk: Chunk) -> Header {
-    let runs = chunk.runs(manifest.runs);
-    Header {
-        shadowstep: VERSION.to_owned(),
-        digests: manifest.digests.clone(),
-        functions: plan.functions().map(str::to_owned),
-        chunk: chunk.number,
-        of: chunk.of,
-        first: runs.start,
-        runs: runs.end - runs.start,
     }
 }
 

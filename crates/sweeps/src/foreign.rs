@@ -7,11 +7,10 @@ use std::path::{Path, PathBuf};
 use shadowstep_scenes::Error;
 use shadowstep_studies::files;
 
-use crate::chunk::{CHUNKS_FOLDER, Header, left};
+use crate::chunk::{CHUNKS_FOLDER, left};
 use crate::collect::{header, written};
-use crate::manifest::{self, Manifest, VERSION, check_chunks};
+use crate::manifest::{self, Manifest, check_chunks};
 use crate::plan::SweepPlan;
-use crate::slurm::SCRIPTS;
 
 /// Refuses a folder with files that [`collect`](crate::collect()) would replace, and without a sweep beside them:
 /// others wrote them.
@@ -26,7 +25,7 @@ pub fn refuse_foreign(folder: &Path) -> Result<(), Error> {
 }
 
 /// Removes what is not from this plan, so that the sweep begins in the folder: files that [`collect`](crate::collect())
-/// would replace, and the plan, chunks and job scripts of another sweep. A folder of this sweep stays as it is, as
+/// would replace, and the plan and chunks of another sweep. A folder of this sweep stays as it is, as
 /// processes may be at work in it.
 ///
 /// # Errors
@@ -35,12 +34,11 @@ pub fn remove_foreign(folder: &Path, plan: &SweepPlan, chunks: Option<u64>) -> R
     if let Some(chunks) = chunks {
         check_chunks(chunks, plan.axes().runs())?;
     }
-    if Manifest::read(folder).is_ok_and(|there| there.shadowstep == VERSION && there.digests == *plan.digests()) {
+    if Manifest::read(folder).is_ok_and(|there| there.digests == plan.digests) {
         return Ok(());
     }
-    let is_own = |header: Header| header.shadowstep == VERSION && header.digests == *plan.digests();
-    let is_foreign = |path: &PathBuf| header(path).flatten().is_some_and(|header| !is_own(header));
-    let named = written().chain(SCRIPTS).chain([manifest::NAME]).map(|name| folder.join(name));
+    let is_foreign = |path: &PathBuf| header(path).flatten().is_some_and(|header| header.digests != plan.digests);
+    let named = written().chain([manifest::NAME]).map(|name| folder.join(name));
     for path in named.chain(left(&folder.join(CHUNKS_FOLDER), "").into_iter().filter(is_foreign)) {
         match fs::remove_file(&path) {
             Err(error) if error.kind() != io::ErrorKind::NotFound => {

@@ -45,7 +45,7 @@
 //! | `collect` | chunks → a table and a picture, or what is missing |
 //! | `foreign` | what a folder has that is not from a sweep |
 //! | `picture` | maps and curves |
-//! | [`slurm`] | sweeps as job arrays of Slurm |
+//! | `job_script` | the script of a job array of Slurm |
 //! | `task` | which chunk a task of a Slurm array computes |
 
 mod axes;
@@ -55,6 +55,7 @@ mod chunk;
 mod collect;
 mod compute;
 mod foreign;
+mod job_script;
 mod keep;
 mod keys;
 mod manifest;
@@ -62,7 +63,6 @@ mod partial;
 mod picture;
 mod plan;
 mod record;
-pub mod slurm;
 mod task;
 mod together;
 mod values;
@@ -70,9 +70,10 @@ mod values;
 pub use axes::{Axes, MOST_RUNS};
 pub use axis::Axis;
 pub use chunk::Chunk;
-pub use collect::{Collected, Missing, TableFormat, collect, ranges};
+pub use collect::{Collected, Missing, TableFormat, collect};
 pub use compute::{Computed, compute, is_there};
 pub use foreign::{refuse_foreign, remove_foreign};
+pub use job_script::job_script;
 pub use keep::Column;
 pub use keys::{explain, sweep_schema};
 pub use manifest::Manifest;

@@ -6,11 +6,10 @@ use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 use shadowstep::tables::Source;
-use shadowstep_scenes::{Error, not_written};
+use shadowstep_scenes::Error;
 use shadowstep_schemes::document::read_text;
-use tempfile::Builder;
 
-use crate::chunk::{AGAIN, CHUNKS_FOLDER, Chunk, Header, MOST_RUNS_OF_CHUNK, create_folder, refuse_link};
+use crate::chunk::{CHUNKS_FOLDER, Chunk, Header, MOST_RUNS_OF_CHUNK, create_folder, put, refuse_link};
 use crate::keep::Column;
 use crate::plan::{Digests, SweepPlan, hash};
 
@@ -30,8 +29,8 @@ pub(crate) const NAME: &str = "plan.json";
 /// The most bytes of the file.
 const LARGEST: u64 = 1 << 28;
 
-/// The version of the program, on which the last digits of results may depend.
-pub(crate) const VERSION: &str = env!("CARGO_PKG_VERSION");
+/// The end of a sentence.
+const OTHER_TABLES: &str = "was made with other tables of schemes, or other files of particles or bodies";
 
 /// Where nothing else is said, a sweep on one machine has this many chunks.
 const CHUNKS: u64 = 16;
@@ -42,8 +41,6 @@ const RUNS_OF_CHUNK: u64 = 1 << 16;
 /// What is in the folder of a sweep.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Manifest {
-    /// The version of the program.
-    pub shadowstep: String,
     /// What determines the results.
     #[serde(flatten)]
     pub digests: Digests,
@@ -71,14 +68,13 @@ impl Manifest {
         let wanted = chunks.unwrap_or_else(|| runs.min(CHUNKS.max(runs.div_ceil(RUNS_OF_CHUNK))));
         check_chunks(wanted, runs)?;
         let own = Manifest {
-            shadowstep: VERSION.to_owned(),
-            digests: plan.digests().clone(),
+            digests: plan.digests.clone(),
             runs,
             chunks: wanted,
-            columns: plan.columns().to_vec(),
-            long_numbers: plan.has_long_numbers(),
-            path: plan.source().path.clone(),
-            text: plan.source().text.clone(),
+            columns: plan.columns.clone(),
+            long_numbers: plan.long_numbers,
+            path: plan.source.path.clone(),
+            text: plan.source.text.clone(),
         };
         let folder_of_chunks = folder.join(CHUNKS_FOLDER);
         create_folder(&folder_of_chunks)?;
@@ -144,69 +140,49 @@ impl Manifest {
         Source { path: self.path.clone(), text: self.text.clone() }
     }
 
+    /// The header of a chunk that this process makes.
+    pub(crate) fn header(&self, plan: &SweepPlan, chunk: Chunk) -> Header {
+        let functions = plan.functions().map(str::to_owned);
+        let (first, runs) = (chunk.runs(self.runs).start, chunk.count(self.runs));
+        Header { digests: self.digests.clone(), functions, chunk, first, runs }
+    }
+
     /// Whether a chunk with this header belongs to the sweep; if not, why.
     pub(crate) fn check_header(&self, header: &Header) -> Result<(), String> {
-        if header.shadowstep != self.shadowstep {
-            return Err(format!("it was made by version {}", header.shadowstep));
-        }
-        if header.digests.sweep != self.digests.sweep {
-            return Err("it is of another sweep".to_owned());
-        }
-        if header.digests.tables != self.digests.tables {
-            return Err("it was made with other tables of schemes, or other files of particles or bodies".to_owned());
-        }
-        Ok(())
+        let version = format!("it was made by version {}", header.digests.shadowstep);
+        let sentences = [version, "it is of another sweep".to_owned(), format!("it {OTHER_TABLES}")];
+        self.digests.difference(&header.digests, sentences).map_or(Ok(()), Err)
     }
 
     fn check(&self, own: &Manifest, chunks_given: bool, folder: &Path) -> Result<(), Error> {
         let shown = folder.display();
-        let other = "give another folder, or replace what this one has with `force`";
-        let differs = if self.shadowstep != own.shadowstep {
-            Some(format!("{shown} is of version {} of shadowstep, not of {VERSION}", self.shadowstep))
-        } else if self.digests.sweep != own.digests.sweep {
-            Some(format!("{shown} is of another sweep, or of this one before it was changed"))
-        } else if self.digests.tables != own.digests.tables {
-            Some(format!("{shown} was made with other tables of schemes, or other files of particles or bodies"))
-        } else {
-            None
-        };
-        if let Some(message) = differs {
-            return Err(Error::usage(message, other));
+        let (version, own_version) = (&self.digests.shadowstep, &own.digests.shadowstep);
+        let sentences = [
+            format!("{shown} is of version {version} of shadowstep, not of {own_version}"),
+            format!("{shown} is of another sweep, or of this one before it was changed"),
+            format!("{shown} {OTHER_TABLES}"),
+        ];
+        if let Some(message) = self.digests.difference(&own.digests, sentences) {
+            return Err(Error::usage(message, "give another folder, or replace what this one has with `force`"));
         }
         if chunks_given && self.chunks != own.chunks {
             let message = format!("{shown} has {} chunks, not {}", self.chunks, own.chunks);
-            return Err(Error::usage(message, format!("give I/{}, or another folder", self.chunks)));
+            return Err(Error::usage(message, format!("give it {} chunks, or another folder", self.chunks)));
         }
         Ok(())
     }
 
-    /// Writes the file; one that is there stays, unless it is replaced.
+    /// Writes the file; one that is there stays, unless it is replaced: of several processes that begin at the same time,
+    /// the first one writes it.
     fn write(&self, folder: &Path, replaces: bool) -> Result<(), Error> {
         let path = folder.join(NAME);
         if path.exists() && !replaces {
             return Ok(());
         }
-        let written = || -> io::Result<()> {
-            let mut file = Builder::new().prefix(&format!("{NAME}.new-")).tempfile_in(folder)?;
-            serde_json::to_writer_pretty(&mut file, &Hashed { manifest: self, sha256: self.hash() })?;
-            file.write_all(b"\n")?;
-            crate::chunk::make_readable(file.as_file())?;
-            file.as_file().sync_all()?;
-            match replaces {
-                true => match file.persist(&path) {
-                    // removed by a process that has collected the results
-                    Err(error) if error.error.kind() == io::ErrorKind::NotFound && path.exists() => {}
-                    persisted => drop(persisted?),
-                },
-                // of several processes that begin at the same time, the first one writes it
-                false => match file.persist_noclobber(&path) {
-                    Err(_) if path.exists() => {}
-                    persisted => drop(persisted?),
-                },
-            }
-            crate::chunk::sync_folder(folder)
-        };
-        written().map_err(|error| not_written(&path, error, AGAIN).into())
+        put(&path, replaces, |file| {
+            serde_json::to_writer_pretty(&mut *file, &Hashed { manifest: self, sha256: self.hash() })?;
+            writeln!(file)
+        })
     }
 }
 

@@ -11,41 +11,49 @@ use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 use shadowstep_scenes::{Error, not_written};
-use tempfile::{Builder, NamedTempFile};
+use tempfile::Builder;
 
-use crate::chunk::{AGAIN, Chunk, Header, left, open};
+use crate::chunk::{self, AGAIN, Header, left, open};
 use crate::plan::hash;
 use crate::record::Record;
 
-/// The records of a chunk that are there, and the file to which others are appended.
+/// A chunk of which some records are not there: those that are, and the file to which others are appended.
 pub(crate) struct Partial {
+    pub(crate) header: Header,
     path: PathBuf,
     file: File,
     /// The JSON of records by their runs.
     pub(crate) records: BTreeMap<u64, String>,
+    /// The runs that may have to be made.
+    rest: Range<u64>,
 }
 
 impl Partial {
     /// Takes what others have left of a chunk, and begins a file.
-    pub(crate) fn open(folder: &Path, chunk: Chunk, header: &Header, runs: Range<u64>) -> Result<Partial, Error> {
-        let path = chunk.path(folder);
-        let parent = path.parent().unwrap_or(folder).to_owned();
-        let left = left(&parent, &format!("{}.partial-", chunk.name()));
-        let header = serde_json::to_string(header)?;
-        let mut records = BTreeMap::new();
-        left.iter().for_each(|path| take(path, &header, &runs, &mut records));
-        let begun = || -> io::Result<(PathBuf, File)> {
-            let mut file: NamedTempFile =
-                Builder::new().prefix(&format!("{}.partial-", chunk.name())).tempfile_in(&parent)?;
-            let mut text = format!("{header}\n");
+    pub(crate) fn open(folder: &Path, header: Header) -> Result<Partial, Error> {
+        let path = header.chunk.path(folder);
+        let parent = path.parent().unwrap_or(folder);
+        let begin = format!("{}.partial-", header.chunk.name());
+        let (left, first) = (left(parent, &begin), serde_json::to_string(&header)?);
+        let (mut records, rest) = (BTreeMap::new(), header.range());
+        left.iter().for_each(|path| take(path, &first, &rest, &mut records));
+        let begun = || -> io::Result<_> {
+            let mut file = Builder::new().prefix(&begin).tempfile_in(parent)?;
+            let mut text = format!("{first}\n");
             records.values().for_each(|json| text += &line(json));
             file.write_all(text.as_bytes())?;
-            let (file, path) = file.keep()?;
-            Ok((path, file))
+            Ok(file.keep()?)
         };
-        let (path, file) = begun().map_err(|error| not_written(&path, error, AGAIN))?;
+        let (file, path) = begun().map_err(|error| not_written(&path, error, AGAIN))?;
         left.iter().for_each(|path| drop(fs::remove_file(path)));
-        Ok(Partial { path, file, records })
+        Ok(Partial { header, path, file, records, rest })
+    }
+
+    /// Takes runs that are not saved, `most` at most, and fewer at the end of the chunk, so that all threads have some.
+    pub(crate) fn take(&mut self, most: usize, threads: usize) -> Vec<u64> {
+        let left = usize::try_from(self.rest.end - self.rest.start).unwrap_or(usize::MAX);
+        let most = most.min(left.div_ceil(2 * threads));
+        self.rest.by_ref().filter(|run| !self.records.contains_key(run)).take(most).collect()
     }
 
     /// Keeps a record.
@@ -57,9 +65,13 @@ impl Partial {
         Ok(())
     }
 
-    /// The records in the order of their runs. The file stays until the chunk is written.
-    pub(crate) fn into_records(self) -> Vec<String> {
-        self.records.into_values().collect()
+    pub(crate) fn is_complete(&self) -> bool {
+        self.records.len() as u64 == self.header.runs
+    }
+
+    /// Writes the chunk, which removes the file.
+    pub(crate) fn finish(self, folder: &Path) -> Result<(), Error> {
+        chunk::write(folder, &self.header, self.records.values())
     }
 }
 

@@ -63,15 +63,17 @@ const OF_SCENE: [&str; 7] = ["problem", "body", "initial", "time", "run", "outpu
 /// ```
 #[derive(Debug)]
 pub struct SweepPlan {
-    source: Source,
-    family: Family,
+    /// The text of the plan with its path.
+    pub(crate) source: Source,
+    /// The scenes of all runs.
+    pub(crate) family: Family,
     axes: Axes,
-    keep: Keep,
-    columns: Vec<Column>,
+    pub(crate) keep: Keep,
+    pub(crate) columns: Vec<Column>,
     picture: Option<Picture>,
-    long_numbers: bool,
-    /// Hashes of what determines the results.
-    digests: Digests,
+    /// Whether numbers have more digits than double precision.
+    pub(crate) long_numbers: bool,
+    pub(crate) digests: Digests,
 }
 
 impl SweepPlan {
@@ -125,19 +127,9 @@ impl SweepPlan {
         Ok(SweepPlan { family, axes, keep, columns, picture, long_numbers, digests, source: source.clone() })
     }
 
-    /// Whether numbers have more digits than double precision.
-    pub(crate) fn has_long_numbers(&self) -> bool {
-        self.long_numbers
-    }
-
     /// The hash of the elementary functions that double precision has on this machine.
     pub(crate) fn functions(&self) -> Option<&'static str> {
         (!self.long_numbers).then(elementary_functions)
-    }
-
-    /// The text of the plan with its path.
-    pub fn source(&self) -> &Source {
-        &self.source
     }
 
     /// The axes, and with them the number of runs.
@@ -174,15 +166,6 @@ impl SweepPlan {
             Ok(scene) => measured(run, &scene, &self.keep, stops),
             Err(faults) => Some(Record::failed(run, faults.0[0].message.clone())),
         }
-    }
-
-    /// The scenes of all runs.
-    pub(crate) fn family(&self) -> &Family {
-        &self.family
-    }
-
-    pub(crate) fn keep(&self) -> &Keep {
-        &self.keep
     }
 }
 

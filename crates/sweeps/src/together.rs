@@ -293,12 +293,12 @@ mod tests {
     fn together(text: &str) -> usize {
         let (plan, stops) = (plan(text), AtomicBool::new(false));
         let scenes: Vec<Scene> = (0..plan.axes().runs()).map(|run| plan.scene(run).unwrap()).collect();
-        assert!(allows(plan.keep()));
+        assert!(allows(&plan.keep));
         let mut count = 0;
         for group in scenes.chunks(LANES) {
-            assert!(suits(&group[0], plan.keep()) && group.iter().all(|scene| are_alike(&group[0], scene)), "{text}");
-            for (scene, found) in group.iter().zip(measure(&group.iter().collect::<Vec<_>>(), plan.keep(), &stops)) {
-                let alone = measured(0, scene, plan.keep(), &stops).unwrap();
+            assert!(suits(&group[0], &plan.keep) && group.iter().all(|scene| are_alike(&group[0], scene)), "{text}");
+            for (scene, found) in group.iter().zip(measure(&group.iter().collect::<Vec<_>>(), &plan.keep, &stops)) {
+                let alone = measured(0, scene, &plan.keep, &stops).unwrap();
                 assert_eq!(found.is_some(), alone.failure.is_none(), "{text}\n{alone:?}");
                 if let Some(found) = found {
                     assert_eq!(found, alone.values, "{text}");
@@ -367,7 +367,7 @@ mod tests {
     fn other_runs_are_made_alone() {
         let suits_of = |text: &str| {
             let plan = plan(text);
-            allows(plan.keep()) && suits(&plan.scene(0).unwrap(), plan.keep())
+            allows(&plan.keep) && suits(&plan.scene(0).unwrap(), &plan.keep)
         };
         let keep = "[keep]\nstate = true\n";
         assert!(suits_of(&format!("{HENON_HEILES}{keep}")));
@@ -389,6 +389,6 @@ mod tests {
         }
         let other = scene(&text.replace("y^3/3", "y^3/4"));
         let (first, stops) = (scene(&text), AtomicBool::new(false));
-        assert_eq!(measure(&[&first, &other], plan(&text).keep(), &stops), [None, None]);
+        assert_eq!(measure(&[&first, &other], &plan(&text).keep, &stops), [None, None]);
     }
 }

@@ -2,6 +2,7 @@
 
 use std::fs;
 use std::path::Path;
+use std::process::Command;
 
 use sha2::{Digest, Sha256};
 
@@ -118,6 +119,43 @@ fn processes_may_compute_the_same_chunk_at_the_same_time() {
     assert_same(&folder.path().join("out"), &wanted, "three processes");
 }
 
+/// The script runs as a task does: in any folder, with the number of the task.
+#[cfg(unix)]
+#[test]
+fn the_tasks_of_a_job_script_compute_the_sweep_and_then_what_is_missing() {
+    let wanted = undisturbed(SWEEP);
+    let (folder, elsewhere) = (folder(SWEEP), tempfile::tempdir().unwrap());
+    let script = succeeds(folder.path(), "sweep sweep.toml --out out --job-script 16");
+    assert_eq!(script.err, "");
+    let task = |number: u32| {
+        let mut shell = Command::new("sh");
+        shell.args(["-c", &script.out]).current_dir(elsewhere.path());
+        let result = finished(&shell.env("SLURM_ARRAY_TASK_ID", number.to_string()).output().unwrap());
+        assert_eq!((result.code, result.err.as_str()), (0, ""), "task {number}");
+    };
+    [16, 3, 1].map(task);
+    let missing = run(folder.path(), "collect out");
+    assert_eq!((missing.code, missing.out.as_str()), (1, "2,4-15\n"), "{}", missing.err);
+    [2].into_iter().chain(4..=15).for_each(task);
+    fs::remove_dir(folder.path().join("out/slurm-logs")).unwrap();
+    succeeds(folder.path(), "collect out");
+    assert_same(&folder.path().join("out"), &wanted, "tasks");
+}
+
+#[test]
+fn a_job_script_begins_the_folder_with_its_chunks() {
+    let folder = folder(SWEEP);
+    assert!(succeeds(folder.path(), "sweep sweep.toml --out out --job-script 5").out.contains("--array=1-5\n"));
+    let missing = run(folder.path(), "collect out");
+    assert_eq!((missing.code, missing.out.as_str()), (1, "1-5\n"), "{}", missing.err);
+    let other = run(folder.path(), "sweep sweep.toml --out out --job-script 8");
+    assert!(other.code == 2 && other.err.contains("out has 5 chunks, not 8"), "{}", other.err);
+    fs::write(folder.path().join("sweep.toml"), SWEEP.replace("until = 3", "until = 4")).unwrap();
+    let other = run(folder.path(), "sweep sweep.toml --out out --job-script 5");
+    assert!(other.code == 2 && other.err.contains("is of another sweep"), "{}", other.err);
+    assert!(succeeds(folder.path(), "sweep sweep.toml --out out --job-script 4 --force").out.contains("-4\n"));
+}
+
 #[test]
 fn tasks_of_an_array_compute_their_chunks() {
     let wanted = undisturbed(SWEEP);
@@ -162,7 +200,7 @@ fn another_number_of_chunks_is_another_folder() {
     succeeds(folder.path(), &chunk(1));
     let result = run(folder.path(), "sweep sweep.toml --out out --chunk 1/8");
     assert_eq!(result.code, 2);
-    assert!(result.err.contains("out has 16 chunks, not 8\n  hint: give I/16, or another folder"), "{}", result.err);
+    assert!(result.err.contains("out has 16 chunks, not 8\n  hint: give it 16 chunks, or another folder"), "{}", result.err);
     // a sweep on one machine goes on with those that are there
     assert_eq!(run(folder.path(), "sweep sweep.toml --out out").code, 0);
     assert_eq!(fs::read_dir(folder.path().join("out/chunks")).unwrap().count(), 16);

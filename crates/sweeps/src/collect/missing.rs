@@ -58,7 +58,7 @@ pub(crate) fn header(path: &Path) -> Option<Option<Header>> {
 }
 
 /// Numbers in order as `3,7-9`.
-pub fn ranges(numbers: &[u64]) -> String {
+pub(super) fn ranges(numbers: &[u64]) -> String {
     let mut groups: Vec<(u64, u64)> = Vec::new();
     for &number in numbers {
         match groups.last_mut() {

@@ -12,12 +12,14 @@ use toml::de::{DeTable, DeValue};
 use crate::axes::Axes;
 use crate::axis::Axis;
 
-/// Hashes of what determines the results of a sweep besides the version of the program.
+/// What determines the results of a sweep.
 #[derive(Clone, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 pub struct Digests {
-    /// Of the scene, the axes and what is kept; comments and the picture are left out.
+    /// The version of the program, on which the last digits may depend.
+    pub shadowstep: String,
+    /// The hash of the scene, the axes and what is kept; comments and the picture are left out.
     pub sweep: String,
-    /// Of the weights of all schemes, and of other files that the scene reads.
+    /// That of the weights of all schemes, and of other files that the scene reads.
     pub tables: String,
 }
 
@@ -40,7 +42,17 @@ pub(super) fn of(sweep: &DeTable<'_>, (family, first): (&Family, &Scene), axes: 
         text.push(';');
     }
     let inputs = [tables(&scene, family, axes)?].into_iter().chain(first.file_hashes()).collect::<Vec<_>>();
-    Ok(Digests { sweep: hash(&text), tables: hash(&inputs.join("\n")) })
+    let shadowstep = env!("CARGO_PKG_VERSION").to_owned();
+    Ok(Digests { shadowstep, sweep: hash(&text), tables: hash(&inputs.join("\n")) })
+}
+
+impl Digests {
+    /// That of these sentences which says what differs first from others: the version, the sweep, the tables.
+    pub(crate) fn difference(&self, other: &Digests, sentences: [String; 3]) -> Option<String> {
+        let differ =
+            [self.shadowstep != other.shadowstep, self.sweep != other.sweep, self.tables != other.tables];
+        differ.iter().position(|differs| *differs).map(|place| sentences[place].clone())
+    }
 }
 
 /// The hash of a text in hexadecimal digits.
