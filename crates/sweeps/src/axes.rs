@@ -4,7 +4,7 @@ use shadowstep_scenes::family::Meaning;
 use shadowstep_scenes::readable::{LONGEST_NUMBER, shortened};
 use shadowstep_scenes::reserved_names::quantities;
 use shadowstep_scenes::schema::texts;
-use shadowstep_schemes::document::{Reader, Text};
+use shadowstep_schemes::document::{Placed, Reader, Text, Value};
 use toml::de::DeTable;
 
 use crate::axis::Axis;
@@ -24,17 +24,13 @@ pub struct Axes {
 impl Axes {
     /// Reads \[axes\] and `zip`.
     pub(crate) fn read(reader: &mut Reader<'_>, root: &DeTable<'_>) -> Option<Axes> {
+        const ADD: &str = "a name and its values, such as h = [\"1/10\", \"1/20\"]";
         let Some((key, value)) = root.get_key_value("axes") else {
-            let hint = "add [axes] with a name and its values, such as h = [\"1/10\", \"1/20\"]";
-            return reader.wrong(&(0..0), "the section [axes] is missing", hint);
+            return reader.wrong(&(0..0), "the section [axes] is missing", format!("add [axes] with {ADD}"));
         };
         let table = value.get_ref().as_table()?;
         if table.is_empty() {
-            return reader.wrong(
-                &key.span(),
-                "[axes] is empty",
-                "add a name and its values, such as h = [\"1/10\", \"1/20\"]",
-            );
+            return reader.wrong(&key.span(), "[axes] is empty", format!("add {ADD}"));
         }
         if !reader.has_at_most(value, MOST_AXES, "axes") {
             return None;
@@ -44,9 +40,9 @@ impl Axes {
         entries.sort_by_key(|(name, _)| name.at.start);
         let read: Vec<_> = entries.iter().map(|(name, value)| axis(reader, name, value)).collect();
         let names: Vec<&str> = entries.iter().map(|(name, _)| name.value.as_str()).collect();
-        let zipped = zips(reader, root, &names);
+        let zips = zips(reader, root, &names);
         let axes: Vec<Axis> = read.into_iter().collect::<Option<_>>()?;
-        let groups = groups(reader, &axes, &zipped?)?;
+        let groups = groups(reader, &axes, zips?)?;
         let count = |group: &Vec<usize>| axes[group[0]].count();
         let runs = groups.iter().map(count).try_fold(1_u64, u64::checked_mul).filter(|runs| *runs <= MOST_RUNS);
         match runs {
@@ -99,7 +95,7 @@ impl Axes {
     }
 }
 
-fn axis(reader: &mut Reader<'_>, name: &Text, value: &shadowstep_schemes::document::Value<'_>) -> Option<Axis> {
+fn axis(reader: &mut Reader<'_>, name: &Text, value: &Value<'_>) -> Option<Axis> {
     let word = &name.value;
     let is_name = word.starts_with(|c: char| c.is_ascii_alphabetic())
         && word.chars().all(|c| c.is_ascii_alphanumeric() || c == '_');
@@ -122,54 +118,44 @@ fn reserved() -> impl Iterator<Item = &'static str> {
 const MOST_AXES: usize = 100;
 
 /// The lists of names in `zip`, as places of axes.
-fn zips(
-    reader: &mut Reader<'_>,
-    root: &DeTable<'_>,
-    names: &[&str],
-) -> Option<Vec<(Vec<usize>, std::ops::Range<usize>)>> {
+fn zips(reader: &mut Reader<'_>, root: &DeTable<'_>, names: &[&str]) -> Option<Vec<Placed<Vec<usize>>>> {
     let Some(value) = root.get("zip") else { return Some(Vec::new()) };
     let mut zips = Vec::new();
     let mut taken: Vec<usize> = Vec::new();
     for list in value.get_ref().as_array()?.iter().filter_map(|list| texts(reader.source, list)) {
-        let mut zip = Vec::new();
+        let first = taken.len();
         for name in &list.value {
-            let Some(place) = names.iter().position(|known| *known == name.value) else {
-                let hint = format!("the axes are {}", names.join(", "));
-                return reader.wrong(&name.at, format!("there is no axis `{}`", name.value), hint);
-            };
-            if taken.contains(&place) {
-                return reader.wrong(&name.at, format!("`{}` is in zip twice", name.value), "keep one of the two");
+            match names.iter().position(|known| *known == name.value) {
+                Some(place) if taken.contains(&place) => {
+                    return reader.wrong(&name.at, format!("`{}` is in zip twice", name.value), "keep one of the two");
+                }
+                Some(place) => taken.push(place),
+                None => {
+                    let hint = format!("the axes are {}", names.join(", "));
+                    return reader.wrong(&name.at, format!("there is no axis `{}`", name.value), hint);
+                }
             }
-            taken.push(place);
-            zip.push(place);
         }
-        zips.push((zip, list.at));
+        zips.push(Placed { value: taken[first..].to_vec(), at: list.at });
     }
     Some(zips)
 }
 
-/// The axes that advance together, in the order of their first ones.
-fn groups(
-    reader: &mut Reader<'_>,
-    axes: &[Axis],
-    zips: &[(Vec<usize>, std::ops::Range<usize>)],
-) -> Option<Vec<Vec<usize>>> {
-    for (zip, at) in zips {
-        let (first, unequal) = (&axes[zip[0]], zip.iter().map(|&place| &axes[place]));
-        if let Some(other) = unequal.into_iter().find(|axis| axis.count() != first.count()) {
-            let message = format!(
-                "axes of a zip need equally many values: {} has {}, {} has {}",
-                first.name,
-                first.count(),
-                other.name,
-                other.count()
-            );
-            return reader.wrong(at, message, "give them equally many values, or remove one from zip");
+/// The axes that advance together, and others alone, in the order of their first ones.
+fn groups(reader: &mut Reader<'_>, axes: &[Axis], zips: Vec<Placed<Vec<usize>>>) -> Option<Vec<Vec<usize>>> {
+    let mut alone: Vec<usize> = (0..axes.len()).collect();
+    let mut groups = Vec::new();
+    for Placed { value: zip, at } in zips {
+        let first = &axes[zip[0]];
+        if let Some(other) = zip.iter().map(|&place| &axes[place]).find(|axis| axis.count() != first.count()) {
+            let values = [first, other].map(|axis| format!("{} has {}", axis.name, axis.count())).join(", ");
+            let message = format!("axes of a zip need equally many values: {values}");
+            return reader.wrong(&at, message, "give them equally many values, or remove one from zip");
         }
+        alone.retain(|place| !zip.contains(place));
+        groups.push(zip);
     }
-    let alone =
-        (0..axes.len()).filter(|place| !zips.iter().any(|(zip, _)| zip.contains(place))).map(|place| vec![place]);
-    let mut groups: Vec<Vec<usize>> = zips.iter().map(|(zip, _)| zip.clone()).chain(alone).collect();
+    groups.extend(alone.into_iter().map(|place| vec![place]));
     groups.sort_by_key(|group| group.iter().min().copied());
     Some(groups)
 }

@@ -4,6 +4,7 @@ mod draws;
 mod number;
 mod range;
 
+use shadowstep::Rational;
 use shadowstep_scenes::family::Meaning;
 use shadowstep_scenes::schema::{Table, texts};
 use shadowstep_schemes::document::{Reader, Text, Value};
@@ -20,16 +21,14 @@ use range::Range;
 pub struct Axis {
     /// The name.
     pub name: String,
+    count: u64,
     values: Values,
 }
 
 #[derive(Clone, Debug)]
 enum Values {
-    /// Numbers only, or words.
-    List {
-        values: Vec<Meaning>,
-        is_numeric: bool,
-    },
+    Numbers(Vec<Rational>),
+    Words(Vec<String>),
     Range(Range),
     Draws(Draws),
 }
@@ -37,23 +36,20 @@ enum Values {
 impl Axis {
     /// Reads the value of a key of \[axes\].
     pub(crate) fn read(reader: &mut Reader<'_>, name: &Text, value: &Value<'_>) -> Option<Axis> {
-        let values = if let Some(draws) = Table::of_value(reader.source, value, &DRAWS) {
-            Values::Draws(Draws::read(reader, &name.value, &draws)?)
+        let (count, values) = if let Some(draws) = Table::of_value(reader.source, value, &DRAWS) {
+            (draws.whole("draws")?, Values::Draws(Draws::read(reader, &name.value, &draws)?))
         } else if let Some(list) = texts(reader.source, value) {
-            self::list(list.value)
+            (list.value.len() as u64, self::list(list.value))
         } else {
-            Values::Range(Range::read(reader, &name.value, &Text::of(reader.source, value)?)?)
+            let range = Range::read(reader, &name.value, &Text::of(reader.source, value)?)?;
+            (range.steps + 1, Values::Range(range))
         };
-        Some(Axis { name: name.value.clone(), values })
+        Some(Axis { name: name.value.clone(), count, values })
     }
 
     /// How many values it has.
     pub fn count(&self) -> u64 {
-        match &self.values {
-            Values::List { values, .. } => values.len() as u64,
-            Values::Range(range) => range.count(),
-            Values::Draws(draws) => draws.count(),
-        }
+        self.count
     }
 
     /// The value of this number, which is less than [`count`](Axis::count).
@@ -61,9 +57,10 @@ impl Axis {
     /// # Panics
     /// If it is not.
     pub fn value(&self, number: u64) -> Meaning {
-        assert!(number < self.count(), "axis {} has {} values", self.name, self.count());
+        assert!(number < self.count, "axis {} has {} values", self.name, self.count);
         match &self.values {
-            Values::List { values, .. } => values[usize::try_from(number).expect("a list fits into memory")].clone(),
+            Values::Numbers(numbers) => Meaning::Number(numbers[number as usize].clone()),
+            Values::Words(words) => Meaning::Word(words[number as usize].clone()),
             Values::Range(range) => Meaning::Number(range.value(number)),
             Values::Draws(draws) => Meaning::Number(draws.value(number)),
         }
@@ -71,20 +68,13 @@ impl Axis {
 
     /// Whether its values are numbers.
     pub(crate) fn is_numeric(&self) -> bool {
-        match &self.values {
-            Values::List { is_numeric, .. } => *is_numeric,
-            Values::Range(_) | Values::Draws(_) => true,
-        }
+        !matches!(self.values, Values::Words(_))
     }
 
     /// The first value that is not a number, and why it is none.
     pub(crate) fn first_word(&self) -> Option<(u64, Error)> {
-        let Values::List { values, is_numeric: false } = &self.values else { return None };
-        let word = |value: &Meaning| match value {
-            Meaning::Word(word) => evaluated(word).err(),
-            Meaning::Number(_) => None,
-        };
-        values.iter().zip(0..).find_map(|(value, number)| Some((number, word(value)?)))
+        let Values::Words(words) = &self.values else { return None };
+        words.iter().zip(0..).find_map(|(word, number)| Some((number, evaluated(word).err()?)))
     }
 
     /// Whether its values are random: they have no order.
@@ -100,8 +90,7 @@ impl Axis {
 
 /// Numbers if all members are numbers, otherwise words.
 fn list(texts: Vec<Text>) -> Values {
-    let numbers: Option<Vec<_>> = texts.iter().map(|text| evaluated(&text.value).ok().map(Meaning::Number)).collect();
-    let is_numeric = numbers.is_some();
-    let words = || texts.into_iter().map(|text| Meaning::Word(text.value)).collect();
-    Values::List { values: numbers.unwrap_or_else(words), is_numeric }
+    let numbers = texts.iter().map(|text| evaluated(&text.value).ok()).collect();
+    let words = || Values::Words(texts.into_iter().map(|text| text.value).collect());
+    Option::map_or_else(numbers, words, Values::Numbers)
 }

@@ -21,8 +21,8 @@ use crate::picture::{Cells, Picture, double, number_of};
 use crate::plan;
 use crate::record::Record;
 use csv_table::CsvTable;
-pub(crate) use missing::header;
 pub use missing::Missing;
+pub(crate) use missing::header;
 use missing::ranges;
 use parquet_table::ParquetTable;
 use table::{Cell, Head, Table, TableColumn};
@@ -89,7 +89,7 @@ pub fn collect(folder: &Path, format: TableFormat, observer: &mut dyn Observer) 
         let found = chunk::read(folder, chunk, manifest.runs, |record| tables.take(&record))?;
         match found {
             Ok(header) => functions.push((header.functions, chunk.number)),
-            Err(why) => damaged.add(chunk, &why),
+            Err(why) => damaged.add(chunk, why),
         }
         if observer.stops() {
             return Err(Error::run("interrupted: nothing is written", "the same command collects the results"));
@@ -124,15 +124,13 @@ fn incomplete(folder: &Path, missing: Missing) -> Result<Collected, Error> {
 
 /// All that is written.
 struct Tables<'a> {
+    manifest: &'a Manifest,
     axes: &'a Axes,
-    columns: &'a [Column],
-    long_numbers: bool,
     folder: &'a Path,
     results: Box<dyn Table>,
     /// The rows of all runs, if they are kept.
     rows: Option<WholeFile>,
     picture: Option<(Picture, Cells)>,
-    title: String,
     runs: u64,
     failed: u64,
 }
@@ -151,19 +149,7 @@ impl<'a> Tables<'a> {
             TableFormat::Parquet => Box::new(ParquetTable::new(folder, &head)?),
         };
         let picture = picture.and_then(|picture| Cells::new(&picture, axes).map(|cells| (picture, cells)));
-        let title = Path::new(&manifest.path).file_name().unwrap_or_default().to_string_lossy().into_owned();
-        Ok(Tables {
-            axes,
-            columns: &manifest.columns,
-            long_numbers: manifest.long_numbers,
-            folder,
-            results,
-            rows: None,
-            picture,
-            title,
-            runs: 0,
-            failed: 0,
-        })
+        Ok(Tables { manifest, axes, folder, results, rows: None, picture, runs: 0, failed: 0 })
     }
 
     fn take(&mut self, record: &Record) -> Result<(), Error> {
@@ -174,21 +160,18 @@ impl<'a> Tables<'a> {
         for (axis, &number) in self.axes.all().iter().zip(&numbers) {
             let value = axis.value(number);
             cells.push(Cell::Text(value.text()));
-            if axis.is_numeric() {
-                cells.push(match &value {
-                    Meaning::Number(number) => Cell::double(Some(double(number))),
-                    Meaning::Word(_) => Cell::Empty,
-                });
+            if let Meaning::Number(number) = &value {
+                cells.push(Cell::double(Some(double(number))));
             }
         }
-        for (place, column) in self.columns.iter().enumerate() {
+        for (place, column) in self.manifest.columns.iter().enumerate() {
             let text = record.values.get(place).and_then(Option::as_ref);
-            cells.push(text.map_or(Cell::Empty, |text| Cell::Text(text.clone())));
-            if has_double(column, self.long_numbers) {
+            cells.push(Cell::text(text));
+            if has_double(column, self.manifest.long_numbers) {
                 cells.push(Cell::double(text.and_then(|text| number_of(text))));
             }
         }
-        cells.push(record.failure.as_ref().map_or(Cell::Empty, |failure| Cell::Text(failure.clone())));
+        cells.push(Cell::text(record.failure.as_ref()));
         self.results.row(&cells)?;
         if let Some((picture, cells)) = &mut self.picture {
             cells.include(picture, &numbers, record);
@@ -218,22 +201,21 @@ impl<'a> Tables<'a> {
         }
         let mut notes: Vec<String> = functions_differ(functions).into_iter().collect();
         if let Some((picture, cells)) = self.picture {
-            match picture.svg(&cells, self.axes, self.columns, &self.title) {
+            let title = Path::new(&self.manifest.path).file_name().unwrap_or_default().to_string_lossy();
+            let why = match picture.svg(&cells, self.axes, &self.manifest.columns, &title) {
                 Ok(Some(svg)) => {
-                    let path = self.folder.join(PICTURE);
-                    let mut file = WholeFile::create(&path, "file")?;
+                    files.push(self.folder.join(PICTURE));
+                    let mut file = WholeFile::create(&files[files.len() - 1], "file")?;
                     file.write_all(svg.as_bytes())?;
                     file.finish()?;
-                    files.push(path);
+                    None
                 }
-                Ok(None) => notes.push(
-                    "there is no picture: no run has such a value, or there are too many words, curves or panels"
-                        .to_owned(),
-                ),
+                Ok(None) => Some("no run has such a value, or there are too many words, curves or panels".to_owned()),
                 // the table is complete all the same
-                Err(Error::Usage { message, hint }) => notes.push(format!("there is no picture: {message}; {hint}")),
+                Err(Error::Usage { message, hint }) => Some(format!("{message}; {hint}")),
                 Err(error) => return Err(error),
-            }
+            };
+            notes.extend(why.map(|why| format!("there is no picture: {why}")));
         }
         Ok(Collected::Complete { files, runs: self.runs, failed: self.failed, notes })
     }
@@ -263,7 +245,7 @@ fn head(manifest: &Manifest, axes: &Axes) -> Head {
         ("tables", manifest.digests.tables.clone()),
         ("runs", manifest.runs.to_string()),
     ];
-    Head { lines: lines.map(|(name, value)| (name.to_owned(), value)).to_vec(), columns }
+    Head { lines, columns }
 }
 
 /// A remark if chunks were computed with different elementary functions.

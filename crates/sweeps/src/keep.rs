@@ -10,7 +10,7 @@ use crate::keys;
 use crate::values::{Description, Need, RunValue, VALUES};
 
 /// What is kept of each run.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug)]
 pub(crate) struct Keep {
     /// Values in the order of the text.
     pub(crate) values: Vec<RunValue>,
@@ -47,22 +47,19 @@ impl Keep {
             return reader.wrong(&(0..0), "the section [keep] is missing", hint);
         }
         let before = reader.faults.len();
-        let mut keep = Keep { values: values(reader, &section), ..Keep::default() };
-        keep.state = section.truth("state") == Some(true);
-        keep.rows = section.truth("rows") == Some(true);
-        for (name, text) in formulas(reader, &section, "at_end") {
-            keep.at_end.push((name, Expression::new(text)));
-        }
+        let values = values(reader, &section);
+        let mut formulas = |key| named(reader, &section, key).unwrap_or_default();
+        let at_end = formulas("at_end").into_iter().map(|(name, text)| (name, Expression::new(text))).collect();
+        let mut extremes = Vec::new();
         for (key, extremum) in [("min", Extremum::Least), ("max", Extremum::Greatest)] {
-            let named = formulas(reader, &section, key).into_iter();
-            keep.extremes.extend(named.map(|(name, text)| (name, Expression::new(text), extremum)));
+            extremes.extend(formulas(key).into_iter().map(|(name, text)| (name, Expression::new(text), extremum)));
         }
-        let mut conditions = Vec::new();
-        for (name, text) in formulas(reader, &section, "first_time") {
-            conditions.push(name.value.clone());
-            keep.first_time.extend(Condition::read(reader, &text).map(|condition| (name, condition)));
-        }
-        keep.stop = stop(reader, &section, &conditions);
+        let conditions = formulas("first_time");
+        let stop = stop(reader, &section, &conditions);
+        let condition = |(name, text)| Some((name, Condition::read(reader, &text)?));
+        let first_time = conditions.into_iter().filter_map(condition).collect();
+        let [state, rows] = ["state", "rows"].map(|key| section.truth(key) == Some(true));
+        let keep = Keep { values, state, at_end, extremes, first_time, stop, rows };
         refuse_repeated(reader, &keep);
         if keep.columns(&[]).is_empty() && !keep.state && !keep.rows && reader.faults.len() == before {
             reader.fault(&section.at, "nothing is kept", "write values = [\"verdict\", \"energy_error\"], for example");
@@ -121,16 +118,11 @@ fn values(reader: &mut Reader<'_>, section: &Table<'_, '_>) -> Vec<RunValue> {
     kept
 }
 
-/// Names with formulas, in the order of the text.
-fn formulas(reader: &mut Reader<'_>, section: &Table<'_, '_>, key: &str) -> Vec<(Text, Text)> {
-    named(reader, section, key).unwrap_or_default()
-}
-
 /// Places of conditions of these names.
-fn stop(reader: &mut Reader<'_>, section: &Table<'_, '_>, conditions: &[String]) -> Vec<usize> {
+fn stop(reader: &mut Reader<'_>, section: &Table<'_, '_>, conditions: &[(Text, Text)]) -> Vec<usize> {
     let mut found = Vec::new();
     for name in section.list("stop").into_iter().flat_map(|list| list.value) {
-        match conditions.iter().position(|known| *known == name.value) {
+        match conditions.iter().position(|(known, _)| known.value == name.value) {
             Some(place) => found.push(place),
             None => {
                 let hint = "first_time = { escape = \"x^2 + y^2 > 100\" } and stop = [\"escape\"]";

@@ -14,13 +14,13 @@ use shadowstep_scenes::expression::Expression;
 use shadowstep_scenes::extremum::Extremum;
 use shadowstep_scenes::posed::{Followed, Posed};
 use shadowstep_scenes::run::Run;
-use shadowstep_scenes::tangent::{FollowingVectors, Vectors};
+use shadowstep_scenes::tangent::{FollowingVectors, TangentRun, Vectors};
 use shadowstep_scenes::watch::Energies;
 use shadowstep_scenes::{Error, Observer, Scene, System};
 use shadowstep_symbolic::decimal::to_text;
 
 use crate::keep::Keep;
-use crate::values::{Need, RunValue, finite};
+use crate::values::{Ended, Need, finite};
 
 /// What a run has given.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -54,7 +54,7 @@ impl Record {
 
 /// Makes a scene's run; `None` if it was stopped. A run that fails is a record, too.
 pub(crate) fn measured(run: u64, scene: &Scene, keep: &Keep, stops: &AtomicBool) -> Option<Record> {
-    let found = match measure(scene, keep, stops) {
+    let found = match scene.arithmetic.compute(Measuring { scene, keep, stops }) {
         Ok(Some(values)) if keep.rows => rows(scene, stops).map(|rows| rows.map(|rows| (values, Some(rows)))),
         other => other.map(|values| values.map(|values| (values, None))),
     };
@@ -71,11 +71,6 @@ fn sentence(error: Error) -> String {
         Error::Usage { message, .. } | Error::Run { message, .. } => message,
         other => other.to_string(),
     }
-}
-
-/// What is kept of a scene's run; `None` if it was stopped.
-fn measure(scene: &Scene, keep: &Keep, stops: &AtomicBool) -> Result<Option<Values>, Error> {
-    scene.arithmetic.compute(Measuring { scene, keep, stops })
 }
 
 /// Stops a run where another thread wants it.
@@ -98,7 +93,7 @@ fn rows(scene: &Scene, stops: &AtomicBool) -> Result<Option<String>, Error> {
     Ok(Some(text.lines().filter(|line| !line.starts_with('#')).flat_map(|line| [line, "\n"]).collect()))
 }
 
-/// A run in any number type.
+/// A run in any number type: what is kept of it; `None` if it was stopped.
 struct Measuring<'a> {
     scene: &'a Scene,
     keep: &'a Keep,
@@ -164,12 +159,22 @@ impl<'a, N: RunNumber> KeptOfRun<'a, N> {
     fn values(self, mut followed: Followed) -> Values {
         let KeptOfRun { keep, drift, tests, extremes, end: [expressions, state], .. } = self;
         let drift = drift.and_then(DriftRecorder::drift);
-        let tangents = followed.vectors.take();
-        let mut found = RunValues { drift: drift.as_ref(), followed: &followed, tangents };
-        let values: Values = keep.values.iter().map(|kept| found.value(*kept)).collect();
+        let vectors = followed.vectors.as_mut().map(FollowingVectors::end);
+        let ended = Ended {
+            steps: followed.n.unsigned_abs(),
+            evaluations: followed.evaluations,
+            energy: followed.energy.map_or_else(Default::default, |energy| {
+                [Some(energy.largest), energy.largest_relative, Some(energy.last)]
+            }),
+            summary: followed.summary.as_ref(),
+            drift: drift.as_ref().map(texts_of).unwrap_or_default(),
+            growth: vectors.map(|vectors| vectors.growths()[0]),
+            sali: vectors.and_then(TangentRun::sali),
+        };
+        let values = keep.values.iter().map(|kept| kept.of(&ended));
         let times = tests.into_iter().map(|(_, met)| met);
         let extremes = extremes.iter().map(|(_, _, found)| found.as_ref().and_then(finite));
-        values.into_iter().chain(times).chain(expressions).chain(extremes).chain(state).collect()
+        values.chain(times).chain(expressions).chain(extremes).chain(state).collect()
     }
 }
 
@@ -220,49 +225,17 @@ impl<N: RunNumber> Column<N> for KeptOfRun<'_, N> {
     }
 }
 
-/// What the values are made of.
-struct RunValues<'a, N> {
-    drift: Option<&'a EnergyDrift<N>>,
-    followed: &'a Followed,
-    tangents: Option<FollowingVectors>,
-}
-
-impl<N: Real> RunValues<'_, N> {
-    fn value(&mut self, kept: RunValue) -> Option<String> {
-        let RunValues { drift, followed, tangents } = self;
-        let (energy, summary) = (followed.energy.as_ref(), followed.summary.as_ref());
-        let permanent = drift.and_then(|drift| drift.permanent.as_ref());
-        let mut tangents = tangents.as_mut().map(FollowingVectors::end);
-        match kept {
-            RunValue::Verdict => summary.map(|summary| summary.verdict().to_owned()),
-            RunValue::Reason => summary.map(|summary| summary.reason().to_owned()),
-            RunValue::EnergyError => energy.map(|energy| energy.largest.clone()),
-            RunValue::RelativeEnergyError => energy.and_then(|energy| energy.largest_relative.clone()),
-            RunValue::LastEnergyError => energy.map(|energy| energy.last.clone()),
-            RunValue::MethodError => summary?.modified_energy()?.method.clone(),
-            RunValue::CloseEncounters => summary.map(|summary| summary.encounters().to_string()),
-            RunValue::Drift => drift.and_then(|drift| finite(&drift.drift)),
-            // of a change on one side of an encounter only, nothing is known
-            RunValue::PermanentChange => {
-                let known = permanent.filter(|permanent| permanent.finding != Finding::OneSided);
-                known.and_then(|permanent| finite(&permanent.change))
-            }
-            RunValue::PermanentResolution => permanent.and_then(|permanent| finite(&permanent.resolution)),
-            RunValue::PermanentFinding => permanent.map(|permanent| finding(permanent.finding).to_owned()),
-            RunValue::Motion | RunValue::Lyapunov | RunValue::LyapunovError | RunValue::Megno => {
-                tangents.and_then(|tangents| kept.of_growth(tangents.growths()[0]))
-            }
-            RunValue::Sali => tangents.as_mut().and_then(|tangents| tangents.sali()).and_then(|sali| finite(&sali)),
-            RunValue::Steps => Some(followed.n.to_string()),
-            RunValue::ForceEvaluations => Some(followed.evaluations.to_string()),
-        }
-    }
-}
-
-fn finding(finding: Finding) -> &'static str {
-    match finding {
+/// What is known of the modified energy: max − min; its permanent change, what that must exceed, and the finding.
+fn texts_of<N: Real>(drift: &EnergyDrift<N>) -> [Option<String>; 4] {
+    let permanent = drift.permanent.as_ref();
+    // of a change on one side of an encounter only, nothing is known
+    let known = permanent.filter(|permanent| permanent.finding != Finding::OneSided);
+    let finding = permanent.map(|permanent| match permanent.finding {
         Finding::Resolved => "resolved",
         Finding::BelowResolution => "below-resolution",
         Finding::OneSided => "one-sided",
-    }
+    });
+    let [change, resolution] = [known.map(|known| &known.change), permanent.map(|permanent| &permanent.resolution)]
+        .map(|x| x.and_then(finite));
+    [finite(&drift.drift), change, resolution, finding.map(str::to_owned)]
 }

@@ -20,7 +20,7 @@ use shadowstep_symbolic::decimal::to_text;
 
 use crate::keep::Keep;
 use crate::record::Values;
-use crate::values::{Need, RunValue, finite};
+use crate::values::{Ended, Need, finite};
 
 /// The most steps of runs that are computed together: all of them are lost where a call is stopped.
 const MOST_STEPS: u64 = 1_000_000;
@@ -230,7 +230,8 @@ impl<'a> LanesFollower<'a> {
             if !(energy.0[lane].is_finite() && state.iter().all(|x| x.is_finite())) {
                 continue;
             }
-            let values = self.keep.values.iter().map(|kept| self.value(*kept, lane, n, system.state().evaluations()));
+            let ended = self.ended(lane, n, system.state().evaluations());
+            let values = self.keep.values.iter().map(|kept| kept.of(&ended));
             let times = self.tests.iter().map(|(_, met)| met[lane].map(|n| to_text(&run.time(n.cast_signed()))));
             let ends = at_end.iter().map(of_lane).map(|x| finite(&x));
             let state = state.iter().filter(|_| self.keep.state).map(finite);
@@ -239,20 +240,15 @@ impl<'a> LanesFollower<'a> {
         }
     }
 
-    fn value(&self, kept: RunValue, lane: usize, n: u64, evaluations: u64) -> Option<String> {
-        let energies = || self.energies.as_ref().expect("they are followed where they are kept");
-        let tangents = || self.tangents.as_ref().expect("they are followed where they are kept");
-        match kept {
-            RunValue::EnergyError => Some(energies().largest.0[lane].to_text()),
-            RunValue::RelativeEnergyError => {
-                let size = energies().initial.0[lane].abs();
-                (size > 0.0).then(|| (energies().largest.0[lane] / size).to_text())
-            }
-            RunValue::LastEnergyError => Some(energies().last.0[lane].to_text()),
-            RunValue::Steps => Some(n.to_string()),
-            RunValue::ForceEvaluations => Some(evaluations.to_string()),
-            RunValue::Sali => finite(&tangents().sali(lane)),
-            _ => kept.of_growth(tangents().growth(0, lane)),
+    /// What is known of the run of a lane at the state n.
+    fn ended(&self, lane: usize, n: u64, evaluations: u64) -> Ended<'_> {
+        Ended {
+            steps: n,
+            evaluations,
+            energy: self.energies.as_ref().map(|energies| energies.texts(lane)).unwrap_or_default(),
+            growth: self.tangents.as_ref().map(|tangents| tangents.growth(0, lane)),
+            sali: self.tangents.as_ref().filter(|_| self.keep.vectors() > 1).map(|tangents| tangents.sali(lane)),
+            ..Ended::default()
         }
     }
 }
@@ -267,6 +263,12 @@ impl Energies {
             *active &= size.is_finite();
             *largest = if size > *largest { size } else { *largest };
         }
+    }
+
+    /// The largest error of a run, the same as a part of H(0), and the last one.
+    fn texts(&self, lane: usize) -> [Option<String>; 3] {
+        let [size, largest, last] = [self.initial.0[lane].abs(), self.largest.0[lane], self.last.0[lane]];
+        [Some(largest.to_text()), (size > 0.0).then(|| (largest / size).to_text()), Some(last.to_text())]
     }
 }
 

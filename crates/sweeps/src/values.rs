@@ -2,6 +2,7 @@
 
 use shadowstep::Real;
 use shadowstep::tangent::Growth;
+use shadowstep_scenes::Summary;
 
 /// A value that every run has, whatever its system.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -129,19 +130,48 @@ pub(crate) fn finite<N: Real>(x: &N) -> Option<String> {
     x.is_finite().then(|| x.to_text())
 }
 
+/// What is known of a run at its end; what no kept value needs is not.
+#[derive(Default)]
+pub(crate) struct Ended<'a> {
+    pub(crate) steps: u64,
+    pub(crate) evaluations: u64,
+    /// The largest |H − H(0)|, the same as a part of |H(0)|, and the last H − H(0).
+    pub(crate) energy: [Option<String>; 3],
+    pub(crate) summary: Option<&'a Summary>,
+    /// Of the modified energy: max − min; its permanent change, what that must exceed, and the finding.
+    pub(crate) drift: [Option<String>; 4],
+    /// Of the first tangent vector.
+    pub(crate) growth: Option<&'a Growth>,
+    pub(crate) sali: Option<f64>,
+}
+
 impl RunValue {
     pub(crate) fn description(self) -> &'static Description {
         VALUES.iter().find(|value| value.kept == self).expect("each value has its description")
     }
 
-    /// The value that the growth of the first tangent vector has; `None` of other values.
-    pub(crate) fn of_growth(self, growth: &Growth) -> Option<String> {
+    /// The value that a run has; `None` where there is none.
+    pub(crate) fn of(self, run: &Ended<'_>) -> Option<String> {
+        let Ended { energy: [largest, relative, last], drift: [drift, change, resolution, finding], .. } = run;
         match self {
-            RunValue::Motion => Some(growth.regularity().to_string()),
-            RunValue::Lyapunov => growth.exponent().and_then(|found| finite(&found.value)),
-            RunValue::LyapunovError => growth.exponent().and_then(|found| finite(&found.error)),
-            RunValue::Megno => growth.mean_megno().and_then(|megno| finite(&megno)),
-            _ => None,
+            RunValue::Verdict => Some(run.summary?.verdict().to_owned()),
+            RunValue::Reason => Some(run.summary?.reason().to_owned()),
+            RunValue::EnergyError => largest.clone(),
+            RunValue::RelativeEnergyError => relative.clone(),
+            RunValue::LastEnergyError => last.clone(),
+            RunValue::MethodError => run.summary?.modified_energy()?.method.clone(),
+            RunValue::CloseEncounters => Some(run.summary?.encounters().to_string()),
+            RunValue::Drift => drift.clone(),
+            RunValue::PermanentChange => change.clone(),
+            RunValue::PermanentResolution => resolution.clone(),
+            RunValue::PermanentFinding => finding.clone(),
+            RunValue::Motion => Some(run.growth?.regularity().to_string()),
+            RunValue::Lyapunov => finite(&run.growth?.exponent()?.value),
+            RunValue::LyapunovError => finite(&run.growth?.exponent()?.error),
+            RunValue::Megno => finite(&run.growth?.mean_megno()?),
+            RunValue::Sali => finite(&run.sali?),
+            RunValue::Steps => Some(run.steps.to_string()),
+            RunValue::ForceEvaluations => Some(run.evaluations.to_string()),
         }
     }
 }

@@ -200,7 +200,11 @@ fn another_number_of_chunks_is_another_folder() {
     succeeds(folder.path(), &chunk(1));
     let result = run(folder.path(), "sweep sweep.toml --out out --chunk 1/8");
     assert_eq!(result.code, 2);
-    assert!(result.err.contains("out has 16 chunks, not 8\n  hint: give it 16 chunks, or another folder"), "{}", result.err);
+    assert!(
+        result.err.contains("out has 16 chunks, not 8\n  hint: give it 16 chunks, or another folder"),
+        "{}",
+        result.err
+    );
     // a sweep on one machine goes on with those that are there
     assert_eq!(run(folder.path(), "sweep sweep.toml --out out").code, 0);
     assert_eq!(fs::read_dir(folder.path().join("out/chunks")).unwrap().count(), 16);

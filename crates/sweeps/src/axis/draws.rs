@@ -10,7 +10,7 @@ use shadowstep_scenes::schema::Table;
 use shadowstep_schemes::document::{Placed, Reader, Text};
 use shadowstep_symbolic::decimal::round_significant;
 
-use super::number::{formula, number};
+use super::number::{formula, geometric, number};
 
 /// Draws are rounded to this many digits, and are exact from there on.
 const DIGITS: u32 = 17;
@@ -21,7 +21,6 @@ const WORKING_DIGITS: u32 = DIGITS + 10;
 /// Independent random numbers.
 #[derive(Clone, Debug)]
 pub(super) struct Draws {
-    count: u64,
     seed: u64,
     /// From the name of the axis: axes with the same seed are independent.
     stream: u128,
@@ -40,7 +39,7 @@ enum Distribution {
 
 impl Draws {
     pub(super) fn read(reader: &mut Reader<'_>, name: &str, draws: &Table<'_, '_>) -> Option<Draws> {
-        let (count, seed) = (draws.whole("draws")?, draws.whole("seed")?);
+        let seed = draws.whole("seed")?;
         let kind = ["uniform", "log", "normal"].into_iter().find(|key| draws.get(key).is_some())?;
         let (a, b, at) = pair(reader, &draws.list(kind)?)?;
         let wrong = match kind {
@@ -55,7 +54,7 @@ impl Draws {
             return reader.wrong(&at, message, format!("write {hint}"));
         }
         let edges = [Rational::new(1.into(), (1_u64 << 54).into()), Rational::new(1.into(), 2.into())];
-        if kind == "log" && edges.iter().any(|u| logarithmic(&a, &b, u).is_none()) {
+        if kind == "log" && edges.iter().any(|u| geometric(&a, &b, u, WORKING_DIGITS).is_none()) {
             let message = "these numbers are too large or too small for logarithms";
             return reader.wrong(&at, message, "write log = [\"1e-6\", \"1e-3\"]");
         }
@@ -66,11 +65,7 @@ impl Draws {
         };
         let hash = Sha256::digest(name.as_bytes());
         let stream = hash.iter().take(16).fold(0, |stream, byte| (stream << 8) | u128::from(*byte));
-        Some(Draws { count, seed, stream, distribution })
-    }
-
-    pub(super) fn count(&self) -> u64 {
-        self.count
+        Some(Draws { seed, stream, distribution })
     }
 
     /// The k-th draw.
@@ -80,7 +75,9 @@ impl Draws {
         let [u, v] = [(); 2].map(|()| uniform(&mut random));
         let exact = match &self.distribution {
             Distribution::Uniform(from, to) => from + &(&(to - from) * &u),
-            Distribution::Logarithmic(from, to) => logarithmic(from, to, &u).expect("the ends were checked"),
+            Distribution::Logarithmic(from, to) => {
+                geometric(from, to, &u, WORKING_DIGITS).expect("the ends were checked")
+            }
             // Box and Muller
             Distribution::Normal(mean, deviation) => {
                 let normal = formula("sqrt(-2*log(u)) * cos(2*pi*v)", &[("u", &u), ("v", &v)], WORKING_DIGITS);
@@ -95,12 +92,6 @@ impl Draws {
 fn uniform(random: &mut Pcg64) -> Rational {
     let odd = ((random.next_u64() >> 11) << 1) | 1;
     Rational::new(odd.into(), (1_u64 << 54).into())
-}
-
-/// from^(1 − u) to^u
-fn logarithmic(from: &Rational, to: &Rational, u: &Rational) -> Option<Rational> {
-    let ratio = to / from;
-    formula("exp(log(a) + log(r)*u)", &[("a", from), ("r", &ratio), ("u", u)], WORKING_DIGITS)
 }
 
 /// Two numbers and their place.
@@ -131,8 +122,8 @@ mod tests {
         Draws::read(&mut reader, name, &table).unwrap_or_else(|| panic!("{:?}", reader.faults))
     }
 
-    fn doubles(draws: &Draws) -> Vec<f64> {
-        (0..draws.count()).map(|k| shadowstep::Number::from_rational(&draws.value(k), &())).collect()
+    fn doubles(draws: &Draws, count: u64) -> Vec<f64> {
+        (0..count).map(|k| shadowstep::Number::from_rational(&draws.value(k), &())).collect()
     }
 
     /// The wanted values are those of a program in Python with its own PCG64 and decimal arithmetic of 60 digits.
@@ -171,7 +162,7 @@ mod tests {
         for (text, mean, variance, fourth) in
             [("uniform = [0, 1]", 0.5, 1.0 / 12.0, 1.0 / 80.0), ("normal = [0, 1]", 0.0, 1.0, 3.0)]
         {
-            let draws = doubles(&draws("a", &format!("{{ draws = {N}, seed = 1, {text} }}")));
+            let draws = doubles(&draws("a", &format!("{{ draws = {N}, seed = 1, {text} }}")), N as u64);
             let found = draws.iter().sum::<f64>() / N;
             assert!((found - mean).abs() < 5.0 * f64::sqrt(variance / N), "{text}: mean {found}");
             let found = draws.iter().map(|x| (x - mean).powi(2)).sum::<f64>() / N;
@@ -183,7 +174,7 @@ mod tests {
     /// The logarithm is uniform; and all values are between the bounds.
     #[test]
     fn logarithms_are_uniform() {
-        let draws = doubles(&draws("a", "{ draws = 1000, seed = 1, log = [1e-6, 1e-2] }"));
+        let draws = doubles(&draws("a", "{ draws = 1000, seed = 1, log = [1e-6, 1e-2] }"), 1000);
         assert!(draws.iter().all(|x| (1e-6..1e-2).contains(x)));
         let mean = draws.iter().map(|x| x.log10()).sum::<f64>() / 1000.0;
         assert!((mean + 4.0).abs() < 5.0 * 4.0 / f64::sqrt(12.0 * 1000.0), "{mean}");
@@ -193,7 +184,9 @@ mod tests {
     #[test]
     fn axes_and_neighbours_are_independent() {
         const N: usize = 4000;
-        let of = |name, seed| doubles(&draws(name, &format!("{{ draws = {N}, seed = {seed}, uniform = [0, 1] }}")));
+        let of = |name, seed| {
+            doubles(&draws(name, &format!("{{ draws = {N}, seed = {seed}, uniform = [0, 1] }}")), N as u64)
+        };
         let (a, b, other) = (of("a", 1), of("b", 1), of("a", 2));
         let shifted = [&a[1..], &a[..1]].concat();
         for (name, second) in [("axes", b), ("seeds", other), ("neighbours", shifted)] {

@@ -36,6 +36,11 @@ pub(super) fn formula(formula: &str, names: &[(&str, &Rational)], digits: u32) -
     Some(evaluate(&expression, &names, digits).ok()?.value)
 }
 
+/// a^(1 − part) b^part of positive a and b to this many digits; `None` where they are too large or too small for it.
+pub(super) fn geometric(a: &Rational, b: &Rational, part: &Rational, digits: u32) -> Option<Rational> {
+    formula("exp(log(a) + log(r)*k)", &[("a", a), ("r", &(b / a)), ("k", part)], digits)
+}
+
 /// The value of a part of a text.
 pub(crate) fn number(reader: &mut Reader<'_>, text: &Text) -> Option<Rational> {
     match evaluated(&text.value) {

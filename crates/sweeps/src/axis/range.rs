@@ -5,7 +5,7 @@ use shadowstep::Rational;
 use shadowstep_schemes::document::{Reader, Text};
 use shadowstep_symbolic::decimal::round_significant;
 
-use super::number::{evaluated, formula};
+use super::number::{evaluated, geometric};
 
 /// Values of a logarithmic range are rounded to this many digits, and are exact from there on.
 const LOGARITHMIC_DIGITS: u32 = 12;
@@ -21,7 +21,7 @@ pub(super) struct Range {
     from: Rational,
     to: Rational,
     /// One less than the number of values.
-    steps: u64,
+    pub(super) steps: u64,
     rule: Rule,
 }
 
@@ -77,10 +77,6 @@ impl Range {
         Some(range)
     }
 
-    pub(super) fn count(&self) -> u64 {
-        self.steps + 1
-    }
-
     pub(super) fn is_logarithmic(&self) -> bool {
         self.rule == Rule::Logarithm
     }
@@ -102,9 +98,7 @@ impl Range {
     /// a^(1 − k/steps) b^(k/steps) for the ends a and b.
     fn power(&self, k: u64) -> Option<Rational> {
         let part = Rational::new(k.into(), self.steps.into());
-        let (size, ratio) = (self.from.abs(), &self.to / &self.from);
-        let names = [("a", &size), ("r", &ratio), ("k", &part)];
-        let size = formula("exp(log(a) + log(r)*k)", &names, LOGARITHMIC_DIGITS + 10)?;
+        let size = geometric(&self.from.abs(), &self.to.abs(), &part, LOGARITHMIC_DIGITS + 10)?;
         let rounded = round_significant(&size, LOGARITHMIC_DIGITS);
         Some(if self.from.is_negative() { Rational::zero() - rounded } else { rounded })
     }
@@ -166,7 +160,7 @@ mod tests {
 
     fn values(text: &str) -> Vec<Rational> {
         let range = read(text).unwrap_or_else(|fault| panic!("{text}: {fault}"));
-        (0..range.count()).map(|k| range.value(k)).collect()
+        (0..=range.steps).map(|k| range.value(k)).collect()
     }
 
     fn exact(texts: &[&str]) -> Vec<Rational> {
@@ -227,7 +221,7 @@ mod tests {
         let range = read("0 … 1 in 1000000000000 steps").unwrap();
         assert_eq!(range.value(250_000_000_000), exact(&["1/4"])[0]);
         let range = read("1e-12 … 1 in 1000000000000 values of log").unwrap();
-        assert_eq!((range.count(), range.value(999_999_999_999)), (1_000_000_000_000, exact(&["1"])[0].clone()));
+        assert_eq!((range.steps + 1, range.value(999_999_999_999)), (1_000_000_000_000, exact(&["1"])[0].clone()));
     }
 
     #[test]

@@ -20,14 +20,13 @@ impl Missing {
     pub fn find(manifest: &Manifest, folder: &Path) -> Missing {
         let mut missing = Missing::default();
         for chunk in manifest.all_chunks() {
-            match header(&chunk.path(folder)) {
-                None => missing.chunks.push(chunk.number),
-                Some(header) => {
-                    let header = header.ok_or_else(|| "its first line is not a header".to_owned());
-                    if let Err(why) = header.and_then(|header| manifest.check_header(&header)) {
-                        missing.add(chunk, &why);
-                    }
-                }
+            let Some(header) = header(&chunk.path(folder)) else {
+                missing.chunks.push(chunk.number);
+                continue;
+            };
+            let header = header.ok_or_else(|| "its first line is not a header".to_owned());
+            if let Err(why) = header.and_then(|header| manifest.check_header(&header)) {
+                missing.add(chunk, why);
             }
         }
         missing
@@ -43,9 +42,9 @@ impl Missing {
         ranges(&self.chunks)
     }
 
-    pub(crate) fn add(&mut self, chunk: Chunk, why: &str) {
+    pub(crate) fn add(&mut self, chunk: Chunk, why: String) {
         self.chunks.push(chunk.number);
-        self.unusable.push((chunk.number, why.to_owned()));
+        self.unusable.push((chunk.number, why));
     }
 }
 

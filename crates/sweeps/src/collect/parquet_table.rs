@@ -33,7 +33,7 @@ impl ParquetTable {
         let file = WholeFile::create(&path, "file")?;
         let fields = head.columns.iter().map(field).collect::<Result<Vec<_>, _>>().map_err(failed)?;
         let schema = Type::group_type_builder("results").with_fields(fields).build().map_err(failed)?;
-        let pairs = head.lines.iter().map(|(name, value)| KeyValue::new(name.clone(), value.clone()));
+        let pairs = head.lines.iter().map(|(name, value)| KeyValue::new((*name).to_owned(), value.clone()));
         let properties = WriterProperties::builder().set_key_value_metadata(Some(pairs.collect())).build();
         let writer = SerializedFileWriter::new(file, Arc::new(schema), Arc::new(properties)).map_err(failed)?;
         Ok(ParquetTable { writer, path, columns: head.columns.clone(), rows: Vec::new() })

@@ -7,7 +7,7 @@ use shadowstep_scenes::Error;
 /// The head of a table: what is in it.
 pub(crate) struct Head {
     /// `shadowstep 0.1.0`, …
-    pub(crate) lines: Vec<(String, String)>,
+    pub(crate) lines: [(&'static str, String); 4],
     pub(crate) columns: Vec<TableColumn>,
 }
 
@@ -29,6 +29,10 @@ pub(crate) enum Cell {
 }
 
 impl Cell {
+    pub(crate) fn text(text: Option<&String>) -> Cell {
+        text.map_or(Cell::Empty, |text| Cell::Text(text.clone()))
+    }
+
     /// None of a number that overflows.
     pub(crate) fn double(number: Option<f64>) -> Cell {
         number.filter(|number| number.is_finite()).map_or(Cell::Empty, Cell::Double)

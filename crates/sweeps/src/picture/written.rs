@@ -42,95 +42,77 @@ impl Written {
         let written = Written { x, y, curves, panels, value, of_several, scale, range, title, label };
         (reader.faults.len() == before).then_some(written)
     }
-}
 
-impl Written {
     /// With what suits the axes and columns where nothing is written; `None` where nothing can be drawn.
     pub(crate) fn resolve(self, reader: &mut Reader<'_>, axes: &Axes, columns: &[Column]) -> Option<Picture> {
         let before = reader.faults.len();
-        let all = axes.all();
         let mut axis = |text: &Option<Text>| {
-            text.as_ref().and_then(|text| place(reader, text, all.iter().map(|axis| &axis.name), "axis"))
+            let names = axes.all().iter().map(|axis| &axis.name);
+            text.as_ref().and_then(|text| place(reader, text, names, "axis"))
         };
-        let [mut x, mut y, mut curves, mut panels] =
-            [axis(&self.x), axis(&self.y), axis(&self.curves), axis(&self.panels)];
+        let [x, y, curves, panels] = [&self.x, &self.y, &self.curves, &self.panels].map(&mut axis);
         let value = match &self.value {
             Some(text) => place(reader, text, columns.iter().map(|column| &column.name), "value"),
-            None => {
-                columns.iter().position(|column| column.is_number).or(if columns.is_empty() { None } else { Some(0) })
-            }
+            None => columns.iter().position(|column| column.is_number).or((!columns.is_empty()).then_some(0)),
         };
         let given: Vec<&Text> = [&self.x, &self.y, &self.curves, &self.panels].into_iter().flatten().collect();
         for (place, text) in given.iter().enumerate() {
             if given[..place].iter().any(|other| other.value == text.value) {
-                reader.fault(
-                    &text.at,
-                    format!("the axis `{}` is in the picture twice", text.value),
-                    "give another axis",
-                );
+                let message = format!("the axis `{}` is in the picture twice", text.value);
+                reader.fault(&text.at, message, "give another axis");
             }
         }
         if reader.faults.len() > before {
             return None;
         }
-        let is_free = |taken: &[Option<usize>], place: usize| !taken.contains(&Some(place)) && all[place].count() > 1;
-        let ordered = |taken: &[Option<usize>]| {
-            let suits = |axis: &Axis| axis.is_numeric() && !axis.is_random();
-            (0..all.len()).find(|&place| is_free(taken, place) && suits(&all[place]))
-        };
-        x = x
-            .or_else(|| ordered(&[y, curves, panels]))
-            .or_else(|| (0..all.len()).find(|&place| is_free(&[y, curves, panels], place)));
-        if self.y.is_none() && curves.is_none() {
-            y = ordered(&[x, panels]);
-        }
-        let words = |taken: &[Option<usize>]| {
-            (0..all.len())
-                .find(|&place| is_free(taken, place) && !all[place].is_numeric() && all[place].count() <= MOST_PANELS)
-        };
-        match y {
-            Some(_) => panels = panels.or_else(|| words(&[x, y])),
-            None => curves = curves.or_else(|| words(&[x, panels])),
-        }
+        let [x, y, curves, panels] = chosen(axes.all(), [x, y, curves, panels]);
         if let Some(range) = self.range.as_ref().filter(|_| y.is_none()) {
-            reader.fault(
-                &range.at,
-                "range is of the colours of a map, and curves are drawn",
-                "leave it out, or give y for a map",
-            );
-            return None;
+            let message = "range is of the colours of a map, and curves are drawn";
+            return reader.wrong(&range.at, message, "leave it out, or give y for a map");
         }
-        let of_several = self.of_several.unwrap_or(OfSeveral::Mean);
         Some(Picture {
             x: x?,
             y,
             curves,
             panels,
             value: value?,
-            of_several,
+            of_several: self.of_several.unwrap_or(OfSeveral::Mean),
             scale: self.scale,
             range: self.range.map(|range| range.value),
-            title: self.title.map(|t| t.value),
-            label: self.label.map(|l| l.value),
+            title: self.title.map(|title| title.value),
+            label: self.label.map(|label| label.value),
         })
+    }
+}
+
+/// The axes of x, y, curves and panels: those that are given, and others that suit.
+fn chosen(all: &[Axis], [x, y, curves, panels]: [Option<usize>; 4]) -> [Option<usize>; 4] {
+    let free = |taken: &[Option<usize>], suits: fn(&Axis) -> bool| {
+        let is_free = |place: usize| !taken.contains(&Some(place)) && all[place].count() > 1;
+        (0..all.len()).find(|&place| is_free(place) && suits(&all[place]))
+    };
+    let ordered = |axis: &Axis| axis.is_numeric() && !axis.is_random();
+    let words = |axis: &Axis| !axis.is_numeric() && axis.count() <= MOST_PANELS;
+    let taken = [y, curves, panels];
+    let x = x.or_else(|| free(&taken, ordered)).or_else(|| free(&taken, |_| true));
+    match y.or_else(|| curves.map_or_else(|| free(&[x, panels], ordered), |_| None)) {
+        Some(y) => [x, Some(y), curves, panels.or_else(|| free(&[x, Some(y)], words))],
+        None => [x, None, curves.or_else(|| free(&[x, panels], words)), panels],
     }
 }
 
 /// The values at the ends of the colours.
 fn range(reader: &mut Reader<'_>, list: &Placed<Vec<Text>>, scale: Option<Scale>) -> Option<Placed<[Rational; 2]>> {
-    const TWO: &str = "the values at both ends, such as [1, 100]";
     let found = list.value.iter().map(|text| number(reader, text)).collect::<Option<Vec<_>>>()?;
-    let at = list.at.clone();
-    let Ok([least, most]) = <[Rational; 2]>::try_from(found) else {
-        return reader.wrong(&at, "range has two values", format!("write {TWO}"));
+    let wrong = match <[Rational; 2]>::try_from(found) {
+        Err(_) => "range has two values",
+        Ok([least, most]) if least >= most => "range must have the smaller value first",
+        Ok([least, _]) if scale == Some(Scale::Logarithmic) && least <= Rational::zero() => {
+            "the range of a logarithmic scale must be positive"
+        }
+        Ok(value) => return Some(Placed { value, at: list.at.clone() }),
     };
-    if least >= most {
-        return reader.wrong(&at, "range must have the smaller value first", format!("write {TWO}"));
-    }
-    if scale == Some(Scale::Logarithmic) && least <= Rational::zero() {
-        return reader.wrong(&at, "the range of a logarithmic scale must be positive", format!("write {TWO}"));
-    }
-    Some(Placed { value: [least, most], at })
+    reader.wrong(&list.at, wrong, "write the values at both ends, such as [1, 100]")
 }
 
 /// The most maps or curves that are drawn unless they are asked for.

@@ -8,7 +8,7 @@ use shadowstep_scenes::family::Family;
 use shadowstep_scenes::{Error, Scene};
 use shadowstep_schemes::document::{Fault, Reader};
 use shadowstep_symbolic::nearest;
-use toml::de::{DeTable, DeValue};
+use toml::de::DeTable;
 
 use super::digests::scheme_axis;
 use crate::axes::Axes;
@@ -22,15 +22,13 @@ use crate::values::Need;
 /// A scene or a table of a scheme that cannot be read.
 pub(super) fn axes(reader: &mut Reader<'_>, root: &DeTable<'_>, family: &Family, axes: &Axes) -> Result<(), Error> {
     let (names, whole) = (family.names()?, family.whole_names()?);
-    for (name, at) in &whole {
-        if axes.find(name).is_none() {
-            let known: Vec<&str> = axes.all().iter().map(|axis| axis.name.as_str()).collect();
-            let hint = match nearest(name, known.iter().copied()) {
-                Some(near) => format!("did you mean `${near}`?"),
-                None => format!("the axes are {}", known.join(", ")),
-            };
-            reader.faults.push(family.source().fault(at, format!("there is no axis `{name}`")).hint(hint));
-        }
+    let known: Vec<&str> = axes.all().iter().map(|axis| axis.name.as_str()).collect();
+    for (name, at) in whole.iter().filter(|(name, _)| axes.find(name).is_none()) {
+        let hint = match nearest(name, known.iter().copied()) {
+            Some(near) => format!("did you mean `${near}`?"),
+            None => format!("the axes are {}", known.join(", ")),
+        };
+        reader.faults.push(family.source().fault(at, format!("there is no axis `{name}`")).hint(hint));
     }
     for axis in axes.all().iter().filter(|axis| !whole.iter().any(|(name, _)| *name == axis.name)) {
         match (names.contains(&axis.name), axis.first_word()) {
@@ -120,19 +118,12 @@ fn with_axis(mut fault: Fault, axes: &Axes) -> Fault {
 
 /// The place of the name of an axis.
 fn place(root: &DeTable<'_>, axis: &Axis) -> Range<usize> {
-    let place = match root.get("axes").map(|axes| axes.get_ref()) {
-        Some(DeValue::Table(table)) => table.get_key_value(axis.name.as_str()).map(|(key, _)| key.span()),
-        _ => None,
-    };
-    place.unwrap_or(0..0)
+    let axes = root.get("axes").and_then(|axes| axes.get_ref().as_table());
+    axes.and_then(|axes| axes.get_key_value(axis.name.as_str())).map_or(0..0, |(key, _)| key.span())
 }
 
 /// The place of a value of an axis with a list, within its quotes.
 fn member(root: &DeTable<'_>, axis: &Axis, number: u64) -> Range<usize> {
-    let found = || {
-        let DeValue::Table(axes) = root.get("axes")?.get_ref() else { return None };
-        let DeValue::Array(list) = axes.get(axis.name.as_str())?.get_ref() else { return None };
-        Some(list.get(usize::try_from(number).ok()?)?.span())
-    };
-    found().unwrap_or_else(|| place(root, axis))
+    let list = root.get("axes").and_then(|axes| axes.get_ref().get(axis.name.as_str()));
+    list.and_then(|list| list.get_ref().get(number as usize)).map_or_else(|| place(root, axis), |value| value.span())
 }

@@ -49,8 +49,7 @@ pub(super) fn of(sweep: &DeTable<'_>, (family, first): (&Family, &Scene), axes: 
 impl Digests {
     /// That of these sentences which says what differs first from others: the version, the sweep, the tables.
     pub(crate) fn difference(&self, other: &Digests, sentences: [String; 3]) -> Option<String> {
-        let differ =
-            [self.shadowstep != other.shadowstep, self.sweep != other.sweep, self.tables != other.tables];
+        let differ = [self.shadowstep != other.shadowstep, self.sweep != other.sweep, self.tables != other.tables];
         differ.iter().position(|differs| *differs).map(|place| sentences[place].clone())
     }
 }
@@ -99,11 +98,8 @@ fn tables(scene: &DeTable<'_>, family: &Family, axes: &Axes) -> Result<String, E
         (None, Some(word)) => vec![word.to_owned()],
         (None, None) => Vec::new(),
     };
-    let mut identities = Vec::new();
-    for word in words {
-        identities.push(family.schemes().scheme_of(&word, family.source(), None)?.identity());
-    }
-    Ok(identities.join("\n"))
+    let identity = |word: &String| Ok(family.schemes().scheme_of(word, family.source(), None)?.identity());
+    Ok(words.iter().map(identity).collect::<Result<Vec<_>, Error>>()?.join("\n"))
 }
 
 /// The axis whose values are the schemes of the runs.
@@ -112,7 +108,5 @@ pub(super) fn scheme_axis<'a>(scene: &DeTable<'_>, axes: &'a Axes) -> Option<&'a
 }
 
 fn scheme<'a>(scene: &'a DeTable<'_>) -> Option<&'a str> {
-    let DeValue::Table(run) = scene.get("run")?.get_ref() else { return None };
-    let DeValue::String(word) = run.get("scheme")?.get_ref() else { return None };
-    Some(word)
+    scene.get("run")?.get_ref().get("scheme")?.get_ref().as_str()
 }
