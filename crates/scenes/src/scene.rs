@@ -82,7 +82,7 @@ impl Scene {
     }
 
     /// The steps of the run from this state on.
-    pub(crate) fn steps_from(&self, begin: Begin) -> Steps<'_> {
+    pub fn steps_from(&self, begin: Begin) -> Steps<'_> {
         let (compensated, displaced) = (self.arithmetic.is_compensated(), self.displaced);
         Steps { scheme: &self.scheme.scheme, h: &self.h, compensated, displaced, begin }
     }

@@ -6,7 +6,6 @@ use shadowstep_scenes::family::Parsed;
 use shadowstep_scenes::lanes::LANES;
 use shadowstep_scenes::{Error, Scene};
 
-use crate::keep::Keep;
 use crate::plan::SweepPlan;
 use crate::record::{Record, measured};
 use crate::together::{self, allows, are_alike, suits};
@@ -39,9 +38,12 @@ impl SweepPlan {
                 Err(faults) => each(Record::failed(run, faults.0[0].message.clone()))?,
             }
         }
-        for group in groups(scenes, keep) {
+        for group in groups(scenes) {
             let all: Vec<&Scene> = group.iter().map(|(_, scene)| scene).collect();
-            let found = if all.len() > 1 { together::measure(&all, keep, stops) } else { vec![None] };
+            let found = match all.len() > 1 && allows(keep) && suits(all[0], keep) {
+                true => together::measure(&all, keep, stops),
+                false => vec![None; all.len()],
+            };
             for ((run, scene), values) in group.iter().zip(found) {
                 let record = match values {
                     Some(values) => Some(Record::of(*run, values)),
@@ -54,8 +56,8 @@ impl SweepPlan {
     }
 }
 
-/// Runs that may be computed together; runs alone.
-fn groups(scenes: Vec<(u64, Scene)>, keep: &Keep) -> Vec<Vec<(u64, Scene)>> {
+/// Runs that are alike, as many as there are lanes.
+fn groups(scenes: Vec<(u64, Scene)>) -> Vec<Vec<(u64, Scene)>> {
     let mut groups: Vec<Vec<(u64, Scene)>> = Vec::new();
     for (run, scene) in scenes {
         let has_place = |group: &&mut Vec<(u64, Scene)>| group.len() < LANES && are_alike(&group[0].1, &scene);
@@ -64,8 +66,5 @@ fn groups(scenes: Vec<(u64, Scene)>, keep: &Keep) -> Vec<Vec<(u64, Scene)>> {
             None => groups.push(vec![(run, scene)]),
         }
     }
-    let is_alone = |group: &Vec<(u64, Scene)>| group.len() == 1 || !allows(keep) || !suits(&group[0].1, keep);
-    let (alone, together): (Vec<_>, Vec<_>) = groups.into_iter().partition(is_alone);
-    let alone = alone.into_iter().flatten().map(|run| vec![run]);
-    together.into_iter().chain(alone).collect()
+    groups
 }

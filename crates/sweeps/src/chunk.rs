@@ -201,7 +201,7 @@ pub(crate) fn read(
         Err(error) if error.kind() == io::ErrorKind::NotFound => return damaged("it is missing"),
         Err(error) => return damaged(&error.to_string()),
     };
-    let mut lines = Lines { reader: BufReader::with_capacity(1 << 16, file), hash: Sha256::new(), line: String::new() };
+    let mut lines = Lines::of(file);
     let Some(header) = lines.next::<Header>() else { return damaged("its first line is not a header") };
     if (header.chunk, header.range()) != (chunk, chunk.runs(runs)) {
         return damaged("it has other runs than its name");
@@ -219,14 +219,23 @@ pub(crate) fn read(
     }
 }
 
+/// The header of a chunk's file; `None` without a file, and within of one without a header.
+pub(crate) fn header(path: &Path) -> Option<Option<Header>> {
+    Some(Lines::of(open(path).ok()?).next())
+}
+
 /// Complete lines of JSON, and the hash of those read so far.
-struct Lines<R> {
-    reader: R,
+struct Lines {
+    reader: BufReader<File>,
     hash: Sha256,
     line: String,
 }
 
-impl<R: BufRead> Lines<R> {
+impl Lines {
+    fn of(file: File) -> Lines {
+        Lines { reader: BufReader::with_capacity(1 << 16, file), hash: Sha256::new(), line: String::new() }
+    }
+
     fn next<T: DeserializeOwned>(&mut self) -> Option<T> {
         self.line.clear();
         self.reader.read_line(&mut self.line).ok()?;

@@ -7,6 +7,7 @@ mod table;
 
 use std::fs;
 use std::io::{self, Write};
+use std::iter;
 use std::path::{Path, PathBuf};
 
 use shadowstep_scenes::family::Meaning;
@@ -22,7 +23,6 @@ use crate::plan;
 use crate::record::Record;
 use csv_table::CsvTable;
 pub use missing::Missing;
-pub(crate) use missing::header;
 use missing::ranges;
 use parquet_table::ParquetTable;
 use table::{Cell, Head, Table, TableColumn};
@@ -61,13 +61,8 @@ pub enum Collected {
 
 const ROWS: &str = "rows.csv";
 const PICTURE: &str = "picture.svg";
-/// The tables, one for each format.
-pub(crate) const TABLES: [&str; 2] = [csv_table::NAME, parquet_table::NAME];
-
-/// The names of all files that are written.
-pub(crate) fn written() -> impl Iterator<Item = &'static str> {
-    TABLES.into_iter().chain([ROWS, PICTURE])
-}
+/// The names of all files that are written, one table of them.
+pub(crate) const WRITTEN: [&str; 4] = [csv_table::NAME, parquet_table::NAME, ROWS, PICTURE];
 
 /// Checks all chunks in the folder of a sweep and writes its table and its picture there.
 ///
@@ -109,7 +104,7 @@ pub fn collect(folder: &Path, format: TableFormat, observer: &mut dyn Observer) 
 /// A table of an earlier collection would be taken for that of the chunks that are there now.
 fn incomplete(folder: &Path, missing: Missing) -> Result<Collected, Error> {
     let mut removed = Vec::new();
-    for path in written().map(|name| folder.join(name)) {
+    for path in WRITTEN.map(|name| folder.join(name)) {
         match fs::remove_file(&path) {
             Ok(()) => removed.push(path),
             Err(error) if error.kind() == io::ErrorKind::NotFound => {}
@@ -194,10 +189,10 @@ impl<'a> Tables<'a> {
     }
 
     fn finish(self, functions: &[(Option<String>, u64)]) -> Result<Collected, Error> {
-        let mut files = vec![self.results.finish()?];
-        if let Some(rows) = self.rows {
-            files.push(rows.path().to_owned());
-            rows.finish()?;
+        let mut files = Vec::new();
+        for file in iter::once(self.results.finish()?).chain(self.rows) {
+            files.push(file.path().to_owned());
+            file.finish()?;
         }
         let mut notes: Vec<String> = functions_differ(functions).into_iter().collect();
         if let Some((picture, cells)) = self.picture {

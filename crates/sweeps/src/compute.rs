@@ -196,13 +196,9 @@ impl Due<'_> {
 impl Computed {
     fn include(&mut self, record: &Record) {
         self.runs += 1;
-        if let Some(failure) = &record.failure {
-            self.failed += 1;
-            let first = self.first_failure.get_or_insert_with(|| (record.run, failure.clone()));
-            if record.run < first.0 {
-                *first = (record.run, failure.clone());
-            }
-        }
+        self.failed += u64::from(record.failure.is_some());
+        let failure = record.failure.clone().map(|failure| (record.run, failure));
+        self.first_failure = self.first_failure.take().into_iter().chain(failure).min();
     }
 }
 

@@ -7,8 +7,8 @@ use std::path::{Path, PathBuf};
 use shadowstep_scenes::Error;
 use shadowstep_studies::files;
 
-use crate::chunk::{CHUNKS_FOLDER, left};
-use crate::collect::{header, written};
+use crate::chunk::{CHUNKS_FOLDER, header, left};
+use crate::collect::WRITTEN;
 use crate::manifest::{self, Manifest, check_chunks};
 use crate::plan::SweepPlan;
 
@@ -21,7 +21,7 @@ pub fn refuse_foreign(folder: &Path) -> Result<(), Error> {
     if Manifest::is_in(folder) || folder.join(CHUNKS_FOLDER).is_dir() {
         return Ok(());
     }
-    files::refuse_foreign(folder, written().map(str::to_owned))
+    files::refuse_foreign(folder, WRITTEN.map(str::to_owned))
 }
 
 /// Removes what is not from this plan, so that the sweep begins in the folder: files that [`collect`](crate::collect())
@@ -38,7 +38,7 @@ pub fn remove_foreign(folder: &Path, plan: &SweepPlan, chunks: Option<u64>) -> R
         return Ok(());
     }
     let is_foreign = |path: &PathBuf| header(path).flatten().is_some_and(|header| header.digests != plan.digests);
-    let named = written().chain([manifest::NAME]).map(|name| folder.join(name));
+    let named = WRITTEN.into_iter().chain([manifest::NAME]).map(|name| folder.join(name));
     for path in named.chain(left(&folder.join(CHUNKS_FOLDER), "").into_iter().filter(is_foreign)) {
         match fs::remove_file(&path) {
             Err(error) if error.kind() != io::ErrorKind::NotFound => {

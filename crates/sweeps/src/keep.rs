@@ -1,5 +1,6 @@
 //! \[keep\]: what is kept of each run.
 
+use shadowstep_scenes::evaluator::{Evaluator, NotOfSystem, Test};
 use shadowstep_scenes::expression::{Condition, Expression, named};
 use shadowstep_scenes::extremum::Extremum;
 use shadowstep_scenes::schema::Table;
@@ -7,25 +8,34 @@ use shadowstep_schemes::document::{Reader, Text};
 use toml::de::DeTable;
 
 use crate::keys;
-use crate::values::{Description, Need, RunValue, VALUES};
+use crate::values::{Need, RunValue, VALUES};
 
 /// What is kept of each run.
 #[derive(Clone, Debug)]
 pub(crate) struct Keep {
     /// Values in the order of the text.
-    pub(crate) values: Vec<RunValue>,
+    pub(crate) values: Vec<&'static RunValue>,
+    /// Conditions and expressions with their names, in the order of their columns.
+    pub(crate) formulas: Vec<(Text, Formula)>,
     /// Whether q and p of the last state are kept.
     pub(crate) state: bool,
-    /// Expressions at the last state.
-    pub(crate) at_end: Vec<(Text, Expression)>,
-    /// Expressions whose least or greatest value over the run is kept.
-    pub(crate) extremes: Vec<(Text, Expression, Extremum)>,
-    /// Conditions, of which the time of the first state that meets them is kept.
-    pub(crate) first_time: Vec<(Text, Condition)>,
-    /// Those of them that end the run, by their places.
-    pub(crate) stop: Vec<usize>,
     /// Whether the rows of the scene's \[output\] are kept.
     pub(crate) rows: bool,
+}
+
+/// A formula of which something is kept.
+#[derive(Clone, Debug)]
+pub(crate) enum Formula {
+    /// The time of the first state that meets the condition, and whether this ends the run.
+    FirstTime(Condition, bool),
+    /// The least or greatest value over the run; without an extremum, the one at the last state.
+    Value(Expression, Option<Extremum>),
+}
+
+/// A formula in the numbers of a run, with what it has given up to now: a time or a value.
+pub(crate) enum Kept<N, T, V> {
+    FirstTime(Test<N>, bool, T),
+    Value(Evaluator<N>, Option<Extremum>, V),
 }
 
 /// A column of the results.
@@ -48,19 +58,19 @@ impl Keep {
         }
         let before = reader.faults.len();
         let values = values(reader, &section);
-        let mut formulas = |key| named(reader, &section, key).unwrap_or_default();
-        let at_end = formulas("at_end").into_iter().map(|(name, text)| (name, Expression::new(text))).collect();
-        let mut extremes = Vec::new();
-        for (key, extremum) in [("min", Extremum::Least), ("max", Extremum::Greatest)] {
-            extremes.extend(formulas(key).into_iter().map(|(name, text)| (name, Expression::new(text), extremum)));
-        }
-        let conditions = formulas("first_time");
+        let conditions = named(reader, &section, "first_time").unwrap_or_default();
         let stop = stop(reader, &section, &conditions);
-        let condition = |(name, text)| Some((name, Condition::read(reader, &text)?));
-        let first_time = conditions.into_iter().filter_map(condition).collect();
+        let mut formulas = Vec::new();
+        for (name, text) in conditions {
+            let stops = stop.contains(&name.value);
+            formulas.extend(Condition::read(reader, &text).map(|read| (name, Formula::FirstTime(read, stops))));
+        }
+        for (key, extremum) in [("at_end", None), ("min", Some(Extremum::Least)), ("max", Some(Extremum::Greatest))] {
+            let of_key = named(reader, &section, key).unwrap_or_default().into_iter();
+            formulas.extend(of_key.map(|(name, text)| (name, Formula::Value(Expression::new(text), extremum))));
+        }
         let [state, rows] = ["state", "rows"].map(|key| section.truth(key) == Some(true));
-        let keep = Keep { values, state, at_end, extremes, first_time, stop, rows };
-        refuse_repeated(reader, &keep);
+        let keep = Keep { values, formulas, state, rows };
         if keep.columns(&[]).is_empty() && !keep.state && !keep.rows && reader.faults.len() == before {
             reader.fault(&section.at, "nothing is kept", "write values = [\"verdict\", \"energy_error\"], for example");
         }
@@ -70,76 +80,68 @@ impl Keep {
     /// The columns, for a state with these coordinates and momenta.
     pub(crate) fn columns(&self, state: &[String]) -> Vec<Column> {
         let column = |name: &str, is_number, is_exact| Column { name: name.to_owned(), is_number, is_exact };
-        let values = self.values.iter().map(|kept| {
-            let Description { name, is_number, .. } = kept.description();
-            column(name, *is_number, false)
-        });
-        let times = self.first_time.iter().map(|(name, _)| column(&name.value, true, true));
-        let ends = self.at_end.iter().map(|(name, _)| column(&name.value, true, false));
-        let extremes = self.extremes.iter().map(|(name, ..)| column(&name.value, true, false));
+        let values = self.values.iter().map(|value| column(value.name, value.is_number, false));
+        let is_exact = |formula: &Formula| matches!(formula, Formula::FirstTime(..));
+        let formulas = self.formulas.iter().map(|(name, formula)| column(&name.value, true, is_exact(formula)));
         let states = state.iter().filter(|_| self.state).map(|name| column(name, true, false));
-        values.chain(times).chain(ends).chain(extremes).chain(states).collect()
-    }
-
-    /// The names of formulas and conditions.
-    pub(crate) fn named(&self) -> impl Iterator<Item = &Text> {
-        let times = self.first_time.iter().map(|(name, _)| name);
-        let ends = self.at_end.iter().map(|(name, _)| name);
-        times.chain(ends).chain(self.extremes.iter().map(|(name, ..)| name))
+        values.chain(formulas).chain(states).collect()
     }
 
     /// All formulas, those of conditions included.
-    pub(crate) fn formulas(&self) -> impl Iterator<Item = &Expression> {
-        let conditions = self.first_time.iter().map(|(_, condition)| condition.difference());
-        let ends = self.at_end.iter().map(|(_, end)| end);
-        conditions.chain(ends).chain(self.extremes.iter().map(|(_, expression, _)| expression))
+    pub(crate) fn expressions(&self) -> impl Iterator<Item = &Expression> {
+        self.formulas.iter().map(|(_, formula)| match formula {
+            Formula::FirstTime(condition, _) => condition.difference(),
+            Formula::Value(expression, _) => expression,
+        })
+    }
+
+    /// All formulas in the numbers of a run.
+    pub(crate) fn begin<N, T: Default, V: Default>(
+        &self,
+        test: impl Fn(&Condition) -> Result<Test<N>, NotOfSystem>,
+        evaluator: impl Fn(&Expression) -> Result<Evaluator<N>, NotOfSystem>,
+    ) -> Vec<Kept<N, T, V>> {
+        const CHECKED: &str = "the formulas were checked with the sweep";
+        let begun = |(_, formula): &(Text, Formula)| match formula {
+            Formula::FirstTime(of, stops) => Kept::FirstTime(test(of).expect(CHECKED), *stops, T::default()),
+            Formula::Value(of, extremum) => Kept::Value(evaluator(of).expect(CHECKED), *extremum, V::default()),
+        };
+        self.formulas.iter().map(begun).collect()
+    }
+
+    /// Whether more than the last state is of interest for formulas.
+    pub(crate) fn follows_all(&self) -> bool {
+        self.formulas.iter().any(|(_, formula)| !matches!(formula, Formula::Value(_, None)))
     }
 
     /// How many tangent vectors a run has.
     pub(crate) fn vectors(&self) -> usize {
-        usize::from(self.needs(Need::Tangents)) + usize::from(self.values.contains(&RunValue::Sali))
+        let vectors = |value: &&RunValue| if let Need::Tangents(count) = value.need { count } else { 0 };
+        self.values.iter().map(vectors).max().unwrap_or(0)
     }
 
     pub(crate) fn needs(&self, need: Need) -> bool {
-        self.values.iter().any(|kept| kept.description().need == need)
+        self.values.iter().any(|value| value.need == need)
     }
 }
 
-fn values(reader: &mut Reader<'_>, section: &Table<'_, '_>) -> Vec<RunValue> {
-    let mut kept = Vec::new();
+fn values(reader: &mut Reader<'_>, section: &Table<'_, '_>) -> Vec<&'static RunValue> {
+    let mut kept: Vec<&RunValue> = Vec::new();
     for text in section.list("values").into_iter().flat_map(|list| list.value) {
-        match VALUES.iter().find(|value| value.name == text.value) {
-            Some(Description { kept: known, .. }) if kept.contains(known) => {
-                reader.fault(&text.at, format!("`{}` is there twice", text.value), "keep one of the two");
-            }
-            known => kept.extend(known.map(|known| known.kept)),
+        if kept.iter().any(|value| value.name == text.value) {
+            reader.fault(&text.at, format!("`{}` is there twice", text.value), "keep one of the two");
         }
+        kept.extend(VALUES.iter().find(|value| value.name == text.value));
     }
     kept
 }
 
-/// Places of conditions of these names.
-fn stop(reader: &mut Reader<'_>, section: &Table<'_, '_>, conditions: &[(Text, Text)]) -> Vec<usize> {
-    let mut found = Vec::new();
-    for name in section.list("stop").into_iter().flat_map(|list| list.value) {
-        match conditions.iter().position(|(known, _)| known.value == name.value) {
-            Some(place) => found.push(place),
-            None => {
-                let hint = "first_time = { escape = \"x^2 + y^2 > 100\" } and stop = [\"escape\"]";
-                reader.fault(&name.at, format!("first_time has no `{}`", name.value), format!("write {hint}"));
-            }
-        }
+/// The names of conditions that end the run.
+fn stop(reader: &mut Reader<'_>, section: &Table<'_, '_>, conditions: &[(Text, Text)]) -> Vec<String> {
+    let names: Vec<Text> = section.list("stop").into_iter().flat_map(|list| list.value).collect();
+    for name in names.iter().filter(|name| conditions.iter().all(|(known, _)| known.value != name.value)) {
+        let hint = "write first_time = { escape = \"x^2 + y^2 > 100\" } and stop = [\"escape\"]";
+        reader.fault(&name.at, format!("first_time has no `{}`", name.value), hint);
     }
-    found
-}
-
-fn refuse_repeated(reader: &mut Reader<'_>, keep: &Keep) {
-    let mut seen: Vec<&str> = keep.values.iter().map(|kept| kept.description().name).collect();
-    seen.extend(["run", "failure"]);
-    for name in keep.named() {
-        if seen.contains(&name.value.as_str()) {
-            reader.fault(&name.at, format!("a column is named `{}` already", name.value), "give it another name");
-        }
-        seen.push(&name.value);
-    }
+    names.into_iter().map(|name| name.value).collect()
 }

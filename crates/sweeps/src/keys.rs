@@ -7,7 +7,7 @@ use shadowstep_scenes::{explanation, keys, rows};
 use shadowstep_schemes::document::Reader;
 use toml::de::DeTable;
 
-use crate::values::{Description, NAMES_OF_VALUES, VALUES};
+use crate::values::{NAMES_OF_VALUES, RunValue, VALUES};
 
 const INTRODUCTION: &str = "\
 A sweep is a TOML file: the sections of a scene, or `scene` with the path of one, and [axes], [keep] and [picture]. \
@@ -132,7 +132,7 @@ pub(crate) const PICTURE: Section = Section::new(
 pub fn explain() -> String {
     let mut text = explanation(INTRODUCTION, SECTIONS);
     text += "\nThe values of [keep]:\n";
-    for Description { name, meaning, .. } in &VALUES {
+    for RunValue { name, meaning, .. } in &VALUES {
         text += &format!("  {name:<22}{meaning}\n");
     }
     text

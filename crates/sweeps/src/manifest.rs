@@ -76,8 +76,7 @@ impl Manifest {
             path: plan.source.path.clone(),
             text: plan.source.text.clone(),
         };
-        let folder_of_chunks = folder.join(CHUNKS_FOLDER);
-        create_folder(&folder_of_chunks)?;
+        create_folder(&folder.join(CHUNKS_FOLDER))?;
         own.write(folder, false)?;
         let there = Manifest::read(folder)?;
         there.check(&own, chunks.is_some(), folder)?;
@@ -97,20 +96,15 @@ impl Manifest {
     pub fn read(folder: &Path) -> Result<Manifest, Error> {
         refuse_link(&folder.join(CHUNKS_FOLDER))?;
         let path = folder.join(NAME);
-        let hint = "give the folder of `shadowstep sweep FILE --out DIR`";
-        let text = match read_text(&path, LARGEST) {
-            Ok(text) => text,
-            Err(error) if error.kind() == io::ErrorKind::NotFound => {
-                return Err(Error::usage(format!("{} has no {NAME}", folder.display()), hint));
-            }
-            Err(error) => return Err(Error::usage(format!("{} cannot be read: {error}", path.display()), hint)),
-        };
-        let found = serde_json::from_str::<Hashed<Manifest>>(&text)
-            .ok()
-            .filter(|Hashed { manifest, .. }| manifest.chunks > 0 && manifest.chunks <= manifest.runs);
-        let Some(Hashed { manifest, sha256 }) = found else {
-            return Err(Error::usage(format!("{} is not the plan of a sweep", path.display()), hint));
-        };
+        let wrong = |message| Error::usage(message, "give the folder of `shadowstep sweep FILE --out DIR`");
+        let text = read_text(&path, LARGEST).map_err(|error| match error.kind() {
+            io::ErrorKind::NotFound => wrong(format!("{} has no {NAME}", folder.display())),
+            _ => wrong(format!("{} cannot be read: {error}", path.display())),
+        })?;
+        let found = serde_json::from_str::<Hashed<Manifest>>(&text).ok();
+        let found = found.filter(|Hashed { manifest, .. }| (1..=manifest.runs).contains(&manifest.chunks));
+        let Hashed { manifest, sha256 } =
+            found.ok_or_else(|| wrong(format!("{} is not the plan of a sweep", path.display())))?;
         if manifest.hash() != sha256 {
             let message = format!("{} was changed: its hash differs", path.display());
             return Err(Error::usage(message, "restore it, or remove it and run the sweep again, which writes it"));

@@ -7,7 +7,6 @@ mod written;
 
 pub(crate) use cells::{Cells, double, number_of};
 pub use drawn::Picture;
-pub(crate) use written::Written;
 
 #[cfg(test)]
 mod tests;

@@ -21,7 +21,7 @@ use toml::de::{DeTable, DeValue};
 use crate::axes::Axes;
 use crate::keep::{Column, Keep};
 use crate::keys;
-use crate::picture::{Picture, Written};
+use crate::picture::Picture;
 use crate::record::{Record, measured};
 
 /// The sections and keys of a sweep that are not of its scene.
@@ -96,19 +96,13 @@ impl SweepPlan {
     /// # Errors
     /// As [`open`](SweepPlan::open).
     pub fn of(source: &Source) -> Result<SweepPlan, Error> {
-        let (document, faults) = document(source);
-        let Some(document) = document.filter(|_| faults.is_empty()) else { return Err(Faults(faults).into()) };
+        let document = document_of(source)?;
         let mut reader = Reader::new(source, Vec::new());
         let has_form = keys::have_form(&mut reader, &document);
         let separate = separate_scene(&mut reader, &document)?;
-        let read = has_form.then(|| {
-            let (axes, keep) = (Axes::read(&mut reader, &document), Keep::read(&mut reader, &document));
-            (axes, keep, Written::read(&mut reader, &document))
-        });
+        let read = has_form.then(|| (Axes::read(&mut reader, &document), Keep::read(&mut reader, &document)));
         refuse(reader.faults)?;
-        let Some((Some(axes), Some(keep), Some(picture))) = read else {
-            unreachable!("what cannot be read is a fault")
-        };
+        let Some((Some(axes), Some(keep))) = read else { unreachable!("what cannot be read is a fault") };
         let others: &[&str] = if separate.is_some() { &["picture"] } else { OTHERS };
         let family = Family::new(separate.unwrap_or_else(|| without_lists(source, &document)), others);
         let mut reader = Reader::new(source, Vec::new());
@@ -120,7 +114,7 @@ impl SweepPlan {
         let columns = keep.columns(&state);
         check::columns(&mut reader, &document, &axes, &keep, &columns);
         refuse(std::mem::take(&mut reader.faults))?;
-        let picture = picture.resolve(&mut reader, &axes, &columns);
+        let picture = Picture::read(&mut reader, &document, &axes, &columns);
         refuse(reader.faults)?;
         let digests = digests::of(&document, (&family, &first), &axes)?;
         let long_numbers = first.arithmetic.is_longer_than_double() || axes.find("digits").is_some();
@@ -171,16 +165,18 @@ impl SweepPlan {
 
 /// The axes and the picture of a sweep's text, with which its results are collected.
 pub(crate) fn axes_and_picture(source: &Source, columns: &[Column]) -> Result<(Axes, Option<Picture>), Error> {
-    let (document, faults) = document(source);
-    let Some(document) = document.filter(|_| faults.is_empty()) else { return Err(Faults(faults).into()) };
+    let document = document_of(source)?;
     let mut reader = Reader::new(source, Vec::new());
-    let read = keys::have_form(&mut reader, &document)
-        .then(|| (Axes::read(&mut reader, &document), Written::read(&mut reader, &document)));
-    refuse(std::mem::take(&mut reader.faults))?;
-    let Some((Some(axes), Some(picture))) = read else { unreachable!("what cannot be read is a fault") };
-    let picture = picture.resolve(&mut reader, &axes, columns);
+    let axes = keys::have_form(&mut reader, &document).then(|| Axes::read(&mut reader, &document)).flatten();
+    let picture = axes.as_ref().and_then(|axes| Picture::read(&mut reader, &document, axes, columns));
     refuse(reader.faults)?;
-    Ok((axes, picture))
+    Ok((axes.expect("what cannot be read is a fault"), picture))
+}
+
+/// The tables of a text, which has no faults as TOML.
+fn document_of(source: &Source) -> Result<DeTable<'_>, Faults> {
+    let (document, faults) = document(source);
+    document.filter(|_| faults.is_empty()).ok_or(Faults(faults))
 }
 
 fn refuse(faults: Vec<Fault>) -> Result<(), Error> {
@@ -203,7 +199,8 @@ fn without_lists(source: &Source, document: &DeTable<'_>) -> Source {
 /// The text of the scene if `scene` names its file.
 fn separate_scene(reader: &mut Reader<'_>, root: &DeTable<'_>) -> Result<Option<Source>, Error> {
     let Some(value) = root.get("scene") else {
-        for (key, _) in root.iter().filter(|(key, _)| is_unknown(key.get_ref())) {
+        let is_known = |key: &str| OTHERS.contains(&key) || OF_SCENE.contains(&key);
+        for (key, _) in root.iter().filter(|(key, _)| !is_known(key.get_ref())) {
             let hint = format!("the sections of a sweep are those of a scene, and {}", OTHERS[1..].join(", "));
             reader.fault(&key.span(), format!("unknown section `{}`", key.get_ref()), hint);
         }
@@ -214,14 +211,7 @@ fn separate_scene(reader: &mut Reader<'_>, root: &DeTable<'_>) -> Result<Option<
         reader.fault(&key.span(), message, "write the section in the scene, or remove `scene`");
     }
     let Some(path) = reader.text(value) else { return Ok(None) };
-    let found = match path_within(reader.source, &path) {
-        Ok(path) => source(&path),
-        Err(faults) => {
-            reader.faults.extend(faults.0);
-            return Ok(None);
-        }
-    };
-    match found {
+    match path_within(reader.source, &path).map_err(Error::from).and_then(|path| source(&path)) {
         // of a file that is no scene, no line is shown
         Ok(source) if !document(&source).1.is_empty() => {
             let hint = format!("`shadowstep run {}` shows its faults", source.path);
@@ -229,12 +219,12 @@ fn separate_scene(reader: &mut Reader<'_>, root: &DeTable<'_>) -> Result<Option<
         }
         Ok(source) => Ok(Some(source)),
         Err(Error::Usage { message, hint }) => Ok(reader.wrong(&path.at, message, hint)),
+        Err(Error::Faults(faults)) => {
+            reader.faults.extend(faults.0);
+            Ok(None)
+        }
         Err(other) => Err(other),
     }
-}
-
-fn is_unknown(section: &str) -> bool {
-    !OTHERS.contains(&section) && !OF_SCENE.contains(&section)
 }
 
 /// How many scenes are tried.

@@ -10,8 +10,6 @@ use shadowstep_scenes::at::At;
 use shadowstep_scenes::column::Column;
 use shadowstep_scenes::computation::{Computation, FollowedNumber, RunNumber};
 use shadowstep_scenes::evaluator::{Evaluator, Test};
-use shadowstep_scenes::expression::Expression;
-use shadowstep_scenes::extremum::Extremum;
 use shadowstep_scenes::posed::{Followed, Posed};
 use shadowstep_scenes::run::Run;
 use shadowstep_scenes::tangent::{FollowingVectors, TangentRun, Vectors};
@@ -19,7 +17,7 @@ use shadowstep_scenes::watch::Energies;
 use shadowstep_scenes::{Error, Observer, Scene, System};
 use shadowstep_symbolic::decimal::to_text;
 
-use crate::keep::Keep;
+use crate::keep::{Keep, Kept};
 use crate::values::{Ended, Need, finite};
 
 /// What a run has given.
@@ -115,7 +113,18 @@ impl Computation for Measuring<'_> {
             summarised: keep.needs(Need::Summary),
             ..scene.posed()
         };
-        let mut kept = KeptOfRun::begin(scene, keep, settings.is_some(), context);
+        let system = &scene.system;
+        let drift = || DriftRecorder::new(scene.h.clone()).compensated_if(scene.arithmetic.is_compensated());
+        let mut kept = KeptOfRun {
+            keep,
+            system,
+            drift: settings.map(|_| drift()),
+            formulas: keep.begin(
+                |condition| Test::new(condition, system, context),
+                |expression| Evaluator::of_run(expression, system, context),
+            ),
+            state: Vec::new(),
+        };
         let followed = N::follow(&posed, context, &mut [&mut kept], &mut Stops(stops))?;
         Ok((!followed.is_stopped).then(|| kept.values(followed)))
     }
@@ -124,40 +133,18 @@ impl Computation for Measuring<'_> {
 /// What is kept, as far as the states have come.
 struct KeptOfRun<'a, N: RunNumber> {
     keep: &'a Keep,
+    system: &'a System,
     /// Of the modified energy, where it is estimated.
     drift: Option<DriftRecorder<N>>,
-    /// The conditions, each with the time of the first state that meets it.
-    tests: Vec<(Test<N>, Option<String>)>,
-    at_end: Vec<Evaluator<N>>,
-    /// The least or greatest values of expressions so far.
-    extremes: Vec<(Evaluator<N>, Extremum, Option<N>)>,
-    described: &'a System,
-    /// Expressions, and q and p, at the last state.
-    end: [Vec<Option<String>>; 2],
+    formulas: Vec<Kept<N, Option<String>, Option<N>>>,
+    /// q and p at the last state.
+    state: Values,
 }
 
-impl<'a, N: RunNumber> KeptOfRun<'a, N> {
-    fn begin(scene: &'a Scene, keep: &'a Keep, is_estimated: bool, context: &N::Context) -> Self {
-        const CHECKED: &str = "the formulas were checked with the sweep";
-        let described = &scene.system;
-        let test = |condition| Test::new(condition, described, context).expect(CHECKED);
-        let evaluator = |text: &Expression| Evaluator::of_run(text, described, context).expect(CHECKED);
-        let extremes = keep.extremes.iter().map(|(_, text, extremum)| (evaluator(text), *extremum, None));
-        let is_compensated = scene.arithmetic.is_compensated();
-        KeptOfRun {
-            keep,
-            drift: is_estimated.then(|| DriftRecorder::new(scene.h.clone()).compensated_if(is_compensated)),
-            tests: keep.first_time.iter().map(|(_, condition)| (test(condition), None)).collect(),
-            at_end: keep.at_end.iter().map(|(_, text)| evaluator(text)).collect(),
-            extremes: extremes.collect(),
-            described,
-            end: [Vec::new(), Vec::new()],
-        }
-    }
-
+impl<N: RunNumber> KeptOfRun<'_, N> {
     /// The values of all columns.
     fn values(self, mut followed: Followed) -> Values {
-        let KeptOfRun { keep, drift, tests, extremes, end: [expressions, state], .. } = self;
+        let KeptOfRun { keep, drift, formulas, state, .. } = self;
         let drift = drift.and_then(DriftRecorder::drift);
         let vectors = followed.vectors.as_mut().map(FollowingVectors::end);
         let ended = Ended {
@@ -171,10 +158,12 @@ impl<'a, N: RunNumber> KeptOfRun<'a, N> {
             growth: vectors.map(|vectors| vectors.growths()[0]),
             sali: vectors.and_then(TangentRun::sali),
         };
-        let values = keep.values.iter().map(|kept| kept.of(&ended));
-        let times = tests.into_iter().map(|(_, met)| met);
-        let extremes = extremes.iter().map(|(_, _, found)| found.as_ref().and_then(finite));
-        values.chain(times).chain(expressions).chain(extremes).chain(state).collect()
+        let values = keep.values.iter().map(|value| (value.of)(&ended));
+        let formulas = formulas.into_iter().map(|kept| match kept {
+            Kept::FirstTime(.., time) => time,
+            Kept::Value(.., value) => value.as_ref().and_then(finite),
+        });
+        values.chain(formulas).chain(state).collect()
     }
 }
 
@@ -191,36 +180,45 @@ impl<N: RunNumber> Column<N> for KeptOfRun<'_, N> {
     }
 
     fn sees_each(&self) -> bool {
-        !(self.tests.is_empty() && self.extremes.is_empty())
+        self.keep.follows_all()
     }
 
     fn see(&mut self, n: i64, run: Run<'_>, integrator: &mut VectorIntegrator<'_, N>) -> bool {
-        let KeptOfRun { tests, extremes, described, .. } = self;
+        let KeptOfRun { formulas, system: described, .. } = self;
         at_output(integrator, |integrator| {
             let system = integrator.system();
-            for (test, met) in tests {
-                if met.is_none() && test.is_met(system, || run.time(n)) {
-                    let physical = described.time_of(system.state().q());
-                    *met = Some(physical.map_or_else(|| to_text(&run.time(n)), N::to_text));
-                }
-            }
-            for (evaluator, extremum, found) in extremes {
-                let value = evaluator.value(system, || run.time(n));
-                if extremum.is_beyond(value, found.as_ref()) {
-                    *found = Some(value.clone());
+            for kept in formulas.iter_mut() {
+                match kept {
+                    Kept::FirstTime(test, _, met) if met.is_none() => {
+                        *met = test.is_met(system, || run.time(n)).then(|| {
+                            let physical = described.time_of(system.state().q());
+                            physical.map_or_else(|| to_text(&run.time(n)), N::to_text)
+                        });
+                    }
+                    Kept::Value(evaluator, Some(extremum), found) => {
+                        let value = evaluator.value(system, || run.time(n));
+                        if extremum.is_beyond(value, found.as_ref()) {
+                            *found = Some(value.clone());
+                        }
+                    }
+                    _ => {}
                 }
             }
         });
-        self.keep.stop.iter().any(|&place| self.tests[place].1.is_some())
+        formulas.iter().any(|kept| matches!(kept, Kept::FirstTime(_, true, Some(_))))
     }
 
     fn end(&mut self, at: &mut At<'_, '_, N>) -> Result<(), Error> {
         let (time, energy) = (at.time(), at.energy()?.clone());
-        let expressions = self.at_end.iter_mut().map(|end| finite(end.value_at(at.state(), &time, || energy.clone())));
-        let expressions = expressions.collect();
-        let (q, p) = at.shown_state();
-        let state = if self.keep.state { q.iter().chain(p).map(finite).collect() } else { Vec::new() };
-        self.end = [expressions, state];
+        for kept in &mut self.formulas {
+            if let Kept::Value(evaluator, None, found) = kept {
+                *found = Some(evaluator.value_at(at.state(), &time, || energy.clone()).clone());
+            }
+        }
+        if self.keep.state {
+            let (q, p) = at.shown_state();
+            self.state = q.iter().chain(p).map(finite).collect();
+        }
         Ok(())
     }
 }

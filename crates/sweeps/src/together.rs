@@ -13,12 +13,11 @@ use shadowstep::{Carried, Scheme as _, System};
 use shadowstep_scenes::Scene;
 use shadowstep_scenes::evaluator::{Evaluator, Test};
 use shadowstep_scenes::expression::Expression;
-use shadowstep_scenes::extremum::Extremum;
 use shadowstep_scenes::lanes::{self, LANES, SystemInLanes};
-use shadowstep_scenes::start::{Begin, SceneIntegrator, Steps};
+use shadowstep_scenes::start::{Begin, SceneIntegrator};
 use shadowstep_symbolic::decimal::to_text;
 
-use crate::keep::Keep;
+use crate::keep::{Keep, Kept};
 use crate::record::Values;
 use crate::values::{Ended, Need, finite};
 
@@ -29,8 +28,6 @@ const MOST_STEPS: u64 = 1_000_000;
 const STEPS_AT_ONCE: u64 = 50;
 
 type TangentsInLanes = Tangents<SceneIntegrator<Dual<Lanes<LANES>>>>;
-
-const CHECKED: &str = "the formulas were checked with the sweep";
 
 /// Whether runs of which this is kept can be computed together: the monitor and estimates follow a run alone.
 pub(crate) fn allows(keep: &Keep) -> bool {
@@ -46,7 +43,7 @@ pub(crate) fn suits(scene: &Scene, keep: &Keep) -> bool {
         && scene.scheme.scheme.processor().is_empty()
         && !scene.displaced
         && scene.steps().is_some_and(|steps| steps <= MOST_STEPS)
-        && !has_functions(scene, keep)
+        && !(scene.system.has_functions() || keep.expressions().any(Expression::has_functions))
 }
 
 /// Whether two runs can be computed together, as far as their numbers and steps are concerned.
@@ -64,7 +61,7 @@ fn sums(scene: &Scene) -> Option<bool> {
 pub(crate) fn measure(scenes: &[&Scene], keep: &Keep, stops: &AtomicBool) -> Vec<Option<Values>> {
     // lanes without a run have the last one
     let of_lanes: [&Scene; LANES] = std::array::from_fn(|lane| scenes[lane.min(scenes.len() - 1)]);
-    let (systems, steps) = (of_lanes.map(|scene| &scene.system), steps(scenes[0]));
+    let (systems, steps) = (of_lanes.map(|scene| &scene.system), scenes[0].steps_from(Begin::InitialState));
     let none = vec![None; scenes.len()];
     let Some(together) = SystemInLanes::of(&systems) else { return none };
     let tangents = match keep.vectors() {
@@ -79,21 +76,6 @@ pub(crate) fn measure(scenes: &[&Scene], keep: &Keep, stops: &AtomicBool) -> Vec
     found
 }
 
-fn steps(scene: &Scene) -> Steps<'_> {
-    Steps {
-        scheme: &scene.scheme.scheme,
-        h: &scene.h,
-        compensated: scene.arithmetic.is_compensated(),
-        displaced: false,
-        begin: Begin::InitialState,
-    }
-}
-
-/// Of the system and of all formulas that are kept.
-fn has_functions(scene: &Scene, keep: &Keep) -> bool {
-    scene.system.has_functions() || keep.formulas().any(Expression::has_functions)
-}
-
 /// Follows a run in each lane.
 fn follow(
     integrator: &mut VectorIntegrator<'_, Lanes<LANES>>,
@@ -106,7 +88,7 @@ fn follow(
     let at_once = if following.follows_all() { 1 } else { STEPS_AT_ONCE };
     let followed = together::follow(integrator, scenes[0].most_steps(), |n, integrator| {
         following.include(n, integrator.system());
-        let goes_on = following.goes_on() && !stops.load(Ordering::Relaxed);
+        let goes_on = following.active.contains(&true) && !stops.load(Ordering::Relaxed);
         if goes_on { Ok((n + at_once, Carried::Nothing)) } else { Err(()) }
     });
     if followed.is_err() && stops.load(Ordering::Relaxed) {
@@ -123,11 +105,8 @@ struct LanesFollower<'a> {
     /// H − H(0), where it is kept.
     energies: Option<Energies>,
     tangents: Option<TangentsInLanes>,
-    /// The conditions, each with the n of the first states that meet it.
-    tests: Vec<(Test<Lanes<LANES>>, [Option<u64>; LANES])>,
-    at_end: Vec<Evaluator<Lanes<LANES>>>,
-    /// The least or greatest values of expressions so far.
-    extremes: Vec<(Evaluator<Lanes<LANES>>, Extremum, [Option<f64>; LANES])>,
+    /// The times of conditions are the n of the first states that meet them.
+    formulas: Vec<Kept<Lanes<LANES>, [Option<u64>; LANES], [Option<f64>; LANES]>>,
     /// Whether a run is followed: it has not ended, and all that was seen of it is finite.
     active: [bool; LANES],
     values: [Option<Values>; LANES],
@@ -146,13 +125,7 @@ impl<'a> LanesFollower<'a> {
         M: System<Number = Lanes<LANES>> + ?Sized,
     {
         let systems = scenes.map(|scene| &scene.system);
-        let tests = keep
-            .first_time
-            .iter()
-            .map(|(_, condition)| (Test::of_each(condition, &systems).expect(CHECKED), [None; LANES]));
-        let evaluator = |text: &Expression| Evaluator::of_each(text, &systems).expect(CHECKED);
-        let at_end = keep.at_end.iter().map(|(_, text)| evaluator(text));
-        let extremes = keep.extremes.iter().map(|(_, text, extremum)| (evaluator(text), *extremum, [None; LANES]));
+        let formulas = keep.begin(|test| Test::of_each(test, &systems), |value| Evaluator::of_each(value, &systems));
         let (initial, zero) = (system.energy(), Lanes::all(0.0));
         LanesFollower {
             scene: scenes[0],
@@ -160,9 +133,7 @@ impl<'a> LanesFollower<'a> {
             h: f64::from_rational(scenes[0].h.exact(), &()),
             energies: keep.needs(Need::Energies).then_some(Energies { initial, largest: zero, last: zero }),
             tangents,
-            tests: tests.collect(),
-            at_end: at_end.collect(),
-            extremes: extremes.collect(),
+            formulas,
             active: initial.0.map(f64::is_finite),
             values: [const { None }; LANES],
         }
@@ -170,11 +141,7 @@ impl<'a> LanesFollower<'a> {
 
     /// Whether more than the last state is of interest.
     fn follows_all(&self) -> bool {
-        self.energies.is_some() || self.tangents.is_some() || !(self.tests.is_empty() && self.extremes.is_empty())
-    }
-
-    fn goes_on(&self) -> bool {
-        self.active.contains(&true)
+        self.energies.is_some() || self.tangents.is_some() || self.keep.follows_all()
     }
 
     /// Takes the state n.
@@ -183,9 +150,7 @@ impl<'a> LanesFollower<'a> {
         for q in system.state().q() {
             self.active.iter_mut().zip(&q.0).for_each(|(active, q)| *active &= q.is_finite());
         }
-        if n > 0
-            && let Some(energies) = &mut self.energies
-        {
+        if let Some(energies) = self.energies.as_mut().filter(|_| n > 0) {
             energies.include(&system.energy(), &mut self.active);
         }
         if let Some(tangents) = self.tangents.as_mut().filter(|_| n > 0) {
@@ -194,21 +159,25 @@ impl<'a> LanesFollower<'a> {
         }
         let mut ends = [n == self.scene.most_steps(); LANES];
         let run = self.scene.as_run();
-        for (place, (test, met)) in self.tests.iter_mut().enumerate() {
-            let stops = self.keep.stop.contains(&place);
-            let is_met = test.is_met_by_each(system, || run.time(n.cast_signed()));
-            for lane in (0..LANES).filter(|lane| is_met[*lane]) {
-                met[lane].get_or_insert(n);
-                ends[lane] |= stops;
-            }
-        }
-        for (evaluator, extremum, found) in &mut self.extremes {
-            let values = evaluator.value(system, || run.time(n.cast_signed()));
-            for lane in (0..LANES).filter(|lane| self.active[*lane]) {
-                let value = values.0[lane];
-                if extremum.is_beyond(&value, found[lane].as_ref()) {
-                    found[lane] = Some(value);
+        for kept in &mut self.formulas {
+            match kept {
+                Kept::FirstTime(test, stops, met) => {
+                    let is_met = test.is_met_by_each(system, || run.time(n.cast_signed()));
+                    for lane in (0..LANES).filter(|lane| is_met[*lane]) {
+                        met[lane].get_or_insert(n);
+                        ends[lane] |= *stops;
+                    }
                 }
+                Kept::Value(evaluator, Some(extremum), found) => {
+                    let values = evaluator.value(system, || run.time(n.cast_signed()));
+                    for lane in (0..LANES).filter(|lane| self.active[*lane]) {
+                        let value = values.0[lane];
+                        if extremum.is_beyond(&value, found[lane].as_ref()) {
+                            found[lane] = Some(value);
+                        }
+                    }
+                }
+                Kept::Value(_, None, _) => {}
             }
         }
         let ended = std::array::from_fn(|lane| ends[lane] && self.active[lane]);
@@ -221,8 +190,11 @@ impl<'a> LanesFollower<'a> {
     fn end<M: System<Number = Lanes<LANES>> + ?Sized>(&mut self, n: u64, ended: &[bool; LANES], system: &mut M) {
         let run = self.scene.as_run();
         let energy = system.energy();
-        let at_end: Vec<_> =
-            self.at_end.iter_mut().map(|end| *end.value(system, || run.time(n.cast_signed()))).collect();
+        for kept in &mut self.formulas {
+            if let Kept::Value(evaluator, None, found) = kept {
+                *found = evaluator.value(system, || run.time(n.cast_signed())).0.map(Some);
+            }
+        }
         for lane in (0..LANES).filter(|lane| ended[*lane]) {
             self.active[lane] = false;
             let of_lane = |x: &Lanes<LANES>| x.0[lane];
@@ -231,12 +203,13 @@ impl<'a> LanesFollower<'a> {
                 continue;
             }
             let ended = self.ended(lane, n, system.state().evaluations());
-            let values = self.keep.values.iter().map(|kept| kept.of(&ended));
-            let times = self.tests.iter().map(|(_, met)| met[lane].map(|n| to_text(&run.time(n.cast_signed()))));
-            let ends = at_end.iter().map(of_lane).map(|x| finite(&x));
+            let values = self.keep.values.iter().map(|value| (value.of)(&ended));
+            let formulas = self.formulas.iter().map(|kept| match kept {
+                Kept::FirstTime(.., met) => met[lane].map(|n| to_text(&run.time(n.cast_signed()))),
+                Kept::Value(.., found) => found[lane].as_ref().and_then(finite),
+            });
             let state = state.iter().filter(|_| self.keep.state).map(finite);
-            let extremes = self.extremes.iter().map(|(_, _, found)| found[lane].as_ref().and_then(finite));
-            self.values[lane] = Some(values.chain(times).chain(ends).chain(extremes).chain(state).collect());
+            self.values[lane] = Some(values.chain(formulas).chain(state).collect());
         }
     }
 

@@ -2,29 +2,18 @@
 
 use shadowstep::Real;
 use shadowstep::tangent::Growth;
-use shadowstep_scenes::Summary;
+
+use Need::{Energies, Estimates, Nothing, Summary, Tangents};
 
 /// A value that every run has, whatever its system.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum RunValue {
-    Verdict,
-    Reason,
-    EnergyError,
-    RelativeEnergyError,
-    LastEnergyError,
-    MethodError,
-    CloseEncounters,
-    Drift,
-    PermanentChange,
-    PermanentResolution,
-    PermanentFinding,
-    Motion,
-    Lyapunov,
-    LyapunovError,
-    Megno,
-    Sali,
-    Steps,
-    ForceEvaluations,
+#[derive(Debug)]
+pub(crate) struct RunValue {
+    pub(crate) name: &'static str,
+    pub(crate) need: Need,
+    pub(crate) meaning: &'static str,
+    pub(crate) is_number: bool,
+    /// The value of a run; `None` where it has none.
+    pub(crate) of: Of,
 }
 
 /// What a value needs to be computed.
@@ -36,26 +25,34 @@ pub(crate) enum Need {
     Summary,
     /// Estimates of the modified energy at each state.
     Estimates,
-    /// Tangent vectors.
-    Tangents,
+    /// So many tangent vectors.
+    Tangents(usize),
     Nothing,
 }
 
-/// A value with its name, its meaning, what it needs, and whether it is a number.
-pub(crate) struct Description {
-    pub(crate) kept: RunValue,
-    pub(crate) name: &'static str,
-    pub(crate) meaning: &'static str,
-    pub(crate) need: Need,
-    pub(crate) is_number: bool,
+/// What is known of a run at its end; what no kept value needs is not.
+#[derive(Default)]
+pub(crate) struct Ended<'a> {
+    pub(crate) steps: u64,
+    pub(crate) evaluations: u64,
+    /// The largest |H − H(0)|, the same as a part of |H(0)|, and the last H − H(0).
+    pub(crate) energy: [Option<String>; 3],
+    pub(crate) summary: Option<&'a shadowstep_scenes::Summary>,
+    /// Of the modified energy: max − min; its permanent change, what that must exceed, and the finding.
+    pub(crate) drift: [Option<String>; 4],
+    /// Of the first tangent vector.
+    pub(crate) growth: Option<&'a Growth>,
+    pub(crate) sali: Option<f64>,
 }
 
-const fn number(kept: RunValue, name: &'static str, need: Need, meaning: &'static str) -> Description {
-    Description { kept, name, meaning, need, is_number: true }
+type Of = fn(&Ended<'_>) -> Option<String>;
+
+const fn number(name: &'static str, need: Need, meaning: &'static str, of: Of) -> RunValue {
+    RunValue { name, need, meaning, is_number: true, of }
 }
 
-const fn word(kept: RunValue, name: &'static str, need: Need, meaning: &'static str) -> Description {
-    Description { kept, name, meaning, need, is_number: false }
+const fn word(name: &'static str, need: Need, meaning: &'static str, of: Of) -> RunValue {
+    RunValue { name, need, meaning, is_number: false, of }
 }
 
 /// Their names.
@@ -69,109 +66,58 @@ pub(crate) const NAMES_OF_VALUES: [&str; VALUES.len()] = {
 };
 
 /// All of them.
-pub(crate) const VALUES: [Description; 18] = [
-    word(RunValue::Verdict, "verdict", Need::Summary, "the monitor's verdict on the step size"),
-    word(RunValue::Reason, "reason", Need::Summary, "the reason of the verdict"),
-    number(RunValue::EnergyError, "energy_error", Need::Energies, "the largest |H(t) − H(0)| of all states"),
-    number(RunValue::RelativeEnergyError, "relative_energy_error", Need::Energies, "the same as a part of |H(0)|"),
-    number(RunValue::LastEnergyError, "last_energy_error", Need::Energies, "H − H(0) at the last state"),
-    number(RunValue::MethodError, "method_error", Need::Summary, "the method's part of the error of H: H − H̄, rms"),
-    number(RunValue::CloseEncounters, "close_encounters", Need::Summary, "the number of close encounters"),
-    number(RunValue::Drift, "drift", Need::Estimates, "max − min of the modified energy"),
+pub(crate) const VALUES: [RunValue; 18] = [
+    word("verdict", Summary, "the monitor's verdict on the step size", |run| Some(run.summary?.verdict().to_owned())),
+    word("reason", Summary, "the reason of the verdict", |run| Some(run.summary?.reason().to_owned())),
+    number("energy_error", Energies, "the largest |H(t) − H(0)| of all states", |run| run.energy[0].clone()),
+    number("relative_energy_error", Energies, "the same as a part of |H(0)|", |run| run.energy[1].clone()),
+    number("last_energy_error", Energies, "H − H(0) at the last state", |run| run.energy[2].clone()),
+    number("method_error", Summary, "the method's part of the error of H: H − H̄, rms", |run| {
+        run.summary?.modified_energy()?.method.clone()
+    }),
+    number("close_encounters", Summary, "the number of close encounters", |run| {
+        Some(run.summary?.encounters().to_string())
+    }),
+    number("drift", Estimates, "max − min of the modified energy", |run| run.drift[0].clone()),
     number(
-        RunValue::PermanentChange,
         "permanent_change",
-        Need::Estimates,
+        Estimates,
         "the permanent change of the modified energy; none where it is one-sided",
+        |run| run.drift[1].clone(),
     ),
+    number("permanent_resolution", Estimates, "what a permanent change must exceed to be resolved", |run| {
+        run.drift[2].clone()
+    }),
+    word("permanent_finding", Estimates, "resolved, below-resolution or one-sided", |run| run.drift[3].clone()),
+    word("motion", Tangents(1), "regular, chaotic or undecided, by the growth of a tangent vector", |run| {
+        Some(run.growth?.regularity().to_string())
+    }),
+    number("lyapunov", Tangents(1), "the largest Lyapunov exponent over the last three quarters of the run", |run| {
+        finite(&run.growth?.exponent()?.value)
+    }),
     number(
-        RunValue::PermanentResolution,
-        "permanent_resolution",
-        Need::Estimates,
-        "what a permanent change must exceed to be resolved",
-    ),
-    word(RunValue::PermanentFinding, "permanent_finding", Need::Estimates, "resolved, below-resolution or one-sided"),
-    word(
-        RunValue::Motion,
-        "motion",
-        Need::Tangents,
-        "regular, chaotic or undecided, by the growth of a tangent vector",
-    ),
-    number(
-        RunValue::Lyapunov,
-        "lyapunov",
-        Need::Tangents,
-        "the largest Lyapunov exponent over the last three quarters of the run",
-    ),
-    number(
-        RunValue::LyapunovError,
         "lyapunov_error",
-        Need::Tangents,
+        Tangents(1),
         "its error: half the width of an interval of 95 %, from parts of the run",
+        |run| finite(&run.growth?.exponent()?.error),
     ),
     number(
-        RunValue::Megno,
         "megno",
-        Need::Tangents,
+        Tangents(1),
         "the mean of MEGNO: 2 of regular runs, growing with the time of chaotic ones",
+        |run| finite(&run.growth?.mean_megno()?),
     ),
-    number(RunValue::Sali, "sali", Need::Tangents, "SALI of two tangent vectors"),
-    number(RunValue::Steps, "steps", Need::Nothing, "the number of steps"),
+    number("sali", Tangents(2), "SALI of two tangent vectors", |run| finite(&run.sali?)),
+    number("steps", Nothing, "the number of steps", |run| Some(run.steps.to_string())),
     number(
-        RunValue::ForceEvaluations,
         "force_evaluations",
-        Need::Nothing,
+        Nothing,
         "evaluations of the gradient, those for estimates and their states included",
+        |run| Some(run.evaluations.to_string()),
     ),
 ];
 
 /// A number as a text; none of one that is infinite or NaN, as those of estimates and vectors that overflow.
 pub(crate) fn finite<N: Real>(x: &N) -> Option<String> {
     x.is_finite().then(|| x.to_text())
-}
-
-/// What is known of a run at its end; what no kept value needs is not.
-#[derive(Default)]
-pub(crate) struct Ended<'a> {
-    pub(crate) steps: u64,
-    pub(crate) evaluations: u64,
-    /// The largest |H − H(0)|, the same as a part of |H(0)|, and the last H − H(0).
-    pub(crate) energy: [Option<String>; 3],
-    pub(crate) summary: Option<&'a Summary>,
-    /// Of the modified energy: max − min; its permanent change, what that must exceed, and the finding.
-    pub(crate) drift: [Option<String>; 4],
-    /// Of the first tangent vector.
-    pub(crate) growth: Option<&'a Growth>,
-    pub(crate) sali: Option<f64>,
-}
-
-impl RunValue {
-    pub(crate) fn description(self) -> &'static Description {
-        VALUES.iter().find(|value| value.kept == self).expect("each value has its description")
-    }
-
-    /// The value that a run has; `None` where there is none.
-    pub(crate) fn of(self, run: &Ended<'_>) -> Option<String> {
-        let Ended { energy: [largest, relative, last], drift: [drift, change, resolution, finding], .. } = run;
-        match self {
-            RunValue::Verdict => Some(run.summary?.verdict().to_owned()),
-            RunValue::Reason => Some(run.summary?.reason().to_owned()),
-            RunValue::EnergyError => largest.clone(),
-            RunValue::RelativeEnergyError => relative.clone(),
-            RunValue::LastEnergyError => last.clone(),
-            RunValue::MethodError => run.summary?.modified_energy()?.method.clone(),
-            RunValue::CloseEncounters => Some(run.summary?.encounters().to_string()),
-            RunValue::Drift => drift.clone(),
-            RunValue::PermanentChange => change.clone(),
-            RunValue::PermanentResolution => resolution.clone(),
-            RunValue::PermanentFinding => finding.clone(),
-            RunValue::Motion => Some(run.growth?.regularity().to_string()),
-            RunValue::Lyapunov => finite(&run.growth?.exponent()?.value),
-            RunValue::LyapunovError => finite(&run.growth?.exponent()?.error),
-            RunValue::Megno => finite(&run.growth?.mean_megno()?),
-            RunValue::Sali => finite(&run.sali?),
-            RunValue::Steps => Some(run.steps.to_string()),
-            RunValue::ForceEvaluations => Some(run.evaluations.to_string()),
-        }
-    }
 }

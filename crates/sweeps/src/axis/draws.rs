@@ -25,16 +25,19 @@ pub(super) struct Draws {
     /// From the name of the axis: axes with the same seed are independent.
     stream: u128,
     distribution: Distribution,
+    /// The numbers of the distribution.
+    a: Rational,
+    b: Rational,
 }
 
-#[derive(Clone, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Distribution {
     /// Between two numbers.
-    Uniform(Rational, Rational),
+    Uniform,
     /// Whose logarithm is uniform.
-    Logarithmic(Rational, Rational),
+    Logarithmic,
     /// With this mean and standard deviation.
-    Normal(Rational, Rational),
+    Normal,
 }
 
 impl Draws {
@@ -42,30 +45,31 @@ impl Draws {
         let seed = draws.whole("seed")?;
         let kind = ["uniform", "log", "normal"].into_iter().find(|key| draws.get(key).is_some())?;
         let (a, b, at) = pair(reader, &draws.list(kind)?)?;
-        let wrong = match kind {
-            "uniform" if a >= b => Some(("the first number must be less than the second", "uniform = [0, 1]")),
-            "log" if !a.is_positive() || a >= b => {
-                Some(("the numbers must be positive, the first one less than the second", "log = [\"1e-6\", \"1e-3\"]"))
+        let (distribution, is_right, needed, example) = match kind {
+            "uniform" => {
+                let needed = "the first number must be less than the second";
+                (Distribution::Uniform, a < b, needed, "uniform = [0, 1]")
             }
-            "normal" if !b.is_positive() => Some(("the standard deviation must be positive", "normal = [0, \"1/10\"]")),
-            _ => None,
+            "log" => {
+                let needed = "the numbers must be positive, the first one less than the second";
+                (Distribution::Logarithmic, a.is_positive() && a < b, needed, "log = [\"1e-6\", \"1e-3\"]")
+            }
+            _ => {
+                let needed = "the standard deviation must be positive";
+                (Distribution::Normal, b.is_positive(), needed, "normal = [0, \"1/10\"]")
+            }
         };
-        if let Some((message, hint)) = wrong {
-            return reader.wrong(&at, message, format!("write {hint}"));
-        }
-        let edges = [Rational::new(1.into(), (1_u64 << 54).into()), Rational::new(1.into(), 2.into())];
-        if kind == "log" && edges.iter().any(|u| geometric(&a, &b, u, WORKING_DIGITS).is_none()) {
-            let message = "these numbers are too large or too small for logarithms";
-            return reader.wrong(&at, message, "write log = [\"1e-6\", \"1e-3\"]");
-        }
-        let distribution = match kind {
-            "uniform" => Distribution::Uniform(a, b),
-            "log" => Distribution::Logarithmic(a, b),
-            _ => Distribution::Normal(a, b),
+        let is_too_wide = || {
+            let edges = [Rational::new(1.into(), (1_u64 << 54).into()), Rational::new(1.into(), 2.into())];
+            edges.iter().any(|u| geometric(&a, &b, u, WORKING_DIGITS).is_none())
         };
+        if !is_right || (distribution == Distribution::Logarithmic && is_too_wide()) {
+            let too_wide = "these numbers are too large or too small for logarithms";
+            return reader.wrong(&at, if is_right { too_wide } else { needed }, format!("write {example}"));
+        }
         let hash = Sha256::digest(name.as_bytes());
         let stream = hash.iter().take(16).fold(0, |stream, byte| (stream << 8) | u128::from(*byte));
-        Some(Draws { seed, stream, distribution })
+        Some(Draws { seed, stream, distribution, a, b })
     }
 
     /// The k-th draw.
@@ -73,15 +77,14 @@ impl Draws {
         let mut random = Pcg64::new(self.seed.into(), self.stream);
         random.advance(2 * u128::from(k));
         let [u, v] = [(); 2].map(|()| uniform(&mut random));
-        let exact = match &self.distribution {
-            Distribution::Uniform(from, to) => from + &(&(to - from) * &u),
-            Distribution::Logarithmic(from, to) => {
-                geometric(from, to, &u, WORKING_DIGITS).expect("the ends were checked")
-            }
+        let Draws { a, b, .. } = self;
+        let exact = match self.distribution {
+            Distribution::Uniform => a + &(&(b - a) * &u),
+            Distribution::Logarithmic => geometric(a, b, &u, WORKING_DIGITS).expect("the ends were checked"),
             // Box and Muller
-            Distribution::Normal(mean, deviation) => {
+            Distribution::Normal => {
                 let normal = formula("sqrt(-2*log(u)) * cos(2*pi*v)", &[("u", &u), ("v", &v)], WORKING_DIGITS);
-                mean + &(deviation * &normal.expect("0 < u < 1"))
+                a + &(b * &normal.expect("0 < u < 1"))
             }
         };
         round_significant(&exact, DIGITS)

@@ -48,21 +48,17 @@ impl Range {
             }
         };
         let (from, to) = (end(parts.from)?, end(parts.to)?);
-        let steps = match parts.count.parse::<u64>() {
-            Ok(count) if parts.of_values && (2..=MOST).contains(&count) => count - 1,
-            Ok(count) if !parts.of_values && (1..=MOST).contains(&count) => count,
-            _ => {
-                let (least, unit) = if parts.of_values { (2, "values") } else { (1, "steps") };
-                let message = format!("`{}` is not a number of {unit}", parts.count);
-                return reader.wrong(&text.at, message, format!("write a whole number from {least} to {MOST}"));
-            }
+        let (least, unit) = if parts.of_values { (2, "values") } else { (1, "steps") };
+        let Some(count) = parts.count.parse().ok().filter(|count| (least..=MOST).contains(count)) else {
+            let message = format!("`{}` is not a number of {unit}", parts.count);
+            return reader.wrong(&text.at, message, format!("write a whole number from {least} to {MOST}"));
         };
+        let steps = count + 1 - least;
         let Some(rule) = Rule::of(parts.rule, name) else {
             let hint = format!("write `of {name}`, `of 1/{name}` or `of log({name})`");
             return reader.wrong(&text.at, format!("`of {}` is not known here", parts.rule.unwrap_or_default()), hint);
         };
-        let same_sign = (from.is_positive() && to.is_positive()) || (from.is_negative() && to.is_negative());
-        if rule != Rule::Value && !same_sign {
+        if rule != Rule::Value && !(&from * &to).is_positive() {
             let message = "both ends of such a range must have the same sign and be nonzero";
             return reader.wrong(&text.at, message, format!("write `of {name}`, or another end"));
         }

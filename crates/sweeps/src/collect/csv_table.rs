@@ -1,7 +1,7 @@
 //! `results.csv`: a head of lines that begin with `#`, the names of the columns, and a row for each run.
 
 use std::io::Write;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use csv::Writer;
 use shadowstep_scenes::spreadsheet::cell;
@@ -14,19 +14,17 @@ pub(super) const NAME: &str = "results.csv";
 
 pub(super) struct CsvTable {
     writer: Writer<WholeFile>,
-    path: PathBuf,
 }
 
 impl CsvTable {
     pub(super) fn new(folder: &Path, head: &Head) -> Result<Self, Error> {
-        let path = folder.join(NAME);
-        let mut file = WholeFile::create(&path, "file")?;
+        let mut file = WholeFile::create(&folder.join(NAME), "file")?;
         for (name, value) in &head.lines {
             writeln!(file, "# {name}: {value}")?;
         }
         let mut writer = Writer::from_writer(file);
         writer.write_record(head.columns.iter().map(|column| cell(&column.name).into_owned()))?;
-        Ok(CsvTable { writer, path })
+        Ok(CsvTable { writer })
     }
 }
 
@@ -42,9 +40,7 @@ impl Table for CsvTable {
         Ok(self.writer.write_record(None::<&[u8]>)?)
     }
 
-    fn finish(self: Box<Self>) -> Result<PathBuf, Error> {
-        let file = self.writer.into_inner().map_err(|error| error.into_error())?;
-        file.finish()?;
-        Ok(self.path)
+    fn finish(self: Box<Self>) -> Result<WholeFile, Error> {
+        Ok(self.writer.into_inner().map_err(|error| error.into_error())?)
     }
 }

@@ -1,9 +1,8 @@
 //! The chunks that are not there.
 
-use std::io::{BufRead, BufReader};
 use std::path::Path;
 
-use crate::chunk::{Chunk, Header, open};
+use crate::chunk::{Chunk, header};
 use crate::manifest::Manifest;
 
 /// Chunks that are missing, and those that cannot be used.
@@ -46,14 +45,6 @@ impl Missing {
         self.chunks.push(chunk.number);
         self.unusable.push((chunk.number, why));
     }
-}
-
-/// The header of a chunk's file; `None` without a file.
-pub(crate) fn header(path: &Path) -> Option<Option<Header>> {
-    let file = open(path).ok()?;
-    let mut line = String::new();
-    let read = BufReader::new(file).read_line(&mut line);
-    Some(read.ok().and_then(|_| serde_json::from_str(&line).ok()))
 }
 
 /// Numbers in order as `3,7-9`.

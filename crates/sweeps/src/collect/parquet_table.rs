@@ -1,11 +1,12 @@
 //! `results.parquet`: texts as strings, doubles beside them; a group of rows at a time.
 
-use std::io::Write;
-use std::path::{Path, PathBuf};
+use std::io;
+use std::path::Path;
 use std::sync::Arc;
 
 use parquet::basic::{ConvertedType, Repetition, Type as PhysicalType};
 use parquet::data_type::{ByteArray, ByteArrayType, DoubleType};
+use parquet::errors::ParquetError;
 use parquet::file::metadata::KeyValue;
 use parquet::file::properties::WriterProperties;
 use parquet::file::writer::{SerializedColumnWriter, SerializedFileWriter};
@@ -22,21 +23,19 @@ const GROUP: usize = 1 << 16;
 
 pub(super) struct ParquetTable {
     writer: SerializedFileWriter<WholeFile>,
-    path: PathBuf,
     columns: Vec<TableColumn>,
     rows: Vec<Vec<Cell>>,
 }
 
 impl ParquetTable {
     pub(super) fn new(folder: &Path, head: &Head) -> Result<Self, Error> {
-        let path = folder.join(NAME);
-        let file = WholeFile::create(&path, "file")?;
+        let file = WholeFile::create(&folder.join(NAME), "file")?;
         let fields = head.columns.iter().map(field).collect::<Result<Vec<_>, _>>().map_err(failed)?;
         let schema = Type::group_type_builder("results").with_fields(fields).build().map_err(failed)?;
         let pairs = head.lines.iter().map(|(name, value)| KeyValue::new((*name).to_owned(), value.clone()));
         let properties = WriterProperties::builder().set_key_value_metadata(Some(pairs.collect())).build();
         let writer = SerializedFileWriter::new(file, Arc::new(schema), Arc::new(properties)).map_err(failed)?;
-        Ok(ParquetTable { writer, path, columns: head.columns.clone(), rows: Vec::new() })
+        Ok(ParquetTable { writer, columns: head.columns.clone(), rows: Vec::new() })
     }
 
     /// Writes the rows that are kept.
@@ -58,7 +57,7 @@ impl ParquetTable {
 }
 
 /// A column whose values may be missing.
-fn field(column: &TableColumn) -> Result<Arc<Type>, parquet::errors::ParquetError> {
+fn field(column: &TableColumn) -> Result<Arc<Type>, ParquetError> {
     let physical = if column.is_double { PhysicalType::DOUBLE } else { PhysicalType::BYTE_ARRAY };
     let converted = if column.is_double { ConvertedType::NONE } else { ConvertedType::UTF8 };
     let builder = Type::primitive_type_builder(&column.name, physical);
@@ -83,13 +82,11 @@ fn write_column<'a>(
     written.map(drop).map_err(failed)
 }
 
-fn failed(error: parquet::errors::ParquetError) -> Error {
-    match error {
-        parquet::errors::ParquetError::External(error) => match error.downcast::<std::io::Error>() {
-            Ok(error) => Error::from(*error),
-            Err(error) => Error::Output(std::io::Error::other(error.to_string())),
-        },
-        other => Error::Output(std::io::Error::other(other.to_string())),
+fn failed(error: ParquetError) -> Error {
+    let error = if let ParquetError::External(error) = error { error } else { error.into() };
+    match error.downcast::<io::Error>() {
+        Ok(error) => Error::from(*error),
+        Err(error) => Error::Output(io::Error::other(error.to_string())),
     }
 }
 
@@ -99,11 +96,8 @@ impl Table for ParquetTable {
         if self.rows.len() == GROUP { self.write_group() } else { Ok(()) }
     }
 
-    fn finish(mut self: Box<Self>) -> Result<PathBuf, Error> {
+    fn finish(mut self: Box<Self>) -> Result<WholeFile, Error> {
         self.write_group()?;
-        let mut file = self.writer.into_inner().map_err(failed)?;
-        file.flush()?;
-        file.finish()?;
-        Ok(self.path)
+        self.writer.into_inner().map_err(failed)
     }
 }

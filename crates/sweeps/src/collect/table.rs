@@ -1,8 +1,6 @@
 //! A table in any format.
 
-use std::path::PathBuf;
-
-use shadowstep_scenes::Error;
+use shadowstep_scenes::{Error, WholeFile};
 
 /// The head of a table: what is in it.
 pub(crate) struct Head {
@@ -43,6 +41,6 @@ impl Cell {
 pub(crate) trait Table {
     /// Writes a row, with a cell for each column.
     fn row(&mut self, cells: &[Cell]) -> Result<(), Error>;
-    /// Gives the file its name, which is returned.
-    fn finish(self: Box<Self>) -> Result<PathBuf, Error>;
+    /// The whole file.
+    fn finish(self: Box<Self>) -> Result<WholeFile, Error>;
 }

@@ -2,7 +2,7 @@
 
 use shadowstep_schemes::document::{Reader, Source, document};
 
-use super::{Cells, Written};
+use super::{Cells, Picture};
 use crate::axes::Axes;
 use crate::keep::Column;
 use crate::record::Record;
@@ -23,10 +23,10 @@ fn drawn(axes: &str, picture: &str, value: impl Fn(&[u64]) -> String) -> (String
     let (document, _) = document(&source);
     let document = document.unwrap();
     let mut reader = Reader::new(&source, Vec::new());
-    let (axes, written) = (Axes::read(&mut reader, &document), Written::read(&mut reader, &document));
+    let axes = Axes::read(&mut reader, &document).unwrap();
     let columns = [Column { name: "value".to_owned(), is_number: true, is_exact: false }];
-    let (axes, written) = (axes.unwrap(), written.unwrap());
-    let picture = written.resolve(&mut reader, &axes, &columns).unwrap_or_else(|| panic!("{:?}", reader.faults));
+    let picture = Picture::read(&mut reader, &document, &axes, &columns);
+    let picture = picture.unwrap_or_else(|| panic!("{:?}", reader.faults));
     let mut cells = Cells::new(&picture, &axes).unwrap();
     for run in 0..axes.runs() {
         let numbers = axes.numbers(run);

@@ -1,4 +1,4 @@
-//! The section \[picture\] of a sweep's text, and what it means for its axes and columns.
+//! The section \[picture\] of a sweep's text: what it means for its axes and columns.
 
 use num_traits::Zero;
 use shadowstep::Rational;
@@ -13,75 +13,45 @@ use crate::axis::{Axis, number};
 use crate::keep::Column;
 use crate::keys;
 
-/// The keys of \[picture\] that the text has.
-#[derive(Clone, Debug, Default)]
-pub(crate) struct Written {
-    x: Option<Text>,
-    y: Option<Text>,
-    curves: Option<Text>,
-    panels: Option<Text>,
-    value: Option<Text>,
-    of_several: Option<OfSeveral>,
-    scale: Option<Scale>,
-    range: Option<Placed<[Rational; 2]>>,
-    title: Option<Text>,
-    label: Option<Text>,
-}
-
-impl Written {
-    /// Reads the section.
-    pub(crate) fn read(reader: &mut Reader<'_>, root: &DeTable<'_>) -> Option<Written> {
+impl Picture {
+    /// That of the section, with what suits the axes and columns where nothing is written; `None` where nothing can be
+    /// drawn.
+    pub(crate) fn read(
+        reader: &mut Reader<'_>,
+        root: &DeTable<'_>,
+        axes: &Axes,
+        columns: &[Column],
+    ) -> Option<Picture> {
         let before = reader.faults.len();
         let section = Table::of(reader.source, root, &keys::PICTURE);
-        let [x, y, curves, panels, value, title, label] =
-            ["x", "y", "curves", "panels", "value", "title", "label"].map(|key| section.text(key));
-        let words = [("mean", OfSeveral::Mean), ("largest", OfSeveral::Largest), ("least", OfSeveral::Least)];
-        let of_several = section.word("of_several", &words);
-        let scale = section.word("scale", &[("linear", Scale::Linear), ("log", Scale::Logarithmic)]);
-        let range = section.list("range").and_then(|list| range(reader, &list, scale));
-        let written = Written { x, y, curves, panels, value, of_several, scale, range, title, label };
-        (reader.faults.len() == before).then_some(written)
-    }
-
-    /// With what suits the axes and columns where nothing is written; `None` where nothing can be drawn.
-    pub(crate) fn resolve(self, reader: &mut Reader<'_>, axes: &Axes, columns: &[Column]) -> Option<Picture> {
-        let before = reader.faults.len();
-        let mut axis = |text: &Option<Text>| {
-            let names = axes.all().iter().map(|axis| &axis.name);
-            text.as_ref().and_then(|text| place(reader, text, names, "axis"))
-        };
-        let [x, y, curves, panels] = [&self.x, &self.y, &self.curves, &self.panels].map(&mut axis);
-        let value = match &self.value {
-            Some(text) => place(reader, text, columns.iter().map(|column| &column.name), "value"),
+        let texts = ["x", "y", "curves", "panels"].map(|key| section.text(key));
+        let names = axes.all().iter().map(|axis| &axis.name);
+        let given = texts.each_ref().map(|text| place(reader, text.as_ref()?, names.clone(), "axis"));
+        let value = match section.text("value") {
+            Some(text) => place(reader, &text, columns.iter().map(|column| &column.name), "value"),
             None => columns.iter().position(|column| column.is_number).or((!columns.is_empty()).then_some(0)),
         };
-        let given: Vec<&Text> = [&self.x, &self.y, &self.curves, &self.panels].into_iter().flatten().collect();
-        for (place, text) in given.iter().enumerate() {
-            if given[..place].iter().any(|other| other.value == text.value) {
+        let texts: Vec<&Text> = texts.iter().flatten().collect();
+        for (place, text) in texts.iter().enumerate() {
+            if texts[..place].iter().any(|other| other.value == text.value) {
                 let message = format!("the axis `{}` is in the picture twice", text.value);
                 reader.fault(&text.at, message, "give another axis");
             }
         }
+        let scale = section.word("scale", &[("linear", Scale::Linear), ("log", Scale::Logarithmic)]);
+        let range = section.list("range").and_then(|list| range(reader, &list, scale));
         if reader.faults.len() > before {
             return None;
         }
-        let [x, y, curves, panels] = chosen(axes.all(), [x, y, curves, panels]);
-        if let Some(range) = self.range.as_ref().filter(|_| y.is_none()) {
+        let [x, y, curves, panels] = chosen(axes.all(), given);
+        if range.is_some() && y.is_none() {
             let message = "range is of the colours of a map, and curves are drawn";
-            return reader.wrong(&range.at, message, "leave it out, or give y for a map");
+            return reader.wrong(&section.place("range"), message, "leave it out, or give y for a map");
         }
-        Some(Picture {
-            x: x?,
-            y,
-            curves,
-            panels,
-            value: value?,
-            of_several: self.of_several.unwrap_or(OfSeveral::Mean),
-            scale: self.scale,
-            range: self.range.map(|range| range.value),
-            title: self.title.map(|title| title.value),
-            label: self.label.map(|label| label.value),
-        })
+        let words = [("mean", OfSeveral::Mean), ("largest", OfSeveral::Largest), ("least", OfSeveral::Least)];
+        let of_several = section.word("of_several", &words).unwrap_or(OfSeveral::Mean);
+        let [title, label] = ["title", "label"].map(|key| section.text(key).map(|text| text.value));
+        Some(Picture { x: x?, y, curves, panels, value: value?, of_several, scale, range, title, label })
     }
 }
 
@@ -102,7 +72,7 @@ fn chosen(all: &[Axis], [x, y, curves, panels]: [Option<usize>; 4]) -> [Option<u
 }
 
 /// The values at the ends of the colours.
-fn range(reader: &mut Reader<'_>, list: &Placed<Vec<Text>>, scale: Option<Scale>) -> Option<Placed<[Rational; 2]>> {
+fn range(reader: &mut Reader<'_>, list: &Placed<Vec<Text>>, scale: Option<Scale>) -> Option<[Rational; 2]> {
     let found = list.value.iter().map(|text| number(reader, text)).collect::<Option<Vec<_>>>()?;
     let wrong = match <[Rational; 2]>::try_from(found) {
         Err(_) => "range has two values",
@@ -110,7 +80,7 @@ fn range(reader: &mut Reader<'_>, list: &Placed<Vec<Text>>, scale: Option<Scale>
         Ok([least, _]) if scale == Some(Scale::Logarithmic) && least <= Rational::zero() => {
             "the range of a logarithmic scale must be positive"
         }
-        Ok(value) => return Some(Placed { value, at: list.at.clone() }),
+        Ok(ends) => return Some(ends),
     };
     reader.wrong(&list.at, wrong, "write the values at both ends, such as [1, 100]")
 }

@@ -1,6 +1,7 @@
 //! What the axes and what is kept must fit: the scene.
 
 use std::collections::BTreeSet;
+use std::iter;
 use std::ops::Range;
 
 use shadowstep::tables::Faults;
@@ -67,7 +68,7 @@ fn schemes(reader: &mut Reader<'_>, root: &DeTable<'_>, family: &Family, axes: &
 
 /// Refuses what cannot be kept of this scene.
 pub(super) fn scene(reader: &mut Reader<'_>, root: &DeTable<'_>, keep: &Keep, scene: &Scene) {
-    keep.formulas().for_each(|text| scene.system.check(text, reader));
+    keep.expressions().for_each(|text| scene.system.check(text, reader));
     let at = root.get("keep").map_or(0..0, |keep| keep.span());
     let output = &scene.output;
     if keep.needs(Need::Estimates) && output.modified_energy.is_none() {
@@ -84,11 +85,10 @@ pub(super) fn columns(reader: &mut Reader<'_>, root: &DeTable<'_>, axes: &Axes, 
     let mut named: Vec<(&str, bool, Range<usize>)> =
         axes.all().iter().map(|axis| (axis.name.as_str(), axis.is_numeric(), place(root, axis))).collect();
     let section = root.get("keep").map_or(0..0, |keep| keep.span());
-    for Column { name, is_number, .. } in columns {
-        let formula = keep.named().find(|text| text.value == *name).map(|text| text.at.clone());
-        named.push((name, *is_number, formula.unwrap_or(section.clone())));
-    }
-    let mut seen = BTreeSet::new();
+    let formulas = keep.formulas.iter().map(|(name, _)| name.at.clone());
+    let places = keep.values.iter().map(|_| section.clone()).chain(formulas).chain(iter::repeat(section.clone()));
+    named.extend(columns.iter().zip(places).map(|(column, at)| (column.name.as_str(), column.is_number, at)));
+    let mut seen = BTreeSet::from(["run", "failure"].map(str::to_owned));
     for (name, is_number, at) in named {
         let own = [Some(name.to_owned()), is_number.then(|| format!("{name}_double"))];
         if let Some(twice) = own.into_iter().flatten().find(|column| !seen.insert(column.clone())) {
