@@ -10,6 +10,7 @@ use std::path::{Path, PathBuf};
 
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
+use serde_json::{Value, json};
 use sha2::{Digest, Sha256};
 use shadowstep_scenes::{Error, hexadecimal, not_written};
 use shadowstep_schemes::document::refuse_pipe;
@@ -50,9 +51,9 @@ pub(crate) struct Header {
     pub(crate) runs: u64,
 }
 
-#[derive(Serialize, Deserialize)]
-struct Trailer {
-    sha256: String,
+/// The last line of a chunk's file, with the hash of all others.
+fn trailer(hash: Sha256) -> Value {
+    json!({ "sha256": hexadecimal(&hash.finalize()) })
 }
 
 impl Chunk {
@@ -102,7 +103,7 @@ pub(crate) fn write<'a>(
         };
         line(&serde_json::to_string(header)?)?;
         records.try_for_each(|record| line(record))?;
-        writeln!(file, "{}", serde_json::to_string(&Trailer { sha256: hexadecimal(&hash.finalize()) })?)
+        writeln!(file, "{}", trailer(hash))
     })?;
     let begin = format!("{}.", header.chunk.name());
     left(path.parent().unwrap_or(folder), &begin).iter().for_each(|path| drop(fs::remove_file(path)));
@@ -212,11 +213,9 @@ pub(crate) fn read(
             _ => return damaged(&format!("run {run} is missing or cannot be read")),
         }
     }
-    let hash = hexadecimal(&lines.hash.clone().finalize());
-    match lines.next::<Trailer>() {
-        Some(trailer) if trailer.sha256 == hash && lines.is_at_end() => Ok(Ok(header)),
-        _ => damaged("its hash differs"),
-    }
+    let trailer = trailer(lines.hash.clone());
+    let is_whole = lines.next() == Some(trailer) && lines.reader.fill_buf().is_ok_and(<[u8]>::is_empty);
+    if is_whole { Ok(Ok(header)) } else { damaged("its hash differs") }
 }
 
 /// The header of a chunk's file; `None` without a file, and within of one without a header.
@@ -241,9 +240,5 @@ impl Lines {
         self.reader.read_line(&mut self.line).ok()?;
         self.hash.update(self.line.as_bytes());
         serde_json::from_str(self.line.strip_suffix('\n')?).ok()
-    }
-
-    fn is_at_end(&mut self) -> bool {
-        self.reader.fill_buf().is_ok_and(<[u8]>::is_empty)
     }
 }

@@ -13,16 +13,6 @@ use crate::chunk::{CHUNKS_FOLDER, Chunk, Header, MOST_RUNS_OF_CHUNK, create_fold
 use crate::keep::Column;
 use crate::plan::{Digests, SweepPlan, hash};
 
-/// The file: a plan and its hash.
-#[derive(Deserialize, Serialize)]
-struct Hashed<M> {
-    #[serde(flatten)]
-    manifest: M,
-    /// Of the plan; see [`Manifest::hash`].
-    #[serde(default)]
-    sha256: String,
-}
-
 /// The name of the file.
 pub(crate) const NAME: &str = "plan.json";
 
@@ -56,6 +46,9 @@ pub struct Manifest {
     pub path: String,
     /// Its text, of which the axes and the picture are needed to collect the results.
     pub text: String,
+    /// The hash of all that in the file; see [`Manifest::hash`].
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    sha256: String,
 }
 
 impl Manifest {
@@ -75,6 +68,7 @@ impl Manifest {
             long_numbers: plan.long_numbers,
             path: plan.source.path.clone(),
             text: plan.source.text.clone(),
+            sha256: String::new(),
         };
         create_folder(&folder.join(CHUNKS_FOLDER))?;
         own.write(folder, false)?;
@@ -101,11 +95,10 @@ impl Manifest {
             io::ErrorKind::NotFound => wrong(format!("{} has no {NAME}", folder.display())),
             _ => wrong(format!("{} cannot be read: {error}", path.display())),
         })?;
-        let found = serde_json::from_str::<Hashed<Manifest>>(&text).ok();
-        let found = found.filter(|Hashed { manifest, .. }| (1..=manifest.runs).contains(&manifest.chunks));
-        let Hashed { manifest, sha256 } =
-            found.ok_or_else(|| wrong(format!("{} is not the plan of a sweep", path.display())))?;
-        if manifest.hash() != sha256 {
+        let found = serde_json::from_str::<Manifest>(&text).ok();
+        let found = found.filter(|found| (1..=found.runs).contains(&found.chunks));
+        let manifest = found.ok_or_else(|| wrong(format!("{} is not the plan of a sweep", path.display())))?;
+        if manifest.hash() != manifest.sha256 {
             let message = format!("{} was changed: its hash differs", path.display());
             return Err(Error::usage(message, "restore it, or remove it and run the sweep again, which writes it"));
         }
@@ -114,7 +107,7 @@ impl Manifest {
 
     /// Of everything that gives the table its rows and columns; the path is for messages only.
     fn hash(&self) -> String {
-        let manifest = Manifest { path: String::new(), ..self.clone() };
+        let manifest = Manifest { path: String::new(), sha256: String::new(), ..self.clone() };
         hash(&serde_json::to_string(&manifest).expect("it consists of texts and numbers"))
     }
 
@@ -174,7 +167,7 @@ impl Manifest {
             return Ok(());
         }
         put(&path, replaces, |file| {
-            serde_json::to_writer_pretty(&mut *file, &Hashed { manifest: self, sha256: self.hash() })?;
+            serde_json::to_writer_pretty(&mut *file, &Manifest { sha256: self.hash(), ..self.clone() })?;
             writeln!(file)
         })
     }

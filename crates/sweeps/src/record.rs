@@ -52,15 +52,14 @@ impl Record {
 
 /// Makes a scene's run; `None` if it was stopped. A run that fails is a record, too.
 pub(crate) fn measured(run: u64, scene: &Scene, keep: &Keep, stops: &AtomicBool) -> Option<Record> {
-    let found = match scene.arithmetic.compute(Measuring { scene, keep, stops }) {
-        Ok(Some(values)) if keep.rows => rows(scene, stops).map(|rows| rows.map(|rows| (values, Some(rows)))),
-        other => other.map(|values| values.map(|values| (values, None))),
-    };
-    match found {
-        Ok(Some((values, rows))) => Some(Record { rows, ..Record::of(run, values) }),
-        Ok(None) => None,
-        Err(error) => Some(Record::failed(run, sentence(error))),
-    }
+    let found = scene.arithmetic.compute(Measuring { scene, keep, stops });
+    let record = found.and_then(|values| match values {
+        Some(values) if keep.rows => {
+            Ok(rows(scene, stops)?.map(|rows| Record { rows: Some(rows), ..Record::of(run, values) }))
+        }
+        values => Ok(values.map(|values| Record::of(run, values))),
+    });
+    record.unwrap_or_else(|error| Some(Record::failed(run, sentence(error))))
 }
 
 /// The message of an error without its hint.

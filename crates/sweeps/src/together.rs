@@ -6,7 +6,6 @@
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use shadowstep::number::{Dual, Lanes, Number, Real};
-use shadowstep::steps::integrator::VectorIntegrator;
 use shadowstep::steps::together;
 use shadowstep::tangent::Tangents;
 use shadowstep::{Carried, Scheme as _, System};
@@ -71,30 +70,18 @@ pub(crate) fn measure(scenes: &[&Scene], keep: &Keep, stops: &AtomicBool) -> Vec
             _ => return none,
         },
     };
-    let mut found = follow(&mut *together.integrator(steps), tangents, &of_lanes, keep, stops);
-    found.truncate(scenes.len());
-    found
-}
-
-/// Follows a run in each lane.
-fn follow(
-    integrator: &mut VectorIntegrator<'_, Lanes<LANES>>,
-    tangents: Option<TangentsInLanes>,
-    scenes: &[&Scene; LANES],
-    keep: &Keep,
-    stops: &AtomicBool,
-) -> Vec<Option<Values>> {
-    let mut following = LanesFollower::begin(scenes, keep, tangents, integrator.system());
+    let mut integrator = together.integrator(steps);
+    let mut following = LanesFollower::begin(&of_lanes, keep, tangents, integrator.system().energy());
     let at_once = if following.follows_all() { 1 } else { STEPS_AT_ONCE };
-    let followed = together::follow(integrator, scenes[0].most_steps(), |n, integrator| {
+    let followed = together::follow(&mut *integrator, scenes[0].most_steps(), |n, integrator| {
         following.include(n, integrator.system());
         let goes_on = following.active.contains(&true) && !stops.load(Ordering::Relaxed);
         if goes_on { Ok((n + at_once, Carried::Nothing)) } else { Err(()) }
     });
     if followed.is_err() && stops.load(Ordering::Relaxed) {
-        return vec![None; LANES];
+        return none;
     }
-    following.values.into_iter().collect()
+    following.values.into_iter().take(scenes.len()).collect()
 }
 
 /// What is kept, as far as the states have come.
@@ -120,13 +107,16 @@ struct Energies {
 }
 
 impl<'a> LanesFollower<'a> {
-    fn begin<M>(scenes: &[&'a Scene; LANES], keep: &'a Keep, tangents: Option<TangentsInLanes>, system: &mut M) -> Self
-    where
-        M: System<Number = Lanes<LANES>> + ?Sized,
-    {
+    /// At the initial states, with their H.
+    fn begin(
+        scenes: &[&'a Scene; LANES],
+        keep: &'a Keep,
+        tangents: Option<TangentsInLanes>,
+        initial: Lanes<LANES>,
+    ) -> Self {
         let systems = scenes.map(|scene| &scene.system);
         let formulas = keep.begin(|test| Test::of_each(test, &systems), |value| Evaluator::of_each(value, &systems));
-        let (initial, zero) = (system.energy(), Lanes::all(0.0));
+        let zero = Lanes::all(0.0);
         LanesFollower {
             scene: scenes[0],
             keep,

@@ -49,7 +49,7 @@ impl Range {
         };
         let (from, to) = (end(parts.from)?, end(parts.to)?);
         let (least, unit) = if parts.of_values { (2, "values") } else { (1, "steps") };
-        let Some(count) = parts.count.parse().ok().filter(|count| (least..=MOST).contains(count)) else {
+        let Some(count) = parts.count.parse::<u64>().ok().filter(|count| (least..=MOST).contains(count)) else {
             let message = format!("`{}` is not a number of {unit}", parts.count);
             return reader.wrong(&text.at, message, format!("write a whole number from {least} to {MOST}"));
         };
