@@ -86,13 +86,14 @@ fn chunk(text: &str) -> Result<Chunk, String> {
 
 /// Computes the runs that are asked for.
 pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
-    let Arguments { sweep: Some(sweep), out: Some(out), chunk, job_script, format, force, .. } = arguments else {
+    let Arguments { sweep: Some(sweep), out: Some(out), chunk, job_script: tasks, format, force, .. } = arguments
+    else {
         let mut output = Output::stdout();
         write!(output, "{}", if arguments.schema { sweep_schema() } else { explain() })?;
         output.finish()?;
         return Ok(Status::Success);
     };
-    let tasks = job_script.map(u64::from);
+    let tasks = tasks.map(u64::from);
     let plan = SweepPlan::open(sweep)?;
     if *force {
         remove_foreign(out, &plan, chunk.map(|chunk| chunk.of).or(tasks))?

@@ -24,7 +24,7 @@ const CALLS_OF_PYTHON: [&str; 8] =
     ["\"wb\"", ", \"w\")", ", \"w\",", "write_text", "write_bytes", "os.replace", "mkdir", "tempfile."];
 
 /// Files that have such calls, and why.
-const REASONS: [(&str, &str); 9] = [
+const REASONS: [(&str, &str); 8] = [
     ("crates/scenes/src/whole_file.rs", "it is the way"),
     (
         "crates/scenes/src/results/resumable.rs",
@@ -39,7 +39,6 @@ const REASONS: [(&str, &str); 9] = [
         "several processes write a chunk: new files of random names; folders that are not links",
     ),
     ("crates/sweeps/src/partial.rs", "as chunk.rs"),
-    ("crates/sweeps/src/manifest.rs", "as chunk.rs; the first of several processes writes the plan"),
     ("cli/src/man.rs", "a folder that the user names"),
     ("cli/src/terminal.rs", "a new folder among the temporary ones of the system"),
     ("python/shadowstep/work_precision.py", "a new folder among the temporary ones of the system"),

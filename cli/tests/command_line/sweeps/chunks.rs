@@ -133,7 +133,7 @@ fn the_tasks_of_a_job_script_compute_the_sweep_and_then_what_is_missing() {
         let result = finished(&shell.env("SLURM_ARRAY_TASK_ID", number.to_string()).output().unwrap());
         assert_eq!((result.code, result.err.as_str()), (0, ""), "task {number}");
     };
-    [16, 3, 1].map(task);
+    [16, 3, 1].into_iter().for_each(task);
     let missing = run(folder.path(), "collect out");
     assert_eq!((missing.code, missing.out.as_str()), (1, "2,4-15\n"), "{}", missing.err);
     [2].into_iter().chain(4..=15).for_each(task);

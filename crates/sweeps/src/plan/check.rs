@@ -1,7 +1,6 @@
 //! What the axes and what is kept must fit: the scene.
 
 use std::collections::BTreeSet;
-use std::iter;
 use std::ops::Range;
 
 use shadowstep::tables::Faults;
@@ -85,9 +84,10 @@ pub(super) fn columns(reader: &mut Reader<'_>, root: &DeTable<'_>, axes: &Axes, 
     let mut named: Vec<(&str, bool, Range<usize>)> =
         axes.all().iter().map(|axis| (axis.name.as_str(), axis.is_numeric(), place(root, axis))).collect();
     let section = root.get("keep").map_or(0..0, |keep| keep.span());
-    let formulas = keep.formulas.iter().map(|(name, _)| name.at.clone());
-    let places = keep.values.iter().map(|_| section.clone()).chain(formulas).chain(iter::repeat(section.clone()));
-    named.extend(columns.iter().zip(places).map(|(column, at)| (column.name.as_str(), column.is_number, at)));
+    for Column { name, is_number, .. } in columns {
+        let formula = keep.formulas.iter().rfind(|(text, _)| text.value == *name);
+        named.push((name, *is_number, formula.map_or(section.clone(), |(text, _)| text.at.clone())));
+    }
     let mut seen = BTreeSet::from(["run", "failure"].map(str::to_owned));
     for (name, is_number, at) in named {
         let own = [Some(name.to_owned()), is_number.then(|| format!("{name}_double"))];
