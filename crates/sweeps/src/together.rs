@@ -26,6 +26,8 @@ const MOST_STEPS: u64 = 1_000_000;
 /// This number of steps is made at once where only the last state is of interest.
 const STEPS_AT_ONCE: u64 = 50;
 
+type OfLanes<T> = [Option<T>; LANES];
+
 type TangentsInLanes = Tangents<SceneIntegrator<Dual<Lanes<LANES>>>>;
 
 /// Whether runs of which this is kept can be computed together: the monitor and estimates follow a run alone.
@@ -93,7 +95,7 @@ struct LanesFollower<'a> {
     energies: Option<Energies>,
     tangents: Option<TangentsInLanes>,
     /// The times of conditions are the n of the first states that meet them.
-    formulas: Vec<Kept<Lanes<LANES>, [Option<u64>; LANES], [Option<f64>; LANES]>>,
+    formulas: Vec<Kept<Lanes<LANES>, OfLanes<u64>, OfLanes<f64>>>,
     /// Whether a run is followed: it has not ended, and all that was seen of it is finite.
     active: [bool; LANES],
     values: [Option<Values>; LANES],

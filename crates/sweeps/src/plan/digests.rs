@@ -50,7 +50,7 @@ impl Digests {
     /// That of these sentences which says what differs first from others: the version, the sweep, the tables.
     pub(crate) fn difference(&self, other: &Digests, sentences: [String; 3]) -> Option<String> {
         let differ = [self.shadowstep != other.shadowstep, self.sweep != other.sweep, self.tables != other.tables];
-        differ.iter().position(|differs| *differs).map(|place| sentences[place].clone())
+        sentences.into_iter().zip(differ).find_map(|(sentence, differs)| differs.then_some(sentence))
     }
 }
 
