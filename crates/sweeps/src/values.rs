@@ -25,7 +25,7 @@ pub(crate) enum Need {
     Summary,
     /// Estimates of the modified energy at each state.
     Estimates,
-    /// So many tangent vectors.
+    /// This number of tangent vectors.
     Tangents(usize),
     Nothing,
 }
