@@ -129,7 +129,7 @@ impl Plots {
     }
 
     /// The charts as SVG.
-    pub(crate) fn svgs(&self) -> Result<Vec<String>, Error> {
+    pub(crate) fn svgs(&self) -> Vec<String> {
         let charts = self.pictures.iter().enumerate();
         charts.map(|(number, picture)| charts::chart(&self.title, picture, &self.runs, number).svg()).collect()
     }

@@ -173,7 +173,7 @@ fn draw(scene: &Scene, files: &PlotFiles) -> Result<(), Error> {
     let title = Path::new(&scene.source.path).file_name().unwrap_or_default().to_string_lossy().into_owned();
     let mut plots = Plots::new(title, plot.pictures.clone());
     of_rows(&mut plots, scene, rows, scene.as_run().name())?;
-    files.write(&plots.svgs()?)
+    files.write(&plots.svgs())
 }
 
 /// Writes the summary, and gives the status that it means.

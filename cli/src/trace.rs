@@ -102,7 +102,7 @@ pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
     drop(write);
     output.finish()?;
     if let Some((plots, files)) = &plots {
-        files.write(&plots.svgs()?)?;
+        files.write(&plots.svgs())?;
     }
     let json = arguments.writes_rows() && !arguments.writes_csv();
     summaries.iter().for_each(|summary| report::summary(summary, json));

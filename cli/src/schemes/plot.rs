@@ -5,7 +5,6 @@ use shadowstep_analysis::Analysis;
 use shadowstep_analysis::oscillator::Oscillator;
 use shadowstep_analysis::stability::Stability;
 use shadowstep_analysis::trace::PhaseError;
-use shadowstep_scenes::Error;
 use shadowstep_schemes::MapKind;
 use shadowstep_schemes::{Proved, Rational};
 use shadowstep_studies::chart::{Axis, Chart, Curve, Mark, log10_of, stacked};
@@ -30,7 +29,7 @@ const BEYOND: f64 = 1.1;
 const ROUNDING: f64 = 1e-15;
 
 /// The charts below each other, as SVG.
-pub(super) fn picture(name: &str, proved: &Proved, analysis: &Analysis) -> Result<String, Error> {
+pub(super) fn picture(name: &str, proved: &Proved, analysis: &Analysis) -> String {
     let weight = |weight: &Rational| weight.to_f64().unwrap_or(f64::NAN);
     let oscillator = Oscillator::of(&proved.scheme.maps(), weight);
     let gaps = Gaps::of(analysis.stability.as_ref(), 2 * (analysis.evaluations + analysis.hessian_products));

@@ -82,7 +82,7 @@ pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
 fn draw(path: &Path, force: bool, scheme: &TableScheme, analysis: &Analysis) -> Result<(), Error> {
     check_ending(path, "scheme.svg")?;
     let proved = scheme.proved();
-    let picture = plot::picture(&proved.scheme.table.name.value, proved, analysis)?;
+    let picture = plot::picture(&proved.scheme.table.name.value, proved, analysis);
     let _interrupt = Interrupt::listen("schemes show", "run the command again");
     let mut file = if force { WholeFile::create(path, "--plot")? } else { WholeFile::create_new(path, "--plot")? };
     writeln!(file, "{picture}")?;

@@ -23,8 +23,7 @@
 //!         Curve::marked("Yoshida 4", log10_of(&yoshida, (true, true)), 1),
 //!     ],
 //! );
-//! assert!(chart.svg()?.starts_with("<svg "));
-//! # Ok::<(), shadowstep_studies::Error>(())
+//! assert!(chart.svg().starts_with("<svg "));
 //! ```
 //!
 //! | module | what it is |
@@ -33,21 +32,18 @@
 //! | `layout` | what the axes show, and the sizes of all parts |
 //! | `clip` | the visible part of a curve |
 //! | `thin` | lines of many points |
-//! | `stack` | several charts as one picture |
-//! | `looks` | colours, dashes and markers |
-//! | `ink` | from the plain colours of plotters to classes that a style sheet can change |
+//! | `looks` | colours and dashes; samples with labels |
 
 mod clip;
 mod draw;
-mod ink;
 mod layout;
 mod looks;
-mod stack;
 mod thin;
 
-use crate::ticks::Scale;
-pub use crate::ticks::power_of_ten;
-pub use stack::stacked;
+pub use crate::picture::markers::Marker;
+use crate::picture::sheet::Sheet;
+use crate::picture::ticks::Scale;
+pub use crate::picture::ticks::power_of_ten;
 
 /// The content of one picture.
 #[derive(Clone, Debug)]
@@ -96,6 +92,12 @@ pub fn log10_of(points: &[(f64, f64)], (x_is_log, y_is_log): (bool, bool)) -> Ve
     let log10 = |value: f64| if value > 0.0 { value.log10() } else { f64::NAN };
     let of = |value: f64, is_log: bool| if is_log { log10(value) } else { value };
     points.iter().map(|&(x, y)| (of(x, x_is_log), of(y, y_is_log))).collect()
+}
+
+/// The SVG text of charts below each other, for a file; `title` is the text of the whole for screen readers.
+pub fn stacked(title: &str, charts: &[Chart]) -> String {
+    let sheets: Vec<Sheet> = charts.iter().map(Chart::sheet).collect();
+    Sheet::stacked(title, &sheets).svg()
 }
 
 /// A vertical line with a label.
@@ -158,8 +160,8 @@ pub struct Curve {
     pub points: Vec<(f64, f64)>,
     /// How it is drawn.
     pub(crate) look: Look,
-    /// Which vertical axis it belongs to.
-    pub(crate) side: Side,
+    /// Whether it belongs to [`Chart::second_y`], if there is one.
+    pub(crate) is_right: bool,
     /// The number of its colour, markers, and dashes. There are 9 colours, also of dashes, and 12 markers; a line with
     /// markers is dashed from the tenth on, so that 12 curves differ in print as well.
     pub colour: usize,
@@ -168,7 +170,7 @@ pub struct Curve {
 impl Curve {
     /// A line with a few of its points marked.
     pub fn line(label: impl Into<String>, points: Vec<(f64, f64)>, colour: usize) -> Self {
-        Curve { label: label.into(), points, look: Look::Line, side: Side::First, colour }
+        Curve { label: label.into(), points, look: Look::Line, is_right: false, colour }
     }
 
     /// A line with all of its points marked: for few points, as of a work–precision diagram.
@@ -191,9 +193,14 @@ impl Curve {
         Curve { look: Look::Points(marker), ..Curve::line(label, points, colour) }
     }
 
+    /// Points without a line, with the markers of their colour.
+    pub fn unjoined(label: impl Into<String>, points: Vec<(f64, f64)>, colour: usize) -> Self {
+        Curve::dots(label, points, colour, Marker::of(colour))
+    }
+
     /// The curve on the axis at the right.
     pub fn on_the_right(self) -> Self {
-        Curve { side: Side::Second, ..self }
+        Curve { is_right: true, ..self }
     }
 }
 
@@ -210,44 +217,6 @@ pub(crate) enum Look {
     Thick,
     /// Points without a line.
     Points(Marker),
-}
-
-/// The shape of a point.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Marker {
-    /// ○
-    Circle,
-    /// □
-    Square,
-    /// △
-    Triangle,
-    /// ◇
-    Diamond,
-    /// ×
-    Cross,
-    /// +
-    Plus,
-    /// ●
-    Dot,
-    /// ▽
-    Nabla,
-    /// + and × together
-    Star,
-    /// ■
-    FilledSquare,
-    /// ▲
-    FilledTriangle,
-    /// ◆
-    FilledDiamond,
-}
-
-/// Which vertical axis a curve belongs to.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Side {
-    /// The left one.
-    First,
-    /// [`Chart::second_y`]; without one, the first.
-    Second,
 }
 
 #[cfg(test)]

@@ -52,7 +52,7 @@ pub fn write_file(folder: &Path, name: &str, text: &str) -> Result<(), Error> {
 /// the files.
 ///
 /// # Errors
-/// A file that cannot be written; a chart that cannot be drawn.
+/// A file that cannot be written.
 pub fn write_charts(
     folder: &Path,
     name: &str,
@@ -61,7 +61,7 @@ pub fn write_charts(
     let (mut svgs, mut files) = (Vec::new(), Vec::new());
     for (i, (chart, _)) in charts.iter().enumerate() {
         let number = if charts.len() == 1 { String::new() } else { format!("-{}", i + 1) };
-        let (svg, file) = (chart.svg()?, format!("{name}{number}.svg"));
+        let (svg, file) = (chart.svg(), format!("{name}{number}.svg"));
         write_file(folder, &file, &svg)?;
         svgs.push(svg);
         files.push(file);

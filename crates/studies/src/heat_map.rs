@@ -39,7 +39,7 @@
 //! | module | what it is |
 //! | --- | --- |
 //! | `check` | what cannot be drawn |
-//! | `scale` | from a value to its place on the colour bar |
+//! | `scale` | which scale suits the values, and where it ends |
 //! | `shades` | from a value to its colour; words and special values |
 //! | `strip` | the cells along an axis: order, borders, labels |
 //! | `layout` | the sizes and places of all parts |
@@ -47,7 +47,6 @@
 //! | `cells` | cells as rectangles, marks, hatching |
 //! | `image` | cells as an image |
 //! | `legend` | the colour bar, and the entries below it |
-//! | `svg` | places and texts |
 
 mod cells;
 mod check;
@@ -58,7 +57,8 @@ mod legend;
 mod scale;
 mod shades;
 mod strip;
-mod svg;
+
+use crate::picture::ticks::Scale;
 
 /// The content of one picture.
 #[derive(Clone, Debug)]
@@ -75,8 +75,6 @@ pub struct HeatMap {
     pub panels: Vec<Panel>,
     /// Short remarks below the picture.
     pub notes: Vec<String>,
-    /// Whether one unit is as long on both axes, unless one of the ranges is much longer.
-    pub equal_scales: bool,
 }
 
 /// The values along an axis, one for each column or row of cells.
@@ -91,10 +89,9 @@ pub struct CellAxis {
 /// The values of an axis.
 #[derive(Clone, Debug)]
 pub(crate) enum Values {
-    /// Different numbers in any order; they are drawn from left to right, and upwards.
-    Linear(Vec<f64>),
-    /// Different positive numbers in any order, drawn by their logarithms.
-    Logarithmic(Vec<f64>),
+    /// Different numbers in any order, on a logarithmic scale positive ones; they are drawn from left to right, and
+    /// upwards.
+    Numbers(Scale, Vec<f64>),
     /// Names, such as those of schemes; they are drawn from left to right, and downwards, in cells of one size. If
     /// there are too many for labels beside each other, only every n-th cell has one.
     Words(Vec<String>),
@@ -124,7 +121,7 @@ pub struct Colour {
 }
 
 /// From numbers to colours.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub(crate) enum ColourScale {
     /// The values themselves.
     Linear,
@@ -132,11 +129,8 @@ pub(crate) enum ColourScale {
     Logarithmic,
     /// For values of both signs over many decades: with the threshold c, v/c for |v| ≤ c, and ±(1 + log₁₀|v/c|) beyond.
     /// The label states c.
-    SymmetricLogarithmic {
-        /// c > 0; `None` for the power of ten below which about 5 % of the nonzero |v| lie, but no less than 10⁻¹² of
-        /// the largest.
-        linear_within: Option<f64>,
-    },
+    /// It is the power of ten below which about 5 % of the nonzero |v| lie, but no less than 10⁻¹² of the largest.
+    SymmetricLogarithmic,
     /// One of these three. Without its smallest 5 %, does the nonzero |v| extend over more than three decades? If not,
     /// linear. If so, logarithmic, or symmetric if some value is negative.
     Automatic,
@@ -147,19 +141,19 @@ pub(crate) enum ColourScale {
 impl HeatMap {
     /// A map without notes, whose panels have any convenient size.
     pub fn new(title: impl Into<String>, x: CellAxis, y: CellAxis, colour: Colour, panels: Vec<Panel>) -> Self {
-        HeatMap { title: title.into(), x, y, colour, panels, notes: Vec::new(), equal_scales: false }
+        HeatMap { title: title.into(), x, y, colour, panels, notes: Vec::new() }
     }
 }
 
 impl CellAxis {
     /// An axis with the numbers themselves.
     pub fn linear(label: impl Into<String>, values: Vec<f64>) -> Self {
-        CellAxis { label: label.into(), values: Values::Linear(values) }
+        CellAxis { label: label.into(), values: Values::Numbers(Scale::Linear, values) }
     }
 
     /// An axis of positive numbers, by their logarithms.
     pub fn logarithmic(label: impl Into<String>, values: Vec<f64>) -> Self {
-        CellAxis { label: label.into(), values: Values::Logarithmic(values) }
+        CellAxis { label: label.into(), values: Values::Numbers(Scale::Log10, values) }
     }
 
     /// An axis of names.
@@ -172,7 +166,7 @@ impl Values {
     /// The number of columns or rows.
     pub(crate) fn count(&self) -> usize {
         match self {
-            Values::Linear(values) | Values::Logarithmic(values) => values.len(),
+            Values::Numbers(_, values) => values.len(),
             Values::Words(words) => words.len(),
         }
     }
@@ -209,7 +203,7 @@ impl Colour {
 
     /// Logarithms of values of both signs, with a threshold that the values give.
     pub fn symmetric_logarithmic(label: impl Into<String>) -> Self {
-        Colour::new(label, ColourScale::SymmetricLogarithmic { linear_within: None })
+        Colour::new(label, ColourScale::SymmetricLogarithmic)
     }
 
     /// The scale that suits the values.

@@ -14,18 +14,13 @@
 //! | [`verdict`] | whether results agree with a statement |
 //! | [`files`] | the files in the folder of a study |
 //! | [`page`] | findings → HTML, which needs neither scripts nor a network |
-//! | `indices` | subscripts in texts |
-//! | `labels` | widths of texts, labels without overlaps |
-//! | `picture` | what all pictures have in common: sizes of texts, colours on dark screens |
-//! | `ticks` | round numbers and decades on an axis |
+//! | `picture` | what all pictures are made of: lines, cells, texts and axes |
 
 mod calculation;
 pub mod chart;
 pub mod files;
 pub mod finding;
 pub mod heat_map;
-mod indices;
-mod labels;
 mod named;
 mod observer;
 pub mod page;
@@ -33,7 +28,6 @@ mod picture;
 mod progress;
 mod store;
 mod threads;
-mod ticks;
 pub mod verdict;
 
 pub use calculation::{Calculation, Continues};

@@ -295,7 +295,7 @@ mod tests {
         Section {
             title: title.to_owned(),
             of_paper: of_paper.map(str::to_owned),
-            svgs: charts.iter().map(|chart| chart.svg().unwrap()).collect(),
+            svgs: charts.iter().map(|chart| chart.svg()).collect(),
             finding: Finding {
                 stated: texts(["The drift is exponentially small: log₁₀ is about −c/h, with c ≈ 4.2."]),
                 charts: charts.iter().map(|chart| (chart.clone(), caption(chart))).collect(),

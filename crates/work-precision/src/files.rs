@@ -45,7 +45,7 @@ pub fn write(study: &Study<'_>, title: Title<'_>, folder: &Path) -> Result<PathB
     for Picture { name, caption, chart } in study.pictures() {
         let (chart, for_print) = ([(chart, caption.to_owned())], format!("{name}-print.svg"));
         let (svg, file) = write_charts(folder, name, &chart)?;
-        write_file(folder, &for_print, &chart[0].0.svg_for_print()?)?;
+        write_file(folder, &for_print, &chart[0].0.svg_for_print())?;
         svgs.extend(svg);
         files.extend(file.into_iter().chain([for_print]));
         charts.extend(chart);

@@ -1,95 +1,75 @@
-//! Colours, dashes and markers: a curve is recognised by more than its colour.
+//! Colours and dashes of curves, and the labels with samples of them.
 
-use super::{Curve, Marker};
+use maud::{Markup, html};
+
+use super::{Curve, Look};
+use crate::picture::elements::{Anchor, BLACK, Ink, Point, Stroke, TEXT, Type, filled, line, path, text};
+use crate::picture::markers::Marker;
 
 /// The colours of Okabe and Ito (2008), which people with any colour vision can distinguish, and a grey; the most
-/// different first. The yellow is darker here, because a thin yellow line is not visible on white.
-const COLOURS: [&str; 9] =
-    ["#000000", "#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#777777", "#B5A500"];
-
+/// different first, with their dashes. The yellow is darker here, because a thin yellow line is not visible on white.
 /// Black and the dark blue have lighter forms on dark screens.
-pub(super) const BLACK: usize = 0;
-pub(super) const BLUE: usize = 1;
+const INKS: [(Ink, &str); 9] = [
+    (BLACK, "7 4"),
+    (Ink { colour: "#0072B2", class: Some("blue") }, "2 3"),
+    (plain("#D55E00"), "12 4"),
+    (plain("#009E73"), "8 3 2 3"),
+    (plain("#CC79A7"), "4 4"),
+    (plain("#E69F00"), "12 3 2 3 2 3"),
+    (plain("#56B4E9"), "1 5"),
+    (plain("#777777"), "16 5"),
+    (plain("#B5A500"), "8 3 2 3 2 3 2 3"),
+];
 
-pub(super) const COUNT: usize = COLOURS.len();
-
-pub(super) fn colour(index: usize) -> &'static str {
-    COLOURS[index % COUNT]
+const fn plain(colour: &'static str) -> Ink {
+    Ink { colour, class: None }
 }
 
-/// Lengths of dashes and gaps.
-pub(super) fn dashes(index: usize) -> &'static [u32] {
-    const DASHES: [&[u32]; COUNT] = [
-        &[7, 4],
-        &[2, 3],
-        &[12, 4],
-        &[8, 3, 2, 3],
-        &[4, 4],
-        &[12, 3, 2, 3, 2, 3],
-        &[1, 5],
-        &[16, 5],
-        &[8, 3, 2, 3, 2, 3, 2, 3],
-    ];
-    DASHES[index % COUNT]
-}
-
-pub(super) fn marker(index: usize) -> Marker {
-    const MARKERS: [Marker; 12] = [
-        Marker::Circle,
-        Marker::Square,
-        Marker::Triangle,
-        Marker::Diamond,
-        Marker::Cross,
-        Marker::Nabla,
-        Marker::Plus,
-        Marker::Dot,
-        Marker::Star,
-        Marker::FilledSquare,
-        Marker::FilledTriangle,
-        Marker::FilledDiamond,
-    ];
-    MARKERS[index % MARKERS.len()]
-}
+const RADIUS: f64 = 4.0;
+/// The length of the sample of a curve.
+const SAMPLE: f64 = 26.0;
 
 impl Curve {
-    /// Points without a line, with the markers of their colour.
-    pub fn unjoined(label: impl Into<String>, points: Vec<(f64, f64)>, colour: usize) -> Self {
-        Curve::dots(label, points, colour, marker(colour))
+    pub(super) fn ink(&self) -> Ink {
+        INKS[self.colour % INKS.len()].0
     }
-}
 
-/// A shape about a point.
-pub(super) enum Shape {
-    Strokes(Vec<Vec<(i32, i32)>>),
-    Filled(Vec<(i32, i32)>),
-    Circle { filled: bool },
-}
+    pub(super) fn stroke(&self) -> Stroke {
+        // beyond the colours, a line with markers is dashed
+        let (width, is_dashed) = match self.look {
+            Look::Dashed => (1.8, true),
+            Look::Thick => (3.6, false),
+            Look::Line | Look::Marked | Look::Points(_) => (1.6, self.colour >= INKS.len()),
+        };
+        let dashes = if is_dashed { INKS[self.colour % INKS.len()].1 } else { "" };
+        Stroke { ink: self.ink(), width, dashes }
+    }
 
-impl Marker {
-    pub(super) fn shape(self, (x, y): (i32, i32), radius: f64) -> Shape {
-        let at = |(dx, dy): (f64, f64)| (x + (dx * radius).round() as i32, y + (dy * radius).round() as i32);
-        let path = |corners: &[(f64, f64)]| corners.iter().chain(corners.first()).copied().map(at).collect();
-        let closed = |corners: &[(f64, f64)]| Shape::Strokes(vec![path(corners)]);
-        let square = [(-0.85, -0.85), (0.85, -0.85), (0.85, 0.85), (-0.85, 0.85)];
-        let triangle = [(0.0, -1.15), (1.05, 0.7), (-1.05, 0.7)];
-        let diamond = [(0.0, -1.25), (1.0, 0.0), (0.0, 1.25), (-1.0, 0.0)];
-        let strokes =
-            |lines: &[[(f64, f64); 2]]| Shape::Strokes(lines.iter().map(|ends| ends.map(at).to_vec()).collect());
-        let plus = [[(-1.1, 0.0), (1.1, 0.0)], [(0.0, -1.1), (0.0, 1.1)]];
-        let cross = [[(-0.85, -0.85), (0.85, 0.85)], [(-0.85, 0.85), (0.85, -0.85)]];
-        match self {
-            Marker::Circle => Shape::Circle { filled: false },
-            Marker::Dot => Shape::Circle { filled: true },
-            Marker::Square => closed(&square),
-            Marker::Triangle => closed(&triangle),
-            Marker::Nabla => closed(&[(0.0, 1.15), (1.05, -0.7), (-1.05, -0.7)]),
-            Marker::Diamond => closed(&diamond),
-            Marker::FilledSquare => Shape::Filled(path(&square)),
-            Marker::FilledTriangle => Shape::Filled(path(&triangle)),
-            Marker::FilledDiamond => Shape::Filled(path(&diamond)),
-            Marker::Plus => strokes(&plus),
-            Marker::Cross => strokes(&cross),
-            Marker::Star => strokes(&[plus[0], plus[1], cross[0], cross[1]]),
+    /// The marker of its points, also of those that no line shows.
+    fn marker(&self) -> Marker {
+        if let Look::Points(marker) = self.look { marker } else { Marker::of(self.colour) }
+    }
+
+    /// Markers at these places.
+    pub(super) fn marks(&self, places: impl IntoIterator<Item = Point>) -> Markup {
+        let (ink, marker) = (self.ink(), self.marker());
+        let commands: String = places.into_iter().map(|at| marker.drawn(at, RADIUS)).collect();
+        if marker.is_filled() && !commands.is_empty() { filled(&commands, ink) } else { path(&commands, ink, 1.5) }
+    }
+
+    /// A sample and the label, to the right of a place and vertically centred on it.
+    pub(super) fn labelled(&self, (x, y): Point, has_markers: bool, label: &str) -> Markup {
+        let is_line = !matches!(self.look, Look::Points(_));
+        let of = Type { anchor: Anchor::Start, size: TEXT, ink: self.ink() };
+        html! {
+            @if is_line { (line(&[(x, y), (x + SAMPLE, y)], self.stroke())) }
+            @if has_markers { (self.marks([(x + SAMPLE / 2.0, y)])) }
+            (text((x + SAMPLE + 5.0, y), of, label))
         }
     }
+}
+
+/// The label of a curve, with its axis if that is the right one.
+pub(super) fn in_legend(curve: &Curve) -> String {
+    format!("{}{}", curve.label, if curve.is_right { " (right axis)" } else { "" })
 }

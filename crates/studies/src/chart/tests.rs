@@ -1,3 +1,4 @@
+use super::layout::Layout;
 use super::*;
 
 fn axis(label: &str, scale: Scale) -> Axis {
@@ -5,7 +6,7 @@ fn axis(label: &str, scale: Scale) -> Axis {
 }
 
 fn curve(label: &str, colour: usize, look: Look, points: Vec<(f64, f64)>) -> Curve {
-    Curve { label: label.to_owned(), points, look, side: Side::First, colour }
+    Curve { label: label.to_owned(), points, look, is_right: false, colour }
 }
 
 /// Nine curves over a hundred decades, against h.
@@ -68,7 +69,7 @@ fn orders() -> Chart {
         curves: vec![
             curve("estimate", 0, Look::Line, estimate),
             curve("bound of the theory", 1, Look::Dashed, bound),
-            Curve { side: Side::Second, ..curve("m", 2, Look::Points(Marker::Cross), order) },
+            Curve { is_right: true, ..curve("m", 2, Look::Points(Marker::Cross), order) },
         ],
         notes: Vec::new(),
         equal_scales: false,
@@ -85,19 +86,19 @@ pub(crate) fn samples() -> [(&'static str, Chart); 4] {
 #[test]
 pub(crate) fn samples_are_drawn_whole() {
     for (name, chart) in samples() {
-        let svg = chart.svg().unwrap();
+        let svg = chart.svg();
         if let Some(folder) = std::env::var_os("SHADOWSTEP_LOOK") {
             std::fs::write(std::path::Path::new(&folder).join(format!("{name}.svg")), &svg).unwrap();
         }
         for label in chart.curves.iter().map(|curve| &curve.label).chain([&chart.x.label]) {
             assert!(svg.contains(label), "{name} lacks {label}");
         }
-        // one page contains many, so that ids would clash; all placeholders are replaced
+        // one page contains many, so that ids would clash
         let ticks = ["drifts", "orders"]
             .contains(&name)
             .then_some(">10<tspan dy=\"-0.4em\" font-size=\"0.75em\">-20</tspan></text>");
         assert!(ticks.is_none_or(|tick| svg.contains(tick)), "{name} lacks 10⁻²⁰");
-        for wrong in [" id=", "<script", "NaN", "inf", "=\"#0100", "=\"#0200", "=\"#0201"] {
+        for wrong in [" id=", "<script", "NaN", "inf"] {
             assert!(!svg.contains(wrong), "{name} has {wrong}");
         }
         assert!(svg.starts_with("<svg ") && svg.ends_with("</svg>"), "{name}");
@@ -119,15 +120,14 @@ fn curves_stay_within_the_plot() {
         Chart { curves: vec![curve("wave", 3, Look::Line, wave)], marks: Vec::new(), notes: Vec::new(), ..bumps() };
     chart.x.range = Some((2.0, 15.0));
     chart.y = Axis { range: Some((-10.0, 20.0)), ..axis("y", Scale::Linear) };
-    let svg = chart.svg().unwrap();
+    let svg = chart.svg();
     let lines = polylines(&svg);
-    // the sides of the frame at top and right, drawn after the curve, are the bounds of the plot
-    let frame = lines.iter().find(|line| line.len() == 3 && line[0].1 == line[1].1).unwrap();
-    let ((left, top), (right, bottom)) = (frame[0], frame[2]);
+    let Layout { plot, .. } = Layout::of(&chart);
+    let (left, top, right, bottom) = (plot.left, plot.top, plot.right(), plot.bottom());
     let of_curve: Vec<_> = lines.iter().filter(|line| line.len() > 3).collect();
     assert!(of_curve.len() >= 4, "cut at y = −10 and 20 in each period");
     for &(x, y) in of_curve.iter().copied().flatten() {
-        assert!((left..=right).contains(&x) && (top..=bottom).contains(&y), "{x} {y} in {frame:?}");
+        assert!((left..=right).contains(&x) && (top..=bottom).contains(&y), "{x} {y} in {plot:?}");
     }
     assert!(of_curve.iter().filter(|line| line.iter().any(|point| point.1 == top)).count() >= 2, "no bend before");
 }
@@ -139,7 +139,7 @@ fn equal_scales_show_circles() {
         let points = (0..=360).map(|i| f64::from(i).to_radians()).map(|t| (a * t.cos(), b * t.sin())).collect();
         let curves = vec![Curve::line("orbit", points, 0)];
         let chart = Chart { equal_scales: true, ..Chart::new("", Axis::linear("x"), Axis::linear("y"), curves) };
-        let svg = chart.svg().unwrap();
+        let svg = chart.svg();
         let line = polylines(&svg).into_iter().max_by_key(Vec::len).unwrap();
         let extent = |values: Vec<f64>| {
             let (least, most) = values.iter().fold((f64::MAX, f64::MIN), |(a, b), v| (a.min(*v), b.max(*v)));
@@ -156,7 +156,7 @@ fn equal_scales_show_circles() {
 #[test]
 fn labels_do_not_overlap_with_many_curves_of_one_end() {
     let curves = (0..25).map(|n| curve(&format!("curve {n}"), n, Look::Line, vec![(0.0, 0.0), (1.0, 1.0)]));
-    let svg = Chart { curves: curves.collect(), ..drifts() }.svg().unwrap();
+    let svg = Chart { curves: curves.collect(), ..drifts() }.svg();
     let mut rows: Vec<f64> = svg
         .split("<text ")
         .filter(|text| text.contains(">curve "))
@@ -164,7 +164,7 @@ fn labels_do_not_overlap_with_many_curves_of_one_end() {
         .collect();
     rows.sort_by(f64::total_cmp);
     assert_eq!(rows.len(), 25);
-    assert!(rows.windows(2).all(|pair| pair[1] - pair[0] >= 190.0), "{rows:?}");
+    assert!(rows.windows(2).all(|pair| pair[1] - pair[0] >= 19.0), "{rows:?}");
 }
 
 /// Twelve schemes of a work–precision diagram, whose curves end close together.
@@ -181,11 +181,15 @@ fn schemes() -> Chart {
 /// A marker with its dashes is that of one curve only: without colours, and for any colour vision.
 #[test]
 fn twelve_curves_differ_without_colours() {
-    let looks = schemes().curves.iter().map(|curve| looks::marker(curve.colour)).collect::<Vec<_>>();
+    let looks = schemes().curves.iter().map(|curve| Marker::of(curve.colour)).collect::<Vec<_>>();
     assert!((0..12).all(|n| !looks[..n].contains(&looks[n])), "{looks:?}");
-    let svg = schemes().svg().unwrap();
+    let svg = schemes().svg();
     assert_eq!(svg.matches("stroke-dasharray").count(), 6, "three lines and their samples");
-    assert_eq!(svg.matches("<polygon").count(), 3 * 8, "seven points and a sample");
+    assert_eq!(
+        svg.matches("fill=\"#").count() - svg.matches("<text").count(),
+        2 * 4 + 1,
+        "filled markers and samples, paper"
+    );
 }
 
 /// The attributes and the content of each text of a picture.
@@ -198,12 +202,12 @@ fn texts(svg: &str) -> impl Iterator<Item = (&str, &str)> {
 fn labels_have_the_colours_of_their_curves() {
     let kinds = [Curve::line, Curve::marked, Curve::thick, Curve::dashed, Curve::unjoined];
     for (colour, kind) in (0..12).flat_map(|colour| kinds.map(|kind| (colour, kind))) {
-        let curves = vec![kind("this one", vec![(0.0, 0.0), (1.0, 1.0)], colour)];
-        let svg = Chart::new("", Axis::linear("x"), Axis::linear("y"), curves).svg().unwrap();
+        let this = kind("this one", vec![(0.0, 0.0), (1.0, 1.0)], colour);
+        let svg = Chart::new("", Axis::linear("x"), Axis::linear("y"), vec![this.clone()]).svg();
         let (attributes, _) = texts(&svg).find(|(_, label)| *label == "this one").unwrap();
         let as_curve = attributes.split(' ').filter(|part| part.starts_with("fill=") || part.starts_with("class="));
         let as_curve = as_curve.collect::<Vec<_>>().join(" ");
-        assert!(as_curve.contains(looks::colour(colour)), "{colour}: {attributes}");
+        assert!(as_curve.contains(this.ink().colour), "{colour}: {attributes}");
         let of_line = as_curve.replace("fill", "stroke");
         assert!(svg.contains(&of_line) || svg.matches(&as_curve).count() > 1, "{colour}: {as_curve}");
     }
@@ -213,7 +217,7 @@ fn labels_have_the_colours_of_their_curves() {
 #[test]
 fn listed_labels_are_in_the_order_of_the_curves() {
     let of = |listed: bool| {
-        let svg = Chart { listed, ..schemes() }.svg().unwrap();
+        let svg = Chart { listed, ..schemes() }.svg();
         let labels: Vec<_> = texts(&svg).filter(|(_, label)| label.starts_with("scheme ")).collect();
         let row = |attributes: &str| attributes.split(" y=\"").nth(1)?.split('"').next()?.parse::<f64>().ok();
         let rows: Vec<_> = labels.iter().map(|(attributes, _)| row(attributes).unwrap()).collect();
@@ -229,7 +233,7 @@ fn listed_labels_are_in_the_order_of_the_curves() {
 fn the_minus_of_a_picture_is_that_of_ascii() {
     let falling = (1..=40).map(|n| (f64::from(n), -f64::from(n))).collect::<Vec<_>>();
     for y in [Axis::linear("max − min"), Axis::log10("max − min")] {
-        let svg = Chart::new("−1", Axis::linear("x"), y, vec![Curve::line("−2", falling.clone(), 0)]).svg().unwrap();
+        let svg = Chart::new("−1", Axis::linear("x"), y, vec![Curve::line("−2", falling.clone(), 0)]).svg();
         assert!(!svg.contains('−') && !svg.contains('⁻') && svg.contains("max - min"));
         assert!(texts(&svg).any(|(_, text)| text == "-20" || text.contains(">-20<")), "{svg}");
     }
@@ -243,7 +247,7 @@ fn labels_of_jumps_stand_at_them() {
         let y = Axis::linear("y").over(0.0, 10.0);
         let mut chart = Chart::new("", Axis::linear("x"), y, vec![Curve::line("step", points, 0)]);
         chart.marks = vec![Mark::at(5.0, "up").of_jump(jump.0, jump.1)];
-        let svg = chart.svg().unwrap();
+        let svg = chart.svg();
         let line = polylines(&svg).into_iter().find(|line| line.len() == 4).unwrap();
         let (attributes, _) = texts(&svg).find(|(_, label)| *label == "up").unwrap();
         let row = attributes.split(" y=\"").nth(1).unwrap().split('"').next().unwrap().parse::<f64>().unwrap();
@@ -252,9 +256,9 @@ fn labels_of_jumps_stand_at_them() {
     let (label, low, high) = row((2.0, 8.0));
     assert!((label - f64::midpoint(low, high)).abs() < 1.0);
     let (label, low, high) = row((5.0, 5.1));
-    assert!(label < high - 100.0 && high < low, "{label} {high}");
+    assert!(label < high - 10.0 && high < low, "{label} {high}");
     let (label, low, _) = row((9.9, 10.0));
-    assert!(label > low + 100.0, "{label} {low}");
+    assert!(label > low + 10.0, "{label} {low}");
 }
 
 #[test]
@@ -268,14 +272,14 @@ fn logarithms_of_what_is_not_positive_are_missing() {
 #[test]
 fn pictures_of_long_runs_stay_small() {
     let wave = (0..200_000).map(f64::from).map(|t| (t, (t / 300.0).sin())).collect();
-    let svg = Chart::new("", Axis::linear("t"), Axis::linear("H"), vec![Curve::line("H", wave, 0)]).svg().unwrap();
+    let svg = Chart::new("", Axis::linear("t"), Axis::linear("H"), vec![Curve::line("H", wave, 0)]).svg();
     assert!(svg.len() < 60_000, "{}", svg.len());
 }
 
 /// For a paper the colours are fixed; otherwise the same picture.
 #[test]
 fn printed_pictures_do_not_follow_the_screen() {
-    let [screen, print] = [schemes().svg().unwrap(), schemes().svg_for_print().unwrap()];
+    let [screen, print] = [schemes().svg(), schemes().svg_for_print()];
     assert!(screen.contains("prefers-color-scheme") && !print.contains("prefers-color-scheme"));
     let [first, second] = [&screen, &print].map(|svg| svg.split_once("</style>").unwrap().1.to_owned());
     assert_eq!(first, second);
@@ -284,7 +288,7 @@ fn printed_pictures_do_not_follow_the_screen() {
 /// A label of a mark is read over curves and lines: it comes after them, on its halo.
 #[test]
 fn labels_of_marks_have_a_halo() {
-    let svg = Chart { marks: vec![Mark::at(20.0, "escape")], ..bumps() }.svg().unwrap();
+    let svg = Chart { marks: vec![Mark::at(20.0, "escape")], ..bumps() }.svg();
     let halo = svg.find("stroke=\"#FFFFFF\"").unwrap();
     assert_eq!(svg.matches(">escape</text>").count(), 2);
     // of the curves with 600 points, the pieces of the last one
@@ -312,24 +316,24 @@ fn strange_values_are_drawn_or_left_out() {
                 for second_y in [None, Some(axis("y", scale))] {
                     let curves = vec![
                         curve("a", 0, look, points.clone()),
-                        Curve { side: Side::Second, ..curve("b", 100, look, points.clone()) },
+                        Curve { is_right: true, ..curve("b", 100, look, points.clone()) },
                     ];
                     let [x, y] = ["x", "y"].map(|name| axis(name, scale));
                     let chart = Chart { second_y, ..Chart::new("", x, y, curves) };
-                    let svg = chart.svg().unwrap();
+                    let svg = chart.svg();
                     assert!(svg.len() < 20_000 && !svg.contains("NaN"), "{points:?} {scale:?} {look:?}");
                 }
             }
         }
     }
     let none = Chart { curves: Vec::new(), ..bumps() };
-    assert!(none.svg().unwrap().contains("Energy error"));
+    assert!(none.svg().contains("Energy error"));
 }
 
 #[test]
 fn texts_are_escaped() {
     let chart = Chart { title: "a < b & \"c\"".to_owned(), notes: vec!["</svg>".to_owned()], ..orders() };
-    let svg = chart.svg().unwrap();
+    let svg = chart.svg();
     assert_eq!(svg.matches("a &lt; b &amp; &quot;c&quot;").count(), 2, "the name and the heading");
     assert_eq!((svg.matches("</svg>").count(), svg.matches("&lt;/svg&gt;").count()), (1, 1));
 }
@@ -341,7 +345,7 @@ fn labels_are_where_curves_end_at_the_right() {
     let of = |points: Vec<(f64, f64)>| {
         let other = curve("other", 1, Look::Line, vec![(0.0, 9.0), (2.0, 0.0)]);
         let chart = Chart { curves: vec![curve("this one", 0, Look::Thick, points), other], ..bumps() };
-        let svg = chart.svg().unwrap();
+        let svg = chart.svg();
         svg.split("<text ").find(|text| text.contains(">this one<")).unwrap().to_owned()
     };
     assert_eq!(of(falling.to_vec()), of(falling.into_iter().rev().collect()));
@@ -351,7 +355,19 @@ fn labels_are_where_curves_end_at_the_right() {
 #[test]
 fn indices_are_lowered() {
     let labelled = curve("T_{m,m} and E_40", 0, Look::Line, vec![(0.0, 0.0), (1.0, 1.0)]);
-    let svg = Chart { curves: vec![labelled], ..bumps() }.svg().unwrap();
+    let svg = Chart { curves: vec![labelled], ..bumps() }.svg();
     let lowered = |index: &str| format!("<tspan dy=\"0.3em\" font-size=\"0.75em\">{index}</tspan>");
     assert!(svg.contains(&lowered("m,m")) && svg.contains(&lowered("40")) && !svg.contains("E_40"), "{svg}");
+}
+
+#[test]
+fn charts_stand_below_each_other() {
+    let [(_, first), (_, second), ..] = samples();
+    let heights = [&first, &second].map(|chart| Layout::of(chart).height.ceil());
+    let picture = stacked("two", &[first, second]);
+    assert!(picture.contains("<svg y=\"0\"") && picture.contains(&format!("<svg y=\"{}\"", heights[0])));
+    assert!(
+        picture.starts_with("<svg ") && picture.contains(&format!("height=\"{}\" viewBox", heights[0] + heights[1]))
+    );
+    assert_eq!(picture.matches("</svg>").count(), 3);
 }

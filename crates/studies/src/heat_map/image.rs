@@ -7,8 +7,9 @@ use base64::engine::general_purpose::STANDARD;
 use maud::{Markup, html};
 
 use super::shades::{MISSING, Shades};
-use super::svg::{Place, length};
+use super::strip::Strip;
 use crate::Error;
+use crate::picture::elements::{Place, length};
 
 /// From this number of cells in all panels on they are drawn as images; so are cells narrower than this.
 pub(super) const TOO_MANY_RECTANGLES: usize = 10_000;
@@ -23,10 +24,10 @@ pub(super) fn is_needed(cells: usize, (columns, rows): (usize, usize), place: Pl
     cells >= TOO_MANY_RECTANGLES || narrowest < NARROWEST
 }
 
-/// Which cell each pixel along an axis shows.
-pub(super) fn pixels(borders: &[f64], is_even: bool, length: f64) -> Vec<usize> {
-    let cells = borders.len() - 1;
-    if is_even {
+/// Which cell each pixel along an axis shows, of this length.
+pub(super) fn pixels(strip: &Strip, length: f64) -> Vec<usize> {
+    let (borders, cells) = (&strip.borders, strip.count());
+    if strip.is_even(0.05 / length) {
         return (0..cells).collect();
     }
     let pixels = (FINENESS * length).ceil() as usize;
@@ -69,19 +70,24 @@ fn png(shades: &Shades<'_>, numbers: &[u8], (width, height): (u32, u32)) -> Resu
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::heat_map::CellAxis;
+
+    fn strip(values: &[f64]) -> Strip {
+        Strip::of_x(&CellAxis::linear("", values.to_vec()))
+    }
 
     #[test]
     fn cells_of_one_size_have_a_pixel_each() {
-        assert_eq!(pixels(&[0.0, 0.25, 0.5, 0.75, 1.0], true, 400.0), [0, 1, 2, 3]);
+        assert_eq!(pixels(&strip(&[1.0, 2.0, 3.0, 4.0]), 400.0), [0, 1, 2, 3]);
     }
 
     /// The borders are where they should be, to half a pixel of the image.
     #[test]
     fn cells_of_different_sizes_have_pixels_by_their_sizes() {
-        let borders = [0.0, 0.1, 0.7, 1.0];
-        let pixels = pixels(&borders, false, 100.0);
+        let strip = strip(&[0.0, 1.0, 11.0]);
+        let pixels = pixels(&strip, 100.0);
         assert_eq!(pixels.len(), 400);
-        for (cell, pair) in borders.windows(2).enumerate() {
+        for (cell, pair) in strip.borders.windows(2).enumerate() {
             let first = pixels.iter().position(|&of| of == cell).unwrap();
             assert!((first as f64 - 400.0 * pair[0]).abs() <= 0.5);
             let count = pixels.iter().filter(|&&of| of == cell).count();

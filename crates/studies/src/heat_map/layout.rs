@@ -1,12 +1,13 @@
-//! The sizes and places of all parts of a heat map, in pixels.
+//! The sizes and places of all parts of a heat map.
 
 use super::legend::Legend;
 use super::shades::Shades;
-use super::strip::{Labels, Strip};
-use super::svg::{NEAR, Place};
+use super::strip::Strip;
 use super::{CellAxis, HeatMap, Values};
-use crate::labels::{BOLD, lines, width};
-use crate::picture::{LINE, MARGIN, TEXT, TICK, TITLE};
+use crate::picture::elements::{LINE, MARGIN, Place, TEXT};
+use crate::picture::sheet::Texts;
+use crate::picture::side::{Direction, NEAR, Side, TICK};
+use crate::picture::text::{lines, width};
 
 /// The least width of the legend, if the picture is so wide.
 const LEGEND: f64 = 440.0;
@@ -24,8 +25,6 @@ const LONGEST_LINE: f64 = 110.0;
 const LEAST_PANEL: (f64, f64) = (120.0, 44.0);
 /// Height : width of panels in one, two or more columns, if there are enough cells.
 const SHAPES: [f64; 3] = [0.75, 0.9, 1.0];
-/// Height : width of panels with equal scales.
-const EQUAL: (f64, f64) = (0.2, 1.6);
 /// Between panels, and between their rows.
 const GAP: f64 = 40.0;
 const BETWEEN_ROWS: f64 = 10.0;
@@ -43,16 +42,15 @@ pub(super) struct PanelPlace {
 
 /// The places of all parts.
 pub(super) struct Layout {
-    pub(super) title: Vec<String>,
-    pub(super) x: Labels,
-    pub(super) y: Labels,
+    pub(super) texts: Texts,
+    pub(super) x: Side,
+    pub(super) y: Side,
     pub(super) panels: Vec<PanelPlace>,
     /// All panels together, without labels.
     pub(super) grid: Place,
     /// The middle of the label of the horizontal axis.
     pub(super) x_label: f64,
     pub(super) legend: Legend,
-    pub(super) notes: Vec<String>,
     pub(super) width: f64,
     pub(super) height: f64,
 }
@@ -65,8 +63,8 @@ impl Layout {
         let left = MARGIN + beside(&x, &y, size.0);
         let grid_width = columns as f64 * size.0 + (columns - 1) as f64 * GAP;
         let picture = (left + grid_width + RIGHT).max(LEAST_WIDTH);
-        let title = lines(&map.title, picture - 2.0 * MARGIN, TITLE * BOLD);
-        let top = MARGIN + title.len() as f64 * (LINE + 2.0) + 8.0;
+        let texts = Texts::of(&map.title, &map.notes, picture);
+        let top = texts.top() + 8.0;
         let (panels, bottom) = panels(map, columns, size, (left, top), TICK + NEAR + x.height());
         let grid = Place { left, top, width: grid_width, height: panels[panels.len() - 1].cells.bottom() - top };
         let x_label = bottom + if map.x.label.is_empty() { -LINE / 2.0 } else { 6.0 + LINE / 2.0 };
@@ -75,10 +73,8 @@ impl Layout {
         let (legend_top, legend_width) = (x_label + LINE / 2.0 + 12.0, picture - RIGHT - legend_left);
         let place = Place { left: legend_left, top: legend_top, width: legend_width, height: 0.0 };
         let legend = Legend::of(map, shades, counts, (place, picture));
-        let note_width = picture - 2.0 * MARGIN;
-        let notes: Vec<_> = map.notes.iter().flat_map(|note| lines(note, note_width, TEXT * 0.9)).collect();
-        let height = legend.bottom() + if notes.is_empty() { 0.0 } else { 8.0 } + notes.len() as f64 * LINE + MARGIN;
-        Layout { title, x, y, panels, grid, x_label, legend, notes, width: picture, height }
+        let height = legend.bottom + texts.below();
+        Layout { texts, x, y, panels, grid, x_label, legend, width: picture, height }
     }
 }
 
@@ -104,7 +100,7 @@ fn panels(
 }
 
 /// What the labels at the left of the panels need, of which each is so wide.
-fn beside(x: &Labels, y: &Labels, width: f64) -> f64 {
+fn beside(x: &Side, y: &Side, width: f64) -> f64 {
     LINE + 4.0 + (y.width() + TICK + NEAR).max(x.overhang(width))
 }
 
@@ -118,7 +114,7 @@ fn columns(panels: usize) -> usize {
 }
 
 /// The width and the height of a panel, and the labels of its axes.
-fn panel_size(map: &HeatMap, (x, y): (&Strip, &Strip), columns: usize) -> ((f64, f64), Labels, Labels) {
+fn panel_size(map: &HeatMap, (x, y): (&Strip, &Strip), columns: usize) -> ((f64, f64), Side, Side) {
     let picture = if columns == 1 { WIDTHS.0 } else { WIDTHS.1 };
     let shape = SHAPES[columns.min(SHAPES.len()) - 1];
     let mut room = 0.0;
@@ -126,17 +122,12 @@ fn panel_size(map: &HeatMap, (x, y): (&Strip, &Strip), columns: usize) -> ((f64,
     loop {
         let most = (picture - MARGIN - room - RIGHT - (columns - 1) as f64 * GAP) / columns as f64;
         let most = if columns == 1 { (x.count() as f64).clamp(most, WIDEST) } else { most }.max(LEAST_PANEL.0);
-        let size = match equal_shape(map, x, y) {
-            Some(shape) => (most, most * shape),
-            None => (
-                most.min((x.count() as f64 * widest_cell(&map.x)).max(LEAST_PANEL.0)),
-                (most * shape).min((y.count() as f64 * LARGEST_CELL.1).max(LEAST_PANEL.1)),
-            ),
-        };
-        let (x, y) = (Labels::across(&map.x, x, size.0), Labels::up(&map.y, y, size.1));
-        let needed = beside(&x, &y, size.0);
+        let width = most.min((x.count() as f64 * widest_cell(&map.x)).max(LEAST_PANEL.0));
+        let height = (most * shape).min((y.count() as f64 * LARGEST_CELL.1).max(LEAST_PANEL.1));
+        let (x, y) = (x.side(&map.x, width, Direction::Below), y.side(&map.y, height, Direction::Left));
+        let needed = beside(&x, &y, width);
         if needed <= room {
-            return (size, x, y);
+            return ((width, height), x, y);
         }
         room = needed;
     }
@@ -147,15 +138,4 @@ fn widest_cell(axis: &CellAxis) -> f64 {
     let words = if let Values::Words(words) = &axis.values { words.as_slice() } else { &[] };
     let lines = words.iter().flat_map(|word| lines(word, LONGEST_LINE, TEXT)).map(|line| width(&line, TEXT));
     lines.fold(LARGEST_CELL.0, |widest, line| widest.max(line.min(LONGEST_LINE) + TEXT))
-}
-
-/// Height : width of the cells if one unit is as long on both axes.
-fn equal_shape(map: &HeatMap, x: &Strip, y: &Strip) -> Option<f64> {
-    let are_numbers = matches!(
-        (&map.x.values, &map.y.values),
-        (Values::Linear(_), Values::Linear(_)) | (Values::Logarithmic(_), Values::Logarithmic(_))
-    );
-    let length = |strip: &Strip| strip.range().1 - strip.range().0;
-    let shape = length(y) / length(x);
-    (map.equal_scales && are_numbers && (EQUAL.0..=EQUAL.1).contains(&shape)).then_some(shape)
 }

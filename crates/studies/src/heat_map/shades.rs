@@ -2,10 +2,10 @@
 //!
 //! A picture has at most 256 colours: those of the colour bar or of the words, and those of special values.
 
-use super::scale::Measure;
+use super::scale::{ends, extremes, scale};
 use super::strip::Strip;
 use super::{ColourScale, HeatMap};
-use crate::ticks::{Scale, has_ticks, significant};
+use crate::picture::ticks::{Scale, significant};
 
 /// The colours of the bar; an odd number, so that 0 has the middle one where both signs occur.
 pub(super) const LEVELS: u8 = 249;
@@ -46,10 +46,10 @@ pub(super) const MOST_WORDS: usize = OF_WORDS.len();
 /// The colours of a picture.
 pub(super) struct Shades<'a> {
     words: Option<&'a [String]>,
-    pub(super) measure: Measure,
+    pub(super) scale: Scale,
     /// The values at the ends of the colour bar.
     ends: Option<(f64, f64)>,
-    /// The same in the measure; `None` without a finite value.
+    /// The same in the measure of the scale; `None` without a finite value.
     pub(super) range: Option<(f64, f64)>,
     /// The smallest and the largest finite value, on a logarithmic scale of the positive ones.
     pub(super) data: Option<(f64, f64)>,
@@ -57,16 +57,14 @@ pub(super) struct Shades<'a> {
 
 impl<'a> Shades<'a> {
     pub(super) fn of(map: &'a HeatMap) -> Shades<'a> {
-        let measure = Measure::of(&map.colour, &map.panels);
-        match &map.colour.scale {
-            ColourScale::Words(words) => Shades { words: Some(words), measure, ends: None, range: None, data: None },
-            _ => {
-                let data = measure.extremes(&map.panels);
-                let ends = map.colour.range.or(data).map(|range| measure.ends(range));
-                let range = ends.map(|(least, most)| (measure.at(least), measure.at(most)));
-                Shades { words: None, measure, ends, range, data }
-            }
+        let scale = scale(&map.colour, &map.panels);
+        if let ColourScale::Words(words) = &map.colour.scale {
+            return Shades { words: Some(words), scale, ends: None, range: None, data: None };
         }
+        let data = extremes(scale, &map.panels);
+        let ends = map.colour.range.or(data).map(|range| ends(scale, range));
+        let range = ends.map(|(least, most)| (scale.at(least), scale.at(most)));
+        Shades { words: None, scale, ends, range, data }
     }
 
     pub(super) fn words(&self) -> &'a [String] {
@@ -75,12 +73,12 @@ impl<'a> Shades<'a> {
 
     /// Whether the colours go from negative to positive values.
     fn is_signed(&self) -> bool {
-        self.measure != Measure::Log10 && self.range.is_some_and(|(least, most)| least < 0.0 && most > 0.0)
+        self.scale != Scale::Log10 && self.range.is_some_and(|(least, most)| least < 0.0 && most > 0.0)
     }
 
     /// Whether the values differ by so much that a colour bar can have ticks.
     pub(super) fn has_bar(&self) -> bool {
-        self.range.is_some_and(|range| has_ticks(range, Scale::Linear))
+        self.range.is_some_and(|range| Scale::Linear.has_ticks(range))
     }
 
     /// Special colours beyond the colour bar, with the names of their values.
@@ -98,7 +96,7 @@ impl<'a> Shades<'a> {
         if value.is_infinite() {
             return if value > 0.0 { INFINITE } else { MINUS_INFINITE };
         }
-        let place = self.measure.at(value);
+        let place = self.scale.at(value);
         match self.range {
             Some((least, _)) if place < least && place.is_finite() => BELOW,
             Some((_, most)) if place > most => ABOVE,

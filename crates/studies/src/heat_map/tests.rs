@@ -61,16 +61,13 @@ fn escapes(count: usize) -> HeatMap {
     };
     let time = |x: f64, y: f64| escape(x, y).map_or(f64::INFINITY, |n| f64::from(n + 1));
     let panels = vec![Panel::new("", cells(&x, &y, time))];
-    HeatMap {
-        equal_scales: true,
-        ..HeatMap::new(
-            "Escape of the Hénon map",
-            CellAxis::linear("x", x),
-            CellAxis::linear("y", y),
-            Colour::linear("escape time (iterations)"),
-            panels,
-        )
-    }
+    HeatMap::new(
+        "Escape of the Hénon map",
+        CellAxis::linear("x", x),
+        CellAxis::linear("y", y),
+        Colour::linear("escape time (iterations)"),
+        panels,
+    )
 }
 
 /// Verdicts of several schemes, which are words.
@@ -392,7 +389,6 @@ fn wrong_inputs_are_refused() {
     let panel = |cells: &[f64]| vec![Panel::new("Ruth 3", cells.iter().copied().map(Some).collect())];
     let of = |x: CellAxis, colour: Colour, panels: Vec<Panel>| HeatMap::new("map", x, linear(&[1.0]), colour, panels);
     let many = (0..13).map(|n| n.to_string()).collect();
-    let threshold = ColourScale::SymmetricLogarithmic { linear_within: Some(0.0) };
     let wrong = [
         (of(linear(&[]), Colour::linear(""), panel(&[])), "the axis \"e\" has no values"),
         (of(linear(&[1.0, 2.0, 1.0]), Colour::linear(""), panel(&[0.0; 3])), "has the value 1 twice"),
@@ -410,10 +406,6 @@ fn wrong_inputs_are_refused() {
         ),
         (of(linear(&[1.0]), Colour::words("", words(&["a"])), panel(&[0.5])), "a cell 0.5, which"),
         (of(linear(&[1.0]), Colour::words("", many), panel(&[0.0])), "13 words cannot be distinguished"),
-        (
-            of(linear(&[1.0]), Colour { scale: threshold, ..Colour::linear("") }, panel(&[0.0])),
-            "must be positive, not 0",
-        ),
         (of(linear(&[1.0]), Colour::linear("").over(2.0, 2.0), panel(&[0.0])), "from 2e0 to 2e0 is empty"),
         (
             of(linear(&[1.0]), Colour::logarithmic("").over(0.0, 2.0), panel(&[0.0])),

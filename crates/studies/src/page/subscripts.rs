@@ -2,7 +2,7 @@
 
 use maud::{Markup, html};
 
-use crate::indices::first_index;
+use crate::picture::indices::with_indices;
 
 /// A text in which the indices are subscripts, and what is between backticks is code.
 pub(super) fn set(text: &str) -> Markup {
@@ -14,13 +14,7 @@ pub(super) fn set(text: &str) -> Markup {
 }
 
 fn with_subscripts(text: &str) -> Markup {
-    let mut rest = text;
-    let mut pieces = Vec::new();
-    while let Some((before, index, after)) = first_index(rest) {
-        pieces.push((before, index));
-        rest = after;
-    }
-    html! { @for (before, index) in pieces { (before) sub { (index) } } (rest) }
+    html! { @for (before, index) in with_indices(text) { (before) @if !index.is_empty() { sub { (index) } } } }
 }
 
 #[cfg(test)]

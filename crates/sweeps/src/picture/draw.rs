@@ -52,7 +52,7 @@ impl Picture {
             None => {
                 let Some(mut charts) = self.charts(cells, axes, (&title, &label)) else { return Ok(None) };
                 charts.iter_mut().for_each(|chart| chart.notes.extend(notes.iter().cloned()));
-                if let [chart] = &charts[..] { chart.svg() } else { stacked(&title, &charts) }.map(Some)
+                Ok(Some(if let [chart] = &charts[..] { chart.svg() } else { stacked(&title, &charts) }))
             }
         }
     }

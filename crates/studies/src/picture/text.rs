@@ -1,4 +1,8 @@
-//! Texts beside a chart: their approximate widths, and their places without overlaps.
+//! Texts in pictures: their approximate widths, their places without overlaps, raised and lowered characters.
+
+use maud::{Markup, html};
+
+use super::indices::with_indices;
 
 /// The width of a character in em: about that of `DejaVu Sans`, the widest of the faces that pictures name.
 const CHARACTER: f64 = 0.56;
@@ -59,6 +63,43 @@ pub(crate) fn separate(wanted: &[f64], gap: f64, range: (f64, f64)) -> Vec<f64> 
         places[i] = place + rank as f64 * gap;
     }
     places
+}
+
+/// A text with exponents as raised and indices as lowered small letters: many fonts lack some of the raised characters,
+/// or have them in two styles.
+pub(crate) fn set(text: &str) -> Markup {
+    html! {
+        @for (before, index) in with_indices(text) {
+            (with_exponents(before))
+            // the line goes back where the index ends: by 0.3 em of the smaller font
+            @if !index.is_empty() {
+                tspan dy="0.3em" font-size="0.75em" { (index) } tspan dy="-0.225em" { "\u{200b}" }
+            }
+        }
+    }
+}
+
+fn with_exponents(text: &str) -> Markup {
+    const RAISED: &str = "⁰¹²³⁴⁵⁶⁷⁸⁹⁻";
+    let characters: Vec<char> = text.chars().collect();
+    let mut runs = characters.chunk_by(|a, b| RAISED.contains(*a) == RAISED.contains(*b)).peekable();
+    let lowered =
+        |raised: &char| RAISED.chars().zip("0123456789-".chars()).find(|(of, _)| of == raised).map(|found| found.1);
+    html! {
+        @while let Some(run) = runs.next() {
+            @if lowered(&run[0]).is_none() {
+                (run.iter().collect::<String>())
+            } @else {
+                tspan dy="-0.4em" font-size="0.75em" { (run.iter().filter_map(lowered).collect::<String>()) }
+                @if runs.peek().is_some() { tspan dy="0.3em" { "\u{200b}" } }
+            }
+        }
+    }
+}
+
+/// A text with its indices in line: E40.
+pub(crate) fn without_marks(text: &str) -> String {
+    with_indices(text).into_iter().flat_map(|(before, index)| [before, index]).collect()
 }
 
 #[cfg(test)]

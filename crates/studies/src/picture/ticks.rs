@@ -1,62 +1,58 @@
-//! The ticks of an axis and their labels.
+//! Round numbers and decades on a scale: the ticks of an axis and their labels.
 
-/// The scale of an axis.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+/// The scale of an axis or of a colour bar. Places on it are in its own measure.
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Scale {
     /// The values themselves.
     Linear,
     /// log₁₀ of the values, so that 1e-400 is −400 instead of 0.
     Log10,
+    /// For values v of both signs over many decades: with this threshold c, v/c for |v| ≤ c, and ±(1 + log₁₀|v/c|)
+    /// beyond.
+    SymmetricLog(f64),
 }
 
-/// Labelled and minor ticks, in the values of the axis.
+/// Labelled and minor ticks, in the measure of the scale.
 pub(crate) struct Ticks {
     pub(crate) labelled: Vec<(f64, String)>,
     pub(crate) minor: Vec<f64>,
 }
 
-/// The approximate number of intervals between labels that fit on an axis.
-const MOST_STEPS: f64 = 7.0;
-
-impl Ticks {
-    /// For least < most; on a logarithmic axis both are log₁₀.
-    pub(crate) fn new(scale: Scale, range: (f64, f64)) -> Ticks {
-        Ticks::of_at_most(MOST_STEPS, scale, range)
-    }
-
-    /// The same with about this many intervals between labels, for a short axis.
-    pub(crate) fn of_at_most(steps: f64, scale: Scale, (least, most): (f64, f64)) -> Ticks {
-        match scale {
-            Scale::Linear => linear(least, most, steps),
-            Scale::Log10 => logarithmic(least, most, steps),
-        }
-    }
-
-    pub(crate) fn label(&self, value: f64) -> String {
-        // the values are those of `values`, bit for bit
-        self.labelled.iter().find(|(tick, _)| *tick == value).map(|(_, label)| label.clone()).unwrap_or_default()
-    }
-
-    pub(crate) fn values(&self) -> Vec<f64> {
-        self.labelled.iter().map(|(value, _)| *value).collect()
-    }
-}
-
-/// Beyond this, neighbouring ticks cannot be distinguished.
-pub(crate) fn largest(scale: Scale) -> f64 {
-    match scale {
-        Scale::Linear => 1e290,
-        Scale::Log10 => 1e9,
-    }
-}
-
 /// Shorter ranges have no ticks.
 pub(crate) const SMALLEST: f64 = 1e-290;
 
-/// Whether ticks within the range are different numbers; not so if the values hardly change.
-pub(crate) fn has_ticks((least, most): (f64, f64), scale: Scale) -> bool {
-    let size = least.abs().max(most.abs());
-    size < largest(scale) && most - least > SMALLEST.max(1e-9 * size)
+impl Scale {
+    /// The place of a finite value; −∞ for 0 and NaN for negative values on a logarithmic scale.
+    pub(crate) fn at(self, value: f64) -> f64 {
+        match self {
+            Scale::Linear => value,
+            Scale::Log10 => value.log10(),
+            Scale::SymmetricLog(threshold) => {
+                let ratio = value.abs() / threshold;
+                value.signum() * if ratio <= 1.0 { ratio } else { 1.0 + value.abs().log10() - threshold.log10() }
+            }
+        }
+    }
+
+    /// Ticks with about this number of intervals between labels, for least < most.
+    pub(crate) fn ticks(self, (least, most): (f64, f64), steps: f64) -> Ticks {
+        match self {
+            Scale::Linear => linear(least, most, steps),
+            Scale::Log10 => logarithmic(least, most, steps),
+            Scale::SymmetricLog(threshold) => symmetric(threshold, (least, most), steps),
+        }
+    }
+
+    /// Beyond this, neighbouring ticks cannot be distinguished, and differences may overflow.
+    pub(crate) fn largest(self) -> f64 {
+        if self == Scale::Log10 { 1e9 } else { 1e290 }
+    }
+
+    /// Whether ticks within the range are different numbers; not so if the values hardly change.
+    pub(crate) fn has_ticks(self, (least, most): (f64, f64)) -> bool {
+        let size = least.abs().max(most.abs());
+        size < self.largest() && most - least > SMALLEST.max(1e-9 * size)
+    }
 }
 
 /// Multiples of 1, 2 or 5 times a power of ten.
@@ -171,6 +167,36 @@ fn few_decades(least: f64, most: f64, steps: f64) -> Ticks {
     Ticks { labelled: labelled.collect(), minor: Vec::new() }
 }
 
+/// 0, and powers of ten of both signs beyond the threshold.
+fn symmetric(threshold: f64, (least, most): (f64, f64), steps: f64) -> Ticks {
+    let side = most.max(-least);
+    // a threshold that is a power of ten has a tick
+    let first = (threshold.log10() - 1e-9).ceil() as i64;
+    let last = (threshold.log10() + side - 1.0 + 1e-9).floor() as i64;
+    let step = (((last - first + 1) as f64 / (steps / 2.0)).ceil() as i64).max(1);
+    // downwards from the largest, so that the ends of the bar have ticks
+    let decades = (first..=last).rev();
+    // labels closer to 0 would touch its label
+    let near = side / (steps + 1.0);
+    let of = |sign: f64, n: i64| sign * (1.0 + n as f64 - threshold.log10()).max(1.0);
+    let within = |place: &f64| (least - 1e-9..=most + 1e-9).contains(place);
+    let (mut labelled, mut minor) = (vec![(0.0, "0".to_owned())], Vec::new());
+    for n in decades {
+        for sign in [-1.0, 1.0] {
+            match of(sign, n) {
+                place if (last - n) % step == 0 && place.abs() > near => {
+                    labelled.push((place, format!("{}{}", if sign < 0.0 { "−" } else { "" }, power_of_ten(n))));
+                }
+                place => minor.push(place),
+            }
+        }
+    }
+    labelled.retain(|(place, _)| within(place));
+    minor.retain(within);
+    labelled.sort_by(|a, b| a.0.total_cmp(&b.0));
+    Ticks { labelled, minor }
+}
+
 /// 10ⁿ, with 1 and 10 as such.
 pub fn power_of_ten(n: i64) -> String {
     match n {
@@ -178,11 +204,6 @@ pub fn power_of_ten(n: i64) -> String {
         1 => "10".to_owned(),
         _ => format!("10{}", superscript(n)),
     }
-}
-
-/// ±10ⁿ.
-pub(crate) fn signed_power_of_ten(is_negative: bool, n: i64) -> String {
-    format!("{}{}", if is_negative { "−" } else { "" }, power_of_ten(n))
 }
 
 /// A number rounded to this number of significant digits, without trailing zeros: 0.3, −1.25×10⁻⁷.
@@ -226,7 +247,7 @@ mod tests {
     use super::*;
 
     fn labels(scale: Scale, least: f64, most: f64) -> Vec<String> {
-        Ticks::new(scale, (least, most)).labelled.into_iter().map(|(_, label)| label).collect()
+        scale.ticks((least, most), 7.0).labelled.into_iter().map(|(_, label)| label).collect()
     }
 
     #[test]
@@ -243,7 +264,7 @@ mod tests {
         assert_eq!(labels(Scale::Log10, 0.05, 0.2), ["1.2", "1.3", "1.4", "1.5"][..].to_vec());
         assert_eq!(labels(Scale::Log10, -0.8, 0.6), ["0.2", "0.5", "1", "2"]);
         assert_eq!(labels(Scale::Log10, 0.8, 2.6), ["10", "20", "50", "100", "200"]);
-        let minor = Ticks::new(Scale::Log10, (-2.0, 0.0)).minor;
+        let minor = Scale::Log10.ticks((-2.0, 0.0), 7.0).minor;
         assert_eq!(minor.len(), 16);
     }
 
@@ -291,14 +312,39 @@ mod tests {
             for least in [-1000.0, -120.3, -0.7, 0.0, 5.0] {
                 for exponent in -30..=35 {
                     let span = 10f64.powf(f64::from(exponent) / 10.0);
-                    let ticks = Ticks::new(scale, (least, least + span));
+                    let ticks = scale.ticks((least, least + span), 7.0);
                     let count = ticks.labelled.len();
                     assert!((2..=9).contains(&count), "{scale:?} {least} + {span}: {count}");
                     let slack = span * 1e-6;
                     let inside = |value: f64| (least - slack..=least + span + slack).contains(&value);
-                    assert!(ticks.values().into_iter().chain(ticks.minor).all(inside), "{scale:?} {least} + {span}");
+                    assert!(
+                        ticks.labelled.into_iter().map(|tick| tick.0).chain(ticks.minor).all(inside),
+                        "{scale:?} {least} + {span}"
+                    );
                 }
             }
         }
+    }
+
+    /// Both parts meet at the threshold, with the same value from both sides.
+    #[test]
+    fn symmetric_scales_are_odd_and_continuous() {
+        let scale = Scale::SymmetricLog(1e-3);
+        for (value, place) in [(0.0, 0.0), (5e-4, 0.5), (1e-3, 1.0), (1e-2, 2.0), (10.0, 5.0)] {
+            assert!((scale.at(value) - place).abs() < 1e-14, "{value}");
+            assert!((scale.at(-value) + place).abs() < 1e-14, "{value}");
+        }
+    }
+
+    #[test]
+    fn symmetric_ticks_are_powers_of_ten_of_both_signs() {
+        let labels = |threshold: f64, side: f64| {
+            let ticks = Scale::SymmetricLog(threshold).ticks((-side, side), 7.0);
+            ticks.labelled.into_iter().map(|(_, label)| label).collect::<Vec<_>>()
+        };
+        assert_eq!(labels(1e-3, 4.0), ["−1", "−10⁻²", "0", "10⁻²", "1"]);
+        assert_eq!(labels(1e-3, 2.5), ["−10⁻²", "−10⁻³", "0", "10⁻³", "10⁻²"]);
+        let many = labels(1e-12, 13.0);
+        assert!(many.len() <= 9 && many.contains(&"0".to_owned()) && many[0] == "−1", "{many:?}");
     }
 }

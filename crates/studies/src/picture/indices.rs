@@ -3,8 +3,19 @@
 /// Letters whose index is written after `_`, as in `E_k`; in braces, any letter may have one.
 const LETTERS: &str = "TEUKD";
 
+/// The parts of a text before each index with that index, and the rest with an empty one.
+pub(crate) fn with_indices(text: &str) -> Vec<(&str, &str)> {
+    let (mut parts, mut rest) = (Vec::new(), text);
+    while let Some((before, index, after)) = first_index(rest) {
+        parts.push((before, index));
+        rest = after;
+    }
+    parts.push((rest, ""));
+    parts
+}
+
 /// The text before the first index, the index, and the text after it.
-pub(crate) fn first_index(text: &str) -> Option<(&str, &str, &str)> {
+fn first_index(text: &str) -> Option<(&str, &str, &str)> {
     text.match_indices('_').find_map(|(at, _)| {
         let (before, after) = (&text[..at], &text[at + 1..]);
         if let Some((index, after)) = after.strip_prefix('{').and_then(|braced| braced.split_once('}')) {
