@@ -18,27 +18,17 @@ pub(crate) struct Values<'a, N> {
     pub(crate) state: &'a [f64],
 }
 
-/// A run with its lines, one for each chart.
+/// A run with the lines of each chart.
 #[derive(Debug)]
-pub(crate) struct RunOfChart {
+pub(super) struct RunOfChart {
     pub(super) name: String,
-    pub(super) lines: Vec<Lines>,
+    pub(super) charts: Vec<Vec<Line>>,
+    /// The time of the reference of the modified energy, and log₁₀ of its estimated error.
+    pub(super) reference: Option<(f64, f64)>,
 }
 
-/// The points of the curves of one chart; those in time of energies are log₁₀ of the values.
-#[derive(Debug)]
-pub(super) enum Lines {
-    Energies {
-        energy: Vec<(f64, f64)>,
-        modified_energy: Vec<(f64, f64)>,
-        estimate: Vec<(f64, f64)>,
-        /// The time of the reference of the modified energy, and log₁₀ of its estimated error.
-        reference: Option<(f64, f64)>,
-    },
-    /// With the number of states of which one is shown.
-    Orbits(Vec<(Vec<(f64, f64)>, u64)>),
-    Distances(Vec<Vec<(f64, f64)>>),
-}
+/// The points of a curve, those in time of energies with log₁₀ of the values; one of this number of states is shown.
+pub(super) type Line = (Vec<(f64, f64)>, u64);
 
 /// A run that is being followed, and the energy at its beginning.
 pub(crate) struct RunLines<N> {
@@ -46,7 +36,7 @@ pub(crate) struct RunLines<N> {
     steps: u64,
     first: Option<N>,
     reference: Option<Reference<N>>,
-    charts: Vec<Followed<N>>,
+    charts: Vec<Vec<Followed<N>>>,
 }
 
 /// The modified energy from which changes are measured: that with the smallest estimated error, or the first one where
@@ -57,26 +47,32 @@ struct Reference<N> {
     error: Option<N>,
 }
 
-/// The curves of one chart as they are made.
+/// A curve as it is made.
 enum Followed<N> {
-    /// |H − H(0)|, the modified energy itself, and its estimated error.
-    Energies(InTime, InTime<N>, InTime),
-    Orbits(Vec<(Orbit, Points)>),
-    Distances(Vec<(Distance, InTime)>),
+    /// |H − H(0)|.
+    Energy(InTime),
+    /// The modified energy itself.
+    ModifiedEnergy(InTime<N>),
+    /// Its estimated error.
+    Estimate(InTime),
+    Orbit(Orbit, Points),
+    Distance(Distance, InTime),
 }
 
 impl<N: Real> RunLines<N> {
     pub(super) fn new(name: String, steps: u64, pictures: &[Picture]) -> Self {
-        let charts = pictures.iter().map(|picture| match &picture.content {
-            Content::Energies => Followed::Energies(InTime::default(), InTime::default(), InTime::default()),
+        let curves = |picture: &Picture| match &picture.content {
+            Content::Energies => vec![
+                Followed::Energy(InTime::default()),
+                Followed::ModifiedEnergy(InTime::default()),
+                Followed::Estimate(InTime::default()),
+            ],
             Content::Orbit { curves, .. } => {
-                Followed::Orbits(curves.iter().map(|orbit| (orbit.clone(), Points::new())).collect())
+                curves.iter().map(|of| Followed::Orbit(of.clone(), Points::new())).collect()
             }
-            Content::Distances(distances) => {
-                Followed::Distances(distances.iter().map(|of| (of.clone(), InTime::default())).collect())
-            }
-        });
-        RunLines { name, steps, first: None, reference: None, charts: charts.collect() }
+            Content::Distances(all) => all.iter().map(|of| Followed::Distance(of.clone(), InTime::default())).collect(),
+        };
+        RunLines { name, steps, first: None, reference: None, charts: pictures.iter().map(curves).collect() }
     }
 
     /// Takes the next values of the run.
@@ -87,20 +83,19 @@ impl<N: Real> RunLines<N> {
         if let Some(value) = modified_energy {
             self.refer(t, value, estimate);
         }
-        for chart in &mut self.charts {
-            match chart {
-                Followed::Energies(change, modified, error) => {
-                    energy.into_iter().for_each(|point| change.take(n, self.steps, point));
-                    modified.take_finite(n, self.steps, modified_energy.map(|value| (t, value.clone())));
-                    estimate.into_iter().for_each(|size| error.take(n, self.steps, (t, size.log10_abs())));
+        let (steps, has_state) = (self.steps, !state.is_empty());
+        for curve in self.charts.iter_mut().flatten() {
+            match curve {
+                Followed::Energy(line) => energy.into_iter().for_each(|point| line.take(n, steps, point)),
+                Followed::ModifiedEnergy(line) => {
+                    line.take_finite(n, steps, modified_energy.map(|value| (t, value.clone())));
                 }
-                Followed::Orbits(orbits) if !state.is_empty() => {
-                    orbits.iter_mut().for_each(|(of, points)| points.take((state[of.values[0]], state[of.values[1]])));
+                Followed::Estimate(line) => {
+                    estimate.into_iter().for_each(|size| line.take(n, steps, (t, size.log10_abs())));
                 }
-                Followed::Distances(lines) if !state.is_empty() => {
-                    lines.iter_mut().for_each(|(of, line)| line.take(n, self.steps, (t, distance(of, state))));
-                }
-                Followed::Orbits(_) | Followed::Distances(_) => {}
+                Followed::Orbit(of, points) if has_state => points.take((state[of.values[0]], state[of.values[1]])),
+                Followed::Distance(of, line) if has_state => line.take(n, steps, (t, distance(of, state))),
+                Followed::Orbit(..) | Followed::Distance(..) => {}
             }
         }
     }
@@ -120,21 +115,20 @@ impl<N: Real> RunLines<N> {
 
     pub(super) fn finish(self) -> RunOfChart {
         let reference = self.reference.as_ref();
-        let lines = self.charts.into_iter().map(|chart| match chart {
-            Followed::Energies(energy, modified, estimate) => {
-                let from = |value: &N| reference.map_or(f64::NAN, |reference| change(&reference.value, value));
-                let modified = modified.finish().into_iter().map(|(t, value)| (t, from(&value)));
-                Lines::Energies {
-                    energy: energy.finish(),
-                    modified_energy: modified.filter(|(_, height)| height.is_finite()).collect(),
-                    estimate: estimate.finish(),
-                    reference: reference.and_then(|of| Some((of.t, of.error.as_ref()?.log10_abs()))),
-                }
+        let from = |value: &N| reference.map_or(f64::NAN, |reference| change(&reference.value, value));
+        let finish = |curve| match curve {
+            Followed::ModifiedEnergy(line) => {
+                let changes = line.finish().into_iter().map(|(t, value)| (t, from(&value)));
+                (changes.filter(|(_, height)| height.is_finite()).collect(), 1)
             }
-            Followed::Orbits(orbits) => Lines::Orbits(orbits.into_iter().map(|(_, points)| points.finish()).collect()),
-            Followed::Distances(lines) => Lines::Distances(lines.into_iter().map(|(_, line)| line.finish()).collect()),
-        });
-        RunOfChart { name: self.name, lines: lines.collect() }
+            Followed::Orbit(_, points) => points.finish(),
+            Followed::Energy(line) | Followed::Estimate(line) | Followed::Distance(_, line) => (line.finish(), 1),
+        };
+        RunOfChart {
+            name: self.name,
+            charts: self.charts.into_iter().map(|curves| curves.into_iter().map(finish).collect()).collect(),
+            reference: reference.and_then(|of| Some((of.t, of.error.as_ref()?.log10_abs()))),
+        }
     }
 }
 
@@ -175,13 +169,13 @@ mod tests {
             let modified_energy = (n != 1).then_some(energy);
             run.take(&Values { n, t, energy: Some(energy), modified_energy, estimate: Some(&error), state: &state });
         }
-        let lines = run.finish().lines;
-        let Lines::Energies { energy, modified_energy, estimate, .. } = &lines[0] else { panic!("{lines:?}") };
+        let charts = run.finish().charts;
+        let [(energy, _), (modified_energy, _), (estimate, _)] = &charts[0][..] else { panic!("{charts:?}") };
         let is_near = |points: &[(f64, f64)], height: f64| matches!(points, [(t, found)] if *t == 0.5 && (found - height).abs() < 1e-4);
         assert!(is_near(energy, -45.0) && is_near(modified_energy, -45.0), "{energy:?} {modified_energy:?}");
         assert!(estimate.len() == 3 && estimate.iter().all(|(_, height)| (height + 40.0).abs() < 1e-9));
-        assert!(matches!(&lines[1], Lines::Orbits(all) if all[0] == (vec![(0.0, 3.0), (4.0, 3.0), (8.0, 3.0)], 1)));
-        assert!(matches!(&lines[2], Lines::Distances(all) if all[0][..2] == [(0.0, 3.0), (0.25, 5.0)]));
+        assert_eq!(charts[1], [(vec![(0.0, 3.0), (4.0, 3.0), (8.0, 3.0)], 1)]);
+        assert_eq!(charts[2][0].0[..2], [(0.0, 3.0), (0.25, 5.0)]);
     }
 
     /// At a pericentre, where most runs begin, the modified energy is known worst.
@@ -194,8 +188,8 @@ mod tests {
             let (energy, t) = (None, n as f64);
             run.take(&Values { n, t, energy, modified_energy: Some(&value), estimate: Some(&error), state: &[] });
         }
-        let lines = run.finish().lines;
-        let Lines::Energies { modified_energy, reference, .. } = &lines[0] else { panic!("{lines:?}") };
+        let RunOfChart { charts, reference, .. } = run.finish();
+        let modified_energy = &charts[0][1].0;
         let expected = [(0.0, 0.5_f64.log10()), (2.0, -2.0), (3.0, -3.0)];
         assert_eq!(modified_energy.len(), expected.len(), "{modified_energy:?}");
         // differences of numbers near 1 are known to 1e-16, and their logarithms to 1e-13
