@@ -8,8 +8,8 @@ use super::looks::in_legend;
 use super::thin::thinned;
 use super::{Chart, Curve, Look, Mark};
 use crate::picture::elements::{
-    Anchor, BLACK, GREY, GRID, LINE, MARGIN, Place, Point, SMALL, Type, commands, framed, line, path, stroke, text,
-    text_on_lines, turned,
+    BLACK, END, GREY, GRID, LINE, MARGIN, MIDDLE, Place, Point, SMALL, START, Type, commands, framed, line, path,
+    stroke, text, text_on_lines, turned,
 };
 use crate::picture::sheet::Sheet;
 use crate::picture::text::separate;
@@ -62,10 +62,10 @@ impl Chart {
     fn names_of_axes(&self, Layout { plot, width, .. }: &Layout) -> Markup {
         let (column, row) = plot.at((0.5, 0.5));
         html! {
-            (text((column, plot.bottom() + UNDER - LINE / 2.0), Type::plain(Anchor::Middle), &self.x.label))
-            (turned((MARGIN + LINE / 2.0, row), -90, Anchor::Middle, &self.y.label))
+            (text((column, plot.bottom() + UNDER - LINE / 2.0), Type::plain(MIDDLE), &self.x.label))
+            (turned((MARGIN + LINE / 2.0, row), -90, MIDDLE, &self.y.label))
             @if let Some(axis) = &self.second_y {
-                (turned((width - MARGIN - LINE / 2.0, row), 90, Anchor::Middle, &axis.label))
+                (turned((width - MARGIN - LINE / 2.0, row), 90, MIDDLE, &axis.label))
             }
         }
     }
@@ -128,10 +128,10 @@ impl Chart {
             let row = if at_the_top { plot.top + down } else { row - down };
             match mark.jump {
                 Some((from, to)) => {
-                    ((column, at_a_jump([from, to].map(|value| plot.at((0.0, y.part(value))).1), plot)), Anchor::Middle)
+                    ((column, at_a_jump([from, to].map(|value| plot.at((0.0, y.part(value))).1), plot)), MIDDLE)
                 }
-                None if x.part(mark.x) > 0.5 => ((column - 5.0, row), Anchor::End),
-                None => ((column + 5.0, row), Anchor::Start),
+                None if x.part(mark.x) > 0.5 => ((column - 5.0, row), END),
+                None => ((column + 5.0, row), START),
             }
         };
         html! {

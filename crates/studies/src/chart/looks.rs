@@ -3,7 +3,7 @@
 use maud::{Markup, html};
 
 use super::{Curve, Look};
-use crate::picture::elements::{Anchor, BLACK, Ink, Point, Stroke, TEXT, Type, filled, line, path, text};
+use crate::picture::elements::{BLACK, Ink, Point, START, Stroke, TEXT, Type, filled, line, path, text};
 use crate::picture::markers::Marker;
 
 /// The colours of Okabe and Ito (2008), which people with any colour vision can distinguish, and a grey; the most
@@ -60,7 +60,7 @@ impl Curve {
     /// A sample and the label, to the right of a place and vertically centred on it.
     pub(super) fn labelled(&self, (x, y): Point, has_markers: bool, label: &str) -> Markup {
         let is_line = !matches!(self.look, Look::Points(_));
-        let of = Type { anchor: Anchor::Start, size: TEXT, ink: self.ink() };
+        let of = Type { anchor: START, size: TEXT, ink: self.ink() };
         html! {
             @if is_line { (line(&[(x, y), (x + SAMPLE, y)], self.stroke())) }
             @if has_markers { (self.marks([(x + SAMPLE / 2.0, y)])) }

@@ -24,7 +24,7 @@ fn between(place: Place, [left, right]: [f64; 2], [low, high]: [f64; 2]) -> Plac
 }
 
 /// The cells of a panel as one path for each colour; neighbours of one colour in a row are one rectangle. Cells without
-/// a value are left out.
+/// a value are left out; words and special values have marks.
 pub(super) fn rectangles(shades: &Shades<'_>, numbers: &[u8], place: Place, (x, y): (&[f64], &[f64])) -> Markup {
     let mut paths = vec![String::new(); 256];
     for (row, y) in numbers.chunks(x.len() - 1).zip(y.windows(2)) {
@@ -41,11 +41,12 @@ pub(super) fn rectangles(shades: &Shades<'_>, numbers: &[u8], place: Place, (x, 
                 path fill=(shades.hex(number)) d=(path) {}
             }
         }
+        (marks(shades, numbers, place, (x, y)))
     }
 }
 
 /// The marks of words and of special values in all cells of a panel that are large enough.
-pub(super) fn marks(shades: &Shades<'_>, numbers: &[u8], place: Place, (x, y): (&[f64], &[f64])) -> Markup {
+fn marks(shades: &Shades<'_>, numbers: &[u8], place: Place, (x, y): (&[f64], &[f64])) -> Markup {
     let rows = y.windows(2).flat_map(|y| x.windows(2).map(|x| between(place, [x[0], x[1]], [y[0], y[1]])));
     let large: Vec<_> =
         numbers.iter().zip(rows).filter(|(_, cell)| cell.width.min(cell.height) >= LEAST_MARKED).collect();

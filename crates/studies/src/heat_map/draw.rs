@@ -2,7 +2,7 @@
 
 use maud::{Markup, html};
 
-use super::cells::{hatching, marks, rectangles};
+use super::cells::{hatching, rectangles};
 use super::image::{image, is_needed, pixels};
 use super::layout::{Layout, PanelPlace};
 use super::legend::cells;
@@ -10,18 +10,9 @@ use super::shades::{MISSING, Shades};
 use super::strip::Strip;
 use super::{HeatMap, Values};
 use crate::Error;
-use crate::picture::elements::{Anchor, LINE, MARGIN, Type, framed, text, turned};
+use crate::picture::elements::{LINE, MARGIN, MIDDLE, Type, framed, text, turned};
 use crate::picture::sheet::Sheet;
 use crate::picture::ticks::significant;
-
-/// What all panels have in common.
-struct Common<'a> {
-    shades: Shades<'a>,
-    x: Strip,
-    y: Strip,
-    layout: Layout,
-    has_images: bool,
-}
 
 impl HeatMap {
     /// The SVG text, for a separate file or as a part of an HTML page.
@@ -54,19 +45,23 @@ impl HeatMap {
         let layout = Layout::of(self, (&x, &y), &shades, &counts);
         let count = panels.iter().map(Vec::len).sum();
         let has_images = is_needed(count, (x.count(), y.count()), layout.panels[0].cells);
-        let common = Common { shades, x, y, layout, has_images };
-        let layout = &common.layout;
-        let panels = layout.panels.iter().zip(&panels).map(|(place, numbers)| common.panel(place, numbers));
-        let panels: Vec<Markup> = panels.collect::<Result<_, _>>()?;
+        let cells = |PanelPlace { cells, .. }: &PanelPlace, numbers: &[u8]| match has_images {
+            true => image(&shades, numbers, (x.count(), (&pixels(&x, cells.width), &pixels(&y, cells.height))), *cells),
+            false => Ok(rectangles(&shades, numbers, *cells, (&x.borders, &y.borders))),
+        };
+        let panel = |(place, numbers): (&PanelPlace, &Vec<u8>)| {
+            Ok(draw_panel(place, &layout, numbers.contains(&MISSING), &cells(place, numbers)?))
+        };
+        let panels = layout.panels.iter().zip(&panels).map(panel).collect::<Result<Vec<Markup>, Error>>()?;
         let (across, up) = layout.grid.at((0.5, 0.5));
         let content = html! {
             @for panel in &panels { (panel) }
             (layout.texts.draw(layout.height))
-            (text((across, layout.x_label), Type::plain(Anchor::Middle), &self.x.label))
-            (turned((MARGIN + LINE / 2.0, up), -90, Anchor::Middle, &self.y.label))
-            (layout.legend.draw(&common.shades))
+            (text((across, layout.x_label), Type::plain(MIDDLE), &self.x.label))
+            (turned((MARGIN + LINE / 2.0, up), -90, MIDDLE, &self.y.label))
+            (layout.legend.draw(&shades))
         };
-        let description = Some(self.description(&common.shades, &counts));
+        let description = Some(self.description(&shades, &counts));
         Ok(Sheet { width: layout.width, height: layout.height, title: self.title.clone(), description, content })
     }
 
@@ -95,29 +90,25 @@ impl HeatMap {
     }
 }
 
-impl Common<'_> {
-    /// A panel with its title, ticks, and labels.
-    fn panel(&self, PanelPlace { cells, title, is_first }: &PanelPlace, numbers: &[u8]) -> Result<Markup, Error> {
-        let borders = (self.x.borders.as_slice(), self.y.borders.as_slice());
-        let drawn = if self.has_images {
-            let (x, y) = (pixels(&self.x, cells.width), pixels(&self.y, cells.height));
-            image(&self.shades, numbers, (self.x.count(), (&x, &y)), *cells)?
-        } else {
-            html! { (rectangles(&self.shades, numbers, *cells, borders)) (marks(&self.shades, numbers, *cells, borders)) }
-        };
-        let row = |n: usize| cells.top - 4.0 - ((title.len() - n) as f64 - 0.5) * LINE;
-        Ok(html! {
-            g class="panel" {
-                @if numbers.contains(&MISSING) { (hatching(*cells)) }
-                (drawn)
-                (framed(*cells, "none"))
-                (self.layout.x.draw(*cells))
-                (self.layout.y.ticks(*cells))
-                @if *is_first { (self.layout.y.labels(*cells)) }
-                @for (n, line) in title.iter().enumerate() {
-                    (text((cells.at((0.5, 0.0)).0, row(n)), Type::plain(Anchor::Middle), line))
-                }
+/// A panel with its title, ticks, and labels, and hatching behind its cells.
+fn draw_panel(
+    PanelPlace { cells, title, is_first }: &PanelPlace,
+    layout: &Layout,
+    is_hatched: bool,
+    drawn: &Markup,
+) -> Markup {
+    let row = |n: usize| cells.top - 4.0 - ((title.len() - n) as f64 - 0.5) * LINE;
+    html! {
+        g class="panel" {
+            @if is_hatched { (hatching(*cells)) }
+            (drawn)
+            (framed(*cells, "none"))
+            (layout.x.draw(*cells))
+            (layout.y.ticks(*cells))
+            @if *is_first { (layout.y.labels(*cells)) }
+            @for (n, line) in title.iter().enumerate() {
+                (text((cells.at((0.5, 0.0)).0, row(n)), Type::plain(MIDDLE), line))
             }
-        })
+        }
     }
 }

@@ -5,7 +5,7 @@ use maud::{Markup, html};
 use super::HeatMap;
 use super::cells::{hatching, mark};
 use super::shades::{LEVELS, MISSING, SPECIAL, Shades};
-use crate::picture::elements::{Anchor, LINE, Place, Point, TEXT, Type, framed, rectangle, text};
+use crate::picture::elements::{LINE, Place, Point, START, TEXT, Type, framed, rectangle, text};
 use crate::picture::sheet::in_rows;
 use crate::picture::side::{Direction, NEAR, Side, TICK};
 use crate::picture::text::{lines, width};
@@ -52,7 +52,7 @@ impl Legend {
         let row = |n: usize| self.place.top + (n as f64 + 0.5) * LINE;
         html! {
             @for (n, line) in self.label.iter().enumerate() {
-                (text((self.place.left, row(n)), Type::plain(Anchor::Start), line))
+                (text((self.place.left, row(n)), Type::plain(START), line))
             }
             @if let Some((place, side)) = &self.bar { (levels(shades, *place)) (framed(*place, "none")) (side.draw(*place)) }
             @for ((colour, text), at) in &self.entries { (entry(shades, *colour, text, *at)) }
@@ -116,6 +116,6 @@ fn entry(shades: &Shades<'_>, colour: u8, content: &str, (x, y): Point) -> Marku
     html! {
         @if colour == MISSING { (hatching(swatch)) (framed(swatch, "none")) } @else { (framed(swatch, &shades.hex(colour))) }
         (mark(shades, colour, [swatch]))
-        (text((x + SWATCH + 6.0, y), Type::plain(Anchor::Start), content))
+        (text((x + SWATCH + 6.0, y), Type::plain(START), content))
     }
 }

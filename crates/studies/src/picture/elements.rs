@@ -124,59 +124,46 @@ pub(crate) fn framed(place: Place, fill: &str) -> Markup {
     }
 }
 
-/// The side of a place on which a text stands.
-#[derive(Clone, Copy)]
-pub(crate) enum Anchor {
-    Start,
-    Middle,
-    End,
-}
+/// The parts of a text that can stand at its place.
+pub(crate) const START: &str = "start";
+pub(crate) const MIDDLE: &str = "middle";
+pub(crate) const END: &str = "end";
 
 /// How a text is set.
 #[derive(Clone, Copy)]
 pub(crate) struct Type {
-    pub(crate) anchor: Anchor,
+    pub(crate) anchor: &'static str,
     pub(crate) size: f64,
     pub(crate) ink: Ink,
 }
 
 impl Type {
     /// That of most texts.
-    pub(crate) fn plain(anchor: Anchor) -> Type {
+    pub(crate) fn plain(anchor: &'static str) -> Type {
         Type { anchor, size: TEXT, ink: BLACK }
-    }
-}
-
-impl Anchor {
-    fn word(self) -> &'static str {
-        match self {
-            Anchor::Start => "start",
-            Anchor::Middle => "middle",
-            Anchor::End => "end",
-        }
     }
 }
 
 /// A text at a place, vertically centred on it.
 pub(crate) fn text((x, y): Point, Type { anchor, size, ink }: Type, content: &str) -> Markup {
     html! {
-        text x=(length(x)) y=(length(y)) dy="0.35em" text-anchor=(anchor.word()) font-size=(size) fill=(ink.colour)
+        text x=(length(x)) y=(length(y)) dy="0.35em" text-anchor=(anchor) font-size=(size) fill=(ink.colour)
             class=[ink.class_of("fill")] { (set(content)) }
     }
 }
 
 /// The same on its halo, to be read over lines: behind it the same text, broad and in the colour of the paper.
-pub(crate) fn text_on_lines((x, y): Point, of: Type, content: &str) -> Markup {
+pub(crate) fn text_on_lines(at: Point, of: Type, content: &str) -> Markup {
     html! {
-        g class=[PAPER.class_of("fill")] fill=(PAPER.colour) stroke=(PAPER.colour) stroke-width="5" aria-hidden="true" {
-            text x=(length(x)) y=(length(y)) dy="0.35em" text-anchor=(of.anchor.word()) font-size=(of.size) { (set(content)) }
+        g stroke=(PAPER.colour) class=[PAPER.class_of("stroke")] stroke-width="5" aria-hidden="true" {
+            (text(at, Type { ink: PAPER, ..of }, content))
         }
-        (text((x, y), of, content))
+        (text(at, of, content))
     }
 }
 
 /// A text turned about its place by an angle in degrees, clockwise.
-pub(crate) fn turned((x, y): Point, angle: i32, anchor: Anchor, content: &str) -> Markup {
+pub(crate) fn turned((x, y): Point, angle: i32, anchor: &'static str, content: &str) -> Markup {
     let transform = format!("translate({} {}) rotate({angle})", length(x), length(y));
     html! { g transform=(transform) { (text((0.0, 0.0), Type::plain(anchor), content)) } }
 }

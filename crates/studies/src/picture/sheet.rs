@@ -2,7 +2,7 @@
 
 use maud::{Markup, PreEscaped, html};
 
-use super::elements::{Anchor, BLACK, LINE, MARGIN, Point, SMALL, TITLE, Type, text};
+use super::elements::{BLACK, LINE, MARGIN, Point, SMALL, START, TITLE, Type, text};
 use super::text::{BOLD, lines, without_marks};
 
 /// The style of all pictures. It is the same in each, so that pictures on one page do not interfere.
@@ -15,7 +15,8 @@ svg.chart polyline { stroke-linejoin: round; }
 const DARK: &str = "\
 @media screen and (prefers-color-scheme: dark) {
   svg.chart .paper { fill: #16191d; }
-  svg.chart .halo-fill { fill: #16191d; stroke: #16191d; }
+  svg.chart .halo-fill { fill: #16191d; }
+  svg.chart .halo-stroke { stroke: #16191d; }
   svg.chart .ink-fill { fill: #e8e8e8; }
   svg.chart .ink-stroke { stroke: #e8e8e8; }
   svg.chart .blue-fill { fill: #3c97d6; }
@@ -110,7 +111,7 @@ impl Texts {
 
     /// On a picture of this height.
     pub(crate) fn draw(&self, height: f64) -> Markup {
-        let of = |size: f64| Type { anchor: Anchor::Start, size, ink: BLACK };
+        let of = |size: f64| Type { anchor: START, size, ink: BLACK };
         let note = |n: usize| height - MARGIN - ((self.notes.len() - n) as f64 - 0.5) * LINE;
         html! {
             @if !self.title.is_empty() {

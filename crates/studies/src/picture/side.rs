@@ -2,7 +2,7 @@
 
 use maud::{Markup, html};
 
-use super::elements::{Anchor, BLACK, LINE, Place, Point, TEXT, Type, commands, path, text, turned};
+use super::elements::{BLACK, END, LINE, MIDDLE, Place, Point, START, TEXT, Type, commands, path, text, turned};
 use super::text::width;
 use super::ticks::Scale;
 
@@ -128,10 +128,10 @@ impl Side {
     fn label(&self, (x, y): Point, n: usize, line: &str) -> Markup {
         let beyond = TICK + NEAR;
         let (at, anchor) = match self.direction {
-            Direction::Tilted => return turned((x + 2.0, y + beyond + 2.0), -45, Anchor::End, line),
-            Direction::Below => ((x, y + beyond + (n as f64 + 0.5) * LINE), Anchor::Middle),
-            Direction::Left => ((x - beyond, y), Anchor::End),
-            Direction::Right => ((x + beyond, y), Anchor::Start),
+            Direction::Tilted => return turned((x + 2.0, y + beyond + 2.0), -45, END, line),
+            Direction::Below => ((x, y + beyond + (n as f64 + 0.5) * LINE), MIDDLE),
+            Direction::Left => ((x - beyond, y), END),
+            Direction::Right => ((x + beyond, y), START),
         };
         text(at, Type::plain(anchor), line)
     }
