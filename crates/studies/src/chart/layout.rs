@@ -22,6 +22,13 @@ const MOST_UNEQUAL: f64 = 5.0;
 /// The approximate number of intervals between labels.
 const INTERVALS: f64 = 7.0;
 
+impl Axis {
+    /// The axis over these values with a margin, as for charts that are compared; NaN and infinite values are left out.
+    pub fn around(self, values: impl Iterator<Item = f64>) -> Self {
+        Axis { range: Some(extent(values, self.scale)), ..self }
+    }
+}
+
 /// The range of an axis, with its labels.
 pub(super) struct Span {
     pub(super) range: (f64, f64),

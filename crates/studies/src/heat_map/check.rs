@@ -71,6 +71,11 @@ impl Colour {
 }
 
 impl CellAxis {
+    /// Whether it can be drawn: it has values, and numbers on it are different and not too large.
+    pub fn is_drawable(&self) -> bool {
+        self.check().is_ok()
+    }
+
     fn check(&self) -> Result<(), Error> {
         let label = &self.label;
         require(self.values.count() > 0, || format!("the axis {label:?} has no values"), "give it at least one")?;

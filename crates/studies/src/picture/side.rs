@@ -44,8 +44,8 @@ impl Side {
         Side { labelled: labelled.into_iter().map(|(part, text)| (part, vec![text])).collect(), minor, direction }
     }
 
-    /// Round numbers of a scale, with about so many intervals between them, or fewer so that neighbouring labels on
-    /// this length do not touch; none if not even one interval fits, or the values hardly differ.
+    /// Round numbers of a scale, with at most about this number of intervals between them, and so few that neighbouring
+    /// labels on this length do not touch; none if not even one interval fits, or the values hardly differ.
     pub(crate) fn round(scale: Scale, range: (f64, f64), most: f64, length: f64, direction: Direction) -> Option<Side> {
         let part = |at: f64| (at - range.0) / (range.1 - range.0);
         let steps =

@@ -17,9 +17,6 @@ const MOST_WORDS: usize = 12;
 /// The most curves of a chart, and the most charts.
 const MOST_CURVES: usize = 24;
 
-/// The largest number of an axis of cells.
-const LARGEST: f64 = 1e290;
-
 /// An axis of positive numbers over this ratio or more is logarithmic.
 const LOGARITHMIC_FROM: f64 = 10.0;
 
@@ -124,18 +121,22 @@ impl Picture {
             Curve::marked(label, log10_of(&points, is_log), place)
         };
         let scale = |label: &str, is_log| if is_log { ChartAxis::log10(label) } else { ChartAxis::linear(label) };
+        let (across, mut up) = (scale(&x.name, is_log.0), scale(label, is_log.1));
+        if panels > 1 {
+            // charts that can be compared
+            let all: Vec<_> = cells.numbers().map(|number| (0.0, number)).collect();
+            up = up.around(log10_of(&all, is_log).into_iter().map(|point| point.1));
+        }
         let chart = |(place, values): (usize, &[Value])| {
             let title = match self.panels {
                 Some(panels) => format!("{title}: {}", value_text(axis(panels), place as u64)),
                 None => title.to_owned(),
             };
             let curves = values.chunks(count).enumerate().map(curve).collect();
-            let chart = Chart::new(title, scale(&x.name, is_log.0), scale(label, is_log.1), curves);
+            let chart = Chart::new(title, across.clone(), up.clone(), curves);
             Chart { notes: words_of(x).into_iter().collect(), ..chart }
         };
-        let mut charts: Vec<Chart> = cells.values.chunks(count * curves).enumerate().map(chart).collect();
-        share_range(&mut charts);
-        Some(charts)
+        Some(cells.values.chunks(count * curves).enumerate().map(chart).collect())
     }
 
     /// Whether curves show the logarithms of the values.
@@ -145,19 +146,6 @@ impl Picture {
             None => is_wide(cells.numbers().filter(|number| *number != 0.0)),
         }
     }
-}
-
-/// Several charts have one range of values, so that they can be compared.
-fn share_range(charts: &mut [Chart]) {
-    if charts.len() < 2 {
-        return;
-    }
-    let points = charts.iter().flat_map(|chart| &chart.curves).flat_map(|curve| &curve.points);
-    let values = points.map(|point| point.1).filter(|value| value.is_finite());
-    let (least, most) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), value| (a.min(value), b.max(value)));
-    let room = 0.03 * (most - least);
-    let range = (least < most).then_some((least - room, most + room));
-    charts.iter_mut().for_each(|chart| chart.y.range = range);
 }
 
 /// What the numbers of an axis of words mean.
@@ -182,16 +170,12 @@ fn number_at(axis: &Axis, number: u64) -> Option<f64> {
 /// Words, and numbers of which some are equal or too large for doubles, have cells of one size.
 fn cell_axis(axis: &Axis) -> CellAxis {
     let numbers: Option<Vec<f64>> = (0..axis.count()).map(|number| number_at(axis, number)).collect();
-    let differ = |numbers: &Vec<f64>| {
-        let mut sorted = numbers.clone();
-        sorted.sort_by(f64::total_cmp);
-        sorted.windows(2).all(|pair| pair[0] < pair[1]) && sorted.iter().all(|number| number.abs() <= LARGEST)
-    };
-    match numbers.filter(differ) {
-        Some(numbers) if is_logarithmic(axis, &numbers) => CellAxis::logarithmic(&axis.name, numbers),
-        Some(numbers) => CellAxis::linear(&axis.name, numbers),
-        None => CellAxis::words(&axis.name, (0..axis.count()).map(|number| axis.value(number).text()).collect()),
-    }
+    let of_numbers = numbers.map(|numbers| match is_logarithmic(axis, &numbers) {
+        true => CellAxis::logarithmic(&axis.name, numbers),
+        false => CellAxis::linear(&axis.name, numbers),
+    });
+    let words = || CellAxis::words(&axis.name, (0..axis.count()).map(|number| axis.value(number).text()).collect());
+    of_numbers.filter(CellAxis::is_drawable).unwrap_or_else(words)
 }
 
 fn is_logarithmic(axis: &Axis, numbers: &[f64]) -> bool {
