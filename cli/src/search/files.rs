@@ -36,7 +36,7 @@ pub(super) fn write(search: &Search, candidates: &[Candidate], rows: &[Row], fol
     let command = invocation::command();
     write_file(folder, STARTS, &starts(search, candidates, &command)?)?;
     let chart = [(picture(search, candidates, rows), CAPTION.to_owned())];
-    let (svgs, pictures) = write_charts(folder, PICTURE, &chart)?;
+    let pictures = write_charts(folder, PICTURE, &chart)?;
     let mut finding = Finding { charts: chart.into(), ..Finding::default() };
     let met = candidates.len();
     finding.found(format!("{met} of {} random starts met the order conditions.", search.starts()));
@@ -48,7 +48,7 @@ pub(super) fn write(search: &Search, candidates: &[Candidate], rows: &[Row], fol
     let tables = rows.iter().filter(|row| row.is_new).map(|row| format!("{}.toml", row.name));
     let files = pictures.into_iter().chain([STARTS.to_owned()]).chain(tables).collect();
     let title = format!("{}: schemes of order {}", search.request.name, search.request.order);
-    let sections = vec![Section { title, of_paper: None, finding, svgs, files }];
+    let sections = vec![Section { title, of_paper: None, finding, files }];
     write_page(folder, &Report { sections, ..Report::new("Search for schemes", &command) })
 }
 

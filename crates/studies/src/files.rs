@@ -48,25 +48,17 @@ pub fn write_file(folder: &Path, name: &str, text: &str) -> Result<(), Error> {
     file.finish()
 }
 
-/// Writes charts as `name.svg`, or as `name-1.svg` and so on if there are several; returns their SVG and the names of
-/// the files.
+/// Writes charts as `name.svg`, or as `name-1.svg` and so on if there are several; returns the names of the files.
 ///
 /// # Errors
 /// A file that cannot be written.
-pub fn write_charts(
-    folder: &Path,
-    name: &str,
-    charts: &[(Chart, String)],
-) -> Result<(Vec<String>, Vec<String>), Error> {
-    let (mut svgs, mut files) = (Vec::new(), Vec::new());
-    for (i, (chart, _)) in charts.iter().enumerate() {
-        let number = if charts.len() == 1 { String::new() } else { format!("-{}", i + 1) };
-        let (svg, file) = (chart.svg(), format!("{name}{number}.svg"));
-        write_file(folder, &file, &svg)?;
-        svgs.push(svg);
-        files.push(file);
-    }
-    Ok((svgs, files))
+pub fn write_charts(folder: &Path, name: &str, charts: &[(Chart, String)]) -> Result<Vec<String>, Error> {
+    let file = |(i, (chart, _)): (usize, &(Chart, String))| {
+        let file = if charts.len() == 1 { format!("{name}.svg") } else { format!("{name}-{}.svg", i + 1) };
+        write_file(folder, &file, &chart.svg())?;
+        Ok(file)
+    };
+    charts.iter().enumerate().map(file).collect()
 }
 
 /// Writes the page; returns its path.

@@ -4,6 +4,7 @@ mod subscripts;
 
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
+use crate::chart::Chart;
 use crate::finding::{Finding, Statement, Table};
 use crate::verdict::{Counts, Verdict};
 use subscripts::set;
@@ -32,9 +33,6 @@ pub struct Section {
     pub of_paper: Option<String>,
     /// What it shows.
     pub finding: Finding,
-    /// Its charts as `<svg>` elements without `id`s, as [`Chart::svg`](crate::chart::Chart::svg) gives them. They are
-    /// not escaped.
-    pub svgs: Vec<String>,
     /// Names of the files beside the page: SVG, CSV.
     pub files: Vec<String>,
 }
@@ -119,9 +117,7 @@ impl Report {
             @if self.is_of_paper() && highlighted().next().is_some() {
                 div class="pictures" {
                     @for (_, figure) in highlighted().take(MOST_PICTURES) {
-                        @if let (Some(svg), Some((_, caption))) = (figure.svgs.first(), figure.finding.charts.first()) {
-                            (picture(svg, caption))
-                        }
+                        @if let Some(chart) = figure.finding.charts.first() { (picture(chart)) }
                     }
                 }
             }
@@ -206,10 +202,8 @@ impl Section {
                         (paragraphs(&self.finding.stated))
                     }
                 }
-                @if !self.svgs.is_empty() {
-                    div class="pictures" {
-                        @for (svg, (_, caption)) in self.svgs.iter().zip(&self.finding.charts) { (picture(svg, caption)) }
-                    }
+                @if !self.finding.charts.is_empty() {
+                    div class="pictures" { @for chart in &self.finding.charts { (picture(chart)) } }
                 }
                 @if !self.finding.highlights.is_empty() || !self.finding.found.is_empty() { h3 { "Results" } }
                 (paragraphs(&self.finding.highlights))
@@ -232,8 +226,8 @@ fn badge(word: &str) -> Markup {
     html! { span class={ "verdict " (word.replace(' ', "-")) } { (word) } }
 }
 
-fn picture(svg: &str, caption: &str) -> Markup {
-    html! { figure { (PreEscaped(svg)) figcaption { (set(caption)) } } }
+fn picture((chart, caption): &(Chart, String)) -> Markup {
+    html! { figure { (PreEscaped(chart.svg())) figcaption { (set(caption)) } } }
 }
 
 fn table(Table { caption, header, rows }: &Table) -> Markup {
@@ -277,7 +271,7 @@ fn paragraphs(texts: &[String]) -> Markup {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::chart::{Chart, samples};
+    use crate::chart::samples;
 
     fn texts<const N: usize>(texts: [&str; N]) -> Vec<String> {
         texts.map(str::to_owned).to_vec()
@@ -295,7 +289,6 @@ mod tests {
         Section {
             title: title.to_owned(),
             of_paper: of_paper.map(str::to_owned),
-            svgs: charts.iter().map(|chart| chart.svg()).collect(),
             finding: Finding {
                 stated: texts(["The drift is exponentially small: log₁₀ is about −c/h, with c ≈ 4.2."]),
                 charts: charts.iter().map(|chart| (chart.clone(), caption(chart))).collect(),

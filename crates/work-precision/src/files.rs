@@ -40,20 +40,19 @@ pub fn write(study: &Study<'_>, title: Title<'_>, folder: &Path) -> Result<PathB
     write_file(folder, DATA, &study.csv(&head)?)?;
     write_file(folder, LINES, &study.json_lines()?)?;
     write_file(folder, SCRIPT, PLOT)?;
-    let (mut charts, mut svgs) = (Vec::new(), Vec::new());
+    let mut charts = Vec::new();
     let mut files = [DATA, LINES, SCRIPT].map(str::to_owned).to_vec();
     for Picture { name, caption, chart } in study.pictures() {
         let (chart, for_print) = ([(chart, caption.to_owned())], format!("{name}-print.svg"));
-        let (svg, file) = write_charts(folder, name, &chart)?;
+        files.extend(write_charts(folder, name, &chart)?);
         write_file(folder, &for_print, &chart[0].0.svg_for_print())?;
-        svgs.extend(svg);
-        files.extend(file.into_iter().chain([for_print]));
+        files.push(for_print);
         charts.extend(chart);
     }
     let hamiltonian = format!("H = {}.", title.hamiltonian);
     let found = [hamiltonian, reference, TIMES.to_owned()].into_iter().chain(study.remark_on_times()).collect();
     let finding = Finding { charts, found, tables: study.tables(), ..Finding::default() };
-    let sections = vec![Section { title: title.title.to_owned(), of_paper: None, finding, svgs, files }];
+    let sections = vec![Section { title: title.title.to_owned(), of_paper: None, finding, files }];
     write_page(folder, &Report { sections, ..Report::new("Speed against error", title.command) })
 }
 

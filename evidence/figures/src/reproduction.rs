@@ -97,7 +97,7 @@ fn flag(quick: bool) -> &'static str {
 /// Writes charts and data of one figure; returns its section of the report.
 fn write_figure(figure: &Figure, results: &Results, folder: &Path) -> Result<Section, Error> {
     let finding = (figure.draw)(results);
-    let (svgs, mut files) = write_charts(folder, figure.name, &finding.charts)?;
+    let mut files = write_charts(folder, figure.name, &finding.charts)?;
     let command = format!("shadowstep figures {}{}", figure.name, flag(results.quick));
     for (kind, text) in data::csv(&command, &results.take_used())? {
         let name = format!("{}{kind}.csv", figure.name);
@@ -105,7 +105,7 @@ fn write_figure(figure: &Figure, results: &Results, folder: &Path) -> Result<Sec
         files.push(name);
     }
     let of_paper = (!figure.of_paper.is_empty()).then(|| figure.of_paper.to_owned());
-    Ok(Section { title: figure.title.to_owned(), of_paper, finding, svgs, files })
+    Ok(Section { title: figure.title.to_owned(), of_paper, finding, files })
 }
 
 const INTRODUCTION: [&str; 4] = [

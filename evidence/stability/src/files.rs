@@ -26,8 +26,8 @@ pub fn counts(findings: &[(CaseEntry, Finding)]) -> Counts {
 pub fn write(findings: Vec<(CaseEntry, Finding)>, command: &str, folder: &Path) -> Result<PathBuf, Error> {
     write_file(folder, TABLE, &markdown(&findings, command))?;
     let section = |(case, finding): (CaseEntry, Finding)| {
-        let (svgs, files) = write_charts(folder, case.name(), &finding.charts)?;
-        Ok(Section { title: case.title().to_owned(), of_paper: None, finding, svgs, files })
+        let files = write_charts(folder, case.name(), &finding.charts)?;
+        Ok(Section { title: case.title().to_owned(), of_paper: None, finding, files })
     };
     let page = Report {
         introduction: vec![INTRODUCTION.to_owned()],
