@@ -1,12 +1,11 @@
 //! `shadowstep advise`: a scheme and a step size for a tolerance, with the evidence.
 
-use std::io::Write;
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 use shadowstep::number::{Limbs, Number, Real};
 use shadowstep_scenes::Error;
-use shadowstep_scenes::readable::wrapped_to;
+use shadowstep_scenes::readable::wrapped;
 use shadowstep_symbolic::decimal::significant;
 use shadowstep_work_precision::advise::{Advice, AdviceRequest, Choice, Unfinished, Verified};
 use shadowstep_work_precision::no_advice::over;
@@ -122,9 +121,7 @@ pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
         folder: folder.path().to_owned(),
     };
     let advice = request.run(&mut terminal)?;
-    let mut output = Output::stdout();
-    write!(output, "{}", readable(&posed, &request, &advice, on_stdout()))?;
-    output.finish()?;
+    Output::stdout().text(readable(&posed, &request, &advice))?;
     Ok(match advice {
         Advice::Found { .. } => terminal.status,
         Advice::OutOfReach { .. } => terminal.status.max(Status::NegativeAnswer),
@@ -142,14 +139,12 @@ fn tolerance_log10(tolerance: &shadowstep::Rational, text: &str) -> Result<f64, 
     Ok(value.log10_abs())
 }
 
-const WIDTH: usize = 80;
-
-fn readable(posed: &PosedProblem, request: &AdviceRequest<'_>, advice: &Advice<'_>, coloured: bool) -> String {
-    let mut text = wrapped_to(&posed.title(), "", WIDTH);
-    text += &wrapped_to(&format!("tolerance {}: {}", request.tolerance, request.of.name()), "", WIDTH);
+fn readable(posed: &PosedProblem, request: &AdviceRequest<'_>, advice: &Advice<'_>) -> String {
+    let mut text = wrapped(&posed.title(), "");
+    text += &wrapped(&format!("tolerance {}: {}", request.tolerance, request.of.name()), "");
     match advice {
         Advice::OutOfReach { overflow, unfinished, .. } => {
-            text += &wrapped_to(&advice.reason(request).expect("there is none"), "", WIDTH);
+            text += &wrapped(&advice.reason(request).expect("there is none"), "");
             if !overflow {
                 text += &not_finished(unfinished, request.seconds);
             }
@@ -158,7 +153,7 @@ fn readable(posed: &PosedProblem, request: &AdviceRequest<'_>, advice: &Advice<'
             let best = &choices[0];
             let of_time = if request.problem.length.is_some() { " of s" } else { "" };
             let name = format!("{}, step {}{of_time}", best.scheme.name, best.step_text());
-            text += &format!("{}\n", if coloured { heading(&name) } else { name });
+            text += &format!("{}\n", heading(&name, on_stdout()));
             text += &evidence(best, request, *verified, *part);
             for other in &choices[1..] {
                 let Choice { scheme, error, .. } = other;
@@ -168,7 +163,7 @@ fn readable(posed: &PosedProblem, request: &AdviceRequest<'_>, advice: &Advice<'
                     scheme.name,
                     other.step_text()
                 );
-                text += &wrapped_to(&line, "    ", WIDTH);
+                text += &wrapped(&line, "    ");
             }
             text += &not_finished(unfinished, request.seconds);
         }
@@ -184,7 +179,7 @@ fn not_finished(unfinished: &Unfinished<'_>, seconds: f64) -> String {
         names => {
             let line =
                 format!("{what} in the time for each scheme, of --seconds {seconds} for all: {}", names.join(", "));
-            wrapped_to(&line, "", WIDTH)
+            wrapped(&line, "")
         }
     };
     line("no result", untried)
@@ -209,9 +204,7 @@ fn evidence(best: &Choice<'_>, request: &AdviceRequest<'_>, verified: Verified, 
         ));
     }
     lines.push(("modified energy", conserved(best)));
-    let line = |(name, text): (&str, String)| {
-        format!("  {name:<18}{}", wrapped_to(&text, &" ".repeat(20), WIDTH).trim_start())
-    };
+    let line = |(name, text): (&str, String)| format!("  {name:<18}{}", wrapped(&text, &" ".repeat(20)).trim_start());
     lines.into_iter().map(line).collect()
 }
 

@@ -5,9 +5,9 @@ mod subject;
 use std::io::{IsTerminal, Write};
 
 use clap::Args;
+use shadowstep_scenes::Error;
 use shadowstep_scenes::chaos::{ChaosRecord, conclusion};
 use shadowstep_scenes::tangent::Vectors;
-use shadowstep_scenes::{Error, Observer};
 use shadowstep_symbolic::decimal::significant;
 
 use crate::headings::{OUTPUT, SCHEMES};
@@ -17,6 +17,7 @@ use crate::progress::Progress;
 use crate::quantity::whole;
 use crate::readable::table;
 use crate::report::Status;
+use crate::run::Terminal;
 use subject::{Subject, SubjectArguments};
 
 const EXAMPLES: &str = "\
@@ -89,8 +90,8 @@ pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
     for parts in if arguments.one { 1..=1 } else { 1..=2 } {
         let request = subject.request(arguments.vectors(), arguments.every.into());
         let name = format!("{}, part {parts}", request.posed.run.name());
-        let progress = Progress::new(bar, name, request.posed.expected_steps() * u64::from(parts));
-        let mut terminal = Terminal { progress, interrupt: &interrupt };
+        let progress = Progress::of_run(bar, name, request.posed.expected_steps() * u64::from(parts));
+        let mut terminal = Terminal { progress, interrupt: &interrupt, summarises: false, summary: None };
         let record = request.run(parts, &mut terminal)?;
         if arguments.json {
             output.json(&record)?;
@@ -135,21 +136,5 @@ fn readable(records: &[ChaosRecord]) -> String {
     match records {
         [whole, half] => text + &conclusion(whole, half) + "\n",
         _ => text,
-    }
-}
-
-/// Shows the progress, and ends the run after a signal.
-struct Terminal<'a> {
-    progress: Progress,
-    interrupt: &'a Interrupt,
-}
-
-impl Observer for Terminal<'_> {
-    fn progress(&mut self, n: i64) {
-        self.progress.reach(n);
-    }
-
-    fn stops(&mut self) -> bool {
-        self.interrupt.ends()
     }
 }

@@ -21,9 +21,9 @@ pub(crate) fn of_verdict(fine: bool) -> Style {
     if fine { GOOD } else { ERROR }
 }
 
-/// The style of a heading.
-pub(crate) fn heading(text: &str) -> String {
-    styled(text, BOLD)
+/// A heading, in bold letters where there are colours.
+pub(crate) fn heading(text: &str, coloured: bool) -> String {
+    if coloured { styled(text, BOLD) } else { text.to_owned() }
 }
 
 /// Whether stdout shows colours.

@@ -82,7 +82,7 @@ pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
     let mut controls = Controls::new(arguments.controls());
     let request = selection.drift_request(!arguments.run.no_summary);
     for (number, (propagator, run)) in (1..).zip(selection.runs()) {
-        let progress = Progress::new(bar, selection.numbered(number, run), selection.expected_steps(run));
+        let progress = Progress::of_run(bar, selection.numbered(number, run), selection.expected_steps(run));
         let mut follower = DriftProgress { progress, interrupt: &interrupt, hint: NOT_RESUMED };
         let measured = interrupt.attended(
             || request.run(propagator, run, &mut controls, &mut follower),

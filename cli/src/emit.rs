@@ -1,7 +1,5 @@
 //! `shadowstep emit`: a scheme as code for other ecosystems.
 
-use std::io::Write;
-
 use clap::Args;
 use clap::builder::PossibleValuesParser;
 use shadowstep_emit::{Target, emit};
@@ -41,8 +39,6 @@ pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
     let code = emit(&named.quadratic(), target)
         .map_err(|refusal| Error::usage(format!("{} {}", refusal.scheme, refusal.reason), refusal.hint))?;
     named.note().iter().for_each(report::note);
-    let mut output = Output::of(&arguments.output)?;
-    write!(output, "{code}")?;
-    output.finish()?;
+    Output::of(&arguments.output)?.text(code)?;
     Ok(Status::Success)
 }

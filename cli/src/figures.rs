@@ -1,6 +1,5 @@
 //! `shadowstep figures`: the figures of Moan and Niesen's paper, and additional ones.
 
-use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
@@ -51,8 +50,6 @@ pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
         reproduce(&Request { names: names.clone(), quick: *quick, folder: folder.to_owned() }, terminal)
     };
     let (summary, status) = study_in(Some(out), *force, written(), study)?;
-    let mut output = Output::stdout();
-    writeln!(output, "{}\n{}", summary.report.display(), summary.verdicts)?;
-    output.finish()?;
+    Output::stdout().text(format_args!("{}\n{}\n", summary.report.display(), summary.verdicts))?;
     Ok(status)
 }

@@ -1,7 +1,5 @@
 //! `shadowstep modified`: the Hamiltonian that a scheme solves, as a series and as a formula.
 
-use std::io::Write;
-
 use clap::{Args, ValueEnum};
 use serde::Serialize;
 use shadowstep_analysis::modified::HIGHEST_GRADE;
@@ -114,9 +112,7 @@ pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
         Some(system) => of_system(arguments, &named, &Described::read(system, Arithmetic::DOUBLE)?)?,
         None => of_brackets(arguments, named.scheme.proved())?,
     };
-    let mut output = Output::of(&arguments.output)?;
-    write!(output, "{text}")?;
-    output.finish()?;
+    Output::of(&arguments.output)?.text(text)?;
     Ok(Status::Success)
 }
 

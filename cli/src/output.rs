@@ -1,5 +1,6 @@
 //! The output of a command: stdout, or a file that gets its name when it is complete.
 
+use std::fmt::Display;
 use std::io::{self, StdoutLock, Write};
 use std::path::PathBuf;
 
@@ -47,6 +48,26 @@ impl Output {
     pub(crate) fn json(&mut self, record: &impl Serialize) -> Result<(), Error> {
         let line = serde_json::to_string(record)?;
         Ok(writeln!(self, "{line}")?)
+    }
+
+    /// Writes a text, and gives the file its name.
+    pub(crate) fn text(mut self, text: impl Display) -> Result<(), Error> {
+        write!(self, "{text}")?;
+        self.finish()
+    }
+
+    /// Writes JSON objects, each on a line of its own, or in their place a text for people.
+    pub(crate) fn records_or_text<R: Serialize>(
+        mut self,
+        json: bool,
+        records: impl IntoIterator<Item = R>,
+        text: impl FnOnce() -> String,
+    ) -> Result<(), Error> {
+        if !json {
+            return self.text(text());
+        }
+        records.into_iter().try_for_each(|record| self.json(&record))?;
+        self.finish()
     }
 
     /// Gives the file its name.

@@ -102,11 +102,7 @@ impl PosedProblem {
     /// The problem, the time, the number type and what steps begin with in a line.
     pub(crate) fn title(&self) -> String {
         let PosedProblem { described, until, arithmetic, first, .. } = self;
-        let first = match first {
-            Some(First::Drift) => ", drifts first",
-            Some(First::Kick) => ", kicks first",
-            None => "",
-        };
+        let first = first.map_or_else(String::new, |first| format!(", {first}s first"));
         format!("{}, t = 0 to {}, {}{first}", described.title, shortened(until, 20), arithmetic.described())
     }
 }

@@ -1,16 +1,14 @@
 //! `shadowstep problems`: the problems, with their parameters and initial states.
 
-use std::io::Write;
-
 use clap::Args;
-use serde::Serialize;
 use shadowstep::problems::{Description, Initial, PROBLEMS, problem};
 
 use crate::output::Output;
 use crate::quantity::problem_error;
-use crate::readable::wrapped_to;
+use crate::readable::wrapped;
 use crate::report::Status;
 use shadowstep_scenes::Error;
+use shadowstep_scenes::object::Object;
 
 /// Lists the problems with their parameters and initial states.
 #[derive(Debug, Args)]
@@ -20,34 +18,6 @@ pub(crate) struct Arguments {
     /// One JSON object a line
     #[arg(long)]
     json: bool,
-}
-
-#[derive(Serialize)]
-struct Record {
-    name: &'static str,
-    title: &'static str,
-    hamiltonian: &'static str,
-    parameters: Vec<Parameter>,
-    positions: Vec<Value>,
-    momenta: Vec<Value>,
-    masses: Option<Vec<String>>,
-    step: &'static str,
-    until: &'static str,
-    source: &'static str,
-}
-
-#[derive(Serialize)]
-struct Parameter {
-    name: &'static str,
-    default: &'static str,
-    meaning: &'static str,
-    range: &'static str,
-}
-
-#[derive(Serialize)]
-struct Value {
-    name: String,
-    default: String,
 }
 
 /// The list of all problems shows a part only of more initial values.
@@ -61,37 +31,37 @@ pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
         None => PROBLEMS.to_vec(),
     };
     let most_values = if name.is_some() { usize::MAX } else { SHORT };
-    let mut output = Output::stdout();
-    for (i, problem) in chosen.into_iter().enumerate() {
-        if *json {
-            output.json(&record(problem.description()))?;
-        } else {
-            write!(output, "{}{}", if i == 0 { "" } else { "\n" }, readable(problem.description(), most_values))?;
-        }
-    }
-    output.finish()?;
+    let problems = || chosen.iter().map(|problem| problem.description());
+    let text = || problems().map(|problem| readable(problem, most_values)).collect::<Vec<_>>().join("\n");
+    Output::stdout().records_or_text(*json, problems().map(record), text)?;
     Ok(Status::Success)
 }
 
-fn record(problem: &Description) -> Record {
-    let parameters = problem.parameters.iter();
+fn record(problem: &Description) -> Object {
     let Initial { positions, momenta, masses } = (problem.initial)();
-    let values =
-        |list: Vec<(String, String)>| list.into_iter().map(|(name, default)| Value { name, default }).collect();
-    Record {
-        name: problem.name,
-        title: problem.title,
-        hamiltonian: problem.hamiltonian,
-        parameters: parameters
-            .map(|p| Parameter { name: p.name, default: p.default, meaning: p.meaning, range: p.range })
-            .collect(),
-        positions: values(positions),
-        momenta: values(momenta),
-        masses,
-        step: problem.step,
-        until: problem.until,
-        source: problem.source,
-    }
+    let value = |(name, default): (String, String)| Object(vec![("name", name.into()), ("default", default.into())]);
+    let values = |list: Vec<(String, String)>| list.into_iter().map(value).collect::<Vec<_>>();
+    let parameters = problem.parameters.iter().map(|parameter| {
+        let facts = [
+            ("name", parameter.name),
+            ("default", parameter.default),
+            ("meaning", parameter.meaning),
+            ("range", parameter.range),
+        ];
+        Object(facts.map(|(key, text)| (key, text.into())).into())
+    });
+    Object(vec![
+        ("name", problem.name.into()),
+        ("title", problem.title.into()),
+        ("hamiltonian", problem.hamiltonian.into()),
+        ("parameters", parameters.collect::<Vec<_>>().into()),
+        ("positions", values(positions).into()),
+        ("momenta", values(momenta).into()),
+        ("masses", masses.into()),
+        ("step", problem.step.into()),
+        ("until", problem.until.into()),
+        ("source", problem.source.into()),
+    ])
 }
 
 /// A problem as text, with a part of a long list of values.
@@ -102,7 +72,7 @@ fn readable(problem: &Description, most_values: usize) -> String {
         .lines()
         .map(|line| {
             let margin = if line.starts_with(' ') { "  " } else { "" };
-            format!("{margin}{}\n", wrapped_to(line, "      ", 80).trim())
+            format!("{margin}{}\n", wrapped(line, "      ").trim())
         })
         .collect()
 }

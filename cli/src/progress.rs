@@ -1,4 +1,4 @@
-//! The progress of a run, on a terminal.
+//! How far a run or a study is, on a terminal.
 
 use std::fmt::Write;
 use std::sync::{Arc, Mutex, PoisonError};
@@ -10,44 +10,75 @@ use indicatif::{HumanDuration, ProgressBar, ProgressState, ProgressStyle};
 pub(crate) struct Progress {
     bar: ProgressBar,
     shown: bool,
-    /// When the first state was reached: the states that only the estimator needs come before.
-    begin: Arc<Mutex<Option<Instant>>>,
+    early: Early,
+    /// When the first state of a run was reached: the states that only the estimator needs come before.
+    begin: Option<Instant>,
+    /// When all is done, as far as it is known.
+    end: Arc<Mutex<Option<Instant>>>,
 }
 
-/// The first steps of a run are no measure of the others: no time left is shown before this, and before a hundredth of
-/// the run.
-const EARLY: Duration = Duration::from_secs(2);
+/// No time left is shown before this time and this part of all: what comes first is no measure of the others.
+type Early = (Duration, f64);
+
+const EARLY_IN_RUN: Early = (Duration::from_secs(2), 0.01);
+
+/// The first calculations may be cheaper or more expensive than those that follow.
+const EARLY_IN_STUDY: Early = (Duration::from_secs(3), 0.05);
+
+/// The length of the bar of a study, which is the cost of all calculations, not their number.
+const LENGTH: f64 = 10_000.0;
 
 impl Progress {
-    pub(crate) fn new(wanted: bool, run: String, steps: u64) -> Self {
+    pub(crate) fn of_run(wanted: bool, run: String, steps: u64) -> Self {
         let bar = if wanted { ProgressBar::new(steps) } else { ProgressBar::hidden() };
-        let begin: Arc<Mutex<Option<Instant>>> = Arc::default();
-        let first = Arc::clone(&begin);
-        let left = move |state: &ProgressState, writer: &mut dyn Write| {
-            let first = *first.lock().unwrap_or_else(PoisonError::into_inner);
-            let elapsed = first.map(|first| first.elapsed()).unwrap_or_default();
-            if let Some(left) = time_left(elapsed, state.pos(), state.len().unwrap_or(0)) {
+        bar.set_prefix(run);
+        Progress::new(bar, "{prefix}  {wide_bar}  {pos}/{len}  {left}", EARLY_IN_RUN)
+    }
+
+    pub(crate) fn of_study() -> Self {
+        let mut progress =
+            Progress::new(ProgressBar::new(LENGTH as u64), "{prefix}  {wide_bar}  {left}", EARLY_IN_STUDY);
+        if progress.shown {
+            progress.bar.enable_steady_tick(Duration::from_secs(1));
+        }
+        progress.begin = Some(Instant::now());
+        progress
+    }
+
+    fn new(bar: ProgressBar, template: &str, early: Early) -> Self {
+        let end: Arc<Mutex<Option<Instant>>> = Arc::default();
+        let seen = Arc::clone(&end);
+        let left = move |_: &ProgressState, writer: &mut dyn Write| {
+            if let Some(end) = *seen.lock().unwrap_or_else(PoisonError::into_inner) {
                 // the bar draws what it can
-                let _ = write!(writer, "{} left", HumanDuration(left));
+                let _ = write!(writer, "{} left", HumanDuration(end.saturating_duration_since(Instant::now())));
             }
         };
-        let style = ProgressStyle::with_template("{prefix}  {wide_bar}  {pos}/{len}  {left}");
-        bar.set_style(style.expect("the template is well formed").with_key("left", left));
-        bar.set_prefix(run);
-        Progress { shown: !bar.is_hidden(), bar, begin }
+        let style = ProgressStyle::with_template(template).expect("the template is well formed");
+        bar.set_style(style.with_key("left", left));
+        Progress { shown: !bar.is_hidden(), bar, early, begin: None, end }
     }
 
     /// The run is at step n; without a bar it costs nothing.
-    pub(crate) fn reach(&self, n: i64) {
+    pub(crate) fn reach(&mut self, n: i64) {
         if self.shown {
-            self.begin.lock().unwrap_or_else(PoisonError::into_inner).get_or_insert_with(Instant::now);
+            let begin = *self.begin.get_or_insert_with(Instant::now);
+            let part = n.unsigned_abs() as f64 / self.bar.length().unwrap_or(0) as f64;
+            self.expect(in_all(begin.elapsed(), part, self.early).map(|all| begin + all));
             self.bar.set_position(n.unsigned_abs());
         }
     }
 
+    /// So many calculations of a study are done, which cost this part of all.
+    pub(crate) fn show(&mut self, done: usize, all: usize, part: f64) {
+        self.bar.set_prefix(format!("{done} of {all} calculations"));
+        self.reach((part * LENGTH) as i64);
+    }
+
     /// Another run as long as this one begins.
-    pub(crate) fn restart(&self, run: String) {
-        self.begin.lock().unwrap_or_else(PoisonError::into_inner).take();
+    pub(crate) fn restart(&mut self, run: String) {
+        self.begin = None;
+        self.expect(None);
         self.bar.set_position(0);
         self.bar.set_prefix(run);
     }
@@ -56,14 +87,18 @@ impl Progress {
     pub(crate) fn suspend(&self, write: impl FnOnce()) {
         self.bar.suspend(write);
     }
+
+    fn expect(&self, end: Option<Instant>) {
+        *self.end.lock().unwrap_or_else(PoisonError::into_inner) = end;
+    }
 }
 
-/// How long the rest of a run takes if all steps take as long; `None` where that is not known yet.
-fn time_left(elapsed: Duration, done: u64, all: u64) -> Option<Duration> {
-    if elapsed < EARLY || done < all / 100 || done == 0 {
+/// The time of all if this part of it took `elapsed`; `None` while that is not known yet.
+fn in_all(elapsed: Duration, part: f64, early: Early) -> Option<Duration> {
+    if elapsed < early.0 || part < early.1 {
         return None;
     }
-    Duration::try_from_secs_f64(elapsed.as_secs_f64() * all.saturating_sub(done) as f64 / done as f64).ok()
+    Duration::try_from_secs_f64(elapsed.as_secs_f64() / part).ok()
 }
 
 impl Drop for Progress {
@@ -76,11 +111,25 @@ impl Drop for Progress {
 mod tests {
     use super::*;
 
+    /// Nine tenths of the cost are done, however many calculations that is: a ninth of the time is left.
+    #[test]
+    fn time_is_estimated_from_costs() {
+        let seconds = Duration::from_secs;
+        assert_eq!(in_all(seconds(90), 0.9, EARLY_IN_STUDY), Some(seconds(100)));
+        assert_eq!(in_all(seconds(10), 0.25, EARLY_IN_RUN), Some(seconds(40)));
+    }
+
     #[test]
     fn no_time_is_shown_before_it_means_something() {
         let seconds = Duration::from_secs;
-        assert_eq!(time_left(seconds(1), 50, 100), None);
-        assert_eq!(time_left(seconds(10), 5, 1000), None);
-        assert_eq!(time_left(seconds(10), 250, 1000), Some(seconds(30)));
+        for (elapsed, part, early) in [
+            (seconds(1), 0.5, EARLY_IN_RUN),
+            (seconds(10), 0.005, EARLY_IN_RUN),
+            (seconds(2), 0.5, EARLY_IN_STUDY),
+            (seconds(90), 0.01, EARLY_IN_STUDY),
+            (seconds(90), 0.0, EARLY_IN_STUDY),
+        ] {
+            assert_eq!(in_all(elapsed, part, early), None, "{elapsed:?} {part}");
+        }
     }
 }

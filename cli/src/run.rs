@@ -78,8 +78,8 @@ pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
         files.can_be_written(&scene, plot)?;
     }
     let begin = Instant::now();
-    let progress = Progress::new(scene.output.file.is_some(), scene.as_run().name(), scene.posed().expected_steps());
-    let mut terminal = Terminal { progress, interrupt, summarises: !arguments.no_summary, summary: None };
+    let progress = Progress::of_run(scene.output.file.is_some(), scene.as_run().name(), scene.posed().expected_steps());
+    let mut terminal = Terminal { progress, interrupt: &interrupt, summarises: !arguments.no_summary, summary: None };
     let outcome = match scene.output.file {
         Some(_) => scene.run_to_file(arguments.options(), &mut terminal)?,
         None => scene.run_into(&mut Output::stdout(), &mut terminal)?,
@@ -190,14 +190,14 @@ fn concluded(scene: &Scene, summary: Option<&Summary>, strict: bool) -> Status {
 }
 
 /// Watches a run for the user: a bar and notes on stderr, and Ctrl-C.
-struct Terminal {
-    progress: Progress,
-    interrupt: Interrupt,
-    summarises: bool,
-    summary: Option<Summary>,
+pub(crate) struct Terminal<'a> {
+    pub(crate) progress: Progress,
+    pub(crate) interrupt: &'a Interrupt,
+    pub(crate) summarises: bool,
+    pub(crate) summary: Option<Summary>,
 }
 
-impl Observer for Terminal {
+impl Observer for Terminal<'_> {
     fn progress(&mut self, n: i64) {
         self.progress.reach(n);
     }

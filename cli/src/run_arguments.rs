@@ -223,7 +223,7 @@ pub(crate) enum OrderChoice {
 }
 
 /// The words that a flag accepts, each with its help.
-fn words(names: &'static [&'static str], help: &'static [&'static str]) -> PossibleValuesParser {
+pub(crate) fn words(names: &'static [&'static str], help: &'static [&'static str]) -> PossibleValuesParser {
     names.iter().zip(help).map(|(name, help)| PossibleValue::new(name).help(help)).collect::<Vec<_>>().into()
 }
 

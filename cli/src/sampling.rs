@@ -1,6 +1,5 @@
 //! `shadowstep sampling`: schemes for Hamiltonian Monte Carlo, on a Gaussian target.
 
-use std::io::Write;
 use std::path::Path;
 
 use clap::Args;
@@ -16,7 +15,7 @@ use shadowstep_symbolic::decimal::significant;
 
 use crate::output::Output;
 use crate::quantity::{number, whole};
-use crate::readable::{rounded, table, wrapped_to};
+use crate::readable::{rounded, table, wrapped};
 use crate::report::{self, Status};
 
 const EXAMPLES: &str = "\
@@ -71,13 +70,8 @@ pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
     let target = target(arguments)?;
     let mut records = records(arguments, &target)?;
     records.sort_by(|a, b| a.cost.total_cmp(&b.cost));
-    let mut output = Output::stdout();
-    if arguments.json {
-        records.iter().try_for_each(|record| output.json(record))?;
-    } else {
-        write!(output, "{}\n{}", table_of(&records), legend(&target))?;
-    }
-    output.finish()?;
+    let text = || format!("{}\n{}", table_of(&records), legend(&target));
+    Output::stdout().records_or_text(arguments.json, &records, text)?;
     Ok(Status::Success)
 }
 
@@ -176,5 +170,5 @@ fn legend(target: &SamplingTarget) -> String {
          temperature; any length: its maximum over all numbers of such steps; cost: gradients per accepted \
          trajectory, Hessian–vector products of gradient kicks counted as such."
     );
-    text.lines().map(|line| wrapped_to(line, "", 80)).collect()
+    wrapped(&text, "")
 }

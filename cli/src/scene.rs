@@ -1,7 +1,5 @@
 //! `shadowstep scene`: scenes to begin with, and what their keys mean.
 
-use std::io::Write;
-
 use clap::Args;
 use shadowstep::problems::PROBLEMS;
 use shadowstep_scenes::{Error, SHIPPED_SCENES, scene_text};
@@ -40,9 +38,7 @@ pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
         Some(name) => scene_text(name)?,
         None => list(),
     };
-    let mut output = Output::stdout();
-    write!(output, "{text}")?;
-    output.finish()?;
+    Output::stdout().text(text)?;
     Ok(Status::Success)
 }
 

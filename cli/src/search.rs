@@ -3,7 +3,7 @@
 mod files;
 mod rows;
 
-use std::io::{ErrorKind, Write};
+use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
@@ -134,12 +134,10 @@ pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
     }
     rows.extend(published(&search));
     let report = files::write(&search, &candidates, &rows, &arguments.out)?;
-    let mut output = Output::stdout();
     let header = header(&search.request);
     let columns = header.len();
-    writeln!(output, "{}", table(header, rows.iter().map(Row::cells).collect(), 1..columns))?;
-    writeln!(output, "{}", report.display())?;
-    output.finish()?;
+    let table = table(header, rows.iter().map(Row::cells).collect(), 1..columns);
+    Output::stdout().text(format_args!("{table}\n{}\n", report.display()))?;
     Ok(status)
 }
 

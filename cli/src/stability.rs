@@ -1,13 +1,12 @@
 //! `shadowstep stability`: hard cases with what theory predicts of them, on any scheme.
 
-use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
 use clap::builder::PossibleValuesParser;
-use serde::Serialize;
 use shadowstep_scenes::arithmetic::{Arithmetic, MOST_DIGITS};
 use shadowstep_scenes::library::{NamedScheme, scheme};
+use shadowstep_scenes::object::Object;
 use shadowstep_scenes::{Error, shell_word};
 use shadowstep_stability::{CaseEntry, Suite, entries, examine, files, names};
 use shadowstep_studies::finding::Finding;
@@ -72,24 +71,15 @@ pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
     let out = arguments.out.as_deref();
     let study = |folder: &Path, terminal: &mut Terminal| examine(&suite, &cases, folder, terminal);
     let (findings, status) = study_in(out, arguments.force, files::written(), study)?;
-    let mut output = Output::stdout();
-    for (case, finding) in &findings {
-        match arguments.json {
-            true => records(*case, finding).try_for_each(|record| output.json(&record))?,
-            false => write!(output, "{}", readable(*case, finding))?,
-        }
-    }
+    let records = findings.iter().flat_map(|(case, finding)| records(*case, finding));
+    let text = || findings.iter().map(|(case, finding)| readable(*case, finding)).collect();
+    Output::stdout().records_or_text(arguments.json, records, text)?;
     let counts = files::counts(&findings);
-    if let Some(folder) = out {
-        let report = files::write(findings, &command(arguments), folder)?;
-        if !arguments.json {
-            writeln!(output, "{}", report.display())?;
-        }
-    }
+    let report = out.map(|folder| files::write(findings, &command(arguments), folder)).transpose()?;
     if !arguments.json {
-        writeln!(output, "{counts}")?;
+        let report = report.map_or_else(String::new, |report| format!("{}\n", report.display()));
+        Output::stdout().text(format_args!("{report}{counts}\n"))?;
     }
-    output.finish()?;
     Ok(if counts.differ > 0 { status.max(Status::NegativeAnswer) } else { status })
 }
 
@@ -127,20 +117,11 @@ fn command(arguments: &Arguments) -> String {
 }
 
 /// A row as an object.
-#[derive(Serialize)]
-struct Record<'a> {
-    case: &'a str,
-    subject: &'a str,
-    found: &'a str,
-    verdict: &'a str,
-}
-
-fn records(case: CaseEntry, finding: &Finding) -> impl Iterator<Item = Record<'_>> {
-    finding.statements.iter().map(move |row| Record {
-        case: case.name(),
-        subject: &row.statement,
-        found: &row.found,
-        verdict: row.verdict.word(),
+fn records(case: CaseEntry, finding: &Finding) -> impl Iterator<Item = Object> {
+    finding.statements.iter().map(move |row| {
+        let (subject, found) = (row.statement.as_str(), row.found.as_str());
+        let facts = [("case", case.name()), ("subject", subject), ("found", found), ("verdict", row.verdict.word())];
+        Object(facts.map(|(key, text)| (key, text.into())).into())
     })
 }
 

@@ -113,15 +113,16 @@ fn by_formula(arguments: &SystemArguments, formula: &str, arithmetic: Arithmetic
 /// The lines of [problem] and [initial], each with its flag.
 fn lines_of(arguments: &SystemArguments, formula: &str) -> Result<Vec<(String, String)>, Error> {
     let positions = arguments.q.iter().map(|text| named("--q", text, "x=0.4,y=0")).collect::<Result<Vec<_>, _>>()?;
+    let (names, q): (Vec<_>, Vec<_>) = positions.into_iter().unzip();
     let momenta = if arguments.p.iter().all(|text| text.contains('=')) {
         arguments.p.iter().map(|text| named("--p", text, "px=0,py=2")).collect::<Result<Vec<_>, _>>()?
     } else {
         Vec::new()
     };
-    let p = if momenta.is_empty() { arguments.p.clone() } else { in_order(&momenta, &positions)? };
-    if p.len() != positions.len() {
+    let p = if momenta.is_empty() { arguments.p.clone() } else { in_order(&momenta, &names)? };
+    if p.len() != q.len() {
         let values = |count: usize| if count == 1 { "1 value".to_owned() } else { format!("{count} values") };
-        let message = format!("--q has {} and --p has {}", values(positions.len()), values(p.len()));
+        let message = format!("--q has {} and --p has {}", values(q.len()), values(p.len()));
         return Err(Error::usage(message, "give one momentum for each coordinate"));
     }
     let set = arguments.set.iter().map(|text| assignment(text)).collect::<Result<Vec<_>, _>>()?;
@@ -131,12 +132,12 @@ fn lines_of(arguments: &SystemArguments, formula: &str) -> Result<Vec<(String, S
     let mut lines = vec![
         (potential.as_str(), "[problem]".to_owned()),
         (&potential, format!("potential = {}", quoted(formula))),
-        ("--q", format!("coordinates = {}", list(&names(&positions)))),
+        ("--q", format!("coordinates = {}", list(&names))),
         ("--set", format!("parameters = {{ {} }}", parameters.join(", "))),
     ];
     lines.extend((!masses.is_empty()).then(|| ("--masses", format!("masses = {}", list(masses)))));
     lines.push((&potential, "[initial]".to_owned()));
-    lines.push(("--q", format!("q = {}", list(&values(&positions)))));
+    lines.push(("--q", format!("q = {}", list(&q))));
     lines.push(("--p", format!("p = {}", list(&p))));
     Ok(lines.into_iter().map(|(flag, line)| (flag.to_owned(), line)).collect())
 }
@@ -149,8 +150,8 @@ fn named(flag: &str, text: &str, example: &str) -> Result<(String, String), Erro
 }
 
 /// The momenta in the order of the coordinates, whatever order they are given in.
-fn in_order(momenta: &[(String, String)], positions: &[(String, String)]) -> Result<Vec<String>, Error> {
-    let wanted: Vec<String> = names(positions).iter().map(|name| format!("p{name}")).collect();
+fn in_order(momenta: &[(String, String)], coordinates: &[String]) -> Result<Vec<String>, Error> {
+    let wanted: Vec<String> = coordinates.iter().map(|name| format!("p{name}")).collect();
     let value = |name: &String| momenta.iter().find(|(own, _)| own == name).map(|(_, value)| value.clone());
     let all: Vec<String> = wanted.iter().map_while(value).collect();
     if all.len() == wanted.len() && momenta.len() == wanted.len() {
@@ -162,14 +163,6 @@ fn in_order(momenta: &[(String, String)], positions: &[(String, String)]) -> Res
     };
     let example: Vec<_> = wanted.iter().map(|name| format!("{name}=…")).collect();
     Err(Error::usage(fault, format!("write --p {}", example.join(","))))
-}
-
-fn names(pairs: &[(String, String)]) -> Vec<String> {
-    pairs.iter().map(|(name, _)| name.clone()).collect()
-}
-
-fn values(pairs: &[(String, String)]) -> Vec<String> {
-    pairs.iter().map(|(_, value)| value.clone()).collect()
 }
 
 fn list(texts: &[String]) -> String {

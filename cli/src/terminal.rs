@@ -1,23 +1,20 @@
 //! Studies on a terminal: how far their calculations are, notes and failures, Ctrl-C; the folder of what is saved.
 
-use std::fmt::Write;
 use std::path::{Path, PathBuf};
-use std::sync::{Arc, Mutex, PoisonError};
-use std::time::Duration;
 
-use indicatif::{HumanDuration, ProgressBar, ProgressState, ProgressStyle};
 use shadowstep_scenes::Temporary;
 use shadowstep_studies::files::refuse_foreign;
 use shadowstep_studies::{Error, Observer, Progress};
 use tempfile::TempDir;
 
 use crate::interrupt::Interrupt;
+use crate::progress;
 use crate::report::{self, Status};
 
 /// Shows on stderr what happens, and ends on Ctrl-C.
 pub(crate) struct Terminal {
     /// While there are calculations.
-    bar: Option<Bar>,
+    bar: Option<progress::Progress>,
     /// The worst that has happened.
     pub(crate) status: Status,
     interrupt: Interrupt,
@@ -76,9 +73,9 @@ impl Terminal {
 }
 
 impl Observer for Terminal {
-    fn progress(&mut self, progress: Progress) {
-        self.bar.get_or_insert_with(Bar::new).show(progress);
-        if progress.done == progress.all {
+    fn progress(&mut self, Progress { done, all, fraction }: Progress) {
+        self.bar.get_or_insert_with(progress::Progress::of_study).show(done, all, fraction);
+        if done == all {
             self.bar = None;
         }
     }
@@ -98,75 +95,5 @@ impl Observer for Terminal {
     fn failed(&mut self, error: &Error) {
         self.bar = None;
         self.status = self.status.max(report::error(error));
-    }
-}
-
-/// A bar on stderr, if that is a terminal; its length is the cost of all calculations, not their number.
-struct Bar {
-    bar: ProgressBar,
-    /// The time that all calculations take together, as estimated from what is done.
-    expected: Arc<Mutex<Option<Duration>>>,
-}
-
-impl Bar {
-    /// The positions of the bar.
-    const LENGTH: f64 = 10_000.0;
-
-    fn new() -> Bar {
-        let bar = ProgressBar::new(Self::LENGTH as u64);
-        let expected = Arc::new(Mutex::new(None));
-        let seen = Arc::clone(&expected);
-        let left = move |state: &ProgressState, writer: &mut dyn Write| {
-            let expected: Option<Duration> = *seen.lock().unwrap_or_else(PoisonError::into_inner);
-            let _ = match expected {
-                Some(all) => write!(writer, "{} left", HumanDuration(all.saturating_sub(state.elapsed()))),
-                None => Ok(()),
-            };
-        };
-        let style = ProgressStyle::with_template("{prefix}  {wide_bar}  {left}");
-        bar.set_style(style.expect("the template is well formed").with_key("left", left));
-        if !bar.is_hidden() {
-            bar.enable_steady_tick(Duration::from_secs(1));
-        }
-        Bar { bar, expected }
-    }
-
-    fn show(&self, Progress { done, all, fraction }: Progress) {
-        *self.expected.lock().unwrap_or_else(PoisonError::into_inner) = in_all(self.bar.elapsed(), fraction);
-        self.bar.set_prefix(format!("{done} of {all} calculations"));
-        self.bar.set_position((fraction * Self::LENGTH) as u64);
-    }
-}
-
-/// The time of all calculations if a fraction of their cost took `elapsed`; `None` while that cannot be estimated: the
-/// first calculations may be cheaper or more expensive than those that follow.
-fn in_all(elapsed: Duration, fraction: f64) -> Option<Duration> {
-    if elapsed < Duration::from_secs(3) || fraction < 0.05 {
-        return None;
-    }
-    Duration::try_from_secs_f64(elapsed.as_secs_f64() / fraction).ok()
-}
-
-impl Drop for Bar {
-    fn drop(&mut self) {
-        self.bar.finish_and_clear();
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// Nine tenths of the cost are done, however many calculations that is: a ninth of the time is left.
-    #[test]
-    fn time_is_estimated_from_costs() {
-        assert_eq!(in_all(Duration::from_secs(90), 0.9), Some(Duration::from_secs(100)));
-        assert_eq!(in_all(Duration::from_secs(90), 0.0), None);
-    }
-
-    #[test]
-    fn no_time_is_estimated_at_the_start() {
-        assert_eq!(in_all(Duration::from_secs(2), 0.5), None);
-        assert_eq!(in_all(Duration::from_secs(90), 0.01), None);
     }
 }

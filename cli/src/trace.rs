@@ -93,7 +93,7 @@ pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
     let mut write = writer(&selection, arguments.writes_csv(), arguments.states, &mut output)?;
     let mut summaries = Vec::new();
     for (number, (propagator, run)) in (1..).zip(selection.runs()) {
-        let progress = Progress::new(bar, selection.numbered(number, run), selection.expected_steps(run));
+        let progress = Progress::of_run(bar, selection.numbered(number, run), selection.expected_steps(run));
         let (selection, interrupt, write) = (&selection, &interrupt, &mut write);
         let plots = plots.as_mut().map(|(plots, _)| plots);
         let following = TraceRun { selection, propagator, run, several, arguments, progress, interrupt, write, plots };
@@ -137,7 +137,7 @@ impl Computation for TraceRun<'_, '_> {
     type Output = Result<Option<Summary>, Error>;
 
     fn compute<N: FollowedNumber>(self, context: &N::Context) -> Self::Output {
-        let TraceRun { selection, propagator, run, several, arguments, progress, interrupt, write, plots } = self;
+        let TraceRun { selection, propagator, run, several, arguments, mut progress, interrupt, write, plots } = self;
         let Selection { arithmetic, estimator, problem, until, .. } = selection;
         let (settings, system) = (estimator.clone().with_errors(true), &problem.system);
         let (arithmetic, summarised) = (*arithmetic, !arguments.run.no_summary);

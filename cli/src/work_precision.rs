@@ -3,7 +3,6 @@
 
 mod table;
 
-use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
@@ -19,7 +18,6 @@ use shadowstep_work_precision::schemes::Group;
 use shadowstep_work_precision::series::StepRange;
 use shadowstep_work_precision::study::Request;
 
-use crate::colour::on_stdout;
 use crate::headings::{OUTPUT, SCHEMES};
 use crate::invocation;
 use crate::output::Output;
@@ -109,10 +107,7 @@ pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
     let (title, command) = (posed.title(), invocation::command());
     let title = Title { title: &title, hamiltonian: &posed.described.hamiltonian, command: &command };
     let report = write(&study, title, &arguments.out)?;
-    let mut output = Output::stdout();
-    write!(output, "{}", readable(&posed, &study, on_stdout()))?;
-    writeln!(output, "{}", report.display())?;
-    output.finish()?;
+    Output::stdout().text(format_args!("{}{}\n", readable(&posed, &study), report.display()))?;
     Ok(status)
 }
 

@@ -1,10 +1,9 @@
 //! Schemes with what is proved of them.
 
 use pyo3::prelude::*;
-use shadowstep::Scheme;
 use shadowstep::tables::Source;
 use shadowstep_scenes::library::{self, NamedScheme};
-use shadowstep_scenes::scheme_record::SchemeRecord;
+use shadowstep_scenes::scheme_record::SchemeFacts;
 
 use crate::errors::of_library;
 use crate::waiting::waiting;
@@ -47,25 +46,17 @@ impl Table {
     /// Everything that is known of it, as JSON.
     fn record(&self, py: Python<'_>) -> PyResult<String> {
         let scheme = self.0.quadratic();
-        let json = waiting(py, None, move |_| {
-            let analysis = shadowstep_analysis::Analysis::of(scheme.proved());
-            serde_json::to_string(&SchemeRecord::of(&scheme, &analysis))
-        });
+        let json = waiting(py, None, move |_| serde_json::to_string(&SchemeFacts::of(scheme.proved()).record()));
         json?.map_err(|error| pyo3::exceptions::PyRuntimeError::new_err(error.to_string()))
     }
 
     /// What can be said without an analysis: (name, order for every T(p) or None, order for quadratic T, evaluations a
     /// step); of a processed scheme the effective orders.
     fn facts(&self) -> (&str, Option<u32>, u32, usize) {
-        let (summary, proved) = (self.0.scheme.summary(), self.0.scheme.proved());
-        let general = proved.order_for_every_kinetic().map(|order| order.order);
-        match &proved.proof.effective {
-            Some(effective) => {
-                let general = general.map(|_| effective.general.order);
-                (summary.name, general, effective.quadratic.order, summary.evaluations)
-            }
-            None => (summary.name, general, summary.order_quadratic, summary.evaluations),
-        }
+        let proved = self.0.scheme.proved();
+        let orders = proved.orders();
+        let general = orders.general.map(|order| order.order);
+        (&proved.scheme.table.name.value, general, orders.quadratic.order, proved.plan.evaluations)
     }
 
     /// The text of the table.

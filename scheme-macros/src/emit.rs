@@ -4,10 +4,8 @@ use std::path::{Path, PathBuf};
 
 use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote};
-use shadowstep_schemes::claims::HIGHEST_ORDER;
 use shadowstep_schemes::document::Fault;
-use shadowstep_schemes::proof::Order;
-use shadowstep_schemes::{Kinetic, Map, MapKind, Proved, StepPlan, to_text};
+use shadowstep_schemes::{Kinetic, Map, MapKind, Proved, StepPlan, counted, to_text};
 use shadowstep_symbolic::Rational;
 use syn::{DeriveInput, Ident, LitStr};
 
@@ -263,14 +261,9 @@ impl Maps {
 fn documentation(proved: &Proved) -> Vec<String> {
     let (table, plan) = (&proved.scheme.table, &proved.plan);
     let title = table.title.as_deref().unwrap_or("A splitting scheme");
-    let cost = plan.cost();
-    let kept = if plan.keeps_gradient() { " (the gradient of the last kick serves the next step)" } else { "" };
-    let [gradient_kicks, products_of_hessian] = match plan.count(MapKind::GradientKick) {
-        0 => [String::new(), String::new()],
-        count => [
-            format!(", {}", counted(count, "gradient kick")),
-            format!(" and {}", counted(plan.hessian_products, "Hessian–vector product")),
-        ],
+    let gradient_kicks = match plan.count(MapKind::GradientKick) {
+        0 => String::new(),
+        count => format!(", {}", counted(count, "gradient kick")),
     };
     let meant_for = match (&proved.proof.many_parts, table.kinetic) {
         (Some(_), _) if proved.scheme.inner.is_some() => "H of slow forces, fast forces and T",
@@ -278,14 +271,37 @@ fn documentation(proved: &Proved) -> Vec<String> {
         (None, Kinetic::Any) => "every kinetic energy T(p)",
         (None, Kinetic::Quadratic) => "quadratic kinetic energy",
     };
+    let maps = format!(
+        " - {}: {}{gradient_kicks} and {}, {}.",
+        counted(proved.scheme.stages.kick.len(), "stage"),
+        counted(plan.count(MapKind::Kick), "kick"),
+        counted(plan.count(MapKind::Drift), "drift"),
+        if proved.proof.symmetric { "symmetric" } else { "not symmetric" }
+    );
     let doi = table.doi.as_ref().map_or(String::new(), |doi| format!(", <https://doi.org/{doi}>"));
-    let costs = match (plan.middle.len(), &proved.scheme.inner) {
+    let meant = format!(" {title}: `{}`, meant for {meant_for}.", table.name.value);
+    let mut lines = vec![String::new(), meant, String::new(), proved_orders(proved), maps, costs(proved)];
+    lines.extend(processed(proved));
+    lines.push(format!(" - Reference: {}{doi}.", table.reference.as_deref().unwrap_or("none")));
+    lines.extend(proved.notes.iter().map(note));
+    lines
+}
+
+/// What a step costs.
+fn costs(proved: &Proved) -> String {
+    let (plan, cost) = (&proved.plan, proved.plan.cost());
+    let kept = if plan.keeps_gradient() { " (the gradient of the last kick serves the next step)" } else { "" };
+    let products_of_hessian = match plan.hessian_products {
+        0 => String::new(),
+        count => format!(" and {}", counted(count, "Hessian–vector product")),
+    };
+    match (plan.middle.len(), &proved.scheme.inner) {
         (1.., Some(inner)) => format!(
             " - Multiple time steps: a step evaluates the slow forces H_1 {} and the fast ones H_2 {}, in {} of `{}` \
                 for each drift of the outer scheme.",
             times(plan.evaluations),
             times(plan.count(MapKind::Drift)),
-            counted(inner.substeps as usize, "step"),
+            counted(inner.substeps, "step"),
             inner.scheme.table.name.value
         ),
         (0, _) => format!(
@@ -300,35 +316,20 @@ fn documentation(proved: &Proved) -> Vec<String> {
                 both orders by turns.",
             times(between)
         ),
-    };
-    let mut lines = vec![
-        String::new(),
-        format!(" {title}: `{}`, meant for {meant_for}.", table.name.value),
-        String::new(),
-        proved_orders(proved),
-        format!(
-            " - {}: {}{gradient_kicks} and {}, {}.",
-            counted(proved.scheme.stages.kick.len(), "stage"),
-            counted(plan.count(MapKind::Kick), "kick"),
-            counted(plan.count(MapKind::Drift), "drift"),
-            if proved.proof.symmetric { "symmetric" } else { "not symmetric" }
-        ),
-        costs,
-        format!(" - Reference: {}{doi}.", table.reference.as_deref().unwrap_or("none")),
-    ];
-    if let (Some(processor), Some(effective)) = (&proved.scheme.processor, &proved.proof.effective) {
-        let processed = format!(
-            " - Processed: these are the orders of its kernel. With its processor the effective order is {} for every \
-             T(p), {} for quadratic T{}: proved. An output costs {}.",
-            order(&effective.general),
-            order(&effective.quadratic),
-            near_integrable(&effective.near_integrable),
-            counted(processor.evaluations(), "gradient")
-        );
-        lines.insert(lines.len() - 1, processed);
     }
-    lines.extend(proved.notes.iter().map(note));
-    lines
+}
+
+/// What is proved of a processed scheme.
+fn processed(proved: &Proved) -> Option<String> {
+    let (processor, effective) = (proved.scheme.processor.as_ref()?, proved.proof.effective.as_ref()?);
+    Some(format!(
+        " - Processed: these are the orders of its kernel. With its processor the effective order is {} for every \
+         T(p), {} for quadratic T{}: proved. An output costs {}.",
+        effective.general,
+        effective.quadratic,
+        proved.orders().and_in_epsilon(),
+        counted(processor.evaluations(), "gradient")
+    ))
 }
 
 /// A note on the table, as text of Markdown: a macro cannot warn.
@@ -347,22 +348,17 @@ fn note(note: &Fault) -> String {
     format!(" - Note: `{file}`, line {}: {escaped}.", note.line)
 }
 
-fn near_integrable(orders: &[Order]) -> String {
-    let orders: Vec<_> = orders.iter().map(|order| order.order.to_string()).collect();
-    if orders.is_empty() { String::new() } else { format!(", ({}) for A + εB", orders.join(",")) }
-}
-
 fn proved_orders(proved: &Proved) -> String {
     if let Some(many_parts) = &proved.proof.many_parts {
         let more = if proved.scheme.inner.is_some() { "" } else { " and more" };
-        return format!(" - Order {} for H of three parts{more}: proved.", order(many_parts));
+        return format!(" - Order {many_parts} for H of three parts{more}: proved.");
     }
-    let quadratic = order(&proved.proof.quadratic);
+    let quadratic = &proved.proof.quadratic;
     match proved.order_for_every_kinetic() {
         Some(every) => {
             let refused =
                 if proved.holds_for_every_kinetic() { "" } else { " A T(p) that is not quadratic is refused." };
-            format!(" - Order {} for every T(p), order {quadratic} for quadratic T: proved.{refused}", order(every))
+            format!(" - Order {every} for every T(p), order {quadratic} for quadratic T: proved.{refused}")
         }
         None => format!(" - Order {quadratic} for quadratic T: proved. A T(p) that is not quadratic is refused."),
     }
@@ -370,18 +366,6 @@ fn proved_orders(proved: &Proved) -> String {
 
 fn times(count: usize) -> String {
     if count == 1 { "once".to_owned() } else { format!("{count} times") }
-}
-
-fn counted(count: usize, noun: &str) -> String {
-    format!("{count} {noun}{}", if count == 1 { "" } else { "s" })
-}
-
-fn order(order: &Order) -> String {
-    let least = if order.failed.is_none() && order.order == HIGHEST_ORDER { " or more" } else { "" };
-    match order.digits {
-        None => format!("{}{least} (exactly)", order.order),
-        Some(digits) => format!("{}{least} (to {digits} digits)", order.order),
-    }
 }
 
 #[cfg(test)]

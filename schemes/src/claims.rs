@@ -1,5 +1,7 @@
 //! What a table may claim of its scheme.
 
+use std::fmt::{self, Display, Formatter};
+
 use crate::document::Placed;
 use crate::map_kind::MapKind;
 
@@ -20,6 +22,12 @@ pub enum Kinetic {
     Any,
     /// T = ½ pᵀM⁻¹p only (Runge–Kutta–Nyström schemes).
     Quadratic,
+}
+
+impl Display for Kinetic {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        f.write_str(if *self == Kinetic::Any { "every T(p)" } else { "quadratic T" })
+    }
 }
 
 /// The orders claimed for H = A + εB.

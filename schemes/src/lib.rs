@@ -14,6 +14,7 @@
 //! | [`proof`] | conditions → what is true of the scheme → the claims that differ from it |
 //! | [`many_parts`], [`part_words`] | scheme for two parts → steps for three and more, and their order conditions |
 //! | [`inner`] | outer and inner scheme → a step of slow forces, fast forces and T |
+//! | `facts` | what is proved → orders, and how they are said |
 //! | `wording` | such a claim → a sentence with its place |
 //! | [`plan`] | scheme → the plan of a step: maps, shared constants, cost |
 //! | `pipeline` | the text of a table → [`Proved`]: scheme, proof and plan, or all faults |
@@ -43,6 +44,8 @@ mod digits;
 pub mod document;
 #[cfg(feature = "tables")]
 pub mod exact;
+#[cfg(feature = "tables")]
+mod facts;
 #[cfg(feature = "tables")]
 pub mod inner;
 #[cfg(feature = "tables")]
@@ -91,6 +94,8 @@ pub use claims::Kinetic;
 pub use digits::digits_of;
 #[cfg(feature = "tables")]
 pub use document::{Fault, Faults, Source};
+#[cfg(feature = "tables")]
+pub use facts::{Orders, counted, held};
 #[cfg(feature = "tables")]
 pub use many_parts::NotForManyParts;
 #[cfg(feature = "tables")]

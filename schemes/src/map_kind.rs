@@ -45,6 +45,13 @@ impl MapKind {
     }
 }
 
+/// As tables write it.
+impl fmt::Display for First {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(if *self == First::Kick { "kick" } else { "drift" })
+    }
+}
+
 impl fmt::Display for MapKind {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {

@@ -16,6 +16,14 @@ pub enum Held {
 }
 
 impl Held {
+    /// How many digits are right; `None` for all.
+    pub fn digits(self) -> Option<u32> {
+        match self {
+            Held::Exactly => None,
+            Held::Digits(digits) => Some(digits),
+        }
+    }
+
     /// The fewer digits of both.
     pub fn weaker(self, other: Held) -> Held {
         match (self, other) {

@@ -59,8 +59,7 @@ pub(crate) fn worded(finding: &Finding<'_>, scheme: &ExactScheme, proof: &Proof)
 impl fmt::Display for Family {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Family::Kinetic(Kinetic::Any) => f.write_str("for every T(p)"),
-            Family::Kinetic(Kinetic::Quadratic) => f.write_str("for quadratic T"),
+            Family::Kinetic(kinetic) => write!(f, "for {kinetic}"),
             Family::Power(power) => write!(f, "for the terms of {power}"),
         }
     }

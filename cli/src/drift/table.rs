@@ -4,7 +4,7 @@ use num_traits::Zero;
 use shadowstep::shadow::run::Finding;
 use shadowstep_scenes::Summary;
 use shadowstep_scenes::drift::{NOT_SEEN, Permanent, Record};
-use shadowstep_scenes::readable::{shortened, wrapped_to};
+use shadowstep_scenes::readable::{shortened, wrapped};
 use shadowstep_scenes::run::Run;
 use shadowstep_symbolic::decimal::{from_text, significant};
 
@@ -91,14 +91,11 @@ fn marks(rows: &[Row], left_out: Option<&String>) -> String {
         (NOT_RELIABLE, PERMANENT, "not reliable: no error estimate at this order"),
     ];
     let used = meanings.iter().filter(|(mark, column, _)| rows.iter().any(|row| row[*column].contains(mark)));
-    used.map(|(.., meaning)| wrapped_to(meaning, "", WIDTH)).collect()
+    used.map(|(.., meaning)| wrapped(meaning, "")).collect()
 }
 
 /// The most parameters and initial values that the table shows.
 const MOST_VALUES: usize = 16;
-
-/// The width of a terminal.
-const WIDTH: usize = 80;
 
 /// The table and the verdicts, with colours if that is wanted.
 pub(super) fn readable(selection: &Selection, records: &[(Run<'_>, Record)], coloured: bool) -> String {
@@ -136,7 +133,7 @@ fn head(selection: &Selection) -> String {
             selection.estimator
         ),
     ]
-    .map(|line| wrapped_to(&line, "", WIDTH))
+    .map(|line| wrapped(&line, ""))
     .concat()
 }
 
@@ -165,8 +162,7 @@ fn in_groups(table: &str, records: &[(Run<'_>, Record)], coloured: bool) -> Stri
                 Some(forces) => format!(", {forces} forces a step"),
                 None => String::new(),
             };
-            let name = if coloured { heading(run.propagator) } else { run.propagator.to_owned() };
-            text += &format!(" {name}{cost}\n");
+            text += &format!(" {}{cost}\n", heading(run.propagator, coloured));
             last = run.propagator;
         }
         text += &format!("{line}\n");
@@ -188,7 +184,7 @@ fn verdicts(records: &[(Run<'_>, Record)], coloured: bool) -> String {
             _ => format!("; close encounters: {}", summary.encounters_text(1)),
         };
         // lines after the first are indented
-        let text = wrapped_to(&format!("{}: {verdict}{encounters}", run.name()), "    ", WIDTH);
+        let text = wrapped(&format!("{}: {verdict}{encounters}", run.name()), "    ");
         let text = if coloured {
             let verdict = styled(summary.verdict(), of_verdict(summary.is_bounded()));
             text.replacen(summary.verdict(), &verdict, 1)

@@ -5,16 +5,12 @@ use std::io::Write;
 use clap::Args;
 use shadowstep::tables::{self, Proved};
 use shadowstep_analysis::Likeness;
-use shadowstep_schemes::Kinetic;
 
 use crate::output::Output;
 use crate::report::{self, Status};
-use crate::schemes::facts::near_integrable_text;
 use crate::schemes::from;
 use shadowstep_scenes::Error;
 use shadowstep_scenes::library::{self, NamedScheme};
-use shadowstep_scenes::readable::digits as in_digits;
-use shadowstep_scenes::scheme_record::{effective_near_integrable, near_integrable};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -73,26 +69,16 @@ pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
 
 fn verdict(path: &str, proved: &Proved) -> String {
     let order = proved.order();
-    let class = match proved.scheme.table.kinetic {
-        _ if proved.scheme.inner.is_some() => "slow forces, fast forces and T",
-        Kinetic::Any => "every T(p)",
-        Kinetic::Quadratic => "quadratic T",
+    let class = match proved.scheme.inner {
+        Some(_) => "slow forces, fast forces and T".to_owned(),
+        None => proved.scheme.table.kinetic.to_string(),
     };
-    let digits = order.digits.map_or_else(|| "exactly".to_owned(), |digits| format!("to {}", in_digits(digits)));
     let symmetric = if proved.proof.symmetric { ", symmetric" } else { "" };
-    let near = match near_integrable_text(&near_integrable(&proved.proof)) {
-        orders if orders.is_empty() => orders,
-        orders => format!(", {orders} for A + εB"),
-    };
     let refused = if proved.has_its_digits { "" } else { "; its printed digits are not all those of such a scheme" };
     let effective = proved.proof.effective.as_ref().map_or(String::new(), |effective| {
         let order = effective.for_kinetic(proved.scheme.table.kinetic);
-        let near = match near_integrable_text(&effective_near_integrable(&proved.proof)) {
-            orders if orders.is_empty() => orders,
-            orders => format!(", {orders} for A + εB"),
-        };
-        let digits = order.digits.map_or_else(|| "exactly".to_owned(), |digits| format!("to {}", in_digits(digits)));
-        format!("effective order {} for {class}{near}, {digits}; of the kernel ", order.order)
+        let near = proved.orders().and_in_epsilon();
+        format!("effective order {} for {class}{near}, {}; of the kernel ", order.order, order.held())
     });
     // with an inner scheme, the maps are those of the outer one
     let likeness = Likeness::of(&proved.scheme.maps())
@@ -102,8 +88,10 @@ fn verdict(path: &str, proved: &Proved) -> String {
         |known: &Likeness| if known.exchanged && proved.proof.symmetric { ", with the other map first" } else { "" };
     let known = likeness.map_or_else(String::new, |known| format!("; is {}{}", known.text(), other(&known)));
     let mut text = format!(
-        "{path}: proved: {effective}order {} for {class}{near}, {digits}{symmetric}{refused}{known}\n",
-        order.order
+        "{path}: proved: {effective}order {} for {class}{}, {}{symmetric}{refused}{known}\n",
+        order.order,
+        proved.orders_of_steps().and_in_epsilon(),
+        order.held()
     );
     for note in &proved.notes {
         text += &format!("note: {note}\n");

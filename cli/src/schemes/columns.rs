@@ -1,49 +1,51 @@
 //! The columns of the list: by default what a person chooses by, within 80 characters; all others with `--wide`.
 
+use std::fmt::Display;
+
 use shadowstep_schemes::Kinetic;
 use shadowstep_symbolic::decimal::significant;
 
 use crate::readable::{rounded, table};
-use crate::schemes::facts::{digits_text, near_integrable_text};
-use crate::schemes::record::Record;
+use crate::schemes::record::{Listed, effective_error};
 
 /// A column: its header, whether it is one of numbers, and what it shows of a scheme.
 pub(super) struct Column {
     header: &'static str,
     is_number: bool,
-    cell: fn(&Record) -> String,
+    cell: fn(&Listed<'_>) -> String,
 }
 
-const fn number(header: &'static str, cell: fn(&Record) -> String) -> Column {
+const fn number(header: &'static str, cell: fn(&Listed<'_>) -> String) -> Column {
     Column { header, is_number: true, cell }
 }
 
-const fn text(header: &'static str, cell: fn(&Record) -> String) -> Column {
+const fn text(header: &'static str, cell: fn(&Listed<'_>) -> String) -> Column {
     Column { header, is_number: false, cell }
 }
 
-const FORCES: Column = number("forces\na step", |record| match record.hessian_products {
-    0 => record.evaluations.to_string(),
-    products => format!("{}+{products}", record.evaluations),
+const FORCES: Column = number("forces\na step", |scheme| {
+    let plan = &scheme.facts.proved.plan;
+    match plan.hessian_products {
+        0 => plan.evaluations.to_string(),
+        products => format!("{}+{products}", plan.evaluations),
+    }
 });
-const ERROR: Column =
-    number("eff.\nerror", |record| record.orders.effective_error.map_or_else(none, |error| significant(error, 4)));
-const ERROR_QUADRATIC: Column = number("eff.\nerror", |record| significant(record.orders.effective_error_quadratic, 4));
-const PER_FORCE: Column = number("stable\na force", |record| {
-    record.stability_limit_per_force.map_or_else(|| "–".to_owned(), |limit| significant(limit, 4))
-});
-const SYMMETRIC: Column = text("sym-\nmetric", |record| if record.symmetric { "yes" } else { "no" }.to_owned());
-const ORDER: Column = number("order", |record| record.orders.order.map_or_else(none, |order| order.to_string()));
-const NAME: Column = text("name", |record| record.name.clone());
+const ERROR: Column = number("eff.\nerror", |scheme| four_digits(effective_error(&scheme.facts.accuracy())));
+const ERROR_QUADRATIC: Column =
+    number("eff.\nerror", |scheme| four_digits(Some(scheme.facts.accuracy().effective_error(Kinetic::Quadratic))));
+const PER_FORCE: Column = number("stable\na force", |scheme| four_digits(scheme.facts.limit_per_force()));
+const SYMMETRIC: Column = text("sym-\nmetric", |scheme| yes_or_no(scheme.facts.proved.proof.symmetric).to_owned());
+const ORDER: Column = number("order", |scheme| or_none(scheme.facts.proved.orders().general.map(|order| order.order)));
+const ORDER_QUADRATIC: Column = number("order", |scheme| scheme.facts.proved.orders().quadratic.order.to_string());
+const NAME: Column = text("name", |scheme| scheme.name.to_owned());
 
 /// What a person chooses by, for the kinetic energy that was requested.
 pub(super) fn to_choose_by(kinetic: Option<Kinetic>) -> Vec<Column> {
-    let order = match kinetic {
-        None => number("order", both_orders),
-        Some(Kinetic::Any) => ORDER,
-        Some(Kinetic::Quadratic) => number("order", |record| record.orders.order_quadratic.to_string()),
+    let (order, error) = match kinetic {
+        None => (number("order", both_orders), ERROR),
+        Some(Kinetic::Any) => (ORDER, ERROR),
+        Some(Kinetic::Quadratic) => (ORDER_QUADRATIC, ERROR_QUADRATIC),
     };
-    let error = if kinetic == Some(Kinetic::Quadratic) { ERROR_QUADRATIC } else { ERROR };
     vec![order, FORCES, error, PER_FORCE, SYMMETRIC, text("for", meant_for), NAME]
 }
 
@@ -51,19 +53,21 @@ pub(super) fn to_choose_by(kinetic: Option<Kinetic>) -> Vec<Column> {
 pub(super) fn all() -> Vec<Column> {
     vec![
         ORDER,
-        number("order\nquadratic", |record| record.orders.order_quadratic.to_string()),
-        number("A + εB", |record| near_integrable_text(&record.orders.near_integrable)),
-        number("stages", |record| record.stages.to_string()),
+        Column { header: "order\nquadratic", ..ORDER_QUADRATIC },
+        number("A + εB", |scheme| scheme.facts.proved.orders().in_epsilon()),
+        number("stages", |scheme| scheme.facts.proved.scheme.stages.kick.len().to_string()),
         FORCES,
-        number("products per\ndimension", |record| record.products_per_dimension.to_string()),
-        number("products\nfor β", |record| record.products_for_beta.to_string()),
+        number("products per\ndimension", |scheme| scheme.facts.proved.plan.cost().products_per_dimension.to_string()),
+        number("products\nfor β", |scheme| scheme.facts.proved.plan.cost().products_for_beta.to_string()),
         ERROR,
         Column { header: "eff. error\nquadratic", ..ERROR_QUADRATIC },
-        number("stable\nto hω", |record| {
-            record.stability_limit.as_ref().map_or_else(|| "–".to_owned(), |limit| rounded(limit, 4))
+        number("stable\nto hω", |scheme| {
+            or_none(scheme.facts.stability.as_ref().map(|found| rounded(&found.limit, 4)))
         }),
         PER_FORCE,
-        number("digits", |record| digits_text(record.digits)),
+        number("digits", |scheme| {
+            scheme.facts.proved.scheme.held.digits().map_or_else(|| "exact".to_owned(), |digits| digits.to_string())
+        }),
         SYMMETRIC,
         text("for", meant_for),
         NAME,
@@ -71,10 +75,10 @@ pub(super) fn all() -> Vec<Column> {
 }
 
 /// The table of these columns.
-pub(super) fn table_of(columns: &[Column], records: &[Record]) -> String {
-    let row = |record: &Record| -> Vec<String> { columns.iter().map(|column| (column.cell)(record)).collect() };
+pub(super) fn table_of(columns: &[Column], schemes: &[Listed<'_>]) -> String {
+    let row = |scheme: &Listed<'_>| columns.iter().map(|column| (column.cell)(scheme)).collect();
     let numbers = columns.iter().take_while(|column| column.is_number).count();
-    table(columns.iter().map(|column| column.header), records.iter().map(row).collect(), 0..numbers)
+    table(columns.iter().map(|column| column.header), schemes.iter().map(row).collect::<Vec<Vec<_>>>(), 0..numbers)
 }
 
 /// What the columns mean.
@@ -97,27 +101,36 @@ pub(super) fn legend(is_wide: bool, kinetic: Option<Kinetic>) -> String {
     format!("{class}; {error}; {stable}; --wide has all columns, `schemes show NAME` everything about one scheme")
 }
 
-fn both_orders(record: &Record) -> String {
-    match (record.orders.order, record.orders.order_quadratic) {
-        (Some(any), quadratic) if any == quadratic => any.to_string(),
-        (Some(any), quadratic) => format!("{any} ({quadratic})"),
-        (None, quadratic) => format!("({quadratic})"),
+fn both_orders(scheme: &Listed<'_>) -> String {
+    let orders = scheme.facts.proved.orders();
+    let quadratic = orders.quadratic.order;
+    match orders.general.map(|general| general.order) {
+        Some(any) if any == quadratic => any.to_string(),
+        Some(any) => format!("{any} ({quadratic})"),
+        None => format!("({quadratic})"),
     }
 }
 
-/// In place of a number that there is not.
-fn none() -> String {
-    "–".to_owned()
+pub(super) fn yes_or_no(is_so: bool) -> &'static str {
+    if is_so { "yes" } else { "no" }
+}
+
+/// A dash in place of what there is not.
+fn or_none(value: Option<impl Display>) -> String {
+    value.map_or_else(|| "–".to_owned(), |value| value.to_string())
+}
+
+fn four_digits(value: Option<f64>) -> String {
+    or_none(value.map(|value| significant(value, 4)))
 }
 
 /// What a scheme is for.
-fn meant_for(record: &Record) -> String {
-    if record.kernel.is_some() {
-        return format!("proc.{}", near_integrable_text(&record.orders.near_integrable));
-    }
-    match &record.orders.near_integrable[..] {
-        [] if record.moves_any => "every T(p)".to_owned(),
-        [] => "quadratic T".to_owned(),
-        orders => format!("A+εB {}", near_integrable_text(orders)),
+fn meant_for(scheme: &Listed<'_>) -> String {
+    let proved = scheme.facts.proved;
+    match proved.orders().in_epsilon() {
+        orders if proved.scheme.processor.is_some() => format!("proc.{orders}"),
+        orders if !orders.is_empty() => format!("A+εB {orders}"),
+        _ if proved.holds_for_every_kinetic() => Kinetic::Any.to_string(),
+        _ => Kinetic::Quadratic.to_string(),
     }
 }

@@ -1,17 +1,4 @@
-//! Facts about schemes, as records and people have them.
-
-/// As people read it.
-pub(super) fn digits_text(digits: Option<u32>) -> String {
-    digits.map_or_else(|| "exact".to_owned(), |digits| digits.to_string())
-}
-
-/// As papers write them: (8,6,4).
-pub(super) fn near_integrable_text(orders: &[u32]) -> String {
-    if orders.is_empty() {
-        return String::new();
-    }
-    format!("({})", orders.iter().map(u32::to_string).collect::<Vec<_>>().join(","))
-}
+//! What the list says of kinds of schemes.
 
 /// What the orders of a near-integrable scheme are worth, and what they need.
 pub(super) const NEAR_INTEGRABLE: &str = "\

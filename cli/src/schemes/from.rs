@@ -3,14 +3,13 @@
 use std::io::{ErrorKind, Write};
 
 use shadowstep_analysis::sources::{Language, Verdict, check};
-use shadowstep_schemes::First;
 use shadowstep_schemes::document::read_text;
+use shadowstep_schemes::held;
 
 use crate::output::Output;
 use crate::readable::wrapped;
 use crate::report::{self, Status};
 use shadowstep_scenes::Error;
-use shadowstep_scenes::readable::digits as in_digits;
 
 /// The most bytes of a source.
 const LARGEST_SOURCE: u64 = 4 << 20;
@@ -71,12 +70,7 @@ fn truth(verdict: &Verdict) -> String {
     if quadratic == 0 {
         return "order 0".to_owned();
     }
-    let digits = verdict.digits.map_or_else(|| "exactly".to_owned(), |digits| format!("to {}", in_digits(digits)));
-    let first = match verdict.first {
-        Some(First::Drift) => " that begins with a drift",
-        Some(First::Kick) => " that begins with a kick",
-        None => "",
-    };
+    let first = verdict.first.map_or_else(String::new, |first| format!(" that begins with a {first}"));
     let order = match quadratic {
         _ if quadratic > general => format!("order {general}, {quadratic} for quadratic T{first}"),
         _ => format!("order {general}"),
@@ -86,5 +80,5 @@ fn truth(verdict: &Verdict) -> String {
         .likeness
         .as_ref()
         .map_or_else(|| "not a shipped scheme".to_owned(), |known| format!("is {}", known.text()));
-    format!("{order}, {digits}{symmetric}; {known}")
+    format!("{order}, {}{symmetric}; {known}", held(verdict.digits))
 }

@@ -1,20 +1,19 @@
 //! `shadowstep schemes`: the shipped schemes and custom tables, a line each.
 
-use std::io::Write;
-
+use clap::builder::TypedValueParser;
 use clap::{Args, ValueEnum};
 use rayon::prelude::*;
-use shadowstep::tables::{TableScheme, shipped, shipped_names};
-use shadowstep_schemes::Kinetic;
 use shadowstep_schemes::claims::HIGHEST_ORDER;
+use shadowstep_schemes::{Kinetic, Proved, shipped_names, shipped_proved};
 
 use crate::output::Output;
 use crate::quantity::whole;
-use crate::readable::wrapped_to;
+use crate::readable::wrapped;
 use crate::report::{self, Status};
+use crate::run_arguments::words;
 use crate::schemes::columns;
 use crate::schemes::facts::{NEAR_INTEGRABLE, nested_text};
-use crate::schemes::record::Record;
+use crate::schemes::record::{Listed, effective_error};
 use shadowstep_scenes::Error;
 use shadowstep_scenes::library::{self, NamedScheme};
 use shadowstep_symbolic::nearest;
@@ -34,8 +33,8 @@ pub(crate) struct Arguments {
     /// Only schemes for these kinetic energies
     ///
     /// --order and --sort then use the orders and effective errors for them.
-    #[arg(long = "for", value_name = "KINETIC")]
-    kinetic: Option<KineticChoice>,
+    #[arg(long = "for", value_name = "KINETIC", value_parser = words(&KINETIC, &KINETIC_MEANINGS).map(kinetic))]
+    kinetic: Option<Kinetic>,
     /// What comes first
     #[arg(long, value_name = "KEY", default_value = "order")]
     sort: SortKey,
@@ -47,21 +46,12 @@ pub(crate) struct Arguments {
     json: bool,
 }
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum KineticChoice {
-    /// Every T(p): schemes that need a quadratic one are left out
-    Any,
-    /// T = ½pᵀM⁻¹p: all schemes
-    Quadratic,
-}
+const KINETIC: [&str; 2] = ["any", "quadratic"];
+const KINETIC_MEANINGS: [&str; 2] =
+    ["Every T(p): schemes that need a quadratic one are left out", "T = ½pᵀM⁻¹p: all schemes"];
 
-impl KineticChoice {
-    fn kinetic(self) -> Kinetic {
-        match self {
-            KineticChoice::Any => Kinetic::Any,
-            KineticChoice::Quadratic => Kinetic::Quadratic,
-        }
-    }
+fn kinetic(word: String) -> Kinetic {
+    if word == KINETIC[0] { Kinetic::Any } else { Kinetic::Quadratic }
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -81,38 +71,34 @@ enum SortKey {
 /// The shipped schemes that are asked for, and custom tables among them.
 pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
     let custom = arguments.tables.iter().map(|word| table_of(word)).collect::<Result<Vec<_>, _>>()?;
-    let of_order =
-        |scheme: &TableScheme| arguments.order.is_none_or(|order| Some(order) == order_for(scheme, arguments));
-    let all: Vec<_> = shipped_names().into_par_iter().filter_map(|name| Some((name, shipped(name)?))).collect();
-    let moves = |scheme: &TableScheme| {
-        arguments.kinetic != Some(KineticChoice::Any) || scheme.proved().holds_for_every_kinetic()
+    let all: Vec<_> = shipped_names().into_par_iter().filter_map(|name| Some((name, shipped_proved(name)?))).collect();
+    let is_chosen = |proved: &Proved| {
+        arguments.order.is_none_or(|order| Some(order) == order_for(proved, arguments))
+            && (arguments.kinetic != Some(Kinetic::Any) || proved.holds_for_every_kinetic())
     };
-    let chosen = all.par_iter().filter(|(_, scheme)| of_order(scheme) && moves(scheme));
-    let mut records: Vec<Record> = chosen.map(|(name, scheme)| Record::of(name, scheme, true)).collect();
-    if let (true, Some(order)) = (records.is_empty(), arguments.order) {
+    let chosen = all.par_iter().filter(|(_, proved)| is_chosen(proved));
+    let mut schemes: Vec<_> = chosen.map(|(name, proved)| Listed::of(name, proved, true)).collect();
+    if let (true, Some(order)) = (schemes.is_empty(), arguments.order) {
         note_orders(&all, order, arguments);
     }
-    records.extend(custom.iter().map(|named| Record::of(&named.name, &named.quadratic(), false)));
-    sort(&mut records, arguments);
-    let mut output = Output::stdout();
-    if arguments.json {
-        records.iter().try_for_each(|record| output.json(record))?;
-    } else {
-        let kinetic = arguments.kinetic.map(KineticChoice::kinetic);
-        let columns = if arguments.wide { columns::all() } else { columns::to_choose_by(kinetic) };
-        writeln!(output, "{}", columns::table_of(&columns, &records))?;
-        write!(output, "{}", wrapped_to(&columns::legend(arguments.wide, kinetic), "", 80))?;
-        if records.iter().any(|record| !record.orders.near_integrable.is_empty()) {
-            write!(output, "{}", wrapped_to(NEAR_INTEGRABLE, "", 80))?;
-        }
-        let nested = records.iter().filter(|record| record.is_nested).map(|record| record.name.as_str());
-        match nested.collect::<Vec<_>>() {
-            names if names.is_empty() => {}
-            names => write!(output, "{}", wrapped_to(&nested_text(&names), "", 80))?,
-        }
-    }
-    output.finish()?;
+    schemes.extend(custom.iter().map(|named| Listed::of(&named.name, named.scheme.proved(), false)));
+    sort(&mut schemes, arguments);
+    let records = schemes.iter().map(Listed::record);
+    Output::stdout().records_or_text(arguments.json, records, || readable(&schemes, arguments))?;
     Ok(Status::Success)
+}
+
+/// The table and what it means.
+fn readable(schemes: &[Listed<'_>], arguments: &Arguments) -> String {
+    let columns = if arguments.wide { columns::all() } else { columns::to_choose_by(arguments.kinetic) };
+    let mut legends = vec![columns::legend(arguments.wide, arguments.kinetic)];
+    if schemes.iter().any(|scheme| !scheme.facts.proved.orders().near_integrable.is_empty()) {
+        legends.push(NEAR_INTEGRABLE.to_owned());
+    }
+    let nested: Vec<_> = schemes.iter().filter(|scheme| scheme.is_nested()).map(|scheme| scheme.name).collect();
+    legends.extend((!nested.is_empty()).then(|| nested_text(&nested)));
+    let legends: String = legends.iter().map(|legend| wrapped(legend, "")).collect();
+    format!("{}\n{legends}", columns::table_of(&columns, schemes))
 }
 
 /// A custom table.
@@ -131,8 +117,8 @@ fn table_of(word: &str) -> Result<NamedScheme, Error> {
     Err(Error::usage(message, hint))
 }
 
-fn note_orders(all: &[(&str, TableScheme)], order: u32, arguments: &Arguments) {
-    let mut orders: Vec<u32> = all.iter().filter_map(|(_, scheme)| order_for(scheme, arguments)).collect();
+fn note_orders(all: &[(&str, &Proved)], order: u32, arguments: &Arguments) {
+    let mut orders: Vec<u32> = all.iter().filter_map(|(_, proved)| order_for(proved, arguments)).collect();
     orders.sort_unstable();
     orders.dedup();
     let orders = orders.iter().map(u32::to_string).collect::<Vec<_>>().join(", ");
@@ -140,17 +126,14 @@ fn note_orders(all: &[(&str, TableScheme)], order: u32, arguments: &Arguments) {
     report::note(format_args!("no shipped scheme has order {order} {class}; there are the orders {orders}"));
 }
 
-fn order_for(scheme: &TableScheme, arguments: &Arguments) -> Option<u32> {
-    let proved = scheme.proved();
-    let kinetic = if for_quadratic(arguments) { Kinetic::Quadratic } else { Kinetic::Any };
-    let of_kernel =
-        if for_quadratic(arguments) { Some(&proved.proof.quadratic) } else { proved.order_for_every_kinetic() };
-    let order = of_kernel?;
-    Some(proved.proof.effective.as_ref().map_or(order, |effective| effective.for_kinetic(kinetic)).order)
+fn order_for(proved: &Proved, arguments: &Arguments) -> Option<u32> {
+    let orders = proved.orders();
+    let order = if for_quadratic(arguments) { Some(orders.quadratic) } else { orders.general };
+    order.map(|order| order.order)
 }
 
 fn for_quadratic(arguments: &Arguments) -> bool {
-    arguments.kinetic == Some(KineticChoice::Quadratic)
+    arguments.kinetic == Some(Kinetic::Quadratic)
 }
 
 fn class(arguments: &Arguments) -> &'static str {
@@ -158,29 +141,33 @@ fn class(arguments: &Arguments) -> &'static str {
 }
 
 /// By name, then order and cost, then what is asked for: each sort keeps the order of equals.
-fn sort(records: &mut [Record], arguments: &Arguments) {
-    let quadratic = for_quadratic(arguments);
+fn sort(schemes: &mut [Listed<'_>], arguments: &Arguments) {
     if arguments.sort == SortKey::Name {
-        records.sort_by(|a, b| a.name.cmp(&b.name));
+        schemes.sort_by_key(|scheme| scheme.name);
         return;
     }
-    records.sort_by_key(|record| {
-        let orders = (record.orders.order.unwrap_or(record.orders.order_quadratic), record.orders.order_quadratic);
-        (if quadratic { (orders.1, orders.0) } else { orders }, record.evaluations + record.hessian_products)
-    });
+    let quadratic = for_quadratic(arguments);
+    let orders = |scheme: &Listed<'_>| {
+        let orders = scheme.facts.proved.orders();
+        let (general, of_quadratic) = (orders.general.unwrap_or(orders.quadratic).order, orders.quadratic.order);
+        if quadratic { (of_quadratic, general) } else { (general, of_quadratic) }
+    };
+    let forces = |scheme: &Listed<'_>| scheme.facts.proved.plan.degree();
+    schemes.sort_by_key(|scheme| (orders(scheme), forces(scheme)));
     match arguments.sort {
         SortKey::EffectiveError => {
-            let own = |r: &Record| {
-                r.orders.effective_error.filter(|_| !quadratic).unwrap_or(r.orders.effective_error_quadratic)
+            let error = |scheme: &Listed<'_>| {
+                let accuracy = scheme.facts.accuracy();
+                let general = effective_error(&accuracy).filter(|_| !quadratic);
+                general.unwrap_or_else(|| accuracy.effective_error(Kinetic::Quadratic))
             };
-            let order = |r: &Record| r.orders.order.filter(|_| !quadratic).unwrap_or(r.orders.order_quadratic);
-            records.sort_by(|a, b| order(a).cmp(&order(b)).then(own(a).total_cmp(&own(b))));
+            schemes.sort_by(|a, b| orders(a).0.cmp(&orders(b).0).then(error(a).total_cmp(&error(b))));
         }
         SortKey::Stability => {
-            let limit = |record: &Record| record.limit().unwrap_or(0.0);
-            records.sort_by(|a, b| limit(b).total_cmp(&limit(a)));
+            let limit = |scheme: &Listed<'_>| scheme.facts.limit().unwrap_or(0.0);
+            schemes.sort_by(|a, b| limit(b).total_cmp(&limit(a)));
         }
-        SortKey::Evaluations => records.sort_by_key(|record| record.evaluations + record.hessian_products),
+        SortKey::Evaluations => schemes.sort_by_key(forces),
         SortKey::Order | SortKey::Name => {}
     }
 }

@@ -1,12 +1,10 @@
 //! `shadowstep schemes polish`: printed decimals to weights of many digits: the table, and a report on how far the
 //! printed ones were off.
 
-use std::io::Write;
-
 use clap::Args;
 use num_traits::Signed;
-use shadowstep_analysis::polish::{self, NotPolished, Polished, PolishedWeight, Request, Role, counted, power_of_ten};
-use shadowstep_schemes::{Kinetic, Rational};
+use shadowstep_analysis::polish::{self, NotPolished, Polished, PolishedWeight, Request, Role, power_of_ten};
+use shadowstep_schemes::{Rational, counted};
 use shadowstep_symbolic::decimal::to_significant;
 
 use crate::interrupt::Interrupt;
@@ -14,10 +12,8 @@ use crate::output::{Output, OutputArguments};
 use crate::quantity::whole;
 use crate::readable::table;
 use crate::report::{self, Status};
-use crate::schemes::facts::near_integrable_text;
 use shadowstep_scenes::Error;
 use shadowstep_scenes::library;
-use shadowstep_scenes::scheme_record::near_integrable;
 
 const EXAMPLE: &str = "\
 Example:
@@ -74,7 +70,7 @@ fn positive(text: &str) -> Result<f64, String> {
 pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
     let source = library::source(&arguments.file)?;
     let _interrupt = Interrupt::listen("schemes polish", "run the command again");
-    let mut output = Output::of(&arguments.output)?;
+    let output = Output::of(&arguments.output)?;
     let wanted = Request {
         digits: arguments.digits,
         free: &arguments.free,
@@ -90,8 +86,7 @@ pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
         }
         Err(NotPolished::Unsolved { message, hint }) => return Ok(report::negative_answer(message, hint)),
     };
-    write!(output, "{}", polished.text)?;
-    output.finish()?;
+    output.text(&polished.text)?;
     report::write(summary(&polished));
     polished.notes.iter().for_each(report::note);
     for weight in misprints(&polished.weights) {
@@ -104,23 +99,16 @@ pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
 
 fn summary(polished: &Polished) -> String {
     let proved = &polished.proved;
-    let class = match proved.scheme.table.kinetic {
-        Kinetic::Any => "every T(p)",
-        Kinetic::Quadratic => "quadratic T",
-    };
+    let (class, near) = (proved.scheme.table.kinetic, proved.orders_of_steps().and_in_epsilon());
     let kind = if polished.in_gamma { " in the γ's" } else { "" };
     let symmetric = if proved.proof.symmetric { ", symmetric" } else { "" };
-    let near = match near_integrable_text(&near_integrable(&proved.proof)) {
-        orders if orders.is_empty() => orders,
-        orders => format!(", {orders} for A + εB"),
-    };
     let header = ["decimal", "printed digits", "right", "off by", "now"];
     let rows: Vec<_> = polished.weights.iter().map(row).collect();
     format!(
         "{}\norder {} for {class}{near}{symmetric}: {}{kind}, off by {} as printed, by {} now\ncondition number {}{}",
         table(header, rows, 1..4),
         proved.order().order,
-        counted(polished.conditions as u64, "condition"),
+        counted(polished.conditions, "condition"),
         power_of_ten(polished.residual_printed),
         power_of_ten(polished.residual),
         number(polished.condition_number),

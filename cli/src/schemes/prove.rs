@@ -1,7 +1,5 @@
 //! `shadowstep schemes prove`: the proof of an order as a certificate.
 
-use std::io::Write;
-
 use clap::Args;
 use num_traits::Zero;
 use serde_json::{Value, json};
@@ -55,9 +53,7 @@ pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
     }
     // what is refused writes no file
     let text = serde_json::to_string(&record(&scheme.proved().scheme.table.name.value, &certificate))?;
-    let mut output = Output::of(&arguments.output)?;
-    writeln!(output, "{text}")?;
-    output.finish()?;
+    Output::of(&arguments.output)?.text(text + "\n")?;
     Ok(Status::Success)
 }
 

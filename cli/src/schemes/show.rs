@@ -5,30 +5,26 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use shadowstep::Rational;
-use shadowstep::tables::TableScheme;
 use shadowstep_analysis::Analysis;
 use shadowstep_analysis::certificate::{Certificate, Kind};
 use shadowstep_analysis::resonance::{REPORTED, resonances};
 use shadowstep_schemes::claims::HIGHEST_ORDER;
 use shadowstep_schemes::map::Stages;
 use shadowstep_schemes::proof::Order;
-use shadowstep_schemes::scheme::ExactInner;
+use shadowstep_schemes::scheme::{ExactInner, ExactScheme, Held};
 use shadowstep_schemes::table::Table;
-use shadowstep_schemes::{Kinetic, MapKind, Proof, Proved, StepPlan, to_significant};
+use shadowstep_schemes::{Kinetic, MapKind, Proved, StepPlan, counted, to_significant};
 
 use crate::interrupt::Interrupt;
 use crate::output::Output;
 use crate::plot::check_ending;
 use crate::readable::{shortened, table, wrapped};
 use crate::report::{self, Status};
-use crate::schemes::analysis;
-use crate::schemes::facts::near_integrable_text;
+use crate::schemes::analysis::{self, Fact};
+use crate::schemes::columns::yes_or_no;
 use crate::schemes::plot;
 use shadowstep_scenes::library;
-use shadowstep_scenes::readable::digits as in_digits;
-use shadowstep_scenes::scheme_record::{
-    SchemeRecord, aliases, digits, effective_near_integrable, first, near_integrable,
-};
+use shadowstep_scenes::scheme_record::SchemeFacts;
 use shadowstep_scenes::{Error, WholeFile};
 
 /// Everything that is known about a scheme.
@@ -63,127 +59,97 @@ const MARGIN: usize = 17;
 pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
     let named = library::scheme(&arguments.name)?;
     named.note().iter().for_each(report::note);
-    let scheme = named.quadratic();
-    let analysis = Analysis::of(scheme.proved());
+    let proved = named.scheme.proved();
     if let Some(path) = &arguments.plot {
-        draw(path, arguments.force, &scheme, &analysis)?;
+        draw(path, arguments.force, proved)?;
     }
-    let mut output = Output::stdout();
-    if arguments.json {
-        output.json(&SchemeRecord::of(&scheme, &analysis))?;
-    } else {
-        write!(output, "{}", readable(&scheme, &analysis))?;
-    }
-    output.finish()?;
+    let facts = SchemeFacts::of(proved);
+    let record = std::iter::once_with(|| facts.record());
+    Output::stdout().records_or_text(arguments.json, record, || readable(&facts))?;
     Ok(Status::Success)
 }
 
 /// Draws into a file, which gets its name when it is complete.
-fn draw(path: &Path, force: bool, scheme: &TableScheme, analysis: &Analysis) -> Result<(), Error> {
+fn draw(path: &Path, force: bool, proved: &Proved) -> Result<(), Error> {
     check_ending(path, "scheme.svg")?;
-    let proved = scheme.proved();
-    let picture = plot::picture(&proved.scheme.table.name.value, proved, analysis);
+    let picture = plot::picture(&proved.scheme.table.name.value, proved, &Analysis::of(proved));
     let _interrupt = Interrupt::listen("schemes show", "run the command again");
     let mut file = if force { WholeFile::create(path, "--plot")? } else { WholeFile::create_new(path, "--plot")? };
     writeln!(file, "{picture}")?;
     file.finish()
 }
 
-fn readable(scheme: &TableScheme, analysis: &Analysis) -> String {
-    let proved = scheme.proved();
-    let table = &proved.scheme.table;
-    let facts: Vec<_> = match &proved.scheme.inner {
-        Some(inner) => nested_facts(proved, inner).into_iter().chain(source(table)).collect(),
-        None => facts(scheme).into_iter().chain(analysis::facts(analysis)).chain(source(table)).collect(),
-    };
+fn readable(scheme: &SchemeFacts<'_>) -> String {
+    let (proved, table) = (scheme.proved, scheme.table());
+    let mut all = vec![("also named", scheme.aliases().join(", "))];
+    match &proved.scheme.inner {
+        Some(inner) => all.extend(nested_facts(proved, inner)),
+        None => all.extend(facts(proved).into_iter().chain(processor_facts(proved)).chain(analysis::facts(scheme))),
+    }
+    all.extend(source(table));
     let title = table.title.as_ref().map_or_else(String::new, |title| format!(": {title}"));
     let mut text = format!("{}{title}\n", table.name.value);
-    for (what, fact) in facts {
+    for (what, fact) in all.into_iter().filter(|(_, fact)| !fact.is_empty()) {
         let lines = wrapped(&fact, &" ".repeat(MARGIN));
         text += &format!("{:1$}", format!("{what}:"), MARGIN);
         text += lines.get(MARGIN..).unwrap_or("\n");
     }
-    text += &format!("{}\n", weights_table(scheme));
+    text += &format!("{}\n", weights_table(&proved.scheme.stages));
     text.extend(proved.notes.iter().map(|note| format!("note: {note}\n")));
     text
 }
 
-/// The facts about the scheme itself, each with its name.
-fn facts(scheme: &TableScheme) -> Vec<(String, String)> {
-    let proved = scheme.proved();
-    let (proof, table, plan) = (&proved.proof, &proved.scheme.table, scheme.plan());
-    let cost = plan.cost();
-    let of_kernel = if proof.effective.is_some() { "of the kernel, " } else { "" };
-    let mut facts = vec![
-        ("also named".to_owned(), aliases(table).join(", ")),
-        (
-            "every T(p)".to_owned(),
-            format!(
-                "{of_kernel}{}",
-                proved.order_for_every_kinetic().map_or_else(|| NO_GENERAL.to_owned(), order_text)
-            ),
-        ),
-        ("quadratic T".to_owned(), format!("{of_kernel}{}", order_text(&proof.quadratic))),
-        ("H = A + εB".to_owned(), near_integrable_fact(proved)),
-        ("meant for".to_owned(), meant_for(table.kinetic).to_owned()),
-        ("weights".to_owned(), weights_text(digits(proved.scheme.held))),
-        ("proof".to_owned(), proof_text(proved)),
-        ("symmetric".to_owned(), symmetry(proof).to_owned()),
-        (
-            "a step".to_owned(),
-            format!(
-                "{} force evaluations{}, {} kicks and drifts; it begins with a {}",
-                plan.evaluations,
-                hessian_products(plan),
-                proved.scheme.maps().len(),
-                first(proved.scheme.first())
-            ),
-        ),
-        (
-            "beside forces".to_owned(),
-            format!(
-                "{} products and additions per dimension, {} more for the modified energy",
-                cost.products_per_dimension, cost.products_for_beta
-            ),
-        ),
-        ("maps".to_owned(), maps_text(scheme)),
-    ];
-    facts.extend(processor_facts(proved));
-    facts.retain(|(_, fact)| !fact.is_empty());
-    facts
+/// The facts about the scheme itself.
+fn facts(proved: &Proved) -> Vec<Fact> {
+    let Proved { scheme, plan, .. } = proved;
+    let (orders, cost) = (proved.orders_of_steps(), plan.cost());
+    let of_kernel = if scheme.processor.is_some() { "of the kernel, " } else { "" };
+    let only = if scheme.table.kinetic == Kinetic::Any { "" } else { " only" };
+    let step = format!(
+        "{} force evaluations{}, {} kicks and drifts; it begins with a {}",
+        plan.evaluations,
+        hessian_products(plan),
+        scheme.maps().len(),
+        scheme.first()
+    );
+    let beside_forces = format!(
+        "{} products and additions per dimension, {} more for the modified energy",
+        cost.products_per_dimension, cost.products_for_beta
+    );
+    vec![
+        ("every T(p)", format!("{of_kernel}{}", general_text(orders.general))),
+        ("quadratic T", format!("{of_kernel}{}", order_text(orders.quadratic))),
+        ("H = A + εB", near_integrable_fact(proved)),
+        ("meant for", format!("{}{only}", scheme.table.kinetic)),
+        ("weights", weights_text(scheme.held)),
+        ("proof", proof_text(proved)),
+        ("symmetric", yes_or_no(proved.proof.symmetric).to_owned()),
+        ("a step", step),
+        ("beside forces", beside_forces),
+        ("maps", maps_text(scheme)),
+    ]
 }
 
 /// The facts about a scheme of multiple time steps.
-fn nested_facts(proved: &Proved, inner: &ExactInner) -> Vec<(String, String)> {
-    let (proof, table) = (&proved.proof, &proved.scheme.table);
+fn nested_facts(proved: &Proved, inner: &ExactInner) -> Vec<Fact> {
     let nested = proved.for_many_parts().expect("a scheme with an inner scheme has steps of three parts");
     let (slow, fast) = (nested.plan.evaluations, nested.plan.count(MapKind::Drift));
-    let counted = |count: usize, what: &str| format!("{count} {what}{}", if count == 1 { "" } else { "s" });
+    let (steps, name) = (counted(inner.substeps, "step"), &inner.scheme.table.name.value);
+    let step = format!(
+        "{} of the slow forces, {fast} of the fast ones where these depend on q only; it begins with a slow kick",
+        counted(slow, "evaluation")
+    );
     let mut facts = vec![
-        ("also named", aliases(table).join(", ")),
         ("meant for", "H of three parts: slow forces, fast forces and T, for multiple time steps".to_owned()),
         ("order", order_text(proved.order())),
-        ("outer scheme", format!("for two parts {}; below are its weights", order_text(&proof.general))),
-        (
-            "inner scheme",
-            format!(
-                "{} of {} in each drift of the outer scheme",
-                counted(inner.substeps as usize, "step"),
-                inner.scheme.table.name.value
-            ),
-        ),
-        ("weights", weights_text(digits(proved.scheme.held))),
-        ("symmetric", symmetry(proof).to_owned()),
-        (
-            "a step",
-            format!(
-                "{} of the slow forces, {fast} of the fast ones where these depend on q only; it begins with a slow kick",
-                counted(slow, "evaluation")
-            ),
-        ),
+        ("outer scheme", format!("for two parts {}; below are its weights", order_text(&proved.proof.general))),
+        ("inner scheme", format!("{steps} of {name} in each drift of the outer scheme")),
+        ("weights", weights_text(proved.scheme.held)),
+        ("symmetric", yes_or_no(proved.proof.symmetric).to_owned()),
+        ("a step", step),
     ];
     facts.extend(resonance_facts(proved, fast).into_iter().map(|fact| ("resonance", fact)));
-    facts.into_iter().filter(|(_, fact)| !fact.is_empty()).map(|(what, fact)| (what.to_owned(), fact)).collect()
+    facts
 }
 
 /// The first resonance of an oscillation for each of the ratios, and how many there are up to hω = 2·(drifts of a
@@ -213,27 +179,21 @@ fn shortened_text(number: &str) -> &str {
     number.get(..7).unwrap_or(number)
 }
 
-fn symmetry(proof: &Proof) -> &'static str {
-    if proof.symmetric { "yes" } else { "no" }
-}
-
 /// The Hessian–vector products U_qq M⁻¹U_q of a step, if there are any: their cost is stated apart.
 fn hessian_products(plan: &StepPlan) -> String {
     match plan.hessian_products {
         0 => String::new(),
-        1 => " and 1 Hessian–vector product".to_owned(),
-        count => format!(" and {count} Hessian–vector products"),
+        count => format!(" and {}", counted(count, "Hessian–vector product")),
     }
 }
 
 /// What is proved of a processed scheme: the other orders are those of its kernel.
-fn processor_facts(proved: &Proved) -> Vec<(String, String)> {
-    let (Some(processor), Some(effective)) = (&proved.scheme.processor, &proved.proof.effective) else {
-        return Vec::new();
-    };
-    let near = match effective_near_integrable(&proved.proof) {
-        orders if orders.is_empty() => String::new(),
-        orders => format!("orders {} in the powers of ε", near_integrable_text(&orders)),
+fn processor_facts(proved: &Proved) -> Vec<Fact> {
+    let Some(processor) = &proved.scheme.processor else { return Vec::new() };
+    let effective = proved.orders();
+    let near = match effective.in_epsilon() {
+        orders if orders.is_empty() => orders,
+        orders => format!("effective orders {orders} in the powers of ε"),
     };
     let cost = format!(
         "{} force evaluations, {} kicks and drifts for an output, and as many once at the beginning; the cost of \
@@ -241,28 +201,23 @@ fn processor_facts(proved: &Proved) -> Vec<(String, String)> {
         processor.evaluations(),
         processor.post.len()
     );
-    let general = match proved.scheme.has_gradient_kicks() {
-        true => NO_GENERAL.to_owned(),
-        false => order_text(&effective.general),
-    };
     vec![
-        ("processor".to_owned(), cost),
-        ("effective".to_owned(), format!("for every T(p), {general}")),
-        ("quadratic T".to_owned(), format!("effective {}", order_text(&effective.quadratic))),
-        ("A + εB".to_owned(), near.replacen("orders", "effective orders", 1)),
+        ("processor", cost),
+        ("effective", format!("for every T(p), {}", general_text(effective.general))),
+        ("quadratic T", format!("effective {}", order_text(effective.quadratic))),
+        ("A + εB", near),
     ]
 }
 
-fn source(table: &Table) -> [(String, String); 2] {
+fn source(table: &Table) -> [Fact; 2] {
     let or_none = |text: &Option<String>| text.as_deref().unwrap_or("none").to_owned();
-    [("reference".to_owned(), or_none(&table.reference)), ("doi".to_owned(), or_none(&table.doi))]
+    [("reference", or_none(&table.reference)), ("doi", or_none(&table.doi))]
 }
 
 fn near_integrable_fact(proved: &Proved) -> String {
-    let orders = near_integrable(&proved.proof);
     let claim = proved.scheme.table.near_integrable.as_ref().map(|claim| claim.dominant);
     claim.map_or_else(String::new, |dominant| {
-        let orders = near_integrable_text(&orders);
+        let orders = proved.orders_of_steps().in_epsilon();
         format!(
             "orders {orders} in the powers of ε, where the {dominant}s move by A; this pays only if they solve A \
              exactly and εB is small, and with H = T + U it gains nothing"
@@ -270,15 +225,8 @@ fn near_integrable_fact(proved: &Proved) -> String {
     })
 }
 
-fn meant_for(kinetic: Kinetic) -> &'static str {
-    match kinetic {
-        Kinetic::Any => "every T(p)",
-        Kinetic::Quadratic => "quadratic T only",
-    }
-}
-
-fn weights_text(digits: Option<u32>) -> String {
-    digits.map_or_else(|| "exact".to_owned(), in_digits)
+fn weights_text(held: Held) -> String {
+    held.digits().map_or_else(|| "exact".to_owned(), |digits| counted(digits, "digit"))
 }
 
 /// What kind of proof the order for every T(p) has.
@@ -286,11 +234,9 @@ fn proof_text(proved: &Proved) -> String {
     let Some(certificate) = Certificate::of(proved) else { return String::new() };
     match (&certificate.kind, &certificate.enclosure) {
         (Kind::Exact, _) => "exact: rational weights".to_owned(),
-        (Kind::Algebraic(roots), _) if roots.len() == 1 => {
-            "algebraic: exact in the weights as polynomials in a root".to_owned()
-        }
         (Kind::Algebraic(roots), _) => {
-            format!("algebraic: exact in the weights as polynomials in {} roots", roots.len())
+            let roots = if roots.len() == 1 { "a root".to_owned() } else { format!("{} roots", roots.len()) };
+            format!("algebraic: exact in the weights as polynomials in {roots}")
         }
         (Kind::Decimal(_), Some(enclosure)) => {
             let held = match enclosure.held() {
@@ -307,11 +253,12 @@ fn proof_text(proved: &Proved) -> String {
     }
 }
 
+fn general_text(order: Option<&Order>) -> String {
+    order.map_or_else(|| NO_GENERAL.to_owned(), order_text)
+}
+
 fn order_text(order: &Order) -> String {
-    let holds = match order.digits {
-        None => format!("order {}, exactly", order.order),
-        Some(digits) => format!("order {}, to {}", order.order, in_digits(digits)),
-    };
+    let holds = format!("order {}, {}", order.order, order.held());
     match &order.failed {
         None => format!("{holds}; more than order {HIGHEST_ORDER} is not looked for"),
         Some((condition, found)) => {
@@ -322,14 +269,12 @@ fn order_text(order: &Order) -> String {
     }
 }
 
-fn maps_text(scheme: &TableScheme) -> String {
-    let maps = scheme.proved().scheme.maps().into_iter();
+fn maps_text(scheme: &ExactScheme) -> String {
+    let maps = scheme.maps().into_iter();
     maps.map(|map| format!("{} {}", map.kind, shortened(&map.weight, 6))).collect::<Vec<_>>().join(", ")
 }
 
-fn weights_table(scheme: &TableScheme) -> String {
-    let weights = &scheme.proved().scheme;
-    let Stages { kick, gradient_kick, drift } = &weights.stages;
+fn weights_table(Stages { kick, gradient_kick, drift }: &Stages) -> String {
     let columns = [("kick a_s", kick), ("gradient kick c_s", gradient_kick), ("drift b_s", drift)];
     let columns: Vec<_> = columns.into_iter().filter(|(_, weights)| !weights.is_empty()).collect();
     let row = |s: usize| {

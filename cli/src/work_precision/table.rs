@@ -1,6 +1,6 @@
 //! The schemes that need the least for an error, and the orders that the schemes show, as tables of at most 80 columns.
 
-use shadowstep_scenes::readable::wrapped_to;
+use shadowstep_scenes::readable::wrapped;
 use shadowstep_symbolic::decimal::significant;
 use shadowstep_work_precision::of::Of;
 use shadowstep_work_precision::order::MeasuredOrder;
@@ -8,16 +8,14 @@ use shadowstep_work_precision::study::{Studied, Study};
 use shadowstep_work_precision::tables::Cheapest;
 
 use super::PosedProblem;
-use crate::colour::heading;
+use crate::colour::{heading, on_stdout};
 use crate::readable::table;
 
-const WIDTH: usize = 80;
-
 /// What was found.
-pub(super) fn readable(posed: &PosedProblem, study: &Study<'_>, coloured: bool) -> String {
-    let title = |text: &str| if coloured { heading(text) } else { text.to_owned() };
-    let mut text = wrapped_to(&posed.title(), "", WIDTH);
-    text += &wrapped_to(&study.reference.described(), "", WIDTH);
+pub(super) fn readable(posed: &PosedProblem, study: &Study<'_>) -> String {
+    let title = |text: &str| heading(text, on_stdout());
+    let mut text = wrapped(&posed.title(), "");
+    text += &wrapped(&study.reference.described(), "");
     for of in [Of::Position, Of::Energy] {
         let rows: Vec<_> = study.cheapest_by_decade(of).into_iter().map(row).collect();
         if rows.is_empty() {
@@ -32,7 +30,7 @@ pub(super) fn readable(posed: &PosedProblem, study: &Study<'_>, coloured: bool) 
     let rows = study.schemes.iter().map(|studied| orders(study, studied));
     text +=
         &table(["scheme", "forces", "µs", "order", "measured", "from h", "to", "of H"], rows.collect::<Vec<_>>(), 1..8);
-    let remark = study.remark_on_times().map_or(String::new(), |remark| wrapped_to(&remark, "", WIDTH));
+    let remark = study.remark_on_times().map_or(String::new(), |remark| wrapped(&remark, ""));
     text + "\n" + &remark
 }
 

@@ -115,7 +115,8 @@ impl Analysis {
 }
 
 impl Sizes {
-    fn of(maps: &[Map], kind: MapKind) -> Sizes {
+    /// The sizes of the weights of one kind among the maps of a step.
+    pub fn of(maps: &[Map], kind: MapKind) -> Sizes {
         let mut weights: Vec<_> = maps.iter().filter(|map| map.kind == kind).map(|map| &map.weight).collect();
         weights.sort();
         let end = |weight: Option<&&Rational>| weight.map_or_else(Rational::zero, |weight| (*weight).clone());

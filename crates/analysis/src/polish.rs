@@ -44,7 +44,7 @@ pub(crate) use composition::{conditions, lyndon_words};
 pub(crate) use equations::{Equations, OfUnknowns, maps, processed_maps};
 use new_table::NewTable;
 use newton::Problem;
-pub use numbers::{counted, power_of_ten};
+pub use numbers::power_of_ten;
 pub use outcome::{NotPolished, Polished, PolishedWeight, Role};
 use shadowstep_schemes::ExactScheme;
 use shadowstep_schemes::document::{Faults, Source};

@@ -82,7 +82,7 @@ impl PhaseError {
     ///
     /// Where tr = 2 cos(hω) + δ x^m + …, the phase is off by −δ/2·(hω)^{2m−2}, relatively. A δ that the digits of the
     /// weights can account for counts as none.
-    pub(crate) fn of(maps: &[Map], held: Held, order: u32) -> PhaseError {
+    pub fn of(maps: &[Map], held: Held, order: u32) -> PhaseError {
         let first = order.div_ceil(2) as usize + 1;
         let found = PhaseError::among(first..first + FEW_TERMS, maps, held);
         // beyond the degree there is nothing that the cosine's coefficient could be equal to

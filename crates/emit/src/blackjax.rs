@@ -5,9 +5,10 @@
 //! step costs as many evaluations as it has drifts, one more than here where a drift begins and ends it; then the first
 //! and the last kick have weight 0.
 
+use shadowstep_schemes::counted;
+
 use crate::language::{Language, no_action, plain_constant};
 use crate::step::{Step, literal};
-use crate::text::counted;
 
 const BLACKJAX: Language = Language { comment: "#", constant: plain_constant, literal, action: no_action };
 

@@ -1,10 +1,11 @@
 //! What all targets fill their templates with: names, weights, the step, provenance, what the self-test expects.
 
+use shadowstep_schemes::counted;
+
 use crate::provenance;
 use crate::reference::{self, HALVINGS, STEPS, State, TIME, TOLERANCE};
 use crate::step::{Action, Step, Weight};
 use crate::template::Values;
-use crate::text::counted;
 
 /// How a language writes what a step is made of.
 pub(crate) struct Language {

@@ -1,12 +1,10 @@
 //! Where a file comes from: table, version, hash, proved orders, reference.
 
 use shadowstep_scenes::library::weights_fingerprint;
-use shadowstep_schemes::Proved;
-use shadowstep_schemes::claims::HIGHEST_ORDER;
-use shadowstep_schemes::proof::Order;
+use shadowstep_schemes::{Orders, counted};
 
 use crate::step::Step;
-use crate::text::{commented, counted};
+use crate::text::commented;
 
 /// The lines of provenance, as comments.
 pub(crate) fn lines(step: &Step<'_>, sign: &str) -> Vec<String> {
@@ -31,18 +29,17 @@ pub(crate) fn lines(step: &Step<'_>, sign: &str) -> Vec<String> {
 pub(crate) fn proved(step: &Step<'_>) -> String {
     let proof = &step.proved.proof;
     let symmetric = if proof.symmetric { "" } else { "not " };
-    let orders = orders(step.proved);
-    match &proof.effective {
-        None => format!("Proved: {orders}; {symmetric}symmetric."),
-        Some(effective) => {
-            let near = near_integrable(&effective.near_integrable);
-            let quadratic = order(&effective.quadratic);
-            format!(
-                "Proved: order {quadratic} for quadratic T{near}, with pre-map and post-map; the steps alone: \
-                    {orders}; {symmetric}symmetric."
-            )
-        }
+    let of_steps = orders(step.proved.orders_of_steps());
+    if proof.effective.is_none() {
+        return format!("Proved: {of_steps}; {symmetric}symmetric.");
     }
+    let effective = step.proved.orders();
+    format!(
+        "Proved: order {} for quadratic T{}, with pre-map and post-map; the steps alone: {of_steps}; \
+            {symmetric}symmetric.",
+        effective.quadratic,
+        near_integrable(effective)
+    )
 }
 
 /// What a step costs.
@@ -55,26 +52,15 @@ pub(crate) fn cost(step: &Step<'_>) -> String {
     }
 }
 
-fn orders(proved: &Proved) -> String {
-    let near = near_integrable(&proved.proof.near_integrable);
-    let quadratic = &proved.proof.quadratic;
-    match proved.order_for_every_kinetic() {
-        Some(every) if every.order == quadratic.order => format!("order {} for every T(p){near}", order(every)),
-        Some(every) => format!("order {} for every T(p), {} for quadratic T{near}", order(every), order(quadratic)),
-        None => format!("order {} for quadratic T{near}", order(quadratic)),
+fn orders(orders: Orders<'_>) -> String {
+    let (near, quadratic) = (near_integrable(orders), orders.quadratic);
+    match orders.general {
+        Some(every) if every.order == quadratic.order => format!("order {every} for every T(p){near}"),
+        Some(every) => format!("order {every} for every T(p), {quadratic} for quadratic T{near}"),
+        None => format!("order {quadratic} for quadratic T{near}"),
     }
 }
 
-fn near_integrable(orders: &[Order]) -> String {
-    let orders: Vec<_> = orders.iter().map(|order| order.order.to_string()).collect();
-    if orders.is_empty() { String::new() } else { format!(", ({}) for H = A + εB", orders.join(",")) }
-}
-
-/// `4 (exactly)`, `4 (to 248 digits)`
-fn order(order: &Order) -> String {
-    let least = if order.failed.is_none() && order.order == HIGHEST_ORDER { " or more" } else { "" };
-    match order.digits {
-        None => format!("{}{least} (exactly)", order.order),
-        Some(digits) => format!("{}{least} (to {digits} digits)", order.order),
-    }
+fn near_integrable(orders: Orders<'_>) -> String {
+    orders.and_in_epsilon().replace("for A", "for H = A")
 }

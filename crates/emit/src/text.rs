@@ -45,8 +45,3 @@ fn wrapped(line: &str, width: usize) -> Vec<String> {
     }
     lines
 }
-
-/// `1 gradient`, `2 gradients`
-pub(crate) fn counted(count: usize, noun: &str) -> String {
-    format!("{count} {noun}{}", if count == 1 { "" } else { "s" })
-}

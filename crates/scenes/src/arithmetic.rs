@@ -2,10 +2,9 @@
 
 use shadowstep::Rational;
 use shadowstep::number::{LimbCount, Precision, PrecisionError};
+use shadowstep_schemes::counted;
 use shadowstep_symbolic::Exact;
 use shadowstep_symbolic::decimal::{round_significant, to_significant, to_text};
-
-use crate::readable;
 
 /// Digits beyond those of the run to which exact values are computed, so that rounding them once more does not show.
 pub const GUARD_DIGITS: u32 = 20;
@@ -96,7 +95,7 @@ impl Numbers {
         match self {
             Numbers::Double => "double precision".to_owned(),
             Numbers::DoubleDouble => "double-double precision".to_owned(),
-            Numbers::Digits(digits, _) => readable::digits(digits),
+            Numbers::Digits(digits, _) => counted(digits, "digit"),
         }
     }
 }

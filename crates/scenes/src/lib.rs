@@ -96,6 +96,7 @@
 //! | `frequency`, [`stability`] | the fastest oscillation at the start, and the stability limit of the scheme |
 //! | [`watch`] | what a run shows: the error of H, the modified energy, close encounters, the verdict |
 //! | [`spreadsheet`] | cells of CSV that spreadsheets would compute |
+//! | [`object`] | objects of JSON whose keys keep their order |
 //! | [`readable`], `error`, `refusal` | numbers and texts for people; what can go wrong |
 //! | `shell` | words of commands that users copy |
 
@@ -131,6 +132,7 @@ pub mod lock;
 pub mod modified_hamiltonian;
 mod moment;
 mod note;
+pub mod object;
 mod observer;
 pub mod outside;
 mod pace;

@@ -4,9 +4,10 @@ use std::fmt;
 use std::path::PathBuf;
 
 use shadowstep::Rational;
+use shadowstep_schemes::counted;
 use shadowstep_symbolic::decimal::{from_text, to_significant};
 
-use crate::readable::{digits as digits_of, shortened};
+use crate::readable::shortened;
 use crate::steps::nearly_equal;
 
 /// Something the user should know; it is not an error.
@@ -218,7 +219,7 @@ impl Note {
     fn of_scheme(&self) -> String {
         match self {
             Note::OrderHoldsTo { scheme, order, digits } => {
-                let digits = digits_of(*digits);
+                let digits = counted(*digits, "digit");
                 format!("{scheme} has order {order} to {digits} only; errors below that have a lower order")
             }
             Note::NameOfShipped { path, scheme } => {

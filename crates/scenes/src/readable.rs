@@ -24,11 +24,6 @@ pub fn shortened(value: &Rational, digits: usize) -> String {
     to_significant(value, digits) + if is_all { "" } else { "…" }
 }
 
-/// A number of digits in words: `1 digit`, `120 digits`.
-pub fn digits(count: u32) -> String {
-    if count == 1 { "1 digit".to_owned() } else { format!("{count} digits") }
-}
-
 /// A text in lines of at most 80 characters, each of which begins with `margin`.
 ///
 /// ```

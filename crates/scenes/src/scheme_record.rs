@@ -1,372 +1,287 @@
-//! Everything that is known about a scheme, as a record.
+//! Everything that is known about a scheme: a list of facts, each with its key and its value.
 
-use serde::Serialize;
 use sha2::{Digest, Sha256};
 use shadowstep::Rational;
-use shadowstep::tables::TableScheme;
-use shadowstep_analysis::bracket::Bracket;
+use shadowstep_analysis::Sizes;
 use shadowstep_analysis::error::LeadingError;
 use shadowstep_analysis::resonance::{REPORTED, resonances};
-use shadowstep_analysis::stability::MOST_MAPS;
-use shadowstep_analysis::trace::Trace;
-use shadowstep_analysis::{self as analysis, Analysis, stability, trace};
+use shadowstep_analysis::sampling::SamplingError;
+use shadowstep_analysis::stability::{MOST_MAPS, Stability};
+use shadowstep_analysis::trace::{PhaseError, Trace};
 use shadowstep_schemes::proof::Order;
 use shadowstep_schemes::scheme::Held;
 use shadowstep_schemes::table::Table;
-use shadowstep_schemes::{ExactScheme, First, Kinetic, MapKind, Proof, Proved, to_significant, to_text};
+use shadowstep_schemes::{Kinetic, Map, MapKind, Orders, Proved, to_significant, to_text};
 
-/// Digits of what a condition of rounded weights was found to be.
-const CONDITION_DIGITS: usize = 30;
+use crate::object::{Json, Object};
 
-/// Everything that is known about a scheme; exact numbers are texts, with every digit of the weights.
-#[derive(Debug, Serialize)]
-pub struct SchemeRecord {
-    name: String,
-    aliases: Vec<String>,
-    title: Option<String>,
-    /// Of a processed scheme the effective ones.
-    #[serde(flatten)]
-    orders: Orders,
-    /// The map that moves by A of A + εB.
-    dominant: Option<String>,
-    free: Vec<String>,
-    digits: Option<u32>,
-    evaluations: usize,
-    /// One for each gradient kick.
-    hessian_products: usize,
-    products_per_dimension: usize,
-    products_for_beta: usize,
-    /// Rows of the table of weights, those with a 0 included.
-    stages: usize,
-    symmetric: bool,
-    first: &'static str,
-    kinetic: &'static str,
-    /// `None`, like the gaps and the trace, for steps of very many maps.
-    stability_limit: Option<String>,
-    unstable_gaps: Option<Vec<Gap>>,
-    phase_error: Phase,
-    /// The largest expected error of the energy over 0 < hω < evaluations; `None` where it is not known, or not
-    /// bounded.
-    sampling_error: Option<f64>,
-    trace: Option<Vec<String>>,
-    kick_sizes: Sizes,
-    drift_sizes: Sizes,
-    kick: Vec<String>,
-    /// Empty where there are none.
-    gradient_kick: Vec<String>,
-    drift: Vec<String>,
-    maps: Vec<Map>,
-    reference: Option<String>,
-    doi: Option<String>,
-    table_hash: String,
-    notes: Vec<String>,
-    /// `None` for a scheme that is not processed.
-    processor: Option<Processor>,
-    /// `None` for a scheme without an inner one; the other values are of the outer scheme for two parts.
-    inner: Option<Inner>,
-    /// The orders and errors of the kernel of a processed scheme, whose steps are made.
-    kernel: Option<Orders>,
+/// Digits of numbers that come from rounded weights, which else are hundreds of digits long.
+const SHOWN_DIGITS: usize = 30;
+
+/// A scheme with what its facts are computed from.
+pub struct SchemeFacts<'a> {
+    /// What is proved of it.
+    pub proved: &'a Proved,
+    /// Where its steps are stable; `None` for steps of very many maps.
+    pub stability: Option<Stability>,
+    errors: [LeadingError; 2],
+    processed: Option<[LeadingError; 2]>,
 }
 
-/// Orders and leading errors.
-#[derive(Debug, Serialize)]
-struct Orders {
-    /// For every T(p), as the three after it; `None` with gradient kicks, which there are for quadratic T only.
-    order: Option<u32>,
-    order_digits: Option<u32>,
-    fails: Option<Failed>,
-    order_quadratic: u32,
-    order_quadratic_digits: Option<u32>,
-    fails_quadratic: Option<Failed>,
-    near_integrable: Vec<u32>,
-    effective_error: f64,
-    effective_error_quadratic: f64,
-    leading_error: ErrorRecord,
-    leading_error_quadratic: ErrorRecord,
+/// How accurate the steps of a scheme are, or the processed ones: orders and leading errors.
+pub struct Accuracy<'a> {
+    /// The orders.
+    pub orders: Orders<'a>,
+    /// The leading errors for every T(p) and for quadratic T.
+    pub errors: &'a [LeadingError; 2],
+    proved: &'a Proved,
 }
 
-/// The inner scheme of multiple time steps, and what is proved of the step of slow forces, fast forces and T.
-#[derive(Debug, Serialize)]
-struct Inner {
-    base: String,
-    substeps: u32,
-    order: u32,
-    /// Evaluations of the fast forces, where these depend on q only.
-    fast_evaluations: usize,
-    resonances: Vec<Resonances>,
-}
+/// A fact about orders: its key, and its value.
+type OfOrders = (&'static str, fn(&Accuracy<'_>) -> Json);
 
-/// Where an oscillation is unstable whose slow forces have a part of the stiffness of the fast ones.
-#[derive(Debug, Serialize)]
-struct Resonances {
-    /// That part.
-    ratio: String,
-    gaps: Vec<Gap>,
-}
+/// A fact about a scheme: its key, and its value.
+type OfScheme = (&'static str, fn(&SchemeFacts<'_>) -> Json);
 
-/// The post-map of a processed scheme.
-#[derive(Debug, Serialize)]
-struct Processor {
-    /// Evaluations of the forces for an output, and for the pre-map.
-    evaluations: usize,
-    post: Vec<Map>,
-}
+/// Those of a processed scheme are the effective ones, and beside them those of its kernel, whose steps are made.
+const OF_ORDERS: [OfOrders; 11] = [
+    // for every T(p), as the two after it; null with gradient kicks, which there are for quadratic T only
+    ("order", |a| a.orders.general.map(|order| order.order).into()),
+    ("order_digits", |a| a.orders.general.and_then(|order| order.digits).into()),
+    ("fails", |a| a.orders.general.and_then(|order| failed(order, a.proved)).into()),
+    ("order_quadratic", |a| a.orders.quadratic.order.into()),
+    ("order_quadratic_digits", |a| a.orders.quadratic.digits.into()),
+    ("fails_quadratic", |a| failed(a.orders.quadratic, a.proved).into()),
+    ("near_integrable", |a| a.orders.near_integrable.iter().map(|order| order.order).collect::<Vec<_>>().into()),
+    ("effective_error", |a| a.effective_error(Kinetic::Any).into()),
+    ("effective_error_quadratic", |a| a.effective_error(Kinetic::Quadratic).into()),
+    ("leading_error", |a| leading_error(&a.errors[0]).into()),
+    ("leading_error_quadratic", |a| leading_error(&a.errors[1]).into()),
+];
 
-/// The first condition of the order that fails.
-#[derive(Debug, Serialize)]
-struct Failed {
-    condition: String,
-    order: u32,
-    found: String,
-    needed: String,
-}
+/// The names, before the orders.
+const NAMES: [OfScheme; 3] = [
+    ("name", |s| s.table().name.value.as_str().into()),
+    ("aliases", |s| s.aliases().into()),
+    ("title", |s| s.table().title.clone().into()),
+];
 
-#[derive(Debug, Serialize)]
-struct Map {
-    map: String,
-    weight: String,
-}
+/// What follows the orders; exact numbers are texts, with every digit of the weights.
+const OTHERS: [OfScheme; 28] = [
+    // the map that moves by A of A + εB
+    ("dominant", |s| s.table().near_integrable.as_ref().map(|claim| claim.dominant.to_string()).into()),
+    ("free", |s| s.table().free.iter().map(|name| name.value.as_str()).collect::<Vec<_>>().into()),
+    ("digits", |s| s.proved.scheme.held.digits().into()),
+    ("evaluations", |s| s.proved.plan.evaluations.into()),
+    // one for each gradient kick
+    ("hessian_products", |s| s.proved.plan.hessian_products.into()),
+    // products beside the forces, and as many additions; and how many a step carrying β adds
+    ("products_per_dimension", |s| s.proved.plan.cost().products_per_dimension.into()),
+    ("products_for_beta", |s| s.proved.plan.cost().products_for_beta.into()),
+    // rows of the table of weights, those with a 0 included
+    ("stages", |s| s.proved.scheme.stages.kick.len().into()),
+    ("symmetric", |s| s.proved.proof.symmetric.into()),
+    ("first", |s| s.proved.scheme.first().to_string().into()),
+    ("kinetic", |s| if s.table().kinetic == Kinetic::Any { "any" } else { "quadratic" }.into()),
+    // null, like the gaps and the trace, for steps of very many maps
+    ("stability_limit", |s| s.stability.as_ref().map(|stability| stability.limit.as_str()).into()),
+    ("unstable_gaps", |s| s.stability.as_ref().map(gaps).into()),
+    ("phase_error", |s| phase_error(s.phase_error()).into()),
+    // the largest expected error of the energy over 0 < hω < evaluations; null where it is not known, or not bounded
+    ("sampling_error", |s| s.sampling_error().and_then(|error| error.largest).into()),
+    ("trace", |s| trace(s.proved).into()),
+    ("kick_sizes", |s| sizes(s.proved, MapKind::Kick).into()),
+    ("drift_sizes", |s| sizes(s.proved, MapKind::Drift).into()),
+    ("kick", |s| fractions(&s.proved.scheme.stages.kick).into()),
+    // empty where there are none
+    ("gradient_kick", |s| fractions(&s.proved.scheme.stages.gradient_kick).into()),
+    ("drift", |s| fractions(&s.proved.scheme.stages.drift).into()),
+    ("maps", |s| maps(&s.proved.scheme.maps()).into()),
+    ("reference", |s| s.table().reference.clone().into()),
+    ("doi", |s| s.table().doi.clone().into()),
+    ("table_hash", |s| s.table_hash().into()),
+    ("notes", |s| s.proved.notes.iter().map(ToString::to_string).collect::<Vec<_>>().into()),
+    // null for a scheme that is not processed
+    ("processor", |s| processor(s.proved).into()),
+    // null for a scheme without an inner one; the other values are of the outer scheme for two parts
+    ("inner", |s| inner(s.proved).into()),
+];
 
-/// The leading error of log(step) for one class of kinetic energies.
-#[derive(Debug, Serialize)]
-struct ErrorRecord {
-    power: u32,
-    norm: f64,
-    terms: Vec<Term>,
-}
+impl<'a> SchemeFacts<'a> {
+    /// Computes what most facts need.
+    pub fn of(proved: &'a Proved) -> Self {
+        let (errors, processed) = (LeadingError::of(proved), LeadingError::processed(proved));
+        SchemeFacts { proved, stability: Stability::of_scheme(proved), errors, processed }
+    }
 
-#[derive(Debug, Serialize)]
-struct Term {
-    bracket: String,
-    coefficient: f64,
-}
+    /// All facts; they take some milliseconds.
+    pub fn record(&self) -> Object {
+        let values = |facts: &[OfScheme]| facts.iter().map(|(key, value)| (*key, value(self))).collect::<Vec<_>>();
+        let mut facts = values(&NAMES);
+        facts.extend(self.accuracy().record().0);
+        facts.extend(values(&OTHERS));
+        facts.push(("kernel", self.kernel().map(|kernel| kernel.record()).into()));
+        Object(facts)
+    }
 
-#[derive(Debug, Serialize)]
-struct Gap {
-    from: String,
-    /// `None` beyond 2·(evaluations).
-    to: Option<String>,
-    width: f64,
-}
+    /// The facts with these keys, in this order, of those that are not of its orders.
+    pub fn some(&self, keys: &[&str]) -> Vec<(&'static str, Json)> {
+        let fact = |key: &&str| NAMES.iter().chain(&OTHERS).find(|fact| fact.0 == *key);
+        keys.iter().filter_map(fact).map(|(key, value)| (*key, value(self))).collect()
+    }
 
-/// (φ − hω)/hω = coefficient·(hω)^power + …
-#[derive(Debug, Serialize)]
-struct Phase {
-    coefficient: f64,
-    power: u32,
-}
+    /// The table.
+    pub fn table(&self) -> &'a Table {
+        &self.proved.scheme.table
+    }
 
-#[derive(Debug, Serialize)]
-struct Sizes {
-    sum_of_sizes: String,
-    smallest: String,
-    largest: String,
-}
+    /// Other names under which the scheme is known.
+    pub fn aliases(&self) -> Vec<&'a str> {
+        self.table().aliases.iter().map(|alias| alias.value.as_str()).collect()
+    }
 
-impl ErrorRecord {
-    fn of(error: &LeadingError) -> ErrorRecord {
-        let term = |(bracket, c): &(Bracket, f64)| Term { bracket: bracket.to_string(), coefficient: *c };
-        ErrorRecord { power: error.power, norm: error.norm(), terms: error.terms.iter().map(term).collect() }
+    /// How accurate it is; of a processed scheme after processing, without the cost of outputs.
+    pub fn accuracy(&self) -> Accuracy<'_> {
+        let (orders, errors) = (self.proved.orders(), self.processed.as_ref().unwrap_or(&self.errors));
+        Accuracy { orders, errors, proved: self.proved }
+    }
+
+    /// How accurate the steps of a processed scheme are.
+    pub fn kernel(&self) -> Option<Accuracy<'_>> {
+        let kernel = Accuracy { orders: self.proved.orders_of_steps(), errors: &self.errors, proved: self.proved };
+        self.processed.as_ref().map(|_| kernel)
+    }
+
+    /// The stability limit as a number.
+    pub fn limit(&self) -> Option<f64> {
+        self.stability.as_ref()?.limit.parse().ok()
+    }
+
+    /// By the forces of a step, Hessian–vector products counted as such.
+    pub fn limit_per_force(&self) -> Option<f64> {
+        Some(self.limit()? / self.proved.plan.degree() as f64)
+    }
+
+    /// The error of the phase of the harmonic oscillator.
+    pub fn phase_error(&self) -> PhaseError {
+        let Proved { scheme, proof, .. } = self.proved;
+        PhaseError::of(&scheme.maps(), scheme.held, proof.quadratic.order)
+    }
+
+    /// The largest expected error of the energy of the harmonic oscillator; `None` where it is not known.
+    pub fn sampling_error(&self) -> Option<SamplingError> {
+        SamplingError::of(self.proved, self.stability.as_ref())
+    }
+
+    fn table_hash(&self) -> String {
+        Sha256::digest(&self.table().source.text).iter().map(|byte| format!("{byte:02x}")).collect()
     }
 }
 
-impl Gap {
-    fn of(gap: &stability::Gap) -> Gap {
-        Gap { from: gap.from.clone(), to: gap.to.clone(), width: gap.width }
+impl Accuracy<'_> {
+    fn record(&self) -> Object {
+        Object(OF_ORDERS.map(|(key, value)| (key, value(self))).into())
+    }
+
+    /// The facts with these keys, in this order.
+    pub fn some(&self, keys: &[&str]) -> Vec<(&'static str, Json)> {
+        let fact = |key: &&str| OF_ORDERS.iter().find(|fact| fact.0 == *key);
+        keys.iter().filter_map(fact).map(|(key, value)| (*key, value(self))).collect()
+    }
+
+    /// The effective error for a class of kinetic energies: see [`LeadingError::effective`].
+    pub fn effective_error(&self, kinetic: Kinetic) -> f64 {
+        let [general, quadratic] = self.errors;
+        let error = if kinetic == Kinetic::Any { general } else { quadratic };
+        error.effective(self.proved.plan.degree())
     }
 }
 
-impl Phase {
-    fn of(phase: trace::PhaseError) -> Phase {
-        Phase { coefficient: phase.coefficient, power: phase.power }
-    }
+/// The leading error of log(step).
+fn leading_error(error: &LeadingError) -> Object {
+    let terms = error.terms.iter();
+    let terms =
+        terms.map(|(bracket, c)| Object(vec![("bracket", bracket.to_string().into()), ("coefficient", (*c).into())]));
+    let terms = terms.collect::<Vec<_>>();
+    Object(vec![("power", error.power.into()), ("norm", error.norm().into()), ("terms", terms.into())])
 }
 
-impl Sizes {
-    fn of(sizes: &analysis::Sizes) -> Sizes {
-        Sizes {
-            sum_of_sizes: to_text(&sizes.sum_of_sizes),
-            smallest: to_text(&sizes.smallest),
-            largest: to_text(&sizes.largest),
-        }
-    }
+fn phase_error(PhaseError { coefficient, power }: PhaseError) -> Object {
+    Object(vec![("coefficient", coefficient.into()), ("power", power.into())])
 }
 
-impl SchemeRecord {
-    /// The record of a scheme; its analysis takes some milliseconds.
-    pub fn of(scheme: &TableScheme, analysis: &Analysis) -> SchemeRecord {
-        let proved = scheme.proved();
-        let (proof, weights, table) = (&proved.proof, &proved.scheme, &proved.scheme.table);
-        let fractions = |weights: &[Rational]| weights.iter().map(Rational::to_string).collect::<Vec<_>>();
-        let maps = weights.maps().into_iter();
-        let cost = scheme.plan().cost();
-        let (orders, kernel) = orders(proved, analysis);
-        SchemeRecord {
-            name: table.name.value.clone(),
-            aliases: aliases(table),
-            title: table.title.clone(),
-            orders,
-            kernel,
-            dominant: table.near_integrable.as_ref().map(|claim| claim.dominant.to_string()),
-            free: table.free.iter().map(|name| name.value.clone()).collect(),
-            digits: digits(weights.held),
-            evaluations: scheme.plan().evaluations,
-            hessian_products: scheme.plan().hessian_products,
-            products_per_dimension: cost.products_per_dimension,
-            products_for_beta: cost.products_for_beta,
-            stages: weights.stages.kick.len(),
-            symmetric: proof.symmetric,
-            first: first(weights.first()),
-            kinetic: kinetic(table.kinetic),
-            trace: trace(weights),
-            kick_sizes: Sizes::of(&analysis.kicks),
-            drift_sizes: Sizes::of(&analysis.drifts),
-            phase_error: Phase::of(analysis.phase),
-            sampling_error: analysis.sampling.and_then(|sampling| sampling.largest),
-            unstable_gaps: analysis.stability.as_ref().map(|stability| stability.gaps.iter().map(Gap::of).collect()),
-            stability_limit: analysis.stability.as_ref().map(|stability| stability.limit.clone()),
-            kick: fractions(&weights.stages.kick),
-            gradient_kick: fractions(&weights.stages.gradient_kick),
-            drift: fractions(&weights.stages.drift),
-            maps: maps.map(|map| Map { map: map.kind.to_string(), weight: to_text(&map.weight) }).collect(),
-            reference: table.reference.clone(),
-            doi: table.doi.clone(),
-            table_hash: Sha256::digest(&table.source.text).iter().map(|byte| format!("{byte:02x}")).collect(),
-            notes: proved.notes.iter().map(ToString::to_string).collect(),
-            processor: processor(proved),
-            inner: inner(proved),
-        }
-    }
-}
-
-/// The orders; of a processed scheme those after processing, and those of the steps alone.
-fn orders(proved: &Proved, analysis: &Analysis) -> (Orders, Option<Orders>) {
-    let (proof, scheme) = (&proved.proof, &proved.scheme);
-    // the value of a condition of rounded weights is known to this number of digits only
-    let exact = |value: &Rational| match scheme.held {
-        Held::Digits(_) if to_text(value).len() > CONDITION_DIGITS => to_significant(value, CONDITION_DIGITS),
+/// The first condition of the order that fails; its value is known to some digits only where weights are rounded.
+fn failed(order: &Order, proved: &Proved) -> Option<Object> {
+    let text = |value: &Rational| match proved.scheme.held {
+        Held::Digits(_) if to_text(value).len() > SHOWN_DIGITS => to_significant(value, SHOWN_DIGITS),
         _ => to_text(value),
     };
-    let effective = |kinetic| analysis.processed_effective_error(kinetic);
-    let processed = proof.effective.as_ref().zip(analysis.processed.as_ref()).map(|(proved_effective, errors)| {
-        let general = (!scheme.has_gradient_kicks()).then_some(&proved_effective.general);
-        let orders = (general, &proved_effective.quadratic, effective_near_integrable(proof));
-        Orders::of(orders, [&errors[0], &errors[1]], effective, exact)
-    });
-    let orders = (proved.order_for_every_kinetic(), &proof.quadratic, near_integrable(proof));
-    let errors = [&analysis.general, &analysis.quadratic];
-    let of_steps = Orders::of(orders, errors, |kinetic| analysis.effective_error(kinetic), exact);
-    match processed {
-        Some(processed) => (processed, Some(of_steps)),
-        None => (of_steps, None),
-    }
+    let (condition, found) = order.failed.as_ref()?;
+    Some(Object(vec![
+        ("condition", condition.functional.to_string().into()),
+        ("order", condition.order.into()),
+        ("found", text(found).into()),
+        ("needed", text(&condition.needed).into()),
+    ]))
 }
 
-impl Orders {
-    fn of(
-        (general, quadratic, near_integrable): (Option<&Order>, &Order, Vec<u32>),
-        [error, error_quadratic]: [&LeadingError; 2],
-        effective: impl Fn(Kinetic) -> f64,
-        text: impl Fn(&Rational) -> String,
-    ) -> Orders {
-        Orders {
-            order: general.map(|order| order.order),
-            order_digits: general.and_then(|order| order.digits),
-            fails: general.and_then(|order| failed(order, &text)),
-            order_quadratic: quadratic.order,
-            order_quadratic_digits: quadratic.digits,
-            fails_quadratic: failed(quadratic, &text),
-            near_integrable,
-            effective_error: effective(Kinetic::Any),
-            effective_error_quadratic: effective(Kinetic::Quadratic),
-            leading_error: ErrorRecord::of(error),
-            leading_error_quadratic: ErrorRecord::of(error_quadratic),
-        }
-    }
+/// The end of a gap is null beyond 2·(evaluations).
+fn gaps(stability: &Stability) -> Vec<Object> {
+    let ends = stability.gaps.iter().map(|gap| (gap.from.as_str(), gap.to.as_deref(), gap.width));
+    ends.map(|(from, to, width)| Object(vec![("from", from.into()), ("to", to.into()), ("width", width.into())]))
+        .collect()
 }
 
-fn inner(proved: &Proved) -> Option<Inner> {
-    let inner = proved.scheme.inner.as_ref()?;
-    let (maps, _) = inner.step(&proved.scheme.maps());
-    let of_ratio = |parts: i64| {
-        let ratio = Rational::new(1.into(), parts.into());
-        let gaps = resonances(proved, &ratio)?.gaps.iter().map(Gap::of).collect();
-        Some(Resonances { ratio: to_text(&ratio), gaps })
-    };
-    Some(Inner {
-        base: inner.scheme.table.name.value.clone(),
-        substeps: inner.substeps,
-        order: proved.order().order,
-        fast_evaluations: maps.iter().filter(|map| map.kind == MapKind::Drift).count(),
-        resonances: REPORTED.into_iter().filter_map(of_ratio).collect(),
-    })
+fn sizes(proved: &Proved, kind: MapKind) -> Object {
+    let Sizes { sum_of_sizes, smallest, largest } = Sizes::of(&proved.scheme.maps(), kind);
+    let sizes = [("sum_of_sizes", sum_of_sizes), ("smallest", smallest), ("largest", largest)];
+    Object(sizes.map(|(key, size)| (key, to_text(&size).into())).into())
 }
 
-fn processor(proved: &Proved) -> Option<Processor> {
-    let processor = proved.scheme.processor.as_ref()?;
-    let post = processor.post.iter().map(|map| Map { map: map.kind.to_string(), weight: to_text(&map.weight) });
-    Some(Processor { evaluations: processor.evaluations(), post: post.collect() })
+fn fractions(weights: &[Rational]) -> Vec<String> {
+    weights.iter().map(Rational::to_string).collect()
 }
 
-/// The coefficients of the trace polynomial: exact where the weights are, which else are hundreds of digits long; 30
-/// digits of the others.
-fn trace(scheme: &ExactScheme) -> Option<Vec<String>> {
-    let maps = scheme.maps();
-    if maps.len() > MOST_MAPS {
-        return None;
-    }
-    let trace = Trace::of(&maps);
-    let text = |k| match scheme.held {
+fn maps(maps: &[Map]) -> Vec<Object> {
+    let object =
+        |Map { kind, weight }: &Map| Object(vec![("map", kind.to_string().into()), ("weight", to_text(weight).into())]);
+    maps.iter().map(object).collect()
+}
+
+/// The coefficients of the trace polynomial: exact where the weights are.
+fn trace(proved: &Proved) -> Option<Vec<String>> {
+    let maps = proved.scheme.maps();
+    let trace = (maps.len() <= MOST_MAPS).then(|| Trace::of(&maps))?;
+    let text = |k| match proved.scheme.held {
         Held::Exactly => to_text(&trace.coefficient(k)),
-        Held::Digits(_) => to_significant(&trace.unreduced_coefficient(k), 30),
+        Held::Digits(_) => to_significant(&trace.unreduced_coefficient(k), SHOWN_DIGITS),
     };
     Some((0..=trace.degree()).map(text).collect())
 }
 
-fn failed(order: &Order, text: impl Fn(&Rational) -> String) -> Option<Failed> {
-    order.failed.as_ref().map(|(condition, found)| Failed {
-        condition: condition.functional.to_string(),
-        order: condition.order,
-        found: text(found),
-        needed: text(&condition.needed),
-    })
+/// The post-map of a processed scheme, and the evaluations of the forces for an output, and for the pre-map.
+fn processor(proved: &Proved) -> Option<Object> {
+    let processor = proved.scheme.processor.as_ref()?;
+    Some(Object(vec![("evaluations", processor.evaluations().into()), ("post", maps(&processor.post).into())]))
 }
 
-/// As tables write it.
-pub fn first(first: First) -> &'static str {
-    match first {
-        First::Kick => "kick",
-        First::Drift => "drift",
-    }
-}
-
-/// How many digits of the weights are right; `None` for all.
-pub fn digits(held: Held) -> Option<u32> {
-    match held {
-        Held::Exactly => None,
-        Held::Digits(digits) => Some(digits),
-    }
-}
-
-/// Other names under which the scheme is known.
-pub fn aliases(table: &Table) -> Vec<String> {
-    table.aliases.iter().map(|alias| alias.value.clone()).collect()
-}
-
-/// The orders for H = A + εB, of the terms of ε, ε², ….
-pub fn near_integrable(proof: &Proof) -> Vec<u32> {
-    proof.near_integrable.iter().map(|order| order.order).collect()
-}
-
-/// The effective orders of a processed scheme for H = A + εB; of another scheme none.
-pub fn effective_near_integrable(proof: &Proof) -> Vec<u32> {
-    proof.effective.iter().flat_map(|effective| &effective.near_integrable).map(|order| order.order).collect()
-}
-
-/// As tables write it.
-pub fn kinetic(kinetic: Kinetic) -> &'static str {
-    match kinetic {
-        Kinetic::Any => "any",
-        Kinetic::Quadratic => "quadratic",
-    }
+/// The inner scheme of multiple time steps, and what is proved of the step of slow forces, fast forces and T.
+fn inner(proved: &Proved) -> Option<Object> {
+    let inner = proved.scheme.inner.as_ref()?;
+    let (maps, _) = inner.step(&proved.scheme.maps());
+    // where an oscillation is unstable whose slow forces have a part of the stiffness of the fast ones
+    let of_ratio = |parts: i64| {
+        let ratio = Rational::new(1.into(), parts.into());
+        let gaps = gaps(&resonances(proved, &ratio)?);
+        Some(Object(vec![("ratio", to_text(&ratio).into()), ("gaps", gaps.into())]))
+    };
+    // evaluations of the fast forces, where these depend on q only
+    let fast_evaluations = maps.iter().filter(|map| map.kind == MapKind::Drift).count();
+    Some(Object(vec![
+        ("base", inner.scheme.table.name.value.as_str().into()),
+        ("substeps", inner.substeps.into()),
+        ("order", proved.order().order.into()),
+        ("fast_evaluations", fast_evaluations.into()),
+        ("resonances", REPORTED.into_iter().filter_map(of_ratio).collect::<Vec<_>>().into()),
+    ]))
 }

@@ -3,7 +3,6 @@
 use shadowstep_symbolic::Rational;
 
 use crate::polish::newton::{Problem, Solution};
-use crate::polish::numbers::counted;
 use crate::polish::outcome::NotPolished;
 use crate::polish::rounded;
 use crate::polish::write::{self, Written};
@@ -12,7 +11,7 @@ use shadowstep_schemes::exact::DIGITS;
 use shadowstep_schemes::library::Library;
 use shadowstep_schemes::scheme::Held;
 use shadowstep_schemes::table::Table;
-use shadowstep_schemes::{Proved, read};
+use shadowstep_schemes::{Proved, counted, read};
 
 /// With this number of digits the proof can decide every condition up to the highest order.
 const ENOUGH_TO_PROVE: u32 = 20;

@@ -1,11 +1,5 @@
 //! Numbers in messages.
 
-/// `1 digit`, `2 digits`
-pub fn counted(count: impl Into<u64>, what: &str) -> String {
-    let count = count.into();
-    format!("{count} {what}{}", if count == 1 { "" } else { "s" })
-}
-
 /// `1.6e-15`, beyond the range of f64 too.
 pub fn power_of_ten(log10: f64) -> String {
     if log10 == f64::NEG_INFINITY {

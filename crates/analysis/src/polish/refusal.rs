@@ -1,11 +1,11 @@
 //! Why a table was not polished: what happened, with numbers, and what would be right.
 
 use crate::polish::newton::{Failure, Problem, What};
-use crate::polish::numbers::{counted, power_of_ten};
+use crate::polish::numbers::power_of_ten;
 use crate::polish::unknowns::Model;
 use crate::polish::{formulas, printed};
-use shadowstep_schemes::ExactScheme;
 use shadowstep_schemes::table::Table;
+use shadowstep_schemes::{ExactScheme, counted};
 
 /// What would be right, as far as the printed table shows it.
 pub(super) fn reason(scheme: &ExactScheme, model: &Model) -> Option<String> {
@@ -39,8 +39,8 @@ pub(super) fn unsolved(
     let numbers = format!(
         "{} for {}, {} of them solved for; as printed off by {}, most of all {worst}; at best by {}; \
          condition number {:.1e}",
-        counted(rows.len() as u64, "condition"),
-        counted(problem.model.unknowns.len() as u64, "decimal"),
+        counted(rows.len(), "condition"),
+        counted(problem.model.unknowns.len(), "decimal"),
         failure.moving,
         power_of_ten(residual_printed),
         power_of_ten(failure.residual.min(residual_printed)),
