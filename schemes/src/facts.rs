@@ -67,6 +67,6 @@ pub fn held(digits: Option<u32>) -> String {
 }
 
 /// `1 kick`, `2 kicks`
-pub fn counted<N: Display + PartialEq + From<u8>>(count: N, what: &str) -> String {
+pub fn counted<N: Copy + Display + PartialEq + From<u8>>(count: N, what: &str) -> String {
     format!("{count} {what}{}", if count == N::from(1) { "" } else { "s" })
 }

@@ -33,7 +33,7 @@ pub(crate) struct Arguments {
     /// Only schemes for these kinetic energies
     ///
     /// --order and --sort then use the orders and effective errors for them.
-    #[arg(long = "for", value_name = "KINETIC", value_parser = words(&KINETIC, &KINETIC_MEANINGS).map(kinetic))]
+    #[arg(long = "for", value_name = "KINETIC", value_parser = words(&KINETIC, &KINETIC_MEANINGS).map(|word| kinetic(&word)))]
     kinetic: Option<Kinetic>,
     /// What comes first
     #[arg(long, value_name = "KEY", default_value = "order")]
@@ -50,7 +50,7 @@ const KINETIC: [&str; 2] = ["any", "quadratic"];
 const KINETIC_MEANINGS: [&str; 2] =
     ["Every T(p): schemes that need a quadratic one are left out", "T = ½pᵀM⁻¹p: all schemes"];
 
-fn kinetic(word: String) -> Kinetic {
+fn kinetic(word: &str) -> Kinetic {
     if word == KINETIC[0] { Kinetic::Any } else { Kinetic::Quadratic }
 }
 

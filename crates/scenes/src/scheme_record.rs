@@ -59,15 +59,11 @@ const OF_ORDERS: [OfOrders; 11] = [
     ("leading_error_quadratic", |a| leading_error(&a.errors[1]).into()),
 ];
 
-/// The names, before the orders.
-const NAMES: [OfScheme; 3] = [
+/// Exact numbers are texts, with every digit of the weights. The first three, the names, come before the orders.
+const OF_SCHEME: [OfScheme; 31] = [
     ("name", |s| s.table().name.value.as_str().into()),
     ("aliases", |s| s.aliases().into()),
     ("title", |s| s.table().title.clone().into()),
-];
-
-/// What follows the orders; exact numbers are texts, with every digit of the weights.
-const OTHERS: [OfScheme; 28] = [
     // the map that moves by A of A + εB
     ("dominant", |s| s.table().near_integrable.as_ref().map(|claim| claim.dominant.to_string()).into()),
     ("free", |s| s.table().free.iter().map(|name| name.value.as_str()).collect::<Vec<_>>().into()),
@@ -116,17 +112,15 @@ impl<'a> SchemeFacts<'a> {
 
     /// All facts; they take some milliseconds.
     pub fn record(&self) -> Object {
-        let values = |facts: &[OfScheme]| facts.iter().map(|(key, value)| (*key, value(self))).collect::<Vec<_>>();
-        let mut facts = values(&NAMES);
-        facts.extend(self.accuracy().record().0);
-        facts.extend(values(&OTHERS));
+        let mut facts: Vec<_> = OF_SCHEME.iter().map(|(key, value)| (*key, value(self))).collect();
+        facts.splice(3..3, self.accuracy().record().0);
         facts.push(("kernel", self.kernel().map(|kernel| kernel.record()).into()));
         Object(facts)
     }
 
     /// The facts with these keys, in this order, of those that are not of its orders.
     pub fn some(&self, keys: &[&str]) -> Vec<(&'static str, Json)> {
-        let fact = |key: &&str| NAMES.iter().chain(&OTHERS).find(|fact| fact.0 == *key);
+        let fact = |key: &&str| OF_SCHEME.iter().find(|fact| fact.0 == *key);
         keys.iter().filter_map(fact).map(|(key, value)| (*key, value(self))).collect()
     }
 
