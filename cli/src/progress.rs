@@ -69,7 +69,7 @@ impl Progress {
         }
     }
 
-    /// So many calculations of a study are done, which cost this part of all.
+    /// Calculations of a study are done, which cost this part of all.
     pub(crate) fn show(&mut self, done: usize, all: usize, part: f64) {
         self.bar.set_prefix(format!("{done} of {all} calculations"));
         self.reach((part * LENGTH) as i64);

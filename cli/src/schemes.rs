@@ -3,7 +3,6 @@
 mod analysis;
 mod check;
 mod columns;
-mod facts;
 mod from;
 mod list;
 mod plot;

@@ -13,6 +13,7 @@ use shadowstep_analysis::search::{Candidate, Request, Search};
 use shadowstep_scenes::Error;
 use shadowstep_schemes::document::{LARGEST_TABLE, read_text};
 use shadowstep_schemes::{Source, shipped};
+use shadowstep_studies::files::write_file;
 use shadowstep_studies::{Calculation, Continues, Store};
 
 use crate::output::Output;
@@ -123,7 +124,7 @@ pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
         let name = format!("{}-{n}", search.request.name);
         match search.table(candidate, &name, arguments.digits, &of_library) {
             Ok(polished) => {
-                files::table(&arguments.out, &name, &polished.text)?;
+                write_file(&arguments.out, &format!("{name}.toml"), &polished.text)?;
                 rows.push(Row { is_new: true, ..row(&search, name, &polished.proved) });
             }
             Err(NotPolished::Faults(faults)) => return Err(faults.into()),

@@ -10,6 +10,7 @@ use crate::quantity;
 use crate::report;
 use crate::run_arguments::{EstimatorArguments, OrderChoice, RunArguments};
 use crate::system::Described;
+use shadowstep_scenes::Error;
 use shadowstep_scenes::arithmetic::Arithmetic;
 use shadowstep_scenes::estimator::{ACCURACY_HINT, conflict, order_setting};
 use shadowstep_scenes::library::NamedScheme;
@@ -17,7 +18,6 @@ use shadowstep_scenes::propagator::Propagator;
 use shadowstep_scenes::run::{OrderSetting, Run};
 use shadowstep_scenes::stability::note_of_steps;
 use shadowstep_scenes::steps::MOST_STEPS;
-use shadowstep_scenes::{Error, System};
 
 /// Everything that is to be run.
 #[derive(Debug)]
@@ -39,7 +39,11 @@ impl Selection {
         let until = quantity::number("--until", &arguments.until)?;
         refuse_empty("--scheme", &arguments.schemes, "yoshida4,ruth3")?;
         refuse_empty("--step", &arguments.sizes, "1/10,1/20")?;
-        let step = |text: &String| step(text, &until, &problem.system);
+        let step = |text: &String| {
+            let h = quantity::step_size("--step", text)?;
+            let count = quantity::steps((&h, text), &until, &problem.system)?;
+            Ok::<_, Error>((h, count))
+        };
         let steps = arguments.sizes.iter().map(step).collect::<Result<Vec<_>, _>>()?;
         let words = each_once(&arguments.schemes, |word| word.clone(), "scheme");
         let propagators: Vec<_> =
@@ -72,11 +76,6 @@ impl Selection {
                 (propagator, Run { propagator: name, h, steps: *steps, order, windows: Run::WINDOWS })
             })
         })
-    }
-
-    /// The problem in a line.
-    pub(crate) fn title(&self) -> String {
-        self.problem.title.clone()
     }
 
     /// The name of a run, the n-th of several.
@@ -179,11 +178,4 @@ fn each_once<T: Clone>(list: &[T], name: impl Fn(&T) -> String, what: &str) -> V
         }
     }
     kept
-}
-
-/// A step size h, and how many steps end at or before `until`, where this is known without making them.
-fn step(text: &str, until: &Rational, system: &System) -> Result<(StepSize, Option<u64>), Error> {
-    let h = quantity::step_size("--step", text)?;
-    let count = quantity::steps((&h, text), until, system)?;
-    Ok((h, count))
 }

@@ -79,7 +79,7 @@ pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
     let interrupt = Interrupt::listen("trace", NOT_RESUMED);
     let mut plots = arguments.plot.read(
         &selection.problem.system,
-        &selection.title(),
+        &selection.problem.title,
         selection.count(),
         arguments.run.output.force,
     )?;

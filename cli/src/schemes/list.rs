@@ -12,7 +12,6 @@ use crate::readable::wrapped;
 use crate::report::{self, Status};
 use crate::run_arguments::words;
 use crate::schemes::columns;
-use crate::schemes::facts::{NEAR_INTEGRABLE, nested_text};
 use crate::schemes::record::{Listed, effective_error};
 use shadowstep_scenes::Error;
 use shadowstep_scenes::library::{self, NamedScheme};
@@ -93,10 +92,10 @@ fn readable(schemes: &[Listed<'_>], arguments: &Arguments) -> String {
     let columns = if arguments.wide { columns::all() } else { columns::to_choose_by(arguments.kinetic) };
     let mut legends = vec![columns::legend(arguments.wide, arguments.kinetic)];
     if schemes.iter().any(|scheme| !scheme.facts.proved.orders().near_integrable.is_empty()) {
-        legends.push(NEAR_INTEGRABLE.to_owned());
+        legends.push(columns::NEAR_INTEGRABLE.to_owned());
     }
     let nested: Vec<_> = schemes.iter().filter(|scheme| scheme.is_nested()).map(|scheme| scheme.name).collect();
-    legends.extend((!nested.is_empty()).then(|| nested_text(&nested)));
+    legends.extend((!nested.is_empty()).then(|| columns::nested(&nested)));
     let legends: String = legends.iter().map(|legend| wrapped(legend, "")).collect();
     format!("{}\n{legends}", columns::table_of(&columns, schemes))
 }

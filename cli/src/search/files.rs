@@ -26,11 +26,6 @@ pub(super) fn written(name: &str) -> impl Iterator<Item = String> {
     [STARTS.to_owned(), format!("{PICTURE}.svg"), PAGE.to_owned(), format!("{name}-*.toml")].into_iter()
 }
 
-/// Writes a table.
-pub(super) fn table(folder: &Path, name: &str, text: &str) -> Result<(), Error> {
-    write_file(folder, &format!("{name}.toml"), text)
-}
-
 /// Writes what the starts found, the picture and the page; the path of the page.
 pub(super) fn write(search: &Search, candidates: &[Candidate], rows: &[Row], folder: &Path) -> Result<PathBuf, Error> {
     let command = invocation::command();
