@@ -71,8 +71,8 @@ pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
     let out = arguments.out.as_deref();
     let study = |folder: &Path, terminal: &mut Terminal| examine(&suite, &cases, folder, terminal);
     let (findings, status) = study_in(out, arguments.force, files::written(), study)?;
-    let records = findings.iter().flat_map(|(case, finding)| records(*case, finding));
-    let text = || findings.iter().map(|(case, finding)| readable(*case, finding)).collect();
+    let records = findings.iter().flat_map(|(case, finding)| records(case, finding));
+    let text = || findings.iter().map(|(case, finding)| readable(case, finding)).collect();
     Output::stdout().records_or_text(arguments.json, records, text)?;
     let counts = files::counts(&findings);
     let report = out.map(|folder| files::write(findings, &command(arguments), folder)).transpose()?;
@@ -117,7 +117,7 @@ fn command(arguments: &Arguments) -> String {
 }
 
 /// A row as an object.
-fn records(case: CaseEntry, finding: &Finding) -> impl Iterator<Item = Object> {
+fn records(case: &CaseEntry, finding: &Finding) -> impl Iterator<Item = Object> {
     finding.statements.iter().map(move |row| {
         let (subject, found) = (row.statement.as_str(), row.found.as_str());
         let facts = [("case", case.name()), ("subject", subject), ("found", found), ("verdict", row.verdict.word())];
@@ -130,7 +130,7 @@ const WIDTH: usize = 100;
 const MARGIN: &str = "               ";
 
 /// A case: its heading, its rows, its remarks.
-fn readable(case: CaseEntry, finding: &Finding) -> String {
+fn readable(case: &CaseEntry, finding: &Finding) -> String {
     let mut text = format!("{}: {}\n", case.name(), case.title());
     for row in &finding.statements {
         let line = format!("{}: {}", row.statement, row.explained());

@@ -8,6 +8,7 @@
 //! | `threads`, `progress` | groups of calculations on all cores; how much is done |
 //! | `observer` | how a caller follows it |
 //! | [`chart`] | curves → SVG |
+//! | [`claim`] | claims as data: texts of TOML, charts by their texts |
 //! | [`heat_map`] | cells over two quantities, coloured by a third → SVG |
 //! | `named` | the parts of a study by their names |
 //! | [`finding`] | what a part of a study has shown: charts, results, statements, tables |
@@ -18,6 +19,7 @@
 
 mod calculation;
 pub mod chart;
+pub mod claim;
 pub mod files;
 pub mod finding;
 pub mod heat_map;

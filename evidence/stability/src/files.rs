@@ -9,12 +9,13 @@ use shadowstep_studies::finding::Finding;
 use shadowstep_studies::page::{Report, Section};
 use shadowstep_studies::verdict::Counts;
 
-use crate::examination::{CaseEntry, names};
+use crate::case::CaseEntry;
+use crate::examination::names;
 
 const TABLE: &str = "stability.md";
 
 /// How many rows agree, differ, and are not decided.
-pub fn counts(findings: &[(CaseEntry, Finding)]) -> Counts {
+pub fn counts(findings: &[(&CaseEntry, Finding)]) -> Counts {
     Counts::of(findings.iter().flat_map(|(_, finding)| &finding.statements).map(|row| row.verdict))
 }
 
@@ -23,9 +24,9 @@ pub fn counts(findings: &[(CaseEntry, Finding)]) -> Counts {
 ///
 /// # Errors
 /// A file that cannot be written.
-pub fn write(findings: Vec<(CaseEntry, Finding)>, command: &str, folder: &Path) -> Result<PathBuf, Error> {
+pub fn write(findings: Vec<(&CaseEntry, Finding)>, command: &str, folder: &Path) -> Result<PathBuf, Error> {
     write_file(folder, TABLE, &markdown(&findings, command))?;
-    let section = |(case, finding): (CaseEntry, Finding)| {
+    let section = |(case, finding): (&CaseEntry, Finding)| {
         let files = write_charts(folder, case.name(), &finding.charts)?;
         Ok(Section { title: case.title().to_owned(), of_paper: None, finding, files })
     };
@@ -47,13 +48,19 @@ pub fn written() -> impl Iterator<Item = String> {
 }
 
 /// The table of verdicts as a page of Markdown.
-fn markdown(findings: &[(CaseEntry, Finding)], command: &str) -> String {
+fn markdown(findings: &[(&CaseEntry, Finding)], command: &str) -> String {
     let mut page = format!(
         "<!-- Written by `{command}`; do not edit. -->\n\n# Numerical stability on hard cases\n\n{INTRODUCTION}\n"
     );
     let _ = writeln!(page, "Of all rows, {}.", counts(findings));
     for (case, finding) in findings {
-        let _ = write!(page, "\n## {}\n\n`shadowstep stability {}`\n\n{}\n", case.title(), case.name(), case.theory());
+        let _ = write!(
+            page,
+            "\n## {}\n\n`shadowstep stability {}`\n\n{}\n",
+            case.title(),
+            case.name(),
+            case.table().theory
+        );
         for remark in &finding.found {
             let _ = write!(page, "\n{remark}\n");
         }

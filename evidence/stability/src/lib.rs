@@ -15,15 +15,16 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! A case is a file in `cases/` that implements `Case`, and its line of the list `CASES`; everything else walks that
-//! list.
+//! A case is a table `cases/NAME.toml` with what theory predicts, the trials and the chart, a file beside it that
+//! implements `Case`, what is computed and judged, and its line of the list `CASES`; everything else walks that list.
 //!
 //! | module | what it is |
 //! | --- | --- |
 //! | `examination` | from a request to the findings |
 //! | [`Suite`], [`files`] | what is examined; the page, the charts and the table that are written |
-//! | `cases` | the list of all cases, and one file for each |
-//! | `case` | what a case is |
+//! | `cases` | the list of all cases, and a table and a file for each |
+//! | `case`, `table`, `trial` | what a case is; its table; a trial of it |
+//! | `prelude` | what most cases use |
 //! | `systems`, `integrator` | systems of cases; a system with its stepper as scenes make it, in a number type or in one that is hidden |
 //! | `linear_step`, `growth` | a step of the oscillator as a matrix; how fast a linear system grows |
 //! | `area` | areas of pairs of tangent vectors |
@@ -38,10 +39,14 @@ mod growth;
 mod integrator;
 mod linear_step;
 mod long_run;
+mod prelude;
 mod scene_run;
 mod suite;
 mod systems;
+mod table;
+mod trial;
 mod watched;
 
-pub use examination::{CaseEntry, entries, examine, names};
+pub use case::CaseEntry;
+pub use examination::{entries, examine, names};
 pub use suite::Suite;

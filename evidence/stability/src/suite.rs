@@ -3,13 +3,11 @@
 use std::collections::BTreeMap;
 use std::sync::OnceLock;
 
+use shadowstep::Scheme;
 use shadowstep::tables::shipped_names;
 use shadowstep_scenes::arithmetic::Arithmetic;
 use shadowstep_scenes::library::{NamedScheme, scheme};
 use shadowstep_schemes::shipped_proved;
-
-/// The schemes of several cases: of the orders 2, 4, 4 and 8.
-pub(crate) const OF_ORDERS_2_TO_8: [&str; 4] = ["stormer-verlet", "yoshida4", "blanes-moan-srkn6b", "kahan-li8"];
 
 /// What is examined.
 #[derive(Debug)]
@@ -40,6 +38,16 @@ impl Examined {
     pub(crate) fn name(&self) -> &str {
         &self.scheme.name
     }
+
+    /// Whether it is for T(p) and U(q) only.
+    pub(crate) fn has_gradient_kicks(&self) -> bool {
+        self.scheme.scheme.proved().scheme.has_gradient_kicks()
+    }
+
+    /// Force evaluations of a step.
+    pub(crate) fn evaluations(&self) -> u64 {
+        self.scheme.scheme.summary().evaluations as u64
+    }
 }
 
 impl Suite {
@@ -50,9 +58,9 @@ impl Suite {
     }
 
     /// The schemes of a case: the requested ones, or these shipped ones.
-    pub(crate) fn schemes_or(&self, names: &[&str]) -> Vec<&Examined> {
+    pub(crate) fn schemes_or(&self, names: &[impl AsRef<str>]) -> Vec<&Examined> {
         match &self.schemes[..] {
-            [] => names.iter().map(|name| self.shipped(name)).collect(),
+            [] => names.iter().map(|name| self.shipped(name.as_ref())).collect(),
             own => own.iter().collect(),
         }
     }
@@ -67,13 +75,6 @@ impl Suite {
     fn shipped(&self, name: &str) -> &Examined {
         let place = self.shipped.get(name).expect("cases name shipped schemes");
         place.get_or_init(|| Examined::new(scheme(name).expect("shipped schemes are proved")))
-    }
-
-    /// The scheme of a trial by its identity.
-    pub(crate) fn scheme(&self, identity: &str) -> &NamedScheme {
-        let read = self.shipped.values().filter_map(OnceLock::get);
-        let found = self.schemes.iter().chain(read).find(|examined| examined.identity == identity);
-        &found.expect("trials are made of the suite's schemes").scheme
     }
 
     /// One value for a full examination, another for a quick one.

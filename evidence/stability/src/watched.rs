@@ -1,5 +1,7 @@
 //! A run of a scheme with a monitor: what it says, and when.
 
+use std::ops::ControlFlow;
+
 use serde::{Deserialize, Serialize};
 use shadowstep::shadow::Verdict;
 use shadowstep_studies::Continues;
@@ -45,13 +47,6 @@ impl Watched {
     }
 }
 
-/// Whether a run is to be continued after a state.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Next {
-    Continue,
-    End,
-}
-
 /// Whether a verdict says that the steps do not conserve the energy.
 fn is_alarm(verdict: Verdict) -> bool {
     matches!(verdict, Verdict::TooLarge(_) | Verdict::NotConserved | Verdict::NearResonance { .. })
@@ -64,7 +59,7 @@ pub(crate) fn watched(
     every: u64,
     steps: u64,
     continues: Continues<'_>,
-    each: &mut dyn FnMut(u64, &mut dyn AnyIntegrator) -> Next,
+    each: &mut dyn FnMut(u64, &mut dyn AnyIntegrator) -> ControlFlow<()>,
 ) -> Watched {
     run.watch(MONITOR_ORDER, every);
     let (mut finite, mut alarm, mut alarmed, mut next_report) = (true, None, None, 0);
@@ -85,7 +80,7 @@ pub(crate) fn watched(
             }
         }
         let asks = n % (steps / QUESTIONS).max(1) == 0;
-        if each(n, run) == Next::End || (asks && !continues(n as f64 / steps as f64)) {
+        if each(n, run).is_break() || (asks && !continues(n as f64 / steps as f64)) {
             break;
         }
     }

@@ -2,35 +2,16 @@
 
 use std::time::Instant;
 
-use serde::{Deserialize, Serialize};
 use shadowstep::problems::CubicSpring;
 use shadowstep::systems::pairs::{Ends, Pairs};
-use shadowstep::{Carried, Potential, Rational, Scheme};
-use shadowstep_scenes::Error;
-use shadowstep_scenes::arithmetic::Arithmetic;
-use shadowstep_scenes::computation::{Computation, RunNumber};
-use shadowstep_scenes::library::NamedScheme;
-use shadowstep_scenes::start::Begin;
-use shadowstep_studies::Continues;
-use shadowstep_studies::chart::{Axis, Chart, Curve};
-use shadowstep_studies::finding::Finding;
-use shadowstep_studies::verdict::Verdict;
+use shadowstep::{Carried, Potential};
 
-use crate::case::Case;
-use crate::integrator::{step_size, steps_of};
-use crate::suite::{Examined, Suite};
+use crate::prelude::*;
 
 /// The case.
 pub(super) struct Chains;
 
-/// A chain of springs.
-#[derive(Serialize)]
-pub(super) struct Trial {
-    scheme: String,
-    bodies: usize,
-}
-
-/// What its steps need.
+/// What the steps of a chain of springs need.
 #[derive(Serialize, Deserialize)]
 pub(super) struct Cost {
     /// Nanoseconds a step and body, the least of several repeats.
@@ -40,64 +21,31 @@ pub(super) struct Cost {
     finite: bool,
 }
 
-const BODIES: [usize; 6] = [1, 10, 100, 1000, 10_000, 100_000];
 /// Steps and bodies of a repeat together.
 const WORK: usize = 400_000;
 const REPEATS: usize = 7;
 /// The time a body may differ by this factor between 100 and 10⁵ bodies, which fill the caches.
 const LINEAR: f64 = 4.0;
-const SCHEMES: [&str; 2] = ["stormer-verlet", "blanes-moan-srkn6b"];
 
 impl Case for Chains {
-    const NAME: &'static str = "chains";
-    const TITLE: &'static str = "Chains of 1 to 10⁵ coordinates";
-    const THEORY: &'static str = "Time and memory of a step are proportional to the number of bodies, from 100 bodies \
-        on to within what caches of the processor make.";
-    const REVISION: u32 = 1;
-
-    type Trial = Trial;
     type Measured = Cost;
 
-    fn trials(suite: &Suite) -> Vec<Trial> {
-        let of = |scheme: &&Examined| BODIES.map(|bodies| Trial { scheme: scheme.identity.clone(), bodies });
-        suite.schemes_or(&SCHEMES).iter().flat_map(of).collect()
+    fn measure(trial: &Trial<'_>, continues: Continues<'_>) -> Result<Cost, Error> {
+        Ok(trial.arithmetic.compute(Repeat { scheme: trial.scheme(), bodies: trial.get("bodies"), continues }))
     }
 
-    fn seconds(_: &Suite, _: &Trial) -> f64 {
-        (WORK * REPEATS) as f64 * 20e-9
-    }
-
-    fn measure(suite: &Suite, trial: &Trial, arithmetic: Arithmetic, continues: Continues<'_>) -> Result<Cost, Error> {
-        let scheme = suite.scheme(&trial.scheme);
-        Ok(arithmetic.compute(Repeat { scheme, bodies: trial.bodies, continues }))
-    }
-
-    fn judge(suite: &Suite, measured: &[(Trial, Cost)]) -> Finding {
-        let mut finding = Finding::default();
-        let mut curves = Vec::new();
-        for (i, all) in measured.chunk_by(|(one, _), (other, _)| one.scheme == other.scheme).enumerate() {
-            let name = &suite.scheme(&all[0].0.scheme).name;
-            let long = all.iter().filter(|(trial, _)| trial.bodies >= 100);
-            let times: Vec<f64> = long.map(|(_, cost)| cost.nanoseconds).collect();
-            let (least, largest) =
-                (times.iter().copied().fold(f64::INFINITY, f64::min), times.iter().copied().fold(0.0, f64::max));
-            let numbers = all.iter().map(|(_, cost)| cost.numbers).fold(0.0, f64::max);
-            let finite = all.iter().all(|(_, cost)| cost.finite);
-            let found = format!(
-                "from 100 to 100 000 bodies {least:.2} to {largest:.2} ns a body and evaluation; {numbers:.0} numbers \
-                    a body at most"
-            );
-            finding.check(name, found, Verdict::from(largest <= LINEAR * least && finite));
-            let points =
-                all.iter().map(|(trial, cost)| ((trial.bodies as f64).log10(), cost.nanoseconds.log10())).collect();
-            curves.push(Curve::marked(name.clone(), points, i));
-        }
-        let (x, y) = (Axis::log10("bodies"), Axis::log10("nanoseconds a body and evaluation"));
-        finding.chart(
-            Chart::new("The time of a step", x, y, curves),
-            "The least of 7 repeats; other work on the machine adds to it.",
+    fn judge(all: &[&Done<'_, Cost>]) -> Vec<Row> {
+        let bodies = |one: &Done<'_, Cost>| one.trial.get::<f64>("bodies");
+        let times = || all.iter().filter(|one| bodies(one) >= 100.0).map(|one| one.found.nanoseconds);
+        let (least, most) = (times().fold(f64::INFINITY, f64::min), largest(times()));
+        let numbers = largest(all.iter().map(|one| one.found.numbers));
+        let found = format!(
+            "from 100 to 100 000 bodies {least:.2} to {most:.2} ns a body and evaluation; {numbers:.0} numbers a body \
+             at most"
         );
-        finding
+        let linear = most <= LINEAR * least && all.iter().all(|one| one.found.finite);
+        let points = all.iter().map(|one| (bodies(one).log10(), one.found.nanoseconds.log10()));
+        vec![Row::of(&all[0].trial, found, linear).with(points)]
     }
 }
 

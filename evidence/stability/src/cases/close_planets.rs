@@ -2,34 +2,14 @@
 
 use std::f64::consts::TAU;
 
-use serde::Serialize;
-use shadowstep::Scheme;
-use shadowstep_scenes::Error;
-use shadowstep_scenes::arithmetic::Arithmetic;
-use shadowstep_studies::Continues;
-use shadowstep_studies::chart::{Axis, Chart, Curve, Mark};
-use shadowstep_studies::finding::Finding;
-use shadowstep_studies::verdict::Verdict;
-
-use crate::case::Case;
+use crate::prelude::*;
 use crate::scene_run::{RunResult, digits, run_scene};
-use crate::suite::Suite;
 
 /// The case.
 pub(super) struct ClosePlanets;
 
-/// Two planets on circles whose radii differ by a number of mutual Hill radii.
-#[derive(Serialize)]
-pub(super) struct Trial {
-    scheme: String,
-    /// In tenths of a Hill radius.
-    separation: u32,
-    periods: u32,
-}
-
 /// The mass of each planet as a part of the star's.
 const MASS: f64 = 1e-5;
-const SEPARATIONS: [u32; 10] = [20, 24, 28, 30, 32, 36, 40, 50, 60, 80];
 /// 2√3 mutual Hill radii.
 const STABLE: f64 = 3.464;
 /// Up to here the planets are surely in the chaotic zone.
@@ -41,47 +21,19 @@ const KICKS: f64 = 30.0;
 /// An error of H that is lost in an encounter, as a part of H: it oscillates by 1e-6 without.
 const LOST: f64 = 1e-4;
 const SHORT: &str = "The run of a quick examination is too short; a full one decides.";
-const SCHEMES: [&str; 3] = ["stormer-verlet", "saba4", "abah864"];
 
 impl Case for ClosePlanets {
-    const NAME: &'static str = "close-planets";
-    const TITLE: &'static str = "Two planets 2 to 8 Hill radii from each other";
-    const THEORY: &'static str = "Planets on circular orbits whose radii differ by more than 2√3 mutual Hill radii \
-        are Hill stable: they never have a close encounter (Gladman, Icarus 106 (1993) 247), so the interactions stay \
-        small, the error of H is bounded and the step is fine. Below 2.4 they are in the chaotic zone and come within \
-        a Hill radius of each other, where the kicks are no longer the smaller part. A run names the closest \
-        approach, and an energy that is lost there is not called fine.";
-    const REVISION: u32 = 1;
-
-    type Trial = Trial;
     type Measured = RunResult;
 
-    fn trials(suite: &Suite) -> Vec<Trial> {
-        let periods = suite.full_or_quick(5000, 400);
-        let schemes = suite.schemes_or(&SCHEMES).into_iter();
-        let schemes = schemes.filter(|examined| !examined.scheme.scheme.proved().scheme.has_gradient_kicks());
-        let of = |scheme: &crate::suite::Examined| {
-            let scheme = scheme.identity.clone();
-            SEPARATIONS.map(move |separation| Trial { scheme: scheme.clone(), separation, periods })
-        };
-        schemes.flat_map(of).collect()
+    fn complete(scheme: &Examined, values: Values) -> Option<Values> {
+        (!scheme.has_gradient_kicks()).then_some(values)
     }
 
-    fn seconds(_: &Suite, trial: &Trial) -> f64 {
-        f64::from(trial.periods) * KICKS * 500e-9
-    }
-
-    fn measure(
-        suite: &Suite,
-        trial: &Trial,
-        arithmetic: Arithmetic,
-        continues: Continues<'_>,
-    ) -> Result<RunResult, Error> {
-        let named = suite.scheme(&trial.scheme);
-        let h = format!("{:.6e}", TAU / KICKS * named.scheme.summary().evaluations as f64);
-        let steps = (f64::from(trial.periods) * TAU / h.parse::<f64>().expect("it is a number")) as u64;
+    fn measure(trial: &Trial<'_>, continues: Continues<'_>) -> Result<RunResult, Error> {
+        let h = format!("{:.6e}", TAU / KICKS * trial.evaluations() as f64);
+        let steps = (trial.get::<f64>("periods") * TAU / h.parse::<f64>().expect("it is a number")) as u64;
         // (a + 1)/2 mutual Hill radii, Δ times, are a − 1
-        let radius = (2.0 * MASS / 3.0).cbrt() * f64::from(trial.separation) / 10.0 / 2.0;
+        let radius = (2.0 * MASS / 3.0).cbrt() * trial.get::<f64>("separation") / 10.0 / 2.0;
         let text = format!(
             "[problem]\nparts = \"wisdom-holman\"\nparameters = {{ g = 1 }}\n\
              [[body]]\nname = \"star\"\nmass = 1\n\
@@ -89,33 +41,22 @@ impl Case for ClosePlanets {
              [[body]]\nname = \"outer\"\nmass = {MASS:e}\na = {:.6}\nM = 180\n\
              [run]\nscheme = \"{}\"\nstep = {h}\nsteps = {steps}\ndigits = {}\n[output]\nenergy = {{ every = 1000 }}\n",
             (1.0 + radius) / (1.0 - radius),
-            named.name,
-            digits(arithmetic)
+            trial.name(),
+            digits(trial.arithmetic)
         );
         run_scene(text, continues)
     }
 
-    fn judge(suite: &Suite, measured: &[(Trial, RunResult)]) -> Finding {
-        let (mut finding, mut curves) = (Finding::default(), Vec::new());
-        for all in measured.chunk_by(|(one, _), (other, _)| one.scheme == other.scheme) {
-            let name = &suite.scheme(&all[0].0.scheme).name;
-            let (mut parts, mut verdicts, mut points) = (Vec::new(), Vec::new(), Vec::new());
-            for (trial, said) in all {
-                let separation = f64::from(trial.separation) / 10.0;
-                let (described, verdict, closest) = outcome(said, separation, suite.full_or_quick(true, false));
-                parts.push(format!("Δ = {separation:.1}: {described}"));
-                verdicts.push(verdict);
-                points.extend(closest.map(|closest| (separation, closest.log10())));
-            }
-            finding.check(name, parts.join("; "), Verdict::of_all(verdicts));
-            curves.push(Curve::marked(name.clone(), points, curves.len()));
+    fn judge(all: &[&Done<'_, RunResult>]) -> Vec<Row> {
+        let (mut parts, mut verdicts, mut points) = (Vec::new(), Vec::new(), Vec::new());
+        for Done { trial, found } in all {
+            let separation = trial.get::<f64>("separation") / 10.0;
+            let (described, verdict, closest) = outcome(found, separation, !trial.suite.quick);
+            parts.push(format!("Δ = {separation:.1}: {described}"));
+            verdicts.push(verdict);
+            points.extend(closest.map(|closest| (separation, closest.log10())));
         }
-        let (x, y) =
-            (Axis::linear("difference of the radii in Hill radii"), Axis::log10("closest approach in Hill radii"));
-        let mut chart = Chart::new("How close two planets come", x, y, curves);
-        chart.marks.push(Mark::at(STABLE, "2√3"));
-        finding.chart(chart, "On the right of the line no encounter is possible.");
-        finding
+        vec![Row::of(&all[0].trial, parts.join("; "), Verdict::of_all(verdicts)).with(points)]
     }
 }
 

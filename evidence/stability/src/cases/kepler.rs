@@ -6,36 +6,17 @@ use std::f64::consts::TAU;
 use num_traits::FromPrimitive;
 use rand_pcg::Pcg64Mcg;
 use rand_pcg::rand_core::{Rng, SeedableRng};
-use serde::{Deserialize, Serialize};
-use shadowstep::{Rational, Scheme};
-use shadowstep_scenes::Error;
-use shadowstep_scenes::arithmetic::Arithmetic;
-use shadowstep_scenes::start::Begin;
-use shadowstep_studies::Continues;
+use serde_json::json;
 use shadowstep_studies::chart::{Axis, Chart, Curve, Marker};
-use shadowstep_studies::finding::Finding;
-use shadowstep_studies::verdict::Verdict;
 use shadowstep_symbolic::decimal::to_text;
 
-use crate::case::Case;
-use crate::integrator::{start_in, step_size, steps_of};
-use crate::suite::Suite;
-use crate::systems::shipped;
-use crate::watched::{Next, Watched, watched};
+use crate::prelude::*;
+use crate::watched::watched;
 
 /// The case.
 pub(super) struct Kepler;
 
-/// An orbit that begins at its apocentre.
-#[derive(Serialize)]
-pub(super) struct Trial {
-    scheme: String,
-    eccentricity: String,
-    h: String,
-    steps: u64,
-}
-
-/// What became of it.
+/// What became of an orbit that begins at its apocentre.
 #[derive(Serialize, Deserialize)]
 pub(super) struct Orbit {
     watched: Watched,
@@ -64,22 +45,13 @@ const AS_LARGE: f64 = 0.4;
 /// The most alarms on orbits that are kept.
 const FALSE_ALARMS: f64 = 0.02;
 const FEW: &str = "Fewer than 20 orbits do not show that nothing is missed; a full examination has more.";
-const SCHEMES: [&str; 5] = ["stormer-verlet", "mclachlan-atela4", "yoshida4", "blanes-moan-srkn6b", "kahan-li8"];
 
 impl Case for Kepler {
-    const NAME: &'static str = "kepler";
-    const TITLE: &'static str = "Kepler orbits with e = 0 … 0.999 and steps from fine to hopeless";
-    const THEORY: &'static str = "Steps that do not resolve the pericentre change the energy of the orbit at each \
-        passage, until the orbit is lost. The modified energy changes with it: the monitor says that the step is too \
-        large, before the orbit is lost if that takes some passages, and does not say it of orbits that are kept.";
-    const REVISION: u32 = 4;
-
-    type Trial = Trial;
     type Measured = Orbit;
 
-    fn trials(suite: &Suite) -> Vec<Trial> {
+    fn trials<'a>(suite: &'a Suite, table: &'a Table) -> Vec<Trial<'a>> {
         let mut random = Pcg64Mcg::seed_from_u64(SEED);
-        let schemes = suite.schemes_or(&SCHEMES);
+        let schemes = table.schemes(suite);
         let (count, most_steps) = suite.full_or_quick((500, 200_000.0), (60, 10_000.0));
         let mut uniform = move |from: f64, to: f64| {
             let unit = (random.next_u64() >> 11) as f64 / (1_u64 << 53) as f64;
@@ -91,49 +63,42 @@ impl Case for Kepler {
             let gap = 10_f64.powf(uniform(-3.0, 0.0));
             // a part of the period of a circle through the pericentre, for each evaluation of the force
             let part = 10_f64.powf(uniform(-2.7, -0.5));
-            let h = part * TAU * gap.powf(1.5) * scheme.scheme.scheme.summary().evaluations as f64;
+            let h = part * TAU * gap.powf(1.5) * scheme.evaluations() as f64;
             let steps = (300.0 * TAU / h).min(most_steps);
             if steps * h >= LEAST_PERIODS * TAU {
-                let (identity, [eccentricity, h]) = (scheme.identity.clone(), [1.0 - gap, h].map(short));
-                trials.push(Trial { scheme: identity, eccentricity, h, steps: steps as u64 });
+                let [eccentricity, h] = [1.0 - gap, h].map(short);
+                let values = json!({ "eccentricity": eccentricity, "h": h, "steps": steps as u64 });
+                let values = values.as_object().cloned().expect("it is an object");
+                trials.push(Trial::of(suite, table, scheme, values));
             }
         }
         trials
     }
 
-    fn seconds(suite: &Suite, trial: &Trial) -> f64 {
-        trial.steps as f64 * suite.scheme(&trial.scheme).scheme.summary().evaluations as f64 * 30e-9
-    }
-
-    fn measure(suite: &Suite, trial: &Trial, arithmetic: Arithmetic, continues: Continues<'_>) -> Result<Orbit, Error> {
-        let h = step_size(&*trial.h);
+    fn measure(trial: &Trial<'_>, continues: Continues<'_>) -> Result<Orbit, Error> {
         let apocentre = [
-            ("eccentricity", trial.eccentricity.clone()),
+            ("eccentricity", trial.get("eccentricity")),
             ("x", "1 + eccentricity".to_owned()),
             ("py", "sqrt((1 - eccentricity)/(1 + eccentricity))".to_owned()),
         ];
-        let steps = steps_of(suite.scheme(&trial.scheme), &h, Begin::Step);
-        let run = &mut *start_in(arithmetic, &shipped("kepler", &apocentre), steps);
-        let mut apocentres = Apocentres::new(trial.steps);
-        let watched = watched(run, EVERY, trial.steps, continues, &mut |n, run| {
+        let run = &mut *trial.start(&shipped("kepler", &apocentre), &step_size(&*trial.get::<String>("h")));
+        let mut apocentres = Apocentres { half: trial.steps() / 2, ..Apocentres::default() };
+        let watched = watched(run, EVERY, trial.steps(), continues, &mut |n, run| {
             apocentres.include(n, [run.q(0), run.q(1)], [run.p(0), run.p(1)]);
-            Next::Continue
+            ControlFlow::Continue(())
         });
         Ok(Orbit { watched, lost: apocentres.lost, changes: apocentres.changes })
     }
 
-    fn judge(suite: &Suite, measured: &[(Trial, Orbit)]) -> Finding {
-        let mut finding = Finding::default();
-        let schemes = suite.schemes_or(&SCHEMES);
-        for scheme in &schemes {
-            let own: Vec<_> = measured.iter().filter(|(trial, _)| trial.scheme == scheme.identity).collect();
-            let counts = Counts::of(own.iter().map(|(_, orbit)| orbit));
-            finding.check(scheme.name(), counts.described(), counts.verdict());
-        }
-        let all = Counts::of(measured.iter().map(|(_, orbit)| orbit));
-        finding.found(format!("All {} orbits, drawn with the seed {SEED}: {}.", measured.len(), all.described()));
-        finding.chart(chart(suite, measured), "Each orbit is at most 300 periods long, and starts at its apocentre.");
-        finding
+    fn judge(all: &[&Done<'_, Orbit>]) -> Vec<Row> {
+        let counts = Counts::of(all.iter().map(|one| &one.found));
+        vec![Row::of(&all[0].trial, counts.described(), counts.verdict())]
+    }
+
+    fn finish(finding: &mut Finding, all: &[Done<'_, Orbit>]) {
+        let counts = Counts::of(all.iter().map(|one| &one.found)).described();
+        finding.found(format!("All {} orbits, drawn with the seed {SEED}: {counts}.", all.len()));
+        finding.chart(chart(all), "Each orbit is at most 300 periods long, and starts at its apocentre.");
     }
 }
 
@@ -144,6 +109,7 @@ fn short(value: f64) -> String {
 }
 
 /// Follows the energy far from the centre.
+#[derive(Default)]
 struct Apocentres {
     half: u64,
     /// The distances of the last two states.
@@ -156,10 +122,6 @@ struct Apocentres {
 const ENERGY: f64 = -0.5;
 
 impl Apocentres {
-    fn new(steps: u64) -> Self {
-        Apocentres { half: steps / 2, before: [0.0; 2], lost: None, changes: [0.0; 2] }
-    }
-
     fn include(&mut self, n: u64, q: [f64; 2], p: [f64; 2]) {
         let distance = q[0].hypot(q[1]);
         let [last, before_last] = self.before;
@@ -204,79 +166,62 @@ impl Orbit {
                 let error = self.watched.energy_error.unwrap_or(f64::INFINITY);
                 let kept = self.changes.into_iter().all(|change| change <= (PART * error).min(KEPT));
                 // an energy error as large as T is reported whatever is conserved
-                let alarm = alarm.filter(|_| error < AS_LARGE);
-                if kept {
-                    Outcome::Kept { alarm: alarm.is_some() }
-                } else {
-                    Outcome::Changed { alarm: alarm.is_some() }
-                }
+                let alarm = alarm.is_some() && error < AS_LARGE;
+                if kept { Outcome::Kept { alarm } } else { Outcome::Changed { alarm } }
             }
         }
     }
 }
 
-/// How often each outcome occurred.
-#[derive(Default)]
+/// The outcomes of orbits.
 struct Counts {
-    kept: usize,
-    false_alarms: usize,
-    changed: usize,
-    changed_reported: usize,
-    at_once: usize,
-    before: usize,
-    after: usize,
-    not_reported: usize,
-    /// Parts of the time to the loss at which it was reported.
+    outcomes: Vec<Outcome>,
+    /// Parts of the time to the loss at which it was reported, in their order.
     parts: Vec<f64>,
 }
 
 impl Counts {
-    fn of<'a>(orbits: impl Iterator<Item = &'a Orbit>) -> Counts {
-        let mut counts = Counts::default();
-        for orbit in orbits {
-            match orbit.outcome() {
-                Outcome::Kept { alarm } => {
-                    counts.kept += 1;
-                    counts.false_alarms += usize::from(alarm);
-                }
-                Outcome::Changed { alarm } => {
-                    counts.changed += 1;
-                    counts.changed_reported += usize::from(alarm);
-                }
-                Outcome::LostReportedBefore => {
-                    counts.before += 1;
-                    let part = orbit.watched.alarm.zip(orbit.lost).map(|(alarm, lost)| alarm as f64 / lost as f64);
-                    counts.parts.extend(part);
-                }
-                Outcome::LostAtOnce => counts.at_once += 1,
-                Outcome::LostReportedAfter => counts.after += 1,
-                Outcome::LostNotReported => counts.not_reported += 1,
-            }
-        }
-        counts.parts.sort_by(f64::total_cmp);
-        counts
+    fn of<'a>(orbits: impl Iterator<Item = &'a Orbit> + Clone) -> Counts {
+        let before = orbits.clone().filter(|orbit| orbit.outcome() == Outcome::LostReportedBefore);
+        let part = |orbit: &Orbit| Some(orbit.watched.alarm? as f64 / orbit.lost? as f64);
+        let mut parts: Vec<f64> = before.filter_map(part).collect();
+        parts.sort_by(f64::total_cmp);
+        Counts { outcomes: orbits.map(Orbit::outcome).collect(), parts }
+    }
+
+    fn count(&self, outcome: Outcome) -> usize {
+        self.outcomes.iter().filter(|other| **other == outcome).count()
+    }
+
+    /// How many are kept, and how many of them are reported.
+    fn kept(&self) -> (usize, usize) {
+        let alarms = self.count(Outcome::Kept { alarm: true });
+        (self.count(Outcome::Kept { alarm: false }) + alarms, alarms)
     }
 
     fn described(&self) -> String {
-        let Counts { kept, false_alarms, changed, changed_reported, at_once, before, after, not_reported, parts } =
-            self;
-        let lost = at_once + before + after + not_reported;
-        let early =
-            parts.get(parts.len() / 2).map_or(String::new(), |part| format!(" (after {part:.2} of the time, median)"));
+        use Outcome::{Changed, LostAtOnce, LostNotReported, LostReportedAfter, LostReportedBefore};
+        let [at_once, before, after, not_reported] =
+            [LostAtOnce, LostReportedBefore, LostReportedAfter, LostNotReported].map(|lost| self.count(lost));
+        let [silent, reported] = [false, true].map(|alarm| self.count(Changed { alarm }));
+        let ((kept, false_alarms), changed) = (self.kept(), silent + reported);
+        let median = self.parts.get(self.parts.len() / 2);
+        let early = median.map_or(String::new(), |part| format!(" (after {part:.2} of the time, median)"));
         format!(
-            "{lost} lost: {at_once} before a verdict is possible, {before} reported before{early}, {after} with or \
-             after the loss, {not_reported} called fine; {kept} kept, {false_alarms} of them reported; {changed} \
-             changed without a loss, {changed_reported} of them reported"
+            "{} lost: {at_once} before a verdict is possible, {before} reported before{early}, {after} with or after \
+             the loss, {not_reported} called fine; {kept} kept, {false_alarms} of them reported; {changed} changed \
+             without a loss, {reported} of them reported",
+            at_once + before + after + not_reported
         )
     }
 
     fn verdict(&self) -> Verdict {
-        let all = self.kept + self.changed + self.at_once + self.before + self.after + self.not_reported;
+        let (kept, false_alarms) = self.kept();
         match () {
-            () if self.not_reported > 0 => Verdict::Differs,
-            () if self.false_alarms as f64 > FALSE_ALARMS * self.kept as f64 => Verdict::Differs,
+            () if self.count(Outcome::LostNotReported) > 0 => Verdict::Differs,
+            () if false_alarms as f64 > FALSE_ALARMS * kept as f64 => Verdict::Differs,
             // a few orbits do not show that nothing is missed
-            () if all < 20 => Verdict::NotDecided(FEW),
+            () if self.outcomes.len() < 20 => Verdict::NotDecided(FEW),
             () => Verdict::Agrees,
         }
     }
@@ -285,7 +230,7 @@ impl Counts {
 /// A label, which outcomes it is for, and their marker.
 type OutcomeMarker = (&'static str, fn(Outcome) -> bool, Marker);
 
-fn chart(suite: &Suite, measured: &[(Trial, Orbit)]) -> Chart {
+fn chart(all: &[Done<'_, Orbit>]) -> Chart {
     let kinds: [OutcomeMarker; 7] = [
         ("kept", |o| o == Outcome::Kept { alarm: false }, Marker::Circle),
         ("kept, reported", |o| o == Outcome::Kept { alarm: true }, Marker::FilledSquare),
@@ -295,15 +240,14 @@ fn chart(suite: &Suite, measured: &[(Trial, Orbit)]) -> Chart {
         ("lost, reported after", |o| o == Outcome::LostReportedAfter, Marker::Cross),
         ("lost, called fine", |o| o == Outcome::LostNotReported, Marker::FilledTriangle),
     ];
-    let place = |trial: &Trial| {
-        let number = |text: &str| text.parse::<f64>().unwrap_or(f64::NAN);
-        let gap = 1.0 - number(&trial.eccentricity);
-        let evaluations = suite.scheme(&trial.scheme).scheme.summary().evaluations as f64;
-        (gap.log10(), (number(&trial.h) / evaluations / (TAU * gap.powf(1.5))).log10())
+    let place = |trial: &Trial<'_>| {
+        let number = |name: &str| trial.get::<String>(name).parse::<f64>().unwrap_or(f64::NAN);
+        let gap = 1.0 - number("eccentricity");
+        (gap.log10(), (number("h") / trial.evaluations() as f64 / (TAU * gap.powf(1.5))).log10())
     };
     let curves = kinds.iter().enumerate().filter_map(|(i, (label, is_of, marker))| {
-        let own = measured.iter().filter(|(_, orbit)| is_of(orbit.outcome()));
-        let points: Vec<_> = own.map(|(trial, _)| place(trial)).collect();
+        let own = all.iter().filter(|one| is_of(one.found.outcome()));
+        let points: Vec<_> = own.map(|one| place(&one.trial)).collect();
         (!points.is_empty()).then(|| Curve::dots(*label, points, i, *marker))
     });
     Chart::new(

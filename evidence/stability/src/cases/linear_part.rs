@@ -1,55 +1,15 @@
 //! Oscillators that drifts solve exactly, with a quadratic perturbation in the kicks: where its resonances are, and how
 //! fast states grow there.
 
-use std::f64::consts::{PI, TAU};
-
-use serde::{Deserialize, Serialize};
-use shadowstep::Number;
-use shadowstep::systems::QUADRATIC_FLOW_DIGITS;
 use shadowstep::tables::TableScheme;
-use shadowstep_scenes::arithmetic::Arithmetic;
-use shadowstep_scenes::start::Begin;
-use shadowstep_scenes::{Error, Linear, Parts, System};
+use shadowstep_scenes::{Linear, Parts};
 use shadowstep_schemes::MapKind;
-use shadowstep_studies::Continues;
-use shadowstep_studies::chart::{Axis, Chart, Curve};
-use shadowstep_studies::finding::Finding;
-use shadowstep_studies::verdict::Verdict;
 
-use crate::case::Case;
 use crate::growth::{TOLERANCE, growth, steps_to_see};
-use crate::integrator::{start_in, step_size, steps_of};
-use crate::suite::{Examined, Suite};
-use crate::systems::{of_formula, rational};
+use crate::prelude::*;
 
 /// The case.
 pub(super) struct LinearPartCase;
-
-/// A scheme at a step size.
-#[derive(Serialize)]
-pub(super) struct Trial {
-    scheme: String,
-    at: At,
-    /// Exact.
-    h: f64,
-    /// The most steps.
-    steps: u64,
-}
-
-/// Where the step size is.
-#[derive(Clone, Copy, PartialEq, Serialize)]
-enum At {
-    /// On no resonance, beyond the limit of T(p) and U(q) for most schemes.
-    Beyond,
-    /// 2ω₁h = 2π
-    First,
-    /// 2ω₂h = 2π
-    Second,
-    /// (ω₁ + ω₂)h = 2π
-    Sum,
-    /// (ω₂ − ω₁)h = 2π
-    Difference,
-}
 
 /// What the steps have shown.
 #[derive(Serialize, Deserialize)]
@@ -70,89 +30,33 @@ const DELTA: f64 = 0.01;
 const NO_GROWTH: f64 = 1e-6;
 /// A state that does not grow: its largest size in the halves of a run differs by beats only.
 const SAME: f64 = 0.02;
-const SCHEMES: [&str; 6] = ["stormer-verlet", "yoshida4", "blanes-moan-srkn6b", "saba4", "abah864", "kahan-li8"];
-
-impl At {
-    const ALL: [At; 5] = [At::Beyond, At::First, At::Second, At::Sum, At::Difference];
-
-    /// The step size at which the resonance is without B.
-    fn step_size(self) -> f64 {
-        let [first, second] = OMEGAS;
-        match self {
-            At::Beyond => 2.8,
-            At::First => PI / first,
-            At::Second => PI / second,
-            At::Sum => TAU / (first + second),
-            At::Difference => TAU / (second - first),
-        }
-    }
-
-    fn named(self) -> &'static str {
-        match self {
-            At::Beyond => "hω₂ = 4.5",
-            At::First => "2ω₁",
-            At::Second => "2ω₂",
-            At::Sum => "ω₁ + ω₂",
-            At::Difference => "ω₂ − ω₁",
-        }
-    }
-}
 
 impl Case for LinearPartCase {
-    const NAME: &'static str = "linear-part";
-    const TITLE: &'static str = "Oscillations solved exactly, with a perturbation in the kicks";
-    const THEORY: &'static str = "H = A + B with two oscillators, ω₁ = 1 and ω₂ = 1.6, as A, which drifts solve, and \
-        B = δ(q₁ + q₂)²/2, δ = 0.01, in the kicks. There is no limit of hω. A step is a symplectic matrix; its \
-        eigenvalues leave the unit circle in narrow bands about 2ω_i h = 2πm and (ω₁ + ω₂)h = 2πm, and |(q, p)| grows \
-        like exp(λn) there, with the largest log of their moduli as λ. Of Störmer–Verlet λ is nearly hδ/2ω_i or \
-        hδ/2√(ω₁ω₂); kicks at several places within a step act against each other there. At (ω₂ − ω₁)h = 2πm both \
-        have the same sign, and nothing grows.";
-    const REVISION: u32 = 1;
-
-    type Trial = Trial;
     type Measured = StepsResult;
 
-    fn trials(suite: &Suite) -> Vec<Trial> {
-        let steps = suite.full_or_quick(400_000, 20_000);
-        let trials = |examined: &&Examined| {
-            let scheme = &examined.scheme.quadratic();
-            let trial = |at: At| Trial { scheme: examined.identity.clone(), at, h: strongest(scheme, at), steps };
-            At::ALL.map(trial)
-        };
+    fn complete(scheme: &Examined, mut values: Values) -> Option<Values> {
         // gradient kicks are for T(p) and U(q)
-        let schemes = suite.schemes_or(&SCHEMES).into_iter();
-        schemes
-            .filter(|examined| !examined.scheme.scheme.proved().scheme.has_gradient_kicks())
-            .collect::<Vec<_>>()
-            .iter()
-            .flat_map(trials)
-            .collect()
-    }
-
-    /// Flows of quadratic forms have no more digits.
-    fn arithmetic(suite: &Suite) -> Arithmetic {
-        match suite.arithmetic.digits() > QUADRATIC_FLOW_DIGITS {
-            true => Arithmetic::with_digits(QUADRATIC_FLOW_DIGITS).expect("numbers of limbs have them"),
-            false => suite.arithmetic,
+        if scheme.has_gradient_kicks() {
+            return None;
         }
+        let about = values["aside"]["about"].as_f64()?;
+        let h = if values["at"] == "Beyond" { about } else { strongest(&scheme.scheme.quadratic(), about) };
+        values.insert("h".to_owned(), h.into());
+        Some(values)
     }
 
-    fn seconds(suite: &Suite, trial: &Trial) -> f64 {
-        trial.steps as f64 * suite.scheme(&trial.scheme).scheme.proved().plan.evaluations as f64 * 60e-9
-    }
-
-    fn measure(suite: &Suite, trial: &Trial, arithmetic: Arithmetic, _: Continues<'_>) -> Result<StepsResult, Error> {
-        let scheme = suite.scheme(&trial.scheme);
-        let predicted = Matrix::of_step(&scheme.quadratic(), trial.h).growth();
-        let mut run = start_in(arithmetic, &system(), steps_of(scheme, &step_size(trial.h), Begin::Step));
+    fn measure(trial: &Trial<'_>, _: Continues<'_>) -> Result<StepsResult, Error> {
+        let (h, steps) = (trial.get::<f64>("h"), trial.steps());
+        let predicted = Matrix::of_step(&trial.scheme().quadratic(), h).growth();
+        let mut run = trial.start(&system(), &step_size(h));
         if predicted > 0.0 {
             let count = steps_to_see(predicted);
-            let too_slow = 2 * count > trial.steps;
+            let too_slow = 2 * count > steps;
             let found = if too_slow { 0.0 } else { growth(&mut *run, (predicted, count)) };
             return Ok(StepsResult { predicted, found, too_slow });
         }
         let mut half = || {
-            (0..trial.steps / 20).fold(0.0, |largest: f64, _| {
+            (0..steps / 20).fold(0.0, |largest: f64, _| {
                 run.step();
                 largest.max(run.size())
             })
@@ -161,28 +65,16 @@ impl Case for LinearPartCase {
         Ok(StepsResult { predicted, found: (second / first).ln(), too_slow: false })
     }
 
-    fn judge(suite: &Suite, measured: &[(Trial, StepsResult)]) -> Finding {
-        let (mut finding, mut curves) = (Finding::default(), Vec::new());
-        for all in measured.chunk_by(|(one, _), (other, _)| one.scheme == other.scheme) {
-            let named = suite.scheme(&all[0].0.scheme);
-            let parts: Vec<_> = all.iter().map(|(trial, found)| found.described(trial.at)).collect();
-            let verdict = Verdict::of_all(all.iter().map(|(trial, found)| found.verdict(trial.at)));
-            finding.check(&named.name, parts.join("; "), verdict);
-            curves.push(Curve::line(named.name.clone(), scan(&named.quadratic()), curves.len()));
-        }
-        let (x, y) = (Axis::linear("h"), Axis::log10("growth per step, from the eigenvalues"));
-        finding.chart(
-            Chart::new("Where a step with an exact linear part is unstable", x, y, curves),
-            "The bands are at 2ω₂h = 2π, (ω₁ + ω₂)h = 2π and 2ω₁h = 2π; schemes without a mark have none at these \
-                step sizes.",
-        );
-        finding
+    fn judge(all: &[&Done<'_, StepsResult>]) -> Vec<Row> {
+        let found = joined(all, "; ", |one| one.found.described(&one.trial.get::<String>("named")));
+        let verdict = Verdict::of_all(all.iter().map(|one| one.found.verdict(one.trial.get("grows"))));
+        let trial = &all[0].trial;
+        vec![Row::of(trial, found, verdict).with(scan(&trial.scheme().quadratic()))]
     }
 }
 
 impl StepsResult {
-    fn described(&self, at: At) -> String {
-        let at = at.named();
+    fn described(&self, at: &str) -> String {
         match self {
             StepsResult { predicted, .. } if *predicted == 0.0 => format!("{at}: bounded"),
             StepsResult { too_slow: true, predicted, .. } => {
@@ -194,12 +86,11 @@ impl StepsResult {
         }
     }
 
-    fn verdict(&self, at: At) -> Verdict {
+    /// Where states may grow, or may not.
+    fn verdict(&self, grows: bool) -> Verdict {
         match self {
             // the oscillators of a difference do not grow, nor does a step off the resonances
-            StepsResult { predicted, .. } if *predicted > 0.0 && matches!(at, At::Difference | At::Beyond) => {
-                Verdict::Differs
-            }
+            StepsResult { predicted, .. } if *predicted > 0.0 && !grows => Verdict::Differs,
             StepsResult { predicted, found, .. } if *predicted == 0.0 => Verdict::from(*found <= SAME),
             // the others of the row decide
             StepsResult { too_slow: true, .. } => Verdict::Agrees,
@@ -220,11 +111,7 @@ fn system() -> System {
 }
 
 /// The step size near a resonance at which states grow fastest; at one without growth, the resonance itself.
-fn strongest(scheme: &TableScheme, at: At) -> f64 {
-    let h = at.step_size();
-    if at == At::Beyond {
-        return h;
-    }
+fn strongest(scheme: &TableScheme, h: f64) -> f64 {
     let growth = |h: f64| Matrix::of_step(scheme, h).growth();
     // B shifts the frequencies by δ/2ω
     let near = |width: f64, about: f64| {
@@ -316,17 +203,11 @@ impl Matrix {
 
 #[cfg(test)]
 mod tests {
-    use super::*;
-    use shadowstep_scenes::library::scheme;
+    use std::f64::consts::{PI, TAU};
 
-    #[test]
-    fn more_digits_than_flows_of_quadratic_forms_have_are_cut_to_these() {
-        let digits = |digits| {
-            let arithmetic = Arithmetic::with_digits(digits).unwrap();
-            LinearPartCase::arithmetic(&Suite::new(Vec::new(), arithmetic, true)).digits()
-        };
-        assert_eq!([30, 288, 300].map(digits), [30, 288, 288]);
-    }
+    use super::*;
+    use shadowstep_scenes::arithmetic::Arithmetic;
+    use shadowstep_scenes::library::scheme;
 
     #[test]
     fn the_matrix_is_that_of_a_step() {
@@ -348,24 +229,22 @@ mod tests {
     #[test]
     fn growth_at_the_resonances_of_verlet() {
         let verlet = scheme("stormer-verlet").unwrap().quadratic();
-        let rate = |at: At, omega: f64| {
-            (Matrix::of_step(&verlet, strongest(&verlet, at)).growth(), at.step_size() * DELTA / 2.0 / omega)
-        };
+        let rate =
+            |at: f64, omega: f64| (Matrix::of_step(&verlet, strongest(&verlet, at)).growth(), at * DELTA / 2.0 / omega);
         let [first, second] = OMEGAS;
-        for (found, expected) in
-            [rate(At::First, first), rate(At::Second, second), rate(At::Sum, (first * second).sqrt())]
-        {
+        let sum = rate(TAU / (first + second), (first * second).sqrt());
+        for (found, expected) in [rate(PI / first, first), rate(PI / second, second), sum] {
             assert!((found / expected - 1.0).abs() < 0.03, "{found} {expected}");
         }
-        assert_eq!(rate(At::Difference, 1.0).0, 0.0);
+        assert_eq!(rate(TAU / (second - first), 1.0).0, 0.0);
     }
 
     #[test]
     fn what_differs_from_the_eigenvalues_differs() {
         let found = |predicted: f64, found: f64| StepsResult { predicted, found, too_slow: false };
-        assert_eq!(found(1e-2, 1.0001e-2).verdict(At::Sum), Verdict::Agrees);
-        assert_eq!(found(1e-2, 1.01e-2).verdict(At::Sum), Verdict::Differs);
-        assert_eq!(found(0.0, 0.5).verdict(At::Beyond), Verdict::Differs);
-        assert_eq!(found(1e-3, 1e-3).verdict(At::Difference), Verdict::Differs);
+        assert_eq!(found(1e-2, 1.0001e-2).verdict(true), Verdict::Agrees);
+        assert_eq!(found(1e-2, 1.01e-2).verdict(true), Verdict::Differs);
+        assert_eq!(found(0.0, 0.5).verdict(false), Verdict::Differs);
+        assert_eq!(found(1e-3, 1e-3).verdict(false), Verdict::Differs);
     }
 }

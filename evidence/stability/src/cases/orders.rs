@@ -1,41 +1,25 @@
 //! The proved orders, seen in the errors of nonlinear problems at 100 digits.
 
-use serde::{Deserialize, Serialize};
+use serde_json::json;
 use shadowstep::number::{AnyLimbs, LimbCount};
 use shadowstep::steps::integrator::at_output;
 use shadowstep::systems::kepler_drift::KeplerDrift;
 use shadowstep::tables::TableScheme;
-use shadowstep::{Number, Rational, Real, StepSize, exact};
-use shadowstep_scenes::arithmetic::{Arithmetic, Digits, Numbers};
-use shadowstep_scenes::library::NamedScheme;
-use shadowstep_scenes::start::Begin;
-use shadowstep_scenes::{Error, Formulas, Parts, PotentialEnergy, System};
+use shadowstep::{Real, exact};
+use shadowstep_scenes::arithmetic::{Digits, Numbers};
+use shadowstep_scenes::{Formulas, Parts, PotentialEnergy};
 use shadowstep_schemes::MapKind;
 use shadowstep_schemes::proof::Order;
-use shadowstep_studies::Continues;
 use shadowstep_studies::chart::{Axis, Chart, Curve, Marker};
-use shadowstep_studies::finding::Finding;
-use shadowstep_studies::verdict::Verdict;
 
-use crate::case::Case;
-use crate::integrator::{start, step_size, steps_of};
-use crate::suite::{Examined, Suite};
-use crate::systems::{known_values, names, of_formula, rationals, shipped};
+use crate::prelude::*;
+use crate::systems::names;
 
 /// The case.
 pub(super) struct Orders;
 
-/// A scheme, and what of it is measured.
-#[derive(Serialize)]
-pub(super) struct Trial {
-    scheme: String,
-    of: Of,
-    /// The step sizes are 2^−k of the problem's unit.
-    halvings: [i32; 3],
-}
-
 /// What has an order.
-#[derive(Clone, Copy, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, PartialEq, Eq, Deserialize)]
 enum Of {
     /// The steps as they stand; of a processed scheme, those of the kernel.
     Steps,
@@ -51,96 +35,73 @@ enum Of {
 #[derive(Serialize, Deserialize)]
 pub(super) struct Errors([f64; 3]);
 
-/// The digits of the trials: the smallest errors are about 1e-40.
+/// Of the trials.
 const DIGITS: u32 = 100;
 /// How far a measured order may be from the proved one: the next term of the error is smaller by h, and h is 2⁻⁸ or so.
 const TOLERANCE: f64 = 0.15;
 /// Errors within this number of digits of the errors of the weights decide nothing.
 const MARGIN: f64 = 4.0;
 const TOO_FEW_DIGITS: &str = "The weights have too few digits for these errors; weights with more would decide.";
+/// Errors of the terms of ε are at their round-off for smaller steps.
+const HALVINGS_OF_EPSILON: [u32; 3] = [2, 3, 4];
 /// ε of A + εB: its square does not show.
 const EPSILON: &str = "1e-40";
 
 impl Case for Orders {
-    const NAME: &'static str = "orders";
-    const TITLE: &'static str = "Orders on nonlinear problems, at 100 digits";
-    const THEORY: &'static str = "Where order r is proved, the error of the state after a fixed time is proportional \
-        to h^r for small h: measured against Kepler's equation on an orbit with e = 0.2. Gradient kicks have their \
-        order for quadratic T; a processor raises the order of the kernel to the effective one. A composition has its \
-        order for three parts too: the same orbit with H split into p_x²/2 + κ x p_y, p_y²/2 − κ x p_y and −1/r, no \
-        two of which commute. For H = A + εB with A = p²/2, B = −cos q and ε = 1e-40 the error of H is ε times a \
-        power of h, which is the order of the terms of ε.";
-    const REVISION: u32 = 2;
-
-    type Trial = Trial;
     type Measured = Errors;
 
-    fn trials(suite: &Suite) -> Vec<Trial> {
-        let steps = suite.full_or_quick([6, 7, 8], [5, 6, 7]);
-        let of = |examined: &&Examined| {
-            let proved = examined.scheme.scheme.proved();
-            let all = [
-                Some((Of::Steps, steps)),
-                proved.proof.effective.as_ref().map(|_| (Of::Processed, steps)),
-                examined.scheme.quadratic().for_many_parts().is_ok().then_some((Of::ThreeParts, steps)),
-                of_epsilon(&examined.scheme.quadratic()).map(|_| (Of::Epsilon, [2, 3, 4])),
-            ];
-            let trial = |(of, halvings)| Trial { scheme: examined.identity.clone(), of, halvings };
-            all.into_iter().flatten().map(trial).collect::<Vec<_>>()
+    fn complete(scheme: &Examined, mut values: Values) -> Option<Values> {
+        let scheme = scheme.scheme.quadratic();
+        let has_it = match serde_json::from_value(values["of"].clone()).expect("it has an order") {
+            Of::Steps => true,
+            Of::Processed => scheme.proved().proof.effective.is_some(),
+            Of::ThreeParts => scheme.for_many_parts().is_ok(),
+            Of::Epsilon => {
+                values.insert("halvings".to_owned(), json!(HALVINGS_OF_EPSILON));
+                of_epsilon(&scheme).is_some()
+            }
         };
-        suite.schemes_or_all().iter().flat_map(of).collect()
+        has_it.then_some(values)
     }
 
-    fn arithmetic(_: &Suite) -> Arithmetic {
-        Arithmetic::with_digits(DIGITS).expect("numbers of limbs have them")
-    }
-
-    fn seconds(suite: &Suite, trial: &Trial) -> f64 {
-        let evaluations = suite.scheme(&trial.scheme).scheme.proved().plan.evaluations;
-        2_f64.powi(trial.halvings[2] + 1) * evaluations as f64 * 30e-9
-    }
-
-    fn measure(suite: &Suite, trial: &Trial, arithmetic: Arithmetic, _: Continues<'_>) -> Result<Errors, Error> {
+    fn measure(trial: &Trial<'_>, _: Continues<'_>) -> Result<Errors, Error> {
         // one number type has the digits, and no other is compiled
-        let Numbers::Digits(_, Digits::Limbs(limbs)) = arithmetic.numbers() else {
+        let Numbers::Digits(_, Digits::Limbs(limbs)) = trial.arithmetic.numbers() else {
             unreachable!("the digits are those of limbs")
         };
-        let scheme = suite.scheme(&trial.scheme);
-        Ok(Errors(trial.halvings.map(|halvings| {
-            let h = &step_size(Rational::new(1.into(), (1_i64 << halvings).into()));
-            match trial.of {
-                Of::Epsilon => energy_error((scheme, h), 1 << halvings, limbs),
-                Of::ThreeParts => {
-                    distance(&in_parts(), (&for_many_parts(scheme), h), 1 << halvings, Begin::Step, limbs)
-                }
-                Of::Processed => distance(&orbit(), (scheme, h), 1 << halvings, Begin::InitialState, limbs),
-                Of::Steps => distance(&orbit(), (scheme, h), 1 << halvings, Begin::Step, limbs),
+        let (scheme, of) = (trial.scheme(), trial.get("of"));
+        Ok(Errors(trial.get::<[u32; 3]>("halvings").map(|halvings| {
+            let (h, steps) = (&step_size(Rational::new(1.into(), (1_i64 << halvings).into())), 1 << halvings);
+            match of {
+                Of::Epsilon => energy_error((scheme, h), steps, limbs),
+                Of::ThreeParts => distance(&in_parts(), (&for_many_parts(scheme), h), steps, Begin::Step, limbs),
+                Of::Processed => distance(&orbit(), (scheme, h), steps, Begin::InitialState, limbs),
+                Of::Steps => distance(&orbit(), (scheme, h), steps, Begin::Step, limbs),
             }
         })))
     }
 
-    fn judge(suite: &Suite, measured: &[(Trial, Errors)]) -> Finding {
-        let mut finding = Finding::default();
-        let mut points = Vec::new();
-        for all in measured.chunk_by(|(one, _), (other, _)| one.scheme == other.scheme) {
-            let named = suite.scheme(&all[0].0.scheme);
-            let (mut found, mut verdicts) = (Vec::new(), Vec::new());
-            for (trial, errors) in all {
-                let scheme = named.quadratic();
-                let (what, order) = claimed(&scheme, trial.of);
-                let slope = errors.order();
-                found.push(format!("{what}{slope:.2}, proved {}", order.order));
-                verdicts.push(errors.verdict(order));
-                points.push((f64::from(order.order), slope));
-            }
-            finding.check(&named.name, found.join("; "), Verdict::of_all(verdicts));
-        }
+    fn judge(all: &[&Done<'_, Errors>]) -> Vec<Row> {
+        let scheme = all[0].trial.scheme().quadratic();
+        let of = |one: &Done<'_, Errors>| claimed(&scheme, one.trial.get("of"));
+        let found = joined(all, "; ", |one| {
+            let (what, order) = of(one);
+            format!("{what}{:.2}, proved {}", one.found.order(), order.order)
+        });
+        vec![Row::of(&all[0].trial, found, Verdict::of_all(all.iter().map(|one| one.found.verdict(of(one).1))))]
+    }
+
+    fn finish(finding: &mut Finding, all: &[Done<'_, Errors>]) {
+        let point = |one: &Done<'_, Errors>| {
+            let order = claimed(&one.trial.scheme().quadratic(), one.trial.get("of")).1.order;
+            (f64::from(order), one.found.order())
+        };
+        let curve = Curve::dots("schemes", all.iter().map(point).collect(), 0, Marker::Circle);
         let (x, y) = (Axis::linear("proved order"), Axis::linear("measured order"));
         finding.chart(
-            Chart::new("Measured and proved orders", x, y, vec![Curve::dots("schemes", points, 0, Marker::Circle)]),
+            Chart::new("Measured and proved orders", x, y, vec![curve]),
             "Of the two smallest of three step sizes; each mark is an order of a scheme.",
         );
-        finding
     }
 }
 
@@ -265,12 +226,15 @@ fn number(text: &str, limbs: LimbCount) -> AnyLimbs {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use shadowstep_scenes::arithmetic::Arithmetic;
     use shadowstep_scenes::library::scheme;
+    use shadowstep_studies::claim;
 
     fn errors(name: &str, of: Of) -> Errors {
         let suite = Suite::new(vec![scheme(name).unwrap()], Arithmetic::DOUBLE, true);
-        let trial = Orders::trials(&suite).into_iter().find(|trial| trial.of == of).unwrap();
-        Orders::measure(&suite, &trial, Orders::arithmetic(&suite), &|_| true).unwrap()
+        let table = claim::read::<Table>(include_str!("orders.toml"));
+        let trial = Orders::trials(&suite, &table).into_iter().find(|trial| trial.get::<Of>("of") == of).unwrap();
+        Orders::measure(&trial, &|_| true).unwrap()
     }
 
     #[test]

@@ -1,35 +1,16 @@
 //! The harmonic oscillator from well inside the stability limit to beyond it, and in the gaps.
 
 use num_traits::One;
-use serde::{Deserialize, Serialize};
-use shadowstep::{Number, Rational, exact};
+use shadowstep::exact;
 use shadowstep_analysis::stability::Stability;
-use shadowstep_scenes::Error;
 use shadowstep_scenes::arithmetic::Arithmetic;
-use shadowstep_scenes::library::NamedScheme;
-use shadowstep_scenes::start::Begin;
-use shadowstep_studies::Continues;
-use shadowstep_studies::chart::{Axis, Chart, Curve};
-use shadowstep_studies::finding::Finding;
-use shadowstep_studies::verdict::Verdict;
 
-use crate::case::{Case, MOST_CURVES};
 use crate::growth::{TOLERANCE as GROWTH_TOLERANCE, growth, steps_to_see};
-use crate::integrator::{AnyIntegrator, start_in, step_size, steps_of};
 use crate::linear_step::LinearStep;
-use crate::suite::Suite;
-use crate::systems::shipped;
+use crate::prelude::*;
 
 /// The case.
 pub(super) struct Oscillator;
-
-/// A scheme on H = (p² + q²)/2.
-#[derive(Serialize)]
-pub(super) struct Trial {
-    scheme: String,
-    /// The most steps of a run.
-    steps: u64,
-}
 
 /// What one step size has shown.
 #[derive(Serialize, Deserialize)]
@@ -52,74 +33,31 @@ const BOUND_TOLERANCE: f64 = 1e-6;
 const NARROW: f64 = 1e-9;
 
 impl Case for Oscillator {
-    const NAME: &'static str = "oscillator";
-    const TITLE: &'static str = "Harmonic oscillator about the stability limit";
-    const THEORY: &'static str = "A step of H = (p² + ω²q²)/2 is a matrix of determinant 1. While its trace, an exact \
-        polynomial in (hω)², is within [−2, 2], all states stay on an ellipse; beyond, |(q, p)| grows like exp(λn) \
-        after n steps with λ = arcosh(|tr|/2). Beyond the first limit come gaps and windows of stability.";
-    const REVISION: u32 = 1;
-
-    type Trial = Trial;
     type Measured = Vec<Point>;
 
-    fn trials(suite: &Suite) -> Vec<Trial> {
-        let steps = suite.full_or_quick(1_000_000, 30_000);
-        let schemes = suite.schemes_or_all();
-        schemes.iter().map(|scheme| Trial { scheme: scheme.identity.clone(), steps }).collect()
+    fn measure(trial: &Trial<'_>, continues: Continues<'_>) -> Result<Vec<Point>, Error> {
+        let sizes = step_sizes(trial.scheme());
+        let continued = sizes.iter().enumerate().take_while(|(i, _)| continues(*i as f64 / sizes.len() as f64));
+        Ok(continued.map(|(_, h)| point(trial.scheme(), h, trial.steps(), trial.arithmetic)).collect())
     }
 
-    fn seconds(suite: &Suite, trial: &Trial) -> f64 {
-        let evaluations = suite.scheme(&trial.scheme).scheme.proved().plan.evaluations;
-        trial.steps as f64 * evaluations as f64 * 10e-9 * PARTS.len() as f64
+    fn judge(all: &[&Done<'_, Vec<Point>>]) -> Vec<Row> {
+        let Done { trial, found: points } = all[0];
+        let (found, verdict) = compared(points);
+        let growing = points.iter().filter(|point| point.grows());
+        let deviations = growing.map(|point| (point.predicted.log10(), point.deviation().log10()));
+        vec![Row::of(trial, found, verdict).with(deviations)]
+    }
+}
+
+impl Point {
+    fn grows(&self) -> bool {
+        self.predicted > 0.0 && !self.too_slow
     }
 
-    fn measure(
-        suite: &Suite,
-        trial: &Trial,
-        arithmetic: Arithmetic,
-        continues: Continues<'_>,
-    ) -> Result<Vec<Point>, Error> {
-        let scheme = suite.scheme(&trial.scheme);
-        let sizes = step_sizes(scheme);
-        let mut points = Vec::new();
-        for (i, h) in sizes.iter().enumerate() {
-            if !continues(i as f64 / sizes.len() as f64) {
-                break;
-            }
-            points.push(point(scheme, h, trial.steps, arithmetic));
-        }
-        Ok(points)
-    }
-
-    fn judge(suite: &Suite, measured: &[(Trial, Vec<Point>)]) -> Finding {
-        let mut finding = Finding::default();
-        for (trial, points) in measured {
-            let (found, verdict) = compared(points);
-            finding.check(&suite.scheme(&trial.scheme).name, found, verdict);
-        }
-        let curves = measured.iter().take(MOST_CURVES).enumerate().map(|(i, (trial, points))| {
-            let growing = points.iter().filter(|point| point.predicted > 0.0 && !point.too_slow);
-            let deviation = |point: &Point| (point.found / point.predicted - 1.0).abs();
-            let points = growing.map(|point| (point.predicted.log10(), deviation(point).log10())).collect();
-            Curve::unjoined(suite.scheme(&trial.scheme).name.clone(), points, i)
-        });
-        let axes = ["growth per step, from the trace", "|found / predicted − 1|"].map(Axis::log10);
-        let [x, y] = axes;
-        finding.chart(
-            Chart {
-                listed: true,
-                ..Chart::new(
-                    "The deviation of the growth from that of the \
-                trace",
-                    x,
-                    y,
-                    curves.collect(),
-                )
-            },
-            "Beyond the stability limit and in the gaps. Each mark is a step size at which the trace is outside [−2, \
-                2]; without those that do not deviate; the first twelve schemes.",
-        );
-        finding
+    /// Of the growth from the predicted one, relatively.
+    fn deviation(&self) -> f64 {
+        (self.found / self.predicted - 1.0).abs()
     }
 }
 
@@ -152,13 +90,13 @@ fn point(scheme: &NamedScheme, h: &Rational, steps: u64, arithmetic: Arithmetic)
         let found = if too_slow { 0.0 } else { growth(run, (predicted, count)) };
         Point { h_omega, predicted, found, too_slow }
     } else {
-        let found = largest(run, steps / 10) / matrix.largest() - 1.0;
+        let found = largest_coordinate(run, steps / 10) / matrix.largest() - 1.0;
         Point { h_omega, predicted, found, too_slow: false }
     }
 }
 
 /// The largest |q| of a run.
-fn largest(run: &mut dyn AnyIntegrator, steps: u64) -> f64 {
+fn largest_coordinate(run: &mut dyn AnyIntegrator, steps: u64) -> f64 {
     (0..steps).fold(1.0, |largest: f64, _| {
         run.step();
         largest.max(run.q(0).abs())
@@ -167,10 +105,10 @@ fn largest(run: &mut dyn AnyIntegrator, steps: u64) -> f64 {
 
 /// The numbers of a scheme in a sentence, and whether they are as predicted.
 fn compared(points: &[Point]) -> (String, Verdict) {
-    let growing: Vec<_> = points.iter().filter(|point| point.predicted > 0.0 && !point.too_slow).collect();
+    let growing: Vec<_> = points.iter().filter(|point| point.grows()).collect();
     let bounded: Vec<_> = points.iter().filter(|point| point.predicted == 0.0).collect();
     let slow = points.iter().filter(|point| point.too_slow).count();
-    let off = growing.iter().map(|point| (point.found / point.predicted - 1.0).abs()).fold(0.0, f64::max);
+    let off = largest(growing.iter().map(|point| point.deviation()));
     let beyond = bounded.iter().map(|point| point.found).fold(f64::NEG_INFINITY, f64::max);
     let mut parts = vec![
         match beyond {

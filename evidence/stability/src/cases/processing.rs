@@ -1,41 +1,14 @@
 //! Runs of processed schemes that are read at every step.
 
-use serde::{Deserialize, Serialize};
+use shadowstep::Carried;
 use shadowstep::steps::integrator::at_output;
-use shadowstep::{Carried, Rational, Scheme, StepSize};
-use shadowstep_scenes::arithmetic::Arithmetic;
-use shadowstep_scenes::computation::{Computation, RunNumber};
-use shadowstep_scenes::library::NamedScheme;
-use shadowstep_scenes::start::Begin;
-use shadowstep_scenes::{CanonicalCoordinates, Error, Parts, Planets, System};
-use shadowstep_studies::Continues;
-use shadowstep_studies::chart::{Axis, Chart, Curve};
-use shadowstep_studies::finding::Finding;
-use shadowstep_studies::verdict::Verdict;
+use shadowstep_scenes::{CanonicalCoordinates, Parts, Planets};
 
-use crate::case::Case;
-use crate::integrator::{start, step_size, steps_of};
-use crate::suite::{Examined, Suite};
-use crate::systems::{setup, shipped};
+use crate::prelude::*;
+use crate::systems::setup;
 
 /// The case.
 pub(super) struct Processing;
-
-/// A processed scheme on a problem.
-#[derive(Serialize)]
-pub(super) struct Trial {
-    scheme: String,
-    problem: Problem,
-    steps: u64,
-}
-
-#[derive(Clone, Copy, PartialEq, Eq, Serialize)]
-enum Problem {
-    /// An orbit with e = 0.3, T(p) and U(q).
-    Kepler,
-    /// The outer planets, Kepler orbits and their interactions.
-    Planets,
-}
 
 /// What the run has shown.
 #[derive(Serialize, Deserialize)]
@@ -50,97 +23,61 @@ pub(super) struct Outputs {
 
 /// How much the error of H may differ between the first and the last fourth, if it is the same oscillation.
 const SAME: f64 = 1.5;
+/// An orbit with e = 0.3, T(p) and U(q); the outer planets, Kepler orbits and their interactions.
+const PROBLEMS: [&str; 2] = ["Kepler", "Planets"];
 
 impl Case for Processing {
-    const NAME: &'static str = "processing";
-    const TITLE: &'static str = "Processed schemes that are read at every step";
-    const THEORY: &'static str = "A processed run is a run of its kernel, seen through the post-map: reading it at \
-        every step changes no bit of it, and the error of H at the outputs stays as bounded as that of any symplectic \
-        scheme, and is smaller than that of the kernel, whose effective order it raises. Schemes for A + εB are on \
-        the outer planets as Kepler orbits and their interactions, others on Kepler's problem.";
-    const REVISION: u32 = 1;
-
-    type Trial = Trial;
     type Measured = Outputs;
 
-    fn trials(suite: &Suite) -> Vec<Trial> {
-        let steps = suite.full_or_quick(20_000, 1000);
-        let processed = suite.schemes_or_all().into_iter();
-        let processor = |examined: &Examined| examined.scheme.scheme.proved().scheme.table.processor.clone();
-        let trial = |examined: &Examined| {
-            let processor = processor(examined)?;
-            let problem = if processor.near_integrable.is_some() { Problem::Planets } else { Problem::Kepler };
-            Some(Trial { scheme: examined.identity.clone(), problem, steps })
-        };
-        processed.filter_map(trial).collect()
+    fn complete(scheme: &Examined, mut values: Values) -> Option<Values> {
+        let processor = scheme.scheme.scheme.proved().scheme.table.processor.as_ref()?;
+        let problem = PROBLEMS[usize::from(processor.near_integrable.is_some())];
+        values.insert("problem".to_owned(), problem.into());
+        Some(values)
     }
 
-    fn seconds(suite: &Suite, trial: &Trial) -> f64 {
-        let scheme = &suite.scheme(&trial.scheme).quadratic();
-        let maps = 2 * scheme.summary().evaluations + scheme.processor().len();
-        let map = if trial.problem == Problem::Planets { 500e-9 } else { 20e-9 };
-        trial.steps as f64 * maps as f64 * map
+    fn seconds(trial: &Trial<'_>) -> f64 {
+        trial.seconds() * if is_of_planets(trial) { 25.0 } else { 1.0 }
     }
 
-    fn measure(
-        suite: &Suite,
-        trial: &Trial,
-        arithmetic: Arithmetic,
-        continues: Continues<'_>,
-    ) -> Result<Outputs, Error> {
-        let scheme = suite.scheme(&trial.scheme);
-        let evaluations = scheme.scheme.summary().evaluations as i64;
-        let (system, h) = match trial.problem {
-            Problem::Kepler => {
+    fn measure(trial: &Trial<'_>, continues: Continues<'_>) -> Result<Outputs, Error> {
+        let evaluations = trial.evaluations();
+        let (system, h) = match is_of_planets(trial) {
+            true => (planets(), Rational::from_integer((200 * evaluations).into())),
+            false => {
                 let system = shipped("kepler", &[("eccentricity", "3/10".to_owned())]);
                 (system, Rational::new(evaluations.into(), 60.into()))
             }
-            Problem::Planets => (planets(), Rational::from_integer((200 * evaluations).into())),
         };
         let (system, h) = (&system, &step_size(&h));
-        Ok(arithmetic.compute(Run { system, scheme, h, steps: trial.steps, continues }))
+        let run = Run { system, scheme: trial.scheme(), h, steps: trial.steps(), continues };
+        Ok(trial.arithmetic.compute(run))
     }
 
-    fn judge(suite: &Suite, measured: &[(Trial, Outputs)]) -> Finding {
-        let (mut finding, mut points) = (Finding::default(), Vec::new());
-        for (trial, outputs) in measured {
-            let name = &suite.scheme(&trial.scheme).name;
-            finding.check(name, outputs.described(trial), outputs.verdict());
-            let largest = outputs.largest();
-            points.push((outputs.in_kernel.log10(), largest.log10(), name.clone()));
-        }
-        let curves = points
-            .into_iter()
-            .enumerate()
-            .map(|(i, (kernel, output, name))| Curve::marked(name, vec![(kernel, output)], i));
-        let (x, y) = (Axis::log10("largest error of H of the kernel"), Axis::log10("largest error of H at outputs"));
-        finding.chart(
-            Chart::new("What the post-map does to the error of H", x, y, curves.collect()),
-            "Errors are parts of H(0); each mark is a processed scheme.",
+    fn judge(all: &[&Done<'_, Outputs>]) -> Vec<Row> {
+        let Done { trial, found: outputs } = all[0];
+        let bits = if outputs.same_bits { "the same bits" } else { "other bits" };
+        let [first, .., last] = outputs.at_outputs;
+        let found = format!(
+            "{}, {} steps: {bits}; error of H at outputs {first:.1e} in the first fourth, {last:.1e} in the last; \
+             {:.1e} in the kernel",
+            trial.get::<String>("problem").to_lowercase(),
+            trial.steps(),
+            outputs.in_kernel
         );
-        finding
+        let point = (outputs.in_kernel.log10(), largest(outputs.at_outputs).log10());
+        vec![Row::of(trial, found, outputs.verdict()).with([point])]
     }
 }
 
+fn is_of_planets(trial: &Trial<'_>) -> bool {
+    trial.get::<String>("problem") == PROBLEMS[1]
+}
+
 impl Outputs {
-    fn largest(&self) -> f64 {
-        self.at_outputs.into_iter().fold(0.0, f64::max)
-    }
-
-    fn described(&self, trial: &Trial) -> String {
-        let problem = if trial.problem == Problem::Planets { "planets" } else { "kepler" };
-        let bits = if self.same_bits { "the same bits" } else { "other bits" };
-        let [first, .., last] = self.at_outputs;
-        format!(
-            "{problem}, {} steps: {bits}; error of H at outputs {first:.1e} in the first fourth, {last:.1e} in the \
-                last; {:.1e} in the kernel",
-            trial.steps, self.in_kernel
-        )
-    }
-
     fn verdict(&self) -> Verdict {
         let [first, .., last] = self.at_outputs;
-        Verdict::from(self.same_bits && last <= SAME * first && self.largest() < self.in_kernel)
+        Verdict::from(self.same_bits && last <= SAME * first && largest(self.at_outputs) < self.in_kernel)
     }
 }
 

@@ -2,43 +2,13 @@
 
 use std::f64::consts::TAU;
 
-use serde::{Deserialize, Serialize};
 use shadowstep::steps::integrator::VectorIntegrator;
-use shadowstep::{Number, Rational, Scheme};
-use shadowstep_scenes::Error;
-use shadowstep_scenes::arithmetic::Arithmetic;
-use shadowstep_scenes::computation::RunNumber;
-use shadowstep_scenes::start::{Begin, Steps};
-use shadowstep_studies::Continues;
-use shadowstep_studies::chart::{Axis, Chart, Curve};
-use shadowstep_studies::finding::Finding;
-use shadowstep_studies::verdict::Verdict;
+use shadowstep_scenes::start::Steps;
 
-use crate::case::Case;
-use crate::integrator::{self, step_size, steps_of};
-use crate::suite::{Examined, Suite};
-use crate::systems::{known_values, rational, shipped};
+use crate::prelude::*;
 
 /// The case.
 pub(super) struct RoundOff;
-
-/// A Kepler orbit from one of its phases.
-#[derive(Clone, Serialize)]
-pub(super) struct Trial {
-    scheme: String,
-    sums: Sums,
-    /// In 32nds of the period.
-    phase: u32,
-    /// The numbers of steps at which the modified energy is looked at.
-    steps: Vec<u64>,
-}
-
-/// How increments are added to q and p.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
-enum Sums {
-    Plain,
-    Compensated,
-}
 
 /// The change of the modified energy since the start, as a part of |H|, at each number of steps.
 #[derive(Serialize, Deserialize)]
@@ -50,8 +20,6 @@ pub(super) struct Changes {
 
 const PHASES: u32 = 32;
 const ECCENTRICITY: f64 = 0.2;
-/// Steps of 1/100 for each evaluation: the method's part of the error of H̄ is below round-off.
-const STEPS_A_UNIT: u32 = 100;
 /// Estimates of order 16, of which the best of a period counts.
 const ORDER: u32 = 16;
 /// A wander of n^a has a from 0.35 to 0.65, for the spread of 32 phases over two decades; a drift has 1.
@@ -62,63 +30,35 @@ const GAIN_BETWEEN: &str = "With its uncertainty the gain is on both sides of 10
 const LIKE_A_WANDER: &str = "What is seen is neither a wander alone nor a drift alone; longer runs would part them.";
 /// A drift of the mean over the phases is seen beyond this multiple of its standard error.
 const SEEN: f64 = 3.0;
-const SCHEMES: [&str; 3] = ["stormer-verlet", "blanes-moan-srkn6b", "kahan-li8"];
+const ENERGY: f64 = -0.5;
 
 impl Case for RoundOff {
-    const NAME: &'static str = "round-off";
-    const TITLE: &'static str = "Round-off over 10⁵ to 10⁸ steps in double precision";
-    const THEORY: &'static str = "Brouwer's law: where rounding is unbiased, the modified energy wanders like √n, by \
-        about ε in each evaluation. A bias makes it drift like n. Compensated sums round by ε of the increments \
-        instead of the coordinates, and wander at least ten times less. The changes are those of 32 orbits that begin \
-        at different phases; their root mean square grows like n^a, with a = ½ for a wander and 1 for a drift.";
-    const REVISION: u32 = 2;
-
-    type Trial = Trial;
     type Measured = Changes;
 
-    fn trials(suite: &Suite) -> Vec<Trial> {
-        let of = |scheme: &&Examined| {
-            // the same number of evaluations, to a factor of a few
-            let fewer = u32::from(scheme.scheme.scheme.summary().evaluations > 1);
-            let longest = suite.full_or_quick(8, 5) - fewer;
-            let steps: Vec<u64> =
-                (2 * (longest - 3)..=2 * longest).map(|half| 10_f64.powf(f64::from(half) / 2.0) as u64).collect();
-            let identity = scheme.identity.clone();
-            let phases = move |sums| {
-                let (identity, steps) = (identity.clone(), steps.clone());
-                (0..PHASES).map(move |phase| Trial { scheme: identity.clone(), sums, phase, steps: steps.clone() })
-            };
-            [Sums::Plain, Sums::Compensated].into_iter().flat_map(phases)
-        };
-        suite.schemes_or(&SCHEMES).iter().flat_map(of).collect()
+    fn complete(scheme: &Examined, mut values: Values) -> Option<Values> {
+        // the same number of evaluations, to a factor of a few
+        let longest = values.remove("decades")?.as_u64()? as u32 - u32::from(scheme.evaluations() > 1);
+        let steps = (2 * (longest - 3)..=2 * longest).map(|half| 10_f64.powf(f64::from(half) / 2.0) as u64);
+        values.insert("steps".to_owned(), steps.collect());
+        Some(values)
     }
 
-    fn arithmetic(_: &Suite) -> Arithmetic {
-        Arithmetic::DOUBLE
-    }
-
-    fn seconds(suite: &Suite, trial: &Trial) -> f64 {
-        let evaluations = suite.scheme(&trial.scheme).scheme.summary().evaluations;
-        *trial.steps.last().expect("there are some") as f64 * evaluations as f64 * 20e-9
-    }
-
-    fn measure(suite: &Suite, trial: &Trial, _: Arithmetic, continues: Continues<'_>) -> Result<Changes, Error> {
-        let scheme = suite.scheme(&trial.scheme);
-        let h = step_size(Rational::new(scheme.scheme.summary().evaluations.into(), STEPS_A_UNIT.into()));
-        let (q, p) = start(f64::from(trial.phase) / f64::from(PHASES));
+    fn measure(trial: &Trial<'_>, continues: Continues<'_>) -> Result<Changes, Error> {
+        let h = trial.step();
+        let (q, p) = start_at(trial.get::<f64>("phase") / f64::from(PHASES));
         let mut system = shipped("kepler", &[]);
         [system.problem.q, system.problem.p] = [q, p].map(|values| known_values(values.map(rational)));
-        let compensated = trial.sums == Sums::Compensated;
-        let steps = Steps { compensated, ..steps_of(scheme, &h, Begin::Step) };
-        let orbit = &mut *integrator::start::<f64>(&system, steps, &());
+        let compensated = trial.get::<String>("sums") == "Compensated";
+        let steps = Steps { compensated, ..steps_of(trial.scheme(), &h, Begin::Step) };
+        let orbit = &mut *start::<f64>(&system, steps, &());
         let (initial, mut error) = modified_energy(orbit);
         let (mut n, mut changes) = (0, Vec::new());
-        for steps in &trial.steps {
-            while n < *steps {
-                let next = (n + 1_000_000).min(*steps);
+        for steps in trial.get::<Vec<u64>>("steps") {
+            while n < steps {
+                let next = (n + 1_000_000).min(steps);
                 orbit.steps(next - n);
                 n = next;
-                if !continues(n as f64 / trial.steps[trial.steps.len() - 1] as f64) {
+                if !continues(n as f64 / trial.steps() as f64) {
                     return Ok(Changes { changes, error });
                 }
             }
@@ -133,39 +73,31 @@ impl Case for RoundOff {
         Ok(Changes { changes, error: error / ENERGY.abs() })
     }
 
-    fn judge(suite: &Suite, measured: &[(Trial, Changes)]) -> Finding {
-        let mut finding = Finding::default();
-        let mut curves = Vec::new();
-        for all in measured.chunk_by(|(one, _), (other, _)| one.scheme == other.scheme) {
-            let name = &suite.scheme(&all[0].0.scheme).name;
-            let wanders: Vec<_> = all
-                .chunk_by(|(one, _), (other, _)| one.sums == other.sums)
-                .filter_map(|all| Some((all[0].0.sums, Wander::of(all)?)))
-                .collect();
-            for (sums, found) in &wanders {
-                let label = format!("{name}, {}", format!("{sums:?}").to_lowercase());
-                finding.check(&label, found.described(), found.verdict());
-                let points = found.rms.iter().map(|(n, rms)| (n.log10(), rms.log10())).collect();
-                curves.push(Curve::marked(label, points, curves.len()));
-            }
-            if let [(_, plain), (_, compensated)] = &wanders[..] {
-                let gain = plain.last() / compensated.last();
-                // two root mean squares of as many values each
-                let uncertain = 2.0 * (1.0 / f64::from(PHASES)).sqrt();
-                let found = format!("compensated sums wander {gain:.0} times less (± {:.0} %)", 100.0 * uncertain);
-                finding.check(name, found, gained(gain, uncertain));
-            }
+    fn judge(all: &[&Done<'_, Changes>]) -> Vec<Row> {
+        let sums = |one: &Done<'_, Changes>| one.trial.get::<String>("sums");
+        let by_sums = all.chunk_by(|one, other| sums(one) == sums(other));
+        let wanders = by_sums.filter_map(|own| {
+            let changes: Vec<_> = own.iter().map(|one| &one.found).collect();
+            Some((sums(own[0]).to_lowercase(), Wander::of(&own[0].trial.get::<Vec<u64>>("steps"), &changes)?))
+        });
+        let wanders: Vec<_> = wanders.collect();
+        let trial = &all[0].trial;
+        let row = |(sums, wander): &(String, Wander)| {
+            let points = wander.rms.iter().map(|(n, rms)| (n.log10(), rms.log10()));
+            let label = format!("{}, {sums}", trial.name());
+            Row::of(trial, wander.described(), wander.verdict()).labelled(label).with(points)
+        };
+        let mut rows: Vec<_> = wanders.iter().map(row).collect();
+        if let [(_, plain), (_, compensated)] = &wanders[..] {
+            let gain = plain.last() / compensated.last();
+            // two root mean squares of as many values each
+            let uncertain = 2.0 * (1.0 / f64::from(PHASES)).sqrt();
+            let found = format!("compensated sums wander {gain:.0} times less (± {:.0} %)", 100.0 * uncertain);
+            rows.push(Row::of(trial, found, gained(gain, uncertain)));
         }
-        let (x, y) = (Axis::log10("steps"), Axis::log10("change as a part of H, rms of 32 phases"));
-        finding.chart(
-            Chart::new("Round-off of the modified energy", x, y, curves),
-            "Kepler's problem with e = 0.2 and steps of 1/100 for each evaluation.",
-        );
-        finding
+        rows
     }
 }
-
-const ENERGY: f64 = -0.5;
 
 /// Whether the gain of compensated sums is beyond the least one, with its uncertainty.
 fn gained(gain: f64, uncertain: f64) -> Verdict {
@@ -177,7 +109,7 @@ fn gained(gain: f64, uncertain: f64) -> Verdict {
 }
 
 /// q and p at a part of the period.
-fn start(part: f64) -> ([f64; 2], [f64; 2]) {
+fn start_at(part: f64) -> ([f64; 2], [f64; 2]) {
     let mean = TAU * part;
     let anomaly = (0..50).fold(mean, |anomaly, _| mean + ECCENTRICITY * anomaly.sin());
     let (sin, cos) = anomaly.sin_cos();
@@ -214,13 +146,13 @@ struct Wander {
 }
 
 impl Wander {
-    fn of(all: &[(Trial, Changes)]) -> Option<Wander> {
-        let steps = &all.first()?.0.steps;
+    /// From the changes of each phase at these numbers of steps; `None` for few phases.
+    fn of(steps: &[u64], all: &[&Changes]) -> Option<Wander> {
         let phases = all.len() as f64;
-        if all.iter().any(|(_, changes)| changes.changes.len() < steps.len()) || all.len() < 8 {
+        if all.iter().any(|changes| changes.changes.len() < steps.len()) || all.len() < 8 {
             return None;
         }
-        let at = |i: usize| all.iter().map(move |(_, changes)| changes.changes[i]);
+        let at = |i: usize| all.iter().map(move |changes| changes.changes[i]);
         let rms: Vec<_> = steps
             .iter()
             .enumerate()
@@ -273,29 +205,29 @@ impl Wander {
 mod tests {
     use super::*;
 
-    /// Changes of 32 phases after n steps: `wander` √n with alternating signs and several sizes, and `drift` n.
-    fn measured(wander: f64, drift: f64) -> Vec<(Trial, Changes)> {
-        let steps = vec![100_000, 1_000_000, 10_000_000];
+    /// Of changes of 32 phases after n steps: `wander` √n with alternating signs and several sizes, and `drift` n.
+    fn found(wander: f64, drift: f64) -> Wander {
+        let steps = [100_000, 1_000_000, 10_000_000];
         let of = |phase: u32| {
             let sign = if phase.is_multiple_of(2) { 1.0 } else { -1.0 };
             let size = sign * (0.5 + f64::from(phase / 2) / 16.0);
             let changes = steps.iter().map(|&n| wander * size * (n as f64).sqrt() + drift * n as f64).collect();
-            let trial = Trial { scheme: String::new(), sums: Sums::Plain, phase, steps: steps.clone() };
-            (trial, Changes { changes, error: 0.0 })
+            Changes { changes, error: 0.0 }
         };
-        (0..PHASES).map(of).collect()
+        let all: Vec<_> = (0..PHASES).map(of).collect();
+        Wander::of(&steps, &all.iter().collect::<Vec<_>>()).unwrap()
     }
 
     #[test]
     fn a_wander_agrees_and_a_drift_differs() {
-        let wander = Wander::of(&measured(1e-16, 0.0)).unwrap();
+        let wander = found(1e-16, 0.0);
         assert!((wander.exponent - 0.5).abs() < 1e-9 && !wander.drifts());
         assert_eq!(wander.verdict(), Verdict::Agrees);
-        let drift = Wander::of(&measured(1e-16, 1e-17)).unwrap();
+        let drift = found(1e-16, 1e-17);
         assert!(drift.drifts() && drift.exponent > 0.9, "{}", drift.described());
         assert_eq!(drift.verdict(), Verdict::Differs);
         // a drift that is as small as the wander does not decide
-        assert_eq!(Wander::of(&measured(1e-16, 3e-20)).unwrap().verdict(), Verdict::NotDecided(LIKE_A_WANDER));
+        assert_eq!(found(1e-16, 3e-20).verdict(), Verdict::NotDecided(LIKE_A_WANDER));
     }
 
     #[test]
@@ -309,7 +241,7 @@ mod tests {
     #[test]
     fn an_orbit_begins_on_its_ellipse() {
         for phase in 0..8 {
-            let (q, p) = start(f64::from(phase) / 8.0);
+            let (q, p) = start_at(f64::from(phase) / 8.0);
             let energy = (p[0] * p[0] + p[1] * p[1]) / 2.0 - 1.0 / q[0].hypot(q[1]);
             assert!((energy - ENERGY).abs() < 1e-15);
         }

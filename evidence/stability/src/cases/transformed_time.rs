@@ -3,39 +3,19 @@
 use std::f64::consts::TAU;
 use std::path::Path;
 
-use serde::{Deserialize, Serialize};
 use shadowstep::number::CorrectlyRounded;
 use shadowstep::shadow::Verdict as MonitorVerdict;
 use shadowstep::systems::transformed_time::TimeTransformation;
 use shadowstep::tables::{First, TableScheme};
-use shadowstep::{Number, Rational, StepSize};
-use shadowstep_scenes::arithmetic::Arithmetic;
-use shadowstep_scenes::computation::{Computation, RunNumber};
-use shadowstep_scenes::library::{NamedScheme, scheme_from};
-use shadowstep_scenes::start::Begin;
-use shadowstep_scenes::{Error, Parts, System};
+use shadowstep_scenes::Parts;
+use shadowstep_scenes::library::scheme_from;
 use shadowstep_schemes::MapKind;
-use shadowstep_studies::Continues;
-use shadowstep_studies::chart::{Axis, Chart, Curve};
-use shadowstep_studies::finding::Finding;
-use shadowstep_studies::verdict::Verdict;
 
-use crate::case::Case;
-use crate::integrator::{step_size, steps_of};
-use crate::suite::{Examined, Suite};
-use crate::systems::{rational, shipped};
+use crate::prelude::*;
 use crate::watched::MONITOR_ORDER;
 
 /// The case.
 pub(super) struct TransformedTime;
-
-/// An orbit with e = 1 − 10^−k from its pericentre.
-#[derive(Serialize)]
-pub(super) struct Trial {
-    scheme: String,
-    k: u32,
-    periods: u32,
-}
 
 /// The largest deviations from the closed form, in units of the round-off that is expected of N leapfrogs.
 #[derive(Serialize, Deserialize)]
@@ -60,92 +40,50 @@ pub(super) struct Orbit {
 const MOST: f64 = 100.0;
 /// A step of so much for each force evaluation.
 const STEP: f64 = 0.05;
-const SCHEMES: [&str; 4] = ["stormer-verlet", "yoshida4", "sofroniou-spaletta6-13", "sofroniou-spaletta8-21"];
-
 impl Case for TransformedTime {
-    const NAME: &'static str = "transformed-time";
-    const TITLE: &'static str = "Kepler orbits with e = 0.9 … 1 − 10⁻⁸ in logarithmic time";
-    const THEORY: &'static str = "The leapfrog that begins with a drift, with a step h of logarithmic time, takes a \
-        Kepler orbit (a = 1) from the eccentric anomaly E to E + 2 arctan(h/2) on the same ellipse, whatever e and h, \
-        and adds h − e Δ(sin E) to the time (proved with the half-angle formulas). So a composition of such steps γ_i \
-        h is at E = 2n Σ arctan(γ_i h/2) after n steps, at the time nh − e sin E: only the time of a period is off, \
-        by the same part for all e. Round-off makes H′ wander like ε√N over N leapfrogs, the angular momentum L like \
-        ε√N/L of it, and the phase like ε N^{3/2}: all stay below a hundred times that. The monitor never calls the \
-        step too large; where a step ends near the pericentre, it may see this round-off of H′.";
-    const REVISION: u32 = 1;
-
-    type Trial = Trial;
     type Measured = Orbit;
 
-    fn trials(suite: &Suite) -> Vec<Trial> {
-        let periods = suite.full_or_quick(1000, 10);
-        let compositions =
-            suite.schemes_or(&SCHEMES).into_iter().filter(|scheme| gammas(&scheme.scheme.quadratic()).is_some());
-        let of = |examined: &Examined| {
-            let identity = examined.identity.clone();
-            (1..=8).map(move |k| Trial { scheme: identity.clone(), k, periods })
-        };
-        compositions.flat_map(of).collect()
+    fn complete(scheme: &Examined, values: Values) -> Option<Values> {
+        gammas(&scheme.scheme.quadratic()).map(|_| values)
     }
 
-    fn seconds(_: &Suite, trial: &Trial) -> f64 {
-        f64::from(trial.periods) * TAU / STEP * 80e-9
+    fn measure(trial: &Trial<'_>, continues: Continues<'_>) -> Result<Orbit, Error> {
+        let gammas = &gammas(&trial.scheme().quadratic()).expect("others are left out");
+        let h = &step_size(rational(STEP) * Rational::from_integer(gammas.len().into()));
+        let scheme = &drift_first(trial.scheme())?;
+        let (k, periods) = (trial.get("k"), trial.get("periods"));
+        Ok(trial.arithmetic.compute(Follow { scheme, h, gammas, k, periods, continues }))
     }
 
-    fn measure(suite: &Suite, trial: &Trial, arithmetic: Arithmetic, continues: Continues<'_>) -> Result<Orbit, Error> {
-        let named = suite.scheme(&trial.scheme);
-        let gammas = gammas(&named.quadratic()).expect("others are left out");
-        let h = step_size(rational(STEP) * Rational::from_integer(gammas.len().into()));
-        let scheme = &drift_first(named)?;
-        Ok(arithmetic.compute(Follow { scheme, h: &h, gammas: &gammas, trial, continues }))
-    }
-
-    fn judge(suite: &Suite, measured: &[(Trial, Orbit)]) -> Finding {
-        let (mut finding, mut curves) = (Finding::default(), Vec::new());
-        for all in measured.chunk_by(|(one, _), (other, _)| one.scheme == other.scheme) {
-            let name = &suite.scheme(&all[0].0.scheme).name;
-            let largest = |of: fn(&Orbit) -> f64| all.iter().map(|(_, orbit)| of(orbit)).fold(0.0, f64::max);
-            let worst = [
-                largest(|orbit| orbit.energy),
-                largest(|orbit| orbit.angular_momentum),
-                largest(|orbit| orbit.position),
-                largest(|orbit| orbit.time),
-            ];
-            let [energy, momentum, position, time] = worst;
-            finding.check(
-                name,
-                format!(
-                    "8 orbits of {} steps: H′ at most {energy:.1} ε√N, L {momentum:.1} ε√N/L; off the closed form by \
-                     {position:.1e} ε N^(3/2) in place, {time:.1e} ε N^(3/2) in time; a period is off by {:.1e} of \
-                     it; the monitor: {}",
-                    all[0].1.steps,
-                    all[0].1.period,
-                    verdicts(all)
-                ),
-                Verdict::from(!all.iter().any(|(_, orbit)| orbit.too_large) && worst.into_iter().all(|of| of <= MOST)),
-            );
-            let points = all.iter().map(|(trial, orbit)| (-f64::from(trial.k), orbit.angular_momentum.log10()));
-            curves.push(Curve::marked(name.clone(), points.collect(), curves.len()));
-        }
-        let (x, y) = (Axis::log10("1 − e"), Axis::log10("largest error of L, in ε√N/L"));
-        finding.chart(
-            Chart::new("Round-off of the ellipse as e → 1", x, y, curves),
-            "Steps of logarithmic time do not get worse as the pericentre comes close to the centre.",
+    fn judge(all: &[&Done<'_, Orbit>]) -> Vec<Row> {
+        let most = |of: fn(&Orbit) -> f64| largest(all.iter().map(|one| of(&one.found)));
+        let [energy, momentum] = [most(|orbit| orbit.energy), most(|orbit| orbit.angular_momentum)];
+        let [position, time] = [most(|orbit| orbit.position), most(|orbit| orbit.time)];
+        let Done { trial, found: first } = all[0];
+        let found = format!(
+            "8 orbits of {} steps: H′ at most {energy:.1} ε√N, L {momentum:.1} ε√N/L; off the closed form by \
+             {position:.1e} ε N^(3/2) in place, {time:.1e} ε N^(3/2) in time; a period is off by {:.1e} of it; the \
+             monitor: {}",
+            first.steps,
+            first.period,
+            verdicts(all)
         );
-        finding
+        let small = [energy, momentum, position, time].into_iter().all(|of| of <= MOST);
+        let points = all.iter().map(|one| (-one.trial.get::<f64>("k"), one.found.angular_momentum.log10()));
+        vec![Row::of(trial, found, small && !all.iter().any(|one| one.found.too_large)).with(points)]
     }
 }
 
 /// What the monitor reported of how many orbits.
-fn verdicts(all: &[(Trial, Orbit)]) -> String {
+fn verdicts(all: &[&Done<'_, Orbit>]) -> String {
     let mut counts: Vec<(&str, usize)> = Vec::new();
-    for (_, orbit) in all {
-        match counts.iter_mut().find(|(verdict, _)| *verdict == orbit.verdict) {
+    for Done { found, .. } in all {
+        match counts.iter_mut().find(|(verdict, _)| *verdict == found.verdict) {
             Some((_, count)) => *count += 1,
-            None => counts.push((&orbit.verdict, 1)),
+            None => counts.push((&found.verdict, 1)),
         }
     }
-    counts.iter().map(|(verdict, count)| format!("{verdict} ({count})")).collect::<Vec<_>>().join(", ")
+    joined(&counts, ", ", |(verdict, count)| format!("{verdict} ({count})"))
 }
 
 /// The scheme that begins with a drift.
@@ -192,7 +130,8 @@ struct Follow<'a> {
     scheme: &'a NamedScheme,
     h: &'a StepSize,
     gammas: &'a [Rational],
-    trial: &'a Trial,
+    k: u32,
+    periods: u32,
     continues: Continues<'a>,
 }
 
@@ -200,13 +139,13 @@ impl Computation for Follow<'_> {
     type Output = Orbit;
 
     fn compute<N: RunNumber>(self, context: &N::Context) -> Orbit {
-        let Follow { scheme, h, gammas, trial, continues } = self;
-        let mut ellipse = Ellipse::<N>::new(h.exact(), gammas, trial.k, context);
+        let Follow { scheme, h, gammas, k, periods, continues } = self;
+        let mut ellipse = Ellipse::<N>::new(h.exact(), gammas, k, context);
         let (q, p) = ellipse.pericentre();
         let integrator = system().integrator(steps_of(scheme, h, Begin::Step), (q.to_vec(), p.to_vec()), context);
         let integrator = &mut *integrator.expect("three coordinates");
         let h = <f64 as Number>::from_rational(h.exact(), &());
-        let steps = (f64::from(trial.periods) * TAU / h) as u64;
+        let steps = (f64::from(periods) * TAU / h) as u64;
         let mut monitor = N::monitor(integrator, MONITOR_ORDER, (steps / 256).max(1)).expect("it is finite");
         let unit = 2_f64.powi(-(<N as CorrectlyRounded>::precision(context).in_bits() as i32));
         let mut worst = [0.0_f64; 4];
@@ -310,7 +249,9 @@ impl<N: CorrectlyRounded> Ellipse<N> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use shadowstep_scenes::arithmetic::Arithmetic;
     use shadowstep_scenes::library::scheme;
+    use shadowstep_studies::claim;
 
     #[test]
     fn compositions_of_the_leapfrog_are_recognised() {
@@ -325,13 +266,14 @@ mod tests {
     #[test]
     fn the_steps_are_those_of_the_closed_form() {
         let suite = Suite::new(vec![scheme("yoshida4").unwrap()], Arithmetic::DOUBLE, true);
-        let trial = TransformedTime::trials(&suite).pop().unwrap();
-        let orbit = TransformedTime::measure(&suite, &trial, Arithmetic::DOUBLE, &|_| true).unwrap();
+        let table = claim::read::<Table>(include_str!("transformed_time.toml"));
+        let trial = TransformedTime::trials(&suite, &table).pop().unwrap();
+        let orbit = TransformedTime::measure(&trial, &|_| true).unwrap();
         assert!(!orbit.too_large && orbit.position < MOST && orbit.time < MOST, "{} {}", orbit.position, orbit.time);
         // another turn is seen
-        let scheme = &drift_first(&suite.schemes_or(&[])[0].scheme).unwrap();
+        let scheme = &drift_first(trial.scheme()).unwrap();
         let gammas = &gammas(&self::scheme("suzuki4").unwrap().quadratic()).unwrap();
-        let follow = Follow { scheme, h: &step_size("3/20"), gammas, trial: &trial, continues: &|_| true };
+        let follow = Follow { scheme, h: &step_size("3/20"), gammas, k: 8, periods: 10, continues: &|_| true };
         let wrong = Arithmetic::DOUBLE.compute(follow);
         assert!(wrong.position > 1e6, "{}", wrong.position);
     }
