@@ -6,9 +6,11 @@ use shadowstep::shadow::{EstimatorSettings, StoppingRule};
 use shadowstep_studies::files;
 
 use crate::Error;
+use crate::calculation::{Outcome, Quantity};
 use crate::measured::Permanent;
 use crate::results::Used;
 use crate::run::Run;
+use crate::series::GRADES;
 
 const RUN: [&str; 8] = ["problem", "set", "scheme", "step", "until", "digits", "estimator", "order"];
 
@@ -20,16 +22,17 @@ pub(crate) fn csv(command: &str, used: &[Used]) -> Result<Vec<(&'static str, Str
         vec![header(&["t", "distance", "modified_energy", "order_used", "log10_estimated_error", "log10_last_term"])];
     let mut numbers = vec![header(&["quantity", "value"])];
     let mut blocks = vec![["differences", "steps", "scatter", "wander"].map(str::to_owned).to_vec()];
-    for used in used {
-        match used {
-            Used::Drift(run, estimator, drift) => {
+    for (quantity, outcome) in used {
+        let mut include = |run: &Run, what: &str, value: String| numbers.push(row(run, None, [what.to_owned(), value]));
+        match (quantity, outcome) {
+            (Quantity::Drift { run, estimator }, Outcome::Drift(drift)) => {
                 let of =
                     |text: fn(&Permanent) -> &String| drift.permanent.as_ref().map(text).cloned().unwrap_or_default();
                 let [change, jump, resolution] = [of(|p| &p.change), of(|p| &p.largest_jump), of(|p| &p.resolution)];
                 let [least, most] = [drift.orders.0, drift.orders.1].map(|order| order.to_string());
                 drifts.push(row(run, Some(estimator), [drift.drift.clone(), change, jump, resolution, least, most]));
             }
-            Used::Energies(run, estimator, found) => {
+            (Quantity::Energies { run, estimator }, Outcome::Energies(found)) => {
                 energies.extend((0..found.times.len()).map(|n| {
                     let [t, distance] = [found.times[n], found.distances[n]].map(|number| number.to_string());
                     let size = |sizes: &[Option<f64>]| sizes[n].map_or(String::new(), |size| format!("{size:.4}"));
@@ -38,18 +41,25 @@ pub(crate) fn csv(command: &str, used: &[Used]) -> Result<Vec<(&'static str, Str
                     row(run, Some(estimator), [t, distance, found.values[n].clone(), order, error, last_term])
                 }));
             }
-            Used::Escape(run, escape) => {
-                let time = escape.time.map_or("none".to_owned(), |time| time.to_string());
-                numbers.push(row(run, None, ["time of escape".to_owned(), time]));
-                numbers.push(row(run, None, ["returns before it".to_owned(), escape.returns.to_string()]));
-                numbers.push(row(run, None, ["largest |q|".to_owned(), escape.farthest.to_string()]));
+            (Quantity::Escape { run }, Outcome::Escape(escape)) => {
+                include(run, "time of escape", escape.time.map_or("none".to_owned(), |time| time.to_string()));
+                include(run, "returns before it", escape.returns.to_string());
+                include(run, "largest |q|", escape.farthest.to_string());
             }
-            Used::Number(run, what, value) => numbers.push(row(run, None, [(*what).to_owned(), value.clone()])),
-            Used::Blocks(differences, found) => blocks.extend(found.iter().map(|block| {
+            (Quantity::CoordinateError { run }, Outcome::Number(value)) => {
+                include(run, "largest error of q", value.clone());
+            }
+            (Quantity::Transit { run }, Outcome::Number(value)) => include(run, "change of H", value.clone()),
+            (Quantity::Series { run }, Outcome::Numbers(found)) => {
+                GRADES.iter().zip(found).for_each(|((_, what), value)| include(run, what, value.clone()));
+            }
+            (Quantity::Noise { differences, .. }, Outcome::Blocks(found)) => blocks.extend(found.iter().map(|block| {
                 let name = serde_json::to_value(differences)
                     .map_or(String::new(), |name| name.as_str().unwrap_or("").to_owned());
                 vec![name, block.steps.to_string(), format!("{:e}", block.scatter), format!("{:e}", block.wander)]
             })),
+            // an orbit is drawn only
+            _ => {}
         }
     }
     let files = [("", drifts), ("-energies", energies), ("-values", numbers), ("-blocks", blocks)];
@@ -64,13 +74,8 @@ fn header(last: &[&str]) -> Vec<String> {
 fn row<const N: usize>(run: &Run, estimator: Option<&EstimatorSettings>, last: [String; N]) -> Vec<String> {
     let set: Vec<_> = run.set.iter().map(|(name, value)| format!("{name}={value}")).collect();
     let (name, order) = estimator.map_or(("", String::new()), |settings| (settings.name(), order(settings)));
-    let first = [
-        run.problem.name().to_owned(),
-        set.join(" "),
-        run.propagator.to_owned(),
-        run.step.clone(),
-        run.until.to_owned(),
-    ];
+    let first =
+        [run.problem.name().to_owned(), set.join(" "), run.propagator.clone(), run.step.clone(), run.until.clone()];
     let how = [run.digits.to_string(), name.to_owned(), order];
     first.into_iter().chain(how).chain(last).collect()
 }

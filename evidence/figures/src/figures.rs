@@ -1,23 +1,19 @@
-//! All figures: a file for each, and the list of them. A file for a problem has what several figures share.
-
-mod estimators;
-mod henon_heiles;
-mod kepler;
-mod pendulum;
+//! All figures: a table and a file for each, and the list of them. A file for a problem has what several figures share.
 
 mod contour;
 mod double_precision;
-mod estimators_exact_flow;
-mod estimators_schemes;
+mod estimators;
 mod henon_heiles_bilinear;
 mod henon_heiles_momentum;
 mod henon_heiles_step;
+mod kepler;
 mod kepler_eccentricity;
 mod kepler_energies;
 mod kepler_orders;
 mod kepler_schemes;
 mod kepler_step;
 mod modified_hamiltonian;
+mod pendulum;
 mod pendulum_bilinear;
 mod pendulum_momentum;
 mod pendulum_step;
@@ -28,24 +24,36 @@ mod scattering;
 use crate::figure::Figure;
 
 /// Those of the paper in its order, then additional ones.
-pub(crate) const FIGURES: &[Figure] = &[
-    pendulum_step::FIGURE,
-    pendulum_momentum::FIGURE,
-    kepler_step::FIGURE,
-    kepler_eccentricity::FIGURE,
-    kepler_schemes::FIGURE,
-    kepler_energies::FIGURE,
-    kepler_orders::FIGURE,
-    henon_heiles_step::FIGURE,
-    henon_heiles_momentum::FIGURE,
-    scattering::FIGURE,
-    contour::FIGURE,
-    estimators_exact_flow::FIGURE,
-    estimators_schemes::FIGURE,
-    permanent_change::FIGURE,
-    pendulum_bilinear::FIGURE,
-    henon_heiles_bilinear::FIGURE,
-    double_precision::FIGURE,
-    reliability::FIGURE,
-    modified_hamiltonian::FIGURE,
+pub(crate) static FIGURES: [Figure; 19] = [
+    Figure::new("pendulum-step", include_str!("figures/pendulum_step.toml"), pendulum_step::draw),
+    Figure::new("pendulum-momentum", include_str!("figures/pendulum_momentum.toml"), pendulum_momentum::draw),
+    Figure::new("kepler-step", include_str!("figures/kepler_step.toml"), kepler_step::draw),
+    Figure::new("kepler-eccentricity", include_str!("figures/kepler_eccentricity.toml"), kepler_eccentricity::draw),
+    Figure::new("kepler-schemes", include_str!("figures/kepler_schemes.toml"), kepler_schemes::draw),
+    Figure::new("kepler-energies", include_str!("figures/kepler_energies.toml"), kepler_energies::draw),
+    Figure::new("kepler-orders", include_str!("figures/kepler_orders.toml"), kepler_orders::draw),
+    Figure::new("henon-heiles-step", include_str!("figures/henon_heiles_step.toml"), henon_heiles_step::draw),
+    Figure::new(
+        "henon-heiles-momentum",
+        include_str!("figures/henon_heiles_momentum.toml"),
+        henon_heiles_momentum::draw,
+    ),
+    Figure::new("scattering", include_str!("figures/scattering.toml"), scattering::draw),
+    Figure::new("contour", include_str!("figures/contour.toml"), contour::draw),
+    Figure::new(
+        "estimators-exact-flow",
+        include_str!("figures/estimators_exact_flow.toml"),
+        estimators::on_the_exact_flow,
+    ),
+    Figure::new("estimators-schemes", include_str!("figures/estimators_schemes.toml"), estimators::on_schemes),
+    Figure::new("permanent-change", include_str!("figures/permanent_change.toml"), permanent_change::draw),
+    Figure::new("pendulum-bilinear", include_str!("figures/pendulum_bilinear.toml"), pendulum_bilinear::draw),
+    Figure::new(
+        "henon-heiles-bilinear",
+        include_str!("figures/henon_heiles_bilinear.toml"),
+        henon_heiles_bilinear::draw,
+    ),
+    Figure::new("double-precision", include_str!("figures/double_precision.toml"), double_precision::draw),
+    Figure::new("reliability", include_str!("figures/reliability.toml"), reliability::draw),
+    Figure::new("modified-hamiltonian", include_str!("figures/modified_hamiltonian.toml"), modified_hamiltonian::draw),
 ];

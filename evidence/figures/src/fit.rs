@@ -72,7 +72,6 @@ impl ExponentialDecay {
         let used: Vec<_> = drifts.iter().copied().filter(|(h, y)| h.is_finite() && *h > 0.0 && y.is_finite()).collect();
         let points: Vec<_> = used.iter().map(|(h, y)| (LOG10_E / h, *y)).collect();
         let line = Line::through(&points)?;
-        let steps = used.iter().map(|(h, _)| *h);
         let power_law = Line::through(&used.iter().map(|(h, y)| (h.log10(), *y)).collect::<Vec<_>>())?;
         Some(ExponentialDecay {
             power_law: power_law.deviation,
@@ -80,7 +79,7 @@ impl ExponentialDecay {
             c: -line.slope,
             c_error: line.slope_error,
             deviation: line.deviation,
-            steps: (steps.clone().fold(f64::INFINITY, f64::min), steps.fold(0.0, f64::max)),
+            steps: range(used.iter().map(|(h, _)| *h)),
             points: line.points,
         })
     }
@@ -180,6 +179,16 @@ pub(crate) fn decay(drifts: &[(f64, f64)], coarsest: f64) -> Option<ExponentialD
     ExponentialDecay::of(&used)
 }
 
+/// The points (h, y) of points (1/h, y).
+pub(crate) fn by_step(points: &[(f64, f64)]) -> Vec<(f64, f64)> {
+    points.iter().map(|(n, y)| (1.0 / n, *y)).collect()
+}
+
+/// The least and the largest of values.
+pub(crate) fn range(values: impl IntoIterator<Item = f64>) -> (f64, f64) {
+    values.into_iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(least, most), y| (least.min(y), most.max(y)))
+}
+
 /// A row of a table of rates.
 pub(crate) fn decay_row(label: &str, fit: Option<&ExponentialDecay>) -> Vec<String> {
     let Some(fit) = fit else {
@@ -215,8 +224,7 @@ impl Ratio {
     pub(crate) fn of(points: &[(f64, f64)], to: &[(f64, f64)]) -> Option<Ratio> {
         let all = logarithms(points, to);
         let sizes = all.iter().map(|(_, ratio)| *ratio);
-        let (least, most) =
-            (sizes.clone().fold(f64::INFINITY, f64::min), sizes.clone().fold(f64::NEG_INFINITY, f64::max));
+        let (least, most) = range(sizes.clone());
         let power = |y: f64| 10_f64.powf(y);
         let mean = Interval::of_mean(&sizes.collect::<Vec<_>>())?.map(power);
         Some(Ratio { mean, least: power(least), most: power(most) })

@@ -13,13 +13,15 @@
 //! # Ok::<(), shadowstep_figures::Error>(())
 //! ```
 //!
-//! A figure is a file in `evidence/figures/` and its line in the list `FIGURES`; everything else walks that list.
+//! A figure is a table `figures/NAME.toml` with what the paper states, families of runs and charts, a file beside it
+//! that draws them and judges what is stated, and its line in the list `FIGURES`; everything else walks that list.
 //!
 //! | module | what it is |
 //! | --- | --- |
 //! | `reproduction` | from a request to the files |
-//! | `figures` | the list of all figures, and one file for each |
-//! | `figure`, `drawing` | a figure of the list; what several drawings need |
+//! | `figures` | the list of all figures, and a table and a file for each |
+//! | `figure`, `table`, `drawing` | a figure of the list; its table; a figure while it is drawn |
+//! | `prelude` | what most figures use |
 //! | `results` | the results that figures request |
 //! | `calculation`, `run`, `estimator` | the calculations, and the runs and estimators that they are of |
 //! | `measured`, `states`, `escape`, `noise` | what is measured along runs at many digits, and in double precision |
@@ -40,11 +42,13 @@ mod interval;
 mod measured;
 mod noise;
 mod numbers;
+mod prelude;
 mod reproduction;
 mod results;
 mod run;
 mod series;
 mod states;
+mod table;
 
 pub use reproduction::{Reproduction, Request, reproduce, written};
 pub use shadowstep_studies::{Error, Observer, Progress};

@@ -174,7 +174,7 @@ impl Measure<'_> {
     ) -> Result<T, Error> {
         let (run, setup, h) = (self.run, self.run.setup(), self.run.h());
         let steps =
-            Steps { propagator: run.propagator, h: &h, steps: run.steps(), order: None, windows: Steps::WINDOWS };
+            Steps { propagator: &run.propagator, h: &h, steps: run.steps(), order: None, windows: Steps::WINDOWS };
         let failed = |error| steps.failed(&error);
         let watch = |from: i64| self.watch(from, run.steps() as f64 + reach as f64);
         let limbs = run.limbs();
@@ -182,7 +182,7 @@ impl Measure<'_> {
             return measure(&mut Interruptible { states: flow.states(reach), continues: watch(-(reach as i64)) })
                 .map_err(failed);
         }
-        let propagator = Propagator::read(run.propagator, &setup)?;
+        let propagator = Propagator::read(&run.propagator, &setup)?;
         let Some(scheme) = propagator.scheme() else {
             let states = ExactFlow::<AnyLimbs>::new(&setup, &self.run.h(), run.steps(), reach, &limbs);
             let states = states.map_err(|error| steps.not_followed(&error))?;
@@ -210,9 +210,9 @@ impl Measure<'_> {
     fn states(&self, mut take: impl FnMut(&[AnyLimbs], &[AnyLimbs])) -> Result<(Vec<AnyLimbs>, Vec<AnyLimbs>), Error> {
         let (run, setup, h) = (self.run, self.run.setup(), self.run.h());
         let steps =
-            Steps { propagator: run.propagator, h: &h, steps: run.steps(), order: None, windows: Steps::WINDOWS };
+            Steps { propagator: &run.propagator, h: &h, steps: run.steps(), order: None, windows: Steps::WINDOWS };
         let failed = |error| steps.failed(&error);
-        let propagator = Propagator::read(run.propagator, &setup)?;
+        let propagator = Propagator::read(&run.propagator, &setup)?;
         let stepper = stepper(propagator.scheme().expect("it is a scheme"), steps, &run.limbs());
         let start = motion::<AnyLimbs>(&setup, &run.limbs());
         let states = Trajectory::plain(stepper.with(start), 0, run.steps()).map_err(failed)?;

@@ -3,15 +3,18 @@
 
 use std::path::{Path, PathBuf};
 
+use serde::Deserialize;
+
 use crate::data;
 use crate::figure::Figure;
 use crate::figures::FIGURES;
 use crate::results::Results;
+use crate::table::Table;
 use crate::{Error, Observer};
 use shadowstep_scenes::shell_word;
 use shadowstep_studies::files::{PAGE, write_charts, write_file, write_page};
 use shadowstep_studies::page::{Report, Section};
-use shadowstep_studies::{Store, named};
+use shadowstep_studies::{Store, claim, named};
 
 /// Which figures are wanted, and where.
 #[derive(Clone, Debug)]
@@ -49,18 +52,18 @@ pub fn written() -> impl Iterator<Item = String> {
 /// # Errors
 /// An unknown figure; a folder that cannot be written, or that another process uses.
 pub fn reproduce(request: &Request, observer: &mut dyn Observer) -> Result<Reproduction, Error> {
-    let requested = named(FIGURES, |figure| figure.name, "figure", &request.names)?;
+    let requested = named(&FIGURES, |figure| figure.name, "figure", &request.names)?;
     let mut store = Store::open(&request.folder, observer)?;
     let mut results = Results::new(request.quick);
     loop {
-        requested.iter().for_each(|figure| drop((figure.draw)(&results)));
+        requested.iter().for_each(|figure| drop(figure.draw(&results)));
         if !results.compute(&mut store, observer)? {
             break;
         }
     }
     results.take_used();
     let (mut sections, mut earlier) = (Vec::new(), Vec::new());
-    for figure in FIGURES {
+    for figure in &FIGURES {
         if requested.iter().any(|requested| requested.name == figure.name) {
             sections.push(write_figure(figure, &results, &request.folder)?);
         } else if let Some(kept) = kept(figure, &store, &request.folder) {
@@ -79,7 +82,7 @@ fn kept(figure: &Figure, store: &Store, folder: &Path) -> Option<Results> {
         let mut results = Results::new(quick);
         let mut any = false;
         loop {
-            drop((figure.draw)(&results));
+            drop(figure.draw(&results));
             if !results.take_kept(store)? {
                 break;
             }
@@ -96,7 +99,7 @@ fn flag(quick: bool) -> &'static str {
 
 /// Writes charts and data of one figure; returns its section of the report.
 fn write_figure(figure: &Figure, results: &Results, folder: &Path) -> Result<Section, Error> {
-    let finding = (figure.draw)(results);
+    let finding = figure.draw(results);
     let mut files = write_charts(folder, figure.name, &finding.charts)?;
     let command = format!("shadowstep figures {}{}", figure.name, flag(results.quick));
     for (kind, text) in data::csv(&command, &results.take_used())? {
@@ -104,45 +107,29 @@ fn write_figure(figure: &Figure, results: &Results, folder: &Path) -> Result<Sec
         write_file(folder, &name, &text)?;
         files.push(name);
     }
-    let of_paper = (!figure.of_paper.is_empty()).then(|| figure.of_paper.to_owned());
-    Ok(Section { title: figure.title.to_owned(), of_paper, finding, files })
+    let Table { title, of_paper, .. } = figure.table();
+    let of_paper = (!of_paper.is_empty()).then(|| of_paper.clone());
+    Ok(Section { title: title.clone(), of_paper, finding, files })
 }
 
-const INTRODUCTION: [&str; 4] = [
-    "P. C. Moan and J. Niesen, “On an asymptotic method for computing the modified energy for symplectic methods”, \
-     Discrete Contin. Dyn. Syst. 34 (2014) 1105, follow the modified energy of splitting schemes at 120 digits. Each \
-     of their figures is computed here again and compared with the statements of their text.",
-    "Additional figures follow. They separate what belongs to the method from what belongs to the estimator: the same \
-     estimators on the exact flow, whose energy does not change, and the permanent change of the modified energy \
-     between states with small estimated errors.",
-    "The drift is max − min of the modified energy over the states n = 0 … N of the interval. States before 0 and \
-     after N, which estimators need, are computed by the scheme and its exact inverse. The paper's sign of the rate \
-     of β, printed −h a (qᵀU_q + 2U), is +h a (qᵀU_q − 2U).",
-    "Each statement agrees, differs, or is not decided. A statement on a rate or a mean ratio agrees if its whole 95 \
-     % interval does, and differs if no part of the interval does; the interval is Student's, over the step sizes, as \
-     if these were independent. A factor that the paper prints with one digit counts as every value that rounds to \
-     it. Drifts below 10⁻¹⁰⁸, where round-off of 120 digits may be visible, are left out. Other criteria are stated \
-     beside their results.",
-];
-
-/// What a quick report cannot decide.
-const QUICK: &str = "A quick report: fewer step sizes, eccentricities and orders can refute a claim about all of them \
-    or confirm a claim that one exists, but not the reverse. Without `--quick` more is decided.";
+/// The texts of the report: `report.toml`.
+#[derive(Deserialize)]
+struct Texts {
+    title: String,
+    introduction: Vec<String>,
+    /// What a quick report cannot decide.
+    quick: String,
+    digits: String,
+}
 
 /// `earlier` are the figures that are not requested.
 fn report(request: &Request, sections: Vec<Section>, earlier: &[String]) -> Report {
     let names: String = request.names.iter().map(|name| format!(" {name}")).collect();
     let command = format!("shadowstep figures{names}{} --out {}", flag(request.quick), shell_word(&request.folder));
-    let mut report = Report {
-        remark: request.quick.then(|| QUICK.to_owned()),
-        introduction: INTRODUCTION.map(str::to_owned).to_vec(),
-        sections,
-        ..Report::new("The modified energy of splitting schemes", &command)
-    };
-    report.made_with.push((
-        "digits".to_owned(),
-        "120 unless stated otherwise, in numbers of 448 bits, which are 134 digits".to_owned(),
-    ));
+    let Texts { title, introduction, quick, digits } = claim::read(include_str!("report.toml"));
+    let remark = request.quick.then_some(quick);
+    let mut report = Report { remark, introduction, sections, ..Report::new(&title, &command) };
+    report.made_with.push(("digits".to_owned(), digits));
     if !earlier.is_empty() {
         report.made_with.push(("from earlier runs".to_owned(), earlier.join(", ")));
     }

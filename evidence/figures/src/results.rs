@@ -16,7 +16,6 @@ use crate::measured::{Drift, Energies, Orbit};
 use crate::noise::{Block, Differences};
 use crate::numbers::{Wide, log10, number};
 use crate::run::Run;
-use crate::series::GRADES;
 use crate::{Error, Observer};
 use shadowstep_studies::Store;
 use shadowstep_studies::verdict::Coverage;
@@ -32,15 +31,8 @@ pub(crate) struct Results {
     used: RefCell<Vec<Used>>,
 }
 
-/// A run with its result, for the data of a figure.
-#[derive(Clone, Debug)]
-pub(crate) enum Used {
-    Drift(Run, EstimatorSettings, Drift),
-    Energies(Run, EstimatorSettings, Energies),
-    Escape(Run, Escape),
-    Number(Run, &'static str, String),
-    Blocks(Differences, Vec<Block>),
-}
+/// What was computed, and the outcome, for the data of a figure.
+pub(crate) type Used = (Quantity, Outcome);
 
 /// log₁₀ of a drift, and of the permanent change and its largest jump if the change is resolved.
 #[derive(Clone, Copy, Debug)]
@@ -75,26 +67,22 @@ impl Results {
         self.used.take()
     }
 
+    /// An outcome, which the data of the figure have; it is noted if it is not known.
     fn request(&self, quantity: Quantity) -> Option<Outcome> {
-        let calculation = quantity.calculation();
-        match self.known.get(&key(&calculation)) {
-            Some(known) => known.clone(),
-            None => {
-                self.missing.borrow_mut().push(calculation);
-                None
-            }
-        }
-    }
-
-    fn using(&self, used: Used) {
-        self.used.borrow_mut().push(used);
+        let calculation = quantity.clone().calculation();
+        let Some(known) = self.known.get(&key(&calculation)) else {
+            self.missing.borrow_mut().push(calculation);
+            return None;
+        };
+        let outcome = known.clone()?;
+        self.used.borrow_mut().push((quantity, outcome.clone()));
+        Some(outcome)
     }
 
     /// The drift of a run.
-    pub(crate) fn drift(&self, run: &Run, estimator: &EstimatorSettings) -> Option<Drift> {
+    fn drift(&self, run: &Run, estimator: &EstimatorSettings) -> Option<Drift> {
         let outcome = self.request(Quantity::Drift { run: run.clone(), estimator: estimator.clone() })?;
         let Outcome::Drift(drift) = outcome else { unreachable!("a drift was requested") };
-        self.using(Used::Drift(run.clone(), estimator.clone(), drift.clone()));
         Some(drift)
     }
 
@@ -121,62 +109,48 @@ impl Results {
     pub(crate) fn energies(&self, run: &Run, estimator: &EstimatorSettings) -> Option<Energies> {
         let outcome = self.request(Quantity::Energies { run: run.clone(), estimator: estimator.clone() })?;
         let Outcome::Energies(energies) = outcome else { unreachable!("energies were requested") };
-        self.using(Used::Energies(run.clone(), estimator.clone(), energies.clone()));
         Some(energies)
     }
 
     /// Whether and when the body of a run escapes.
     pub(crate) fn escape(&self, run: &Run) -> Option<Escape> {
-        let Outcome::Escape(escape) = self.request(Quantity::Escape { run: run.clone() })? else {
-            unreachable!("an escape was requested")
-        };
-        self.using(Used::Escape(run.clone(), escape.clone()));
+        let outcome = self.request(Quantity::Escape { run: run.clone() })?;
+        let Outcome::Escape(escape) = outcome else { unreachable!("an escape was requested") };
         Some(escape)
     }
 
     /// The positions of a run.
     pub(crate) fn orbit(&self, run: &Run) -> Option<Orbit> {
-        let Outcome::Orbit(orbit) = self.request(Quantity::Orbit { run: run.clone() })? else {
-            unreachable!("an orbit was requested")
-        };
+        let outcome = self.request(Quantity::Orbit { run: run.clone() })?;
+        let Outcome::Orbit(orbit) = outcome else { unreachable!("an orbit was requested") };
         Some(orbit)
     }
 
     /// log₁₀ of the largest |q − q of the exact flow| of a run.
     pub(crate) fn coordinate_error(&self, run: &Run) -> Option<f64> {
-        let error = self.number(Quantity::CoordinateError { run: run.clone() })?;
-        self.using(Used::Number(run.clone(), "largest error of q", error.clone()));
+        let outcome = self.request(Quantity::CoordinateError { run: run.clone() })?;
+        let Outcome::Number(error) = outcome else { unreachable!("a number was requested") };
         Some(log10(&error))
     }
 
     /// H at the end of a run less H at its start.
     pub(crate) fn transit(&self, run: &Run) -> Option<Wide> {
-        let change = self.number(Quantity::Transit { run: run.clone() })?;
-        self.using(Used::Number(run.clone(), "change of H", change.clone()));
+        let outcome = self.request(Quantity::Transit { run: run.clone() })?;
+        let Outcome::Number(change) = outcome else { unreachable!("a number was requested") };
         Some(number(&change))
     }
 
-    /// log₁₀ of max − min of the modified Hamiltonian along a run, as a series up to each of the [`GRADES`].
+    /// log₁₀ of max − min of the modified Hamiltonian along a run, as a series up to each of the grades.
     pub(crate) fn series(&self, run: &Run) -> Option<Vec<f64>> {
-        let Outcome::Numbers(found) = self.request(Quantity::Series { run: run.clone() })? else {
-            unreachable!("a series was requested")
-        };
-        for ((_, what), value) in GRADES.iter().zip(&found) {
-            self.using(Used::Number(run.clone(), what, value.clone()));
-        }
+        let outcome = self.request(Quantity::Series { run: run.clone() })?;
+        let Outcome::Numbers(found) = outcome else { unreachable!("a series was requested") };
         Some(found.iter().map(|value| log10(value)).collect())
-    }
-
-    fn number(&self, quantity: Quantity) -> Option<String> {
-        let Outcome::Number(number) = self.request(quantity)? else { unreachable!("a number was requested") };
-        Some(number)
     }
 
     /// Scatter and wander in double precision.
     pub(crate) fn noise(&self, steps: u64, differences: Differences) -> Option<Vec<Block>> {
         let outcome = self.request(Quantity::Noise { steps, differences })?;
         let Outcome::Blocks(blocks) = outcome else { unreachable!("blocks were requested") };
-        self.using(Used::Blocks(differences, blocks.clone()));
         Some(blocks)
     }
 

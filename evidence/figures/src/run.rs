@@ -15,6 +15,12 @@ pub(crate) const SCHEMES: [(&str, &str); 4] = [
     ("blanes-moan-srkn6b", "Blanes–Moan SRKN6b"),
 ];
 
+/// The name of a propagator in texts.
+pub(crate) fn label(propagator: &str) -> &str {
+    let known = SCHEMES.into_iter().chain([(EXACT_FLOW, "exact flow")]).find(|(name, _)| *name == propagator);
+    known.map_or(propagator, |(_, label)| label)
+}
+
 /// Force evaluations per step of each.
 pub(crate) const FORCES: [f64; 4] = [1.0, 3.0, 6.0, 6.0];
 
@@ -26,9 +32,9 @@ pub(crate) struct Run {
     /// Values of parameters or of the initial state that differ from the defaults.
     pub(crate) set: Vec<(String, String)>,
     /// The name of a shipped scheme, or exact-flow.
-    pub(crate) propagator: &'static str,
+    pub(crate) propagator: String,
     pub(crate) step: String,
-    pub(crate) until: &'static str,
+    pub(crate) until: String,
     pub(crate) digits: u32,
 }
 
@@ -38,8 +44,9 @@ fn by_name<S: Serializer>(problem: &Problem, serializer: S) -> Result<S::Ok, S::
 
 impl Run {
     /// Over [0, 100] with 120 digits, as in the paper.
-    pub(crate) fn of(problem: Problem, propagator: &'static str, step: impl Into<String>) -> Self {
-        Run { problem, set: Vec::new(), propagator, step: step.into(), until: "100", digits: 120 }
+    pub(crate) fn of(problem: Problem, propagator: &str, step: impl Into<String>) -> Self {
+        let (propagator, until) = (propagator.to_owned(), "100".to_owned());
+        Run { problem, set: Vec::new(), propagator, step: step.into(), until, digits: 120 }
     }
 
     /// With another value of a parameter or of the initial state.
@@ -48,13 +55,13 @@ impl Run {
         self
     }
 
-    pub(crate) fn until(self, until: &'static str) -> Self {
-        Run { until, ..self }
+    pub(crate) fn until(self, until: &str) -> Self {
+        Run { until: until.to_owned(), ..self }
     }
 
     /// The exact flow at the same times.
     pub(crate) fn of_exact_flow(self) -> Self {
-        Run { propagator: EXACT_FLOW, ..self }
+        Run { propagator: EXACT_FLOW.to_owned(), ..self }
     }
 
     pub(crate) fn digits(self, digits: u32) -> Self {
@@ -68,7 +75,7 @@ impl Run {
 
     /// The number of steps.
     pub(crate) fn steps(&self) -> u64 {
-        let steps = (exact(self.until).expect("figures have exact times") / self.h().exact()).floor();
+        let steps = (exact(&self.until).expect("figures have exact times") / self.h().exact()).floor();
         u64::try_from(steps.to_integer()).expect("figures run forward in time")
     }
 

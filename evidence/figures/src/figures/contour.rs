@@ -2,17 +2,7 @@
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
-use crate::figure::Figure;
-use crate::results::Results;
-use shadowstep_studies::chart::{Axis, Chart, Curve, Marker};
-use shadowstep_studies::finding::Finding;
-
-pub(super) const FIGURE: Figure = Figure {
-    name: "contour",
-    title: "The contour of integration in the proof of the lemma",
-    of_paper: "figure 7, in the appendix",
-    draw,
-};
+use crate::prelude::*;
 
 /// A point of the contour about −mh, …, mh at the distance ρ, h = 1: straight above and below, half circles at the
 /// ends.
@@ -42,32 +32,20 @@ fn excess(m: u32, rho: f64) -> f64 {
     (largest - log_kernel(m, (0.0, rho))) / std::f64::consts::LN_10
 }
 
-fn draw(_: &Results) -> Finding {
-    let mut finding = Finding::on(&[
-        "The error of D_m is an integral of y(z) and a kernel K_m(z) along a contour γ that includes −mh, …, mh and \
-         excludes the singularities of y, at the distance ρ from the real axis. Along γ, |K_m| has its maximum at z = \
-         iρ.",
-    ]);
+pub(super) fn draw(d: &mut Drawing<'_>) {
     let (m, rho) = (4.0, 1.6);
     let around = (0..=400).map(|i| contour(m, rho, f64::from(i) / 400.0)).collect();
     let states = (-4..=4).map(|j| (f64::from(j), 0.0)).collect();
-    finding.chart(
-        Chart::new(
-            "The contour γ, for m = 4",
-            Axis::linear("Re z / h").over(-7.0, 7.0),
-            Axis::linear("Im z / h").over(-5.4, 5.4),
-            vec![
-                Curve::thick("γ", around, 1),
-                Curve::dots("states −mh, …, mh", states, 0, Marker::Dot),
-                Curve::dots("±iρ", vec![(0.0, rho), (0.0, -rho)], 2, Marker::Cross),
-            ],
-        ),
-        "At the distance ρ from the states.",
-    );
+    let curves = vec![
+        Curve::thick("γ", around, 1),
+        Curve::dots("states −mh, …, mh", states, 0, Marker::Dot),
+        Curve::dots("±iρ", vec![(0.0, rho), (0.0, -rho)], 2, Marker::Cross),
+    ];
+    d.chart("contour", curves);
     let (orders, distances) = ([2_u32, 5, 10, 20, 50, 100, 200], [0.5, 1.0, 2.0, 5.0, 10.0, 20.0]);
     let all = || orders.into_iter().flat_map(|m| distances.map(|rho| (m, rho)));
     let found = all().map(|(m, rho)| excess(m, rho)).fold(f64::NEG_INFINITY, f64::max);
-    finding.check(
+    d.check(
         "Along γ the kernel has its maximum in modulus at z = iρ.",
         format!(
             "at 4000 points of γ, for {} pairs of m = {} to {} and ρ/h = {} to {}, the largest |K_m| is at most {:.6} \
@@ -81,7 +59,6 @@ fn draw(_: &Results) -> Finding {
         ),
         found < 1e-9,
     );
-    finding
 }
 
 #[cfg(test)]

@@ -1,28 +1,41 @@
-//! Shared by the figures of estimators against the number of states that they use.
+//! Estimators on the exact flow and on schemes, against the number of states that they use.
 
-use crate::estimator::{best, bilinear, central};
-use crate::results::Results;
-use crate::run::Run;
-use shadowstep::shadow::{EstimatorSettings, StoppingRule};
+use crate::prelude::*;
 
-pub(super) const ORDERS: [u32; 14] = [1, 2, 3, 4, 6, 8, 12, 16, 24, 32, 50, 80, 130, 200];
-
-/// Estimators of each order, and how many states one estimate uses.
-pub(super) type Family = (fn(u32) -> EstimatorSettings, fn(u32) -> u32);
-
-pub(super) const CENTRAL: Family = (central, |m| 2 * m + 1);
-pub(super) const BEST_UP_TO: Family = (|largest| best(largest, StoppingRule::Full), |m| 2 * m + 1);
-pub(super) const BILINEAR: Family = (bilinear, |k| k + 1);
-
-/// (log₁₀ of the states, log₁₀ of the drift)
-pub(super) fn against_states(results: &Results, run: &Run, (of, states): Family, orders: &[u32]) -> Vec<(f64, f64)> {
-    let point = |&order: &u32| (f64::from(states(order)).log10(), results.log10_drift(run, &of(order)));
-    orders.iter().map(point).collect()
+pub(super) fn on_the_exact_flow(d: &mut Drawing<'_>) {
+    for n in d.cs("central") {
+        let all = ["central", "best", "bilinear"].map(|family| d.series(family, &n));
+        let [central, best, bilinear] = &all;
+        let least = |one: &Series| power(range(one.points.iter().map(|(_, y)| *y)).0);
+        let states = |one: &Series| 10_f64.powf(range(one.points.iter().map(|(x, _)| *x)).1);
+        d.found(format!(
+            "h = 1/{n}: the variation is {} by the best m with up to {:.0} states, at least {} by these fixed m, and at \
+             least {} by the bilinear estimator with up to {:.0} states.",
+            power(best.points.last().map_or(f64::NAN, |(_, y)| *y)),
+            states(best),
+            least(central),
+            least(bilinear),
+            states(bilinear),
+        ));
+        d.chart_of("variation", &[("n", &n)], lines(&all, 0));
+    }
 }
 
-/// The even orders up to 200, whose values belong to states.
-pub(super) fn even(orders: &[u32]) -> Vec<u32> {
-    orders.iter().map(|order| 2 * order).filter(|order| *order <= 200).collect()
+pub(super) fn on_schemes(d: &mut Drawing<'_>) {
+    for family in ["best", "bilinear"] {
+        let (of, control) = (d.family(family), d.series(family, EXACT_FLOW));
+        let relative: Vec<_> = of.iter().map(|series| series.relative_to(&control.points)).collect();
+        let mut curves = lines(&of, 0);
+        curves.push(Curve::dashed(control.label, control.points, 8));
+        d.chart(family, curves);
+        d.chart(&format!("{family}_relative"), lines(&relative, 0));
+    }
+    let mut rows = Vec::new();
+    for (scheme, label) in SCHEMES.into_iter().chain([(EXACT_FLOW, "exact flow")]) {
+        let [best, bilinear] = [("best", "200"), ("bilinear", "50")].map(|(family, k)| d.sizes(family, scheme, k));
+        let (Some(best), Some(bilinear)) = (best, bilinear) else { continue };
+        let permanent = bilinear.permanent.map_or("not resolved".to_owned(), |(change, _)| power(change));
+        rows.push(vec![label.to_owned(), power(best.drift), power(bilinear.drift), permanent]);
+    }
+    d.finding.table("h = 1/20", &["", "drift by the best m ≤ 200", "drift by E_50", "permanent change"], rows);
 }
-
-pub(super) const STATES: &str = "states per estimate";

@@ -1,21 +1,6 @@
 //! Shared by the figures of Kepler's problem.
 
-use shadowstep::Real;
-use shadowstep::problems::Problem;
-use shadowstep::shadow::EstimatorSettings;
-
-use crate::fit::{ExponentialDecay, decay};
-use crate::measured::Energies;
-use crate::numbers::number;
-use crate::results::Results;
-use crate::run::Run;
-
-/// 1/h
-pub(super) const STEPS: [u32; 24] =
-    [4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 18, 20, 22, 24, 27, 30, 35, 40, 45, 50, 60];
-
-/// A coarse grid.
-pub(super) const FEW_STEPS: [u32; 7] = [4, 6, 10, 14, 20, 30, 40];
+use crate::prelude::*;
 
 /// The distance of the nearest singularity of q(t) from the real axis: E = i arcosh(1/e) in t = E − e sin E.
 pub(super) fn singularity(e: f64) -> f64 {
@@ -23,23 +8,18 @@ pub(super) fn singularity(e: f64) -> f64 {
 }
 
 /// A run with h = 1/n, e = 0.6 and a = 1.
-pub(super) fn run(propagator: &'static str, n: u32) -> Run {
+pub(super) fn run(propagator: &str, n: u32) -> Run {
     Run::of(Problem::Kepler, propagator, format!("1/{n}"))
 }
 
-/// (1/h, log₁₀ drift)
-pub(super) fn drifts(
-    results: &Results,
-    propagator: &'static str,
-    steps: &[u32],
-    estimator: &EstimatorSettings,
-) -> Vec<(f64, f64)> {
-    steps.iter().map(|&n| (f64::from(n), results.log10_drift(&run(propagator, n), estimator))).collect()
+/// The points with h ≤ 1/10.
+pub(super) fn fine(points: &[(f64, f64)]) -> Points {
+    points.iter().copied().filter(|(n, _)| *n >= 10.0).collect()
 }
 
 /// The rate over h ≤ 1/10, of points against 1/h.
 pub(super) fn rate(points: &[(f64, f64)]) -> Option<ExponentialDecay> {
-    decay(&points.iter().map(|(n, y)| (1.0 / n, *y)).collect::<Vec<_>>(), 0.1)
+    decay(&by_step(points), 0.1)
 }
 
 /// The semi-major axis is 1: |q| is 0.4 at a pericentre and 1.6 at an apocentre.
@@ -47,7 +27,7 @@ pub(super) const NEAR: f64 = 0.8;
 pub(super) const FAR: f64 = 1.5;
 
 /// (t, log₁₀|value − reference|)
-pub(super) fn off(energies: &Energies, reference: usize) -> Vec<(f64, f64)> {
+pub(super) fn off(energies: &Energies, reference: usize) -> Points {
     let reference = number(&energies.values[reference]);
     let sizes = energies.values.iter().map(|value| (&number(value) - &reference).log10_abs());
     energies.times.iter().copied().zip(sizes).collect()

@@ -1,71 +1,32 @@
 //! Kepler's problem: the drift against the eccentricity, and the eccentricities with which the body escapes.
 
-use super::kepler::run;
-use crate::drawing::{digits_held, drift_axis};
 use crate::escape::critical;
-use crate::estimator::BEST;
-use crate::figure::Figure;
-use crate::numbers::power;
-use crate::results::Results;
-use crate::run::Run;
-use shadowstep_studies::chart::{Axis, Chart, Curve, Mark};
-use shadowstep_studies::finding::Finding;
-use shadowstep_studies::verdict::{Coverage, Verdict};
+use crate::prelude::*;
 
-pub(super) const FIGURE: Figure = Figure {
-    name: "kepler-eccentricity",
-    title: "Kepler: drift against the eccentricity",
-    of_paper: "figure 3, right",
-    draw,
-};
-
-/// 1/h
-const STEPS: [u32; 4] = [5, 10, 20, 40];
-
-/// Störmer–Verlet with h = 1/n and e in thousandths.
-fn of(n: u32, e: u32) -> Run {
-    run("stormer-verlet", n).with("eccentricity", format!("{e}/1000"))
-}
-
-fn draw(results: &Results) -> Finding {
-    let mut finding = Finding::on(&[
-        "Almost circular orbits show much better preservation of the energy than highly elliptical ones.",
-        "An instability occurs at a critical eccentricity which depends on the step size: the topology of the energy \
-         levels of the modified energy changes, which leads to unbounded trajectories.",
-    ]);
-    let scans: Vec<Scan> = STEPS.iter().filter_map(|&n| Scan::of(results, n)).collect();
-    drifts(results, &mut finding, &scans);
+pub(super) fn draw(d: &mut Drawing<'_>) {
+    let scans: Vec<Scan> = d.cs("drifts").iter().filter_map(|n| Scan::of(d, n)).collect();
+    drifts(d, &scans);
     if !scans.is_empty() {
-        check_escapes(&mut finding, &scans, results.coverage());
-        table(&mut finding, &scans);
-        orbits(results, &mut finding, &scans);
+        check_escapes(d, &scans);
+        table(d, &scans);
+        orbits(d, &scans);
     }
-    digits_held(&mut finding, "the drift at h = 1/20, e = 0.8", results.digits_held(&of(20, 800), &BEST, 200));
-    finding
 }
 
-fn drifts(results: &Results, finding: &mut Finding, scans: &[Scan]) {
-    let all: Vec<u32> = (1..=19).map(|n| 50 * n).collect();
-    let thousandths = results.grid(&all, &[50, 300, 600, 750, 900]);
-    let mut curves = Vec::new();
-    for (i, n) in STEPS.into_iter().enumerate() {
-        let points: Vec<_> =
-            thousandths.iter().map(|&e| (f64::from(e) / 1000.0, results.log10_drift(&of(n, e), &BEST))).collect();
+fn drifts(d: &mut Drawing<'_>, scans: &[Scan]) {
+    let drifts = d.family("drifts");
+    for Series { label, points } in &drifts {
         if let (Some((first, least)), Some((at, middle))) = (points.first(), points.iter().find(|(e, _)| *e >= 0.6)) {
-            finding.check(
-                format!("h = 1/{n}: almost circular orbits preserve it much better."),
+            d.check(
+                format!("{label}: almost circular orbits preserve it much better."),
                 format!("{} at e = {first}, {} at e = {at}", power(*least), power(*middle)),
                 *least < middle - 3.0,
             );
         }
-        curves.push(Curve::line(format!("h = 1/{n}"), points, i));
     }
-    let chart = finding.chart(
-        Chart::new("Störmer–Verlet, Kepler", Axis::linear("eccentricity e"), drift_axis(), curves),
-        "The best m of each state, up to 200. Marks: the first of the computed eccentricities with which the body escapes.",
-    );
     let first = scans.iter().filter_map(|scan| Some((scan.n, scan.first()?)));
-    chart.marks = first.map(|(n, e)| Mark::at(e, format!("escape, h = 1/{n}"))).collect();
+    let marks = first.map(|(n, e)| Mark::at(e, format!("escape, h = 1/{n}"))).collect();
+    d.chart("drifts", lines(&drifts, 0)).marks = marks;
 }
 
 /// Whether the body escapes before t = 100, for each eccentricity of a scan at h = 1/n.
@@ -76,16 +37,14 @@ struct Scan {
 }
 
 impl Scan {
-    fn of(results: &Results, n: u32) -> Option<Scan> {
-        let all: Vec<u32> = (400..=990).collect();
-        let some: Vec<u32> = all.iter().copied().filter(|e| e.is_multiple_of(5)).collect();
-        let found = results.grid(&all, &some).iter().map(|&e| {
-            let escape = results.escape(&of(n, e))?;
+    fn of(d: &Drawing<'_>, n: &str) -> Option<Scan> {
+        let found = (400..=990).step_by(if d.results.quick { 5 } else { 1 }).map(|e| {
+            let escape = d.results.escape(&d.run("drifts", n, &e.to_string()))?;
             Some((e, escape.time.map(|_| escape.returns), escape.farthest))
         });
         // every e is requested before one that is missing ends it
         let found: Vec<_> = found.collect();
-        Some(Scan { n, found: found.into_iter().collect::<Option<_>>()? })
+        Some(Scan { n: n.parse().ok()?, found: found.into_iter().collect::<Option<_>>()? })
     }
 
     fn escapes(&self) -> impl Iterator<Item = (u32, u32)> + '_ {
@@ -141,14 +100,15 @@ fn thousandths(e: u32) -> f64 {
     f64::from(e) / 1000.0
 }
 
-fn check_escapes(finding: &mut Finding, scans: &[Scan], coverage: Coverage) {
+fn check_escapes(d: &mut Drawing<'_>, scans: &[Scan]) {
+    let coverage = d.coverage();
     let (found, verdict) = onset(scans, coverage);
-    finding.check("An instability occurs at an eccentricity that depends on the step size.", found, verdict);
+    d.check("An instability occurs at an eccentricity that depends on the step size.", found, verdict);
     for scan in scans {
         let (Some(verdict), Some(found)) = (scan.is_one_value(coverage), scan.described()) else { continue };
-        finding.check(format!("h = 1/{}: it is one critical eccentricity, to within 0.001.", scan.n), found, verdict);
+        d.check(format!("h = 1/{}: it is one critical eccentricity, to within 0.001.", scan.n), found, verdict);
     }
-    topology(finding, scans, coverage);
+    topology(d, scans);
 }
 
 /// Where the instability begins. Between the eccentricities of a coarse scan others may escape, so that it gives an
@@ -181,11 +141,11 @@ fn depends_on_step(ranges: &[Option<(f64, f64)>]) -> Verdict {
 
 /// A level set that is unbounded from the start is left on the first way out; an escape after a return needs a change
 /// of the modified energy itself.
-fn topology(finding: &mut Finding, scans: &[Scan], coverage: Coverage) {
+fn topology(d: &mut Drawing<'_>, scans: &[Scan]) {
     for scan in scans {
         let (all, late) =
             scan.escapes().fold((0, 0), |(all, late), (_, returns)| (all + 1, late + usize::from(returns > 0)));
-        let Some(verdict) = scan.escapes_at_once(coverage) else { continue };
+        let Some(verdict) = scan.escapes_at_once(d.coverage()) else { continue };
         let critical = critical(1.0 / f64::from(scan.n));
         let others = match late {
             0 => String::new(),
@@ -200,33 +160,26 @@ fn topology(finding: &mut Finding, scans: &[Scan], coverage: Coverage) {
             "h = 1/{}: the trajectories are unbounded since the level sets of the modified energy are.",
             scan.n
         );
-        finding.check(&statement, found, verdict);
+        d.check(statement, found, verdict);
     }
-    finding.found(
+    d.found(
         "A body has escaped when it is farther than 2, moves outward, and H̄ = H + h² (pᵀU_qq p/12 − |U_q|²/24), the \
          modified energy up to h², is at least 0: the level set then reaches infinity. |q| > 3 is not an escape: \
          orbits of negative energy pass it and return.",
     );
 }
 
-fn table(finding: &mut Finding, scans: &[Scan]) {
+fn table(d: &mut Drawing<'_>, scans: &[Scan]) {
     let number = |e: Option<f64>| e.map_or("none".to_owned(), |e| format!("{e:.3}"));
     let rows = scans.iter().map(|scan| {
         let beyond = scan.found.iter().find(|(_, _, farthest)| *farthest > 3.0).map(|(e, ..)| thousandths(*e));
         let critical = format!("{:.3}", critical(1.0 / f64::from(scan.n)));
         vec![format!("1/{}", scan.n), number(scan.first()), number(scan.last_bound()), critical, number(beyond)]
     });
-    let (first, last, all) = scans[0]
-        .found
-        .first()
-        .zip(scans[0].found.last())
-        .map_or((0, 0, 0), |(first, last)| (first.0, last.0, scans[0].found.len()));
-    finding.table(
-        &format!(
-            "Escapes before t = 100, of {all} eccentricities from {} to {}",
-            thousandths(first),
-            thousandths(last)
-        ),
+    let (found, end) = (&scans[0].found, |at: Option<&(u32, _, _)>| at.map_or(0.0, |(e, ..)| thousandths(*e)));
+    let (all, first, last) = (found.len(), end(found.first()), end(found.last()));
+    d.finding.table(
+        &format!("Escapes before t = 100, of {all} eccentricities from {first} to {last}"),
         &["h", "first escape", "last that stays", "level set unbounded (up to h²)", "first with |q| > 3"],
         rows.collect(),
     );
@@ -234,7 +187,7 @@ fn table(finding: &mut Finding, scans: &[Scan]) {
 
 /// The orbits on both sides of the instability, at h = 1/10: one that stays, the last that stays, the next, which
 /// escapes, and the first escape if that is before them.
-fn orbits(results: &Results, finding: &mut Finding, scans: &[Scan]) {
+fn orbits(d: &mut Drawing<'_>, scans: &[Scan]) {
     let Some(scan) = scans.iter().find(|scan| scan.n == 10) else { return };
     let bound = |below: u32| scan.found.iter().rev().find(|(e, returns, _)| *e < below && returns.is_none());
     let Some(last) = bound(u32::MAX).map(|(e, ..)| *e) else { return };
@@ -244,21 +197,13 @@ fn orbits(results: &Results, finding: &mut Finding, scans: &[Scan]) {
     shown.push((last, STAYS.to_owned()));
     shown.extend(scan.escapes().find(|(e, _)| *e > last).map(|(e, _)| (e, "escapes".to_owned())));
     let curve = |(i, (e, label)): (usize, &(u32, String))| {
-        let orbit = results.orbit(&of(scan.n, *e));
+        let orbit = d.results.orbit(&d.run("drifts", "10", &e.to_string()));
         let points = orbit.map_or_else(Vec::new, |orbit| orbit.x.into_iter().zip(orbit.y).collect());
         let label = if label == STAYS { of_bound(&points) } else { label };
         Curve::line(format!("e = {}, {label}", thousandths(*e)), points, i)
     };
-    finding.chart(
-        Chart::new(
-            "The orbits on both sides of the instability, h = 1/10",
-            Axis::linear("q₁").over(FRAME[0].0, FRAME[0].1),
-            Axis::linear("q₂").over(FRAME[1].0, FRAME[1].1),
-            shown.iter().enumerate().map(curve).collect(),
-        ),
-        "Störmer–Verlet, t ≤ 100; the states are joined by lines. The exact orbit reaches |q| = 1 + e. An orbit that \
-         is bound has a modified energy below 0, and returns.",
-    );
+    let curves = shown.iter().enumerate().map(curve).collect();
+    d.chart("orbits", curves);
 }
 
 /// The part of the plane in which orbits are drawn.

@@ -2,8 +2,6 @@
 
 use std::f64::consts::PI;
 
-pub(super) const SCHEME: &str = "stormer-verlet";
-
 /// The distance of the nearest singularity of q(t) from the real axis: K(k'), k = p(0)/2, by π/(2 AGM(1, k)).
 pub(super) fn singularity(p: f64) -> f64 {
     let (mut a, mut b) = (1.0_f64, p / 2.0);

@@ -1,21 +1,8 @@
 //! The estimated errors of estimators, against their true errors on the exact flow.
 
-use shadowstep::problems::Problem;
-use shadowstep::shadow::{EstimatorSettings, StoppingRule};
-use shadowstep::{Number, Real};
+use shadowstep::Number;
 
-use crate::drawing::additional;
-use crate::estimator::{best, bilinear, central};
-use crate::figure::Figure;
-use crate::measured::Energies;
-use crate::numbers::{Wide, number};
-use crate::results::Results;
-use crate::run::{EXACT_FLOW, Run};
-use shadowstep_studies::chart::{Axis, Chart, Curve};
-use shadowstep_studies::finding::Finding;
-
-pub(super) const FIGURE: Figure =
-    Figure { name: "reliability", title: "Estimated errors against true errors", of_paper: "", draw };
+use crate::prelude::*;
 
 fn estimators() -> [(&'static str, EstimatorSettings); 6] {
     [
@@ -31,7 +18,7 @@ fn estimators() -> [(&'static str, EstimatorSettings); 6] {
 /// The largest ratio of true and estimated error that counts as reliable.
 const RELIABLE: f64 = 2.0;
 
-fn run(e: &str, h: &str, until: &'static str) -> Run {
+fn run(e: &str, h: &str, until: &str) -> Run {
     Run::of(Problem::Kepler, EXACT_FLOW, h).with("eccentricity", e).until(until)
 }
 
@@ -59,17 +46,12 @@ fn shown(ratio: f64) -> String {
     if (0.01..1000.0).contains(&ratio) { format!("{ratio:.2}") } else { format!("{ratio:.0e}") }
 }
 
-fn draw(results: &Results) -> Finding {
-    let mut finding = additional(
-        "On the exact flow of Kepler's problem the error of an estimate is known. The paper uses |T_{m,m} − \
-            T_{m−1,m−1}| as its estimate. Here the estimate is the largest of the differences of the estimates at a \
-            few states on either side, of their last terms, and of the last digit.",
-    );
+pub(super) fn draw(d: &mut Drawing<'_>) {
     for (label, estimator) in [&estimators()[2], &estimators()[4]] {
-        along_an_orbit(results, &mut finding, label, estimator);
+        along_an_orbit(d, label, estimator);
     }
-    let orbits = results.grid(&["0", "3/10", "6/10", "9/10"], &["0", "6/10", "9/10"]);
-    let steps = results.grid(&["1/10", "3/31", "1/20", "1/40"], &["1/10", "1/20"]);
+    let orbits = d.results.grid(&["0", "3/10", "6/10", "9/10"], &["0", "6/10", "9/10"]);
+    let steps = d.results.grid(&["1/10", "3/31", "1/20", "1/40"], &["1/10", "1/20"]);
     let mut rows = Vec::new();
     let mut worst_of_all = 0.0_f64;
     for (label, estimator) in &estimators() {
@@ -77,13 +59,13 @@ fn draw(results: &Results) -> Finding {
         let of = |pick: fn(&Energies) -> &Vec<Option<f64>>| {
             quantiles(
                 all()
-                    .filter_map(|run| results.energies(&run, estimator))
+                    .filter_map(|run| d.results.energies(&run, estimator))
                     .flat_map(|found| ratios(&found, pick(&found)))
                     .collect(),
             )
         };
         let (estimated, last_terms) = (of(|found| &found.errors), of(|found| &found.last_terms));
-        let coarse = results.energies(&run("6/10", "2", "100"), estimator);
+        let coarse = d.results.energies(&run("6/10", "2", "100"), estimator);
         let coarse = coarse.map_or(f64::NAN, |found| quantiles(ratios(&found, &found.errors))[2]);
         let few = if coarse > RELIABLE { "not reliable here".to_owned() } else { shown(coarse) };
         worst_of_all = worst_of_all.max(estimated[2]);
@@ -92,34 +74,26 @@ fn draw(results: &Results) -> Finding {
         );
     }
     let list = |values: &[&str]| values.join(", ");
-    finding.table(
+    d.finding.table(
         &format!("True error / estimated error over one orbit each of e = {}, h = {}", list(orbits), list(steps)),
         &["", "median", "95 %", "largest", "largest, by the last term", "largest, h = 2: three states a period"],
         rows,
     );
-    finding.check(
+    d.check(
         "The estimated errors are hardly ever smaller than the true ones, close encounters included.",
         format!("true/estimated is at most {worst_of_all:.2}"),
-        results.coverage().every(worst_of_all < RELIABLE),
+        d.coverage().every(worst_of_all < RELIABLE),
     );
-    finding
 }
 
-fn along_an_orbit(results: &Results, finding: &mut Finding, label: &str, estimator: &EstimatorSettings) {
-    let Some(found) = results.energies(&run("6/10", "1/20", "7"), estimator) else { return };
-    let against = |sizes: Vec<f64>| found.times.iter().copied().zip(sizes).collect::<Vec<_>>();
+fn along_an_orbit(d: &mut Drawing<'_>, label: &str, estimator: &EstimatorSettings) {
+    let Some(found) = d.results.energies(&run("6/10", "1/20", "7"), estimator) else { return };
+    let against = |sizes: Vec<f64>| found.times.iter().copied().zip(sizes).collect::<Points>();
     let known = |sizes: &[Option<f64>]| against(sizes.iter().map(|size| size.unwrap_or(f64::NAN)).collect());
-    finding.chart(
-        Chart::new(
-            format!("Exact flow, Kepler, e = 0.6, h = 1/20, {label}"),
-            Axis::linear("time t"),
-            Axis::log10("error"),
-            vec![
-                Curve::thick("true", against(true_errors(&found)), 0),
-                Curve::line("estimated", known(&found.errors), 1),
-                Curve::dashed("last term", known(&found.last_terms), 2),
-            ],
-        ),
-        "One orbit from pericentre to pericentre.",
-    );
+    let curves = vec![
+        Curve::thick("true", against(true_errors(&found)), 0),
+        Curve::line("estimated", known(&found.errors), 1),
+        Curve::dashed("last term", known(&found.last_terms), 2),
+    ];
+    d.chart_of("errors", &[("estimator", label)], curves);
 }
