@@ -50,5 +50,5 @@ mod value;
 pub use fault::{Fault, Faults, Source, with_short_numbers};
 pub use file::{LARGEST_TABLE, read_text, refuse_pipe};
 pub use keys::{Key, Keys};
-pub use reader::{Reader, Section, document};
+pub use reader::{Reader, Section, document, valid_document};
 pub use value::{Placed, Text, Value, whole_number};

@@ -30,10 +30,7 @@ pub(crate) fn alone<T>(
     let source = Source { path: name.to_owned(), text: text.to_owned() };
     let mut reader = Reader::new(&source, Vec::new());
     let found = read(Text::alone(text), &mut reader);
-    match Faults::of(reader.faults) {
-        Some(faults) => Err(faults.into()),
-        None => Ok(found.expect("what cannot be read is a fault")),
-    }
+    Ok(Faults::or(reader.faults, found)?)
 }
 
 impl System {
@@ -45,8 +42,7 @@ impl System {
     pub fn condition(&self, name: &str, text: &str) -> Result<Condition, Error> {
         alone(name, text, |text, reader| {
             let condition = Condition::read(reader, &text)?;
-            self.check(condition.difference(), reader);
-            Some(condition)
+            self.check(condition.difference(), reader).map(|()| condition)
         })
     }
 
@@ -66,13 +62,11 @@ impl System {
             let message = "a section is a function of q and p, and t is no coordinate here";
             return reader.wrong(&expression.text.at, message, help);
         }
-        let before = reader.faults.len();
-        self.check(&expression, reader);
-        (reader.faults.len() == before).then_some(Surface { expression, direction })
+        self.check(&expression, reader).map(|()| Surface { expression, direction })
     }
 
-    /// Checks an expression for the system; a fault has its place.
-    pub fn check(&self, expression: &Expression, reader: &mut Reader<'_>) {
+    /// Checks an expression for the system; a fault has its place, and then there is nothing.
+    pub fn check(&self, expression: &Expression, reader: &mut Reader<'_>) -> Option<()> {
         // that of a condition has another length
         let is_whole = expression.formula.len() == expression.text.value.len();
         let place = |range: &Range<usize>| match is_whole {
@@ -80,10 +74,9 @@ impl System {
             false => expression.text.at.clone(),
         };
         if let Some(Refusal { message, hint }) = self.two_meanings(expression) {
-            reader.fault(&expression.text.at, message, hint);
-            return;
+            return reader.wrong(&expression.text.at, message, hint);
         }
-        let Err(error) = Evaluator::<f64>::new(expression, self, &()) else { return };
+        let Err(error) = Evaluator::<f64>::new(expression, self, &()) else { return Some(()) };
         let (message, hint, range) = match error {
             NotOfSystem::Quantity { no: Refusal { message, hint }, range } => (message, hint, range),
             NotOfSystem::Formula(error) => {
@@ -102,7 +95,7 @@ impl System {
                 (message, hint, error.range())
             }
         };
-        reader.fault(&place(&range), message, hint);
+        reader.wrong(&place(&range), message, hint)
     }
 
     /// A name of the formula that could be read in two ways.
@@ -243,45 +236,21 @@ impl<N: Number + 'static> Evaluator<N> {
         system: &mut M,
         time: impl Fn() -> Rational,
     ) -> &N {
-        self.set_state(system.state().q(), system.state().p());
-        let rest = self.rest();
-        if self.has_time {
-            self.point[rest] = match (&self.energy, system.state().q().last()) {
-                (Some(_), Some(t)) => t.clone(),
-                _ => N::from_rational(&time(), &self.value.context()),
-            };
-        }
-        if self.has_energy {
-            self.point[rest + 1] = match &mut self.energy {
-                Some(energy) => energy(system.state().q(), system.state().p()),
-                None => system.energy(),
-            };
-        }
-        self.evaluate()
+        let energy = self.has_energy.then(|| match &mut self.energy {
+            Some(energy) => energy(system.state().q(), system.state().p()),
+            None => system.energy(),
+        });
+        let context = self.value.context();
+        let state = (system.state().q(), system.state().p());
+        self.value_with(state, || N::from_rational(&time(), &context), energy)
     }
 
     /// The value at a state with its physical time, in the coordinates of the steps; `energy` is H there.
-    pub fn value_at(&mut self, (q, p): (&[N], &[N]), time: &N, energy: impl FnOnce() -> N) -> &N {
-        self.set_state(q, p);
-        let rest = self.rest();
+    pub fn value_at(&mut self, state: (&[N], &[N]), time: &N, energy: impl FnOnce() -> N) -> &N {
+        let (rest, energy) = (self.rest(), self.has_energy.then(energy));
+        // a derived formula may have t, too
         self.point[rest].assign(time);
-        if self.has_energy {
-            self.point[rest + 1] = energy();
-        }
-        self.evaluate()
-    }
-
-    /// The value at a state, without H.
-    fn value_without_energy(&mut self, (q, p): (&[N], &[N]), time: impl FnOnce() -> N) -> &N {
-        self.set_state(q, p);
-        if self.has_time {
-            let rest = self.rest();
-            self.point[rest] = match (&self.energy, q.last()) {
-                (Some(_), Some(t)) => t.clone(),
-                _ => time(),
-            };
-        }
-        self.evaluate()
+        self.value_with(state, || time.clone(), energy)
     }
 
     /// The value at another state of a system; t is a coordinate, if the expression has it.
@@ -290,16 +259,29 @@ impl<N: Number + 'static> Evaluator<N> {
         system: &mut M,
         (q, p): (&[N], &[N]),
     ) -> &N {
+        let energy = self.has_energy.then(|| match &mut self.energy {
+            Some(energy) => energy(q, p),
+            None => {
+                let mut energy = self.value.clone();
+                system.assign_energy(Some((q, p)), &mut energy);
+                energy
+            }
+        });
+        self.value_with((q, p), || unreachable!("t is a coordinate"), energy)
+    }
+
+    /// The value at a state with its time, which the state has itself where time is transformed, and its H.
+    fn value_with(&mut self, (q, p): (&[N], &[N]), time: impl FnOnce() -> N, energy: Option<N>) -> &N {
         self.set_state(q, p);
         let rest = self.rest();
-        if let (true, Some(t)) = (self.has_time, q.last()) {
-            self.point[rest].assign(t);
+        if self.has_time {
+            self.point[rest] = match (&self.energy, q.last()) {
+                (Some(_), Some(t)) => t.clone(),
+                _ => time(),
+            };
         }
-        if self.has_energy {
-            match &mut self.energy {
-                Some(energy) => self.point[rest + 1] = energy(q, p),
-                None => system.assign_energy(Some((q, p)), &mut self.point[rest + 1]),
-            }
+        if let Some(energy) = energy {
+            self.point[rest + 1] = energy;
         }
         self.evaluate()
     }
@@ -396,7 +378,7 @@ impl<N: RunNumber> Test<N> {
 
     /// Whether a state meets the condition, which has no H.
     pub(crate) fn is_met_at(&mut self, state: (&[N], &[N]), time: impl FnOnce() -> N) -> bool {
-        self.met.is_of(self.difference.value_without_energy(state, time).partial_cmp(&self.zero))
+        self.met.is_of(self.difference.value_with(state, time, None).partial_cmp(&self.zero))
     }
 }
 

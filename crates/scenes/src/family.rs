@@ -5,7 +5,7 @@ use std::ops::Range;
 
 use shadowstep::Rational;
 use shadowstep::tables::{Faults, Source};
-use shadowstep_schemes::document::document;
+use shadowstep_schemes::document::valid_document;
 use shadowstep_symbolic::Exact;
 use shadowstep_symbolic::decimal::to_text;
 use toml::Spanned;
@@ -15,6 +15,7 @@ use crate::arithmetic::Arithmetic;
 use crate::library::Schemes;
 use crate::read::{Names, read};
 use crate::scene::{InitialValueProblem, Scene, System};
+use crate::schema::{each_text, words};
 
 /// A scene's text in which names stand for values: one scene for each choice of the values.
 ///
@@ -101,11 +102,10 @@ impl Family {
     /// # Errors
     /// Faults of the syntax.
     pub fn parsed(&self) -> Result<Parsed<'_>, Faults> {
-        let (document, faults) = document(&self.source);
-        let Some(document) = document.filter(|_| faults.is_empty()) else { return Err(Faults(faults)) };
-        let mut words = Vec::new();
-        document.iter().for_each(|(_, value)| collect_whole_names(value, &mut words));
-        Ok(Parsed { family: self, document, has_words: !words.is_empty() })
+        let document = valid_document(&self.source)?;
+        let mut has_words = false;
+        document.values().for_each(|value| each_text(value, &mut |text, _| has_words |= whole_name(text).is_some()));
+        Ok(Parsed { family: self, document, has_words })
     }
 
     /// All names in the texts of the scene, whatever they stand for.
@@ -113,12 +113,8 @@ impl Family {
     /// # Errors
     /// Faults of the syntax.
     pub fn names(&self) -> Result<BTreeSet<String>, Faults> {
-        let (document, faults) = document(&self.source);
-        let Some(document) = document.filter(|_| faults.is_empty()) else { return Err(Faults(faults)) };
-        let mut found = BTreeSet::new();
-        let sections = document.iter().filter(|(name, _)| !self.others.contains(&name.get_ref().as_ref()));
-        sections.for_each(|(_, section)| collect_names(section.get_ref(), &mut found));
-        Ok(found)
+        let document = valid_document(&self.source)?;
+        Ok(names_in(&document, |section| !self.others.contains(&section)))
     }
 
     /// The names in `"$name"`, in the order of the text, with their places.
@@ -126,11 +122,11 @@ impl Family {
     /// # Errors
     /// Faults of the syntax.
     pub fn whole_names(&self) -> Result<Vec<(String, Range<usize>)>, Faults> {
-        let (document, faults) = document(&self.source);
-        let Some(document) = document.filter(|_| faults.is_empty()) else { return Err(Faults(faults)) };
+        let document = valid_document(&self.source)?;
         let mut found = Vec::new();
         let sections = document.iter().filter(|(name, _)| !self.others.contains(&name.get_ref().as_ref()));
-        sections.for_each(|(_, section)| collect_whole_names(section, &mut found));
+        let mut add = |text: &str, at| found.extend(whole_name(text).map(|name| (name.to_owned(), at)));
+        sections.for_each(|(_, section)| each_text(section, &mut add));
         found.sort_by_key(|(_, at)| at.start);
         Ok(found)
     }
@@ -139,9 +135,7 @@ impl Family {
 impl Parsed<'_> {
     /// Whether one of the sections that are chosen, such as "run", contains one of these names in its texts.
     pub(crate) fn has_names(&self, is_chosen: impl Fn(&str) -> bool, names: &[&String]) -> bool {
-        let mut found = BTreeSet::new();
-        let sections = self.document.iter().filter(|(name, _)| is_chosen(name.get_ref()));
-        sections.for_each(|(_, section)| collect_names(section.get_ref(), &mut found));
+        let found = names_in(&self.document, is_chosen);
         self.has_words || names.iter().any(|name| found.contains(*name))
     }
 
@@ -224,31 +218,17 @@ fn whole(text: &str) -> Option<DeValue<'_>> {
     is_whole.then(|| DeValue::parse(text).ok()).flatten().map(Spanned::into_inner)
 }
 
-fn collect_names(value: &DeValue<'_>, found: &mut BTreeSet<String>) {
-    match value {
-        DeValue::String(text) => found.extend(words(text)),
-        DeValue::Array(members) => members.iter().for_each(|member| collect_names(member.get_ref(), found)),
-        DeValue::Table(table) => table.values().for_each(|value| collect_names(value.get_ref(), found)),
-        _ => {}
-    }
+/// The names in the texts of the sections that are chosen.
+fn names_in(document: &DeTable<'_>, is_chosen: impl Fn(&str) -> bool) -> BTreeSet<String> {
+    let mut found = BTreeSet::new();
+    let sections = document.iter().filter(|(name, _)| is_chosen(name.get_ref()));
+    sections.for_each(|(_, section)| each_text(section, &mut |text, _| found.extend(words(text).map(str::to_owned))));
+    found
 }
 
-fn collect_whole_names(value: &Spanned<DeValue<'_>>, found: &mut Vec<(String, Range<usize>)>) {
-    match value.get_ref() {
-        DeValue::String(text) => {
-            let name = text.strip_prefix('$').filter(|name| words(name).next().is_some_and(|word| word == *name));
-            found.extend(name.map(|name| (name.to_owned(), value.span())));
-        }
-        DeValue::Array(members) => members.iter().for_each(|member| collect_whole_names(member, found)),
-        DeValue::Table(table) => table.values().for_each(|value| collect_whole_names(value, found)),
-        _ => {}
-    }
-}
-
-/// The longest parts of a text that can be names.
-fn words(text: &str) -> impl Iterator<Item = String> {
-    let is_letter = |c: char| c.is_alphanumeric() || c == '_';
-    text.split(move |c| !is_letter(c)).filter(|word| word.starts_with(|c: char| c.is_alphabetic())).map(str::to_owned)
+/// The name in a text `$name`.
+fn whole_name(text: &str) -> Option<&str> {
+    text.strip_prefix('$').filter(|name| words(name).next() == Some(name))
 }
 
 #[cfg(test)]

@@ -1,6 +1,6 @@
 //! Schemes by their names: shipped ones, and tables in files.
 
-use std::io::ErrorKind;
+use std::io::{self, ErrorKind};
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 
@@ -20,7 +20,7 @@ use crate::arithmetic::{Arithmetic, GUARD_DIGITS, MOST_VALUE_DIGITS, OTHER_SCHEM
 use crate::error::Error;
 use crate::note::Note;
 use crate::outside::{is_allowed, path_of};
-use crate::refusal::{Refusal, Unsupported};
+use crate::refusal::{Refusal, Unsupported, refuse};
 use crate::whole_file::folder_of;
 
 /// The name of the exact flow in place of a scheme.
@@ -39,13 +39,8 @@ pub struct NamedScheme {
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 pub enum LibraryError {
     /// An unknown name, or a file that is missing or cannot be read.
-    #[error("{message}\n  hint: {hint}")]
-    NotFound {
-        /// What is wrong, one sentence.
-        message: String,
-        /// What would be right.
-        hint: String,
-    },
+    #[error(transparent)]
+    NotFound(#[from] Refusal),
     /// The table has faults.
     #[error(transparent)]
     Faults(#[from] Faults),
@@ -140,7 +135,7 @@ pub fn fingerprint(text: &str) -> String {
 impl From<LibraryError> for Error {
     fn from(error: LibraryError) -> Self {
         match error {
-            LibraryError::NotFound { message, hint } => Error::Usage { message, hint },
+            LibraryError::NotFound(Refusal { message, hint }) => Error::Usage { message, hint },
             LibraryError::Faults(faults) => Error::Faults(faults),
         }
     }
@@ -183,11 +178,25 @@ pub fn scheme_of(source: &Source) -> Result<NamedScheme, LibraryError> {
 /// Schemes that have been read: each is read and proved once.
 #[derive(Debug, Default)]
 pub struct Schemes {
-    read: Mutex<Vec<(Wanted, NamedScheme)>>,
+    read: Known<Wanted, NamedScheme>,
     /// Those for many parts, by the identities of those for two.
-    for_many_parts: Mutex<Vec<(String, NamedScheme)>>,
+    for_many_parts: Known<String, NamedScheme>,
     /// Those whose weights have many digits, by these and the identities of those with fewer.
-    fitted: Mutex<Vec<(u32, String, Fitted)>>,
+    fitted: Known<(u32, String), Fitted>,
+}
+
+/// What was made once, by what it is made from.
+type Known<K, V> = Mutex<Vec<(K, V)>>;
+
+/// What is known of a key, or is made now.
+fn known_or<K: PartialEq, V: Clone, E>(all: &Known<K, V>, key: K, make: impl FnOnce() -> Result<V, E>) -> Result<V, E> {
+    let all = || all.lock().unwrap_or_else(PoisonError::into_inner);
+    if let Some((_, value)) = all().iter().find(|(own, _)| *own == key) {
+        return Ok(value.clone());
+    }
+    let value = make()?;
+    all().push((key, value.clone()));
+    Ok(value)
 }
 
 /// A scheme with the digits of a run, and what is to be noted of it.
@@ -203,18 +212,13 @@ impl Schemes {
     /// As [`scheme`]; a file outside of the folder; a file that is not a table, of which no line is shown.
     pub fn scheme_of(&self, word: &str, text: &Source, first: Option<First>) -> Result<NamedScheme, LibraryError> {
         let folder = text.folder();
-        let known = || self.read.lock().unwrap_or_else(PoisonError::into_inner);
-        let is = |wanted: &Wanted| wanted.0 == word && wanted.1 == folder && wanted.2 == first;
-        if let Some((_, scheme)) = known().iter().find(|(wanted, _)| is(wanted)) {
-            return Ok(scheme.clone());
-        }
-        if is_file(word) {
-            path_of(text, word).map_err(|Refusal { message, hint }| not_found(message, hint))?;
-            refuse_other(&source_from(word, folder)?)?;
-        }
-        let scheme = scheme_from(word, folder, first)?;
-        known().push(((word.to_owned(), folder.to_owned(), first), scheme.clone()));
-        Ok(scheme)
+        known_or(&self.read, (word.to_owned(), folder.to_owned(), first), || {
+            if is_file(word) {
+                path_of(text, word)?;
+                refuse_other(&source_from(word, folder)?)?;
+            }
+            scheme_from(word, folder, first)
+        })
     }
 
     /// As [`NamedScheme::fitted`]; what is proved again is kept.
@@ -226,14 +230,7 @@ impl Schemes {
         if !named.scheme.proved().lacks_digits(digits) {
             return named.fitted(arithmetic);
         }
-        let known = || self.fitted.lock().unwrap_or_else(PoisonError::into_inner);
-        let identity = named.identity();
-        if let Some((_, _, fitted)) = known().iter().find(|(of, name, _)| *of == digits && *name == identity) {
-            return Ok(fitted.clone());
-        }
-        let fitted = named.fitted(arithmetic)?;
-        known().push((digits, identity, fitted.clone()));
-        Ok(fitted)
+        known_or(&self.fitted, (digits, named.identity()), || named.fitted(arithmetic))
     }
 
     /// As [`for_many_parts`].
@@ -241,14 +238,7 @@ impl Schemes {
     /// # Errors
     /// As [`for_many_parts`].
     pub(crate) fn for_many_parts(&self, named: &NamedScheme) -> Result<NamedScheme, Refusal> {
-        let known = || self.for_many_parts.lock().unwrap_or_else(PoisonError::into_inner);
-        let identity = named.identity();
-        if let Some((_, scheme)) = known().iter().find(|(known, _)| *known == identity) {
-            return Ok(scheme.clone());
-        }
-        let scheme = for_many_parts(named)?;
-        known().push((identity, scheme.clone()));
-        Ok(scheme)
+        known_or(&self.for_many_parts, named.identity(), || for_many_parts(named))
     }
 }
 
@@ -262,7 +252,7 @@ pub(crate) fn check_every_kinetic(named: &NamedScheme) -> Result<(), Refusal> {
     let claimed = named.scheme.proved().scheme.table.order.value;
     let better = best_for_every_kinetic(claimed).expect("there are shipped schemes for every T(p)");
     let (name, order) = (&better.scheme.table.name.value, better.proof.general.order);
-    Err(Refusal::new(error.to_string(), format!("use a scheme such as {name}, which has order {order} for every T(p)")))
+    refuse(error.to_string(), format!("use a scheme such as {name}, which has order {order} for every T(p)"))
 }
 
 /// Whether the gradient kicks of a scheme can be made by displaced forces.
@@ -276,41 +266,28 @@ pub fn check_displaced(named: &NamedScheme) -> Result<(), Refusal> {
     stepper.displacements().map(drop).map_err(|error| Refusal::new(error.to_string(), hint))
 }
 
-/// Whether a scheme can advance a system that perhaps has no gradient kicks.
-///
-/// # Errors
-/// A scheme with gradient kicks for such a system.
-pub(crate) fn check_gradient_kicks(named: &NamedScheme, none: Option<Unsupported>) -> Result<(), Refusal> {
-    match none.filter(|_| named.scheme.proved().scheme.has_gradient_kicks()) {
-        None => Ok(()),
-        Some(none) => Err(Refusal::new(format!("{} has gradient kicks, {}", named.name, none.reason), none.hint)),
-    }
-}
-
 /// The scheme with steps for H of three parts and more.
 ///
 /// # Errors
 /// A scheme for two parts only.
 fn for_many_parts(named: &NamedScheme) -> Result<NamedScheme, Refusal> {
-    match named.scheme.clone().for_many_parts() {
-        Ok(scheme) => Ok(NamedScheme { name: named.name.clone(), scheme: scheme.at_run_time() }),
-        Err(error) => {
-            Err(Refusal::new(error.to_string(), "use a composition of the leapfrog, such as suzuki4 or blanes-moan-s6"))
-        }
-    }
+    let hint = "use a composition of the leapfrog, such as suzuki4 or blanes-moan-s6";
+    let scheme = named.scheme.clone().for_many_parts().map_err(|error| Refusal::new(error.to_string(), hint))?;
+    Ok(NamedScheme { name: named.name.clone(), scheme: scheme.at_run_time() })
 }
 
-/// Whether a scheme can advance a system that perhaps has no processed ones.
+/// Refuses a scheme that `has` something where a system has none of it.
 ///
 /// # Errors
-/// A processed scheme for such a system.
-pub(crate) fn check_processor(named: &NamedScheme, none: Option<Unsupported>) -> Result<(), Refusal> {
-    match none.filter(|_| !named.scheme.processor().is_empty()) {
+/// Such a scheme.
+pub(crate) fn check_supported(
+    named: &NamedScheme,
+    none: Option<Unsupported>,
+    (has, what): (bool, &str),
+) -> Result<(), Refusal> {
+    match none.filter(|_| has) {
         None => Ok(()),
-        Some(none) => {
-            let message = format!("{} is a processed scheme, which {}", named.name, none.reason);
-            Err(Refusal::new(message, none.hint))
-        }
+        Some(none) => refuse(format!("{} {what} {}", named.name, none.reason), none.hint),
     }
 }
 
@@ -328,7 +305,7 @@ pub(crate) fn check_inner(named: &NamedScheme, parts: usize) -> Result<(), Refus
         2 => "split the potential: write its slow part as `slow`, or H as three `parts`, of which T is the last",
         _ => "write three parts: the slow forces first, then the fast ones, then T",
     };
-    Err(Refusal::new(message, hint))
+    refuse(message, hint)
 }
 
 /// The text of the table that a word means: a shipped one, or a file.
@@ -340,30 +317,34 @@ pub fn source(word: &str) -> Result<Source, LibraryError> {
 }
 
 fn source_from(word: &str, folder: &Path) -> Result<Source, LibraryError> {
-    if is_file(word) { file(&folder.join(word).to_string_lossy()) } else { shipped(word).ok_or_else(|| unknown(word)) }
-}
-
-/// The text of a table.
-fn file(path: &str) -> Result<Source, LibraryError> {
-    match read_text(path, LARGEST_TABLE) {
-        Ok(text) => Ok(Source { path: path.to_owned(), text }),
-        Err(error) if error.kind() == ErrorKind::NotFound => {
-            let shipped = path.strip_suffix(".toml").filter(|name| shipped_names().contains(name));
-            let hint = match shipped {
-                Some(name) => format!("the shipped scheme is `{name}`, without `.toml`"),
-                None => "give the path of a table, or a name that `shadowstep schemes` lists".to_owned(),
-            };
-            Err(not_found(format!("there is no file {path}"), hint))
-        }
-        Err(error) if error.kind() == ErrorKind::InvalidData => {
-            Err(not_found(format!("{path} is not a text in UTF-8"), "a table is a TOML file"))
-        }
-        Err(error) => Err(not_found(format!("{path} cannot be read: {error}"), "give the path of a table")),
+    if !is_file(word) {
+        return shipped(word).ok_or_else(|| unknown(word).into());
+    }
+    let path = folder.join(word).to_string_lossy().into_owned();
+    match read_text(&path, LARGEST_TABLE) {
+        Ok(text) => Ok(Source { path, text }),
+        Err(error) => Err(unreadable(&path, &error).into()),
     }
 }
 
+fn unreadable(path: &str, error: &io::Error) -> Refusal {
+    let shipped = path.strip_suffix(".toml").filter(|name| shipped_names().contains(name));
+    let (message, hint) = match (error.kind(), shipped) {
+        (ErrorKind::NotFound, Some(name)) => {
+            (format!("there is no file {path}"), format!("the shipped scheme is `{name}`, without `.toml`"))
+        }
+        (ErrorKind::NotFound, None) => {
+            let hint = "give the path of a table, or a name that `shadowstep schemes` lists";
+            (format!("there is no file {path}"), hint.to_owned())
+        }
+        (ErrorKind::InvalidData, _) => (format!("{path} is not a text in UTF-8"), "a table is a TOML file".to_owned()),
+        _ => (format!("{path} cannot be read: {error}"), "give the path of a table".to_owned()),
+    };
+    Refusal { message, hint }
+}
+
 /// Refuses a file that has nothing of a table: the faults of a table show its lines.
-fn refuse_other(source: &Source) -> Result<(), LibraryError> {
+fn refuse_other(source: &Source) -> Result<(), Refusal> {
     let (document, faults) = document(source);
     let is_table = |document: &DeTable<'_>| OF_TABLES.iter().any(|key| document.contains_key(*key));
     if document.as_ref().is_some_and(is_table) && faults.is_empty() {
@@ -371,15 +352,11 @@ fn refuse_other(source: &Source) -> Result<(), LibraryError> {
     }
     let path = &source.path;
     let what = if faults.is_empty() { "is not a table of a scheme" } else { "is not TOML" };
-    Err(not_found(format!("{path} {what}"), format!("`shadowstep schemes check {path}` shows its faults")))
+    refuse(format!("{path} {what}"), format!("`shadowstep schemes check {path}` shows its faults"))
 }
 
 /// Keys of which a table has one.
 const OF_TABLES: [&str; 4] = ["order", "kinetic", "composition", "stages"];
-
-fn not_found(message: impl Into<String>, hint: impl Into<String>) -> LibraryError {
-    LibraryError::NotFound { message: message.into(), hint: hint.into() }
-}
 
 /// The base table of a composition: a file beside the table that names it, else shipped. A shipped table has shipped
 /// bases only.
@@ -394,17 +371,17 @@ fn is_file(word: &str) -> bool {
     word.ends_with(".toml") || word.contains(std::path::is_separator)
 }
 
-fn unknown(word: &str) -> LibraryError {
+fn unknown(word: &str) -> Refusal {
     if word == EXACT_FLOW {
         let known: Vec<_> = exact_flow::problems().map(Problem::name).collect();
-        return not_found(
+        return Refusal::new(
             "exact-flow is not a scheme, but the solution itself, on which an estimator shows its own error",
             format!("`shadowstep drift` and `trace` take it in place of a scheme, for {}", known.join(", ")),
         );
     }
     let near = shipped_hint(word);
     let hint = format!("{near} (`shadowstep schemes` lists all; the name of a custom table ends in .toml)");
-    not_found(format!("there is no scheme `{word}`"), hint)
+    Refusal::new(format!("there is no scheme `{word}`"), hint)
 }
 
 #[cfg(test)]

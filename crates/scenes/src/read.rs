@@ -31,13 +31,15 @@ mod time;
 mod units;
 mod unused;
 mod values;
+mod variables;
 
 use std::io::ErrorKind;
+use std::mem::take;
 use std::path::Path;
 
 use num_traits::Zero as _;
 use shadowstep::tables::{Faults, First, Source};
-use shadowstep_schemes::document::{self, document, read_text};
+use shadowstep_schemes::document::{self, read_text, valid_document};
 use shadowstep_symbolic::{Exact, nearest};
 use toml::de::DeTable;
 
@@ -92,11 +94,8 @@ impl Scene {
     }
 
     fn read_with(source: Source, others: &'static [&'static str]) -> Result<Scene, Faults> {
-        let (document, faults) = document(&source);
-        let Some(document) = document.filter(|_| faults.is_empty()) else { return Err(Faults(faults)) };
         let names = Names { numbers: Vec::new(), others, schemes: &Schemes::default() };
-        let scene = read(&source, &document, &names)?;
-        Ok(Scene { source, ..scene })
+        read(&source, &valid_document(&source)?, &names)
     }
 }
 
@@ -114,42 +113,19 @@ pub(crate) struct Names<'a> {
 pub(crate) fn read(source: &Source, document: &DeTable<'_>, names: &Names<'_>) -> Result<Scene, Faults> {
     refuse_ensemble(source, document, names.others)?;
     let read = |is_cursory| {
-        let mut reader = Reader::new(source);
-        reader.known.extend(names.numbers.iter().cloned());
-        (reader.names, reader.is_cursory) = (names.numbers.clone(), is_cursory);
-        let sections = sections(&mut reader, document, names.others, names.schemes);
-        (reader, sections)
+        let mut reader = Reader::new(source, names.numbers.clone(), Arithmetic::DOUBLE);
+        reader.is_cursory = is_cursory;
+        let scene = scene(&mut reader, document, names);
+        (reader.toml.faults, scene)
     };
     // a fault in another key is found before that
     if takes_long(document)
-        && let Some(faults) = Faults::of(read(true).0.toml.faults)
+        && let Some(faults) = Faults::of(read(true).0)
     {
         return Err(faults);
     }
-    let (reader, sections) = read(false);
-    let Reader { toml, arithmetic, notes, files, .. } = reader;
-    match (Faults::of(toml.faults), sections) {
-        (None, Some((system, run::Steps { scheme, displaced, h, until, steps, end_at, ends }, output))) => {
-            let source = source.clone();
-            Ok(Scene {
-                source,
-                arithmetic,
-                system,
-                scheme,
-                displaced,
-                h,
-                until,
-                end_at,
-                ends,
-                steps,
-                output,
-                files,
-                notes,
-            })
-        }
-        (Some(faults), _) => Err(faults),
-        (None, None) => unreachable!("what cannot be read is a fault"),
-    }
+    let (faults, scene) = read(false);
+    Faults::or(faults, scene)
 }
 
 /// Whether a scene has what takes long to read: formulas of a modified Hamiltonian, a file of particles, the proof of a
@@ -165,8 +141,7 @@ fn takes_long(document: &DeTable<'_>) -> bool {
 /// # Errors
 /// A text that is not TOML; a word that is not a map.
 pub fn first_map(source: &Source) -> Result<Option<First>, Faults> {
-    let (document, faults) = document(source);
-    let Some(document) = document.filter(|_| faults.is_empty()) else { return Err(Faults(faults)) };
+    let document = valid_document(source)?;
     let run = document.get("run").and_then(|run| run.get_ref().as_table());
     let mut reader = document::Reader::new(source, Vec::new());
     let first = run.and_then(|run| run.get("first")).and_then(|value| reader.word(value, &run::FIRST));
@@ -206,22 +181,14 @@ impl System {
     /// # Errors
     /// All faults of these sections, each with its place.
     pub fn read(source: &Source, arithmetic: Arithmetic) -> Result<(System, Vec<Note>), Faults> {
-        let (document, faults) = document(source);
-        let Some(document) = document.filter(|_| faults.is_empty()) else { return Err(Faults(faults)) };
+        let document = valid_document(source)?;
         refuse_ensemble(source, &document, &[])?;
-        let mut reader = Reader::new(source);
-        reader.arithmetic = arithmetic;
+        let mut reader = Reader::new(source, Vec::new(), arithmetic);
         refuse_unknown(&mut reader.toml, &document, &SECTIONS, (&["problem"], &[]), section_with);
         let system = system_of_form(&mut reader, &document);
-        match (Faults::of(reader.toml.faults), system) {
-            (None, Some(system)) => Ok((system, reader.notes)),
-            (Some(faults), _) => Err(faults),
-            (None, None) => unreachable!("what cannot be read is a fault"),
-        }
+        Ok((Faults::or(reader.toml.faults, system)?, reader.notes))
     }
-}
 
-impl System {
     /// The system of a document whose sections are known, with these names in its numbers.
     ///
     /// # Errors
@@ -232,15 +199,9 @@ impl System {
         names: Vec<(String, Exact)>,
         arithmetic: Arithmetic,
     ) -> Result<System, Faults> {
-        let mut reader = Reader::new(source);
-        reader.known.extend(names.iter().cloned());
-        (reader.names, reader.arithmetic) = (names, arithmetic);
+        let mut reader = Reader::new(source, names, arithmetic);
         let system = system(&mut reader, document);
-        match (Faults::of(reader.toml.faults), system) {
-            (None, Some(system)) => Ok(system),
-            (Some(faults), _) => Err(faults),
-            (None, None) => unreachable!("what cannot be read is a fault"),
-        }
+        Faults::or(reader.toml.faults, system)
     }
 }
 
@@ -254,8 +215,7 @@ impl InitialValueProblem {
         names: Vec<(String, Exact)>,
         arithmetic: Arithmetic,
     ) -> Option<(Vec<Exact>, Vec<Exact>)> {
-        let mut reader = Reader::new(source);
-        reader.arithmetic = arithmetic;
+        let mut reader = Reader::new(source, Vec::new(), arithmetic);
         reader.known.extend(self.parameters.iter().cloned());
         reader.known.extend(names);
         let initial = Table::of(reader.toml.source, document, &INITIAL);
@@ -286,14 +246,9 @@ fn system_of_form(reader: &mut Reader<'_>, root: &DeTable<'_>) -> Option<System>
     system
 }
 
-fn sections(
-    reader: &mut Reader<'_>,
-    root: &DeTable<'_>,
-    others: &[&str],
-    schemes: &Schemes,
-) -> Option<(System, run::Steps, Outputs)> {
-    let required: &[&str] = if others.is_empty() { &["problem", "run", "output"] } else { &["problem", "run"] };
-    refuse_unknown(&mut reader.toml, root, &SECTIONS, (required, others), section_with);
+fn scene(reader: &mut Reader<'_>, root: &DeTable<'_>, names: &Names<'_>) -> Option<Scene> {
+    let required: &[&str] = if names.others.is_empty() { &["problem", "run", "output"] } else { &["problem", "run"] };
+    refuse_unknown(&mut reader.toml, root, &SECTIONS, (required, names.others), section_with);
     let [has_run, has_output] =
         [&RUN, &OUTPUT].map(|section| has_form(&mut reader.toml, root, &[section], section_with));
     let [run, output] = [&RUN, &OUTPUT].map(|section| Table::of(reader.toml.source, root, section));
@@ -306,14 +261,28 @@ fn sections(
     }
     let system = system_of_form(reader, root);
     let (of_system, is_transformed) = (system.as_ref(), root.contains_key(TIME.name()));
-    let steps = if has_run { run::Steps::read(reader, &run, (of_system, is_transformed), schemes) } else { None };
+    let steps = if has_run { run::Steps::read(reader, &run, (of_system, is_transformed), names.schemes) } else { None };
     let output = if has_output { output::read(reader, &output, of_system, steps.as_ref()) } else { None };
     if let (Some(run::Steps { displaced: true, .. }), Some(Outputs { section: Some(_), .. })) = (&steps, &output) {
         let help = "write gradient_kicks = \"exact\", or write states with `every`";
         reader.toml.fault(&run.at, NEEDS_PARTS_OF_STEPS, help);
     }
-    arithmetic?;
-    Some((system?, steps?, output?))
+    let run::Steps { scheme, displaced, h, until, steps, end_at, ends } = steps?;
+    Some(Scene {
+        source: reader.toml.source.clone(),
+        arithmetic: arithmetic?,
+        system: system?,
+        scheme,
+        displaced,
+        h,
+        until,
+        end_at,
+        ends,
+        steps,
+        output: output?,
+        files: take(&mut reader.files),
+        notes: take(&mut reader.notes),
+    })
 }
 
 /// Refuses the section of an ensemble where there is to be one scene, and nothing else: its numbers contain names

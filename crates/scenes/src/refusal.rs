@@ -3,7 +3,8 @@
 use crate::error::Error;
 
 /// Why something is refused, and what would be right.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{message}\n  hint: {hint}")]
 pub struct Refusal {
     /// What is wrong, one sentence.
     pub message: String,

@@ -29,9 +29,9 @@ impl Language {
     /// what the emitted function uses.
     pub fn reserved(self) -> &'static [&'static str] {
         match self {
-            Language::Python => &PYTHON,
-            Language::Rust => &RUST,
-            Language::Julia => &JULIA,
+            Language::Python => PYTHON,
+            Language::Rust => RUST,
+            Language::Julia => JULIA,
         }
     }
 
@@ -62,167 +62,37 @@ impl Language {
     }
 }
 
+/// Words as texts.
+macro_rules! words {
+    ($($word:tt)*) => { &[$(stringify!($word)),*] };
+}
+
 /// Keywords, and the names of the function that
 /// [`function`](crate::modified_hamiltonian::record::FormulaRecord::function) writes.
-const PYTHON: [&str; 39] = [
-    "False",
-    "None",
-    "True",
-    "and",
-    "as",
-    "assert",
-    "async",
-    "await",
-    "break",
-    "class",
-    "continue",
-    "def",
-    "del",
-    "elif",
-    "else",
-    "except",
-    "finally",
-    "for",
-    "from",
-    "global",
-    "if",
-    "import",
-    "in",
-    "is",
-    "lambda",
-    "nonlocal",
-    "not",
-    "or",
-    "pass",
-    "raise",
-    "return",
-    "try",
-    "while",
-    "with",
-    "yield", // of the function
-    "h",
-    "modified_hamiltonian",
-    "np",
-    "total",
+const PYTHON: &[&str] = words![
+    False None True and as assert async await break class continue def del elif else except finally for from global
+    if import in is lambda nonlocal not or pass raise return try while with yield
+    // of the function
+    h modified_hamiltonian np total
 ];
 
 /// Keywords, also those that are kept for later; values of the prelude that are patterns; the names of the function.
-const RUST: [&str; 59] = [
-    "Self",
-    "abstract",
-    "as",
-    "async",
-    "await",
-    "become",
-    "box",
-    "break",
-    "const",
-    "continue",
-    "crate",
-    "do",
-    "dyn",
-    "else",
-    "enum",
-    "extern",
-    "false",
-    "final",
-    "fn",
-    "for",
-    "gen",
-    "if",
-    "impl",
-    "in",
-    "let",
-    "loop",
-    "macro",
-    "match",
-    "mod",
-    "move",
-    "mut",
-    "override",
-    "priv",
-    "pub",
-    "ref",
-    "return",
-    "self",
-    "static",
-    "struct",
-    "super",
-    "trait",
-    "true",
-    "try",
-    "type",
-    "typeof",
-    "unsafe",
-    "unsized",
-    "use",
-    "virtual",
-    "where",
-    "while",
-    "yield", // patterns
-    "Err",
-    "None",
-    "Ok",
-    "Some", // of the function
-    "h",
-    "modified_hamiltonian",
-    "total",
+const RUST: &[&str] = words![
+    Self abstract as async await become box break const continue crate do dyn else enum extern false final fn for
+    gen if impl in let loop macro match mod move mut override priv pub ref return self static struct super trait
+    true try type typeof unsafe unsized use virtual where while yield
+    // patterns
+    Err None Ok Some
+    // of the function
+    h modified_hamiltonian total
 ];
 
 /// Modules and types of `Base` that a module of one word could hide; keywords begin with a small letter, and modules do
 /// not.
-const JULIA: [&str; 51] = [
-    "Any",
-    "Array",
-    "Base",
-    "Bool",
-    "Broadcast",
-    "Channel",
-    "Char",
-    "Cint",
-    "Cmd",
-    "Colon",
-    "Complex",
-    "Core",
-    "Dict",
-    "Docs",
-    "Enum",
-    "Expr",
-    "Float32",
-    "Float64",
-    "Function",
-    "Int",
-    "Integer",
-    "Iterators",
-    "Libc",
-    "Main",
-    "Math",
-    "Matrix",
-    "Meta",
-    "Method",
-    "Missing",
-    "Module",
-    "Nothing",
-    "Number",
-    "Pair",
-    "Pkg",
-    "Ptr",
-    "Rational",
-    "Real",
-    "Ref",
-    "Regex",
-    "Returns",
-    "Set",
-    "Signed",
-    "Some",
-    "String",
-    "Symbol",
-    "Task",
-    "Threads",
-    "Timer",
-    "Tuple",
-    "Type",
-    "Vector",
+const JULIA: &[&str] = words![
+    Any Array Base Bool Broadcast Channel Char Cint Cmd Colon Complex Core Dict Docs Enum Expr Float32 Float64
+    Function Int Integer Iterators Libc Main Math Matrix Meta Method Missing Module Nothing Number Pair Pkg Ptr
+    Rational Real Ref Regex Returns Set Signed Some String Symbol Task Threads Timer Tuple Type Vector
 ];
 
 #[cfg(test)]

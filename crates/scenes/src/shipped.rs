@@ -1,5 +1,4 @@
-//! Shipped scenes: each a file in `planets/`, `close-encounters/`, `many-parts/`, `explicit-time/`, `magnetic-fields/`,
-//! `schemes/`, `liquids/` or `multiple-steps/` of this crate.
+//! Shipped scenes: each a file in the folder of its group, such as `planets/`.
 
 use shadowstep::problems::{PROBLEMS, problem};
 use shadowstep_symbolic::suggestion;
@@ -18,162 +17,67 @@ pub struct ShippedScene {
     pub text: &'static str,
 }
 
+/// Groups of scenes: what they are of, their folder, and the name and title of each.
+macro_rules! shipped {
+    ($($what:literal, in $folder:literal: { $($name:literal: $title:literal,)+ })+) => {
+        [$(($what, &[$(ShippedScene {
+            name: $name,
+            title: $title,
+            text: include_str!(concat!("../", $folder, "/", $name, ".toml")),
+        }),+])),+]
+    };
+}
+
 /// All shipped scenes, by what they are of; those of shipped problems are [written](scene_text) as templates.
-pub const SHIPPED_SCENES: [(&str, &[ShippedScene]); 8] = [
-    ("planetary systems", &PLANETARY),
-    ("close encounters", &ENCOUNTERS),
-    ("three parts", &MANY_PARTS),
-    ("explicit time", &EXPLICIT_TIME),
-    ("magnetic fields", &MAGNETIC_FIELDS),
-    ("liquids", &LIQUIDS),
-    ("multiple time steps", &MULTIPLE_STEPS),
-    ("schemes with gradient kicks or processors", &SCHEMES),
-];
+pub const SHIPPED_SCENES: [(&str, &[ShippedScene]); 8] = shipped! {
+    "planetary systems", in "planets": {
+        "outer-planets": "The Sun and the outer planets, on Kepler orbits that interact",
+        "eight-planets": "The Sun and the eight planets, by orbital elements",
+        "relativity": "The same with relativity's part of the turn of the pericentres, by a potential",
+        "oblate-earth": "A satellite of the Earth and its oblateness",
+        "sun-jupiter-saturn": "The Sun, Jupiter and Saturn: a kernel with a gradient kick, for the pericentres",
+        "resonance": "Two planets in the 2:1 resonance",
+        "hierarchical-triple": "A binary and a distant third star on an inclined orbit",
+        "meeting-planets": "Two planets that come close to each other again and again, with their elements",
+    }
+    "close encounters", in "close-encounters": {
+        "eccentric-kepler": "Kepler's problem with e = 0.999, in logarithmic time",
+        "pythagorean-70": "The Pythagorean problem until t = 70, in logarithmic time",
+    }
+    "three parts", in "many-parts": {
+        "disordered-chain": "A wave packet in the disordered nonlinear Schrödinger chain",
+        "arenstorf": "Arenstorf's orbit in the frame of the Earth and the Moon: three bodies, one without mass",
+        "kerr": "A geodesic around a spinning black hole, in five parts",
+        "not-separable": "A Hamiltonian that is no sum of T(p) and U(q), in the extended phase space",
+    }
+    "explicit time", in "explicit-time": {
+        "driven-pendulum": "A driven pendulum near its separatrix, once a period of the drive",
+        "paul-trap": "An ion in a linear Paul trap",
+        "galactic-bar": "A star in the potential of a bar that turns",
+        "two-waves": "A charge in two waves, once a period of the second",
+    }
+    "magnetic fields", in "magnetic-fields": {
+        "penning-trap": "An ion in a Penning trap",
+        "drift-in-a-gradient": "Gyrations that drift around the axis of a field",
+    }
+    "liquids", in "liquids": {
+        "argon-liquid": "Liquid argon, 864 atoms in a periodic box at 94.4 K",
+    }
+    "multiple time steps", in "multiple-steps": {
+        "bead-spring-chain": "A polymer of 16 beads: stiff bonds in substeps, Lennard-Jones forces in steps",
+    }
+    "schemes with gradient kicks or processors", in "schemes": {
+        "argon-gradient": "Seven argon atoms by force-gradient kicks",
+        "processed-kepler": "Kepler's problem by a processed scheme of effective order 8",
+        "corrected-planets": "The outer planets with Wisdom's corrector of order 17",
+    }
+};
 
-pub(crate) const PLANETARY: [ShippedScene; 8] = [
-    ShippedScene {
-        name: "outer-planets",
-        title: "The Sun and the outer planets, on Kepler orbits that interact",
-        text: include_str!("../planets/outer-planets.toml"),
-    },
-    ShippedScene {
-        name: "eight-planets",
-        title: "The Sun and the eight planets, by orbital elements",
-        text: include_str!("../planets/eight-planets.toml"),
-    },
-    ShippedScene {
-        name: "relativity",
-        title: "The same with relativity's part of the turn of the pericentres, by a potential",
-        text: include_str!("../planets/relativity.toml"),
-    },
-    ShippedScene {
-        name: "oblate-earth",
-        title: "A satellite of the Earth and its oblateness",
-        text: include_str!("../planets/oblate-earth.toml"),
-    },
-    ShippedScene {
-        name: "sun-jupiter-saturn",
-        title: "The Sun, Jupiter and Saturn: a kernel with a gradient kick, for the pericentres",
-        text: include_str!("../planets/sun-jupiter-saturn.toml"),
-    },
-    ShippedScene {
-        name: "resonance",
-        title: "Two planets in the 2:1 resonance",
-        text: include_str!("../planets/resonance.toml"),
-    },
-    ShippedScene {
-        name: "hierarchical-triple",
-        title: "A binary and a distant third star on an inclined orbit",
-        text: include_str!("../planets/hierarchical-triple.toml"),
-    },
-    ShippedScene {
-        name: "meeting-planets",
-        title: "Two planets that come close to each other again and again, with their elements",
-        text: include_str!("../planets/meeting-planets.toml"),
-    },
-];
-
-pub(crate) const ENCOUNTERS: [ShippedScene; 2] = [
-    ShippedScene {
-        name: "eccentric-kepler",
-        title: "Kepler's problem with e = 0.999, in logarithmic time",
-        text: include_str!("../close-encounters/eccentric-kepler.toml"),
-    },
-    ShippedScene {
-        name: "pythagorean-70",
-        title: "The Pythagorean problem until t = 70, in logarithmic time",
-        text: include_str!("../close-encounters/pythagorean-70.toml"),
-    },
-];
-
-pub(crate) const MANY_PARTS: [ShippedScene; 4] = [
-    ShippedScene {
-        name: "disordered-chain",
-        title: "A wave packet in the disordered nonlinear Schrödinger chain",
-        text: include_str!("../many-parts/disordered-chain.toml"),
-    },
-    ShippedScene {
-        name: "arenstorf",
-        title: "Arenstorf's orbit in the frame of the Earth and the Moon: three bodies, one without mass",
-        text: include_str!("../many-parts/arenstorf.toml"),
-    },
-    ShippedScene {
-        name: "kerr",
-        title: "A geodesic around a spinning black hole, in five parts",
-        text: include_str!("../many-parts/kerr.toml"),
-    },
-    ShippedScene {
-        name: "not-separable",
-        title: "A Hamiltonian that is no sum of T(p) and U(q), in the extended phase space",
-        text: include_str!("../many-parts/not-separable.toml"),
-    },
-];
-
-const EXPLICIT_TIME: [ShippedScene; 4] = [
-    ShippedScene {
-        name: "driven-pendulum",
-        title: "A driven pendulum near its separatrix, once a period of the drive",
-        text: include_str!("../explicit-time/driven-pendulum.toml"),
-    },
-    ShippedScene {
-        name: "paul-trap",
-        title: "An ion in a linear Paul trap",
-        text: include_str!("../explicit-time/paul-trap.toml"),
-    },
-    ShippedScene {
-        name: "galactic-bar",
-        title: "A star in the potential of a bar that turns",
-        text: include_str!("../explicit-time/galactic-bar.toml"),
-    },
-    ShippedScene {
-        name: "two-waves",
-        title: "A charge in two waves, once a period of the second",
-        text: include_str!("../explicit-time/two-waves.toml"),
-    },
-];
-
-const MAGNETIC_FIELDS: [ShippedScene; 2] = [
-    ShippedScene {
-        name: "penning-trap",
-        title: "An ion in a Penning trap",
-        text: include_str!("../magnetic-fields/penning-trap.toml"),
-    },
-    ShippedScene {
-        name: "drift-in-a-gradient",
-        title: "Gyrations that drift around the axis of a field",
-        text: include_str!("../magnetic-fields/drift-in-a-gradient.toml"),
-    },
-];
-
-const SCHEMES: [ShippedScene; 3] = [
-    ShippedScene {
-        name: "argon-gradient",
-        title: "Seven argon atoms by force-gradient kicks",
-        text: include_str!("../schemes/argon-gradient.toml"),
-    },
-    ShippedScene {
-        name: "processed-kepler",
-        title: "Kepler's problem by a processed scheme of effective order 8",
-        text: include_str!("../schemes/processed-kepler.toml"),
-    },
-    ShippedScene {
-        name: "corrected-planets",
-        title: "The outer planets with Wisdom's corrector of order 17",
-        text: include_str!("../schemes/corrected-planets.toml"),
-    },
-];
-
-const MULTIPLE_STEPS: [ShippedScene; 1] = [ShippedScene {
-    name: "bead-spring-chain",
-    title: "A polymer of 16 beads: stiff bonds in substeps, Lennard-Jones forces in steps",
-    text: include_str!("../multiple-steps/bead-spring-chain.toml"),
-}];
-
-const LIQUIDS: [ShippedScene; 1] = [ShippedScene {
-    name: "argon-liquid",
-    title: "Liquid argon, 864 atoms in a periodic box at 94.4 K",
-    text: include_str!("../liquids/argon-liquid.toml"),
-}];
+/// Those of one group.
+#[cfg(test)]
+pub(crate) fn of(what: &str) -> &'static [ShippedScene] {
+    SHIPPED_SCENES.iter().find(|(own, _)| *own == what).expect("there is such a group").1
+}
 
 fn all() -> impl Iterator<Item = &'static ShippedScene> {
     SHIPPED_SCENES.iter().flat_map(|(_, scenes)| *scenes)

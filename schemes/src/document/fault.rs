@@ -131,6 +131,20 @@ impl Faults {
         faults.sort_by(|a, b| (&a.path, a.line, a.column).cmp(&(&b.path, b.line, b.column)));
         (!faults.is_empty()).then_some(Faults(faults))
     }
+
+    /// What was read, unless there are faults.
+    ///
+    /// # Errors
+    /// The faults.
+    ///
+    /// # Panics
+    /// If there is neither: what cannot be read is a fault.
+    pub fn or<T>(faults: Vec<Fault>, found: Option<T>) -> Result<T, Faults> {
+        match Faults::of(faults) {
+            Some(faults) => Err(faults),
+            None => Ok(found.expect("what cannot be read is a fault")),
+        }
+    }
 }
 
 impl fmt::Display for Faults {

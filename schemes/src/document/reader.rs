@@ -6,7 +6,7 @@ use std::ops::{Range, RangeInclusive};
 use shadowstep_symbolic::nearest;
 use toml::de::{DeTable, DeValue, Error};
 
-use super::fault::{Fault, Source};
+use super::fault::{Fault, Faults, Source};
 use super::keys::Keys;
 use super::value::{Placed, Text, Value, whole_number};
 
@@ -19,6 +19,15 @@ pub fn document(source: &Source) -> (Option<DeTable<'_>>, Vec<Fault>) {
     }
     let faults = errors.iter().map(|error| syntax_fault(source, error)).collect();
     (Some(document.into_inner()), faults)
+}
+
+/// The outermost table of a text that is TOML without faults.
+///
+/// # Errors
+/// The faults of its syntax.
+pub fn valid_document(source: &Source) -> Result<DeTable<'_>, Faults> {
+    let (document, faults) = document(source);
+    Faults::or(faults, document)
 }
 
 fn is_repeated_key(error: &Error) -> bool {

@@ -36,7 +36,7 @@ impl System {
         }
         alone(name, text, |text, reader| {
             let expression = Expression::new(text);
-            self.check(&expression, reader);
+            self.check(&expression, reader)?;
             Some(NamedExpression { name: name.to_owned(), at: 0..0, expression })
         })
     }

@@ -1,7 +1,5 @@
 //! The bodies of a scene with their properties, and lists with a number for each of them.
 
-use std::ops::Range;
-
 use shadowstep::Rational;
 use shadowstep::systems::pairs::Separation;
 use shadowstep_symbolic::Exact;
@@ -10,40 +8,10 @@ use super::names::check_name;
 use super::numbers::Numbers;
 use super::reader::Reader;
 use crate::schema::Table;
-use shadowstep_schemes::document::{Text, whole_number};
+use shadowstep_schemes::document::Text;
 
 /// The name of the number of a body in formulas.
 const NUMBER: &str = "i";
-
-/// The value of the key `bodies`.
-pub(super) enum GivenBodies {
-    Count(u64),
-    Properties(Vec<(Text, Property)>),
-}
-
-/// A value in the table of properties.
-pub(super) enum Property {
-    Count(u64),
-    Values(Numbers),
-}
-
-impl GivenBodies {
-    pub(super) fn read(reader: &mut Reader<'_>, problem: &Table<'_, '_>) -> Option<GivenBodies> {
-        if let Some(count) = problem.whole("bodies") {
-            return Some(GivenBodies::Count(count));
-        }
-        let mut properties = Vec::new();
-        for (key, value) in problem.get("bodies")?.get_ref().as_table()? {
-            let property = match whole_number(value) {
-                Some(count) => Property::Count(count),
-                None => Property::Values(Numbers::read(reader, value, true)?),
-            };
-            properties.push((Text::of_key(key), property));
-        }
-        properties.sort_by_key(|(name, _)| name.at.start);
-        Some(GivenBodies::Properties(properties))
-    }
-}
 
 /// The number of bodies, and their properties.
 #[derive(Clone)]
@@ -54,27 +22,28 @@ pub(super) struct Bodies {
 }
 
 impl Bodies {
-    /// The bodies with their properties, for a formula with these parameters.
+    /// The bodies of [problem] with their properties, for a formula with these parameters.
     pub(super) fn read(
         reader: &mut Reader<'_>,
-        given: &GivenBodies,
-        at: &Range<usize>,
+        problem: &Table<'_, '_>,
         parameters: &[(Text, Text)],
     ) -> Option<Bodies> {
-        let given = match given {
-            GivenBodies::Count(count) => {
-                return Some(Bodies { count: *count as usize, properties: Vec::new() });
-            }
-            GivenBodies::Properties(given) => given,
-        };
-        let Some(count) = count(given) else {
+        if let Some(count) = problem.whole("bodies") {
+            return Some(Bodies { count: count as usize, properties: Vec::new() });
+        }
+        let table = problem.table("bodies")?;
+        let mut given = Vec::new();
+        for (name, value) in table.names() {
+            given.push((name, Numbers::read(reader, value, true)?));
+        }
+        let listed = || given.iter().find_map(|(_, numbers)| numbers.count());
+        let Some(count) = table.whole("count").map(|count| count as usize).or_else(listed) else {
             let help = "write `bodies = 32`, or add `count = 32` to the properties";
-            return reader.toml.wrong(at, "the number of bodies is missing", help);
+            return reader.toml.wrong(&table.at, "the number of bodies is missing", help);
         };
         let before = reader.toml.faults.len();
         let mut bodies = Bodies { count, properties: Vec::new() };
-        for (name, property) in given {
-            let Property::Values(numbers) = property else { continue };
+        for (name, numbers) in &given {
             check_property(reader, name, parameters);
             // each may use those before it
             if let Some(values) = bodies.values(reader, numbers) {
@@ -109,9 +78,8 @@ impl Bodies {
                 reader.values(list, count * dimensions, each)
             }
             Numbers::Lists(lists, at) if lists.len() != count => {
-                let fault = reader.toml.source.fault(at, "this needs a list for each body");
-                reader.toml.faults.push(fault.values(format!("{} lists", lists.len()), count.to_string()));
-                None
+                let found = format!("{} lists", lists.len());
+                reader.wrong_count(at, "this needs a list for each body", (found, count))
             }
             Numbers::Lists(lists, _) => {
                 // where the dimensions are wrong, so are all lists
@@ -149,19 +117,6 @@ impl Bodies {
         reader.known = parameters;
         (values.len() == self.count).then_some(values)
     }
-}
-
-/// The number of bodies, from `count` or from the first list.
-fn count(properties: &[(Text, Property)]) -> Option<usize> {
-    let counted = properties.iter().find_map(|(_, property)| match property {
-        Property::Count(count) => Some(*count as usize),
-        Property::Values(_) => None,
-    });
-    let listed = properties.iter().find_map(|(_, property)| match property {
-        Property::Values(Numbers::List(list)) => Some(list.value.len()),
-        _ => None,
-    });
-    counted.or(listed)
 }
 
 fn whole(n: usize) -> Exact {

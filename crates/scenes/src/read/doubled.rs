@@ -11,8 +11,9 @@ use shadowstep_symbolic::{ExpressionKind, parse};
 
 use super::explicit_time::TIME;
 use super::given::Given;
-use super::many_parts::{self, Copies, SECOND};
+use super::many_parts::{self, Copies};
 use super::reader::Reader;
+use super::variables::{self, SECOND};
 use crate::scene::{Formula, System};
 
 /// The key of H.
@@ -23,7 +24,7 @@ pub(super) fn system(reader: &mut Reader<'_>, given: &Given<'_, '_>, hamiltonian
     given.state.refuse_velocities(reader, "H is given by its formula");
     let parameters = given.own_parameters(reader);
     let (coupling, _) = reader.value(&given.problem, "coupling")?;
-    let (coordinates, momenta) = given.variables(given.coordinates.as_ref()?);
+    let (coordinates, momenta) = variables::names(given)?;
     let known = [&coordinates[..], &momenta, &[TIME.to_owned()]].concat();
     if let Err(error) = Formula::potential(&hamiltonian.value, &known, &parameters) {
         let help = "H is a smooth formula in the coordinates, the momenta, the time t and the parameters";

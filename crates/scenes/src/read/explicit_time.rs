@@ -3,9 +3,8 @@
 //! Where only U depends on t, the parts are T(p) + p_t and U(q, t), with all schemes for T and U. Where T does, too,
 //! they are formulas of parts.
 
-use num_traits::Zero;
 use shadowstep_schemes::document::Text;
-use shadowstep_symbolic::{Exact, parse};
+use shadowstep_symbolic::parse;
 
 use super::given::Given;
 use super::reader::Reader;
@@ -26,7 +25,7 @@ pub(super) fn is_in(reader: &Reader<'_>, given: &Given<'_, '_>, formula: &str) -
 
 /// Whether t occurs in T.
 pub(super) fn is_in_kinetic(reader: &Reader<'_>, given: &Given<'_, '_>) -> bool {
-    given.kinetic.as_ref().is_some_and(|text| is_in(reader, given, &text.value))
+    given.problem.str("kinetic").is_some_and(|formula| is_in(reader, given, formula))
 }
 
 /// Refuses t in formulas of bodies; `what` does not depend on it.
@@ -43,25 +42,6 @@ pub(super) fn refuse<'a>(
     reader.toml.wrong(&formula.at, format!("{what} does not depend on t"), help)
 }
 
-/// Adds t and its momentum to the names.
-pub(super) fn add_names(
-    reader: &mut Reader<'_>,
-    given: &Given<'_, '_>,
-    (coordinates, momenta): (&mut Vec<String>, &mut Vec<String>),
-) {
-    let parameters = given.parameters.iter().map(|(name, _)| &name.value);
-    if parameters.chain(&*coordinates).chain(&*momenta).any(|name| name == MOMENTUM) {
-        let message = format!("`{MOMENTUM}` is the name of the momentum of t, on which H depends");
-        reader.toml.fault(
-            &given.problem.place("coordinates"),
-            message,
-            "give the coordinate, momentum or parameter of this name another one",
-        );
-    }
-    coordinates.push(TIME.to_owned());
-    momenta.push(MOMENTUM.to_owned());
-}
-
 /// Adds p_t to the first part in which t has no place, or as a part of its own.
 pub(super) fn add_momentum(reader: &Reader<'_>, given: &Given<'_, '_>, formulas: &mut Vec<Text>) {
     match formulas.iter_mut().find(|formula| !is_in(reader, given, &formula.value)) {
@@ -71,16 +51,5 @@ pub(super) fn add_momentum(reader: &Reader<'_>, given: &Given<'_, '_>, formulas:
             MOMENTUM.clone_into(&mut alone.value);
             formulas.push(alone);
         }
-    }
-}
-
-/// Refuses another t than 0: it would not be that of the rows.
-pub(super) fn refuse_other_start(reader: &mut Reader<'_>, given: &Given<'_, '_>, q: Option<&Vec<Exact>>) {
-    if q.and_then(|q| q.last()).is_some_and(|t| !t.value.is_zero()) {
-        reader.toml.fault(
-            &given.initial.at,
-            "t must be 0 at the start",
-            "write the phase in the formula: cos(w*t + 1)",
-        );
     }
 }

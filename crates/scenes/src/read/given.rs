@@ -4,27 +4,20 @@ use std::ops::Range;
 
 use num_traits::One;
 use shadowstep::Rational;
-use shadowstep::systems::pairs::Ends;
 use shadowstep_symbolic::Exact;
 
-use super::bodies::GivenBodies;
 use super::initial::State;
 use super::names::check_name;
 use super::numbers::Numbers;
 use super::reader::Reader;
 use crate::keys::{INITIAL, PROBLEM};
 use crate::schema::Table;
-use shadowstep_schemes::document::{Placed, Text, Value};
+use shadowstep_schemes::document::{Text, Value};
 use toml::de::DeTable;
 
 /// The values of [problem] and [initial] besides the problem's name, its potential or its pairs.
 pub(super) struct Given<'t, 'i> {
-    pub(super) coordinates: Option<Placed<Vec<Text>>>,
     pub(super) masses: Option<Numbers>,
-    /// T(p)
-    pub(super) kinetic: Option<Text>,
-    pub(super) bodies: Option<GivenBodies>,
-    pub(super) neighbours: Option<Ends>,
     /// Names and values in the order of the text.
     pub(super) parameters: Vec<(Text, Text)>,
     pub(super) state: State,
@@ -37,13 +30,8 @@ impl<'t, 'i> Given<'t, 'i> {
         let (problem, initial) =
             (Table::of(reader.toml.source, root, &PROBLEM), Table::of(reader.toml.source, root, &INITIAL));
         let of_bodies = problem.get("pair").is_some();
-        let ends = [("free", Ends::Free), ("fixed", Ends::Fixed), ("periodic", Ends::Periodic)];
         Given {
-            coordinates: problem.list("coordinates"),
             masses: problem.get("masses").and_then(|value| Numbers::read(reader, value, of_bodies)),
-            kinetic: problem.text("kinetic"),
-            bodies: GivenBodies::read(reader, &problem),
-            neighbours: problem.word("neighbours", &ends),
             parameters: problem.named("parameters"),
             state: State::read(reader, &initial, of_bodies),
             problem,
@@ -63,16 +51,6 @@ impl<'t, 'i> Given<'t, 'i> {
             parameters.push((name.value.clone(), value));
         }
         parameters
-    }
-
-    /// The names of the coordinates and momenta as they are given, valid or not: by default, momenta are named after
-    /// the coordinates.
-    pub(super) fn variables(&self, coordinates: &Placed<Vec<Text>>) -> (Vec<String>, Vec<String>) {
-        let texts = |list: &Placed<Vec<Text>>| list.value.iter().map(|name| name.value.clone()).collect::<Vec<_>>();
-        let coordinates = texts(coordinates);
-        let default = || coordinates.iter().map(|name| format!("p{name}")).collect();
-        let momenta = self.problem.list("momenta").as_ref().map_or_else(default, texts);
-        (coordinates, momenta)
     }
 
     /// The place of the value of a key, if the key is given.

@@ -7,6 +7,7 @@ use shadowstep_schemes::document::{Source, Text, read_text};
 
 use super::elements::Vector;
 use super::reader::Reader;
+use super::units::LengthAndTime;
 use crate::Note;
 
 /// The most bytes of a table.
@@ -19,9 +20,8 @@ const COLUMNS: [&str; 6] = ["X", "Y", "Z", "VX", "VY", "VZ"];
 const PLANETS: [&str; 10] =
     ["mercury", "venus", "earth", "moon", "mars", "jupiter", "saturn", "uranus", "neptune", "pluto"];
 
-/// The units of a table, in metres and seconds.
-const UNITS: [(&str, &str, &str); 3] =
-    [("AU-D", "149597870700", "86400"), ("KM-S", "1000", "1"), ("KM-D", "1000", "86400")];
+/// The units of a table.
+const UNITS: [(&str, &str, &str); 3] = [("AU-D", "AU", "day"), ("KM-S", "km", "s"), ("KM-D", "km", "day")];
 
 /// The first vector of a table.
 #[derive(Clone, Debug)]
@@ -34,13 +34,6 @@ pub(super) struct HorizonsVector {
     common: [(&'static str, String); 4],
     /// Position and velocity, in metres and seconds.
     state: [Vector; 2],
-}
-
-/// The units of a system in metres and seconds.
-#[derive(Clone, Debug)]
-pub(super) struct LengthAndTime {
-    pub(super) length: Rational,
-    pub(super) time: Rational,
 }
 
 impl HorizonsVector {
@@ -102,7 +95,8 @@ impl HorizonsVector {
         let header = header.ok_or((begin + 2, "this table is not CSV of vectors".to_owned()))?;
         let names: Vec<&str> = header.split(',').map(str::trim).collect();
         let cells: Vec<&str> = row.split(',').map(str::trim).collect();
-        let (length, time) = (number(length), number(time));
+        let LengthAndTime { length, time } =
+            LengthAndTime::named(length, time).expect("the units are those of systems, too");
         let of = |column: &str| {
             let cell = names.iter().position(|name| *name == column).and_then(|place| cells.get(place));
             let cell = cell.ok_or_else(|| (begin + 2, format!("the table has no {column}")))?;
@@ -162,10 +156,6 @@ fn forces_left_out(text: &str) -> Option<String> {
     let found = found.filter(|words| words[2].parse().is_ok_and(|value: f64| value != 0.0));
     let found: Vec<String> = found.map(|words| format!("{} = {}", words[0], words[2])).collect();
     (!found.is_empty()).then(|| found.join(", "))
-}
-
-fn number(text: &str) -> Rational {
-    exact(text).expect("units are exact numbers")
 }
 
 #[cfg(test)]

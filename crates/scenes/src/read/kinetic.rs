@@ -1,5 +1,6 @@
 //! T(p): by masses, or by a formula in the momenta.
 
+use std::ops::Range;
 use std::slice::from_ref;
 
 use num_traits::{One, Signed};
@@ -20,11 +21,8 @@ pub(super) fn kinetic(
     parameters: &[(String, Exact)],
     masses: Option<Vec<Exact>>,
 ) -> Option<KineticEnergy> {
-    if given.place("kinetic").is_none() {
-        return Some(KineticEnergy::Masses(masses));
-    }
+    let Some(text) = &given.problem.text("kinetic") else { return Some(KineticEnergy::Masses(masses)) };
     given.state.refuse_velocities(reader, "T is given by `kinetic`");
-    let text = given.kinetic.as_ref()?;
     match Formula::kinetic(&text.value, momenta, parameters) {
         Ok(formula) => {
             reader.refuse_numbers(text, &formula.meaning().numbers());
@@ -42,26 +40,27 @@ pub(super) fn kinetic(
 
 /// The masses, unless all are 1; masses of 1 in place of faulty ones, with which the rest is read.
 pub(super) fn masses(reader: &mut Reader<'_>, numbers: &Numbers, values: Vec<Exact>) -> Option<Vec<Exact>> {
-    let mut last_fault = None;
+    // all masses of a formula have one place
+    let mut wrong = None;
     for (index, value) in values.iter().enumerate() {
-        let positive = value.value.is_positive();
-        if positive && reader.arithmetic.mass_out_of_range(from_ref(value)).is_none() {
-            continue;
-        }
-        // all masses of a formula have one place
         let at = numbers.place(index);
-        if last_fault.replace(at) != Some(at) {
-            let (message, help) = match positive {
-                false => {
-                    let mass = reader.arithmetic.text(value);
-                    (format!("a mass of {mass} is not positive"), "masses must be positive")
-                }
-                true => (out_of_range(value, reader.arithmetic), ANY_SIZE),
-            };
-            reader.toml.fault(at, message, help);
+        if wrong != Some(at) && check_mass(reader, value, at).is_none() {
+            wrong = Some(at);
         }
     }
-    (last_fault.is_none() && values.iter().any(|mass| !mass.value.is_one())).then_some(values)
+    (wrong.is_none() && values.iter().any(|mass| !mass.value.is_one())).then_some(values)
+}
+
+/// Refuses a mass that is not positive, or not in the range of the number type.
+pub(super) fn check_mass(reader: &mut Reader<'_>, mass: &Exact, at: &Range<usize>) -> Option<()> {
+    if !mass.value.is_positive() {
+        let message = format!("a mass of {} is not positive", reader.arithmetic.text(mass));
+        return reader.toml.wrong(at, message, "masses must be positive");
+    }
+    match reader.arithmetic.mass_out_of_range(from_ref(mass)) {
+        Some(mass) => reader.toml.wrong(at, out_of_range(mass, reader.arithmetic), ANY_SIZE),
+        None => Some(()),
+    }
 }
 
 /// The message for a mass that a number type does not hold, or whose inverse it does not.

@@ -14,7 +14,7 @@ use super::explicit_time::{MOMENTUM, TIME};
 use super::given::Given;
 use super::many_parts::Copies;
 use super::reader::Reader;
-use super::{kinetic, many_parts};
+use super::{kinetic, many_parts, variables};
 use crate::scene::{Formula, System};
 
 /// The key.
@@ -28,11 +28,10 @@ pub(super) fn system(
     field: &Placed<Vec<Text>>,
 ) -> Option<System> {
     let parameters = given.own_parameters(reader);
-    let (coordinates, momenta) = given.variables(given.coordinates.as_ref()?);
+    let (coordinates, momenta) = variables::names(given)?;
     if field.value.len() != coordinates.len() {
-        let fault = reader.toml.source.fault(&field.at, "this list needs a component for each coordinate");
-        reader.toml.faults.push(fault.values(field.value.len().to_string(), coordinates.len().to_string()));
-        return None;
+        let message = "this list needs a component for each coordinate";
+        return reader.wrong_count(&field.at, message, (field.value.len(), coordinates.len()));
     }
     let masses = match &given.masses {
         Some(numbers) => {

@@ -6,12 +6,11 @@ use shadowstep_schemes::document::{Placed, Text};
 use shadowstep_symbolic::Exact;
 
 use super::explicit_time;
-use super::formula::names;
 use super::given::Given;
-use super::numbers::Numbers;
 use super::reader::Reader;
+use super::variables::Variables;
 use crate::scene::split::Formulas;
-use crate::scene::{Formula, InitialValueProblem, KineticEnergy, Parts, PotentialEnergy, System};
+use crate::scene::{Formula, KineticEnergy, Parts, PotentialEnergy, System};
 
 /// What a part may be.
 const KNOWN: &str = "a part is a function of variables none of which is the momentum of another, such as T(p), U(q) \
@@ -27,9 +26,6 @@ pub(super) fn system(reader: &mut Reader<'_>, given: &Given<'_, '_>, formulas: P
     let parameters = given.own_parameters(reader);
     of_formulas(reader, given, formulas.value, parameters, Copies::One(None))
 }
-
-/// What the names of second copies end with.
-pub(super) const SECOND: &str = "_2";
 
 /// How often there is each degree of freedom.
 #[derive(Clone, Copy)]
@@ -48,42 +44,18 @@ pub(super) fn of_formulas(
     parameters: Vec<(String, Exact)>,
     copies: Copies<'_>,
 ) -> Option<System> {
-    let list = given.coordinates.as_ref()?;
-    let before = reader.toml.faults.len();
-    let (mut coordinates, mut momenta) = names(reader, given, list);
-    let of_coordinates = coordinates.len();
-    if let Copies::Two = copies {
-        for names in [&mut coordinates, &mut momenta] {
-            names.extend_from_within(..);
-            names[of_coordinates..].iter_mut().for_each(|name| name.push_str(SECOND));
-        }
-    }
     let explicit_time = formulas.iter().any(|formula| explicit_time::is_in(reader, given, &formula.value));
+    let variables = Variables::read(reader, given, matches!(copies, Copies::Two), explicit_time)?;
     if explicit_time {
-        explicit_time::add_names(reader, given, (&mut coordinates, &mut momenta));
         explicit_time::add_momentum(reader, given, &mut formulas);
     }
-    let named = reader.toml.faults.len() == before;
-    let parts = formulas.iter().filter(|_| named);
-    let parts: Vec<_> = parts.map(|formula| part(reader, formula, (&coordinates, &momenta), &parameters)).collect();
-    let left_out = (matches!(copies, Copies::Two), explicit_time);
-    let values =
-        |reader: &mut Reader<'_>, numbers: &Numbers| numbers.values_of_all(reader, coordinates.len(), left_out);
+    let names = (&variables.coordinates[..], &variables.momenta[..]);
+    let parts = formulas.iter().filter(|_| variables.are_valid);
+    let parts: Vec<_> = parts.map(|formula| part(reader, formula, names, &parameters)).collect();
     let masses = if let Copies::One(masses) = copies { masses } else { None };
-    let (q, p) = given.state.values(reader, values, masses);
-    if explicit_time {
-        explicit_time::refuse_other_start(reader, given, q.as_ref());
-    }
-    let problem = InitialValueProblem {
-        potential: PotentialEnergy::OfParts,
-        kinetic: KineticEnergy::Masses(None),
-        parameters,
-        coordinates,
-        momenta,
-        q: q?,
-        p: p?,
-        explicit_time,
-    };
+    let state = variables.state(reader, given, masses);
+    let energies = (PotentialEnergy::OfParts, KineticEnergy::Masses(None));
+    let problem = variables.problem(energies, parameters, state)?;
     Some(System { problem, parts: Parts::Formulas(Formulas(parts.into_iter().collect::<Option<_>>()?)) })
 }
 
@@ -93,7 +65,7 @@ pub(super) fn with_time_in_kinetic(reader: &mut Reader<'_>, given: &Given<'_, '_
     given.refuse(reader, "parts", "T depends on t, so that its part is that of its formula", help);
     given.state.refuse_velocities(reader, "T is given by `kinetic`");
     let parameters = given.own_parameters(reader);
-    of_formulas(reader, given, vec![given.kinetic.clone()?, potential], parameters, Copies::One(None))
+    of_formulas(reader, given, vec![given.problem.text("kinetic")?, potential], parameters, Copies::One(None))
 }
 
 /// A part whose flow is known.
@@ -123,7 +95,7 @@ fn part(
 #[cfg(test)]
 mod tests {
     use crate::scene::Scene;
-    use crate::shipped::MANY_PARTS;
+    use crate::shipped::of;
     use shadowstep::tables::{Faults, Source};
 
     const RUN: &str = "[run]\nscheme = \"yoshida4\"\nstep = 1\nsteps = 1\ndigits = 30\n[output]\nenergy = true";
@@ -145,7 +117,7 @@ mod tests {
 
     #[test]
     fn the_shipped_scenes_are_of_three_parts_or_more() {
-        for shipped in &MANY_PARTS {
+        for shipped in of("three parts") {
             let scene = read(shipped.text).unwrap_or_else(|faults| panic!("{}: {faults}", shipped.name));
             let hamiltonian = scene.system.parts.hamiltonian().unwrap_or_else(|| panic!("{}", shipped.name));
             assert!(hamiltonian.split(") + (").count() >= 3);

@@ -7,7 +7,6 @@ use super::reader::Reader;
 use super::run::Steps;
 use crate::expression::Expression;
 use crate::modified_hamiltonian::SymbolicHamiltonian;
-use crate::refusal::Refusal;
 use crate::scene::{NamedExpression, System, ValueColumns};
 use crate::schema::Table;
 
@@ -39,10 +38,7 @@ pub(super) fn columns(
         true => Ok(None),
         false => Ok(Some((symbolic.modified(scheme.scheme.proved(), highest)?, symbolic))),
     });
-    let derived = match derived {
-        Ok(derived) => derived,
-        Err(Refusal { message, hint }) => return reader.toml.wrong(&value.span(), message, hint),
-    };
+    let derived = reader.found(&value.span(), derived)?;
     let column = |grade: u32| {
         let expression = match &derived {
             Some((terms, symbolic)) => {

@@ -79,7 +79,7 @@ fn format(reader: &mut Reader<'_>, output: &Table<'_, '_>, file: Option<&Text>) 
     if let Some(name) = file.filter(|name| name.value.ends_with(['/', '\\'])) {
         reader.toml.fault(&name.at, format!("`{}` is a folder", name.value), "give the name of a file");
     }
-    let format = match (output.word("format", &FORMATS), file) {
+    let format = match (output.word("format", &Format::NAMES), file) {
         (Some(format), _) => Some(format),
         (None, None) => Some(Format::Csv),
         (None, Some(name)) => Format::of(&name.value).or_else(|| {
@@ -92,8 +92,6 @@ fn format(reader: &mut Reader<'_>, output: &Table<'_, '_>, file: Option<&Text>) 
     }
     format
 }
-
-const FORMATS: [(&str, Format); 3] = [("csv", Format::Csv), ("jsonl", Format::JsonLines), ("npy", Format::Numpy)];
 
 /// Refuses columns of values with the names that q and p have, where rows have these as lists.
 fn refuse_names_of_lists(reader: &mut Reader<'_>, outputs: &Outputs) {

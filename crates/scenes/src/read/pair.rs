@@ -81,11 +81,10 @@ pub(super) fn problem(
     let parameters = given.own_parameters(reader);
     given.parameters.iter().for_each(|(name, _)| refuse_reserved(reader, name));
     let dimensions = dimensions(reader, given, pair.as_ref());
-    let bodies = given.bodies.as_ref();
-    let bodies =
-        bodies.and_then(|bodies| Bodies::read(reader, bodies, &given.problem.place("bodies"), &given.parameters));
+    let bodies = Bodies::read(reader, &given.problem, &given.parameters);
     let of_slow = slow.as_ref().map(|slow| slow.as_ref().map_or_else(|text| text, |pair| &pair.text));
-    let formulas = [pair.as_ref().map(|pair| &pair.text), given.kinetic.as_ref(), of_slow];
+    let kinetic = given.problem.text("kinetic");
+    let formulas = [pair.as_ref().map(|pair| &pair.text), kinetic.as_ref(), of_slow];
     explicit_time::refuse(reader, given, formulas, "a sum over pairs of bodies")?;
     let (pair, bodies, dimensions) = (pair?, bodies?, dimensions?);
     let (coordinates, momenta) = names(bodies.count, dimensions);
@@ -132,8 +131,7 @@ fn slow_potential(
         Ok(pair) => pair,
         Err(text) => return formula::potential(reader, &text, coordinates, parameters).map(PotentialEnergy::Formula),
     };
-    if given.place("box").is_some() || given.neighbours == Some(Ends::Periodic) || given.neighbours == Some(Ends::Fixed)
-    {
+    if given.place("box").is_some() || matches!(given_ends(given), Some(Ends::Periodic | Ends::Fixed)) {
         let help = "write the slow potential in the coordinates x1, y1, …, or the bodies in open space";
         return reader.toml.wrong(&pair.text.at, "slow forces of pairs have no periodic images and no walls", help);
     }
@@ -234,9 +232,13 @@ fn has_names_of_bodies(
     reader.toml.faults.len() > before
 }
 
+fn given_ends(given: &Given<'_, '_>) -> Option<Ends> {
+    given.problem.word("neighbours", &[("free", Ends::Free), ("fixed", Ends::Fixed), ("periodic", Ends::Periodic)])
+}
+
 /// The ends of a chain, unless all pairs interact.
 fn ends(reader: &mut Reader<'_>, given: &Given<'_, '_>, bodies: &Bodies) -> Option<Ends> {
-    let ends = given.neighbours;
+    let ends = given_ends(given);
     let at = &given.problem.place("bodies");
     if ends == Some(Ends::Fixed) && !bodies.properties.is_empty() {
         let message = "bodies between fixed ends cannot have properties, because the walls have none";

@@ -41,8 +41,6 @@ pub(super) fn split(
     split: Split,
     bodies: Option<(Bodies, usize)>,
 ) -> Option<System> {
-    match split(&problem, reader.arithmetic, bodies) {
-        Ok(parts) => Some(System { problem, parts }),
-        Err(Refusal { message, hint }) => reader.toml.wrong(&given.problem.place("parts"), message, hint),
-    }
+    let parts = reader.found(&given.problem.place("parts"), split(&problem, reader.arithmetic, bodies))?;
+    Some(System { problem, parts })
 }

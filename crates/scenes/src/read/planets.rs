@@ -17,20 +17,19 @@ use toml::de::DeTable;
 
 use super::elements::{InLimbs, Vector};
 use super::given::Given;
-use super::horizons::{HorizonsVector, LengthAndTime};
+use super::horizons::HorizonsVector;
 use super::kinetic;
 use super::names::check_name;
-use super::numbers::Numbers;
 use super::of_bodies;
 use super::parts::{self, Split};
 use super::reader::Reader;
-use super::units;
+use super::units::{self, LengthAndTime};
 use crate::keys::BODY;
 use crate::scene::{
     EnergyOfBodies, Formula, GRAVITY, InitialValueProblem, KineticEnergy, PairEnergy, PotentialEnergy, System,
 };
 use crate::schema::Table;
-use shadowstep_schemes::document::{Placed, Text};
+use shadowstep_schemes::document::Text;
 
 /// The most bodies: what is read of each takes some milliseconds.
 const MOST_BODIES: usize = 1000;
@@ -198,7 +197,6 @@ fn masses(reader: &mut Reader<'_>, bodies: &[&GivenBody]) -> Option<Vec<Rational
     for (index, body) in bodies.iter().enumerate() {
         let text = body.mass.as_ref();
         masses.push(text.and_then(|text| {
-            let numbers = Numbers::List(Placed { value: vec![text.clone()], at: text.at.clone() });
             let value = reader.evaluate(text)?;
             if value.value.is_zero() && index > 0 {
                 particle = Some(&text.at);
@@ -208,9 +206,7 @@ fn masses(reader: &mut Reader<'_>, bodies: &[&GivenBody]) -> Option<Vec<Rational
                 let help = "bodies of mass 0 come last: put them after all bodies with mass";
                 return reader.toml.wrong(at, "a body of mass 0 is before a body with mass", help);
             }
-            let before = reader.toml.faults.len();
-            kinetic::masses(reader, &numbers, vec![value.clone()]);
-            (reader.toml.faults.len() == before).then_some(value.value)
+            kinetic::check_mass(reader, &value, &text.at).map(|()| value.value)
         }));
     }
     masses.into_iter().collect()
@@ -439,7 +435,7 @@ mod tests {
     use shadowstep::tables::{Faults, Source};
 
     use crate::Scene;
-    use crate::shipped::PLANETARY;
+    use crate::shipped::of;
 
     fn read(text: &str) -> Result<Scene, Vec<String>> {
         let source = Source { path: "scene.toml".to_owned(), text: text.to_owned() };
@@ -552,7 +548,7 @@ mod tests {
 
     #[test]
     fn the_shipped_scenes_are_of_planets() {
-        for shipped in &PLANETARY {
+        for shipped in of("planetary systems") {
             let scene = read(shipped.text).unwrap();
             assert!(scene.system.parts.planets().is_some(), "{}", shipped.name);
         }

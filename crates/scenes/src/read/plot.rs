@@ -1,7 +1,7 @@
 //! `plot` in [output]: the charts and their file.
 
 use super::reader::Reader;
-use crate::refusal::Refusal;
+use crate::refusal::{Refusal, refuse};
 use crate::scene::plot::{Content, Picture, Plot};
 use crate::scene::{Outputs, System};
 use crate::schema::Table;
@@ -43,23 +43,18 @@ fn pictures(
 ) -> Option<Vec<Picture>> {
     let mut pictures: Vec<Picture> = Vec::new();
     for Placed { value: text, at } in texts {
-        let picture = Picture::read(text, system).and_then(|picture| match missing(&picture, outputs) {
-            Some(error) => Err(error),
-            None => Ok(picture),
-        });
-        match picture {
-            Ok(picture) if pictures.contains(&picture) => {
-                return reader.toml.wrong(at, format!("`{text}` is given twice"), "keep one");
-            }
-            Ok(picture) => pictures.push(picture),
-            Err(Refusal { message, hint }) => return reader.toml.wrong(at, message, hint),
+        let picture = reader.found(at, Picture::read(text, system))?;
+        reader.found(at, has_rows(&picture, outputs))?;
+        if pictures.contains(&picture) {
+            return reader.toml.wrong(at, format!("`{text}` is given twice"), "keep one");
         }
+        pictures.push(picture);
     }
     Some(pictures)
 }
 
-/// The fault if the rows do not have what the chart shows.
-fn missing(picture: &Picture, outputs: &Outputs) -> Option<Refusal> {
+/// Refuses a chart of what the rows do not have.
+fn has_rows(picture: &Picture, outputs: &Outputs) -> Result<(), Refusal> {
     let Picture { text, content } = picture;
     let (is_there, message, hint) = match content {
         Content::Energies => (
@@ -78,5 +73,5 @@ fn missing(picture: &Picture, outputs: &Outputs) -> Option<Refusal> {
             "add `trajectory = true`",
         ),
     };
-    (!is_there).then(|| Refusal { message, hint: hint.to_owned() })
+    if is_there { Ok(()) } else { refuse(message, hint) }
 }

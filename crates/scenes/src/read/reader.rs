@@ -13,6 +13,7 @@ use shadowstep_symbolic::{Budget, Exact};
 use crate::arithmetic::{ANY_SIZE, Arithmetic, GUARD_DIGITS, MOST_VALUE_DIGITS, NUMBER_EXAMPLES};
 use crate::note::Note;
 use crate::outside::path_within;
+use crate::refusal::Refusal;
 use crate::schema::{Sign, Table};
 
 /// Reads the values of a scene.
@@ -35,13 +36,13 @@ pub(super) struct Reader<'a> {
 }
 
 impl<'a> Reader<'a> {
-    pub(super) fn new(source: &'a Source) -> Self {
-        let toml = document::Reader::new(source, Vec::new());
+    /// Of a text whose numbers can contain these names, for a run in this arithmetic.
+    pub(super) fn new(source: &'a Source, names: Vec<(String, Exact)>, arithmetic: Arithmetic) -> Self {
         Reader {
-            toml,
-            arithmetic: Arithmetic::DOUBLE,
-            known: BTreeMap::new(),
-            names: Vec::new(),
+            toml: document::Reader::new(source, Vec::new()),
+            arithmetic,
+            known: names.iter().cloned().collect(),
+            names,
             budget: Budget::default(),
             is_cursory: false,
             notes: Vec::new(),
@@ -52,6 +53,23 @@ impl<'a> Reader<'a> {
     /// The path of a file that a key names, relative to the folder of the scene.
     pub(super) fn path(&mut self, name: &Text) -> Option<PathBuf> {
         path_within(self.toml.source, name).map_err(|faults| self.toml.faults.extend(faults.0)).ok()
+    }
+
+    /// What is found, or the fault that it is refused at this place.
+    pub(super) fn found<T>(&mut self, at: &Range<usize>, found: Result<T, Refusal>) -> Option<T> {
+        found.map_err(|Refusal { message, hint }| self.toml.fault(at, message, hint)).ok()
+    }
+
+    /// Adds the fault of another number of members than is needed, in place of a value.
+    pub(super) fn wrong_count<T>(
+        &mut self,
+        at: &Range<usize>,
+        message: impl Into<String>,
+        (found, needed): (impl ToString, usize),
+    ) -> Option<T> {
+        let fault = self.toml.source.fault(at, message);
+        self.toml.faults.push(fault.values(found.to_string(), needed.to_string()));
+        None
     }
 
     /// The number that is the value of a key, which has the sign that its row says.
@@ -116,9 +134,8 @@ impl<'a> Reader<'a> {
         let found: Vec<_> = list.value.iter().map(|text| self.evaluate(text)).collect();
         if found.len() != count {
             let numbers = |n: usize| if n == 1 { "1 number".to_owned() } else { format!("{n} numbers") };
-            let fault = self.toml.source.fault(&list.at, format!("this list needs a number for each {each}"));
-            self.toml.faults.push(fault.values(numbers(found.len()), count.to_string()));
-            return None;
+            let message = format!("this list needs a number for each {each}");
+            return self.wrong_count(&list.at, message, (numbers(found.len()), count));
         }
         found.into_iter().collect()
     }
@@ -148,7 +165,7 @@ mod tests {
         let (document, _) = document::document(&source);
         let document = document.unwrap();
         let evaluated = |budget: Budget| {
-            let mut reader = Reader::new(&source);
+            let mut reader = Reader::new(&source, Vec::new(), Arithmetic::DOUBLE);
             reader.budget = budget;
             let list = texts(&source, document.get("q").unwrap()).unwrap();
             let values = list.value.iter().filter_map(|text| reader.evaluate(text)).count();

@@ -11,7 +11,6 @@ use crate::expression::Condition;
 use crate::library::{LibraryError, NamedScheme, Schemes, check_displaced};
 use crate::note::Note;
 use crate::readable::{LONGEST_NUMBER, shortened};
-use crate::refusal::Refusal;
 use crate::scene::System;
 use crate::scene::split::{Class, Needs};
 use crate::schema::Table;
@@ -93,7 +92,7 @@ fn scheme(
     }
     let named = match schemes.scheme_of(&word.value, reader.toml.source, first) {
         Ok(named) => named,
-        Err(LibraryError::NotFound { message, hint }) => return reader.toml.wrong(&word.at, message, hint),
+        Err(LibraryError::NotFound(refusal)) => return reader.found(&word.at, Err(refusal)),
         Err(LibraryError::Faults(faults)) => {
             reader.toml.faults.extend(faults.0);
             return None;
@@ -103,21 +102,14 @@ fn scheme(
     let unknown = || Needs { parts: 3, ..Needs::of_class(Class::Quadratic) };
     let needs = system.map_or_else(unknown, System::needs);
     let note = named.note();
-    let named = match needs.scheme(named, schemes) {
-        Ok(named) => named,
-        Err(Refusal { message, hint }) => return reader.toml.wrong(&word.at, message, hint),
-    };
+    let named = reader.found(&word.at, needs.scheme(named, schemes))?;
     reader.notes.extend(note);
     if needs.class == Class::ManyParts {
         reader.notes.extend(near_integrable(&named));
     }
-    match schemes.fitted(reader.arithmetic, named) {
-        Ok((named, note)) => {
-            reader.notes.extend(note);
-            Some(named)
-        }
-        Err(Refusal { message, hint }) => reader.toml.wrong(&word.at, message, hint),
-    }
+    let (named, note) = reader.found(&word.at, schemes.fitted(reader.arithmetic, named))?;
+    reader.notes.extend(note);
+    Some(named)
 }
 
 /// A note on a near-integrable scheme, whose claim is for two parts.
@@ -129,21 +121,19 @@ fn near_integrable(named: &NamedScheme) -> Option<Note> {
 
 /// Whether gradient kicks are by displaced forces, which the scheme must allow.
 fn displaced_forces(reader: &mut Reader<'_>, run: &Table<'_, '_>, named: &NamedScheme) -> Option<bool> {
-    let wanted = run.str("gradient_kicks") == Some("displaced");
-    match check_displaced(named) {
-        Err(Refusal { message, hint }) if wanted => reader.toml.wrong(&run.place("gradient_kicks"), message, hint),
-        _ => Some(wanted),
+    if run.str("gradient_kicks") != Some("displaced") {
+        return Some(false);
     }
+    reader.found(&run.place("gradient_kicks"), check_displaced(named)).map(|()| true)
 }
 
 /// A condition on a state of the system.
 fn condition(reader: &mut Reader<'_>, text: &Text, system: Option<&System>) -> Option<Condition> {
     let condition = Condition::read(&mut reader.toml, text)?;
-    let before = reader.toml.faults.len();
-    if let Some(system) = system {
-        system.check(condition.difference(), &mut reader.toml);
+    match system {
+        Some(system) => system.check(condition.difference(), &mut reader.toml).map(|()| condition),
+        None => Some(condition),
     }
-    (reader.toml.faults.len() == before).then_some(condition)
 }
 
 /// h, the end and the number of steps.

@@ -3,7 +3,6 @@
 use shadowstep::systems::transformed_time::TimeTransformation;
 
 use super::reader::Reader;
-use crate::refusal::Refusal;
 use crate::scene::split::TransformedTime;
 use crate::scene::{Parts, System};
 use crate::schema::Table;
@@ -24,10 +23,8 @@ pub(super) fn transformed(reader: &mut Reader<'_>, section: &Table<'_, '_>, syst
     }
     let time = transformation(reader, section);
     let (system, time) = (system?, time?);
-    match TransformedTime::of(time, &system, system.parts.is_kinetic_and_potential()) {
-        Ok(parts) => Some(System { parts: Parts::TransformedTime(parts), ..system }),
-        Err(Refusal { message, hint }) => reader.toml.wrong(&section.at, message, hint),
-    }
+    let parts = TransformedTime::of(time, &system, system.parts.is_kinetic_and_potential());
+    Some(System { parts: Parts::TransformedTime(reader.found(&section.at, parts)?), ..system })
 }
 
 fn transformation(reader: &mut Reader<'_>, section: &Table<'_, '_>) -> Option<TimeTransformation> {
@@ -56,12 +53,12 @@ fn transformation(reader: &mut Reader<'_>, section: &Table<'_, '_>) -> Option<Ti
 mod tests {
     use super::*;
     use crate::scene::Scene;
-    use crate::shipped::ENCOUNTERS;
+    use crate::shipped::of;
     use shadowstep::tables::Source;
 
     #[test]
     fn the_shipped_scenes_are_in_transformed_time() {
-        for shipped in &ENCOUNTERS {
+        for shipped in of("close encounters") {
             let source = Source { path: "test.toml".to_owned(), text: shipped.text.to_owned() };
             let scene = Scene::read(source).unwrap_or_else(|faults| panic!("{}: {faults}", shipped.name));
             assert_eq!(scene.system.transformed_time(), Some(TimeTransformation::Logarithmic), "{}", shipped.name);

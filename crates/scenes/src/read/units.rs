@@ -2,7 +2,6 @@
 
 use shadowstep::{Rational, exact};
 
-use super::horizons::LengthAndTime;
 use crate::schema::Table;
 
 /// Metres: the astronomical unit is exact (IAU 2012, resolution B2).
@@ -15,12 +14,29 @@ const TIMES: [(&str, &str); 3] = [("day", "86400"), ("year", "31557600"), ("s", 
 const MASSES: [(&str, &str); 4] =
     [("solar", "1.3271244e20"), ("earth", "3.986004e14"), ("jupiter", "1.2668653e17"), ("kg", "6.67430e-11")];
 
+/// The units of a system in metres and seconds.
+#[derive(Clone, Debug)]
+pub(super) struct LengthAndTime {
+    pub(super) length: Rational,
+    pub(super) time: Rational,
+}
+
+impl LengthAndTime {
+    /// The units with these names.
+    pub(super) fn named(length: &str, time: &str) -> Option<Self> {
+        Some(LengthAndTime { length: unit(length, &LENGTHS)?, time: unit(time, &TIMES)? })
+    }
+}
+
 /// The gravitational constant in the units of the table, and these.
 pub(super) fn constant(units: &Table<'_, '_>) -> Option<(Rational, LengthAndTime)> {
-    let (length, time) = (units.word("length", &LENGTHS), units.word("time", &TIMES));
-    let mass = units.word("mass", &MASSES);
-    let number = |text: &str| exact(text).expect("units are exact numbers");
-    let (length, time) = (number(length?), number(time?));
-    let constant = number(mass?) * &time * &time / (&length * &length * &length);
-    Some((constant, LengthAndTime { length, time }))
+    let of_system = LengthAndTime::named(units.str("length")?, units.str("time")?)?;
+    let LengthAndTime { length, time } = &of_system;
+    let constant = unit(units.str("mass")?, &MASSES)? * time * time / (length * length * length);
+    Some((constant, of_system))
+}
+
+fn unit(name: &str, units: &[(&str, &str)]) -> Option<Rational> {
+    let (_, value) = units.iter().find(|(own, _)| *own == name)?;
+    Some(exact(value).expect("units are exact numbers"))
 }

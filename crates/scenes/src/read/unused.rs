@@ -1,11 +1,13 @@
 //! Parameters that nothing contains.
 
+use std::collections::BTreeSet;
+
 use shadowstep_symbolic::nearest;
 use toml::de::{DeTable, DeValue};
 
 use super::reader::Reader;
 use crate::keys::PROBLEM;
-use crate::schema::Table;
+use crate::schema::{Table, each_text, words};
 use shadowstep_schemes::document::Text;
 
 /// Refuses parameters of a problem's own formulas that are in no text of the scene: `masss = 2` changes nothing. Those
@@ -19,9 +21,11 @@ pub(super) fn refuse_unused_parameters(reader: &mut Reader<'_>, root: &DeTable<'
     }
     // of [[body]]
     let of_gravity = |name: &str| name == "g" && root.contains_key("body");
+    let mut written = BTreeSet::new();
+    root.values().for_each(|value| each_text(value, &mut |text, _| written.extend(words(text).map(str::to_owned))));
     for (key, _) in parameters {
         let name = Text::of_key(key);
-        if of_gravity(&name.value) || root.values().any(|value| has(value.get_ref(), &name.value)) {
+        if of_gravity(&name.value) || written.contains(&name.value) {
             continue;
         }
         let known = PROBLEM.keys.iter().map(|key| key.name).filter(|key| *key != "parameters");
@@ -30,16 +34,6 @@ pub(super) fn refuse_unused_parameters(reader: &mut Reader<'_>, root: &DeTable<'
             .map_or("remove".to_owned(), |near| format!("did you mean `{near}`? Remove"));
         let message = format!("the parameter `{}` is in no formula", name.value);
         reader.toml.fault(&name.at, message, format!("{near} it, or write it where it is meant"));
-    }
-}
-
-/// Whether a text in a value contains a name.
-fn has(value: &DeValue<'_>, name: &str) -> bool {
-    match value {
-        DeValue::String(text) => text.split(|c: char| !c.is_alphanumeric() && c != '_').any(|word| word == name),
-        DeValue::Array(values) => values.iter().any(|value| has(value.get_ref(), name)),
-        DeValue::Table(table) => table.values().any(|value| has(value.get_ref(), name)),
-        _ => false,
     }
 }
 

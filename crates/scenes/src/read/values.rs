@@ -92,7 +92,5 @@ fn elements(reader: &mut Reader<'_>, output: &Table<'_, '_>, system: Option<&Sys
         let help = "write `values` with formulas in its coordinates and momenta";
         return reader.toml.wrong(&at, "this system has no bodies with orbits", help);
     };
-    let before = reader.toml.faults.len();
-    system.check(expression, &mut reader.toml);
-    (reader.toml.faults.len() == before).then_some(ValueColumns { every, expressions })
+    system.check(expression, &mut reader.toml).map(|()| ValueColumns { every, expressions })
 }

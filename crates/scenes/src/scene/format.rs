@@ -12,14 +12,14 @@ pub enum Format {
 }
 
 impl Format {
+    /// The formats by their names, which are the endings of files.
+    pub(crate) const NAMES: [(&'static str, Format); 3] =
+        [("csv", Format::Csv), ("jsonl", Format::JsonLines), ("npy", Format::Numpy)];
+
     /// The format that a file's name gives.
     pub(crate) fn of(file: &str) -> Option<Format> {
-        match file.rsplit_once('.')?.1 {
-            "csv" => Some(Format::Csv),
-            "jsonl" => Some(Format::JsonLines),
-            "npy" => Some(Format::Numpy),
-            _ => None,
-        }
+        let ending = file.rsplit_once('.')?.1;
+        Format::NAMES.iter().find(|(name, _)| *name == ending).map(|(_, format)| *format)
     }
 
     /// Whether the file itself has the metadata.

@@ -29,14 +29,18 @@ pub(crate) use wisdom_holman::{OfPlanets, Positions};
 
 use serde_json::Value;
 use shadowstep::number::CorrectlyRounded;
+use shadowstep::systems::many_parts::{Part, SystemOfParts};
 use shadowstep::systems::transformed_time::TimeTransformation;
 use shadowstep::{MotionError, Number};
 
-use crate::scene::{EnergyAt, InitialValueProblem};
+use crate::scene::{EnergyAt, InitialValueProblem, energy_of};
 use crate::start::{SceneIntegrator, Steps};
 
 /// Positions and momenta.
 pub(crate) type State<N> = (Vec<N>, Vec<N>);
+
+/// Three parts and more.
+pub(crate) type ManyParts<N> = Vec<Box<dyn Part<N>>>;
 
 /// What a kind of split answers, of a system whose H is split in this way.
 pub(crate) trait Split {
@@ -61,13 +65,25 @@ pub(crate) trait Split {
         None
     }
 
+    /// The parts of an H of three parts and more; `None` of two.
+    fn many_parts<N: CorrectlyRounded + 'static>(
+        &self,
+        _: &InitialValueProblem,
+        _: &N::Context,
+    ) -> Option<Result<ManyParts<N>, MotionError>> {
+        None
+    }
+
     /// H of any state in the coordinates of the steps.
     fn energy<N: CorrectlyRounded + 'static>(
         &self,
         problem: &InitialValueProblem,
         context: &N::Context,
     ) -> EnergyAt<N> {
-        problem.plain_energy(context)
+        let Some(parts) = self.many_parts(problem, context) else { return problem.plain_energy(context) };
+        let (q, p) = problem.initial(context);
+        let system = parts.and_then(|parts| SystemOfParts::new(parts, &q, &p));
+        energy_of(system.expect("the dimensions were read with the system"))
     }
 
     /// The system at a state in the coordinates of the steps, with its stepper.
@@ -78,9 +94,16 @@ pub(crate) trait Split {
         &self,
         problem: &InitialValueProblem,
         steps: Steps<'_>,
-        state: State<N>,
+        (q, p): State<N>,
         context: &N::Context,
-    ) -> Result<SceneIntegrator<N>, MotionError>;
+    ) -> Result<SceneIntegrator<N>, MotionError> {
+        let (coordinates, dimension) = (q.len(), problem.coordinates.len());
+        if coordinates != dimension {
+            return Err(MotionError::Potential { coordinates, dimension });
+        }
+        let parts = self.many_parts(problem, context).expect("a split into two parts has its own integrator")?;
+        Ok(steps.of_parts(SystemOfParts::new(parts, &q, &p)?, context))
+    }
 
     /// H, where the parts alone give it.
     fn hamiltonian(&self) -> Option<String> {

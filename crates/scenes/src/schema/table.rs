@@ -3,9 +3,13 @@
 use std::ops::Range;
 
 use shadowstep_schemes::document::{Placed, Source, Text, Value, whole_number};
-use toml::de::DeTable;
+use toml::Spanned;
+use toml::de::{DeString, DeTable, DeValue};
 
 use super::{Key, Section};
+
+/// A name with its place.
+type Name<'i> = Spanned<DeString<'i>>;
 
 /// A section of a checked document, or a table in it; an empty one where the document leaves it out.
 #[derive(Clone, Debug)]
@@ -87,13 +91,16 @@ impl<'t, 'i> Table<'t, 'i> {
         texts(self.source, self.get(key)?)
     }
 
+    /// The names that are no keys of its own, with their values, in the order of the document.
+    pub fn names(&self) -> Vec<(Text, &'t Value<'i>)> {
+        in_order(self.table.into_iter().flatten().filter(|(name, _)| self.rows.find(name.get_ref()).is_none()))
+    }
+
     /// The names with their texts or numbers in the table that is the value of a key, in the order of the document.
     pub fn named(&self, key: &str) -> Vec<(Text, Text)> {
         let table = self.get(key).and_then(|value| value.get_ref().as_table());
-        let text = |(name, value)| Some((Text::of_key(name), Text::of(self.source, value)?));
-        let mut found: Vec<_> = table.into_iter().flatten().filter_map(text).collect();
-        found.sort_by_key(|(name, _)| name.at.start);
-        found
+        let text = |(name, value)| Some((name, Text::of(self.source, value)?));
+        in_order(table.into_iter().flatten()).into_iter().filter_map(text).collect()
     }
 
     /// How often something is written, `true` or `{ every = 10 }`, and the table.
@@ -105,8 +112,31 @@ impl<'t, 'i> Table<'t, 'i> {
     }
 }
 
+/// Names with their values, in the order of the document.
+fn in_order<'t, 'i: 't>(names: impl Iterator<Item = (&'t Name<'i>, &'t Value<'i>)>) -> Vec<(Text, &'t Value<'i>)> {
+    let mut found: Vec<_> = names.map(|(name, value)| (Text::of_key(name), value)).collect();
+    found.sort_by_key(|(name, _)| name.at.start);
+    found
+}
+
 /// The texts or numbers of a list.
 pub fn texts(source: &Source, value: &Value<'_>) -> Option<Placed<Vec<Text>>> {
     let texts = value.get_ref().as_array()?.iter().map(|value| Text::of(source, value)).collect::<Option<_>>()?;
     Some(Placed { value: texts, at: value.span() })
+}
+
+/// Calls a function with each text in a value and its place.
+pub(crate) fn each_text(value: &Value<'_>, call: &mut impl FnMut(&str, Range<usize>)) {
+    match value.get_ref() {
+        DeValue::String(text) => call(text, value.span()),
+        DeValue::Array(members) => members.iter().for_each(|member| each_text(member, call)),
+        DeValue::Table(table) => table.values().for_each(|value| each_text(value, call)),
+        _ => {}
+    }
+}
+
+/// The longest parts of a text that can be names.
+pub(crate) fn words(text: &str) -> impl Iterator<Item = &str> {
+    let is_letter = |c: char| c.is_alphanumeric() || c == '_';
+    text.split(move |c| !is_letter(c)).filter(|word| word.starts_with(|c: char| c.is_alphabetic()))
 }

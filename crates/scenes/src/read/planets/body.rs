@@ -33,18 +33,19 @@ pub(in crate::read) struct GivenBody {
 impl GivenBody {
     pub(super) fn read(reader: &mut Reader<'_>, section: &Table<'_, '_>) -> GivenBody {
         let horizons = section.text("horizons").map(|file| (file.at.clone(), HorizonsVector::open(reader, &file)));
-        let text = |key: &str| section.text(key);
-        GivenBody {
-            name: text("name"),
-            mass: text("mass"),
-            q: section.list("q"),
-            v: section.list("v"),
-            a: text("a"),
-            elements: ANGLES_AND_SHAPE.into_iter().filter_map(|key| Some((key, text(key)?))).collect(),
-            horizons,
-            at: section.at.clone(),
-            line: None,
-        }
+        let state = ["q", "v"].map(|key| section.list(key));
+        GivenBody { horizons, ..GivenBody::of(|key| section.text(key), state, &section.at) }
+    }
+
+    /// Of the texts of keys, with q and v, at a place.
+    pub(super) fn of(
+        text: impl Fn(&str) -> Option<Text>,
+        [q, v]: [Option<Placed<Vec<Text>>>; 2],
+        at: &Range<usize>,
+    ) -> GivenBody {
+        let elements = ANGLES_AND_SHAPE.into_iter().filter_map(|key| Some((key, text(key)?))).collect();
+        let [name, mass, a] = ["name", "mass", "a"].map(text);
+        GivenBody { name, mass, q, v, a, elements, horizons: None, at: at.clone(), line: None }
     }
 
     /// Puts the line of a file before the faults that were found in it.

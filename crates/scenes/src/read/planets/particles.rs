@@ -73,18 +73,9 @@ fn read(text: &str, file: &Text) -> Result<Vec<GivenBody>, (u64, String)> {
             let value: Vec<_> = axes.into_iter().map_while(cell).collect();
             (!value.is_empty()).then(|| Placed { value, at: file.at.clone() })
         };
-        let [q, v] = COORDINATES.map(vector);
-        bodies.push(GivenBody {
-            name: cell("name"),
-            mass: Some(Text::at("0", file.at.clone())),
-            q,
-            v,
-            a: cell("a"),
-            elements: ANGLES_AND_SHAPE.into_iter().filter_map(|key| Some((key, cell(key)?))).collect(),
-            horizons: None,
-            at: file.at.clone(),
-            line: Some(line.to_string()),
-        });
+        let mass = Some(Text::at("0", file.at.clone()));
+        let line = Some(line.to_string());
+        bodies.push(GivenBody { mass, line, ..GivenBody::of(cell, COORDINATES.map(vector), &file.at) });
     }
     if bodies.is_empty() { Err((1, "there is no particle".to_owned())) } else { Ok(bodies) }
 }

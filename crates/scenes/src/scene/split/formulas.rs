@@ -3,12 +3,11 @@
 use serde_json::{Value, json};
 use shadowstep::MotionError;
 use shadowstep::number::CorrectlyRounded;
-use shadowstep::systems::many_parts::{Part, PartError, PartFormula, SystemOfParts};
+use shadowstep::systems::many_parts::{Part, PartError, PartFormula};
 use shadowstep_symbolic::Exact;
 
-use super::{Class, Needs, Split, State};
-use crate::scene::{EnergyAt, Formula, InitialValueProblem, energy_of};
-use crate::start::{SceneIntegrator, Steps};
+use super::{Class, ManyParts, Needs, Split};
+use crate::scene::{Formula, InitialValueProblem};
 
 /// H is the sum of these formulas.
 #[derive(Debug)]
@@ -23,23 +22,14 @@ impl Split for Formulas {
         Some(("parts", json!(self.0.iter().map(Formula::text).collect::<Vec<_>>())))
     }
 
-    fn energy<N: CorrectlyRounded + 'static>(
+    fn many_parts<N: CorrectlyRounded + 'static>(
         &self,
-        problem: &InitialValueProblem,
+        _: &InitialValueProblem,
         context: &N::Context,
-    ) -> EnergyAt<N> {
-        let state = problem.initial(context);
-        energy_of(self.system(problem, &state, context).expect("the dimensions were read with the system"))
-    }
-
-    fn integrator<N: CorrectlyRounded + 'static>(
-        &self,
-        problem: &InitialValueProblem,
-        steps: Steps<'_>,
-        state: State<N>,
-        context: &N::Context,
-    ) -> Result<SceneIntegrator<N>, MotionError> {
-        Ok(steps.of_parts(self.system(problem, &state, context)?, context))
+    ) -> Option<Result<ManyParts<N>, MotionError>> {
+        let parts = self.0.iter().map(|formula| formula.meaning().in_numbers(context));
+        let parts = parts.map(|part| Ok(Box::new(part.map_err(|_| MotionError::Digits)?) as Box<dyn Part<N>>));
+        Some(parts.collect())
     }
 
     fn hamiltonian(&self) -> Option<String> {
@@ -58,21 +48,5 @@ impl Formulas {
         parameters: &[(String, Exact)],
     ) -> Result<Self, PartError> {
         formulas.iter().map(|text| Formula::part(text, names, parameters)).collect::<Result<_, _>>().map(Formulas)
-    }
-
-    /// The system of these parts at a state.
-    fn system<N: CorrectlyRounded + 'static>(
-        &self,
-        problem: &InitialValueProblem,
-        (q, p): &State<N>,
-        context: &N::Context,
-    ) -> Result<SystemOfParts<N>, MotionError> {
-        let dimension = problem.coordinates.len();
-        if q.len() != dimension {
-            return Err(MotionError::Potential { coordinates: q.len(), dimension });
-        }
-        let parts = self.0.iter().map(|formula| formula.meaning().in_numbers(context));
-        let parts = parts.map(|part| Ok(Box::new(part.map_err(|_| MotionError::Digits)?) as Box<dyn Part<N>>));
-        SystemOfParts::new(parts.collect::<Result<_, MotionError>>()?, q, p)
     }
 }

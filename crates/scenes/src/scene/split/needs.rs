@@ -1,5 +1,7 @@
 //! What a kind of split needs of a scheme and of a run, and why something else is refused.
 
+use shadowstep::Scheme as _;
+
 use crate::library::{self, NamedScheme, Schemes};
 use crate::refusal::{Refusal, Unsupported};
 
@@ -42,13 +44,15 @@ impl Needs {
     /// A scheme that is not valid.
     pub fn scheme(&self, named: NamedScheme, schemes: &Schemes) -> Result<NamedScheme, Refusal> {
         library::check_inner(&named, self.parts)?;
-        library::check_gradient_kicks(&named, self.no_gradient_kicks)?;
+        let has_gradient_kicks = named.scheme.proved().scheme.has_gradient_kicks();
+        library::check_supported(&named, self.no_gradient_kicks, (has_gradient_kicks, "has gradient kicks,"))?;
         match self.class {
             Class::Quadratic => {}
             Class::EveryKinetic => library::check_every_kinetic(&named)?,
             Class::ManyParts => return schemes.for_many_parts(&named),
         }
-        library::check_processor(&named, self.no_processor)?;
+        let is_processed = !named.scheme.processor().is_empty();
+        library::check_supported(&named, self.no_processor, (is_processed, "is a processed scheme, which"))?;
         Ok(named)
     }
 }

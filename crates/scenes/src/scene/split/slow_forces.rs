@@ -3,11 +3,10 @@
 use serde_json::{Value, json};
 use shadowstep::MotionError;
 use shadowstep::number::CorrectlyRounded;
-use shadowstep::systems::many_parts::{OfKinetic, OfPotential, Part, SystemOfParts};
+use shadowstep::systems::many_parts::{OfKinetic, OfPotential, Part};
 
-use super::{Class, Needs, Split, State};
-use crate::scene::{ClassifiedKinetic, EnergyAt, InitialValueProblem, PotentialEnergy, energy_of};
-use crate::start::{SceneIntegrator, Steps};
+use super::{Class, ManyParts, Needs, Split};
+use crate::scene::{ClassifiedKinetic, InitialValueProblem, PotentialEnergy};
 
 /// The key of a scene.
 pub(crate) const SLOW: &str = "slow";
@@ -29,23 +28,20 @@ impl Split for SlowForces {
         Some((SLOW, json!(self.text())))
     }
 
-    fn energy<N: CorrectlyRounded + 'static>(
+    fn many_parts<N: CorrectlyRounded + 'static>(
         &self,
         problem: &InitialValueProblem,
         context: &N::Context,
-    ) -> EnergyAt<N> {
-        let state = problem.initial(context);
-        energy_of(self.system(problem, &state, context).expect("the dimensions were read with the system"))
-    }
-
-    fn integrator<N: CorrectlyRounded + 'static>(
-        &self,
-        problem: &InitialValueProblem,
-        steps: Steps<'_>,
-        state: State<N>,
-        context: &N::Context,
-    ) -> Result<SceneIntegrator<N>, MotionError> {
-        Ok(steps.of_parts(self.system(problem, &state, context)?, context))
+    ) -> Option<Result<ManyParts<N>, MotionError>> {
+        let dimension = problem.coordinates.len();
+        let kinetic: Box<dyn Part<N>> = match problem.kinetic(context) {
+            ClassifiedKinetic::Quadratic(kinetic) => Box::new(OfKinetic::new(kinetic, dimension, context)),
+            ClassifiedKinetic::General(kinetic) => Box::new(OfKinetic::new(kinetic, dimension, context)),
+        };
+        let [slow, fast] = [&*self.0, &problem.potential].map(|potential| -> Box<dyn Part<N>> {
+            Box::new(OfPotential::new(problem.in_numbers(potential, context), context))
+        });
+        Some(Ok(vec![slow, fast, kinetic]))
     }
 }
 
@@ -75,25 +71,5 @@ impl SlowForces {
             PotentialEnergy::Pairs(_) => format!("the sum over all pairs of {}", self.text()),
             _ => self.text().to_owned(),
         }
-    }
-
-    /// The system of the three parts at a state.
-    fn system<N: CorrectlyRounded + 'static>(
-        &self,
-        problem: &InitialValueProblem,
-        (q, p): &State<N>,
-        context: &N::Context,
-    ) -> Result<SystemOfParts<N>, MotionError> {
-        let (slow, fast) = (problem.in_numbers(&self.0, context), problem.potential(context));
-        let dimension = fast.dimension();
-        if q.len() != dimension {
-            return Err(MotionError::Potential { coordinates: q.len(), dimension });
-        }
-        let kinetic: Box<dyn Part<N>> = match problem.kinetic(context) {
-            ClassifiedKinetic::Quadratic(kinetic) => Box::new(OfKinetic::new(kinetic, dimension, context)),
-            ClassifiedKinetic::General(kinetic) => Box::new(OfKinetic::new(kinetic, dimension, context)),
-        };
-        let of_potential = |potential| Box::new(OfPotential::new(potential, context)) as Box<dyn Part<N>>;
-        SystemOfParts::new(vec![of_potential(slow), of_potential(fast), kinetic], q, p)
     }
 }
