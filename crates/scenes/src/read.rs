@@ -95,7 +95,8 @@ impl Scene {
 
     fn read_with(source: Source, others: &'static [&'static str]) -> Result<Scene, Faults> {
         let names = Names { numbers: Vec::new(), others, schemes: &Schemes::default() };
-        read(&source, &valid_document(&source)?, &names)
+        let scene = read(&source, &valid_document(&source)?, &names)?;
+        Ok(Scene { source, ..scene })
     }
 }
 

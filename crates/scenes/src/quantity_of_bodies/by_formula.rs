@@ -3,7 +3,7 @@
 use crate::quantity::{ANGULAR_MOMENTUM, DISTANCE};
 use crate::refusal::{Refusal, refuse};
 use crate::scene::bodies::{AXES, Bodies};
-use crate::scene::{PotentialEnergy, System};
+use crate::scene::{PairEnergy, System};
 
 /// The formula of a quantity.
 pub(super) fn of(name: &str, arguments: &[String], (system, bodies): (&System, &Bodies)) -> Result<String, Refusal> {
@@ -32,11 +32,9 @@ pub(super) fn of(name: &str, arguments: &[String], (system, bodies): (&System, &
 }
 
 fn refuse_box(system: &System) -> Result<(), Refusal> {
-    match &system.potential {
-        PotentialEnergy::Pairs(pairs) if pairs.is_in_box() => {
-            refuse("bodies in a periodic box have many distances", "write a formula in the coordinates")
-        }
-        _ => Ok(()),
+    match system.potential.pairs().is_some_and(PairEnergy::is_in_box) {
+        true => refuse("bodies in a periodic box have many distances", "write a formula in the coordinates"),
+        false => Ok(()),
     }
 }
 

@@ -4,7 +4,7 @@ use shadowstep::systems::wisdom_holman::Shells;
 
 use super::reader::Reader;
 use crate::scene::split::{CanonicalCoordinates, CloseEncounters};
-use crate::scene::{Parts, PotentialEnergy, System};
+use crate::scene::{Parts, System};
 use crate::schema::Table;
 
 /// Substeps of a step, by default.
@@ -19,7 +19,7 @@ pub(super) fn set(reader: &mut Reader<'_>, problem: &Table<'_, '_>, system: &mut
         Err(error) => return reader.toml.wrong(&text.at, error.to_string(), "write some 3 Hill radii of the planets"),
     };
     let substeps = table.whole("substeps").map_or(Some(SUBSTEPS), |substeps| u32::try_from(substeps).ok())?;
-    let has_more = matches!(&system.problem.potential, PotentialEnergy::Pairs(pairs) if !pairs.of_bodies.is_empty());
+    let has_more = system.has_energies_of_bodies();
     match &mut system.parts {
         Parts::WisdomHolman(planets)
             if planets.coordinates == CanonicalCoordinates::DemocraticHeliocentric && !has_more =>

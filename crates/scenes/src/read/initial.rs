@@ -9,7 +9,7 @@ use super::bodies::Bodies;
 use super::numbers::Numbers;
 use super::reader::Reader;
 use crate::arithmetic::ANY_SIZE;
-use crate::scene::{InitialValueProblem, KineticEnergy, PotentialEnergy};
+use crate::scene::{InitialValueProblem, KineticEnergy};
 use crate::schema::Table;
 
 /// The initial state in the form in which the scene gives it.
@@ -72,13 +72,10 @@ pub(super) fn state_of(
     initial: &Table<'_, '_>,
     problem: &InitialValueProblem,
 ) -> (Vec<Exact>, Vec<Exact>) {
-    let bodies = match &problem.potential {
-        PotentialEnergy::Pairs(pairs) => {
-            let bodies = Bodies { count: pairs.bodies, properties: pairs.properties.clone() };
-            Some((bodies, pairs.dimensions))
-        }
-        _ => None,
-    };
+    let bodies = problem.potential.pairs().map(|pairs| {
+        let bodies = Bodies { count: pairs.bodies, properties: pairs.properties.clone() };
+        (bodies, pairs.dimensions)
+    });
     let values = |reader: &mut Reader<'_>, numbers: &Numbers| match &bodies {
         Some((bodies, dimensions)) => bodies.values_in_space(reader, numbers, *dimensions),
         // lists are as long as that with which the problem was read

@@ -44,7 +44,11 @@ impl PairFormula {
             Err(error) => return reader.toml.wrong(&text.place(&error.range), error.to_string(), HELP),
         };
         let mut found = Vec::new();
-        separations(&expression, &mut found);
+        expression.visit(&mut |part| {
+            if let ExpressionKind::Name(name) = &part.kind {
+                found.extend(Separation::named(name));
+            }
+        });
         found.dedup();
         match found[..] {
             [separation] => Some(Ok(PairFormula { text, expression, separation })),
@@ -55,16 +59,6 @@ impl PairFormula {
                 HELP,
             ),
         }
-    }
-}
-
-fn separations(expression: &Expression, found: &mut Vec<Separation>) {
-    match &expression.kind {
-        ExpressionKind::Number(_) => {}
-        ExpressionKind::Name(name) => found.extend(Separation::named(name)),
-        ExpressionKind::Negate(inner) => separations(inner, found),
-        ExpressionKind::Binary(_, left, right) => [left, right].into_iter().for_each(|part| separations(part, found)),
-        ExpressionKind::Call { arguments, .. } => arguments.iter().for_each(|part| separations(part, found)),
     }
 }
 

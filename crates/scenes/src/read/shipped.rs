@@ -6,9 +6,10 @@ use shadowstep_symbolic::{Budget, nearest};
 
 use super::given::Given;
 use super::kinetic;
+use super::numbers::Numbers;
 use super::reader::Reader;
 use crate::arithmetic::{ANY_SIZE, GUARD_DIGITS, MOST_VALUE_DIGITS};
-use crate::scene::{InitialValueProblem, KineticEnergy, PotentialEnergy};
+use crate::scene::{InitialValueProblem, KineticEnergy};
 use shadowstep_schemes::document::Text;
 
 /// The problem of this name; with its bodies and their dimensions, if it has bodies that attract each other.
@@ -18,18 +19,21 @@ pub(super) fn problem(
     name: &Text,
 ) -> Option<(InitialValueProblem, Option<(Bodies, usize)>)> {
     let setup = setup(reader, given, name)?;
-    let (coordinates, q): (Vec<_>, Vec<_>) = setup.values.positions().iter().cloned().unzip();
-    let (momenta, p): (Vec<_>, Vec<_>) = setup.values.momenta().iter().cloned().unzip();
-    let mut masses = setup.values.masses().map(<[_]>::to_vec);
+    let bodies = setup.bodies();
+    let mut problem = InitialValueProblem::of_setup(setup);
+    problem.parameters = reader.known.iter().map(|(name, value)| (name.clone(), value.clone())).collect();
+    let KineticEnergy::Masses(masses) = &mut problem.kinetic else {
+        unreachable!("T of shipped problems is by masses")
+    };
     if let Some(mass) = masses.as_deref().and_then(|masses| reader.arithmetic.mass_out_of_range(masses)) {
         let message = kinetic::out_of_range(mass, reader.arithmetic);
         reader.toml.fault(&name.at, message, ANY_SIZE);
         // with which the rest is read
-        masses = None;
+        *masses = None;
     }
-    let (own_q, own_p) =
-        given.state.values(reader, |reader, numbers| numbers.values(reader, coordinates.len()), masses.as_deref());
-    for (own, names, values) in [(&own_q, &coordinates, &q), (&own_p, &momenta, &p)] {
+    let values = |reader: &mut Reader<'_>, numbers: &Numbers| numbers.values(reader, problem.coordinates.len());
+    let (q, p) = given.state.values(reader, values, masses.as_deref());
+    for (own, names, values) in [(&q, &problem.coordinates, &problem.q), (&p, &problem.momenta, &problem.p)] {
         let mut values = names.iter().zip(values);
         let short = values.find(|(_, value)| own.is_none() && !reader.arithmetic.has_digits_of(value));
         if let Some((value, _)) = short {
@@ -38,17 +42,8 @@ pub(super) fn problem(
             reader.toml.fault(&name.at, message, help);
         }
     }
-    let bodies = setup.bodies();
-    let problem = InitialValueProblem {
-        parameters: reader.known.iter().map(|(name, value)| (name.clone(), value.clone())).collect(),
-        potential: PotentialEnergy::Shipped(setup),
-        kinetic: KineticEnergy::Masses(masses),
-        coordinates,
-        momenta,
-        q: own_q.unwrap_or(q),
-        p: own_p.unwrap_or(p),
-        explicit_time: false,
-    };
+    problem.q = q.unwrap_or(problem.q);
+    problem.p = p.unwrap_or(problem.p);
     Some((problem, bodies))
 }
 

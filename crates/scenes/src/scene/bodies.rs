@@ -5,7 +5,7 @@ use std::ops::Range;
 use shadowstep_symbolic::nearest;
 
 use crate::refusal::Refusal;
-use crate::scene::{PotentialEnergy, System};
+use crate::scene::System;
 
 /// Bodies whose coordinates follow each other.
 pub(crate) struct Bodies {
@@ -17,12 +17,10 @@ impl Bodies {
     /// Those with coordinates such as x_sun, y_sun, x_jupiter, y_jupiter, or those of a sum over pairs; `None` without
     /// bodies.
     pub(crate) fn of(system: &System) -> Option<Bodies> {
-        Bodies::named(system).or_else(|| match &system.potential {
-            PotentialEnergy::Pairs(pairs) => {
-                let names = (1..=pairs.bodies).map(|body| body.to_string()).collect();
-                Some(Bodies { names, dimensions: pairs.dimensions })
-            }
-            _ => None,
+        Bodies::named(system).or_else(|| {
+            let pairs = system.potential.pairs()?;
+            let names = (1..=pairs.bodies).map(|body| body.to_string()).collect();
+            Some(Bodies { names, dimensions: pairs.dimensions })
         })
     }
 

@@ -127,11 +127,7 @@ impl<N: SceneNumber> SystemIn<N> for System {
     }
 
     fn virial(&self, potential: &PotentialEnergy, context: &N::Context) -> OfPositions<N> {
-        let in_box = match potential {
-            PotentialEnergy::Pairs(pairs) => pairs.virial_in_box(&self.parameters, context),
-            _ => None,
-        };
-        if let Some(in_box) = in_box {
+        if let Some(in_box) = potential.pairs().and_then(|pairs| pairs.virial_in_box(&self.parameters, context)) {
             return in_box;
         }
         let massive = self.massive_coordinates().min(self.coordinates_of_columns());

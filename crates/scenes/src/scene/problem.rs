@@ -89,7 +89,35 @@ impl<N: Number + 'static> ClassifiedKinetic<N> {
     }
 }
 
+impl PotentialEnergy {
+    /// The sum over pairs of bodies, if it is one.
+    pub(crate) fn pairs(&self) -> Option<&PairEnergy> {
+        match self {
+            PotentialEnergy::Pairs(pairs) => Some(pairs),
+            _ => None,
+        }
+    }
+}
+
 impl InitialValueProblem {
+    /// A shipped problem at its initial state.
+    pub(crate) fn of_setup(setup: Setup) -> Self {
+        let values = &setup.values;
+        let (coordinates, q) = values.positions().iter().cloned().unzip();
+        let (momenta, p) = values.momenta().iter().cloned().unzip();
+        let parameters = setup.problem.description().parameters.len();
+        InitialValueProblem {
+            parameters: values.named()[..parameters].to_vec(),
+            kinetic: KineticEnergy::Masses(values.masses().map(<[_]>::to_vec)),
+            potential: PotentialEnergy::Shipped(setup),
+            coordinates,
+            momenta,
+            q,
+            p,
+            explicit_time: false,
+        }
+    }
+
     /// Positions and momenta at t = 0.
     pub(crate) fn initial<N: Number>(&self, context: &N::Context) -> (Vec<N>, Vec<N>) {
         let numbers = |values: &[Exact]| values.iter().map(|v| N::from_rational(&v.value, context)).collect();
@@ -120,7 +148,7 @@ impl InitialValueProblem {
 
     /// Whether each body has energies beside those of pairs.
     pub(crate) fn has_energies_of_bodies(&self) -> bool {
-        matches!(&self.potential, PotentialEnergy::Pairs(pairs) if !pairs.of_bodies.is_empty())
+        self.potential.pairs().is_some_and(|pairs| !pairs.of_bodies.is_empty())
     }
 
     /// The part of U beside the attraction of bodies, if there is one; of all bodies, or of those with mass alone.
@@ -129,10 +157,7 @@ impl InitialValueProblem {
         with_particles: bool,
         context: &N::Context,
     ) -> Option<Box<dyn Potential<N>>> {
-        match &self.potential {
-            PotentialEnergy::Pairs(pairs) => pairs.beside(with_particles, &self.parameters, context),
-            _ => None,
-        }
+        self.potential.pairs()?.beside(with_particles, &self.parameters, context)
     }
 
     /// T(p), or T(p) + p_t
@@ -171,18 +196,12 @@ impl InitialValueProblem {
 
     /// How many bodies are of mass 0: the last ones.
     pub(crate) fn particles(&self) -> usize {
-        match &self.potential {
-            PotentialEnergy::Pairs(pairs) => pairs.particles,
-            _ => 0,
-        }
+        self.potential.pairs().map_or(0, |pairs| pairs.particles)
     }
 
     /// How many of the first coordinates have an energy.
     pub(crate) fn massive_coordinates(&self) -> usize {
-        match &self.potential {
-            PotentialEnergy::Pairs(pairs) => self.q.len() - pairs.particles * pairs.dimensions,
-            _ => self.q.len(),
-        }
+        self.q.len() - self.potential.pairs().map_or(0, |pairs| pairs.particles * pairs.dimensions)
     }
 
     /// Every parameter and initial value with its name.

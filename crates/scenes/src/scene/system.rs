@@ -116,23 +116,7 @@ impl From<InitialValueProblem> for System {
 impl System {
     /// The system of a shipped problem.
     pub fn of_setup(setup: Setup) -> System {
-        let values = &setup.values;
-        let (coordinates, q) = values.positions().iter().cloned().unzip();
-        let (momenta, p) = values.momenta().iter().cloned().unzip();
-        let state = values.positions().len() + values.momenta().len();
-        let parameters = values.named()[..values.named().len() - state].to_vec();
-        let kinetic = KineticEnergy::Masses(values.masses().map(<[_]>::to_vec));
-        let potential = PotentialEnergy::Shipped(setup);
-        System::from(InitialValueProblem {
-            potential,
-            kinetic,
-            parameters,
-            coordinates,
-            momenta,
-            q,
-            p,
-            explicit_time: false,
-        })
+        System::from(InitialValueProblem::of_setup(setup))
     }
 
     /// The system of a potential of the caller, with the names q1, q2, … and p1, p2, ….

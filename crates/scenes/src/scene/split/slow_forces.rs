@@ -67,9 +67,9 @@ impl SlowForces {
 
     /// The slow potential in words.
     pub fn described(&self) -> String {
-        match &*self.0 {
-            PotentialEnergy::Pairs(_) => format!("the sum over all pairs of {}", self.text()),
-            _ => self.text().to_owned(),
+        match self.0.pairs() {
+            Some(_) => format!("the sum over all pairs of {}", self.text()),
+            None => self.text().to_owned(),
         }
     }
 }
