@@ -15,7 +15,7 @@ use crate::arithmetic::Arithmetic;
 use crate::library::Schemes;
 use crate::read::{Names, read};
 use crate::scene::{InitialValueProblem, Scene, System};
-use crate::schema::{each_text, words};
+use crate::schema::{each_text, words_of};
 
 /// A scene's text in which names stand for values: one scene for each choice of the values.
 ///
@@ -222,13 +222,14 @@ fn whole(text: &str) -> Option<DeValue<'_>> {
 fn names_in(document: &DeTable<'_>, is_chosen: impl Fn(&str) -> bool) -> BTreeSet<String> {
     let mut found = BTreeSet::new();
     let sections = document.iter().filter(|(name, _)| is_chosen(name.get_ref()));
-    sections.for_each(|(_, section)| each_text(section, &mut |text, _| found.extend(words(text).map(str::to_owned))));
+    sections
+        .for_each(|(_, section)| each_text(section, &mut |text, _| found.extend(words_of(text).map(str::to_owned))));
     found
 }
 
 /// The name in a text `$name`.
 fn whole_name(text: &str) -> Option<&str> {
-    text.strip_prefix('$').filter(|name| words(name).next() == Some(name))
+    text.strip_prefix('$').filter(|name| words_of(name).next() == Some(name))
 }
 
 #[cfg(test)]

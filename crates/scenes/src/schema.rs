@@ -13,7 +13,7 @@ use toml::de::{DeTable, DeValue};
 pub use check::{Elsewhere, has_form, refuse_unknown};
 pub use json::json_schema;
 pub use table::{Table, texts};
-pub(crate) use table::{each_text, words};
+pub(crate) use table::{each_text, words_of};
 
 /// A section of a document, or a table that is the value of a key.
 #[derive(Clone, Copy, Debug)]

@@ -7,7 +7,7 @@ use toml::de::{DeTable, DeValue};
 
 use super::reader::Reader;
 use crate::keys::PROBLEM;
-use crate::schema::{Table, each_text, words};
+use crate::schema::{Table, each_text, words_of};
 use shadowstep_schemes::document::Text;
 
 /// Refuses parameters of a problem's own formulas that are in no text of the scene: `masss = 2` changes nothing. Those
@@ -22,7 +22,7 @@ pub(super) fn refuse_unused_parameters(reader: &mut Reader<'_>, root: &DeTable<'
     // of [[body]]
     let of_gravity = |name: &str| name == "g" && root.contains_key("body");
     let mut written = BTreeSet::new();
-    root.values().for_each(|value| each_text(value, &mut |text, _| written.extend(words(text).map(str::to_owned))));
+    root.values().for_each(|value| each_text(value, &mut |text, _| written.extend(words_of(text).map(str::to_owned))));
     for (key, _) in parameters {
         let name = Text::of_key(key);
         if of_gravity(&name.value) || written.contains(&name.value) {

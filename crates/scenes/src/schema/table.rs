@@ -136,7 +136,7 @@ pub(crate) fn each_text(value: &Value<'_>, call: &mut impl FnMut(&str, Range<usi
 }
 
 /// The longest parts of a text that can be names.
-pub(crate) fn words(text: &str) -> impl Iterator<Item = &str> {
+pub(crate) fn words_of(text: &str) -> impl Iterator<Item = &str> {
     let is_letter = |c: char| c.is_alphanumeric() || c == '_';
     text.split(move |c| !is_letter(c)).filter(|word| word.starts_with(|c: char| c.is_alphabetic()))
 }
