@@ -67,7 +67,9 @@ fn schemes(reader: &mut Reader<'_>, root: &DeTable<'_>, family: &Family, axes: &
 
 /// Refuses what cannot be kept of this scene.
 pub(super) fn scene(reader: &mut Reader<'_>, root: &DeTable<'_>, keep: &Keep, scene: &Scene) {
-    keep.expressions().for_each(|text| scene.system.check(text, reader));
+    for text in keep.expressions() {
+        scene.system.check(text, reader);
+    }
     let at = root.get("keep").map_or(0..0, |keep| keep.span());
     let output = &scene.output;
     if keep.needs(Need::Estimates) && output.modified_energy.is_none() {
