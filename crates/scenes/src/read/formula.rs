@@ -30,8 +30,11 @@ pub(super) fn problem(
         kinetic::masses(reader, numbers, values)
     });
     let state = variables.state(reader, given, masses.as_deref());
-    let momenta = &variables.momenta[..variables.count];
-    let kinetic = if are_valid { kinetic::kinetic(reader, given, momenta, &parameters, masses) } else { None };
+    let mut kinetic = None;
+    if are_valid {
+        let momenta = &variables.momenta[..variables.count];
+        kinetic = kinetic::kinetic(reader, given, momenta, &parameters, masses);
+    }
     let problem = variables.problem((PotentialEnergy::Formula(potential?), kinetic?), parameters, state)?;
     match slow {
         Some(slow) => Some((problem, Some(PotentialEnergy::Formula(slow?)))),

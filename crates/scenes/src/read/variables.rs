@@ -42,8 +42,9 @@ impl Variables {
         let (mut coordinates, mut momenta) = names(given)?;
         let count = coordinates.len();
         for names in [&mut coordinates, &mut momenta].into_iter().filter(|_| is_copied) {
+            let own = names.len();
             names.extend_from_within(..);
-            names[count..].iter_mut().for_each(|name| name.push_str(SECOND));
+            names[own..].iter_mut().for_each(|name| name.push_str(SECOND));
         }
         if explicit_time {
             let parameters = given.parameters.iter().map(|(name, _)| &name.value);
