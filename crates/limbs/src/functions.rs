@@ -5,12 +5,12 @@ mod constants;
 mod exponential;
 mod fraction;
 mod logarithm;
-mod pi;
 mod series;
 mod tables;
 mod trigonometric;
 
 use crate::Limbs;
+use crate::newton::top;
 
 /// The functions of numbers of a width, and only of some widths.
 trait Functions: Sized {
@@ -142,7 +142,7 @@ impl<const L: usize> Limbs<L> {
 
     /// π
     pub fn pi() -> Self {
-        let pi = fraction::number::<18>(&constants::QUARTER_PI, 2);
+        let pi = fraction::number::<17>(&top(&constants::QUARTER_PI), 2);
         pi.resized()
     }
 }

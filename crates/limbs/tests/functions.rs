@@ -137,6 +137,13 @@ fn exponentials_at_the_ends_of_the_range() {
 }
 
 #[test]
+fn pi_is_nearest() {
+    assert_eq!(float(&Limbs::<2>::pi()), Float::with_val(128, Constant::Pi));
+    assert_eq!(float(&Limbs::<5>::pi()), Float::with_val(320, Constant::Pi));
+    assert_eq!(float(&Limbs::<16>::pi()), Float::with_val(1024, Constant::Pi));
+}
+
+#[test]
 fn special_values() {
     for value in [0.0, -0.0, 1.0, -1.0, f64::INFINITY, f64::NEG_INFINITY, f64::NAN, 2.5] {
         let x = Limbs::<3>::from(value);

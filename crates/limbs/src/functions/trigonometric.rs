@@ -4,9 +4,8 @@
 //! Hanek). Then
 //! |r| = i/64 + d with |d| ≤ 1/128, sin d by its series and cos d = √(1 − sin² d).
 
-use super::constants::{QUARTER_PI, TWO_OVER_PI};
+use super::constants::{QUARTER_PI, TWO_OVER_PI, two_over_pi};
 use super::fraction::{fraction, number, product, split, square};
-use super::pi::two_over_pi;
 use super::series::series;
 use super::tables::{INVERSE_FACTORIALS, SINES};
 use crate::newton::{root_of_fraction, top};
@@ -98,7 +97,7 @@ fn reduced<const W: usize>(x: &Limbs<W>) -> (u64, Limbs<W>) {
 #[inline(always)]
 fn quarters<const W: usize>(x: &Limbs<W>, limbs: usize) -> (u64, Limbs<W>, u32) {
     let (up, bits) = (x.exponent as usize / 64, x.exponent as u32 % 64);
-    let stored: &[u64] = &TWO_OVER_PI;
+    let stored: &[u64] = &*TWO_OVER_PI;
     let computed = if up + limbs > stored.len() { two_over_pi(up + limbs) } else { Vec::new() };
     let digits = if computed.is_empty() { stored } else { &computed };
     // x = m 2^(64 (up − W)), m of W + 1 limbs, and the product by columns of weight 2^(64 (column − limbs))
