@@ -72,15 +72,24 @@ pub(crate) fn sin_and_cos_of_pi(multiple: &Rational, digits: u32) -> (Interval, 
         false => {
             let fine = bits(digits) + zero_bits(rest.numer(), rest.denom());
             // the multiple of π/2 is between -1/2 and 1/2
-            let distance = Ball::ratio(&(rest.numer() * 2), rest.denom(), fine).multiply(&half_pi(fine));
-            let (sine, versine) = sine_and_versine(Curve::Circle, &distance);
-            (sine.to_interval(0), Ball::one(versine.bits()).subtract(&versine).to_interval(0))
+            near_zero(&Ball::ratio(&(rest.numer() * 2), rest.denom(), fine).multiply(&half_pi(fine)))
         }
     };
-    match (quarter.to_integer() & BigInt::from(3)).to_u8().expect("a number below 4") {
-        0 => (sin, cos),
-        1 => (cos, sin.negate()),
-        2 => (sin.negate(), cos.negate()),
+    turned(&quarter.to_integer(), sin, cos)
+}
+
+/// sin and cos of an angle between −1 and 1.
+fn near_zero(angle: &Ball) -> (Interval, Interval) {
+    let (sine, versine) = sine_and_versine(Curve::Circle, angle);
+    (sine.to_interval(0), Ball::one(versine.bits()).subtract(&versine).to_interval(0))
+}
+
+/// sin and cos after this number of quarter turns.
+fn turned(quarters: &BigInt, sin: Interval, cos: Interval) -> (Interval, Interval) {
+    match (quarters & BigInt::from(3)).to_u8() {
+        Some(0) => (sin, cos),
+        Some(1) => (cos, sin.negate()),
+        Some(2) => (sin.negate(), cos.negate()),
         _ => (cos.negate(), sin),
     }
 }
@@ -156,24 +165,17 @@ fn sin_and_cos_of_number(x: &Rational, digits: u32) -> (Interval, Interval) {
     if x.is_zero() {
         return (Interval::point(x), Interval::point(&Rational::one()));
     }
-    let (quarter, distance) = reduced(x, bits(digits));
-    let (sine, versine) = sine_and_versine(Curve::Circle, &distance);
-    let cosine = Ball::one(versine.bits()).subtract(&versine);
-    let (sin, cos) = match quarter {
-        0 => (sine, cosine),
-        1 => (cosine, sine.negate()),
-        2 => (sine.negate(), cosine.negate()),
-        _ => (cosine.negate(), sine),
-    };
-    (sin.to_interval(0), cos.to_interval(0))
+    let (quarters, distance) = reduced(x, bits(digits));
+    let (sin, cos) = near_zero(&distance);
+    turned(&quarters, sin, cos)
 }
 
-/// k mod 4 and x − k π/2 to `certain` bits, for the nearest k or one next to it. The loop ends, as x is rational and
+/// k and x − k π/2 to `certain` bits, for the nearest k or one next to it. The loop ends, as x is rational and
 /// not 0.
-fn reduced(x: &Rational, certain: u64) -> (u8, Ball) {
+fn reduced(x: &Rational, certain: u64) -> (BigInt, Ball) {
     if integer_bits(x) == 0 {
         // between -1 and 1: the series needs no more
-        return (0, Ball::ratio(x.numer(), x.denom(), certain + zero_bits(x.numer(), x.denom())));
+        return (BigInt::zero(), Ball::ratio(x.numer(), x.denom(), certain + zero_bits(x.numer(), x.denom())));
     }
     let mut fine = certain + integer_bits(x) + 16;
     loop {
@@ -183,8 +185,7 @@ fn reduced(x: &Rational, certain: u64) -> (u8, Ball) {
         let distance = number.subtract(&quarter.times(&k));
         if let Some(excess) = distance.certain_bits().checked_sub(certain) {
             // More bits would only take time.
-            let distance = distance.with_bits(distance.bits() - excess);
-            return ((k & BigInt::from(3)).to_u8().expect("a number below 4"), distance);
+            return (k, distance.with_bits(distance.bits() - excess));
         }
         fine *= 2;
     }

@@ -75,35 +75,31 @@ pub(crate) fn inverse_tangent(curve: Curve, x: &Ball) -> Ball {
         let under = if curve == Curve::Circle { one.add(&square) } else { one.subtract(&square) };
         small = small.over_larger(&one.add(&under.sqrt()));
     }
-    // arctan a = a − a³/3 + …; a² is at most 1/4, so that the rest is at most the last power.
+    // a² is at most 1/4
     let square = small.multiply(&small);
-    let (mut power, mut sum, mut n) = (small.clone(), small, 1);
-    while !power.is_negligible() {
-        n += 2;
-        power = power.multiply(&square);
-        let term = power.over(n);
-        sum = if n % 4 == 3 { curve.turn(&sum, &term) } else { sum.add(&term) };
-    }
-    sum.widened(power.size()).times(&(BigInt::one() << halvings)).with_bits(x.bits())
+    let sum = odd_series(curve, small, |power| power.multiply(&square));
+    sum.times(&(BigInt::one() << halvings)).with_bits(x.bits())
 }
 
-/// arctan 1/n or artanh 1/n, for n > 1.
-fn inverse_tangent_of_reciprocal(curve: Curve, n: u64, bits: u64) -> Ball {
-    let mut power = Ball::one(bits).over(n);
-    let (mut sum, mut k) = (power.clone(), 1);
+/// a − a³/3 + a⁵/5 − …, or the same without minus, of an a whose square is at most 1/4, so that the rest is at most the
+/// last power; `next` multiplies by a².
+fn odd_series(curve: Curve, a: Ball, next: impl Fn(&Ball) -> Ball) -> Ball {
+    let (mut power, mut sum, mut n) = (a.clone(), a, 1);
     while !power.is_negligible() {
-        k += 2;
-        power = power.over(n * n);
-        let term = power.over(k);
-        sum = if k % 4 == 3 { curve.turn(&sum, &term) } else { sum.add(&term) };
+        n += 2;
+        power = next(&power);
+        let term = power.over(n);
+        sum = if n % 4 == 3 { curve.turn(&sum, &term) } else { sum.add(&term) };
     }
     sum.widened(power.size())
 }
 
-/// Σ factor · arctan 1/n, or the same with artanh.
+/// Σ factor · arctan 1/n, or the same with artanh, for n > 1.
 fn combination(curve: Curve, parts: &[(i32, u64)], bits: u64) -> Ball {
     let fine = bits + 32;
-    let part = |(factor, n): &(i32, u64)| inverse_tangent_of_reciprocal(curve, *n, fine).times(&(*factor).into());
+    let part = |(factor, n): &(i32, u64)| {
+        odd_series(curve, Ball::one(fine).over(*n), |power| power.over(n * n)).times(&(*factor).into())
+    };
     let sum = parts.iter().map(part).reduce(|sum, part| sum.add(&part)).expect("a formula has parts");
     sum.with_bits(bits)
 }
