@@ -2,7 +2,7 @@
 
 use super::DoubleDouble;
 use super::arithmetic::two_sum;
-use super::constants::{INVERSE_FACTORIALS, INVERSES, LOG_2, LOG_2_32, LOGARITHMS, POWERS};
+use super::constants::{INVERSE_FACTORIALS, INVERSES, LOG_2, LOG_2_32, TABLES};
 use super::polynomial::{alternate, polynomial};
 
 /// Beyond, e^(−|x|) is less than 2⁻¹⁰⁸ of e^|x|.
@@ -21,7 +21,7 @@ fn shifted_exp(x: DoubleDouble, shift: i32) -> DoubleDouble {
     let k = nearest_integer(x.high / a);
     let rest = DoubleDouble::of(two_sum(x.high, -k * a)) + DoubleDouble::every(x.low) - DoubleDouble::of(b).times(k);
     let k = k as i32;
-    let power = DoubleDouble::of(POWERS[k.rem_euclid(32) as usize]);
+    let power = DoubleDouble::of(TABLES.powers[k.rem_euclid(32) as usize]);
     let exp = power.plus_product(power, small_exp_minus_1(rest));
     let result = times_power_of_two(exp, k.div_euclid(32) + shift);
     if result.high.is_finite() { result } else { DoubleDouble::every(f64::INFINITY) }
@@ -41,7 +41,7 @@ pub(super) fn log(x: DoubleDouble) -> DoubleDouble {
     let e = exponent(x.high * std::f64::consts::SQRT_2);
     let m = times_power_of_two(x, -e);
     let index = (nearest_integer(m.high * 64.0) as usize).clamp(45, 91) - 45;
-    let (c, minus_log_c) = LOGARITHMS[index];
+    let (c, minus_log_c) = TABLES.logarithms[index];
     let [high, low] = [m.high, m.low].map(|part| DoubleDouble::every(part).times(c)); // exact
     let f = (high - DoubleDouble::every(1.0)) + low;
     // log(1 + f) = f − f² (1/2 − f (1/3 − …))

@@ -6,7 +6,7 @@ use num_traits::ToPrimitive;
 
 use super::DoubleDouble;
 use super::arithmetic::two_sum;
-use super::constants::{HALF_PI, INVERSE_FACTORIALS, PI_256, PI_TIMES_2_1400, SINES};
+use super::constants::{HALF_PI, INVERSE_FACTORIALS, PI_256, PI_TIMES_2_1400, TABLES, Tables};
 use super::exponential::nearest_integer;
 use super::nearest::nearest;
 use super::polynomial::{alternate, polynomial};
@@ -31,6 +31,7 @@ pub(super) fn sin_cos(x: DoubleDouble) -> (DoubleDouble, DoubleDouble) {
 
 /// x = t + r, t the nearest multiple of π/256: the multiple modulo 512, sin r and cos r − 1.
 struct Near {
+    tables: &'static Tables,
     multiple: usize,
     sin_r: DoubleDouble,
     cos_r_minus_1: DoubleDouble,
@@ -50,7 +51,7 @@ impl Near {
         let sin_r = r.plus_product(r * minus_square, polynomial(minus_square, &terms[..2], &terms[2..]));
         let terms: [_; 6] = alternate(&INVERSE_FACTORIALS[2..]);
         let cos_r_minus_1 = minus_square * polynomial(minus_square, &terms[..2], &terms[2..]);
-        Some(Near { multiple, sin_r, cos_r_minus_1 })
+        Some(Near { tables: &TABLES, multiple, sin_r, cos_r_minus_1 })
     }
 
     /// sin x = sin t + (sin t (cos r − 1) + cos t sin r)
@@ -59,7 +60,7 @@ impl Near {
         if self.multiple == 0 {
             return self.sin_r;
         }
-        let (sin_t, cos_t) = (sine(self.multiple), sine(self.multiple + 128));
+        let (sin_t, cos_t) = (self.sine(self.multiple), self.sine(self.multiple + 128));
         sin_t + (cos_t * self.sin_r).plus_product(sin_t, self.cos_r_minus_1)
     }
 
@@ -69,15 +70,16 @@ impl Near {
         if self.multiple == 0 {
             return DoubleDouble::every(1.0) + self.cos_r_minus_1;
         }
-        let (sin_t, cos_t) = (sine(self.multiple), sine(self.multiple + 128));
+        let (sin_t, cos_t) = (self.sine(self.multiple), self.sine(self.multiple + 128));
         cos_t + (cos_t * self.cos_r_minus_1).minus_product(sin_t, self.sin_r)
     }
-}
 
-/// sin(j π/256)
-fn sine(j: usize) -> DoubleDouble {
-    let value = DoubleDouble::of(SINES[if j & 128 == 0 { j & 127 } else { 128 - (j & 127) }]);
-    if j & 256 == 0 { value } else { -value }
+    /// sin(j π/256)
+    #[inline(always)]
+    fn sine(&self, j: usize) -> DoubleDouble {
+        let value = DoubleDouble::of(self.tables.sines[if j & 128 == 0 { j & 127 } else { 128 - (j & 127) }]);
+        if j & 256 == 0 { value } else { -value }
+    }
 }
 
 /// The rest of x after the nearest multiple j π/256, and j modulo 512.

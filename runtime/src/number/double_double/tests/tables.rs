@@ -28,23 +28,24 @@ fn bits(x: f64) -> u32 {
 fn entries_are_nearest() {
     let one = Float::with_val(BITS, 1);
     let log_2 = Float::with_val(BITS, Constant::Log2);
+    let Tables { powers, sines, logarithms } = &*TABLES;
     let mut factorial = one.clone();
-    for (n, entry) in INVERSE_FACTORIALS.into_iter().enumerate() {
+    for (n, entry) in INVERSE_FACTORIALS.iter().enumerate() {
         factorial *= n.max(1) as u32;
-        assert_eq!(entry, rounded(&factorial.clone().recip()), "1/{n}!");
+        assert_eq!(*entry, rounded(&factorial.clone().recip()), "1/{n}!");
     }
-    for (n, entry) in (1_u32..).zip(INVERSES) {
-        assert_eq!(entry, rounded(&(one.clone() / n)), "1/{n}");
+    for (n, entry) in (1_u32..).zip(&INVERSES) {
+        assert_eq!(*entry, rounded(&(one.clone() / n)), "1/{n}");
     }
-    for (j, entry) in (0_u32..).zip(POWERS) {
-        assert_eq!(entry, rounded(&(log_2.clone() * j / 32_u32).exp()), "2^({j}/32)");
+    for (j, entry) in (0_u32..).zip(powers) {
+        assert_eq!(*entry, rounded(&(log_2.clone() * j / 32_u32).exp()), "2^({j}/32)");
     }
-    for (j, entry) in (0_u32..).zip(SINES) {
-        assert_eq!(entry, rounded(&(pi() * j / 256_u32).sin()), "sin({j} π/256)");
+    for (j, entry) in (0_u32..).zip(sines) {
+        assert_eq!(*entry, rounded(&(pi() * j / 256_u32).sin()), "sin({j} π/256)");
     }
-    for (i, (c, entry)) in (45_u32..).zip(LOGARITHMS) {
-        assert!((c * f64::from(i) / 64.0 - 1.0).abs() < 0.003 && bits(c) <= 9, "{c}");
-        assert_eq!(entry, rounded(&-Float::with_val(BITS, c).ln()), "−log {c}");
+    for (i, (c, entry)) in (45_u32..).zip(logarithms) {
+        assert!((c * f64::from(i) / 64.0 - 1.0).abs() < 0.003 && bits(*c) <= 9, "{c}");
+        assert_eq!(*entry, rounded(&-Float::with_val(BITS, *c).ln()), "−log {c}");
     }
     assert_eq!(HALF_PI, rounded(&(pi() / 2_u32)));
     let digits = (pi() << 1400_u32).floor().to_integer().unwrap();
