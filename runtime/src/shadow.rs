@@ -69,6 +69,7 @@ mod options;
 mod record;
 pub mod recorded;
 pub mod run;
+mod rules;
 mod settings;
 pub mod weights;
 mod window;
@@ -79,7 +80,8 @@ pub use differences::{SelectionRule, StoppingRule};
 pub use estimator::{BuildEstimator, Estimate, Estimator, EstimatorError};
 pub(crate) use expected_round_off::ExpectedRoundOff;
 pub use monitor::{
-    Advice, Criterion, KINETIC_LIMIT, Missing, Monitor, Report, Rough, Sample, ShadowEnergy, Trend, Verdict,
+    Advice, Criterion, Missing, Monitor, Report, Rough, Sample, ShadowEnergy, Trend, Verdict, WholeRun,
 };
 pub use options::{AccuracyError, EstimatorOptions, HIGHEST_ORDER, OptionConflict, UnknownWord, check_accuracy};
+pub use rules::KINETIC_LIMIT;
 pub use settings::EstimatorSettings;

@@ -14,10 +14,10 @@ use std::mem::take;
 
 use shadowstep::number::saved::{Fields, Saved};
 use shadowstep::shadow::run::{NotFinite, Quantity, RunError};
-use shadowstep::shadow::{Criterion, KINETIC_LIMIT, Missing, Report, Verdict};
+use shadowstep::shadow::{Criterion, Missing, Report, Verdict, WholeRun};
 use shadowstep::steps::integrator::{VectorIntegrator, at_output};
 use shadowstep::systems::system::Visitor;
-use shadowstep::{Carried, Integrator as _, Number, Rational, Real};
+use shadowstep::{Carried, Integrator as _, Number, Real};
 
 pub use self::approaches::{Approach, Interactions};
 pub use self::bodies::Bodies;
@@ -333,7 +333,6 @@ impl<N: RunNumber> Watch<N> {
         let mut energy = self.energy();
         let mut initial = self.energy.initial.clone();
         initial.make_absolute();
-        let [largest, last] = [&self.energy.largest, &self.energy.last].map(N::clone);
         let Watch { observed, from, n, transformed, processed, time, names, .. } = self;
         let Observed { monitors, pass, encounters, bodies, .. } = observed?;
         let Spaced { mut monitor, .. } = monitors.into_iter().next()?;
@@ -345,14 +344,14 @@ impl<N: RunNumber> Watch<N> {
             advice.order = None;
         }
         report.fastest_coordinate = report.fastest_coordinate.filter(|(coordinate, _)| Some(*coordinate) != time);
-        let unresolved = if processed { None } else { judge_by_all(&mut report, self.energy.lasting.range()) };
-        let of_kinetic = [&largest, &last].map(|error| part_of_kinetic(error, &report));
-        let (verdict, reason) = conclusion(&report, of_kinetic, transformed);
+        let [largest, last] = [&self.energy.largest, &self.energy.last].map(|error| part_of_kinetic(error, &report));
+        let range = (!processed).then(|| self.energy.lasting.range());
+        let report = report.of_run(WholeRun { range, largest, last, transformed });
+        let verdict = report.verdict;
         // parts of an H(0) that is round-off say nothing
         if report.windows > 0 && initial <= report.round_off && !verdict.loses_the_energy() {
             (energy.largest_relative, energy.last_relative) = (None, None);
         }
-        let reason = unresolved.unwrap_or(reason);
         let lasting = self.energy.lasting.found().filter(|_| may_have_been_missed(verdict));
         let (encounters, closest) = encounters.found(n);
         // what was measured is not excluded
@@ -374,8 +373,8 @@ impl<N: RunNumber> Watch<N> {
             light: bodies.as_ref().map_or(Vec::new(), Bodies::light),
             bounded: verdict.is_bounded(),
             verdict: verdict.to_string(),
-            conclusion: if verdict == report.verdict { report.conclusion() } else { verdict.to_string() },
-            reason,
+            conclusion: report.conclusion(),
+            reason: report.reason(),
         };
         if let Some(change) = &lasting {
             summary.name_lasting_change(change, report.kinetic.to_f64());
@@ -409,39 +408,6 @@ fn may_have_been_missed(verdict: Verdict) -> bool {
     matches!(verdict, Verdict::Bounded | Verdict::Undecided(Missing::Resolution))
 }
 
-/// Judges what the windows show by max − min of H over all states at which it was computed; a reason where they then
-/// decide nothing.
-fn judge_by_all<N: Real>(report: &mut Report<N>, range: f64) -> Option<String> {
-    if !range.is_finite() || range <= report.energy_error.to_f64() {
-        return None;
-    }
-    let permanent = report.permanent_change.as_ref().map_or(0.0, N::to_f64);
-    match report.verdict {
-        Verdict::RoundOff if ROUND_OFF_FACTOR * report.round_off.to_f64() < range => report.verdict = Verdict::Bounded,
-        Verdict::NotConserved | Verdict::TooLarge(Criterion::Moved) if permanent < PERMANENT_PART * range => {
-            report.verdict = Verdict::Undecided(Missing::Resolution);
-            let kinetic = report.kinetic.to_f64();
-            return Some(format!(
-                "the energy error is {:.1e} of T, of which in {} steps {:.1} % were a permanent change: a longer run may tell",
-                range / kinetic,
-                report.steps,
-                100.0 * permanent / range
-            ));
-        }
-        _ => {}
-    }
-    if matches!(report.verdict, Verdict::Bounded | Verdict::TooLarge(Criterion::EnergyError | Criterion::Lost)) {
-        let error = Rational::from_float(range).expect("a finite range");
-        report.energy_error = N::from_rational(&error, &report.energy_error.context());
-    }
-    None
-}
-
-/// A permanent change is this part of the energy error or more, where it is one at all.
-const PERMANENT_PART: f64 = 0.25;
-/// Round-off may be this many times what is expected, as for the monitor.
-const ROUND_OFF_FACTOR: f64 = 10.0;
-
 /// Whether a cause is to be named: H or the modified energy changes in a way that the scheme does not explain.
 fn changes<N: Real>(report: &Report<N>, verdict: Verdict) -> bool {
     match verdict {
@@ -449,28 +415,6 @@ fn changes<N: Real>(report: &Report<N>, verdict: Verdict) -> bool {
         Verdict::TooLarge(Criterion::NotFinite) => false,
         verdict => !verdict.is_bounded(),
     }
-}
-
-/// The verdict of the monitor with its reason. Of a run that is too short for it, one on the error of H; of one that
-/// loses the energy after the monitor's last window, one on the error at the end.
-fn conclusion<N: Real>(report: &Report<N>, [largest, last]: [f64; 2], transformed: bool) -> (Verdict, String) {
-    let is_large = |part: f64| part.is_finite() && part >= KINETIC_LIMIT;
-    // one with a lost coordinate is a verdict on an energy that is bounded in the windows
-    let is_bounded = report.verdict.is_bounded() || report.verdict == Verdict::TooLarge(Criterion::Lost);
-    let reason = match report.verdict {
-        Verdict::Undecided(Missing::Windows) if is_large(largest) => {
-            format!("the energy error is {largest:.1e} of the mean kinetic energy")
-        }
-        _ if is_bounded && !transformed && is_large(last) => {
-            format!("at the end the energy error is {last:.1e} of the mean kinetic energy before")
-        }
-        // over all states
-        _ if is_bounded && is_large(report.relative_error()) => {
-            format!("the energy error is {:.1e} of the mean kinetic energy", report.relative_error())
-        }
-        verdict => return (verdict, report.reason()),
-    };
-    (Verdict::TooLarge(Criterion::EnergyError), reason)
 }
 
 /// An error of H as a part of the mean T.

@@ -15,7 +15,8 @@
 //! | `rate` | whether the rate is qᵀU_q − 2U |
 //! | `roughness` | whether the forces are smooth |
 //! | `shadow_energy` | the monitor with a stepper of its own: for loops |
-//! | `report`, `verdict`, `text` | the result in numbers, as a verdict, and as text |
+//! | `thresholds`, `evidence`, `whole_run`, `rules` | from numbers to verdicts |
+//! | `report`, `verdict`, `judge`, `text` | the result in numbers, as a verdict, and as text |
 
 mod arithmetic;
 mod blocks;
@@ -23,28 +24,34 @@ mod change;
 mod consistency;
 mod energies;
 mod estimated;
+mod evidence;
 mod fastest;
+mod judge;
 mod kicks;
 mod kinetic;
 mod newest_states;
 mod rate;
 mod report;
 mod roughness;
+mod rules;
 mod schedule;
 mod shadow_energy;
 mod state_view;
 mod statistics;
 mod text;
+mod thresholds;
 mod trend;
 mod turning;
 mod turning_sums;
 mod verdict;
+mod whole_run;
 
 pub use report::Report;
 pub use roughness::Rough;
 pub use shadow_energy::ShadowEnergy;
 pub use trend::Trend;
-pub use verdict::{Advice, Criterion, KINETIC_LIMIT, Missing, Verdict};
+pub use verdict::{Advice, Criterion, Missing, Verdict};
+pub use whole_run::WholeRun;
 
 use self::blocks::Blocks;
 use self::energies::Energies;

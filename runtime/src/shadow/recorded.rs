@@ -22,7 +22,8 @@
 //! | `work` | what differences of the states from the steps do to the energy |
 //! | `changes` | how the modified energy changes from state to state |
 //! | `diagnosis` | the numbers that show what moves the energy |
-//! | `cause`, `judge`, `text`, `units` | what moves the energy, the thresholds, as text, in the units of a program |
+//! | `thresholds`, `judge`, `rules` | from these numbers to what moves the energy |
+//! | `cause`, `text`, `units` | what moves the energy, as text, in the units of a program |
 //! | `error` | what a log cannot be used for |
 
 mod cause;
@@ -36,9 +37,11 @@ mod misfit;
 mod observer;
 mod repeated;
 mod roughness;
+mod rules;
 mod source;
 mod steps;
 mod text;
+mod thresholds;
 mod units;
 mod unwrap;
 mod value;

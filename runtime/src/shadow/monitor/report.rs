@@ -1,21 +1,13 @@
 //! The report of a monitor in numbers.
 
-use std::f64::consts::TAU;
-
-use num_traits::Signed;
-
-use super::Monitor;
-use super::arithmetic::{difference, integer, quotient, root};
-use super::change::Change;
-use super::estimated::Estimated;
+use super::arithmetic::quotient;
 use super::roughness::Rough;
-use super::statistics::{ERROR_FACTOR, Range};
-use super::trend::{Trend, TrendRatio, trend_ratio};
-use super::turning::Turning;
-use super::verdict::{Advice, Evidence, Missing, Verdict};
+use super::trend::Trend;
+use super::verdict::{Advice, Verdict};
+use super::whole_run::WholeRun;
 use crate::Rational;
 use crate::number::Real;
-use crate::shadow::Estimator;
+use crate::shadow::rules::ERROR_FACTOR;
 
 /// The energies of a run.
 ///
@@ -113,157 +105,13 @@ pub struct Report<N> {
     pub not_finite: Option<u64>,
     /// The conclusion about the step size.
     pub verdict: Verdict,
-}
-
-/// What the energy shows is slower by this factor than a coordinate that has no part in it.
-const SLOWER: f64 = 10.0;
-
-impl<N: Real, E: Estimator<N>> Monitor<N, E> {
-    /// The report on the run so far.
-    pub fn report(&self) -> Report<N> {
-        let (statistics, context) = (&self.statistics, self.method.context());
-        let (all, accurate) = (self.blocks.best(), self.blocks.accurate());
-        let newest = &self.newest.modified.value;
-        let (first, last) =
-            (accurate.first().map_or(newest, |first| &first.value), accurate.last().map_or(newest, |last| &last.value));
-        let mut values = Range::of(first);
-        accurate.iter().for_each(|accurate| values.include(&accurate.value));
-        let known = |error: N| self.newest.has_error.then_some(error);
-        let range = values.width();
-        let kick = root(&self.newest_states.mean_square_kick());
-        let mut round_off: N = root(&integer(self.n, &context));
-        round_off.multiply(&kick);
-        let mut time: N = integer(self.n, &context);
-        time.multiply(&N::from_rational(&self.h.exact().abs(), &context));
-        let turning = self.newest_states.turning();
-        let trend_ratio = trend_ratio(&accurate, &range);
-        let [method_rms, method_resolution] = statistics.method_rms();
-        let mut report = Report {
-            steps: self.n,
-            time,
-            windows: statistics.windows,
-            energy_error: statistics.energy.width(),
-            kinetic: self.kinetic.mean(),
-            method_least: statistics.method.least.clone(),
-            method_largest: statistics.method.largest.clone(),
-            method_rms,
-            method_resolution,
-            modified: last.clone(),
-            change: difference(last, first),
-            trend: trend_ratio.map(TrendRatio::trend),
-            range,
-            moved: statistics.moved(),
-            permanent_bound: None,
-            permanent_change: None,
-            rough: self.newest_states.rough(),
-            advice: None,
-            resolution: known(largest_error(accurate.iter().copied(), &context)),
-            worst_error: known(largest_error(all, &context)),
-            kick,
-            round_off,
-            steps_per_turn: turning.map(Turning::steps),
-            coordinate_names: Vec::new(),
-            fastest_coordinate: self.fastest.found().map(|(i, turning)| (i, turning.steps())),
-            lost_coordinate: self.lost(turning),
-            irregular: turning.map(|turning| turning.irregular),
-            mismatches: self.newest_states.mismatches(),
-            wrong_rates: self.rate.wrong,
-            not_finite: self.not_finite,
-            verdict: Verdict::Undecided(Missing::Windows),
-        };
-        self.judge(&mut report, turning, trend_ratio);
-        report
-    }
-
-    /// A coordinate that is lost, if the energy shows much slower motions only.
-    fn lost(&self, turning: Option<Turning>) -> Option<(usize, f64)> {
-        let shown = turning.map_or(f64::INFINITY, Turning::steps);
-        self.fastest.lost().map(|(i, angle)| (i, TAU / angle)).filter(|(_, steps)| SLOWER * steps <= shown)
-    }
-
-    /// What a net change is excluded above by estimates: the range of the accurate ones and of those of the first and
-    /// the last part of the run, and three times the largest error of these.
-    fn excluded(&self) -> N {
-        let (mut best, mut accurate) = (self.blocks.best(), self.blocks.accurate());
-        accurate.extend(best.next().into_iter().chain(best.last()));
-        let mut values = Range::of(accurate.first().map_or(&self.newest.modified.value, |first| &first.value));
-        accurate.iter().for_each(|estimate| values.include(&estimate.value));
-        let mut error = largest_error(accurate.iter().copied(), &self.method.context());
-        error.multiply_integer(ERROR_FACTOR);
-        error.add(&values.width());
-        error
-    }
-
-    fn judge(&self, report: &mut Report<N>, turning: Option<Turning>, trend_ratio: Option<TrendRatio>) {
-        let [energy_change, modified_change] =
-            self.blocks.means(&report.energy_error).map(|means| Change::of(&means, self.blocks.size()));
-        let evidence = Evidence {
-            straight: trend_ratio.is_some_and(TrendRatio::is_straight),
-            turning,
-            moves: self.newest_states.moves(),
-            energy_change,
-            modified_change,
-            action: self.newest_states.action(self.h.exact()),
-            distance: self.statistics.distance_of_error(),
-            last_term: quotient(&self.newest_states.last_term(), &self.statistics.error_rms()).to_f64(),
-            error_rms: report.part(&self.statistics.error_rms()),
-            excluded: report.part(&self.excluded()),
-            ..report.evidence()
-        };
-        report.verdict = evidence.verdict();
-        report.permanent_bound = evidence.bound().map(|part| report.of_energy_error(part));
-        report.permanent_change = evidence.permanent_move().map(|part| report.of_energy_error(part));
-        if matches!(report.verdict, Verdict::NotTheGradient | Verdict::Inconsistent) {
-            report.rough = None;
-        }
-        report.advice = evidence.advice(self.newest.order);
-    }
-}
-
-fn largest_error<'a, N: Real + 'a>(estimates: impl Iterator<Item = &'a Estimated<N>>, context: &N::Context) -> N {
-    let mut largest = N::zero(context);
-    for Estimated { error, .. } in estimates {
-        if *error > largest {
-            largest.assign(error);
-        }
-    }
-    largest
+    /// Its sentence, with names for numbers.
+    pub(super) sentence: &'static str,
+    /// What H of all states shows, if a run was followed.
+    pub(super) run: Option<WholeRun>,
 }
 
 impl<N: Real> Report<N> {
-    pub(super) fn evidence(&self) -> Evidence {
-        let numbers = [&self.energy_error, &self.kinetic, &self.method_rms, &self.kick];
-        Evidence {
-            moved: self.part(&self.moved),
-            worst_error: self.worst_error.as_ref().map_or(0.0, |error| self.part(error)),
-            kick: self.part(&self.kick),
-            round_off: self.part(&self.round_off),
-            offset: self.part(&self.offset()),
-            of_kinetic: self.relative_error(),
-            turning: None,
-            turns: self.steps_per_turn.map_or(0.0, |turn| self.steps as f64 / turn),
-            fastest_angle: self.fastest_coordinate.map(|(_, steps)| TAU / steps),
-            lost: self.lost_coordinate.is_some(),
-            straight: false,
-            resolution: self.resolution.as_ref().map_or(0.0, |resolution| self.part(resolution)),
-            excluded: f64::NAN,
-            trend: self.trend,
-            energy_change: None,
-            modified_change: None,
-            action: f64::NAN,
-            distance: f64::NAN,
-            last_term: f64::NAN,
-            error_rms: f64::NAN,
-            rough: self.rough.is_some(),
-            has_errors: self.worst_error.is_some(),
-            moves: true,
-            mismatches: self.mismatches > 0,
-            wrong_rate: self.wrong_rates > 0,
-            finite: self.not_finite.is_none() && numbers.into_iter().all(N::is_finite),
-            windows: self.windows,
-        }
-    }
-
     /// The root mean square of H − H̄, and its least and largest value; `None` where they are no more than the errors
     /// of H̄: where H̄ is known less well than H − H̄, or less well than H changes while H − H̄ is not three times its
     /// error.
@@ -293,7 +141,7 @@ impl<N: Real> Report<N> {
         quotient(energy, &self.energy_error).to_f64()
     }
 
-    fn of_energy_error(&self, part: f64) -> N {
+    pub(super) fn of_energy_error(&self, part: f64) -> N {
         let context = self.kinetic.context();
         let mut energy =
             Rational::from_float(part).map_or_else(|| N::zero(&context), |part| N::from_rational(&part, &context));

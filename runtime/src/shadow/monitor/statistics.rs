@@ -4,9 +4,7 @@ use super::arithmetic::{difference, integer, quotient, root};
 use super::estimated::Estimated;
 use crate::number::Real;
 use crate::number::saved::Fields;
-
-/// An estimate may be wrong by this many times its error.
-pub(super) const ERROR_FACTOR: i32 = 3;
+use crate::shadow::rules::ERROR_FACTOR;
 
 /// The least and the largest number so far.
 #[derive(Clone, Debug)]

@@ -4,12 +4,12 @@ use std::fmt;
 
 use super::report::Report;
 use super::roughness::Rough;
+use super::thresholds::{FEW_STEPS, PERMANENT_LIMIT};
 use super::trend::Trend;
-use super::verdict::{Advice, Criterion, Missing, PERMANENT_LIMIT, Verdict};
+use super::verdict::Verdict;
+use super::whole_run::WholeRun;
 use crate::number::Real;
-
-/// A coordinate that turns once in fewer steps is hardly resolved.
-const FEW_STEPS: f64 = 10.0;
+use crate::shadow::rules::filled;
 
 impl<N: Real> Report<N> {
     /// An energy as a part of the energy error; its value where that is 0.
@@ -57,55 +57,88 @@ impl<N: Real> Report<N> {
 
     /// The reason for the verdict, a sentence with numbers.
     pub fn reason(&self) -> String {
-        let steps = self.steps;
-        let moved = format!("the modified energy moved by {} in {steps} steps", self.in_parts(&self.moved));
-        let check = "compare gradient, energy and rate (in Rust with check_potential)";
-        match self.verdict {
-            Verdict::Undecided(Missing::Windows) => {
-                format!("a verdict needs {} windows, and there are {}", Verdict::LEAST_WINDOWS, self.windows)
+        filled(self.sentence, |name| self.named(name))
+    }
+
+    /// What a name in the sentence of a rule stands for.
+    fn named(&self, name: &str) -> String {
+        let run = self.run.unwrap_or(WholeRun::NOTHING);
+        let range = run.range.unwrap_or(f64::NAN);
+        match name {
+            "steps" => self.steps.to_string(),
+            "windows" => self.windows.to_string(),
+            "least windows" => Verdict::LEAST_WINDOWS.to_string(),
+            "mismatches" => self.mismatches.to_string(),
+            "wrong rates" => self.wrong_rates.to_string(),
+            "size" => self.size(),
+            "energy error" => short(&self.energy_error),
+            "method" => short(&self.method_rms),
+            "move" => short(&self.moved),
+            "moved" => format!("the modified energy moved by {} in {} steps", self.in_parts(&self.moved), self.steps),
+            "change" => short(&self.change),
+            "expected" => short(&self.round_off),
+            "round-off" => self.in_parts(&self.round_off),
+            "turn" => format!("{:.3}", self.steps_per_turn.unwrap_or_default()),
+            "permanent" => self.permanent(),
+            "resolved" => self.resolved_coordinate(),
+            "bounded" => self.why_bounded(),
+            "too large" => self.why_too_large(),
+            "permanent change" => self.permanent_change.as_ref().map_or(String::new(), |change| self.in_parts(change)),
+            "turns" => self
+                .steps_per_turn
+                .map_or(String::new(), |steps| format!("the fastest motion turns once in {steps:.0} steps, ")),
+            "known" => match &self.worst_error {
+                Some(error) => format!("H̄ is known to within {} where it is known least", self.in_parts(error)),
+                None => "the errors of H̄ are not known".to_owned(),
+            },
+            "bound" => match &self.permanent_bound {
+                Some(bound) => format!("a net change above {}", self.in_parts(bound)),
+                None => "no change".to_owned(),
+            },
+            "length" => self.advice.map_or(0, |advice| advice.length).to_string(),
+            "estimator" => self
+                .advice
+                .and_then(|advice| advice.order)
+                .map_or(String::new(), |order| format!(", or the estimator E_{order} or D_{order}")),
+            "largest of all" => format!("{:.1e}", run.largest),
+            "last of all" => format!("{:.1e}", run.last),
+            "range of all" => format!("{:.1e}", range / self.kinetic.to_f64()),
+            "permanent of all" => {
+                format!("{:.1}", 100.0 * self.permanent_change.as_ref().map_or(0.0, N::to_f64) / range)
             }
-            Verdict::Undecided(Missing::Resolution) => self.what_would_decide(),
-            Verdict::Inconsistent => self.why_inconsistent(),
-            Verdict::RoundOff => format!(
-                "{moved}, and round-off makes {}: for this energy a larger step size is sufficient{}, or more digits \
-                    are needed",
-                self.in_parts(&self.round_off),
-                self.resolved_coordinate()
-            ),
-            Verdict::NearResonance { turns, steps } => format!(
-                "{moved}, and the fastest motion turns once in {:.3} steps, near {turns}/{steps} turns a step: \
-                 use another step size",
-                self.steps_per_turn.unwrap_or_default()
-            ),
-            Verdict::Drifts => format!(
-                "{moved}, linearly in time: by {} in all, where round-off makes {}. The scheme conserves it, so the \
-                 cause is a force that is not −U_q, a state that is changed between the steps, or a resonance; {check}",
-                short(&self.change),
-                short(&self.round_off)
-            ),
-            Verdict::NotTheGradient => format!(
-                "the modified energy changes from state to state as the energy does, which no scheme does: the forces \
-                 are not its gradient, or something else acts; {check}"
-            ),
-            Verdict::NotSmooth => self.why_not_smooth(),
-            Verdict::NotConserved => format!(
-                "{}, and {moved}, permanently, where round-off makes {}: the error grows with the length of the run. \
-                 A smaller step resolves encounters better; forces that are not smooth, or something other than the \
-                 scheme, have such effects, too",
-                self.size(),
-                self.in_parts(&self.round_off)
-            ),
-            Verdict::TooLarge(criterion) => self.why_too_large(criterion, &moved),
-            Verdict::Bounded if self.has_no_energy_error() => {
-                format!("the energy is the same in all windows of {steps} steps")
-            }
-            Verdict::Bounded => format!(
-                "{}; in {steps} steps {}{}{}",
-                self.size(),
-                self.permanent(),
-                self.unresolved(),
-                self.light_coordinate()
-            ),
+            "resonance" => match self.verdict {
+                Verdict::NearResonance { turns, steps } => format!("{turns}/{steps}"),
+                _ => String::new(),
+            },
+            "lost" => self
+                .lost_coordinate
+                .map_or(String::new(), |(i, steps)| format!("{} turned once in {steps:.1} steps", self.coordinate(i))),
+            "not finite" => match self.not_finite {
+                Some(n) => format!("a state or its energy is not finite from step {n} on"),
+                None => "the energies overflow".to_owned(),
+            },
+            other => unreachable!("a sentence with {other}"),
+        }
+    }
+
+    fn why_bounded(&self) -> String {
+        if self.has_no_energy_error() {
+            return format!("the energy is the same in all windows of {} steps", self.steps);
+        }
+        format!(
+            "{}; in {} steps {}{}{}",
+            self.size(),
+            self.steps,
+            self.permanent(),
+            self.unresolved(),
+            self.light_coordinate()
+        )
+    }
+
+    fn why_too_large(&self) -> String {
+        match self.relative_error() {
+            part if part.is_finite() => format!("the energy error is {part:.1e} of the mean kinetic energy"),
+            _ => "the mean kinetic energy is 0 while the positions change: half a turn a step, or more".to_owned(),
         }
     }
 
@@ -145,100 +178,6 @@ impl<N: Real> Report<N> {
                 ". H̄ ranges over more than that, but this estimator gives no errors".to_owned()
             }
             _ => String::new(),
-        }
-    }
-
-    fn what_would_decide(&self) -> String {
-        let Some(Advice { length, order }) = self.advice else { return "not decided".to_owned() };
-        if let Some(change) = &self.permanent_change {
-            let turns = self
-                .steps_per_turn
-                .map_or(String::new(), |steps| format!("the fastest motion turns once in {steps:.0} steps, "));
-            return format!(
-                "{}, of which in {} steps {} were a permanent change; {turns}and the cause may be the step size, \
-                 forces that are not smooth, or something other than the scheme that changed the state: a longer run, \
-                 and windows of 17 states or more, would tell",
-                self.size(),
-                self.steps,
-                self.in_parts(change),
-            );
-        }
-        let resolved = match &self.worst_error {
-            Some(error) => format!("H̄ is known to within {} where it is known least", self.in_parts(error)),
-            None => "the errors of H̄ are not known".to_owned(),
-        };
-        let bound = self
-            .permanent_bound
-            .as_ref()
-            .map_or("no change".to_owned(), |bound| format!("a net change above {}", self.in_parts(bound)));
-        let estimator = order.map_or(String::new(), |order| format!(", or the estimator E_{order} or D_{order}"));
-        format!(
-            "{}, but {resolved}, and {bound} is excluded: a run {length} times as long may tell, or a \
-             smaller step{estimator}",
-            self.size()
-        )
-    }
-
-    fn why_not_smooth(&self) -> String {
-        format!(
-            "{}, most of it from forces that are not smooth; in {} steps {}",
-            self.size(),
-            self.steps,
-            self.permanent()
-        )
-    }
-
-    fn why_inconsistent(&self) -> String {
-        if self.mismatches > 0 {
-            return format!(
-                "in {} of {} windows the states differ from the increments of the steps: plain steps were made where \
-                 needs_increments() is true, or q or p were changed between the steps",
-                self.mismatches, self.windows
-            );
-        }
-        if self.wrong_rates > 0 {
-            return format!(
-                "in {} windows the rate is not qᵀU_q − 2U: compare them (in Rust with check_potential). A virial by \
-                    nearest images is not qᵀU_q",
-                self.wrong_rates
-            );
-        }
-        format!(
-            "the states do not belong to the increments, or the rate is not qᵀU_q − 2U (compare them, in Rust with \
-             check_potential): H − H̄ is {} rms, and H̄ moved by {}, too much beside an energy error of {}",
-            short(&self.method_rms),
-            short(&self.moved),
-            short(&self.energy_error)
-        )
-    }
-
-    fn why_too_large(&self, criterion: Criterion, moved: &str) -> String {
-        // a wrapped angle or a changed momentum changes H̄, too
-        let other = "or something other than the scheme that changed the state";
-        match criterion {
-            Criterion::Moved => format!(
-                "{moved}, permanently, where round-off makes {}: no modified energy is conserved. Forces that are not smooth, \
-                 {other}, have such effects, too",
-                self.in_parts(&self.round_off)
-            ),
-            Criterion::EnergyError if self.relative_error().is_finite() => {
-                format!("the energy error is {:.1e} of the mean kinetic energy", self.relative_error())
-            }
-            Criterion::EnergyError => {
-                "the mean kinetic energy is 0 while the positions change: half a turn a step, or more".to_owned()
-            }
-            Criterion::Lost => {
-                let (i, steps) = self.lost_coordinate.expect("the verdict follows from it");
-                format!(
-                    "{} turned once in {steps:.1} steps at the start, and no longer does: the steps do not resolve \
-                     it, however little of the energy it has",
-                    self.coordinate(i)
-                )
-            }
-            Criterion::NotFinite => match self.not_finite {
-                Some(n) => format!("a state or its energy is not finite from step {n} on: the steps diverge"),
-                None => "the energies overflow: the steps diverge".to_owned(),
-            },
         }
     }
 }

@@ -84,18 +84,23 @@ pub enum Cause {
 impl Cause {
     /// Its name in results.
     pub fn name(self) -> &'static str {
+        self.words().0
+    }
+
+    /// Its name, and what it says.
+    pub(super) fn words(self) -> (&'static str, &'static str) {
         match self {
-            Cause::OtherSteps => "other-steps",
-            Cause::Nothing => "nothing",
-            Cause::Digits => "digits",
-            Cause::NoisyEnergy { .. } => "noisy-energy",
-            Cause::Jumps { .. } => "jumps",
-            Cause::NotTheGradient => "not-the-gradient",
-            Cause::EnergyNotSmooth { .. } => "energy-not-smooth",
-            Cause::Noise { .. } => "noise",
-            Cause::ForcesNotSmooth => "forces-not-smooth",
-            Cause::TimeStep => "time-step",
-            Cause::Undecided => "undecided",
+            Cause::OtherSteps => ("other-steps", "other steps"),
+            Cause::Nothing => ("nothing", "nothing moves the energy"),
+            Cause::Digits => ("digits", "too few digits"),
+            Cause::NoisyEnergy { .. } => ("noisy-energy", "noise of the logged U"),
+            Cause::Jumps { .. } => ("jumps", "jumps"),
+            Cause::NotTheGradient => ("not-the-gradient", "not the gradient"),
+            Cause::EnergyNotSmooth { .. } => ("energy-not-smooth", "the energy is not smooth"),
+            Cause::Noise { .. } => ("noise", "noise of the forces"),
+            Cause::ForcesNotSmooth => ("forces-not-smooth", "the forces are not smooth"),
+            Cause::TimeStep => ("time-step", "the time step"),
+            Cause::Undecided => ("undecided", "not decided"),
         }
     }
 

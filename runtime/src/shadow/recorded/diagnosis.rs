@@ -1,16 +1,11 @@
 //! The numbers that show what moves the energy of a recorded trajectory.
 
 use super::cause::Cause;
-use super::changes::{Changes, Jump, median};
+use super::changes::Jump;
 use super::misfit::Differences;
-use super::roughness::{Roughness, Smoothness};
+use super::roughness::Smoothness;
 use super::units::Units;
-use super::value::Value;
 use super::window::Window;
-use super::work::Work;
-
-/// An estimate may be wrong by this many times its error.
-const ERROR_FACTOR: f64 = 3.0;
 
 /// What moves the energy of a trajectory that another program has computed.
 ///
@@ -78,70 +73,6 @@ pub struct Diagnosis {
     /// What moves the energy.
     pub cause: Cause,
     pub(super) units: Units,
-}
-
-/// What a diagnosis is made of.
-pub(super) struct Evidence<'a> {
-    pub(super) window: Window,
-    pub(super) h: f64,
-    pub(super) values: &'a [Value],
-    /// T of all states.
-    pub(super) kinetic: &'a [f64],
-    pub(super) changes: &'a Changes,
-    pub(super) forces: &'a Roughness,
-    /// Of U.
-    pub(super) energy: &'a Roughness,
-    pub(super) differences: Option<[Differences; 2]>,
-    pub(super) work: &'a Work,
-    pub(super) reordered: Option<i64>,
-}
-
-impl Diagnosis {
-    /// Without its cause.
-    pub(super) fn of(evidence: &Evidence<'_>) -> Diagnosis {
-        let Evidence { window, h, values, kinetic, changes, forces, energy, differences, work, reordered } = *evidence;
-        let largest = |of: &dyn Fn(&Value) -> f64| values.iter().map(of).fold(f64::NEG_INFINITY, f64::max);
-        let width = |of: &dyn Fn(&Value) -> f64| largest(of) + largest(&|value| -of(value));
-        // the error of seventeen states contains it
-        let scatter = if window == Window::Nine { changes.scatter() } else { 0.0 };
-        let error = |value: &Value| value.error.hypot(scatter);
-        // an error of seventeen states is a range of what scatters
-        let known_to = |value: &Value| value.error.hypot(ERROR_FACTOR * scatter);
-        let beyond = |sign: f64| largest(&|value| sign * value.modified - ERROR_FACTOR * error(value));
-        let (first, last) = (values.first(), values.last());
-        let modified = |value: Option<&Value>| value.map_or(f64::NAN, |value| value.modified);
-        let smoothness = forces.found();
-        let square = changes.square_in_a_step();
-        let steps = last.zip(first).map_or(0, |(last, first)| last.n.abs_diff(first.n));
-        Diagnosis {
-            window,
-            states: kinetic.len() as u64,
-            estimates: values.len(),
-            kinetic: kinetic.iter().sum::<f64>() / kinetic.len().max(1) as f64,
-            usual_kinetic: median(kinetic.to_vec()),
-            energy_error: width(&|value| value.energy),
-            method_error: width(&|value| value.energy - value.modified),
-            first: modified(first),
-            change: modified(last) - modified(first),
-            range: width(&|value| value.modified),
-            moved: (beyond(1.0) + beyond(-1.0)).max(0.0),
-            known_to: median(values.iter().map(known_to).collect()),
-            time: h.abs() * steps as f64,
-            smoothness,
-            energy_smoothness: energy.found(),
-            in_a_step: square.sqrt(),
-            growth: changes.growth(),
-            excess: smoothness.map(|_| square / (h * h * forces.power())),
-            isolation: changes.isolation(),
-            jumps: changes.jumps(),
-            differences,
-            work: work.range(steps),
-            work_in_a_step: work.in_a_step(),
-            reordered,
-            cause: Cause::Undecided,
-            units: Units::default(),
-        }
-    }
 }
 
 impl Diagnosis {

@@ -1,13 +1,16 @@
 //! Follows a trajectory while another program computes it.
 
-use super::changes::{Changes, K};
-use super::diagnosis::{Diagnosis, Evidence};
+use super::cause::Cause;
+use super::changes::{Changes, K, median};
+use super::diagnosis::Diagnosis;
 use super::error::RecordedError;
 use super::log::Logged;
 use super::roughness::Roughness;
 use super::steps::LoggedSteps;
+use super::units::Units;
 use super::value::Value;
 use super::window::Window;
+use crate::shadow::rules::ERROR_FACTOR;
 use crate::shadow::run::{Quantity, check_value};
 use crate::shadow::{Bilinear, BilinearEstimator, BuildEstimator, Estimator};
 use crate::steps::step_size::StepSize;
@@ -193,18 +196,49 @@ impl Observer {
 
     /// What moves the energy, as far as the states so far show.
     pub fn diagnosis(&self) -> Diagnosis {
-        Diagnosis::of(&Evidence {
+        let Observer { values, kinetic, changes, .. } = self;
+        let largest = |of: &dyn Fn(&Value) -> f64| values.iter().map(of).fold(f64::NEG_INFINITY, f64::max);
+        let width = |of: &dyn Fn(&Value) -> f64| largest(of) + largest(&|value| -of(value));
+        let factor = f64::from(ERROR_FACTOR);
+        // the error of seventeen states contains it
+        let scatter = if self.window == Window::Nine { changes.scatter() } else { 0.0 };
+        let error = |value: &Value| value.error.hypot(scatter);
+        // an error of seventeen states is a range of what scatters
+        let known_to = |value: &Value| value.error.hypot(factor * scatter);
+        let beyond = |sign: f64| largest(&|value| sign * value.modified - factor * error(value));
+        let (first, last) = (values.first(), values.last());
+        let modified = |value: Option<&Value>| value.map_or(f64::NAN, |value| value.modified);
+        let smoothness = self.forces.found();
+        let square = changes.square_in_a_step();
+        let steps = last.zip(first).map_or(0, |(last, first)| last.n.abs_diff(first.n));
+        Diagnosis {
             window: self.window,
-            h: self.h,
-            values: &self.values,
-            kinetic: &self.kinetic,
-            changes: &self.changes,
-            forces: &self.forces,
-            energy: &self.energy,
+            states: kinetic.len() as u64,
+            estimates: values.len(),
+            kinetic: kinetic.iter().sum::<f64>() / kinetic.len().max(1) as f64,
+            usual_kinetic: median(kinetic.to_vec()),
+            energy_error: width(&|value| value.energy),
+            method_error: width(&|value| value.energy - value.modified),
+            first: modified(first),
+            change: modified(last) - modified(first),
+            range: width(&|value| value.modified),
+            moved: (beyond(1.0) + beyond(-1.0)).max(0.0),
+            known_to: median(values.iter().map(known_to).collect()),
+            time: self.h.abs() * steps as f64,
+            smoothness,
+            energy_smoothness: self.energy.found(),
+            in_a_step: square.sqrt(),
+            growth: changes.growth(),
+            excess: smoothness.map(|_| square / (self.h * self.h * self.forces.power())),
+            isolation: changes.isolation(),
+            jumps: changes.jumps(),
             differences: self.steps.differences(),
-            work: self.steps.work(),
+            work: self.steps.work().range(steps),
+            work_in_a_step: self.steps.work().in_a_step(),
             reordered: self.steps.reordered(),
-        })
+            cause: Cause::Undecided,
+            units: Units::default(),
+        }
         .judged()
     }
 }

@@ -5,95 +5,41 @@ use std::fmt;
 use super::cause::Cause;
 use super::changes::Jump;
 use super::diagnosis::Diagnosis;
-use super::judge::LEAST_ESTIMATES;
 use super::misfit::Differences;
 use super::roughness::Smoothness;
+use super::thresholds::LEAST_ESTIMATES;
+use crate::shadow::rules::filled;
 
 impl Diagnosis {
     /// The cause with its size, a sentence.
     pub fn reason(&self) -> String {
-        let moved = self.moved();
-        match self.cause {
-            Cause::Undecided => self.why_undecided(),
-            Cause::OtherSteps => other_steps(self.reordered, self.differences),
-            Cause::Nothing => {
-                format!("the modified energy is conserved: it is known to {:.1e}, and {moved}", self.known_to)
-            }
-            Cause::Digits => format!(
-                "the modified energy is known to {:.1e} only, as the states are stored with few digits: q to {:.1e} \
-                    of itself",
-                self.known_to,
-                self.differences.map_or(f64::NAN, |[of_q, _]| of_q.of_numbers / 2_f64.sqrt())
-            ),
-            Cause::NoisyEnergy { size } => format!(
-                "the modified energy is known to {:.1e} only, as the logged U has errors of {size:.1e} rms that are \
-                 independent from state to state; the states do not show that anything moves the energy",
-                self.known_to
-            ),
-            Cause::Jumps { size } => {
-                format!("{moved}: it jumps {}, by {size:.2e} rms. {}", self.where_it_jumps(), LATE)
-            }
-            Cause::NotTheGradient => format!("{moved}: the forces are smooth, and are not −U_q of the logged U"),
-            Cause::EnergyNotSmooth { size } => {
-                format!("{moved}: U jumps all the time, by {size:.2e} rms in a step, as where a potential is truncated")
-            }
-            Cause::Noise { size } => format!(
-                "{moved}: the forces have errors that are independent from step to step, of {size:.2e} rms in each \
-                    component, {:.1e} of the forces",
-                size / self.smoothness.map_or(f64::NAN, |smoothness| smoothness.size)
-            ),
-            Cause::ForcesNotSmooth => format!("{moved}: the forces are not smooth, as at a cutoff"),
-            Cause::TimeStep if self.is_too_large_a_step() => format!(
-                "the time step is too large: H − H̄, the method's part of the energy error, ranges over {:.2e}, \
-                    {:.1e} of T",
-                self.method_error,
-                self.method_error / self.kinetic
-            ),
-            Cause::TimeStep => format!("{moved}: the forces are smooth, and the time step is too large for them"),
-        }
+        filled(self.decision().1, |name| self.named(name))
     }
 
-    fn why_undecided(&self) -> String {
-        if self.estimates < LEAST_ESTIMATES {
-            return format!(
-                "not decided: there are {} estimates, and {LEAST_ESTIMATES} are needed: log more states",
-                self.estimates
-            );
+    /// What a name in the sentence of a rule stands for.
+    pub(super) fn named(&self, name: &str) -> String {
+        let size = self.cause.size().unwrap_or(f64::NAN);
+        match name {
+            "estimates" => self.estimates.to_string(),
+            "least estimates" => LEAST_ESTIMATES.to_string(),
+            "method" => format!("{:.2e}", self.method_error),
+            "method in T" => format!("{:.1e}", self.method_error / self.kinetic),
+            "known" => format!("{:.1e}", self.known_to),
+            "moved" => self.moved(),
+            "digits" => {
+                let of_q = self.differences.map_or(f64::NAN, |[of_q, _]| of_q.of_numbers);
+                format!("{:.1e}", of_q / 2_f64.sqrt())
+            }
+            "short size" => format!("{size:.1e}"),
+            "size" => format!("{size:.2e}"),
+            "part of forces" => {
+                format!("{:.1e}", size / self.smoothness.map_or(f64::NAN, |smoothness| smoothness.size))
+            }
+            "places" => self.where_it_jumps(),
+            "other steps" => other_steps(self.reordered, self.differences),
+            "undecided" => filled(self.why_undecided(), |name| self.named(name)),
+            other => unreachable!("a sentence with {other}"),
         }
-        let Some(excess) = self.excess else {
-            return "not decided: no forces are logged".to_owned();
-        };
-        let moved = self.moved();
-        let (undecided, next) = if self.may_cancel() {
-            (
-                "to and fro, or with steps that do not resolve the motion; estimates are means over nine states, in \
-                 which what U jumps by, or forces that are not −U_q, may cancel"
-                    .to_owned(),
-                "steps of half the size tell whether anything does",
-            )
-        } else if self.has_large_jumps() {
-            (
-                format!("it jumps {}, by as much as the kinetic energy", self.where_it_jumps()),
-                "look at these states: steps that are too large there do that, or a state that is changed",
-            )
-        } else if excess > 1.0 {
-            ("by more than errors of the forces explain: U jumps, or the forces are not −U_q".to_owned(), SMALLER)
-        } else if self.is_independent() {
-            (
-                "independently from step to step: the forces have errors, or are not smooth, or the steps are too \
-                large"
-                    .to_owned(),
-                SMALLER,
-            )
-        } else if !self.is_resolved() {
-            ("with steps that do not resolve the motion: that moves it, or hides what does".to_owned(), SMALLER)
-        } else {
-            (
-                format!("and the estimates have errors of {:.1e}", self.known_to),
-                "more states, or steps of half the size, may decide it",
-            )
-        };
-        format!("not decided: {moved}, {undecided}; {next}")
     }
 
     fn moved(&self) -> String {
@@ -129,12 +75,6 @@ pub(super) fn other_steps(reordered: Option<i64>, differences: Option<[Differenc
          at half steps"
     )
 }
-
-/// What tells causes apart that large steps hide.
-const SMALLER: &str = "steps of half the size tell these apart";
-
-/// What makes such jumps.
-const LATE: &str = "A list of neighbours that is renewed too late does that, or a state that is changed";
 
 impl fmt::Display for Diagnosis {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -191,18 +131,6 @@ impl fmt::Display for Diagnosis {
 
 impl fmt::Display for Cause {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Cause::OtherSteps => "other steps",
-            Cause::Nothing => "nothing moves the energy",
-            Cause::Digits => "too few digits",
-            Cause::NoisyEnergy { .. } => "noise of the logged U",
-            Cause::Jumps { .. } => "jumps",
-            Cause::NotTheGradient => "not the gradient",
-            Cause::EnergyNotSmooth { .. } => "the energy is not smooth",
-            Cause::Noise { .. } => "noise of the forces",
-            Cause::ForcesNotSmooth => "the forces are not smooth",
-            Cause::TimeStep => "the time step",
-            Cause::Undecided => "not decided",
-        })
+        f.write_str(self.words().1)
     }
 }
