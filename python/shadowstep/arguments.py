@@ -20,8 +20,8 @@ from ._shadowstep import InputError
 from .border import WrongType
 
 
-def check(function: Callable[..., Any], given: Mapping[str, Any]) -> None:
-    """Refuses values of other types than the annotations of a function have; what is given to it is ``locals()`` at its beginning.
+def check(function: Callable[..., Any], given: Mapping[str, Any]) -> dict[str, Any]:
+    """Refuses values of other types than the annotations of a function have; what is given to it, which is returned, is ``locals()`` at its beginning.
 
     Raises
     ------
@@ -30,6 +30,7 @@ def check(function: Callable[..., Any], given: Mapping[str, Any]) -> None:
     """
     for name, kinds in _kinds_of(function).items():
         refuse_other(given[name], kinds, name)
+    return dict(given)
 
 
 def refuse_other(value: Any, kinds: tuple[Any, ...], name: str) -> None:

@@ -35,7 +35,7 @@ def ordinary(function: Callable[..., Any]) -> Callable[..., Any]:
             if not notes:
                 raise
             argument = notes[0].removeprefix(_PROCESSING).strip("'")
-            if argument == "run" and error.__cause__ is not None:  # a field of it
+            if argument in ("run", "wanted", "comparison") and error.__cause__ is not None:  # a field of it
                 argument, error = str(error).rpartition(".")[2], error.__cause__
             wrong: Exception = WrongType(f"{argument}: {error}")
         except BaseException as panic:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import math
 import os
 from dataclasses import dataclass
@@ -113,12 +112,10 @@ def chaos(
     >>> 0.02 < found.at.exponent < 0.08
     True
     """
-    check(chaos, locals())
-    run = run_of(problem, scheme, h, until, steps, first, gradient_kicks, every, digits, mpfr)
+    run = run_of(check(chaos, locals()))
     exponents = None if exponents is None else count(exponents, "exponents")
     with bar(None, "steps", progress) as reach:
-        found = _shadowstep.chaos(run, vectors=count(vectors, "vectors"), exponents=exponents, half=half, progress=reach)
-    found = json.loads(found)
+        found = _shadowstep.chaos(run, count(vectors, "vectors"), exponents, half, reach)
     records = [_indicators(record) for record in found["records"]]
     return Chaos(found["conclusion"], records[0], records[1] if half else None)
 
@@ -174,9 +171,7 @@ def lyapunov(
     >>> found.verdict, 0.02 < found.value - found.uncertainty, found.value + found.uncertainty < 0.09
     ('chaotic', True, True)
     """
-    check(lyapunov, locals())
-    options: dict[str, Any] = {"steps": steps, "first": first, "gradient_kicks": gradient_kicks, "every": every, "digits": digits, "mpfr": mpfr}
-    along = chaos(problem, scheme, h, until, vectors=1, half=False, progress=progress, **options).at
+    along = chaos(**check(lyapunov, locals()), vectors=1, half=False).at
     return _indicator(along.motion, along.lyapunov if along.exponent is None else along.exponent, along.exponent_error)
 
 
@@ -218,9 +213,7 @@ def megno(
     >>> found.verdict, abs(found.value - 2) < 0.05, found.uncertainty < 0.05
     ('regular', True, True)
     """
-    check(megno, locals())
-    options: dict[str, Any] = {"steps": steps, "first": first, "gradient_kicks": gradient_kicks, "every": every, "digits": digits, "mpfr": mpfr}
-    along = chaos(problem, scheme, h, until, vectors=1, half=False, progress=progress, **options).at
+    along = chaos(**check(megno, locals()), vectors=1, half=False).at
     return _indicator(along.motion, along.mean_megno, along.mean_megno_error)
 
 

@@ -103,19 +103,14 @@ def derivatives(
     >>> [round(float(x), 6) for x in found.of_q[-1, 0]]  # of cos(√k t): cos 2 and −sin(2)/4
     [-0.416147, -0.227324]
     """
-    check(derivatives, locals())
-    problem = problem_of(problem)
-    names = [*problem.coordinates, *problem.momenta] if by is None else list(by)
-    run = run_of(problem, scheme, h, until, steps, first, gradient_kicks, every, digits, mpfr)
-    with naming("by"):
-        variables = variables_of(problem, names, str(digits), mpfr)
+    run = run_of(check(derivatives, locals()))
+    names, variables = variables_of(problem, by, str(digits), mpfr)
     with bar(run["steps"], "steps", progress) as reach:
-        found = _shadowstep.derivatives(run, variables, progress=reach)
-    states, rows = _array(found["states"]), len(found["n"])
-    q, p = np.split(states.reshape(rows, -1), 2, axis=1)
-    vectors = vectors_of(found["by"], rows) if names else np.zeros((rows, 0, 2 * q.shape[1]))
+        n, (states, columns) = _shadowstep.derivatives(run, variables, reach)
+    q, p = np.split(states.reshape(len(n), -1), 2, axis=1)
+    vectors = vectors_of(columns, len(n)) if names else np.zeros((len(n), 0, 2 * q.shape[1]))
     of_q, of_p = np.split(np.moveaxis(vectors, 1, 2), 2, axis=1)
-    return Derivatives(names, found["n"], q, p, of_q, of_p)
+    return Derivatives(names, n, q, p, of_q, of_p)
 
 
 def gradient(
@@ -166,15 +161,10 @@ def gradient(
     >>> found.reversal_error < 1e-12
     True
     """
-    check(gradient, locals())
-    problem = problem_of(problem)
-    names = [*problem.coordinates, *problem.momenta] if by is None else list(by)
-    with naming("by"):
-        variables = variables_of(problem, names, str(digits), mpfr)
-    run = run_of(problem, scheme, h, until, steps, first, gradient_kicks, every, digits, mpfr)
-    made = integrate(
-        problem, scheme, h, until, steps=steps, first=first, gradient_kicks=gradient_kicks, every=every, digits=digits, mpfr=mpfr, progress=progress
-    )
+    given = check(gradient, locals())
+    names, variables = variables_of(problem, by, str(digits), mpfr)
+    run = run_of(given)
+    made = integrate(**{name: value for name, value in given.items() if name not in ("loss", "by")})
     q, p = (np.asarray(half, dtype=float) for half in (made.q, made.p))
     found = loss(q, p)
     if not isinstance(found, (tuple, list)) or len(found) != 3:
@@ -183,8 +173,8 @@ def gradient(
     value = float(numbers(value, "the value of loss").reshape(()))
     covectors = covectors_of(q.shape, of_q, of_p)
     with bar(run["steps"], "steps", progress) as reach:
-        by_names, error = _shadowstep.gradient(run, variables, covectors, progress=reach)
-    return Gradient(value, dict(zip(names, _array(by_names).tolist())), error)
+        by_names, error = _shadowstep.gradient(run, variables, covectors, reach)
+    return Gradient(value, dict(zip(names, by_names.tolist())), error)
 
 
 def covectors_of(shape: tuple[int, ...], of_q: Any, of_p: Any) -> np.ndarray:
@@ -198,10 +188,14 @@ def covectors_of(shape: tuple[int, ...], of_q: Any, of_p: Any) -> np.ndarray:
     return np.ascontiguousarray(np.concatenate(halves, axis=1)).ravel()
 
 
-def variables_of(problem: Problem, names: Sequence[str], digits: str, mpfr: bool) -> list[Variable]:
+def variables_of(problem: Union[Problem, str], by: Sequence[str] | None, digits: str, mpfr: bool) -> tuple[list[str], list[Variable]]:
+    """The names of the variables, by default those of the state, and what the compiled module takes."""
+    problem = problem_of(problem)
     halves = (("q", problem.coordinates), ("p", problem.momenta))
     places = {name: (half, i, None) for half, all_names in halves for i, name in enumerate(all_names)}
-    return [places.get(name) or _number(problem, name, digits, mpfr) for name in names]
+    names = list(places if by is None else by)
+    with naming("by"):
+        return names, [places.get(name) or _number(problem, name, digits, mpfr) for name in names]
 
 
 def _number(problem: Problem, name: str, digits: str, mpfr: bool) -> Variable:
@@ -213,7 +207,3 @@ def _number(problem: Problem, name: str, digits: str, mpfr: bool) -> Variable:
     except InputError:
         raise InputError(f"derivatives by {name} are not known: no values beside {name} = {value} can be used") from None
     return name, 0, (near, further)
-
-
-def _array(numbers: Any) -> np.ndarray:
-    return numbers if isinstance(numbers, np.ndarray) else np.array(numbers, dtype=object)

@@ -2,17 +2,17 @@
 
 from __future__ import annotations
 
-import json
 import os
 from typing import Any, Union
 
 from . import _shadowstep
 from .arguments import check
 from .estimator import options
-from .exact import Number, exact
+from .exact import Number
+from .integration import run_of
 from .problem import Problem, problem_of
 from .progress import bar
-from .scheme import Scheme, table_of
+from .scheme import Scheme
 
 
 def drift(
@@ -59,20 +59,9 @@ def drift(
     >>> float(found["drift"]) < 1e-4 < float(found["energy_error"]["largest"])
     True
     """
-    check(drift, locals())
-    exact_flow = isinstance(scheme, str) and scheme == "exact-flow"
-    problem, table = problem_of(problem), None if exact_flow else table_of(scheme)
+    given = check(drift, locals())
+    problem = problem_of(problem)
+    run = run_of({**given, "scheme": None if isinstance(scheme, str) and scheme == "exact-flow" else scheme})
+    chosen = options(estimator, order, max_order, stop, rule, accuracy)
     with bar(None, "steps", progress) as reach:
-        found = _shadowstep.drift(
-            problem._given,
-            problem.name,
-            table,
-            exact(h, "h"),
-            exact(until, "until"),
-            digits=str(digits),
-            mpfr=mpfr,
-            options=options(estimator, order, max_order, stop, rule, accuracy),
-            control=control,
-            progress=reach,
-        )
-    return json.loads(found)
+        return _shadowstep.drift(run, problem.name, chosen, control, reach)

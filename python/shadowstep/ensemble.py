@@ -116,17 +116,12 @@ def ensemble(
         output["modified_energy"] = {"estimator": "bilinear", "order": order_of(order), **look}
     sections["output"] = output or {"energy": {"every": steps or 1_000_000_000}}
     with bar(None, "", progress) as reach, naming("h", r"^ *\d+ \| step = "):
-        found = _shadowstep.ensemble(document(sections), *columns.all(), progress=reach)
-    rows = len(found["energy_error"])
-    return Ensemble(
-        q=found["q"].reshape(rows, -1),
-        p=found["p"].reshape(rows, -1),
-        energy_error=found["energy_error"],
-        energy_start=found["energy_start"],
-        energy_end=found["energy_end"],
-        **{name: None if order is None else found[name] for name in ("modified_drift", "modified_start", "modified_end")},
-        not_finite=found["not_finite"],
-    )
+        found = _shadowstep.ensemble(document(sections), *columns.all(), reach)
+    for name in ("q", "p"):
+        found[name] = found[name].reshape(len(found["not_finite"]), -1)
+    if order is None:
+        found.update(modified_drift=None, modified_start=None, modified_end=None)
+    return Ensemble(**found)
 
 
 class _Columns:

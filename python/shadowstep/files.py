@@ -8,7 +8,7 @@ import json
 import os
 import re
 import warnings
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import Any, Union
 
 import numpy as np
@@ -56,33 +56,46 @@ def open(path: Union[str, os.PathLike[str]]) -> Trajectory:
     coordinates = metadata["coordinates"]
     doubles = metadata.get("digits") in ("double", "compensated")
 
-    def array(column: str, texts: bool = False) -> np.ndarray:
-        values = [row.get(column) or "nan" for row in rows]
-        return np.array(values, dtype=object) if texts and not doubles else np.array([float(value) for value in values])
-
-    def states(names: list[str]) -> np.ndarray:
-        if not any(row.get(names[0]) for row in rows):
-            return np.full((len(rows), len(names)), np.nan)
-        return np.stack([array(name, texts=True) for name in names], axis=1)
-
     def there(column: str) -> bool:
         return any(row.get(column) for row in rows)
 
+    def array(column: str) -> np.ndarray:
+        values = [row.get(column) or "nan" for row in rows]
+        is_text = not (doubles or column == "order" or column in _INDICATORS)
+        return np.array(values, dtype=object) if is_text else np.array([float(value) for value in values])
+
+    def states(names: list[str]) -> np.ndarray:
+        return np.stack([array(name) for name in names], axis=1) if there(names[0]) else np.full((len(rows), len(names)), np.nan)
+
+    n = np.array([int(row["n"]) for row in rows], dtype=np.int64)
+    return _trajectory(metadata, momenta, n, states(coordinates), states(momenta), array, there)
+
+
+def _trajectory(
+    metadata: dict[str, Any],
+    momenta: list[str],
+    n: np.ndarray,
+    q: np.ndarray,
+    p: np.ndarray,
+    column: Callable[[str], np.ndarray],
+    there: Callable[[str], bool],
+) -> Trajectory:
+    estimated = there("modified_energy")
     return Trajectory(
-        n=np.array([int(row["n"]) for row in rows], dtype=np.int64),
-        t=array("t", texts=True),
-        q=states(coordinates),
-        p=states(momenta),
-        energy=array("energy", texts=True),
-        coordinates=coordinates,
+        n=n,
+        t=column("t"),
+        q=q,
+        p=p,
+        energy=column("energy"),
+        coordinates=metadata["coordinates"],
         momenta=momenta,
         force_evaluations=None,
-        modified_energy=array("modified_energy", texts=True) if there("modified_energy") else None,
-        modified_energy_error=array("estimate", texts=True) if there("modified_energy") else None,
-        order=array("order") if there("modified_energy") else None,
+        modified_energy=column("modified_energy") if estimated else None,
+        modified_energy_error=column("estimate") if estimated else None,
+        order=column("order") if estimated else None,
         metadata=metadata,
-        indicators={name: array(name) for name in _INDICATORS if there(name)},
-        values={name: array(name, texts=True) for name in metadata.get("values", {})},
+        indicators={name: column(name) for name in _INDICATORS if there(name)},
+        values={name: column(name) for name in metadata.get("values", {})},
     )
 
 
@@ -232,23 +245,8 @@ def _numpy(name: str) -> Trajectory:
         return rows[column] if column in fields else np.broadcast_to(np.nan, (len(rows), *shape))
 
     momenta = metadata.get("momenta") or [f"p{coordinate}" for coordinate in metadata["coordinates"]]
-    estimated = "modified_energy" in fields
-    return Trajectory(
-        n=rows["n"],
-        t=rows["t"],
-        q=field("q", len(momenta)),
-        p=field("p", len(momenta)),
-        energy=field("energy"),
-        coordinates=metadata["coordinates"],
-        momenta=momenta,
-        force_evaluations=None,
-        modified_energy=rows["modified_energy"] if estimated else None,
-        modified_energy_error=field("estimate") if estimated else None,
-        order=field("order") if estimated else None,
-        metadata=metadata,
-        indicators={name: rows[name] for name in _INDICATORS if name in fields},
-        values={name: rows[name] for name in metadata.get("values", {})},
-    )
+    q, p = field("q", len(momenta)), field("p", len(momenta))
+    return _trajectory(metadata, momenta, rows["n"], q, p, field, fields.__contains__)
 
 
 def _metadata(name: str) -> dict[str, Any]:

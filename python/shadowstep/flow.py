@@ -78,9 +78,9 @@ class Flow:
     def pull_back(self, q: Any, p: Any, numbers: Any, of_q: Any, of_p: Any) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """The derivatives of a function by q, p and the numbers, from those by the states, each of shape (rows, d)."""
         problem, h = self._at(q, p, numbers)
-        names = [*problem.coordinates, *problem.momenta, *self._by]
-        run = run_of(problem, self._scheme, h, None, self.steps, digits="double", mpfr=False, **self._options)
+        variables = variables_of(problem, [*problem.coordinates, *problem.momenta, *self._by], "double", False)[1]
+        run = run_of({"problem": problem, "scheme": self._scheme, "h": h, "until": None, "steps": self.steps, **self._options})
         covectors = covectors_of((self.rows, self.dimension), of_q, of_p)
-        found, _ = _shadowstep.gradient(run, variables_of(problem, names, "double", False), covectors, progress=None)
+        found, _ = _shadowstep.gradient(run, variables, covectors, None)
         by_q, by_p, by_numbers = np.split(found, [self.dimension, 2 * self.dimension])
         return by_q, by_p, by_numbers

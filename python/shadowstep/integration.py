@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import os
 import warnings
 from collections.abc import Mapping, Sequence
@@ -244,7 +243,7 @@ def integrate(
     >>> cut.q.shape, bool(abs(cut.q[:, 0]).max() < 1e-14), bool((cut.p[:, 0] > 0).all())
     ((158, 2), True, True)
     """
-    check(integrate, locals())
+    given = check(integrate, locals())
     if section is None and direction is not None:
         raise InputError(f'direction={direction!r} requires a section: section="x"')
     for what, value in (("every", every), ("estimator", estimator), ("tangent", tangent)):
@@ -254,29 +253,30 @@ def integrate(
         raise InputError("windows are of a summary: add summary=True")
     if windows is not None and windows < _shadowstep.LEAST_WINDOWS:
         raise InputError(f"windows must be at least {_shadowstep.LEAST_WINDOWS}, not {windows}")
-    run = run_of(problem, scheme, h, until, steps, first, gradient_kicks, 1 if every is None else every, digits, mpfr)
-    chosen = options_if_any(estimator, order=order, max_order=max_order, stop=stop, rule=rule, accuracy=accuracy)
+    run = run_of({**given, "every": 1 if every is None else every})
+    wanted = {
+        "end": end,
+        "section": None if section is None else (section, direction or "up"),
+        "values": list(_formulas(values or {}).items()),
+        "estimator": options_if_any(estimator, order=order, max_order=max_order, stop=stop, rule=rule, accuracy=accuracy),
+        "windows": (windows or _shadowstep.WINDOWS) if summary else None,
+        "tangent": tangent is not None,
+    }
+    vectors = None if tangent is None else _texts(tangent)
     with bar(run["steps"], "steps", progress) as reach:
-        events = {"end": end, "section": None if section is None else (section, direction or "up"), "values": list(_formulas(values or {}).items())}
-        found = _shadowstep.integrate(run, options=chosen, events=events, tangent=_texts(tangent), windows=(windows or _shadowstep.WINDOWS) if summary else None, progress=reach)
-    if found["summary"] is not None:
-        found["summary_text"], record = found["summary"]
-        found["summary"] = json.loads(record)
-    if found["planets"] is not None:
-        found["planets"] = json.loads(found["planets"])
+        found = _shadowstep.integrate(run, wanted, reach)
+        if vectors is not None:  # as far as the run went
+            n, (_, columns) = _shadowstep.derivatives({**run, "last": abs(int(found["n"][-1]))}, vectors, reach)
+            found["tangent"] = vectors_of(columns, len(n))
     for note in found["notes"]:
         warnings.warn(note, stacklevel=2)
-    if section is not None and not len(found["n"]):
-        warnings.warn(f"the trajectory does not cross section={section!r}, direction={direction or 'up'!r}", stacklevel=2)
-    for name in ("t", "q", "p", "energy", "modified_energy", "modified_energy_error"):
-        if name in found and isinstance(found[name], list):
-            found[name] = np.array(found[name], dtype=object)
-    found["values"] = {name: numbers if isinstance(numbers, np.ndarray) else np.array(numbers, dtype=object) for name, numbers in found["values"].items()}
     rows = len(found["n"])
+    if section is not None and not rows:
+        warnings.warn(f"the trajectory does not cross section={section!r}, direction={direction or 'up'!r}", stacklevel=2)
     for name in ("q", "p"):
-        found[name] = found[name].reshape(rows, len(found["coordinates"]))
-    found["tangent"] = None if tangent is None else vectors_of(found["tangent"], rows)
-    return Trajectory(**found)
+        found[name] = found[name].reshape(rows, len(run["problem"].coordinates))
+    found["values"] = dict(zip(values or {}, found["values"]))
+    return Trajectory(coordinates=run["problem"].coordinates, momenta=run["problem"].momenta, **found)
 
 
 def _formulas(values: Mapping[str, str]) -> dict[str, str]:
@@ -286,9 +286,7 @@ def _formulas(values: Mapping[str, str]) -> dict[str, str]:
     return dict(values)
 
 
-def _texts(tangent: Sequence[Sequence[Number]] | np.ndarray | None) -> list[list[str]]:
-    if tangent is None:
-        return []
+def _texts(tangent: Sequence[Sequence[Number]] | np.ndarray) -> list[list[str]]:
     try:
         vectors = np.asarray(tangent, dtype=object)
     except ValueError:  # rows of different lengths, with arrays
@@ -298,34 +296,24 @@ def _texts(tangent: Sequence[Sequence[Number]] | np.ndarray | None) -> list[list
     return [[exact(x, "tangent") for x in vector] for vector in vectors.tolist()]
 
 
-def vectors_of(columns: Sequence[Any], rows: int) -> np.ndarray:
-    """Tangent vectors at a number of states, of shape (rows, vectors, 2d), from the flat array or the list of texts of each."""
-    arrays = [column if isinstance(column, np.ndarray) else np.array(column, dtype=object) for column in columns]
-    return np.stack([array.reshape(rows, -1) for array in arrays], axis=1)
+def vectors_of(columns: Sequence[np.ndarray], rows: int) -> np.ndarray:
+    """Tangent vectors at a number of states, of shape (rows, vectors, 2d), from the flat array of each."""
+    return np.stack([column.reshape(rows, -1) for column in columns], axis=1)
 
 
-def run_of(
-    problem: Union[Problem, str],
-    scheme: Union[Scheme, str, os.PathLike[str]],
-    h: Number,
-    until: Number | None,
-    steps: int | None,
-    first: str | None,
-    gradient_kicks: str,
-    every: int,
-    digits: Union[int, str],
-    mpfr: bool,
-) -> dict[str, Any]:
-    """A run as the compiled module takes it."""
+def run_of(given: Mapping[str, Any]) -> dict[str, Any]:
+    """A run as the compiled module takes it, from the arguments of a function; what it has not as an argument has its default."""
+    steps, until, scheme = given.get("steps"), given["until"], given["scheme"]
     return {
-        "problem": given_of(problem),
-        "scheme": table_of(scheme),
-        "h": exact(h, "h"),
+        "problem": given_of(given["problem"]),
+        "scheme": None if scheme is None else table_of(scheme),
+        "h": exact(given["h"], "h"),
         "steps": None if steps is None else count(steps, "steps"),
         "until": None if until is None else exact(until, "until"),
-        "first": first,
-        "gradient_kicks": gradient_kicks,
-        "every": count(every, "every"),
-        "digits": str(digits),
-        "mpfr": mpfr,
+        "last": None,
+        "first": given.get("first"),
+        "gradient_kicks": given.get("gradient_kicks", "exact"),
+        "every": count(given.get("every", 1), "every"),
+        "digits": str(given.get("digits", "double")),
+        "mpfr": given.get("mpfr", False),
     }

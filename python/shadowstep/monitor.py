@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import os
 from dataclasses import dataclass
 from typing import Any, NamedTuple, Union
@@ -133,7 +132,7 @@ class Monitor:
     ) -> None:
         check(Monitor.__init__, locals())
         self._monitor: Any = _shadowstep.Monitor.of(
-            given_of(problem), table_of(scheme), exact(h, "h"), order=order_of(order), every=count(every, "every"), digits=str(digits)
+            given_of(problem), table_of(scheme), exact(h, "h"), order_of(order), count(every, "every"), str(digits)
         )
 
     def step(self, steps: int = 1) -> None:
@@ -170,6 +169,4 @@ class Monitor:
 
     def report(self) -> Report:
         """The report on the run so far."""
-        found = self._monitor.report()
-        planets, light = found.pop("planets"), json.loads(found.pop("light"))
-        return Report(**found, planets=None if planets is None else json.loads(planets), light=light)
+        return Report(**self._monitor.report())

@@ -84,26 +84,22 @@ def shadow_energy(
     q, p = _rows(q, "q"), _rows(p, "p")
     step = exact(h, "h")
     if cell is not None:
-        q = _unwrapped(q, _cell(cell, q.shape[1]))
+        q = _shadowstep.unwrapped(q, _cell(cell, q.shape[1]).tolist(), [True] * 3)
     if isinstance(potential, Problem):
         if q.shape[1] != potential.dimension:
             raise _shadowstep.InputError(f"the states have {q.shape[1]} coordinates, and the problem has {potential.dimension}")
         if half_steps:
-            p = _of_half_steps(len(q), p)
-        found = _shadowstep.energies_of_states(q, p, potential._given, table_of(scheme), step, order_of(k, "k"))
-    else:
-        energies, derivatives = _pair(potential)
-        forces = None if derivatives.ndim == 1 else _rows(derivatives, "the forces of potential")
-        rates = derivatives if derivatives.ndim == 1 else None
-        if half_steps:
-            p = _of_half_steps(len(q), p) if forces is None else _with_forces(step, p, forces)
-        found, other_steps = _shadowstep.energies_of_log(q, p, energies, forces, rates, _masses(masses, q.shape[1]), step, order_of(k, "k"))
-        if other_steps is not None:
-            warnings.warn(f"{other_steps}; the modified energy is that of other steps", stacklevel=2)
-    values, errors = np.full(len(q), np.nan), np.full(len(q), np.nan)
-    n = np.asarray(found[0], dtype=np.int64)
-    values[n], errors[n] = found[1], found[2]
-    return ShadowEnergy(values, errors)
+            p = _shadowstep.momenta_of_half_steps(len(q), p)
+        return ShadowEnergy(*_shadowstep.energies_of_states(q, p, potential._given, table_of(scheme), step, order_of(k, "k")))
+    energies, derivatives = _pair(potential)
+    gradients = None if derivatives.ndim == 1 else -_rows(derivatives, "the forces of potential")
+    rates = derivatives if derivatives.ndim == 1 else None
+    if half_steps:
+        p = _shadowstep.momenta_of_half_steps(len(q), p) if gradients is None else _shadowstep.momenta_with_gradients(step, p, gradients)
+    found, other_steps = _shadowstep.energies_of_log(q, p, energies, gradients, rates, _masses(masses, q.shape[1]), step, order_of(k, "k"))
+    if other_steps is not None:
+        warnings.warn(f"{other_steps}; the modified energy is that of other steps", stacklevel=2)
+    return ShadowEnergy(*found)
 
 
 @dataclass(frozen=True)
@@ -236,15 +232,14 @@ class Observer:
             raise _shadowstep.InputError(f"energy is {energy}: give the states before it; a run that overflows has steps that are too large")
         made = None if step is None else (_flat(step[0], "step"), _flat(step[1], "step"), float(numbers(step[2], "step").reshape(())))
         with naming("forces", "^the gradient"), naming("step", " has increments,"):
-            found = self._observer.observe(_flat(q, "q"), _flat(p, "p"), energy, _flat(forces, "forces"), bool(half_step), made)
+            found = self._observer.observe(_flat(q, "q"), _flat(p, "p"), energy, -_flat(forces, "forces"), bool(half_step), made)
         return None if found is None else Sample(*found)
 
     @property
     def values(self) -> dict[str, np.ndarray]:
         """Arrays ``n``, ``modified_energy``, ``error`` and ``energy`` of all states that have an estimate."""
         n, (modified, error, energy) = self._observer.values()
-        numbers = {"modified_energy": modified, "error": error, "energy": energy}
-        return {"n": np.asarray(n, dtype=np.int64), **{name: np.asarray(of) for name, of in numbers.items()}}
+        return {"n": n, "modified_energy": modified, "error": error, "energy": energy}
 
     def diagnosis(self) -> Diagnosis:
         """What moves the energy, as far as the states so far tell."""
@@ -336,15 +331,3 @@ def _cell(cell: Any, dimension: int) -> np.ndarray:
     if cell.shape != (3, 3):
         raise _shadowstep.InputError(f"cell has the shape {cell.shape}: give three lengths, or three vectors, (3, 3)")
     return cell
-
-
-def _unwrapped(q: np.ndarray, cell: np.ndarray) -> np.ndarray:
-    return np.asarray(_shadowstep.unwrapped(q, cell.tolist(), [True] * 3)).reshape(q.shape)
-
-
-def _of_half_steps(states: int, p: np.ndarray) -> np.ndarray:
-    return np.asarray(_shadowstep.momenta_of_half_steps(states, p)).reshape(states, -1)
-
-
-def _with_forces(h: str, p: np.ndarray, forces: np.ndarray) -> np.ndarray:
-    return np.asarray(_shadowstep.momenta_with_forces(h, p, forces)).reshape(p.shape)

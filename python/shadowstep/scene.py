@@ -67,17 +67,11 @@ def run(scene: Union[str, os.PathLike[str]], *, restart: bool = False, allow_out
     path = path_of(scene, "scene")
     text = path if "\n" in path else None
     with bar(None, "steps", progress) as reach:
-        rows, summary, notes = _shadowstep.run_scene("scene.toml" if text else path, text, restart=restart, allow_outside=allow_outside, progress=reach)
+        rows, summary, notes = _shadowstep.run_scene("scene.toml" if text else path, text, restart, allow_outside, reach)
     for note in notes:
         warnings.warn(note, stacklevel=2)
-    readable, record = summary if summary else (None, None)
-    return Outcome(
-        columns=None if rows is None else columns_of(rows),
-        text=rows,
-        summary=None if record is None else json.loads(record),
-        summary_text=readable,
-        notes=notes,
-    )
+    readable, record = summary or (None, None)
+    return Outcome(None if rows is None else columns_of(rows), rows, record, readable, notes)
 
 
 def scene(name: str) -> str:

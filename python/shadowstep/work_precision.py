@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-import json
 import os
 import tempfile
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from typing import Any, Union
@@ -98,9 +97,7 @@ def work_precision(
     >>> [round(curve.runs[-2].position_error / curve.runs[-1].position_error) for curve in curves]
     [4, 16]
     """
-    check(work_precision, locals())
-    group, tables = _tables(schemes)
-    _check_seconds(seconds)
+    comparison = _comparison(check(work_precision, locals()))
     given = None if steps is None else sorted(count(number, "steps") for number in steps)
     if given == []:
         raise _shadowstep.InputError(f"steps = {steps}: give numbers of steps such as [100, 200, 400]")
@@ -108,20 +105,8 @@ def work_precision(
     if sizes is not None and (given is not None or not sizes):
         raise _shadowstep.InputError(f"h = {h}: give step sizes such as ['1/10', '1/20'], without steps")
     with _folder(folder, problem) as path, bar(1000, "", progress) as reach:
-        found = _shadowstep.work_precision(
-            given_of(problem),
-            exact(until, "until"),
-            tables,
-            group,
-            first=first,
-            steps=given,
-            h=sizes,
-            digits=str(digits),
-            seconds=seconds,
-            folder=path,
-            progress=reach,
-        )
-    return [Curve(**{**curve, "runs": [Measurement(**run) for run in curve["runs"]]}) for curve in json.loads(found)]
+        found = _shadowstep.work_precision({**comparison, "folder": path}, given, sizes, reach)
+    return [Curve(**{**curve, "runs": [Measurement(**run) for run in curve["runs"]]}) for curve in found]
 
 
 @dataclass(frozen=True)
@@ -222,41 +207,27 @@ def advise(
     >>> str(advice).split()[:6]
     ['scheme', 'h', 'steps', 'predicted', 'forces', 'seconds']
     """
-    check(advise, locals())
-    group, tables = _tables(schemes)
-    _check_seconds(seconds)
+    comparison = _comparison(check(advise, locals()))
     with _folder(folder, problem) as path, bar(1000, "", progress) as reach:
-        found: dict[str, Any] = json.loads(
-            _shadowstep.advise(
-                given_of(problem),
-                exact(until, "until"),
-                float(tolerance),
-                of=of,
-                cost=cost,
-                schemes=tables,
-                group=group,
-                first=first,
-                digits=str(digits),
-                seconds=seconds,
-                folder=path,
-                progress=reach,
-            )
-        )
-    choices = [Choice(**choice) for choice in found.get("choices", [])]
-    return Advice(
-        choices=choices,
-        verified=found.get("verified"),
-        at_most=found.get("at_most", False),
-        least=found.get("least"),
-        reason=found.get("reason"),
-        untried=found["untried"],
-        extrapolated=found["extrapolated"],
-    )
+        found = _shadowstep.advise({**comparison, "folder": path}, float(tolerance), of, cost, reach)
+    return Advice(**{**found, "choices": [Choice(**choice) for choice in found["choices"]]})
 
 
-def _check_seconds(seconds: float) -> None:
+def _comparison(given: Mapping[str, Any]) -> dict[str, Any]:
+    """What the compiled module takes, from the arguments of a function."""
+    group, tables = _tables(given["schemes"])
+    seconds = given["seconds"]
     if not 1e-3 <= seconds <= 1e6:
         raise _shadowstep.InputError(f"seconds = {seconds}: give a number of seconds from 0.001 to 1000000")
+    return {
+        "problem": given_of(given["problem"]),
+        "until": exact(given["until"], "until"),
+        "schemes": tables,
+        "group": group,
+        "first": given["first"],
+        "digits": str(given["digits"]),
+        "seconds": seconds,
+    }
 
 
 def _tables(schemes: Schemes) -> tuple[str | None, list[Any]]:

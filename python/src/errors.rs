@@ -4,9 +4,8 @@ use pyo3::create_exception;
 use pyo3::exceptions::{PyArithmeticError, PyOSError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
-use shadowstep::tables::Faults;
+use shadowstep::tables::Fault;
 use shadowstep_scenes::Error;
-use shadowstep_scenes::library::LibraryError;
 
 create_exception!(
     shadowstep,
@@ -23,51 +22,63 @@ create_exception!(
     "A run failed: a state or an energy was not finite. `hint` says what may help."
 );
 
-/// The exception of an error.
-pub(crate) fn exception(py: Python<'_>, error: Error) -> PyErr {
-    let text = error.to_string();
-    match error {
-        Error::Usage { hint, .. } => of_input(py, text, Some(hint), None),
-        Error::Faults(faults) => of_input(py, text, None, Some(&faults)),
-        Error::Run { hint, .. } => {
-            let error = RunError::new_err(text);
-            with(py, error, |value| value.setattr("hint", hint))
-        }
-        Error::File(_) | Error::Output(_) => PyOSError::new_err(text),
-    }
+/// Why a function fails: it is made an exception where Python is told.
+pub(crate) enum Failure {
+    Scene(Error),
+    Python(PyErr),
 }
+
+pub(crate) type Fallible<T> = Result<T, Failure>;
 
 /// A wrong request, and what would be right.
-pub(crate) fn usage(py: Python<'_>, message: impl Into<String>, hint: impl Into<String>) -> PyErr {
-    exception(py, Error::usage(message, hint))
+pub(crate) fn usage(message: impl Into<String>, hint: impl Into<String>) -> Failure {
+    Failure::Scene(Error::usage(message, hint))
 }
 
-/// The exception of a table that cannot be read.
-pub(crate) fn of_library(py: Python<'_>, error: LibraryError) -> PyErr {
-    exception(py, error.into())
-}
-
-fn of_input(py: Python<'_>, text: String, hint: Option<String>, faults: Option<&Faults>) -> PyErr {
-    with(py, InputError::new_err(text), |value| {
-        let faults = faults.map_or(&[][..], |faults| &faults.0);
-        let faults = faults.iter().map(|fault| -> PyResult<_> {
-            let all = PyDict::new(py);
-            all.set_item("path", &fault.path)?;
-            all.set_item("line", fault.line)?;
-            all.set_item("column", fault.column)?;
-            all.set_item("message", &fault.message)?;
-            all.set_item("hint", &fault.hint)?;
-            Ok(all)
-        });
-        value.setattr("hint", hint)?;
-        value.setattr("faults", faults.collect::<PyResult<Vec<_>>>()?)
-    })
-}
-
-/// The exception with attributes; if these cannot be set, that error.
-fn with(py: Python<'_>, error: PyErr, set: impl FnOnce(&Bound<'_, PyAny>) -> PyResult<()>) -> PyErr {
-    match set(error.value(py).as_any()) {
-        Ok(()) => error,
-        Err(failed) => failed,
+impl From<Error> for Failure {
+    fn from(error: Error) -> Self {
+        Failure::Scene(error)
     }
+}
+
+impl From<PyErr> for Failure {
+    fn from(error: PyErr) -> Self {
+        Failure::Python(error)
+    }
+}
+
+impl From<Failure> for PyErr {
+    fn from(failure: Failure) -> Self {
+        match failure {
+            Failure::Python(error) => error,
+            Failure::Scene(error) => Python::attach(|py| exception(py, error)).unwrap_or_else(|failed| failed),
+        }
+    }
+}
+
+/// The exception of an error, with its attributes.
+fn exception(py: Python<'_>, error: Error) -> PyResult<PyErr> {
+    let text = error.to_string();
+    let (raised, hint, faults) = match error {
+        Error::Usage { hint, .. } => (InputError::new_err(text), Some(hint), Some(Vec::new())),
+        Error::Faults(faults) => (InputError::new_err(text), None, Some(faults.0)),
+        Error::Run { hint, .. } => (RunError::new_err(text), Some(hint), None),
+        Error::File(_) | Error::Output(_) => return Ok(PyOSError::new_err(text)),
+    };
+    raised.value(py).setattr("hint", hint)?;
+    if let Some(faults) = faults {
+        let faults = faults.iter().map(|fault| of_fault(py, fault)).collect::<PyResult<Vec<_>>>()?;
+        raised.value(py).setattr("faults", faults)?;
+    }
+    Ok(raised)
+}
+
+fn of_fault<'py>(py: Python<'py>, fault: &Fault) -> PyResult<Bound<'py, PyDict>> {
+    let all = PyDict::new(py);
+    all.set_item("path", &fault.path)?;
+    all.set_item("line", fault.line)?;
+    all.set_item("column", fault.column)?;
+    all.set_item("message", &fault.message)?;
+    all.set_item("hint", &fault.hint)?;
+    Ok(all)
 }

@@ -1,19 +1,19 @@
 //! A problem: the sections of a scene that describe a system, or a function that computes its forces.
 
-use std::ops::Deref;
+use std::path::PathBuf;
 use std::sync::{Arc, Mutex, PoisonError};
 
 use pyo3::prelude::*;
-use shadowstep::StepSize;
 use shadowstep::problems::PROBLEMS;
 use shadowstep::tables::Source;
-use shadowstep_scenes::arithmetic::{Arithmetic, DigitsError, MOST_DIGITS};
+use shadowstep::{Rational, StepSize};
+use shadowstep_scenes::arithmetic::{Arithmetic, DigitsError, MOST_DIGITS, NUMBER_EXAMPLES};
 use shadowstep_scenes::keys::PROBLEM;
 use shadowstep_scenes::outside::reading_outside;
 use shadowstep_scenes::{Error, Note, System, source};
 use shadowstep_symbolic::Exact;
 
-use crate::errors::{exception, usage};
+use crate::errors::{Fallible, usage};
 use crate::own_forces::Forces;
 
 /// A problem as it was given.
@@ -28,9 +28,9 @@ struct GivenProblem {
 }
 
 /// A system, and what the user should know about it.
-struct Read {
-    system: System,
-    notes: Vec<Note>,
+pub(crate) struct Read {
+    pub(crate) system: System,
+    pub(crate) notes: Vec<Note>,
 }
 
 enum ProblemSource {
@@ -51,34 +51,28 @@ enum ProblemSource {
 impl Given {
     /// From the text of a scene, of which \[problem\], \[initial\], \[\[body\]\] and \[time\] are used.
     #[staticmethod]
-    fn of_text(py: Python<'_>, text: String, path: String, allow_outside: bool) -> PyResult<Self> {
-        Given::of(ProblemSource::Scene { source: Source { path, text }, outside: allow_outside }, py)
+    fn of_text(text: String, path: String, allow_outside: bool) -> Fallible<Self> {
+        Given::of(ProblemSource::Scene { source: Source { path, text }, outside: allow_outside })
     }
 
     /// From a scene's file.
     #[staticmethod]
-    fn of_file(py: Python<'_>, path: std::path::PathBuf, allow_outside: bool) -> PyResult<Self> {
-        let source = source(&path).map_err(|error| exception(py, error))?;
-        Given::of(ProblemSource::Scene { source, outside: allow_outside }, py)
+    fn of_file(path: PathBuf, allow_outside: bool) -> Fallible<Self> {
+        Given::of(ProblemSource::Scene { source: source(&path)?, outside: allow_outside })
     }
 
     /// With a function for the forces: a number is the address of a C function, anything else is called.
     #[staticmethod]
-    #[pyo3(signature = (function, q, p, masses))]
     fn of_forces(
-        py: Python<'_>,
         function: &Bound<'_, PyAny>,
         q: Vec<String>,
         p: Vec<String>,
         masses: Option<Vec<String>>,
-    ) -> PyResult<Self> {
-        let numbers = |what: &str, texts: Vec<String>| {
-            texts.iter().map(|text| exact(py, what, text)).collect::<PyResult<Vec<_>>>()
-        };
-        let (q, p) = (numbers("q", q)?, numbers("p", p)?);
-        let masses = masses.map(|masses| numbers("masses", masses)).transpose()?;
+    ) -> Fallible<Self> {
+        let (q, p) = (numbers("q", &q)?, numbers("p", &p)?);
+        let masses = masses.map(|masses| numbers("masses", &masses)).transpose()?;
         let forces = Forces::of(function, q.len())?;
-        Given::of(ProblemSource::Own { forces, q, p, masses }, py)
+        Given::of(ProblemSource::Own { forces, q, p, masses })
     }
 
     /// What [`of_text`](Given::of_text) makes it of again; `None` with a function for the forces.
@@ -92,28 +86,28 @@ impl Given {
 
     /// The names of q_1, q_2, ….
     #[getter]
-    fn coordinates(&self, py: Python<'_>) -> PyResult<Vec<String>> {
-        Ok(self.system(Arithmetic::DOUBLE).map_err(|error| exception(py, error))?.coordinates.clone())
+    fn coordinates(&self) -> Fallible<Vec<String>> {
+        Ok(self.read(Arithmetic::DOUBLE)?.system.coordinates.clone())
     }
 
     /// The names of p_1, p_2, ….
     #[getter]
-    fn momenta(&self, py: Python<'_>) -> PyResult<Vec<String>> {
-        Ok(self.system(Arithmetic::DOUBLE).map_err(|error| exception(py, error))?.momenta.clone())
+    fn momenta(&self) -> Fallible<Vec<String>> {
+        Ok(self.read(Arithmetic::DOUBLE)?.system.momenta.clone())
     }
 
     /// The parameters with their values as texts, to 100 digits.
     #[getter]
-    fn parameters(&self, py: Python<'_>) -> PyResult<Vec<(String, String)>> {
+    fn parameters(&self) -> Fallible<Vec<(String, String)>> {
         let digits = Arithmetic::with_digits(100).expect("there are numbers of 100 digits");
-        let system = self.system(digits).map_err(|error| exception(py, error))?;
-        Ok(system.parameters.iter().map(|(name, exact)| (name.clone(), exact.value.to_string())).collect())
+        let parameters = &self.read(digits)?.system.parameters;
+        Ok(parameters.iter().map(|(name, exact)| (name.clone(), exact.value.to_string())).collect())
     }
 
     /// The state at t = 0 in double precision, in the coordinates that trajectories have.
     #[getter]
-    fn initial(&self, py: Python<'_>) -> PyResult<(Vec<f64>, Vec<f64>)> {
-        let system = self.system(Arithmetic::DOUBLE).map_err(|error| exception(py, error))?;
+    fn initial(&self) -> Fallible<(Vec<f64>, Vec<f64>)> {
+        let system = &self.read(Arithmetic::DOUBLE)?.system;
         let (q, p) = system.start::<f64>(&());
         Ok(match system.shown::<f64>(&()) {
             Some(mut shown) => {
@@ -126,8 +120,8 @@ impl Given {
 
     /// H at t = 0 in double precision.
     #[getter]
-    fn energy(&self, py: Python<'_>) -> PyResult<f64> {
-        let system = self.system(Arithmetic::DOUBLE).map_err(|error| exception(py, error))?;
+    fn energy(&self, py: Python<'_>) -> Fallible<f64> {
+        let system = &self.read(Arithmetic::DOUBLE)?.system;
         let (q, p) = system.start::<f64>(&());
         let energy = system.energy::<f64>(&())(&q, &p);
         self.raised(py)?;
@@ -135,32 +129,20 @@ impl Given {
     }
 }
 
-/// The system of a problem, in the number type of a run.
-pub(crate) struct GivenSystem(Arc<Read>);
-
-impl Deref for GivenSystem {
-    type Target = System;
-
-    fn deref(&self) -> &System {
-        &self.0.system
-    }
-}
-
 impl Given {
     /// The system in a number type, which is read once.
-    fn read(&self, arithmetic: Arithmetic) -> Result<Arc<Read>, Error> {
+    pub(crate) fn read(&self, arithmetic: Arithmetic) -> Result<Arc<Read>, Error> {
         let all = || self.0.read.lock().unwrap_or_else(PoisonError::into_inner);
         if let Some((_, known)) = all().iter().find(|(known, _)| *known == arithmetic) {
             return Ok(Arc::clone(known));
         }
-        let (system, notes) = self.read_anew(arithmetic)?;
-        let read = Arc::new(Read { system, notes });
+        let read = Arc::new(self.read_anew(arithmetic)?);
         all().push((arithmetic, Arc::clone(&read)));
         Ok(read)
     }
 
     /// The system in a number type, which may be needed once.
-    pub(crate) fn read_anew(&self, arithmetic: Arithmetic) -> Result<(System, Vec<Note>), Error> {
+    pub(crate) fn read_anew(&self, arithmetic: Arithmetic) -> Result<Read, Error> {
         let (system, notes) = match &self.0.source {
             ProblemSource::Scene { source, outside } => reading_outside(*outside, || System::read(source, arithmetic))?,
             ProblemSource::Own { forces, q, p, masses } => {
@@ -169,38 +151,29 @@ impl Given {
             }
         };
         system.check_digits(arithmetic)?;
-        Ok((system, notes))
-    }
-
-    /// The system in a number type.
-    pub(crate) fn system(&self, arithmetic: Arithmetic) -> Result<GivenSystem, Error> {
-        self.read(arithmetic).map(GivenSystem)
-    }
-
-    /// What the user should know about it.
-    pub(crate) fn notes(&self, arithmetic: Arithmetic) -> Result<Vec<Note>, Error> {
-        Ok(self.read(arithmetic)?.notes.clone())
+        Ok(Read { system, notes })
     }
 
     /// Whether the function for the forces has raised something that was not [taken](Given::raised).
     pub(crate) fn has_raised(&self, py: Python<'_>) -> bool {
-        match &self.0.source {
-            ProblemSource::Own { forces, .. } => forces.has_raised(py),
-            ProblemSource::Scene { .. } => false,
-        }
+        self.forces().is_some_and(|forces| forces.has_raised(py))
     }
 
     /// What the function for the forces has raised since it was asked last.
     pub(crate) fn raised(&self, py: Python<'_>) -> PyResult<()> {
+        self.forces().map_or(Ok(()), |forces| forces.raised(py))
+    }
+
+    fn forces(&self) -> Option<&Forces> {
         match &self.0.source {
-            ProblemSource::Own { forces, .. } => forces.raised(py),
-            ProblemSource::Scene { .. } => Ok(()),
+            ProblemSource::Own { forces, .. } => Some(forces),
+            ProblemSource::Scene { .. } => None,
         }
     }
 
-    fn of(source: ProblemSource, py: Python<'_>) -> PyResult<Self> {
+    fn of(source: ProblemSource) -> Fallible<Self> {
         let given = Given(Arc::new(GivenProblem { source, read: Mutex::default() }));
-        given.system(Arithmetic::DOUBLE).map_err(|error| exception(py, error))?;
+        given.read(Arithmetic::DOUBLE)?;
         Ok(given)
     }
 }
@@ -217,34 +190,32 @@ pub(crate) fn problem_keys() -> Vec<(&'static str, &'static [&'static str])> {
     PROBLEM.keys.iter().map(|key| (key.name, key.needs)).collect()
 }
 
-fn exact(py: Python<'_>, what: &str, text: &str) -> PyResult<Exact> {
-    number(py, what, text).map(|value| Exact { value, rounded: false })
+fn numbers(what: &str, texts: &[String]) -> Fallible<Vec<Exact>> {
+    texts.iter().map(|text| Ok(Exact { value: number(what, text)?, rounded: false })).collect()
 }
 
 /// A step size, exactly.
-pub(crate) fn step_size(py: Python<'_>, h: &str) -> PyResult<StepSize> {
-    let exact = number(py, "h", h)?;
-    StepSize::try_from(exact).map_err(|error| usage(py, format!("h = {h}: {error}"), "write a step size such as 1/10"))
+pub(crate) fn step_size(h: &str) -> Fallible<StepSize> {
+    let exact = number("h", h)?;
+    StepSize::try_from(exact).map_err(|error| usage(format!("h = {h}: {error}"), "write a step size such as 1/10"))
 }
 
 /// The exact number of an argument.
-pub(crate) fn number(py: Python<'_>, what: &str, text: &str) -> PyResult<shadowstep::Rational> {
-    shadowstep::exact(text).map_err(|error| {
-        usage(py, format!("{what} = `{text}`: {error}"), shadowstep_scenes::arithmetic::NUMBER_EXAMPLES)
-    })
+pub(crate) fn number(what: &str, text: &str) -> Fallible<Rational> {
+    shadowstep::exact(text).map_err(|error| usage(format!("{what} = `{text}`: {error}"), NUMBER_EXAMPLES))
 }
 
 /// The number type of some digits: a name or a number.
-pub(crate) fn arithmetic(py: Python<'_>, digits: &str, mpfr: bool) -> PyResult<Arithmetic> {
-    if let Some((_, named)) = Arithmetic::NAMED.iter().find(|(name, _)| *name == digits) {
-        return match mpfr {
-            true => {
-                Err(usage(py, format!("mpfr requires a number of digits, not digits = \"{digits}\""), "digits = 120"))
-            }
-            false => Ok(*named),
-        };
+pub(crate) fn arithmetic(digits: &str, mpfr: bool) -> Fallible<Arithmetic> {
+    match Arithmetic::NAMED.iter().find(|(name, _)| *name == digits) {
+        Some(_) if mpfr => {
+            let message = format!("mpfr requires a number of digits, not digits = \"{digits}\"");
+            return Err(usage(message, "digits = 120"));
+        }
+        Some((_, named)) => return Ok(*named),
+        None => {}
     }
-    let names = Arithmetic::NAMED.iter().map(|(name, _)| format!("\"{name}\"")).collect::<Vec<_>>().join(", ");
+    let names = listed(Arithmetic::NAMED);
     let hint = format!("give a number of decimal digits up to {MOST_DIGITS}, or one of {names}");
     match digits.parse() {
         Ok(count @ 1..=MOST_DIGITS) => Arithmetic::of_digits(count, mpfr).map_err(|error: DigitsError| {
@@ -252,16 +223,19 @@ pub(crate) fn arithmetic(py: Python<'_>, digits: &str, mpfr: bool) -> PyResult<A
                 DigitsError::NeedsMpfr(_) => "use fewer digits, or a wheel with MPFR: `make wheel MPFR=1`".to_owned(),
                 DigitsError::Precision(_) => hint,
             };
-            usage(py, format!("digits = {digits}: {error}"), hint)
+            usage(format!("digits = {digits}: {error}"), hint)
         }),
-        _ => Err(usage(py, format!("digits = {digits} is not a number type"), hint)),
+        _ => Err(usage(format!("digits = {digits} is not a number type"), hint)),
     }
 }
 
 /// The meaning of a word among those that an option has.
-pub(crate) fn word<T: Copy>(py: Python<'_>, option: &str, word: &str, known: &[(&str, T)]) -> PyResult<T> {
-    known.iter().find(|(name, _)| *name == word).map(|(_, value)| *value).ok_or_else(|| {
-        let names = known.iter().map(|(name, _)| format!("\"{name}\"")).collect::<Vec<_>>().join(", ");
-        usage(py, format!("{option} = \"{word}\" is not known"), format!("it is one of {names}"))
-    })
+pub(crate) fn word<T: Copy>(option: &str, word: &str, known: &[(&str, T)]) -> Fallible<T> {
+    let found = known.iter().find(|(name, _)| *name == word);
+    let unknown = || usage(format!("{option} = \"{word}\" is not known"), format!("it is one of {}", listed(known)));
+    found.map(|(_, value)| *value).ok_or_else(unknown)
+}
+
+fn listed<T>(known: &[(&str, T)]) -> String {
+    known.iter().map(|(name, _)| format!("\"{name}\"")).collect::<Vec<_>>().join(", ")
 }

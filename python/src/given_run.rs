@@ -1,26 +1,38 @@
 //! A run from the initial state of a problem, as Python gives it.
 
+use std::sync::Arc;
+
 use pyo3::prelude::*;
-use shadowstep::{Rational, StepSize};
+use shadowstep::shadow::EstimatorSettings;
+use shadowstep::{MotionError, Rational, StepSize};
 use shadowstep_scenes::arithmetic::Arithmetic;
-use shadowstep_scenes::library::{NamedScheme, check_displaced};
+use shadowstep_scenes::estimator::order_setting;
+use shadowstep_scenes::library::{EXACT_FLOW, NamedScheme, check_displaced};
+use shadowstep_scenes::posed::Posed;
 use shadowstep_scenes::propagator::for_system;
-use shadowstep_scenes::{Error, Note, steps};
+use shadowstep_scenes::run::{OrderSetting, Run};
+use shadowstep_scenes::stability::note_of_steps;
+use shadowstep_scenes::start::{Begin, SceneIntegrator, Steps};
+use shadowstep_scenes::steps::{self, StepsError};
+use shadowstep_scenes::{Error, Note, System};
 use shadowstep_schemes::First;
 
-use crate::errors::{exception, of_library, usage};
-use crate::given::{Given, GivenSystem, arithmetic, number, step_size, word};
+use crate::errors::{Fallible, usage};
+use crate::given::{Given, Read, arithmetic, number, step_size, word};
 use crate::scheme::Table;
 
 /// A run as Python gives it.
 #[derive(FromPyObject)]
 #[pyo3(from_item_all)]
 pub(crate) struct GivenRun {
-    problem: Py<Given>,
-    scheme: Py<Table>,
+    pub(crate) problem: Py<Given>,
+    /// `None` for the exact flow.
+    scheme: Option<Py<Table>>,
     h: String,
     steps: Option<u64>,
     until: Option<String>,
+    /// The number of steps after which something else ends it.
+    last: Option<u64>,
     first: Option<String>,
     gradient_kicks: String,
     every: u64,
@@ -30,122 +42,121 @@ pub(crate) struct GivenRun {
 
 impl GivenRun {
     /// What it means.
-    pub(crate) fn read(self, py: Python<'_>) -> PyResult<ReadRun> {
-        let arithmetic = arithmetic(py, &self.digits, self.mpfr)?;
-        let first = self.first.map(|given| first_map(py, &given)).transpose()?;
-        let scheme = beginning_with(py, &self.scheme.get().0, first)?;
-        let displaced = word(py, "gradient_kicks", &self.gradient_kicks, &[("exact", false), ("displaced", true)])?;
-        let problem = self.problem.get().clone();
-        let times = times(py, &problem, arithmetic, (&self.h, self.steps, self.until.as_deref()))?;
-        Ok(ReadRun { problem, scheme, times, arithmetic, displaced, every: self.every })
+    pub(crate) fn read(&self) -> Fallible<ReadRun> {
+        let arithmetic = arithmetic(&self.digits, self.mpfr)?;
+        let first = self.first.as_deref().map(first_map).transpose()?;
+        let scheme = self.scheme.as_ref().map(|table| beginning_with(&table.get().0, first)).transpose()?;
+        let displaced = word("gradient_kicks", &self.gradient_kicks, &[("exact", false), ("displaced", true)])?;
+        let problem = self.problem.get().read(arithmetic)?;
+        let h = step_size(&self.h)?;
+        let (until, end) = match (self.steps, &self.until) {
+            // the same checks, by the time at which they end
+            (Some(count), None) => (h.exact() * Rational::from_integer(count.into()), format!("{count} h")),
+            (None, Some(text)) => (number("until", text)?, text.clone()),
+            (Some(_), Some(_)) => return Err(usage("`until` and `steps` are both given", "remove one of the two")),
+            (None, None) => {
+                return Err(usage("give either `until` or `steps`", "until = 100, the time, or steps = 1000"));
+            }
+        };
+        let (size, time) = ((&h, &*self.h), (&until, &*end));
+        let refused = |error: StepsError| usage(format!("h = {}, until = {end}: {error}", self.h), error.hint());
+        let is_open = self.steps.is_none() && problem.system.transformed_time().is_some();
+        let steps = if is_open {
+            steps::check_physical_end(size, time, problem.system.rate_at_start()).map_err(refused)?;
+            steps::MOST_STEPS
+        } else {
+            steps::count(size, time).map_err(refused)?
+        };
+        let fitted = scheme.map(|scheme| fitted(&scheme, &problem.system, arithmetic)).transpose()?;
+        let (scheme, note) = fitted.map_or((None, None), |(scheme, note)| (Some(scheme), note));
+        if let Some(scheme) = scheme.as_ref().filter(|_| displaced) {
+            check_displaced(scheme).map_err(Error::from)?;
+        }
+        let steps = self.last.unwrap_or(steps);
+        let of_end = if is_open { None } else { Note::of_end(h.exact(), steps, &until) };
+        let (every, notes) = (self.every, [note, of_end]);
+        Ok(ReadRun { problem, scheme, notes, h, steps, until, is_open, arithmetic, displaced, every })
     }
 }
 
 /// A run from the initial state of a problem.
 pub(crate) struct ReadRun {
-    pub(crate) problem: Given,
-    pub(crate) scheme: NamedScheme,
-    pub(crate) times: Times,
+    pub(crate) problem: Arc<Read>,
+    /// It is valid for the system; `None` for the exact flow.
+    pub(crate) scheme: Option<NamedScheme>,
+    /// What should be known of the scheme, and of the end.
+    pub(crate) notes: [Option<Note>; 2],
+    pub(crate) h: StepSize,
+    pub(crate) steps: u64,
+    /// When it ends at the latest.
+    pub(crate) until: Rational,
+    /// Whether that is a physical time, where time is transformed: how many steps there are is found by making them.
+    is_open: bool,
     pub(crate) arithmetic: Arithmetic,
-    pub(crate) displaced: bool,
+    displaced: bool,
     pub(crate) every: u64,
 }
 
 impl ReadRun {
-    /// The system with the scheme.
-    pub(crate) fn posed(&self) -> Result<SystemWithScheme, Error> {
-        let posed = SystemWithScheme::of(&self.problem, &self.scheme, self.arithmetic)?;
-        if self.displaced {
-            check_displaced(&posed.scheme)?;
+    /// Its steps, with modified energies by an estimator, if there is one.
+    pub(crate) fn run(&self, estimator: Option<&EstimatorSettings>) -> Run<'_> {
+        let order = estimator.and_then(order_setting).map(|(name, value)| OrderSetting { name, value });
+        let propagator = self.scheme.as_ref().map_or(EXACT_FLOW, |scheme| &scheme.name);
+        Run { propagator, h: &self.h, steps: self.steps, order, windows: Run::WINDOWS }
+    }
+
+    /// Refuses a run with derivatives whose number of steps is not known.
+    pub(crate) fn check_steps(&self) -> Fallible<()> {
+        let hint = "steps = 1000; the derivatives are those at a fixed number of steps";
+        match self.is_open {
+            true => Err(usage("in transformed time derivatives need the number of steps", hint)),
+            false => Ok(()),
         }
-        Ok(posed)
+    }
+
+    /// What is to be noted of steps of this size.
+    pub(crate) fn note_of_steps(&self) -> Option<Note> {
+        let system = &self.problem.system;
+        note_of_steps((system, system.fastest_frequency()), self.scheme.as_ref()?, self.h.exact())
+    }
+
+    /// The run of a scheme.
+    pub(crate) fn posed<'a>(&'a self, estimator: Option<&'a EstimatorSettings>) -> Fallible<Posed<'a>> {
+        let scheme = self.scheme.as_ref().ok_or_else(|| usage("the exact flow makes no steps", "give a scheme"))?;
+        let numbers = (self.arithmetic, self.displaced);
+        let posed = Posed::new(&self.problem.system, &scheme.scheme, self.run(estimator), numbers);
+        Ok(Posed { until: self.is_open.then_some(&self.until), estimator, ..posed })
     }
 }
 
 /// The map that a word means.
-pub(crate) fn first_map(py: Python<'_>, given: &str) -> PyResult<First> {
-    word(py, "first", given, &[("kick", First::Kick), ("drift", First::Drift)])
+pub(crate) fn first_map(given: &str) -> Fallible<First> {
+    word("first", given, &[("kick", First::Kick), ("drift", First::Drift)])
 }
 
 /// The scheme with steps that begin with a map, where one is given.
-pub(crate) fn beginning_with(py: Python<'_>, scheme: &NamedScheme, first: Option<First>) -> PyResult<NamedScheme> {
+pub(crate) fn beginning_with(scheme: &NamedScheme, first: Option<First>) -> Result<NamedScheme, Error> {
     match first {
-        Some(first) => scheme.beginning_with(first).map_err(|error| of_library(py, error)),
+        Some(first) => Ok(scheme.beginning_with(first)?),
         None => Ok(scheme.clone()),
     }
 }
 
-/// The steps of a run of a problem; where its time is transformed, `until` is a physical time.
-pub(crate) fn times(
-    py: Python<'_>,
-    problem: &Given,
+/// The scheme, which must be valid for a system, with the digits of a run.
+pub(crate) fn fitted(
+    scheme: &NamedScheme,
+    system: &System,
     arithmetic: Arithmetic,
-    (h, steps, until): (&str, Option<u64>, Option<&str>),
-) -> PyResult<Times> {
-    match (until, steps) {
-        (Some(until), None) => {
-            let system = problem.system(arithmetic).map_err(|error| exception(py, error))?;
-            match system.transformed_time() {
-                Some(_) => Times::physical(py, h, until, system.rate_at_start()),
-                None => Times::of(py, h, None, Some(until)),
-            }
-        }
-        _ => Times::of(py, h, steps, until),
-    }
+) -> Result<(NamedScheme, Option<Note>), Error> {
+    Ok(for_system(scheme.clone(), system)?.fitted(arithmetic)?)
 }
 
-/// The steps of a run.
-pub(crate) struct Times {
-    pub(crate) h: StepSize,
-    pub(crate) steps: u64,
-    /// The physical time at which the run ends, where time is transformed.
-    pub(crate) physical_end: Option<Rational>,
-    pub(crate) note: Option<Note>,
-}
-
-impl Times {
-    /// Of two values one is given: the number of steps, or the time at which they end.
-    pub(crate) fn of(py: Python<'_>, h: &str, count: Option<u64>, until: Option<&str>) -> PyResult<Self> {
-        let size = step_size(py, h)?;
-        match (count, until) {
-            (Some(count), None) => {
-                // the same checks, by the time at which they end
-                let until = size.exact() * Rational::from_integer(count.into());
-                Times::until(py, (size, h), (until, &format!("{count} h")))
-            }
-            (None, Some(text)) => Times::until(py, (size, h), (number(py, "until", text)?, text)),
-            (Some(_), Some(_)) => Err(usage(py, "`until` and `steps` are both given", "remove one of the two")),
-            (None, None) => Err(usage(py, "give either `until` or `steps`", "until = 100, the time, or steps = 1000")),
-        }
-    }
-
-    fn until(py: Python<'_>, (h, step): (StepSize, &str), (until, end): (Rational, &str)) -> PyResult<Self> {
-        let steps = steps::count((&h, step), (&until, end));
-        let steps = steps.map_err(|error| usage(py, format!("h = {step}, until = {end}: {error}"), error.hint()))?;
-        Ok(Times { note: Note::of_end(h.exact(), steps, &until), h, steps, physical_end: None })
-    }
-
-    /// The end is a physical time, where time is transformed: how many steps there are is found by making them.
-    fn physical(py: Python<'_>, step: &str, end: &str, rate: Option<f64>) -> PyResult<Self> {
-        let (h, until) = (step_size(py, step)?, number(py, "until", end)?);
-        let checked = steps::check_physical_end((&h, step), (&until, end), rate);
-        checked.map_err(|error| usage(py, format!("h = {step}, until = {end}: {error}"), error.hint()))?;
-        Ok(Times { h, steps: steps::MOST_STEPS, physical_end: Some(until), note: None })
-    }
-}
-
-/// A system with a scheme that is valid for it.
-pub(crate) struct SystemWithScheme {
-    pub(crate) system: GivenSystem,
-    pub(crate) scheme: NamedScheme,
-    pub(crate) note: Option<Note>,
-}
-
-impl SystemWithScheme {
-    pub(crate) fn of(problem: &Given, scheme: &NamedScheme, arithmetic: Arithmetic) -> Result<Self, Error> {
-        let system = problem.system(arithmetic)?;
-        let scheme = for_system(scheme.clone(), &system)?;
-        let (scheme, note) = scheme.fitted(arithmetic)?;
-        Ok(SystemWithScheme { system, scheme, note })
-    }
+/// The system in double precision with its steps, at its initial state.
+pub(crate) fn integrator(
+    system: &System,
+    scheme: &NamedScheme,
+    (h, compensated): (&StepSize, bool),
+) -> Result<SceneIntegrator<f64>, MotionError> {
+    let steps = Steps { scheme: &scheme.scheme, h, compensated, displaced: false, begin: Begin::InitialState };
+    system.integrator(steps, system.start::<f64>(&()), &())
 }

@@ -8,7 +8,7 @@ use shadowstep_analysis::search::{Candidate, Request, Search};
 use shadowstep_scenes::{Error, library};
 use shadowstep_schemes::shipped;
 
-use crate::errors::{exception, usage};
+use crate::errors::{Fallible, usage};
 use crate::waiting::waiting;
 
 /// The text of a table with more digits; `word` is its text, where it has line breaks, else what [`library::source`]
@@ -21,27 +21,19 @@ pub(crate) fn polished(
     free: Vec<String>,
     split_kicks: bool,
     closed_gaps: Vec<f64>,
-) -> PyResult<String> {
+) -> Fallible<String> {
     if closed_gaps.iter().any(|gap| !(gap.is_finite() && *gap > 0.0)) {
-        return Err(usage(
-            py,
-            "closed_gaps must be positive numbers",
-            "give hω near which a step turns by a multiple of π",
-        ));
+        let hint = "give hω near which a step turns by a multiple of π";
+        return Err(usage("closed_gaps must be positive numbers", hint));
     }
-    if digits.is_some_and(|digits| !(1..=polish::MOST_POLISHED_DIGITS).contains(&digits)) {
-        let hint = format!("give a number from 1 to {}", polish::MOST_POLISHED_DIGITS);
-        return Err(usage(py, "digits is out of range", hint));
-    }
-    let found = waiting(py, None, move |_| {
+    waiting(py, move |_| {
         let source = match word.contains('\n') {
             true => Source { path: "table".to_owned(), text: word },
-            false => library::source(&word)?,
+            false => library::source(&word).map_err(Error::from)?,
         };
         let wanted = polish::Request { digits, free: &free, split_kicks, closed_gaps: &closed_gaps };
-        polish::polish(&source, &library::beside_or_shipped, &wanted).map(|polished| polished.text).map_err(of_polish)
-    })?;
-    found.map_err(|error| exception(py, error))
+        Ok(polish::polish(&source, &library::beside_or_shipped, &wanted).map_err(of_polish)?.text)
+    })
 }
 
 /// The tables that a search finds, the best first; `text` is the file of the search.
@@ -53,24 +45,23 @@ pub(crate) fn searched(
     starts: Option<usize>,
     seed: Option<u64>,
     digits: Option<u32>,
-) -> PyResult<Vec<String>> {
-    let found = waiting(py, None, move |watched| {
-        let mut request = Request::read(&Source { path, text })?;
+) -> Fallible<Vec<String>> {
+    waiting(py, move |watched| {
+        let mut request = Request::read(&Source { path, text }).map_err(Error::from)?;
         request.starts = starts.unwrap_or(request.starts);
         request.seed = seed.unwrap_or(request.seed);
         let of_library = |base: &str, _: &Source| shipped(base);
-        let search = Search::new(request, &of_library)?;
+        let search = Search::new(request, &of_library).map_err(Error::from)?;
         let continues = || watched.continues();
         let start = |start: usize| search.start_while(start, &continues).filter(|_| continues());
         let candidates: Vec<Candidate> = (0..search.starts()).into_par_iter().filter_map(start).collect();
         let best = search.best(&candidates).into_iter().zip(1..);
         let table = |(candidate, n): (&Candidate, u32)| {
             let name = format!("{}-{n}", search.request.name);
-            search.table(candidate, &name, digits, &of_library).map(|polished| polished.text).map_err(of_polish)
+            Ok(search.table(candidate, &name, digits, &of_library).map_err(of_polish)?.text)
         };
-        best.map(table).collect::<Result<Vec<_>, Error>>()
-    })?;
-    found.map_err(|error| exception(py, error))
+        best.map(table).collect()
+    })
 }
 
 fn of_polish(error: NotPolished) -> Error {

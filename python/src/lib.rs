@@ -9,41 +9,38 @@
 //! | `waiting` | work without Python's lock, until Ctrl-C |
 //! | `given` | a problem, from the text of a scene or with a function for its forces |
 //! | `own_forces` | forces from a C function or a Python function |
+//! | `given_run` | a run of a problem, from its options |
 //! | `scheme` | schemes with what is proved of them |
 //! | `estimator` | the estimator of the modified energy, from its options |
+//! | `arrays`, `json` | results as arrays, and as dictionaries |
 //! | `integrate` | runs into arrays |
+//! | `derivatives` | derivatives of runs |
 //! | `ensemble` | many trajectories at once |
-//! | `chaos` | indicators of chaos |
-//! | `drift` | the drift of the modified energy |
+//! | `followed` | indicators of chaos, the drift of the modified energy |
 //! | `work_precision` | speed against error, and advice |
-//! | `scene` | runs that a file describes |
-//! | `modified_hamiltonian` | the modified Hamiltonian as a series and as formulas |
+//! | `scene` | runs that a file describes, and the program `shadowstep` |
 //! | `laboratory` | tables polished to more digits; searches for schemes |
-//! | `sampling` | schemes for Hamiltonian Monte Carlo |
-//! | `emit` | schemes as code of other ecosystems |
-//! | `command` | the program `shadowstep` |
+//! | `of_scheme` | schemes as code and for Monte Carlo, the modified Hamiltonian |
 //! | `monitor` | the monitor of the modified energy, for loops |
 //! | `recorded` | trajectories that other programs have computed |
 
 #![allow(clippy::needless_pass_by_value)] // arguments from Python have no owner
 
-mod chaos;
-mod command;
+mod arrays;
 mod derivatives;
-mod drift;
-mod emit;
 mod ensemble;
 mod errors;
 mod estimator;
+mod followed;
 mod given;
 mod given_run;
 mod integrate;
+mod json;
 mod laboratory;
-mod modified_hamiltonian;
 mod monitor;
+mod of_scheme;
 mod own_forces;
 mod recorded;
-mod sampling;
 mod scene;
 mod scheme;
 mod waiting;
@@ -55,41 +52,23 @@ use pyo3::prelude::*;
 #[pymodule]
 mod _shadowstep {
     #[pymodule_export]
-    use crate::chaos::chaos;
-    #[pymodule_export]
-    use crate::command::command;
-    #[pymodule_export]
-    use crate::derivatives::{derivatives, distance_of, gradient};
-    #[pymodule_export]
-    use crate::drift::drift;
-    #[pymodule_export]
-    use crate::emit::emit;
-    #[pymodule_export]
-    use crate::ensemble::ensemble;
-    #[pymodule_export]
-    use crate::errors::{InputError, RunError};
-    #[pymodule_export]
-    use crate::given::{Given, problem_keys, problem_names};
-    #[pymodule_export]
-    use crate::integrate::{fixed_names, integrate};
-    #[pymodule_export]
-    use crate::laboratory::{polished, searched};
-    #[pymodule_export]
-    use crate::modified_hamiltonian::{modified_formulas, modified_series};
-    #[pymodule_export]
-    use crate::monitor::Monitor;
-    #[pymodule_export]
-    use crate::recorded::{
-        Observer, energies_of_log, energies_of_states, momenta_of_half_steps, momenta_with_forces, unwrapped,
+    use crate::{
+        derivatives::{derivatives, distance_of, gradient},
+        ensemble::ensemble,
+        errors::{InputError, RunError},
+        followed::{chaos, drift},
+        given::{Given, problem_keys, problem_names},
+        integrate::{fixed_names, integrate},
+        laboratory::{polished, searched},
+        monitor::Monitor,
+        of_scheme::{emit, modified_formulas, modified_series, proposal},
+        recorded::{
+            Observer, energies_of_log, energies_of_states, momenta_of_half_steps, momenta_with_gradients, unwrapped,
+        },
+        scene::{command, run_scene, scene_text},
+        scheme::{Table, shipped_names},
+        work_precision::{advise, work_precision},
     };
-    #[pymodule_export]
-    use crate::sampling::proposal;
-    #[pymodule_export]
-    use crate::scene::{run_scene, scene_text};
-    #[pymodule_export]
-    use crate::scheme::{Table, shipped_names};
-    #[pymodule_export]
-    use crate::work_precision::{advise, work_precision};
 
     #[pymodule_export]
     #[allow(non_upper_case_globals)] // as Python names it

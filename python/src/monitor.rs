@@ -1,9 +1,9 @@
 //! The monitor of the modified energy, for loops that do something else between steps.
 
-use std::sync::mpsc::{Receiver, Sender, channel};
-use std::sync::{Arc, Mutex, PoisonError};
-use std::time::{Duration, Instant};
-use std::{hint, panic, process};
+use std::cell::RefCell;
+use std::process;
+use std::sync::mpsc::{Sender, channel};
+use std::sync::{Mutex, PoisonError};
 
 use numpy::PyArray1;
 use pyo3::exceptions::PyRuntimeError;
@@ -19,15 +19,16 @@ use shadowstep_scenes::Error;
 use shadowstep_scenes::arithmetic::Arithmetic;
 use shadowstep_scenes::computation::{RunMonitor, RunNumber as _};
 use shadowstep_scenes::library::NamedScheme;
-use shadowstep_scenes::start::{Begin, SceneIntegrator, Steps};
+use shadowstep_scenes::start::SceneIntegrator;
 use shadowstep_scenes::watch::light;
 use shadowstep_scenes::watch::{Bodies, Interactions, LightBody};
 
-use crate::errors::exception;
+use crate::errors::{Fallible, usage};
 use crate::given::{Given, arithmetic, step_size};
-use crate::given_run::SystemWithScheme;
+use crate::given_run::{fitted, integrator};
+use crate::json::Json;
 use crate::scheme::Table;
-use crate::waiting::{Watched, answered, awaited, new_number, spawned, within, working_for};
+use crate::waiting::{Task, Watched, asked, new_number, soon, spawned, within};
 
 /// n, the modified energy, its error and H, all of the middle of a window.
 type Newest = (u64, f64, Option<f64>, f64);
@@ -43,8 +44,10 @@ struct Followed {
     names: Vec<String>,
 }
 
-/// What the thread does next.
-type Task = Box<dyn FnOnce(&mut Followed) + Send>;
+thread_local! {
+    /// That of the thread of a monitor.
+    static FOLLOWED: RefCell<Option<Followed>> = const { RefCell::new(None) };
+}
 
 /// The monitor of a system, for all threads of Python.
 #[pyclass(frozen, module = "shadowstep._shadowstep")]
@@ -61,7 +64,6 @@ pub(crate) struct Monitor {
 impl Monitor {
     /// At the problem's initial state.
     #[staticmethod]
-    #[pyo3(signature = (problem, scheme, h, *, order, every, digits))]
     fn of(
         py: Python<'_>,
         problem: &Given,
@@ -70,126 +72,105 @@ impl Monitor {
         order: u32,
         every: u64,
         digits: &str,
-    ) -> PyResult<Self> {
-        let arithmetic = arithmetic(py, digits, false)?;
-        let h = step_size(py, h)?;
-        let failed = |error| exception(py, error);
+    ) -> Fallible<Self> {
+        let (arithmetic, h) = (arithmetic(digits, false)?, step_size(h)?);
         if arithmetic.is_longer_than_double() {
-            let message = "a monitor for loops computes in double precision";
-            return Err(failed(Error::usage(message, "give digits = \"double\" or \"compensated\"")));
+            let hint = "give digits = \"double\" or \"compensated\"";
+            return Err(usage("a monitor for loops computes in double precision", hint));
         }
         let (tasks, next) = channel::<Task>();
-        let (begun, has_begun) = channel();
-        let (given, scheme) = (problem.clone(), scheme.0.clone());
-        let number = new_number();
-        let begins = within(number).unwrap_or_default();
-        spawned(move || {
-            match answered(|| working_for(begins, || Followed::new(&given, &scheme, &h, (order, every), arithmetic))) {
-                Ok(Ok(mut followed)) => {
-                    let _ = begun.send(Ok(Ok(())));
-                    while let Some(task) = soon(&next).or_else(|| next.recv().ok()) {
-                        task(&mut followed);
-                    }
-                }
-                other => drop(begun.send(other.map(|found| found.map(drop)))),
+        spawned(Box::new(move || {
+            while let Some(task) = soon(&next).or_else(|| next.recv().ok()) {
+                task();
             }
+        }))?;
+        let (process, number, tasks) = (process::id(), new_number(), Mutex::new(tasks));
+        let monitor = Monitor { tasks, process, number, problem: problem.clone() };
+        let (given, scheme) = (problem.clone(), scheme.0.clone());
+        monitor.ask_thread(py, move |_| {
+            FOLLOWED.set(Some(Followed::new(&given, &scheme, &h, (order, every), arithmetic)?));
+            Ok(())
         })?;
-        let found = awaited(py, (None, None), &Watched::default(), has_begun);
-        problem.raised(py)?;
-        found?.map_err(failed)?;
-        Ok(Monitor { tasks: Mutex::new(tasks), process: process::id(), number, problem: problem.clone() })
+        Ok(monitor)
     }
 
     /// A number of steps.
-    fn step(&self, py: Python<'_>, count: u64) -> PyResult<()> {
-        let found = self.ask(py, move |followed, watched| followed.steps(count, watched));
-        self.problem.raised(py)?;
-        found?.map_err(|error| exception(py, of_run(&error)))
+    fn step(&self, py: Python<'_>, count: u64) -> Fallible<()> {
+        self.ask(py, move |followed, watched| Ok(followed.steps(count, watched).map_err(|error| of_run(&error))?))
     }
 
     /// The number of the present state.
     #[getter]
-    fn n(&self, py: Python<'_>) -> PyResult<u64> {
-        self.ask(py, |followed, _| followed.monitor.n())
+    fn n(&self, py: Python<'_>) -> Fallible<u64> {
+        self.ask(py, |followed, _| Ok(followed.monitor.n()))
     }
 
     /// q and p of the present state.
-    fn state<'py>(&self, py: Python<'py>) -> PyResult<[Bound<'py, PyArray1<f64>>; 2]> {
+    fn state<'py>(&self, py: Python<'py>) -> Fallible<[Bound<'py, PyArray1<f64>>; 2]> {
         let state = |integrator: &mut VectorIntegrator<'_, f64>| {
-            (integrator.state().q().to_vec(), integrator.state().p().to_vec())
+            [integrator.state().q().to_vec(), integrator.state().p().to_vec()]
         };
-        let (q, p) = self.ask(py, move |followed, _| at_output(&mut *followed.integrator, state))?;
-        Ok([q, p].map(|numbers| PyArray1::from_vec(py, numbers)))
+        let state = self.ask(py, move |followed, _| Ok(at_output(&mut *followed.integrator, state)))?;
+        Ok(state.map(|numbers| PyArray1::from_vec(py, numbers)))
     }
 
     /// H of the present state.
-    fn energy(&self, py: Python<'_>) -> PyResult<f64> {
+    fn energy(&self, py: Python<'_>) -> Fallible<f64> {
         let energy = |integrator: &mut VectorIntegrator<'_, f64>| integrator.system().energy();
-        let found = self.ask(py, move |followed, _| at_output(&mut *followed.integrator, energy));
-        self.problem.raised(py)?;
-        found
+        self.ask(py, move |followed, _| Ok(at_output(&mut *followed.integrator, energy)))
     }
 
     /// The newest estimate; `None` before the first.
     #[getter]
-    fn newest(&self, py: Python<'_>) -> PyResult<Option<Newest>> {
-        self.ask(py, |followed, _| followed.newest)
+    fn newest(&self, py: Python<'_>) -> Fallible<Option<Newest>> {
+        self.ask(py, |followed, _| Ok(followed.newest))
     }
 
     /// The report on the run so far.
-    fn report<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+    fn report<'py>(&self, py: Python<'py>) -> Fallible<Bound<'py, PyDict>> {
         let (report, planets, light) = self.ask(py, |followed, _| {
             let mut report = followed.monitor.report();
             report.coordinate_names.clone_from(&followed.names);
             let bodies = followed.bodies.as_ref();
-            (report, bodies.and_then(Bodies::interactions), bodies.map_or(Vec::new(), Bodies::light))
+            Ok((report, bodies.and_then(Bodies::interactions), bodies.map_or(Vec::new(), Bodies::light)))
         })?;
         dictionary(py, &report, planets.as_ref(), &light)
     }
 }
 
 impl Monitor {
-    /// What the thread answers.
+    /// What the thread answers of its system.
     fn ask<T: Send + 'static>(
         &self,
         py: Python<'_>,
-        task: impl FnOnce(&mut Followed, &Watched) -> T + Send + 'static,
-    ) -> PyResult<T> {
+        task: impl FnOnce(&mut Followed, &Watched) -> Fallible<T> + Send + 'static,
+    ) -> Fallible<T> {
+        self.ask_thread(py, |watched| {
+            FOLLOWED.with_borrow_mut(|followed| task(followed.as_mut().expect("it was made first"), watched))
+        })
+    }
+
+    fn ask_thread<T: Send + 'static>(
+        &self,
+        py: Python<'_>,
+        task: impl FnOnce(&Watched) -> Fallible<T> + Send + 'static,
+    ) -> Fallible<T> {
         if process::id() != self.process {
             let message = "a monitor belongs to the process that made it: make one in the forked process";
-            return Err(PyRuntimeError::new_err(message));
+            return Err(PyRuntimeError::new_err(message).into());
         }
-        let Some(within) = within(self.number) else {
-            let message = "the forces of a monitor cannot ask the monitor itself, which waits for them";
-            return Err(PyRuntimeError::new_err(message));
+        let within = within(self.number).ok_or_else(|| {
+            PyRuntimeError::new_err("the forces of a monitor cannot ask the monitor itself, which waits for them")
+        })?;
+        let send = |task| {
+            // without its thread there is no answer, which is reported then
+            let _ = self.tasks.lock().unwrap_or_else(PoisonError::into_inner).send(task);
+            Ok(())
         };
-        let watched = Arc::<Watched>::default();
-        let (done, is_done) = channel();
-        let of_thread = Arc::clone(&watched);
-        let task = move |followed: &mut Followed| {
-            drop(done.send(answered(|| working_for(within, || task(followed, &of_thread)))));
-        };
-        // without its thread there is no answer, which is reported then
-        let _ = self.tasks.lock().unwrap_or_else(PoisonError::into_inner).send(Box::new(task));
-        match soon(&is_done) {
-            Some(Ok(found)) => Ok(found),
-            Some(Err(panic)) => panic::resume_unwind(panic),
-            None => awaited(py, (None, None), &watched, is_done),
-        }
+        let found = asked(py, (None, None), within, send, task);
+        self.problem.raised(py)?;
+        found
     }
-}
-
-/// What comes within some microseconds: to fall asleep and to be woken takes longer than a short task.
-fn soon<T>(receiver: &Receiver<T>) -> Option<T> {
-    const PATIENCE: Duration = Duration::from_micros(20);
-    let begun = Instant::now();
-    while begun.elapsed() < PATIENCE {
-        match receiver.try_recv() {
-            Ok(found) => return Some(found),
-            Err(_) => hint::spin_loop(),
-        }
-    }
-    None
 }
 
 impl Followed {
@@ -200,14 +181,13 @@ impl Followed {
         (order, every): (u32, u64),
         arithmetic: Arithmetic,
     ) -> Result<Self, Error> {
-        let posed = SystemWithScheme::of(given, scheme, arithmetic)?;
-        let compensated = arithmetic.is_compensated();
-        let steps =
-            Steps { scheme: &posed.scheme.scheme, h, compensated, displaced: false, begin: Begin::InitialState };
-        let mut integrator = posed.system.integrator(steps, posed.system.start::<f64>(&()), &())?;
+        let read = given.read(arithmetic)?;
+        let system = &read.system;
+        let (scheme, _) = fitted(scheme, system, arithmetic)?;
+        let mut integrator = integrator(system, &scheme, (h, arithmetic.is_compensated()))?;
         let monitor = f64::monitor(&mut *integrator, order, every).map_err(|error| of_run(&error))?;
-        let bodies = Bodies::of(&posed.system, 1, Some(f64::from_rational(h.exact(), &())));
-        let names = posed.system.coordinates.clone();
+        let bodies = Bodies::of(system, 1, Some(f64::from_rational(h.exact(), &())));
+        let names = system.coordinates.clone();
         let mut followed = Followed { integrator, monitor, newest: None, bodies, names };
         followed.include();
         Ok(followed)
@@ -241,7 +221,7 @@ fn dictionary<'py>(
     report: &Report<f64>,
     planets: Option<&Interactions>,
     light: &[LightBody],
-) -> PyResult<Bound<'py, PyDict>> {
+) -> Fallible<Bound<'py, PyDict>> {
     let all = PyDict::new(py);
     let at = |n: i64| format!("n = {n}");
     // the energy has no part of light bodies
@@ -253,8 +233,8 @@ fn dictionary<'py>(
     let lines: String = lines.into_iter().flatten().map(|(name, text)| format!("\n  {name}: {text}")).collect();
     all.set_item("text", format!("{report}{lines}"))?;
     all.set_item("reason", lost.unwrap_or_else(|| report.reason()))?;
-    all.set_item("planets", planets.map(|found| json!(found).to_string()))?;
-    all.set_item("light", json!(light).to_string())?;
+    all.set_item("planets", planets.map(|found| Json::of(&json!(found))).transpose()?)?;
+    all.set_item("light", Json::of(&json!(light))?)?;
     all.set_item("steps", report.steps)?;
     all.set_item("windows", report.windows)?;
     let [method_rms, method_least, method_largest] =

@@ -6,9 +6,8 @@
 #![allow(unsafe_code)]
 
 use std::ffi::c_void;
-use std::fmt;
 use std::ptr;
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use numpy::{PyArray1, PyReadonlyArray1};
 use pyo3::exceptions::{PyTypeError, PyValueError};
@@ -17,17 +16,18 @@ use shadowstep::Potential;
 use shadowstep::systems::potential::from_fn;
 use shadowstep_scenes::OwnPotential;
 
-/// A function that computes forces.
-#[derive(Clone)]
+/// A function that computes forces, and what it has raised.
+#[derive(Clone, Debug)]
 pub(crate) struct Forces {
     function: Function,
+    raised: Arc<Mutex<Option<PyErr>>>,
     dimension: usize,
 }
 
-#[derive(Clone)]
+#[derive(Clone, Debug)]
 enum Function {
     C(CFunction),
-    Python(PythonFunction),
+    Python(Arc<Py<PyAny>>),
 }
 
 /// Of so few components each is read alone: a vector that is read from where its components were just written waits for
@@ -36,13 +36,6 @@ const ALONE: usize = 3;
 
 /// `double f(const double *q, double *gradient)`
 type CFunction = unsafe extern "C" fn(*const f64, *mut f64) -> f64;
-
-/// A function, and what it has raised.
-#[derive(Clone)]
-struct PythonFunction {
-    function: Arc<Py<PyAny>>,
-    raised: Arc<Mutex<Option<PyErr>>>,
-}
 
 impl Forces {
     /// A number is the address of a C function; anything else is a Python function that gives (U, gradient).
@@ -55,71 +48,59 @@ impl Forces {
                 // asks
                 Function::C(unsafe { std::mem::transmute::<*const c_void, CFunction>(address) })
             }
-            Err(_) if function.is_callable() => Function::Python(PythonFunction {
-                function: Arc::new(function.clone().unbind()),
-                raised: Arc::default(),
-            }),
+            Err(_) if function.is_callable() => Function::Python(Arc::new(function.clone().unbind())),
             Err(_) => {
                 let message = "forces are a function of q that returns (U, gradient), or the address of a C function";
                 return Err(PyTypeError::new_err(message));
             }
         };
-        Ok(Forces { function, dimension })
+        Ok(Forces { function, raised: Arc::default(), dimension })
     }
 
     /// Whether the Python function has raised something that was not taken.
     pub(crate) fn has_raised(&self, py: Python<'_>) -> bool {
-        let Function::Python(PythonFunction { raised, .. }) = &self.function else { return false };
-        py.detach(|| raised.lock().unwrap_or_else(PoisonError::into_inner).is_some())
+        py.detach(|| self.known().is_some())
     }
 
     /// What the Python function has raised since this was asked last.
     pub(crate) fn raised(&self, py: Python<'_>) -> PyResult<()> {
-        let Function::Python(PythonFunction { raised, .. }) = &self.function else { return Ok(()) };
-        match py.detach(|| raised.lock().unwrap_or_else(PoisonError::into_inner).take()) {
-            Some(error) => Err(error),
-            None => Ok(()),
-        }
+        py.detach(|| self.known().take()).map_or(Ok(()), Err)
     }
-}
 
-impl PythonFunction {
-    /// U; an exception is kept, and NaN ends the run.
-    fn call(&self, q: &[f64], gradient: &mut [f64]) -> f64 {
+    fn known(&self) -> MutexGuard<'_, Option<PyErr>> {
+        self.raised.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// U of a Python function; an exception is kept, and NaN ends the run.
+    fn call(&self, function: &Py<PyAny>, q: &[f64], gradient: &mut [f64]) -> f64 {
         Python::attach(|py| {
-            self.called(py, q, gradient).unwrap_or_else(|error| {
+            called(function.bind(py), q, gradient).unwrap_or_else(|error| {
                 gradient.fill(f64::NAN);
-                self.raised.lock().unwrap_or_else(PoisonError::into_inner).get_or_insert(error);
+                self.known().get_or_insert(error);
                 f64::NAN
             })
         })
     }
-
-    fn called(&self, py: Python<'_>, q: &[f64], gradient: &mut [f64]) -> PyResult<f64> {
-        let found = self.function.bind(py).call1((PyArray1::from_slice(py, q),))?;
-        let (energy, found): (f64, Bound<'_, PyAny>) = found.extract().map_err(|error| {
-            let wrong = PyTypeError::new_err("the function for the forces must return (U, gradient)");
-            wrong.set_cause(py, Some(error));
-            wrong
-        })?;
-        let found = found.extract::<PyReadonlyArray1<'_, f64>>().map(|array| array.as_array().to_vec());
-        let found: Vec<f64> = match found {
-            Ok(array) => array,
-            Err(_) => return Err(PyTypeError::new_err("the gradient must be an array of float64 as long as q")),
-        };
-        if found.len() != gradient.len() {
-            let message = format!("the gradient has {} numbers, and q has {}", found.len(), gradient.len());
-            return Err(PyValueError::new_err(message));
-        }
-        gradient.copy_from_slice(&found);
-        Ok(energy)
-    }
 }
 
-impl fmt::Debug for Forces {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("Forces").field("name", &self.name()).field("dimension", &self.dimension).finish()
+fn called(function: &Bound<'_, PyAny>, q: &[f64], gradient: &mut [f64]) -> PyResult<f64> {
+    let py = function.py();
+    let found = function.call1((PyArray1::from_slice(py, q),))?;
+    let (energy, found): (f64, Bound<'_, PyAny>) = found.extract().map_err(|error| {
+        let wrong = PyTypeError::new_err("the function for the forces must return (U, gradient)");
+        wrong.set_cause(py, Some(error));
+        wrong
+    })?;
+    let Ok(found) = found.extract::<PyReadonlyArray1<'_, f64>>() else {
+        return Err(PyTypeError::new_err("the gradient must be an array of float64 as long as q"));
+    };
+    let found = found.as_array();
+    if found.len() != gradient.len() {
+        let message = format!("the gradient has {} numbers, and q has {}", found.len(), gradient.len());
+        return Err(PyValueError::new_err(message));
     }
+    gradient.iter_mut().zip(found).for_each(|(own, component)| *own = *component);
+    Ok(energy)
 }
 
 impl OwnPotential for Forces {
@@ -148,8 +129,8 @@ impl OwnPotential for Forces {
                 }))
             }
             Function::Python(function) => {
-                let function = function.clone();
-                Box::new(from_fn(self.dimension, move |q, gradient| function.call(q, gradient)))
+                let (forces, function) = (self.clone(), Arc::clone(function));
+                Box::new(from_fn(self.dimension, move |q, gradient| forces.call(&function, q, gradient)))
             }
         }
     }

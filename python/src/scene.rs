@@ -1,23 +1,24 @@
-//! Scenes and sweeps, as files describe them.
+//! Runs that files describe, and the program `shadowstep`.
 
+use std::ffi::OsString;
 use std::path::PathBuf;
 
 use pyo3::prelude::*;
 use shadowstep::tables::Source;
 use shadowstep_scenes::ensemble::Ensemble;
 use shadowstep_scenes::outside::reading_outside;
-use shadowstep_scenes::{Error, FileOptions, Note, Observer, Outcome, Scene, Summary, source};
+use shadowstep_scenes::{Error, FileOptions, Note, Outcome, Scene, source};
 
-use crate::errors::exception;
-use crate::waiting::{Watched, waiting};
+use crate::errors::Fallible;
+use crate::json::Json;
+use crate::waiting::{Watched, waiting_for};
 
-/// What a run of a scene gives: the rows as CSV or JSON lines, where it has no file; the summary as text and JSON;
-/// notes.
-type SceneResult = (Option<String>, Option<(String, String)>, Vec<String>);
+/// What a run of a scene gives: the rows as CSV or JSON lines, where it has no file; the summary as lines and as an
+/// object; notes.
+type SceneResult = (Option<String>, Option<(String, Json)>, Vec<String>);
 
 /// Runs a scene, from a file or a text. One that names a file is written there, from its last checkpoint on.
 #[pyfunction]
-#[pyo3(signature = (path, text, *, restart, allow_outside, progress))]
 pub(crate) fn run_scene(
     py: Python<'_>,
     path: PathBuf,
@@ -25,27 +26,27 @@ pub(crate) fn run_scene(
     restart: bool,
     allow_outside: bool,
     progress: Option<&Bound<'_, PyAny>>,
-) -> PyResult<SceneResult> {
-    let failed = |error| exception(py, error);
-    let (is_file, path_text) = (text.is_none(), path.display().to_string());
-    let source = match text {
-        Some(text) => Source { path: path_text, text },
-        None => source(&path).map_err(failed)?,
-    };
-    // a text is an argument, whose paths the caller has written
-    let outside = allow_outside || !is_file;
-    let run = move |watched: &Watched| reading_outside(outside, || run(source, restart, watched));
-    waiting(py, progress, run)?.map_err(failed)
+) -> Fallible<SceneResult> {
+    waiting_for(py, progress, None, move |watched| {
+        // a text is an argument, whose paths the caller has written
+        let outside = allow_outside || text.is_some();
+        let source = match text {
+            Some(text) => Source { path: path.display().to_string(), text },
+            None => source(&path)?,
+        };
+        Ok(reading_outside(outside, || run(source, restart, watched))?)
+    })
 }
 
 fn run(source: Source, restart: bool, watched: &Watched) -> Result<SceneResult, Error> {
     let options = FileOptions { restart, ..FileOptions::default() };
     let mut rows = Vec::new();
     let text = |rows| Some(String::from_utf8(rows).expect("rows are text"));
+    let texts = |notes: &[Note]| notes.iter().map(Note::to_string).collect();
     if Ensemble::is_in(&source) {
         let ensemble = Ensemble::read(source)?;
         let continues = || watched.continues();
-        let notes = ensemble.first().notes.iter().map(Note::to_string).collect();
+        let notes = texts(&ensemble.first().notes);
         if ensemble.first().output.file.is_some() {
             ensemble.run_to_file(options, continues)?;
             return Ok((None, None, notes));
@@ -54,60 +55,29 @@ fn run(source: Source, restart: bool, watched: &Watched) -> Result<SceneResult, 
         return Ok((text(rows), None, notes));
     }
     let scene = Scene::read(source)?;
-    let mut follower = Summarising::new(watched, scene.notes.clone());
+    let mut observer = watched.observer();
+    observer.summarises = true;
+    observer.notes.clone_from(&scene.notes);
     let outcome = match &scene.output.file {
-        Some(_) => scene.run_to_file(options, &mut follower)?,
-        None => scene.run_into(&mut rows, &mut follower)?,
+        Some(_) => scene.run_to_file(options, &mut observer)?,
+        None => scene.run_into(&mut rows, &mut observer)?,
     };
     if let Outcome::Stopped { n } = outcome {
         return Err(Error::run(format!("the run was interrupted at n = {n}"), "run the scene again"));
     }
-    let notes = follower.notes.iter().map(Note::to_string).collect();
-    Ok((scene.output.file.is_none().then(|| text(rows)).flatten(), follower.summary()?, notes))
-}
-
-/// Keeps the notes and the summary of a run.
-pub(crate) struct Summarising<'a> {
-    watched: &'a Watched,
-    notes: Vec<Note>,
-    summary: Option<Summary>,
-}
-
-impl<'a> Summarising<'a> {
-    pub(crate) fn new(watched: &'a Watched, notes: Vec<Note>) -> Self {
-        Summarising { watched, notes, summary: None }
-    }
-
-    /// The summary as text and JSON.
-    pub(crate) fn summary(&self) -> Result<Option<(String, String)>, Error> {
-        let texts = self
-            .summary
-            .as_ref()
-            .map(|summary| -> Result<_, Error> { Ok((summary.to_string(), serde_json::to_string(summary)?)) });
-        texts.transpose()
-    }
-}
-
-impl Observer for Summarising<'_> {
-    fn progress(&mut self, n: i64) {
-        self.watched.reaches(n);
-    }
-    fn note(&mut self, note: &Note) {
-        self.notes.push(note.clone());
-    }
-    fn summarises(&self) -> bool {
-        true
-    }
-    fn summary(&mut self, summary: &Summary) {
-        self.summary = Some(summary.clone());
-    }
-    fn stops(&mut self) -> bool {
-        !self.watched.continues()
-    }
+    let rows = scene.output.file.is_none().then(|| text(rows)).flatten();
+    Ok((rows, observer.summary()?, texts(&observer.notes)))
 }
 
 /// The text of a shipped scene, or of a scene of a shipped problem.
 #[pyfunction]
-pub(crate) fn scene_text(py: Python<'_>, name: &str) -> PyResult<String> {
-    shadowstep_scenes::scene_text(name).map_err(|error| exception(py, error))
+pub(crate) fn scene_text(name: &str) -> Fallible<String> {
+    Ok(shadowstep_scenes::scene_text(name)?)
+}
+
+/// Runs the program with its arguments, the first of which is its name; gives its exit code. `program` is the path
+/// under which job scripts can call it.
+#[pyfunction]
+pub(crate) fn command(py: Python<'_>, arguments: Vec<OsString>, program: Option<PathBuf>) -> u8 {
+    py.detach(|| shadowstep_cli::main(arguments, program))
 }

@@ -2,10 +2,11 @@
 
 use pyo3::prelude::*;
 use shadowstep::tables::Source;
+use shadowstep_scenes::Error;
 use shadowstep_scenes::library::{self, NamedScheme};
 use shadowstep_scenes::scheme_record::SchemeFacts;
 
-use crate::errors::of_library;
+use crate::errors::Fallible;
 use crate::waiting::waiting;
 
 /// A proved scheme.
@@ -16,18 +17,17 @@ pub(crate) struct Table(pub(crate) NamedScheme);
 impl Table {
     /// The scheme that a word means: a shipped one, or a table's file.
     #[staticmethod]
-    fn of_word(py: Python<'_>, word: String) -> PyResult<Self> {
-        let found = waiting(py, None, move |_| library::scheme(&word))?;
-        found.map(Table).map_err(|error| of_library(py, error))
+    fn of_word(py: Python<'_>, word: String) -> Fallible<Self> {
+        waiting(py, move |_| Ok(Table(library::scheme(&word).map_err(Error::from)?)))
     }
 
     /// The scheme of a table's text; `path` names it in messages, and `name`, if there is one, is by which it was asked
     /// for.
     #[staticmethod]
     #[pyo3(signature = (text, path, name = None))]
-    fn of_text(py: Python<'_>, text: String, path: String, name: Option<String>) -> PyResult<Self> {
-        let found = waiting(py, None, move |_| library::scheme_of(&Source { path, text }))?;
-        let named = found.map_err(|error| of_library(py, error))?;
+    fn of_text(py: Python<'_>, text: String, path: String, name: Option<String>) -> Fallible<Self> {
+        let source = Source { path, text };
+        let named = waiting(py, move |_| Ok(library::scheme_of(&source).map_err(Error::from)?))?;
         Ok(Table(NamedScheme { name: name.unwrap_or(named.name), scheme: named.scheme }))
     }
 
@@ -44,10 +44,9 @@ impl Table {
     }
 
     /// Everything that is known of it, as JSON.
-    fn record(&self, py: Python<'_>) -> PyResult<String> {
+    fn record(&self, py: Python<'_>) -> Fallible<String> {
         let scheme = self.0.quadratic();
-        let json = waiting(py, None, move |_| serde_json::to_string(&SchemeFacts::of(scheme.proved()).record()));
-        json?.map_err(|error| pyo3::exceptions::PyRuntimeError::new_err(error.to_string()))
+        waiting(py, move |_| Ok(serde_json::to_string(&SchemeFacts::of(scheme.proved()).record()).map_err(Error::from)?))
     }
 
     /// What can be said without an analysis: (name, order for every T(p) or None, order for quadratic T, evaluations a

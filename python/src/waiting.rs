@@ -5,15 +5,17 @@ use std::panic::{self, AssertUnwindSafe};
 use std::sync::atomic::{AtomicBool, AtomicI64, AtomicU64, Ordering};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
 use std::sync::{Arc, Mutex, PoisonError};
-use std::thread;
 use std::time::{Duration, Instant};
+use std::{hint, thread};
 
 use pyo3::exceptions::{PyRecursionError, PyRuntimeError};
 use pyo3::prelude::*;
-use shadowstep_scenes::Observer;
+use shadowstep_scenes::{Error, Note, Observer, Summary};
 use shadowstep_studies::Progress;
 
+use crate::errors::Fallible;
 use crate::given::Given;
+use crate::json::Json;
 
 /// Signals are asked for this often.
 const SIGNALS: Duration = Duration::from_millis(40);
@@ -32,14 +34,9 @@ pub(crate) struct Watched {
 }
 
 impl Watched {
-    /// An observer of a run.
-    pub(crate) fn observer(&self) -> impl Observer + '_ {
-        Watching(self)
-    }
-
-    /// An observer of tasks on all cores.
-    pub(crate) fn observer_of_tasks(&self) -> impl shadowstep_studies::Observer + '_ {
-        Watching(self)
+    /// An observer of a run, or of tasks on all cores.
+    pub(crate) fn observer(&self) -> Watching<'_> {
+        Watching { watched: self, summarises: false, notes: Vec::new(), summary: None }
     }
 
     /// Whether the computation is to go on.
@@ -54,31 +51,53 @@ impl Watched {
     }
 }
 
-struct Watching<'a>(&'a Watched);
+/// Watches a run, and keeps its notes, and its summary where one is wanted.
+pub(crate) struct Watching<'a> {
+    pub(crate) watched: &'a Watched,
+    pub(crate) summarises: bool,
+    pub(crate) notes: Vec<Note>,
+    summary: Option<Summary>,
+}
+
+impl Watching<'_> {
+    /// The summary as lines and as an object.
+    pub(crate) fn summary(&self) -> Result<Option<(String, Json)>, Error> {
+        self.summary.as_ref().map(|summary| Ok((summary.to_string(), Json::of(summary)?))).transpose()
+    }
+}
 
 impl Observer for Watching<'_> {
     fn progress(&mut self, n: i64) {
-        self.0.reaches(n);
+        self.watched.reaches(n);
+    }
+
+    fn note(&mut self, note: &Note) {
+        self.notes.push(note.clone());
+    }
+
+    fn summarises(&self) -> bool {
+        self.summarises
+    }
+
+    fn summary(&mut self, summary: &Summary) {
+        self.summary = Some(summary.clone());
     }
 
     fn stops(&mut self) -> bool {
-        !self.0.continues()
+        !self.watched.continues()
     }
 }
 
 impl shadowstep_studies::Observer for Watching<'_> {
     fn progress(&mut self, progress: Progress) {
         // in thousandths of the work
-        self.0.reaches((progress.fraction * 1000.0) as i64);
+        self.watched.reaches((progress.fraction * 1000.0) as i64);
     }
 
     fn stops(&mut self) -> bool {
-        !self.0.continues()
+        !self.watched.continues()
     }
 }
-
-/// The answer of a thread: what it has found, or its panic.
-pub(crate) type Answer<T> = thread::Result<T>;
 
 /// At most this number of computations wait for each other, each within the forces of the one before: their cost is a
 /// power of the evaluations in a step.
@@ -104,72 +123,94 @@ pub(crate) fn within(number: u64) -> Option<Vec<u64>> {
     })
 }
 
-/// Work of a thread for these computations.
-pub(crate) fn working_for<T>(all: Vec<u64>, work: impl FnOnce() -> T) -> T {
-    WITHIN.replace(all);
-    work()
-}
-
-/// Does some work in a thread of its own, while Python's other threads run; `progress`, if there is one, is called with
-/// the n of the state that was reached.
+/// Does some work in a thread of its own, while Python's other threads run.
 ///
 /// # Errors
-/// `KeyboardInterrupt` after Ctrl-C, or what another handler of signals or `progress` raises: the work is asked to end,
-/// and not waited for where it does not end soon. `RecursionError` where forces compute what needs these forces.
+/// `KeyboardInterrupt` after Ctrl-C, or what another handler of signals raises: the work is asked to end, and not
+/// waited for where it does not end soon. `RecursionError` where forces compute what needs these forces.
 pub(crate) fn waiting<T: Send + 'static>(
     py: Python<'_>,
-    progress: Option<&Bound<'_, PyAny>>,
-    work: impl FnOnce(&Watched) -> T + Send + 'static,
-) -> PyResult<T> {
-    waiting_for(py, progress, None, work)
+    work: impl FnOnce(&Watched) -> Fallible<T> + Send + 'static,
+) -> Fallible<T> {
+    waiting_for(py, None, None, work)
 }
 
-/// As [`waiting`], of work with the forces of a problem: it is asked to end where these raise something.
+/// As [`waiting`]; `progress`, if there is one, is called with the n of the state that was reached. Work with the
+/// forces of a problem is asked to end where these raise something.
 ///
 /// # Errors
-/// Also what the forces have raised.
+/// Also what `progress` or the forces have raised.
 pub(crate) fn waiting_for<T: Send + 'static>(
     py: Python<'_>,
     progress: Option<&Bound<'_, PyAny>>,
     problem: Option<&Given>,
-    work: impl FnOnce(&Watched) -> T + Send + 'static,
-) -> PyResult<T> {
+    work: impl FnOnce(&Watched) -> Fallible<T> + Send + 'static,
+) -> Fallible<T> {
     let within = within(new_number()).filter(|all| all.len() <= DEEPEST).ok_or_else(|| {
         let message = "the forces of a computation compute what needs these forces again, without an end";
         PyRecursionError::new_err(message)
     })?;
-    let watched = Arc::<Watched>::default();
-    let (done, is_done) = channel();
-    let of_thread = Arc::clone(&watched);
-    spawned(move || drop(done.send(answered(|| working_for(within, || work(&of_thread))))))?;
-    let found = awaited(py, (progress, problem), &watched, is_done);
-    problem.map_or(Ok(()), |problem| problem.raised(py)).and(found)
+    let found = asked(py, (progress, problem), within, spawned, work);
+    problem.map_or(Ok(()), |problem| problem.raised(py))?;
+    found
 }
 
+/// What a thread does.
+pub(crate) type Task = Box<dyn FnOnce() + Send>;
+
 /// A thread for computations.
-pub(crate) fn spawned(work: impl FnOnce() + Send + 'static) -> PyResult<()> {
-    let begun = thread::Builder::new().stack_size(STACK).spawn(work);
+pub(crate) fn spawned(task: Task) -> PyResult<()> {
+    let begun = thread::Builder::new().stack_size(STACK).spawn(task);
     begun.map(drop).map_err(|error| PyRuntimeError::new_err(format!("no thread can be started: {error}")))
 }
 
-/// What some work answers; a panic goes on in the thread that waits for it.
-pub(crate) fn answered<T>(work: impl FnOnce() -> T) -> Answer<T> {
-    panic::catch_unwind(AssertUnwindSafe(work))
+/// Sends some work to a thread, for these computations, and waits for its answer as [`waiting_for`] does; a panic goes
+/// on here.
+pub(crate) fn asked<T: Send + 'static>(
+    py: Python<'_>,
+    (progress, problem): (Option<&Bound<'_, PyAny>>, Option<&Given>),
+    within: Vec<u64>,
+    send: impl FnOnce(Task) -> PyResult<()>,
+    work: impl FnOnce(&Watched) -> Fallible<T> + Send + 'static,
+) -> Fallible<T> {
+    let watched = Arc::<Watched>::default();
+    let (done, is_done) = channel();
+    let of_thread = Arc::clone(&watched);
+    send(Box::new(move || {
+        WITHIN.replace(within);
+        drop(done.send(panic::catch_unwind(AssertUnwindSafe(|| work(&of_thread)))));
+    }))?;
+    let answer = match soon(&is_done) {
+        Some(answer) => answer,
+        None => awaited(py, (progress, problem), &watched, is_done)?,
+    };
+    answer.unwrap_or_else(|panic| panic::resume_unwind(panic))
 }
 
-/// Waits for the answer of another thread, as [`waiting_for`] does.
-pub(crate) fn awaited<T: Send>(
+/// What comes within some microseconds: to fall asleep and to be woken takes longer than a short task.
+pub(crate) fn soon<T>(receiver: &Receiver<T>) -> Option<T> {
+    const PATIENCE: Duration = Duration::from_micros(20);
+    let begun = Instant::now();
+    while begun.elapsed() < PATIENCE {
+        match receiver.try_recv() {
+            Ok(found) => return Some(found),
+            Err(_) => hint::spin_loop(),
+        }
+    }
+    None
+}
+
+fn awaited<T: Send>(
     py: Python<'_>,
     (progress, problem): (Option<&Bound<'_, PyAny>>, Option<&Given>),
     watched: &Watched,
-    is_done: Receiver<Answer<T>>,
+    is_done: Receiver<T>,
 ) -> PyResult<T> {
     let is_done = Mutex::new(is_done); // one thread waits, but the closures of `detach` are shared
     let mut raised: Option<(PyErr, Instant)> = None;
     loop {
         match py.detach(|| is_done.lock().unwrap_or_else(PoisonError::into_inner).recv_timeout(SIGNALS)) {
-            Ok(Ok(found)) => return raised.map_or(Ok(found), |(error, _)| Err(error)),
-            Ok(Err(panic)) => panic::resume_unwind(panic),
+            Ok(answer) => return raised.map_or(Ok(answer), |(error, _)| Err(error)),
             Err(RecvTimeoutError::Disconnected) => {
                 return Err(PyRuntimeError::new_err("the thread of a computation has ended"));
             }

@@ -1,15 +1,15 @@
 //! Speed against error, and advice on a scheme and a step size.
 
 use std::path::PathBuf;
+use std::sync::Arc;
 use std::time::Duration;
 
 use pyo3::prelude::*;
 use serde_json::{Value, json};
 use shadowstep::Rational;
-use shadowstep::tables::First;
+use shadowstep_scenes::System;
 use shadowstep_scenes::arithmetic::Arithmetic;
 use shadowstep_scenes::library::NamedScheme;
-use shadowstep_scenes::{Error, System};
 use shadowstep_symbolic::decimal::to_text;
 use shadowstep_work_precision::advise::{Advice, AdviceRequest, Choice, Verified};
 use shadowstep_work_precision::length::{counts, length_of};
@@ -21,15 +21,32 @@ use shadowstep_work_precision::series::StepRange;
 use shadowstep_work_precision::size::Size;
 use shadowstep_work_precision::study::{Cost, Request, Studied, Study};
 
-use crate::errors::{exception, usage};
-use crate::given::{Given, GivenSystem, arithmetic, number, step_size, word};
-use crate::given_run::{SystemWithScheme, beginning_with, first_map};
+use crate::errors::{Fallible, usage};
+use crate::given::{Given, Read, arithmetic, number, step_size, word};
+use crate::given_run::{beginning_with, first_map, fitted};
+use crate::json::Json;
 use crate::scheme::Table;
 use crate::waiting::waiting_for;
 
-/// What schemes are compared on, and the schemes.
+/// What schemes are compared on, the schemes, or the group that they are of, and the time of the comparison, as Python
+/// gives them. Without schemes and a group there are a dozen.
+#[derive(FromPyObject)]
+#[pyo3(from_item_all)]
+pub(crate) struct Comparison {
+    problem: Py<Given>,
+    until: String,
+    schemes: Vec<Py<Table>>,
+    group: Option<String>,
+    /// The map that steps begin with, in place of what the tables have.
+    first: Option<String>,
+    digits: String,
+    seconds: f64,
+    folder: PathBuf,
+}
+
+/// What it means, with schemes that are valid for the system.
 struct Compared {
-    system: GivenSystem,
+    read: Arc<Read>,
     until: Rational,
     /// About the length of the runs in s, where time is transformed.
     length: Option<Rational>,
@@ -37,93 +54,61 @@ struct Compared {
     schemes: Vec<NamedScheme>,
 }
 
-/// What is asked for: the problem, the end of the runs, the number type, and the schemes, or the group that they are
-/// of.
-struct Asked {
-    problem: Given,
-    until: Rational,
-    arithmetic: Arithmetic,
-    schemes: Vec<NamedScheme>,
-    group: Group,
-    /// The map that steps begin with, in place of what the tables have.
-    first: Option<First>,
-}
-
-impl Asked {
-    /// Without schemes, those of the group, or a dozen, that are valid for the system.
-    fn of(
-        py: Python<'_>,
-        problem: &Given,
-        until: &str,
-        (schemes, group): (&[PyRef<'_, Table>], Option<&str>),
-        first: Option<&str>,
-        digits: &str,
-    ) -> PyResult<Self> {
-        let group = group.map(|given| word(py, "schemes", given, &Group::NAMED)).transpose()?;
-        let (arithmetic, until) = (arithmetic(py, digits, false)?, number(py, "until", until)?);
+impl Comparison {
+    fn read(&self) -> Fallible<Compared> {
+        let group = self.group.as_ref().map_or(Ok(Group::Default), |given| word("schemes", given, &Group::NAMED))?;
+        let (arithmetic, until) = (arithmetic(&self.digits, false)?, number("until", &self.until)?);
         if until == Rational::from_integer(0.into()) {
-            return Err(usage(py, "until = 0: the runs must have a length", "until = 100"));
+            return Err(usage("until = 0: the runs must have a length", "until = 100"));
         }
-        let first = first.map(|given| first_map(py, given)).transpose()?;
-        let schemes = schemes.iter().map(|table| beginning_with(py, &table.0, first)).collect::<PyResult<_>>()?;
-        let group = group.unwrap_or(Group::Default);
-        Ok(Asked { problem: problem.clone(), until, arithmetic, schemes, group, first })
+        let first = self.first.as_deref().map(first_map).transpose()?;
+        let read = self.problem.get().read(arithmetic)?;
+        let valid = |table: &Py<Table>| -> Fallible<_> {
+            Ok(fitted(&beginning_with(&table.get().0, first)?, &read.system, arithmetic)?.0)
+        };
+        let schemes = match &self.schemes[..] {
+            [] => group.schemes(&read.system, arithmetic, first)?,
+            given => given.iter().map(valid).collect::<Fallible<_>>()?,
+        };
+        let length = length_of(&read.system, &until)?;
+        Ok(Compared { read, until, length, arithmetic, schemes })
     }
 }
 
 impl Compared {
-    fn of(asked: Asked) -> Result<Self, Error> {
-        let Asked { problem, until, arithmetic, schemes, group, first } = asked;
-        let system = problem.system(arithmetic)?;
-        let valid = |scheme| SystemWithScheme::of(&problem, scheme, arithmetic).map(|posed| posed.scheme);
-        let schemes = match &schemes[..] {
-            [] => group.schemes(&system, arithmetic, first)?,
-            given => given.iter().map(valid).collect::<Result<_, _>>()?,
-        };
-        let length = length_of(&system, &until)?;
-        Ok(Compared { system, until, length, arithmetic, schemes })
-    }
-
     fn problem(&self) -> Problem<'_> {
-        let Compared { system, until, length, arithmetic, .. } = self;
-        Problem { system, until, arithmetic: *arithmetic, length: length.as_ref() }
+        let Compared { read, until, length, arithmetic, .. } = self;
+        Problem { system: &read.system, until, arithmetic: *arithmetic, length: length.as_ref() }
     }
 }
 
-/// The errors of several schemes on a problem beside a reference, and their cost, as JSON.
+/// The errors of several schemes on a problem beside a reference, and their cost.
 #[pyfunction]
-#[pyo3(signature = (problem, until, schemes, group, *, first, steps, h, digits, seconds, folder, progress))]
-#[allow(clippy::too_many_arguments)] // the package's own function has the defaults
 pub(crate) fn work_precision(
     py: Python<'_>,
-    problem: &Given,
-    until: &str,
-    schemes: Vec<PyRef<'_, Table>>,
-    group: Option<&str>,
-    first: Option<&str>,
+    comparison: Comparison,
     steps: Option<Vec<u64>>,
     h: Option<Vec<String>>,
-    digits: &str,
-    seconds: f64,
-    folder: PathBuf,
     progress: Option<&Bound<'_, PyAny>>,
-) -> PyResult<String> {
+) -> Fallible<Json> {
     /// The reference may take this multiple of the time of a scheme.
     const REFERENCE: f64 = 10.0;
-    let asked = Asked::of(py, problem, until, (&schemes, group), first, digits)?;
-    let sizes = h.map(|sizes| sizes.iter().map(|h| step_size(py, h)).collect::<PyResult<Vec<_>>>()).transpose()?;
-    let reference_time = Duration::from_secs_f64(REFERENCE * seconds);
-    let found = waiting_for(py, progress, Some(problem), move |watched| {
-        let mut compared = Compared::of(asked)?;
-        let range = match (sizes, steps) {
-            (Some(sizes), _) => StepRange::Given(counts(&sizes, &compared.until, compared.length.as_mut())?),
+    let problem = comparison.problem.get().clone();
+    waiting_for(py, progress, Some(&problem), move |watched| {
+        let mut compared = comparison.read()?;
+        let Comparison { seconds, folder, .. } = comparison;
+        let range = match (h, steps) {
+            (Some(sizes), _) => {
+                let sizes = sizes.iter().map(|h| step_size(h)).collect::<Fallible<Vec<_>>>()?;
+                StepRange::Given(counts(&sizes, &compared.until, compared.length.as_mut())?)
+            }
             (None, Some(steps)) => StepRange::Given(steps),
             (None, None) => StepRange::Automatic { seconds, target: None },
         };
+        let reference_time = Duration::from_secs_f64(REFERENCE * seconds);
         let request = Request::new(compared.problem(), &compared.schemes, range, reference_time, &folder);
-        request.study(&mut watched.observer_of_tasks()).map(|study| of_study(&study))
-    });
-    Ok(found?.map_err(|error| exception(py, error))?.to_string())
+        Ok(Json::of(&of_study(&request.study(&mut watched.observer())?))?)
+    })
 }
 
 fn of_study(study: &Study<'_>) -> Value {
@@ -166,67 +151,45 @@ fn number_of(size: Size) -> Option<f64> {
     size.is_finite().then(|| 10_f64.powf(size.log10()))
 }
 
-/// A scheme and a step size for a tolerance, as JSON.
+/// A scheme and a step size for a tolerance.
 #[pyfunction]
-#[pyo3(signature = (problem, until, tolerance, *, of, cost, schemes, group, first, digits, seconds, folder, progress))]
-#[allow(clippy::too_many_arguments)]
 pub(crate) fn advise(
     py: Python<'_>,
-    problem: &Given,
-    until: &str,
+    comparison: Comparison,
     tolerance: f64,
     of: &str,
     cost: &str,
-    schemes: Vec<PyRef<'_, Table>>,
-    group: Option<&str>,
-    first: Option<&str>,
-    digits: &str,
-    seconds: f64,
-    folder: PathBuf,
     progress: Option<&Bound<'_, PyAny>>,
-) -> PyResult<String> {
-    let of = word(py, "of", of, &[("position", Of::Position), ("energy", Of::Energy), ("permanent", Of::Permanent)])?;
-    let cost = word(py, "cost", cost, &[("forces", Cost::Evaluations), ("time", Cost::Seconds)])?;
+) -> Fallible<Json> {
+    let of = word("of", of, &[("position", Of::Position), ("energy", Of::Energy), ("permanent", Of::Permanent)])?;
+    let cost = word("cost", cost, &[("forces", Cost::Evaluations), ("time", Cost::Seconds)])?;
     if !(tolerance > 0.0 && tolerance.is_finite()) {
-        return Err(usage(py, format!("tolerance = {tolerance}: the tolerance must be positive"), "tolerance = 1e-8"));
+        return Err(usage(format!("tolerance = {tolerance}: the tolerance must be positive"), "tolerance = 1e-8"));
     }
-    let asked = Asked::of(py, problem, until, (&schemes, group), first, digits)?;
-    let found = waiting_for(py, progress, Some(problem), move |watched| {
-        let compared = Compared::of(asked)?;
-        let request = AdviceRequest {
-            problem: compared.problem(),
-            schemes: &compared.schemes,
-            of,
-            tolerance: Size::of(&tolerance),
-            cost,
-            seconds,
-            folder,
-        };
-        request.run(&mut watched.observer_of_tasks()).map(|advice| of_advice(&advice, &request))
-    });
-    Ok(found?.map_err(|error| exception(py, error))?.to_string())
+    let problem = comparison.problem.get().clone();
+    waiting_for(py, progress, Some(&problem), move |watched| {
+        let compared = comparison.read()?;
+        let Comparison { seconds, folder, .. } = comparison;
+        let (problem, schemes, tolerance) = (compared.problem(), &compared.schemes[..], Size::of(&tolerance));
+        let request = AdviceRequest { problem, schemes, of, tolerance, cost, seconds, folder };
+        Ok(Json::of(&of_advice(&request.run(&mut watched.observer())?, &request))?)
+    })
 }
 
 fn of_advice(advice: &Advice<'_>, request: &AdviceRequest<'_>) -> Value {
-    let system = request.problem.system;
-    match advice {
-        Advice::Found { choices, verified, part, unfinished } => {
-            let choices: Vec<Value> = choices.iter().map(|choice| of_choice(choice, system)).collect();
-            let at_most = !matches!(verified, Verified::Error(_));
-            json!({ "found": true, "choices": choices, "verified": number_of(verified.size()), "at_most": at_most, "part": part,
-                "untried": unfinished.untried, "extrapolated": unfinished.extrapolated })
-        }
-        Advice::OutOfReach { least, part, in_time, unfinished, .. } => json!({
-            "found": false,
-            "reason": advice.reason(request),
-            "least": least.map(|(error, _)| number_of(error)),
-            "scheme": least.map(|(_, name)| name),
-            "part": part,
-            "in_time": in_time,
-            "untried": unfinished.untried,
-            "extrapolated": unfinished.extrapolated,
-        }),
-    }
+    let (choices, verified, least, unfinished) = match advice {
+        Advice::Found { choices, verified, unfinished, .. } => (&choices[..], Some(verified), None, unfinished),
+        Advice::OutOfReach { least, unfinished, .. } => (&[][..], None, least.as_ref(), unfinished),
+    };
+    json!({
+        "choices": choices.iter().map(|choice| of_choice(choice, request.problem.system)).collect::<Vec<_>>(),
+        "verified": verified.and_then(|verified| number_of(verified.size())),
+        "at_most": verified.is_some_and(|verified| !matches!(verified, Verified::Error(_))),
+        "least": least.and_then(|(error, _)| number_of(*error)),
+        "reason": advice.reason(request),
+        "untried": unfinished.untried,
+        "extrapolated": unfinished.extrapolated,
+    })
 }
 
 fn of_choice(choice: &Choice<'_>, system: &System) -> Value {

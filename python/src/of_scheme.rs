@@ -1,0 +1,109 @@
+//! What is computed of a scheme: its code, proposals, and modified Hamiltonian.
+
+use pyo3::prelude::*;
+use shadowstep_analysis::gaussian::Gaussian;
+use shadowstep_emit::Target;
+use shadowstep_scenes::arithmetic::Arithmetic;
+use shadowstep_scenes::modified_hamiltonian::record::{Formulas, SeriesOptions, SeriesRecord};
+use shadowstep_scenes::sampling::{SamplingTarget, Wanted};
+use shadowstep_scenes::{Error, Refusal};
+use shadowstep_symbolic::Notation;
+
+use crate::errors::{Fallible, usage};
+use crate::given::Given;
+use crate::scheme::Table;
+use crate::waiting::waiting;
+
+/// The text of a scheme for a target.
+#[pyfunction]
+pub(crate) fn emit(py: Python<'_>, scheme: &Table, target: &str) -> Fallible<String> {
+    let target: Target = target.parse().map_err(|_| {
+        let names: Vec<_> = Target::ALL.iter().map(|target| target.name()).collect();
+        usage(format!("there is no target `{target}`"), format!("it is one of {}", names.join(", ")))
+    })?;
+    let scheme = scheme.0.quadratic();
+    waiting(py, move |_| {
+        shadowstep_emit::emit(&scheme, target)
+            .map_err(|refusal| usage(format!("{} {}", refusal.scheme, refusal.reason), refusal.hint))
+    })
+}
+
+/// The steps, their size, the gradients, the expected error of the energy, the largest one, and the acceptance.
+type Numbers = (u64, f64, u64, f64, f64, f64);
+
+/// The proposals of a scheme.
+#[pyfunction]
+pub(crate) fn proposal(
+    py: Python<'_>,
+    scheme: &Table,
+    frequencies: Vec<f64>,
+    time: Option<f64>,
+    acceptance: Option<f64>,
+    steps: Option<u64>,
+) -> Fallible<Numbers> {
+    let gaussian = Gaussian::new(frequencies).map_err(|error| {
+        usage(error.to_string(), "give positive numbers: 1/σ of a direction with standard deviation σ")
+    })?;
+    let wanted = match (acceptance, steps) {
+        (None, None) => Wanted::LeastCost,
+        (Some(rate), None) => Wanted::Acceptance(rate),
+        (None, Some(steps)) => Wanted::Steps(steps),
+        (Some(_), Some(_)) => return Err(usage("acceptance and steps exclude each other", "give one of them")),
+    };
+    let target = SamplingTarget::new(gaussian, time, wanted)?;
+    let scheme = scheme.0.clone();
+    let found = waiting(py, move |_| Ok(target.record(&scheme)?))?;
+    Ok((found.steps, found.step, found.gradients, found.error, found.largest_error, found.acceptance))
+}
+
+/// The terms of the series: the power of h, the bracket, the coefficient.
+#[pyfunction]
+pub(crate) fn modified_series(
+    py: Python<'_>,
+    scheme: &Table,
+    grade: u32,
+    parts: Option<u32>,
+    quadratic: bool,
+    digits: usize,
+) -> Fallible<Vec<(u32, String, String)>> {
+    let scheme = scheme.0.clone();
+    let options = SeriesOptions { grade, parts, quadratic, digits };
+    let series = waiting(py, move |_| Ok(SeriesRecord::of(scheme.scheme.proved(), options).map_err(Error::from)?))?;
+    Ok(series.terms.into_iter().map(|term| (term.power, term.bracket, term.coefficient)).collect())
+}
+
+/// H, the terms, a function, its arguments besides h as the system names them.
+type Texts = (String, Vec<(u32, String)>, String, Vec<String>);
+
+/// H, the terms with their powers of h, and a function of them in Python with its arguments.
+#[pyfunction]
+pub(crate) fn modified_formulas(
+    py: Python<'_>,
+    problem: &Given,
+    scheme: &Table,
+    grade: u32,
+    notation: &str,
+    digits: usize,
+) -> Fallible<Texts> {
+    let notation = match notation {
+        "text" => Notation::Formula,
+        "latex" => Notation::Latex,
+        "rust" => Notation::Rust,
+        "numpy" => Notation::NumPy,
+        other => return Err(usage(format!("there is no notation `{other}`"), "it is one of text, latex, rust, numpy")),
+    };
+    let (system, scheme) = (problem.read(Arithmetic::DOUBLE)?, scheme.0.clone());
+    let (formulas, function, arguments) = waiting(py, move |_| {
+        let written = || -> Result<_, Refusal> {
+            let formulas = Formulas::of(&system.system, &scheme, grade)?;
+            // numbers of double precision
+            let in_numpy = formulas.written(Notation::NumPy, 17)?;
+            let function = in_numpy.function(&in_numpy.title(), Notation::NumPy);
+            let arguments = in_numpy.names.into_iter().map(|(name, _)| name).collect();
+            Ok((formulas.written(notation, digits)?, function, arguments))
+        };
+        Ok(written().map_err(Error::from)?)
+    })?;
+    let terms = formulas.terms.into_iter().map(|term| (term.power, term.formula)).collect();
+    Ok((formulas.hamiltonian, terms, function, arguments))
+}
