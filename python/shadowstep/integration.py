@@ -259,7 +259,8 @@ def integrate(
         "section": None if section is None else (section, direction or "up"),
         "values": list(_formulas(values or {}).items()),
         "estimator": options_if_any(estimator, order=order, max_order=max_order, stop=stop, rule=rule, accuracy=accuracy),
-        "windows": (windows or _shadowstep.WINDOWS) if summary else None,
+        "summary": summary,
+        "windows": windows,
         "tangent": tangent is not None,
     }
     vectors = None if tangent is None else _texts(tangent)
@@ -270,13 +271,13 @@ def integrate(
             found["tangent"] = vectors_of(columns, len(n))
     for note in found["notes"]:
         warnings.warn(note, stacklevel=2)
-    rows = len(found["n"])
+    rows, (coordinates, momenta) = len(found["n"]), run["problem"].names
     if section is not None and not rows:
         warnings.warn(f"the trajectory does not cross section={section!r}, direction={direction or 'up'!r}", stacklevel=2)
     for name in ("q", "p"):
-        found[name] = found[name].reshape(rows, len(run["problem"].coordinates))
+        found[name] = found[name].reshape(rows, len(coordinates))
     found["values"] = dict(zip(values or {}, found["values"]))
-    return Trajectory(coordinates=run["problem"].coordinates, momenta=run["problem"].momenta, **found)
+    return Trajectory(coordinates=coordinates, momenta=momenta, **found)
 
 
 def _formulas(values: Mapping[str, str]) -> dict[str, str]:

@@ -263,12 +263,12 @@ class Problem:
     @property
     def coordinates(self) -> list[str]:
         """The names of q_1, …, q_d."""
-        return self._given.coordinates
+        return self._given.names[0]
 
     @property
     def momenta(self) -> list[str]:
         """The names of p_1, …, p_d."""
-        return self._given.momenta
+        return self._given.names[1]
 
     @property
     def dimension(self) -> int:
@@ -373,7 +373,7 @@ def _by_name(problem: dict[str, Any], q: Any, p: Any, v: Any) -> tuple[Any, Any,
     coordinates, momenta = problem.get("coordinates"), problem.get("momenta")
     if "name" in problem:
         shipped = Given.of_text(document({"problem": {key: problem[key] for key in ("name", "parameters") if key in problem}}), "problem", True)
-        coordinates, momenta = shipped.coordinates, shipped.momenta
+        coordinates, momenta = shipped.names
     if coordinates is None:
         raise _shadowstep.InputError("q, p and v have no names of coordinates here; write them as lists")
     return (

@@ -82,21 +82,16 @@ def shadow_energy(
     """
     check(shadow_energy, locals())
     q, p = _rows(q, "q"), _rows(p, "p")
-    step = exact(h, "h")
-    if cell is not None:
-        q = _shadowstep.unwrapped(q, _cell(cell, q.shape[1]).tolist(), [True] * 3)
+    vectors = None if cell is None else _cell(cell, q.shape[1]).tolist()
+    states = {"q": q, "p": p, "h": exact(h, "h"), "half_steps": half_steps, "cell": vectors}
     if isinstance(potential, Problem):
         if q.shape[1] != potential.dimension:
             raise _shadowstep.InputError(f"the states have {q.shape[1]} coordinates, and the problem has {potential.dimension}")
-        if half_steps:
-            p = _shadowstep.momenta_of_half_steps(len(q), p)
-        return ShadowEnergy(*_shadowstep.energies_of_states(q, p, potential._given, table_of(scheme), step, order_of(k, "k")))
+        return ShadowEnergy(*_shadowstep.energies_of_states(states, potential._given, table_of(scheme), order_of(k, "k")))
     energies, derivatives = _pair(potential)
     gradients = None if derivatives.ndim == 1 else -_rows(derivatives, "the forces of potential")
     rates = derivatives if derivatives.ndim == 1 else None
-    if half_steps:
-        p = _shadowstep.momenta_of_half_steps(len(q), p) if gradients is None else _shadowstep.momenta_with_gradients(step, p, gradients)
-    found, other_steps = _shadowstep.energies_of_log(q, p, energies, gradients, rates, _masses(masses, q.shape[1]), step, order_of(k, "k"))
+    found, other_steps = _shadowstep.energies_of_log(states, energies, gradients, rates, _masses(masses, q.shape[1]), order_of(k, "k"))
     if other_steps is not None:
         warnings.warn(f"{other_steps}; the modified energy is that of other steps", stacklevel=2)
     return ShadowEnergy(*found)

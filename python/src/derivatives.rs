@@ -8,10 +8,10 @@ use shadowstep_scenes::arithmetic::Arithmetic;
 use shadowstep_scenes::derivatives::{Differentiation, Parameter, Variable, distance, precise};
 use shadowstep_scenes::posed::Posed;
 
-use crate::arrays::{Rows, array, arrays};
 use crate::errors::Fallible;
 use crate::given::{Given, arithmetic, number};
 use crate::given_run::{GivenRun, ReadRun};
+use crate::values::{Rows, array, arrays};
 use crate::waiting::waiting_for;
 
 /// A variable.

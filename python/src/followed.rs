@@ -11,9 +11,8 @@ use shadowstep_scenes::run::Run;
 use shadowstep_scenes::tangent::Vectors;
 
 use crate::errors::Fallible;
-use crate::estimator::Options;
-use crate::given_run::GivenRun;
-use crate::json::Json;
+use crate::given_run::{GivenRun, Options};
+use crate::values::Json;
 use crate::waiting::{Watching, waiting_for};
 
 /// The records of runs at h and, if `half` is true, h/2, with what both say.

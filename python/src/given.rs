@@ -84,16 +84,11 @@ impl Given {
         }
     }
 
-    /// The names of q_1, q_2, ….
+    /// The names of q_1, q_2, …, and of p_1, p_2, ….
     #[getter]
-    fn coordinates(&self) -> Fallible<Vec<String>> {
-        Ok(self.read(Arithmetic::DOUBLE)?.system.coordinates.clone())
-    }
-
-    /// The names of p_1, p_2, ….
-    #[getter]
-    fn momenta(&self) -> Fallible<Vec<String>> {
-        Ok(self.read(Arithmetic::DOUBLE)?.system.momenta.clone())
+    fn names(&self) -> Fallible<[Vec<String>; 2]> {
+        let system = &self.read(Arithmetic::DOUBLE)?.system;
+        Ok([system.coordinates.clone(), system.momenta.clone()])
     }
 
     /// The parameters with their values as texts, to 100 digits.

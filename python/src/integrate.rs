@@ -12,17 +12,14 @@ use shadowstep_scenes::posed::Posed;
 use shadowstep_scenes::run::Run;
 use shadowstep_scenes::{Direction, Error, NamedExpression, Note, Observer};
 
-use crate::arrays::array;
 use crate::errors::Fallible;
-use crate::estimator::Options;
 use crate::given::word;
-use crate::given_run::GivenRun;
-use crate::json::Json;
+use crate::given_run::{GivenRun, Options};
+use crate::values::{Json, array};
 use crate::waiting::{Watched, waiting_for};
 
 /// What is looked for on the way: a condition that ends the run, a surface of section with the name of its direction,
-/// formulas with the names of their values, and modified energies. With a number of windows the run has a summary,
-/// which compares modified energies in about as many.
+/// formulas with the names of their values, modified energies, and a summary.
 #[derive(FromPyObject)]
 #[pyo3(from_item_all)]
 pub(crate) struct Wanted {
@@ -30,6 +27,8 @@ pub(crate) struct Wanted {
     section: Option<(String, String)>,
     values: Vec<(String, String)>,
     estimator: Option<Options>,
+    summary: bool,
+    /// In about how many windows that compares modified energies.
     windows: Option<u64>,
     /// Whether it is made once more, with tangent vectors.
     tangent: bool,
@@ -78,7 +77,7 @@ struct Beside {
 }
 
 fn made(run: &GivenRun, wanted: &Wanted, watched: &Watched) -> Fallible<(States, Beside)> {
-    let Wanted { end, section, values, estimator, windows, tangent } = wanted;
+    let Wanted { end, section, values, estimator, summary, windows, tangent } = wanted;
     let (run, estimator) = (run.read()?, estimator.as_ref().map(Options::settings).transpose()?);
     if *tangent {
         run.check_steps()?;
@@ -92,7 +91,7 @@ fn made(run: &GivenRun, wanted: &Wanted, watched: &Watched) -> Fallible<(States,
     let mut posed = Posed { ends: end.as_ref(), ..run.posed(estimator.as_ref())? };
     posed.run.windows = windows.unwrap_or(Run::WINDOWS);
     let mut observer = watched.observer();
-    observer.summarises = windows.is_some();
+    observer.summarises = *summary;
     let kept = (section.as_ref().map_or(KeptStates::Every(run.every), KeptStates::Crossings), &values[..]);
     let states = match run.arithmetic.is_longer_than_double() {
         false => posed.samples(kept, &(), &mut observer).map(States::Doubles),

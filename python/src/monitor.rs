@@ -26,8 +26,8 @@ use shadowstep_scenes::watch::{Bodies, Interactions, LightBody};
 use crate::errors::{Fallible, usage};
 use crate::given::{Given, arithmetic, step_size};
 use crate::given_run::{fitted, integrator};
-use crate::json::Json;
 use crate::scheme::Table;
+use crate::values::Json;
 use crate::waiting::{Task, Watched, asked, new_number, soon, spawned, within};
 
 /// n, the modified energy, its error and H, all of the middle of a window.

@@ -13,11 +13,11 @@ use shadowstep::shadow::{Bilinear, Estimator};
 use shadowstep_scenes::Error;
 use shadowstep_scenes::arithmetic::Arithmetic;
 
-use crate::arrays::Rows;
 use crate::errors::{Failure, Fallible, usage};
 use crate::given::{Given, step_size};
 use crate::given_run::{fitted, integrator};
 use crate::scheme::Table;
+use crate::values::Rows;
 use crate::waiting::{waiting, waiting_for};
 
 /// H̄ and its error of each state, NaN where there is no estimate.
@@ -26,29 +26,61 @@ type Estimates<'py> = [Bound<'py, PyArray1<f64>>; 2];
 /// The name of the unit of energies; that of times and how many of it a time has.
 type UnitsOf = (String, String, f64);
 
+/// States of another program.
+#[derive(FromPyObject)]
+#[pyo3(from_item_all)]
+pub(crate) struct GivenStates {
+    q: Rows,
+    p: Rows,
+    h: String,
+    /// Whether momenta are those of leapfrog: half a step before each state where gradients are given, else with a row
+    /// more than there are states, for those before and after.
+    half_steps: bool,
+    /// The vectors of a box into which positions are wrapped.
+    cell: Option<[[f64; 3]; 3]>,
+}
+
+impl GivenStates {
+    /// The step size, q without jumps between images of the box, p at the states, and the number of these.
+    fn read(self, gradients: Option<&[f64]>) -> Fallible<(StepSize, [Vec<f64>; 2], usize)> {
+        let (h, dimension) = (step_size(&self.h)?, self.q.dimension);
+        let (mut q, mut p) = (self.q.numbers, self.p.numbers);
+        let states = q.len() / dimension.max(1);
+        if let Some(cell) = self.cell {
+            let mut unwrapping = Unwrapping::new(cell)?;
+            for row in q.chunks_exact_mut(dimension.max(1)) {
+                row.copy_from_slice(unwrapping.next(row)?);
+            }
+        }
+        match gradients.filter(|_| self.half_steps) {
+            Some(gradients) => integer_momenta_with_gradients(&h, &mut p, gradients)?,
+            None if self.half_steps => p = integer_momenta(self.p.dimension, states, &p)?,
+            None => {}
+        }
+        Ok((h, [q, p], states))
+    }
+}
+
 /// The estimates E_k of a log of velocity Verlet: U with the gradients at each state, or with the rate qᵀU_q − 2U; and
 /// why its states are not those of steps.
 #[pyfunction]
-#[allow(clippy::too_many_arguments)] // the package's own function has the defaults
 pub(crate) fn energies_of_log<'py>(
     py: Python<'py>,
-    q: Rows,
-    p: Rows,
+    states: GivenStates,
     energies: Rows,
     gradients: Option<Rows>,
     rates: Option<Rows>,
     masses: Vec<f64>,
-    h: &str,
     k: u32,
 ) -> Fallible<(Estimates<'py>, Option<String>)> {
-    let (h, states) = (step_size(h)?, energies.numbers.len());
     let (estimates, other_steps) = waiting(py, move |_| {
-        let (dimension, [q, p, energies]) = (q.dimension, [&q, &p, &energies].map(|rows| &*rows.numbers));
-        let log = match &gradients {
-            Some(gradients) => Log::with_gradients(dimension, [q, p, &gradients.numbers], energies)?,
-            None => {
+        let (dimension, gradients) = (states.q.dimension, gradients.as_ref().map(|rows| &rows.numbers[..]));
+        let (h, [q, p], states) = states.read(gradients)?;
+        let log = match (gradients, &rates) {
+            (Some(gradients), _) => Log::with_gradients(dimension, [&q, &p, gradients], &energies.numbers)?,
+            (None, rates) => {
                 let rates = rates.as_ref().map_or(&[][..], |rates| &rates.numbers);
-                Log::with_rates(dimension, [q, p], [energies, rates])?
+                Log::with_rates(dimension, [&q, &p], [&energies.numbers, rates])?
             }
         };
         let mut steps = Recorded::new(log, &h, &masses)?;
@@ -63,22 +95,19 @@ pub(crate) fn energies_of_log<'py>(
 #[pyfunction]
 pub(crate) fn energies_of_states<'py>(
     py: Python<'py>,
-    q: Rows,
-    p: Rows,
+    states: GivenStates,
     problem: &Given,
     scheme: &Table,
-    h: &str,
     k: u32,
 ) -> Fallible<Estimates<'py>> {
-    let h = step_size(h)?;
     let (given, scheme) = (problem.clone(), scheme.0.clone());
     let estimates = waiting_for(py, None, Some(problem), move |_| {
+        let (h, [q, p], states) = states.read(None)?;
         let system = &given.read(Arithmetic::DOUBLE)?.system;
         let (scheme, _) = fitted(&scheme, system, Arithmetic::DOUBLE)?;
         let integrator = integrator(system, &scheme, (&h, false));
         let mut integrator = integrator.map_err(|error| usage(error.to_string(), "check the problem"))?;
-        let steps = Repeated::new(&mut *integrator, &q.numbers, &p.numbers)?;
-        let states = q.numbers.len().checked_div(q.dimension).unwrap_or(0);
+        let steps = Repeated::new(&mut *integrator, &q, &p)?;
         Ok(all(states, steps.estimates(&Bilinear::with_error(k))?)?)
     })?;
     Ok(estimates.map(|numbers| PyArray1::from_vec(py, numbers)))
@@ -94,32 +123,6 @@ fn all<T: States<Number = f64>, E: Estimator<f64>>(
         (all[0][row], all[1][row]) = (*found.value, found.error.copied().unwrap_or(f64::NAN));
     }
     Ok(all)
-}
-
-/// The momenta at the states, from the momenta of leapfrog between them: rows before and after each state.
-#[pyfunction]
-pub(crate) fn momenta_of_half_steps(states: usize, half_steps: Rows) -> Fallible<Rows> {
-    let Rows { dimension, numbers } = half_steps;
-    Ok(Rows { dimension, numbers: integer_momenta(dimension, states, &numbers)? })
-}
-
-/// The momenta at the states of those half a step before, with the gradients.
-#[pyfunction]
-pub(crate) fn momenta_with_gradients(h: &str, mut half_steps: Rows, gradients: Rows) -> Fallible<Rows> {
-    integer_momenta_with_gradients(&step_size(h)?, &mut half_steps.numbers, &gradients.numbers)?;
-    Ok(half_steps)
-}
-
-/// Positions without jumps between the images of a periodic box.
-#[pyfunction]
-pub(crate) fn unwrapped(q: Rows, cell: [[f64; 3]; 3], periodic: [bool; 3]) -> Fallible<Rows> {
-    let mut unwrapping = Unwrapping::new(cell)?.along(periodic);
-    let Rows { dimension, numbers } = q;
-    let mut all = Vec::with_capacity(numbers.len());
-    for row in numbers.chunks_exact(dimension.max(1)) {
-        all.extend(unwrapping.next(row)?);
-    }
-    Ok(Rows { dimension, numbers: all })
 }
 
 /// Follows a trajectory that another program computes.

@@ -1,16 +1,20 @@
-//! Runs that files describe, and the program `shadowstep`.
+//! Runs that the text of a scene describes, ensembles of trajectories among them, and the program `shadowstep`.
 
 use std::ffi::OsString;
 use std::path::PathBuf;
 
+use numpy::PyArray1;
 use pyo3::prelude::*;
+use pyo3::types::PyDict;
+use shadowstep::Rational;
+use shadowstep::shadow::ensemble::Outcome as Trajectory;
 use shadowstep::tables::Source;
 use shadowstep_scenes::ensemble::Ensemble;
 use shadowstep_scenes::outside::reading_outside;
 use shadowstep_scenes::{Error, FileOptions, Note, Outcome, Scene, source};
 
-use crate::errors::Fallible;
-use crate::json::Json;
+use crate::errors::{Fallible, usage};
+use crate::values::{Json, Rows};
 use crate::waiting::{Watched, waiting_for};
 
 /// What a run of a scene gives: the rows as CSV or JSON lines, where it has no file; the summary as lines and as an
@@ -67,6 +71,42 @@ fn run(source: Source, restart: bool, watched: &Watched) -> Result<SceneResult, 
     }
     let rows = scene.output.file.is_none().then(|| text(rows)).flatten();
     Ok((rows, observer.summary()?, texts(&observer.notes)))
+}
+
+/// Computes the trajectories of a scene whose numbers contain the names of columns; q and p are flat.
+#[pyfunction]
+pub(crate) fn ensemble<'py>(
+    py: Python<'py>,
+    text: String,
+    names: Vec<String>,
+    columns: Vec<Rows>,
+    progress: Option<&Bound<'py, PyAny>>,
+) -> Fallible<Bound<'py, PyDict>> {
+    let outcomes = waiting_for(py, progress, None, move |watched| {
+        let trajectories = columns.first().map_or(0, |column| column.numbers.len());
+        let cell = |(name, column): (&String, &Rows), t: usize| {
+            let value = column.numbers[t];
+            Rational::from_float(value)
+                .ok_or_else(|| usage(format!("{name} of trajectory {t} is {value}"), "give finite numbers"))
+        };
+        let row = |t| names.iter().zip(&columns).map(|column| cell(column, t)).collect::<Fallible<_>>();
+        let rows = (0..trajectories).map(row).collect::<Fallible<Vec<Vec<Rational>>>>()?;
+        let ensemble = Ensemble::with_columns(Source { path: "ensemble".to_owned(), text }, names, rows)?;
+        Ok(ensemble.outcomes(|| watched.continues())?)
+    })?;
+    let all = PyDict::new(py);
+    let numbers = |number: fn(&Trajectory) -> f64| PyArray1::from_vec(py, outcomes.iter().map(number).collect());
+    all.set_item("energy_error", numbers(|outcome| outcome.energy_error.unwrap_or(f64::NAN)))?;
+    all.set_item("modified_drift", numbers(|outcome| outcome.modified_drift.unwrap_or(f64::NAN)))?;
+    all.set_item("energy_start", numbers(|outcome| outcome.energies[0]))?;
+    all.set_item("energy_end", numbers(|outcome| outcome.energies[1]))?;
+    all.set_item("modified_start", numbers(|outcome| outcome.modified_energies.map_or(f64::NAN, |[start, _]| start)))?;
+    all.set_item("modified_end", numbers(|outcome| outcome.modified_energies.map_or(f64::NAN, |[_, end]| end)))?;
+    all.set_item("q", PyArray1::from_vec(py, outcomes.iter().flat_map(|outcome| outcome.q.clone()).collect()))?;
+    all.set_item("p", PyArray1::from_vec(py, outcomes.iter().flat_map(|outcome| outcome.p.clone()).collect()))?;
+    let first = |outcome: &Trajectory| outcome.not_finite.map_or(-1, |n| i64::try_from(n).unwrap_or(i64::MAX));
+    all.set_item("not_finite", PyArray1::from_vec(py, outcomes.iter().map(first).collect::<Vec<i64>>()))?;
+    Ok(all)
 }
 
 /// The text of a shipped scene, or of a scene of a shipped problem.

@@ -15,7 +15,7 @@ use shadowstep_studies::Progress;
 
 use crate::errors::Fallible;
 use crate::given::Given;
-use crate::json::Json;
+use crate::values::Json;
 
 /// Signals are asked for this often.
 const SIGNALS: Duration = Duration::from_millis(40);

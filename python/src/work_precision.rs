@@ -24,8 +24,8 @@ use shadowstep_work_precision::study::{Cost, Request, Studied, Study};
 use crate::errors::{Fallible, usage};
 use crate::given::{Given, Read, arithmetic, number, step_size, word};
 use crate::given_run::{beginning_with, first_map, fitted};
-use crate::json::Json;
 use crate::scheme::Table;
+use crate::values::Json;
 use crate::waiting::waiting_for;
 
 /// What schemes are compared on, the schemes, or the group that they are of, and the time of the comparison, as Python

@@ -1,9 +1,30 @@
-//! Numbers as arrays of NumPy.
+//! Results as values of Python: arrays of NumPy, dictionaries and lists.
 
-use numpy::{PyArray1, PyArrayMethods, PyReadonlyArrayDyn, PyUntypedArrayMethods};
+use numpy::{PyArray1, PyReadonlyArrayDyn, PyUntypedArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::PyString;
+use serde::Serialize;
+use shadowstep_scenes::Error;
 use shadowstep_scenes::derivatives::Array;
+
+/// The text of a value, which Python gets as its `json` reads it: what is not finite is None.
+pub(crate) struct Json(String);
+
+impl Json {
+    pub(crate) fn of(value: &impl Serialize) -> Result<Self, Error> {
+        Ok(Json(serde_json::to_string(value)?))
+    }
+}
+
+impl<'py> IntoPyObject<'py> for Json {
+    type Target = PyAny;
+    type Output = Bound<'py, PyAny>;
+    type Error = PyErr;
+
+    fn into_pyobject(self, py: Python<'py>) -> PyResult<Self::Output> {
+        py.import("json")?.call_method1("loads", (self.0,))
+    }
+}
 
 /// An array of doubles, or of decimal texts.
 pub(crate) fn array(py: Python<'_>, numbers: Array) -> Bound<'_, PyAny> {
@@ -34,17 +55,5 @@ impl<'py> FromPyObject<'_, 'py> for Rows {
         let array: PyReadonlyArrayDyn<'py, f64> = given.extract()?;
         let numbers = array.as_array().iter().copied().collect();
         Ok(Rows { dimension: array.shape().last().copied().unwrap_or(1), numbers })
-    }
-}
-
-impl<'py> IntoPyObject<'py> for Rows {
-    type Target = PyAny;
-    type Output = Bound<'py, PyAny>;
-    type Error = PyErr;
-
-    fn into_pyobject(self, py: Python<'py>) -> PyResult<Self::Output> {
-        let Rows { dimension, numbers } = self;
-        let rows = numbers.len().checked_div(dimension).unwrap_or(0);
-        Ok(PyArray1::from_vec(py, numbers).reshape([rows, dimension])?.into_any())
     }
 }
