@@ -3,7 +3,7 @@
 use pyo3::create_exception;
 use pyo3::exceptions::{PyArithmeticError, PyOSError, PyValueError};
 use pyo3::prelude::*;
-use pyo3::types::PyDict;
+use pyo3::types::{PyDict, PyList};
 use shadowstep::tables::Fault;
 use shadowstep_scenes::Error;
 
@@ -67,18 +67,17 @@ fn exception(py: Python<'_>, error: Error) -> PyResult<PyErr> {
     };
     raised.value(py).setattr("hint", hint)?;
     if let Some(faults) = faults {
-        let faults = faults.iter().map(|fault| of_fault(py, fault)).collect::<PyResult<Vec<_>>>()?;
-        raised.value(py).setattr("faults", faults)?;
+        let all = PyList::empty(py);
+        for Fault { path, line, column, message, hint, .. } in faults {
+            let of_fault = PyDict::new(py);
+            of_fault.set_item("path", path)?;
+            of_fault.set_item("line", line)?;
+            of_fault.set_item("column", column)?;
+            of_fault.set_item("message", message)?;
+            of_fault.set_item("hint", hint)?;
+            all.append(of_fault)?;
+        }
+        raised.value(py).setattr("faults", all)?;
     }
     Ok(raised)
-}
-
-fn of_fault<'py>(py: Python<'py>, fault: &Fault) -> PyResult<Bound<'py, PyDict>> {
-    let all = PyDict::new(py);
-    all.set_item("path", &fault.path)?;
-    all.set_item("line", fault.line)?;
-    all.set_item("column", fault.column)?;
-    all.set_item("message", &fault.message)?;
-    all.set_item("hint", &fault.hint)?;
-    Ok(all)
 }

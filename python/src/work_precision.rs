@@ -127,17 +127,13 @@ fn of_study(study: &Study<'_>) -> Value {
 
 fn of_run(study: &Study<'_>, studied: &Studied<'_>, run: &Measurement) -> Value {
     let h = study.problem.step_size(run.steps);
-    let (position, below) = match run.position {
-        PositionError::Known(size) => (number_of(size), None),
-        PositionError::Below(size) => (None, number_of(size)),
-        PositionError::None => (None, None),
-    };
+    let below = if let PositionError::Below(size) = run.position { number_of(size) } else { None };
     json!({
         "steps": run.steps,
         "h": <f64 as shadowstep::Number>::from_rational(&h, &()),
         "evaluations": run.evaluations,
         "seconds": studied.seconds(run),
-        "position_error": position,
+        "position_error": run.position.known().and_then(number_of),
         "position_error_below": below,
         "energy_error": number_of(run.energy),
         "permanent_bound": run.modified.and_then(|modified| modified.bound).and_then(number_of),
