@@ -141,17 +141,13 @@ class Problem:
         return problem
 
     def __getstate__(self) -> dict[str, Any]:
-        state = {"_system": self._system, "_sections": self._sections}
-        if self._forces is not None:
-            if isinstance(self._system, Integral):
-                raise TypeError("a problem with the address of a C function belongs to its process: make it again in another one")
-            return {**state, "_forces": self._forces}
-        return {**state, "source": self._given.source}
+        if isinstance(self._system, Integral):
+            raise TypeError("a problem with the address of a C function belongs to its process: make it again in another one")
+        return {**self.__dict__, "_given": self._given.source}
 
     def __setstate__(self, state: dict[str, Any]) -> None:
-        source = state.pop("source", None)
         self.__dict__.update(state)
-        self._given = Given.of_forces(*self._forces) if self._forces is not None else Given.of_text(*source)
+        self._given = Given.of_text(*state["_given"]) if state["_given"] else Given.of_forces(*state["_forces"])
 
     def __deepcopy__(self, memo: dict[int, Any]) -> Problem:
         # nothing of it changes, and an address has no copy
