@@ -46,7 +46,10 @@ impl Table {
     /// Everything that is known of it, as JSON.
     fn record(&self, py: Python<'_>) -> Fallible<String> {
         let scheme = self.0.quadratic();
-        waiting(py, move |_| Ok(serde_json::to_string(&SchemeFacts::of(scheme.proved()).record()).map_err(Error::from)?))
+        waiting(
+            py,
+            move |_| Ok(serde_json::to_string(&SchemeFacts::of(scheme.proved()).record()).map_err(Error::from)?),
+        )
     }
 
     /// What can be said without an analysis: (name, order for every T(p) or None, order for quadratic T, evaluations a

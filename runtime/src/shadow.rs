@@ -68,8 +68,8 @@ mod options;
 #[cfg(feature = "serde")]
 mod record;
 pub mod recorded;
-pub mod run;
 mod rules;
+pub mod run;
 mod settings;
 pub mod weights;
 mod window;
@@ -79,9 +79,7 @@ pub use central::{Central, CentralEstimator, FixedCentral, FixedCentralEstimator
 pub use differences::{SelectionRule, StoppingRule};
 pub use estimator::{BuildEstimator, Estimate, Estimator, EstimatorError};
 pub(crate) use expected_round_off::ExpectedRoundOff;
-pub use monitor::{
-    Advice, Criterion, Missing, Monitor, Report, Rough, Sample, ShadowEnergy, Trend, Verdict, WholeRun,
-};
+pub use monitor::{Advice, Criterion, Missing, Monitor, Report, Rough, Sample, ShadowEnergy, Trend, Verdict, WholeRun};
 pub use options::{AccuracyError, EstimatorOptions, HIGHEST_ORDER, OptionConflict, UnknownWord, check_accuracy};
 pub use rules::KINETIC_LIMIT;
 pub use settings::EstimatorSettings;
