@@ -33,6 +33,7 @@ pub(crate) enum Format {
     /// results.csv
     Csv,
     /// results.parquet
+    #[cfg(feature = "parquet")]
     Parquet,
 }
 
@@ -46,6 +47,7 @@ pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
 pub(crate) fn collected(folder: &Path, format: Format, terminal: &mut Terminal) -> Result<Status, Error> {
     let format = match format {
         Format::Csv => TableFormat::Csv,
+        #[cfg(feature = "parquet")]
         Format::Parquet => TableFormat::Parquet,
     };
     let mut output = Output::stdout();

@@ -37,7 +37,7 @@ type Newest = (u64, f64, Option<f64>, f64);
 /// from one thread to another.
 struct Followed {
     integrator: SceneIntegrator<f64>,
-    monitor: RunMonitor<f64>,
+    monitor: Box<RunMonitor<f64>>,
     newest: Option<Newest>,
     bodies: Option<Bodies>,
     /// The names of the coordinates.

@@ -29,7 +29,11 @@ pub trait RunNumber: SceneNumber {
     ///
     /// # Errors
     /// As [`Monitor::new`].
-    fn monitor(integrator: &mut VectorIntegrator<'_, Self>, k: u32, every: u64) -> Result<RunMonitor<Self>, RunError>;
+    fn monitor(
+        integrator: &mut VectorIntegrator<'_, Self>,
+        k: u32,
+        every: u64,
+    ) -> Result<Box<RunMonitor<Self>>, RunError>;
 }
 
 /// The most bits of the estimates of a monitor: 327 digits, more than which only MPFR's numbers have. A verdict
@@ -48,7 +52,7 @@ impl<N: Real> BuildEstimator<N> for ForVerdict {
     }
 }
 
-/// A monitor of the states of a run.
+/// A monitor of the states of a run; boxed, as it has thousands of numbers.
 pub type RunMonitor<N> = Monitor<N, BilinearEstimator<N>>;
 
 // not inlined: callers in other crates would compile what is called, and the methods of a `dyn`, once more
@@ -70,8 +74,8 @@ macro_rules! run_numbers {
                 integrator: &mut VectorIntegrator<'_, Self>,
                 k: u32,
                 every: u64,
-            ) -> Result<RunMonitor<Self>, RunError> {
-                Ok(Monitor::new(integrator, &ForVerdict(Bilinear::with_error(k)))?.every(every))
+            ) -> Result<Box<RunMonitor<Self>>, RunError> {
+                Ok(Box::new(Monitor::new(integrator, &ForVerdict(Bilinear::with_error(k)))?.every(every)))
             }
         }
     )*};

@@ -98,7 +98,7 @@ struct Observed<N: RunNumber> {
 
 /// A monitor with a window every `every` steps.
 struct Spaced<N: RunNumber> {
-    monitor: RunMonitor<N>,
+    monitor: Box<RunMonitor<N>>,
     every: u64,
 }
 

@@ -2,6 +2,7 @@
 
 mod csv_table;
 mod missing;
+#[cfg(feature = "parquet")]
 mod parquet_table;
 mod table;
 
@@ -24,7 +25,6 @@ use crate::record::Record;
 use csv_table::CsvTable;
 pub use missing::Missing;
 use missing::ranges;
-use parquet_table::ParquetTable;
 use table::{Cell, Head, Table, TableColumn};
 
 /// How the table is written.
@@ -33,6 +33,7 @@ pub enum TableFormat {
     /// `results.csv`
     Csv,
     /// `results.parquet`
+    #[cfg(feature = "parquet")]
     Parquet,
 }
 
@@ -61,8 +62,9 @@ pub enum Collected {
 
 const ROWS: &str = "rows.csv";
 const PICTURE: &str = "picture.svg";
+const PARQUET: &str = "results.parquet";
 /// The names of all files that are written, one table of them.
-pub(crate) const WRITTEN: [&str; 4] = [csv_table::NAME, parquet_table::NAME, ROWS, PICTURE];
+pub(crate) const WRITTEN: [&str; 4] = [csv_table::NAME, PARQUET, ROWS, PICTURE];
 
 /// Checks all chunks in the folder of a sweep and writes its table and its picture there.
 ///
@@ -141,7 +143,8 @@ impl<'a> Tables<'a> {
         let head = head(manifest, axes);
         let results: Box<dyn Table> = match format {
             TableFormat::Csv => Box::new(CsvTable::new(folder, &head)?),
-            TableFormat::Parquet => Box::new(ParquetTable::new(folder, &head)?),
+            #[cfg(feature = "parquet")]
+            TableFormat::Parquet => Box::new(parquet_table::ParquetTable::new(&folder.join(PARQUET), &head)?),
         };
         let picture = picture.and_then(|picture| Cells::new(&picture, axes).map(|cells| (picture, cells)));
         Ok(Tables { manifest, axes, folder, results, rows: None, picture, runs: 0, failed: 0 })

@@ -130,7 +130,7 @@ struct Measuring<'a, N: RunNumber> {
 
 /// What has been measured so far.
 struct Begun<N: RunNumber> {
-    monitor: RunMonitor<N>,
+    monitor: Box<RunMonitor<N>>,
     /// H(0) of the function that the steps conserve.
     conserved: EnergyError<N>,
     energy: EnergyError<N>,

@@ -112,7 +112,7 @@ struct InNumbers<N: RunNumber> {
     integrator: SceneIntegrator<N>,
     /// H(0)
     initial: N,
-    monitor: Option<RunMonitor<N>>,
+    monitor: Option<Box<RunMonitor<N>>>,
 }
 
 const WATCHED: &str = "the run is watched";

@@ -15,9 +15,6 @@ use shadowstep_scenes::{Error, WholeFile};
 
 use super::table::{Cell, Head, Table, TableColumn};
 
-/// The name of the file.
-pub(super) const NAME: &str = "results.parquet";
-
 /// Rows that are kept in memory until they are written.
 const GROUP: usize = 1 << 16;
 
@@ -28,8 +25,8 @@ pub(super) struct ParquetTable {
 }
 
 impl ParquetTable {
-    pub(super) fn new(folder: &Path, head: &Head) -> Result<Self, Error> {
-        let file = WholeFile::create(&folder.join(NAME), "file")?;
+    pub(super) fn new(path: &Path, head: &Head) -> Result<Self, Error> {
+        let file = WholeFile::create(path, "file")?;
         let fields = head.columns.iter().map(field).collect::<Result<Vec<_>, _>>().map_err(failed)?;
         let schema = Type::group_type_builder("results").with_fields(fields).build().map_err(failed)?;
         let pairs = head.lines.iter().map(|(name, value)| KeyValue::new((*name).to_owned(), value.clone()));
