@@ -17,7 +17,7 @@ use shadowstep::steps::integrator::{VectorIntegrator, at_output};
 use shadowstep::{Number as _, StepSize};
 use shadowstep_scenes::Error;
 use shadowstep_scenes::arithmetic::Arithmetic;
-use shadowstep_scenes::computation::{RunMonitor, RunNumber as _};
+use shadowstep_scenes::computation::{Monitoring, RunNumber as _};
 use shadowstep_scenes::library::NamedScheme;
 use shadowstep_scenes::start::SceneIntegrator;
 use shadowstep_scenes::watch::light;
@@ -37,7 +37,7 @@ type Newest = (u64, f64, Option<f64>, f64);
 /// from one thread to another.
 struct Followed {
     integrator: SceneIntegrator<f64>,
-    monitor: Box<RunMonitor<f64>>,
+    monitor: Box<dyn Monitoring<f64>>,
     newest: Option<Newest>,
     bodies: Option<Bodies>,
     /// The names of the coordinates.

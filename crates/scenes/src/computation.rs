@@ -13,7 +13,7 @@ use crate::error::Error;
 use crate::follow;
 use crate::observer::Observer;
 use crate::posed::{Followed, Posed};
-pub use crate::run_number::{RunMonitor, RunNumber};
+pub use crate::run_number::{Monitoring, RunNumber};
 
 /// A number type in which runs are made.
 pub trait FollowedNumber: RunNumber {

@@ -27,7 +27,7 @@ use self::energy::EnergyError;
 pub use self::light::LightBody;
 pub use self::particles::ParticleApproach;
 use crate::run::Run;
-use crate::run_number::{RunMonitor, RunNumber};
+use crate::run_number::{Monitoring, RunNumber};
 use crate::scene;
 use crate::steps::MOST_STEPS;
 use crate::watch::summary::{EnergySummary, ModifiedEnergySummary, Summary};
@@ -98,7 +98,7 @@ struct Observed<N: RunNumber> {
 
 /// A monitor with a window every `every` steps.
 struct Spaced<N: RunNumber> {
-    monitor: Box<RunMonitor<N>>,
+    monitor: Box<dyn Monitoring<N>>,
     every: u64,
 }
 
@@ -276,7 +276,7 @@ impl<N: RunNumber> Watch<N> {
         let [Spaced { monitor, .. }, others @ ..] = &mut observed.monitors[..] else { return };
         for Spaced { monitor, .. } in others {
             match monitor.idle() {
-                0 => drop(monitor.observe(integrator.system())),
+                0 => drop(monitor.observe(integrator)),
                 _ => monitor.pass(1),
             }
         }
@@ -286,7 +286,7 @@ impl<N: RunNumber> Watch<N> {
             return;
         }
         // what is not finite is found by the run as well, or by the verdict
-        let found = monitor.observe(integrator.system()).ok().flatten();
+        let found = monitor.observe(integrator).ok().flatten();
         // of a processed scheme the trajectory is known at the present state only
         let processed = integrator.is_processed();
         let ends = found.is_some();

@@ -6,7 +6,7 @@ use shadowstep::shadow::Verdict;
 use shadowstep::shadow::run::RunError;
 use shadowstep::steps::integrator::{VectorIntegrator, at_output};
 use shadowstep_scenes::column::Column;
-use shadowstep_scenes::computation::{FollowedNumber, RunMonitor, RunNumber};
+use shadowstep_scenes::computation::{FollowedNumber, Monitoring, RunNumber};
 use shadowstep_scenes::library::NamedScheme;
 use shadowstep_scenes::run::Run;
 use shadowstep_scenes::{EnergyAt, Error};
@@ -130,7 +130,7 @@ struct Measuring<'a, N: RunNumber> {
 
 /// What has been measured so far.
 struct Begun<N: RunNumber> {
-    monitor: Box<RunMonitor<N>>,
+    monitor: Box<dyn Monitoring<N>>,
     /// H(0) of the function that the steps conserve.
     conserved: EnergyError<N>,
     energy: EnergyError<N>,
@@ -226,7 +226,7 @@ impl<N: RunNumber> Column<N> for Measuring<'_, N> {
             return self.begun.is_none();
         };
         // what is not finite stays so, and is seen at the sample
-        let _ = begun.monitor.observe(integrator.system());
+        let _ = begun.monitor.observe(integrator);
         begun.energy.include(&energy);
         let ends = self.positions.see(n, run, integrator);
         begun.compare(&self.positions.found, &self.expected, self.reference).is_none() || ends

@@ -6,7 +6,7 @@ use shadowstep::shadow::run::RunError;
 use shadowstep::{Carried, StepSize};
 use shadowstep_scenes::System;
 use shadowstep_scenes::arithmetic::Arithmetic;
-use shadowstep_scenes::computation::{Computation, RunMonitor, RunNumber};
+use shadowstep_scenes::computation::{Computation, Monitoring, RunNumber};
 use shadowstep_scenes::library::NamedScheme;
 use shadowstep_scenes::start::{Begin, SceneIntegrator, Steps};
 
@@ -112,7 +112,7 @@ struct InNumbers<N: RunNumber> {
     integrator: SceneIntegrator<N>,
     /// H(0)
     initial: N,
-    monitor: Option<Box<RunMonitor<N>>>,
+    monitor: Option<Box<dyn Monitoring<N>>>,
 }
 
 const WATCHED: &str = "the run is watched";
