@@ -383,7 +383,11 @@ impl<N: RunNumber> Test<N> {
 }
 
 /// A condition on q and p alone, in double precision, at several states of one system.
-pub(crate) struct TestInLanes(Test<Lanes<LANES>>);
+pub(crate) struct TestInLanes {
+    test: Test<Lanes<LANES>>,
+    /// The places in q and p of what it names.
+    places: Vec<usize>,
+}
 
 impl TestInLanes {
     /// `None` of another condition, and of a system whose states are shown in other coordinates.
@@ -393,23 +397,23 @@ impl TestInLanes {
         if has_others || system.transformed_time().is_some() || system.shown::<f64>(&()).is_some() {
             return None;
         }
-        Test::of_each(condition, &[system; LANES]).ok().map(TestInLanes)
+        let names = system.coordinates.iter().chain(&system.momenta).enumerate();
+        let places = names.filter(|(_, name)| difference.names.contains(name)).map(|(place, _)| place).collect();
+        Some(TestInLanes { test: Test::of_each(condition, &[system; LANES]).ok()?, places })
     }
 
     /// Sets the state in a lane.
     #[inline(always)]
     pub(crate) fn set<N: Real>(&mut self, lane: usize, (q, p): (&[N], &[N])) {
-        let (of_q, of_p) = self.0.difference.point.split_at_mut(q.len());
-        let set = |own: &mut [Lanes<LANES>], values: &[N]| {
-            own.iter_mut().zip(values).for_each(|(own, value)| own.0[lane] = value.to_f64());
-        };
-        set(of_q, q);
-        set(of_p, p);
+        for &place in &self.places {
+            let value = if place < q.len() { &q[place] } else { &p[place - q.len()] };
+            self.test.difference.point[place].0[lane] = value.to_f64();
+        }
     }
 
     /// The first lane, of this many, whose state meets the condition.
     pub(crate) fn first_met(&mut self, count: usize) -> Option<usize> {
-        let Test { difference, met, .. } = &mut self.0;
+        let Test { difference, met, .. } = &mut self.test;
         difference.evaluate().0[..count].iter().position(|difference| met.is_of(difference.partial_cmp(&0.0)))
     }
 }

@@ -134,9 +134,7 @@ impl Pairs {
         for (axis, own) in self.places.iter_mut().enumerate().take(dimensions) {
             own.iter_mut().zip(places[axis..].iter().step_by(dimensions)).for_each(|(own, x)| *own = *x);
         }
-        for body in 0..self.bodies() {
-            self.radii[body] = self.square([0, body]).sqrt();
-        }
+        self.measure_radii();
         let near = |pairs: &Pairs| pairs.closest.map_or(f64::INFINITY, |own| own.hill_radii * own.hill_radii);
         let mut is_closer = false;
         for j in 2..self.bodies() {
@@ -145,6 +143,18 @@ impl Pairs {
             }
         }
         is_closer
+    }
+
+    /// In blocks, of which the compiler makes vectors.
+    fn measure_radii(&mut self) {
+        let centre = self.places.each_ref().map(|own| own[0]);
+        let [x, y, z] = self.places.each_ref().map(|own| own.as_chunks::<BLOCK>().0);
+        for (block, radii) in self.radii.as_chunks_mut::<BLOCK>().0.iter_mut().enumerate() {
+            for i in 0..BLOCK {
+                let [a, b, c] = [x[block][i] - centre[0], y[block][i] - centre[1], z[block][i] - centre[2]];
+                radii[i] = (a * a + b * b + c * c).sqrt();
+            }
+        }
     }
 
     /// Whether the planet j may be nearer to one before it than the root of `near` Hill radii: no root and no division.

@@ -44,7 +44,8 @@ impl Places {
         if let Some((_, positions)) = &mut self.planets {
             positions(&self.q[..self.massive], &mut self.inertial);
         }
-        self.q.iter().all(|x| x.abs() < FARTHEST)
+        // without an end before the last one: in vectors
+        self.q.iter().fold(true, |all, x| all & (x.abs() < FARTHEST))
     }
 
     /// Those of bodies with mass, in the coordinates of the steps.
