@@ -22,7 +22,7 @@ create_exception!(
     "A run failed: a state or an energy was not finite. `hint` says what may help."
 );
 
-/// Why a function fails: it is made an exception where Python is told.
+/// Why a function fails; it becomes an exception of Python.
 pub(crate) enum Failure {
     Scene(Error),
     Python(PyErr),

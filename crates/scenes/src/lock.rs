@@ -58,7 +58,7 @@ pub fn open_locked(path: &Path, options: &OpenOptions) -> Result<File, LockError
 /// # Errors
 /// `InvalidInput` for a symbolic link, for what is not a file, and for a file with several names; a file that cannot be
 /// opened.
-pub fn open_itself(path: &Path, options: &OpenOptions) -> io::Result<File> {
+pub(crate) fn open_itself(path: &Path, options: &OpenOptions) -> io::Result<File> {
     let refused = |what: &str| io::Error::new(ErrorKind::InvalidInput, format!("{} {what}", path.display()));
     let file = match not_following(options).open(path) {
         Err(_) if path.is_symlink() => return Err(refused("is a symbolic link, which is not followed")),
