@@ -5,7 +5,7 @@ use std::ops::ControlFlow::{self, Break, Continue};
 
 use shadowstep::number::saved::{Fields, Saved as _};
 use shadowstep::shadow::run::{RunError, ShadowRun, States as _, Trajectory};
-use shadowstep::shadow::{Estimate, EstimatorSettings};
+use shadowstep::shadow::{BuildEstimator, Estimate, EstimatorSettings};
 use shadowstep::steps::integrator::{VectorIntegrator, at_output};
 use shadowstep::steps::step_to_time;
 use shadowstep::{Carried, Rational};
@@ -42,12 +42,21 @@ pub(crate) fn follow<N: RunNumber>(
     }
     let (mut integrator, from) = posed.begin::<N>(context)?;
     let mut following = Following::begin(posed, (&mut *integrator, from), columns, observer, context)?;
-    match posed.estimator {
-        None => following.plain(&mut *integrator)?,
-        Some(settings) => following.estimated(&mut *integrator, settings)?,
-    }
+    following.states(&mut *integrator)?;
     following.complete(&mut *integrator)
 }
+
+/// Where the states come from.
+enum Source<'i, 's, N: RunNumber> {
+    Plain(Trajectory<&'i mut VectorIntegrator<'s, N>>),
+    Estimated(Estimating<'i, 's, N>),
+}
+
+type Estimating<'i, 's, N> =
+    ShadowRun<Trajectory<&'i mut VectorIntegrator<'s, N>>, <EstimatorSettings as BuildEstimator<N>>::Estimator>;
+
+/// The n of a state, its estimate if there is one, and the integrator: at the state, or ahead of its estimate.
+type Made<'t, 's, N> = (i64, Option<Estimate<'t, N>>, &'t mut VectorIntegrator<'s, N>);
 
 /// Follows the states in the order of time.
 struct Following<'a, 'c, N: RunNumber> {
@@ -159,32 +168,81 @@ impl<'a, 'c, N: RunNumber> Following<'a, 'c, N> {
         self.posed.named(self.run(), error)
     }
 
-    /// Without states beyond both ends, and with increments only where the summary needs them.
-    fn plain(&mut self, integrator: &mut VectorIntegrator<'_, N>) -> Result<(), Error> {
-        let from = self.from.unwrap_or(0);
-        let trajectory = Trajectory::plain(integrator, from, self.last.unsigned_abs());
-        let mut trajectory = trajectory.map_err(|error| self.failed(&error))?;
-        let (mut reached, mut next) = (from, from);
+    /// The loop: makes the states that a column or the summary wants, and shows them.
+    fn states(&mut self, integrator: &mut VectorIntegrator<'_, N>) -> Result<(), Error> {
+        let mut source = self.source(integrator)?;
+        let mut reached = None;
         loop {
-            if next > reached + 1 {
-                trajectory.set_augmented(false);
-                let made = self.pass(&mut trajectory, (reached, next - 1));
-                made.map_err(|error| self.failed(&error))?;
-            }
-            trajectory.set_augmented(self.needs_increments());
-            let made = trajectory.advance().map_err(|error| self.failed(&error))?;
-            let Some(n) = made.map(|state| state.n) else { return Ok(()) };
-            let integrator = &mut **trajectory.integrator();
-            if self.see(n, integrator) {
-                let last = self.state.as_ref().expect("the state before was kept");
-                last.restore(integrator);
+            let made = match &mut source {
+                Source::Plain(trajectory) => self.next_state(trajectory, reached)?,
+                Source::Estimated(run) => self.next_estimate(run)?,
+            };
+            let Some((n, estimate, integrator)) = made else { return Ok(()) };
+            if self.output(n, estimate.as_ref(), integrator)?.is_break() {
                 return Ok(());
             }
-            if self.output(n, None, integrator)?.is_break() {
-                return Ok(());
-            }
-            (reached, next) = (n, self.next(n));
+            reached = Some(n);
         }
+    }
+
+    /// States without those beyond both ends, or states with estimates and their errors.
+    fn source<'i, 's>(&mut self, integrator: &'i mut VectorIntegrator<'s, N>) -> Result<Source<'i, 's, N>, Error> {
+        let (from, steps) = (self.from.unwrap_or(0), self.last.unsigned_abs());
+        let Some(settings) = self.posed.estimator else {
+            let trajectory = Trajectory::plain(integrator, from, steps);
+            return trajectory.map(Source::Plain).map_err(|error| self.failed(&error));
+        };
+        let settings = settings.clone().with_errors(true);
+        let begun = match self.from {
+            None => ShadowRun::new(integrator, steps, &settings),
+            Some(from) => ShadowRun::resume(integrator, from, steps, &settings),
+        };
+        let mut run = begun.map_err(|error| self.failed(&error))?;
+        let first = self.from.map(|from| Snapshot::of(from, run.integrator().state()));
+        self.moments.estimate(run.reach(), first);
+        Ok(Source::Estimated(run))
+    }
+
+    /// The next state that is to be seen or shown, made with increments only where the summary needs them.
+    fn next_state<'t, 's>(
+        &mut self,
+        trajectory: &'t mut Trajectory<&mut VectorIntegrator<'s, N>>,
+        reached: Option<i64>,
+    ) -> Result<Option<Made<'t, 's, N>>, Error> {
+        if let Some(reached) = reached
+            && let before = self.next(reached) - 1
+            && before > reached
+        {
+            trajectory.set_augmented(false);
+            self.pass(trajectory, (reached, before)).map_err(|error| self.failed(&error))?;
+        }
+        trajectory.set_augmented(self.needs_increments());
+        let made = trajectory.advance().map_err(|error| self.failed(&error))?;
+        let Some(n) = made.map(|state| state.n) else { return Ok(None) };
+        let integrator = &mut **trajectory.integrator();
+        if self.see(n, integrator) {
+            let last = self.state.as_ref().expect("the state before was kept");
+            last.restore(integrator);
+            return Ok(None);
+        }
+        Ok(Some((n, None, integrator)))
+    }
+
+    /// The next estimate: each state is made with increments, and seen.
+    fn next_estimate<'t, 'i, 's>(
+        &mut self,
+        run: &'t mut Estimating<'i, 's, N>,
+    ) -> Result<Option<Made<'t, 's, N>>, Error> {
+        let next = run.advance_with(|n, trajectory| {
+            self.see(n, *trajectory.integrator());
+        });
+        let next = match next {
+            // states beyond the last one are made for estimates only
+            Err(_) if self.is_ended_by_column => None,
+            next => next.map_err(|error| self.failed(&error))?,
+        };
+        let next = next.filter(|((n, _), _)| *n <= self.last);
+        Ok(next.map(|((n, estimate), trajectory)| (n, Some(estimate), &mut **trajectory.integrator())))
     }
 
     /// Whether the next step carries increments along.
@@ -219,36 +277,6 @@ impl<'a, 'c, N: RunNumber> Following<'a, 'c, N> {
         before.restore(trajectory.integrator());
         trajectory.go_on_from(from);
         Ok(())
-    }
-
-    /// With increments and an estimate at each state, and its error.
-    fn estimated(
-        &mut self,
-        integrator: &mut VectorIntegrator<'_, N>,
-        settings: &EstimatorSettings,
-    ) -> Result<(), Error> {
-        let (settings, steps) = (settings.clone().with_errors(true), self.last.unsigned_abs());
-        let begun = match self.from {
-            None => ShadowRun::new(integrator, steps, &settings),
-            Some(from) => ShadowRun::resume(integrator, from, steps, &settings),
-        };
-        let mut run = begun.map_err(|error| self.failed(&error))?;
-        let first = self.from.map(|from| Snapshot::of(from, run.integrator().state()));
-        self.moments.estimate(run.reach(), first);
-        loop {
-            let next = run.advance_with(|n, trajectory| {
-                self.see(n, *trajectory.integrator());
-            });
-            let next = match next {
-                // states beyond the last one are made for estimates only
-                Err(_) if self.is_ended_by_column => return Ok(()),
-                next => next.map_err(|error| self.failed(&error))?,
-            };
-            let Some(((n, estimate), trajectory)) = next else { return Ok(()) };
-            if n > self.last || self.output(n, Some(&estimate), *trajectory.integrator())?.is_break() {
-                return Ok(());
-            }
-        }
     }
 
     /// The n of the next state after n that is to be seen, or shown.
