@@ -126,8 +126,8 @@ fn readable(records: &[ChaosRecord]) -> String {
     let mut text = table(header, records.iter().map(row).collect(), 2..5) + "\n";
     for record in records {
         if let Some(exponents) = &record.exponents {
-            let each = exponents.iter().map(|[value, error]| format!("{value:.3e} ± {error:.0e}"));
-            text += &format!("exponents at {}: {}\n", record.step, each.collect::<Vec<_>>().join(", "));
+            let texts = exponents.iter().map(|[value, error]| format!("{value:.3e} ± {error:.0e}"));
+            text += &format!("exponents at {}: {}\n", record.step, texts.collect::<Vec<_>>().join(", "));
         }
         if let Some(gali) = record.gali {
             text += &format!("GALI at {}: {gali:.1e}\n", record.step);

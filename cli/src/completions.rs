@@ -82,9 +82,9 @@ fn names_of(command: &str, argument: Arg) -> Arg {
     };
     argument.add(ArgValueCompleter::new(move |text: &OsStr| {
         let begin = text.to_string_lossy();
-        let known = names().into_iter().filter(|name| name.starts_with(&*begin)).map(CompletionCandidate::new);
+        let begun = names().into_iter().filter(|name| name.starts_with(&*begin)).map(CompletionCandidate::new);
         let files = if has_files { PathCompleter::file().complete(text) } else { Vec::new() };
-        known.chain(files).collect()
+        begun.chain(files).collect()
     }))
 }
 
@@ -103,8 +103,8 @@ fn schemes() -> Vec<String> {
 
 /// The charts of the shipped problem that the command line names, or of any.
 fn charts() -> Vec<String> {
-    let found = env::args().find_map(|word| problem(&word).ok());
-    let positions = found.map_or(Vec::new(), |problem| (problem.description().initial)().positions);
+    let problem = env::args().find_map(|word| problem(&word).ok());
+    let positions = problem.map_or(Vec::new(), |problem| (problem.description().initial)().positions);
     let orbits = positions.windows(2).map(|pair| format!("orbit={}:{}", pair[0].0, pair[1].0));
     ["energies", "distance"].map(str::to_owned).into_iter().chain(orbits).collect()
 }

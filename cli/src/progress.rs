@@ -29,8 +29,8 @@ const EARLY_IN_STUDY: Early = (Duration::from_secs(3), 0.05);
 const LENGTH: f64 = 10_000.0;
 
 impl Progress {
-    pub(crate) fn of_run(wanted: bool, run: String, steps: u64) -> Self {
-        let bar = if wanted { ProgressBar::new(steps) } else { ProgressBar::hidden() };
+    pub(crate) fn of_run(is_shown: bool, run: String, steps: u64) -> Self {
+        let bar = if is_shown { ProgressBar::new(steps) } else { ProgressBar::hidden() };
         bar.set_prefix(run);
         Progress::new(bar, "{prefix}  {wide_bar}  {pos}/{len}  {left}", EARLY_IN_RUN)
     }

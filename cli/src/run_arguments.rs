@@ -141,8 +141,8 @@ impl NumberArguments {
     /// The number type, if there is a flag.
     pub(crate) fn arithmetic(&self) -> Result<Option<Arithmetic>, Error> {
         if let Some(digits) = self.digits {
-            let found = Arithmetic::of_digits(digits, self.mpfr);
-            return found.map(Some).map_err(|error| Error::usage(error.to_string(), "use --digits 120"));
+            let arithmetic = Arithmetic::of_digits(digits, self.mpfr);
+            return arithmetic.map(Some).map_err(|error| Error::usage(error.to_string(), "use --digits 120"));
         }
         let flags = [
             (self.double, Arithmetic::DOUBLE),

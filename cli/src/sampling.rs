@@ -82,12 +82,12 @@ fn target(arguments: &Arguments) -> Result<SamplingTarget, Error> {
         Some(text) => Gaussian::new(frequencies(text)?)
             .map_err(|error| Error::usage(format!("--frequencies {text}: {error}"), "write --frequencies 1,2.5"))?,
     };
-    let wanted = match (arguments.steps, given("--acceptance", &arguments.acceptance)?) {
+    let condition = match (arguments.steps, given("--acceptance", &arguments.acceptance)?) {
         (Some(steps), _) => Wanted::Steps(steps.into()),
         (None, Some(rate)) => Wanted::Acceptance(rate),
         (None, None) => Wanted::LeastCost,
     };
-    SamplingTarget::new(gaussian, given("--time", &arguments.time)?, wanted)
+    SamplingTarget::new(gaussian, given("--time", &arguments.time)?, condition)
 }
 
 fn double(flag: &str, text: &str) -> Result<f64, Error> {
@@ -109,17 +109,17 @@ fn frequencies(text: &str) -> Result<Vec<f64>, Error> {
     }
     let content = read_text(path, LARGEST)
         .map_err(|error| Error::usage(format!("{text} cannot be read: {error}"), "name a file of numbers"))?;
-    let mut found = Vec::new();
+    let mut numbers = Vec::new();
     for (line, content) in content.lines().enumerate() {
         for word in content.split(|c: char| c == ',' || c.is_whitespace()).filter(|word| !word.is_empty()) {
-            found.push(word.parse().map_err(|_| {
+            numbers.push(word.parse().map_err(|_| {
                 let column = content[..word.as_ptr() as usize - content.as_ptr() as usize].chars().count() + 1;
                 let message = format!("{text}:{}:{column}: `{word}` is not a number", line + 1);
                 Error::usage(message, "write numbers with blanks, commas or lines between them")
             })?);
         }
     }
-    Ok(found)
+    Ok(numbers)
 }
 
 /// The schemes that are named, or all that are suited.

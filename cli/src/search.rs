@@ -164,8 +164,8 @@ fn starts(search: &Search, folder: &Path, terminal: &mut Terminal) -> Result<Vec
     let form = form(&search.request);
     let all: Vec<_> = (0..search.starts()).map(|start| Start { form: &form, start, search }).collect();
     let outcomes = store.compute(&all, terminal)?.into_iter().enumerate();
-    let candidate = |(start, found): (usize, Option<Option<Found>>)| {
-        let Found { weights, values, goal } = found??;
+    let candidate = |(start, candidate): (usize, Option<Option<Found>>)| {
+        let Found { weights, values, goal } = candidate??;
         Some(Candidate { start, weights, values, goal })
     };
     Ok(outcomes.filter_map(candidate).collect())
@@ -205,9 +205,10 @@ impl Calculation for Start<'_> {
     }
 
     fn compute(&self, (): &(), continues: Continues<'_>) -> Result<Option<Found>, Error> {
-        let found = self.search.start_while(self.start, &|| continues(0.5));
-        let is_finite =
-            |found: &Candidate| found.goal.is_finite() && found.values.iter().all(|value| value.is_finite());
-        Ok(found.filter(is_finite).map(|Candidate { weights, values, goal, .. }| Found { weights, values, goal }))
+        let candidate = self.search.start_while(self.start, &|| continues(0.5));
+        let is_finite = |candidate: &Candidate| {
+            candidate.goal.is_finite() && candidate.values.iter().all(|value| value.is_finite())
+        };
+        Ok(candidate.filter(is_finite).map(|Candidate { weights, values, goal, .. }| Found { weights, values, goal }))
     }
 }

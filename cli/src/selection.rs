@@ -115,20 +115,20 @@ impl Selection {
     }
 }
 
-fn estimator(given: &EstimatorArguments) -> Result<EstimatorSettings, Error> {
+fn estimator(arguments: &EstimatorArguments) -> Result<EstimatorSettings, Error> {
     let options = EstimatorOptions {
-        order: match given.order {
+        order: match arguments.order {
             OrderChoice::Auto => None,
             OrderChoice::Fixed(order) => Some(order),
         },
-        max_order: given.max_order,
-        stop: given.stop,
-        rule: given.rule,
-        accuracy: given.accuracy.as_deref().map(accuracy).transpose()?,
+        max_order: arguments.max_order,
+        stop: arguments.stop,
+        rule: arguments.rule,
+        accuracy: arguments.accuracy.as_deref().map(accuracy).transpose()?,
     };
-    refuse_high_order(&given.estimator, "--order", options.order)?;
-    refuse_high_order(&given.estimator, "--max-order", options.max_order)?;
-    match EstimatorSettings::from_options(&given.estimator, options) {
+    refuse_high_order(&arguments.estimator, "--order", options.order)?;
+    refuse_high_order(&arguments.estimator, "--max-order", options.max_order)?;
+    match EstimatorSettings::from_options(&arguments.estimator, options) {
         Ok(settings) => Ok(settings.expect("only names of estimators are accepted")),
         Err(error) => {
             let flag = |name: &str| format!("--{}", name.replace('_', "-"));
@@ -169,13 +169,13 @@ fn refuse_empty(flag: &str, list: &[String], example: &str) -> Result<(), Error>
 
 /// The list without repetitions, which are reported.
 fn each_once<T: Clone>(list: &[T], name: impl Fn(&T) -> String, what: &str) -> Vec<T> {
-    let mut kept: Vec<T> = Vec::new();
+    let mut distinct: Vec<T> = Vec::new();
     for item in list {
-        if kept.iter().any(|other| name(other) == name(item)) {
+        if distinct.iter().any(|other| name(other) == name(item)) {
             report::note(format_args!("the {what} {} is given twice; it is run once", name(item)));
         } else {
-            kept.push(item.clone());
+            distinct.push(item.clone());
         }
     }
-    kept
+    distinct
 }

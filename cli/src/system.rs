@@ -38,8 +38,8 @@ impl Described {
 /// Refuses the flags of --potential without it: clap lets them pass where a problem is named.
 fn refuse_state(arguments: &SystemArguments) -> Result<(), Error> {
     let SystemArguments { q, p, masses, .. } = arguments;
-    let given = [("--q", q), ("--p", p), ("--masses", masses)].into_iter().find(|(_, values)| !values.is_empty());
-    match (given, arguments.problem()) {
+    let written = [("--q", q), ("--p", p), ("--masses", masses)].into_iter().find(|(_, values)| !values.is_empty());
+    match (written, arguments.problem()) {
         (Some((flag, _)), Some(problem)) => {
             let hint = match is_file(problem) {
                 true => format!("change the values in {problem}"),
@@ -151,17 +151,17 @@ fn named(flag: &str, text: &str, example: &str) -> Result<(String, String), Erro
 
 /// The momenta in the order of the coordinates, whatever order they are given in.
 fn in_order(momenta: &[(String, String)], coordinates: &[String]) -> Result<Vec<String>, Error> {
-    let wanted: Vec<String> = coordinates.iter().map(|name| format!("p{name}")).collect();
-    let value = |name: &String| momenta.iter().find(|(own, _)| own == name).map(|(_, value)| value.clone());
-    let all: Vec<String> = wanted.iter().map_while(value).collect();
-    if all.len() == wanted.len() && momenta.len() == wanted.len() {
+    let names: Vec<String> = coordinates.iter().map(|name| format!("p{name}")).collect();
+    let value = |name: &String| momenta.iter().find(|(momentum, _)| momentum == name).map(|(_, value)| value.clone());
+    let all: Vec<String> = names.iter().map_while(value).collect();
+    if all.len() == names.len() && momenta.len() == names.len() {
         return Ok(all);
     }
-    let fault = match momenta.iter().find(|(name, _)| !wanted.contains(name)) {
+    let fault = match momenta.iter().find(|(name, _)| !names.contains(name)) {
         Some((other, _)) => format!("--p has `{other}`, which is no momentum of --q"),
         None => "--p does not have each momentum once".to_owned(),
     };
-    let example: Vec<_> = wanted.iter().map(|name| format!("{name}=…")).collect();
+    let example: Vec<_> = names.iter().map(|name| format!("{name}=…")).collect();
     Err(Error::usage(fault, format!("write --p {}", example.join(","))))
 }
 

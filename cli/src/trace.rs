@@ -155,11 +155,11 @@ impl Computation for TraceRun<'_, '_> {
             write: arguments.writes_rows().then_some(write),
             states: arguments.states,
         };
-        let finished = estimates.take::<N>(context, &mut |n, found| {
+        let finished = estimates.take::<N>(context, &mut |n, estimate| {
             progress.reach(n);
             interrupt.check(run, n, NOT_RESUMED)?;
-            let [q, p] = found.state().map(|numbers| numbers.cloned().collect::<Vec<_>>());
-            rows.take(n, (&q, &p), Some(found))
+            let [q, p] = estimate.state().map(|numbers| numbers.cloned().collect::<Vec<_>>());
+            rows.take(n, (&q, &p), Some(estimate))
         })?;
         // values between states have no row for a state
         if let Some((q, p)) = finished.at_until.filter(|_| !estimator.is_between()) {
@@ -190,7 +190,7 @@ struct StatesOfRun<'a, 'w, N: RunNumber> {
 
 impl<N: RunNumber> StatesOfRun<'_, '_, N> {
     /// Takes a state in the coordinates of the steps, or with an estimate between two states what belongs to that.
-    fn take(&mut self, n: i64, (own_q, own_p): (&[N], &[N]), found: Option<&Estimate<'_, N>>) -> Result<(), Error> {
+    fn take(&mut self, n: i64, (own_q, own_p): (&[N], &[N]), estimate: Option<&Estimate<'_, N>>) -> Result<(), Error> {
         let Selection { estimator, problem, .. } = self.selection;
         let energy = (!estimator.is_between()).then(|| (self.energy_of)(own_q, own_p));
         if energy.as_ref().is_some_and(|energy| !energy.is_finite()) {
@@ -204,12 +204,13 @@ impl<N: RunNumber> StatesOfRun<'_, '_, N> {
             Some(shown) => shown.of_state(own_q, own_p),
             None => (own_q, own_p),
         };
-        let (modified_energy, estimate) = (found.map(|found| found.value), found.and_then(|found| found.error));
+        let modified_energy = estimate.map(|estimate| estimate.value);
+        let error = estimate.and_then(|estimate| estimate.error);
         if let Some(lines) = &mut self.lines {
             let numbers = q.iter().chain(p).filter(|_| self.lines_need_states);
             let state = &*numbers.map(N::to_f64).collect::<Vec<_>>();
             let (n, t, energy) = (n.unsigned_abs(), t.to_f64(), energy.as_ref());
-            lines.take(&Values { n, t, energy, modified_energy, estimate, state });
+            lines.take(&Values { n, t, energy, modified_energy, estimate: error, state });
         }
         let Some(write) = &mut self.write else { return Ok(()) };
         let texts = |numbers: &[N]| self.states.then(|| numbers.iter().map(N::to_text).collect());
@@ -218,10 +219,10 @@ impl<N: RunNumber> StatesOfRun<'_, '_, N> {
             n,
             t: t.to_text(),
             energy: energy.as_ref().map(N::to_text),
-            modified: found.map(|found| ModifiedEnergy {
-                modified_energy: found.value.to_text(),
-                estimate: found.error.map(N::to_text),
-                order: found.order,
+            modified: estimate.map(|estimate| ModifiedEnergy {
+                modified_energy: estimate.value.to_text(),
+                estimate: estimate.error.map(N::to_text),
+                order: estimate.order,
             }),
             q: texts(q),
             p: texts(p),

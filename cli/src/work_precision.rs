@@ -122,11 +122,11 @@ pub(crate) fn seconds(text: &str) -> Result<f64, String> {
 /// those of the scene.
 pub(crate) fn schemes(words: &[String], posed: &PosedProblem) -> Result<Vec<NamedScheme>, Error> {
     let system = &posed.described.system;
-    let mut found: Vec<NamedScheme> = Vec::new();
+    let mut schemes: Vec<NamedScheme> = Vec::new();
     let mut add = |scheme: NamedScheme| {
-        if !found.iter().any(|other| other.name == scheme.name) {
+        if !schemes.iter().any(|other| other.name == scheme.name) {
             scheme.note().iter().for_each(report::note);
-            found.push(scheme);
+            schemes.push(scheme);
         }
     };
     if words.iter().all(|word| word.starts_with('+')) {
@@ -146,7 +146,7 @@ pub(crate) fn schemes(words: &[String], posed: &PosedProblem) -> Result<Vec<Name
             }
         }
     }
-    Ok(found)
+    Ok(schemes)
 }
 
 /// An unknown scheme may be a misspelt group.

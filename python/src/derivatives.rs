@@ -41,11 +41,11 @@ pub(crate) fn derivatives<'py>(
     by: Vec<By>,
     progress: Option<&Bound<'py, PyAny>>,
 ) -> Fallible<(Bound<'py, PyArray1<i64>>, States<'py>)> {
-    let found = waiting_for(py, progress, None, move |watched| {
+    let derivatives = waiting_for(py, progress, None, move |watched| {
         differentiate(&run, &by, |request| request.forward(&mut watched.observer()))
     })?;
-    let n = found.n.iter().map(|n| i64::try_from(*n).unwrap_or(i64::MAX)).collect();
-    Ok((PyArray1::from_vec(py, n), (array(py, found.states), arrays(py, found.by))))
+    let n = derivatives.n.iter().map(|n| i64::try_from(*n).unwrap_or(i64::MAX)).collect();
+    Ok((PyArray1::from_vec(py, n), (array(py, derivatives.states), arrays(py, derivatives.by))))
 }
 
 /// The gradient of a function by each variable, and the error of the steps back. The covectors are the derivatives of
@@ -58,10 +58,10 @@ pub(crate) fn gradient<'py>(
     covectors: Rows,
     progress: Option<&Bound<'py, PyAny>>,
 ) -> Fallible<(Bound<'py, PyAny>, f64)> {
-    let found = waiting_for(py, progress, None, move |watched| {
+    let gradient = waiting_for(py, progress, None, move |watched| {
         differentiate(&run, &by, |request| request.backward(&covectors.numbers, &mut watched.observer()))
     })?;
-    Ok((array(py, found.by), found.reversal_error))
+    Ok((array(py, gradient.by), gradient.reversal_error))
 }
 
 fn differentiate<T>(

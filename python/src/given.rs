@@ -226,9 +226,9 @@ pub(crate) fn arithmetic(digits: &str, mpfr: bool) -> Fallible<Arithmetic> {
 
 /// The meaning of a word among those that an option has.
 pub(crate) fn word<T: Copy>(option: &str, word: &str, known: &[(&str, T)]) -> Fallible<T> {
-    let found = known.iter().find(|(name, _)| *name == word);
+    let entry = known.iter().find(|(name, _)| *name == word);
     let unknown = || usage(format!("{option} = \"{word}\" is not known"), format!("it is one of {}", listed(known)));
-    found.map(|(_, value)| *value).ok_or_else(unknown)
+    entry.map(|(_, value)| *value).ok_or_else(unknown)
 }
 
 fn listed<T>(known: &[(&str, T)]) -> String {

@@ -39,11 +39,11 @@ pub(crate) struct Wanted {
 pub(crate) fn integrate<'py>(
     py: Python<'py>,
     run: GivenRun,
-    wanted: Wanted,
+    requested: Wanted,
     progress: Option<&Bound<'py, PyAny>>,
 ) -> Fallible<Bound<'py, PyDict>> {
     let problem = run.problem.get().clone();
-    let (states, beside) = waiting_for(py, progress, Some(&problem), move |watched| made(&run, &wanted, watched))?;
+    let (states, beside) = waiting_for(py, progress, Some(&problem), move |watched| made(&run, &requested, watched))?;
     let all = match states {
         States::Doubles(samples) => dictionary(py, samples, f64::NAN, Array::Doubles),
         States::Texts(samples) => dictionary(py, samples, "nan".to_owned(), Array::Texts),
@@ -76,8 +76,8 @@ struct Beside {
     summary: Option<(String, Json)>,
 }
 
-fn made(run: &GivenRun, wanted: &Wanted, watched: &Watched) -> Fallible<(States, Beside)> {
-    let Wanted { end, section, values, estimator, summary, windows, tangent } = wanted;
+fn made(run: &GivenRun, requested: &Wanted, watched: &Watched) -> Fallible<(States, Beside)> {
+    let Wanted { end, section, values, estimator, summary, windows, tangent } = requested;
     let (run, estimator) = (run.read()?, estimator.as_ref().map(Options::settings).transpose()?);
     if *tangent {
         run.check_steps()?;
@@ -139,10 +139,10 @@ fn dictionary<T: Clone>(
     let values = samples.values.into_iter().map(|numbers| numbers.into_iter().map(or_missing).collect());
     all.set_item("values", values.map(|numbers| array(py, column(numbers))).collect::<Vec<_>>())?;
     if !samples.modified.is_empty() {
-        let orders: Vec<i64> = samples.modified.iter().map(|found| found.order.into()).collect();
+        let orders: Vec<i64> = samples.modified.iter().map(|estimate| estimate.order.into()).collect();
         all.set_item("order", PyArray1::from_vec(py, orders))?;
-        let found = samples.modified.into_iter().map(|found| (found.value, or_missing(found.error)));
-        let (values, errors): (Vec<T>, Vec<T>) = found.unzip();
+        let estimate = samples.modified.into_iter().map(|estimate| (estimate.value, or_missing(estimate.error)));
+        let (values, errors): (Vec<T>, Vec<T>) = estimate.unzip();
         for (name, mut numbers) in [("modified_energy", values), ("modified_energy_error", errors)] {
             numbers.resize(rows, missing.clone());
             all.set_item(name, array(py, column(numbers)))?;

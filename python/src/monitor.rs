@@ -167,9 +167,9 @@ impl Monitor {
             let _ = self.tasks.lock().unwrap_or_else(PoisonError::into_inner).send(task);
             Ok(())
         };
-        let found = asked(py, (None, None), within, send, task);
+        let result = asked(py, (None, None), within, send, task);
         self.problem.raised(py)?;
-        found
+        result
     }
 }
 

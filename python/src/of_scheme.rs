@@ -50,16 +50,16 @@ pub(crate) fn proposal(
     let gaussian = Gaussian::new(frequencies).map_err(|error| {
         usage(error.to_string(), "give positive numbers: 1/σ of a direction with standard deviation σ")
     })?;
-    let wanted = match (acceptance, steps) {
+    let condition = match (acceptance, steps) {
         (None, None) => Wanted::LeastCost,
         (Some(rate), None) => Wanted::Acceptance(rate),
         (None, Some(steps)) => Wanted::Steps(steps),
         (Some(_), Some(_)) => return Err(usage("acceptance and steps exclude each other", "give one of them")),
     };
-    let target = SamplingTarget::new(gaussian, time, wanted)?;
+    let target = SamplingTarget::new(gaussian, time, condition)?;
     let scheme = scheme.0.clone();
-    let found = waiting(py, move |_| Ok(target.record(&scheme)?))?;
-    Ok((found.steps, found.step, found.gradients, found.error, found.largest_error, found.acceptance))
+    let record = waiting(py, move |_| Ok(target.record(&scheme)?))?;
+    Ok((record.steps, record.step, record.gradients, record.error, record.largest_error, record.acceptance))
 }
 
 /// The terms of the series: the power of h, the bracket, the coefficient.
@@ -134,8 +134,8 @@ pub(crate) fn polished(
             true => Source { path: "table".to_owned(), text: word },
             false => library::source(&word).map_err(Error::from)?,
         };
-        let wanted = polish::Request { digits, free: &free, split_kicks, closed_gaps: &closed_gaps };
-        Ok(polish::polish(&source, &library::beside_or_shipped, &wanted).map_err(of_polish)?.text)
+        let request = polish::Request { digits, free: &free, split_kicks, closed_gaps: &closed_gaps };
+        Ok(polish::polish(&source, &library::beside_or_shipped, &request).map_err(of_polish)?.text)
     })
 }
 

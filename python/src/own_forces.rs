@@ -85,21 +85,21 @@ impl Forces {
 
 fn called(function: &Bound<'_, PyAny>, q: &[f64], gradient: &mut [f64]) -> PyResult<f64> {
     let py = function.py();
-    let found = function.call1((PyArray1::from_slice(py, q),))?;
-    let (energy, found): (f64, Bound<'_, PyAny>) = found.extract().map_err(|error| {
+    let gradient_given = function.call1((PyArray1::from_slice(py, q),))?;
+    let (energy, gradient_given): (f64, Bound<'_, PyAny>) = gradient_given.extract().map_err(|error| {
         let wrong = PyTypeError::new_err("the function for the forces must return (U, gradient)");
         wrong.set_cause(py, Some(error));
         wrong
     })?;
-    let Ok(found) = found.extract::<PyReadonlyArray1<'_, f64>>() else {
+    let Ok(gradient_given) = gradient_given.extract::<PyReadonlyArray1<'_, f64>>() else {
         return Err(PyTypeError::new_err("the gradient must be an array of float64 as long as q"));
     };
-    let found = found.as_array();
-    if found.len() != gradient.len() {
-        let message = format!("the gradient has {} numbers, and q has {}", found.len(), gradient.len());
+    let gradient_given = gradient_given.as_array();
+    if gradient_given.len() != gradient.len() {
+        let message = format!("the gradient has {} numbers, and q has {}", gradient_given.len(), gradient.len());
         return Err(PyValueError::new_err(message));
     }
-    gradient.iter_mut().zip(found).for_each(|(own, component)| *own = *component);
+    gradient.iter_mut().zip(gradient_given).for_each(|(own, component)| *own = *component);
     Ok(energy)
 }
 

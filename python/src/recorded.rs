@@ -118,9 +118,9 @@ fn all<T: States<Number = f64>, E: Estimator<f64>>(
     mut run: ShadowRun<T, E>,
 ) -> Result<[Vec<f64>; 2], RecordedError> {
     let mut all = [(); 2].map(|()| vec![f64::NAN; states]);
-    while let Some((n, found)) = run.advance()? {
+    while let Some((n, estimate)) = run.advance()? {
         let row = usize::try_from(n).expect("states of a log are counted from 0");
-        (all[0][row], all[1][row]) = (*found.value, found.error.copied().unwrap_or(f64::NAN));
+        (all[0][row], all[1][row]) = (*estimate.value, estimate.error.copied().unwrap_or(f64::NAN));
     }
     Ok(all)
 }
@@ -188,8 +188,8 @@ impl Observer {
             Some((q, p, beta)) => Derivatives::Step(gradient, MadeStep { q: &q.numbers, p: &p.numbers, beta: *beta }),
             None => Derivatives::Gradient(gradient),
         };
-        let found = observer.observe(&Logged { q, p: &p.numbers, energy, derivatives })?;
-        Ok(found.map(|value| (value.n, value.modified, value.error, value.energy)))
+        let observed = observer.observe(&Logged { q, p: &p.numbers, energy, derivatives })?;
+        Ok(observed.map(|value| (value.n, value.modified, value.error, value.energy)))
     }
 
     /// n, H̄, its error and H of all states that have an estimate.
@@ -207,42 +207,42 @@ impl Observer {
     }
 }
 
-fn dictionary<'py>(py: Python<'py>, found: &Diagnosis) -> PyResult<Bound<'py, PyDict>> {
+fn dictionary<'py>(py: Python<'py>, diagnosis: &Diagnosis) -> PyResult<Bound<'py, PyDict>> {
     let all = PyDict::new(py);
-    all.set_item("cause", found.cause.name())?;
-    all.set_item("size", found.cause.size())?;
-    all.set_item("reason", found.reason())?;
-    all.set_item("text", found.to_string())?;
-    all.set_item("states", found.states)?;
-    all.set_item("estimates", found.estimates)?;
-    let smoothness = found.smoothness;
-    let [of_q, of_p] = found.differences.map_or([None; 2], |differences| differences.map(Some));
+    all.set_item("cause", diagnosis.cause.name())?;
+    all.set_item("size", diagnosis.cause.size())?;
+    all.set_item("reason", diagnosis.reason())?;
+    all.set_item("text", diagnosis.to_string())?;
+    all.set_item("states", diagnosis.states)?;
+    all.set_item("estimates", diagnosis.estimates)?;
+    let smoothness = diagnosis.smoothness;
+    let [of_q, of_p] = diagnosis.differences.map_or([None; 2], |differences| differences.map(Some));
     let numbers = [
-        ("kinetic", Some(found.kinetic)),
-        ("energy_error", Some(found.energy_error)),
-        ("method_error", Some(found.method_error)),
-        ("change", Some(found.change)),
-        ("range", Some(found.range)),
-        ("moved", Some(found.moved)),
-        ("known_to", Some(found.known_to)),
-        ("time", Some(found.time)),
+        ("kinetic", Some(diagnosis.kinetic)),
+        ("energy_error", Some(diagnosis.energy_error)),
+        ("method_error", Some(diagnosis.method_error)),
+        ("change", Some(diagnosis.change)),
+        ("range", Some(diagnosis.range)),
+        ("moved", Some(diagnosis.moved)),
+        ("known_to", Some(diagnosis.known_to)),
+        ("time", Some(diagnosis.time)),
         ("forces", smoothness.map(|smoothness| smoothness.size)),
         ("force_differences", smoothness.map(|smoothness| smoothness.differences)),
         ("exponent", smoothness.map(|smoothness| smoothness.exponent)),
-        ("excess", found.excess),
-        ("energy_differences", found.energy_smoothness.map(|smoothness| smoothness.differences)),
-        ("energy_exponent", found.energy_smoothness.map(|smoothness| smoothness.exponent)),
-        ("in_a_step", Some(found.in_a_step)),
-        ("growth", Some(found.growth)),
-        ("isolation", Some(found.isolation)),
+        ("excess", diagnosis.excess),
+        ("energy_differences", diagnosis.energy_smoothness.map(|smoothness| smoothness.differences)),
+        ("energy_exponent", diagnosis.energy_smoothness.map(|smoothness| smoothness.exponent)),
+        ("in_a_step", Some(diagnosis.in_a_step)),
+        ("growth", Some(diagnosis.growth)),
+        ("isolation", Some(diagnosis.isolation)),
         ("off_q", of_q.map(|of| of.of_increments)),
         ("off_p", of_p.map(|of| of.of_increments)),
     ];
     for (name, number) in numbers {
         all.set_item(name, number)?;
     }
-    all.set_item("reordered", found.reordered)?;
-    all.set_item("jumps", found.jumps.iter().map(|jump| (jump.n, jump.energy)).collect::<Vec<_>>())?;
+    all.set_item("reordered", diagnosis.reordered)?;
+    all.set_item("jumps", diagnosis.jumps.iter().map(|jump| (jump.n, jump.energy)).collect::<Vec<_>>())?;
     Ok(all)
 }
 

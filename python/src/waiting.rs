@@ -150,9 +150,9 @@ pub(crate) fn waiting_for<T: Send + 'static>(
         let message = "the forces of a computation compute what needs these forces again, without an end";
         PyRecursionError::new_err(message)
     })?;
-    let found = asked(py, (progress, problem), within, spawned, work);
+    let result = asked(py, (progress, problem), within, spawned, work);
     problem.map_or(Ok(()), |problem| problem.raised(py))?;
-    found
+    result
 }
 
 /// What a thread does.
@@ -193,7 +193,7 @@ pub(crate) fn soon<T>(receiver: &Receiver<T>) -> Option<T> {
     let begun = Instant::now();
     while begun.elapsed() < PATIENCE {
         match receiver.try_recv() {
-            Ok(found) => return Some(found),
+            Ok(value) => return Some(value),
             Err(_) => hint::spin_loop(),
         }
     }

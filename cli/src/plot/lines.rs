@@ -171,7 +171,7 @@ mod tests {
         }
         let charts = run.finish().charts;
         let [(energy, _), (modified_energy, _), (estimate, _)] = &charts[0][..] else { panic!("{charts:?}") };
-        let is_near = |points: &[(f64, f64)], height: f64| matches!(points, [(t, found)] if *t == 0.5 && (found - height).abs() < 1e-4);
+        let is_near = |points: &[(f64, f64)], height: f64| matches!(points, [(t, reached)] if *t == 0.5 && (reached - height).abs() < 1e-4);
         assert!(is_near(energy, -45.0) && is_near(modified_energy, -45.0), "{energy:?} {modified_energy:?}");
         assert!(estimate.len() == 3 && estimate.iter().all(|(_, height)| (height + 40.0).abs() < 1e-9));
         assert_eq!(charts[1], [(vec![(0.0, 3.0), (4.0, 3.0), (8.0, 3.0)], 1)]);

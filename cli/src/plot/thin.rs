@@ -43,10 +43,11 @@ impl<V: PartialOrd + Clone> InTime<V> {
             |a: &usize, b: &usize| self.within[*a].1.partial_cmp(&self.within[*b].1).expect("all values are finite");
         let all = 0..self.within.len();
         let extremes = [all.clone().min_by(by_value), all.clone().max_by(by_value)];
-        let mut kept: Vec<usize> = extremes.into_iter().flatten().chain(all.clone().next()).chain(all.last()).collect();
-        kept.sort_unstable();
-        kept.dedup();
-        self.points.extend(kept.into_iter().map(|number| self.within[number].clone()));
+        let mut numbers: Vec<usize> =
+            extremes.into_iter().flatten().chain(all.clone().next()).chain(all.last()).collect();
+        numbers.sort_unstable();
+        numbers.dedup();
+        self.points.extend(numbers.into_iter().map(|number| self.within[number].clone()));
         self.within.clear();
     }
 

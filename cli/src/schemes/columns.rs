@@ -62,7 +62,7 @@ pub(super) fn all() -> Vec<Column> {
         ERROR,
         Column { header: "eff. error\nquadratic", ..ERROR_QUADRATIC },
         number("stable\nto hω", |scheme| {
-            or_none(scheme.facts.stability.as_ref().map(|found| rounded(&found.limit, 4)))
+            or_none(scheme.facts.stability.as_ref().map(|interval| rounded(&interval.limit, 4)))
         }),
         PER_FORCE,
         number("digits", |scheme| {

@@ -30,13 +30,13 @@ pub(super) fn execute(paths: &[String]) -> Result<Status, Error> {
                 continue;
             }
         };
-        let found = check(&text, language);
-        for verdict in &found.verdicts {
+        let checked = check(&text, language);
+        for verdict in &checked.verdicts {
             write!(output, "{}", readable(path, verdict))?;
         }
-        schemes += found.verdicts.len();
-        wrong += found.verdicts.iter().filter(|verdict| !verdict.faults.is_empty()).count();
-        skipped += found.skipped;
+        schemes += checked.verdicts.len();
+        wrong += checked.verdicts.iter().filter(|verdict| !verdict.faults.is_empty()).count();
+        skipped += checked.skipped;
     }
     writeln!(output, "schemes: {schemes}, of which wrong: {wrong}; lists that are not schemes: {skipped}")?;
     output.finish()?;

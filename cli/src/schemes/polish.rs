@@ -71,13 +71,13 @@ pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
     let source = library::source(&arguments.file)?;
     let _interrupt = Interrupt::listen("schemes polish", "run the command again");
     let output = Output::of(&arguments.output)?;
-    let wanted = Request {
+    let request = Request {
         digits: arguments.digits,
         free: &arguments.free,
         split_kicks: arguments.split_kicks,
         closed_gaps: &arguments.closed_gaps,
     };
-    let polished = match polish::polish(&source, &library::beside_or_shipped, &wanted) {
+    let polished = match polish::polish(&source, &library::beside_or_shipped, &request) {
         Ok(polished) => polished,
         Err(NotPolished::Request { message, hint }) => return Err(Error::usage(message, hint)),
         Err(NotPolished::Faults(faults)) => {

@@ -156,10 +156,10 @@ fn nested_facts(proved: &Proved, inner: &ExactInner) -> Vec<Fact> {
 /// step).
 fn resonance_facts(proved: &Proved, substeps: usize) -> Vec<String> {
     let fact = |parts: i64| {
-        let found = resonances(proved, &Rational::new(1.into(), parts.into()))?;
-        let first = found.gaps.first()?;
+        let resonances = resonances(proved, &Rational::new(1.into(), parts.into()))?;
+        let first = resonances.gaps.first()?;
         let to = first.to.as_ref().map_or_else(|| "on".to_owned(), |to| format!("to {}", shortened_text(to)));
-        let others = match found.gaps.len() - 1 {
+        let others = match resonances.gaps.len() - 1 {
             0 => String::new(),
             1 => format!(", and in another interval up to {}", 2 * substeps),
             more => format!(", and in {more} other intervals up to {}", 2 * substeps),
@@ -261,10 +261,10 @@ fn order_text(order: &Order) -> String {
     let holds = format!("order {}, {}", order.order, order.held());
     match &order.failed {
         None => format!("{holds}; more than order {HIGHEST_ORDER} is not looked for"),
-        Some((condition, found)) => {
-            let [found, needed] = [found, &condition.needed].map(|value| shortened(value, 16));
+        Some((condition, value)) => {
+            let [value, needed] = [value, &condition.needed].map(|value| shortened(value, 16));
             let (order, functional) = (condition.order, &condition.functional);
-            format!("{holds}; of order {order}, the condition of {functional} fails: found {found}, needed {needed}")
+            format!("{holds}; of order {order}, the condition of {functional} fails: found {value}, needed {needed}")
         }
     }
 }

@@ -60,9 +60,9 @@ pub(super) fn writer<'a>(
     csv.write_record(run.chain(columns).chain(coordinates.filter(|_| states)))?;
     Ok(Box::new(move |row| {
         let (n, none) = (row.n.to_string(), String::new());
-        let order = row.modified.as_ref().map_or_else(String::new, |found| found.order.to_string());
+        let order = row.modified.as_ref().map_or_else(String::new, |modified| modified.order.to_string());
         let (modified, estimate) = match &row.modified {
-            Some(found) => (&found.modified_energy, found.estimate.as_ref().unwrap_or(&none)),
+            Some(modified) => (&modified.modified_energy, modified.estimate.as_ref().unwrap_or(&none)),
             None => (&none, &none),
         };
         let energy = row.energy.as_ref().unwrap_or(&none);

@@ -44,8 +44,8 @@ fn row(Cheapest { error, by_evaluations, by_time }: Cheapest<'_>) -> [String; 5]
 fn orders(study: &Study<'_>, studied: &Studied<'_>) -> [String; 8] {
     let [position, energy] = [Of::Position, Of::Energy].map(|of| studied.order(study.problem, of));
     let shown = |order: Option<MeasuredOrder>| order.map_or("–".to_owned(), |found| format!("{:.2}", found.order));
-    let range =
-        position.map_or([String::new(), String::new()], |found| [found.from, found.to].map(|h| format!("{h:.1e}")));
+    let range = position
+        .map_or([String::new(), String::new()], |advised| [advised.from, advised.to].map(|h| format!("{h:.1e}")));
     let [from, to] = range;
     [
         studied.scheme.name.clone(),
