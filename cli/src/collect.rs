@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
 use shadowstep_scenes::{Error, shell_word};
-use shadowstep_sweeps::{Collected, Missing, TableFormat, collect};
+use shadowstep_studies::sweeps::{Collected, Missing, TableFormat, collect};
 
 use crate::output::Output;
 use crate::report::{self, Status};

@@ -2,8 +2,8 @@
 
 use clap::Args;
 use clap::builder::PossibleValuesParser;
-use shadowstep_emit::{Target, emit};
 use shadowstep_scenes::{Error, library};
+use shadowstep_studies::emit::{Target, emit};
 
 use crate::output::{Output, OutputArguments};
 use crate::report::{self, Status};

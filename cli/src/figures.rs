@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use shadowstep_figures::{Error, Request, reproduce, written};
+use shadowstep_studies::figures::{Error, Request, reproduce, written};
 
 use crate::output::Output;
 use crate::report::Status;

@@ -10,8 +10,8 @@ use shadowstep_scenes::library::NamedScheme;
 use shadowstep_scenes::readable::shortened;
 use shadowstep_scenes::{Error, Scene, first_map, source};
 use shadowstep_schemes::document::document;
-use shadowstep_work_precision::length::length_of;
-use shadowstep_work_precision::problem::Problem;
+use shadowstep_studies::work_precision::length::length_of;
+use shadowstep_studies::work_precision::problem::Problem;
 
 use crate::headings::SCHEMES;
 use crate::quantity;

@@ -8,8 +8,8 @@ use shadowstep_scenes::arithmetic::{Arithmetic, MOST_DIGITS};
 use shadowstep_scenes::library::{NamedScheme, scheme};
 use shadowstep_scenes::object::Object;
 use shadowstep_scenes::{Error, shell_word};
-use shadowstep_stability::{CaseEntry, Suite, entries, examine, files, names};
 use shadowstep_studies::finding::Finding;
+use shadowstep_studies::stability::{CaseEntry, Suite, entries, examine, files, names};
 use shadowstep_studies::verdict::Verdict;
 
 use crate::output::Output;

@@ -6,7 +6,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 use shadowstep_scenes::Error;
-use shadowstep_sweeps::{
+use shadowstep_studies::sweeps::{
     Chunk, Computed, Manifest, SweepPlan, chunk_of_task, compute, explain, is_there, job_script, refuse_foreign,
     remove_foreign, sweep_schema,
 };

@@ -7,12 +7,12 @@ use shadowstep::tables::Source;
 use shadowstep_analysis::gaussian::Gaussian;
 use shadowstep_analysis::polish::{self, NotPolished};
 use shadowstep_analysis::search::{Candidate, Request, Search};
-use shadowstep_emit::Target;
 use shadowstep_scenes::arithmetic::Arithmetic;
 use shadowstep_scenes::modified_hamiltonian::record::{Formulas, SeriesOptions, SeriesRecord};
 use shadowstep_scenes::sampling::{SamplingTarget, Wanted};
 use shadowstep_scenes::{Error, Refusal, library};
 use shadowstep_schemes::shipped;
+use shadowstep_studies::emit::Target;
 use shadowstep_symbolic::Notation;
 
 use crate::errors::{Fallible, usage};
@@ -29,7 +29,7 @@ pub(crate) fn emit(py: Python<'_>, scheme: &Table, target: &str) -> Fallible<Str
     })?;
     let scheme = scheme.0.quadratic();
     waiting(py, move |_| {
-        shadowstep_emit::emit(&scheme, target)
+        shadowstep_studies::emit::emit(&scheme, target)
             .map_err(|refusal| usage(format!("{} {}", refusal.scheme, refusal.reason), refusal.hint))
     })
 }

@@ -13,7 +13,7 @@ use shadowstep::systems::formula::FormulaPotential;
 use shadowstep::tables::Source;
 use shadowstep_analysis::sources::{Language, check};
 use shadowstep_scenes::{FileOptions, Observer, Outcome, Scene};
-use shadowstep_sweeps::SweepPlan;
+use shadowstep_studies::sweeps::SweepPlan;
 use shadowstep_symbolic::{Budget, Exact, evaluate_within, exact, parse};
 use tempfile::TempDir;
 

@@ -10,7 +10,7 @@ use serde_json::{Map, Value, json};
 use shadowstep_scenes::schema::Section;
 use shadowstep_scenes::{SHIPPED_SCENES, Scene, ensemble::Ensemble, keys, scene_text};
 use shadowstep_schemes::document::{Source, document};
-use shadowstep_sweeps::SweepPlan;
+use shadowstep_studies::sweeps::SweepPlan;
 use toml::de::{DeTable, DeValue};
 
 use crate::document::NAME;
@@ -68,7 +68,7 @@ fn shipped_documents_are_valid() {
     for text in shipped.chain(problems) {
         assert_eq!(scenes.fault(&json_of(&text)), None, "{text}");
     }
-    let sweeps = Validator::of(&shadowstep_sweeps::sweep_schema());
+    let sweeps = Validator::of(&shadowstep_studies::sweeps::sweep_schema());
     for sweep in fs::read_dir(Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs/sweeps")).unwrap() {
         let text = fs::read_to_string(sweep.unwrap().path()).unwrap();
         assert_eq!(sweeps.fault(&json_of(&text)), None, "{text}");
@@ -99,8 +99,8 @@ fn documents_that_lack_a_line_are_read_or_refused() {
 /// What the program reads is valid.
 #[test]
 fn random_documents_that_are_read_are_valid() {
-    let [scenes, sweeps] =
-        [shadowstep_scenes::scene_schema(), shadowstep_sweeps::sweep_schema()].map(|schema| Validator::of(&schema));
+    let [scenes, sweeps] = [shadowstep_scenes::scene_schema(), shadowstep_studies::sweeps::sweep_schema()]
+        .map(|schema| Validator::of(&schema));
     let mut read = 0;
     for number in super::TESTED {
         let folder = tempfile::tempdir().unwrap();

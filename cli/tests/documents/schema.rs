@@ -12,7 +12,7 @@ pub(crate) struct Key {
 
 /// What `shadowstep scene --explain` and `shadowstep sweep --explain` list.
 pub(crate) fn keys() -> Vec<Key> {
-    [shadowstep_scenes::explain(), shadowstep_sweeps::explain()].iter().flat_map(|text| of(text)).collect()
+    [shadowstep_scenes::explain(), shadowstep_studies::sweeps::explain()].iter().flat_map(|text| of(text)).collect()
 }
 
 fn of(text: &str) -> Vec<Key> {
@@ -41,7 +41,7 @@ impl Key {
 
 /// The values that \[keep\] can have.
 pub(crate) fn kept_values() -> Vec<String> {
-    let text = shadowstep_sweeps::explain();
+    let text = shadowstep_studies::sweeps::explain();
     let (_, list) = text.split_once("The values of [keep]:\n").unwrap();
     list.lines().filter_map(|line| line.split_whitespace().next()).map(str::to_owned).collect()
 }

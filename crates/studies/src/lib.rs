@@ -20,6 +20,8 @@
 mod calculation;
 pub mod chart;
 pub mod claim;
+pub mod emit;
+pub mod figures;
 pub mod files;
 pub mod finding;
 pub mod heat_map;
@@ -28,9 +30,12 @@ mod observer;
 pub mod page;
 mod picture;
 mod progress;
+pub mod stability;
 mod store;
+pub mod sweeps;
 mod threads;
 pub mod verdict;
+pub mod work_precision;
 
 pub use calculation::{Calculation, Continues};
 pub use named::named;
