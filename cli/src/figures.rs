@@ -3,7 +3,8 @@
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use shadowstep_studies::figures::{Error, Request, reproduce, written};
+use shadowstep_studies::Error;
+use shadowstep_studies::figures::{Request, reproduce, written};
 
 use crate::output::Output;
 use crate::report::Status;

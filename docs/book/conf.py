@@ -116,7 +116,7 @@ def sources_of_rust(app, name, source):
         if path.is_dir():
             return link[1]
         crate, of_crate, file = str(path.relative_to(ROOT)).partition("/src/")
-        if path.suffix != ".rs" or not of_crate or "/" in crate:
+        if path.suffix != ".rs" or not of_crate or "/" in crate.removeprefix("crates/"):
             return link[0]
         page = f"rust/{crate_name(crate)}/index.html" if file == "lib.rs" else f"rust/src/{crate_name(crate)}/{file}.html"
         if not (Path(app.outdir) / page).exists():

@@ -3,7 +3,7 @@
 
 `make test-emit` calls this. What is not installed is skipped, with the reason, unless REQUIRED="fortran python …" names it. Python's packages are
 installed from PyPI, and SUNDIALS is built from the source that the crate sundials-sys contains, both into `target/emit`, once. `test.py fortran jax` makes
-only these tests; SHADOWSTEP=PROGRAM tests another program than target/debug/shadowstep. The C is tested by `cargo test -p shadowstep-emit`.
+only these tests; SHADOWSTEP=PROGRAM tests another program than target/debug/shadowstep. The C is tested by `cargo test -p shadowstep-studies emit`.
 """
 
 import os

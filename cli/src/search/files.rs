@@ -5,9 +5,9 @@ use std::path::{Path, PathBuf};
 use shadowstep_analysis::search::{Candidate, Search};
 use shadowstep_scenes::Error;
 use shadowstep_studies::chart::{Axis, Chart, Curve, Marker, log10_of};
-use shadowstep_studies::files::{PAGE, csv, write_charts, write_file, write_page};
+use shadowstep_studies::files::{PAGE, csv, write_file, write_page, write_section};
 use shadowstep_studies::finding::Finding;
-use shadowstep_studies::page::{Report, Section};
+use shadowstep_studies::page::Report;
 
 use crate::invocation;
 use crate::search::rows::{Row, header, measures};
@@ -30,9 +30,8 @@ pub(super) fn written(name: &str) -> impl Iterator<Item = String> {
 pub(super) fn write(search: &Search, candidates: &[Candidate], rows: &[Row], folder: &Path) -> Result<PathBuf, Error> {
     let command = invocation::command();
     write_file(folder, STARTS, &starts(search, candidates, &command)?)?;
-    let chart = [(picture(search, candidates, rows), CAPTION.to_owned())];
-    let pictures = write_charts(folder, PICTURE, &chart)?;
-    let mut finding = Finding { charts: chart.into(), ..Finding::default() };
+    let charts = vec![(picture(search, candidates, rows), CAPTION.to_owned())];
+    let mut finding = Finding { charts, ..Finding::default() };
     let met = candidates.len();
     finding.found(format!("{met} of {} random starts met the order conditions.", search.starts()));
     finding.table(
@@ -41,10 +40,10 @@ pub(super) fn write(search: &Search, candidates: &[Candidate], rows: &[Row], fol
         rows.iter().map(Row::cells).collect(),
     );
     let tables = rows.iter().filter(|row| row.is_new).map(|row| format!("{}.toml", row.name));
-    let files = pictures.into_iter().chain([STARTS.to_owned()]).chain(tables).collect();
     let title = format!("{}: schemes of order {}", search.request.name, search.request.order);
-    let sections = vec![Section { title, of_paper: None, finding, files }];
-    write_page(folder, &Report { sections, ..Report::new("Search for schemes", &command) })
+    let mut section = write_section(folder, PICTURE, &title, finding)?;
+    section.files.extend([STARTS.to_owned()].into_iter().chain(tables));
+    write_page(folder, &Report { sections: vec![section], ..Report::new("Search for schemes", &command) })
 }
 
 const CAPTION: &str = "What each start found, the schemes that were kept, and those shipped of the same order and \

@@ -1,4 +1,4 @@
-//! `shadowstep emit`: files, refusals, and tables of one's own. What is emitted is tested in `crates/emit/tests`.
+//! `shadowstep emit`: files, refusals, and tables of one's own. What is emitted is tested in `crates/studies/tests/emit`.
 
 use std::fs;
 

@@ -2,7 +2,7 @@
 //! cheapest of all runs of all schemes over all of the time, and their error is measured beside an independent
 //! reference.
 //!
-//! `cargo bench -p shadowstep-work-precision --bench advice` prints the table of `docs/work-precision.md`; `-- NAME`
+//! `cargo bench -p shadowstep-studies --bench advice` prints the table of `docs/work-precision.md`; `-- NAME`
 //! runs the problems whose names contain NAME. It takes some minutes.
 
 use std::path::Path;

@@ -1,6 +1,6 @@
 //! What a sweep costs besides its steps: reading scenes, keeping records, writing and collecting chunks.
 //!
-//! `cargo bench -p shadowstep-sweeps`; with RUNS=100000 for 10⁵ runs, with ROUNDS=1 for one round in place of five.
+//! `cargo bench -p shadowstep-studies --bench bookkeeping`; with RUNS=100000 for 10⁵ runs, with ROUNDS=1 for one round in place of five.
 //! Both contestants make equally many steps on all cores, in turns.
 
 use std::env;

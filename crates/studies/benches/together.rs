@@ -1,7 +1,7 @@
 //! What a run of a sweep costs one by one and together with others: CPU time of the process, which computes in one
 //! thread, in turns.
 //!
-//! `cargo bench -p shadowstep-sweeps --bench together`; with ROUNDS=1 for one round in place of five.
+//! `cargo bench -p shadowstep-studies --bench together`; with ROUNDS=1 for one round in place of five.
 
 use std::env;
 use std::hint::black_box;

@@ -129,7 +129,7 @@ impl Mark {
     }
 
     /// The mark of a jump from one value of y to another.
-    pub fn of_jump(self, from: f64, to: f64) -> Self {
+    pub(crate) fn of_jump(self, from: f64, to: f64) -> Self {
         Mark { jump: Some((from, to)), ..self }
     }
 }
@@ -194,12 +194,12 @@ impl Curve {
     }
 
     /// Points without a line, with the markers of their colour.
-    pub fn unjoined(label: impl Into<String>, points: Vec<(f64, f64)>, colour: usize) -> Self {
+    pub(crate) fn unjoined(label: impl Into<String>, points: Vec<(f64, f64)>, colour: usize) -> Self {
         Curve::dots(label, points, colour, Marker::of(colour))
     }
 
     /// The curve on the axis at the right.
-    pub fn on_the_right(self) -> Self {
+    pub(crate) fn on_the_right(self) -> Self {
         Curve { is_right: true, ..self }
     }
 }

@@ -11,7 +11,7 @@ use crate::chart::{Axis, Chart, Curve, Mark};
 ///
 /// # Panics
 /// If it is not TOML, has dates, or is of another form.
-pub fn read<T: DeserializeOwned>(text: &str) -> T {
+pub(crate) fn read<T: DeserializeOwned>(text: &str) -> T {
     let table = DeTable::parse(text).unwrap_or_else(|error| panic!("{error}\n{text}"));
     serde_json::from_value(of_table(table.get_ref())).unwrap_or_else(|error| panic!("{error}\n{text}"))
 }
@@ -39,27 +39,27 @@ fn of_value(value: &DeValue<'_>) -> Value {
 /// A chart without its curves.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct ChartTexts {
+pub(crate) struct ChartTexts {
     /// Above it.
-    pub title: String,
+    pub(crate) title: String,
     /// The horizontal axis.
-    pub x: AxisTexts,
+    pub(crate) x: AxisTexts,
     /// The vertical axis.
-    pub y: AxisTexts,
+    pub(crate) y: AxisTexts,
     /// Below it.
-    pub caption: String,
+    pub(crate) caption: String,
     /// As [`Chart::listed`].
     #[serde(default)]
-    pub listed: bool,
+    pub(crate) listed: bool,
     /// Values of x that matter, with their labels.
     #[serde(default)]
-    pub marks: Vec<(f64, String)>,
+    pub(crate) marks: Vec<(f64, String)>,
 }
 
 /// An axis by one of the keys for its scale: `x.linear = "t"`.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(rename_all = "lowercase", deny_unknown_fields)]
-pub enum AxisTexts {
+pub(crate) enum AxisTexts {
     /// With the values themselves.
     Linear(String),
     /// With decades.
@@ -70,7 +70,7 @@ pub enum AxisTexts {
 
 impl AxisTexts {
     /// The axis.
-    pub fn axis(&self) -> Axis {
+    pub(crate) fn axis(&self) -> Axis {
         match self {
             AxisTexts::Linear(label) => Axis::linear(label),
             AxisTexts::Log(label) => Axis::log10(label),
@@ -81,7 +81,7 @@ impl AxisTexts {
 
 impl ChartTexts {
     /// The chart of these curves.
-    pub fn chart(&self, curves: Vec<Curve>) -> Chart {
+    pub(crate) fn chart(&self, curves: Vec<Curve>) -> Chart {
         let marks = self.marks.iter().map(|(x, label)| Mark::at(*x, label)).collect();
         Chart { listed: self.listed, marks, ..Chart::new(&self.title, self.x.axis(), self.y.axis(), curves) }
     }

@@ -10,7 +10,7 @@
 //! let request = Request { names: vec!["scattering".to_owned()], quick: true, folder: "figures".into() };
 //! let summary = reproduce(&request, &mut ())?;
 //! println!("{}\n{}", summary.report.display(), summary.verdicts);
-//! # Ok::<(), shadowstep_studies::figures::Error>(())
+//! # Ok::<(), shadowstep_studies::Error>(())
 //! ```
 //!
 //! A figure is a table `all/NAME.toml` with what the paper states, families of runs and charts, a file beside it
@@ -50,5 +50,4 @@ mod series;
 mod states;
 mod table;
 
-pub use crate::{Error, Observer, Progress};
 pub use reproduction::{Reproduction, Request, reproduce, written};

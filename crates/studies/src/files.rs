@@ -9,7 +9,8 @@ use shadowstep_scenes::WholeFile;
 use shadowstep_scenes::spreadsheet::cell;
 
 use crate::chart::Chart;
-use crate::page::Report;
+use crate::finding::Finding;
+use crate::page::{Report, Section};
 use crate::{Error, Store};
 
 /// The name of the page.
@@ -48,11 +49,20 @@ pub fn write_file(folder: &Path, name: &str, text: &str) -> Result<(), Error> {
     file.finish()
 }
 
+/// Writes the charts of what was found; returns its section of the page, with the names of their files.
+///
+/// # Errors
+/// A file that cannot be written.
+pub fn write_section(folder: &Path, name: &str, title: &str, finding: Finding) -> Result<Section, Error> {
+    let files = write_charts(folder, name, &finding.charts)?;
+    Ok(Section { title: title.to_owned(), of_paper: None, finding, files })
+}
+
 /// Writes charts as `name.svg`, or as `name-1.svg` and so on if there are several; returns the names of the files.
 ///
 /// # Errors
 /// A file that cannot be written.
-pub fn write_charts(folder: &Path, name: &str, charts: &[(Chart, String)]) -> Result<Vec<String>, Error> {
+pub(crate) fn write_charts(folder: &Path, name: &str, charts: &[(Chart, String)]) -> Result<Vec<String>, Error> {
     let file = |(i, (chart, _)): (usize, &(Chart, String))| {
         let file = if charts.len() == 1 { format!("{name}.svg") } else { format!("{name}-{}.svg", i + 1) };
         write_file(folder, &file, &chart.svg())?;

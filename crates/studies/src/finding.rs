@@ -64,7 +64,7 @@ impl Finding {
     }
 
     /// Adds a result for the first page.
-    pub fn highlight(&mut self, paragraph: impl Into<String>) {
+    pub(crate) fn highlight(&mut self, paragraph: impl Into<String>) {
         self.highlights.push(paragraph.into());
     }
 

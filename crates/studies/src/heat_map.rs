@@ -13,24 +13,6 @@
 //! A cell without a value is hatched. Zero and negative numbers on a logarithmic scale, and infinite numbers, have
 //! colours that the scale does not contain. Each of these has an entry in the legend, with the number of its cells.
 //!
-//! ```
-//! use shadowstep_studies::heat_map::{CellAxis, Colour, HeatMap, Panel};
-//!
-//! let map = HeatMap::new(
-//!     "Kepler, 100 periods",
-//!     CellAxis::logarithmic("step size h", vec![0.01, 0.02, 0.04]),
-//!     CellAxis::linear("eccentricity e", vec![0.0, 0.3]),
-//!     Colour::logarithmic("permanent change of H̄"),
-//!     vec![
-//!         Panel::new("Störmer–Verlet", vec![Some(1e-9), Some(1e-6), Some(1e-3), Some(1e-8), Some(1e-4), None]),
-//!         Panel::new("Yoshida 4", vec![Some(0.0), Some(1e-9), Some(1e-5), Some(1e-12), Some(1e-7), Some(1e-2)]),
-//!     ],
-//! );
-//! let svg = map.svg()?;
-//! assert!(svg.starts_with("<svg ") && svg.contains("no value: 1 cell"));
-//! # Ok::<(), shadowstep_studies::Error>(())
-//! ```
-//!
 //! Fewer than 10 000 cells of at least two pixels are rectangles, of which neighbours with one colour are one. Others
 //! are an image within the picture (PNG, lossless, without smoothing) of about a byte for each cell: 2000 × 2000 cells
 //! without any order are 5.4 MB of SVG, those of an escape map 0.08 MB. If the cells have different sizes, the image
@@ -62,26 +44,26 @@ use crate::picture::ticks::Scale;
 
 /// The content of one picture.
 #[derive(Clone, Debug)]
-pub struct HeatMap {
+pub(crate) struct HeatMap {
     /// Above the picture; T_{m,m} and E_40 get subscripts, here and in all labels.
-    pub title: String,
+    pub(crate) title: String,
     /// The axis below.
-    pub x: CellAxis,
+    pub(crate) x: CellAxis,
     /// The axis at the left.
-    pub y: CellAxis,
+    pub(crate) y: CellAxis,
     /// What the colours mean, in all panels.
-    pub colour: Colour,
+    pub(crate) colour: Colour,
     /// In rows from left to right.
-    pub panels: Vec<Panel>,
+    pub(crate) panels: Vec<Panel>,
     /// Short remarks below the picture.
-    pub notes: Vec<String>,
+    pub(crate) notes: Vec<String>,
 }
 
 /// The values along an axis, one for each column or row of cells.
 #[derive(Clone, Debug)]
-pub struct CellAxis {
+pub(crate) struct CellAxis {
     /// The quantity, with its unit.
-    pub label: String,
+    pub(crate) label: String,
     /// In the order of the cells.
     pub(crate) values: Values,
 }
@@ -99,25 +81,25 @@ pub(crate) enum Values {
 
 /// One map of several.
 #[derive(Clone, Debug)]
-pub struct Panel {
+pub(crate) struct Panel {
     /// Above the panel.
-    pub title: String,
+    pub(crate) title: String,
     /// Row by row: of nx values of x and ny of y, the value at (i, j) is `cells[i + nx·j]`. `None` and NaN are cells
     /// without a value, such as those of failed runs. With [`Colour::words`], the number of the word, from 0.
-    pub cells: Vec<Option<f64>>,
+    pub(crate) cells: Vec<Option<f64>>,
 }
 
 /// What the colours of the cells mean.
 #[derive(Clone, Debug)]
-pub struct Colour {
+pub(crate) struct Colour {
     /// The quantity, with its unit.
-    pub label: String,
+    pub(crate) label: String,
     /// From numbers to colours.
     pub(crate) scale: ColourScale,
     /// The values at the ends of the colour bar; `None` for the smallest and the largest one. Where values of both
     /// signs occur, the bar is extended to be the same on both sides of 0. Cells beyond have the colours of the ends,
     /// and are counted in the legend.
-    pub range: Option<(f64, f64)>,
+    pub(crate) range: Option<(f64, f64)>,
 }
 
 /// From numbers to colours.
@@ -140,24 +122,24 @@ pub(crate) enum ColourScale {
 
 impl HeatMap {
     /// A map without notes, whose panels have any convenient size.
-    pub fn new(title: impl Into<String>, x: CellAxis, y: CellAxis, colour: Colour, panels: Vec<Panel>) -> Self {
+    pub(crate) fn new(title: impl Into<String>, x: CellAxis, y: CellAxis, colour: Colour, panels: Vec<Panel>) -> Self {
         HeatMap { title: title.into(), x, y, colour, panels, notes: Vec::new() }
     }
 }
 
 impl CellAxis {
     /// An axis with the numbers themselves.
-    pub fn linear(label: impl Into<String>, values: Vec<f64>) -> Self {
+    pub(crate) fn linear(label: impl Into<String>, values: Vec<f64>) -> Self {
         CellAxis { label: label.into(), values: Values::Numbers(Scale::Linear, values) }
     }
 
     /// An axis of positive numbers, by their logarithms.
-    pub fn logarithmic(label: impl Into<String>, values: Vec<f64>) -> Self {
+    pub(crate) fn logarithmic(label: impl Into<String>, values: Vec<f64>) -> Self {
         CellAxis { label: label.into(), values: Values::Numbers(Scale::Log10, values) }
     }
 
     /// An axis of names.
-    pub fn words(label: impl Into<String>, words: Vec<String>) -> Self {
+    pub(crate) fn words(label: impl Into<String>, words: Vec<String>) -> Self {
         CellAxis { label: label.into(), values: Values::Words(words) }
     }
 }
@@ -174,7 +156,7 @@ impl Values {
 
 impl Panel {
     /// Cells row by row.
-    pub fn new(title: impl Into<String>, cells: Vec<Option<f64>>) -> Self {
+    pub(crate) fn new(title: impl Into<String>, cells: Vec<Option<f64>>) -> Self {
         Panel { title: title.into(), cells }
     }
 }
@@ -187,32 +169,32 @@ impl Colour {
 
     /// The same from one value to another, so that several pictures have the same colours, or a few extreme values do
     /// not hide the others.
-    pub fn over(self, least: f64, most: f64) -> Self {
+    pub(crate) fn over(self, least: f64, most: f64) -> Self {
         Colour { range: Some((least, most)), ..self }
     }
 
     /// The values themselves.
-    pub fn linear(label: impl Into<String>) -> Self {
+    pub(crate) fn linear(label: impl Into<String>) -> Self {
         Colour::new(label, ColourScale::Linear)
     }
 
     /// The logarithms of the values.
-    pub fn logarithmic(label: impl Into<String>) -> Self {
+    pub(crate) fn logarithmic(label: impl Into<String>) -> Self {
         Colour::new(label, ColourScale::Logarithmic)
     }
 
     /// Logarithms of values of both signs, with a threshold that the values give.
-    pub fn symmetric_logarithmic(label: impl Into<String>) -> Self {
+    pub(crate) fn symmetric_logarithmic(label: impl Into<String>) -> Self {
         Colour::new(label, ColourScale::SymmetricLogarithmic)
     }
 
     /// The scale that suits the values.
-    pub fn automatic(label: impl Into<String>) -> Self {
+    pub(crate) fn automatic(label: impl Into<String>) -> Self {
         Colour::new(label, ColourScale::Automatic)
     }
 
     /// Words, such as verdicts.
-    pub fn words(label: impl Into<String>, words: Vec<String>) -> Self {
+    pub(crate) fn words(label: impl Into<String>, words: Vec<String>) -> Self {
         Colour::new(label, ColourScale::Words(words))
     }
 }

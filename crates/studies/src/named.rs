@@ -9,7 +9,7 @@ use crate::Error;
 ///
 /// # Errors
 /// An unknown name.
-pub fn named<'a, T>(
+pub(crate) fn named<'a, T>(
     parts: &'a [T],
     name: fn(&T) -> &'static str,
     what: &str,

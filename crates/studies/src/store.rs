@@ -134,7 +134,7 @@ impl Store {
     ///
     /// # Errors
     /// As above; the failure of the calculation.
-    pub fn compute_one<C: Calculation>(
+    pub(crate) fn compute_one<C: Calculation>(
         &mut self,
         calculation: C,
         observer: &mut dyn Observer,

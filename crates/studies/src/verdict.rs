@@ -17,7 +17,7 @@ pub enum Verdict {
 const PART: &str = "Only some of the values are computed; without `--quick` all are.";
 
 /// Of an interval with values on both sides of a limit.
-pub const INTERVAL: &str = "The 95 % interval allows both; more step sizes would narrow it.";
+pub(crate) const INTERVAL: &str = "The 95 % interval allows both; more step sizes would narrow it.";
 
 /// Of nothing.
 const NOTHING: &str = "There is no value to compare; more step sizes, as without `--quick`, may give some.";
@@ -61,7 +61,7 @@ impl From<bool> for Verdict {
 /// What some of the values cannot decide is not decided, so that no verdict on a coarse grid contradicts the one on the
 /// whole grid.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Coverage {
+pub(crate) enum Coverage {
     /// All of them.
     All,
     /// Some of them.
@@ -70,17 +70,17 @@ pub enum Coverage {
 
 impl Coverage {
     /// A statement about every value: one value contradicts it, and only all of them confirm it.
-    pub fn every(self, holds: bool) -> Verdict {
+    pub(crate) fn every(self, holds: bool) -> Verdict {
         self.unless_partial(holds, Verdict::Agrees)
     }
 
     /// A statement that there is a value: one confirms it, and only all of them contradict it.
-    pub fn any(self, holds: bool) -> Verdict {
+    pub(crate) fn any(self, holds: bool) -> Verdict {
         self.unless_partial(holds, Verdict::Differs)
     }
 
     /// A statement that some of the values decide neither way.
-    pub fn only_all(self, verdict: impl Into<Verdict>) -> Verdict {
+    pub(crate) fn only_all(self, verdict: impl Into<Verdict>) -> Verdict {
         if self == Coverage::All { verdict.into() } else { Verdict::NotDecided(PART) }
     }
 

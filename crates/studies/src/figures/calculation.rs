@@ -3,7 +3,8 @@
 use serde::{Deserialize, Serialize};
 use shadowstep::shadow::EstimatorSettings;
 
-use crate::figures::Error;
+use crate::Continues;
+use crate::Error;
 use crate::figures::escape::Escape;
 use crate::figures::estimator;
 use crate::figures::measured::{Drift, Energies, Measure, Orbit};
@@ -11,7 +12,6 @@ use crate::figures::noise::{self, Block, Differences};
 use crate::figures::run::{EXACT_FLOW, Run};
 use crate::figures::series;
 use crate::figures::states::Recorded;
-use crate::{self as studies, Continues};
 
 /// Outcomes of another revision are computed again; a change of what is computed needs a new one.
 const REVISION: u32 = 6;
@@ -124,7 +124,7 @@ impl Quantity {
     }
 }
 
-impl studies::Calculation for Calculation {
+impl crate::Calculation for Calculation {
     type Outcome = Outcome;
     /// The exact flow, if they need one.
     type Shared = Option<Result<Recorded, Error>>;

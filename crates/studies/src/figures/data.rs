@@ -2,15 +2,15 @@
 
 use std::collections::HashSet;
 
-use crate::files;
 use shadowstep::shadow::{EstimatorSettings, StoppingRule};
 
-use crate::figures::Error;
+use crate::Error;
 use crate::figures::calculation::{Outcome, Quantity};
 use crate::figures::measured::Permanent;
 use crate::figures::results::Used;
 use crate::figures::run::Run;
 use crate::figures::series::GRADES;
+use crate::files;
 
 const RUN: [&str; 8] = ["problem", "set", "scheme", "step", "until", "digits", "estimator", "order"];
 

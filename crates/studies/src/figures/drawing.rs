@@ -1,13 +1,12 @@
 //! A figure while it is drawn.
 
 use crate::chart::{Chart, Curve};
-use crate::finding::Finding;
-use crate::verdict::{Coverage, Verdict};
-
 use crate::figures::fit::{DECAY_HEADER, ExponentialDecay, decay_row, logarithms, same_rates, theory_row};
 use crate::figures::results::{Results, Sizes};
 use crate::figures::run::Run;
 use crate::figures::table::{Table, filled};
+use crate::finding::Finding;
+use crate::verdict::{Coverage, Verdict};
 
 /// What a figure requests its results from, and what it has shown so far.
 pub(crate) struct Drawing<'a> {

@@ -3,11 +3,10 @@
 use std::sync::OnceLock;
 
 use crate::claim;
-use crate::finding::Finding;
-
 use crate::figures::drawing::Drawing;
 use crate::figures::results::Results;
 use crate::figures::table::Table;
+use crate::finding::Finding;
 
 /// A figure by its name.
 pub(crate) struct Figure {

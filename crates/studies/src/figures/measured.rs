@@ -12,7 +12,7 @@ use shadowstep::{Integrator as _, Rational};
 use shadowstep_scenes::propagator::{Propagator, motion, stepper};
 use shadowstep_scenes::run::Run as Steps;
 
-use crate::figures::Error;
+use crate::Error;
 use crate::figures::escape::Escape;
 use crate::figures::run::Run;
 use crate::figures::states::{Interruptible, Recorded};

@@ -10,7 +10,7 @@ use shadowstep::shadow::{Bilinear, BuildEstimator, Estimator};
 use shadowstep::tables::shipped;
 use shadowstep::{Increments, Motion, Stepper, UnitMasses};
 
-use crate::figures::Error;
+use crate::Error;
 use crate::figures::states::Interruptible;
 
 /// How the estimator takes the differences of neighbouring states.

@@ -5,16 +5,16 @@ use std::path::{Path, PathBuf};
 
 use serde::Deserialize;
 
+use shadowstep_scenes::shell_word;
+
 use crate::figures::all::FIGURES;
 use crate::figures::data;
 use crate::figures::figure::Figure;
 use crate::figures::results::Results;
 use crate::figures::table::Table;
-use crate::figures::{Error, Observer};
-use crate::files::{PAGE, write_charts, write_file, write_page};
+use crate::files::{PAGE, write_file, write_page, write_section};
 use crate::page::{Report, Section};
-use crate::{Store, claim, named};
-use shadowstep_scenes::shell_word;
+use crate::{Error, Observer, Store, claim, named};
 
 /// Which figures are wanted, and where.
 #[derive(Clone, Debug)]
@@ -99,17 +99,16 @@ fn flag(quick: bool) -> &'static str {
 
 /// Writes charts and data of one figure; returns its section of the report.
 fn write_figure(figure: &Figure, results: &Results, folder: &Path) -> Result<Section, Error> {
-    let finding = figure.draw(results);
-    let mut files = write_charts(folder, figure.name, &finding.charts)?;
+    let Table { title, of_paper, .. } = figure.table();
+    let mut section = write_section(folder, figure.name, title, figure.draw(results))?;
+    section.of_paper = (!of_paper.is_empty()).then(|| of_paper.clone());
     let command = format!("shadowstep figures {}{}", figure.name, flag(results.quick));
     for (kind, text) in data::csv(&command, &results.take_used())? {
         let name = format!("{}{kind}.csv", figure.name);
         write_file(folder, &name, &text)?;
-        files.push(name);
+        section.files.push(name);
     }
-    let Table { title, of_paper, .. } = figure.table();
-    let of_paper = (!of_paper.is_empty()).then(|| of_paper.clone());
-    Ok(Section { title: title.clone(), of_paper, finding, files })
+    Ok(section)
 }
 
 /// The texts of the report: `report.toml`.

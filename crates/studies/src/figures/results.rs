@@ -17,8 +17,8 @@ use crate::figures::measured::{Drift, Energies, Orbit};
 use crate::figures::noise::{Block, Differences};
 use crate::figures::numbers::{Wide, log10, number};
 use crate::figures::run::Run;
-use crate::figures::{Error, Observer};
 use crate::verdict::Coverage;
+use crate::{Error, Observer};
 
 /// The results of all figures.
 pub(crate) struct Results {

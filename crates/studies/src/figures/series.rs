@@ -3,11 +3,11 @@
 
 use std::fmt::Write as _;
 
-use crate::Continues;
 use shadowstep::tables::Source;
 use shadowstep_scenes::{Observer, Outcome, Scene};
 
-use crate::figures::Error;
+use crate::Continues;
+use crate::Error;
 use crate::figures::numbers::number;
 use crate::figures::run::Run;
 

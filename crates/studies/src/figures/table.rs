@@ -3,11 +3,11 @@
 use std::collections::BTreeMap;
 use std::sync::LazyLock;
 
-use crate::claim::{self, ChartTexts};
 use serde::Deserialize;
 use shadowstep::problems::problem;
 use shadowstep::shadow::{EstimatorSettings, StoppingRule};
 
+use crate::claim::{self, ChartTexts};
 use crate::figures::estimator::{BEST, best, bilinear, central};
 use crate::figures::run::{Run, label};
 

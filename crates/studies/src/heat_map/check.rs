@@ -72,7 +72,7 @@ impl Colour {
 
 impl CellAxis {
     /// Whether it can be drawn: it has values, and numbers on it are different and not too large.
-    pub fn is_drawable(&self) -> bool {
+    pub(crate) fn is_drawable(&self) -> bool {
         self.check().is_ok()
     }
 

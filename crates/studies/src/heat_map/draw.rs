@@ -23,19 +23,11 @@ impl HeatMap {
     /// # Errors
     /// An axis or a panel has values that do not fit, such as too few cells, a value twice, or −1 on a logarithmic
     /// axis.
-    pub fn svg(&self) -> Result<String, Error> {
+    pub(crate) fn svg(&self) -> Result<String, Error> {
         Ok(self.sheet()?.svg())
     }
 
-    /// The same in fixed colours on white, for a paper.
-    ///
-    /// # Errors
-    /// As for [`HeatMap::svg`].
-    pub fn svg_for_print(&self) -> Result<String, Error> {
-        Ok(self.sheet()?.svg_for_print())
-    }
-
-    fn sheet(&self) -> Result<Sheet, Error> {
+    pub(super) fn sheet(&self) -> Result<Sheet, Error> {
         self.check()?;
         let (x, y) = (Strip::of_x(&self.x), Strip::of_y(&self.y));
         let shades = Shades::of(self);

@@ -460,6 +460,6 @@ fn a_small_picture() {
     );
     let colour = Colour::words("verdict", words(&["fine", "too large"]));
     let panel = of_words("Kepler", [Some(0), Some(1), Some(0), None]);
-    let svg = HeatMap::new("Verdicts", axes.0, axes.1, colour, vec![panel]).svg_for_print().unwrap();
-    insta::assert_snapshot!(svg.replace('>', ">\n"));
+    let sheet = HeatMap::new("Verdicts", axes.0, axes.1, colour, vec![panel]).sheet().unwrap();
+    insta::assert_snapshot!(sheet.svg_for_print().replace('>', ">\n"));
 }

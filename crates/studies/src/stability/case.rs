@@ -2,18 +2,17 @@
 
 use std::sync::OnceLock;
 
-use crate::chart::Curve;
-use crate::finding::Finding;
-use crate::verdict::Verdict;
-use crate::{Calculation, Continues, claim};
 use serde::de::DeserializeOwned;
 use serde::{Serialize, Serializer};
 use serde_json::{Value, json};
-use shadowstep_scenes::Error;
 
+use crate::chart::Curve;
+use crate::finding::Finding;
 use crate::stability::suite::{Examined, Suite};
 use crate::stability::table::{Look, Table, Values};
 use crate::stability::trial::Trial;
+use crate::verdict::Verdict;
+use crate::{Calculation, Continues, Error, claim};
 
 /// What a case computes and what theory says of it. Its table has the rest: `cases/NAME.toml`.
 pub(crate) trait Case {

@@ -3,12 +3,10 @@
 use std::path::Path;
 
 use crate::finding::Finding;
-use crate::{Observer, Store, named};
-use shadowstep_scenes::Error;
-
 use crate::stability::case::{Calculated, CaseEntry};
 use crate::stability::cases::CASES;
 use crate::stability::suite::Suite;
+use crate::{Error, Observer, Store, named};
 
 /// The names of all cases, in the order of the report.
 pub fn names() -> Vec<&'static str> {

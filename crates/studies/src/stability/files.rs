@@ -3,14 +3,13 @@
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
-use crate::files::{PAGE, write_charts, write_file, write_page};
+use crate::Error;
+use crate::files::{PAGE, write_file, write_page, write_section};
 use crate::finding::Finding;
-use crate::page::{Report, Section};
-use crate::verdict::Counts;
-use shadowstep_scenes::Error;
-
+use crate::page::Report;
 use crate::stability::case::CaseEntry;
 use crate::stability::examination::names;
+use crate::verdict::Counts;
 
 const TABLE: &str = "stability.md";
 
@@ -26,10 +25,7 @@ pub fn counts(findings: &[(&CaseEntry, Finding)]) -> Counts {
 /// A file that cannot be written.
 pub fn write(findings: Vec<(&CaseEntry, Finding)>, command: &str, folder: &Path) -> Result<PathBuf, Error> {
     write_file(folder, TABLE, &markdown(&findings, command))?;
-    let section = |(case, finding): (&CaseEntry, Finding)| {
-        let files = write_charts(folder, case.name(), &finding.charts)?;
-        Ok(Section { title: case.title().to_owned(), of_paper: None, finding, files })
-    };
+    let section = |(case, finding): (&CaseEntry, Finding)| write_section(folder, case.name(), case.title(), finding);
     let page = Report {
         introduction: vec![INTRODUCTION.to_owned()],
         sections: findings.into_iter().map(section).collect::<Result<_, Error>>()?,

@@ -2,11 +2,8 @@
 
 use std::ops::ControlFlow;
 
-use crate::Continues;
-use crate::verdict::Verdict;
 use serde::{Deserialize, Serialize};
 use shadowstep::{Number, Rational, exact};
-use shadowstep_scenes::Error;
 use shadowstep_symbolic::decimal::to_text;
 
 use crate::stability::case::{Case, Done, Row};
@@ -16,6 +13,8 @@ use crate::stability::systems::shipped;
 use crate::stability::table::Values;
 use crate::stability::trial::Trial;
 use crate::stability::watched::Watched;
+use crate::verdict::Verdict;
+use crate::{Continues, Error};
 
 /// What a long run has shown.
 #[derive(Clone, Serialize, Deserialize)]

@@ -1,10 +1,11 @@
 //! A run of a scene, as users make it: its rows, and what its summary says.
 
-use crate::Continues;
 use serde::{Deserialize, Serialize};
 use shadowstep::tables::Source;
 use shadowstep_scenes::arithmetic::{Arithmetic, DigitsLabel};
 use shadowstep_scenes::{Error, Observer, Scene, Summary};
+
+use crate::Continues;
 
 /// What a run reported at its end.
 #[derive(Serialize, Deserialize)]

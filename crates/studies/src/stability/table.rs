@@ -1,10 +1,10 @@
 //! The table of a case: what theory predicts, and the trials that show it.
 
-use crate::claim::ChartTexts;
 use serde::Deserialize;
 use serde_json::{Map, Value};
 use shadowstep_scenes::arithmetic::Arithmetic;
 
+use crate::claim::ChartTexts;
 use crate::stability::suite::{Examined, Suite};
 
 /// Values by their names.

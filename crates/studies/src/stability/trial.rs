@@ -2,7 +2,6 @@
 
 use std::ops::ControlFlow;
 
-use crate::Continues;
 use serde::de::DeserializeOwned;
 use shadowstep::{Rational, StepSize};
 use shadowstep_scenes::System;
@@ -10,6 +9,7 @@ use shadowstep_scenes::arithmetic::Arithmetic;
 use shadowstep_scenes::library::NamedScheme;
 use shadowstep_scenes::start::Begin;
 
+use crate::Continues;
 use crate::stability::integrator::{AnyIntegrator, start_in, step_size, steps_of};
 use crate::stability::suite::{Examined, Suite};
 use crate::stability::table::{Table, Values};

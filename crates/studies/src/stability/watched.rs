@@ -2,12 +2,12 @@
 
 use std::ops::ControlFlow;
 
-use crate::Continues;
-use crate::verdict::Verdict as Agreement;
 use serde::{Deserialize, Serialize};
 use shadowstep::shadow::Verdict;
 
+use crate::Continues;
 use crate::stability::integrator::AnyIntegrator;
+use crate::verdict::Verdict as Agreement;
 
 /// The monitor's estimator is E_8 with its error: 9 states a window.
 pub(crate) const MONITOR_ORDER: u32 = 8;

@@ -11,7 +11,6 @@ use std::io::{self, Write};
 use std::iter;
 use std::path::{Path, PathBuf};
 
-use crate::{Observer, Progress};
 use shadowstep_scenes::family::Meaning;
 use shadowstep_scenes::{Error, WholeFile};
 
@@ -22,6 +21,7 @@ use crate::sweeps::manifest::Manifest;
 use crate::sweeps::picture::{Cells, Picture, double, number_of};
 use crate::sweeps::plan;
 use crate::sweeps::record::Record;
+use crate::{Observer, Progress};
 use csv_table::CsvTable;
 pub use missing::Missing;
 use missing::ranges;

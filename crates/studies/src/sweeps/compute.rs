@@ -7,8 +7,6 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::thread;
 use std::time::Duration;
 
-use crate::{Observer, Progress};
-use shadowstep_scenes::Error;
 use shadowstep_scenes::family::Parsed;
 
 use crate::sweeps::chunk::{self, Chunk};
@@ -16,6 +14,7 @@ use crate::sweeps::manifest::Manifest;
 use crate::sweeps::partial::Partial;
 use crate::sweeps::plan::SweepPlan;
 use crate::sweeps::record::Record;
+use crate::{Error, Observer, Progress};
 
 /// How often the observer is asked.
 const TICK: Duration = Duration::from_millis(50);

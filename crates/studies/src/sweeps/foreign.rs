@@ -4,9 +4,8 @@ use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
+use crate::Error;
 use crate::files;
-use shadowstep_scenes::Error;
-
 use crate::sweeps::chunk::{CHUNKS_FOLDER, header, left};
 use crate::sweeps::collect::WRITTEN;
 use crate::sweeps::manifest::{self, Manifest, check_chunks};

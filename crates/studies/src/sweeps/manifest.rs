@@ -6,9 +6,9 @@ use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 use shadowstep::tables::Source;
-use shadowstep_scenes::Error;
 use shadowstep_schemes::document::read_text;
 
+use crate::Error;
 use crate::sweeps::chunk::{CHUNKS_FOLDER, Chunk, Header, MOST_RUNS_OF_CHUNK, create_folder, put, refuse_link};
 use crate::sweeps::keep::Column;
 use crate::sweeps::plan::{Digests, SweepPlan, hash};

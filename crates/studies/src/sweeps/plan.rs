@@ -3,9 +3,6 @@
 mod check;
 mod digests;
 
-pub use digests::Digests;
-pub(crate) use digests::hash;
-
 use std::path::Path;
 use std::sync::atomic::AtomicBool;
 use std::time::Duration;
@@ -23,6 +20,8 @@ use crate::sweeps::keep::{Column, Keep};
 use crate::sweeps::keys;
 use crate::sweeps::picture::Picture;
 use crate::sweeps::record::{Record, measured};
+pub use digests::Digests;
+pub(crate) use digests::hash;
 
 /// The sections and keys of a sweep that are not of its scene.
 const OTHERS: &[&str] = &["scene", "axes", "zip", "keep", "picture"];

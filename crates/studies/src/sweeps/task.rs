@@ -1,7 +1,6 @@
 //! Which chunk a task of a Slurm array computes.
 
-use shadowstep_scenes::Error;
-
+use crate::Error;
 use crate::sweeps::chunk::Chunk;
 
 /// The number of the task.

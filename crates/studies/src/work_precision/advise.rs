@@ -6,10 +6,8 @@ use std::ops::Range;
 use std::path::PathBuf;
 use std::time::Duration;
 
-use crate::{Observer, Store};
 use num_traits::ToPrimitive;
 use shadowstep::{Number, Rational, Scheme};
-use shadowstep_scenes::Error;
 use shadowstep_scenes::library::NamedScheme;
 
 use crate::work_precision::best::{Curve, cost_of};
@@ -27,6 +25,7 @@ use crate::work_precision::series::{End, Series, StepRange, Target, seconds_per_
 use crate::work_precision::size::Size;
 use crate::work_precision::study::{Cost, Request, Studied, Study, proved_order};
 pub use crate::work_precision::verified::Verified;
+use crate::{Error, Observer, Store};
 
 /// What is wanted.
 pub struct AdviceRequest<'a> {

@@ -3,9 +3,7 @@
 
 use std::time::Duration;
 
-use crate::{self as studies, Continues};
 use serde::{Deserialize, Serialize};
-use shadowstep_scenes::Error;
 use shadowstep_scenes::library::NamedScheme;
 
 use crate::work_precision::problem::Problem;
@@ -13,6 +11,7 @@ use crate::work_precision::reference::{Origin, Reference, Resolution};
 use crate::work_precision::series::{Series, SeriesOf, StepRange};
 use crate::work_precision::size::Size;
 use crate::work_precision::timing::{StepTime, time_of_steps};
+use crate::{Continues, Error};
 
 /// Outcomes of another revision are computed again; a change of what is computed needs a new one.
 const REVISION: u32 = 6;
@@ -95,7 +94,7 @@ impl<'a> Calculation<'a> {
     }
 }
 
-impl studies::Calculation for Calculation<'_> {
+impl crate::Calculation for Calculation<'_> {
     type Outcome = Outcome;
     type Shared = ();
 

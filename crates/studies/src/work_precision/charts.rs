@@ -1,7 +1,6 @@
 //! Work–precision diagrams: errors against cost, a curve for each scheme.
 
 use crate::chart::{Axis, Chart, Curve};
-
 use crate::work_precision::best::{self, cost_of};
 use crate::work_precision::of::Of;
 use crate::work_precision::size::Size;

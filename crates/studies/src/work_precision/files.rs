@@ -2,11 +2,10 @@
 
 use std::path::{Path, PathBuf};
 
+use crate::Error;
 use crate::files::{PAGE, write_charts, write_file, write_page};
 use crate::finding::Finding;
 use crate::page::{Report, Section};
-use shadowstep_scenes::Error;
-
 use crate::work_precision::charts::{PICTURES, Picture};
 use crate::work_precision::study::Study;
 

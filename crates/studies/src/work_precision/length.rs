@@ -126,19 +126,24 @@ pub fn counts(sizes: &[StepSize], until: &Rational, length: Option<&mut Rational
 }
 
 /// The common multiple of these step sizes that is closest to the length, at least one.
-///
-/// ```
-/// use shadowstep::exact;
-/// use shadowstep_studies::work_precision::length::common_multiple;
-///
-/// let [length, h, g] = ["10.1", "1/4", "1/6"].map(|text| exact(text).unwrap());
-/// assert_eq!(common_multiple(&length, &[h, g]), exact("10").unwrap());
-/// ```
-pub fn common_multiple(length: &Rational, steps: &[Rational]) -> Rational {
+pub(crate) fn common_multiple(length: &Rational, steps: &[Rational]) -> Rational {
     let least =
         steps.iter().map(Signed::abs).reduce(|a, b| Rational::new(a.numer().lcm(b.numer()), a.denom().gcd(b.denom())));
     let least = least.unwrap_or_else(|| length.abs());
     let half = Rational::new(1.into(), 2.into());
     let times = (length.abs() / &least + half).floor().max(Rational::one());
     least * times * length.signum()
+}
+
+#[cfg(test)]
+mod tests {
+    use shadowstep::exact;
+
+    use super::common_multiple;
+
+    #[test]
+    fn the_closest_common_multiple_of_steps() {
+        let [length, h, g] = ["10.1", "1/4", "1/6"].map(|text| exact(text).unwrap());
+        assert_eq!(common_multiple(&length, &[h, g]), exact("10").unwrap());
+    }
 }

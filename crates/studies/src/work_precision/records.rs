@@ -1,10 +1,10 @@
 //! The results as rows: CSV, and JSON lines with the same keys.
 
-use crate::files;
 use serde::Serialize;
-use shadowstep_scenes::Error;
 use shadowstep_symbolic::decimal::to_text;
 
+use crate::Error;
+use crate::files;
 use crate::work_precision::run::{Measurement, PositionError};
 use crate::work_precision::size::Size;
 use crate::work_precision::study::{Studied, Study};

@@ -10,7 +10,6 @@ use shadowstep::problems::Setup;
 use shadowstep::shadow::exact_flow::ExactFlow;
 use shadowstep::shadow::run::States;
 use shadowstep::{Rational, Real, StepSize};
-use shadowstep_scenes::Error;
 use shadowstep_scenes::arithmetic::Arithmetic;
 use shadowstep_scenes::computation::{Computation, FollowedNumber, RunNumber};
 use shadowstep_scenes::cpu_time::CpuTime;
@@ -18,6 +17,7 @@ use shadowstep_scenes::library::{NamedScheme, scheme};
 use shadowstep_scenes::propagator::for_system;
 use shadowstep_symbolic::decimal::from_text;
 
+use crate::Error;
 use crate::work_precision::positions::{Asking, Positions, square_distance};
 use crate::work_precision::problem::Problem;
 use crate::work_precision::reference_scheme::{Scheme, first_steps, largest_coordinate};

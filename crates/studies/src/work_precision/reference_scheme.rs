@@ -2,11 +2,11 @@
 
 use num_traits::ToPrimitive;
 use shadowstep::Carried;
-use shadowstep_scenes::Error;
 use shadowstep_scenes::library::{NamedScheme, scheme};
 use shadowstep_scenes::propagator::for_system;
 use shadowstep_scenes::start::SceneIntegrator;
 
+use crate::Error;
 use crate::work_precision::problem::Problem;
 use crate::work_precision::size::Size;
 

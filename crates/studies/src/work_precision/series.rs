@@ -4,13 +4,11 @@
 use std::f64::consts::TAU;
 use std::time::Duration;
 
-use crate::Continues;
 use num_traits::ToPrimitive;
 use serde::{Deserialize, Serialize};
 use shadowstep::steps::scheme::MapKind;
 use shadowstep::{Rational, Scheme};
 use shadowstep_analysis::stability::Stability;
-use shadowstep_scenes::Error;
 use shadowstep_scenes::computation::{Computation, FollowedNumber};
 use shadowstep_scenes::cpu_time::CpuTime;
 use shadowstep_scenes::library::NamedScheme;
@@ -20,6 +18,7 @@ use crate::work_precision::problem::Problem;
 use crate::work_precision::reference::Reference;
 use crate::work_precision::run::Measurement;
 use crate::work_precision::size::Size;
+use crate::{Continues, Error};
 
 /// Evaluations grow by the factor 2^(1/2) from run to run.
 const RUNS_PER_DOUBLING: f64 = 2.0;

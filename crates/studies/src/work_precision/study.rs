@@ -3,7 +3,6 @@
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-use crate::{Observer, Store};
 use num_integer::Integer;
 use shadowstep::Scheme;
 use shadowstep_scenes::library::NamedScheme;
@@ -21,6 +20,7 @@ use crate::work_precision::series::{Series, StepRange, coarsest};
 use crate::work_precision::size::Size;
 use crate::work_precision::timing::{SHORTEST, StepTime};
 use crate::work_precision::work::Work;
+use crate::{Observer, Store};
 
 /// The coarsest run has this number of steps between samples, so that rounding to samples changes the number of steps
 /// little.

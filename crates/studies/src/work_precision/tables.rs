@@ -1,7 +1,6 @@
 //! What schemes need for an error, and the orders that they show.
 
 use crate::finding::Table;
-
 use crate::work_precision::of::Of;
 use crate::work_precision::order::MeasuredOrder;
 use crate::work_precision::size::Size;

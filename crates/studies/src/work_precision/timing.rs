@@ -3,11 +3,11 @@
 use std::time::Duration;
 
 use serde::{Deserialize, Serialize};
-use shadowstep_scenes::Error;
 use shadowstep_scenes::computation::{Computation, RunNumber};
 use shadowstep_scenes::cpu_time::CpuTime;
 use shadowstep_scenes::library::NamedScheme;
 
+use crate::Error;
 use crate::work_precision::problem::Problem;
 
 /// Repeats of each scheme.

@@ -18,7 +18,7 @@ pub struct Work {
 
 impl Work {
     /// Of a step of a scheme for a system.
-    pub fn of_step(named: &NamedScheme, system: &System) -> Work {
+    pub(crate) fn of_step(named: &NamedScheme, system: &System) -> Work {
         let sequence = named.scheme.sequence();
         let count = |kind: MapKind| sequence.maps.iter().filter(|(map, _)| *map == kind).count() as u64;
         let flows = if system.parts.has_dominant_part() { count(MapKind::Drift) } else { 0 };

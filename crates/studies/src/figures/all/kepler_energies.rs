@@ -1,8 +1,7 @@
 //! Kepler's problem: the modified energy in time, for several step sizes and schemes.
 
-use crate::chart::power_of_ten;
-
 use super::kepler::{FAR, NEAR, apocentre, off, run};
+use crate::chart::power_of_ten;
 use crate::figures::prelude::*;
 
 /// Runs with their labels.

@@ -3,13 +3,13 @@
 
 use std::f64::consts::TAU;
 
-use crate::chart::{Axis, Chart, Curve, Marker};
 use num_traits::FromPrimitive;
 use rand_pcg::Pcg64Mcg;
 use rand_pcg::rand_core::{Rng, SeedableRng};
 use serde_json::json;
 use shadowstep_symbolic::decimal::to_text;
 
+use crate::chart::{Axis, Chart, Curve, Marker};
 use crate::stability::prelude::*;
 use crate::stability::watched::watched;
 

@@ -1,6 +1,5 @@
 //! The proved orders, seen in the errors of nonlinear problems at 100 digits.
 
-use crate::chart::{Axis, Chart, Curve, Marker};
 use serde_json::json;
 use shadowstep::number::{AnyLimbs, LimbCount};
 use shadowstep::steps::integrator::at_output;
@@ -12,6 +11,7 @@ use shadowstep_scenes::{Formulas, Parts, PotentialEnergy};
 use shadowstep_schemes::MapKind;
 use shadowstep_schemes::proof::Order;
 
+use crate::chart::{Axis, Chart, Curve, Marker};
 use crate::stability::prelude::*;
 use crate::stability::systems::names;
 

@@ -3,7 +3,6 @@
 use std::f64::consts::TAU;
 
 use crate::chart::{Axis, Chart, Curve, Mark};
-
 use crate::stability::prelude::*;
 use crate::stability::scene_run::{RunResult, digits, run_scene};
 

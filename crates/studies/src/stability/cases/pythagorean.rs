@@ -1,7 +1,6 @@
 //! Three bodies whose encounters no fixed step resolves.
 
 use crate::chart::{Axis, Chart, Curve};
-
 use crate::stability::prelude::*;
 use crate::stability::scene_run::{Ended, RunResult, digits, run_scene};
 

@@ -1,12 +1,12 @@
 //! Drawing: a heat map, or curves.
 
-use crate::chart::{Axis as ChartAxis, Chart, Curve, log10_of, stacked};
-use crate::heat_map::{CellAxis, Colour, HeatMap, Panel};
-use shadowstep_scenes::Error;
 use shadowstep_scenes::family::Meaning;
 
 use super::cells::{Cells, Value, double};
 use super::drawn::{OfSeveral, Picture, Scale};
+use crate::Error;
+use crate::chart::{Axis as ChartAxis, Chart, Curve, log10_of, stacked};
+use crate::heat_map::{CellAxis, Colour, HeatMap, Panel};
 use crate::sweeps::axes::Axes;
 use crate::sweeps::axis::Axis;
 use crate::sweeps::keep::Column;
