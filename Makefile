@@ -91,7 +91,7 @@ test-python: python-environment
 book: DEPENDENCY_GROUPS = book
 book: python-environment
 	rm -rf $(or $(CARGO_TARGET_DIR),target)/doc target/book
-	set -e; for crate in -symbolic -limbs -schemes -analysis -macros '' -scenes -studies; do \
+	set -e; for crate in -limbs -schemes -analysis -macros '' -scenes -studies; do \
 	    $(DENY_WARNINGS) $(RUSTDOC) --profile quick --all-features -p shadowstep$$crate; \
 	done
 	! grep -rlE --include='*.html' '\[<code>[^<]*</code>\]|href="[a-z_]*::' $(or $(CARGO_TARGET_DIR),target)/doc

@@ -6,12 +6,12 @@ use clap::{Args, ValueEnum};
 use shadowstep::number::{Limbs, Number, Real};
 use shadowstep_scenes::Error;
 use shadowstep_scenes::readable::wrapped;
+use shadowstep_schemes::symbolic::decimal::significant;
 use shadowstep_studies::work_precision::advise::{Advice, AdviceRequest, Choice, Unfinished, Verified};
 use shadowstep_studies::work_precision::no_advice::over;
 use shadowstep_studies::work_precision::of::Of;
 use shadowstep_studies::work_precision::size::Size;
 use shadowstep_studies::work_precision::study::Cost;
-use shadowstep_symbolic::decimal::significant;
 
 use crate::colour::{heading, on_stdout};
 use crate::headings::{OUTPUT, SCHEMES};

@@ -8,7 +8,7 @@ use clap::Args;
 use shadowstep_scenes::Error;
 use shadowstep_scenes::chaos::{ChaosRecord, conclusion};
 use shadowstep_scenes::tangent::Vectors;
-use shadowstep_symbolic::decimal::significant;
+use shadowstep_schemes::symbolic::decimal::significant;
 
 use crate::headings::{OUTPUT, SCHEMES};
 use crate::interrupt::Interrupt;

@@ -10,7 +10,7 @@ use shadowstep_scenes::modified_hamiltonian::record::{
     FormulaRecord, Formulas, SeriesOptions, SeriesRecord, SeriesTerm, remainder, sum_of,
 };
 use shadowstep_schemes::Proved;
-use shadowstep_symbolic::Notation;
+use shadowstep_schemes::symbolic::Notation;
 
 use crate::headings::OUTPUT;
 use crate::output::{Output, OutputArguments};

@@ -9,7 +9,7 @@ use shadowstep_scenes::arithmetic::NUMBER_EXAMPLES;
 use shadowstep_scenes::readable::{LONGEST_NUMBER, shortened};
 use shadowstep_scenes::steps;
 use shadowstep_scenes::{Error, System};
-use shadowstep_symbolic::{Budget, evaluate_within, parse};
+use shadowstep_schemes::symbolic::{Budget, evaluate_within, parse};
 
 /// Digits of irrational numbers in flags.
 const DIGITS: u32 = 300;
@@ -47,7 +47,7 @@ pub(crate) fn steps(h: (&StepSize, &str), until: &Rational, system: &System) -> 
     })
 }
 
-fn exact(text: &str) -> Result<Rational, shadowstep_symbolic::Error> {
+fn exact(text: &str) -> Result<Rational, shadowstep_schemes::symbolic::Error> {
     let expression = parse(text)?;
     Ok(BUDGET.with(|budget| evaluate_within(&expression, &BTreeMap::new(), DIGITS, budget))?.value)
 }

@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use comfy_table::{CellAlignment, LineStyle, Table, presets};
 pub(crate) use shadowstep_scenes::readable::{shortened, wrapped, wrapped_to};
-use shadowstep_symbolic::decimal::{from_text, to_significant};
+use shadowstep_schemes::symbolic::decimal::{from_text, to_significant};
 
 /// A decimal text rounded to `digits` significant digits: `1.235e-110`.
 pub(crate) fn rounded(text: &str, digits: usize) -> String {

@@ -11,7 +11,7 @@ use shadowstep_scenes::Error;
 use shadowstep_scenes::library;
 use shadowstep_scenes::sampling::{SamplingRecord, SamplingTarget, Wanted, is_suited};
 use shadowstep_schemes::document::read_text;
-use shadowstep_symbolic::decimal::significant;
+use shadowstep_schemes::symbolic::decimal::significant;
 
 use crate::output::Output;
 use crate::quantity::{number, whole};

@@ -4,7 +4,7 @@ use shadowstep::shadow::{EstimatorOptions, EstimatorSettings, check_accuracy};
 use shadowstep::{Rational, StepSize};
 use shadowstep_scenes::Note;
 use shadowstep_scenes::drift::DriftRequest;
-use shadowstep_symbolic::decimal::to_text;
+use shadowstep_schemes::symbolic::decimal::to_text;
 
 use crate::quantity;
 use crate::report;

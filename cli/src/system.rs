@@ -6,7 +6,7 @@ use shadowstep::problems::problem;
 use shadowstep::tables::{Faults, Source};
 use shadowstep_scenes::arithmetic::{Arithmetic, GUARD_DIGITS, MOST_VALUE_DIGITS};
 use shadowstep_scenes::{Error, KineticEnergy, PotentialEnergy, System, source};
-use shadowstep_symbolic::decimal::to_significant;
+use shadowstep_schemes::symbolic::decimal::to_significant;
 
 use crate::quantity::{assignment, problem_error};
 use crate::report;

@@ -9,7 +9,7 @@ use shadowstep_scenes::estimates::Estimates;
 use shadowstep_scenes::propagator::Propagator;
 use shadowstep_scenes::run::Run;
 use shadowstep_scenes::{EnergyAt, Error, ShownCoordinates, Summary};
-use shadowstep_symbolic::decimal::to_text;
+use shadowstep_schemes::symbolic::decimal::to_text;
 
 use crate::headings::OUTPUT;
 use crate::interrupt::Interrupt;

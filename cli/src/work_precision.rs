@@ -11,12 +11,12 @@ use shadowstep_scenes::library::{NamedScheme, scheme_from};
 use shadowstep_scenes::propagator::for_system;
 use shadowstep_scenes::steps::MOST_STEPS;
 use shadowstep_scenes::{Error, System};
+use shadowstep_schemes::symbolic::nearest;
 use shadowstep_studies::work_precision::files::{Title, write, written};
 use shadowstep_studies::work_precision::length::counts;
 use shadowstep_studies::work_precision::schemes::Group;
 use shadowstep_studies::work_precision::series::StepRange;
 use shadowstep_studies::work_precision::study::Request;
-use shadowstep_symbolic::nearest;
 
 use crate::headings::{OUTPUT, SCHEMES};
 use crate::invocation;

@@ -11,7 +11,7 @@ use shadowstep_scenes::arithmetic::{Arithmetic, DigitsError, MOST_DIGITS, NUMBER
 use shadowstep_scenes::keys::PROBLEM;
 use shadowstep_scenes::outside::reading_outside;
 use shadowstep_scenes::{Error, Note, System, source};
-use shadowstep_symbolic::Exact;
+use shadowstep_schemes::symbolic::Exact;
 
 use crate::errors::{Fallible, usage};
 use crate::own_forces::Forces;

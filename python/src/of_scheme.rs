@@ -12,8 +12,8 @@ use shadowstep_scenes::modified_hamiltonian::record::{Formulas, SeriesOptions, S
 use shadowstep_scenes::sampling::{SamplingTarget, Wanted};
 use shadowstep_scenes::{Error, Refusal, library};
 use shadowstep_schemes::shipped;
+use shadowstep_schemes::symbolic::Notation;
 use shadowstep_studies::emit::Target;
-use shadowstep_symbolic::Notation;
 
 use crate::errors::{Fallible, usage};
 use crate::given::Given;

@@ -10,6 +10,7 @@ use shadowstep::Rational;
 use shadowstep_scenes::System;
 use shadowstep_scenes::arithmetic::Arithmetic;
 use shadowstep_scenes::library::NamedScheme;
+use shadowstep_schemes::symbolic::decimal::to_text;
 use shadowstep_studies::work_precision::advise::{Advice, AdviceRequest, Choice, Verified};
 use shadowstep_studies::work_precision::length::{counts, length_of};
 use shadowstep_studies::work_precision::of::Of;
@@ -19,7 +20,6 @@ use shadowstep_studies::work_precision::schemes::Group;
 use shadowstep_studies::work_precision::series::StepRange;
 use shadowstep_studies::work_precision::size::Size;
 use shadowstep_studies::work_precision::study::{Cost, Request, Studied, Study};
-use shadowstep_symbolic::decimal::to_text;
 
 use crate::errors::{Fallible, usage};
 use crate::given::{Given, Read, arithmetic, number, step_size, word};

@@ -96,7 +96,7 @@ pub use number::{Number, Real};
 #[doc(inline)]
 pub use shadowstep_macros::{kinetic, potential, splitting_scheme};
 #[doc(inline)]
-pub use shadowstep_symbolic::{Rational, exact};
+pub use shadowstep_schemes::symbolic::{Rational, exact};
 #[cfg(feature = "tables")]
 #[doc(inline)]
 pub use steps::tables;

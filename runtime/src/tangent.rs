@@ -87,7 +87,7 @@ pub enum TangentError {
     NoVectors,
 }
 
-shadowstep_symbolic::debug_as_text!(TangentError);
+shadowstep_schemes::debug_as_text!(TangentError);
 
 /// Beyond 2^±SCALE a vector is multiplied by a power of 2, exactly.
 const SCALE: f64 = 128.0;

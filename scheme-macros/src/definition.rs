@@ -6,7 +6,7 @@ use syn::parse::{Parse, ParseStream};
 use syn::punctuated::Punctuated;
 use syn::{Attribute, Token, Visibility, braced, parenthesized};
 
-use shadowstep_symbolic::{Expression, Graph, Node, SemanticError};
+use shadowstep_schemes::symbolic::{Expression, Graph, Node, SemanticError};
 
 use crate::formula::Formula;
 use crate::program::Names;

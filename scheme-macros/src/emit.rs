@@ -5,8 +5,8 @@ use std::path::{Path, PathBuf};
 use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote};
 use shadowstep_schemes::document::Fault;
+use shadowstep_schemes::symbolic::Rational;
 use shadowstep_schemes::{Kinetic, Map, MapKind, Proved, StepPlan, counted, to_text};
-use shadowstep_symbolic::Rational;
 use syn::{DeriveInput, Ident, LitStr};
 
 /// The struct with its documentation and its steps.

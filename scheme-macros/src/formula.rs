@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use proc_macro2::{Delimiter, Spacing, Span, TokenStream, TokenTree};
-use shadowstep_symbolic::{Expression, parse};
+use shadowstep_schemes::symbolic::{Expression, parse};
 
 /// A formula's text with the span of each token.
 pub(crate) struct Formula {

@@ -2,7 +2,7 @@
 
 use proc_macro2::TokenStream;
 use quote::quote;
-use shadowstep_symbolic::PotentialPrograms;
+use shadowstep_schemes::symbolic::PotentialPrograms;
 
 use crate::definition::Definition;
 use crate::methods::Methods;

@@ -3,7 +3,7 @@
 //! `potential!{…}`: a formula becomes a potential with its gradient; `kinetic!{…}`: a kinetic energy with its drifts.
 //!
 //! The macros are a thin shell: `locate` finds the table, the `shadowstep-schemes` crate proves it, `emit` writes the
-//! code; `formula` turns tokens to text, the `shadowstep-symbolic` crate derives it, `potential`, `pair` and
+//! code; `formula` turns tokens to text, the module `symbolic` of that crate derives it, `potential`, `pair` and
 //! `kinetic` write the code with the bodies of methods from `methods`.
 //!
 //! Use them through the `shadowstep` crate, which re-exports them.

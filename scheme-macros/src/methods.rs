@@ -2,7 +2,7 @@
 
 use proc_macro2::{Ident, TokenStream};
 use quote::{format_ident, quote};
-use shadowstep_symbolic::{Place, PotentialPrograms, Program};
+use shadowstep_schemes::symbolic::{Place, PotentialPrograms, Program};
 
 use crate::program::{Names, numbered, own, size, statement};
 

@@ -3,7 +3,7 @@
 
 use proc_macro2::{Ident, TokenStream};
 use quote::{format_ident, quote};
-use shadowstep_symbolic::{PotentialPrograms, Separation, Summand, is_symmetric};
+use shadowstep_schemes::symbolic::{PotentialPrograms, Separation, Summand, is_symmetric};
 
 use crate::definition::{Definition, texts};
 use crate::methods::Methods;

@@ -2,8 +2,8 @@
 
 use proc_macro2::{Ident, Literal, Span, TokenStream};
 use quote::{format_ident, quote};
-use shadowstep_symbolic::decimal::to_text;
-use shadowstep_symbolic::{Instruction, Place};
+use shadowstep_schemes::symbolic::decimal::to_text;
+use shadowstep_schemes::symbolic::{Instruction, Place};
 
 /// What the code calls the numbers of a formula.
 pub(crate) struct Names {

@@ -6,8 +6,8 @@ mod units;
 use num_bigint::BigInt;
 use num_integer::Integer;
 use num_traits::{FromPrimitive, One, Signed, ToPrimitive, Zero};
-use shadowstep_symbolic::{Fraction, Ratio, Rational};
 
+use crate::symbolic::{Fraction, Ratio, Rational};
 use units::Units;
 
 /// Sums of products, as order conditions need them.

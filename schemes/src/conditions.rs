@@ -3,7 +3,6 @@
 use num_bigint::BigInt;
 use num_integer::Integer;
 use num_traits::{FromPrimitive, One, Signed, Zero};
-use shadowstep_symbolic::{Fraction, Ratio, Rational};
 
 use crate::arithmetic::{Arithmetic, Fixed, FixedPoint, Sensitive, Sensitivity};
 use crate::claims::Kinetic;
@@ -14,6 +13,7 @@ use crate::nystrom::tree_conditions;
 use crate::order::{Condition, lyndon_words, weighed, word_conditions};
 use crate::part_words::{self, part_maps};
 use crate::scheme::Held;
+use crate::symbolic::{Fraction, Ratio, Rational};
 
 /// Bits beyond the bits of the exact values, for the growth of the error.
 const MARGIN_BITS: u32 = 64;

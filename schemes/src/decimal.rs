@@ -2,8 +2,9 @@
 
 use num_bigint::BigInt;
 use num_traits::Zero;
-use shadowstep_symbolic::Rational;
-use shadowstep_symbolic::decimal::from_text;
+
+use crate::symbolic::Rational;
+use crate::symbolic::decimal::from_text;
 
 /// A decimal such as `-0.25` or `1.5e-3`, which may be a rounded number.
 ///

@@ -1,7 +1,8 @@
 //! How many decimal digits a number is known to.
 
 use num_traits::{ToPrimitive, Zero};
-use shadowstep_symbolic::{Fraction, Ratio};
+
+use crate::symbolic::{Fraction, Ratio};
 
 /// The number of decimal digits of which `uncertainty` is one unit, rounded down; `None` for 0.
 pub fn digits_of(uncertainty: &impl Ratio) -> Option<u32> {

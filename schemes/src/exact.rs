@@ -9,8 +9,6 @@ use std::ops::Range;
 use num_bigint::BigInt;
 use num_integer::Integer;
 use num_traits::{One, Signed, Zero};
-use shadowstep_symbolic::decimal::to_significant;
-use shadowstep_symbolic::{Budget, Exact, Rational, evaluate, evaluate_within, parse as formula};
 
 use crate::document::Placed;
 use crate::document::{Fault, Source};
@@ -19,6 +17,8 @@ use crate::map::Stages;
 use crate::parse;
 use crate::scheme::{ExactInner, ExactProcessor, ExactScheme, Held};
 use crate::shipped::shipped_hint;
+use crate::symbolic::decimal::to_significant;
+use crate::symbolic::{Budget, Exact, Rational, evaluate, evaluate_within, parse as formula};
 use crate::table::{Cell, MOST_STAGES, Table, Weights};
 
 /// Digits to which an irrational constant is rounded, unless more are asked for.

@@ -9,7 +9,7 @@
 
 use std::ops::Range;
 
-use shadowstep_symbolic::Rational;
+use crate::symbolic::Rational;
 
 use crate::document::Fault;
 use crate::map::{Map, Stages};

@@ -1,4 +1,5 @@
-//! What a splitting scheme is: a table of exact numbers, and the proof of what the table claims.
+//! What a splitting scheme is: a table of exact numbers, and the proof of what the table claims. Exact numbers and
+//! formulas, with derivatives and programs that compute them, are in [`symbolic`].
 //!
 //! The files are the pipeline; [`read_first`] in `pipeline` is the whole of it:
 //!
@@ -19,8 +20,8 @@
 //! | [`plan`] | scheme → the plan of a step: maps, shared constants, cost |
 //! | `pipeline` | the text of a table → [`Proved`]: scheme, proof and plan, or all faults |
 //!
-//! All but `map_kind` is with the feature `tables`: a program whose schemes are generated while it compiles needs none
-//! of it.
+//! All but `map_kind` and [`symbolic`] is with the feature `tables`: a program whose schemes are generated while it
+//! compiles needs none of it.
 //!
 //! ```
 //! use shadowstep_schemes::{read, shipped};
@@ -83,6 +84,7 @@ pub mod scheme;
 mod shipped;
 #[cfg(feature = "tables")]
 mod spelling;
+pub mod symbolic;
 #[cfg(feature = "tables")]
 pub mod table;
 #[cfg(feature = "tables")]
@@ -110,8 +112,8 @@ pub use proof::{Proof, prove};
 #[cfg(feature = "tables")]
 pub use scheme::ExactScheme;
 #[cfg(feature = "tables")]
-pub use shadowstep_symbolic::decimal::{to_significant, to_text};
-#[cfg(feature = "tables")]
-pub use shadowstep_symbolic::{Rational, nearest};
-#[cfg(feature = "tables")]
 pub use shipped::{shipped, shipped_hint, shipped_names};
+#[cfg(feature = "tables")]
+pub use symbolic::decimal::{to_significant, to_text};
+#[cfg(feature = "tables")]
+pub use symbolic::{Rational, nearest};

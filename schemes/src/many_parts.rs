@@ -10,7 +10,6 @@
 //! Integration, II.5 and III.3.
 
 use num_traits::Zero;
-use shadowstep_symbolic::Rational;
 use thiserror::Error;
 
 use crate::map::Map;
@@ -19,6 +18,7 @@ use crate::pipeline::Proved;
 use crate::plan::StepPlan;
 use crate::proof::{Order, order_of_parts};
 use crate::scheme::ExactScheme;
+use crate::symbolic::Rational;
 
 /// The number of parts for which the order is proved; for more it follows from the theorem.
 const PARTS: usize = 3;
@@ -59,7 +59,7 @@ pub enum NotForManyParts {
     },
 }
 
-shadowstep_symbolic::debug_as_text!(NotForManyParts);
+crate::debug_as_text!(NotForManyParts);
 
 impl Proved {
     /// The scheme with the plan of its steps for three parts and more, whose order is proved by the words on three

@@ -1,9 +1,9 @@
 //! The maps that a step is made of with their weights, and the stages of a table.
 
 use num_traits::Zero;
-use shadowstep_symbolic::Rational;
 
 use crate::map_kind::MapKind;
+use crate::symbolic::Rational;
 
 /// One map of a step with its weight.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -13,7 +13,7 @@
 //! A gradient kick p += 2c U_qq M⁻¹U_q is, with K = −U_q, 2c times the derivative of K in the direction of `D[K]`, at
 //! the q that it finds: a tree K[…] may be placed at it whole with one of its children D[K[…]], to which 2c belongs.
 
-use shadowstep_symbolic::Rational;
+use crate::symbolic::Rational;
 
 use crate::arithmetic::Arithmetic;
 use crate::map_kind::MapKind;

@@ -12,7 +12,7 @@
 use std::collections::HashMap;
 use std::fmt;
 
-use shadowstep_symbolic::Rational;
+use crate::symbolic::Rational;
 
 use crate::arithmetic::Arithmetic;
 use crate::map::Map;

@@ -1,12 +1,12 @@
 //! TOML text → the cells and claims of a table, with their places.
 
-use shadowstep_symbolic::nearest;
 use toml::de::{DeTable, DeValue};
 
 use crate::claims::{HIGHEST_LINEAR_ORDER, HIGHEST_NEAR_INTEGRABLE_ORDER, HIGHEST_ORDER, Kinetic, NearIntegrable};
 use crate::document::{Fault, Key, Keys, Placed, Reader, Section, Source, Text, Value, document};
 use crate::map_kind::MapKind;
 use crate::spelling::spelling;
+use crate::symbolic::nearest;
 use crate::table::{Cell, Inner, MOST_STAGES, Processor, Table, Weights};
 
 const TABLE: [Key; 17] = [

@@ -6,7 +6,7 @@
 
 use std::collections::HashMap;
 
-use shadowstep_symbolic::Rational;
+use crate::symbolic::Rational;
 
 use crate::arithmetic::Arithmetic;
 use crate::map::Map;

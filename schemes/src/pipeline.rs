@@ -10,9 +10,9 @@ use crate::plan::StepPlan;
 use crate::proof::{Finding, Order, Proof, findings, prove};
 use crate::scheme::{ExactScheme, Held};
 use crate::shipped;
+use crate::symbolic::MOST_EVALUATED_DIGITS;
 use crate::table::Table;
 use crate::wording::worded;
-use shadowstep_symbolic::MOST_EVALUATED_DIGITS;
 
 /// A scheme and what was proved of it.
 #[derive(Clone, Debug)]

@@ -1,6 +1,6 @@
 //! Proved scheme → the plan of a step: its maps, the constants they share, and what a step costs.
 
-use shadowstep_symbolic::Rational;
+use crate::symbolic::Rational;
 
 use crate::map::Map;
 use crate::map_kind::MapKind;

@@ -9,12 +9,12 @@ use std::ops::Range;
 
 use num_bigint::BigInt;
 use num_traits::{FromPrimitive, Signed, ToPrimitive};
-use shadowstep_symbolic::{Budget, Exact, Expression, ExpressionKind, Rational, evaluate_within, parse};
 
 use crate::decimal::PrintedDecimal;
 use crate::document::Source;
 use crate::map_kind::MapKind;
 use crate::scheme::{ExactScheme, Held};
+use crate::symbolic::{Budget, Exact, Expression, ExpressionKind, Rational, evaluate_within, parse};
 use crate::table::{Cell, Table, Weights};
 
 /// A printed decimal.

@@ -5,7 +5,7 @@
 //! with the rounding of the arithmetic itself included), and if that is close enough to decide: at most a thousandth of
 //! the value needed. The number of digits to which the conditions really hold is reported.
 
-use shadowstep_symbolic::Rational;
+use crate::symbolic::Rational;
 
 use crate::claims::{HIGHEST_ORDER, Kinetic, NearIntegrable};
 use crate::conditions::{Evaluated, Family, evaluated, evaluated_of_parts};

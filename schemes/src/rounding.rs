@@ -14,7 +14,7 @@ use crate::conditions::{Family, evaluated, values_at};
 use crate::least_change::LeastChange;
 use crate::printed::{Decimal, Printed, Sloped};
 use crate::scheme::ExactScheme;
-use shadowstep_symbolic::{Fraction, Ratio, Rational};
+use crate::symbolic::{Fraction, Ratio, Rational};
 
 /// The largest error of a decimal, in units of its last place, that counts as rounding: tables are cut off, too.
 const ROUNDING: f64 = 1.0;

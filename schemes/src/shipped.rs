@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::sync::LazyLock;
 
-use shadowstep_symbolic::nearest;
+use crate::symbolic::nearest;
 
 use crate::document::Source;
 use crate::parse;

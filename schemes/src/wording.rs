@@ -3,8 +3,6 @@
 use std::fmt;
 
 use num_traits::Signed;
-use shadowstep_symbolic::Rational;
-use shadowstep_symbolic::decimal::{to_significant, to_text};
 
 use crate::claims::Kinetic;
 use crate::conditions::Family;
@@ -15,6 +13,8 @@ use crate::order::Condition;
 use crate::proof::{Finding, Of, Order, Proof};
 use crate::rounding::{Off, Unexplained};
 use crate::scheme::ExactScheme;
+use crate::symbolic::Rational;
+use crate::symbolic::decimal::{to_significant, to_text};
 use crate::table::{Table, Weights};
 
 /// More decimals than these are counted, not named.

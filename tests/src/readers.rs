@@ -13,8 +13,8 @@ use shadowstep::systems::formula::FormulaPotential;
 use shadowstep::tables::Source;
 use shadowstep_analysis::sources::{Language, check};
 use shadowstep_scenes::{FileOptions, Observer, Outcome, Scene};
+use shadowstep_schemes::symbolic::{Budget, Exact, evaluate_within, exact, parse};
 use shadowstep_studies::sweeps::SweepPlan;
-use shadowstep_symbolic::{Budget, Exact, evaluate_within, exact, parse};
 use tempfile::TempDir;
 
 /// A reader: what it reads, which is the name of its folder in `evidence/fuzz/corpus`, and how.

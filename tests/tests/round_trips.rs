@@ -1,5 +1,5 @@
 //! Protects what is written and read back: settings of estimators, weights of tables, values of scenes. Round trips of
-//! exact numbers are in `crates/symbolic/tests/decimal.rs`.
+//! exact numbers are in `schemes/tests/decimal.rs`.
 
 use proptest::prelude::*;
 use shadowstep::Rational;
@@ -7,7 +7,7 @@ use shadowstep::shadow::{EstimatorOptions, EstimatorSettings, SelectionRule, Sto
 use shadowstep::tables::Source;
 use shadowstep_scenes::Scene;
 use shadowstep_schemes::exact;
-use shadowstep_symbolic::decimal::to_text;
+use shadowstep_schemes::symbolic::decimal::to_text;
 
 /// A number of few digits or many, also beyond the numbers that become decimals.
 fn number() -> impl Strategy<Value = Rational> {
@@ -74,7 +74,7 @@ proptest! {
             to_text(&k), list(&q), list(&p)
         );
         let scene = Scene::read(Source { path: "scene.toml".to_owned(), text }).unwrap();
-        let values = |exact: &[shadowstep_symbolic::Exact]| exact.iter().map(|exact| exact.value.clone()).collect::<Vec<_>>();
+        let values = |exact: &[shadowstep_schemes::symbolic::Exact]| exact.iter().map(|exact| exact.value.clone()).collect::<Vec<_>>();
         prop_assert_eq!((values(&scene.system.q), values(&scene.system.p)), (q, p));
         prop_assert_eq!(&scene.system.parameters[0].1.value, &k);
         prop_assert_eq!((scene.h.exact(), scene.steps()), (&Rational::new(h.into(), 1001.into()), Some(steps)));

@@ -6,7 +6,7 @@ use shadowstep_scenes::Summary;
 use shadowstep_scenes::drift::{NOT_SEEN, Permanent, Record};
 use shadowstep_scenes::readable::{shortened, wrapped};
 use shadowstep_scenes::run::Run;
-use shadowstep_symbolic::decimal::{from_text, significant};
+use shadowstep_schemes::symbolic::decimal::{from_text, significant};
 
 use crate::colour::{heading, of_verdict, styled};
 use crate::readable::{rounded, table};

@@ -1,8 +1,8 @@
 //! Curves of runs → charts.
 
 use shadowstep_scenes::plot::{Content, Orbit, Picture};
+use shadowstep_schemes::symbolic::decimal::significant;
 use shadowstep_studies::chart::{Axis, Chart, Curve, Marker};
-use shadowstep_symbolic::decimal::significant;
 
 use super::lines::RunOfChart;
 

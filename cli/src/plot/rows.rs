@@ -7,7 +7,7 @@ use std::path::Path;
 use serde::Deserialize;
 use shadowstep_scenes::computation::{Computation, RunNumber};
 use shadowstep_scenes::{Error, Format, Scene};
-use shadowstep_symbolic::decimal::from_text;
+use shadowstep_schemes::symbolic::decimal::from_text;
 
 use super::{Plots, Values};
 

@@ -4,8 +4,8 @@ use shadowstep_analysis::error::LeadingError;
 use shadowstep_analysis::sampling::SamplingError;
 use shadowstep_analysis::{Sizes, stability};
 use shadowstep_scenes::scheme_record::{Accuracy, SchemeFacts};
+use shadowstep_schemes::symbolic::decimal::significant;
 use shadowstep_schemes::{Kinetic, MapKind};
-use shadowstep_symbolic::decimal::significant;
 
 use crate::readable::shortened;
 

@@ -3,7 +3,7 @@
 use std::fmt::Display;
 
 use shadowstep_schemes::Kinetic;
-use shadowstep_symbolic::decimal::significant;
+use shadowstep_schemes::symbolic::decimal::significant;
 
 use crate::readable::{rounded, table};
 use crate::schemes::record::{Listed, effective_error};

@@ -15,7 +15,7 @@ use crate::schemes::columns;
 use crate::schemes::record::{Listed, effective_error};
 use shadowstep_scenes::Error;
 use shadowstep_scenes::library::{self, NamedScheme};
-use shadowstep_symbolic::nearest;
+use shadowstep_schemes::symbolic::nearest;
 
 /// Which schemes are listed, and in which order.
 #[derive(Debug, Args)]

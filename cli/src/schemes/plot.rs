@@ -6,9 +6,9 @@ use shadowstep_analysis::oscillator::Oscillator;
 use shadowstep_analysis::stability::Stability;
 use shadowstep_analysis::trace::PhaseError;
 use shadowstep_schemes::MapKind;
+use shadowstep_schemes::symbolic::decimal::significant;
 use shadowstep_schemes::{Proved, Rational};
 use shadowstep_studies::chart::{Axis, Chart, Curve, Mark, log10_of, stacked};
-use shadowstep_symbolic::decimal::significant;
 
 /// Points of a curve over hω.
 const POINTS: usize = 1200;

@@ -4,8 +4,8 @@
 use clap::Args;
 use num_traits::Signed;
 use shadowstep_analysis::polish::{self, NotPolished, Polished, PolishedWeight, Request, Role, power_of_ten};
+use shadowstep_schemes::symbolic::decimal::to_significant;
 use shadowstep_schemes::{Rational, counted};
-use shadowstep_symbolic::decimal::to_significant;
 
 use crate::interrupt::Interrupt;
 use crate::output::{Output, OutputArguments};

@@ -5,8 +5,8 @@ use num_traits::Zero;
 use serde_json::{Value, json};
 use shadowstep_analysis::certificate::{Certificate, Class, Enclosure, Kind, Polynomial};
 use shadowstep_scenes::{Error, library};
+use shadowstep_schemes::symbolic::decimal::to_text;
 use shadowstep_schemes::{Rational, to_significant};
-use shadowstep_symbolic::decimal::to_text;
 
 use crate::output::{Output, OutputArguments};
 use crate::report::{self, Status};

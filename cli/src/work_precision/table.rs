@@ -1,11 +1,11 @@
 //! The schemes that need the least for an error, and the orders that the schemes show, as tables of at most 80 columns.
 
 use shadowstep_scenes::readable::wrapped;
+use shadowstep_schemes::symbolic::decimal::significant;
 use shadowstep_studies::work_precision::of::Of;
 use shadowstep_studies::work_precision::order::MeasuredOrder;
 use shadowstep_studies::work_precision::study::{Studied, Study};
 use shadowstep_studies::work_precision::tables::Cheapest;
-use shadowstep_symbolic::decimal::significant;
 
 use super::PosedProblem;
 use crate::colour::{heading, on_stdout};

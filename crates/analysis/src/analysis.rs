@@ -13,7 +13,7 @@
 //! ```
 
 use num_traits::{Signed, Zero};
-use shadowstep_symbolic::Rational;
+use shadowstep_schemes::symbolic::Rational;
 
 use crate::error::LeadingError;
 use crate::sampling::SamplingError;

@@ -20,7 +20,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 use num_bigint::BigInt;
 use num_integer::Integer;
 use num_traits::{One, Zero};
-use shadowstep_symbolic::Rational;
+use shadowstep_schemes::symbolic::Rational;
 
 use crate::prime::{PRIME, add_multiple, power};
 use shadowstep_schemes::MapKind;

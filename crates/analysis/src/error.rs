@@ -5,7 +5,7 @@
 //! coefficients. For quadratic T, E is what is left modulo the ideal of the brackets that vanish; the terms of the
 //! logarithm between the order for every T(p) and the order for quadratic T lie in that ideal.
 
-use shadowstep_symbolic::{Fraction, Rational};
+use shadowstep_schemes::symbolic::{Fraction, Rational};
 
 use crate::bracket::{Bracket, coordinates};
 use crate::logarithm::Logarithm;

@@ -2,7 +2,7 @@
 
 use num_traits::ToPrimitive;
 use shadowstep_schemes::arithmetic::Arithmetic;
-use shadowstep_symbolic::Rational;
+use shadowstep_schemes::symbolic::Rational;
 
 use crate::polish::OfUnknowns;
 

@@ -98,7 +98,7 @@ mod tests {
     use shadowstep_schemes::arithmetic::FixedPoint;
     use shadowstep_schemes::map::Stages;
     use shadowstep_schemes::order::weighed;
-    use shadowstep_symbolic::Rational;
+    use shadowstep_schemes::symbolic::Rational;
 
     use super::*;
 

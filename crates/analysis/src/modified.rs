@@ -22,8 +22,8 @@ use shadowstep_schemes::arithmetic::FixedPoint;
 use shadowstep_schemes::claims::Kinetic;
 use shadowstep_schemes::order::{lyndon_words, prefix_coefficients};
 use shadowstep_schemes::scheme::Held;
+use shadowstep_schemes::symbolic::Rational;
 use shadowstep_schemes::{MapKind, NotForManyParts, Proved, part_words};
-use shadowstep_symbolic::Rational;
 
 use crate::bracket::{Bracket, Letter, coordinates};
 

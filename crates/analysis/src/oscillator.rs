@@ -6,8 +6,8 @@ use std::f64::consts::TAU;
 
 use num_traits::ToPrimitive;
 use shadowstep_schemes::map::Map;
+use shadowstep_schemes::symbolic::Rational;
 use shadowstep_schemes::{MapKind, Proved};
-use shadowstep_symbolic::Rational;
 
 /// Points at which the limit of stability is looked for.
 const POINTS_OF_LIMIT: u32 = 400;

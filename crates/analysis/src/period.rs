@@ -31,7 +31,7 @@ fn ring(maps: &[Map]) -> Vec<Map> {
 #[cfg(test)]
 mod tests {
     use shadowstep_schemes::MapKind::{self, Drift, Kick};
-    use shadowstep_symbolic::Rational;
+    use shadowstep_schemes::symbolic::Rational;
 
     use super::*;
 

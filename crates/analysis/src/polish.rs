@@ -38,7 +38,7 @@ mod write;
 
 use std::collections::BTreeSet;
 
-use shadowstep_symbolic::{Rational, nearest, nearest_few};
+use shadowstep_schemes::symbolic::{Rational, nearest, nearest_few};
 
 pub(crate) use composition::{conditions, lyndon_words};
 pub(crate) use equations::{Equations, OfUnknowns, maps, processed_maps};

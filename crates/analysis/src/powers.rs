@@ -9,7 +9,7 @@
 
 use shadowstep_schemes::arithmetic::Arithmetic;
 use shadowstep_schemes::map::Map;
-use shadowstep_symbolic::Rational;
+use shadowstep_schemes::symbolic::Rational;
 
 /// Whether the second half of a ring is the first one with kicks and drifts exchanged, weights as they are.
 ///

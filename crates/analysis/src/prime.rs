@@ -4,7 +4,7 @@ use num_bigint::BigInt;
 use num_integer::Integer;
 use num_traits::ToPrimitive;
 use shadowstep_schemes::arithmetic::Arithmetic;
-use shadowstep_symbolic::Rational;
+use shadowstep_schemes::symbolic::Rational;
 
 /// 2^61 − 1
 pub(crate) const PRIME: u64 = (1 << 61) - 1;

@@ -6,8 +6,8 @@
 use num_bigint::BigInt;
 use num_traits::{One, ToPrimitive};
 use shadowstep_schemes::Proved;
-use shadowstep_symbolic::Rational;
-use shadowstep_symbolic::decimal::to_significant;
+use shadowstep_schemes::symbolic::Rational;
+use shadowstep_schemes::symbolic::decimal::to_significant;
 
 use crate::period::repeated_part;
 use crate::powers::{Powers, quotient, repeats_exchanged};

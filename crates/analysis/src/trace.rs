@@ -9,7 +9,7 @@ use std::ops::Range;
 use num_bigint::BigInt;
 use num_integer::Integer;
 use num_traits::{FromPrimitive, One, Signed, ToPrimitive, Zero};
-use shadowstep_symbolic::{Fraction, Rational};
+use shadowstep_schemes::symbolic::{Fraction, Rational};
 
 use crate::prime::{PRIME, Residues, residue};
 use shadowstep_schemes::MapKind;

@@ -6,8 +6,8 @@ use std::fs;
 use num_traits::{One, Signed};
 use shadowstep_analysis::polish::{NotPolished, Polished, Request, Role, polish};
 use shadowstep_schemes::scheme::Held;
+use shadowstep_schemes::symbolic::exact;
 use shadowstep_schemes::{Rational, Source, shipped, shipped_names, shipped_proved};
-use shadowstep_symbolic::exact;
 use toml::{Table, Value};
 
 const FOLDER: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests");

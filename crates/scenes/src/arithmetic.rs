@@ -3,14 +3,14 @@
 use shadowstep::Rational;
 use shadowstep::number::{LimbCount, Precision, PrecisionError};
 use shadowstep_schemes::counted;
-use shadowstep_symbolic::Exact;
-use shadowstep_symbolic::decimal::{round_significant, to_significant, to_text};
+use shadowstep_schemes::symbolic::Exact;
+use shadowstep_schemes::symbolic::decimal::{round_significant, to_significant, to_text};
 
 /// Digits beyond those of the run to which exact values are computed, so that rounding them once more does not show.
 pub const GUARD_DIGITS: u32 = 20;
 
 /// Irrational values are not computed to more digits.
-pub const MOST_VALUE_DIGITS: u32 = shadowstep_symbolic::MOST_EVALUATED_DIGITS;
+pub const MOST_VALUE_DIGITS: u32 = shadowstep_schemes::symbolic::MOST_EVALUATED_DIGITS;
 
 /// The most digits of a run.
 pub const MOST_DIGITS: u32 = 100_000;

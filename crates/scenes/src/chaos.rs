@@ -4,7 +4,7 @@ use serde::{Serialize, Serializer};
 use shadowstep::shadow::{Criterion, Verdict};
 use shadowstep::tangent::{Exponent, Growth, Regularity};
 use shadowstep::{Rational, StepSize};
-use shadowstep_symbolic::decimal::to_text;
+use shadowstep_schemes::symbolic::decimal::to_text;
 
 use crate::arithmetic::{Arithmetic, DigitsLabel};
 use crate::computation::{Computation, FollowedNumber};

@@ -5,7 +5,7 @@ use shadowstep::Rational;
 #[cfg(feature = "mpfr")]
 use shadowstep::number::Float;
 use shadowstep::number::{AnyLimbs, DoubleDouble};
-use shadowstep_symbolic::Exact;
+use shadowstep_schemes::symbolic::Exact;
 
 use crate::arithmetic::{Arithmetic, Digits, Numbers, number_types};
 use crate::column::Column;

@@ -4,7 +4,7 @@
 use shadowstep::steps::integrator::{VectorIntegrator, at_output};
 use shadowstep::steps::step_to_zero;
 use shadowstep::{Rational, Real};
-use shadowstep_symbolic::decimal::to_text;
+use shadowstep_schemes::symbolic::decimal::to_text;
 
 use crate::arithmetic::GUARD_DIGITS;
 use crate::evaluator::Evaluator;

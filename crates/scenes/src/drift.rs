@@ -33,7 +33,7 @@ use shadowstep::Rational;
 use shadowstep::number::CorrectlyRounded;
 use shadowstep::shadow::run::EnergyDrift;
 use shadowstep::shadow::{EstimatorSettings, SelectionRule, StoppingRule};
-use shadowstep_symbolic::decimal::to_text;
+use shadowstep_schemes::symbolic::decimal::to_text;
 
 use crate::arithmetic::Arithmetic;
 use crate::computation::{Computation, FollowedNumber};

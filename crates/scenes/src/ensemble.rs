@@ -46,7 +46,7 @@ use shadowstep::shadow::ensemble::{self, Block, EnsembleError, Outcome};
 use shadowstep::tables::{Faults, Source};
 use shadowstep::{Rational, Scheme, Stepper};
 use shadowstep_schemes::document::document;
-use shadowstep_symbolic::Exact;
+use shadowstep_schemes::symbolic::Exact;
 
 use crate::error::Error;
 use crate::family::{Family, Parsed};

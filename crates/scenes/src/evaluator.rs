@@ -7,7 +7,7 @@ use shadowstep::systems::formula::{FormulaError, FormulaValue};
 use shadowstep::tables::{Faults, Source};
 use shadowstep::{Rational, Real};
 use shadowstep_schemes::document::{Reader, Text};
-use shadowstep_symbolic::Exact;
+use shadowstep_schemes::symbolic::Exact;
 use thiserror::Error;
 
 use crate::error::Error;

@@ -4,7 +4,7 @@ use std::cmp::Ordering;
 use std::sync::Arc;
 
 use shadowstep_schemes::document::{Reader, Text};
-use shadowstep_symbolic::{Expression as Syntax, ExpressionKind, Graph, Node, parse};
+use shadowstep_schemes::symbolic::{Expression as Syntax, ExpressionKind, Graph, Node, parse};
 
 use crate::quantity::Quantity;
 use crate::schema::Table;

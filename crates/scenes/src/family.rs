@@ -6,8 +6,8 @@ use std::ops::Range;
 use shadowstep::Rational;
 use shadowstep::tables::{Faults, Source};
 use shadowstep_schemes::document::valid_document;
-use shadowstep_symbolic::Exact;
-use shadowstep_symbolic::decimal::to_text;
+use shadowstep_schemes::symbolic::Exact;
+use shadowstep_schemes::symbolic::decimal::to_text;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 

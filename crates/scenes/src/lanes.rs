@@ -6,7 +6,7 @@ use shadowstep::systems::kinetic::{General, Quadratic};
 use shadowstep::systems::summation::Compensated;
 use shadowstep::tangent::{TangentError, Tangents};
 use shadowstep::{DiagonalMasses, Kinetic, Motion, Potential, UnitMasses};
-use shadowstep_symbolic::{Exact, parse};
+use shadowstep_schemes::symbolic::{Exact, parse};
 
 use crate::scene::{ClassifiedKinetic, EnergyOfBodies, KineticEnergy, PairEnergy, PotentialEnergy, System};
 use crate::start::{SceneIntegrator, Steps};

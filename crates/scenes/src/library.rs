@@ -11,8 +11,8 @@ use shadowstep::{Rational, Scheme, Stepper, shadow::exact_flow};
 use shadowstep_analysis::best_for_every_kinetic;
 use shadowstep_schemes::document::{LARGEST_TABLE, document, read_text};
 use shadowstep_schemes::exact::DIGITS as TABLE_DIGITS;
+use shadowstep_schemes::symbolic::decimal::to_text;
 use shadowstep_schemes::{First, Map, shipped, shipped_hint};
-use shadowstep_symbolic::decimal::to_text;
 use thiserror::Error;
 use toml::de::DeTable;
 

@@ -16,8 +16,8 @@ use shadowstep::{Rational, StepSize};
 use shadowstep_analysis::bracket::Letter;
 use shadowstep_analysis::modified::ModifiedHamiltonian;
 use shadowstep_schemes::Kinetic;
-use shadowstep_symbolic::decimal::round_significant;
-use shadowstep_symbolic::{Function, Graph, Node, Notation, parse};
+use shadowstep_schemes::symbolic::decimal::round_significant;
+use shadowstep_schemes::symbolic::{Function, Graph, Node, Notation, parse};
 
 use crate::expression::{Derived, TIME};
 use crate::refusal::Refusal;
@@ -383,7 +383,7 @@ mod tests {
     use crate::observer::KeptSummary;
     use num_traits::ToPrimitive;
     use shadowstep::tables::{Faults, Source};
-    use shadowstep_symbolic::exact;
+    use shadowstep_schemes::symbolic::exact;
 
     fn read(problem: &str, run: &str, output: &str) -> Result<Scene, Faults> {
         let text = format!("{problem}\n[run]\n{run}\n[output]\n{output}");

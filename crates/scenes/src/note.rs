@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use shadowstep::Rational;
 use shadowstep_schemes::counted;
-use shadowstep_symbolic::decimal::{from_text, to_significant};
+use shadowstep_schemes::symbolic::decimal::{from_text, to_significant};
 
 use crate::readable::shortened;
 use crate::steps::nearly_equal;

@@ -3,7 +3,7 @@
 
 use std::ops::Range;
 
-use shadowstep_symbolic::{Expression as Syntax, ExpressionKind};
+use shadowstep_schemes::symbolic::{Expression as Syntax, ExpressionKind};
 
 /// A quantity: how formulas write it, and what it is.
 pub(crate) struct Described {

@@ -220,7 +220,7 @@ impl ElementOfBody {
 mod tests {
     use shadowstep::Number;
     use shadowstep::tables::{Faults, Source};
-    use shadowstep_symbolic::decimal::from_text;
+    use shadowstep_schemes::symbolic::decimal::from_text;
 
     use crate::Scene;
 

@@ -40,7 +40,7 @@ use std::path::Path;
 use num_traits::Zero as _;
 use shadowstep::tables::{Faults, First, Source};
 use shadowstep_schemes::document::{self, read_text, valid_document};
-use shadowstep_symbolic::{Exact, nearest};
+use shadowstep_schemes::symbolic::{Exact, nearest};
 use toml::de::DeTable;
 
 use crate::arithmetic::Arithmetic;

@@ -1,7 +1,7 @@
 //! Numbers and texts for people; machines get every digit.
 
 use shadowstep::Rational;
-use shadowstep_symbolic::decimal::{round_significant, to_significant, to_text};
+use shadowstep_schemes::symbolic::decimal::{round_significant, to_significant, to_text};
 
 /// The most digits of a number in a message.
 pub const LONGEST_NUMBER: usize = 20;

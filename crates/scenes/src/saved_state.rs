@@ -4,7 +4,7 @@ use num_traits::Zero;
 use serde::{Deserialize, Serialize};
 use shadowstep::tangent::Growth;
 use shadowstep::{Real, Remainders};
-use shadowstep_symbolic::decimal::from_text;
+use shadowstep_schemes::symbolic::decimal::from_text;
 
 use crate::snapshots::Snapshot;
 

@@ -1,7 +1,7 @@
 //! Shipped scenes: each a file in the folder of its group, such as `planets/`.
 
 use shadowstep::problems::{PROBLEMS, problem};
-use shadowstep_symbolic::suggestion;
+use shadowstep_schemes::symbolic::suggestion;
 
 use crate::error::Error;
 use crate::template::template;

@@ -2,7 +2,7 @@
 
 use std::borrow::Cow;
 
-use shadowstep_symbolic::decimal::from_text;
+use shadowstep_schemes::symbolic::decimal::from_text;
 
 /// The beginnings of formulas, and blanks that are left out before them; `'` is the mark itself.
 const MARKED: [char; 8] = ['=', '+', '-', '@', '\t', '\r', '\n', '\''];

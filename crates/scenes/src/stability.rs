@@ -4,7 +4,7 @@ use shadowstep::{Rational, Scheme as _};
 use shadowstep_analysis::oscillator::Oscillator;
 use shadowstep_analysis::resonance::resonances;
 use shadowstep_analysis::stability::Stability;
-use shadowstep_symbolic::decimal::significant;
+use shadowstep_schemes::symbolic::decimal::significant;
 
 use crate::frequency::Frequency;
 use crate::library::NamedScheme;

@@ -2,7 +2,7 @@
 
 use num_traits::{Signed, ToPrimitive, Zero};
 use shadowstep::{Rational, StepSize};
-use shadowstep_symbolic::decimal::to_significant;
+use shadowstep_schemes::symbolic::decimal::to_significant;
 use thiserror::Error;
 
 /// The most steps of a run: more would take years.

@@ -133,7 +133,7 @@ fn row(
         PositionError::Below(bound) => format!("< {bound}"),
         PositionError::None => "none".to_owned(),
     };
-    let step = shadowstep_symbolic::decimal::to_text(&choice.step);
+    let step = shadowstep_schemes::symbolic::decimal::to_text(&choice.step);
     let (best, ratio) = best.map_or((String::new(), String::new()), |(scheme, fewest)| {
         (format!("{fewest:.0}, {}", scheme.name), format!("{:.2}", cost / fewest))
     });

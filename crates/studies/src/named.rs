@@ -1,6 +1,6 @@
 //! The parts of a study by their names.
 
-use shadowstep_symbolic::suggestion;
+use shadowstep_schemes::symbolic::suggestion;
 
 use crate::Error;
 

@@ -5,9 +5,9 @@ use crate::Rational;
 use std::cell::Cell;
 use std::fmt;
 
-/// Numbers of operations on [`Counting`] numbers: the stated cost of a program of `shadowstep-symbolic` is counted in
+/// Numbers of operations on [`Counting`] numbers: the stated cost of a program of `shadowstep_schemes::symbolic` is counted in
 /// the same way.
-pub use shadowstep_symbolic::Operations;
+pub use shadowstep_schemes::symbolic::Operations;
 
 thread_local! {
     /// all operations of this thread so far

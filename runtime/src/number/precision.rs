@@ -36,7 +36,7 @@ pub enum PrecisionError {
     Bits(u32),
 }
 
-shadowstep_symbolic::debug_as_text!(PrecisionError);
+shadowstep_schemes::debug_as_text!(PrecisionError);
 
 impl Precision {
     const LEAST: Precision = Precision { bits: 5 };

@@ -3,7 +3,7 @@
 //! The formula and its proof are in [`weights`](crate::shadow::weights).
 
 use num_traits::Signed;
-use shadowstep_symbolic::decimal::to_significant;
+use shadowstep_schemes::symbolic::decimal::to_significant;
 
 use crate::Rational;
 use crate::number::saved::{Fields, Saved};

@@ -46,7 +46,7 @@ pub enum EstimatorError {
     NegativeAccuracy,
 }
 
-shadowstep_symbolic::debug_as_text!(EstimatorError);
+shadowstep_schemes::debug_as_text!(EstimatorError);
 
 impl EstimatorError {
     /// Checks that an order is not too small.

@@ -51,7 +51,7 @@ pub enum ExactFlowError {
     Estimator(#[from] EstimatorError),
 }
 
-shadowstep_symbolic::debug_as_text!(ExactFlowError);
+shadowstep_schemes::debug_as_text!(ExactFlowError);
 
 /// The states of the exact flow of a problem in the order of time, n = −reach, …, steps + reach, with the β of each
 /// step.

@@ -60,7 +60,7 @@ pub struct OptionConflict {
     pub found: String,
 }
 
-shadowstep_symbolic::debug_as_text!(OptionConflict);
+shadowstep_schemes::debug_as_text!(OptionConflict);
 
 /// A target error that is not valid: it is absolute, in the units of the energy.
 #[derive(Clone, Copy, PartialEq, Eq, Error)]
@@ -73,7 +73,7 @@ pub enum AccuracyError {
     TooLarge,
 }
 
-shadowstep_symbolic::debug_as_text!(AccuracyError);
+shadowstep_schemes::debug_as_text!(AccuracyError);
 
 /// Checks a target error.
 ///
@@ -96,7 +96,7 @@ pub struct UnknownWord {
     pub known: &'static [&'static str],
 }
 
-shadowstep_symbolic::debug_as_text!(UnknownWord);
+shadowstep_schemes::debug_as_text!(UnknownWord);
 
 /// `a, b or c`
 fn listed(words: &[&str]) -> String {

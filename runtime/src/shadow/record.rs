@@ -2,7 +2,7 @@
 
 use serde::de::Error as _;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
-use shadowstep_symbolic::decimal::to_text;
+use shadowstep_schemes::symbolic::decimal::to_text;
 use thiserror::Error;
 
 use crate::exact;
@@ -50,7 +50,7 @@ enum RecordError {
     #[error("stop or rule: {0}")]
     Word(#[from] UnknownWord),
     #[error("accuracy: {0}")]
-    Number(#[from] shadowstep_symbolic::Error),
+    Number(#[from] shadowstep_schemes::symbolic::Error),
     #[error("accuracy {0}")]
     Accuracy(#[from] AccuracyError),
 }

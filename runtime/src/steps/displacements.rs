@@ -33,7 +33,7 @@ pub enum DisplacementError {
     },
 }
 
-shadowstep_symbolic::debug_as_text!(DisplacementError);
+shadowstep_schemes::debug_as_text!(DisplacementError);
 
 /// The displacements of a scheme with the step size h; `weights` are the numbers 2h³c.
 pub(crate) fn displacements<N: Real>(

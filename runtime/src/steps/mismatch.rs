@@ -20,4 +20,4 @@ pub enum MismatchError {
     },
 }
 
-shadowstep_symbolic::debug_as_text!(MismatchError);
+shadowstep_schemes::debug_as_text!(MismatchError);

@@ -1,6 +1,6 @@
 //! What every scheme can do: compiled from its table by [`crate::splitting_scheme`], or read from it at run time.
 
-use shadowstep_symbolic::decimal::from_text;
+use shadowstep_schemes::symbolic::decimal::from_text;
 
 use crate::Rational;
 use crate::number::Number;

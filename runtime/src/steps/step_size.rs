@@ -3,7 +3,7 @@
 use std::convert::Infallible;
 
 use num_traits::{Signed, Zero};
-use shadowstep_symbolic::decimal::{to_significant, to_text};
+use shadowstep_schemes::symbolic::decimal::{to_significant, to_text};
 use thiserror::Error;
 
 use crate::{Rational, exact};
@@ -55,11 +55,11 @@ pub enum StepSizeError {
         /// The text.
         text: String,
         /// Why it has no value.
-        error: shadowstep_symbolic::Error,
+        error: shadowstep_schemes::symbolic::Error,
     },
 }
 
-shadowstep_symbolic::debug_as_text!(StepSizeError);
+shadowstep_schemes::debug_as_text!(StepSizeError);
 
 impl StepSize {
     /// The exact value.

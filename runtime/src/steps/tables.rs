@@ -47,7 +47,7 @@ pub struct QuadraticOnly {
     pub order_quadratic: u32,
 }
 
-shadowstep_symbolic::debug_as_text!(QuadraticOnly);
+shadowstep_schemes::debug_as_text!(QuadraticOnly);
 
 /// A shipped scheme by its name or an alias, such as `yoshida4`, `PEFRL`, `BM4`; `None` if there is none.
 pub fn shipped(name: &str) -> Option<TableScheme> {

@@ -15,7 +15,7 @@ pub use value::FormulaValue;
 use std::ops::Range;
 use std::sync::{Arc, OnceLock};
 
-use shadowstep_symbolic::{Graph, SemanticError, SyntaxError, parse};
+use shadowstep_schemes::symbolic::{Graph, SemanticError, SyntaxError, parse};
 use thiserror::Error;
 
 pub use kinetic::FormulaKinetic;
@@ -62,7 +62,7 @@ pub enum FormulaError {
     Constant(String),
 }
 
-shadowstep_symbolic::debug_as_text!(FormulaError);
+shadowstep_schemes::debug_as_text!(FormulaError);
 
 impl FormulaError {
     /// The byte range of the text that is meant; empty, if the names are.

@@ -1,6 +1,6 @@
 //! Programs carried out one instruction after the other, on numbers in registers, or on blocks of numbers.
 
-use shadowstep_symbolic::{Function, Instruction, Place, PotentialPrograms, Program};
+use shadowstep_schemes::symbolic::{Function, Instruction, Place, PotentialPrograms, Program};
 
 use std::hint::black_box;
 

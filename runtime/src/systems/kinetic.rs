@@ -15,7 +15,7 @@ use crate::number::partial_sums::add_sum;
 use crate::number::{Lanes, Number, Real, epsilon};
 use crate::systems::coordinates::{for_each_three, for_each_two};
 use num_traits::Signed;
-use shadowstep_symbolic::decimal::{to_significant, to_text};
+use shadowstep_schemes::symbolic::decimal::{to_significant, to_text};
 
 /// The class of T = ½pᵀM⁻¹p + bᵀp + c, at most quadratic in p. Every scheme has its order for these
 /// ([`crate::ValidFor`]): each bracket with U takes a degree, so that \[U,\[U,\[U,T\]\]\] = 0, and the force of
@@ -594,4 +594,4 @@ pub enum MassError {
     },
 }
 
-shadowstep_symbolic::debug_as_text!(MassError);
+shadowstep_schemes::debug_as_text!(MassError);

@@ -2,7 +2,7 @@
 //!
 //! Functions are `inline`: a program without such flows compiles no numbers of limbs.
 
-use shadowstep_symbolic::decimal::from_text;
+use shadowstep_schemes::symbolic::decimal::from_text;
 
 use crate::Rational;
 use crate::number::{AnyLimbs, CorrectlyRounded, LimbCount, Number, Real};

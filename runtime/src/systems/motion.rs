@@ -9,7 +9,7 @@ mod turns;
 
 use thiserror::Error;
 
-use shadowstep_symbolic::{Error as FormulaError, exact};
+use shadowstep_schemes::symbolic::{Error as FormulaError, exact};
 
 use crate::number::{AnyLimbs, LimbCount, Number, Precision};
 use crate::systems::coordinates::{Coordinates, first_not_finite};
@@ -397,7 +397,7 @@ pub enum MotionError {
     Masses(#[from] MassError),
 }
 
-shadowstep_symbolic::debug_as_text!(MotionError);
+shadowstep_schemes::debug_as_text!(MotionError);
 
 impl MotionError {
     pub(crate) fn refuse_not_finite<N: Number>(q: &[N], p: &[N]) -> Result<(), MotionError> {

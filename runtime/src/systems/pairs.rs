@@ -33,7 +33,7 @@ pub(crate) use pair::BLOCKS_AT_ONCE;
 pub use pair::{BLOCK, Ends, Pair, PairCurvature, PairPotential};
 pub use particles::PairsAndParticles;
 pub(crate) use particles::{Field, with_a_particle};
-pub use shadowstep_symbolic::{Separation, Summand};
+pub use shadowstep_schemes::symbolic::{Separation, Summand};
 pub(crate) use shell::Shell;
 
 use std::marker::PhantomData;

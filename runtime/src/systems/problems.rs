@@ -43,8 +43,8 @@ pub use values::Values;
 use std::collections::BTreeMap;
 use std::sync::OnceLock;
 
-use shadowstep_symbolic::decimal::to_text;
-use shadowstep_symbolic::{Budget, Exact, Expression, evaluate_within, parse, suggestion};
+use shadowstep_schemes::symbolic::decimal::to_text;
+use shadowstep_schemes::symbolic::{Budget, Exact, Expression, evaluate_within, parse, suggestion};
 
 use crate::Rational;
 use crate::number::{Lanes, Number};

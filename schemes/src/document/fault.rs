@@ -156,7 +156,7 @@ impl fmt::Display for Faults {
     }
 }
 
-shadowstep_symbolic::debug_as_text!(Faults);
+crate::debug_as_text!(Faults);
 
 impl std::error::Error for Faults {}
 

@@ -1,6 +1,6 @@
 //! The keys that a table of a document may have.
 
-use shadowstep_symbolic::nearest;
+use crate::symbolic::nearest;
 
 /// Words of other programs, and the keys that they are here.
 const TRANSLATED: [(&str, &str); 14] = [

@@ -3,12 +3,12 @@
 use std::fmt::Display;
 use std::ops::{Range, RangeInclusive};
 
-use shadowstep_symbolic::nearest;
 use toml::de::{DeTable, DeValue, Error};
 
 use super::fault::{Fault, Faults, Source};
 use super::keys::Keys;
 use super::value::{Placed, Text, Value, whole_number};
+use crate::symbolic::nearest;
 
 /// Reads the text as TOML: its outermost table, if the text is TOML at all, and all faults of the syntax.
 pub fn document(source: &Source) -> (Option<DeTable<'_>>, Vec<Fault>) {

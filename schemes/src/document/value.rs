@@ -3,12 +3,12 @@
 use std::collections::BTreeMap;
 use std::ops::Range;
 
-use shadowstep_symbolic::decimal::from_text;
-use shadowstep_symbolic::{Budget, Error, Exact, evaluate_within, parse};
 use toml::Spanned;
 use toml::de::{DeString, DeValue};
 
 use super::fault::Source;
+use crate::symbolic::decimal::from_text;
+use crate::symbolic::{Budget, Error, Exact, evaluate_within, parse};
 
 /// A value as the TOML parser gives it, with its place.
 pub type Value<'i> = Spanned<DeValue<'i>>;

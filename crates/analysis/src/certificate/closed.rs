@@ -4,9 +4,9 @@ use std::collections::BTreeMap;
 
 use num_traits::{One, Signed, ToPrimitive, Zero};
 use shadowstep_schemes::arithmetic::Arithmetic;
+use shadowstep_schemes::symbolic::{Expression, ExpressionKind, Operation, evaluate, parse};
 use shadowstep_schemes::table::{Cell, Table, Weights};
 use shadowstep_schemes::{ExactScheme, MapKind, Rational};
-use shadowstep_symbolic::{Expression, ExpressionKind, Operation, evaluate, parse};
 
 use crate::certificate::ring::{Polynomial, Ring, constant};
 

@@ -7,7 +7,7 @@
 //! which a palindrome needs only (McLachlan, SIAM J. Sci. Comput. 16 (1995) 151; Murua & Sanz-Serna 1999).
 
 use num_traits::{One, Zero};
-use shadowstep_symbolic::Rational;
+use shadowstep_schemes::symbolic::Rational;
 
 use shadowstep_schemes::arithmetic::Arithmetic;
 use shadowstep_schemes::order::{Condition, Functional};

@@ -3,7 +3,7 @@
 
 use num_bigint::BigInt;
 use num_traits::{One, Zero};
-use shadowstep_symbolic::Rational;
+use shadowstep_schemes::symbolic::Rational;
 
 use shadowstep_schemes::arithmetic::Arithmetic;
 

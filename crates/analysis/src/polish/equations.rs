@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use num_bigint::BigInt;
 use num_traits::Zero;
-use shadowstep_symbolic::Rational;
+use shadowstep_schemes::symbolic::Rational;
 
 use crate::polish::composition::{self, Word};
 use crate::polish::dual::{Dual, Duals};

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use shadowstep_symbolic::{ExpressionKind, parse};
+use shadowstep_schemes::symbolic::{ExpressionKind, parse};
 
 use shadowstep_schemes::document::Placed;
 use shadowstep_schemes::table::{Cell, Table, Weights};

@@ -1,6 +1,6 @@
 //! The new table: its text, read and proved like any table, and whether its conditions hold to the requested digits.
 
-use shadowstep_symbolic::Rational;
+use shadowstep_schemes::symbolic::Rational;
 
 use crate::polish::newton::{Problem, Solution};
 use crate::polish::outcome::NotPolished;

@@ -8,7 +8,7 @@
 use shadowstep_schemes::MapKind;
 use shadowstep_schemes::arithmetic::Arithmetic;
 use shadowstep_schemes::order::{Condition, Functional};
-use shadowstep_symbolic::Rational;
+use shadowstep_schemes::symbolic::Rational;
 
 use crate::closed_gaps::beside_diagonal;
 use crate::polish::dual::{Dual, Duals};

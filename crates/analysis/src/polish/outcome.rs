@@ -2,7 +2,7 @@
 
 use shadowstep_schemes::Proved;
 use shadowstep_schemes::document::Faults;
-use shadowstep_symbolic::Rational;
+use shadowstep_schemes::symbolic::Rational;
 
 /// A polished table.
 #[derive(Clone, Debug)]

@@ -2,8 +2,8 @@
 
 use num_bigint::BigInt;
 use num_traits::{Signed, Zero};
-use shadowstep_symbolic::Rational;
-use shadowstep_symbolic::decimal::to_significant;
+use shadowstep_schemes::symbolic::Rational;
+use shadowstep_schemes::symbolic::decimal::to_significant;
 
 use crate::polish::unknowns::{Cell, Mirrored, Model, Unknown};
 use shadowstep_schemes::document::Faults;

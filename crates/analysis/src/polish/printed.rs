@@ -2,7 +2,7 @@
 //! and stages that are Störmer–Verlet steps.
 
 use num_traits::{Signed, Zero};
-use shadowstep_symbolic::Rational;
+use shadowstep_schemes::symbolic::Rational;
 
 use crate::polish::unknowns::Model;
 use shadowstep_schemes::ExactScheme;

@@ -1,8 +1,8 @@
 //! The values as they are written: rounded once, and one of each list the remainder of 1, so that sums are exact.
 
 use num_traits::{One, Zero};
-use shadowstep_symbolic::Rational;
-use shadowstep_symbolic::decimal::{round_significant, to_significant};
+use shadowstep_schemes::symbolic::Rational;
+use shadowstep_schemes::symbolic::decimal::{round_significant, to_significant};
 
 use crate::polish::newton::Solution;
 use crate::polish::unknowns::Model;

@@ -9,7 +9,7 @@ use std::ops::Range;
 
 use num_bigint::BigInt;
 use num_traits::{Signed, Zero};
-use shadowstep_symbolic::{Exact, Expression, Rational, SemanticError, evaluate, parse};
+use shadowstep_schemes::symbolic::{Exact, Expression, Rational, SemanticError, evaluate, parse};
 
 use crate::polish::dual::{Dual, Duals};
 use crate::polish::formulas;
@@ -211,7 +211,7 @@ fn value(cell: &Cell, x: &[Rational], known: &BTreeMap<String, Exact>, digits: u
 
 #[cfg(test)]
 mod tests {
-    use shadowstep_symbolic::decimal::from_text;
+    use shadowstep_schemes::symbolic::decimal::from_text;
 
     use super::*;
 

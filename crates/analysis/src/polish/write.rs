@@ -4,8 +4,8 @@ use std::collections::BTreeSet;
 use std::ops::Range;
 
 use num_traits::{One, Signed, Zero};
-use shadowstep_symbolic::Rational;
-use shadowstep_symbolic::decimal::to_text;
+use shadowstep_schemes::symbolic::Rational;
+use shadowstep_schemes::symbolic::decimal::to_text;
 
 use crate::polish::unknowns::{Mirrored, Model};
 use shadowstep_schemes::document::Faults;

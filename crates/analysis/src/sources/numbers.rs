@@ -5,7 +5,7 @@ use std::ops::Range;
 
 use num_traits::ToPrimitive;
 use shadowstep_schemes::decimal::PrintedDecimal;
-use shadowstep_symbolic::{Budget, Exact, evaluate_within, parse};
+use shadowstep_schemes::symbolic::{Budget, Exact, evaluate_within, parse};
 
 /// A number of a source by its place among them.
 pub(super) type Id = usize;

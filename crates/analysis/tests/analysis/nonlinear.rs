@@ -8,8 +8,8 @@ use std::collections::BTreeMap;
 use num_traits::{ToPrimitive, Zero};
 use shadowstep_analysis::Analysis;
 use shadowstep_analysis::error::LeadingError;
+use shadowstep_schemes::symbolic::decimal::round_significant;
 use shadowstep_schemes::{Kinetic, MapKind, Proved, Rational};
-use shadowstep_symbolic::decimal::round_significant;
 
 use crate::{scheme, with_weights};
 

@@ -5,8 +5,8 @@ use num_traits::{Signed, ToPrimitive, Zero};
 use shadowstep_analysis::Analysis;
 use shadowstep_analysis::stability::{MOST_MAPS, Stability};
 use shadowstep_analysis::trace::Trace;
+use shadowstep_schemes::symbolic::decimal::from_text;
 use shadowstep_schemes::{MapKind, Proved, Rational, Source, read, shipped, to_text};
-use shadowstep_symbolic::decimal::from_text;
 
 use crate::{SHIPPED, analysis, scheme, with_weights};
 

@@ -1,6 +1,6 @@
 use crate::scene::Scene;
 use shadowstep::tables::{Faults, Source};
-use shadowstep_symbolic::decimal::{from_text, to_significant};
+use shadowstep_schemes::symbolic::decimal::{from_text, to_significant};
 
 fn read(step: &str, trajectory: &str, more: &str) -> Result<Scene, Faults> {
     let text = format!(

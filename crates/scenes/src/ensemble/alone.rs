@@ -3,7 +3,7 @@
 use shadowstep::shadow::ensemble::{Outcome, outcomes};
 use shadowstep::shadow::{BuildEstimator, FixedBilinear};
 use shadowstep::{Integrator as _, Number as _};
-use shadowstep_symbolic::Exact;
+use shadowstep_schemes::symbolic::Exact;
 
 use super::settings::Observed;
 use crate::error::Error;

@@ -5,7 +5,7 @@ use std::ops::Range;
 use shadowstep::tables::{Faults, Source};
 use shadowstep::{Rational, exact};
 use shadowstep_schemes::document::{Fault, Reader, Text, Value, document, read_text};
-use shadowstep_symbolic::decimal::to_text;
+use shadowstep_schemes::symbolic::decimal::to_text;
 
 use crate::error::Error;
 use crate::family::Meaning;

@@ -3,7 +3,7 @@
 use std::io::Write;
 
 use shadowstep::shadow::ensemble::Outcome;
-use shadowstep_symbolic::decimal::to_text;
+use shadowstep_schemes::symbolic::decimal::to_text;
 
 use super::columns::Columns;
 use crate::error::Error;

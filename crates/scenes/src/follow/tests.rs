@@ -8,7 +8,7 @@ use shadowstep::steps::step_to_time;
 use shadowstep::systems::transformed_time::{TimeTransformation, TransformedKinetic, TransformedPotential};
 use shadowstep::tables::{Faults, Source, shipped};
 use shadowstep::{Carried, Integrator as _, Motion, Number as _, Stepper, UnitMasses};
-use shadowstep_symbolic::decimal::from_text;
+use shadowstep_schemes::symbolic::decimal::from_text;
 
 fn read(text: &str) -> Result<Scene, Faults> {
     Scene::read(Source { path: "test.toml".to_owned(), text: text.to_owned() })

@@ -4,7 +4,7 @@
 
 use num_traits::{One, Zero};
 use shadowstep::Rational;
-use shadowstep_symbolic::Node;
+use shadowstep_schemes::symbolic::Node;
 
 use super::SymbolicHamiltonian;
 use crate::refusal::Refusal;

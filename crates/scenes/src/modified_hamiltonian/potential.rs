@@ -6,7 +6,7 @@ use num_traits::One;
 use shadowstep::Rational;
 use shadowstep::systems::formula::{AXES, DISTANCE, MASSES, RelativeTo};
 use shadowstep::systems::pairs::{Ends, Pair, Separation};
-use shadowstep_symbolic::{Exact, Node, parse};
+use shadowstep_schemes::symbolic::{Exact, Node, parse};
 
 use super::SymbolicHamiltonian;
 use crate::refusal::Refusal;

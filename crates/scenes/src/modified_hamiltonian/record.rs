@@ -5,8 +5,8 @@ use shadowstep::tables::Proved;
 use shadowstep_analysis::bracket::{Bracket, Letter};
 use shadowstep_analysis::modified::ModifiedHamiltonian;
 use shadowstep_schemes::Kinetic;
-use shadowstep_symbolic::decimal::to_significant;
-use shadowstep_symbolic::{Node, Notation, Rational};
+use shadowstep_schemes::symbolic::decimal::to_significant;
+use shadowstep_schemes::symbolic::{Node, Notation, Rational};
 
 use super::{SymbolicHamiltonian, SymbolicTerm};
 use crate::library::NamedScheme;

@@ -2,7 +2,7 @@
 
 use shadowstep::Rational;
 use shadowstep::systems::pairs::Separation;
-use shadowstep_symbolic::Exact;
+use shadowstep_schemes::symbolic::Exact;
 
 use super::names::check_name;
 use super::numbers::Numbers;

@@ -1,7 +1,7 @@
 //! Where the energy of pairs ends, and the box that the bodies are in.
 
 use shadowstep::systems::pairs::CutoffError;
-use shadowstep_symbolic::Exact;
+use shadowstep_schemes::symbolic::Exact;
 
 use super::reader::Reader;
 use crate::note::Note;

@@ -7,7 +7,7 @@
 //! Source: M. Tao, Phys. Rev. E 94 (2016) 043303.
 
 use shadowstep_schemes::document::Text;
-use shadowstep_symbolic::{ExpressionKind, parse};
+use shadowstep_schemes::symbolic::{ExpressionKind, parse};
 
 use super::explicit_time::TIME;
 use super::given::Given;

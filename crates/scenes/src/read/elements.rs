@@ -6,8 +6,8 @@ use num_traits::{One, Signed, Zero};
 use shadowstep::number::{AnyLimbs, LimbCount};
 use shadowstep::systems::formula::FormulaValue;
 use shadowstep::{Number, Rational, Real};
-use shadowstep_symbolic::decimal::{from_text, round_significant, to_significant};
-use shadowstep_symbolic::{Budget, Error, Exact, evaluate_within, parse};
+use shadowstep_schemes::symbolic::decimal::{from_text, round_significant, to_significant};
+use shadowstep_schemes::symbolic::{Budget, Error, Exact, evaluate_within, parse};
 
 /// The elements of an orbit, exact; angles are in degrees.
 #[derive(Clone, Debug)]

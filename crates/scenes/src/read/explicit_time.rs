@@ -4,7 +4,7 @@
 //! they are formulas of parts.
 
 use shadowstep_schemes::document::Text;
-use shadowstep_symbolic::parse;
+use shadowstep_schemes::symbolic::parse;
 
 use super::given::Given;
 use super::reader::Reader;

@@ -1,7 +1,7 @@
 //! A custom potential, with its coordinates and momenta.
 
 use shadowstep::systems::formula::{FormulaError, FormulaPotential};
-use shadowstep_symbolic::{Exact, SemanticFault};
+use shadowstep_schemes::symbolic::{Exact, SemanticFault};
 
 use super::explicit_time;
 use super::given::Given;

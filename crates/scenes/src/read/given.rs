@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use num_traits::One;
 use shadowstep::Rational;
-use shadowstep_symbolic::Exact;
+use shadowstep_schemes::symbolic::Exact;
 
 use super::initial::State;
 use super::names::check_name;

@@ -248,7 +248,7 @@ mod tests {
         fs::write(folder.path().join("sun.txt"), table("Sun (10)", "Sun (10)", "AU-D", "0,0,0,0,0,0.5E-3")).unwrap();
         fs::write(folder.path().join("earth.txt"), table("Earth (399)", "Sun (10)", "KM-S", EARTH)).unwrap();
         let scene = scene(folder.path(), UNITS, "horizons = \"earth.txt\"").unwrap();
-        let numbers = |values: &[shadowstep_symbolic::Exact]| {
+        let numbers = |values: &[shadowstep_schemes::symbolic::Exact]| {
             values.iter().map(|x| f64::from_rational(&x.value, &())).collect::<Vec<_>>()
         };
         assert_eq!(numbers(&scene.system.q), [0.0, 0.0, 0.0, -1.0, 0.5, 0.001]);

@@ -2,8 +2,8 @@
 
 use std::ops::Range;
 
-use shadowstep_symbolic::Exact;
-use shadowstep_symbolic::decimal::to_significant;
+use shadowstep_schemes::symbolic::Exact;
+use shadowstep_schemes::symbolic::decimal::to_significant;
 
 use super::bodies::Bodies;
 use super::numbers::Numbers;

@@ -4,8 +4,8 @@ use std::ops::Range;
 use std::slice::from_ref;
 
 use num_traits::{One, Signed};
-use shadowstep_symbolic::Exact;
-use shadowstep_symbolic::decimal::to_significant;
+use shadowstep_schemes::symbolic::Exact;
+use shadowstep_schemes::symbolic::decimal::to_significant;
 
 use super::given::Given;
 use super::numbers::Numbers;

@@ -7,8 +7,8 @@ use num_traits::Zero;
 use shadowstep::Rational;
 use shadowstep::systems::many_parts::PartError;
 use shadowstep_schemes::document::{Placed, Text};
-use shadowstep_symbolic::Exact;
-use shadowstep_symbolic::decimal::to_text;
+use shadowstep_schemes::symbolic::Exact;
+use shadowstep_schemes::symbolic::decimal::to_text;
 
 use super::explicit_time::{MOMENTUM, TIME};
 use super::given::Given;

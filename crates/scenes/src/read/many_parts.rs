@@ -3,7 +3,7 @@
 use shadowstep::systems::QUADRATIC_FLOW_DIGITS;
 use shadowstep::systems::many_parts::{PartError, PartFormula};
 use shadowstep_schemes::document::{Placed, Text};
-use shadowstep_symbolic::Exact;
+use shadowstep_schemes::symbolic::Exact;
 
 use super::explicit_time;
 use super::given::Given;

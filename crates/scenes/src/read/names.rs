@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use shadowstep_symbolic::{Expression, ExpressionKind, evaluate, parse};
+use shadowstep_schemes::symbolic::{Expression, ExpressionKind, evaluate, parse};
 
 use super::reader::Reader;
 use shadowstep_schemes::document::Text;

@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use num_traits::Zero;
 use shadowstep::Rational;
-use shadowstep_symbolic::Exact;
+use shadowstep_schemes::symbolic::Exact;
 use toml::de::DeValue;
 
 use super::reader::Reader;

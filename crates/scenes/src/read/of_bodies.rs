@@ -2,7 +2,7 @@
 
 use shadowstep::systems::formula::RelativeTo;
 use shadowstep_schemes::document::Text;
-use shadowstep_symbolic::Exact;
+use shadowstep_schemes::symbolic::Exact;
 
 use super::explicit_time;
 use super::given::Given;

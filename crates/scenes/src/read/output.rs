@@ -5,7 +5,7 @@ use std::time::Duration;
 use shadowstep::Rational;
 use shadowstep::shadow::{EstimatorOptions, EstimatorSettings, HIGHEST_ORDER, check_accuracy};
 use shadowstep_schemes::document::Text;
-use shadowstep_symbolic::Exact;
+use shadowstep_schemes::symbolic::Exact;
 
 use super::modified_hamiltonian;
 use super::plot;

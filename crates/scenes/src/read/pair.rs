@@ -1,7 +1,7 @@
 //! Bodies and the energy of each pair of them.
 
 use shadowstep::systems::pairs::{Ends, Separation};
-use shadowstep_symbolic::{Exact, Expression, ExpressionKind, is_symmetric, parse};
+use shadowstep_schemes::symbolic::{Exact, Expression, ExpressionKind, is_symmetric, parse};
 
 use super::bodies::{Bodies, refuse_reserved};
 use super::cutoff::cutoff;

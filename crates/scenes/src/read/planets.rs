@@ -12,7 +12,7 @@ use num_traits::{One, Zero};
 use shadowstep::Rational;
 use shadowstep::systems::pairs::Separation;
 use shadowstep::systems::wisdom_holman::Bodies;
-use shadowstep_symbolic::Exact;
+use shadowstep_schemes::symbolic::Exact;
 use toml::de::DeTable;
 
 use super::elements::{InLimbs, Vector};

@@ -7,8 +7,8 @@ use std::path::PathBuf;
 use num_traits::{Signed as _, Zero as _};
 use shadowstep::Rational;
 use shadowstep_schemes::document::{self, Placed, Source, Text};
-use shadowstep_symbolic::decimal::to_significant;
-use shadowstep_symbolic::{Budget, Exact};
+use shadowstep_schemes::symbolic::decimal::to_significant;
+use shadowstep_schemes::symbolic::{Budget, Exact};
 
 use crate::arithmetic::{ANY_SIZE, Arithmetic, GUARD_DIGITS, MOST_VALUE_DIGITS, NUMBER_EXAMPLES};
 use crate::note::Note;

@@ -16,7 +16,7 @@ use crate::scene::split::{Class, Needs};
 use crate::schema::Table;
 use crate::steps;
 use shadowstep_schemes::document::Text;
-use shadowstep_symbolic::Exact;
+use shadowstep_schemes::symbolic::Exact;
 
 /// The number type, to whose digits all values of the scene are computed.
 pub(super) fn arithmetic(reader: &mut Reader<'_>, run: &Table<'_, '_>) -> Option<Arithmetic> {

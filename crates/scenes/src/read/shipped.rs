@@ -2,7 +2,7 @@
 
 use shadowstep::problems::{self, Problem, ProblemError, Setup};
 use shadowstep::systems::wisdom_holman::Bodies;
-use shadowstep_symbolic::{Budget, nearest};
+use shadowstep_schemes::symbolic::{Budget, nearest};
 
 use super::given::Given;
 use super::kinetic;

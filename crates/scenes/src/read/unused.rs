@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use shadowstep_symbolic::nearest;
+use shadowstep_schemes::symbolic::nearest;
 use toml::de::{DeTable, DeValue};
 
 use super::reader::Reader;

@@ -2,7 +2,7 @@
 
 use num_traits::Zero;
 use shadowstep_schemes::document::{Placed, Text};
-use shadowstep_symbolic::Exact;
+use shadowstep_schemes::symbolic::Exact;
 
 use super::explicit_time::{MOMENTUM, TIME};
 use super::given::Given;

@@ -8,9 +8,9 @@ use serde_json::{Value, json};
 use sha2::{Digest, Sha256};
 use shadowstep::systems::pairs::Ends;
 use shadowstep_schemes::Source;
+use shadowstep_schemes::symbolic::Exact;
+use shadowstep_schemes::symbolic::decimal::to_text;
 use shadowstep_schemes::table::{Table, Weights};
-use shadowstep_symbolic::Exact;
-use shadowstep_symbolic::decimal::to_text;
 
 use crate::arithmetic::Arithmetic;
 use crate::library;

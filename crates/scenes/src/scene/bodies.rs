@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use shadowstep_symbolic::nearest;
+use shadowstep_schemes::symbolic::nearest;
 
 use crate::refusal::Refusal;
 use crate::scene::System;

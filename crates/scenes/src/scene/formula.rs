@@ -8,7 +8,7 @@ use shadowstep::systems::formula::{
 use shadowstep::systems::many_parts::{PartError, PartFormula};
 use shadowstep::systems::pairs::Separation;
 use shadowstep::{Potential as _, Rational};
-use shadowstep_symbolic::Exact;
+use shadowstep_schemes::symbolic::Exact;
 
 use crate::scene::parameters::{borrowed, rounded};
 

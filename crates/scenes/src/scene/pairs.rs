@@ -4,7 +4,7 @@ use shadowstep::systems::formula::{FormulaOfBodies, FormulaPair};
 use shadowstep::systems::pairs::{Cutoff, CutoffError, CutoffPairs, Ends, Pairs, PairsAndParticles};
 use shadowstep::systems::potential::Sum;
 use shadowstep::{Number, Potential};
-use shadowstep_symbolic::Exact;
+use shadowstep_schemes::symbolic::Exact;
 
 use crate::scene::formula::Formula;
 use crate::scene::parameters::values;

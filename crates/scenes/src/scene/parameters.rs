@@ -1,7 +1,7 @@
 //! Parameters of formulas as numbers of a run.
 
 use shadowstep::Number;
-use shadowstep_symbolic::Exact;
+use shadowstep_schemes::symbolic::Exact;
 
 /// Parameters with their names, each rounded once.
 pub(crate) fn rounded<'a, N: Number>(parameters: &'a [(String, Exact)], context: &N::Context) -> Vec<(&'a str, N)> {

@@ -3,7 +3,7 @@
 use std::ops::Range;
 use std::path::PathBuf;
 
-use shadowstep_symbolic::nearest;
+use shadowstep_schemes::symbolic::nearest;
 
 use crate::refusal::{Refusal, refuse};
 use crate::scene::System;

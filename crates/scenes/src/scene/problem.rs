@@ -5,8 +5,8 @@ use shadowstep::systems::explicit_time::WithTime;
 use shadowstep::systems::formula::{FormulaKinetic, FormulaPotential};
 use shadowstep::systems::kinetic::{General, Quadratic, WithParticles};
 use shadowstep::{DiagonalMasses, Kinetic, Motion, Number, Potential, Rational, System, UnitMasses};
-use shadowstep_symbolic::Exact;
-use shadowstep_symbolic::decimal::to_text;
+use shadowstep_schemes::symbolic::Exact;
+use shadowstep_schemes::symbolic::decimal::to_text;
 
 use crate::arithmetic::Arithmetic;
 use crate::error::Error;

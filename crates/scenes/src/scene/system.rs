@@ -7,7 +7,7 @@ use serde_json::Value;
 use shadowstep::Rational;
 use shadowstep::problems::Setup;
 use shadowstep::systems::transformed_time::TimeTransformation;
-use shadowstep_symbolic::Exact;
+use shadowstep_schemes::symbolic::Exact;
 
 use crate::error::Error;
 use crate::run::Run;

@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use shadowstep_schemes::document::{self, Reader, Value};
-use shadowstep_symbolic::nearest;
+use shadowstep_schemes::symbolic::nearest;
 use toml::de::{DeTable, DeValue};
 
 use super::{Key, Kind, Section, is_given, shown};

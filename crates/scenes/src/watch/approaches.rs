@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 use shadowstep::number::saved::{Fields, optional};
-use shadowstep_symbolic::decimal::significant;
+use shadowstep_schemes::symbolic::decimal::significant;
 
 use super::particles::{ParticleApproach, Particles};
 use super::places::Places;

@@ -5,7 +5,7 @@ use serde::Serialize;
 use shadowstep::number::saved::{Fields, list};
 use shadowstep::systems::wisdom_holman::Shells;
 use shadowstep::{Number, Rational};
-use shadowstep_symbolic::decimal::significant;
+use shadowstep_schemes::symbolic::decimal::significant;
 
 use super::places::Places;
 use crate::scene::{GRAVITY, Parts, PotentialEnergy, System};

@@ -8,7 +8,7 @@ use serde::{Serialize, Serializer};
 use serde_json::json;
 use shadowstep::Rational;
 use shadowstep::shadow::{Criterion, Missing, Verdict};
-use shadowstep_symbolic::decimal::{from_text, significant, to_significant, to_text};
+use shadowstep_schemes::symbolic::decimal::{from_text, significant, to_significant, to_text};
 
 use crate::readable::wrapped_to;
 use crate::watch::encounters::Encounter;

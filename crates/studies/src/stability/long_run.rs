@@ -4,7 +4,7 @@ use std::ops::ControlFlow;
 
 use serde::{Deserialize, Serialize};
 use shadowstep::{Number, Rational, exact};
-use shadowstep_symbolic::decimal::to_text;
+use shadowstep_schemes::symbolic::decimal::to_text;
 
 use crate::stability::case::{Case, Done, Row};
 use crate::stability::integrator::{AnyIntegrator, step_size};

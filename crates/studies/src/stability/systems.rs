@@ -4,7 +4,7 @@ use num_traits::FromPrimitive;
 use shadowstep::problems::{Setup, problem};
 use shadowstep::{Rational, exact};
 use shadowstep_scenes::{Formula, InitialValueProblem, KineticEnergy, PotentialEnergy, System};
-use shadowstep_symbolic::Exact;
+use shadowstep_schemes::symbolic::Exact;
 
 /// A problem with some of its values set.
 pub(crate) fn setup(name: &str, set: &[(&str, String)]) -> Setup {

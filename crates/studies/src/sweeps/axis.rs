@@ -8,7 +8,7 @@ use shadowstep::Rational;
 use shadowstep_scenes::family::Meaning;
 use shadowstep_scenes::schema::{Table, texts};
 use shadowstep_schemes::document::{Reader, Text, Value};
-use shadowstep_symbolic::Error;
+use shadowstep_schemes::symbolic::Error;
 
 use crate::sweeps::keys::DRAWS;
 use draws::Draws;

@@ -15,7 +15,7 @@ use shadowstep_scenes::run::Run;
 use shadowstep_scenes::tangent::{FollowingVectors, TangentRun, Vectors};
 use shadowstep_scenes::watch::Energies;
 use shadowstep_scenes::{Error, Observer, Scene, System};
-use shadowstep_symbolic::decimal::to_text;
+use shadowstep_schemes::symbolic::decimal::to_text;
 
 use crate::sweeps::keep::{Keep, Kept};
 use crate::sweeps::values::{Ended, Need, finite};

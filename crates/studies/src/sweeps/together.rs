@@ -14,7 +14,7 @@ use shadowstep_scenes::evaluator::{Evaluator, Test};
 use shadowstep_scenes::expression::Expression;
 use shadowstep_scenes::lanes::{self, LANES, SystemInLanes};
 use shadowstep_scenes::start::{Begin, SceneIntegrator};
-use shadowstep_symbolic::decimal::to_text;
+use shadowstep_schemes::symbolic::decimal::to_text;
 
 use crate::sweeps::keep::{Keep, Kept};
 use crate::sweeps::record::Values;

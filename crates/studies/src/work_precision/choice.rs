@@ -3,7 +3,7 @@
 use shadowstep::{Number, Rational, Scheme};
 use shadowstep_scenes::System;
 use shadowstep_scenes::library::NamedScheme;
-use shadowstep_symbolic::decimal::to_text;
+use shadowstep_schemes::symbolic::decimal::to_text;
 
 use crate::work_precision::best::{Curve, cost_of};
 use crate::work_precision::size::Size;

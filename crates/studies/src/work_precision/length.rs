@@ -15,7 +15,7 @@ use shadowstep_scenes::readable::{LONGEST_NUMBER, shortened};
 use shadowstep_scenes::run::Run;
 use shadowstep_scenes::steps::{self, nearly_equal};
 use shadowstep_scenes::{Error, System};
-use shadowstep_symbolic::decimal::{from_text, to_significant};
+use shadowstep_schemes::symbolic::decimal::{from_text, to_significant};
 
 /// A composition of the leapfrog, for every T(p).
 const SCHEME: &str = "sofroniou-spaletta6-13";

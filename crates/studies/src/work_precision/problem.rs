@@ -15,7 +15,7 @@ use shadowstep_scenes::run::Run;
 use shadowstep_scenes::start::{Begin, SceneIntegrator, Steps};
 use shadowstep_scenes::steps::MOST_STEPS;
 use shadowstep_scenes::{Error, System};
-use shadowstep_symbolic::decimal::to_text;
+use shadowstep_schemes::symbolic::decimal::to_text;
 
 /// Errors along a run are taken at this number of times at most.
 pub(crate) const MOST_SAMPLES: u64 = 64;

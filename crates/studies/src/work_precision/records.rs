@@ -1,7 +1,7 @@
 //! The results as rows: CSV, and JSON lines with the same keys.
 
 use serde::Serialize;
-use shadowstep_symbolic::decimal::to_text;
+use shadowstep_schemes::symbolic::decimal::to_text;
 
 use crate::Error;
 use crate::files;

@@ -15,7 +15,7 @@ use shadowstep_scenes::computation::{Computation, FollowedNumber, RunNumber};
 use shadowstep_scenes::cpu_time::CpuTime;
 use shadowstep_scenes::library::{NamedScheme, scheme};
 use shadowstep_scenes::propagator::for_system;
-use shadowstep_symbolic::decimal::from_text;
+use shadowstep_schemes::symbolic::decimal::from_text;
 
 use crate::Error;
 use crate::work_precision::positions::{Asking, Positions, square_distance};

@@ -11,7 +11,7 @@ use std::array::from_fn;
 
 use num_bigint::BigInt;
 use proptest::prelude::*;
-use shadowstep_symbolic::decimal::{from_text, to_significant};
+use shadowstep_schemes::symbolic::decimal::{from_text, to_significant};
 
 use super::super::tests::{functions, operations, products};
 use super::DoubleDouble;

@@ -22,7 +22,7 @@ pub enum ParameterError {
     NoConstant,
 }
 
-shadowstep_symbolic::debug_as_text!(ParameterError);
+shadowstep_schemes::debug_as_text!(ParameterError);
 
 /// What happens to the constants of this thread.
 enum Constants {

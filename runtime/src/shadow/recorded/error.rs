@@ -127,7 +127,7 @@ pub enum RecordedError {
     Run(#[from] RunError),
 }
 
-shadowstep_symbolic::debug_as_text!(RecordedError);
+shadowstep_schemes::debug_as_text!(RecordedError);
 
 /// The coordinate, also as one of a particle in space.
 fn place(coordinate: Option<usize>, dimension: usize) -> String {

@@ -1,6 +1,6 @@
 //! The units of a program, in texts.
 
-use shadowstep_symbolic::decimal::significant;
+use shadowstep_schemes::symbolic::decimal::significant;
 
 /// The units of a program: those of the numbers that it gives, and the unit in which times are printed.
 ///

@@ -52,7 +52,7 @@ pub enum RunError {
     Estimator(#[from] EstimatorError),
 }
 
-shadowstep_symbolic::debug_as_text!(RunError);
+shadowstep_schemes::debug_as_text!(RunError);
 
 /// A value that is infinite or NaN, or a position whose square is.
 #[derive(Clone, Debug, PartialEq, Eq)]

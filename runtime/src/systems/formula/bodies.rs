@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use shadowstep_symbolic::Rational;
+use shadowstep_schemes::symbolic::Rational;
 
 use super::newest::Role;
 use super::{FormulaError, FormulaPotential, derive};

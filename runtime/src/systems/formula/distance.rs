@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use shadowstep_symbolic::{Graph, Node, Rational};
+use shadowstep_schemes::symbolic::{Graph, Node, Rational};
 
 /// The formula with the coordinate after the first `dimensions`, which is the distance, replaced by the length of
 /// these.

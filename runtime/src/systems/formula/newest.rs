@@ -4,7 +4,7 @@ use std::collections::VecDeque;
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 use crate::Rational;
-use shadowstep_symbolic::{Graph, Node, PotentialPrograms, Separation};
+use shadowstep_schemes::symbolic::{Graph, Node, PotentialPrograms, Separation};
 
 /// The newest are kept up to this number of characters in all, as the programs are as long as the texts.
 const KEPT: usize = 1 << 17;

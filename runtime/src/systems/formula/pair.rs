@@ -1,6 +1,6 @@
 //! The energy of a pair of bodies from a formula read at run time.
 
-use shadowstep_symbolic::{Graph, Separation, Summand, parse};
+use shadowstep_schemes::symbolic::{Graph, Separation, Summand, parse};
 
 use super::newest::{Derived, Role, Text, derived};
 use super::{FormulaError, refuse_repeated};

@@ -1,6 +1,6 @@
 //! The value of a formula, without derivatives.
 
-use shadowstep_symbolic::{Graph, Node, PotentialPrograms};
+use shadowstep_schemes::symbolic::{Graph, Node, PotentialPrograms};
 
 use super::newest::Role;
 use super::{FormulaError, derive};

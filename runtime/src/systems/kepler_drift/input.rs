@@ -39,7 +39,7 @@ pub enum KeplerDriftError {
     Centre,
 }
 
-shadowstep_symbolic::debug_as_text!(KeplerDriftError);
+shadowstep_schemes::debug_as_text!(KeplerDriftError);
 
 /// Checks the input of a drift, in every lane.
 pub(super) fn check<N: Number>(mu: &N, time: &N, q: &[N], v: &[N]) -> Result<(), KeplerDriftError> {

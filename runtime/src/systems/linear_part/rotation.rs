@@ -3,7 +3,7 @@
 //! With W = M⁻¹K, C = cos(t√W) and S = sin(t√W)/√W, both series in W, the flow is q ← C q + S M⁻¹p, p ← Cᵀ p − K S q.
 //! Increments need C − 1, which is computed without cancellation: by its series for a small t, and then by doubling t.
 
-use shadowstep_symbolic::decimal::from_text;
+use shadowstep_schemes::symbolic::decimal::from_text;
 
 use crate::Rational;
 use crate::number::{AnyLimbs, CorrectlyRounded, LimbCount, Number};

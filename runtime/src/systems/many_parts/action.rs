@@ -1,7 +1,7 @@
 //! Functions of one pair of variables that are functions of I = ½(a q² + 2b q p + c p²), or of q p: I stays, and the
 //! flow is that of f′(I) I.
 
-use shadowstep_symbolic::PotentialPrograms;
+use shadowstep_schemes::symbolic::PotentialPrograms;
 
 use super::part::{FlowState, Part};
 use crate::Rational;

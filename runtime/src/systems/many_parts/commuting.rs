@@ -1,7 +1,7 @@
 //! A function of variables none of which is the momentum of another: they stay, and their partners change at constant
 //! rates.
 
-use shadowstep_symbolic::PotentialPrograms;
+use shadowstep_schemes::symbolic::PotentialPrograms;
 
 use super::part::{FlowState, Part};
 use crate::number::Number;

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use shadowstep_symbolic::{ExplicitFlow, Graph, Node, parse};
+use shadowstep_schemes::symbolic::{ExplicitFlow, Graph, Node, parse};
 use thiserror::Error;
 
 use super::action::{Rotation, Squeeze};
@@ -30,7 +30,7 @@ pub enum PartError {
     Digits,
 }
 
-shadowstep_symbolic::debug_as_text!(PartError);
+shadowstep_schemes::debug_as_text!(PartError);
 
 impl PartError {
     /// The byte range of the text that is meant; empty, if it is all of it.

@@ -5,7 +5,7 @@
 
 use num_integer::Integer as _;
 use num_traits::One as _;
-use shadowstep_symbolic::PotentialPrograms;
+use shadowstep_schemes::symbolic::PotentialPrograms;
 
 use super::part::{FlowState, Part};
 use crate::Rational;

@@ -2,7 +2,7 @@
 //!
 //! Increments need E = e^{tJS} − 1, which has no cancellation.
 
-use shadowstep_symbolic::decimal::from_text;
+use shadowstep_schemes::symbolic::decimal::from_text;
 
 use super::part::{FlowState, Part};
 use crate::Rational;

@@ -10,7 +10,7 @@ use super::pair::{BLOCK, BLOCKS_AT_ONCE, PairPotential, separated};
 use crate::number::Number;
 use crate::number::instructions;
 use crate::systems::coordinates::for_each_two;
-use shadowstep_symbolic::Separation;
+use shadowstep_schemes::symbolic::Separation;
 
 /// How many numbers of scratch space blocks take: coordinates and gradient by axes.
 pub(super) const fn scratch(bodies: usize, dimensions: usize) -> usize {

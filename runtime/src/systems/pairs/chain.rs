@@ -9,7 +9,7 @@ use std::slice::{from_mut, from_ref};
 use super::pair::{BLOCK, Ends, PairPotential};
 use crate::number::Number;
 use crate::number::instructions;
-use shadowstep_symbolic::Separation;
+use shadowstep_schemes::symbolic::Separation;
 
 /// The chain's sums; the sum of the summands of pairs is split by places in a block.
 struct Sums<N> {

@@ -127,4 +127,4 @@ pub enum CutoffError {
     },
 }
 
-shadowstep_symbolic::debug_as_text!(CutoffError);
+shadowstep_schemes::debug_as_text!(CutoffError);

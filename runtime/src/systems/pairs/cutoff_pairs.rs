@@ -1,6 +1,6 @@
 //! The sum over the pairs of bodies that are closer than a cutoff.
 
-use shadowstep_symbolic::{Separation, Summand};
+use shadowstep_schemes::symbolic::{Separation, Summand};
 
 use super::cutoff::Cutoff;
 use super::near::{Constants, Near, clear_far_lanes, constants, is_below};

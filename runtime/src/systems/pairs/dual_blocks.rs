@@ -10,7 +10,7 @@ use super::blocks::sum_of_places;
 use super::pair::{BLOCK, PairPotential};
 use crate::number::instructions;
 use crate::number::{Block, Number};
-use shadowstep_symbolic::Separation;
+use shadowstep_schemes::symbolic::Separation;
 
 /// A sum over all pairs of bodies in D dimensions.
 pub(super) struct DualBlocks<'a, P, const D: usize> {

@@ -30,4 +30,4 @@ pub enum PairsError {
     WallsWithoutProperties,
 }
 
-shadowstep_symbolic::debug_as_text!(PairsError);
+shadowstep_schemes::debug_as_text!(PairsError);

@@ -9,7 +9,7 @@ use std::slice::{from_mut, from_ref};
 
 use super::pair::PairPotential;
 use crate::number::Number;
-use shadowstep_symbolic::Separation;
+use shadowstep_schemes::symbolic::Separation;
 
 /// More bodies are summed in a loop.
 pub(super) const MOST_BODIES: usize = 6;

@@ -5,7 +5,7 @@ use super::ends::End;
 use super::pair::{PairCurvature, PairPotential};
 use crate::number::Number;
 use crate::systems::potential::HessianProduct;
-use shadowstep_symbolic::Separation;
+use shadowstep_schemes::symbolic::Separation;
 
 /// The scratch space of a call, followed by the pair's: differences of positions and of the vector, their product, x
 /// and what the pair computes of it.

@@ -5,7 +5,7 @@
 
 use super::pair::{BLOCK, BLOCKS_AT_ONCE, PairPotential, separated};
 use crate::number::Number;
-use shadowstep_symbolic::Separation;
+use shadowstep_schemes::symbolic::Separation;
 
 /// The pairs of fewer bodies are evaluated one by one: a list would cost more.
 pub(super) const LEAST_BODIES: usize = 4;

@@ -2,7 +2,7 @@
 
 use std::slice::{from_mut, from_ref};
 
-use shadowstep_symbolic::{Separation, Summand};
+use shadowstep_schemes::symbolic::{Separation, Summand};
 
 use crate::number::Number;
 

@@ -1,6 +1,6 @@
 //! The energy of a pair at some distances.
 
-use shadowstep_symbolic::{Separation, Summand};
+use shadowstep_schemes::symbolic::{Separation, Summand};
 
 use super::cutoff::Cutoff;
 use super::pair::{Pair, PairPotential};

@@ -51,4 +51,4 @@ pub enum ProblemError {
     },
 }
 
-shadowstep_symbolic::debug_as_text!(ProblemError);
+shadowstep_schemes::debug_as_text!(ProblemError);

@@ -1,6 +1,6 @@
 //! The exact values of a problem: parameters, initial state and masses.
 
-use shadowstep_symbolic::Exact;
+use shadowstep_schemes::symbolic::Exact;
 
 use crate::Rational;
 use crate::number::Number;

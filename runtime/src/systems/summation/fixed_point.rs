@@ -329,7 +329,7 @@ pub enum RangeError {
     },
 }
 
-shadowstep_symbolic::debug_as_text!(RangeError);
+shadowstep_schemes::debug_as_text!(RangeError);
 
 #[cfg(test)]
 mod tests {

@@ -1,7 +1,7 @@
 //! The functions f of transformed times, and their derivatives.
 
 use num_traits::{One, Signed, ToPrimitive, Zero};
-use shadowstep_symbolic::decimal::to_text;
+use shadowstep_schemes::symbolic::decimal::to_text;
 use thiserror::Error;
 
 use crate::Rational;
@@ -44,7 +44,7 @@ pub enum ExponentError {
     NotSmall(String),
 }
 
-shadowstep_symbolic::debug_as_text!(ExponentError);
+shadowstep_schemes::debug_as_text!(ExponentError);
 
 impl TimeTransformation {
     /// f(x) = x^γ/γ

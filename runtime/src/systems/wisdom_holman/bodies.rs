@@ -1,7 +1,7 @@
 //! The bodies of a planetary system: the gravitational constant and the masses.
 
 use num_traits::{Signed, Zero};
-use shadowstep_symbolic::decimal::to_significant;
+use shadowstep_schemes::symbolic::decimal::to_significant;
 use thiserror::Error;
 
 use crate::Rational;
@@ -139,4 +139,4 @@ pub enum BodiesError {
     },
 }
 
-shadowstep_symbolic::debug_as_text!(BodiesError);
+shadowstep_schemes::debug_as_text!(BodiesError);

@@ -5,7 +5,7 @@ use std::ops::Range;
 use num_traits::Zero;
 use shadowstep::Rational;
 use shadowstep_schemes::document::{Fault, Placed, Text};
-use shadowstep_symbolic::Exact;
+use shadowstep_schemes::symbolic::Exact;
 
 use crate::read::elements::Elements;
 use crate::read::horizons::HorizonsVector;

@@ -4,7 +4,7 @@ use serde_json::{Value, json};
 use shadowstep::MotionError;
 use shadowstep::number::CorrectlyRounded;
 use shadowstep::systems::many_parts::{Part, PartError, PartFormula};
-use shadowstep_symbolic::Exact;
+use shadowstep_schemes::symbolic::Exact;
 
 use super::{Class, ManyParts, Needs, Split};
 use crate::scene::{Formula, InitialValueProblem};

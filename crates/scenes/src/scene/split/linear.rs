@@ -6,7 +6,7 @@ use shadowstep::number::{AnyLimbs, CorrectlyRounded, LimbCount};
 use shadowstep::systems::QUADRATIC_FLOW_DIGITS;
 use shadowstep::systems::linear_part::LinearPart;
 use shadowstep::{MotionError, Number, Potential, Rational, exact};
-use shadowstep_symbolic::decimal::from_text;
+use shadowstep_schemes::symbolic::decimal::from_text;
 
 use super::{Class, Needs, Split, State};
 use crate::arithmetic::Arithmetic;

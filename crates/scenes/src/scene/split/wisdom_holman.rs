@@ -11,7 +11,7 @@ use shadowstep::systems::wisdom_holman::{
 };
 use shadowstep::tables::TableScheme;
 use shadowstep::{MotionError, Number, Potential, Rational, Real, Scheme, System as _, ValidFor};
-use shadowstep_symbolic::decimal::to_text;
+use shadowstep_schemes::symbolic::decimal::to_text;
 
 use super::{Class, Needs, ShownCoordinates, Split, State};
 use crate::refusal::{Refusal, Unsupported};

@@ -7,7 +7,7 @@ use num_traits::FromPrimitive;
 use rand_pcg::Pcg64Mcg;
 use rand_pcg::rand_core::{Rng, SeedableRng};
 use serde_json::json;
-use shadowstep_symbolic::decimal::to_text;
+use shadowstep_schemes::symbolic::decimal::to_text;
 
 use crate::chart::{Axis, Chart, Curve, Marker};
 use crate::stability::prelude::*;

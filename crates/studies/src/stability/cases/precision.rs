@@ -3,7 +3,7 @@
 use shadowstep::Real;
 use shadowstep::number::Limbs;
 use shadowstep_scenes::arithmetic::Arithmetic;
-use shadowstep_symbolic::decimal::from_text;
+use shadowstep_schemes::symbolic::decimal::from_text;
 
 use crate::stability::prelude::*;
 use crate::stability::systems::setup;

@@ -2,7 +2,7 @@
 
 use shadowstep::exact;
 use shadowstep_analysis::stability::Stability;
-use shadowstep_symbolic::decimal::to_text;
+use shadowstep_schemes::symbolic::decimal::to_text;
 
 use crate::stability::long_run::{self, LongRun};
 use crate::stability::prelude::*;

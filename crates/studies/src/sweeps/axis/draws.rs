@@ -8,7 +8,7 @@ use sha2::{Digest, Sha256};
 use shadowstep::Rational;
 use shadowstep_scenes::schema::Table;
 use shadowstep_schemes::document::{Placed, Reader, Text};
-use shadowstep_symbolic::decimal::round_significant;
+use shadowstep_schemes::symbolic::decimal::round_significant;
 
 use super::number::{formula, geometric, number};
 

@@ -4,8 +4,8 @@ use std::collections::BTreeMap;
 
 use shadowstep::Rational;
 use shadowstep_schemes::document::{Reader, Text};
-use shadowstep_symbolic::decimal::{from_text, round_significant};
-use shadowstep_symbolic::{Budget, Error, Exact, evaluate, evaluate_within, parse};
+use shadowstep_schemes::symbolic::decimal::{from_text, round_significant};
+use shadowstep_schemes::symbolic::{Budget, Error, Exact, evaluate, evaluate_within, parse};
 
 /// Irrational values are rounded to this many digits, and are exact from there on.
 const DIGITS: u32 = 30;

@@ -3,7 +3,7 @@
 use num_traits::{Signed, Zero};
 use shadowstep::Rational;
 use shadowstep_schemes::document::{Reader, Text};
-use shadowstep_symbolic::decimal::round_significant;
+use shadowstep_schemes::symbolic::decimal::round_significant;
 
 use super::number::{evaluated, geometric};
 

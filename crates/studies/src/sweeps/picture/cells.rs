@@ -1,7 +1,7 @@
 //! The values at the places of a picture, of which several runs may share one.
 
 use shadowstep::{Number, Rational};
-use shadowstep_symbolic::decimal::from_text;
+use shadowstep_schemes::symbolic::decimal::from_text;
 
 use crate::sweeps::axes::Axes;
 use crate::sweeps::picture::drawn::{OfSeveral, Picture};

@@ -4,7 +4,7 @@ use num_traits::Zero;
 use shadowstep::Rational;
 use shadowstep_scenes::schema::Table;
 use shadowstep_schemes::document::{Placed, Reader, Text};
-use shadowstep_symbolic::nearest;
+use shadowstep_schemes::symbolic::nearest;
 use toml::de::DeTable;
 
 use super::drawn::{OfSeveral, Picture, Scale};

@@ -7,7 +7,7 @@ use shadowstep::tables::Faults;
 use shadowstep_scenes::family::Family;
 use shadowstep_scenes::{Error, Scene};
 use shadowstep_schemes::document::{Fault, Reader};
-use shadowstep_symbolic::nearest;
+use shadowstep_schemes::symbolic::nearest;
 use toml::de::DeTable;
 
 use super::digests::scheme_axis;

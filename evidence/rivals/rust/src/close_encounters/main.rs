@@ -160,7 +160,7 @@ where
 {
     let (name, parameters) = &encounter.setup;
     let setup = problem(name).expect("it is shipped").setup(parameters, 100).expect("its parameters are valid");
-    let numbers = |values: &[(String, shadowstep_symbolic::Exact)]| -> Vec<N> {
+    let numbers = |values: &[(String, shadowstep_schemes::symbolic::Exact)]| -> Vec<N> {
         values.iter().map(|(_, exact)| N::from_rational(&exact.value, &())).collect()
     };
     let (mut q, mut p) = (numbers(setup.values.positions()), numbers(setup.values.momenta()));

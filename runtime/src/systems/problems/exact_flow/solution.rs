@@ -37,7 +37,7 @@ pub enum SolutionError {
     },
 }
 
-shadowstep_symbolic::debug_as_text!(SolutionError);
+shadowstep_schemes::debug_as_text!(SolutionError);
 
 /// q and p at a time, and β since t = 0.
 #[derive(Clone, Debug)]
