@@ -25,7 +25,7 @@ const CALLS_OF_PYTHON: [&str; 8] =
 
 /// Files that have such calls, and why.
 const REASONS: [(&str, &str); 8] = [
-    ("crates/scenes/src/whole_file.rs", "it is the way"),
+    ("crates/scenes/src/files/whole_file.rs", "it is the way"),
     (
         "crates/scenes/src/results/resumable.rs",
         "what is resumed has names that are known, and is opened by open_locked; a checkpoint is a new file",

@@ -1,11 +1,26 @@
 //! The columns of rows in the order of a file. Each file here has a group of columns: their names, when they are due,
 //! and their cells at a state.
+//!
+//! | module | what it is |
+//! | --- | --- |
+//! | [`at`] | a state as columns see it |
+//! | [`column`] | what takes states |
+//! | `group`, `names` | a group of columns of rows; the names of all |
+//! | `states`, `energy`, `modified_energy`, `chaos`, `values` | these groups |
+//! | [`evaluator`], `quantity_of_bodies` | expressions and conditions in the numbers of a run |
+//! | `extremes`, [`extremum`] | the least and greatest values of expressions along a run |
 
+pub mod at;
 mod chaos;
+pub mod column;
 mod energy;
+pub mod evaluator;
+pub(crate) mod extremes;
+pub mod extremum;
 mod group;
 mod modified_energy;
 mod names;
+pub(crate) mod quantity_of_bodies;
 mod states;
 mod values;
 

@@ -64,108 +64,55 @@
 //! # Ok::<(), shadowstep_scenes::Error>(())
 //! ```
 //!
-//! | module | what it is |
+//! Each room uses only those before it.
+//!
+//! | room | what it is |
 //! | --- | --- |
+//! | `texts` | errors, numbers and texts for people and for programs |
+//! | `files` | files that get their names when they are complete, and that one process has alone |
+//! | [`run`] | what a run is made with: its step size, its number type, its start |
+//! | `document` | the language of documents: keys, formulas, names of schemes |
 //! | `scene` | the content of a scene: plain data |
-//! | [`keys`], [`schema`] | a row for each key: documents are checked by them, and [`scene_text`] writes scenes |
-//! | [`family`] | scenes that differ in the values of some names |
-//! | [`ensemble`], [`lanes`] | many trajectories of such a family; their systems as one system of lanes |
-//! | `read` | a scene's text → a scene, or all its faults |
-//! | [`posed`], `follow` | a run with all that determines it; the one loop of runs |
-//! | [`mod@column`], [`at`] | what takes states, and a state as it sees it |
-//! | `execute`, `engine`, `moment`, `snapshots`, `saved_state` | the run of a scene into rows, which can be resumed |
-//! | `crossings` | where a run crosses a surface of section |
-//! | `observer`, `note` | how a caller watches a run and stops it |
-//! | `results` | rows, the head of a file, checkpoints, and where they go |
-//! | `whole_file`, [`lock`], `temporary` | files that get their names when they are complete, and that one process has alone |
-//! | [`arithmetic`] | number types and their digits |
-//! | [`expression`], [`evaluator`] | formulas in the numbers of a state, and conditions on them |
-//! | [`reserved_names`] | names with a meaning of their own: in such formulas, as columns, in emitted code |
-//! | [`library`] | schemes by their names: shipped ones and files |
-//! | [`scheme_record`] | everything that is known about a scheme |
-//! | [`sampling`] | schemes for Hamiltonian Monte Carlo on a Gaussian target, as records |
-//! | [`estimator`] | estimators of the modified energy with their settings |
-//! | [`run`], [`steps`], [`propagator`] | one run of a scheme or of the exact flow with one step size |
-//! | [`integrate`] | a run into memory |
-//! | [`tangent`], [`chaos`] | tangent vectors beside a run, and the indicators of chaos that they give |
-//! | [`derivatives`] | derivatives of a run by the initial state, the step size and numbers of the scene, forwards and backwards |
-//! | [`drift`] | the drift of the modified energy of a run, and that on the exact flow; [`cpu_time`] is what it costs |
-//! | [`plot`] | what charts of a run show |
-//! | `split` | how H is split into parts: each kind of split has its file |
-//! | [`estimates`], [`start`] | the modified energies along such a run; a system at a state with its stepper |
-//! | `frequency`, [`stability`] | the fastest oscillation at the start, and the stability limit of the scheme |
+//! | `motion` | how a system moves by a scheme: propagators, tangent vectors, the stability limit |
 //! | [`watch`] | what a run shows: the error of H, the modified energy, close encounters, the verdict |
-//! | [`spreadsheet`] | cells of CSV that spreadsheets would compute |
-//! | [`object`] | objects of JSON whose keys keep their order |
-//! | [`readable`], `error`, `refusal` | numbers and texts for people; what can go wrong |
-//! | `shell` | words of commands that users copy |
+//! | `results` | rows, the head of a file, checkpoints, and where they go |
+//! | [`columns`] | a state, and what takes it: columns of rows, values of formulas |
+//! | `execution` | the one loop of runs; the run of a scene into rows, a run into memory |
+//! | `read` | a scene's text → a scene, or all its faults; families of scenes |
+//! | `analyses` | what is computed of runs and of schemes, as records |
 
-pub mod arithmetic;
-pub mod at;
-pub mod chaos;
-pub mod column;
+mod analyses;
 pub mod columns;
-pub mod computation;
-pub mod cpu_time;
-mod crossings;
-pub mod derivatives;
-pub mod drift;
-mod engine;
-pub mod ensemble;
-mod error;
-pub mod estimates;
-pub mod estimator;
-pub mod evaluator;
-mod execute;
-mod explain;
-pub mod expression;
-mod extremes;
-pub mod extremum;
-pub mod family;
-mod follow;
-mod frequency;
-pub mod integrate;
-pub mod keys;
-pub mod lanes;
-pub mod library;
-pub mod lock;
-pub mod modified_hamiltonian;
-mod moment;
-mod note;
-pub mod object;
-mod observer;
-pub mod outside;
-mod pace;
-mod passing;
-pub mod posed;
-pub mod propagator;
-mod quantity;
-mod quantity_of_bodies;
+mod document;
+mod execution;
+mod files;
+mod motion;
 mod read;
-pub mod readable;
-mod refusal;
-pub mod reserved_names;
 mod results;
 pub mod run;
-mod run_number;
-pub mod sampling;
-mod saved_state;
-mod saved_summary;
 mod scene;
-pub mod schema;
-pub mod scheme_record;
-mod shell;
-mod shipped;
-mod snapshots;
-pub mod spreadsheet;
-pub mod stability;
-pub mod start;
-pub mod steps;
-pub mod tangent;
-mod template;
-mod temporary;
+mod texts;
 pub mod watch;
-mod whole_file;
+
+pub use analyses::{chaos, derivatives, drift, ensemble, estimates, sampling, scheme_record};
+pub use columns::{at, column, evaluator, extremum};
+use columns::{extremes, quantity_of_bodies};
+use document::{explain, quantity, shipped, template};
+pub use document::{expression, keys, library, reserved_names, schema};
+pub use execution::{computation, integrate, posed};
+use execution::{crossings, engine, follow, pace, passing};
+pub use files::{lock, outside};
+use files::{temporary, whole_file};
+use motion::frequency;
+pub use motion::{lanes, modified_hamiltonian, propagator, stability, tangent};
+pub use read::family;
+use results::moment;
+pub use run::{arithmetic, cpu_time, estimator, start, steps};
+use run::{note, saved_state, saved_summary, snapshots};
+use scene::run_number;
+use texts::{error, refusal, shell};
+pub use texts::{object, readable, spreadsheet};
+use watch::observer;
 
 pub use engine::Outcome;
 pub use error::{Error, NotWritten, not_written};

@@ -6,6 +6,7 @@ mod doubled;
 mod elements;
 mod encounters;
 mod explicit_time;
+pub mod family;
 mod formula;
 mod given;
 mod horizons;

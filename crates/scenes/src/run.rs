@@ -1,4 +1,24 @@
 //! One run: a scheme, or the exact flow, and a step size.
+//!
+//! | module | what it is |
+//! | --- | --- |
+//! | [`arithmetic`] | number types and their digits |
+//! | [`steps`] | the number of steps |
+//! | [`start`] | a system at a state with its stepper |
+//! | [`estimator`] | messages about options of estimators |
+//! | `note` | what the user should know that is not an error |
+//! | `snapshots`, `saved_state`, `saved_summary` | what is kept of a run so that it can be resumed |
+//! | [`cpu_time`] | what it costs |
+
+pub mod arithmetic;
+pub mod cpu_time;
+pub mod estimator;
+pub(crate) mod note;
+pub(crate) mod saved_state;
+pub(crate) mod saved_summary;
+pub(crate) mod snapshots;
+pub mod start;
+pub mod steps;
 
 use std::any::Any;
 

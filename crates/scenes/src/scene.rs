@@ -1,4 +1,12 @@
 //! The content of a scene: plain data, all of it exact.
+//!
+//! | module | what it is |
+//! | --- | --- |
+//! | `system`, `problem`, `bodies`, `pairs`, `formula`, `own`, `parameters` | what moves |
+//! | `split` | how H is split into parts: each kind of split has its file |
+//! | `number`, `run_number` | the number types in which systems, and what follows a run, are compiled |
+//! | `output`, `format` | what is written |
+//! | [`plot`] | what charts of a run show |
 
 pub(crate) mod bodies;
 mod format;
@@ -10,6 +18,7 @@ mod pairs;
 mod parameters;
 pub mod plot;
 mod problem;
+pub(crate) mod run_number;
 pub(crate) mod split;
 mod system;
 

@@ -6,6 +6,7 @@ pub(crate) mod encounters;
 mod energy;
 mod lasting_change;
 pub mod light;
+pub(crate) mod observer;
 pub(crate) mod particles;
 mod places;
 pub(crate) mod summary;

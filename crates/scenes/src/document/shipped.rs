@@ -23,7 +23,7 @@ macro_rules! shipped {
         [$(($what, &[$(ShippedScene {
             name: $name,
             title: $title,
-            text: include_str!(concat!("../", $folder, "/", $name, ".toml")),
+            text: include_str!(concat!("../../", $folder, "/", $name, ".toml")),
         }),+])),+]
     };
 }
