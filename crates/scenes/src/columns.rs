@@ -30,12 +30,12 @@ pub(crate) use values::Values;
 
 use self::group::Due;
 use self::names::OF_EACH_ROW;
-use crate::at::At;
-use crate::column::next_multiple;
-use crate::error::Error;
+use crate::columns::at::At;
+use crate::columns::column::next_multiple;
 use crate::results::{Cell, Name};
-use crate::run_number::RunNumber;
+use crate::scene::run_number::RunNumber;
 use crate::scene::{Outputs, Scene, System};
+use crate::texts::error::Error;
 
 /// The columns of a scene in the numbers of its run.
 pub(crate) struct Columns<'a, N>(Vec<Placed<'a, N>>);

@@ -96,33 +96,23 @@ pub mod watch;
 
 pub use analyses::{chaos, derivatives, drift, ensemble, estimates, sampling, scheme_record};
 pub use columns::{at, column, evaluator, extremum};
-use columns::{extremes, quantity_of_bodies};
-use document::{explain, quantity, shipped, template};
 pub use document::{expression, keys, library, reserved_names, schema};
 pub use execution::{computation, integrate, posed};
-use execution::{crossings, engine, follow, pace, passing};
 pub use files::{lock, outside};
-use files::{temporary, whole_file};
-use motion::frequency;
 pub use motion::{lanes, modified_hamiltonian, propagator, stability, tangent};
 pub use read::family;
-use results::moment;
 pub use run::{arithmetic, cpu_time, estimator, start, steps};
-use run::{note, saved_state, saved_summary, snapshots};
-use scene::run_number;
-use texts::{error, refusal, shell};
 pub use texts::{object, readable, spreadsheet};
-use watch::observer;
 
-pub use engine::Outcome;
-pub use error::{Error, NotWritten, not_written};
-pub use explain::{explain, explanation, scene_schema};
-pub use frequency::Frequency;
-pub use note::Note;
-pub use observer::Observer;
+pub use document::explain::{explain, explanation, scene_schema};
+pub use document::shipped::{SHIPPED_SCENES, ShippedScene, scene_text};
+pub use execution::engine::Outcome;
+pub use files::temporary::{Temporary, remove_temporary_files};
+pub use files::whole_file::WholeFile;
+pub use motion::frequency::Frequency;
 pub use read::{first_map, source};
-pub use refusal::{Refusal, Unsupported};
 pub use results::{FileOptions, elementary_functions, hexadecimal};
+pub use run::note::Note;
 pub use scene::plot;
 pub use scene::split::{
     CanonicalCoordinates, Class, CloseEncounters, Formulas, KineticAndPotential, Linear, Needs, Planets,
@@ -133,9 +123,9 @@ pub use scene::{
     NamedExpression, Outputs, OwnPotential, PairEnergy, Parts, PotentialEnergy, Scene, SceneNumber, Surface, System,
     SystemIn,
 };
-pub use shell::shell_word;
-pub use shipped::{SHIPPED_SCENES, ShippedScene, scene_text};
-pub use temporary::{Temporary, remove_temporary_files};
+pub use texts::error::{Error, NotWritten, not_written};
+pub use texts::refusal::{Refusal, Unsupported};
+pub use texts::shell::shell_word;
+pub use watch::observer::Observer;
 pub use watch::summary::{EnergySummary, Extreme, ModifiedEnergySummary, Summary};
 pub use watch::{Approach, Encounter, Interactions, LightBody, ParticleApproach};
-pub use whole_file::WholeFile;

@@ -44,16 +44,16 @@ use shadowstep_schemes::document::{self, read_text, valid_document};
 use shadowstep_schemes::symbolic::{Exact, nearest};
 use toml::de::DeTable;
 
-use crate::arithmetic::Arithmetic;
-use crate::crossings::NEEDS_PARTS_OF_STEPS;
-use crate::error::Error;
-use crate::keys::{ENSEMBLE, INITIAL, OF_SYSTEM, OUTPUT, RUN, SECTIONS, TIME, section_with};
-use crate::library::Schemes;
-use crate::note::Note;
+use crate::document::keys::{ENSEMBLE, INITIAL, OF_SYSTEM, OUTPUT, RUN, SECTIONS, TIME, section_with};
+use crate::document::library::Schemes;
+use crate::document::schema::{Table, has_form, refuse_unknown};
+use crate::document::shipped::scene_names;
+use crate::execution::crossings::NEEDS_PARTS_OF_STEPS;
 use crate::read::reader::Reader;
+use crate::run::arithmetic::Arithmetic;
+use crate::run::note::Note;
 use crate::scene::{InitialValueProblem, Outputs, PotentialEnergy, Scene, System};
-use crate::schema::{Table, has_form, refuse_unknown};
-use crate::shipped::scene_names;
+use crate::texts::error::Error;
 
 /// The most bytes of a scene, which may have the initial values of many bodies.
 const LARGEST_SCENE: u64 = 16 << 20;
@@ -302,7 +302,7 @@ fn refuse_ensemble(source: &Source, root: &DeTable<'_>, others: &[&str]) -> Resu
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::schema::{Key, Section};
+    use crate::document::schema::{Key, Section};
 
     /// The faults of a scene, each as `line:column: sentence`.
     fn faults(text: &str) -> Vec<String> {

@@ -28,8 +28,8 @@ use shadowstep::shadow::exact_flow::ExactFlowError;
 use shadowstep::shadow::run::{NotFinite, Quantity, RunError};
 use shadowstep::{Number, Rational, StepSize};
 
-use crate::error::Error;
-use crate::readable::shortened;
+use crate::texts::error::Error;
+use crate::texts::readable::shortened;
 
 const OTHER_START: &str = "try a smaller step size or another initial state";
 

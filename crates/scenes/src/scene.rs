@@ -40,14 +40,14 @@ use std::ops::Range;
 use shadowstep::tables::Source;
 use shadowstep::{MotionError, Rational, StepSize};
 
-use crate::arithmetic::Arithmetic;
-use crate::estimator::order_setting;
-use crate::expression::Condition;
-use crate::library::NamedScheme;
-use crate::note::Note;
+use crate::document::expression::Condition;
+use crate::document::library::NamedScheme;
+use crate::run::arithmetic::Arithmetic;
+use crate::run::estimator::order_setting;
+use crate::run::note::Note;
+use crate::run::start::{Begin, SceneIntegrator, Steps};
+use crate::run::steps::MOST_STEPS;
 use crate::run::{OrderSetting, Run};
-use crate::start::{Begin, SceneIntegrator, Steps};
-use crate::steps::MOST_STEPS;
 
 /// A scene: the system, the scheme with its steps, and the output.
 #[derive(Debug)]

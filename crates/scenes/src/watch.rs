@@ -28,9 +28,9 @@ use self::energy::EnergyError;
 pub use self::light::LightBody;
 pub use self::particles::ParticleApproach;
 use crate::run::Run;
-use crate::run_number::{Monitoring, RunNumber};
+use crate::run::steps::MOST_STEPS;
 use crate::scene;
-use crate::steps::MOST_STEPS;
+use crate::scene::run_number::{Monitoring, RunNumber};
 use crate::watch::summary::{EnergySummary, ModifiedEnergySummary, Summary};
 
 /// The monitor's estimator is E_16 with its error: 17 states a window.
@@ -430,7 +430,7 @@ fn part_of_kinetic<N: Real>(error: &N, report: &Report<N>) -> f64 {
 mod tests {
     use super::*;
     use crate::Scene;
-    use crate::observer::KeptSummary;
+    use crate::watch::observer::KeptSummary;
     use shadowstep::tables::Source;
 
     fn summary_of(text: String) -> Summary {
@@ -520,7 +520,7 @@ mod tests {
     /// The centre of mass is at rest: its momentum is round-off of the others, which does not turn.
     #[test]
     fn a_centre_of_mass_at_rest_is_not_lost() {
-        let text = crate::shipped::scene_text("relativity").unwrap().replace("365.25*10000", "365.25*100");
+        let text = crate::document::shipped::scene_text("relativity").unwrap().replace("365.25*10000", "365.25*100");
         let found = summary_of(text);
         assert!(found.is_bounded() && !found.reason().contains("may be lost"), "{found}");
     }

@@ -6,14 +6,14 @@ use shadowstep::tangent::{Exponent, Growth, Regularity};
 use shadowstep::{Rational, StepSize};
 use shadowstep_schemes::symbolic::decimal::to_text;
 
-use crate::arithmetic::{Arithmetic, DigitsLabel};
-use crate::computation::{Computation, FollowedNumber};
-use crate::error::Error;
-use crate::observer::{Observer, interrupted};
-use crate::posed::{Followed, Posed};
+use crate::execution::computation::{Computation, FollowedNumber};
+use crate::execution::posed::{Followed, Posed};
+use crate::motion::tangent::{TangentRun, Vectors};
 use crate::run::Run;
-use crate::tangent::{TangentRun, Vectors};
+use crate::run::arithmetic::{Arithmetic, DigitsLabel};
+use crate::texts::error::Error;
 use crate::watch::Energies;
+use crate::watch::observer::{Observer, interrupted};
 use crate::watch::summary::Summary;
 
 /// Indicators of chaos along a trajectory. Numbers that are not defined, as of too few observations, are `None`.
@@ -151,7 +151,7 @@ impl ChaosRequest<'_> {
     ///
     /// # Errors
     /// A run that fails, an observer that stops; those of
-    /// [`FollowingVectors::new`](crate::tangent::FollowingVectors::new).
+    /// [`FollowingVectors::new`](crate::motion::tangent::FollowingVectors::new).
     pub fn run(&self, parts: u32, observer: &mut dyn Observer) -> Result<ChaosRecord, Error> {
         let run = self.posed.run;
         let h = StepSize::try_from(run.h.exact() / Rational::from_integer(parts.into())).expect("h is not 0");

@@ -15,13 +15,13 @@ use shadowstep::steps::integrator::{VectorIntegrator, at_output};
 use shadowstep::tables::{AtRunTime, TableScheme};
 use shadowstep::{Integrator as _, MotionError, Rational, Remainders, StepSize, exact};
 
-use crate::arithmetic::Arithmetic;
-use crate::computation::RunNumber;
-use crate::error::Error;
+use crate::execution::computation::RunNumber;
 use crate::run::Run;
+use crate::run::arithmetic::Arithmetic;
+use crate::run::start::{Begin, SceneIntegrator, Steps};
 use crate::scene::split::{ShownCoordinates, State};
 use crate::scene::{SceneNumber, System};
-use crate::start::{Begin, SceneIntegrator, Steps};
+use crate::texts::error::Error;
 
 /// A run whose states are differentiated.
 ///
@@ -32,7 +32,7 @@ pub struct Differentiation<'a> {
     pub system: &'a System,
     /// The same, read to [more digits](precise).
     pub precise: &'a System,
-    /// The scheme, valid for the [system](crate::propagator::for_system).
+    /// The scheme, valid for the [system](crate::motion::propagator::for_system).
     pub scheme: &'a TableScheme<AtRunTime>,
     /// The steps. In transformed time their number is that of steps of s.
     pub run: Run<'a>,
@@ -249,7 +249,7 @@ impl Differentiation<'_> {
 
     /// Checks what is not known before; for each variable the value at which constants are differentiated.
     fn bases(&self) -> Result<Vec<Base>, Error> {
-        crate::tangent::needs_second_derivatives(self.system)?;
+        crate::motion::tangent::needs_second_derivatives(self.system)?;
         let base = |variable: &Variable| match variable {
             Variable::Parameter(parameter) => self.base(parameter),
             Variable::Direction(components) => self.check_direction(components.len()).map(|()| Base::Own),

@@ -35,16 +35,16 @@ use shadowstep::shadow::run::EnergyDrift;
 use shadowstep::shadow::{EstimatorSettings, SelectionRule, StoppingRule};
 use shadowstep_schemes::symbolic::decimal::to_text;
 
-use crate::arithmetic::Arithmetic;
-use crate::computation::{Computation, FollowedNumber};
-use crate::cpu_time::CpuTime;
-use crate::error::Error;
-use crate::estimates::{Estimates, Finished};
-use crate::propagator::Propagator;
-use crate::readable::{LONGEST_NUMBER, shortened};
+use crate::analyses::estimates::{Estimates, Finished};
+use crate::execution::computation::{Computation, FollowedNumber};
+use crate::motion::propagator::Propagator;
 use crate::run::Run;
+use crate::run::arithmetic::Arithmetic;
+use crate::run::cpu_time::CpuTime;
+use crate::run::steps::StepsError;
 use crate::scene::System;
-use crate::steps::StepsError;
+use crate::texts::error::Error;
+use crate::texts::readable::{LONGEST_NUMBER, shortened};
 use control::KnownControl;
 use measure::measure;
 

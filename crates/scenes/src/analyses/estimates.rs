@@ -3,16 +3,16 @@
 use shadowstep::Rational;
 use shadowstep::shadow::{Estimate, EstimatorSettings};
 
-use crate::arithmetic::Arithmetic;
-use crate::at::{At, Place};
-use crate::column::Column;
-use crate::computation::{FollowedNumber, RunNumber};
-use crate::error::Error;
-use crate::library::NamedScheme;
-use crate::posed::{Followed, Posed};
-use crate::propagator::{Propagator, exact_flow};
+use crate::columns::at::{At, Place};
+use crate::columns::column::Column;
+use crate::document::library::NamedScheme;
+use crate::execution::computation::{FollowedNumber, RunNumber};
+use crate::execution::posed::{Followed, Posed};
+use crate::motion::propagator::{Propagator, exact_flow};
 use crate::run::Run;
+use crate::run::arithmetic::Arithmetic;
 use crate::scene::System;
+use crate::texts::error::Error;
 use crate::watch::Energies;
 use crate::watch::summary::{EnergySummary, Summary};
 

@@ -4,8 +4,8 @@ use serde::Serialize;
 use shadowstep_analysis::gaussian::Gaussian;
 use shadowstep_analysis::proposals::{MOST_STEPS, Proposals};
 
-use crate::error::Error;
-use crate::library::NamedScheme;
+use crate::document::library::NamedScheme;
+use crate::texts::error::Error;
 
 /// What proposals are for, and which are looked for.
 #[derive(Clone, Debug)]

@@ -13,7 +13,7 @@ use shadowstep_schemes::scheme::Held;
 use shadowstep_schemes::table::Table;
 use shadowstep_schemes::{Kinetic, Map, MapKind, Orders, Proved, to_significant, to_text};
 
-use crate::object::{Json, Object};
+use crate::texts::object::{Json, Object};
 
 /// Digits of numbers that come from rounded weights, which else are hundreds of digits long.
 const SHOWN_DIGITS: usize = 30;

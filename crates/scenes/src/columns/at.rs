@@ -3,12 +3,12 @@
 use shadowstep::shadow::Estimate;
 use shadowstep::steps::integrator::VectorIntegrator;
 
-use crate::error::Error;
+use crate::motion::tangent::{FollowingVectors, TangentRun};
 use crate::run::Run;
-use crate::run_number::RunNumber;
+use crate::scene::run_number::RunNumber;
 use crate::scene::split::ShownCoordinates;
 use crate::scene::{EnergyAt, System};
-use crate::tangent::{FollowingVectors, TangentRun};
+use crate::texts::error::Error;
 
 /// What a state of a run is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -1,11 +1,11 @@
 //! Indicators of chaos up to the state; one that is not defined, as at t = 0, is NaN.
 
 use super::group::{Due, Fixed};
-use crate::at::At;
-use crate::error::Error;
+use crate::columns::at::At;
 use crate::results::Cell;
-use crate::run_number::RunNumber;
 use crate::scene::Outputs;
+use crate::scene::run_number::RunNumber;
+use crate::texts::error::Error;
 
 pub(super) const NAMES: [&str; 4] = ["lyapunov", "megno", "mean_megno", "sali"];
 

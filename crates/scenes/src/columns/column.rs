@@ -3,11 +3,11 @@
 use shadowstep::number::saved::Fields;
 use shadowstep::steps::integrator::VectorIntegrator;
 
-use crate::at::At;
-use crate::error::Error;
-use crate::moment::Moment;
+use crate::columns::at::At;
+use crate::results::moment::Moment;
 use crate::run::Run;
-use crate::run_number::RunNumber;
+use crate::scene::run_number::RunNumber;
+use crate::texts::error::Error;
 use crate::watch::Watch;
 
 /// Takes states of a run.

@@ -1,11 +1,11 @@
 //! The energy H.
 
 use super::group::{Due, Fixed};
-use crate::at::{At, Place};
-use crate::error::Error;
+use crate::columns::at::{At, Place};
 use crate::results::Cell;
-use crate::run_number::RunNumber;
 use crate::scene::Outputs;
+use crate::scene::run_number::RunNumber;
+use crate::texts::error::Error;
 
 pub(super) const NAMES: [&str; 1] = ["energy"];
 

@@ -10,16 +10,16 @@ use shadowstep_schemes::document::{Reader, Text};
 use shadowstep_schemes::symbolic::Exact;
 use thiserror::Error;
 
-use crate::error::Error;
-use crate::expression::{Comparison, Condition, ENERGY, Expression, TIME, name_of_quantity};
-use crate::lanes::LANES;
-use crate::quantity::{Compute, Quantity};
-use crate::quantity_of_bodies::QuantityOfBodies;
-use crate::refusal::Refusal;
-use crate::reserved_names;
-use crate::run_number::RunNumber;
+use crate::columns::quantity_of_bodies::QuantityOfBodies;
+use crate::document::expression::{Comparison, Condition, ENERGY, Expression, TIME, name_of_quantity};
+use crate::document::quantity::{Compute, Quantity};
+use crate::document::reserved_names;
+use crate::motion::lanes::LANES;
+use crate::scene::run_number::RunNumber;
 use crate::scene::split::ShownCoordinates;
 use crate::scene::{Direction, EnergyAt, NamedExpression, Surface, System};
+use crate::texts::error::Error;
+use crate::texts::refusal::Refusal;
 
 /// What is read of a text that stands alone, which has this name in its faults.
 pub(crate) fn alone<T>(

@@ -3,11 +3,11 @@
 use shadowstep::number::saved::{Fields, optional};
 use shadowstep::steps::integrator::{VectorIntegrator, at_output};
 
-use crate::column::Column;
-use crate::evaluator::Evaluator;
-use crate::extremum::Extremum;
+use crate::columns::column::Column;
+use crate::columns::evaluator::Evaluator;
+use crate::columns::extremum::Extremum;
 use crate::run::Run;
-use crate::run_number::RunNumber;
+use crate::scene::run_number::RunNumber;
 use crate::scene::{NamedExpression, System};
 use crate::watch::summary::Extreme;
 
@@ -76,7 +76,7 @@ impl<N: RunNumber> Column<N> for Extremes<'_, N> {
 #[cfg(test)]
 mod tests {
     use crate::Scene;
-    use crate::observer::KeptSummary;
+    use crate::watch::observer::KeptSummary;
     use crate::watch::summary::Summary;
     use shadowstep::tables::{Faults, Source};
 

@@ -1,9 +1,9 @@
 //! A group of columns: their names, when they are due, and their cells at a state.
 
-use crate::at::{At, Place};
-use crate::error::Error;
+use crate::columns::at::{At, Place};
 use crate::results::{Cell, Name};
-use crate::run_number::RunNumber;
+use crate::scene::run_number::RunNumber;
+use crate::texts::error::Error;
 
 /// Columns that are due together.
 pub(crate) trait Group<N: RunNumber> {

@@ -1,11 +1,11 @@
 //! The modified energy, its estimated error, and the order of the estimate.
 
 use super::group::{Due, Fixed};
-use crate::at::At;
-use crate::error::Error;
+use crate::columns::at::At;
 use crate::results::Cell;
-use crate::run_number::RunNumber;
 use crate::scene::Outputs;
+use crate::scene::run_number::RunNumber;
+use crate::texts::error::Error;
 
 pub(super) const NAMES: [&str; 3] = ["modified_energy", "estimate", "order"];
 

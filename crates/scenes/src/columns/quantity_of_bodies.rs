@@ -12,10 +12,10 @@ use shadowstep::systems::formula::FormulaValue;
 use shadowstep::{Rational, Real};
 
 use self::orbit::Orbit;
-use crate::quantity::{Compute, ELEMENTS, Element, Function, KINETIC, Quantity, VIRIAL};
-use crate::refusal::{Refusal, refuse};
+use crate::document::quantity::{Compute, ELEMENTS, Element, Function, KINETIC, Quantity, VIRIAL};
 use crate::scene::bodies::Bodies;
 use crate::scene::{GRAVITY, PotentialEnergy, SceneNumber, System};
+use crate::texts::refusal::{Refusal, refuse};
 
 /// The centre of mass of the bodies before, and of all bodies.
 pub(crate) const JACOBI: &str = "jacobi";

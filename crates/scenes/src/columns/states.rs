@@ -1,12 +1,12 @@
 //! Positions and momenta, at states or at crossings of a surface.
 
 use super::group::{Due, Group};
-use crate::at::{At, Place};
-use crate::error::Error;
-use crate::reserved_names::LISTS;
+use crate::columns::at::{At, Place};
+use crate::document::reserved_names::LISTS;
 use crate::results::{Cell, Name};
-use crate::run_number::RunNumber;
+use crate::scene::run_number::RunNumber;
 use crate::scene::{Outputs, System};
+use crate::texts::error::Error;
 
 pub(super) struct States<'a> {
     every: Option<u64>,

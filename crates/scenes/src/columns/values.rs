@@ -2,13 +2,13 @@
 
 use super::group::{Due, Group};
 use super::names::fixed_names;
-use crate::at::{At, Place};
-use crate::error::Error;
-use crate::evaluator::{Evaluator, alone};
-use crate::expression::Expression;
+use crate::columns::at::{At, Place};
+use crate::columns::evaluator::{Evaluator, alone};
+use crate::document::expression::Expression;
 use crate::results::{Cell, Name};
-use crate::run_number::RunNumber;
+use crate::scene::run_number::RunNumber;
 use crate::scene::{NamedExpression, System};
+use crate::texts::error::Error;
 
 /// Columns of expressions with one period.
 pub(crate) struct Values<'a, N: RunNumber> {

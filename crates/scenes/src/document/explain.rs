@@ -1,9 +1,9 @@
 //! What every key of a document means.
 
-use crate::keys::SECTIONS;
-use crate::quantity::QUANTITIES;
-use crate::readable::wrapped;
-use crate::schema::{Section, json_schema};
+use crate::document::keys::SECTIONS;
+use crate::document::quantity::QUANTITIES;
+use crate::document::schema::{Section, json_schema};
+use crate::texts::readable::wrapped;
 
 const INTRODUCTION: &str = "\
 A scene is a TOML file with the sections [problem], [initial], [run] and [output]; with [ensemble] it describes many \

@@ -6,8 +6,8 @@ use std::sync::Arc;
 use shadowstep_schemes::document::{Reader, Text};
 use shadowstep_schemes::symbolic::{Expression as Syntax, ExpressionKind, Graph, Node, parse};
 
-use crate::quantity::Quantity;
-use crate::schema::Table;
+use crate::document::quantity::Quantity;
+use crate::document::schema::Table;
 
 /// The time and the energy.
 pub(crate) const TIME: &str = "t";

@@ -3,10 +3,10 @@
 mod output;
 mod system;
 
-use crate::arithmetic::MOST_DIGITS;
+use crate::document::schema::{CONDITION, Kind, NONZERO, NUMBER, PATH, Section};
 use crate::rows;
-use crate::schema::{CONDITION, Kind, NONZERO, NUMBER, PATH, Section};
-use crate::steps::MOST_STEPS;
+use crate::run::arithmetic::MOST_DIGITS;
+use crate::run::steps::MOST_STEPS;
 
 pub(crate) use output::OUTPUT;
 pub use system::PROBLEM;

@@ -16,12 +16,12 @@ use shadowstep_schemes::{First, Map, shipped, shipped_hint};
 use thiserror::Error;
 use toml::de::DeTable;
 
-use crate::arithmetic::{Arithmetic, GUARD_DIGITS, MOST_VALUE_DIGITS, OTHER_SCHEME};
-use crate::error::Error;
-use crate::note::Note;
-use crate::outside::{is_allowed, path_of};
-use crate::refusal::{Refusal, Unsupported, refuse};
-use crate::whole_file::folder_of;
+use crate::files::outside::{is_allowed, path_of};
+use crate::files::whole_file::folder_of;
+use crate::run::arithmetic::{Arithmetic, GUARD_DIGITS, MOST_VALUE_DIGITS, OTHER_SCHEME};
+use crate::run::note::Note;
+use crate::texts::error::Error;
+use crate::texts::refusal::{Refusal, Unsupported, refuse};
 
 /// The name of the exact flow in place of a scheme.
 pub const EXACT_FLOW: &str = "exact-flow";

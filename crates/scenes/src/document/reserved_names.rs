@@ -1,8 +1,8 @@
 //! Names with a meaning of their own: in formulas of columns and conditions, as columns, and in the languages of
 //! emitted code.
 
-use crate::expression::{ENERGY, TIME};
-use crate::quantity::QUANTITIES;
+use crate::document::expression::{ENERGY, TIME};
+use crate::document::quantity::QUANTITIES;
 
 /// The lists in rows of JSON lines, beside which no column of values has such a name.
 pub(crate) const LISTS: [&str; 2] = ["q", "p"];
@@ -68,7 +68,7 @@ macro_rules! words {
 }
 
 /// Keywords, and the names of the function that
-/// [`function`](crate::modified_hamiltonian::record::FormulaRecord::function) writes.
+/// [`function`](crate::motion::modified_hamiltonian::record::FormulaRecord::function) writes.
 const PYTHON: &[&str] = words![
     False None True and as assert async await break class continue def del elif else except finally for from global
     if import in is lambda nonlocal not or pass raise return try while with yield

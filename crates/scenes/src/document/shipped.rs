@@ -3,8 +3,8 @@
 use shadowstep::problems::{PROBLEMS, problem};
 use shadowstep_schemes::symbolic::suggestion;
 
-use crate::error::Error;
-use crate::template::template;
+use crate::document::template::template;
+use crate::texts::error::Error;
 
 /// A shipped scene.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

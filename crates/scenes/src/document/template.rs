@@ -2,9 +2,9 @@
 
 use shadowstep::problems::Description;
 
-use crate::keys::{INITIAL, OUTPUT, PROBLEM, RUN};
-use crate::readable::wrapped;
-use crate::schema::Section;
+use crate::document::keys::{INITIAL, OUTPUT, PROBLEM, RUN};
+use crate::document::schema::Section;
+use crate::texts::readable::wrapped;
 
 /// Lines of a scene; optional keys are commented out.
 struct Lines(String);

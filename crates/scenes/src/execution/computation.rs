@@ -7,13 +7,13 @@ use shadowstep::number::Float;
 use shadowstep::number::{AnyLimbs, DoubleDouble};
 use shadowstep_schemes::symbolic::Exact;
 
-use crate::arithmetic::{Arithmetic, Digits, Numbers, number_types};
-use crate::column::Column;
-use crate::error::Error;
-use crate::follow;
-use crate::observer::Observer;
-use crate::posed::{Followed, Posed};
-pub use crate::run_number::{Monitoring, RunNumber};
+use crate::columns::column::Column;
+use crate::execution::follow;
+use crate::execution::posed::{Followed, Posed};
+use crate::run::arithmetic::{Arithmetic, Digits, Numbers, number_types};
+pub use crate::scene::run_number::{Monitoring, RunNumber};
+use crate::texts::error::Error;
+use crate::watch::observer::Observer;
 
 /// A number type in which runs are made.
 pub trait FollowedNumber: RunNumber {

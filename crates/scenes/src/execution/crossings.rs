@@ -6,12 +6,12 @@ use shadowstep::steps::step_to_zero;
 use shadowstep::{Rational, Real};
 use shadowstep_schemes::symbolic::decimal::to_text;
 
-use crate::arithmetic::GUARD_DIGITS;
-use crate::evaluator::Evaluator;
+use crate::columns::evaluator::Evaluator;
 use crate::run::Run;
-use crate::run_number::RunNumber;
+use crate::run::arithmetic::GUARD_DIGITS;
+use crate::run::snapshots::Snapshot;
+use crate::scene::run_number::RunNumber;
 use crate::scene::{Direction, Surface, System};
-use crate::snapshots::Snapshot;
 
 /// Why displaced forces have no crossings.
 pub(crate) const NEEDS_PARTS_OF_STEPS: &str =

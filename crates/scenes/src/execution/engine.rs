@@ -1,18 +1,18 @@
 //! The run of a scene into rows, which a checkpoint can resume.
 
-use crate::at::At;
-use crate::column::Column;
 use crate::columns::Columns;
-use crate::computation::{Computation, FollowedNumber, RunNumber};
-use crate::error::Error;
-use crate::extremes::Extremes;
-use crate::moment::Moment;
-use crate::observer::Observer;
-use crate::posed::{Followed, Posed, Resumed};
+use crate::columns::at::At;
+use crate::columns::column::Column;
+use crate::columns::extremes::Extremes;
+use crate::execution::computation::{Computation, FollowedNumber, RunNumber};
+use crate::execution::posed::{Followed, Posed, Resumed};
+use crate::motion::tangent::{VECTORS_OF_ROWS, Vectors};
+use crate::results::moment::Moment;
 use crate::results::{Cell, Checkpoint, Rows};
 use crate::scene::Scene;
-use crate::tangent::{VECTORS_OF_ROWS, Vectors};
+use crate::texts::error::Error;
 use crate::watch::Energies;
+use crate::watch::observer::Observer;
 
 /// How a run ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -3,14 +3,14 @@
 use std::io::{self, Write};
 use std::path::Path;
 
-use crate::engine::{Outcome, SceneRun};
-use crate::error::Error;
-use crate::note::Note;
-use crate::observer::Observer;
-use crate::posed::Followed;
+use crate::execution::engine::{Outcome, SceneRun};
+use crate::execution::posed::Followed;
+use crate::motion::stability;
 use crate::results::{Begun, Checkpoint, FileOptions, Metadata, Rows, Target, file_hashes, prolonged, records};
+use crate::run::note::Note;
 use crate::scene::{Format, Scene};
-use crate::stability;
+use crate::texts::error::Error;
+use crate::watch::observer::Observer;
 
 impl Scene {
     /// Runs the scene and writes its rows to the file that it names, from the last checkpoint if there is one.
@@ -138,10 +138,10 @@ impl Scene {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::chaos::ChaosRequest;
-    use crate::posed::Posed;
+    use crate::analyses::chaos::ChaosRequest;
+    use crate::execution::posed::Posed;
+    use crate::motion::tangent::Vectors;
     use crate::run::Run;
-    use crate::tangent::Vectors;
     use crate::watch::summary::Summary;
     use std::fs;
 
@@ -678,7 +678,7 @@ mod tests {
     fn a_plain_run_evaluates_the_gradient_once_a_step_and_once_to_begin() {
         let folder = tempfile::tempdir().unwrap();
         let mut scene = scene(folder.path(), KEPLER, "energy = true");
-        scene.scheme = crate::library::scheme("stormer-verlet").unwrap();
+        scene.scheme = crate::document::library::scheme("stormer-verlet").unwrap();
         let outcome = scene.run_to_file(FileOptions::default(), &mut ()).unwrap();
         assert_eq!(outcome, Outcome::Complete { steps: 20, force_evaluations: 21 });
     }

@@ -10,22 +10,22 @@ use shadowstep::steps::integrator::{VectorIntegrator, at_output};
 use shadowstep::steps::step_to_time;
 use shadowstep::{Carried, Rational};
 
-use crate::at::{At, Place, View};
-use crate::column::{Column, next_multiple, show};
-use crate::crossings::{Crossings, NEEDS_PARTS_OF_STEPS};
-use crate::error::Error;
-use crate::moment::{Moment, Moments};
-use crate::note::Note;
-use crate::observer::Observer;
-use crate::pace::Pace;
-use crate::passing::{Ends, Passing};
-use crate::posed::{Followed, Posed, unreadable};
+use crate::columns::at::{At, Place, View};
+use crate::columns::column::{Column, next_multiple, show};
+use crate::execution::crossings::{Crossings, NEEDS_PARTS_OF_STEPS};
+use crate::execution::pace::Pace;
+use crate::execution::passing::{Ends, Passing};
+use crate::execution::posed::{Followed, Posed, unreadable};
+use crate::results::moment::{Moment, Moments};
 use crate::run::Run;
-use crate::run_number::RunNumber;
-use crate::saved_summary::SavedSummary;
+use crate::run::note::Note;
+use crate::run::saved_summary::SavedSummary;
+use crate::run::snapshots::Snapshot;
 use crate::scene::CheckpointInterval;
-use crate::snapshots::Snapshot;
+use crate::scene::run_number::RunNumber;
+use crate::texts::error::Error;
 use crate::watch::Watch;
+use crate::watch::observer::Observer;
 
 /// The observer is asked at each of the first states: it may stop short runs anywhere.
 const ONE_BY_ONE: u64 = 256;

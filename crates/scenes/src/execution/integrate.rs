@@ -22,15 +22,15 @@
 //! # Ok::<(), shadowstep_scenes::Error>(())
 //! ```
 
-use crate::at::{At, Place};
-use crate::column::{Column, next_multiple};
+use crate::columns::at::{At, Place};
+use crate::columns::column::{Column, next_multiple};
 use crate::columns::{Group as _, Values};
-use crate::computation::{FollowedNumber, RunNumber};
-use crate::error::Error;
-use crate::observer::{Observer, interrupted};
-use crate::posed::Posed;
+use crate::execution::computation::{FollowedNumber, RunNumber};
+use crate::execution::posed::Posed;
 use crate::results::Cell;
 use crate::scene::{self, NamedExpression};
+use crate::texts::error::Error;
+use crate::watch::observer::{Observer, interrupted};
 use crate::watch::{Bodies, Energies, Interactions};
 
 /// Which states of a run are kept.
@@ -226,7 +226,7 @@ impl<N> Samples<N> {
 mod tests {
     use super::*;
     use crate::Scene;
-    use crate::observer::KeptSummary;
+    use crate::watch::observer::KeptSummary;
     use shadowstep::tables::Source;
 
     fn posed(scene: &Scene) -> Posed<'_> {

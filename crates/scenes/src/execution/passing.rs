@@ -5,13 +5,13 @@ use std::any::TypeId;
 use num_traits::Signed;
 use shadowstep::systems::system::Visitor;
 
-use crate::at::View;
-use crate::evaluator::{Test, TestInLanes};
-use crate::expression::Condition;
-use crate::lanes::LANES;
-use crate::posed::Posed;
-use crate::run_number::RunNumber;
+use crate::columns::at::View;
+use crate::columns::evaluator::{Test, TestInLanes};
+use crate::document::expression::Condition;
+use crate::execution::posed::Posed;
+use crate::motion::lanes::LANES;
 use crate::scene::System;
+use crate::scene::run_number::RunNumber;
 use crate::watch::Watch;
 
 /// Passes states until the run ends with one of them, or before it.

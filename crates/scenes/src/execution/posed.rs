@@ -6,15 +6,15 @@ use shadowstep::steps::integrator::VectorIntegrator;
 use shadowstep::tables::{AtRunTime, TableScheme};
 use shadowstep::{Integrator as _, MotionError, Rational};
 
-use crate::arithmetic::Arithmetic;
-use crate::error::Error;
-use crate::expression::Condition;
+use crate::document::expression::Condition;
+use crate::motion::tangent::{FollowingVectors, Vectors};
 use crate::results::Checkpoint;
 use crate::run::Run;
-use crate::run_number::RunNumber;
+use crate::run::arithmetic::Arithmetic;
+use crate::run::start::{Begin, SceneIntegrator, Steps};
+use crate::scene::run_number::RunNumber;
 use crate::scene::{CheckpointInterval, Scene, Surface, System};
-use crate::start::{Begin, SceneIntegrator, Steps};
-use crate::tangent::{FollowingVectors, Vectors};
+use crate::texts::error::Error;
 use crate::watch::summary::{EnergySummary, Summary};
 use crate::watch::{Energies, Watch};
 
@@ -23,7 +23,7 @@ use crate::watch::{Energies, Watch};
 pub struct Posed<'a> {
     /// H and the initial state.
     pub system: &'a System,
-    /// The scheme, valid for the [system](crate::propagator::for_system).
+    /// The scheme, valid for the [system](crate::motion::propagator::for_system).
     pub scheme: &'a TableScheme<AtRunTime>,
     /// The steps; of a run that something else ends, the most.
     pub run: Run<'a>,

@@ -12,8 +12,8 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use shadowstep::tables::{Faults, Source};
 use shadowstep_schemes::document::Text;
 
-use crate::refusal::Refusal;
-use crate::whole_file::folder_of;
+use crate::files::whole_file::folder_of;
+use crate::texts::refusal::Refusal;
 
 static ALLOWED: AtomicBool = AtomicBool::new(false);
 

@@ -9,9 +9,9 @@ use std::path::{Path, PathBuf};
 use std::thread::sleep;
 use std::time::Duration;
 
-use crate::error::{Error, not_written};
-use crate::lock::{LockError, open_locked};
-use crate::temporary::Temporary;
+use crate::files::lock::{LockError, open_locked};
+use crate::files::temporary::Temporary;
+use crate::texts::error::{Error, not_written};
 
 /// How the names of files end that are not complete.
 const ENDING: &str = ".shadowstep-partial";

@@ -4,7 +4,7 @@ use std::time::Duration;
 
 use shadowstep::Potential;
 
-use crate::cpu_time::CpuTime;
+use crate::run::cpu_time::CpuTime;
 use crate::scene::{KineticEnergy, PotentialEnergy, System};
 
 /// ω, the largest frequency of the linearised system.
@@ -140,7 +140,7 @@ fn norm(v: &[f64]) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::arithmetic::Arithmetic;
+    use crate::run::arithmetic::Arithmetic;
     use shadowstep::tables::Source;
 
     fn frequency(problem: &str) -> Option<Frequency> {

@@ -8,9 +8,9 @@ use shadowstep::tangent::{TangentError, Tangents};
 use shadowstep::{DiagonalMasses, Kinetic, Motion, Potential, UnitMasses};
 use shadowstep_schemes::symbolic::{Exact, parse};
 
+use crate::motion::tangent::{components, scales};
+use crate::run::start::{SceneIntegrator, Steps};
 use crate::scene::{ClassifiedKinetic, EnergyOfBodies, KineticEnergy, PairEnergy, PotentialEnergy, System};
-use crate::start::{SceneIntegrator, Steps};
-use crate::tangent::{components, scales};
 
 /// Trajectories that are computed together.
 pub const LANES: usize = 16;

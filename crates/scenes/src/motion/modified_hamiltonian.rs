@@ -19,10 +19,10 @@ use shadowstep_schemes::Kinetic;
 use shadowstep_schemes::symbolic::decimal::round_significant;
 use shadowstep_schemes::symbolic::{Function, Graph, Node, Notation, parse};
 
-use crate::expression::{Derived, TIME};
-use crate::refusal::Refusal;
+use crate::document::expression::{Derived, TIME};
 use crate::scene::split::Planets;
 use crate::scene::{InitialValueProblem, KineticEnergy, Parts, System};
+use crate::texts::refusal::Refusal;
 
 /// The name of the momentum of t in transformed time.
 const MOMENTUM_OF_TIME: &str = "pt";
@@ -380,7 +380,7 @@ impl SymbolicHamiltonian {
 #[cfg(test)]
 mod tests {
     use crate::Scene;
-    use crate::observer::KeptSummary;
+    use crate::watch::observer::KeptSummary;
     use num_traits::ToPrimitive;
     use shadowstep::tables::{Faults, Source};
     use shadowstep_schemes::symbolic::exact;

@@ -8,14 +8,14 @@ use shadowstep::shadow::run::ShadowRun;
 use shadowstep::shadow::{Estimator, EstimatorSettings};
 use shadowstep::tables::TableScheme;
 
-use crate::arithmetic::Arithmetic;
-use crate::error::Error;
-use crate::library::{self, EXACT_FLOW, NamedScheme, Schemes};
-use crate::note::Note;
-use crate::refusal::Refusal;
+use crate::document::library::{self, EXACT_FLOW, NamedScheme, Schemes};
 use crate::run::Run;
-use crate::run_number::RunNumber;
+use crate::run::arithmetic::Arithmetic;
+use crate::run::note::Note;
+use crate::scene::run_number::RunNumber;
 use crate::scene::{SceneNumber, System};
+use crate::texts::error::Error;
+use crate::texts::refusal::Refusal;
 
 /// A scheme, or the exact flow, on which an estimator shows its own error.
 #[derive(Debug)]
@@ -146,7 +146,7 @@ pub fn for_system(named: NamedScheme, system: &System) -> Result<NamedScheme, Er
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::arithmetic::Arithmetic;
+    use crate::run::arithmetic::Arithmetic;
     use shadowstep::tables::Source;
 
     #[test]

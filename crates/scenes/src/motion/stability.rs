@@ -6,9 +6,9 @@ use shadowstep_analysis::resonance::resonances;
 use shadowstep_analysis::stability::Stability;
 use shadowstep_schemes::symbolic::decimal::significant;
 
-use crate::frequency::Frequency;
-use crate::library::NamedScheme;
-use crate::note::Note;
+use crate::document::library::NamedScheme;
+use crate::motion::frequency::Frequency;
+use crate::run::note::Note;
 use crate::scene::System;
 
 /// A trace this far above 2 in size is not due to rounding.
@@ -79,7 +79,7 @@ fn few_kicks(system: &System, named: &NamedScheme, h: &Rational) -> Option<Note>
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::library::scheme;
+    use crate::document::library::scheme;
 
     #[test]
     fn the_limit_of_a_scheme_decides() {

@@ -5,13 +5,13 @@ use shadowstep::number::{AnyLimbs, CorrectlyRounded, DoubleDouble, Dual, LimbCou
 use shadowstep::tangent::{Growth, Tangents, with_derivatives};
 use shadowstep::{Integrator as _, MotionError, Number, Rational, Real, Remainders};
 
-use crate::arithmetic::{Arithmetic, Digits, Numbers};
-use crate::error::Error;
-use crate::run_number::RunNumber;
-use crate::saved_state::{SavedState, SavedVector};
+use crate::run::arithmetic::{Arithmetic, Digits, Numbers};
+use crate::run::saved_state::{SavedState, SavedVector};
+use crate::run::snapshots::Snapshot;
+use crate::run::start::{Begin, SceneIntegrator, Steps};
+use crate::scene::run_number::RunNumber;
 use crate::scene::{PotentialEnergy, Scene, SceneNumber, System};
-use crate::snapshots::Snapshot;
-use crate::start::{Begin, SceneIntegrator, Steps};
+use crate::texts::error::Error;
 
 /// A trajectory with tangent vectors.
 pub trait TangentRun {
@@ -408,7 +408,7 @@ mod tests {
     use shadowstep::{Carried, Integrator as _};
 
     use super::*;
-    use crate::shipped::{SHIPPED_SCENES, scene_text};
+    use crate::document::shipped::{SHIPPED_SCENES, scene_text};
 
     const STEPS: usize = 3;
 

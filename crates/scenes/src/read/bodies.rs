@@ -7,7 +7,7 @@ use shadowstep_schemes::symbolic::Exact;
 use super::names::check_name;
 use super::numbers::Numbers;
 use super::reader::Reader;
-use crate::schema::Table;
+use crate::document::schema::Table;
 use shadowstep_schemes::document::Text;
 
 /// The name of the number of a body in formulas.

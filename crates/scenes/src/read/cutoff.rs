@@ -4,9 +4,9 @@ use shadowstep::systems::pairs::CutoffError;
 use shadowstep_schemes::symbolic::Exact;
 
 use super::reader::Reader;
-use crate::note::Note;
+use crate::document::schema::Table;
+use crate::run::note::Note;
 use crate::scene::{PairCutoff, SmoothEnd};
-use crate::schema::Table;
 
 /// The cutoff of pairs of bodies in space; `Some(None)` if there is none.
 pub(super) fn cutoff(
@@ -67,7 +67,7 @@ fn sides(reader: &mut Reader<'_>, problem: &Table<'_, '_>, dimensions: usize) ->
 mod tests {
     use shadowstep::tables::Source;
 
-    use crate::arithmetic::Arithmetic;
+    use crate::run::arithmetic::Arithmetic;
     use crate::scene::System;
 
     /// The faults of a system of pairs with these lines in [problem], without their places.

@@ -3,9 +3,9 @@
 use shadowstep::systems::wisdom_holman::Shells;
 
 use super::reader::Reader;
+use crate::document::schema::Table;
 use crate::scene::split::{CanonicalCoordinates, CloseEncounters};
 use crate::scene::{Parts, System};
-use crate::schema::Table;
 
 /// Substeps of a step, by default.
 const SUBSTEPS: u32 = 4;
@@ -40,7 +40,7 @@ mod tests {
     use shadowstep::tables::{Faults, Source};
 
     use crate::Scene;
-    use crate::observer::KeptSummary;
+    use crate::watch::observer::KeptSummary;
     use crate::watch::summary::Summary;
 
     /// Two planets that come within 0.13 Hill radii.

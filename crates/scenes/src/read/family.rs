@@ -11,11 +11,11 @@ use shadowstep_schemes::symbolic::decimal::to_text;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-use crate::arithmetic::Arithmetic;
-use crate::library::Schemes;
+use crate::document::library::Schemes;
+use crate::document::schema::{each_text, words_of};
 use crate::read::{Names, read};
+use crate::run::arithmetic::Arithmetic;
 use crate::scene::{InitialValueProblem, Scene, System};
-use crate::schema::{each_text, words_of};
 
 /// A scene's text in which names stand for values: one scene for each choice of the values.
 ///

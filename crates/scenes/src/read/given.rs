@@ -10,8 +10,8 @@ use super::initial::State;
 use super::names::check_name;
 use super::numbers::Numbers;
 use super::reader::Reader;
-use crate::keys::{INITIAL, PROBLEM};
-use crate::schema::Table;
+use crate::document::keys::{INITIAL, PROBLEM};
+use crate::document::schema::Table;
 use shadowstep_schemes::document::{Text, Value};
 use toml::de::DeTable;
 

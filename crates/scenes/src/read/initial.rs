@@ -8,9 +8,9 @@ use shadowstep_schemes::symbolic::decimal::to_significant;
 use super::bodies::Bodies;
 use super::numbers::Numbers;
 use super::reader::Reader;
-use crate::arithmetic::ANY_SIZE;
+use crate::document::schema::Table;
+use crate::run::arithmetic::ANY_SIZE;
 use crate::scene::{InitialValueProblem, KineticEnergy};
-use crate::schema::Table;
 
 /// The initial state in the form in which the scene gives it.
 pub(super) struct State {

@@ -10,7 +10,7 @@ use shadowstep_schemes::symbolic::decimal::to_significant;
 use super::given::Given;
 use super::numbers::Numbers;
 use super::reader::Reader;
-use crate::arithmetic::{ANY_SIZE, Arithmetic};
+use crate::run::arithmetic::{ANY_SIZE, Arithmetic};
 use crate::scene::{Formula, KineticEnergy};
 
 /// T(p): by its formula, where that is given, or else by these masses.

@@ -116,8 +116,8 @@ fn add_field(reader: &mut Reader<'_>, system: &mut System, field: &[Text]) -> Op
 
 #[cfg(test)]
 mod tests {
+    use crate::run::start::Begin;
     use crate::scene::Scene;
-    use crate::start::Begin;
     use shadowstep::tables::{Faults, Source};
     use shadowstep::{Carried, Integrator as _};
 

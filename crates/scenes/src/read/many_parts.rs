@@ -94,8 +94,8 @@ fn part(
 
 #[cfg(test)]
 mod tests {
+    use crate::document::shipped::of;
     use crate::scene::Scene;
-    use crate::shipped::of;
     use shadowstep::tables::{Faults, Source};
 
     const RUN: &str = "[run]\nscheme = \"yoshida4\"\nstep = 1\nsteps = 1\ndigits = 30\n[output]\nenergy = true";

@@ -5,10 +5,10 @@ use toml::de::DeValue;
 
 use super::reader::Reader;
 use super::run::Steps;
-use crate::expression::Expression;
-use crate::modified_hamiltonian::SymbolicHamiltonian;
+use crate::document::expression::Expression;
+use crate::document::schema::Table;
+use crate::motion::modified_hamiltonian::SymbolicHamiltonian;
 use crate::scene::{NamedExpression, System, ValueColumns};
-use crate::schema::Table;
 
 /// The name of the key, with which those of the columns begin.
 pub(super) const KEY: &str = "modified_hamiltonian";

@@ -8,7 +8,7 @@ use shadowstep_schemes::symbolic::Exact;
 use toml::de::DeValue;
 
 use super::reader::Reader;
-use crate::schema::texts;
+use crate::document::schema::texts;
 use shadowstep_schemes::document::{Placed, Text, Value};
 
 /// Numbers in the form in which the scene gives them.

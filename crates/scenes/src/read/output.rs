@@ -12,11 +12,11 @@ use super::plot;
 use super::reader::Reader;
 use super::run::Steps;
 use super::values;
-use crate::estimator::{ACCURACY_HINT, conflict};
-use crate::reserved_names::LISTS;
+use crate::document::reserved_names::LISTS;
+use crate::document::schema::Table;
 use crate::run::Run;
+use crate::run::estimator::{ACCURACY_HINT, conflict};
 use crate::scene::{CheckpointInterval, Direction, Format, Outputs, Surface, System};
-use crate::schema::Table;
 
 /// What is to be written, and where.
 pub(super) fn read(

@@ -10,7 +10,7 @@ use super::kinetic;
 use super::numbers::Numbers;
 use super::reader::Reader;
 use super::{explicit_time, formula};
-use crate::note::Note;
+use crate::run::note::Note;
 use crate::scene::{Formula, InitialValueProblem, PairCutoff, PairEnergy, PotentialEnergy};
 use shadowstep_schemes::document::Text;
 

@@ -4,11 +4,11 @@ use shadowstep::systems::wisdom_holman::Bodies;
 
 use super::given::Given;
 use super::reader::Reader;
-use crate::arithmetic::Arithmetic;
-use crate::refusal::Refusal;
+use crate::document::schema::Table;
+use crate::run::arithmetic::Arithmetic;
 use crate::scene::split::{CanonicalCoordinates, KineticAndPotential, LINEAR, Linear, Planets};
 use crate::scene::{InitialValueProblem, Parts, System};
-use crate::schema::Table;
+use crate::texts::refusal::Refusal;
 
 /// The parts of a problem, or why it has none of this kind; with the bodies that attract each other and their
 /// dimensions, if it is a problem of these.

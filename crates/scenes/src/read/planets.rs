@@ -24,11 +24,11 @@ use super::of_bodies;
 use super::parts::{self, Split};
 use super::reader::Reader;
 use super::units::{self, LengthAndTime};
-use crate::keys::BODY;
+use crate::document::keys::BODY;
+use crate::document::schema::Table;
 use crate::scene::{
     EnergyOfBodies, Formula, GRAVITY, InitialValueProblem, KineticEnergy, PairEnergy, PotentialEnergy, System,
 };
-use crate::schema::Table;
 use shadowstep_schemes::document::Text;
 
 /// The most bodies: what is read of each takes some milliseconds.
@@ -435,7 +435,7 @@ mod tests {
     use shadowstep::tables::{Faults, Source};
 
     use crate::Scene;
-    use crate::shipped::of;
+    use crate::document::shipped::of;
 
     fn read(text: &str) -> Result<Scene, Vec<String>> {
         let source = Source { path: "scene.toml".to_owned(), text: text.to_owned() };

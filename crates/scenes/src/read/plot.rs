@@ -1,10 +1,10 @@
 //! `plot` in [output]: the charts and their file.
 
 use super::reader::Reader;
-use crate::refusal::{Refusal, refuse};
+use crate::document::schema::Table;
 use crate::scene::plot::{Content, Picture, Plot};
 use crate::scene::{Outputs, System};
-use crate::schema::Table;
+use crate::texts::refusal::{Refusal, refuse};
 use shadowstep_schemes::document::{Placed, Text};
 
 /// The charts, if the rows that they are drawn from are written.

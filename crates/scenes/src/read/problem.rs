@@ -10,9 +10,9 @@ use super::parts;
 use super::planets::{self, GivenBody};
 use super::reader::Reader;
 use super::{doubled, encounters, explicit_time, formula, magnetic, many_parts, pair, shipped, slow};
+use crate::document::schema::Table;
 use crate::scene::System;
 use crate::scene::split::SLOW;
-use crate::schema::Table;
 
 /// The system with its initial state.
 pub(super) fn system(reader: &mut Reader<'_>, root: &DeTable<'_>, bodies: &[GivenBody]) -> Option<System> {

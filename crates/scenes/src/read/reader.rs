@@ -10,11 +10,11 @@ use shadowstep_schemes::document::{self, Placed, Source, Text};
 use shadowstep_schemes::symbolic::decimal::to_significant;
 use shadowstep_schemes::symbolic::{Budget, Exact};
 
-use crate::arithmetic::{ANY_SIZE, Arithmetic, GUARD_DIGITS, MOST_VALUE_DIGITS, NUMBER_EXAMPLES};
-use crate::note::Note;
-use crate::outside::path_within;
-use crate::refusal::Refusal;
-use crate::schema::{Sign, Table};
+use crate::document::schema::{Sign, Table};
+use crate::files::outside::path_within;
+use crate::run::arithmetic::{ANY_SIZE, Arithmetic, GUARD_DIGITS, MOST_VALUE_DIGITS, NUMBER_EXAMPLES};
+use crate::run::note::Note;
+use crate::texts::refusal::Refusal;
 
 /// Reads the values of a scene.
 pub(super) struct Reader<'a> {
@@ -156,7 +156,7 @@ impl<'a> Reader<'a> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::schema::texts;
+    use crate::document::schema::texts;
 
     #[test]
     fn the_numbers_of_a_scene_share_a_budget() {

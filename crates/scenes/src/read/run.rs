@@ -6,15 +6,15 @@ use shadowstep::{Rational, StepSize};
 use shadowstep_schemes::First;
 
 use super::reader::Reader;
-use crate::arithmetic::Arithmetic;
-use crate::expression::Condition;
-use crate::library::{LibraryError, NamedScheme, Schemes, check_displaced};
-use crate::note::Note;
-use crate::readable::{LONGEST_NUMBER, shortened};
+use crate::document::expression::Condition;
+use crate::document::library::{LibraryError, NamedScheme, Schemes, check_displaced};
+use crate::document::schema::Table;
+use crate::run::arithmetic::Arithmetic;
+use crate::run::note::Note;
+use crate::run::steps;
 use crate::scene::System;
 use crate::scene::split::{Class, Needs};
-use crate::schema::Table;
-use crate::steps;
+use crate::texts::readable::{LONGEST_NUMBER, shortened};
 use shadowstep_schemes::document::Text;
 use shadowstep_schemes::symbolic::Exact;
 

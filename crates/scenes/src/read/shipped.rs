@@ -8,7 +8,7 @@ use super::given::Given;
 use super::kinetic;
 use super::numbers::Numbers;
 use super::reader::Reader;
-use crate::arithmetic::{ANY_SIZE, GUARD_DIGITS, MOST_VALUE_DIGITS};
+use crate::run::arithmetic::{ANY_SIZE, GUARD_DIGITS, MOST_VALUE_DIGITS};
 use crate::scene::{InitialValueProblem, KineticEnergy};
 use shadowstep_schemes::document::Text;
 

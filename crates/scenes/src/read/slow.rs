@@ -19,8 +19,8 @@ pub(super) fn system(
 
 #[cfg(test)]
 mod tests {
+    use crate::run::start::Begin;
     use crate::scene::Scene;
-    use crate::start::Begin;
     use shadowstep::tables::{Faults, Source};
     use shadowstep::{Carried, Integrator as _};
 
@@ -127,7 +127,7 @@ mod tests {
         let note = |step: &str| {
             let problem = format!("{POTENTIAL}\nslow = \"cos(x)\"");
             let scene = read(&problem, "q = [1, 0]\np = [0, 1]", "r-respa-8").unwrap();
-            crate::stability::resonant(&scene.system, &scene.scheme, &shadowstep::exact(step).unwrap())
+            crate::motion::stability::resonant(&scene.system, &scene.scheme, &shadowstep::exact(step).unwrap())
         };
         assert_eq!(note("1/5"), None);
         let sentence = note("1/4").unwrap().to_string();

@@ -3,9 +3,9 @@
 use shadowstep::systems::transformed_time::TimeTransformation;
 
 use super::reader::Reader;
+use crate::document::schema::Table;
 use crate::scene::split::TransformedTime;
 use crate::scene::{Parts, System};
-use crate::schema::Table;
 
 /// The values of `transform`.
 #[derive(Clone, Copy)]
@@ -52,8 +52,8 @@ fn transformation(reader: &mut Reader<'_>, section: &Table<'_, '_>) -> Option<Ti
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::document::shipped::of;
     use crate::scene::Scene;
-    use crate::shipped::of;
     use shadowstep::tables::Source;
 
     #[test]

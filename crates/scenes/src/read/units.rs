@@ -2,7 +2,7 @@
 
 use shadowstep::{Rational, exact};
 
-use crate::schema::Table;
+use crate::document::schema::Table;
 
 /// Metres: the astronomical unit is exact (IAU 2012, resolution B2).
 const LENGTHS: [(&str, &str); 3] = [("AU", "149597870700"), ("km", "1000"), ("m", "1")];

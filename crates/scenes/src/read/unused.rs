@@ -6,8 +6,8 @@ use shadowstep_schemes::symbolic::nearest;
 use toml::de::{DeTable, DeValue};
 
 use super::reader::Reader;
-use crate::keys::PROBLEM;
-use crate::schema::{Table, each_text, words_of};
+use crate::document::keys::PROBLEM;
+use crate::document::schema::{Table, each_text, words_of};
 use shadowstep_schemes::document::Text;
 
 /// Refuses parameters of a problem's own formulas that are in no text of the scene: `masss = 2` changes nothing. Those
@@ -41,7 +41,7 @@ pub(super) fn refuse_unused_parameters(reader: &mut Reader<'_>, root: &DeTable<'
 mod tests {
     use shadowstep::tables::Source;
 
-    use crate::arithmetic::Arithmetic;
+    use crate::run::arithmetic::Arithmetic;
     use crate::scene::System;
 
     #[test]

@@ -7,10 +7,10 @@ use super::names::check_name;
 use super::reader::Reader;
 use super::run::Steps;
 use crate::columns::fixed_names;
-use crate::expression::{Expression, named};
-use crate::quantity_of_bodies::{BARYCENTRE, JACOBI, elements_of};
+use crate::columns::quantity_of_bodies::{BARYCENTRE, JACOBI, elements_of};
+use crate::document::expression::{Expression, named};
+use crate::document::schema::Table;
 use crate::scene::{NamedExpression, System, ValueColumns};
-use crate::schema::Table;
 
 /// The key that gives the period of values.
 const EVERY: &str = "every";

@@ -2,13 +2,13 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::arithmetic::Numbers;
+use crate::motion::tangent::VECTORS_OF_ROWS;
 use crate::results::functions::elementary_functions;
 use crate::results::metadata::{file_hashes, input_names, platform, sha256, table_hashes};
-use crate::saved_state::{SavedState, SavedVector};
-use crate::saved_summary::SavedSummary;
+use crate::run::arithmetic::Numbers;
+use crate::run::saved_state::{SavedState, SavedVector};
+use crate::run::saved_summary::SavedSummary;
 use crate::scene::Scene;
-use crate::tangent::VECTORS_OF_ROWS;
 
 /// Everything that determines the numbers of a run.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]

@@ -12,8 +12,8 @@ use shadowstep_schemes::symbolic::Exact;
 use shadowstep_schemes::symbolic::decimal::to_text;
 use shadowstep_schemes::table::{Table, Weights};
 
-use crate::arithmetic::Arithmetic;
-use crate::library;
+use crate::document::library;
+use crate::run::arithmetic::Arithmetic;
 use crate::scene::{KineticEnergy, PairCutoff, PairEnergy, PotentialEnergy, Scene, SmoothEnd, System};
 
 /// Names and values in the order in which they are written.

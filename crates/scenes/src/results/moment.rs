@@ -4,11 +4,11 @@ use std::time::{Duration, Instant};
 
 use shadowstep::VectorState;
 
-use crate::run_number::RunNumber;
-use crate::saved_state::{SavedState, SavedVector};
-use crate::saved_summary::SavedSummary;
+use crate::run::saved_state::{SavedState, SavedVector};
+use crate::run::saved_summary::SavedSummary;
+use crate::run::snapshots::{Snapshot, Snapshots};
 use crate::scene::CheckpointInterval;
-use crate::snapshots::{Snapshot, Snapshots};
+use crate::scene::run_number::RunNumber;
 
 /// All states up to n were shown.
 #[derive(Clone, Debug)]

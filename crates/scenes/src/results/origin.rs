@@ -4,10 +4,10 @@ use std::fs::File;
 use std::io::Read;
 use std::path::Path;
 
-use crate::error::Error;
 use crate::results::options::FileOptions;
 use crate::results::resumable::{LONGEST_HEAD, beside};
 use crate::scene::Format;
+use crate::texts::error::Error;
 
 /// The extension of the file with the metadata of JSON lines.
 pub(super) const METADATA: &str = "metadata.json";

@@ -14,17 +14,17 @@ use std::path::{Path, PathBuf};
 use sha2::{Digest, Sha256};
 use shadowstep_schemes::document::read_text;
 
-use crate::error::{Error, NotWritten, not_written};
-use crate::lock::{LockError, open_itself, open_locked};
-use crate::moment::Moment;
-use crate::note::Note;
-use crate::observer::Observer;
+use crate::files::lock::{LockError, open_itself, open_locked};
+use crate::files::temporary::Temporary;
+use crate::files::whole_file::{cannot_write, sync_folder};
 use crate::results::checkpoint::{Checkpoint, Identity};
 use crate::results::metadata::hexadecimal;
+use crate::results::moment::Moment;
 use crate::results::numpy::MAGIC;
 use crate::results::options::FileOptions;
-use crate::temporary::Temporary;
-use crate::whole_file::{cannot_write, sync_folder};
+use crate::run::note::Note;
+use crate::texts::error::{Error, NotWritten, not_written};
+use crate::watch::observer::Observer;
 
 /// The extension of rows that are not complete.
 const PARTIAL: &str = "partial";

@@ -4,7 +4,7 @@ use std::io::Write;
 
 use shadowstep::Real;
 
-use crate::error::Error;
+use crate::files::whole_file::WholeFile;
 use crate::results::metadata::Metadata;
 use crate::results::numpy;
 use crate::results::origin::METADATA;
@@ -12,8 +12,8 @@ use crate::results::resumable::beside;
 use crate::results::row::{Cell, Name, Row};
 use crate::results::target::Target;
 use crate::scene::Format;
+use crate::texts::error::Error;
 use crate::watch::summary::Summary;
-use crate::whole_file::WholeFile;
 
 /// Writes the head and rows in one format.
 pub(crate) struct Rows<'a> {

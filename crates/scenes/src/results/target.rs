@@ -9,18 +9,18 @@ use serde_json::Value;
 use shadowstep::tables::Faults;
 use shadowstep_schemes::document::refuse_pipe;
 
-use crate::error::Error;
-use crate::moment::Moment;
-use crate::observer::Observer;
+use crate::files::whole_file::destination;
 use crate::results::checkpoint::{Checkpoint, Identity};
 use crate::results::metadata::Metadata;
+use crate::results::moment::Moment;
 use crate::results::numpy;
 use crate::results::options::FileOptions;
 use crate::results::origin::{METADATA, Origin};
 use crate::results::resumable::{Begun, CHECKPOINT, NEW_CHECKPOINT, Resumable, beside};
 use crate::results::row::Name;
 use crate::scene::Scene;
-use crate::whole_file::destination;
+use crate::texts::error::Error;
+use crate::watch::observer::Observer;
 
 pub(crate) enum Target<'a> {
     /// A writer of the caller.

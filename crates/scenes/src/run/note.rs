@@ -7,8 +7,8 @@ use shadowstep::Rational;
 use shadowstep_schemes::counted;
 use shadowstep_schemes::symbolic::decimal::{from_text, to_significant};
 
-use crate::readable::shortened;
-use crate::steps::nearly_equal;
+use crate::run::steps::nearly_equal;
+use crate::texts::readable::shortened;
 
 /// Something the user should know; it is not an error.
 #[derive(Clone, Debug, PartialEq)]

@@ -6,7 +6,7 @@ use shadowstep::tangent::Growth;
 use shadowstep::{Real, Remainders};
 use shadowstep_schemes::symbolic::decimal::from_text;
 
-use crate::snapshots::Snapshot;
+use crate::run::snapshots::Snapshot;
 
 /// A tangent vector with the state that it is beside.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]

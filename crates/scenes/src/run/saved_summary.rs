@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 use shadowstep::number::saved::Fields;
 use shadowstep::{Rational, Real};
 
-use crate::saved_state::number;
+use crate::run::saved_state::number;
 
 /// The numbers of what follows a run up to the state n, in the order in which it gives them.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]

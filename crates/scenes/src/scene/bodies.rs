@@ -4,8 +4,8 @@ use std::ops::Range;
 
 use shadowstep_schemes::symbolic::nearest;
 
-use crate::refusal::Refusal;
 use crate::scene::System;
+use crate::texts::refusal::Refusal;
 
 /// Bodies whose coordinates follow each other.
 pub(crate) struct Bodies {

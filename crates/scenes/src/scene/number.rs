@@ -10,9 +10,9 @@ use shadowstep::{Kinetic, Motion, MotionError, Potential, Rational, UnitMasses};
 use super::pairs::OfPositions;
 use super::problem::{EnergyAt, PotentialEnergy};
 use super::system::{Parts, System, ask};
-use crate::arithmetic::number_types;
+use crate::run::arithmetic::number_types;
+use crate::run::start::{SceneIntegrator, Steps};
 use crate::scene::split::{ShownCoordinates, Split as _, State};
-use crate::start::{SceneIntegrator, Steps};
 
 /// A number type in which systems are computed.
 pub trait SceneNumber: CorrectlyRounded + 'static {

@@ -6,7 +6,7 @@ use std::time::Duration;
 
 use shadowstep::shadow::EstimatorSettings;
 
-use crate::expression::Expression;
+use crate::document::expression::Expression;
 use crate::scene::format::Format;
 use crate::scene::plot::Plot;
 

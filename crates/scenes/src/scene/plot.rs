@@ -5,9 +5,9 @@ use std::path::PathBuf;
 
 use shadowstep_schemes::symbolic::nearest;
 
-use crate::refusal::{Refusal, refuse};
 use crate::scene::System;
 use crate::scene::bodies::Bodies;
+use crate::texts::refusal::{Refusal, refuse};
 
 /// More curves in one chart cannot be told apart.
 pub const MOST_CURVES: usize = 12;

@@ -8,12 +8,12 @@ use shadowstep::{DiagonalMasses, Kinetic, Motion, Number, Potential, Rational, S
 use shadowstep_schemes::symbolic::Exact;
 use shadowstep_schemes::symbolic::decimal::to_text;
 
-use crate::arithmetic::Arithmetic;
-use crate::error::Error;
+use crate::run::arithmetic::Arithmetic;
 use crate::scene::formula::Formula;
 use crate::scene::own::OwnPotential;
 use crate::scene::pairs::PairEnergy;
 use crate::scene::parameters::values;
+use crate::texts::error::Error;
 
 /// H = T(p) + U(q) and the state at t = 0, all exact.
 #[derive(Debug)]

@@ -9,7 +9,7 @@ use shadowstep::shadow::{
 use shadowstep::steps::integrator::VectorIntegrator;
 use shadowstep::{Real, StepSize};
 
-use crate::arithmetic::number_types;
+use crate::run::arithmetic::number_types;
 use crate::scene::SceneNumber;
 
 /// A number type of runs.

@@ -33,8 +33,8 @@ use shadowstep::systems::many_parts::{Part, SystemOfParts};
 use shadowstep::systems::transformed_time::TimeTransformation;
 use shadowstep::{MotionError, Number};
 
+use crate::run::start::{SceneIntegrator, Steps};
 use crate::scene::{EnergyAt, InitialValueProblem, energy_of};
-use crate::start::{SceneIntegrator, Steps};
 
 /// Positions and momenta.
 pub(crate) type State<N> = (Vec<N>, Vec<N>);

@@ -9,13 +9,13 @@ use shadowstep::problems::Setup;
 use shadowstep::systems::transformed_time::TimeTransformation;
 use shadowstep_schemes::symbolic::Exact;
 
-use crate::error::Error;
 use crate::run::Run;
 use crate::scene::own::OwnPotential;
 use crate::scene::problem::{InitialValueProblem, KineticEnergy, PotentialEnergy};
 use crate::scene::split::{
     Class, Formulas, KineticAndPotential, Linear, Needs, Planets, SlowForces, Split, TransformedTime,
 };
+use crate::texts::error::Error;
 
 /// A problem and how its H is split for the steps.
 #[derive(Debug)]

@@ -1,6 +1,6 @@
 //! Why something is refused.
 
-use crate::error::Error;
+use crate::texts::error::Error;
 
 /// Why something is refused, and what would be right.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]

@@ -345,7 +345,7 @@ pub fn not_resolved(bodies: &[LightBody], time: impl Fn(i64) -> String) -> Optio
 mod tests {
     use super::*;
     use crate::Scene;
-    use crate::observer::KeptSummary;
+    use crate::watch::observer::KeptSummary;
     use crate::watch::summary::Summary;
     use shadowstep::tables::Source;
 

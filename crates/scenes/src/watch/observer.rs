@@ -1,8 +1,8 @@
 //! How a caller watches a run and stops it.
 
-use crate::error::Error;
-use crate::note::Note;
 use crate::run::Run;
+use crate::run::note::Note;
+use crate::texts::error::Error;
 use crate::watch::summary::Summary;
 
 /// Watches a run. `()` watches nothing and never stops it.

@@ -10,7 +10,7 @@ use shadowstep::Rational;
 use shadowstep::shadow::{Criterion, Missing, Verdict};
 use shadowstep_schemes::symbolic::decimal::{from_text, significant, to_significant, to_text};
 
-use crate::readable::wrapped_to;
+use crate::texts::readable::wrapped_to;
 use crate::watch::encounters::Encounter;
 use crate::watch::lasting_change::LastingChange;
 use crate::watch::light::{self, LightBody, not_resolved};

@@ -7,13 +7,13 @@ use shadowstep::tangent::{Adjoint, Covector, vector};
 use shadowstep::{Carried, Integrator as _, Rational, Real};
 
 use super::{Array, Base, Begun, Differentiation, Variable};
-use crate::computation::RunNumber;
-use crate::error::Error;
-use crate::observer::{Observer, report};
+use crate::execution::computation::RunNumber;
+use crate::motion::tangent::WithDerivatives;
+use crate::run::start::SceneIntegrator;
 use crate::scene::SceneNumber;
 use crate::scene::split::ShownCoordinates;
-use crate::start::SceneIntegrator;
-use crate::tangent::WithDerivatives;
+use crate::texts::error::Error;
+use crate::watch::observer::{Observer, report};
 
 /// The gradient of a function of the states of a run.
 #[derive(Clone, Debug)]

@@ -5,10 +5,10 @@ use shadowstep::steps::integrator::at_output;
 use shadowstep::{Carried, Integrator as _, Number, Rational, StepSize};
 
 use super::{Base, Differentiation, Parameter, distance, output, precise};
-use crate::arithmetic::{Digits, Numbers};
-use crate::error::Error;
+use crate::run::arithmetic::{Digits, Numbers};
 use crate::scene::System;
 use crate::scene::split::State;
+use crate::texts::error::Error;
 
 /// Of the largest derivative. The difference is right to the distance, at most 10⁻²⁵ of the second derivative; a
 /// derivative that is missing is wrong by a size of order 1.

@@ -6,13 +6,13 @@ use shadowstep::steps::together::{Together, follow};
 use shadowstep::{Carried, Integrator as _};
 
 use super::{Array, Base, Begun, Differentiation, output};
-use crate::computation::RunNumber;
-use crate::error::Error;
-use crate::observer::{Observer, report};
+use crate::execution::computation::RunNumber;
+use crate::motion::tangent::WithDerivatives;
+use crate::run::start::SceneIntegrator;
 use crate::scene::SceneNumber;
 use crate::scene::split::ShownCoordinates;
-use crate::start::SceneIntegrator;
-use crate::tangent::WithDerivatives;
+use crate::texts::error::Error;
+use crate::watch::observer::{Observer, report};
 
 /// The states of a run with their derivatives.
 #[derive(Clone, Debug)]

@@ -5,8 +5,8 @@ use shadowstep::tables::Source;
 use shadowstep::{Rational, StepSize};
 
 use super::*;
-use crate::library;
-use crate::propagator::for_system;
+use crate::document::library;
+use crate::motion::propagator::for_system;
 use crate::scene::System;
 
 const STEPS: u64 = 25;

@@ -16,13 +16,13 @@ use shadowstep::shadow::run::States;
 use super::follower::Follower;
 use super::measure::measure;
 use super::record::{Control, Permanent};
-use crate::computation::FollowedNumber;
-use crate::cpu_time::CpuTime;
-use crate::error::Error;
-use crate::estimates::Estimates;
-use crate::library::EXACT_FLOW;
-use crate::propagator::{Propagator, with_exact_flow};
+use crate::analyses::estimates::Estimates;
+use crate::document::library::EXACT_FLOW;
+use crate::execution::computation::FollowedNumber;
+use crate::motion::propagator::{Propagator, with_exact_flow};
 use crate::run::Run;
+use crate::run::cpu_time::CpuTime;
+use crate::texts::error::Error;
 
 /// It is made in any case if it takes no longer than this.
 const SHORT: Duration = Duration::from_secs(1);

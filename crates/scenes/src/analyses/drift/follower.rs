@@ -1,7 +1,7 @@
 //! How a caller follows a run and its control, and stops them.
 
-use crate::error::Error;
 use crate::run::Run;
+use crate::texts::error::Error;
 
 /// Follows a run and its control; `()` does nothing.
 pub trait Follower: Send {

@@ -2,9 +2,9 @@
 
 use shadowstep::shadow::run::{DriftRecorder, EnergyDrift};
 
-use crate::computation::FollowedNumber;
-use crate::error::Error;
-use crate::estimates::{Estimates, Finished};
+use crate::analyses::estimates::{Estimates, Finished};
+use crate::execution::computation::FollowedNumber;
+use crate::texts::error::Error;
 
 /// The drift of a run, and what is known of the run besides.
 pub(super) fn measure<N: FollowedNumber>(

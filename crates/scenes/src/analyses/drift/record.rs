@@ -4,7 +4,7 @@ use serde::{Serialize, Serializer};
 use shadowstep::number::Real;
 use shadowstep::shadow::run::{EnergyDrift, Finding};
 
-use crate::arithmetic::DigitsLabel;
+use crate::run::arithmetic::DigitsLabel;
 use crate::watch::summary::{EnergySummary, Summary};
 
 /// The result of a run in JSON; numbers of high precision are texts.

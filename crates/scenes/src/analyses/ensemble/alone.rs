@@ -6,10 +6,10 @@ use shadowstep::{Integrator as _, Number as _};
 use shadowstep_schemes::symbolic::Exact;
 
 use super::settings::Observed;
-use crate::error::Error;
+use crate::run::start::{Begin, SceneIntegrator, Steps};
 use crate::scene::System;
 use crate::scene::split::ShownCoordinates;
-use crate::start::{Begin, SceneIntegrator, Steps};
+use crate::texts::error::Error;
 
 /// A system with its stepper, for one trajectory after the other.
 pub(super) struct Alone {

@@ -7,13 +7,13 @@ use shadowstep::{Rational, exact};
 use shadowstep_schemes::document::{Fault, Reader, Text, Value, document, read_text};
 use shadowstep_schemes::symbolic::decimal::to_text;
 
-use crate::error::Error;
-use crate::family::Meaning;
-use crate::keys::{ENSEMBLE, section_with};
-use crate::outside::path_within;
-use crate::readable::{LONGEST_NUMBER, shortened};
+use crate::document::keys::{ENSEMBLE, section_with};
+use crate::document::schema::{Table, has_form};
+use crate::files::outside::path_within;
+use crate::read::family::Meaning;
 use crate::results::sha256;
-use crate::schema::{Table, has_form};
+use crate::texts::error::Error;
+use crate::texts::readable::{LONGEST_NUMBER, shortened};
 
 /// The most bytes of a file of columns.
 const LARGEST_FILE: u64 = 1 << 30;

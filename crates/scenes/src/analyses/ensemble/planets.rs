@@ -5,11 +5,11 @@ use shadowstep::shadow::ensemble::{Block, Ensemble, EnsembleError, Outcome};
 use shadowstep::systems::wisdom_holman::{DemocraticHeliocentric, Jacobi, PlanetaryCoordinates, WisdomHolman};
 use shadowstep::{Scheme, Stepper, ValidFor};
 
-use crate::error::Error;
-use crate::lanes::{LANES, in_lanes};
+use crate::motion::lanes::{LANES, in_lanes};
+use crate::run::start::Steps;
 use crate::scene::System;
 use crate::scene::split::{CanonicalCoordinates, Planets};
-use crate::start::Steps;
+use crate::texts::error::Error;
 
 /// The planets of a system, if there are steps of them in lanes: kicks by the attraction of the bodies alone, and no
 /// close encounters.

@@ -6,10 +6,10 @@ use shadowstep::shadow::ensemble::Outcome;
 use shadowstep_schemes::symbolic::decimal::to_text;
 
 use super::columns::Columns;
-use crate::error::Error;
 use crate::results::Metadata;
 use crate::scene::Scene;
-use crate::spreadsheet::cell;
+use crate::texts::error::Error;
+use crate::texts::spreadsheet::cell;
 
 /// The metadata, a line of names, and a row for each outcome.
 pub(super) fn write(

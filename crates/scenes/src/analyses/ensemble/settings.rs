@@ -6,9 +6,9 @@ use shadowstep::shadow::EstimatorSettings;
 use shadowstep::tables::{Faults, Source};
 use shadowstep_schemes::document::{Reader, document};
 
-use crate::error::Error;
 use crate::run::Run;
 use crate::scene::{Format, Scene};
+use crate::texts::error::Error;
 
 /// Energies of the trajectories.
 #[derive(Clone, Copy, Debug)]

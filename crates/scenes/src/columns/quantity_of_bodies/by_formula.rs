@@ -1,9 +1,9 @@
 //! Quantities that are formulas in the coordinates and momenta of bodies.
 
-use crate::quantity::{ANGULAR_MOMENTUM, DISTANCE};
-use crate::refusal::{Refusal, refuse};
+use crate::document::quantity::{ANGULAR_MOMENTUM, DISTANCE};
 use crate::scene::bodies::{AXES, Bodies};
 use crate::scene::{PairEnergy, System};
+use crate::texts::refusal::{Refusal, refuse};
 
 /// The formula of a quantity.
 pub(super) fn of(name: &str, arguments: &[String], (system, bodies): (&System, &Bodies)) -> Result<String, Refusal> {

@@ -9,7 +9,7 @@ use std::mem::swap;
 
 use shadowstep::{Rational, Real};
 
-use crate::quantity::Element;
+use crate::document::quantity::Element;
 
 /// A position and a velocity relative to the centre.
 pub(super) struct Orbit<N> {

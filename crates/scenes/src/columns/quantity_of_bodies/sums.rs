@@ -2,9 +2,9 @@
 
 use shadowstep::{Kinetic, Number};
 
-use crate::quantity::Compute;
-use crate::refusal::{Refusal, refuse};
+use crate::document::quantity::Compute;
 use crate::scene::{ClassifiedKinetic, PotentialEnergy, SceneNumber, System};
+use crate::texts::refusal::{Refusal, refuse};
 
 /// Refuses a system that is not T(p) + U(q).
 pub(super) fn check(name: &str, system: &System) -> Result<(), Refusal> {

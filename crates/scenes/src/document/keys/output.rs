@@ -3,9 +3,9 @@
 use shadowstep::shadow::{EstimatorSettings, HIGHEST_ORDER, SelectionRule, StoppingRule, Verdict};
 use shadowstep_analysis::modified::HIGHEST_GRADE;
 
+use crate::document::schema::{FORMULA, Kind, PATH, POSITIVE, Section};
 use crate::rows;
-use crate::schema::{FORMULA, Kind, PATH, POSITIVE, Section};
-use crate::steps::MOST_STEPS;
+use crate::run::steps::MOST_STEPS;
 
 const EVERY: Kind = Kind::Whole(1, MOST_STEPS);
 const GRADE: Kind = Kind::Whole(1, HIGHEST_GRADE as u64);

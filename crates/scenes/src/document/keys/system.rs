@@ -2,8 +2,8 @@
 
 use shadowstep::systems::pairs::MOST_DERIVATIVES;
 
+use crate::document::schema::{FORMULA, Kind, NAME, NAMES, NONZERO, NUMBER, NUMBERS, PATH, POSITIVE, Section};
 use crate::rows;
-use crate::schema::{FORMULA, Kind, NAME, NAMES, NONZERO, NUMBER, NUMBERS, PATH, POSITIVE, Section};
 
 /// The most bodies: with more, a step takes too long.
 const MOST_BODIES: u64 = 1_000_000;

@@ -7,8 +7,8 @@ use shadowstep::Rational;
 use shadowstep_schemes::symbolic::Node;
 
 use super::SymbolicHamiltonian;
-use crate::refusal::Refusal;
 use crate::scene::split::{CanonicalCoordinates, Planets};
+use crate::texts::refusal::Refusal;
 
 /// A = P₀²/2M + Σ (P_i²/2m_i′ − κ_i/|Q_i|)
 pub(super) struct Orbits {

@@ -9,8 +9,8 @@ use shadowstep::systems::pairs::{Ends, Pair, Separation};
 use shadowstep_schemes::symbolic::{Exact, Node, parse};
 
 use super::SymbolicHamiltonian;
-use crate::refusal::Refusal;
 use crate::scene::{EnergyOfBodies, GRAVITY, InitialValueProblem, PairEnergy, PotentialEnergy};
+use crate::texts::refusal::Refusal;
 
 const READ: &str = "the formula was read with the scene";
 

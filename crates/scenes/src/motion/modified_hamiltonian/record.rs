@@ -9,10 +9,10 @@ use shadowstep_schemes::symbolic::decimal::to_significant;
 use shadowstep_schemes::symbolic::{Node, Notation, Rational};
 
 use super::{SymbolicHamiltonian, SymbolicTerm};
-use crate::library::NamedScheme;
-use crate::refusal::Refusal;
-use crate::reserved_names::Language;
+use crate::document::library::NamedScheme;
+use crate::document::reserved_names::Language;
 use crate::scene::System;
+use crate::texts::refusal::Refusal;
 
 /// Short fractions have numerators and denominators of at most this number of digits.
 const SHORT: usize = 15;
@@ -122,7 +122,7 @@ pub struct FormulaRecord {
     /// H_2, H_3, …, but those that are 0.
     pub terms: Vec<FormulaTerm>,
     /// The names of coordinates, momenta and parameters in them, as the system has them and as they are written: others
-    /// where these are [reserved](crate::reserved_names) in the language of the notation.
+    /// where these are [reserved](crate::document::reserved_names) in the language of the notation.
     #[serde(skip)]
     pub names: Vec<(String, String)>,
     /// The lowest power of h whose term may not be 0 and is left out.

@@ -7,10 +7,10 @@ use shadowstep::Rational;
 use shadowstep_schemes::document::{Fault, Placed, Text};
 use shadowstep_schemes::symbolic::Exact;
 
+use crate::document::schema::Table;
 use crate::read::elements::Elements;
 use crate::read::horizons::HorizonsVector;
 use crate::read::reader::Reader;
-use crate::schema::Table;
 
 /// The keys of elements besides `a`, which all are 0 unless they are given.
 pub(super) const ANGLES_AND_SHAPE: [&str; 6] = ["e", "i", "node", "pericentre", "M", "lambda"];

@@ -4,7 +4,7 @@ use shadowstep::tables::Source;
 use shadowstep_schemes::document::{Placed, Text, read_text};
 
 use super::body::{ANGLES_AND_SHAPE, GivenBody};
-use crate::keys::BODY;
+use crate::document::keys::BODY;
 use crate::read::reader::Reader;
 
 /// The most bytes of a file.

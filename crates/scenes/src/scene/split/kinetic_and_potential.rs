@@ -5,9 +5,9 @@ use shadowstep::number::CorrectlyRounded;
 use shadowstep::{Motion, MotionError};
 
 use super::{Class, Needs, Split, State};
-use crate::refusal::Unsupported;
+use crate::run::start::{SceneIntegrator, Steps};
 use crate::scene::{ClassifiedKinetic, InitialValueProblem, PotentialEnergy};
-use crate::start::{SceneIntegrator, Steps};
+use crate::texts::refusal::Unsupported;
 
 /// T(p) and U(q).
 #[derive(Clone, Copy, Debug)]

@@ -9,10 +9,10 @@ use shadowstep::{MotionError, Number, Potential, Rational, exact};
 use shadowstep_schemes::symbolic::decimal::from_text;
 
 use super::{Class, Needs, Split, State};
-use crate::arithmetic::Arithmetic;
-use crate::refusal::Refusal;
+use crate::run::arithmetic::Arithmetic;
+use crate::run::start::{SceneIntegrator, Steps};
 use crate::scene::{InitialValueProblem, KineticEnergy};
-use crate::start::{SceneIntegrator, Steps};
+use crate::texts::refusal::Refusal;
 
 /// T(p) + ½qᵀKq with this K, row by row, and what is left of U.
 #[derive(Clone, Debug)]

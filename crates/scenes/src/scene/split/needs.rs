@@ -2,8 +2,8 @@
 
 use shadowstep::Scheme as _;
 
-use crate::library::{self, NamedScheme, Schemes};
-use crate::refusal::{Refusal, Unsupported};
+use crate::document::library::{self, NamedScheme, Schemes};
+use crate::texts::refusal::{Refusal, Unsupported};
 
 /// What a split needs of a scheme and of a run.
 #[derive(Clone, Debug)]

@@ -7,9 +7,9 @@ use shadowstep::systems::transformed_time::{TimeTransformation, TransformedKinet
 use shadowstep::{Kinetic, Motion, MotionError, Number, Potential, Real};
 
 use super::{Class, Needs, ShownCoordinates, Split, State};
-use crate::refusal::{Refusal, Unsupported};
+use crate::run::start::{SceneIntegrator, Steps};
 use crate::scene::{ClassifiedKinetic, EnergyAt, InitialValueProblem};
-use crate::start::{SceneIntegrator, Steps};
+use crate::texts::refusal::{Refusal, Unsupported};
 
 /// f(T + p_t) and −f(−U): the steps are in a fictitious time.
 #[derive(Clone, Copy, Debug)]

@@ -14,9 +14,9 @@ use shadowstep::{MotionError, Number, Potential, Rational, Real, Scheme, System 
 use shadowstep_schemes::symbolic::decimal::to_text;
 
 use super::{Class, Needs, ShownCoordinates, Split, State};
-use crate::refusal::{Refusal, Unsupported};
+use crate::run::start::{SceneIntegrator, Steps};
 use crate::scene::{EnergyAt, InitialValueProblem, energy_of};
-use crate::start::{SceneIntegrator, Steps};
+use crate::texts::refusal::{Refusal, Unsupported};
 
 /// A planetary system of point masses, the central body first.
 #[derive(Clone, Debug)]
@@ -367,7 +367,7 @@ impl Planets {
 #[cfg(test)]
 mod tests {
     use crate::Scene;
-    use crate::observer::KeptSummary;
+    use crate::watch::observer::KeptSummary;
     use shadowstep::tables::Source;
 
     /// The rows of a planet and of a particle, if there is one, with the largest interaction.
