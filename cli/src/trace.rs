@@ -4,7 +4,7 @@ mod rows;
 
 use clap::{ArgGroup, Args};
 use shadowstep::shadow::Estimate;
-use shadowstep_scenes::computation::{Computation, FollowedNumber, RunNumber};
+use shadowstep_scenes::computation::{Computation, RunNumber};
 use shadowstep_scenes::estimates::Estimates;
 use shadowstep_scenes::propagator::Propagator;
 use shadowstep_scenes::run::Run;
@@ -136,7 +136,7 @@ struct TraceRun<'a, 'w> {
 impl Computation for TraceRun<'_, '_> {
     type Output = Result<Option<Summary>, Error>;
 
-    fn compute<N: FollowedNumber>(self, context: &N::Context) -> Self::Output {
+    fn compute<N: RunNumber>(self, context: &N::Context) -> Self::Output {
         let TraceRun { selection, propagator, run, several, arguments, mut progress, interrupt, write, plots } = self;
         let Selection { arithmetic, estimator, problem, until, .. } = selection;
         let (settings, system) = (estimator.clone().with_errors(true), &problem.system);

@@ -5,7 +5,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use serde_json::json;
 use shadowstep_scenes::columns;
-use shadowstep_scenes::computation::{Computation, FollowedNumber};
+use shadowstep_scenes::computation::{Computation, RunNumber};
 use shadowstep_scenes::derivatives::Array;
 use shadowstep_scenes::integrate::{KeptStates, Samples};
 use shadowstep_scenes::posed::Posed;
@@ -117,7 +117,7 @@ struct InTexts<'a> {
 impl Computation for InTexts<'_> {
     type Output = Result<Samples<String>, Error>;
 
-    fn compute<N: FollowedNumber>(self, context: &N::Context) -> Self::Output {
+    fn compute<N: RunNumber>(self, context: &N::Context) -> Self::Output {
         Ok(self.posed.samples::<N>(self.kept, context, self.observer)?.map(N::to_text))
     }
 }

@@ -17,7 +17,7 @@ use shadowstep::steps::integrator::{VectorIntegrator, at_output};
 use shadowstep::{Number as _, StepSize};
 use shadowstep_scenes::Error;
 use shadowstep_scenes::arithmetic::Arithmetic;
-use shadowstep_scenes::computation::{Monitoring, RunNumber as _};
+use shadowstep_scenes::computation::{RunMonitor, RunNumber as _};
 use shadowstep_scenes::library::NamedScheme;
 use shadowstep_scenes::start::SceneIntegrator;
 use shadowstep_scenes::watch::light;
@@ -37,7 +37,7 @@ type Newest = (u64, f64, Option<f64>, f64);
 /// from one thread to another.
 struct Followed {
     integrator: SceneIntegrator<f64>,
-    monitor: Box<dyn Monitoring<f64>>,
+    monitor: Box<RunMonitor<f64>>,
     newest: Option<Newest>,
     bodies: Option<Bodies>,
     /// The names of the coordinates.
@@ -129,7 +129,7 @@ impl Monitor {
     /// The report on the run so far.
     fn report<'py>(&self, py: Python<'py>) -> Fallible<Bound<'py, PyDict>> {
         let (report, planets, light) = self.ask(py, |followed, _| {
-            let mut report = followed.monitor.report();
+            let mut report = f64::report(&followed.monitor);
             report.coordinate_names.clone_from(&followed.names);
             let bodies = followed.bodies.as_ref();
             Ok((report, bodies.and_then(Bodies::interactions), bodies.map_or(Vec::new(), Bodies::light)))
@@ -196,7 +196,8 @@ impl Followed {
     /// Steps until there are as many, or Python asks to end.
     fn steps(&mut self, count: u64, watched: &Watched) -> Result<(), RunError> {
         for _ in (0..count).take_while(|_| watched.continues()) {
-            if let Some(sample) = self.monitor.step(&mut *self.integrator)? {
+            self.integrator.step(self.monitor.carried());
+            if let Some(sample) = f64::observe(&mut self.monitor, &mut *self.integrator)? {
                 self.newest = Some((sample.n, *sample.modified, sample.error.copied(), *sample.energy));
             }
             self.include();

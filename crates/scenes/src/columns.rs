@@ -33,8 +33,7 @@ use self::names::OF_EACH_ROW;
 use crate::columns::at::At;
 use crate::columns::column::next_multiple;
 use crate::results::{Cell, Name};
-use crate::scene::run_number::RunNumber;
-use crate::scene::{Outputs, Scene, System};
+use crate::scene::{Outputs, Scene, SceneNumber, System};
 use crate::texts::error::Error;
 
 /// The columns of a scene in the numbers of its run.
@@ -48,7 +47,7 @@ struct Placed<'a, N> {
     end: usize,
 }
 
-impl<'a, N: RunNumber> Columns<'a, N> {
+impl<'a, N: SceneNumber> Columns<'a, N> {
     pub(crate) fn of(output: &'a Outputs, system: &'a System) -> Self {
         let fixed = [energy::of(output), modified_energy::of(output), chaos::of(output)].into_iter().flatten();
         let values = output.values.iter().map(|own| Values::new(&own.expressions, own.every));

@@ -121,7 +121,6 @@ pub use scene::split::{
 pub use scene::{
     CheckpointInterval, Direction, EnergyAt, EnergyOfBodies, Format, Formula, InitialValueProblem, KineticEnergy,
     NamedExpression, Outputs, OwnPotential, PairEnergy, Parts, PotentialEnergy, Scene, SceneNumber, Surface, System,
-    SystemIn,
 };
 pub use texts::error::{Error, NotWritten, not_written};
 pub use texts::refusal::{Refusal, Unsupported};

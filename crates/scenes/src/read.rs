@@ -1,4 +1,14 @@
-//! The text of a scene → the scene, or all its faults. Each section has its file.
+//! The text of a scene → the scene, or all its faults.
+//!
+//! | module | what it is |
+//! | --- | --- |
+//! | `reader`, `units` | values of their kinds, in the units of the scene |
+//! | `problem`, `given`, `shipped`, `formula`, `pair`, `planets`, `doubled`, `many_parts`, `magnetic` | the ways to give a system |
+//! | `bodies`, `elements`, `horizons`, `of_bodies`, `cutoff`, `encounters` | bodies, their states and energies |
+//! | `kinetic`, `slow`, `parts`, `explicit_time`, `time` | T(p), how H is split, and how time runs |
+//! | `initial`, `run`, `output`, `values`, `plot`, `modified_hamiltonian` | the other sections |
+//! | `names`, `numbers`, `variables`, `unused` | names in formulas |
+//! | [`family`] | scenes that differ in the values of some names |
 
 mod bodies;
 mod cutoff;

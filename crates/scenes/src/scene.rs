@@ -4,7 +4,7 @@
 //! | --- | --- |
 //! | `system`, `problem`, `bodies`, `pairs`, `formula`, `own`, `parameters` | what moves |
 //! | `split` | how H is split into parts: each kind of split has its file |
-//! | `number`, `run_number` | the number types in which systems, and what follows a run, are compiled |
+//! | `number` | the number types in which systems are compiled |
 //! | `output`, `format` | what is written |
 //! | [`plot`] | what charts of a run show |
 
@@ -18,13 +18,13 @@ mod pairs;
 mod parameters;
 pub mod plot;
 mod problem;
-pub(crate) mod run_number;
 pub(crate) mod split;
 mod system;
 
 pub use format::Format;
 pub use formula::Formula;
-pub use number::{SceneNumber, SystemIn};
+pub use number::SceneNumber;
+pub(crate) use number::springs;
 pub use output::NamedExpression;
 pub(crate) use output::ValueColumns;
 pub use output::{CheckpointInterval, Direction, Outputs, Surface};

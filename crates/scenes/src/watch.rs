@@ -1,4 +1,13 @@
 //! Follows a run: the error of H, the modified energy by a monitor, and close encounters.
+//!
+//! | module | what it is |
+//! | --- | --- |
+//! | `energy`, `lasting_change` | the error of H, and a change of it that lasts |
+//! | `monitor` | the monitor of the modified energy |
+//! | `encounters` | times at which the force is large |
+//! | `bodies`, `places`, `approaches`, `particles`, [`light`] | how close bodies come to each other: planets, particles of mass 0, light bodies |
+//! | `summary` | what a run has shown |
+//! | `observer` | how a caller watches a run and stops it |
 
 mod approaches;
 pub(crate) mod bodies;
@@ -6,6 +15,7 @@ pub(crate) mod encounters;
 mod energy;
 mod lasting_change;
 pub mod light;
+pub(crate) mod monitor;
 pub(crate) mod observer;
 pub(crate) mod particles;
 mod places;
@@ -30,7 +40,8 @@ pub use self::particles::ParticleApproach;
 use crate::run::Run;
 use crate::run::steps::MOST_STEPS;
 use crate::scene;
-use crate::scene::run_number::{Monitoring, RunNumber};
+use crate::scene::SceneNumber;
+use crate::watch::monitor::RunMonitor;
 use crate::watch::summary::{EnergySummary, ModifiedEnergySummary, Summary};
 
 /// The monitor's estimator is E_16 with its error: 17 states a window.
@@ -66,7 +77,7 @@ impl Energies {
 const EPSILON_EVERY: u64 = 16;
 
 /// Follows the states of a run in the order of time.
-pub struct Watch<N: RunNumber> {
+pub struct Watch<N: SceneNumber> {
     energies: Energies,
     energy: EnergyError<N>,
     /// Whether H is that of the trajectory of a processed scheme, while the monitor follows the kernel.
@@ -86,7 +97,7 @@ pub struct Watch<N: RunNumber> {
     n: i64,
 }
 
-struct Observed<N: RunNumber> {
+struct Observed<N: SceneNumber> {
     /// Of a run whose number of steps is not known several, with windows at larger and larger distances; the first one
     /// has the closest.
     monitors: Vec<Spaced<N>>,
@@ -98,8 +109,8 @@ struct Observed<N: RunNumber> {
 }
 
 /// A monitor with a window every `every` steps.
-struct Spaced<N: RunNumber> {
-    monitor: Box<dyn Monitoring<N>>,
+struct Spaced<N: SceneNumber> {
+    monitor: Box<RunMonitor<N>>,
     every: u64,
 }
 
@@ -111,7 +122,7 @@ fn distances(windows: u64) -> impl Iterator<Item = u64> {
     std::iter::successors(Some(1), move |every| Some(every * RATIO).filter(|every| *every <= MOST_STEPS / windows))
 }
 
-impl<N: RunNumber> Observed<N> {
+impl<N: SceneNumber> Observed<N> {
     /// Takes the state n; whether no monitor takes anything of it.
     #[inline]
     fn include(&mut self, n: i64, (q, p): (&[N], &[N])) -> bool {
@@ -146,7 +157,7 @@ impl<N: RunNumber> Observed<N> {
 }
 
 /// Of [idle](Watch::idle) states.
-impl<N: RunNumber> Visitor<N> for Watch<N> {
+impl<N: SceneNumber> Visitor<N> for Watch<N> {
     fn visit(&mut self, q: &[N], p: &[N]) {
         self.n += 1;
         if let Some(observed) = &mut self.observed {
@@ -157,7 +168,7 @@ impl<N: RunNumber> Visitor<N> for Watch<N> {
 
 /// All that the states so far have left: one that was begun anew on the same run, or on a longer one, goes on from it
 /// with the same bits.
-impl<N: RunNumber> Saved<N> for Watch<N> {
+impl<N: SceneNumber> Saved<N> for Watch<N> {
     fn fields(&mut self, to: &mut dyn Fields<N>) {
         self.energy.fields(to);
         [&mut self.from, &mut self.n].into_iter().for_each(|n| to.whole(n));
@@ -172,7 +183,7 @@ impl<N: RunNumber> Saved<N> for Watch<N> {
     }
 }
 
-impl<N: RunNumber> Watch<N> {
+impl<N: SceneNumber> Watch<N> {
     /// Begins at the system's present state, which is number `from` of the run; `initial` is H at t = 0. `is_open` is
     /// whether something else may end the run before its last step.
     ///
@@ -190,7 +201,7 @@ impl<N: RunNumber> Watch<N> {
         if summarised {
             let every = (run.steps.saturating_sub(from.unsigned_abs()) / run.windows).max(1);
             let distances = if is_open { distances(run.windows).collect() } else { vec![every] };
-            let spaced = |every| Ok(Spaced { monitor: N::monitor(integrator, MONITOR_ORDER, every)?, every });
+            let spaced = |every| Ok(Spaced { monitor: monitor::monitor(integrator, MONITOR_ORDER, every)?, every });
             let monitors = distances.into_iter().map(spaced).collect::<Result<Vec<_>, RunError>>()?;
             let mut begun = Observed {
                 monitors,
@@ -277,7 +288,7 @@ impl<N: RunNumber> Watch<N> {
         let [Spaced { monitor, .. }, others @ ..] = &mut observed.monitors[..] else { return };
         for Spaced { monitor, .. } in others {
             match monitor.idle() {
-                0 => drop(monitor.observe(integrator)),
+                0 => drop(monitor.observe(integrator.system())),
                 _ => monitor.pass(1),
             }
         }
@@ -287,7 +298,7 @@ impl<N: RunNumber> Watch<N> {
             return;
         }
         // what is not finite is found by the run as well, or by the verdict
-        let found = monitor.observe(integrator).ok().flatten();
+        let found = monitor.observe(integrator.system()).ok().flatten();
         // of a processed scheme the trajectory is known at the present state only
         let processed = integrator.is_processed();
         let ends = found.is_some();

@@ -6,7 +6,7 @@ use shadowstep::tangent::{Exponent, Growth, Regularity};
 use shadowstep::{Rational, StepSize};
 use shadowstep_schemes::symbolic::decimal::to_text;
 
-use crate::execution::computation::{Computation, FollowedNumber};
+use crate::execution::computation::{Computation, RunNumber};
 use crate::execution::posed::{Followed, Posed};
 use crate::motion::tangent::{TangentRun, Vectors};
 use crate::run::Run;
@@ -172,7 +172,7 @@ struct Following<'a, 'o> {
 impl Computation for Following<'_, '_> {
     type Output = Result<ChaosRecord, Error>;
 
-    fn compute<N: FollowedNumber>(self, context: &N::Context) -> Self::Output {
+    fn compute<N: RunNumber>(self, context: &N::Context) -> Self::Output {
         let Following { posed, vectors, observer } = self;
         let followed = N::follow(&posed, context, &mut [], observer)?;
         let run = Run { steps: followed.n.unsigned_abs(), ..posed.run };

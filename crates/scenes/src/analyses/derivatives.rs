@@ -15,7 +15,6 @@ use shadowstep::steps::integrator::{VectorIntegrator, at_output};
 use shadowstep::tables::{AtRunTime, TableScheme};
 use shadowstep::{Integrator as _, MotionError, Rational, Remainders, StepSize, exact};
 
-use crate::execution::computation::RunNumber;
 use crate::run::Run;
 use crate::run::arithmetic::Arithmetic;
 use crate::run::start::{Begin, SceneIntegrator, Steps};
@@ -118,7 +117,7 @@ pub enum Array {
 }
 
 impl Array {
-    fn of<N: RunNumber>(numbers: &[N], arithmetic: Arithmetic) -> Self {
+    fn of<N: SceneNumber>(numbers: &[N], arithmetic: Arithmetic) -> Self {
         match arithmetic.is_longer_than_double() {
             false => Array::Doubles(numbers.iter().map(N::to_f64).collect()),
             true => Array::Texts(numbers.iter().map(N::to_text).collect()),
@@ -127,13 +126,13 @@ impl Array {
 }
 
 /// A system at its first state, of which a variable has the derivative 1.
-struct Begun<N: RunNumber> {
+struct Begun<N: SceneNumber> {
     integrator: SceneIntegrator<Dual<N>>,
     shown: Option<ShownCoordinates<Dual<N>>>,
     base: Base,
 }
 
-impl<N: RunNumber> Begun<N>
+impl<N: SceneNumber> Begun<N>
 where
     Dual<N>: SceneNumber<Context = N::Context>,
 {
@@ -184,7 +183,11 @@ impl Differentiation<'_> {
     }
 
     /// The system at its first state, of which the variable, if there is one, has the derivative 1.
-    fn begin<N: RunNumber>(&self, variable: Option<(&Variable, Base)>, context: &N::Context) -> Result<Begun<N>, Error>
+    fn begin<N: SceneNumber>(
+        &self,
+        variable: Option<(&Variable, Base)>,
+        context: &N::Context,
+    ) -> Result<Begun<N>, Error>
     where
         Dual<N>: SceneNumber<Context = N::Context>,
     {
@@ -206,7 +209,7 @@ impl Differentiation<'_> {
         Ok(self.begin_at(self.system, self.run.h, (q, p))?)
     }
 
-    fn begin_parameter<N: RunNumber>(
+    fn begin_parameter<N: SceneNumber>(
         &self,
         (parameter, base): (&Parameter, Base),
         from: impl Fn(State<Dual<N>>) -> State<Dual<N>>,
@@ -232,7 +235,7 @@ impl Differentiation<'_> {
         Ok(Begun { base, ..found? })
     }
 
-    fn begin_at<N: RunNumber>(
+    fn begin_at<N: SceneNumber>(
         &self,
         system: &System,
         h: &StepSize,
@@ -270,7 +273,7 @@ impl Differentiation<'_> {
     }
 
     /// The run stopped, if a number is not finite.
-    fn check_finite<N: RunNumber>(&self, n: u64, output: &[Dual<N>]) -> Result<(), Error> {
+    fn check_finite<N: SceneNumber>(&self, n: u64, output: &[Dual<N>]) -> Result<(), Error> {
         let dimension = output.len() / 2;
         let not_finite = |x: &Dual<N>| !(x.value.is_finite() && x.derivatives[0].is_finite());
         let Some(i) = output.iter().position(not_finite) else { return Ok(()) };

@@ -36,7 +36,7 @@ use shadowstep::shadow::{EstimatorSettings, SelectionRule, StoppingRule};
 use shadowstep_schemes::symbolic::decimal::to_text;
 
 use crate::analyses::estimates::{Estimates, Finished};
-use crate::execution::computation::{Computation, FollowedNumber};
+use crate::execution::computation::{Computation, RunNumber};
 use crate::motion::propagator::Propagator;
 use crate::run::Run;
 use crate::run::arithmetic::Arithmetic;
@@ -102,7 +102,7 @@ struct Measurement<'a> {
 impl Computation for Measurement<'_> {
     type Output = Result<Record, Error>;
 
-    fn compute<N: FollowedNumber>(self, context: &N::Context) -> Self::Output {
+    fn compute<N: RunNumber>(self, context: &N::Context) -> Self::Output {
         let Measurement { request, propagator, run, controls, follower } = self;
         let DriftRequest { system, summarised, arithmetic, .. } = *request;
         let settings = request.estimator.clone().with_errors(true);

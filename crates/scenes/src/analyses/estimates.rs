@@ -1,14 +1,15 @@
 //! The modified energies along a run, one by one, and what the run shows.
 
 use shadowstep::Rational;
+use shadowstep::shadow::run::ShadowRun;
 use shadowstep::shadow::{Estimate, EstimatorSettings};
 
 use crate::columns::at::{At, Place};
 use crate::columns::column::Column;
 use crate::document::library::NamedScheme;
-use crate::execution::computation::{FollowedNumber, RunNumber};
+use crate::execution::computation::RunNumber;
 use crate::execution::posed::{Followed, Posed};
-use crate::motion::propagator::{Propagator, exact_flow};
+use crate::motion::propagator::Propagator;
 use crate::run::Run;
 use crate::run::arithmetic::Arithmetic;
 use crate::scene::System;
@@ -70,13 +71,14 @@ impl Estimates<'_> {
     ///
     /// # Panics
     /// If the scheme is the exact flow of a system that has none, which [`Propagator::of_system`] excludes.
-    pub fn take<N: FollowedNumber>(self, context: &N::Context, take: Take<'_, N>) -> Result<Finished<N>, Error> {
+    pub fn take<N: RunNumber>(self, context: &N::Context, take: Take<'_, N>) -> Result<Finished<N>, Error> {
         let Estimates { system, propagator, run, settings, .. } = self;
         match propagator {
             Propagator::Scheme(named) => self.along(named, context, take),
             Propagator::ExactFlow => {
                 let setup = system.setup().expect("the exact flow was read for this system");
-                let mut shadow = exact_flow(&setup, run, settings, context)?;
+                let shadow = ShadowRun::of_exact_flow(&setup, run.h, run.steps, settings, context);
+                let mut shadow = shadow.map_err(|error| run.not_followed(&error))?;
                 while let Some((n, estimate)) = shadow.advance().map_err(|error| run.failed(&error))? {
                     take(n, &estimate)?;
                 }
@@ -87,7 +89,7 @@ impl Estimates<'_> {
     }
 
     /// Those of a scheme.
-    fn along<N: FollowedNumber>(
+    fn along<N: RunNumber>(
         self,
         named: &NamedScheme,
         context: &N::Context,

@@ -5,9 +5,8 @@ use shadowstep::steps::integrator::VectorIntegrator;
 
 use crate::motion::tangent::{FollowingVectors, TangentRun};
 use crate::run::Run;
-use crate::scene::run_number::RunNumber;
 use crate::scene::split::ShownCoordinates;
-use crate::scene::{EnergyAt, System};
+use crate::scene::{EnergyAt, SceneNumber, System};
 use crate::texts::error::Error;
 
 /// What a state of a run is.
@@ -22,7 +21,7 @@ pub enum Place {
 }
 
 /// A state of the trajectory. Where modified energies are estimated the steps are ahead of it.
-pub struct At<'s, 'i, N: RunNumber> {
+pub struct At<'s, 'i, N: SceneNumber> {
     /// Its number; of a [`PhysicalEnd`](Place::PhysicalEnd) one more than that of the last state.
     pub n: i64,
     /// What it is.
@@ -49,7 +48,7 @@ pub struct At<'s, 'i, N: RunNumber> {
     pub(crate) vectors: Option<&'s mut FollowingVectors>,
 }
 
-impl<N: RunNumber> At<'_, '_, N> {
+impl<N: SceneNumber> At<'_, '_, N> {
     /// q and p in the coordinates of the steps.
     pub fn state(&mut self) -> (&[N], &[N]) {
         self.leave_kernel();
@@ -115,7 +114,7 @@ impl<N: RunNumber> At<'_, '_, N> {
 }
 
 /// Other q and p, or those of the integrator.
-fn numbers<'s, N: RunNumber>(
+fn numbers<'s, N: SceneNumber>(
     other: &'s Option<(Vec<N>, Vec<N>)>,
     integrator: &'s VectorIntegrator<'_, N>,
 ) -> (&'s [N], &'s [N]) {
@@ -126,7 +125,7 @@ fn numbers<'s, N: RunNumber>(
 }
 
 /// What states are shown in.
-pub(crate) struct View<'a, N: RunNumber> {
+pub(crate) struct View<'a, N: SceneNumber> {
     pub(crate) system: &'a System,
     pub(crate) run: Run<'a>,
     pub(crate) context: &'a N::Context,
@@ -137,7 +136,7 @@ pub(crate) struct View<'a, N: RunNumber> {
     pub(crate) vectors: Option<FollowingVectors>,
 }
 
-impl<'a, N: RunNumber> View<'a, N> {
+impl<'a, N: SceneNumber> View<'a, N> {
     pub(crate) fn new(
         system: &'a System,
         run: Run<'a>,

@@ -6,12 +6,12 @@ use shadowstep::steps::integrator::VectorIntegrator;
 use crate::columns::at::At;
 use crate::results::moment::Moment;
 use crate::run::Run;
-use crate::scene::run_number::RunNumber;
+use crate::scene::SceneNumber;
 use crate::texts::error::Error;
 use crate::watch::Watch;
 
 /// Takes states of a run.
-pub trait Column<N: RunNumber> {
+pub trait Column<N: SceneNumber> {
     /// The n of the next state that it takes after the state n; by default none. It is also shown others, as the last
     /// one.
     fn next(&self, n: i64) -> i64 {
@@ -76,7 +76,7 @@ pub fn next_multiple(n: i64, every: u64) -> i64 {
 }
 
 /// Shows a state to all columns. H, where it is computed, is of the error of H, too.
-pub(crate) fn show<N: RunNumber>(
+pub(crate) fn show<N: SceneNumber>(
     columns: &mut [&mut dyn Column<N>],
     watch: &mut Option<Watch<N>>,
     at: &mut At<'_, '_, N>,

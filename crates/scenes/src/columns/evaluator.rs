@@ -15,9 +15,8 @@ use crate::document::expression::{Comparison, Condition, ENERGY, Expression, TIM
 use crate::document::quantity::{Compute, Quantity};
 use crate::document::reserved_names;
 use crate::motion::lanes::LANES;
-use crate::scene::run_number::RunNumber;
 use crate::scene::split::ShownCoordinates;
-use crate::scene::{Direction, EnergyAt, NamedExpression, Surface, System};
+use crate::scene::{Direction, EnergyAt, NamedExpression, SceneNumber, Surface, System};
 use crate::texts::error::Error;
 use crate::texts::refusal::Refusal;
 
@@ -151,7 +150,7 @@ pub struct Evaluator<N> {
     energy: Option<EnergyAt<N>>,
 }
 
-impl<N: RunNumber> Evaluator<N> {
+impl<N: SceneNumber> Evaluator<N> {
     /// For the states of a run, also in transformed time.
     ///
     /// # Errors
@@ -176,7 +175,7 @@ impl<N: RunNumber> Evaluator<N> {
 
 impl NamedExpression {
     /// The evaluator of an expression that was checked with its scene.
-    pub(crate) fn evaluator<N: RunNumber>(&self, system: &System, context: &N::Context) -> Evaluator<N> {
+    pub(crate) fn evaluator<N: SceneNumber>(&self, system: &System, context: &N::Context) -> Evaluator<N> {
         Evaluator::of_run(&self.expression, system, context).expect("it was checked with the scene")
     }
 }
@@ -350,7 +349,7 @@ pub struct Test<N> {
     zero: N,
 }
 
-impl<N: RunNumber> Test<N> {
+impl<N: SceneNumber> Test<N> {
     /// For the states of a run.
     ///
     /// # Errors
@@ -370,7 +369,7 @@ impl<N: RunNumber> Test<N> {
     }
 }
 
-impl<N: RunNumber> Test<N> {
+impl<N: SceneNumber> Test<N> {
     /// Whether H is in it.
     pub(crate) fn has_energy(&self) -> bool {
         self.difference.has_energy

@@ -7,21 +7,20 @@ use crate::columns::column::Column;
 use crate::columns::evaluator::Evaluator;
 use crate::columns::extremum::Extremum;
 use crate::run::Run;
-use crate::scene::run_number::RunNumber;
-use crate::scene::{NamedExpression, System};
+use crate::scene::{NamedExpression, SceneNumber, System};
 use crate::watch::summary::Extreme;
 
 /// The least and the greatest values of expressions, over states in the order of time.
-pub(crate) struct Extremes<'a, N: RunNumber>(Vec<ExtremesOfOne<'a, N>>);
+pub(crate) struct Extremes<'a, N: SceneNumber>(Vec<ExtremesOfOne<'a, N>>);
 
-struct ExtremesOfOne<'a, N: RunNumber> {
+struct ExtremesOfOne<'a, N: SceneNumber> {
     name: &'a str,
     evaluator: Evaluator<N>,
     /// The least and the greatest value so far, each with the n of its first state.
     found: [Option<(N, i64)>; 2],
 }
 
-impl<'a, N: RunNumber> Extremes<'a, N> {
+impl<'a, N: SceneNumber> Extremes<'a, N> {
     pub(crate) fn new(expressions: &'a [NamedExpression], system: &System, context: &N::Context) -> Self {
         let one = |named: &'a NamedExpression| ExtremesOfOne {
             name: &named.name,
@@ -42,7 +41,7 @@ impl<'a, N: RunNumber> Extremes<'a, N> {
     }
 }
 
-impl<N: RunNumber> Column<N> for Extremes<'_, N> {
+impl<N: SceneNumber> Column<N> for Extremes<'_, N> {
     fn sees_each(&self) -> bool {
         !self.0.is_empty()
     }

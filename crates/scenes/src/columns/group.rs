@@ -2,11 +2,11 @@
 
 use crate::columns::at::{At, Place};
 use crate::results::{Cell, Name};
-use crate::scene::run_number::RunNumber;
+use crate::scene::SceneNumber;
 use crate::texts::error::Error;
 
 /// Columns that are due together.
-pub(crate) trait Group<N: RunNumber> {
+pub(crate) trait Group<N: SceneNumber> {
     /// Their names.
     fn names(&self) -> Vec<Name>;
 
@@ -20,13 +20,13 @@ pub(crate) trait Group<N: RunNumber> {
 type Append<N> = fn(&mut At<'_, '_, N>, &mut Vec<Cell<N>>) -> Result<(), Error>;
 
 /// Columns that have the same names in all systems.
-pub(super) struct Fixed<N: RunNumber> {
+pub(super) struct Fixed<N: SceneNumber> {
     pub(super) names: &'static [&'static str],
     pub(super) due: Due,
     pub(super) append: Append<N>,
 }
 
-impl<N: RunNumber> Group<N> for Fixed<N> {
+impl<N: SceneNumber> Group<N> for Fixed<N> {
     fn names(&self) -> Vec<Name> {
         self.names.iter().copied().map(Name::from).collect()
     }
@@ -50,7 +50,7 @@ pub(crate) struct Due {
 }
 
 impl Due {
-    pub(super) fn is_at<N: RunNumber>(self, at: &At<'_, '_, N>) -> bool {
+    pub(super) fn is_at<N: SceneNumber>(self, at: &At<'_, '_, N>) -> bool {
         let is_multiple = |every: u64| at.is_met || at.n.unsigned_abs().is_multiple_of(every);
         self.places.contains(&at.place) || (at.place == Place::State && self.every.is_some_and(is_multiple))
     }

@@ -4,8 +4,7 @@ use super::group::{Due, Group};
 use crate::columns::at::{At, Place};
 use crate::document::reserved_names::LISTS;
 use crate::results::{Cell, Name};
-use crate::scene::run_number::RunNumber;
-use crate::scene::{Outputs, System};
+use crate::scene::{Outputs, SceneNumber, System};
 use crate::texts::error::Error;
 
 pub(super) struct States<'a> {
@@ -17,7 +16,7 @@ pub(super) fn of<'a>(output: &Outputs, system: &'a System) -> Option<States<'a>>
     output.has_states().then_some(States { every: output.trajectory, system })
 }
 
-impl<N: RunNumber> Group<N> for States<'_> {
+impl<N: SceneNumber> Group<N> for States<'_> {
     /// t has its column already, where it is a coordinate; it is in the list of these.
     fn names(&self) -> Vec<Name> {
         let own = self.system.coordinates_of_columns();

@@ -6,19 +6,18 @@ use crate::columns::at::{At, Place};
 use crate::columns::evaluator::{Evaluator, alone};
 use crate::document::expression::Expression;
 use crate::results::{Cell, Name};
-use crate::scene::run_number::RunNumber;
-use crate::scene::{NamedExpression, System};
+use crate::scene::{NamedExpression, SceneNumber, System};
 use crate::texts::error::Error;
 
 /// Columns of expressions with one period.
-pub(crate) struct Values<'a, N: RunNumber> {
+pub(crate) struct Values<'a, N: SceneNumber> {
     every: u64,
     columns: &'a [NamedExpression],
     /// From the first row on: of many columns they take long to make.
     evaluators: Vec<Evaluator<N>>,
 }
 
-impl<'a, N: RunNumber> Values<'a, N> {
+impl<'a, N: SceneNumber> Values<'a, N> {
     pub(crate) fn new(columns: &'a [NamedExpression], every: u64) -> Self {
         Values { every, columns, evaluators: Vec::new() }
     }
@@ -42,7 +41,7 @@ impl System {
     }
 }
 
-impl<N: RunNumber> Group<N> for Values<'_, N> {
+impl<N: SceneNumber> Group<N> for Values<'_, N> {
     fn names(&self) -> Vec<Name> {
         self.columns.iter().map(|column| Name::from(&*column.name)).collect()
     }

@@ -1,22 +1,30 @@
 //! Computations that can be made in every number type of runs.
 
 use num_traits::Zero;
-use shadowstep::Rational;
 #[cfg(feature = "mpfr")]
 use shadowstep::number::Float;
 use shadowstep::number::{AnyLimbs, DoubleDouble};
+use shadowstep::shadow::run::RunError;
+use shadowstep::shadow::{Report, Sample};
+use shadowstep::steps::integrator::VectorIntegrator;
+use shadowstep::{MotionError, Rational};
 use shadowstep_schemes::symbolic::Exact;
 
 use crate::columns::column::Column;
 use crate::execution::follow;
 use crate::execution::posed::{Followed, Posed};
 use crate::run::arithmetic::{Arithmetic, Digits, Numbers, number_types};
-pub use crate::scene::run_number::{Monitoring, RunNumber};
+use crate::run::start::{SceneIntegrator, Steps};
+use crate::scene::split::State;
+use crate::scene::{SceneNumber, springs};
 use crate::texts::error::Error;
+pub use crate::watch::monitor::RunMonitor;
+use crate::watch::monitor::monitor;
 use crate::watch::observer::Observer;
 
-/// A number type in which runs are made.
-pub trait FollowedNumber: RunNumber {
+/// A number type in which runs are made. What follows a run is compiled in this crate, once for each, and not again in
+/// every crate that uses it.
+pub trait RunNumber: SceneNumber {
     /// Makes a run and shows its states to columns; without an end that is known before, until a column, a condition or
     /// a physical time ends it.
     ///
@@ -29,12 +37,49 @@ pub trait FollowedNumber: RunNumber {
         columns: &mut [&mut dyn Column<Self>],
         observer: &mut dyn Observer,
     ) -> Result<Followed, Error>;
+
+    /// A monitor by E_k with its error, with a window every `every` steps. With more digits than its verdict needs, the
+    /// estimates have fewer.
+    ///
+    /// # Errors
+    /// As [`Monitor::new`](shadowstep::shadow::Monitor::new).
+    fn monitor(
+        integrator: &mut VectorIntegrator<'_, Self>,
+        k: u32,
+        every: u64,
+    ) -> Result<Box<RunMonitor<Self>>, RunError>;
+
+    /// [`Monitor::observe`](shadowstep::shadow::Monitor::observe), where that is not compiled once more.
+    ///
+    /// # Errors
+    /// As there.
+    fn observe<'m>(
+        monitor: &'m mut RunMonitor<Self>,
+        integrator: &mut VectorIntegrator<'_, Self>,
+    ) -> Result<Option<Sample<'m, Self>>, RunError>;
+
+    /// [`Monitor::report`](shadowstep::shadow::Monitor::report), where that is not compiled once more.
+    fn report(monitor: &RunMonitor<Self>) -> Report<Self>;
+
+    /// The chain of the problem fput-alpha, of as many bodies as the state has, with its stepper.
+    ///
+    /// # Errors
+    /// No bodies, or not as many momenta.
+    ///
+    /// # Panics
+    /// As [`System::integrator`].
+    fn springs(
+        alpha: &Rational,
+        steps: Steps<'_>,
+        state: State<Self>,
+        context: &Self::Context,
+    ) -> Result<SceneIntegrator<Self>, MotionError>;
 }
 
-// not inlined: callers in other crates would compile it once more
-macro_rules! followed_numbers {
+// not inlined: callers in other crates would compile what is called once more
+macro_rules! run_numbers {
     ($($number:ty),*) => {$(
-        impl FollowedNumber for $number {
+        impl RunNumber for $number {
             #[inline(never)]
             fn follow(
                 posed: &Posed<'_>,
@@ -44,11 +89,43 @@ macro_rules! followed_numbers {
             ) -> Result<Followed, Error> {
                 follow::follow(posed, context, columns, observer)
             }
+
+            #[inline(never)]
+            fn monitor(
+                integrator: &mut VectorIntegrator<'_, Self>,
+                k: u32,
+                every: u64,
+            ) -> Result<Box<RunMonitor<Self>>, RunError> {
+                monitor(integrator, k, every)
+            }
+
+            #[inline(never)]
+            fn observe<'m>(
+                monitor: &'m mut RunMonitor<Self>,
+                integrator: &mut VectorIntegrator<'_, Self>,
+            ) -> Result<Option<Sample<'m, Self>>, RunError> {
+                monitor.observe(integrator.system())
+            }
+
+            #[inline(never)]
+            fn report(monitor: &RunMonitor<Self>) -> Report<Self> {
+                monitor.report()
+            }
+
+            #[inline(never)]
+            fn springs(
+                alpha: &Rational,
+                steps: Steps<'_>,
+                state: State<Self>,
+                context: &Self::Context,
+            ) -> Result<SceneIntegrator<Self>, MotionError> {
+                springs(alpha, steps, state, context)
+            }
         }
     )*};
 }
 
-number_types!(followed_numbers);
+number_types!(run_numbers);
 
 /// A computation that can be made in every number type.
 pub trait Computation {
@@ -56,7 +133,7 @@ pub trait Computation {
     type Output;
 
     /// Makes it with numbers of type N.
-    fn compute<N: FollowedNumber>(self, context: &N::Context) -> Self::Output;
+    fn compute<N: RunNumber>(self, context: &N::Context) -> Self::Output;
 }
 
 impl Arithmetic {

@@ -10,15 +10,14 @@ use crate::columns::evaluator::Evaluator;
 use crate::run::Run;
 use crate::run::arithmetic::GUARD_DIGITS;
 use crate::run::snapshots::Snapshot;
-use crate::scene::run_number::RunNumber;
-use crate::scene::{Direction, Surface, System};
+use crate::scene::{Direction, SceneNumber, Surface, System};
 
 /// Why displaced forces have no crossings.
 pub(crate) const NEEDS_PARTS_OF_STEPS: &str =
     "displaced forces belong to whole steps, and a section needs parts of a step";
 
 /// Finds the crossings of a run, whose states it takes one after the other.
-pub(crate) struct Crossings<N: RunNumber> {
+pub(crate) struct Crossings<N: SceneNumber> {
     value: Evaluator<N>,
     direction: Direction,
     /// The state at t = 0, in the coordinates of the steps.
@@ -32,7 +31,7 @@ pub(crate) struct Crossings<N: RunNumber> {
 /// q and p.
 type Point<N> = (Vec<N>, Vec<N>);
 
-impl<N: RunNumber> Crossings<N> {
+impl<N: SceneNumber> Crossings<N> {
     /// Of a surface that was checked for the system.
     pub(crate) fn new(Surface { expression, direction }: &Surface, system: &System, context: &N::Context) -> Self {
         let value = Evaluator::of_run(expression, system, context).expect("it was checked for the system");
@@ -155,7 +154,7 @@ fn is_zero<N: Real>(value: &N, ends: [&N; 2]) -> bool {
 
 impl Run<'_> {
     /// The time of a crossing, a part of a step after the state n.
-    pub(crate) fn time_of_crossing<N: RunNumber>(&self, n: i64, part: &N, context: &N::Context) -> N {
+    pub(crate) fn time_of_crossing<N: SceneNumber>(&self, n: i64, part: &N, context: &N::Context) -> N {
         let mut time = N::from_rational(self.h.exact(), context);
         time.multiply(part);
         time.add(&self.time_in(n, context));

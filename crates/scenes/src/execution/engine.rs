@@ -4,7 +4,7 @@ use crate::columns::Columns;
 use crate::columns::at::At;
 use crate::columns::column::Column;
 use crate::columns::extremes::Extremes;
-use crate::execution::computation::{Computation, FollowedNumber, RunNumber};
+use crate::execution::computation::{Computation, RunNumber};
 use crate::execution::posed::{Followed, Posed, Resumed};
 use crate::motion::tangent::{VECTORS_OF_ROWS, Vectors};
 use crate::results::moment::Moment;
@@ -45,7 +45,7 @@ pub(crate) struct SceneRun<'a, 'r> {
 impl Computation for SceneRun<'_, '_> {
     type Output = Result<Followed, Error>;
 
-    fn compute<N: FollowedNumber>(self, context: &N::Context) -> Self::Output {
+    fn compute<N: RunNumber>(self, context: &N::Context) -> Self::Output {
         let SceneRun { scene, rows, checkpoint, observer } = self;
         let summarised = scene.summarises(observer);
         let output = &scene.output;

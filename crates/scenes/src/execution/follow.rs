@@ -21,8 +21,7 @@ use crate::run::Run;
 use crate::run::note::Note;
 use crate::run::saved_summary::SavedSummary;
 use crate::run::snapshots::Snapshot;
-use crate::scene::CheckpointInterval;
-use crate::scene::run_number::RunNumber;
+use crate::scene::{CheckpointInterval, SceneNumber};
 use crate::texts::error::Error;
 use crate::watch::Watch;
 use crate::watch::observer::Observer;
@@ -31,7 +30,7 @@ use crate::watch::observer::Observer;
 const ONE_BY_ONE: u64 = 256;
 
 /// Makes a run and shows its states to columns.
-pub(crate) fn follow<N: RunNumber>(
+pub(crate) fn follow<N: SceneNumber>(
     posed: &Posed<'_>,
     context: &N::Context,
     columns: &mut [&mut dyn Column<N>],
@@ -59,7 +58,7 @@ type Estimating<'i, 's, N> =
 type Made<'t, 's, N> = (i64, Option<Estimate<'t, N>>, &'t mut VectorIntegrator<'s, N>);
 
 /// Follows the states in the order of time.
-struct Following<'a, 'c, N: RunNumber> {
+struct Following<'a, 'c, N: SceneNumber> {
     posed: &'a Posed<'a>,
     columns: &'a mut [&'c mut dyn Column<N>],
     observer: &'a mut dyn Observer,
@@ -96,7 +95,7 @@ struct Following<'a, 'c, N: RunNumber> {
     pace: Pace,
 }
 
-impl<'a, 'c, N: RunNumber> Following<'a, 'c, N> {
+impl<'a, 'c, N: SceneNumber> Following<'a, 'c, N> {
     fn begin(
         posed: &'a Posed<'a>,
         (integrator, from): (&mut VectorIntegrator<'_, N>, Option<i64>),

@@ -25,7 +25,7 @@
 use crate::columns::at::{At, Place};
 use crate::columns::column::{Column, next_multiple};
 use crate::columns::{Group as _, Values};
-use crate::execution::computation::{FollowedNumber, RunNumber};
+use crate::execution::computation::RunNumber;
 use crate::execution::posed::Posed;
 use crate::results::Cell;
 use crate::scene::{self, NamedExpression};
@@ -88,7 +88,7 @@ impl Posed<'_> {
     ///
     /// # Panics
     /// If the scheme is not valid for the system.
-    pub fn samples<N: FollowedNumber>(
+    pub fn samples<N: RunNumber>(
         self,
         (kept, values): (KeptStates<'_>, &[NamedExpression]),
         context: &N::Context,

@@ -10,12 +10,11 @@ use crate::columns::evaluator::{Test, TestInLanes};
 use crate::document::expression::Condition;
 use crate::execution::posed::Posed;
 use crate::motion::lanes::LANES;
-use crate::scene::System;
-use crate::scene::run_number::RunNumber;
+use crate::scene::{SceneNumber, System};
 use crate::watch::Watch;
 
 /// Passes states until the run ends with one of them, or before it.
-pub(crate) struct Passing<'s, 'a, N: RunNumber> {
+pub(crate) struct Passing<'s, 'a, N: SceneNumber> {
     pub(crate) watch: &'s mut Option<Watch<N>>,
     pub(crate) ends: &'s mut Ends<N>,
     pub(crate) view: &'s View<'a, N>,
@@ -34,7 +33,7 @@ pub(crate) struct Ends<N> {
     pub(crate) until: Option<(N, bool)>,
 }
 
-impl<N: RunNumber> Ends<N> {
+impl<N: SceneNumber> Ends<N> {
     pub(crate) fn of(posed: &Posed<'_>, context: &N::Context) -> Self {
         let Posed { system, ends, until, .. } = *posed;
         let test = |condition| Test::new(condition, system, context).expect("it was checked with the system");
@@ -71,7 +70,7 @@ pub(crate) struct Block<N> {
     numbers: Vec<N>,
 }
 
-impl<N: RunNumber> Block<N> {
+impl<N: SceneNumber> Block<N> {
     /// In double precision, and of a condition on q and p alone.
     pub(crate) fn of(condition: &Condition, system: &System) -> Option<Self> {
         let is_double = TypeId::of::<N>() == TypeId::of::<f64>();
@@ -80,7 +79,7 @@ impl<N: RunNumber> Block<N> {
     }
 }
 
-impl<N: RunNumber> Passing<'_, '_, N> {
+impl<N: SceneNumber> Passing<'_, '_, N> {
     /// Whether the run ends with one of the states, or before it.
     pub(crate) fn finish(&mut self) -> bool {
         self.test_block();
@@ -103,7 +102,7 @@ impl<N: RunNumber> Passing<'_, '_, N> {
     }
 }
 
-impl<N: RunNumber> Visitor<N> for Passing<'_, '_, N> {
+impl<N: SceneNumber> Visitor<N> for Passing<'_, '_, N> {
     fn visit(&mut self, q: &[N], p: &[N]) {
         if self.has_ended {
             return;

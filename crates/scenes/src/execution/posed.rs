@@ -12,8 +12,7 @@ use crate::results::Checkpoint;
 use crate::run::Run;
 use crate::run::arithmetic::Arithmetic;
 use crate::run::start::{Begin, SceneIntegrator, Steps};
-use crate::scene::run_number::RunNumber;
-use crate::scene::{CheckpointInterval, Scene, Surface, System};
+use crate::scene::{CheckpointInterval, Scene, SceneNumber, Surface, System};
 use crate::texts::error::Error;
 use crate::watch::summary::{EnergySummary, Summary};
 use crate::watch::{Energies, Watch};
@@ -119,7 +118,10 @@ impl<'a> Posed<'a> {
     }
 
     /// The system with its stepper, at t = 0 or at the state of the checkpoint, and the n of that.
-    pub(crate) fn begin<N: RunNumber>(&self, context: &N::Context) -> Result<(SceneIntegrator<N>, Option<i64>), Error> {
+    pub(crate) fn begin<N: SceneNumber>(
+        &self,
+        context: &N::Context,
+    ) -> Result<(SceneIntegrator<N>, Option<i64>), Error> {
         let Some(saved) = self.resumed.checkpoint.and_then(|checkpoint| checkpoint.state.as_ref()) else {
             let start = self.system.start(context);
             return Ok((self.system.integrator(self.steps(Begin::InitialState), start, context)?, None));
@@ -145,7 +147,7 @@ impl<'a> Posed<'a> {
 
     /// Follows the run for the error of H and a summary, where these are wanted.
     /// `from` is the n of its state, with whether rows have another function than the steps conserve.
-    pub(crate) fn watch<N: RunNumber>(
+    pub(crate) fn watch<N: SceneNumber>(
         &self,
         integrator: &mut VectorIntegrator<'_, N>,
         (from, has_other_energy): (i64, bool),

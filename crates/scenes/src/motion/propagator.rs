@@ -1,19 +1,16 @@
 //! What advances a state in time: a scheme, or the exact flow.
 
 use shadowstep::Stepper;
-use shadowstep::number::Number;
+use shadowstep::number::{AnyLimbs, LimbCount, Number};
 use shadowstep::problems::{Problem, ProblemMotion, Setup};
-use shadowstep::shadow::exact_flow::{self, ExactFlow, ExactFlowError};
-use shadowstep::shadow::run::ShadowRun;
-use shadowstep::shadow::{Estimator, EstimatorSettings};
+use shadowstep::shadow::exact_flow::{self, ExactFlowError};
 use shadowstep::tables::TableScheme;
 
 use crate::document::library::{self, EXACT_FLOW, NamedScheme, Schemes};
 use crate::run::Run;
 use crate::run::arithmetic::Arithmetic;
 use crate::run::note::Note;
-use crate::scene::run_number::RunNumber;
-use crate::scene::{SceneNumber, System};
+use crate::scene::System;
 use crate::texts::error::Error;
 use crate::texts::refusal::Refusal;
 
@@ -108,30 +105,12 @@ pub fn stepper<N: Number>(named: &NamedScheme, run: Run<'_>, context: &N::Contex
     Stepper::with_context(named.quadratic(), run.h, context).expect("runs have a nonzero step size")
 }
 
-/// Estimates along an exact flow.
-pub(crate) type AlongExactFlow<N> = ShadowRun<ExactFlow<N>, Box<dyn Estimator<N>>>;
-
-/// The estimates along the exact flow of a problem.
-pub(crate) fn exact_flow<N: RunNumber>(
-    setup: &Setup,
-    run: Run<'_>,
-    settings: &EstimatorSettings,
-    context: &N::Context,
-) -> Result<AlongExactFlow<N>, Error> {
-    let estimates = || {
-        let estimator = N::estimator(settings, run.h, setup.values.positions().len(), context)?;
-        let reach = (estimator.states() - 1) / 2;
-        Ok(ShadowRun::of(ExactFlow::new(setup, run.h, run.steps, reach, context)?, estimator, run.h))
-    };
-    estimates().map_err(|error: ExactFlowError| run.not_followed(&error))
-}
-
-/// The problem at its initial state.
+/// The problem at its initial state, in numbers of limbs.
 ///
 /// # Panics
 /// If a mass or its inverse is 0 or infinite in the number type, which the reading of a problem excludes.
-pub fn motion<N: SceneNumber>(setup: &Setup, context: &N::Context) -> ProblemMotion<N> {
-    N::motion(setup, context).expect("the masses were read with the problem")
+pub fn motion(setup: &Setup, limbs: &LimbCount) -> ProblemMotion<AnyLimbs> {
+    setup.motion(limbs).expect("the masses were read with the problem")
 }
 
 /// The scheme with steps for a system: for every T(p) or for many parts, where that is needed.

@@ -9,7 +9,6 @@ use crate::run::arithmetic::{Arithmetic, Digits, Numbers};
 use crate::run::saved_state::{SavedState, SavedVector};
 use crate::run::snapshots::Snapshot;
 use crate::run::start::{Begin, SceneIntegrator, Steps};
-use crate::scene::run_number::RunNumber;
 use crate::scene::{PotentialEnergy, Scene, SceneNumber, System};
 use crate::texts::error::Error;
 
@@ -120,7 +119,10 @@ impl FollowingVectors {
         (vectors, every): (Vectors, u64),
     ) -> Result<Self, Error> {
         refuse(system, vectors)?;
-        let run = arithmetic.compute_with_derivatives(Begun { system, steps, vectors })??;
+        let run = match arithmetic.limbs_of_derivatives()? {
+            None => tangents::<f64>(system, steps, vectors, &()),
+            Some(limbs) => tangents::<AnyLimbs>(system, steps, vectors, &limbs),
+        }?;
         let h = steps.h.exact().to_f64().expect("every rational has a nearest f64");
         Ok(FollowingVectors { run, h, every: every.max(1), steps: 0 })
     }
@@ -171,63 +173,31 @@ pub enum Vectors {
 }
 
 impl Arithmetic {
-    /// Makes a computation with a tangent vector, of dual numbers.
+    /// The limbs of dual numbers with which runs are followed; `None` in double precision.
     ///
     /// States have the bits of a run, in double precision and in numbers of limbs; runs in other numbers are followed
     /// in numbers of at least as many limbs.
     ///
     /// # Errors
     /// More digits than numbers of limbs have.
-    pub(crate) fn compute_with_derivatives<C: WithDerivatives>(self, computation: C) -> Result<C::Output, Error> {
-        let of_bits = |bits: u32| {
-            LimbCount::of_bits(bits).ok_or_else(|| {
-                let most = Precision::of_limbs(LimbCount::MOST.get()).in_digits();
-                let message = format!("derivatives have at most {most} digits, and the run has {}", self.digits());
-                Error::usage(message, "write fewer digits in [run]")
-            })
-        };
-        Ok(match self.numbers() {
-            Numbers::Double => computation.compute::<f64>(&()),
-            Numbers::DoubleDouble => computation.compute::<AnyLimbs>(&of_bits(DoubleDouble::precision(&()).in_bits())?),
-            Numbers::Digits(_, Digits::Limbs(count)) => computation.compute::<AnyLimbs>(&count),
+    pub(crate) fn limbs_of_derivatives(self) -> Result<Option<LimbCount>, Error> {
+        let bits = match self.numbers() {
+            Numbers::Double => return Ok(None),
+            Numbers::DoubleDouble => DoubleDouble::precision(&()).in_bits(),
+            Numbers::Digits(_, Digits::Limbs(count)) => return Ok(Some(count)),
             #[cfg(feature = "mpfr")]
-            Numbers::Digits(_, Digits::Mpfr(precision)) => {
-                computation.compute::<AnyLimbs>(&of_bits(precision.in_bits())?)
-            }
+            Numbers::Digits(_, Digits::Mpfr(precision)) => precision.in_bits(),
+        };
+        LimbCount::of_bits(bits).map(Some).ok_or_else(|| {
+            let most = Precision::of_limbs(LimbCount::MOST.get()).in_digits();
+            let message = format!("derivatives have at most {most} digits, and the run has {}", self.digits());
+            Error::usage(message, "write fewer digits in [run]")
         })
     }
 }
 
-/// A computation that can be made in numbers of which there are dual ones.
-pub(crate) trait WithDerivatives {
-    /// Its result.
-    type Output;
-
-    /// Makes it with numbers of type N.
-    fn compute<N: RunNumber>(self, context: &N::Context) -> Self::Output
-    where
-        Dual<N>: SceneNumber<Context = N::Context>;
-}
-
 /// The system at its first state with vectors, each beside states of its own. Their directions are always the same
 /// ones, and none of them is special.
-struct Begun<'a> {
-    system: &'a System,
-    steps: Steps<'a>,
-    vectors: Vectors,
-}
-
-impl WithDerivatives for Begun<'_> {
-    type Output = Result<Box<dyn ResumableRun>, Error>;
-
-    fn compute<N: RunNumber>(self, context: &N::Context) -> Self::Output
-    where
-        Dual<N>: SceneNumber<Context = N::Context>,
-    {
-        tangents::<N>(self.system, self.steps, self.vectors, context)
-    }
-}
-
 fn tangents<N: CorrectlyRounded + 'static>(
     system: &System,
     steps: Steps<'_>,

@@ -7,8 +7,7 @@ use shadowstep::VectorState;
 use crate::run::saved_state::{SavedState, SavedVector};
 use crate::run::saved_summary::SavedSummary;
 use crate::run::snapshots::{Snapshot, Snapshots};
-use crate::scene::CheckpointInterval;
-use crate::scene::run_number::RunNumber;
+use crate::scene::{CheckpointInterval, SceneNumber};
 
 /// All states up to n were shown.
 #[derive(Clone, Debug)]
@@ -38,7 +37,7 @@ pub(crate) struct Moments<N> {
     pub(crate) is_kept_at_end: bool,
 }
 
-impl<N: RunNumber> Moments<N> {
+impl<N: SceneNumber> Moments<N> {
     pub(crate) fn new(interval: Option<CheckpointInterval>) -> Self {
         let now = Instant::now();
         Moments { interval, snapshots: None, last_moment: now, last_state: now, is_kept_at_end: false }

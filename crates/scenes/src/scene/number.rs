@@ -2,7 +2,7 @@
 //! that uses them.
 
 use shadowstep::number::{AnyLimbs, CorrectlyRounded, Dual};
-use shadowstep::problems::{CubicSpring, ProblemMotion, Setup};
+use shadowstep::problems::CubicSpring;
 use shadowstep::systems::kinetic::Quadratic;
 use shadowstep::systems::pairs::{Ends, Pairs};
 use shadowstep::{Kinetic, Motion, MotionError, Potential, Rational, UnitMasses};
@@ -16,54 +16,28 @@ use crate::scene::split::{ShownCoordinates, Split as _, State};
 
 /// A number type in which systems are computed.
 pub trait SceneNumber: CorrectlyRounded + 'static {
-    /// A system in these numbers.
-    fn system(system: &System) -> &dyn SystemIn<Self>;
-
-    /// The motion of a shipped problem.
-    ///
-    /// # Errors
-    /// As [`Setup::motion`].
-    fn motion(setup: &Setup, context: &Self::Context) -> Result<ProblemMotion<Self>, MotionError>;
-
-    /// The chain of the problem fput-alpha, of as many bodies as the state has, with its stepper.
-    ///
-    /// # Errors
-    /// No bodies, or not as many momenta.
-    ///
-    /// # Panics
-    /// As [`System::integrator`].
-    fn springs(
-        alpha: &Rational,
-        steps: Steps<'_>,
-        state: State<Self>,
-        context: &Self::Context,
-    ) -> Result<SceneIntegrator<Self>, MotionError>;
-}
-
-/// What a system gives in numbers N.
-pub trait SystemIn<N: SceneNumber> {
     /// [`System::start_at`]
-    fn start_at(&self, state: State<N>, context: &N::Context) -> State<N>;
+    fn start_at(system: &System, state: State<Self>, context: &Self::Context) -> State<Self>;
 
     /// [`System::shown`]
-    fn shown(&self, context: &N::Context) -> Option<ShownCoordinates<N>>;
+    fn shown(system: &System, context: &Self::Context) -> Option<ShownCoordinates<Self>>;
 
     /// [`System::energy`]
-    fn energy(&self, context: &N::Context) -> EnergyAt<N>;
+    fn energy(system: &System, context: &Self::Context) -> EnergyAt<Self>;
 
     /// −qᵀU_q of bodies with mass, in a periodic box of the nearest images, for one of the system's potentials.
-    fn virial(&self, potential: &PotentialEnergy, context: &N::Context) -> OfPositions<N>;
+    fn virial(system: &System, potential: &PotentialEnergy, context: &Self::Context) -> OfPositions<Self>;
 
     /// [`System::integrator`]
     ///
     /// # Errors
     /// As there.
     fn integrator(
-        &self,
+        system: &System,
         steps: Steps<'_>,
-        state: State<N>,
-        context: &N::Context,
-    ) -> Result<SceneIntegrator<N>, MotionError>;
+        state: State<Self>,
+        context: &Self::Context,
+    ) -> Result<SceneIntegrator<Self>, MotionError>;
 }
 
 impl System {
@@ -74,12 +48,12 @@ impl System {
 
     /// The same from positions and momenta in the coordinates of the scene.
     pub fn start_at<N: SceneNumber>(&self, state: State<N>, context: &N::Context) -> State<N> {
-        N::system(self).start_at(state, context)
+        N::start_at(self, state, context)
     }
 
     /// Converts states from the coordinates of the steps to those that are shown, where these differ.
     pub fn shown<N: SceneNumber>(&self, context: &N::Context) -> Option<ShownCoordinates<N>> {
-        N::system(self).shown(context)
+        N::shown(self, context)
     }
 
     /// H of any state, in the coordinates of the steps; where time is transformed, of its q and p.
@@ -87,7 +61,7 @@ impl System {
     /// # Panics
     /// If q, p and U have different dimensions, which reading a system excludes.
     pub fn energy<N: SceneNumber>(&self, context: &N::Context) -> EnergyAt<N> {
-        N::system(self).energy(context)
+        N::energy(self, context)
     }
 
     /// H for rows, where the steps conserve another function.
@@ -109,54 +83,38 @@ impl System {
         state: State<N>,
         context: &N::Context,
     ) -> Result<SceneIntegrator<N>, MotionError> {
-        N::system(self).integrator(steps, state, context)
+        N::integrator(self, steps, state, context)
     }
 }
 
-impl<N: SceneNumber> SystemIn<N> for System {
-    fn start_at(&self, state: State<N>, context: &N::Context) -> State<N> {
-        ask!(&self.parts, split => split.start(&self.problem, state, context))
+fn virial<N: SceneNumber>(system: &System, potential: &PotentialEnergy, context: &N::Context) -> OfPositions<N> {
+    if let Some(in_box) = potential.pairs().and_then(|pairs| pairs.virial_in_box(&system.parameters, context)) {
+        return in_box;
     }
-
-    fn shown(&self, context: &N::Context) -> Option<ShownCoordinates<N>> {
-        ask!(&self.parts, split => split.shown(&self.problem, context))
-    }
-
-    fn energy(&self, context: &N::Context) -> EnergyAt<N> {
-        ask!(&self.parts, split => split.energy(&self.problem, context))
-    }
-
-    fn virial(&self, potential: &PotentialEnergy, context: &N::Context) -> OfPositions<N> {
-        if let Some(in_box) = potential.pairs().and_then(|pairs| pairs.virial_in_box(&self.parameters, context)) {
-            return in_box;
-        }
-        let massive = self.massive_coordinates().min(self.coordinates_of_columns());
-        let mut potential = self.in_numbers::<N>(potential, context);
-        let zero = N::zero(context);
-        let mut scratch = vec![zero.clone(); potential.scratch()];
-        potential.prepare(&mut scratch, context);
-        let mut gradient = vec![zero.clone(); potential.dimension()];
-        Box::new(move |q| {
-            let q = &q[..gradient.len()];
-            potential.update(q);
-            potential.gradient(q, &mut gradient, &mut scratch);
-            let mut virial = zero.clone();
-            q[..massive].iter().zip(&gradient).for_each(|(q, slope)| virial.subtract_product(q, slope));
-            virial
-        })
-    }
-
-    fn integrator(
-        &self,
-        steps: Steps<'_>,
-        state: State<N>,
-        context: &N::Context,
-    ) -> Result<SceneIntegrator<N>, MotionError> {
-        ask!(&self.parts, split => split.integrator(&self.problem, steps, state, context))
-    }
+    let massive = system.massive_coordinates().min(system.coordinates_of_columns());
+    let mut potential = system.in_numbers::<N>(potential, context);
+    let zero = N::zero(context);
+    let mut scratch = vec![zero.clone(); potential.scratch()];
+    potential.prepare(&mut scratch, context);
+    let mut gradient = vec![zero.clone(); potential.dimension()];
+    Box::new(move |q| {
+        let q = &q[..gradient.len()];
+        potential.update(q);
+        potential.gradient(q, &mut gradient, &mut scratch);
+        let mut virial = zero.clone();
+        q[..massive].iter().zip(&gradient).for_each(|(q, slope)| virial.subtract_product(q, slope));
+        virial
+    })
 }
 
-fn springs<N: SceneNumber>(
+/// The chain of the problem fput-alpha, of as many bodies as the state has, with its stepper.
+///
+/// # Errors
+/// No bodies, or not as many momenta.
+///
+/// # Panics
+/// As [`System::integrator`].
+pub(crate) fn springs<N: SceneNumber>(
     alpha: &Rational,
     steps: Steps<'_>,
     (q, p): State<N>,
@@ -174,28 +132,38 @@ fn springs<N: SceneNumber>(
     Ok(steps.integrator(steps.quadratic(), motion, context))
 }
 
-// not inlined: callers in other crates would compile what is called, and the methods of a `dyn`, once more
+// not inlined: callers in other crates would compile what is called once more
 macro_rules! scene_numbers {
     ($($number:ty),*) => {$(
         impl SceneNumber for $number {
             #[inline(never)]
-            fn system(system: &System) -> &dyn SystemIn<Self> {
-                system
+            fn start_at(system: &System, state: State<Self>, context: &Self::Context) -> State<Self> {
+                ask!(&system.parts, split => split.start(&system.problem, state, context))
             }
 
             #[inline(never)]
-            fn motion(setup: &Setup, context: &Self::Context) -> Result<ProblemMotion<Self>, MotionError> {
-                setup.motion(context)
+            fn shown(system: &System, context: &Self::Context) -> Option<ShownCoordinates<Self>> {
+                ask!(&system.parts, split => split.shown(&system.problem, context))
             }
 
             #[inline(never)]
-            fn springs(
-                alpha: &Rational,
+            fn energy(system: &System, context: &Self::Context) -> EnergyAt<Self> {
+                ask!(&system.parts, split => split.energy(&system.problem, context))
+            }
+
+            #[inline(never)]
+            fn virial(system: &System, potential: &PotentialEnergy, context: &Self::Context) -> OfPositions<Self> {
+                virial(system, potential, context)
+            }
+
+            #[inline(never)]
+            fn integrator(
+                system: &System,
                 steps: Steps<'_>,
                 state: State<Self>,
                 context: &Self::Context,
             ) -> Result<SceneIntegrator<Self>, MotionError> {
-                springs(alpha, steps, state, context)
+                ask!(&system.parts, split => split.integrator(&system.problem, steps, state, context))
             }
         }
     )*};

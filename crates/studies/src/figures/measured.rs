@@ -137,7 +137,7 @@ impl Measure<'_> {
 
     /// H at the end less H at the start.
     pub(crate) fn transit(&self) -> Result<String, Error> {
-        let mut system = motion::<AnyLimbs>(&self.run.setup(), &self.run.limbs());
+        let mut system = motion(&self.run.setup(), &self.run.limbs());
         let first = system.energy();
         let (q, p) = self.states(|_, _| ())?;
         let mut change = system.energy_at(&q, &p);
@@ -189,7 +189,7 @@ impl Measure<'_> {
             return measure(&mut Interruptible { states, continues: watch(-(reach as i64)) }).map_err(failed);
         };
         let stepper = stepper(scheme, steps, &limbs);
-        let start = motion::<AnyLimbs>(&setup, &limbs);
+        let start = motion(&setup, &limbs);
         let states = Trajectory::new(stepper.with(start), run.steps(), reach).map_err(failed)?;
         measure(&mut Interruptible { states, continues: watch(-(reach as i64)) }).map_err(failed)
     }
@@ -214,7 +214,7 @@ impl Measure<'_> {
         let failed = |error| steps.failed(&error);
         let propagator = Propagator::read(&run.propagator, &setup)?;
         let stepper = stepper(propagator.scheme().expect("it is a scheme"), steps, &run.limbs());
-        let start = motion::<AnyLimbs>(&setup, &run.limbs());
+        let start = motion(&setup, &run.limbs());
         let states = Trajectory::plain(stepper.with(start), 0, run.steps()).map_err(failed)?;
         let mut states = Interruptible { states, continues: self.watch(0, run.steps() as f64) };
         while let Some(state) = states.advance().map_err(failed)? {

@@ -6,7 +6,7 @@ use shadowstep::shadow::run::RunError;
 use shadowstep::{Carried, StepSize};
 use shadowstep_scenes::System;
 use shadowstep_scenes::arithmetic::Arithmetic;
-use shadowstep_scenes::computation::{Computation, Monitoring, RunNumber};
+use shadowstep_scenes::computation::{Computation, RunMonitor, RunNumber};
 use shadowstep_scenes::library::NamedScheme;
 use shadowstep_scenes::start::{Begin, SceneIntegrator, Steps};
 
@@ -112,7 +112,7 @@ struct InNumbers<N: RunNumber> {
     integrator: SceneIntegrator<N>,
     /// H(0)
     initial: N,
-    monitor: Option<Box<dyn Monitoring<N>>>,
+    monitor: Option<Box<RunMonitor<N>>>,
 }
 
 const WATCHED: &str = "the run is watched";
@@ -174,12 +174,13 @@ impl<N: RunNumber> AnyIntegrator for InNumbers<N> {
 
     fn watched_step(&mut self) -> Result<bool, RunError> {
         let monitor = self.monitor.as_mut().expect(WATCHED);
-        monitor.step(&mut *self.integrator).map(|sample| sample.is_some())
+        self.integrator.step(monitor.carried());
+        N::observe(monitor, &mut *self.integrator).map(|sample| sample.is_some())
     }
 
     fn monitor_outcome(&self) -> MonitorOutcome {
         let monitor = self.monitor.as_ref().expect(WATCHED);
-        let report = monitor.report();
+        let report = N::report(monitor);
         MonitorOutcome {
             steps: monitor.n(),
             energy_error: report.energy_error.to_f64(),

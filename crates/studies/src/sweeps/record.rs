@@ -8,7 +8,7 @@ use shadowstep::shadow::run::{DriftRecorder, EnergyDrift, Finding};
 use shadowstep::steps::integrator::{VectorIntegrator, at_output};
 use shadowstep_scenes::at::At;
 use shadowstep_scenes::column::Column;
-use shadowstep_scenes::computation::{Computation, FollowedNumber, RunNumber};
+use shadowstep_scenes::computation::{Computation, RunNumber};
 use shadowstep_scenes::evaluator::{Evaluator, Test};
 use shadowstep_scenes::posed::{Followed, Posed};
 use shadowstep_scenes::run::Run;
@@ -100,7 +100,7 @@ struct Measuring<'a> {
 impl Computation for Measuring<'_> {
     type Output = Result<Option<Values>, Error>;
 
-    fn compute<N: FollowedNumber>(self, context: &N::Context) -> Self::Output {
+    fn compute<N: RunNumber>(self, context: &N::Context) -> Self::Output {
         let Measuring { scene, keep, stops } = self;
         let vectors = keep.vectors();
         let settings = scene.output.modified_energy.as_ref().filter(|_| keep.needs(Need::Estimates));

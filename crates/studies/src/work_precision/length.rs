@@ -7,7 +7,7 @@ use shadowstep::steps::integrator::VectorIntegrator;
 use shadowstep::{Integrator as _, Number, Rational, StepSize};
 use shadowstep_scenes::arithmetic::Arithmetic;
 use shadowstep_scenes::column::Column;
-use shadowstep_scenes::computation::FollowedNumber as _;
+use shadowstep_scenes::computation::RunNumber as _;
 use shadowstep_scenes::library::scheme;
 use shadowstep_scenes::posed::Posed;
 use shadowstep_scenes::propagator::for_system;

@@ -11,7 +11,7 @@ use shadowstep::shadow::exact_flow::ExactFlow;
 use shadowstep::shadow::run::States;
 use shadowstep::{Rational, Real, StepSize};
 use shadowstep_scenes::arithmetic::Arithmetic;
-use shadowstep_scenes::computation::{Computation, FollowedNumber, RunNumber};
+use shadowstep_scenes::computation::{Computation, RunNumber};
 use shadowstep_scenes::cpu_time::CpuTime;
 use shadowstep_scenes::library::{NamedScheme, scheme};
 use shadowstep_scenes::propagator::for_system;
@@ -405,7 +405,7 @@ struct ByHalving<'a> {
 impl Computation for ByHalving<'_> {
     type Output = Result<Option<Reference>, Error>;
 
-    fn compute<N: FollowedNumber>(self, context: &N::Context) -> Self::Output {
+    fn compute<N: RunNumber>(self, context: &N::Context) -> Self::Output {
         let ByHalving { problem, scheme, named, request } = self;
         let Halving { samples, mut steps, time, continues, .. } = request;
         let begin = CpuTime::begin();
@@ -452,7 +452,7 @@ impl Computation for ByHalving<'_> {
 }
 
 /// The positions of a run at its samples; fewer where they are not finite. `None` if it was not to continue.
-fn positions<N: FollowedNumber>(
+fn positions<N: RunNumber>(
     problem: Problem<'_>,
     named: &NamedScheme,
     (steps, samples): (u64, u64),

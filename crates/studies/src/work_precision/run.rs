@@ -6,7 +6,7 @@ use shadowstep::shadow::Verdict;
 use shadowstep::shadow::run::RunError;
 use shadowstep::steps::integrator::{VectorIntegrator, at_output};
 use shadowstep_scenes::column::Column;
-use shadowstep_scenes::computation::{FollowedNumber, Monitoring, RunNumber};
+use shadowstep_scenes::computation::{RunMonitor, RunNumber};
 use shadowstep_scenes::library::NamedScheme;
 use shadowstep_scenes::run::Run;
 use shadowstep_scenes::{EnergyAt, Error};
@@ -88,7 +88,7 @@ impl Measurement {
     ///
     /// # Errors
     /// A system that cannot be moved.
-    pub(crate) fn of<N: FollowedNumber>(
+    pub(crate) fn of<N: RunNumber>(
         problem: Problem<'_>,
         named: &NamedScheme,
         (steps, evaluations): (u64, u64),
@@ -130,7 +130,7 @@ struct Measuring<'a, N: RunNumber> {
 
 /// What has been measured so far.
 struct Begun<N: RunNumber> {
-    monitor: Box<dyn Monitoring<N>>,
+    monitor: Box<RunMonitor<N>>,
     /// H(0) of the function that the steps conserve.
     conserved: EnergyError<N>,
     energy: EnergyError<N>,
@@ -164,7 +164,7 @@ impl<N: RunNumber> Measuring<'_, N> {
             }
         };
         let Begun { monitor, conserved, energy, position, largest_position, in_first_half, .. } = begun;
-        let report = monitor.report();
+        let report = N::report(&monitor);
         let modified = (report.windows > 0).then(|| Modified {
             drift: conserved.relative(&report.range),
             change: conserved.relative(&report.change),
@@ -226,7 +226,7 @@ impl<N: RunNumber> Column<N> for Measuring<'_, N> {
             return self.begun.is_none();
         };
         // what is not finite stays so, and is seen at the sample
-        let _ = begun.monitor.observe(integrator);
+        let _ = N::observe(&mut begun.monitor, integrator);
         begun.energy.include(&energy);
         let ends = self.positions.see(n, run, integrator);
         begun.compare(&self.positions.found, &self.expected, self.reference).is_none() || ends

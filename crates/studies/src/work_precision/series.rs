@@ -9,7 +9,8 @@ use serde::{Deserialize, Serialize};
 use shadowstep::steps::scheme::MapKind;
 use shadowstep::{Rational, Scheme};
 use shadowstep_analysis::stability::Stability;
-use shadowstep_scenes::computation::{Computation, FollowedNumber};
+use shadowstep_scenes::Error;
+use shadowstep_scenes::computation::{Computation, RunNumber};
 use shadowstep_scenes::cpu_time::CpuTime;
 use shadowstep_scenes::library::NamedScheme;
 
@@ -266,7 +267,7 @@ struct Run<'a> {
 impl Computation for Run<'_> {
     type Output = Result<Option<Measurement>, Error>;
 
-    fn compute<N: FollowedNumber>(self, context: &N::Context) -> Self::Output {
+    fn compute<N: RunNumber>(self, context: &N::Context) -> Self::Output {
         let SeriesOf { problem, scheme, reference, .. } = self.series_of;
         let of_output = scheme.scheme.processor().iter().filter(|(kind, _)| *kind == MapKind::Kick).count();
         // with a pre-map at the beginning and a post-map at the end

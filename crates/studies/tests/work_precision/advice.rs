@@ -6,7 +6,7 @@ use shadowstep::tables::Source;
 use shadowstep::{Number, Rational, StepSize, exact};
 use shadowstep_scenes::System;
 use shadowstep_scenes::arithmetic::Arithmetic;
-use shadowstep_scenes::computation::{Computation, FollowedNumber};
+use shadowstep_scenes::computation::{Computation, RunNumber};
 use shadowstep_scenes::integrate::KeptStates;
 use shadowstep_scenes::library::{NamedScheme, scheme};
 use shadowstep_scenes::posed::Posed;
@@ -48,7 +48,7 @@ struct Final<'a> {
 impl Computation for Final<'_> {
     type Output = Vec<Rational>;
 
-    fn compute<N: FollowedNumber>(self, context: &N::Context) -> Vec<Rational> {
+    fn compute<N: RunNumber>(self, context: &N::Context) -> Vec<Rational> {
         let Final { system, scheme, h, steps } = self;
         let h = StepSize::try_from(h).unwrap();
         let run = Run { propagator: &scheme.name, h: &h, steps, order: None, windows: Run::WINDOWS };

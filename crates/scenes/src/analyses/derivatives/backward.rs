@@ -1,14 +1,12 @@
 //! Backwards: the gradient of a function of all states, in memory that does not grow with the steps.
 
-use shadowstep::number::Dual;
+use shadowstep::number::{AnyLimbs, Dual};
 use shadowstep::steps::integrator::{VectorIntegrator, at_output};
 use shadowstep::steps::together::follow;
 use shadowstep::tangent::{Adjoint, Covector, vector};
 use shadowstep::{Carried, Integrator as _, Rational, Real};
 
 use super::{Array, Base, Begun, Differentiation, Variable};
-use crate::execution::computation::RunNumber;
-use crate::motion::tangent::WithDerivatives;
 use crate::run::start::SceneIntegrator;
 use crate::scene::SceneNumber;
 use crate::scene::split::ShownCoordinates;
@@ -48,66 +46,63 @@ impl Differentiation<'_> {
         let covectors = covectors.iter().map(|x| Rational::from_float(*x)).collect::<Option<Vec<_>>>();
         let covectors = covectors
             .ok_or_else(|| Error::usage("a derivative of the function is not finite", "give finite derivatives"))?;
-        self.arithmetic.compute_with_derivatives(Backward { request: self, bases, covectors, observer })?
+        match self.arithmetic.limbs_of_derivatives()? {
+            None => self.backward_in::<f64>(bases, &covectors, observer, &()),
+            Some(limbs) => self.backward_in::<AnyLimbs>(bases, &covectors, observer, &limbs),
+        }
     }
-}
 
-struct Backward<'a, 'o> {
-    request: &'a Differentiation<'a>,
-    bases: Vec<Base>,
-    covectors: Vec<Rational>,
-    observer: &'o mut dyn Observer,
-}
-
-impl WithDerivatives for Backward<'_, '_> {
-    type Output = Result<Gradient, Error>;
-
-    fn compute<N: RunNumber>(self, context: &N::Context) -> Self::Output
+    fn backward_in<N: SceneNumber>(
+        &self,
+        bases: Vec<Base>,
+        covectors: &[Rational],
+        observer: &mut dyn Observer,
+        context: &N::Context,
+    ) -> Result<Gradient, Error>
     where
         Dual<N>: SceneNumber<Context = N::Context>,
     {
-        let Backward { request, bases, covectors, observer } = self;
-        let rows = request.rows();
-        let steps = request.steps(request.run.h);
-        let mut plain = request.system.integrator::<N>(steps, request.system.start(context), context)?;
+        let rows = self.rows();
+        let steps = self.steps(self.run.h);
+        let mut plain = self.system.integrator::<N>(steps, self.system.start(context), context)?;
         let start = values(&*plain);
-        let mut n = request.run.steps;
+        let mut n = self.run.steps;
         follow(&mut *plain, n, |n, _| {
-            report(observer, request.run, n)?;
-            Ok::<_, Error>((request.row_after(n), Carried::Nothing))
+            report(observer, self.run, n)?;
+            Ok::<_, Error>((self.row_after(n), Carried::Nothing))
         })?;
-        let mut begun = request.begin::<N>(None, context)?;
+        let mut begun = self.begin::<N>(None, context)?;
         begun.set_values(&*plain);
-        request.check_finite(n, &begun.output())?;
+        self.check_finite(n, &begun.output())?;
         let end = values(&*plain);
-        let mut backwards = Backwards::new(request, bases, begun, context)?;
+        let mut backwards = Backwards::new(self, bases, begun, context)?;
         let width = covectors.len() / rows.len();
         for (row, covector) in rows.iter().zip(covectors.chunks(width)).rev() {
             for _ in *row..n {
                 backwards.adjoint.step_back();
             }
             n = *row;
-            report(observer, request.run, n)?;
+            report(observer, self.run, n)?;
             let covector: Vec<N> = covector.iter().map(|x| N::from_rational(x, context)).collect();
             backwards.add(&covector);
         }
         let by = backwards.by_variables();
         if let Some(by) = by.iter().find(|by| !by.is_finite()) {
-            return Err(request.run.not_finite(&format!("a component of the gradient is {}: it", by.to_text())));
+            return Err(self.run.not_finite(&format!("a component of the gradient is {}: it", by.to_text())));
         }
         let reversal_error = largest_error(&start, &end, &values(&**backwards.adjoint.integrator()));
-        Ok(Gradient { by: Array::of(&by, request.arithmetic), reversal_error })
+        Ok(Gradient { by: Array::of(&by, self.arithmetic), reversal_error })
     }
 }
 
 /// The covector at the present state, and what the variables have of the states that came before.
-struct Backwards<N: RunNumber> {
+struct Backwards<N: SceneNumber> {
     adjoint: Adjoint<SceneIntegrator<Dual<N>>>,
     shown: Option<ShownCoordinates<Dual<N>>>,
     variables: Vec<AlongVariable<N>>,
 }
 
-struct AlongVariable<N: RunNumber> {
+struct AlongVariable<N: SceneNumber> {
     /// The derivative of the initial state, in the coordinates of the steps.
     of_start: Vec<N>,
     is_parameter: bool,
@@ -116,7 +111,7 @@ struct AlongVariable<N: RunNumber> {
     sum: N,
 }
 
-impl<N: RunNumber> Backwards<N>
+impl<N: SceneNumber> Backwards<N>
 where
     Dual<N>: SceneNumber<Context = N::Context>,
 {
@@ -185,7 +180,7 @@ where
 }
 
 /// The derivative of the function along the vector of a state.
-fn along<N: RunNumber>(shown: &mut ShownCoordinates<Dual<N>>, state: &[Dual<N>], covector: &[N]) -> N {
+fn along<N: SceneNumber>(shown: &mut ShownCoordinates<Dual<N>>, state: &[Dual<N>], covector: &[N]) -> N {
     let (q, p) = state.split_at(state.len() / 2);
     let (q, p) = shown.of_state(q, p);
     let mut sum = N::zero(&covector[0].context());

@@ -1,13 +1,11 @@
 //! Forwards: a tangent vector for each variable.
 
-use shadowstep::number::Dual;
+use shadowstep::number::{AnyLimbs, Dual};
 use shadowstep::steps::integrator::at_output;
 use shadowstep::steps::together::{Together, follow};
 use shadowstep::{Carried, Integrator as _};
 
 use super::{Array, Base, Begun, Differentiation, output};
-use crate::execution::computation::RunNumber;
-use crate::motion::tangent::WithDerivatives;
 use crate::run::start::SceneIntegrator;
 use crate::scene::SceneNumber;
 use crate::scene::split::ShownCoordinates;
@@ -33,61 +31,58 @@ impl Differentiation<'_> {
     /// by which derivatives are not known; more digits than numbers of limbs have; an observer that stops.
     pub fn forward(&self, observer: &mut dyn Observer) -> Result<Derivatives, Error> {
         let bases = self.bases()?;
-        self.arithmetic.compute_with_derivatives(Forward { request: self, bases, observer })?
+        match self.arithmetic.limbs_of_derivatives()? {
+            None => self.forward_in::<f64>(bases, observer, &()),
+            Some(limbs) => self.forward_in::<AnyLimbs>(bases, observer, &limbs),
+        }
     }
-}
 
-struct Forward<'a, 'o> {
-    request: &'a Differentiation<'a>,
-    bases: Vec<Base>,
-    observer: &'o mut dyn Observer,
-}
-
-impl WithDerivatives for Forward<'_, '_> {
-    type Output = Result<Derivatives, Error>;
-
-    fn compute<N: RunNumber>(self, context: &N::Context) -> Self::Output
+    fn forward_in<N: SceneNumber>(
+        &self,
+        bases: Vec<Base>,
+        observer: &mut dyn Observer,
+        context: &N::Context,
+    ) -> Result<Derivatives, Error>
     where
         Dual<N>: SceneNumber<Context = N::Context>,
     {
-        let Forward { request, bases, observer } = self;
-        let variables = request.by.iter().zip(bases);
-        let all: Result<Vec<_>, _> = variables.map(|by| request.begin::<N>(Some(by), context)).collect();
+        let variables = self.by.iter().zip(bases);
+        let all: Result<Vec<_>, _> = variables.map(|by| self.begin::<N>(Some(by), context)).collect();
         let mut all = all?;
         if all.is_empty() {
-            all.push(request.begin(None, context)?);
+            all.push(self.begin(None, context)?);
         }
-        let mut side_by_side = SideBySide::new(request, all, context)?;
+        let mut side_by_side = SideBySide::new(self, all, context)?;
         let (mut states, mut by) = (Vec::new(), vec![Vec::new(); side_by_side.all.len()]);
         let mut rows = Vec::new();
-        follow(&mut side_by_side, request.run.steps, |n, side_by_side| {
+        follow(&mut side_by_side, self.run.steps, |n, side_by_side| {
             let shown = side_by_side.shown_values();
             for (k, (begun, derivatives)) in side_by_side.all.iter_mut().zip(&mut by).enumerate() {
                 let output = begun.output();
-                request.check_finite(n, &output)?;
+                self.check_finite(n, &output)?;
                 derivatives.extend(output.iter().map(|x| x.derivatives[0].clone()));
                 // the states are the same beside each vector
                 states.extend(output.into_iter().filter(|_| k == 0 && shown.is_empty()).map(|x| x.value));
             }
             states.extend(shown);
             rows.push(n);
-            report(observer, request.run, n)?;
-            Ok::<_, Error>((request.row_after(n), Carried::Nothing))
+            report(observer, self.run, n)?;
+            Ok::<_, Error>((self.row_after(n), Carried::Nothing))
         })?;
-        let array = |numbers: &Vec<N>| Array::of(numbers, request.arithmetic);
-        let by = by.iter().take(request.by.len()).map(array).collect();
+        let array = |numbers: &Vec<N>| Array::of(numbers, self.arithmetic);
+        let by = by.iter().take(self.by.len()).map(array).collect();
         Ok(Derivatives { n: rows, states: array(&states), by })
     }
 }
 
 /// The states with each vector; beside those whose constants are differentiated at a value nearby the plain ones, which
 /// are those of the run.
-struct SideBySide<N: RunNumber> {
+struct SideBySide<N: SceneNumber> {
     all: Vec<Begun<N>>,
     plain: Option<(SceneIntegrator<N>, Option<ShownCoordinates<N>>)>,
 }
 
-impl<N: RunNumber> SideBySide<N>
+impl<N: SceneNumber> SideBySide<N>
 where
     Dual<N>: SceneNumber<Context = N::Context>,
 {
@@ -113,7 +108,7 @@ where
     }
 }
 
-impl<N: RunNumber> Together for SideBySide<N>
+impl<N: SceneNumber> Together for SideBySide<N>
 where
     Dual<N>: SceneNumber<Context = N::Context>,
 {

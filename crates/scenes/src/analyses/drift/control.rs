@@ -18,7 +18,7 @@ use super::measure::measure;
 use super::record::{Control, Permanent};
 use crate::analyses::estimates::Estimates;
 use crate::document::library::EXACT_FLOW;
-use crate::execution::computation::FollowedNumber;
+use crate::execution::computation::RunNumber;
 use crate::motion::propagator::{Propagator, with_exact_flow};
 use crate::run::Run;
 use crate::run::cpu_time::CpuTime;
@@ -72,7 +72,7 @@ impl Controls {
     }
 
     /// The control of a run that took `seconds`.
-    pub(super) fn of<N: FollowedNumber>(
+    pub(super) fn of<N: RunNumber>(
         &mut self,
         estimates: Estimates<'_>,
         context: &N::Context,
@@ -113,7 +113,7 @@ fn expected<N: CorrectlyRounded>(setup: &Setup, run: Run<'_>, context: &N::Conte
     Duration::try_from_secs_f64(all).ok()
 }
 
-fn control<N: FollowedNumber>(
+fn control<N: RunNumber>(
     estimates: Estimates<'_>,
     context: &N::Context,
     limit: Option<Duration>,

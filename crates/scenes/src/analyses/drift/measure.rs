@@ -3,11 +3,11 @@
 use shadowstep::shadow::run::{DriftRecorder, EnergyDrift};
 
 use crate::analyses::estimates::{Estimates, Finished};
-use crate::execution::computation::FollowedNumber;
+use crate::execution::computation::RunNumber;
 use crate::texts::error::Error;
 
 /// The drift of a run, and what is known of the run besides.
-pub(super) fn measure<N: FollowedNumber>(
+pub(super) fn measure<N: RunNumber>(
     estimates: Estimates<'_>,
     context: &N::Context,
     mut progress: impl FnMut(i64) -> Result<(), Error>,

@@ -45,7 +45,7 @@ fn energy_of<N: Number + 'static>(
 pub(super) fn virial<N: SceneNumber>(system: &System, context: &N::Context) -> Compute<N> {
     let slow = system.parts.slow_forces().map(|slow| slow.potential());
     let mut sums: Vec<_> =
-        [Some(&system.potential), slow].into_iter().flatten().map(|of| N::system(system).virial(of, context)).collect();
+        [Some(&system.potential), slow].into_iter().flatten().map(|of| N::virial(system, of, context)).collect();
     let zero = N::zero(context);
     Box::new(move |q, _| {
         let mut virial = zero.clone();

@@ -124,7 +124,9 @@ fn modified_energy(orbit: &mut VectorIntegrator<'_, f64>) -> (f64, f64) {
     let mut best: Option<(f64, f64)> = None;
     let period = (TAU / <f64 as Number>::from_rational(orbit.step_size().exact(), &())).ceil() as u64;
     for _ in 0..period {
-        let Some(sample) = monitor.step(orbit).expect("the orbit is finite") else { continue };
+        orbit.step(monitor.carried());
+        let sample = f64::observe(&mut monitor, orbit).expect("the orbit is finite");
+        let Some(sample) = sample else { continue };
         let error = *sample.error.unwrap_or(&f64::INFINITY);
         if best.is_none_or(|(_, least)| error < least) {
             best = Some((*sample.modified, error));

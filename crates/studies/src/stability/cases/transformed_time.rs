@@ -150,7 +150,8 @@ impl Computation for Follow<'_> {
         let unit = 2_f64.powi(-(<N as CorrectlyRounded>::precision(context).in_bits() as i32));
         let mut worst = [0.0_f64; 4];
         for n in 1..=steps {
-            let finite = monitor.step(integrator).is_ok();
+            integrator.step(monitor.carried());
+            let finite = N::observe(&mut monitor, integrator).is_ok();
             let found = ellipse.deviations(n, integrator.state().q(), integrator.state().p());
             let leapfrogs = n as f64 * gammas.len() as f64;
             let (wander, phase) = (unit * leapfrogs.sqrt(), unit * leapfrogs.powf(1.5));
@@ -163,7 +164,7 @@ impl Computation for Follow<'_> {
                 break;
             }
         }
-        let verdict = monitor.report().verdict;
+        let verdict = N::report(&monitor).verdict;
         let [energy, angular_momentum, position, time] = worst;
         let period = h / ellipse.turn.to_f64() - 1.0;
         let too_large = matches!(verdict, MonitorVerdict::TooLarge(_) | MonitorVerdict::NearResonance { .. });
