@@ -126,5 +126,5 @@ pub use texts::error::{Error, NotWritten, not_written};
 pub use texts::refusal::{Refusal, Unsupported};
 pub use texts::shell::shell_word;
 pub use watch::observer::Observer;
-pub use watch::summary::{EnergySummary, Extreme, ModifiedEnergySummary, Summary};
+pub use watch::summary::{EnergySummary, ModifiedEnergySummary, Summary};
 pub use watch::{Approach, Encounter, Interactions, LightBody, ParticleApproach};

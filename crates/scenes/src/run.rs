@@ -105,7 +105,7 @@ impl Run<'_> {
     }
 
     /// The run stopped; coordinates and momenta have these names.
-    pub fn failed_naming(&self, error: &RunError, coordinates: &[String], momenta: &[String]) -> Error {
+    pub(crate) fn failed_naming(&self, error: &RunError, coordinates: &[String], momenta: &[String]) -> Error {
         let RunError::NotFinite { step, value } = error else { return self.ended(&error.to_string()) };
         let value = named(value, coordinates, momenta);
         if *step < 0 {

@@ -77,7 +77,7 @@ impl Energies {
 const EPSILON_EVERY: u64 = 16;
 
 /// Follows the states of a run in the order of time.
-pub struct Watch<N: SceneNumber> {
+pub(crate) struct Watch<N: SceneNumber> {
     energies: Energies,
     energy: EnergyError<N>,
     /// Whether H is that of the trajectory of a processed scheme, while the monitor follows the kernel.
@@ -189,7 +189,7 @@ impl<N: SceneNumber> Watch<N> {
     ///
     /// # Errors
     /// A state or an energy that is not finite.
-    pub fn begin(
+    pub(crate) fn begin(
         integrator: &mut VectorIntegrator<'_, N>,
         run: Run<'_>,
         (from, initial): (i64, N),
@@ -239,7 +239,7 @@ impl<N: SceneNumber> Watch<N> {
 
     /// Follows the planets of a system that has some, too; in transformed time H is H'.
     #[must_use]
-    pub fn of_system(mut self, system: &scene::System, integrator: &VectorIntegrator<'_, N>) -> Self {
+    pub(crate) fn of_system(mut self, system: &scene::System, integrator: &VectorIntegrator<'_, N>) -> Self {
         self.transformed = system.transformed_time().is_some();
         self.names.clone_from(&system.coordinates);
         self.time = system.explicit_time.then(|| system.q.len() - 1);
@@ -254,7 +254,7 @@ impl<N: SceneNumber> Watch<N> {
     }
 
     /// What the next step is to carry along.
-    pub fn carried(&self) -> Carried {
+    pub(crate) fn carried(&self) -> Carried {
         match &self.observed {
             Some(Observed { monitors, idle: 0, .. })
                 if monitors.iter().any(|spaced| spaced.monitor.needs_increments()) =>
@@ -266,7 +266,7 @@ impl<N: SceneNumber> Watch<N> {
     }
 
     /// How many of the next states need not be [included](Watch::include): it is enough that they are visited.
-    pub fn idle(&self) -> u64 {
+    pub(crate) fn idle(&self) -> u64 {
         match &self.observed {
             Some(observed) if self.energies != Energies::All => observed.idle,
             _ => 0,
@@ -275,7 +275,7 @@ impl<N: SceneNumber> Watch<N> {
 
     /// Takes the state n, which a step has made: the one after the last one that it took. Of a processed scheme, the
     /// monitor and encounters follow the kernel; H is that of the trajectory.
-    pub fn include(&mut self, n: i64, integrator: &mut VectorIntegrator<'_, N>) {
+    pub(crate) fn include(&mut self, n: i64, integrator: &mut VectorIntegrator<'_, N>) {
         self.n = n;
         if self.energies == Energies::All {
             self.energy.include(n, &at_output(integrator, |integrator| integrator.system().energy()));
@@ -325,7 +325,7 @@ impl<N: SceneNumber> Watch<N> {
     }
 
     /// The error of H.
-    pub fn energy(&self) -> EnergySummary {
+    pub(crate) fn energy(&self) -> EnergySummary {
         let energy = &self.energy;
         let whole = |difference: &N| energy.relative(difference).filter(|_| !self.transformed);
         let relative = |difference: &N| whole(difference).map(|part| part.to_text());
@@ -341,7 +341,7 @@ impl<N: SceneNumber> Watch<N> {
     }
 
     /// What has been found, if a summary is made.
-    pub fn summary(self, run: Run<'_>) -> Option<Summary> {
+    pub(crate) fn summary(self, run: Run<'_>) -> Option<Summary> {
         let mut energy = self.energy();
         let mut initial = self.energy.initial.clone();
         initial.make_absolute();

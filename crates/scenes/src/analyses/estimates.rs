@@ -60,7 +60,7 @@ pub struct Finished<N> {
 
 impl Estimates<'_> {
     /// Whether q and p are sums with remainders.
-    pub fn is_compensated(&self) -> bool {
+    pub(crate) fn is_compensated(&self) -> bool {
         self.arithmetic.is_compensated() && self.propagator.scheme().is_some()
     }
 

@@ -108,7 +108,7 @@ impl<N: SceneNumber> At<'_, '_, N> {
     }
 
     /// The growth of tangent vectors up to the state, where there are some.
-    pub fn vectors(&mut self) -> Option<&dyn TangentRun> {
+    pub(crate) fn vectors(&mut self) -> Option<&dyn TangentRun> {
         self.vectors.as_mut().map(|vectors| vectors.end())
     }
 }

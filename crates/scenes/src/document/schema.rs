@@ -10,7 +10,8 @@ use std::fmt;
 use shadowstep_schemes::document::{self, Keys};
 use toml::de::{DeTable, DeValue};
 
-pub use check::{Elsewhere, has_form, refuse_unknown};
+pub(crate) use check::refuse_unknown;
+pub use check::{Elsewhere, has_form};
 pub use json::json_schema;
 pub use table::{Table, texts};
 pub(crate) use table::{each_text, words_of};
@@ -95,9 +96,9 @@ const MOST_SHOWN: usize = 6;
 /// A number.
 pub const NUMBER: Kind = Kind::Number(Sign::Any);
 /// A number above 0.
-pub const POSITIVE: Kind = Kind::Number(Sign::Positive);
+pub(crate) const POSITIVE: Kind = Kind::Number(Sign::Positive);
 /// A number that is not 0.
-pub const NONZERO: Kind = Kind::Number(Sign::Nonzero);
+pub(crate) const NONZERO: Kind = Kind::Number(Sign::Nonzero);
 /// Numbers.
 pub const NUMBERS: Kind = Kind::List(&NUMBER);
 /// A formula.
@@ -178,7 +179,7 @@ impl Section {
 
 impl Kind {
     /// The table that a value can be.
-    pub fn table(&self) -> Option<&'static Section> {
+    pub(crate) fn table(&self) -> Option<&'static Section> {
         match self {
             Kind::Table(section) => Some(section),
             Kind::Any(kinds) => kinds.iter().find_map(Kind::table),
@@ -187,7 +188,7 @@ impl Kind {
     }
 
     /// What numbers of this kind there are.
-    pub fn sign(&self) -> Sign {
+    pub(crate) fn sign(&self) -> Sign {
         match self {
             Kind::Number(sign) | Kind::List(Kind::Number(sign)) => *sign,
             Kind::Any(kinds) => kinds.first().map_or(Sign::Any, Kind::sign),

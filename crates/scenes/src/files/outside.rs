@@ -69,7 +69,7 @@ pub fn path_within(source: &Source, name: &Text) -> Result<PathBuf, Faults> {
 ///
 /// # Errors
 /// As [`path_within`].
-pub fn path_of(source: &Source, name: &str) -> Result<PathBuf, Refusal> {
+pub(crate) fn path_of(source: &Source, name: &str) -> Result<PathBuf, Refusal> {
     let path = source.folder().join(name);
     if is_allowed(&path, folder_of(Path::new(&source.path))) {
         return Ok(path);

@@ -122,7 +122,7 @@ impl System {
     ///
     /// # Panics
     /// If a system has other parameters than the first.
-    pub fn parameters_of_each<'a>(systems: &[&'a System; LANES]) -> Vec<(&'a str, Lanes<LANES>)> {
+    pub(crate) fn parameters_of_each<'a>(systems: &[&'a System; LANES]) -> Vec<(&'a str, Lanes<LANES>)> {
         let names = systems[0].parameters.iter().enumerate();
         names.map(|(i, (name, _))| (name.as_str(), lanes_of(|lane| &systems[lane].parameters[i].1))).collect()
     }

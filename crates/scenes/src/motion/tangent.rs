@@ -8,8 +8,8 @@ use shadowstep::{Integrator as _, MotionError, Number, Rational, Real, Remainder
 use crate::run::arithmetic::{Arithmetic, Digits, Numbers};
 use crate::run::saved_state::{SavedState, SavedVector};
 use crate::run::snapshots::Snapshot;
-use crate::run::start::{Begin, SceneIntegrator, Steps};
-use crate::scene::{PotentialEnergy, Scene, SceneNumber, System};
+use crate::run::start::{SceneIntegrator, Steps};
+use crate::scene::{PotentialEnergy, SceneNumber, System};
 use crate::texts::error::Error;
 
 /// A trajectory with tangent vectors.
@@ -125,16 +125,6 @@ impl FollowingVectors {
         }?;
         let h = steps.h.exact().to_f64().expect("every rational has a nearest f64");
         Ok(FollowingVectors { run, h, every: every.max(1), steps: 0 })
-    }
-}
-
-impl Scene {
-    /// Vectors beside the run of the scene.
-    ///
-    /// # Errors
-    /// As [`FollowingVectors::new`].
-    pub fn tangents(&self, vectors: Vectors, every: u64) -> Result<FollowingVectors, Error> {
-        FollowingVectors::new(self.arithmetic, &self.system, self.steps_from(Begin::InitialState), (vectors, every))
     }
 }
 
@@ -378,7 +368,9 @@ mod tests {
     use shadowstep::{Carried, Integrator as _};
 
     use super::*;
+    use crate::Scene;
     use crate::document::shipped::{SHIPPED_SCENES, scene_text};
+    use crate::run::start::Begin;
 
     const STEPS: usize = 3;
 

@@ -168,7 +168,7 @@ impl Arithmetic {
     ///
     /// # Errors
     /// More digits than MPFR has; always without the feature `mpfr`.
-    pub fn with_mpfr(digits: u32) -> Result<Self, DigitsError> {
+    pub(crate) fn with_mpfr(digits: u32) -> Result<Self, DigitsError> {
         let precision = Precision::digits(digits)?;
         #[cfg(feature = "mpfr")]
         return Ok(Arithmetic::plain(Numbers::Digits(digits, Digits::Mpfr(precision))));
@@ -185,7 +185,7 @@ impl Arithmetic {
     }
 
     /// The number of limbs of 64 bits; `None` of other number types.
-    pub fn limbs(self) -> Option<usize> {
+    pub(crate) fn limbs(self) -> Option<usize> {
         match self.numbers {
             Numbers::Digits(_, Digits::Limbs(count)) => Some(count.get()),
             _ => None,

@@ -47,7 +47,7 @@ impl System {
     }
 
     /// The same from positions and momenta in the coordinates of the scene.
-    pub fn start_at<N: SceneNumber>(&self, state: State<N>, context: &N::Context) -> State<N> {
+    pub(crate) fn start_at<N: SceneNumber>(&self, state: State<N>, context: &N::Context) -> State<N> {
         N::start_at(self, state, context)
     }
 

@@ -51,12 +51,12 @@ impl Outputs {
     }
 
     /// The columns of expressions.
-    pub fn named_values(&self) -> impl Iterator<Item = &NamedExpression> {
+    pub(crate) fn named_values(&self) -> impl Iterator<Item = &NamedExpression> {
         self.values.iter().flat_map(|columns| &columns.expressions)
     }
 
     /// Whether positions and momenta are written.
-    pub fn has_states(&self) -> bool {
+    pub(crate) fn has_states(&self) -> bool {
         self.trajectory.is_some() || self.section.is_some()
     }
 }

@@ -155,7 +155,7 @@ impl System {
     }
 
     /// What the system needs of a scheme and of a run.
-    pub fn needs(&self) -> Needs {
+    pub(crate) fn needs(&self) -> Needs {
         ask!(&self.parts, split => split.needs(&self.problem))
     }
 

@@ -53,13 +53,13 @@ pub struct Summary {
 
 /// The least and the greatest value of an expression, each with the n of its state.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Extreme {
+pub(crate) struct Extreme {
     /// Its name.
-    pub name: String,
+    pub(crate) name: String,
     /// The least value.
-    pub least: (String, i64),
+    pub(crate) least: (String, i64),
     /// The greatest value.
-    pub greatest: (String, i64),
+    pub(crate) greatest: (String, i64),
 }
 
 /// The error of H: H(t) − H(0).
@@ -197,11 +197,6 @@ impl Summary {
         self.bounded = false;
     }
 
-    /// Light planets and particles of mass 0 that came near to heavier planets, with whether the steps resolved that.
-    pub fn light_bodies(&self) -> &[LightBody] {
-        &self.light
-    }
-
     /// Whether bodies came within one Hill radius of each other.
     fn has_close_bodies(&self) -> bool {
         let planets = self.interactions.as_ref().and_then(|found| found.closest.as_ref());
@@ -251,11 +246,6 @@ impl Summary {
     /// What a run of planets has shown of their interactions.
     pub fn interactions(&self) -> Option<&Interactions> {
         self.interactions.as_ref()
-    }
-
-    /// The least and the greatest values of expressions.
-    pub fn extremes(&self) -> &[Extreme] {
-        &self.extremes
     }
 
     fn extremes_text(&self) -> Option<String> {

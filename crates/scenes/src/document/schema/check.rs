@@ -38,7 +38,7 @@ pub fn has_form(
 }
 
 /// Refuses sections that are neither these nor `others`, and a missing one of those that are `required`.
-pub fn refuse_unknown(
+pub(crate) fn refuse_unknown(
     reader: &mut Reader<'_>,
     root: &DeTable<'_>,
     sections: &[&'static Section],

@@ -41,7 +41,7 @@ impl<'t, 'i> Table<'t, 'i> {
     }
 
     /// The row of a key.
-    pub fn row(&self, key: &str) -> &'static Key {
+    pub(crate) fn row(&self, key: &str) -> &'static Key {
         self.rows.find(key).expect("a key that is read has a row")
     }
 
@@ -56,7 +56,7 @@ impl<'t, 'i> Table<'t, 'i> {
     }
 
     /// The value of a key, where it is a table with keys.
-    pub fn table(&self, key: &str) -> Option<Table<'t, 'i>> {
+    pub(crate) fn table(&self, key: &str) -> Option<Table<'t, 'i>> {
         Table::of_value(self.source, self.get(key)?, self.row(key).kind.table()?)
     }
 
@@ -97,7 +97,7 @@ impl<'t, 'i> Table<'t, 'i> {
     }
 
     /// The names with their texts or numbers in the table that is the value of a key, in the order of the document.
-    pub fn named(&self, key: &str) -> Vec<(Text, Text)> {
+    pub(crate) fn named(&self, key: &str) -> Vec<(Text, Text)> {
         let table = self.get(key).and_then(|value| value.get_ref().as_table());
         let text = |(name, value)| Some((name, Text::of(self.source, value)?));
         in_order(table.into_iter().flatten()).into_iter().filter_map(text).collect()
