@@ -4,7 +4,7 @@
 //! | module | what it is |
 //! | --- | --- |
 //! | [`at`] | a state as columns see it |
-//! | [`column`] | what takes states |
+//! | [`mod@column`] | what takes states |
 //! | `group`, `names` | a group of columns of rows; the names of all |
 //! | `states`, `energy`, `modified_energy`, `chaos`, `values` | these groups |
 //! | [`evaluator`], `quantity_of_bodies` | expressions and conditions in the numbers of a run |

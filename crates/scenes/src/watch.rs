@@ -5,7 +5,8 @@
 //! | `energy`, `lasting_change` | the error of H, and a change of it that lasts |
 //! | `monitor` | the monitor of the modified energy |
 //! | `encounters` | times at which the force is large |
-//! | `bodies`, `places`, `approaches`, `particles`, [`light`] | how close bodies come to each other: planets, particles of mass 0, light bodies |
+//! | `bodies`, `places`, `approaches` | how close planets come to each other |
+//! | `particles`, [`light`] | particles of mass 0 and light bodies that come close to planets |
 //! | `summary` | what a run has shown |
 //! | `observer` | how a caller watches a run and stops it |
 

@@ -67,7 +67,7 @@ pub trait RunNumber: SceneNumber {
     /// No bodies, or not as many momenta.
     ///
     /// # Panics
-    /// As [`System::integrator`].
+    /// As [`System::integrator`](crate::System::integrator).
     fn springs(
         alpha: &Rational,
         steps: Steps<'_>,

@@ -176,10 +176,10 @@ impl Arithmetic {
         Err(DigitsError::NeedsMpfr(precision.in_digits()))
     }
 
-    /// [`with_mpfr`](Arithmetic::with_mpfr) if `mpfr` is true, else [`with_digits`](Arithmetic::with_digits).
+    /// MPFR's numbers with this many decimal digits if `mpfr` is true, else [`with_digits`](Arithmetic::with_digits).
     ///
     /// # Errors
-    /// As these.
+    /// As there; MPFR's numbers without the feature `mpfr`.
     pub fn of_digits(digits: u32, mpfr: bool) -> Result<Self, DigitsError> {
         if mpfr { Arithmetic::with_mpfr(digits) } else { Arithmetic::with_digits(digits) }
     }

@@ -16,7 +16,7 @@ use crate::scene::split::{ShownCoordinates, Split as _, State};
 
 /// A number type in which systems are computed.
 pub trait SceneNumber: CorrectlyRounded + 'static {
-    /// [`System::start_at`]
+    /// A state in the coordinates of the steps, from positions and momenta in those of the scene.
     fn start_at(system: &System, state: State<Self>, context: &Self::Context) -> State<Self>;
 
     /// [`System::shown`]
