@@ -46,7 +46,7 @@ pub(crate) fn follow<N: SceneNumber>(
 }
 
 /// Where the states come from.
-enum Source<'i, 's, N: RunNumber> {
+enum Source<'i, 's, N: SceneNumber> {
     Plain(Trajectory<&'i mut VectorIntegrator<'s, N>>),
     Estimated(Estimating<'i, 's, N>),
 }

@@ -9,7 +9,6 @@ use serde::{Deserialize, Serialize};
 use shadowstep::steps::scheme::MapKind;
 use shadowstep::{Rational, Scheme};
 use shadowstep_analysis::stability::Stability;
-use shadowstep_scenes::Error;
 use shadowstep_scenes::computation::{Computation, RunNumber};
 use shadowstep_scenes::cpu_time::CpuTime;
 use shadowstep_scenes::library::NamedScheme;
