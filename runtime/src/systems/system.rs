@@ -97,10 +97,7 @@ pub trait System {
     ) where
         Self: Sized,
     {
-        for step in 0..count {
-            maps.each(step..step + 1, count, &mut Carrying { system: self, carried: Carried::Nothing });
-            visitor.visit(self.state().q(), self.state().p());
-        }
+        visit_each(self, maps, count, visitor);
     }
 
     /// energy ← H at another state q, p of the same system, or at the present one.
@@ -131,6 +128,20 @@ pub trait System {
 pub trait Visitor<N> {
     /// Takes the next state: its positions and momenta.
     fn visit(&mut self, q: &[N], p: &[N]);
+}
+
+/// Plain steps one by one, each of which the visitor sees.
+#[inline(always)]
+pub(crate) fn visit_each<M: System>(
+    system: &mut M,
+    maps: &impl MapSequence<M::Number>,
+    count: u64,
+    visitor: &mut dyn Visitor<M::Number>,
+) {
+    for step in 0..count {
+        maps.each(step..step + 1, count, &mut Carrying { system, carried: Carried::Nothing });
+        visitor.visit(system.state().q(), system.state().p());
+    }
 }
 
 /// Positions and momenta.

@@ -12,7 +12,6 @@ use crate::systems::maps::{Flows, MapKind, MapSequence, PartOrder, Repeated};
 use crate::systems::potential::Potential;
 use crate::systems::state::State;
 use crate::systems::summation::Summation;
-use crate::systems::system::Visitor;
 
 /// A state, and what is kept of the potential at its q.
 #[derive(Clone, Debug)]
@@ -181,37 +180,11 @@ impl<N: Number, P: Potential<N>, K: Kinetic<N>> Hamiltonian<N, P, K> {
     ) {
         // one of both is compiled
         if const { std::mem::needs_drop::<Evaluated<N, V, S>>() } {
-            self.advance_in_place(at, maps, count);
-        } else {
-            let mut copy = at.clone();
-            self.advance_in_place(&mut copy, maps, count);
-            *at = copy;
+            return maps.each(0..count, count, &mut PlainFlows { hamiltonian: self, at });
         }
-    }
-
-    /// The same, and the visitor sees the state after each step.
-    #[inline(always)]
-    pub(super) fn advance_visited<V: Coordinates<N>, S: Summation<N>>(
-        &mut self,
-        at: &mut Evaluated<N, V, S>,
-        maps: &impl MapSequence<N>,
-        count: u64,
-        visitor: &mut dyn Visitor<N>,
-    ) {
-        for step in 0..count {
-            maps.each(step..step + 1, count, &mut PlainFlows { hamiltonian: self, at });
-            visitor.visit(at.state.q.as_ref(), at.state.p.as_ref());
-        }
-    }
-
-    #[inline(always)]
-    fn advance_in_place<V: Coordinates<N>, S: Summation<N>>(
-        &mut self,
-        at: &mut Evaluated<N, V, S>,
-        maps: &impl MapSequence<N>,
-        count: u64,
-    ) {
-        maps.each(0..count, count, &mut PlainFlows { hamiltonian: self, at });
+        let mut copy = at.clone();
+        maps.each(0..count, count, &mut PlainFlows { hamiltonian: self, at: &mut copy });
+        *at = copy;
     }
 }
 

@@ -16,7 +16,7 @@ use crate::systems::maps::MapSequence;
 use crate::systems::potential::Potential;
 use crate::systems::state::State;
 use crate::systems::summation::Summation;
-use crate::systems::system::{Carrying, System, Visitor};
+use crate::systems::system::{Carrying, System, Visitor, visit_each};
 
 impl<N, V, P, K, S> System for Motion<N, V, P, K, S>
 where
@@ -103,7 +103,7 @@ where
             #[inline(always)]
             || {
                 if !advance_few(slice::from_mut(self), maps, count, Some(visitor)) {
-                    self.hamiltonian.advance_visited(&mut self.at, maps, count, visitor);
+                    visit_each(self, maps, count, visitor);
                 }
             },
         );
