@@ -66,6 +66,7 @@ fn one_by_one(definition: &Definition, programs: &PotentialPrograms) -> TokenStr
     quote! {
         fn scratch(&self) -> usize { #scratch_size }
         #prepare
+        #[inline(always)]
         fn energy(&self, #i: usize, #j: usize, #x: &N, #energy: &mut N, #scratch: &mut [N]) {
             #energy_body
         }
@@ -88,41 +89,41 @@ fn one_by_one(definition: &Definition, programs: &PotentialPrograms) -> TokenStr
     }
 }
 
-/// The methods of blocks of pairs: a loop over the places of each.
+/// The method of blocks of pairs: a loop over the places of each.
 fn in_blocks(definition: &Definition, programs: &PotentialPrograms) -> TokenStream {
-    let [i, j, xs, scratch, lane, block, width] = ["i", "j", "xs", "scratch", "lane", "block", "W"].map(own);
+    let [i, j, xs, scratch, lane, block] = ["i", "j", "xs", "scratch", "lane", "block"].map(own);
+    let [width, forces, sum] = ["W", "FORCES", "SUM"].map(own);
     let in_lane =
         Methods { programs, names: definition.names(), arguments: values_in_lane(definition, [&i, &xs, &lane]) };
     let property_blocks = property_blocks(definition, [&j, &block]);
-    let [energies, slopes, summands] =
-        [["energies", "energy"], ["slopes", "slope"], ["summands", "summand"]].map(|[all, one]| (own(all), own(one)));
-    let method = |name: &str, outputs: &[(Ident, Ident)], body: TokenStream| {
-        let name = format_ident!("{name}");
-        let outputs = outputs.iter().map(|(all, _)| all).collect::<Vec<_>>();
-        quote! {
-            #[inline(always)]
-            fn #name<const #width: usize>(
-                &self,
-                #i: usize,
-                #j: usize,
-                #xs: &[[N; #width]],
-                #(#outputs: &mut [[N; #width]],)*
-                #scratch: &mut [N],
-            ) {
-                for #block in 0..#xs.len() {
-                    let (#xs, #(#outputs),*) = (&#xs[#block], #(&mut #outputs[#block]),*);
-                    #property_blocks
-                    #body
+    let [slopes, summands] = ["slopes", "summands"].map(own);
+    let both = [(slopes.clone(), own("slope")), (summands.clone(), own("summand"))];
+    let of_energies = in_lane.energy_of_block(&lane, &[(summands.clone(), own("energy"))]);
+    let of_slopes = in_lane.gradient_of_block(&lane, &both[..1]);
+    let of_both = in_lane.gradient_and_rate_of_block(&lane, &both);
+    quote! {
+        #[inline(always)]
+        fn of_blocks<const #width: usize, const #forces: bool, const #sum: bool>(
+            &self,
+            [#i, #j]: [usize; 2],
+            #xs: &[[N; #width]],
+            #slopes: &mut [[N; #width]],
+            #summands: &mut [[N; #width]],
+            #scratch: &mut [N],
+        ) {
+            for #block in 0..#xs.len() {
+                let (#xs, #slopes, #summands) = (&#xs[#block], &mut #slopes[#block], &mut #summands[#block]);
+                #property_blocks
+                if !#forces {
+                    #of_energies
+                } else if #sum {
+                    #of_both
+                } else {
+                    #of_slopes
                 }
             }
         }
-    };
-    let both = [slopes, summands];
-    let of_energies = std::slice::from_ref(&energies);
-    let energies = method("energies", of_energies, in_lane.energy_of_block(&lane, of_energies));
-    let slopes = method("slopes", &both[..1], in_lane.gradient_of_block(&lane, &both[..1]));
-    let summands = method("slopes_and_summands", &both, in_lane.gradient_and_rate_of_block(&lane, &both));
-    quote! { #energies #slopes #summands }
+    }
 }
 
 /// The slopes of a block in one loop, which takes them.

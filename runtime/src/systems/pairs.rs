@@ -12,10 +12,12 @@ mod ends;
 mod error;
 mod few;
 mod gravity;
+mod group;
 mod hessian;
 mod listed;
 mod near;
 mod neighbours;
+mod one_by_one;
 mod pair;
 mod particles;
 mod scratch;
@@ -42,13 +44,13 @@ use crate::number::Number;
 use crate::number::instructions;
 use crate::number::partial_sums::add_sum;
 use crate::systems::potential::{HessianProduct, Potential};
-use blocks::{Blocks, Places, sum_of_places};
+use blocks::Blocks;
 use chain::Chain;
 use dual_blocks::DualBlocks;
 use ends::{End, each_neighbour, each_pair};
 use few::Few;
 use listed::Listed;
-use scratch::{Scratch, own_scratch, parts};
+use scratch::{own_scratch, parts};
 
 /// The potential U = Σ u over pairs of bodies in D dimensions.
 ///
@@ -118,17 +120,10 @@ impl<P: Pair, const D: usize> Pairs<P, D> {
     }
 
     fn checked(bodies: usize, pair: P, which: Which) -> Result<Self, PairsError> {
-        if bodies == 0 || D == 0 {
-            return Err(PairsError::Empty);
-        }
-        if D > 1 && pair.separation() != Separation::SquaredDistance {
-            return Err(PairsError::Separation { dimensions: D });
-        }
-        let properties = pair.properties();
-        match properties.iter().find(|count| **count != bodies) {
-            Some(values) => Err(PairsError::Property { values: *values, bodies }),
-            None => Ok(Pairs { pair, bodies, which, alike: properties.is_empty() }),
-        }
+        let formula_in_d = (D > 1).then_some(PairsError::Separation { dimensions: D });
+        PairsError::refuse(&pair, [bodies, D, bodies], formula_in_d)?;
+        let alike = pair.properties().is_empty();
+        Ok(Pairs { pair, bodies, which, alike })
     }
 
     /// How many bodies there are.
@@ -143,25 +138,6 @@ impl<P: Pair, const D: usize> Pairs<P, D> {
 }
 
 impl<P, const D: usize> Pairs<P, D> {
-    /// What u is a function of, from the difference.
-    #[inline(always)]
-    fn separation<'a, N: Number>(&self, difference: &'a [N::Register<'_>; D], squared: &'a mut N) -> &'a N
-    where
-        P: PairPotential<N>,
-    {
-        match self.pair.separation() {
-            Separation::Difference => &difference[0],
-            Separation::SquaredDistance => {
-                let (first, others) = difference.split_first().expect("at least one dimension");
-                squared.assign_square(first);
-                for other in others {
-                    squared.add_product(other, other);
-                }
-                squared
-            }
-        }
-    }
-
     /// Whether numbers of a few bytes are summed over blocks: all pairs of many bodies, and chains on a line of many
     /// bodies without properties, so that all springs are alike.
     fn is_in_blocks(&self) -> bool {
@@ -192,26 +168,21 @@ impl<P, const D: usize> Pairs<P, D> {
         }
     }
 
-    /// Whether the gradient of dual numbers is summed over blocks: of fewer bodies than other sums.
-    fn has_blocks_of_dual<N: Number>(&self) -> bool {
-        N::HAS_DERIVATIVES && self.bodies >= BLOCK
-    }
-
+    /// Sums over all pairs of many bodies are over blocks, if numbers are in vectors; the gradient of dual numbers also
+    /// that of a few.
     fn scratch_of_blocks<N: Number>(&self) -> usize {
-        let suit = self.is_in_blocks() || self.has_blocks_of_dual::<N>();
+        let suit = self.is_in_blocks() || N::HAS_DERIVATIVES && self.bodies >= BLOCK;
         let in_blocks = N::IN_VECTORS && self.which == Which::All && suit;
         if in_blocks { blocks::scratch(self.bodies, D) } else { 0 }
     }
 
     /// The scratch space of blocks and of the pair, where the sum is over blocks.
-    fn blocks<'a, N: Number>(&self, scratch: &'a mut [N]) -> Option<(&'a mut [N], &'a mut [N])> {
+    fn room_of_blocks<'a, N: Number>(&self, scratch: &'a mut [N]) -> Option<(&'a mut [N], &'a mut [N])> {
         let size = self.scratch_of_blocks::<N>();
-        (size > 0 && self.is_in_blocks()).then(|| self.room_of_blocks(size, scratch))
-    }
-
-    fn room_of_blocks<'a, N: Number>(&self, size: usize, scratch: &'a mut [N]) -> (&'a mut [N], &'a mut [N]) {
-        let (others, axes) = scratch.split_at_mut(scratch.len() - size);
-        (axes, &mut others[own_scratch(D)..])
+        (size > 0).then(|| {
+            let (others, axes) = scratch.split_at_mut(scratch.len() - size);
+            (axes, &mut others[own_scratch(D)..])
+        })
     }
 
     /// The sum over all pairs of a few bodies, whose pairs are best evaluated many at once.
@@ -228,10 +199,6 @@ impl<P, const D: usize> Pairs<P, D> {
         are_few.then_some(Few { pair: &self.pair, bodies: self.bodies })
     }
 
-    fn all_blocks(&self) -> Blocks<'_, P, D> {
-        Blocks { pair: &self.pair, bodies: self.bodies }
-    }
-
     /// The ends, where the sum is over blocks of springs.
     fn chain_in_blocks<N: Number>(&self) -> Option<Ends> {
         match self.which {
@@ -241,104 +208,11 @@ impl<P, const D: usize> Pairs<P, D> {
     }
 
     /// Visits the pairs that interact.
+    #[inline(always)]
     fn each<'q, N>(&self, q: &'q [N], visit: impl FnMut(End<'q, N, D>, End<'q, N, D>)) {
         match self.which {
             Which::All => each_pair(q, visit),
             Which::Neighbours(ends) => each_neighbour(q, ends, visit),
-        }
-    }
-
-    /// gradient ← U_q; `slope` computes a pair's.
-    #[inline(always)]
-    fn sum_gradient<N: Number>(
-        &self,
-        q: &[N],
-        gradient: &mut [N],
-        scratch: &mut [N],
-        mut slope: impl FnMut(usize, usize, &N, &mut N, &mut N, &mut [N]),
-    ) where
-        P: PairPotential<N>,
-    {
-        gradient.iter_mut().for_each(N::assign_zero);
-        let (gradient, _) = gradient.as_chunks_mut::<D>();
-        let mut s = parts::<N, D>(scratch);
-        // a closure each, so that the loop over all pairs has its own, inlined
-        match self.which {
-            Which::All if self.is_in_order_of_blocks::<N>() => self.add_by_places(q, gradient, &mut s, &mut slope),
-            Which::All => each_pair(q, |i, j| self.add_pair(i, j, gradient, &mut s, &mut slope)),
-            Which::Neighbours(ends) => {
-                each_neighbour(q, ends, |i, j| self.add_pair(i, j, gradient, &mut s, &mut slope));
-            }
-        }
-    }
-
-    /// Adds what a pair adds to the gradient.
-    #[inline(always)]
-    fn add_pair<N: Number>(
-        &self,
-        i: End<'_, N, D>,
-        j: End<'_, N, D>,
-        gradient: &mut [[N; D]],
-        s: &mut Scratch<'_, N, D>,
-        slope: &mut impl FnMut(usize, usize, &N, &mut N, &mut N, &mut [N]),
-    ) where
-        P: PairPotential<N>,
-    {
-        self.force(i, j, s, slope);
-        if let End::Body(j, _) = j {
-            gradient[j].iter_mut().zip(s.difference.iter()).for_each(|(gradient, force)| gradient.add(force));
-        }
-        if let End::Body(i, _) = i {
-            gradient[i].iter_mut().zip(s.difference.iter()).for_each(|(gradient, force)| gradient.subtract(force));
-        }
-    }
-
-    /// All pairs one after the other, in the order of blocks.
-    #[inline(always)]
-    fn add_by_places<N: Number>(
-        &self,
-        q: &[N],
-        gradient: &mut [[N; D]],
-        s: &mut Scratch<'_, N, D>,
-        slope: &mut impl FnMut(usize, usize, &N, &mut N, &mut N, &mut [N]),
-    ) where
-        P: PairPotential<N>,
-    {
-        let context = q[0].context();
-        let (q, _) = q.as_chunks::<D>();
-        for i in 0..self.bodies {
-            let mut own: Places<N, D> = std::array::from_fn(|_| std::array::from_fn(|_| N::zero(&context)));
-            for j in i + 1..self.bodies {
-                self.force(End::Body(i, &q[i]), End::Body(j, &q[j]), s, slope);
-                let place = self.place_in_block(i, j);
-                for (axis, force) in s.difference.iter().enumerate() {
-                    gradient[j][axis].add(force);
-                    place.map_or(&mut gradient[i][axis], |place| &mut own[axis][place]).subtract(force);
-                }
-            }
-            gradient[i].iter_mut().zip(&mut own).for_each(|(gradient, own)| gradient.add(sum_of_places(own)));
-        }
-    }
-
-    /// The force of a pair, in place of its difference.
-    #[inline(always)]
-    fn force<N: Number>(
-        &self,
-        i: End<'_, N, D>,
-        j: End<'_, N, D>,
-        s: &mut Scratch<'_, N, D>,
-        slope: &mut impl FnMut(usize, usize, &N, &mut N, &mut N, &mut [N]),
-    ) where
-        P: PairPotential<N>,
-    {
-        End::subtract(i, j, &mut s.difference);
-        let x = self.separation(&s.difference, &mut s.squared);
-        slope(i.number(), j.number(), x, &mut s.slope, &mut s.result, s.pair);
-        for difference in s.difference.iter_mut() {
-            match self.pair.separation() {
-                Separation::Difference => difference.assign(&s.slope),
-                Separation::SquaredDistance => difference.multiply(&s.slope),
-            }
         }
     }
 }
@@ -357,50 +231,32 @@ impl<N: Number, P: PairPotential<N>, const D: usize> Potential<N> for Pairs<P, D
     }
 
     fn energy(&self, q: &[N], energy: &mut N, scratch: &mut [N]) {
-        if HasVectors::<N>::PLAIN {
-            if let Some((axes, pair)) = self.blocks(scratch) {
-                return self.all_blocks().energy(q, energy, axes, pair);
-            }
-            if let Some(listed) = self.listed().filter(|_| P::SEVERAL_BLOCKS) {
-                return listed.energy(q, energy, &mut scratch[own_scratch(D)..]);
-            }
+        if !(HasVectors::<N>::PLAIN && self.sum_in_vectors::<N, false, true>((q, &mut []), Some(energy), scratch)) {
+            self.sum_one_by_one::<N, false, true>((q, &mut []), Some(energy), scratch);
         }
-        energy.assign_zero();
-        if self.which != Which::All || !self.is_in_order_of_blocks::<N>() {
-            return self.each_energy(q, scratch, |_, _, of_pair| energy.add(of_pair));
-        }
-        let mut sums_of_places: [N; BLOCK] = std::array::from_fn(|_| energy.clone());
-        self.each_energy(q, scratch, |i, j, of_pair| {
-            self.place_in_block(i, j).map_or(&mut *energy, |place| &mut sums_of_places[place]).add(of_pair);
-        });
-        sums_of_places.iter().for_each(|of_place| energy.add(of_place));
     }
 
     fn gradient(&self, q: &[N], gradient: &mut [N], scratch: &mut [N]) {
-        let size = self.scratch_of_blocks::<N>();
-        if N::IN_VECTORS && N::HAS_DERIVATIVES && size > 0 && self.has_blocks_of_dual::<N>() {
-            let (axes, pair) = self.room_of_blocks(size, scratch);
+        if N::IN_VECTORS
+            && N::HAS_DERIVATIVES
+            && let Some((axes, pair)) = self.room_of_blocks(scratch)
+        {
             let (bodies, in_order_of_blocks) = (self.bodies, self.is_in_blocks());
             return DualBlocks::<_, D> { pair: &self.pair, bodies, in_order_of_blocks }.sum((q, gradient), axes, pair);
         }
-        if N::IN_VECTORS && self.sum_in_vectors((q, gradient), None, scratch) {
-            return;
+        if !(N::IN_VECTORS && self.sum_in_vectors::<N, true, false>((q, gradient), None, scratch)) {
+            N::in_widest_instructions(
+                #[inline(always)]
+                || self.sum_one_by_one::<N, true, false>((q, gradient), None, scratch),
+            );
         }
-        N::in_widest_instructions(
-            #[inline(always)]
-            || {
-                self.sum_gradient(q, gradient, scratch, |i, j, x, slope, _, scratch| {
-                    self.pair.slope(i, j, x, slope, scratch)
-                })
-            },
-        );
     }
 
     fn gradient_and_rate(&self, q: &[N], gradient: &mut [N], rate: &mut N, scratch: &mut [N]) {
-        if !(HasVectors::<N>::PLAIN && self.sum_in_vectors((q, gradient), Some(rate), scratch)) {
+        if !(HasVectors::<N>::PLAIN && self.sum_in_vectors::<N, true, true>((q, gradient), Some(rate), scratch)) {
             instructions::widest_for_energies::<N, _>(
                 #[inline(always)]
-                || self.sum_one_by_one(q, gradient, rate, scratch),
+                || self.sum_one_by_one::<N, true, true>((q, gradient), Some(rate), scratch),
             );
         }
         if self.pair.summand() == Summand::Energy {
@@ -419,24 +275,10 @@ impl<N: Number, P: PairPotential<N>, const D: usize> Potential<N> for Pairs<P, D
 }
 
 impl<P, const D: usize> Pairs<P, D> {
-    /// Visits the energies of the pairs that interact.
-    fn each_energy<N: Number>(&self, q: &[N], scratch: &mut [N], mut visit: impl FnMut(usize, usize, &N))
-    where
-        P: PairPotential<N>,
-    {
-        let mut s = parts::<N, D>(scratch);
-        self.each(q, |i, j| {
-            End::subtract(i, j, &mut s.difference);
-            let x = self.separation(&s.difference, &mut s.squared);
-            self.pair.energy(i.number(), j.number(), x, &mut s.result, s.pair);
-            visit(i.number(), j.number(), &s.result);
-        });
-    }
-
-    /// gradient ← U_q, and the sum of the summands of pairs where it is wanted, for numbers in vectors whose pairs are
-    /// evaluated many at once. Whether they are.
+    /// gradient ← U_q where `FORCES`, and total ← the sum of the summands of pairs where `SUM`, without forces of their
+    /// energies, for numbers in vectors whose pairs are evaluated many at once. Whether they are.
     #[inline(always)]
-    fn sum_in_vectors<N: Number>(
+    fn sum_in_vectors<N: Number, const FORCES: bool, const SUM: bool>(
         &self,
         (q, gradient): (&[N], &mut [N]),
         total: Option<&mut N>,
@@ -445,45 +287,22 @@ impl<P, const D: usize> Pairs<P, D> {
     where
         P: PairPotential<N>,
     {
-        if HasVectors::<N>::PLAIN
-            && let Some((axes, pair)) = self.blocks(scratch)
-        {
-            self.all_blocks().sum((q, gradient), total, axes, pair);
-            return true;
-        }
-        let pair = &mut scratch[own_scratch(D)..];
-        if let Some(ends) = self.chain_in_blocks::<N>() {
-            Chain { pair: &self.pair, ends }.sum((q, gradient), total, pair);
-        } else if P::SEVERAL_BLOCKS
+        if P::SEVERAL_BLOCKS
             && let Some(listed) = self.listed()
         {
-            listed.sum(q, gradient, total, pair);
-        } else if let Some(few) = self.few() {
-            few.sum((q, gradient), total, pair);
+            listed.sum::<N, FORCES, SUM>((q, gradient), total, &mut scratch[own_scratch(D)..]);
+        } else if HasVectors::<N>::PLAIN
+            && let Some((axes, pair)) = self.room_of_blocks(scratch)
+        {
+            let blocks = Blocks::<P, D> { pair: &self.pair, bodies: self.bodies };
+            blocks.sum::<N, FORCES, SUM>((q, gradient), total, axes, pair);
+        } else if FORCES && let Some(ends) = self.chain_in_blocks::<N>() {
+            Chain { pair: &self.pair, ends }.sum::<N, SUM>((q, gradient), total, &mut scratch[own_scratch(D)..]);
+        } else if FORCES && let Some(few) = self.few() {
+            few.sum::<N, SUM>((q, gradient), total, &mut scratch[own_scratch(D)..]);
         } else {
             return false;
         }
         true
-    }
-
-    /// The sum of one pair after the other.
-    #[inline(always)]
-    fn sum_one_by_one<N: Number>(&self, q: &[N], gradient: &mut [N], total: &mut N, scratch: &mut [N])
-    where
-        P: PairPotential<N>,
-    {
-        total.assign_zero();
-        if !self.is_in_order_of_blocks::<N>() {
-            return self.sum_gradient(q, gradient, scratch, |i, j, x, slope, summand, scratch| {
-                self.pair.slope_and_summand(i, j, x, slope, summand, scratch);
-                total.add(summand);
-            });
-        }
-        let mut sums_of_places: [N; BLOCK] = std::array::from_fn(|_| N::zero(&q[0].context()));
-        self.sum_gradient(q, gradient, scratch, |i, j, x, slope, summand, scratch| {
-            self.pair.slope_and_summand(i, j, x, slope, summand, scratch);
-            self.place_in_block(i, j).map_or(&mut *total, |place| &mut sums_of_places[place]).add(summand);
-        });
-        sums_of_places.iter().for_each(|of_place| total.add(of_place));
     }
 }

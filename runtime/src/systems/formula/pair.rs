@@ -188,41 +188,7 @@ impl<N: Number> PairPotential<N> for FormulaPair<N> {
     }
 
     #[inline]
-    fn energies_of<const W: usize>(
-        &self,
-        bodies: impl Fn(usize) -> [usize; 2],
-        x: &[[N; W]],
-        energies: &mut [[N; W]],
-        scratch: &mut [N],
-    ) {
-        if let Some(registers) = self.blocks::<W>(x.len(), &bodies, scratch) {
-            return swap(energies, self.interpreter.energies(x, registers));
-        }
-        for (l, (x, energy)) in x.as_flattened().iter().zip(energies.as_flattened_mut()).enumerate() {
-            let [i, j] = bodies(l);
-            self.energy(i, j, x, energy, scratch);
-        }
-    }
-
-    #[inline]
-    fn slopes_of<const W: usize>(
-        &self,
-        bodies: impl Fn(usize) -> [usize; 2],
-        x: &[[N; W]],
-        slopes: &mut [[N; W]],
-        scratch: &mut [N],
-    ) {
-        if let Some(registers) = self.blocks::<W>(x.len(), &bodies, scratch) {
-            return swap(slopes, self.interpreter.slopes(x, registers));
-        }
-        for (l, (x, slope)) in x.as_flattened().iter().zip(slopes.as_flattened_mut()).enumerate() {
-            let [i, j] = bodies(l);
-            self.slope(i, j, x, slope, scratch);
-        }
-    }
-
-    #[inline]
-    fn slopes_and_summands_of<const W: usize>(
+    fn of_places<const W: usize, const FORCES: bool, const SUM: bool>(
         &self,
         bodies: impl Fn(usize) -> [usize; 2],
         x: &[[N; W]],
@@ -231,24 +197,23 @@ impl<N: Number> PairPotential<N> for FormulaPair<N> {
         scratch: &mut [N],
     ) {
         if let Some(registers) = self.blocks::<W>(x.len(), &bodies, scratch) {
-            let (of_slopes, of_summands) =
-                self.interpreter.slopes_and_summands(x, registers).split_at_mut(BLOCKS_AT_ONCE);
-            swap(slopes, of_slopes);
-            return swap(summands, of_summands);
+            let count = x.len();
+            if !FORCES {
+                summands[..count].swap_with_slice(&mut self.interpreter.energies(x, registers)[..count]);
+            } else if SUM {
+                let results = self.interpreter.slopes_and_summands(x, registers);
+                let (of_slopes, of_summands) = results.split_at_mut(BLOCKS_AT_ONCE);
+                slopes[..count].swap_with_slice(&mut of_slopes[..count]);
+                summands[..count].swap_with_slice(&mut of_summands[..count]);
+            } else {
+                slopes[..count].swap_with_slice(&mut self.interpreter.slopes(x, registers)[..count]);
+            }
+            return;
         }
         let results = slopes.as_flattened_mut().iter_mut().zip(summands.as_flattened_mut());
         for (l, (x, (slope, summand))) in x.as_flattened().iter().zip(results).enumerate() {
-            let [i, j] = bodies(l);
-            self.slope_and_summand(i, j, x, slope, summand, scratch);
+            self.of_one::<FORCES, SUM>(bodies(l), x, slope, summand, scratch);
         }
-    }
-}
-
-/// The results of blocks change places with the first ones of those computed.
-#[inline(always)]
-fn swap<R>(results: &mut [R], computed: &mut [R]) {
-    for block in 0..results.len() {
-        std::mem::swap(&mut results[block], &mut computed[block]);
     }
 }
 

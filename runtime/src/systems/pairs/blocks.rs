@@ -6,11 +6,11 @@
 
 use std::hint::black_box;
 
-use super::pair::{BLOCK, BLOCKS_AT_ONCE, PairPotential, separated};
+use super::group::{make_forces, separations};
+use super::pair::{BLOCK, BLOCKS_AT_ONCE, PairPotential};
 use crate::number::Number;
 use crate::number::instructions;
 use crate::systems::coordinates::for_each_two;
-use shadowstep_schemes::symbolic::Separation;
 
 /// How many numbers of scratch space blocks take: coordinates and gradient by axes.
 pub(super) const fn scratch(bodies: usize, dimensions: usize) -> usize {
@@ -64,13 +64,15 @@ pub(super) fn sum_of_places<N: Number>(places: &mut [N; BLOCK]) -> &N {
 /// A sum over all pairs of bodies in D dimensions.
 pub(super) struct Blocks<'a, P, const D: usize> {
     pub(super) pair: &'a P,
+    /// At least [`BLOCK`].
     pub(super) bodies: usize,
 }
 
 impl<P, const D: usize> Blocks<'_, P, D> {
-    /// gradient ← U_q, and the sum of the summands of pairs where it is wanted; `axes` is the scratch space of blocks,
-    /// `pair` the scratch space of the pair.
-    pub(super) fn sum<N: Number>(
+    /// gradient ← U_q where `FORCES`, and total ← the sum of the summands of pairs where `SUM`, without forces of their
+    /// energies; `axes` is the scratch space of blocks, `pair` that of the pair.
+    #[inline(never)]
+    pub(super) fn sum<N: Number, const FORCES: bool, const SUM: bool>(
         &self,
         (q, gradient): (&[N], &mut [N]),
         total: Option<&mut N>,
@@ -82,58 +84,28 @@ impl<P, const D: usize> Blocks<'_, P, D> {
         let (q_axes, g_axes) = axes.split_at_mut(self.bodies * D);
         transpose(q, D, q_axes);
         g_axes.iter_mut().for_each(N::assign_zero);
+        let mut sum = N::zero(&q[0].context());
         instructions::widest(
             #[inline(always)]
-            || match total {
-                Some(total) => {
-                    total.assign_zero();
-                    self.add_blocks::<N, true, true>(q_axes, g_axes, total, pair);
-                }
-                None => {
-                    let mut none = N::zero(&q[0].context());
-                    self.add_blocks::<N, true, false>(q_axes, g_axes, &mut none, pair);
+            || {
+                if P::SEVERAL_BLOCKS {
+                    self.add_blocks::<N, FORCES, SUM, BLOCKS_AT_ONCE>(q_axes, g_axes, &mut sum, pair);
+                } else {
+                    self.add_blocks::<N, FORCES, SUM, 1>(q_axes, g_axes, &mut sum, pair);
                 }
             },
         );
-        transpose(g_axes, self.bodies, gradient);
-    }
-
-    /// energy ← U
-    pub(super) fn energy<N: Number>(&self, q: &[N], energy: &mut N, axes: &mut [N], pair: &mut [N])
-    where
-        P: PairPotential<N>,
-    {
-        let (q_axes, others) = axes.split_at_mut(self.bodies * D);
-        transpose(q, D, q_axes);
-        energy.assign_zero();
-        instructions::widest(
-            #[inline(always)]
-            || self.add_blocks::<N, false, true>(q_axes, others, energy, pair),
-        );
-    }
-
-    /// Adds the forces to the gradient, and the summands of pairs to their sum; without forces, the energies to the
-    /// sum.
-    #[inline(always)]
-    fn add_blocks<N: Number, const FORCES: bool, const SUM: bool>(
-        &self,
-        q: &[N],
-        gradient: &mut [N],
-        total: &mut N,
-        pair: &mut [N],
-    ) where
-        P: PairPotential<N>,
-    {
-        if P::SEVERAL_BLOCKS {
-            self.add_up_to::<N, FORCES, SUM, BLOCKS_AT_ONCE>(q, gradient, total, pair);
-        } else {
-            self.add_up_to::<N, FORCES, SUM, 1>(q, gradient, total, pair);
+        if FORCES {
+            transpose(g_axes, self.bodies, gradient);
+        }
+        if let Some(total) = total {
+            total.assign(&sum);
         }
     }
 
-    /// The same with up to B blocks at once.
+    /// Adds the pairs, up to B blocks at once.
     #[inline(always)]
-    fn add_up_to<N: Number, const FORCES: bool, const SUM: bool, const B: usize>(
+    fn add_blocks<N: Number, const FORCES: bool, const SUM: bool, const B: usize>(
         &self,
         q: &[N],
         gradient: &mut [N],
@@ -142,7 +114,7 @@ impl<P, const D: usize> Blocks<'_, P, D> {
     ) where
         P: PairPotential<N>,
     {
-        let bodies = self.bodies;
+        let (bodies, last) = (self.bodies, self.bodies - BLOCK);
         let mut room = Room::<N, D, B>::new(&q[0].context());
         // made once: calls of `from_fn` are not inlined into other codegen units
         let zeros: Places<N, D> = room.difference[0].clone();
@@ -162,23 +134,30 @@ impl<P, const D: usize> Blocks<'_, P, D> {
                     j += BLOCK;
                 }
             }
-            if j < bodies && i + BLOCK < bodies {
+            if j < bodies {
                 // the last bodies are in a block with some that had their turn
-                let first = bodies - BLOCK;
-                self.forces::<N, FORCES, SUM, B>((i, first, 1), q, &q_i, &mut room, pair);
-                room.clear(j - first);
-                self.add_block::<N, FORCES, SUM, B>((first, 0), &room, gradient, (&mut own, &mut sums_of_places));
-                j = bodies;
+                self.forces::<N, FORCES, SUM, B>((i, last, 1), q, &q_i, &mut room, pair);
+                room.clear(j - last);
+                if i < last {
+                    self.add_block::<N, FORCES, SUM, B>((last, 0), &room, gradient, (&mut own, &mut sums_of_places));
+                } else {
+                    self.add_block::<N, FORCES, false, B>((last, 0), &room, gradient, (&mut own, &mut sums_of_places));
+                    if SUM {
+                        black_box(room.summand[0].clone())[j - last..].iter().for_each(|summand| total.add(summand));
+                    }
+                }
             }
             if FORCES {
                 // the sums in memory: stores side by side are what the compiler makes vectors of, in the loop before
                 let mut own = black_box(own);
                 for (axis, own) in own.iter_mut().enumerate() {
-                    gradient[axis * bodies + i].add(sum_of_places(own));
+                    let sum = &mut gradient[axis * bodies + i];
+                    if i < last {
+                        sum.add(sum_of_places(own));
+                    } else {
+                        own[i + 1 - last..].iter().for_each(|of_place| sum.add(of_place));
+                    }
                 }
-            }
-            for j in j..bodies {
-                self.add_one::<N, FORCES, SUM>((i, j), &q_i, (q, gradient), total, pair);
             }
         }
         sums_of_places.iter().for_each(|of_place| total.add(of_place));
@@ -225,88 +204,25 @@ impl<P, const D: usize> Blocks<'_, P, D> {
     {
         let separation = self.pair.separation();
         for number in 0..blocks {
-            let (mut differences, mut x) = (difference[number].clone(), squared[number].clone());
+            let mut differences = difference[number].clone();
             for axis in 0..D {
                 let q_j = block(q, axis * self.bodies + j + number * BLOCK);
                 for l in 0..BLOCK {
                     differences[axis][l].assign_difference(&q_j[l], &q_i[axis]);
                 }
             }
-            match separation {
-                Separation::Difference => x.clone_from(&differences[0]),
-                Separation::SquaredDistance => {
-                    for l in 0..BLOCK {
-                        x[l].assign_square(&differences[0][l]);
-                    }
-                    for of_axis in &differences[1..] {
-                        for l in 0..BLOCK {
-                            x[l].add_product(&of_axis[l], &of_axis[l]);
-                        }
-                    }
-                }
-            }
+            squared[number] = separations(&differences, separation);
             difference[number] = differences;
-            squared[number] = x;
         }
         let (x, slopes, summands) = (&squared[..blocks], &mut slope[..blocks], &mut summand[..blocks]);
-        match (FORCES, SUM) {
-            (true, true) => self.pair.slopes_and_summands(i, j, x, slopes, summands, pair),
-            (true, false) => self.pair.slopes(i, j, x, slopes, pair),
-            (false, _) => return self.pair.energies(i, j, x, summands, pair),
-        }
-        for number in 0..blocks {
-            let (mut forces, slopes) = (difference[number].clone(), slope[number].clone());
-            for of_axis in &mut forces {
-                for l in 0..BLOCK {
-                    match separation {
-                        Separation::Difference => of_axis[l].assign(&slopes[l]),
-                        Separation::SquaredDistance => of_axis[l].multiply(&slopes[l]),
-                    }
-                }
-            }
-            difference[number] = forces;
-        }
-    }
-
-    /// Adds one pair in the same way.
-    #[inline(always)]
-    fn add_one<N: Number, const FORCES: bool, const SUM: bool>(
-        &self,
-        (i, j): (usize, usize),
-        q_i: &[N; D],
-        (q, gradient): (&[N], &mut [N]),
-        total: &mut N,
-        pair: &mut [N],
-    ) where
-        P: PairPotential<N>,
-    {
-        let bodies = self.bodies;
-        let zero = N::zero(&q[0].context());
-        let (mut slope, mut summand) = (zero.clone(), zero);
-        let mut difference = q_i.clone();
-        for axis in 0..D {
-            difference[axis].assign_difference(&q[axis * bodies + j], &q_i[axis]);
-        }
-        let x = separated(&difference, self.pair.separation());
-        match (FORCES, SUM) {
-            (true, true) => self.pair.slope_and_summand(i, j, &x, &mut slope, &mut summand, pair),
-            (true, false) => self.pair.slope(i, j, &x, &mut slope, pair),
-            (false, _) => self.pair.energy(i, j, &x, &mut summand, pair),
-        }
-        if SUM {
-            total.add(&summand);
-        }
+        self.pair.of_blocks::<BLOCK, FORCES, SUM>([i, j], x, slopes, summands, pair);
         if !FORCES {
             return;
         }
-        for axis in 0..D {
-            let force = &mut difference[axis];
-            match self.pair.separation() {
-                Separation::Difference => force.assign(&slope),
-                Separation::SquaredDistance => force.multiply(&slope),
-            }
-            gradient[axis * bodies + j].add(force);
-            gradient[axis * bodies + i].subtract(force);
+        for number in 0..blocks {
+            let (mut forces, slopes) = (difference[number].clone(), slope[number].clone());
+            make_forces(&mut forces, &slopes, separation);
+            difference[number] = forces;
         }
     }
 }

@@ -6,10 +6,10 @@
 
 use std::slice::{from_mut, from_ref};
 
+use super::group::{make_forces, separations};
 use super::pair::{BLOCK, Ends, PairPotential};
 use crate::number::Number;
 use crate::number::instructions;
-use shadowstep_schemes::symbolic::Separation;
 
 /// The chain's sums; the sum of the summands of pairs is split by places in a block.
 struct Sums<N> {
@@ -26,20 +26,22 @@ pub(super) struct Chain<'a, P> {
 }
 
 impl<P> Chain<'_, P> {
-    /// gradient ← U_q, and the sum of the summands of pairs where it is wanted.
-    pub(super) fn sum<N: Number>(&self, (q, gradient): (&[N], &mut [N]), total: Option<&mut N>, pair: &mut [N])
-    where
+    /// gradient ← U_q, and total ← the sum of the summands of pairs where `SUM`.
+    #[inline(never)]
+    pub(super) fn sum<N: Number, const SUM: bool>(
+        &self,
+        (q, gradient): (&[N], &mut [N]),
+        total: Option<&mut N>,
+        pair: &mut [N],
+    ) where
         P: PairPotential<N>,
     {
         instructions::widest(
             #[inline(always)]
-            || match total {
-                Some(total) => {
-                    let sum = self.add_springs::<N, true>((q, gradient), pair);
+            || {
+                let sum = self.add_springs::<N, SUM>((q, gradient), pair);
+                if let Some(total) = total {
                     total.assign(&sum);
-                }
-                None => {
-                    self.add_springs::<N, false>((q, gradient), pair);
                 }
             },
         );
@@ -55,10 +57,8 @@ impl<P> Chain<'_, P> {
         let zeros: [N; BLOCK] = std::array::from_fn(|_| zero.clone());
         let mut sums = Sums { carried: zero.clone(), sums_of_places: zeros.clone(), total: zero.clone() };
         let last = q.len() - 1;
-        let mut slope = zero.clone();
         if self.ends == Ends::Fixed {
-            slope.assign(&q[0]);
-            self.spring::<N, SUM>(&mut slope, &mut sums.total, pair);
+            let [slope] = self.forces::<N, SUM, 1>(0, [q[0].clone()], from_mut(&mut sums.total), pair);
             sums.carried.add(&slope);
         }
         let mut first = 0;
@@ -66,26 +66,24 @@ impl<P> Chain<'_, P> {
             self.block_of_springs::<N, SUM>((q, gradient), first, &zeros, &mut sums, pair);
             first += BLOCK;
         }
+        let mut difference = zero.clone();
         for i in first..last {
-            slope.assign_difference(&q[i + 1], &q[i]);
-            self.spring::<N, SUM>(&mut slope, &mut sums.total, pair);
+            difference.assign_difference(&q[i + 1], &q[i]);
+            let [slope] = self.forces::<N, SUM, 1>(i, [difference.clone()], from_mut(&mut sums.total), pair);
             gradient[i].assign_difference(&sums.carried, &slope);
             sums.carried.assign_sum(&zero, &slope);
         }
         gradient[last].assign(&sums.carried);
-        match self.ends {
-            Ends::Free => {}
-            Ends::Fixed => {
-                slope.assign(&q[last]);
-                slope.negate();
-                self.spring::<N, SUM>(&mut slope, &mut sums.total, pair);
-                gradient[last].subtract(&slope);
-            }
-            Ends::Periodic => {
-                slope.assign_difference(&q[0], &q[last]);
-                self.spring::<N, SUM>(&mut slope, &mut sums.total, pair);
+        difference.assign(&q[last]);
+        difference.negate();
+        if self.ends == Ends::Periodic {
+            difference.assign_difference(&q[0], &q[last]);
+        }
+        if self.ends != Ends::Free {
+            let [slope] = self.forces::<N, SUM, 1>(0, [difference], from_mut(&mut sums.total), pair);
+            gradient[last].subtract(&slope);
+            if self.ends == Ends::Periodic {
                 gradient[0].add(&slope);
-                gradient[last].subtract(&slope);
             }
         }
         sums.sums_of_places.iter().for_each(|of_place| sums.total.add(of_place));
@@ -106,34 +104,11 @@ impl<P> Chain<'_, P> {
     {
         let before: &[N; BLOCK] = q[first..].first_chunk().expect("the block is within the bodies");
         let after: &[N; BLOCK] = q[first + 1..].first_chunk().expect("the block is within the bodies");
-        let [mut difference, mut squared, mut slope, mut summand] =
-            [zeros.clone(), zeros.clone(), zeros.clone(), zeros.clone()];
+        let mut difference = zeros.clone();
         for l in 0..BLOCK {
             difference[l].assign_difference(&after[l], &before[l]);
         }
-        let x = match self.pair.separation() {
-            Separation::Difference => &difference,
-            Separation::SquaredDistance => {
-                for l in 0..BLOCK {
-                    squared[l].assign_square(&difference[l]);
-                }
-                &squared
-            }
-        };
-        if SUM {
-            let (slopes, summands) = (from_mut(&mut slope), from_mut(&mut summand));
-            self.pair.slopes_and_summands(first, first + 1, from_ref(x), slopes, summands, pair);
-            for l in 0..BLOCK {
-                sums_of_places[l].add(&summand[l]);
-            }
-        } else {
-            self.pair.slopes(first, first + 1, from_ref(x), from_mut(&mut slope), pair);
-        }
-        if self.pair.separation() == Separation::SquaredDistance {
-            for l in 0..BLOCK {
-                slope[l].multiply(&difference[l]);
-            }
-        }
+        let slope = self.forces::<N, SUM, BLOCK>(first, difference, sums_of_places, pair);
         let own: &mut [N; BLOCK] = gradient[first..].first_chunk_mut().expect("the block is within the bodies");
         for l in 0..BLOCK {
             // 0 − 0 where a slope is −0; in the first place, where nothing is carried that is −0, only for the vectors
@@ -144,27 +119,30 @@ impl<P> Chain<'_, P> {
         carried.assign_sum(&zeros[0], &slope[BLOCK - 1]);
     }
 
-    /// difference ← the force of a spring, which was its difference; adds its summand.
+    /// The forces of springs, of which the first is after the body `first`, from their differences; adds their summands
+    /// to sums.
     #[inline(always)]
-    fn spring<N: Number, const SUM: bool>(&self, difference: &mut N, total: &mut N, pair: &mut [N])
+    fn forces<N: Number, const SUM: bool, const W: usize>(
+        &self,
+        first: usize,
+        difference: [N; W],
+        sums: &mut [N],
+        pair: &mut [N],
+    ) -> [N; W]
     where
         P: PairPotential<N>,
     {
-        let zero = N::zero(&difference.context());
-        let (mut x, mut slope, mut summand) = (zero.clone(), zero.clone(), zero);
-        match self.pair.separation() {
-            Separation::Difference => x.assign(difference),
-            Separation::SquaredDistance => x.assign_square(difference),
-        }
+        let separation = self.pair.separation();
+        let mut forces = [difference];
+        let x = separations(&forces, separation);
+        let (mut slope, mut summand) = (x.clone(), x.clone());
+        let results = (from_mut(&mut slope), from_mut(&mut summand));
+        self.pair.of_blocks::<W, true, SUM>([first, first + 1], from_ref(&x), results.0, results.1, pair);
         if SUM {
-            self.pair.slope_and_summand(0, 1, &x, &mut slope, &mut summand, pair);
-            total.add(&summand);
-        } else {
-            self.pair.slope(0, 1, &x, &mut slope, pair);
+            sums.iter_mut().zip(&summand).for_each(|(sum, summand)| sum.add(summand));
         }
-        match self.pair.separation() {
-            Separation::Difference => difference.assign(&slope),
-            Separation::SquaredDistance => difference.multiply(&slope),
-        }
+        make_forces(&mut forces, &slope, separation);
+        let [forces] = forces;
+        forces
     }
 }

@@ -1,6 +1,6 @@
 //! The sum over the pairs of bodies that are closer than a cutoff.
 
-use shadowstep_schemes::symbolic::{Separation, Summand};
+use shadowstep_schemes::symbolic::Summand;
 
 use super::cutoff::Cutoff;
 use super::near::{Constants, Near, clear_far_lanes, constants, is_below};
@@ -56,20 +56,12 @@ impl<P: Pair, const D: usize> CutoffPairs<P, D> {
     /// # Errors
     /// No bodies, no dimensions, properties of more or fewer bodies, a pair's formula in d.
     pub fn new(bodies: usize, pair: P, cutoff: Cutoff<D>) -> Result<Self, PairsError> {
-        if bodies == 0 || D == 0 {
-            return Err(PairsError::Empty);
-        }
-        if pair.separation() != Separation::SquaredDistance {
-            return Err(PairsError::Cutoff);
-        }
-        let properties = pair.properties();
-        if let Some(&values) = properties.iter().find(|count| **count != bodies) {
-            return Err(PairsError::Property { values, bodies });
-        }
+        PairsError::refuse(&pair, [bodies, D, bodies], Some(PairsError::Cutoff))?;
+        let alike = pair.properties().is_empty();
         let sides = cutoff.sides().map(|sides| sides.each_ref().map(double));
         let neighbours = Neighbours::new(double(cutoff.radius()));
         let switch = cutoff.switch().map(|switch| Polynomial { derivatives: switch.derivatives });
-        Ok(CutoffPairs { pair, bodies, alike: properties.is_empty(), cutoff, sides, switch, neighbours })
+        Ok(CutoffPairs { pair, bodies, alike, cutoff, sides, switch, neighbours })
     }
 
     /// How many bodies there are.
@@ -240,13 +232,12 @@ impl<P, const D: usize> CutoffPairs<P, D> {
         let switch = self.switch.filter(|_| x.as_flattened()[..count].iter().any(|x| is_below(from, x)));
         let (mut slopes, mut energies) = (near.squared.clone(), near.squared.clone());
         let (slopes, energies) = (&mut slopes[..blocks], &mut energies[..blocks]);
-        self.evaluate(
-            (wanted.forces || wanted.virial, wanted.energy || switch.is_some()),
-            (own.body, others),
-            x,
-            (slopes, energies),
-            pair,
-        );
+        let (pairs, results) = ((own.body, others), (&mut *slopes, &mut *energies));
+        match (wanted.forces || wanted.virial, wanted.energy || switch.is_some()) {
+            (true, false) => self.evaluate::<N, W, true, false>(pairs, x, results, pair),
+            (true, true) => self.evaluate::<N, W, true, true>(pairs, x, results, pair),
+            (false, _) => self.evaluate::<N, W, false, true>(pairs, x, results, pair),
+        }
         if let Some(polynomial) = switch {
             for block in 0..blocks {
                 add_switch(polynomial, &x[block], constants, (&mut slopes[block], &mut energies[block]));
@@ -276,11 +267,10 @@ impl<P, const D: usize> CutoffPairs<P, D> {
         }
     }
 
-    /// The slopes 2u′(r²) and the energies u(r²) of a body with others, as these are wanted.
+    /// The slopes 2u′(r²) where `FORCES` and the energies u(r²) where `SUM` of a body with others.
     #[inline(always)]
-    fn evaluate<N: Number, const W: usize>(
+    fn evaluate<N: Number, const W: usize, const FORCES: bool, const SUM: bool>(
         &self,
-        (forces, energy): (bool, bool),
         (body, others): (usize, &[u32]),
         x: &[[N; W]],
         (slopes, energies): (&mut [[N; W]], &mut [[N; W]]),
@@ -288,16 +278,12 @@ impl<P, const D: usize> CutoffPairs<P, D> {
     ) where
         P: PairPotential<N>,
     {
-        let bodies = |l: usize| [others[l] as usize, body];
-        match (forces, energy) {
-            (true, false) if self.alike => self.pair.slopes(0, 0, x, slopes, pair),
-            (true, false) => self.pair.slopes_of(bodies, x, slopes, pair),
-            (true, true) if self.alike => self.pair.slopes_and_summands(0, 0, x, slopes, energies, pair),
-            (true, true) => self.pair.slopes_and_summands_of(bodies, x, slopes, energies, pair),
-            (false, _) if self.alike => return self.pair.energies(0, 0, x, energies, pair),
-            (false, _) => return self.pair.energies_of(bodies, x, energies, pair),
+        if self.alike {
+            self.pair.of_blocks::<W, FORCES, SUM>([0, 0], x, slopes, energies, pair);
+        } else {
+            self.pair.of_places::<W, FORCES, SUM>(|l| [others[l] as usize, body], x, slopes, energies, pair);
         }
-        if energy && self.pair.summand() == Summand::Rate {
+        if FORCES && SUM && self.pair.summand() == Summand::Rate {
             // 2r²u′ − 2u
             for block in 0..x.len() {
                 let (x, slopes, energies) = (&x[block], &slopes[block], &mut energies[block]);

@@ -1,6 +1,9 @@
 //! Bodies and a pair's energy that do not fit together.
 
+use shadowstep_schemes::symbolic::Separation;
 use thiserror::Error;
+
+use super::pair::Pair;
 
 /// Bodies and a pair's energy that do not fit together.
 #[derive(Clone, Copy, PartialEq, Eq, Error)]
@@ -31,3 +34,23 @@ pub enum PairsError {
 }
 
 shadowstep_schemes::debug_as_text!(PairsError);
+
+impl PairsError {
+    /// Refuses an empty sum, a formula in d where there is a reason, and properties that are not those of `given` bodies.
+    pub(super) fn refuse(
+        pair: &impl Pair,
+        [bodies, dimensions, given]: [usize; 3],
+        formula_in_d: Option<PairsError>,
+    ) -> Result<(), PairsError> {
+        if bodies == 0 || dimensions == 0 {
+            return Err(PairsError::Empty);
+        }
+        if let Some(reason) = formula_in_d.filter(|_| pair.separation() == Separation::Difference) {
+            return Err(reason);
+        }
+        match pair.properties().into_iter().find(|values| *values != given) {
+            Some(values) => Err(PairsError::Property { values, bodies: given }),
+            None => Ok(()),
+        }
+    }
+}

@@ -7,9 +7,9 @@
 use std::hint::black_box;
 use std::slice::{from_mut, from_ref};
 
+use super::group::{make_forces, separations};
 use super::pair::PairPotential;
 use crate::number::Number;
-use shadowstep_schemes::symbolic::Separation;
 
 /// More bodies are summed in a loop.
 pub(super) const MOST_BODIES: usize = 6;
@@ -43,23 +43,26 @@ macro_rules! unrolled {
 }
 
 impl<P, const D: usize> Few<'_, P, D> {
-    /// gradient ← U_q, and the sum of the summands of pairs where it is wanted; `scratch` is the scratch space of the
+    /// gradient ← U_q, and total ← the sum of the summands of pairs where `SUM`; `scratch` is the scratch space of the
     /// pair.
     #[inline(always)]
-    pub(super) fn sum<N: Number>(&self, (q, gradient): (&[N], &mut [N]), total: Option<&mut N>, scratch: &mut [N])
-    where
+    pub(super) fn sum<N: Number, const SUM: bool>(
+        &self,
+        (q, gradient): (&[N], &mut [N]),
+        total: Option<&mut N>,
+        scratch: &mut [N],
+    ) where
         P: PairPotential<N>,
     {
         N::in_widest_instructions(
             #[inline(always)]
-            || match total {
-                Some(total) => {
-                    // in a register: in memory each sum would wait for the one before
-                    let mut sum = N::zero(&q[0].context());
-                    self.add_all::<N, true>(q, gradient, &mut sum, scratch);
+            || {
+                // in a register: in memory each sum would wait for the one before
+                let mut sum = N::zero(&q[0].context());
+                self.add_all::<N, SUM>(q, gradient, &mut sum, scratch);
+                if let Some(total) = total {
                     total.assign(&sum);
                 }
-                None => self.add_all::<N, false>(q, gradient, &mut N::zero(&q[0].context()), scratch),
             },
         );
     }
@@ -100,33 +103,14 @@ impl<P, const D: usize> Few<'_, P, D> {
             }
         }
         let separation = self.pair.separation();
-        let mut x = forces[0].clone();
-        if separation == Separation::SquaredDistance {
-            for l in 0..W {
-                x[l].assign_square(&forces[0][l]);
-            }
-            for of_axis in &forces[1..] {
-                for l in 0..W {
-                    x[l].add_product(&of_axis[l], &of_axis[l]);
-                }
-            }
-        }
+        let x = separations(&forces, separation);
         let (mut slopes, mut summands) = (zeros(), zeros());
+        let results = (from_mut(&mut slopes), from_mut(&mut summands));
+        self.pair.of_blocks::<W, true, SUM>([i, j], from_ref(&x), results.0, results.1, scratch);
         if SUM {
-            let of_block = (from_mut(&mut slopes), from_mut(&mut summands));
-            self.pair.slopes_and_summands(i, j, from_ref(&x), of_block.0, of_block.1, scratch);
             summands.iter().for_each(|summand| total.add(summand));
-        } else {
-            self.pair.slopes(i, j, from_ref(&x), from_mut(&mut slopes), scratch);
         }
-        for of_axis in &mut forces {
-            for l in 0..W {
-                match separation {
-                    Separation::Difference => of_axis[l].assign(&slopes[l]),
-                    Separation::SquaredDistance => of_axis[l].multiply(&slopes[l]),
-                }
-            }
-        }
+        make_forces(&mut forces, &slopes, separation);
         for l in 0..W {
             for axis in 0..D {
                 sum[axis][j + l].add(&forces[axis][l]);

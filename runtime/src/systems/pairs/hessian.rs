@@ -3,47 +3,41 @@
 use super::Pairs;
 use super::ends::End;
 use super::pair::{PairCurvature, PairPotential};
+use super::scratch::{Scratch, own_scratch, parts, separated};
 use crate::number::Number;
 use crate::systems::potential::HessianProduct;
 use shadowstep_schemes::symbolic::Separation;
 
-/// The scratch space of a call, followed by the pair's: differences of positions and of the vector, their product, x
-/// and what the pair computes of it.
-struct Scratch<'a, N, const D: usize> {
-    difference: &'a mut [N; D],
+/// What is in the scratch space before that of a sum.
+struct OfVector<'a, N, const D: usize> {
+    /// Of the vector, as the difference of positions.
     direction: &'a mut [N; D],
+    /// Their product.
     along: &'a mut N,
-    squared: &'a mut N,
-    results: &'a mut [N; 3],
-    pair: &'a mut [N],
+    curvature: &'a mut N,
+    rate: &'a mut N,
 }
 
-const fn own_scratch(dimensions: usize) -> usize {
-    2 * dimensions + 5
-}
-
-fn parts<N, const D: usize>(scratch: &mut [N]) -> Scratch<'_, N, D> {
-    const ENOUGH: &str = "as much as asked for";
-    let (difference, rest) = scratch.split_first_chunk_mut::<D>().expect(ENOUGH);
-    let (direction, rest) = rest.split_first_chunk_mut::<D>().expect(ENOUGH);
-    let ([along, squared], rest) = rest.split_first_chunk_mut::<2>().expect(ENOUGH);
-    let (results, pair) = rest.split_first_chunk_mut::<3>().expect(ENOUGH);
-    Scratch { difference, direction, along, squared, results, pair }
+/// What is of the vector, and the scratch space of the sum.
+fn split<N, const D: usize>(scratch: &mut [N]) -> (OfVector<'_, N, D>, &mut [N]) {
+    let (direction, rest) = scratch.split_first_chunk_mut::<D>().expect("as much as asked for");
+    let [along, curvature, rate, rest @ ..] = rest else { unreachable!("as much as asked for") };
+    (OfVector { direction, along, curvature, rate }, rest)
 }
 
 /// The pair's scratch space.
-pub(super) fn scratch_of_pair<N, const D: usize>(scratch: &mut [N]) -> &mut [N] {
-    parts::<N, D>(scratch).pair
+pub(super) fn scratch_of_pair<N: Number, const D: usize>(scratch: &mut [N]) -> &mut [N] {
+    parts::<N, D>(split::<N, D>(scratch).1).pair
 }
 
 impl<N: Number, P: PairPotential<N>, const D: usize> HessianProduct<N> for Pairs<P, D> {
     fn hessian_scratch(&self) -> usize {
-        own_scratch(D) + self.pair.curved().map_or(0, PairCurvature::curvature_scratch)
+        D + 3 + own_scratch(D) + self.pair.curved().map_or(0, PairCurvature::curvature_scratch)
     }
 
     fn prepare_hessian(&self, scratch: &mut [N], context: &N::Context) {
         if let Some(curved) = self.pair.curved() {
-            curved.prepare_curvature(parts::<N, D>(scratch).pair, context);
+            curved.prepare_curvature(scratch_of_pair::<N, D>(scratch), context);
         }
     }
 
@@ -67,14 +61,15 @@ impl<P, const D: usize> Pairs<P, D> {
         rate.iter_mut().for_each(|rate| rate.assign_zero());
         let (product, _) = product.as_chunks_mut::<D>();
         let (vectors, _) = v.as_chunks::<D>();
+        let (mut own, scratch) = split::<N, D>(scratch);
         let mut s = parts::<N, D>(scratch);
         self.each(q, |i, j| {
-            self.compute_pair(curved, (i, j), vectors, rate.as_deref_mut(), &mut s);
+            self.compute_pair(curved, (i, j), vectors, rate.as_deref_mut(), (&mut own, &mut s));
             if let End::Body(j, _) = j {
-                product[j].iter_mut().zip(s.direction.iter()).for_each(|(product, part)| product.add(part));
+                product[j].iter_mut().zip(own.direction.iter()).for_each(|(product, part)| product.add(part));
             }
             if let End::Body(i, _) = i {
-                product[i].iter_mut().zip(s.direction.iter()).for_each(|(product, part)| product.subtract(part));
+                product[i].iter_mut().zip(own.direction.iter()).for_each(|(product, part)| product.subtract(part));
             }
         });
     }
@@ -86,47 +81,40 @@ impl<P, const D: usize> Pairs<P, D> {
         (i, j): (End<'_, N, D>, End<'_, N, D>),
         vectors: &[[N; D]],
         rate: Option<&mut N>,
-        s: &mut Scratch<'_, N, D>,
+        (own, s): (&mut OfVector<'_, N, D>, &mut Scratch<'_, N, D>),
     ) where
         P: PairPotential<N>,
     {
-        End::subtract(i, j, &mut s.difference.each_mut());
+        End::subtract(i, j, &mut s.difference);
         // walls do not move
         let moving = |end: End<'_, N, D>| match end {
             End::Wall => End::Wall,
             End::Body(number, _) => End::Body(number, &vectors[number]),
         };
-        End::subtract(moving(i), moving(j), &mut s.direction.each_mut());
+        End::subtract(moving(i), moving(j), &mut own.direction.each_mut());
         let separation = self.pair.separation();
-        let x = match separation {
-            Separation::Difference => &s.difference[0],
-            Separation::SquaredDistance => {
-                s.squared.assign_square(&s.difference[0]);
-                s.difference[1..].iter().for_each(|axis| s.squared.add_product(axis, axis));
-                &*s.squared
-            }
-        };
-        let [slope, curvature, of_rate] = s.results;
+        let x = separated::<N, D>(&s.difference, &mut s.squared, separation);
         if rate.is_some() {
-            curved.curvature_and_rate(i.number(), j.number(), x, [slope, curvature, of_rate], s.pair);
+            let results = [&mut *s.slope, &mut *own.curvature, &mut *own.rate];
+            curved.curvature_and_rate(i.number(), j.number(), x, results, s.pair);
         } else {
-            curved.curvature(i.number(), j.number(), x, slope, curvature, s.pair);
+            curved.curvature(i.number(), j.number(), x, &mut s.slope, own.curvature, s.pair);
         }
-        s.along.assign(&s.direction[0]);
+        own.along.assign(&own.direction[0]);
         match separation {
-            Separation::Difference => s.direction[0].multiply(curvature),
+            Separation::Difference => own.direction[0].multiply(own.curvature),
             Separation::SquaredDistance => {
-                s.along.multiply(&s.difference[0]);
-                (1..D).for_each(|axis| s.along.add_product(&s.difference[axis], &s.direction[axis]));
-                curvature.multiply(s.along);
-                for (part, axis) in s.direction.iter_mut().zip(s.difference.iter()) {
-                    part.multiply(slope);
-                    part.add_product(curvature, axis);
+                own.along.multiply(&s.difference[0]);
+                (1..D).for_each(|axis| own.along.add_product(&s.difference[axis], &own.direction[axis]));
+                own.curvature.multiply(own.along);
+                for (part, axis) in own.direction.iter_mut().zip(s.difference.iter()) {
+                    part.multiply(&s.slope);
+                    part.add_product(own.curvature, axis);
                 }
             }
         }
         if let Some(rate) = rate {
-            rate.add_product(of_rate, s.along);
+            rate.add_product(own.rate, own.along);
         }
     }
 }

@@ -3,9 +3,9 @@
 //!
 //! What is summed is added up in the order of the plain loop over i < j, so that it has its bits.
 
-use super::pair::{BLOCK, BLOCKS_AT_ONCE, PairPotential, separated};
+use super::group::{make_forces, separations};
+use super::pair::{BLOCK, BLOCKS_AT_ONCE, PairPotential};
 use crate::number::Number;
-use shadowstep_schemes::symbolic::Separation;
 
 /// The pairs of fewer bodies are evaluated one by one: a list would cost more.
 pub(super) const LEAST_BODIES: usize = 4;
@@ -26,63 +26,50 @@ struct List<N> {
     x: [[N; BLOCK]; BLOCKS_AT_ONCE],
 }
 
-/// What is added up.
-struct Sums<'a, N, const D: usize> {
-    /// Empty where no gradient is wanted.
-    gradient: &'a mut [[N; D]],
-    total: Option<&'a mut N>,
-}
-
 impl<P, const D: usize> Listed<'_, P, D> {
-    /// gradient ← U_q, and the sum of the summands of pairs where it is wanted; `scratch` is the scratch space of the
-    /// pair.
-    pub(super) fn sum<N: Number>(&self, q: &[N], gradient: &mut [N], mut total: Option<&mut N>, scratch: &mut [N])
-    where
+    /// gradient ← U_q where `FORCES`, and total ← the sum of the summands of pairs where `SUM`, without forces of their
+    /// energies; `scratch` is the scratch space of the pair.
+    #[inline(never)]
+    pub(super) fn sum<N: Number, const FORCES: bool, const SUM: bool>(
+        &self,
+        (q, gradient): (&[N], &mut [N]),
+        mut total: Option<&mut N>,
+        scratch: &mut [N],
+    ) where
         P: PairPotential<N>,
     {
         gradient.iter_mut().for_each(N::assign_zero);
         if let Some(total) = &mut total {
             total.assign_zero();
         }
-        self.add_all(q, &mut Sums { gradient: gradient.as_chunks_mut().0, total }, scratch);
-    }
-
-    /// energy ← U
-    pub(super) fn energy<N: Number>(&self, q: &[N], energy: &mut N, scratch: &mut [N])
-    where
-        P: PairPotential<N>,
-    {
-        energy.assign_zero();
-        self.add_all(q, &mut Sums { gradient: &mut [], total: Some(energy) }, scratch);
-    }
-
-    fn add_all<N: Number>(&self, q: &[N], sums: &mut Sums<'_, N, D>, scratch: &mut [N])
-    where
-        P: PairPotential<N>,
-    {
-        let (q, _) = q.as_chunks::<D>();
+        let (q, gradient) = (q.as_chunks::<D>().0, gradient.as_chunks_mut::<D>().0);
         let zero = N::zero(&q[0][0].context());
-        let mut list = List {
-            count: 0,
-            bodies: [[0; 2]; MOST_PAIRS],
-            x: std::array::from_fn(|_| std::array::from_fn(|_| zero.clone())),
-        };
+        let x = std::array::from_fn(|_| std::array::from_fn(|_| zero.clone()));
+        let mut list = List { count: 0, bodies: [[0; 2]; MOST_PAIRS], x };
         for i in 0..self.bodies {
             for j in i + 1..self.bodies {
-                list.push([i, j], q, self.pair.separation());
+                [list.x.as_flattened_mut()[list.count]] =
+                    separations(&difference(&q[i], &q[j]), self.pair.separation());
+                list.bodies[list.count] = [i, j].map(|body| body as u8);
+                list.count += 1;
                 if list.count == MOST_PAIRS {
-                    self.evaluate(&mut list, q, sums, scratch);
+                    self.add::<N, FORCES, SUM>(&mut list, (q, gradient), total.as_deref_mut(), scratch);
                 }
             }
         }
         if list.count > 0 {
-            self.evaluate(&mut list, q, sums, scratch);
+            self.add::<N, FORCES, SUM>(&mut list, (q, gradient), total, scratch);
         }
     }
 
     /// Adds the listed pairs, and empties the list.
-    fn evaluate<N: Number>(&self, list: &mut List<N>, q: &[[N; D]], sums: &mut Sums<'_, N, D>, scratch: &mut [N])
-    where
+    fn add<N: Number, const FORCES: bool, const SUM: bool>(
+        &self,
+        list: &mut List<N>,
+        (q, gradient): (&[[N; D]], &mut [[N; D]]),
+        total: Option<&mut N>,
+        scratch: &mut [N],
+    ) where
         P: PairPotential<N>,
     {
         let blocks = list.count.div_ceil(BLOCK);
@@ -93,47 +80,31 @@ impl<P, const D: usize> Listed<'_, P, D> {
         let (mut slopes, mut summands) = (list.x.clone(), list.x.clone());
         let (x, of_slopes, of_summands) = (&list.x[..blocks], &mut slopes[..blocks], &mut summands[..blocks]);
         let bodies = |place: usize| list.bodies[place].map(usize::from);
-        match (sums.gradient.is_empty(), &sums.total) {
-            (true, _) => self.pair.energies_of(bodies, x, of_summands, scratch),
-            (false, None) => self.pair.slopes_of(bodies, x, of_slopes, scratch),
-            (false, Some(_)) => self.pair.slopes_and_summands_of(bodies, x, of_slopes, of_summands, scratch),
-        }
-        if !sums.gradient.is_empty() {
-            let separation = self.pair.separation();
+        self.pair.of_places::<BLOCK, FORCES, SUM>(bodies, x, of_slopes, of_summands, scratch);
+        if FORCES {
             for (place, slope) in slopes.as_flattened()[..list.count].iter().enumerate() {
                 let [i, j] = bodies(place);
                 let mut forces = difference(&q[i], &q[j]);
-                for (axis, force) in forces.iter_mut().enumerate() {
-                    match separation {
-                        Separation::Difference => force.assign(slope),
-                        Separation::SquaredDistance => force.multiply(slope),
-                    }
-                    sums.gradient[j][axis].add(force);
-                    sums.gradient[i][axis].subtract(force);
+                make_forces(&mut forces, std::array::from_ref(slope), self.pair.separation());
+                for (axis, [force]) in forces.iter().enumerate() {
+                    gradient[j][axis].add(force);
+                    gradient[i][axis].subtract(force);
                 }
             }
         }
-        if let Some(total) = &mut sums.total {
+        if let Some(total) = total.filter(|_| SUM) {
             summands.as_flattened()[..list.count].iter().for_each(|summand| total.add(summand));
         }
         list.count = 0;
     }
 }
 
-impl<N: Number> List<N> {
-    fn push<const D: usize>(&mut self, [i, j]: [usize; 2], q: &[[N; D]], separation: Separation) {
-        self.x.as_flattened_mut()[self.count] = separated(&difference(&q[i], &q[j]), separation);
-        self.bodies[self.count] = [i, j].map(|body| body as u8);
-        self.count += 1;
-    }
-}
-
 /// q_j − q_i
 #[inline(always)]
-fn difference<N: Number, const D: usize>(q_i: &[N; D], q_j: &[N; D]) -> [N; D] {
-    let mut difference = q_i.clone();
+fn difference<N: Number, const D: usize>(q_i: &[N; D], q_j: &[N; D]) -> [[N; 1]; D] {
+    let mut difference = q_i.each_ref().map(|x| [x.clone()]);
     for axis in 0..D {
-        difference[axis].assign_difference(&q_j[axis], &q_i[axis]);
+        difference[axis][0].assign_difference(&q_j[axis], &q_i[axis]);
     }
     difference
 }

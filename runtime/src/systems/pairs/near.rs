@@ -1,5 +1,8 @@
 //! The bodies that are closer to a body than the cutoff.
 
+use shadowstep_schemes::symbolic::Separation;
+
+use super::group::separations;
 use super::neighbours::nearest_integer;
 use super::switch::COEFFICIENTS;
 use crate::number::{Number, scaled};
@@ -73,15 +76,7 @@ impl<N: Number, const D: usize, const W: usize, const B: usize> Near<N, D, W, B>
                 *difference = own;
             }
         }
-        let mut squared = difference[0].clone();
-        for l in 0..W {
-            squared[l].assign_square(&difference[0][l]);
-        }
-        for of_axis in &difference[1..] {
-            for l in 0..W {
-                squared[l].add_product(&of_axis[l], &of_axis[l]);
-            }
-        }
+        let squared = separations(&difference, Separation::SquaredDistance);
         let [cutoff, ..] = constants.squares;
         let is_near: [bool; W] = std::array::from_fn(|l| is_below(&squared[l], cutoff));
         for l in 0..W {

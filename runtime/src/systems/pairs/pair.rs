@@ -49,44 +49,29 @@ pub trait PairPotential<N: Number>: Pair {
         None
     }
 
-    /// The energies of pairs of bodies i < j in up to four blocks, one x for each; `bodies` gives i and j of each
-    /// place, counted through all blocks.
+    /// Of one pair, slope ← its slope where `FORCES`, and summand ← its summand where `SUM`, without forces its energy.
     #[inline(always)]
-    fn energies_of<const W: usize>(
+    fn of_one<const FORCES: bool, const SUM: bool>(
         &self,
-        bodies: impl Fn(usize) -> [usize; 2],
-        x: &[[N; W]],
-        energies: &mut [[N; W]],
+        [i, j]: [usize; 2],
+        x: &N,
+        slope: &mut N,
+        summand: &mut N,
         scratch: &mut [N],
     ) {
-        for block in 0..x.len() {
-            for l in 0..W {
-                let [i, j] = bodies(block * W + l);
-                self.energy(i, j, &x[block][l], &mut energies[block][l], scratch);
-            }
+        if !FORCES {
+            self.energy(i, j, x, summand, scratch);
+        } else if SUM {
+            self.slope_and_summand(i, j, x, slope, summand, scratch);
+        } else {
+            self.slope(i, j, x, slope, scratch);
         }
     }
 
-    /// The slopes in the same way.
+    /// The same of pairs in up to four blocks, one x for each; `bodies` gives i and j of each place, counted through all
+    /// blocks.
     #[inline(always)]
-    fn slopes_of<const W: usize>(
-        &self,
-        bodies: impl Fn(usize) -> [usize; 2],
-        x: &[[N; W]],
-        slopes: &mut [[N; W]],
-        scratch: &mut [N],
-    ) {
-        for block in 0..x.len() {
-            for l in 0..W {
-                let [i, j] = bodies(block * W + l);
-                self.slope(i, j, &x[block][l], &mut slopes[block][l], scratch);
-            }
-        }
-    }
-
-    /// Those slopes, and the summands.
-    #[inline(always)]
-    fn slopes_and_summands_of<const W: usize>(
+    fn of_places<const W: usize, const FORCES: bool, const SUM: bool>(
         &self,
         bodies: impl Fn(usize) -> [usize; 2],
         x: &[[N; W]],
@@ -96,23 +81,23 @@ pub trait PairPotential<N: Number>: Pair {
     ) {
         for block in 0..x.len() {
             for l in 0..W {
-                let [i, j] = bodies(block * W + l);
                 let (slope, summand) = (&mut slopes[block][l], &mut summands[block][l]);
-                self.slope_and_summand(i, j, &x[block][l], slope, summand, scratch);
+                self.of_one::<FORCES, SUM>(bodies(block * W + l), &x[block][l], slope, summand, scratch);
             }
         }
     }
 
-    /// The energies of the body i with the bodies j, j + 1, …, whose properties are side by side.
+    /// The same of the body i with the bodies j, j + 1, …, whose properties are side by side.
     #[inline(always)]
-    fn energies<const W: usize>(&self, i: usize, j: usize, x: &[[N; W]], energies: &mut [[N; W]], scratch: &mut [N]) {
-        self.energies_of(|l| [i, j + l], x, energies, scratch);
-    }
-
-    /// The slopes in the same way.
-    #[inline(always)]
-    fn slopes<const W: usize>(&self, i: usize, j: usize, x: &[[N; W]], slopes: &mut [[N; W]], scratch: &mut [N]) {
-        self.slopes_of(|l| [i, j + l], x, slopes, scratch);
+    fn of_blocks<const W: usize, const FORCES: bool, const SUM: bool>(
+        &self,
+        [i, j]: [usize; 2],
+        x: &[[N; W]],
+        slopes: &mut [[N; W]],
+        summands: &mut [[N; W]],
+        scratch: &mut [N],
+    ) {
+        self.of_places::<W, FORCES, SUM>(|l| [i, j + l], x, slopes, summands, scratch);
     }
 
     /// The slopes of the body i with a block of bodies j, j + 1, …: `x` gives x of each and something more, which
@@ -128,25 +113,12 @@ pub trait PairPotential<N: Number>: Pair {
     ) {
         let of_places: [(N, M); BLOCK] = std::array::from_fn(x);
         let x = of_places.each_ref().map(|(x, _)| x.clone());
-        let mut slopes = x.clone();
-        self.slopes(i, j, from_ref(&x), from_mut(&mut slopes), scratch);
+        let (mut slopes, mut summands) = (x.clone(), x.clone());
+        let results = (from_mut(&mut slopes), from_mut(&mut summands));
+        self.of_blocks::<BLOCK, true, false>([i, j], from_ref(&x), results.0, results.1, scratch);
         for (l, (slope, (_, more))) in slopes.into_iter().zip(of_places).enumerate() {
             take(l, slope, more);
         }
-    }
-
-    /// Those slopes, and the summands.
-    #[inline(always)]
-    fn slopes_and_summands<const W: usize>(
-        &self,
-        i: usize,
-        j: usize,
-        x: &[[N; W]],
-        slopes: &mut [[N; W]],
-        summands: &mut [[N; W]],
-        scratch: &mut [N],
-    ) {
-        self.slopes_and_summands_of(|l| [i, j + l], x, slopes, summands, scratch);
     }
 }
 
@@ -169,17 +141,6 @@ pub trait PairCurvature<N: Number> {
 
     /// The same, and rate ← the derivative of the pair's rate: it adds rate·w, or rate·dᵀw, to vᵀ∂(qᵀU_q − 2U)/∂q.
     fn curvature_and_rate(&self, i: usize, j: usize, x: &N, results: [&mut N; 3], scratch: &mut [N]);
-}
-
-/// What u is a function of, from q_j − q_i.
-#[inline(always)]
-pub(super) fn separated<N: Number, const D: usize>(difference: &[N; D], separation: Separation) -> N {
-    let mut x = difference[0].clone();
-    if separation == Separation::SquaredDistance {
-        x.assign_square(&difference[0]);
-        difference[1..].iter().for_each(|of_axis| x.add_product(of_axis, of_axis));
-    }
-    x
 }
 
 /// What is at the ends of a chain.

@@ -27,6 +27,7 @@ struct Room<N, const W: usize, const D: usize> {
     difference: [[N; W]; D],
     squared: [N; W],
     slope: [N; W],
+    summand: [N; W],
 }
 
 impl<N: Number, const W: usize, const D: usize> Room<N, W, D> {
@@ -34,7 +35,7 @@ impl<N: Number, const W: usize, const D: usize> Room<N, W, D> {
     fn new(context: &N::Context) -> Self {
         let row = || -> [N; W] { std::array::from_fn(|_| N::zero(context)) };
         let rows = || std::array::from_fn(|_| row());
-        Room { place: rows(), sum: rows(), difference: rows(), squared: row(), slope: row() }
+        Room { place: rows(), sum: rows(), difference: rows(), squared: row(), slope: row(), summand: row() }
     }
 }
 
@@ -88,7 +89,7 @@ impl<P, const D: usize> Field<'_, P, D> {
         bodies: &[[N; D]],
         particles: &[[N; D]; W],
         gradient: &mut [[N; D]; W],
-        Room { place, sum, difference, squared, slope }: &mut Room<N, W, D>,
+        Room { place, sum, difference, squared, slope, summand }: &mut Room<N, W, D>,
         scratch: &mut [N],
     ) where
         P: PairPotential<N>,
@@ -107,7 +108,8 @@ impl<P, const D: usize> Field<'_, P, D> {
                     squared[l].add_product(&difference[axis][l], &difference[axis][l]);
                 }
             }
-            self.pair.slopes(i, self.bodies, from_ref(squared), from_mut(slope), scratch);
+            let results = (from_mut(slope), from_mut(summand));
+            self.pair.of_blocks::<W, true, false>([i, self.bodies], from_ref(squared), results.0, results.1, scratch);
             for axis in 0..D {
                 for l in 0..W {
                     sum[axis][l].add_product(&slope[l], &difference[axis][l]);
@@ -203,16 +205,9 @@ impl<P: super::Pair, const D: usize> PairsAndParticles<P, D> {
     ) -> Result<Self, PairsError> {
         let bodies = masses.len();
         let pair = pair(with_a_particle(masses, context));
-        if bodies == 0 || D == 0 {
-            return Err(PairsError::Empty);
-        }
-        if pair.separation() != super::Separation::SquaredDistance {
-            return Err(PairsError::Separation { dimensions: D });
-        }
-        match pair.properties().iter().find(|count| **count != bodies + BLOCK) {
-            Some(values) => Err(PairsError::Property { values: *values, bodies: bodies + BLOCK }),
-            None => Ok(PairsAndParticles { pairs: Pairs { pair, bodies, which: Which::All, alike: false }, particles }),
-        }
+        let formula_in_d = Some(PairsError::Separation { dimensions: D });
+        PairsError::refuse(&pair, [bodies, D, bodies + BLOCK], formula_in_d)?;
+        Ok(PairsAndParticles { pairs: Pairs { pair, bodies, which: Which::All, alike: false }, particles })
     }
 
     /// The coordinates of the bodies among those of all.

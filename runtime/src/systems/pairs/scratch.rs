@@ -1,5 +1,7 @@
 //! The scratch space of a sum over pairs, one after the other.
 
+use shadowstep_schemes::symbolic::Separation;
+
 use crate::number::Number;
 
 /// The scratch space of a call.
@@ -23,4 +25,22 @@ pub(super) fn parts<N: Number, const D: usize>(scratch: &mut [N]) -> Scratch<'_,
     let difference = difference.each_mut().map(N::register);
     let [squared, slope, result] = [squared, slope, result].map(N::register);
     Scratch { difference, squared, slope, result, pair }
+}
+
+/// What u is a function of, from the difference.
+#[inline(always)]
+pub(super) fn separated<'a, N: Number, const D: usize>(
+    difference: &'a [N::Register<'_>; D],
+    squared: &'a mut N,
+    separation: Separation,
+) -> &'a N {
+    match separation {
+        Separation::Difference => &difference[0],
+        Separation::SquaredDistance => {
+            let (first, others) = difference.split_first().expect("at least one dimension");
+            squared.assign_square(first);
+            others.iter().for_each(|other| squared.add_product(other, other));
+            squared
+        }
+    }
 }
