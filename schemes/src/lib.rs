@@ -48,7 +48,7 @@ pub mod exact;
 #[cfg(feature = "tables")]
 mod facts;
 #[cfg(feature = "tables")]
-pub mod inner;
+pub(crate) mod inner;
 #[cfg(feature = "tables")]
 mod least_change;
 #[cfg(feature = "tables")]
@@ -107,8 +107,6 @@ pub use map_kind::{First, MapKind};
 pub use pipeline::{Proved, read, read_first, shipped_proved};
 #[cfg(feature = "tables")]
 pub use plan::{StepCost, StepPlan};
-#[cfg(feature = "tables")]
-pub use proof::{Proof, prove};
 #[cfg(feature = "tables")]
 pub use scheme::ExactScheme;
 #[cfg(feature = "tables")]

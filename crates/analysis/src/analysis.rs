@@ -85,15 +85,6 @@ impl Analysis {
         }
     }
 
-    /// The leading error for a class of kinetic energies after processing, if there is any.
-    pub fn processed_error(&self, kinetic: Kinetic) -> &LeadingError {
-        match (&self.processed, kinetic) {
-            (Some([general, _]), Kinetic::Any) => general,
-            (Some([_, quadratic]), Kinetic::Quadratic) => quadratic,
-            (None, kinetic) => self.error(kinetic),
-        }
-    }
-
     /// The leading error for a class of kinetic energies.
     pub fn error(&self, kinetic: Kinetic) -> &LeadingError {
         match kinetic {
@@ -106,11 +97,6 @@ impl Analysis {
     /// gradient: see [`LeadingError::effective`].
     pub fn effective_error(&self, kinetic: Kinetic) -> f64 {
         self.error(kinetic).effective(self.evaluations + self.hessian_products)
-    }
-
-    /// The same after processing, if there is any, without the cost of outputs.
-    pub fn processed_effective_error(&self, kinetic: Kinetic) -> f64 {
-        self.processed_error(kinetic).effective(self.evaluations + self.hessian_products)
     }
 }
 

@@ -86,7 +86,7 @@ impl Gaussian {
 
 /// The mean of min(1, e^−ΔH) for oscillators with these expected errors: see [the module](self). Exact up to about
 /// 1e-16.
-pub fn acceptance(errors: &[f64]) -> f64 {
+pub(crate) fn acceptance(errors: &[f64]) -> f64 {
     mean(|cosh_squared| log_product(errors, cosh_squared / 2.0) / 2.0)
 }
 

@@ -39,7 +39,7 @@ impl Known {
     }
 
     /// Its table.
-    pub fn table(&self) -> &Table {
+    pub(crate) fn table(&self) -> &Table {
         &self.scheme.table
     }
 

@@ -58,13 +58,13 @@ impl Oscillator {
     }
 
     /// The step of a scheme with weights rounded to f64; of a processed one that of its kernel.
-    pub fn of_scheme(proved: &Proved) -> Oscillator {
+    pub(crate) fn of_scheme(proved: &Proved) -> Oscillator {
         Oscillator::of(&proved.scheme.maps(), |weight| weight.to_f64().unwrap_or(f64::NAN))
     }
 
     /// Where a step with ω = 1 takes (q, p) = (1, 0) and (0, 1): the columns of its matrix, which for every ω acts on
     /// (ωq, p).
-    pub fn columns(&self, h_omega: f64) -> [[f64; 2]; 2] {
+    pub(crate) fn columns(&self, h_omega: f64) -> [[f64; 2]; 2] {
         let mut columns = [[1.0, 0.0], [0.0, 1.0]];
         for (kind, weight) in &self.maps {
             for [q, p] in &mut columns {
@@ -87,7 +87,7 @@ impl Oscillator {
 
     /// ρ(hω) = (B + C)²/(−2BC) of a symmetric step with matrix [[A, B], [C, A]], see [`crate::sampling`]: infinite
     /// where it is unstable, 0 where it turns by a multiple of π, which has BC = A² − 1 = 0, up to rounding.
-    pub fn rho(&self, h_omega: f64) -> f64 {
+    pub(crate) fn rho(&self, h_omega: f64) -> f64 {
         const ROUNDING: f64 = 1e-12;
         let [[_, c], [b, _]] = self.columns(h_omega);
         match b * c {
@@ -99,7 +99,7 @@ impl Oscillator {
 
     /// The expected error of the energy after a number of symmetric steps, ρ sin²(nφ), in units of the temperature: see
     /// [`crate::sampling`].
-    pub fn energy_error(&self, h_omega: f64, steps: u64) -> f64 {
+    pub(crate) fn energy_error(&self, h_omega: f64, steps: u64) -> f64 {
         let [[a, c], [b, d]] = self.columns(h_omega);
         let turned = (-b * c).max(0.0).sqrt().atan2((a + d) / 2.0);
         self.rho(h_omega) * (steps as f64 * turned).sin().powi(2)

@@ -73,7 +73,7 @@ pub fn is_negative<const N: usize>(x: &[u64; N]) -> bool {
 
 /// Whether x = 0.
 #[inline(always)]
-pub fn is_zero<const N: usize>(x: &[u64; N]) -> bool {
+pub(crate) fn is_zero<const N: usize>(x: &[u64; N]) -> bool {
     x.iter().fold(0, |any, limb| any | limb) == 0
 }
 

@@ -85,9 +85,9 @@ impl<const L: usize> Limbs<L> {
     /// 1
     pub const ONE: Self = Self::power_of_two(1);
     /// +∞
-    pub const INFINITY: Self = Self::of_kind(false, INFINITE);
+    pub(crate) const INFINITY: Self = Self::of_kind(false, INFINITE);
     /// Not a number.
-    pub const NAN: Self = Self::of_kind(false, NAN);
+    pub(crate) const NAN: Self = Self::of_kind(false, NAN);
 
     /// The bits of the significand.
     pub const BITS: u32 = 64 * L as u32;
@@ -142,7 +142,7 @@ impl<const L: usize> Limbs<L> {
 
     /// Whether the number is infinite.
     #[inline]
-    pub const fn is_infinite(&self) -> bool {
+    pub(crate) const fn is_infinite(&self) -> bool {
         self.exponent == INFINITE
     }
 

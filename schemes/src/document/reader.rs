@@ -76,7 +76,7 @@ pub struct Section<'t, 'i> {
 
 impl<'t, 'i> Section<'t, 'i> {
     /// Whether the document has it.
-    pub fn is_there(&self) -> bool {
+    fn is_there(&self) -> bool {
         self.table.is_some()
     }
 
@@ -151,7 +151,7 @@ impl Reader<'_> {
     }
 
     /// The table that is the value of a key of `parent`: `[name]`.
-    pub fn section<'t, 'i>(&mut self, parent: &'t DeTable<'i>, name: &str, keys: Keys) -> Section<'t, 'i> {
+    pub(crate) fn section<'t, 'i>(&mut self, parent: &'t DeTable<'i>, name: &str, keys: Keys) -> Section<'t, 'i> {
         match parent.get(name).map(|value| (value, value.get_ref())) {
             Some((value, DeValue::Table(table))) => return self.table(table, value.span(), keys),
             Some((value, _)) => self.wrong_kind(value, &format!("a table: [{name}]")).unwrap_or(()),
@@ -264,7 +264,7 @@ impl Reader<'_> {
     }
 
     /// Like [`Reader::list`]; a member that cannot be read is left out, so that the others can be checked too.
-    pub fn readable_members<T>(
+    pub(crate) fn readable_members<T>(
         &mut self,
         value: &Value<'_>,
         what: &str,

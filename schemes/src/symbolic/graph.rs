@@ -106,11 +106,6 @@ impl Graph {
         self.forms.len()
     }
 
-    /// Whether there are no nodes.
-    pub fn is_empty(&self) -> bool {
-        self.forms.is_empty()
-    }
-
     /// The form of a node of this graph.
     ///
     /// # Panics

@@ -14,7 +14,7 @@ const MOST_TERMS: usize = 4000;
 impl Graph {
     /// Whether the formula is 0, for all values for which it is defined. A formula that is 0 by other rules than the
     /// rules of polynomials in its parts is not found to be so.
-    pub fn vanishes(&mut self, node: Node) -> bool {
+    pub(crate) fn vanishes(&mut self, node: Node) -> bool {
         let expanded = self.multiplied_out(node);
         self.is_zero(expanded)
     }

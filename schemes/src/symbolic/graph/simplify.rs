@@ -44,7 +44,7 @@ impl Graph {
 
     /// Π node^exponent: nested products are flattened where the rules allow it, powers of one base collected, numbers
     /// moved to the front. Sums are not multiplied out.
-    pub fn product(&mut self, factors: &[(Node, Rational)]) -> Node {
+    pub(crate) fn product(&mut self, factors: &[(Node, Rational)]) -> Node {
         let mut coefficient = Rational::one();
         let mut collected: BTreeMap<Node, Rational> = BTreeMap::new();
         let mut waiting = factors.to_vec();
