@@ -23,13 +23,13 @@ pub enum Carried {
 impl Carried {
     /// Whether flows add to the increments of q, p and β.
     #[inline(always)]
-    pub const fn has_increments(self) -> bool {
+    pub(crate) const fn has_increments(self) -> bool {
         matches!(self, Carried::Increments)
     }
 
     /// Whether the rate of β is evaluated with the force.
     #[inline(always)]
-    pub const fn has_rate(self) -> bool {
+    pub(crate) const fn has_rate(self) -> bool {
         matches!(self, Carried::Rate | Carried::Increments)
     }
 }
@@ -64,7 +64,7 @@ impl<'a, N: Number> Increments<'a, N> {
     }
 
     /// Whether those of q and p are known.
-    pub fn has_vectors(&self) -> bool {
+    pub(crate) fn has_vectors(&self) -> bool {
         !self.q.is_empty()
     }
 
@@ -139,7 +139,7 @@ impl<N: Number, V: Coordinates<N>> OwnedIncrements<N, V> {
 
     /// All increments ← 0.
     #[inline]
-    pub fn assign_zero(&mut self) {
+    pub(crate) fn assign_zero(&mut self) {
         self.each(N::assign_zero);
     }
 

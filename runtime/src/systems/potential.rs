@@ -11,7 +11,8 @@ pub use few_coordinates::FewCoordinates;
 pub(crate) use few_coordinates::FewOfSystem;
 pub use from_fn::{FromFn, from_fn};
 pub use hessian::HessianProduct;
-pub use program::{GradientProgram, SYSTEMS};
+pub use program::GradientProgram;
+pub(crate) use program::SYSTEMS;
 pub use sum::Sum;
 pub use vectorised::Vectorised;
 

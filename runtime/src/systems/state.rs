@@ -94,7 +94,7 @@ impl<N: Number, V: Coordinates<N>, S: Summation<N>> State<N, V, S> {
 
     /// Whether the round-off of a kick or drift is ε times its increment, as with compensated sums, in place of ε times
     /// q and p.
-    pub fn is_compensated(&self) -> bool {
+    pub(crate) fn is_compensated(&self) -> bool {
         self.sums.is_compensated()
     }
 
@@ -124,7 +124,7 @@ impl<N: Number, V: Coordinates<N>, S: Summation<N>> State<N, V, S> {
 
     /// Rounds q and p, where they were set, to numbers that the sums can keep: before a gradient is evaluated there.
     #[inline(always)]
-    pub fn settle(&mut self) {
+    pub(crate) fn settle(&mut self) {
         self.sums.settle(self.q.as_mut(), self.p.as_mut());
     }
 
@@ -152,7 +152,7 @@ impl<N: Number, V: Coordinates<N>, S: Summation<N>> State<N, V, S> {
 
     /// The same, and the increments of p and β, by weight·rate, with it.
     #[inline(always)]
-    pub fn kick_augmented(&mut self, weight: &N, force: &[N], rate: &N) {
+    pub(crate) fn kick_augmented(&mut self, weight: &N, force: &[N], rate: &N) {
         let State { p, sums, increments, .. } = self;
         increments.beta.add_product(weight, rate);
         instructions::widest_if_long(

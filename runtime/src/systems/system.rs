@@ -145,10 +145,10 @@ pub(crate) fn visit_each<M: System>(
 }
 
 /// Positions and momenta.
-pub type Point<'a, N> = (&'a [N], &'a [N]);
+pub(crate) type Point<'a, N> = (&'a [N], &'a [N]);
 
 /// A system of any class: it has energies and a state, and only a stepper that is valid for it makes steps.
-pub type AnySystem<'a, N, V, S> = dyn System<Number = N, Coordinates = V, Summation = S> + 'a;
+pub(crate) type AnySystem<'a, N, V, S> = dyn System<Number = N, Coordinates = V, Summation = S> + 'a;
 
 /// The flows of a system, with what they carry along.
 pub(crate) struct Carrying<'a, M: ?Sized> {

@@ -207,7 +207,7 @@ impl<N: Number, C: PlanetaryCoordinates<N, D>, const D: usize, P: Potential<N>> 
     }
 
     /// Sets the inertial positions and momenta.
-    pub fn set_inertial(&mut self, q: &[N], p: &[N]) {
+    pub(crate) fn set_inertial(&mut self, q: &[N], p: &[N]) {
         let WisdomHolman { coordinates, state, .. } = self;
         coordinates.assign_from_inertial((q, p), (&mut state.q, &mut state.p));
         // the remainders of what was there before

@@ -68,7 +68,7 @@ pub enum Finding {
 ///
 /// Its memory does not grow with the run: for each power of two of the error the extremes are kept.
 #[derive(Clone, Debug)]
-pub struct LowErrorStates<N> {
+pub(crate) struct LowErrorStates<N> {
     /// By ⌊log₂ error⌋; an error of 0, where nothing changes from state to state, comes first.
     by_error: BTreeMap<i32, Extremes<N>>,
     intervals: Intervals<N>,
@@ -87,20 +87,20 @@ struct Extremes<N> {
 
 impl<N: Real> LowErrorStates<N> {
     /// For steps of size h.
-    pub fn new(h: &StepSize, context: &N::Context) -> Self {
+    pub(crate) fn new(h: &StepSize, context: &N::Context) -> Self {
         let (intervals, walk) = (Intervals::new(context), ExpectedRoundOff::new(h.exact(), context));
         LowErrorStates { by_error: BTreeMap::new(), intervals, walk }
     }
 
     /// Whether the steps are made by a [compensated](crate::State::is_compensated) system, whose round-off is smaller.
     #[must_use]
-    pub fn compensated_if(mut self, compensated: bool) -> Self {
+    pub(crate) fn compensated_if(mut self, compensated: bool) -> Self {
         self.walk.set_compensated(compensated);
         self
     }
 
     /// Takes the estimate of the state n; one without an error is left out.
-    pub fn include(&mut self, n: i64, estimate: &Estimate<'_, N>) {
+    pub(crate) fn include(&mut self, n: i64, estimate: &Estimate<'_, N>) {
         let Some(error) = estimate.error.filter(|error| error.is_finite()) else { return };
         let size = (error.log10_abs() * std::f64::consts::LOG2_10).floor() as i32;
         let one = || Extremes::of(n, estimate.value, error);
@@ -110,7 +110,7 @@ impl<N: Real> LowErrorStates<N> {
     }
 
     /// The change between those with low errors; `None` if no estimate has an error.
-    pub fn change(&self) -> Option<PermanentChange<N>> {
+    pub(crate) fn change(&self) -> Option<PermanentChange<N>> {
         let mut sizes = self.by_error.keys().filter(|size| **size > i32::MIN);
         let least = *sizes.next().unwrap_or(&i32::MIN);
         let largest = *sizes.next_back().unwrap_or(&least);

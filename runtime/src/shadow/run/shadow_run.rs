@@ -11,7 +11,7 @@ use crate::steps::integrator::Integrator;
 use crate::steps::step_size::StepSize;
 
 /// An estimate and its n: the state n, or the middle between it and the next one.
-pub type Estimated<'a, N> = (i64, Estimate<'a, N>);
+pub(crate) type Estimated<'a, N> = (i64, Estimate<'a, N>);
 
 /// The same with the source of states.
 type EstimatedAlong<'a, T> = (Estimated<'a, <T as States>::Number>, &'a mut T);
@@ -96,7 +96,7 @@ impl<T: States, E: Estimator<T::Number>> ShadowRun<T, E> {
     }
 
     /// Whether the states are from [compensated](crate::State::is_compensated) sums.
-    pub fn is_compensated(&self) -> bool {
+    pub(crate) fn is_compensated(&self) -> bool {
         self.states.is_compensated()
     }
 

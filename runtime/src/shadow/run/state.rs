@@ -38,7 +38,7 @@ impl<'a, N: Real> TrajectoryState<'a, N> {
 
     /// The state without particles of mass 0, which have no part in the modified energy.
     #[inline(always)]
-    pub fn massive<M: System<Number = N> + ?Sized>(system: &'a M, n: i64) -> Self {
+    pub(crate) fn massive<M: System<Number = N> + ?Sized>(system: &'a M, n: i64) -> Self {
         TrajectoryState::of(system.state(), n).of_first(system.massive_coordinates())
     }
 

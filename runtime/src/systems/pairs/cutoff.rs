@@ -83,17 +83,17 @@ impl<const D: usize> Cutoff<D> {
     }
 
     /// r_c
-    pub fn radius(&self) -> &Rational {
+    pub(crate) fn radius(&self) -> &Rational {
         &self.radius
     }
 
     /// Where the energy begins to fall; none of an abrupt cutoff.
-    pub fn switch(&self) -> Option<&Switch> {
+    pub(crate) fn switch(&self) -> Option<&Switch> {
         self.switch.as_ref()
     }
 
     /// The sides of the box; none in open space.
-    pub fn sides(&self) -> Option<&[Rational; D]> {
+    pub(crate) fn sides(&self) -> Option<&[Rational; D]> {
         self.sides.as_ref()
     }
 

@@ -1,7 +1,7 @@
 //! Gradients of several systems that have one program.
 
 /// How many systems there are: of 16 lanes, 64 trajectories, whose registers fit into the nearest cache.
-pub const SYSTEMS: usize = 4;
+pub(crate) const SYSTEMS: usize = 4;
 
 /// A gradient that an interpreter evaluates, for several systems that differ in the values of parameters: each
 /// instruction for all systems before the next one. So it is decoded once, and need not wait for the results of the one

@@ -17,7 +17,7 @@ use crate::number::Real;
 
 /// e cos ϖ and e sin ϖ of a planet: in three dimensions e times the first two components of the direction of the
 /// pericentre.
-pub type Eccentricity = [f64; 2];
+type Eccentricity = [f64; 2];
 
 /// e exp(iϖ) of each planet on its Kepler orbit in Jacobi coordinates: of the vector v × (Q × v)/μ − Q/|Q| with v =
 /// P/m.
