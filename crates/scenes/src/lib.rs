@@ -115,8 +115,7 @@ pub use results::{FileOptions, elementary_functions, hexadecimal};
 pub use run::note::Note;
 pub use scene::plot;
 pub use scene::split::{
-    CanonicalCoordinates, Class, CloseEncounters, Formulas, KineticAndPotential, Linear, Needs, Planets,
-    ShownCoordinates, SlowForces, TransformedTime,
+    CanonicalCoordinates, CloseEncounters, Formulas, Linear, Planets, ShownCoordinates, TransformedTime,
 };
 pub use scene::{
     CheckpointInterval, Direction, EnergyAt, EnergyOfBodies, Format, Formula, InitialValueProblem, KineticEnergy,

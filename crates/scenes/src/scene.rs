@@ -29,7 +29,7 @@ pub use output::NamedExpression;
 pub(crate) use output::ValueColumns;
 pub use output::{CheckpointInterval, Direction, Outputs, Surface};
 pub use own::OwnPotential;
-pub use pairs::{EnergyOfBodies, PairEnergy};
+pub(crate) use pairs::{EnergyOfBodies, PairEnergy};
 pub(crate) use pairs::{GRAVITY, PairCutoff, SmoothEnd};
 pub(crate) use problem::{ClassifiedKinetic, energy_of};
 pub use problem::{EnergyAt, InitialValueProblem, KineticEnergy, PotentialEnergy};

@@ -31,13 +31,12 @@ use shadowstep::steps::integrator::{VectorIntegrator, at_output};
 use shadowstep::systems::system::Visitor;
 use shadowstep::{Carried, Integrator as _, Number, Real};
 
-pub use self::approaches::{Approach, Interactions};
+pub(crate) use self::approaches::Approach;
+pub use self::approaches::Interactions;
 pub use self::bodies::Bodies;
-pub use self::encounters::Encounter;
 use self::encounters::Encounters;
 use self::energy::EnergyError;
 pub use self::light::LightBody;
-pub use self::particles::ParticleApproach;
 use crate::run::Run;
 use crate::run::steps::MOST_STEPS;
 use crate::scene;

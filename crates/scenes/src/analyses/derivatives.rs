@@ -6,9 +6,6 @@ mod forward;
 #[cfg(test)]
 mod tests;
 
-pub use backward::Gradient;
-pub use forward::Derivatives;
-
 use shadowstep::number::{Dual, Number, ParameterError, with_parameter};
 use shadowstep::shadow::run::{NotFinite, Quantity, RunError};
 use shadowstep::steps::integrator::{VectorIntegrator, at_output};

@@ -39,7 +39,7 @@ pub struct PairEnergy {
 }
 
 /// The sum over bodies of an energy of each.
-pub type EnergyOfBodies = Formula<FormulaOfBodies<f64>>;
+pub(crate) type EnergyOfBodies = Formula<FormulaOfBodies<f64>>;
 
 /// Up to where bodies interact.
 #[derive(Debug)]

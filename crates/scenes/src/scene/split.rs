@@ -16,13 +16,13 @@ mod transformed_time;
 mod wisdom_holman;
 
 pub use formulas::Formulas;
-pub use kinetic_and_potential::KineticAndPotential;
+pub(crate) use kinetic_and_potential::KineticAndPotential;
 pub(crate) use linear::LINEAR;
 pub use linear::Linear;
-pub use needs::{Class, Needs};
+pub(crate) use needs::{Class, Needs};
 pub use shown_coordinates::ShownCoordinates;
 pub(crate) use slow_forces::SLOW;
-pub use slow_forces::SlowForces;
+pub(crate) use slow_forces::SlowForces;
 pub use transformed_time::TransformedTime;
 pub use wisdom_holman::{CanonicalCoordinates, CloseEncounters, Planets};
 pub(crate) use wisdom_holman::{OfPlanets, Positions};

@@ -14,7 +14,7 @@ pub struct Refusal {
 
 /// Why a system does not take a kind of scheme, and what would be right.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Unsupported {
+pub(crate) struct Unsupported {
     /// What follows "the scheme has gradient kicks" or "the scheme is a processed scheme, which".
     pub reason: &'static str,
     /// What would be right.

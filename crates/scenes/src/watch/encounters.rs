@@ -21,7 +21,7 @@ pub(super) const KEPT: usize = 8;
 
 /// A close encounter.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Encounter {
+pub(crate) struct Encounter {
     /// The state at the end of the step with the largest force.
     pub n: i64,
     /// How many steps it lasts: those whose force is at least half of the largest.

@@ -4,6 +4,7 @@
 use shadowstep::tables::Source;
 use shadowstep::{Rational, StepSize};
 
+use super::forward::Derivatives;
 use super::*;
 use crate::document::library;
 use crate::motion::propagator::for_system;

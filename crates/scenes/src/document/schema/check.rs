@@ -12,7 +12,7 @@ use super::{Key, Kind, Section, is_given, shown};
 const NUMBERS: &str = "1, 0.05, or in quotes \"1/10\" or \"sqrt(2)/20\"";
 
 /// Finds the heading of the section that has a key, for the hint at a key in the wrong one.
-pub type Elsewhere = fn(&str) -> Option<&'static str>;
+type Elsewhere = fn(&str) -> Option<&'static str>;
 
 /// Whether these sections have what their rows say; all faults are added to the reader.
 pub fn has_form(

@@ -7,7 +7,7 @@ use crate::texts::refusal::{Refusal, Unsupported};
 
 /// What a split needs of a scheme and of a run.
 #[derive(Clone, Debug)]
-pub struct Needs {
+pub(crate) struct Needs {
     /// The class of schemes that move it.
     pub class: Class,
     /// How many parts H has.
@@ -22,7 +22,7 @@ pub struct Needs {
 
 /// A class of schemes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Class {
+pub(crate) enum Class {
     /// All schemes for two parts.
     Quadratic,
     /// Schemes with an order for every T(p).
@@ -42,7 +42,7 @@ impl Needs {
     ///
     /// # Errors
     /// A scheme that is not valid.
-    pub fn scheme(&self, named: NamedScheme, schemes: &Schemes) -> Result<NamedScheme, Refusal> {
+    pub(crate) fn scheme(&self, named: NamedScheme, schemes: &Schemes) -> Result<NamedScheme, Refusal> {
         library::check_inner(&named, self.parts)?;
         let has_gradient_kicks = named.scheme.proved().scheme.has_gradient_kicks();
         library::check_supported(&named, self.no_gradient_kicks, (has_gradient_kicks, "has gradient kicks,"))?;
