@@ -52,11 +52,6 @@ impl Statement {
 }
 
 impl Finding {
-    /// On what is stated.
-    pub fn on(stated: &[&str]) -> Self {
-        Finding { stated: stated.iter().map(|&text| text.to_owned()).collect(), ..Finding::default() }
-    }
-
     /// Adds a chart with its caption; marks can be added to it.
     pub fn chart(&mut self, chart: Chart, caption: impl Into<String>) -> &mut Chart {
         self.charts.push((chart, caption.into()));

@@ -67,17 +67,12 @@ mod task;
 mod together;
 mod values;
 
-pub use axes::{Axes, MOST_RUNS};
-pub use axis::Axis;
 pub use chunk::Chunk;
 pub use collect::{Collected, Missing, TableFormat, collect};
 pub use compute::{Computed, compute, is_there};
 pub use foreign::{refuse_foreign, remove_foreign};
 pub use job_script::job_script;
-pub use keep::Column;
 pub use keys::{explain, sweep_schema};
 pub use manifest::Manifest;
-pub use picture::Picture;
-pub use plan::{Digests, SweepPlan};
-pub use record::Record;
+pub use plan::SweepPlan;
 pub use task::chunk_of_task;

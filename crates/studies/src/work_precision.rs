@@ -42,6 +42,6 @@ pub mod series;
 pub mod size;
 pub mod study;
 pub mod tables;
-pub mod timing;
+pub(crate) mod timing;
 mod verified;
-pub mod work;
+pub(crate) mod work;

@@ -10,7 +10,7 @@ use toml::de::DeTable;
 use crate::sweeps::axis::Axis;
 
 /// The most runs of a sweep.
-pub const MOST_RUNS: u64 = 1_000_000_000_000_000;
+pub(crate) const MOST_RUNS: u64 = 1_000_000_000_000_000;
 
 /// Axes, some of which advance together. Runs are numbered from 0; the last axis varies fastest.
 #[derive(Clone, Debug)]
@@ -67,7 +67,7 @@ impl Axes {
     }
 
     /// For each axis, which of its values the run has.
-    pub fn numbers(&self, run: u64) -> Vec<u64> {
+    pub(crate) fn numbers(&self, run: u64) -> Vec<u64> {
         let mut numbers = vec![0; self.axes.len()];
         let mut rest = run;
         for group in self.groups.iter().rev() {

@@ -18,7 +18,7 @@ use range::Range;
 
 /// A name and its values, which are numbered from 0.
 #[derive(Clone, Debug)]
-pub struct Axis {
+pub(crate) struct Axis {
     /// The name.
     pub name: String,
     count: u64,
@@ -48,7 +48,7 @@ impl Axis {
     }
 
     /// How many values it has.
-    pub fn count(&self) -> u64 {
+    pub(crate) fn count(&self) -> u64 {
         self.count
     }
 
@@ -56,7 +56,7 @@ impl Axis {
     ///
     /// # Panics
     /// If it is not.
-    pub fn value(&self, number: u64) -> Meaning {
+    pub(crate) fn value(&self, number: u64) -> Meaning {
         assert!(number < self.count, "axis {} has {} values", self.name, self.count);
         match &self.values {
             Values::Numbers(numbers) => Meaning::Number(numbers[number as usize].clone()),

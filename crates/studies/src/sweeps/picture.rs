@@ -6,7 +6,7 @@ mod drawn;
 mod written;
 
 pub(crate) use cells::{Cells, double, number_of};
-pub use drawn::Picture;
+pub(crate) use drawn::Picture;
 
 #[cfg(test)]
 mod tests;

@@ -27,7 +27,7 @@ impl Of {
     }
 
     /// The error of a run; `None` where it failed or the reference does not resolve it.
-    pub fn error(self, run: &Measurement) -> Option<Size> {
+    pub(crate) fn error(self, run: &Measurement) -> Option<Size> {
         let error = match self {
             Of::Position => run.position.known()?,
             Of::Energy => run.energy,

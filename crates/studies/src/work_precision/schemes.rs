@@ -82,7 +82,7 @@ impl Group {
     }
 
     /// Its names for a system; not all need be valid for it.
-    pub fn names(self, system: &System) -> Vec<&'static str> {
+    pub(crate) fn names(self, system: &System) -> Vec<&'static str> {
         match self {
             Group::Default if system.parts.has_dominant_part() => DOMINANT.to_vec(),
             Group::Default => if system.has_general_kinetic() { GENERAL } else { QUADRATIC }.to_vec(),

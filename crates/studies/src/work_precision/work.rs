@@ -27,7 +27,7 @@ impl Work {
 
     /// Of this number of steps.
     #[must_use]
-    pub fn times(self, steps: u64) -> Work {
+    pub(crate) fn times(self, steps: u64) -> Work {
         let Work { forces, products, flows } = self;
         Work { forces: forces * steps, products: products * steps, flows: flows * steps }
     }

@@ -16,7 +16,7 @@ pub struct Missing {
 
 impl Missing {
     /// By names and headers; what is in the files is not read.
-    pub fn find(manifest: &Manifest, folder: &Path) -> Missing {
+    pub(crate) fn find(manifest: &Manifest, folder: &Path) -> Missing {
         let mut missing = Missing::default();
         for chunk in manifest.all_chunks() {
             let Some(header) = header(&chunk.path(folder)) else {
