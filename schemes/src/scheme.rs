@@ -41,7 +41,7 @@ impl Held {
     }
 }
 
-/// A scheme with exact weights, as its table claims it; see [`crate::prove`] for what is true of it.
+/// A scheme with exact weights, as its table claims it; see [`crate::proof::prove`] for what is true of it.
 #[derive(Clone, Debug)]
 pub struct ExactScheme {
     /// The table, for names, claims and places.
