@@ -176,10 +176,10 @@ impl Arithmetic {
         Err(DigitsError::NeedsMpfr(precision.in_digits()))
     }
 
-    /// MPFR's numbers with this many decimal digits if `mpfr` is true, else [`with_digits`](Arithmetic::with_digits).
+    /// MPFR's numbers if `mpfr` is true, else [`with_digits`](Arithmetic::with_digits).
     ///
     /// # Errors
-    /// As there; MPFR's numbers without the feature `mpfr`.
+    /// More digits than MPFR has; without the feature `mpfr` all of its numbers.
     pub fn of_digits(digits: u32, mpfr: bool) -> Result<Self, DigitsError> {
         if mpfr { Arithmetic::with_mpfr(digits) } else { Arithmetic::with_digits(digits) }
     }
