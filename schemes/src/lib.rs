@@ -48,7 +48,7 @@ pub mod exact;
 #[cfg(feature = "tables")]
 mod facts;
 #[cfg(feature = "tables")]
-pub(crate) mod inner;
+pub mod inner;
 #[cfg(feature = "tables")]
 mod least_change;
 #[cfg(feature = "tables")]

@@ -9,8 +9,8 @@
 //! | `positions` | positions at the times at which errors are taken |
 //! | [`series`] | the runs of a scheme, from its stability limit down to round-off |
 //! | [`run`] | one run: errors of position and energy, the modified energy |
-//! | [`timing`] | the time of a step |
-//! | [`work`] | what else a step costs: Hessian–vector products, flows of a dominant part |
+//! | `timing` | the time of a step |
+//! | `work` | what else a step costs: Hessian–vector products, flows of a dominant part |
 //! | [`of`], [`order`], `best` | which error; the measured order; the scheme that needs the least for an error |
 //! | [`advise`], `choice`, `verified`, `convenient`, [`no_advice`] | advice on scheme and step size, or why there is none |
 //! | [`schemes`] | the schemes that are compared if none are named |

@@ -93,7 +93,7 @@ pub enum Bilinear {
 
 impl Bilinear {
     /// The largest k, which takes some 33 000 products of numbers a state.
-    pub(crate) const LARGEST_K: u32 = 256;
+    pub const LARGEST_K: u32 = 256;
 
     /// E_k; no estimate of the error.
     pub fn new(k: u32) -> Self {

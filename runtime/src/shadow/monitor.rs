@@ -223,7 +223,7 @@ impl<N: Real, E: Estimator<N>> Monitor<N, E> {
     /// What the next step is to carry along: increments within windows, [`Carried::Rate`] just before one, which saves
     /// an evaluation.
     #[inline]
-    pub(crate) fn carried(&self) -> Carried {
+    pub fn carried(&self) -> Carried {
         match self.n + 1 {
             next if self.schedule.needs_increments(next) => Carried::Increments,
             next if self.schedule.begins(next) => Carried::Rate,

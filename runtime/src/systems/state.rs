@@ -94,7 +94,7 @@ impl<N: Number, V: Coordinates<N>, S: Summation<N>> State<N, V, S> {
 
     /// Whether the round-off of a kick or drift is ε times its increment, as with compensated sums, in place of ε times
     /// q and p.
-    pub(crate) fn is_compensated(&self) -> bool {
+    pub fn is_compensated(&self) -> bool {
         self.sums.is_compensated()
     }
 

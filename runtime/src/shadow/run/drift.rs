@@ -71,7 +71,7 @@ impl<T: States, E: Estimator<T::Number>> ShadowRun<T, E> {
     ///
     /// # Panics
     /// If there is no estimate, as after the last one.
-    fn drift_with_progress(&mut self, mut progress: impl FnMut(i64)) -> Result<EnergyDrift<T::Number>, RunError> {
+    pub fn drift_with_progress(&mut self, mut progress: impl FnMut(i64)) -> Result<EnergyDrift<T::Number>, RunError> {
         let mut extremes = DriftRecorder::new(self.step_size().clone()).compensated_if(self.is_compensated());
         while let Some((n, estimate)) = self.advance()? {
             extremes.include(n, &estimate);
