@@ -42,7 +42,7 @@ impl<const W: usize> Lanes<W> {
 
     // loops: in a long function the compiler does not inline `from_fn`, and calls it for each lane
     #[inline(always)]
-    fn of(a: &Self, f: impl Fn(f64) -> f64) -> Self {
+    pub(super) fn of(a: &Self, f: impl Fn(f64) -> f64) -> Self {
         let mut found = *a;
         for i in 0..W {
             found.0[i] = f(a.0[i]);
@@ -51,7 +51,7 @@ impl<const W: usize> Lanes<W> {
     }
 
     #[inline(always)]
-    fn of_two(a: &Self, b: &Self, f: impl Fn(f64, f64) -> f64) -> Self {
+    pub(super) fn of_two(a: &Self, b: &Self, f: impl Fn(f64, f64) -> f64) -> Self {
         let mut found = *a;
         for i in 0..W {
             found.0[i] = f(a.0[i], b.0[i]);
@@ -60,7 +60,7 @@ impl<const W: usize> Lanes<W> {
     }
 
     #[inline(always)]
-    fn of_three(x: &Self, a: &Self, b: &Self, f: impl Fn(f64, f64, f64) -> f64) -> Self {
+    pub(super) fn of_three(x: &Self, a: &Self, b: &Self, f: impl Fn(f64, f64, f64) -> f64) -> Self {
         let mut found = *x;
         for i in 0..W {
             found.0[i] = f(x.0[i], a.0[i], b.0[i]);

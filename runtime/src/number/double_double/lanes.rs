@@ -15,7 +15,7 @@ macro_rules! operators {
 
             #[inline(always)]
             fn $method(self, b: Self) -> Self {
-                Lanes(from_fn(|i| std::ops::$Trait::$method(self.0[i], b.0[i])))
+                Lanes::of_two(&self, &b, std::ops::$Trait::$method)
             }
         }
     )*};
@@ -33,19 +33,23 @@ impl<const W: usize> std::ops::Neg for Lanes<W> {
 
     #[inline(always)]
     fn neg(self) -> Self {
-        Lanes(self.0.map(std::ops::Neg::neg))
+        Lanes::of(&self, std::ops::Neg::neg)
     }
 }
 
 /// The pair in the lanes where it is chosen, the other one elsewhere.
 #[inline(always)]
 fn choose<const W: usize>(
-    chosen: [bool; W],
-    pair: (Lanes<W>, Lanes<W>),
+    chosen: impl Fn(usize) -> bool,
+    (mut high, mut low): (Lanes<W>, Lanes<W>),
     other: (Lanes<W>, Lanes<W>),
 ) -> (Lanes<W>, Lanes<W>) {
-    let each = |a: Lanes<W>, b: Lanes<W>| Lanes(from_fn(|i| if chosen[i] { a.0[i] } else { b.0[i] }));
-    (each(pair.0, other.0), each(pair.1, other.1))
+    for i in 0..W {
+        let is_chosen = chosen(i);
+        high.0[i] = if is_chosen { high.0[i] } else { other.0.0[i] };
+        low.0[i] = if is_chosen { low.0[i] } else { other.1.0[i] };
+    }
+    (high, low)
 }
 
 /// Products are computed from halves: which instructions a loop is compiled for is not known here, and without fused
@@ -65,23 +69,23 @@ impl<const W: usize> Machine for Lanes<W> {
 
     #[inline(always)]
     fn sqrt(self) -> Self {
-        Lanes(self.0.map(f64::sqrt))
+        Lanes::of(&self, f64::sqrt)
     }
 
     #[inline(always)]
     fn two_product(self, b: Self) -> (Self, Self) {
         let product = self * b;
-        (product, Lanes(from_fn(|i| from_halves(self.0[i], b.0[i], product.0[i]))))
+        (product, Lanes::of_three(&self, &b, &product, from_halves))
     }
 
     #[inline(always)]
     fn if_finite(test: Self, pair: (Self, Self), plain: Self) -> (Self, Self) {
-        choose(test.0.map(f64::is_finite), pair, (plain, Lanes::all(0.0)))
+        choose(|i| test.0[i].is_finite(), pair, (plain, Lanes::all(0.0)))
     }
 
     #[inline(always)]
     fn where_less(a: (Self, Self), b: (Self, Self), less: (Self, Self), otherwise: (Self, Self)) -> (Self, Self) {
-        choose(from_fn(|i| (a.0.0[i], a.1.0[i]) < (b.0.0[i], b.1.0[i])), less, otherwise)
+        choose(|i| (a.0.0[i], a.1.0[i]) < (b.0.0[i], b.1.0[i]), less, otherwise)
     }
 
     fn each<const N: usize>(
