@@ -7,7 +7,7 @@
 //! | [`potential`](mod@potential), [`pairs`], [`kinetic`](mod@kinetic), [`formula`] | U(q) and T(p), from code or from text |
 //! | [`potential_check`] | derivatives that are compared with differences |
 //! | [`motion`] | H = T(p) + U(q) |
-//! | `gradient_kicks`, [`displaced`] | kicks by the force and its derivative, or by displaced forces |
+//! | `evaluated`, `gradient_kicks`, [`displaced`] | kicks by a force that is kept; those by its derivative, or by displaced forces |
 //! | [`linear_part`] | oscillations solved exactly: H = A + B with a quadratic form as A |
 //! | [`many_parts`] | H = H_1 + … + H_n of parts whose flows have formulas |
 //! | [`kepler_drift`], [`wisdom_holman`] | the exact flow of Kepler's problem; planets: H = A + B with Kepler orbits as A |
@@ -17,6 +17,7 @@
 
 pub(crate) mod coordinates;
 pub mod displaced;
+pub(crate) mod evaluated;
 pub mod explicit_time;
 #[cfg(feature = "formulas")]
 pub mod formula;

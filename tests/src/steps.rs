@@ -67,14 +67,8 @@ struct Carrying<'a, M> {
 
 impl<M: System> Flows for Carrying<'_, M> {
     type Number = M::Number;
-    fn kick(&mut self, weight: &M::Number) {
-        self.system.kick(weight, self.carried);
-    }
-    fn drift(&mut self, weight: &M::Number) {
-        self.system.drift(weight, self.carried);
-    }
-    fn gradient_kick(&mut self, weight: &M::Number) {
-        self.system.gradient_kick(weight, self.carried);
+    fn map(&mut self, kind: MapKind, weight: &M::Number) {
+        self.system.map(kind, weight, self.carried);
     }
     fn middle_parts(&mut self, weight: &M::Number, order: PartOrder) {
         self.system.middle_parts(weight, order, self.carried);
@@ -86,14 +80,8 @@ struct Dynamic<'a, N>(&'a mut dyn Flows<Number = N>);
 
 impl<N: Number> Flows for Dynamic<'_, N> {
     type Number = N;
-    fn kick(&mut self, weight: &N) {
-        self.0.kick(weight);
-    }
-    fn drift(&mut self, weight: &N) {
-        self.0.drift(weight);
-    }
-    fn gradient_kick(&mut self, weight: &N) {
-        self.0.gradient_kick(weight);
+    fn map(&mut self, kind: MapKind, weight: &N) {
+        self.0.map(kind, weight);
     }
     fn middle_parts(&mut self, weight: &N, order: PartOrder) {
         self.0.middle_parts(weight, order);

@@ -4,16 +4,19 @@ use crate::number::Number;
 use crate::systems::displaced::Displacements;
 use crate::systems::kept::KeptForce;
 
-/// The derivatives of B(q), and the M of A's kinetic part ½pᵀM⁻¹p.
-pub(crate) trait Curvature<N> {
+/// B(q), whose flow are kicks, and the M of A's kinetic part ½pᵀM⁻¹p.
+pub(crate) trait PartOfKicks<N> {
+    /// gradient ← B_q and, if asked for, rate ← qᵀB_q − 2B.
+    fn gradient(&mut self, q: &[N], gradient: &mut [N], rate: Option<&mut N>);
+
     /// velocity ← M⁻¹ times a gradient
     fn assign_velocity(&mut self, gradient: &[N], velocity: &mut [N]);
 
     /// product ← B_qq v and, if asked for, rate ← vᵀ∂(qᵀB_q − 2B)/∂q, at a place.
     fn hessian_product(&mut self, at: Place<'_, N>, v: &[N], product: &mut [N], rate: Option<&mut N>);
 
-    /// gradient ← B_q and, if asked for, rate ← qᵀB_q − 2B, at another q.
-    fn gradient(&mut self, q: &[N], gradient: &mut [N], rate: Option<&mut N>);
+    /// Once there was a gradient kick; what they keep belongs to the q of the last evaluation of the gradient.
+    fn gradient_kicks(&mut self) -> &mut Option<Box<GradientKicks<N>>>;
 }
 
 /// A q with B_q and qᵀB_q − 2B there, the latter where rates are wanted.
@@ -62,13 +65,8 @@ impl<N: Number> GradientKicks<N> {
         }
     }
 
-    /// Whether forces are displaced.
-    pub(crate) fn is_displaced(&self) -> bool {
-        self.displaced.is_some()
-    }
-
     /// Computes the force for a gradient kick of this weight, and the rate where it is wanted, unless they are known.
-    pub(crate) fn evaluate(&mut self, of: &mut impl Curvature<N>, at: Place<'_, N>, weight: &N, with_rate: bool) {
+    pub(crate) fn evaluate(&mut self, of: &mut impl PartOfKicks<N>, at: Place<'_, N>, weight: &N, with_rate: bool) {
         let GradientKicks { force, rate, kept, evaluations, velocity, displaced } = self;
         let displaced = displaced.as_mut().map(|Displaced { displacements, last, q }| {
             let (place, delta) = displacements.of_weight(weight);
@@ -107,7 +105,12 @@ impl<N: Number> GradientKicks<N> {
                 }
             }
         }
-        *kept = if with_rate { KeptForce::GradientAndRate } else { KeptForce::Gradient };
+        *kept = KeptForce::with(with_rate);
         *evaluations += 1;
     }
+}
+
+/// Whether there are gradient kicks by displaced forces.
+pub(crate) fn are_displaced<N>(gradient_kicks: Option<&GradientKicks<N>>) -> bool {
+    gradient_kicks.is_some_and(|kicks| kicks.displaced.is_some())
 }

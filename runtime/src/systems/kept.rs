@@ -9,6 +9,12 @@ pub(crate) enum KeptForce {
 }
 
 impl KeptForce {
+    /// A force that has been evaluated with its rate, or without.
+    #[inline(always)]
+    pub(crate) fn with(rate: bool) -> Self {
+        if rate { KeptForce::GradientAndRate } else { KeptForce::Gradient }
+    }
+
     /// Whether a force is there, with its rate if that is wanted.
     #[inline(always)]
     pub(crate) fn suffices(self, with_rate: bool) -> bool {

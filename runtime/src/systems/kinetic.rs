@@ -297,13 +297,6 @@ impl<N: Number> DiagonalMasses<N> {
         };
         Ok(DiagonalMasses { inverse: masses.iter().enumerate().map(inverse).collect::<Result<_, _>>()? })
     }
-
-    /// velocity ← M⁻¹p
-    pub(crate) fn assign_velocity(&self, p: &[N], velocity: &mut [N]) {
-        for ((velocity, p), inverse) in velocity.iter_mut().zip(p).zip(&self.inverse) {
-            velocity.assign_product(inverse, p);
-        }
-    }
 }
 
 impl<N: Real> DiagonalMasses<N> {

@@ -14,12 +14,12 @@ mod rotation;
 use crate::Rational;
 use crate::number::{CorrectlyRounded, Number};
 use crate::systems::displaced::Displacements;
-use crate::systems::gradient_kicks::{Curvature, GradientKicks, Place};
+use crate::systems::evaluated::Evaluated;
+use crate::systems::gradient_kicks::{GradientKicks, PartOfKicks, Place};
 use crate::systems::increments::Carried;
-use crate::systems::kept::KeptForce;
-use crate::systems::kinetic::{DiagonalMasses, Kinetic, Quadratic};
+use crate::systems::kinetic::{DiagonalMasses, Quadratic};
 use crate::systems::matrix::precision;
-use crate::systems::motion::MotionError;
+use crate::systems::motion::{Hamiltonian, MotionError, check};
 use crate::systems::potential::Potential;
 use crate::systems::state::{State, VectorState};
 use crate::systems::summation::{Compensated, Half};
@@ -47,22 +47,9 @@ use rotation::Rotations;
 /// ```
 #[derive(Clone, Debug)]
 pub struct LinearPart<N, P> {
-    potential: P,
-    scratch: Vec<N>,
-    stiffness: Vec<Vec<N>>,
-    kinetic: DiagonalMasses<N>,
+    remainder: Remainder<N, P>,
     rotations: Rotations<N>,
-    state: VectorState<N>,
-    /// B_q and qᵀB_q − 2B
-    gradient: Vec<N>,
-    rate: N,
-    kept: bool,
-    /// Once there was a gradient kick, with the potential's scratch space; what it keeps belongs to the q of the last
-    /// evaluation.
-    gradient_kicks: Option<Box<(GradientKicks<N>, Vec<N>)>>,
-    scratch_of_kinetic: Vec<N>,
-    /// T of an energy.
-    kinetic_energy: N,
+    at: Evaluated<N>,
 }
 
 impl<N: CorrectlyRounded, P: Potential<N>> LinearPart<N, P> {
@@ -80,47 +67,24 @@ impl<N: CorrectlyRounded, P: Potential<N>> LinearPart<N, P> {
         q: &[N],
         p: &[N],
     ) -> Result<Self, MotionError> {
-        let coordinates = q.len();
-        let dimension = potential.dimension();
-        if coordinates == 0 {
-            return Err(MotionError::NoCoordinates);
-        }
-        if p.len() != coordinates {
-            return Err(MotionError::Momenta { coordinates, momenta: p.len() });
-        }
-        if dimension != coordinates {
-            return Err(MotionError::Potential { coordinates, dimension });
-        }
+        let context = q.first().ok_or(MotionError::NoCoordinates)?.context();
         let rows = stiffness.iter().map(Vec::len).chain([masses.len(), stiffness.len()]);
-        if let Some(dimension) = rows.into_iter().find(|found| *found != coordinates) {
-            return Err(MotionError::Kinetic { coordinates, dimension });
+        if let Some(dimension) = rows.into_iter().find(|found| *found != q.len()) {
+            return Err(MotionError::Kinetic { coordinates: q.len(), dimension });
         }
-        MotionError::refuse_not_finite(q, p)?;
-        let context = q[0].context();
         if precision::<N>(&context).is_none() {
             return Err(MotionError::Digits);
         }
+        let number = |k| N::from_rational(k, &context);
         let kinetic = DiagonalMasses::new(masses, &context)?;
-        let of_kinetic = Kinetic::<N>::scratch(&kinetic);
-        let zero = N::zero(&context);
-        let mut scratch = vec![zero.clone(); potential.scratch()];
-        potential.prepare(&mut scratch, &context);
+        check(potential.dimension(), None, q, p)?;
         Ok(LinearPart {
-            potential,
-            scratch,
+            remainder: Remainder {
+                hamiltonian: Hamiltonian::new(potential, kinetic, &context),
+                stiffness: stiffness.iter().map(|row| row.iter().map(number).collect()).collect(),
+            },
             rotations: Rotations::new(masses, stiffness, &context),
-            kinetic,
-            stiffness: stiffness
-                .iter()
-                .map(|row| row.iter().map(|k| N::from_rational(k, &context)).collect())
-                .collect(),
-            state: State::new(q.to_vec(), p.to_vec(), &context).compensated_if(false),
-            gradient: vec![zero.clone(); coordinates],
-            rate: zero.clone(),
-            kept: false,
-            gradient_kicks: None,
-            scratch_of_kinetic: vec![zero.clone(); of_kinetic],
-            kinetic_energy: zero,
+            at: Evaluated::new(State::new(q.to_vec(), p.to_vec(), &context).compensated_if(false)),
         })
     }
 
@@ -128,7 +92,7 @@ impl<N: CorrectlyRounded, P: Potential<N>> LinearPart<N, P> {
     /// with plain ones: the round-off of a kick or drift is ε times the increment, in place of ε times the coordinate.
     #[must_use]
     pub fn compensated_if(mut self, compensated: bool) -> Self {
-        self.state = self.state.compensated_if(compensated);
+        self.at = self.at.with(|state| state.compensated_if(compensated));
         self
     }
 
@@ -136,82 +100,45 @@ impl<N: CorrectlyRounded, P: Potential<N>> LinearPart<N, P> {
     /// [`Displacements`].
     #[must_use]
     pub fn displaced(mut self, displacements: Displacements<N>) -> Self {
-        let (dimension, context) = (self.state.q.len(), self.state.context());
-        let kicks = GradientKicks::new(dimension, Some(displacements), &context);
-        self.gradient_kicks = Some(Box::new((kicks, Vec::new())));
+        self.remainder.hamiltonian.displace_forces(displacements);
         self
     }
-
-    /// B_q = U_q − Kq and the rate of β, which is that of U.
-    fn evaluate(&mut self) {
-        if self.kept {
-            return;
-        }
-        let LinearPart { potential, scratch, stiffness, state, gradient, rate, .. } = self;
-        potential.update(&state.q);
-        potential.gradient_and_rate(&state.q, gradient, rate, scratch);
-        for (gradient, row) in gradient.iter_mut().zip(stiffness) {
-            row.iter().zip(&state.q).for_each(|(k, q)| gradient.subtract_product(k, q));
-        }
-        self.kept = true;
-        self.state.count_evaluation();
-        if let Some(curved) = &mut self.gradient_kicks {
-            curved.0.kept = KeptForce::Nothing;
-        }
-    }
 }
 
-/// Room for gradient kicks, and the scratch space of the potential for them.
-fn room<N: Number, P: Potential<N>>(potential: &P, context: &N::Context) -> (GradientKicks<N>, Vec<N>) {
-    let hessian = potential.hessian().expect(
-        "gradient kicks need the Hessian–vector product of the potential: write it as a formula, or implement \
-            `Potential::hessian`",
-    );
-    let mut scratch = vec![N::zero(context); hessian.hessian_scratch()];
-    hessian.prepare_hessian(&mut scratch, context);
-    (GradientKicks::new(potential.dimension(), None, context), scratch)
+/// B = U(q) − ½qᵀKq, with T and U.
+#[derive(Clone, Debug)]
+struct Remainder<N, P> {
+    hamiltonian: Hamiltonian<N, P, DiagonalMasses<N>>,
+    stiffness: Vec<Vec<N>>,
 }
 
-/// The derivatives of B = U(q) − ½qᵀKq.
-struct RemainingPotential<'a, N, P> {
-    potential: &'a mut P,
-    scratch: &'a mut [N],
-    stiffness: &'a [Vec<N>],
-    kinetic: &'a DiagonalMasses<N>,
-    hessian_scratch: &'a mut [N],
-}
-
-impl<N: Number, P: Potential<N>> RemainingPotential<'_, N, P> {
+impl<N: Number, P> Remainder<N, P> {
     /// x ← x − Kv
     fn subtract_linear_part(&self, v: &[N], x: &mut [N]) {
-        for (x, row) in x.iter_mut().zip(self.stiffness) {
+        for (x, row) in x.iter_mut().zip(&self.stiffness) {
             row.iter().zip(v).for_each(|(k, v)| x.subtract_product(k, v));
         }
     }
 }
 
-impl<N: Number, P: Potential<N>> Curvature<N> for RemainingPotential<'_, N, P> {
-    fn assign_velocity(&mut self, gradient: &[N], velocity: &mut [N]) {
-        self.kinetic.assign_velocity(gradient, velocity);
+/// The rates are those of U: the quadratic form adds nothing.
+impl<N: Number, P: Potential<N>> PartOfKicks<N> for Remainder<N, P> {
+    fn gradient(&mut self, q: &[N], gradient: &mut [N], rate: Option<&mut N>) {
+        self.hamiltonian.gradient(q, gradient, rate);
+        self.subtract_linear_part(q, gradient);
     }
 
-    /// The rate is that of U: the quadratic form adds nothing.
+    fn assign_velocity(&mut self, gradient: &[N], velocity: &mut [N]) {
+        self.hamiltonian.assign_velocity(gradient, velocity);
+    }
+
     fn hessian_product(&mut self, at: Place<'_, N>, v: &[N], product: &mut [N], rate: Option<&mut N>) {
-        let hessian = self.potential.hessian().expect("it was there before");
-        match rate {
-            Some(rate) => hessian.hessian_product_and_rate(at.q, v, product, rate, self.hessian_scratch),
-            None => hessian.hessian_product(at.q, v, product, self.hessian_scratch),
-        }
+        self.hamiltonian.hessian_product(at, v, product, rate);
         self.subtract_linear_part(v, product);
     }
 
-    fn gradient(&mut self, q: &[N], gradient: &mut [N], rate: Option<&mut N>) {
-        self.potential.update(q);
-        match rate {
-            Some(rate) => self.potential.gradient_and_rate(q, gradient, rate, self.scratch),
-            None => self.potential.gradient(q, gradient, self.scratch),
-        }
-        self.subtract_linear_part(q, gradient);
+    fn gradient_kicks(&mut self) -> &mut Option<Box<GradientKicks<N>>> {
+        self.hamiltonian.gradient_kicks()
     }
 }
 
@@ -223,72 +150,47 @@ impl<N: CorrectlyRounded, P: Potential<N>> System for LinearPart<N, P> {
     type Summation = Option<Compensated<N, Vec<N>>>;
 
     fn state(&self) -> &VectorState<N> {
-        &self.state
+        &self.at.state
     }
 
     fn state_mut(&mut self) -> &mut VectorState<N> {
-        self.kept = false;
-        &mut self.state
+        self.at.state_mut()
     }
 
     fn clear_increments(&mut self) {
-        self.state.clear_increments();
+        self.at.state.clear_increments();
     }
 
     fn kick(&mut self, weight: &N, carried: Carried) {
-        self.evaluate();
-        match carried.has_increments() {
-            true => self.state.kick_augmented(weight, &self.gradient, &self.rate),
-            false => self.state.kick(weight, &self.gradient),
-        }
+        self.at.kick(&mut self.remainder, weight, carried);
     }
 
     fn drift(&mut self, weight: &N, carried: Carried) {
-        let LinearPart { state, rotations, .. } = self;
-        let (to_q, to_p) = rotations.increments(weight, &state.q, &state.p);
+        let state = self.at.state_mut();
+        let (to_q, to_p) = self.rotations.increments(weight, state.q(), state.p());
         for (half, increments) in [(Half::Positions, to_q), (Half::Momenta, to_p)] {
             for (index, by) in increments.iter().enumerate() {
                 state.change(half, index, carried, |x| x.add(by));
             }
         }
-        self.kept = false;
     }
 
     fn has_gradient_kicks(&self) -> bool {
-        let is_displaced = self.gradient_kicks.as_ref().is_some_and(|curved| curved.0.is_displaced());
-        is_displaced || self.potential.hessian().is_some()
+        self.remainder.hamiltonian.has_gradient_kicks()
     }
 
     /// The gradient kick p ← p + weight·B_qq M⁻¹B_q: ½qᵀKq as a part of A commutes with B.
     fn gradient_kick(&mut self, weight: &N, carried: Carried) {
-        self.evaluate();
-        let LinearPart { potential, scratch, stiffness, kinetic, state, gradient, rate, .. } = self;
-        let curved = self.gradient_kicks.get_or_insert_with(|| Box::new(room(potential, &weight.context())));
-        let (kicks, hessian_scratch) = &mut **curved;
-        let before = kicks.evaluations;
-        let rest = &mut RemainingPotential { potential, scratch, stiffness, kinetic, hessian_scratch };
-        let augmented = carried.has_increments();
-        kicks.evaluate(rest, Place { q: &state.q, gradient, rate }, weight, augmented);
-        if kicks.is_displaced() {
-            state.evaluations += kicks.evaluations - before;
-        }
-        match augmented {
-            true => state.kick_augmented(weight, &kicks.force, &kicks.rate),
-            false => state.kick(weight, &kicks.force),
-        }
+        self.at.gradient_kick(&mut self.remainder, weight, carried);
     }
 
     fn assign_energy(&mut self, at: Option<(&[N], &[N])>, energy: &mut N) {
-        let (q, p) = at.unwrap_or((&self.state.q, &self.state.p));
-        self.potential.update(q);
-        self.potential.energy(q, energy, &mut self.scratch);
-        Kinetic::energy(&self.kinetic, p, &mut self.kinetic_energy, &mut self.scratch_of_kinetic);
-        energy.add(&self.kinetic_energy);
-        self.kept &= at.is_none();
+        let at = at.unwrap_or((self.at.state.q(), self.at.state.p()));
+        self.remainder.hamiltonian.assign_energy(at, energy);
     }
 
     fn assign_kinetic_energy(&mut self, at: Option<(&[N], &[N])>, kinetic: &mut N) {
-        let (_, p) = at.unwrap_or((&self.state.q, &self.state.p));
-        Kinetic::energy(&self.kinetic, p, kinetic, &mut self.scratch_of_kinetic);
+        let (_, p) = at.unwrap_or((self.at.state.q(), self.at.state.p()));
+        self.remainder.hamiltonian.assign_kinetic_energy(p, kinetic);
     }
 }

@@ -63,7 +63,7 @@ pub use part::{FlowState, Part};
 use crate::number::Number;
 use crate::systems::increments::Carried;
 use crate::systems::maps::PartOrder;
-use crate::systems::motion::MotionError;
+use crate::systems::motion::{MotionError, check};
 use crate::systems::state::{State, VectorState};
 use crate::systems::summation::Compensated;
 use crate::systems::system::System;
@@ -90,22 +90,17 @@ impl<N: Number> SystemOfParts<N> {
     /// The system at q, p.
     ///
     /// # Errors
-    /// No coordinates, or not as many momenta; an infinite q or p, or one that is NaN.
+    /// No coordinates, or not as many momenta; numbers of q and p of different precision; an infinite q or p, or one
+    /// that is NaN.
     ///
     /// # Panics
     /// For fewer than two parts.
     pub fn new(parts: Vec<Box<dyn Part<N>>>, q: &[N], p: &[N]) -> Result<Self, MotionError> {
         assert!(parts.len() >= 2, "H has two parts at least");
-        let coordinates = q.len();
-        let Some(first) = q.first() else { return Err(MotionError::NoCoordinates) };
-        if p.len() != coordinates {
-            return Err(MotionError::Momenta { coordinates, momenta: p.len() });
-        }
-        MotionError::refuse_not_finite(q, p)?;
-        let context = first.context();
+        let context = check(q.len(), None, q, p)?;
         Ok(SystemOfParts {
             current: vec![false; parts.len()],
-            potentials: parts.iter().map(|part| part.is_potential(coordinates)).collect(),
+            potentials: parts.iter().map(|part| part.is_potential(q.len())).collect(),
             parts,
             state: State::new(q.to_vec(), p.to_vec(), &context).compensated_if(false),
             last: None,

@@ -32,26 +32,34 @@ pub trait Flows {
     /// The type of its numbers.
     type Number: Number;
 
-    /// The flow of the part of kicks, U(q) or H_1.
-    fn kick(&mut self, weight: &Self::Number);
-
-    /// The flow of the part of drifts, T(p) or H_n.
-    fn drift(&mut self, weight: &Self::Number);
-
-    /// The flow of −½U_qᵀM⁻¹U_q.
-    fn gradient_kick(&mut self, weight: &Self::Number);
+    /// The flow of the part of kicks, U(q) or H_1, of that of drifts, T(p) or H_n, or of −½U_qᵀM⁻¹U_q.
+    fn map(&mut self, kind: MapKind, weight: &Self::Number);
 
     /// The flows of H_2, …, H_(n−1), one after the other.
     fn middle_parts(&mut self, weight: &Self::Number, order: PartOrder);
 
+    /// The flow of the part of kicks.
+    #[inline(always)]
+    fn kick(&mut self, weight: &Self::Number) {
+        self.map(MapKind::Kick, weight);
+    }
+
+    /// The flow of the part of drifts.
+    #[inline(always)]
+    fn drift(&mut self, weight: &Self::Number) {
+        self.map(MapKind::Drift, weight);
+    }
+
+    /// The flow of −½U_qᵀM⁻¹U_q.
+    #[inline(always)]
+    fn gradient_kick(&mut self, weight: &Self::Number) {
+        self.map(MapKind::GradientKick, weight);
+    }
+
     /// A map, and after it the middle parts where their weight is given.
     #[inline(always)]
     fn apply(&mut self, kind: MapKind, weight: &Self::Number, middle: Option<&Self::Number>) {
-        match kind {
-            MapKind::Kick => self.kick(weight),
-            MapKind::Drift => self.drift(weight),
-            MapKind::GradientKick => self.gradient_kick(weight),
-        }
+        self.map(kind, weight);
         if let Some(weight) = middle {
             self.middle_parts(weight, PartOrder::after(kind));
         }

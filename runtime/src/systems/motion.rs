@@ -1,7 +1,6 @@
 //! The system of a potential and a kinetic energy, with its state.
 
 mod few;
-mod gradient_kick_state;
 mod hamiltonian;
 mod side_by_side;
 mod steps;
@@ -14,16 +13,16 @@ use shadowstep_schemes::symbolic::{Error as FormulaError, exact};
 use crate::number::{AnyLimbs, LimbCount, Number, Precision};
 use crate::systems::coordinates::{Coordinates, first_not_finite};
 use crate::systems::displaced::Displacements;
+use crate::systems::evaluated::Evaluated;
+use crate::systems::gradient_kicks::are_displaced;
 use crate::systems::increments::Increments;
-use crate::systems::kept::KeptForce;
 use crate::systems::kinetic::{Kinetic, MassError};
 use crate::systems::matrix::QUADRATIC_FLOW_DIGITS;
 use crate::systems::potential::Potential;
 use crate::systems::state::State;
 use crate::systems::summation::{Compensated, FixedPoint, InDouble, Plain, RangeError, Summation};
 
-use gradient_kick_state::GradientKickState;
-use hamiltonian::{Evaluated, Hamiltonian};
+pub(crate) use hamiltonian::Hamiltonian;
 
 /// A system H = T(p) + U(q) and its state.
 ///
@@ -61,11 +60,9 @@ where
     /// # Errors
     /// As [`Motion::new`], but for the energy.
     pub fn of_any_energy(potential: P, kinetic: K, q: V, p: V) -> Result<Self, MotionError> {
-        let context = check(&potential, &kinetic, q.as_ref(), p.as_ref())?;
+        let context = check(potential.dimension(), kinetic.dimension(), q.as_ref(), p.as_ref())?;
         let hamiltonian = Hamiltonian::new(potential, kinetic, &context);
-        let (gradient, rate) = (p.clone(), N::zero(&context));
-        let at = Evaluated { state: State::new(q, p, &context), gradient, rate, kept: KeptForce::Nothing };
-        Ok(Motion { hamiltonian, at })
+        Ok(Motion { hamiltonian, at: Evaluated::new(State::new(q, p, &context)) })
     }
 
     /// The same system with compensated sums: the round-off of a kick or drift is ε times the increment, in place of ε
@@ -94,43 +91,6 @@ where
     #[must_use]
     pub fn compensated(self) -> Motion<N, V, P, K, Compensated<N, V>> {
         self.with(State::compensated)
-    }
-
-    /// The same system with compensated sums if `compensated` is true: for a choice at run time.
-    #[must_use]
-    pub fn compensated_if(self, compensated: bool) -> Motion<N, V, P, K, Option<Compensated<N, V>>> {
-        self.with(|state| state.compensated_if(compensated))
-    }
-
-    /// The same system with gradient kicks by displaced forces, of the stepper that computed these: see
-    /// [`Displacements`]. They take a force in place of a Hessian–vector product, which the potential then need not
-    /// have, and are not exactly symplectic.
-    ///
-    /// ```
-    /// use shadowstep::{Motion, Stepper, UnitMasses, systems::potential::from_fn, tables::shipped};
-    ///
-    /// let stepper = Stepper::new(shipped("chin-4a").unwrap(), "1/20")?;
-    /// let pendulum = from_fn(1, |q, gradient| {
-    ///     gradient[0] = q[0].sin();
-    ///     -q[0].cos()
-    /// });
-    /// let mut motion = Motion::new(pendulum, UnitMasses, [0.0], [1.5])?.displaced(stepper.displacements()?);
-    /// let start = motion.energy();
-    /// (0..1000).for_each(|_| stepper.step(&mut motion));
-    /// assert!((motion.energy() - start).abs() < 1e-7);
-    /// # Ok::<(), Box<dyn std::error::Error>>(())
-    /// ```
-    #[must_use]
-    pub fn displaced(mut self, displacements: Displacements<N>) -> Self {
-        let gradient_kicks = GradientKickState::displaced(displacements, self.q().len(), &self.context());
-        self.hamiltonian.gradient_kicks = Some(Box::new(gradient_kicks));
-        self
-    }
-
-    /// The same system with the same state whose sums are other ones.
-    fn with<S>(self, with_sums: impl FnOnce(State<N, V>) -> State<N, V, S>) -> Motion<N, V, P, K, S> {
-        let Motion { hamiltonian, at: Evaluated { state, gradient, rate, kept } } = self;
-        Motion { hamiltonian, at: Evaluated { state: with_sums(state), gradient, rate, kept } }
     }
 }
 
@@ -221,6 +181,41 @@ where
     K: Kinetic<N>,
     S: Summation<N>,
 {
+    /// The same system with compensated sums if `compensated` is true, else with plain ones: for a choice at run time.
+    #[must_use]
+    pub fn compensated_if(self, compensated: bool) -> Motion<N, V, P, K, Option<Compensated<N, V>>> {
+        self.with(|state| state.compensated_if(compensated))
+    }
+
+    /// The same system with the same state whose sums are other ones.
+    fn with<T>(self, with_sums: impl FnOnce(State<N, V, S>) -> State<N, V, T>) -> Motion<N, V, P, K, T> {
+        Motion { hamiltonian: self.hamiltonian, at: self.at.with(with_sums) }
+    }
+
+    /// The same system with gradient kicks by displaced forces, of the stepper that computed these: see
+    /// [`Displacements`]. They take a force in place of a Hessian–vector product, which the potential then need not
+    /// have, and are not exactly symplectic.
+    ///
+    /// ```
+    /// use shadowstep::{Motion, Stepper, UnitMasses, systems::potential::from_fn, tables::shipped};
+    ///
+    /// let stepper = Stepper::new(shipped("chin-4a").unwrap(), "1/20")?;
+    /// let pendulum = from_fn(1, |q, gradient| {
+    ///     gradient[0] = q[0].sin();
+    ///     -q[0].cos()
+    /// });
+    /// let mut motion = Motion::new(pendulum, UnitMasses, [0.0], [1.5])?.displaced(stepper.displacements()?);
+    /// let start = motion.energy();
+    /// (0..1000).for_each(|_| stepper.step(&mut motion));
+    /// assert!((motion.energy() - start).abs() < 1e-7);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    #[must_use]
+    pub fn displaced(mut self, displacements: Displacements<N>) -> Self {
+        self.hamiltonian.displace_forces(displacements);
+        self
+    }
+
     /// The state.
     pub fn state(&self) -> &State<N, V, S> {
         &self.at.state
@@ -249,8 +244,7 @@ where
 
     /// Positions, to be changed; the kept gradient and remainders of sums are dropped.
     pub fn q_mut(&mut self) -> &mut [N] {
-        self.at.kept = KeptForce::Nothing;
-        self.at.state.q_mut()
+        self.at.state_mut().q_mut()
     }
 
     /// Momenta, to be changed; remainders of sums are dropped.
@@ -260,7 +254,7 @@ where
 
     /// The potential.
     pub fn potential(&self) -> &P {
-        &self.hamiltonian.potential
+        &self.hamiltonian.potential.function
     }
 
     /// The number of evaluations of the gradient U_q, those at displaced positions included; those of T_p in drifts are
@@ -271,9 +265,8 @@ where
 
     /// The number of Hessian–vector products U_qq M⁻¹U_q computed for gradient kicks.
     pub fn hessian_products(&self) -> u64 {
-        let products =
-            self.hamiltonian.gradient_kicks.as_ref().filter(|gradient_kicks| !gradient_kicks.kicks.is_displaced());
-        products.map_or(0, |gradient_kicks| gradient_kicks.kicks.evaluations)
+        let kicks = self.hamiltonian.gradient_kicks.as_deref();
+        if are_displaced(kicks) { 0 } else { kicks.map_or(0, |kicks| kicks.evaluations) }
     }
 
     /// The context of the numbers.
@@ -304,30 +297,31 @@ where
     }
 }
 
-/// Checks that dimensions and precisions agree; returns the context of the numbers.
-fn check<N: Number, P: Potential<N>, K: Kinetic<N>>(
-    potential: &P,
-    kinetic: &K,
+/// Checks that dimensions and precisions agree, of a potential, of a kinetic energy if it is fixed, and of q and p;
+/// returns the context of the numbers.
+pub(crate) fn check<N: Number>(
+    potential: usize,
+    kinetic: Option<usize>,
     q: &[N],
     p: &[N],
 ) -> Result<N::Context, MotionError> {
     let coordinates = q.len();
     let differs = |other: usize| other != coordinates;
-    let momenta = kinetic.dimension().unwrap_or(coordinates);
+    let momenta = kinetic.unwrap_or(coordinates);
     match () {
         () if coordinates == 0 => Err(MotionError::NoCoordinates),
         () if differs(p.len()) => Err(MotionError::Momenta { coordinates, momenta: p.len() }),
-        () if differs(potential.dimension()) => {
-            Err(MotionError::Potential { coordinates, dimension: potential.dimension() })
-        }
+        () if differs(potential) => Err(MotionError::Potential { coordinates, dimension: potential }),
         () if differs(momenta) => Err(MotionError::Kinetic { coordinates, dimension: momenta }),
         () => {
             let context = q[0].context();
             if q.iter().chain(p).any(|x| x.context() != context) {
                 return Err(MotionError::Precision);
             }
-            MotionError::refuse_not_finite(q, p)?;
-            Ok(context)
+            match first_not_finite(q, p) {
+                Some(name) => Err(MotionError::NotFinite { name }),
+                None => Ok(context),
+            }
         }
     }
 }
@@ -398,9 +392,3 @@ pub enum MotionError {
 }
 
 shadowstep_schemes::debug_as_text!(MotionError);
-
-impl MotionError {
-    pub(crate) fn refuse_not_finite<N: Number>(q: &[N], p: &[N]) -> Result<(), MotionError> {
-        first_not_finite(q, p).map_or(Ok(()), |name| Err(MotionError::NotFinite { name }))
-    }
-}

@@ -3,6 +3,7 @@
 mod few_coordinates;
 mod from_fn;
 mod hessian;
+mod prepared;
 mod program;
 mod sum;
 mod vectorised;
@@ -11,6 +12,7 @@ pub use few_coordinates::FewCoordinates;
 pub(crate) use few_coordinates::FewOfSystem;
 pub use from_fn::{FromFn, from_fn};
 pub use hessian::HessianProduct;
+pub(crate) use prepared::Prepared;
 pub use program::GradientProgram;
 pub(crate) use program::SYSTEMS;
 pub use sum::Sum;

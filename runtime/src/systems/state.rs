@@ -144,16 +144,13 @@ impl<N: Number, V: Coordinates<N>, S: Summation<N>> State<N, V, S> {
         self.evaluations += 1;
     }
 
-    /// p ← p − weight·force
+    /// p ← p − weight·force and, if increments are carried along, those of p and β, by weight·rate, with it.
     #[inline(always)]
-    pub fn kick(&mut self, weight: &N, force: &[N]) {
-        self.sums.kick(weight, force, self.p.as_mut());
-    }
-
-    /// The same, and the increments of p and β, by weight·rate, with it.
-    #[inline(always)]
-    pub(crate) fn kick_augmented(&mut self, weight: &N, force: &[N], rate: &N) {
+    pub(crate) fn kick(&mut self, weight: &N, force: &[N], rate: &N, carried: Carried) {
         let State { p, sums, increments, .. } = self;
+        if !carried.has_increments() {
+            return sums.kick(weight, force, p.as_mut());
+        }
         increments.beta.add_product(weight, rate);
         instructions::widest_if_long(
             N::IN_VECTORS,
@@ -170,16 +167,13 @@ impl<N: Number, V: Coordinates<N>, S: Summation<N>> State<N, V, S> {
         );
     }
 
-    /// q ← q + weight·T_p(p)
+    /// q ← q + weight·T_p(p) and, if increments are carried along, those of q and β with it.
     #[inline(always)]
-    pub fn drift<K: Kinetic<N>>(&mut self, kinetic: &K, weight: &N, scratch: &mut [N]) {
-        self.sums.drift(kinetic, weight, self.p.as_ref(), self.q.as_mut(), scratch);
-    }
-
-    /// The same, and the increments of q and β with it.
-    #[inline(always)]
-    pub fn drift_augmented<K: Kinetic<N>>(&mut self, kinetic: &K, weight: &N, scratch: &mut [N]) {
+    pub fn drift<K: Kinetic<N>>(&mut self, kinetic: &K, weight: &N, scratch: &mut [N], carried: Carried) {
         let State { q, p, sums, increments, .. } = self;
+        if !carried.has_increments() {
+            return sums.drift(kinetic, weight, p.as_ref(), q.as_mut(), scratch);
+        }
         instructions::widest_if_long(
             N::IN_VECTORS,
             p.as_ref().len(),

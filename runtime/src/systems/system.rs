@@ -3,7 +3,7 @@
 use crate::number::Number;
 use crate::systems::coordinates::Coordinates;
 use crate::systems::increments::Carried;
-use crate::systems::maps::{Flows, MapSequence, PartOrder};
+use crate::systems::maps::{Flows, MapKind, MapSequence, PartOrder};
 use crate::systems::state::State;
 use crate::systems::summation::Summation;
 
@@ -73,6 +73,16 @@ pub trait System {
     fn middle_parts(&mut self, weight: &Self::Number, order: PartOrder, carried: Carried) {
         let _ = (weight, order, carried);
         panic!("this system has two parts, and the scheme is for three and more: see `System::middle_parts`");
+    }
+
+    /// A kick, drift or gradient kick.
+    #[inline(always)]
+    fn map(&mut self, kind: MapKind, weight: &Self::Number, carried: Carried) {
+        match kind {
+            MapKind::Kick => self.kick(weight, carried),
+            MapKind::Drift => self.drift(weight, carried),
+            MapKind::GradientKick => self.gradient_kick(weight, carried),
+        }
     }
 
     /// `count` steps of several systems, with the bits that their kicks and drifts have one by one; increments are
@@ -160,18 +170,8 @@ impl<M: System + ?Sized> Flows for Carrying<'_, M> {
     type Number = M::Number;
 
     #[inline(always)]
-    fn kick(&mut self, weight: &M::Number) {
-        self.system.kick(weight, self.carried);
-    }
-
-    #[inline(always)]
-    fn drift(&mut self, weight: &M::Number) {
-        self.system.drift(weight, self.carried);
-    }
-
-    #[inline(always)]
-    fn gradient_kick(&mut self, weight: &M::Number) {
-        self.system.gradient_kick(weight, self.carried);
+    fn map(&mut self, kind: MapKind, weight: &M::Number) {
+        self.system.map(kind, weight, self.carried);
     }
 
     #[inline(always)]
@@ -190,34 +190,16 @@ impl<M: System> Flows for Each<'_, M> {
     type Number = M::Number;
 
     #[inline(always)]
-    fn kick(&mut self, weight: &M::Number) {
-        self.systems.iter_mut().for_each(
-            #[inline(always)]
-            |system| system.kick(weight, self.carried),
-        );
-    }
-
-    #[inline(always)]
-    fn drift(&mut self, weight: &M::Number) {
-        self.systems.iter_mut().for_each(
-            #[inline(always)]
-            |system| system.drift(weight, self.carried),
-        );
-    }
-
-    #[inline(always)]
-    fn gradient_kick(&mut self, weight: &M::Number) {
-        self.systems.iter_mut().for_each(
-            #[inline(always)]
-            |system| system.gradient_kick(weight, self.carried),
-        );
+    fn map(&mut self, kind: MapKind, weight: &M::Number) {
+        for system in &mut *self.systems {
+            system.map(kind, weight, self.carried);
+        }
     }
 
     #[inline(always)]
     fn middle_parts(&mut self, weight: &M::Number, order: PartOrder) {
-        self.systems.iter_mut().for_each(
-            #[inline(always)]
-            |system| system.middle_parts(weight, order, self.carried),
-        );
+        for system in &mut *self.systems {
+            system.middle_parts(weight, order, self.carried);
+        }
     }
 }

@@ -54,10 +54,8 @@ impl<P> TransformedPotential<P> {
     pub fn new(time: TimeTransformation, potential: P) -> Self {
         TransformedPotential { time, potential }
     }
-}
 
-impl<P> TransformedPotential<P> {
-    /// x ← −U(q)
+    /// x ← −U(q) and its f′
     fn argument<N: Number>(&self, q: &[N], place: &mut Place<'_, N>, inner: &mut [N])
     where
         P: Potential<N>,
@@ -65,6 +63,7 @@ impl<P> TransformedPotential<P> {
         self.potential.energy(q, place.x, inner);
         place.x.negate();
         place.refuse_negative();
+        self.time.derivative(place);
     }
 }
 
@@ -88,7 +87,6 @@ impl<N: Number, P: Potential<N>> Potential<N> for TransformedPotential<P> {
     fn energy(&self, q: &[N], energy: &mut N, scratch: &mut [N]) {
         let (mut place, inner) = Place::of(scratch);
         self.argument(split(q).1, &mut place, inner);
-        self.time.derivative(&mut place);
         self.time.value(place.x, place.derivative, energy);
         energy.negate();
     }
@@ -98,7 +96,6 @@ impl<N: Number, P: Potential<N>> Potential<N> for TransformedPotential<P> {
         let (mut place, inner) = Place::of(scratch);
         let (q, (of_time, gradient)) = (split(q).1, split_mut(gradient));
         self.argument(q, &mut place, inner);
-        self.time.derivative(&mut place);
         self.potential.gradient(q, gradient, inner);
         gradient.iter_mut().for_each(|u| u.multiply(place.derivative));
         of_time.assign_zero();
@@ -109,7 +106,6 @@ impl<N: Number, P: Potential<N>> Potential<N> for TransformedPotential<P> {
         let (mut place, inner) = Place::of(scratch);
         let (q, (of_time, gradient)) = (split(q).1, split_mut(gradient));
         self.argument(q, &mut place, inner);
-        self.time.derivative(&mut place);
         self.potential.gradient_and_rate(q, gradient, rate, inner);
         gradient.iter_mut().for_each(|u| u.multiply(place.derivative));
         of_time.assign_zero();

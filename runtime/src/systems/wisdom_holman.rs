@@ -47,9 +47,9 @@ pub use orbits::Orbits;
 use crate::number::Number;
 use crate::systems::coordinates::first_not_finite;
 use crate::systems::displaced::Displacements;
-use crate::systems::gradient_kicks::{Curvature, GradientKicks, Place};
+use crate::systems::evaluated::Evaluated;
+use crate::systems::gradient_kicks::{GradientKicks, PartOfKicks, Place, are_displaced};
 use crate::systems::increments::Carried;
-use crate::systems::kept::KeptForce;
 use crate::systems::potential::Potential;
 use crate::systems::state::{State, VectorState};
 use crate::systems::summation::{Compensated, Half};
@@ -81,17 +81,17 @@ use beside::Beside;
 /// ```
 #[derive(Clone, Debug)]
 pub struct WisdomHolman<N: Number, C, const D: usize, P = NoPotential> {
+    interaction: Interaction<N, C, D, P>,
+    orbits: orbits::Advance<N, D>,
+    at: Evaluated<N>,
+}
+
+/// B, with the coordinates in which it is one.
+#[derive(Clone, Debug)]
+struct Interaction<N, C, const D: usize, P> {
     coordinates: C,
     beside: Option<Box<Beside<N, P>>>,
-    state: VectorState<N>,
-    /// ∂B/∂Q
-    gradient: Vec<N>,
-    /// QᵀB_Q − 2B
-    rate: N,
-    kept: KeptForce,
-    /// Once there was a gradient kick; what it keeps belongs to the Q of the last evaluation.
     gradient_kicks: Option<Box<GradientKicks<N>>>,
-    orbits: orbits::Advance<N, D>,
 }
 
 impl<N: Number, C: PlanetaryCoordinates<N, D>, const D: usize> WisdomHolman<N, C, D> {
@@ -112,16 +112,9 @@ impl<N: Number, C: PlanetaryCoordinates<N, D>, const D: usize> WisdomHolman<N, C
         let zeros = || vec![N::zero(context); dimension];
         let coordinates = C::new(bodies, context);
         let orbits = orbits::Advance::new(coordinates.orbits(), context);
-        let mut system = WisdomHolman {
-            coordinates,
-            beside: None,
-            state: State::new(zeros(), zeros(), context).compensated_if(false),
-            gradient: zeros(),
-            rate: N::zero(context),
-            kept: KeptForce::Nothing,
-            gradient_kicks: None,
-            orbits,
-        };
+        let at = Evaluated::new(State::new(zeros(), zeros(), context).compensated_if(false));
+        let interaction = Interaction { coordinates, beside: None, gradient_kicks: None };
+        let mut system = WisdomHolman { interaction, orbits, at };
         system.set_inertial(q, p);
         Ok(system)
     }
@@ -159,25 +152,17 @@ impl<N: Number, C: PlanetaryCoordinates<N, D>, const D: usize> WisdomHolman<N, C
     /// A potential of another dimension; coordinates in which kicks depend on momenta, so that B would have no exact
     /// flow.
     pub fn beside<P: Potential<N>>(self, potential: Option<P>) -> Result<WisdomHolman<N, C, D, P>, BodiesError> {
-        let WisdomHolman { coordinates, state, gradient, rate, gradient_kicks, orbits, .. } = self;
-        let dimension = state.q.len();
+        let WisdomHolman { interaction: Interaction { coordinates, gradient_kicks, .. }, orbits, at } = self;
+        let dimension = at.state.q.len();
         if let Some(found) = potential.as_ref().map(Potential::dimension).filter(|found| *found != dimension) {
             return Err(BodiesError::Potential { found, bodies: dimension / D, dimensions: D });
         }
         if potential.is_some() && !C::HAS_GRADIENT_KICKS {
             return Err(BodiesError::NoFlow);
         }
-        let beside = potential.map(|potential| Box::new(Beside::new(potential, &state.context())));
-        Ok(WisdomHolman {
-            coordinates,
-            beside,
-            state,
-            gradient,
-            rate,
-            kept: KeptForce::Nothing,
-            gradient_kicks,
-            orbits,
-        })
+        let beside = potential.map(|potential| Box::new(Beside::new(potential, &at.state.context())));
+        let interaction = Interaction { coordinates, beside, gradient_kicks };
+        Ok(WisdomHolman { interaction, orbits, at: Evaluated::new(at.state) })
     }
 }
 
@@ -186,7 +171,7 @@ impl<N: Number, C: PlanetaryCoordinates<N, D>, const D: usize, P: Potential<N>> 
     /// drift is ε times the increment, in place of ε times the coordinate.
     #[must_use]
     pub fn compensated(mut self) -> Self {
-        self.state = self.state.compensated_if(true);
+        self.at = self.at.with(|state| state.compensated_if(true));
         self
     }
 
@@ -194,74 +179,58 @@ impl<N: Number, C: PlanetaryCoordinates<N, D>, const D: usize, P: Potential<N>> 
     /// [`Displacements`].
     #[must_use]
     pub fn displaced(mut self, displacements: Displacements<N>) -> Self {
-        let (dimension, context) = (self.state.q.len(), self.state.context());
-        self.gradient_kicks = Some(Box::new(GradientKicks::new(dimension, Some(displacements), &context)));
+        let (dimension, context) = (self.at.state.q.len(), self.at.state.context());
+        self.interaction.gradient_kicks = Some(Box::new(GradientKicks::new(dimension, Some(displacements), &context)));
         self
     }
 
     /// The inertial positions and momenta.
     pub fn inertial(&mut self) -> (Vec<N>, Vec<N>) {
-        let (mut q, mut p) = (self.state.q.clone(), self.state.p.clone());
-        self.coordinates.assign_inertial((&self.state.q, &self.state.p), (&mut q, &mut p));
+        let State { q: own_q, p: own_p, .. } = &self.at.state;
+        let (mut q, mut p) = (own_q.clone(), own_p.clone());
+        self.interaction.coordinates.assign_inertial((own_q, own_p), (&mut q, &mut p));
         (q, p)
     }
 
     /// Sets the inertial positions and momenta.
     pub(crate) fn set_inertial(&mut self, q: &[N], p: &[N]) {
-        let WisdomHolman { coordinates, state, .. } = self;
-        coordinates.assign_from_inertial((q, p), (&mut state.q, &mut state.p));
+        let state = self.at.state_mut();
+        self.interaction.coordinates.assign_from_inertial((q, p), (&mut state.q, &mut state.p));
         // the remainders of what was there before
         state.q_mut();
         state.p_mut();
-        self.kept = KeptForce::Nothing;
     }
 
     /// The coordinates, which convert states.
     pub fn coordinates(&self) -> &C {
-        &self.coordinates
+        &self.interaction.coordinates
     }
 
     /// gradient ← ∂B/∂Q at a Q, of the part of B that depends on Q.
     pub fn assign_gradient(&mut self, q: &[N], gradient: &mut [N]) {
-        let WisdomHolman { coordinates, beside, .. } = self;
-        Interacting { coordinates, beside }.gradient(q, gradient, None);
-    }
-
-    /// Evaluates the gradient at the present Q, unless it is known.
-    fn evaluate(&mut self, with_rate: bool) {
-        if self.kept.suffices(with_rate) {
-            return;
-        }
-        let rate = with_rate.then_some(&mut self.rate);
-        let (coordinates, beside) = (&mut self.coordinates, &mut self.beside);
-        Interacting { coordinates, beside }.gradient(&self.state.q, &mut self.gradient, rate);
-        self.kept = if with_rate { KeptForce::GradientAndRate } else { KeptForce::Gradient };
-        self.state.count_evaluation();
-        if let Some(kicks) = &mut self.gradient_kicks {
-            kicks.kept = KeptForce::Nothing;
-        }
+        self.interaction.gradient(q, gradient, None);
     }
 
     /// The velocity with which the part of B that depends on P moves all planets.
     fn jump(&mut self, weight: &N, carried: Carried) {
-        let WisdomHolman { coordinates, state, kept, .. } = self;
-        let Some(velocity) = coordinates.jump(&state.p) else { return };
+        let Some(velocity) = self.interaction.coordinates.jump(&self.at.state.p) else { return };
+        let state = self.at.state_mut();
         for index in D..state.q.len() {
             state.change(Half::Positions, index, carried, |q| q.add_product(weight, &velocity[index % D]));
         }
-        *kept = KeptForce::Nothing;
     }
 }
 
-/// The derivatives of B.
-struct Interacting<'a, N, C, P, const D: usize> {
-    coordinates: &'a mut C,
-    beside: &'a mut Option<Box<Beside<N, P>>>,
-}
-
-impl<N: Number, C: PlanetaryCoordinates<N, D>, P: Potential<N>, const D: usize> Curvature<N>
-    for Interacting<'_, N, C, P, D>
+impl<N: Number, C: PlanetaryCoordinates<N, D>, P: Potential<N>, const D: usize> PartOfKicks<N>
+    for Interaction<N, C, D, P>
 {
+    fn gradient(&mut self, q: &[N], gradient: &mut [N], mut rate: Option<&mut N>) {
+        self.coordinates.gradient_and_rate(q, gradient, rate.as_deref_mut());
+        if let Some(beside) = &mut self.beside {
+            beside.add_gradient::<C, D>(&mut self.coordinates, q, gradient, rate);
+        }
+    }
+
     fn assign_velocity(&mut self, gradient: &[N], velocity: &mut [N]) {
         let orbits = self.coordinates.orbits();
         let masses = std::iter::once(&orbits.total_mass).chain(orbits.planets.iter().map(|orbit| &orbit.mass));
@@ -272,8 +241,8 @@ impl<N: Number, C: PlanetaryCoordinates<N, D>, P: Potential<N>, const D: usize> 
 
     fn hessian_product(&mut self, at: Place<'_, N>, v: &[N], product: &mut [N], rate: Option<&mut N>) {
         self.coordinates.hessian_product(at.q, v, product);
-        if let Some(beside) = self.beside {
-            beside.add_hessian_product::<C, D>(self.coordinates, (at.q, v), product);
+        if let Some(beside) = &mut self.beside {
+            beside.add_hessian_product::<C, D>(&mut self.coordinates, (at.q, v), product);
         }
         let Some(rate) = rate else { return };
         rate.assign_zero();
@@ -290,11 +259,8 @@ impl<N: Number, C: PlanetaryCoordinates<N, D>, P: Potential<N>, const D: usize> 
         }
     }
 
-    fn gradient(&mut self, q: &[N], gradient: &mut [N], mut rate: Option<&mut N>) {
-        self.coordinates.gradient_and_rate(q, gradient, rate.as_deref_mut());
-        if let Some(beside) = self.beside {
-            beside.add_gradient::<C, D>(self.coordinates, q, gradient, rate);
-        }
+    fn gradient_kicks(&mut self) -> &mut Option<Box<GradientKicks<N>>> {
+        &mut self.gradient_kicks
     }
 }
 
@@ -305,38 +271,31 @@ impl<N: Number, C: PlanetaryCoordinates<N, D>, const D: usize, P: Potential<N>> 
     type Summation = Option<Compensated<N, Vec<N>>>;
 
     fn state(&self) -> &VectorState<N> {
-        &self.state
+        &self.at.state
     }
 
     fn state_mut(&mut self) -> &mut VectorState<N> {
-        self.kept = KeptForce::Nothing;
-        &mut self.state
+        self.at.state_mut()
     }
 
     fn clear_increments(&mut self) {
-        self.state.clear_increments();
+        self.at.state.clear_increments();
     }
 
     /// The jump and the kick by the gradient at the place where it ends: the two commute.
     fn kick(&mut self, weight: &N, carried: Carried) {
-        let augmented = carried.has_increments();
         self.jump(weight, carried);
-        self.evaluate(augmented);
-        match augmented {
-            true => self.state.kick_augmented(weight, &self.gradient, &self.rate),
-            false => self.state.kick(weight, &self.gradient),
-        }
+        self.at.kick(&mut self.interaction, weight, carried);
     }
 
     fn drift(&mut self, weight: &N, carried: Carried) {
-        let WisdomHolman { coordinates, state, orbits, .. } = self;
-        orbits.advance(coordinates.orbits(), weight, state, carried);
-        self.kept = KeptForce::Nothing;
+        self.orbits.advance(self.interaction.coordinates.orbits(), weight, self.at.state_mut(), carried);
     }
 
     fn has_gradient_kicks(&self) -> bool {
-        let is_displaced = self.gradient_kicks.as_ref().is_some_and(|kicks| kicks.is_displaced());
-        C::HAS_GRADIENT_KICKS && (is_displaced || self.beside.as_ref().is_none_or(|beside| beside.has_hessian()))
+        let Interaction { beside, gradient_kicks, .. } = &self.interaction;
+        C::HAS_GRADIENT_KICKS
+            && (are_displaced(gradient_kicks.as_deref()) || beside.as_ref().is_none_or(|beside| beside.has_hessian()))
     }
 
     /// The gradient kick p ← p + weight·B_QQ M′⁻¹B_Q.
@@ -345,41 +304,26 @@ impl<N: Number, C: PlanetaryCoordinates<N, D>, const D: usize, P: Potential<N>> 
             C::HAS_GRADIENT_KICKS,
             "B depends on P in these coordinates: there are gradient kicks in Jacobi coordinates only"
         );
-        let augmented = carried.has_increments();
-        self.evaluate(augmented);
-        let WisdomHolman { coordinates, beside, state, gradient, rate, gradient_kicks, .. } = self;
-        let kicks =
-            gradient_kicks.get_or_insert_with(|| Box::new(GradientKicks::new(state.q.len(), None, &weight.context())));
-        let before = kicks.evaluations;
-        let place = Place { q: &state.q, gradient, rate };
-        kicks.evaluate(&mut Interacting { coordinates, beside }, place, weight, augmented);
-        if kicks.is_displaced() {
-            state.evaluations += kicks.evaluations - before;
-        }
-        match augmented {
-            true => state.kick_augmented(weight, &kicks.force, &kicks.rate),
-            false => state.kick(weight, &kicks.force),
-        }
+        self.at.gradient_kick(&mut self.interaction, weight, carried);
     }
 
     /// H is the same as in inertial coordinates.
     fn assign_energy(&mut self, at: Option<(&[N], &[N])>, energy: &mut N) {
-        let WisdomHolman { coordinates, beside, state, orbits, .. } = self;
-        let at = at.unwrap_or((&state.q, &state.p));
+        let Interaction { coordinates, beside, .. } = &mut self.interaction;
+        let at = at.unwrap_or((self.at.state.q(), self.at.state.p()));
         coordinates.assign_interaction_energy(at, energy);
         if let Some(beside) = beside {
             beside.add_energy::<C, D>(coordinates, at.0, energy);
         }
-        orbits.add_energy(coordinates.orbits(), at, energy);
+        self.orbits.add_energy(coordinates.orbits(), at, energy);
     }
 
     fn assign_kinetic_energy(&mut self, at: Option<(&[N], &[N])>, kinetic: &mut N) {
-        let WisdomHolman { coordinates, state, orbits, .. } = self;
-        let (_, p) = at.unwrap_or((&state.q, &state.p));
-        orbits.assign_kinetic_energy(coordinates.orbits(), p, kinetic);
+        let (_, p) = at.unwrap_or((self.at.state.q(), self.at.state.p()));
+        self.orbits.assign_kinetic_energy(self.interaction.coordinates.orbits(), p, kinetic);
     }
 
     fn massive_coordinates(&self) -> usize {
-        (self.coordinates.orbits().with_energy().len() + 1) * D
+        (self.interaction.coordinates.orbits().with_energy().len() + 1) * D
     }
 }

@@ -43,7 +43,8 @@ impl<N: Number> FormulaValue<N> {
         FormulaValue::with(&graph.value(node), parameters, context)
     }
 
-    fn with(programs: &PotentialPrograms, parameters: Vec<N>, context: &N::Context) -> Self {
+    /// The function of programs, with the values of its parameters.
+    pub(crate) fn with(programs: &PotentialPrograms, parameters: Vec<N>, context: &N::Context) -> Self {
         let interpreter = Interpreter::new(programs, parameters, 0);
         let mut registers = vec![N::zero(context); interpreter.registers()];
         interpreter.prepare(&mut registers, context);
@@ -53,5 +54,16 @@ impl<N: Number> FormulaValue<N> {
     /// Its value where the variables are x.
     pub fn at(&mut self, x: &[N]) -> &N {
         self.interpreter.energy(x, &mut self.registers)
+    }
+
+    /// slopes ← its derivatives at x and, if asked for, rate ← xᵀA_x − 2A, where the programs have them.
+    pub(crate) fn slopes_at(&mut self, x: &[N], slopes: &mut [N], rate: Option<&mut N>) {
+        let outputs = match rate.is_some() {
+            true => self.interpreter.gradient_and_rate(x, &mut self.registers),
+            false => self.interpreter.gradient(x, &mut self.registers),
+        };
+        let (own, last) = outputs.split_at_mut(slopes.len());
+        slopes.swap_with_slice(own);
+        rate.into_iter().zip(last).for_each(|(rate, last)| std::mem::swap(rate, last));
     }
 }

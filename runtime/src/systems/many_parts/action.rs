@@ -6,14 +6,13 @@ use shadowstep_schemes::symbolic::PotentialPrograms;
 use super::part::{FlowState, Part};
 use crate::Rational;
 use crate::number::Number;
-use crate::systems::interpreter::Interpreter;
+use crate::systems::formula::FormulaValue;
 
 /// f(I) with its derivatives.
 struct Function<N> {
-    interpreter: Interpreter<N>,
-    registers: Vec<N>,
+    of_action: FormulaValue<N>,
     action: [N; 1],
-    slope: N,
+    slope: [N; 1],
     /// 2I f′ − 2f
     rate: N,
     has_rate: bool,
@@ -21,11 +20,9 @@ struct Function<N> {
 
 impl<N: Number> Function<N> {
     fn new(programs: &PotentialPrograms, context: &N::Context) -> Self {
-        let interpreter = Interpreter::new(programs, Vec::new(), 0);
         let zero = || N::zero(context);
-        let mut registers = vec![zero(); interpreter.registers()];
-        interpreter.prepare(&mut registers, context);
-        Function { interpreter, registers, action: [zero()], slope: zero(), rate: zero(), has_rate: false }
+        let of_action = FormulaValue::with(programs, Vec::new(), context);
+        Function { of_action, action: [zero()], slope: [zero()], rate: zero(), has_rate: false }
     }
 
     /// The slope, and where it is needed the rate, at an action; `assign` computes the action.
@@ -34,24 +31,20 @@ impl<N: Number> Function<N> {
         if continues && (self.has_rate || !augmented) {
             return;
         }
-        let Function { interpreter, registers, action, slope, rate, has_rate } = self;
+        let Function { of_action, action, slope, rate, has_rate } = self;
         assign(&mut action[0]);
         *has_rate = augmented;
+        of_action.slopes_at(action, slope, augmented.then_some(&mut *rate));
         if augmented {
-            let outputs = interpreter.gradient_and_rate(action, registers);
-            slope.assign(&outputs[0]);
-            // I f′ − 2f
-            rate.assign(&outputs[1]);
-            rate.add_product(&action[0], slope);
-        } else {
-            slope.assign(&interpreter.gradient(action, registers)[0]);
+            // of I f′ − 2f
+            rate.add_product(&action[0], &slope[0]);
         }
     }
 
     fn add_energy(&mut self, energy: &mut N, assign: impl FnOnce(&mut N)) {
         let mut action = [energy.clone()];
         assign(&mut action[0]);
-        energy.add(self.interpreter.energy(&action, &mut self.registers));
+        energy.add(self.of_action.at(&action));
     }
 }
 
@@ -128,7 +121,7 @@ impl<N: Number> Part<N> for Rotation<N> {
         let freedoms = state.q().len();
         let (q, p) = (&state.q()[*freedom], &state.p()[*freedom]);
         function.evaluate(state, continues, |action| form.action(q, p, [of_q, of_p], action));
-        half.assign_product(&function.slope, time);
+        half.assign_product(&function.slope[0], time);
         half.multiply(root);
         half.divide_integer(2);
         N::assign_sin_cos(sin, cos, half);
@@ -178,7 +171,7 @@ impl<N: Number> Part<N> for Squeeze<N> {
         let Squeeze { freedom, function, half, sinh, exp, by } = self;
         let freedoms = state.q().len();
         function.evaluate(state, continues, |action| action.assign_product(&state.q()[*freedom], &state.p()[*freedom]));
-        half.assign_product(&function.slope, time);
+        half.assign_product(&function.slope[0], time);
         half.divide_integer(2);
         sinh.assign_sinh(half);
         sinh.multiply_integer(2);

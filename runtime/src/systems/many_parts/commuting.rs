@@ -5,14 +5,13 @@ use shadowstep_schemes::symbolic::PotentialPrograms;
 
 use super::part::{FlowState, Part};
 use crate::number::Number;
-use crate::systems::interpreter::Interpreter;
+use crate::systems::formula::FormulaValue;
 
 /// A(x) of some variables x.
 pub(super) struct Commuting<N> {
     /// By their index among q and p.
     variables: Vec<usize>,
-    interpreter: Interpreter<N>,
-    registers: Vec<N>,
+    function: FormulaValue<N>,
     x: Vec<N>,
     /// A_x and xᵀA_x − 2A
     gradient: Vec<N>,
@@ -22,34 +21,16 @@ pub(super) struct Commuting<N> {
 
 impl<N: Number> Commuting<N> {
     pub(super) fn new(variables: Vec<usize>, programs: &PotentialPrograms, context: &N::Context) -> Self {
-        let interpreter = Interpreter::new(programs, Vec::new(), 0);
-        let zeros = |count| vec![N::zero(context); count];
-        let mut registers = zeros(interpreter.registers());
-        interpreter.prepare(&mut registers, context);
-        Commuting {
-            x: zeros(variables.len()),
-            gradient: zeros(variables.len()),
-            rate: N::zero(context),
-            has_rate: false,
-            variables,
-            interpreter,
-            registers,
-        }
+        let function = FormulaValue::with(programs, Vec::new(), context);
+        let [x, gradient] = [(); 2].map(|()| vec![N::zero(context); variables.len()]);
+        Commuting { variables, function, x, gradient, rate: N::zero(context), has_rate: false }
     }
 
     fn evaluate(&mut self, state: &FlowState<'_, N>) {
-        let Commuting { variables, interpreter, registers, x, gradient, rate, has_rate } = self;
+        let Commuting { variables, function, x, gradient, rate, has_rate } = self;
         x.iter_mut().zip(&*variables).for_each(|(x, index)| x.assign(state.variable(*index)));
         *has_rate = state.is_augmented();
-        let outputs = match *has_rate {
-            true => interpreter.gradient_and_rate(x, registers),
-            false => interpreter.gradient(x, registers),
-        };
-        let (own, last) = outputs.split_at_mut(gradient.len());
-        gradient.swap_with_slice(own);
-        if *has_rate {
-            std::mem::swap(rate, &mut last[0]);
-        }
+        function.slopes_at(x, gradient, has_rate.then_some(rate));
     }
 }
 
@@ -58,7 +39,7 @@ impl<N: Number> Part<N> for Commuting<N> {
         for (x, &index) in self.x.iter_mut().zip(&self.variables) {
             x.assign(if index < q.len() { &q[index] } else { &p[index - q.len()] });
         }
-        energy.add(self.interpreter.energy(&self.x, &mut self.registers));
+        energy.add(self.function.at(&self.x));
     }
 
     fn flow(&mut self, time: &N, state: &mut FlowState<'_, N>, continues: bool) {

@@ -4,44 +4,36 @@ use super::part::{FlowState, Part};
 use crate::Rational;
 use crate::number::Number;
 use crate::systems::kinetic::Kinetic;
-use crate::systems::potential::Potential;
+use crate::systems::potential::{Potential, Prepared};
 
 /// U(q) as a part: p ← p − t U_q, and β grows by t (qᵀU_q − 2U).
 pub struct OfPotential<U, N> {
-    potential: U,
+    potential: Prepared<N, U>,
     gradient: Vec<N>,
     rate: N,
     has_rate: bool,
-    scratch: Vec<N>,
 }
 
 impl<N: Number, U: Potential<N>> OfPotential<U, N> {
     /// The part of a potential.
     pub fn new(potential: U, context: &N::Context) -> Self {
-        let mut scratch = vec![N::zero(context); potential.scratch()];
-        potential.prepare(&mut scratch, context);
         let gradient = vec![N::zero(context); potential.dimension()];
-        OfPotential { potential, gradient, rate: N::zero(context), has_rate: false, scratch }
+        OfPotential { potential: Prepared::new(potential, context), gradient, rate: N::zero(context), has_rate: false }
     }
 }
 
 impl<N: Number, U: Potential<N>> Part<N> for OfPotential<U, N> {
     fn add_energy(&mut self, q: &[N], _: &[N], energy: &mut N) {
         let mut of_part = N::zero(&energy.context());
-        self.potential.update(q);
-        self.potential.energy(q, &mut of_part, &mut self.scratch);
+        self.potential.energy(q, &mut of_part);
         energy.add(&of_part);
     }
 
     fn flow(&mut self, time: &N, state: &mut FlowState<'_, N>, continues: bool) {
-        let OfPotential { potential, gradient, rate, has_rate, scratch } = self;
+        let OfPotential { potential, gradient, rate, has_rate } = self;
         if !continues || state.is_augmented() && !*has_rate {
             *has_rate = state.is_augmented();
-            potential.update(state.q());
-            match *has_rate {
-                true => potential.gradient_and_rate(state.q(), gradient, rate, scratch),
-                false => potential.gradient(state.q(), gradient, scratch),
-            }
+            potential.gradient(state.q(), gradient, has_rate.then_some(&mut *rate));
         }
         let count = gradient.len();
         gradient.iter().enumerate().for_each(|(i, slope)| state.subtract_product(count + i, time, slope));

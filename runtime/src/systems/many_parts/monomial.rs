@@ -10,7 +10,7 @@ use shadowstep_schemes::symbolic::PotentialPrograms;
 use super::part::{FlowState, Part};
 use crate::Rational;
 use crate::number::Number;
-use crate::systems::interpreter::Interpreter;
+use crate::systems::formula::FormulaValue;
 
 pub(super) struct Monomial<N> {
     freedom: usize,
@@ -24,8 +24,7 @@ pub(super) struct Monomial<N> {
     /// The powers of y by which q and p are multiplied.
     powers: [i32; 2],
     /// A/(q p)
-    interpreter: Interpreter<N>,
-    registers: Vec<N>,
+    quotient: FormulaValue<N>,
     variables: [N; 2],
     one: N,
     s: N,
@@ -44,10 +43,7 @@ impl<N: Number> Monomial<N> {
         let root = difference.unsigned_abs() / common.unsigned_abs();
         let of_square_root = !root.is_multiple_of(2);
         let factor = difference.signum() * if of_square_root { 2 } else { 1 };
-        let interpreter = Interpreter::new(programs, Vec::new(), 0);
         let zero = || N::zero(context);
-        let mut registers = vec![zero(); interpreter.registers()];
-        interpreter.prepare(&mut registers, context);
         Monomial {
             freedom,
             exponents,
@@ -55,8 +51,7 @@ impl<N: Number> Monomial<N> {
             root,
             of_square_root,
             powers: [factor * of_p / common, -factor * of_q / common],
-            interpreter,
-            registers,
+            quotient: FormulaValue::with(programs, Vec::new(), context),
             variables: [zero(), zero()],
             one: N::from_rational(&Rational::one(), context),
             s: zero(),
@@ -69,10 +64,10 @@ impl<N: Number> Monomial<N> {
 
     /// s ← A/(q p) and sum ← A
     fn evaluate(&mut self, q: &N, p: &N) {
-        let Monomial { interpreter, registers, variables, s, sum, .. } = self;
+        let Monomial { quotient, variables, s, sum, .. } = self;
         variables[0].assign(q);
         variables[1].assign(p);
-        s.assign(interpreter.energy(variables, registers));
+        s.assign(quotient.at(variables));
         sum.assign_product(s, q);
         sum.multiply(p);
     }

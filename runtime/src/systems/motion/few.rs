@@ -1,12 +1,13 @@
 //! Steps of [a few coordinates](FewCoordinates) whose potential is behind a `dyn`, by one call of it.
 
 use super::Motion;
-use super::hamiltonian::{Evaluated, Hamiltonian, kicks_and_drifts};
+use super::hamiltonian::{Hamiltonian, kicks_and_drifts};
 use crate::number::Number;
 use crate::systems::coordinates::Coordinates;
+use crate::systems::evaluated::Evaluated;
 use crate::systems::kinetic::Kinetic;
 use crate::systems::maps::MapSequence;
-use crate::systems::potential::{FewCoordinates, FewOfSystem, Potential, evaluate};
+use crate::systems::potential::{FewCoordinates, FewOfSystem, Potential, Prepared, evaluate};
 use crate::systems::state::State;
 use crate::systems::summation::Summation;
 use crate::systems::system::Visitor;
@@ -65,7 +66,8 @@ where
     V: Coordinates<N>,
     K: Kinetic<N>,
 {
-    let Motion { hamiltonian: Hamiltonian { potential, kinetic, scratch, .. }, at } = motion;
+    let Motion { hamiltonian: Hamiltonian { potential, kinetic, .. }, at } = motion;
+    let Prepared { function: potential, scratch, .. } = potential;
     let Evaluated { state: State { q, p, evaluations, .. }, gradient, kept, .. } = at;
     let inverse_masses = kinetic.inverse_masses().expect("the masses are known");
     (potential, FewOfSystem { state: [q, p, gradient].map(V::as_mut), inverse_masses, scratch, kept, evaluations })

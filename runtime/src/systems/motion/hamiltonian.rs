@@ -1,131 +1,75 @@
 //! T(p) and U(q) with their scratch space, and their flows.
 
-use super::gradient_kick_state::{GradientKickState, Parts};
+use crate::Rational;
 use crate::number::Number;
 use crate::number::partial_sums::add_sum;
 use crate::systems::coordinates::Coordinates;
-use crate::systems::gradient_kicks::Place;
+use crate::systems::displaced::Displacements;
+use crate::systems::evaluated::Evaluated;
+use crate::systems::gradient_kicks::{GradientKicks, PartOfKicks, Place, are_displaced};
 use crate::systems::increments::Carried;
 use crate::systems::kept::KeptForce;
 use crate::systems::kinetic::Kinetic;
 use crate::systems::maps::{Flows, MapKind, MapSequence, PartOrder, Repeated};
-use crate::systems::potential::Potential;
-use crate::systems::state::State;
+use crate::systems::potential::{Potential, Prepared};
 use crate::systems::summation::Summation;
-
-/// A state, and what is kept of the potential at its q.
-#[derive(Clone, Debug)]
-pub(super) struct Evaluated<N, V, S> {
-    pub(super) state: State<N, V, S>,
-    pub(super) gradient: V,
-    /// qᵀU_q − 2U
-    pub(super) rate: N,
-    pub(super) kept: KeptForce,
-}
 
 /// A potential and a kinetic energy with their scratch space.
 #[derive(Clone, Debug)]
-pub(super) struct Hamiltonian<N, P, K> {
-    pub(super) potential: P,
+pub(crate) struct Hamiltonian<N, P, K> {
+    pub(super) potential: Prepared<N, P>,
     pub(super) kinetic: K,
-    /// The potential's, with what it keeps there.
-    pub(super) scratch: Vec<N>,
     /// The kinetic energy's, with what it keeps there.
     pub(super) kinetic_scratch: Vec<N>,
     /// T of an energy.
     kinetic_energy: N,
-    /// Of gradient kicks, once there was one; what it keeps belongs to the q of the last evaluation of the gradient.
-    pub(super) gradient_kicks: Option<Box<GradientKickState<N>>>,
+    pub(super) gradient_kicks: Option<Box<GradientKicks<N>>>,
+    /// 1 and −1.
+    one: [N; 2],
+    /// 0, where T_p is b; empty if there is none.
+    origin: Vec<N>,
+}
+
+impl<N: Number, P: Potential<N>, K: Kinetic<N>> PartOfKicks<N> for Hamiltonian<N, P, K> {
+    #[inline(always)]
+    fn gradient(&mut self, q: &[N], gradient: &mut [N], rate: Option<&mut N>) {
+        self.potential.gradient(q, gradient, rate);
+    }
+
+    /// The drift of a quadratic T moves by M⁻¹ times a vector, and by b.
+    fn assign_velocity(&mut self, gradient: &[N], velocity: &mut [N]) {
+        let Hamiltonian { kinetic, kinetic_scratch, one: [one, minus], origin, .. } = self;
+        velocity.iter_mut().for_each(N::assign_zero);
+        kinetic.drift(one, gradient, velocity, kinetic_scratch);
+        if kinetic.has_linear_terms() {
+            kinetic.drift(minus, origin, velocity, kinetic_scratch);
+        }
+    }
+
+    fn hessian_product(&mut self, at: Place<'_, N>, v: &[N], product: &mut [N], rate: Option<&mut N>) {
+        self.potential.hessian_product(at.q, v, product, rate);
+    }
+
+    #[inline(always)]
+    fn gradient_kicks(&mut self) -> &mut Option<Box<GradientKicks<N>>> {
+        &mut self.gradient_kicks
+    }
 }
 
 /// Flows are compiled for the instructions of the caller.
 impl<N: Number, P: Potential<N>, K: Kinetic<N>> Hamiltonian<N, P, K> {
-    pub(super) fn new(potential: P, kinetic: K, context: &N::Context) -> Self {
-        let mut scratch = vec![N::zero(context); potential.scratch()];
-        potential.prepare(&mut scratch, context);
-        let mut kinetic_scratch = vec![N::zero(context); kinetic.scratch()];
+    pub(crate) fn new(potential: P, kinetic: K, context: &N::Context) -> Self {
+        let zeros = |count| vec![N::zero(context); count];
+        let mut kinetic_scratch = zeros(kinetic.scratch());
         kinetic.prepare(&mut kinetic_scratch, context);
-        let kinetic_energy = N::zero(context);
-        Hamiltonian { potential, kinetic, scratch, kinetic_scratch, kinetic_energy, gradient_kicks: None }
-    }
-
-    /// Evaluates the gradient at the present q, with the rate where that is wanted.
-    #[inline(always)]
-    pub(super) fn evaluate<V: Coordinates<N>, S: Summation<N>>(
-        &mut self,
-        at: &mut Evaluated<N, V, S>,
-        with_rate: bool,
-    ) {
-        let (q, gradient) = (at.state.q.as_ref(), at.gradient.as_mut());
-        self.potential.update(q);
-        let kept = if with_rate {
-            self.potential.gradient_and_rate(q, gradient, &mut at.rate, &mut self.scratch);
-            KeptForce::GradientAndRate
-        } else {
-            self.potential.gradient(q, gradient, &mut self.scratch);
-            KeptForce::Gradient
-        };
-        self.keep(at, kept);
-    }
-
-    /// Takes what has been evaluated at the present q.
-    #[inline(always)]
-    pub(super) fn keep<V: Coordinates<N>, S: Summation<N>>(&mut self, at: &mut Evaluated<N, V, S>, kept: KeptForce) {
-        at.kept = kept;
-        at.state.count_evaluation();
-        if let Some(gradient_kicks) = &mut self.gradient_kicks {
-            gradient_kicks.kicks.kept = KeptForce::Nothing;
-        }
-    }
-
-    #[inline(always)]
-    pub(super) fn kick<V: Coordinates<N>, S: Summation<N>>(
-        &mut self,
-        at: &mut Evaluated<N, V, S>,
-        weight: &N,
-        carried: Carried,
-    ) {
-        at.state.settle();
-        if carried.has_increments() {
-            if at.kept != KeptForce::GradientAndRate {
-                self.evaluate(at, true);
-            }
-            return at.state.kick_augmented(weight, at.gradient.as_ref(), &at.rate);
-        }
-        if at.kept == KeptForce::Nothing {
-            self.evaluate(at, carried.has_rate());
-        }
-        at.state.kick(weight, at.gradient.as_ref());
-    }
-
-    /// A gradient kick, with its rate where that is wanted; the force is kept as the gradient is.
-    #[inline]
-    pub(super) fn gradient_kick<V: Coordinates<N>, S: Summation<N>>(
-        &mut self,
-        at: &mut Evaluated<N, V, S>,
-        weight: &N,
-        carried: Carried,
-    ) {
-        let with_rate = carried.has_rate();
-        at.state.settle();
-        let is_displaced =
-            self.gradient_kicks.as_ref().is_some_and(|gradient_kicks| gradient_kicks.kicks.is_displaced());
-        if at.kept == KeptForce::Nothing || is_displaced && !at.kept.suffices(with_rate) {
-            self.evaluate(at, with_rate);
-        }
-        let Hamiltonian { potential, kinetic, scratch, kinetic_scratch, gradient_kicks, .. } = self;
-        let kicks =
-            gradient_kicks.get_or_insert_with(|| Box::new(GradientKickState::new(potential, &weight.context())));
-        let place = Place { q: at.state.q.as_ref(), gradient: at.gradient.as_ref(), rate: &at.rate };
-        let before = kicks.kicks.evaluations;
-        kicks.evaluate(Parts { potential, kinetic, scratch, kinetic_scratch }, place, weight, with_rate);
-        let kicks = &kicks.kicks;
-        if is_displaced {
-            at.state.evaluations += kicks.evaluations - before;
-        }
-        match carried.has_increments() {
-            true => at.state.kick_augmented(weight, &kicks.force, &kicks.rate),
-            false => at.state.kick(weight, &kicks.force),
+        Hamiltonian {
+            kinetic_scratch,
+            kinetic_energy: N::zero(context),
+            gradient_kicks: None,
+            one: [1, -1].map(|one| N::from_rational(&Rational::from_integer(one.into()), context)),
+            origin: zeros(if kinetic.has_linear_terms() { potential.dimension() } else { 0 }),
+            potential: Prepared::new(potential, context),
+            kinetic,
         }
     }
 
@@ -137,17 +81,29 @@ impl<N: Number, P: Potential<N>, K: Kinetic<N>> Hamiltonian<N, P, K> {
         carried: Carried,
     ) {
         at.state.settle();
-        match carried.has_increments() {
-            true => at.state.drift_augmented(&self.kinetic, weight, &mut self.kinetic_scratch),
-            false => at.state.drift(&self.kinetic, weight, &mut self.kinetic_scratch),
-        }
+        at.state.drift(&self.kinetic, weight, &mut self.kinetic_scratch, carried);
         at.kept = KeptForce::Nothing;
     }
 
+    /// Makes gradient kicks by displaced forces.
+    pub(crate) fn displace_forces(&mut self, displacements: Displacements<N>) {
+        let (dimension, context) = (self.potential.function.dimension(), self.kinetic_energy.context());
+        self.gradient_kicks = Some(Box::new(GradientKicks::new(dimension, Some(displacements), &context)));
+    }
+
+    pub(crate) fn has_gradient_kicks(&self) -> bool {
+        are_displaced(self.gradient_kicks.as_deref()) || self.potential.function.hessian().is_some()
+    }
+
+    /// kinetic ← T(p), as the monitor compares it with the error of H
+    pub(crate) fn assign_kinetic_energy(&mut self, p: &[N], kinetic: &mut N) {
+        self.kinetic.energy(p, kinetic, &mut self.kinetic_scratch);
+        self.kinetic.exchanged_energy(p, kinetic, &mut self.kinetic_scratch);
+    }
+
     /// energy ← T(p) + U(q)
-    pub(super) fn assign_energy(&mut self, (q, p): (&[N], &[N]), energy: &mut N) {
-        self.potential.update(q);
-        self.potential.energy(q, energy, &mut self.scratch);
+    pub(crate) fn assign_energy(&mut self, (q, p): (&[N], &[N]), energy: &mut N) {
+        self.potential.energy(q, energy);
         self.add_kinetic_energy((q, p), energy);
     }
 
@@ -200,18 +156,12 @@ impl<N: Number, V: Coordinates<N>, P: Potential<N>, K: Kinetic<N>, S: Summation<
     type Number = N;
 
     #[inline(always)]
-    fn kick(&mut self, weight: &N) {
-        self.hamiltonian.kick(self.at, weight, Carried::Nothing);
-    }
-
-    #[inline(always)]
-    fn drift(&mut self, weight: &N) {
-        self.hamiltonian.drift(self.at, weight, Carried::Nothing);
-    }
-
-    #[inline(always)]
-    fn gradient_kick(&mut self, weight: &N) {
-        self.hamiltonian.gradient_kick(self.at, weight, Carried::Nothing);
+    fn map(&mut self, kind: MapKind, weight: &N) {
+        match kind {
+            MapKind::Kick => self.at.kick(self.hamiltonian, weight, Carried::Nothing),
+            MapKind::Drift => self.hamiltonian.drift(self.at, weight, Carried::Nothing),
+            MapKind::GradientKick => self.at.gradient_kick(self.hamiltonian, weight, Carried::Nothing),
+        }
     }
 
     fn middle_parts(&mut self, _: &N, _: PartOrder) {
@@ -244,16 +194,11 @@ struct List<N> {
 impl<N: Number> Flows for List<N> {
     type Number = N;
 
-    fn kick(&mut self, weight: &N) {
-        self.maps.push((MapKind::Kick, weight.clone()));
-    }
-
-    fn drift(&mut self, weight: &N) {
-        self.maps.push((MapKind::Drift, weight.clone()));
-    }
-
-    fn gradient_kick(&mut self, _: &N) {
-        self.has_others = true;
+    fn map(&mut self, kind: MapKind, weight: &N) {
+        match kind {
+            MapKind::GradientKick => self.has_others = true,
+            _ => self.maps.push((kind, weight.clone())),
+        }
     }
 
     fn middle_parts(&mut self, _: &N, _: PartOrder) {

@@ -57,7 +57,8 @@ where
     K: Kinetic<N>,
     S: Summation<N>,
 {
-    let address = |motion: &Motion<_, _, P, _, _>| motion.hamiltonian.potential.program().map(GradientProgram::address);
+    let address =
+        |motion: &Motion<_, _, P, _, _>| motion.hamiltonian.potential.function.program().map(GradientProgram::address);
     let first = address(&motions[0]);
     let is_compensated = motions[0].at.state.sums.is_compensated();
     first.is_some()
@@ -81,11 +82,11 @@ where
     S: Summation<N>,
 {
     let [q, p] = [side_by_side(|system| motions[system].q()), side_by_side(|system| motions[system].p())];
-    let registers = side_by_side(|system| &motions[system].hamiltonian.scratch);
+    let registers = side_by_side(|system| &motions[system].hamiltonian.potential.scratch);
     let masses = inverse_masses(motions);
     let inverse_masses = masses.as_ref().map_or(InverseMasses::Ones, |inverse| InverseMasses::Of(inverse));
     let (sums, velocity) = (compensated(motions, &q), [q[0].clone()]);
-    let Some(program) = motions[0].hamiltonian.potential.program() else { return };
+    let Some(program) = motions[0].hamiltonian.potential.function.program() else { return };
     let (kept, gradient, evaluations) = (KeptForce::Nothing, 0, 0);
     let mut all = SideBySide { program, registers, gradient, kept, evaluations, q, p, sums, inverse_masses, velocity };
     advance_in_turns(&mut all, maps);

@@ -3,12 +3,12 @@
 use std::slice;
 
 use super::few::advance_few;
-use super::hamiltonian::Evaluated;
 use super::{Motion, side_by_side, turns};
 use crate::number::Number;
 use crate::number::instructions;
 use crate::number::partial_sums::add_sum;
 use crate::systems::coordinates::Coordinates;
+use crate::systems::evaluated::Evaluated;
 use crate::systems::increments::Carried;
 use crate::systems::kept::KeptForce;
 use crate::systems::kinetic::Kinetic;
@@ -37,8 +37,7 @@ where
     }
 
     fn state_mut(&mut self) -> &mut State<N, V, S> {
-        self.at.kept = KeptForce::Nothing;
-        &mut self.at.state
+        self.at.state_mut()
     }
 
     #[inline]
@@ -48,7 +47,7 @@ where
 
     #[inline(always)]
     fn kick(&mut self, weight: &N, carried: Carried) {
-        self.hamiltonian.kick(&mut self.at, weight, carried);
+        self.at.kick(&mut self.hamiltonian, weight, carried);
     }
 
     #[inline(always)]
@@ -57,14 +56,12 @@ where
     }
 
     fn has_gradient_kicks(&self) -> bool {
-        let is_displaced =
-            self.hamiltonian.gradient_kicks.as_ref().is_some_and(|gradient_kicks| gradient_kicks.kicks.is_displaced());
-        is_displaced || self.hamiltonian.potential.hessian().is_some()
+        self.hamiltonian.has_gradient_kicks()
     }
 
     #[inline(always)]
     fn gradient_kick(&mut self, weight: &N, carried: Carried) {
-        self.hamiltonian.gradient_kick(&mut self.at, weight, carried);
+        self.at.gradient_kick(&mut self.hamiltonian, weight, carried);
     }
 
     fn advance(motions: &mut [Self], maps: &impl MapSequence<N>, count: u64, carried: Carried) {
@@ -127,10 +124,8 @@ where
 
     #[inline]
     fn assign_kinetic_energy(&mut self, at: Option<(&[N], &[N])>, kinetic: &mut N) {
-        let Motion { hamiltonian, at: Evaluated { state, .. } } = self;
-        let (_, p) = at.unwrap_or((state.q(), state.p()));
-        hamiltonian.kinetic.energy(p, kinetic, &mut hamiltonian.kinetic_scratch);
-        hamiltonian.kinetic.exchanged_energy(p, kinetic, &mut hamiltonian.kinetic_scratch);
+        let (_, p) = at.unwrap_or((self.at.state.q(), self.at.state.p()));
+        self.hamiltonian.assign_kinetic_energy(p, kinetic);
     }
 
     fn energy(&mut self) -> N {

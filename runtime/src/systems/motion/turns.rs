@@ -7,9 +7,10 @@ use std::mem::needs_drop;
 
 use super::Motion;
 use super::few::FEW;
-use super::hamiltonian::{Evaluated, Hamiltonian, kicks_and_drifts};
+use super::hamiltonian::{Hamiltonian, kicks_and_drifts};
 use crate::number::Number;
 use crate::systems::coordinates::Coordinates;
+use crate::systems::evaluated::Evaluated;
 use crate::systems::increments::Carried;
 use crate::systems::kept::KeptForce;
 use crate::systems::kinetic::Kinetic;
@@ -90,6 +91,6 @@ where
 {
     at.state.settle();
     if turn.has_kick() && at.kept == KeptForce::Nothing {
-        hamiltonian.evaluate(at, false);
+        at.evaluate(hamiltonian, false);
     }
 }

@@ -119,7 +119,7 @@ impl<N: Number> FewCoordinates<'_, N> {
         let [FewOfSystem { state, inverse_masses, scratch, kept, evaluations }] = &mut systems[..] else {
             unreachable!("there is one system")
         };
-        let copy = |from: &[N]| -> [N; D] { array::from_fn(|i| from[i].clone()) };
+        let copy = |from: &[N]| -> [N; D] { from.first_chunk().expect(DIMENSION).clone() };
         let [mut q, mut p, mut gradient] = [copy(state[0]), copy(state[1]), copy(state[2])];
         let mut velocity = p[0].clone();
         let (mut has_gradient, mut evaluated) = (**kept != KeptForce::Nothing, 0);
@@ -161,6 +161,8 @@ impl<N: Number> FewCoordinates<'_, N> {
     }
 }
 
+const DIMENSION: &str = "there are D coordinates";
+
 /// A system with its potential, whose state is in arrays.
 struct InArrays<'s, 'm, const D: usize, const ONES: bool, N, P: ?Sized> {
     potential: &'s mut P,
@@ -173,7 +175,7 @@ struct InArrays<'s, 'm, const D: usize, const ONES: bool, N, P: ?Sized> {
 
 impl<'s, 'm, const D: usize, const ONES: bool, N: Number, P: ?Sized> InArrays<'s, 'm, D, ONES, N, P> {
     fn of(system: &'s mut FewOfSystem<'m, N>, potential: &'s mut P) -> Self {
-        let state = system.state.each_ref().map(|from| array::from_fn(|i| from[i].clone()));
+        let state = system.state.each_ref().map(|from| from.first_chunk().expect(DIMENSION).clone());
         let velocity = [system.state[0][0].clone()];
         InArrays { potential, state, evaluated: 0, velocity, system }
     }

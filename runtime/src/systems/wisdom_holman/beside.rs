@@ -5,7 +5,7 @@
 //! 2V.
 
 use crate::number::Number;
-use crate::systems::potential::Potential;
+use crate::systems::potential::{Potential, Prepared};
 
 use super::coordinates::PlanetaryCoordinates;
 
@@ -30,10 +30,7 @@ impl<N: Number> Potential<N> for NoPotential {
 /// A potential of inertial positions with its scratch space.
 #[derive(Clone, Debug)]
 pub(super) struct Beside<N, P> {
-    potential: P,
-    scratch: Vec<N>,
-    /// For second derivatives, from the first gradient kick on.
-    hessian_scratch: Option<Vec<N>>,
+    potential: Prepared<N, P>,
     /// x, and a direction there.
     positions: Vec<N>,
     direction: Vec<N>,
@@ -46,24 +43,13 @@ pub(super) struct Beside<N, P> {
 
 impl<N: Number, P: Potential<N>> Beside<N, P> {
     pub(super) fn new(potential: P, context: &N::Context) -> Self {
-        let zeros = |count| vec![N::zero(context); count];
-        let (dimension, mut scratch) = (potential.dimension(), zeros(potential.scratch()));
-        potential.prepare(&mut scratch, context);
-        let [positions, direction, slopes, converted] = [(); 4].map(|()| zeros(dimension));
-        Beside {
-            potential,
-            scratch,
-            hessian_scratch: None,
-            positions,
-            direction,
-            slopes,
-            converted,
-            sum: N::zero(context),
-        }
+        let [positions, direction, slopes, converted] = [(); 4].map(|()| vec![N::zero(context); potential.dimension()]);
+        let potential = Prepared::new(potential, context);
+        Beside { potential, positions, direction, slopes, converted, sum: N::zero(context) }
     }
 
     pub(super) fn has_hessian(&self) -> bool {
-        self.potential.hessian().is_some()
+        self.potential.function.hessian().is_some()
     }
 
     /// Adds V_Q to a gradient and, if asked for, QᵀV_Q − 2V to a rate.
@@ -74,16 +60,10 @@ impl<N: Number, P: Potential<N>> Beside<N, P> {
         gradient: &mut [N],
         rate: Option<&mut N>,
     ) {
-        let Beside { potential, scratch, positions, slopes, sum, .. } = self;
+        let Beside { potential, positions, slopes, sum, .. } = self;
         coordinates.assign_inertial_positions(q, positions);
-        potential.update(positions);
-        match rate {
-            None => potential.gradient(positions, slopes, scratch),
-            Some(rate) => {
-                potential.gradient_and_rate(positions, slopes, sum, scratch);
-                rate.add(sum);
-            }
-        }
+        potential.gradient(positions, slopes, rate.is_some().then_some(&mut *sum));
+        rate.into_iter().for_each(|rate| rate.add(sum));
         self.add_slopes::<C, D>(coordinates, gradient);
     }
 
@@ -94,20 +74,10 @@ impl<N: Number, P: Potential<N>> Beside<N, P> {
         (q, v): (&[N], &[N]),
         product: &mut [N],
     ) {
-        let Beside { potential, hessian_scratch, positions, direction, slopes, sum, .. } = self;
+        let Beside { potential, positions, direction, slopes, .. } = self;
         coordinates.assign_inertial_positions(q, positions);
         coordinates.assign_inertial_positions(v, direction);
-        potential.update(positions);
-        let hessian = potential
-            .hessian()
-            .expect("gradient kicks need the second derivatives of a potential beside the attraction");
-        let scratch = hessian_scratch.get_or_insert_with(|| {
-            let context = sum.context();
-            let mut scratch = vec![N::zero(&context); hessian.hessian_scratch()];
-            hessian.prepare_hessian(&mut scratch, &context);
-            scratch
-        });
-        hessian.hessian_product(positions, direction, slopes, scratch);
+        potential.hessian_product(positions, direction, slopes, None);
         self.add_slopes::<C, D>(coordinates, product);
     }
 
@@ -118,10 +88,9 @@ impl<N: Number, P: Potential<N>> Beside<N, P> {
         q: &[N],
         energy: &mut N,
     ) {
-        let Beside { potential, scratch, positions, sum, .. } = self;
+        let Beside { potential, positions, sum, .. } = self;
         coordinates.assign_inertial_positions(q, &mut positions[..q.len()]);
-        potential.update(positions);
-        potential.energy(positions, sum, scratch);
+        potential.energy(positions, sum);
         energy.add(sum);
     }
 

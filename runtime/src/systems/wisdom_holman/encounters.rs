@@ -8,7 +8,7 @@ use crate::systems::increments::Carried;
 use crate::systems::kept::KeptForce;
 use crate::systems::kinetic::General;
 use crate::systems::pairs::{Cutoff, Gravity, Pairs, Shell};
-use crate::systems::potential::Potential;
+use crate::systems::potential::Prepared;
 use crate::systems::state::VectorState;
 use crate::systems::summation::{Compensated, Half, Remainders};
 use crate::systems::system::System;
@@ -16,7 +16,7 @@ use crate::systems::system::System;
 use super::WisdomHolman;
 use super::bodies::{Bodies, BodiesError};
 use super::heliocentric::DemocraticHeliocentric;
-use super::interactions::{gravity_of_planets, scaled};
+use super::interactions::{gravity_of_planets, of_planets, scaled};
 use super::particles::AttractionInShell;
 
 /// A planetary system whose planets may come close to each other, in [`DemocraticHeliocentric`] coordinates.
@@ -136,8 +136,7 @@ struct ShellOfPlanets<N, const D: usize> {
     /// R_k
     radius: f64,
     /// (S_k − S_(k+1)) u, of the innermost one S_k u.
-    pairs: Pairs<Shell<Gravity<N>>, D>,
-    scratch: Vec<N>,
+    pairs: Prepared<N, Pairs<Shell<Gravity<N>>, D>>,
     /// The same of a particle.
     particle: Option<AttractionInShell<N>>,
     /// By the positions of the planets, and of the particle.
@@ -150,14 +149,10 @@ impl<N: Number, const D: usize> ShellOfPlanets<N, D> {
     fn new(bodies: &Bodies, shells: &Shells, k: usize, takes_a_particle: bool, context: &N::Context) -> Self {
         let (outer, inner) = (shells.cutoff(k), (k + 1 < LEVELS).then(|| shells.cutoff::<D>(k + 1)));
         let pair = Shell::new(gravity_of_planets(bodies, context), Some(&outer), inner.as_ref());
-        let pairs = Pairs::all(bodies.masses.len() - 1, pair).expect("a mass for each planet");
-        let mut scratch = vec![N::zero(context); Potential::<N>::scratch(&pairs)];
-        pairs.prepare(&mut scratch, context);
         let of_particle = || AttractionInShell::new(bodies, Some(&outer), inner.as_ref(), context);
         ShellOfPlanets {
             radius: double(&shells.radii[k]),
-            pairs,
-            scratch,
+            pairs: of_planets(bodies, pair, context),
             particle: takes_a_particle.then(of_particle),
             gradient: vec![N::zero(context); (bodies.masses.len() - 1 + usize::from(takes_a_particle)) * D],
             rate: N::zero(context),
@@ -169,18 +164,15 @@ impl<N: Number, const D: usize> ShellOfPlanets<N, D> {
         if self.kept.suffices(augmented) {
             return;
         }
-        let ShellOfPlanets { pairs, scratch, particle, gradient, rate, kept, .. } = self;
+        let ShellOfPlanets { pairs, particle, gradient, rate, kept, .. } = self;
         let massive = gradient.len() - if particle.is_some() { D } else { 0 };
         let (x, of_particle) = x.split_at(massive);
         let (gradient, particle_gradient) = gradient.split_at_mut(massive);
-        match augmented {
-            true => pairs.gradient_and_rate(x, gradient, rate, scratch),
-            false => pairs.gradient(x, gradient, scratch),
-        }
+        pairs.gradient(x, gradient, augmented.then_some(rate));
         if let Some(particle) = particle {
             particle.assign_gradient::<D>(x, of_particle, particle_gradient);
         }
-        *kept = if augmented { KeptForce::GradientAndRate } else { KeptForce::Gradient };
+        *kept = KeptForce::with(augmented);
     }
 }
 
@@ -213,7 +205,7 @@ impl<N: Number, const D: usize> Encounters<N, D> {
         context: &N::Context,
     ) -> Result<Self, BodiesError> {
         let mut planets = WisdomHolman::<N, DemocraticHeliocentric<N, D>, D>::new(bodies, state, context)?;
-        planets.coordinates.leave_near(bodies, &shells.cutoff(0), context);
+        planets.interaction.coordinates.leave_near(bodies, &shells.cutoff(0), context);
         if !substep.is_positive() {
             return Err(BodiesError::Substep);
         }
@@ -253,12 +245,12 @@ impl<N: Number, const D: usize> Encounters<N, D> {
         let Encounters { planets, shells, .. } = self;
         let augmented = carried.has_increments();
         let shell = &mut shells[k];
-        shell.evaluate(&planets.state.q[D..], augmented);
+        shell.evaluate(&planets.at.state.q[D..], augmented);
         for (index, slope) in (D..).zip(&shell.gradient) {
-            planets.state.change(Half::Momenta, index, carried, |p| p.subtract_product(weight, slope));
+            planets.at.state.change(Half::Momenta, index, carried, |p| p.subtract_product(weight, slope));
         }
         if augmented {
-            planets.state.increments.beta.add_product(weight, &shell.rate);
+            planets.at.state.increments.beta.add_product(weight, &shell.rate);
         }
     }
 
@@ -302,18 +294,14 @@ impl<N: Number, const D: usize> Encounters<N, D> {
     /// Finds the particles that may come below R_0 of a planet in a time.
     fn find_near_particles(&mut self, time: f64) {
         let Encounters { planets, shells, masses, parameter, near, .. } = self;
-        let (q, p) = (planets.state.q.as_chunks::<D>().0, planets.state.p.as_chunks::<D>().0);
-        let (first, distance) = (masses.len() + 1, shells[0].radius);
-        let point = |body: usize, lane: usize| {
-            let number = |number: &N| scaled(number.lane(lane));
-            let mass = masses.get(body - 1).copied().unwrap_or(1.0);
-            MovingPoint::new(q[body].each_ref().map(number), p[body].each_ref().map(|p| number(p) / mass), *parameter)
-        };
+        let state = &planets.at.state;
+        let (first, bodies, distance) = (masses.len() + 1, state.q.len() / D, shells[0].radius);
         near.clear();
         for lane in 0..N::LANES {
-            let points: Vec<_> = (1..first).map(|planet| point(planet, lane)).collect();
+            let point = |body| MovingPoint::<D>::of(state, (body, lane), masses, *parameter);
+            let points: Vec<_> = (1..first).map(point).collect();
             let comes_close = |particle: usize| {
-                let particle = point(particle, lane);
+                let particle = point(particle);
                 // NaN is close
                 let meets = |planet: &MovingPoint<D>| {
                     let is_apart = particle.stays_apart(planet, distance, time)
@@ -322,7 +310,7 @@ impl<N: Number, const D: usize> Encounters<N, D> {
                 };
                 points.iter().any(meets)
             };
-            near.extend((first..q.len()).filter(|particle| comes_close(*particle)));
+            near.extend((first..bodies).filter(|particle| comes_close(*particle)));
         }
         near.sort_unstable();
         near.dedup();
@@ -340,7 +328,7 @@ impl<N: Number, const D: usize> Encounters<N, D> {
         state.set_remainders(&Remainders { q: of_own(&remainders.q), p: of_own(&remainders.p) });
         state.clear_increments();
         with_one.drift_in(0, weight, count, carried);
-        let (made, state) = (&with_one.planets.state, &mut self.planets.state);
+        let (made, state) = (&with_one.planets.at.state, &mut self.planets.at.state);
         let (made_remainders, mut remainders) = (made.remainders(), state.remainders());
         for (place, axis) in (at..at + D).zip(massive..) {
             state.q[place].assign(&made.q[axis]);
@@ -361,14 +349,10 @@ impl<N: Number, const D: usize> Encounters<N, D> {
     fn free_substeps(&mut self, distance: f64, substep: f64, most: i32) -> i32 {
         let mut free = f64::from(most);
         let Encounters { planets, points, masses, parameter, .. } = self;
-        let (q, p) = (planets.state.q.as_chunks::<D>().0, planets.state.p.as_chunks::<D>().0);
         for lane in 0..N::LANES {
-            let number = |number: &N| scaled(number.lane(lane));
+            let point = |body| MovingPoint::of(&planets.at.state, (body, lane), masses, *parameter);
             points.clear();
-            for ((q, p), mass) in q.iter().zip(p).skip(1).zip(&*masses) {
-                let velocity = p.each_ref().map(|p| number(p) / mass);
-                points.push(MovingPoint::new(q.each_ref().map(number), velocity, *parameter));
-            }
+            points.extend((1..=masses.len()).map(point));
             let all = substep * f64::from(most);
             for (i, one) in points.iter().enumerate() {
                 for other in points[..i].iter().filter(|other| !one.stays_apart(other, distance, all)) {
@@ -406,7 +390,25 @@ struct MovingPoint<const D: usize> {
     soon: Option<(f64, f64)>,
 }
 
+/// |a − b|²
+fn square_distance<const D: usize>(a: &[f64; D], b: &[f64; D]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| (a - b).powi(2)).sum()
+}
+
 impl<const D: usize> MovingPoint<D> {
+    /// A body in a lane of a state; that which has no mass in the list is a particle, whose momentum is its velocity.
+    fn of<N: Number>(
+        state: &VectorState<N>,
+        (body, lane): (usize, usize),
+        masses: &[f64],
+        parameter: f64,
+    ) -> MovingPoint<D> {
+        let number = |number: &N| scaled(number.lane(lane));
+        let mass = masses.get(body - 1).copied().unwrap_or(1.0);
+        let [q, p] = [state.q(), state.p()].map(|all| &all.as_chunks::<D>().0[body]);
+        MovingPoint::new(q.each_ref().map(number), p.each_ref().map(|p| number(p) / mass), parameter)
+    }
+
     fn new(position: [f64; D], velocity: [f64; D], parameter: f64) -> Self {
         let dot = |one: &[f64; D], other: &[f64; D]| one.iter().zip(other).map(|(a, b)| a * b).sum::<f64>();
         let (r2, v2) = (dot(&position, &position), dot(&velocity, &velocity));
@@ -428,19 +430,17 @@ impl<const D: usize> MovingPoint<D> {
         let acceleration = self.acceleration + other.acceleration;
         let way = (self.speed + other.speed + acceleration * time / 2.0) * time;
         let reach = (distance + way) * (1.0 + 1e-9);
-        self.position.iter().zip(&other.position).map(|(a, b)| (a - b).powi(2)).sum::<f64>() > reach * reach
+        square_distance(&self.position, &other.position) > reach * reach
     }
 
     /// A time in which two planets do not come below a distance: their distance falls by at most v t + a t²/2 in the
     /// time t, with their present relative speed and their largest accelerations.
     fn time_apart(&self, other: &Self, distance: f64) -> f64 {
-        let square =
-            |one: &[f64; D], other: &[f64; D]| one.iter().zip(other).map(|(a, b)| (a - b).powi(2)).sum::<f64>();
-        let room = square(&self.position, &other.position).sqrt() - distance;
+        let room = square_distance(&self.position, &other.position).sqrt() - distance;
         if room <= 0.0 {
             return 0.0;
         }
-        let speed = square(&self.velocity, &other.velocity).sqrt();
+        let speed = square_distance(&self.velocity, &other.velocity).sqrt();
         let apart = time_of(room, speed, self.acceleration + other.acceleration);
         if self.soon.is_none() && other.soon.is_none() && self.is_beside(other) {
             return apart;
@@ -511,7 +511,7 @@ impl<N: Number, const D: usize> System for Encounters<N, D> {
         if self.with_one.is_some() {
             self.find_near_particles(size(weight));
         }
-        let before = (!self.near.is_empty()).then(|| self.planets.state.clone());
+        let before = (!self.near.is_empty()).then(|| self.planets.at.state.clone());
         self.drift_in(0, weight, count, carried);
         if let Some(before) = before {
             for place in 0..self.near.len() {

@@ -54,7 +54,9 @@ impl<N: Number, const D: usize> PlanetaryCoordinates<N, D> for Jacobi<N, D> {
         };
         let share = |i: usize| [number(&(&masses[i] / &sums[i])), number(&(&sums[i - 1] / &sums[i]))];
         let planets = 1..masses.len();
-        let inner = masses.iter().chain(&sums).map(number).collect();
+        // the attraction by η_{i−1}, which is that of the orbit, is subtracted: it is that by −η_{i−1}
+        let negative: Vec<_> = sums.iter().map(|sum| -sum).collect();
+        let attracting_one_by_one = masses.iter().chain(&negative).map(number).collect();
         let zeros = || vec![N::zero(context); planets.len() * D];
         let total = &sums[masses.len() - 1];
         let of_particles = std::iter::repeat_n(Orbit::of_particle(&bodies.g, total, context), bodies.particles);
@@ -67,7 +69,7 @@ impl<N: Number, const D: usize> PlanetaryCoordinates<N, D> for Jacobi<N, D> {
             },
             particles: Particles::new(bodies, &attracting, context),
             shares: planets.clone().map(share).collect(),
-            interactions: Interactions::new(bodies, inner, context),
+            interactions: Interactions::new(bodies, attracting_one_by_one, context),
             relative: zeros(),
             slopes: zeros(),
             direction: zeros(),
@@ -166,7 +168,7 @@ impl<N: Number, const D: usize> PlanetaryCoordinates<N, D> for Jacobi<N, D> {
             }
             gather(&shares[i - 1][0], &slopes[i - 1], sum, &mut gradient[i]);
             if i > 1 {
-                interactions.subtract_single((i, bodies + i - 1), &q[i], &mut gradient[i], rate.as_deref_mut());
+                interactions.add_single((i, bodies + i - 1), &q[i], &mut gradient[i], rate.as_deref_mut());
             }
         }
     }
@@ -197,7 +199,7 @@ impl<N: Number, const D: usize> PlanetaryCoordinates<N, D> for Jacobi<N, D> {
             }
             gather(&shares[i - 1][0], &slopes[i - 1], sum, &mut product[i]);
             if i > 1 {
-                interactions.subtract_single_product((i, bodies + i - 1), &q[i], &v[i], &mut product[i]);
+                interactions.add_single_product((i, bodies + i - 1), &q[i], &v[i], &mut product[i]);
             }
         }
     }
@@ -210,7 +212,7 @@ impl<N: Number, const D: usize> PlanetaryCoordinates<N, D> for Jacobi<N, D> {
         let ((relative, _), (q, _)) = (relative.as_chunks::<D>(), q.as_chunks::<D>());
         for i in 2..bodies {
             energy.add(interactions.single_energy((0, i), &relative[i - 1]));
-            energy.subtract(interactions.single_energy((i, bodies + i - 1), &q[i]));
+            energy.add(interactions.single_energy((i, bodies + i - 1), &q[i]));
         }
     }
 }

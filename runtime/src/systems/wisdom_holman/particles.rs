@@ -5,7 +5,7 @@ use crate::number::Number;
 use crate::systems::pairs::{Cutoff, Field, Gravity, PairPotential, Shell, with_a_particle};
 
 use super::bodies::Bodies;
-use super::interactions::{curved, scaled};
+use super::interactions::{are_near, curved};
 
 /// The forces on particles in kicks. Their momenta and gradients are divided by their mass.
 #[derive(Clone, Debug)]
@@ -58,7 +58,7 @@ impl<N: Number, const D: usize> Particles<N, D> {
         let Some((kicks, radius)) = kicks else { return };
         // one by one, so that the bits of a particle do not depend on others
         for (q, gradient) in q.chunks_exact(D).zip(gradient.chunks_exact_mut(D)) {
-            if is_near::<N, D>(bodies, q, *radius) {
+            if bodies.chunks_exact(D).any(|body| are_near(body, q, *radius)) {
                 kicks.assign_gradient::<D>(bodies, q, gradient);
             }
         }
@@ -70,16 +70,6 @@ impl<N: Number, const D: usize> Particles<N, D> {
         let field = Field::<_, D> { pair: &*gravity, bodies: bodies.len() / D };
         field.assign_product([bodies, directions], [q, v], product, curvature_scratch);
     }
-}
-
-/// Whether a particle may be below a distance of one of the bodies, beyond round-off of this sum.
-fn is_near<N: Number, const D: usize>(bodies: &[N], particle: &[N], distance: f64) -> bool {
-    let limit = distance * distance * (1.0 + 1e-12);
-    let square = |body: &[N], lane: usize| -> f64 {
-        let difference = |(a, b): (&N, &N)| (scaled(a.lane(lane)) - scaled(b.lane(lane))).powi(2);
-        body.iter().zip(particle).map(difference).sum()
-    };
-    bodies.chunks_exact(D).any(|body| (0..N::LANES).any(|lane| square(body, lane) <= limit))
 }
 
 /// The attraction of a particle by planets at some distances.

@@ -23,7 +23,7 @@ type Eccentricity = [f64; 2];
 /// P/m.
 pub fn eccentricities<N: Real, const D: usize>(system: &WisdomHolman<N, Jacobi<N, D>, D>) -> Vec<Eccentricity> {
     let numbers = |values: &[N]| values.iter().map(Real::to_f64).collect::<Vec<_>>();
-    let (q, p) = (numbers(system.state.q()), numbers(system.state.p()));
+    let (q, p) = (numbers(system.at.state.q()), numbers(system.at.state.p()));
     let planets = system.coordinates().orbits().planets.iter();
     let states = q.as_chunks::<D>().0.iter().zip(p.as_chunks::<D>().0).skip(1);
     let of_planet = |(orbit, (q, p)): (&super::orbits::Orbit<N>, (&[f64; D], &[f64; D]))| {

@@ -81,8 +81,8 @@ impl<const D: usize> Means<D> {
         let axis = |planet: usize| {
             let (orbit, first) = (&orbits.planets[planet], (planet + 1) * D);
             let square = |values: &[f64]| values[first..first + D].iter().map(|x| x * x).sum::<f64>();
-            let axis = (2.0 / square(system.state.q()).sqrt()
-                - square(system.state.p()) / (orbit.mass * orbit.mass * orbit.parameter))
+            let axis = (2.0 / square(system.at.state.q()).sqrt()
+                - square(system.at.state.p()) / (orbit.mass * orbit.mass * orbit.parameter))
                 .recip();
             (axis > 0.0).then_some(axis)
         };

@@ -37,7 +37,7 @@ fn means_are_those_along_kepler_orbits() {
     const STEPS: usize = 100_000;
     for _ in 0..STEPS {
         planets.drift(&1.0, Carried::Nothing);
-        means.q.copy_from_slice(planets.state.q());
+        means.q.copy_from_slice(planets.at.state.q());
         let energies = means.energies();
         sums = [sums[0] + energies[0], sums[1] + energies[1]];
     }
