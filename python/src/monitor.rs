@@ -131,8 +131,8 @@ impl Monitor {
         let (report, planets, light) = self.ask(py, |followed, _| {
             let mut report = f64::report(&followed.monitor);
             report.coordinate_names.clone_from(&followed.names);
-            let bodies = followed.bodies.as_ref();
-            Ok((report, bodies.and_then(Bodies::interactions), bodies.map_or(Vec::new(), Bodies::light)))
+            let (planets, light) = followed.bodies.as_mut().map(Bodies::found).unwrap_or_default();
+            Ok((report, planets, light))
         })?;
         dictionary(py, &report, planets.as_ref(), &light)
     }

@@ -346,7 +346,7 @@ impl<N: SceneNumber> Watch<N> {
         let mut initial = self.energy.initial.clone();
         initial.make_absolute();
         let Watch { observed, from, n, transformed, processed, time, names, .. } = self;
-        let Observed { monitors, pass, encounters, bodies, .. } = observed?;
+        let Observed { monitors, pass, encounters, mut bodies, .. } = observed?;
         let Spaced { mut monitor, .. } = monitors.into_iter().next()?;
         monitor.pass(pass);
         let mut report = monitor.report();
@@ -366,6 +366,7 @@ impl<N: SceneNumber> Watch<N> {
         }
         let lasting = self.energy.lasting.found().filter(|_| may_have_been_missed(verdict));
         let (encounters, closest) = encounters.found(n);
+        let (interactions, light) = bodies.as_mut().map(Bodies::found).unwrap_or_default();
         // what was measured is not excluded
         let is_excluded = !verdict.loses_the_energy() && lasting.is_none();
         let modified_energy = modified_energy(&report, is_excluded);
@@ -381,8 +382,8 @@ impl<N: SceneNumber> Watch<N> {
             encounters,
             closest,
             extremes: Vec::new(),
-            interactions: bodies.as_ref().and_then(Bodies::interactions),
-            light: bodies.as_ref().map_or(Vec::new(), Bodies::light),
+            interactions,
+            light,
             bounded: verdict.is_bounded(),
             verdict: verdict.to_string(),
             conclusion: report.conclusion(),

@@ -113,7 +113,7 @@ impl Posed<'_> {
         if let Some(summary) = &followed.summary {
             observer.summary(summary);
         }
-        let (evaluations, interactions) = (followed.evaluations, kept.bodies.and_then(|bodies| bodies.interactions()));
+        let (evaluations, interactions) = (followed.evaluations, kept.bodies.and_then(|mut bodies| bodies.found().0));
         Ok(Samples { evaluations, interactions, ..kept.samples })
     }
 }

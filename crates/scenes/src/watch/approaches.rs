@@ -1,11 +1,12 @@
 //! Close approaches of planets, in Hill radii, and the size of their interactions.
 
 use serde::Serialize;
+use shadowstep::number::instructions;
 use shadowstep::number::saved::{Fields, optional};
 use shadowstep_schemes::symbolic::decimal::significant;
 
 use super::particles::{ParticleApproach, Particles};
-use super::places::Places;
+use super::places::{Each, Places, STATES, at, difference, dot, least_of, roots, squares};
 use crate::scene::System;
 use crate::scene::split::OfPlanets;
 
@@ -100,93 +101,67 @@ struct Closest {
 
 /// The planets and the central body, which is the first one.
 struct Pairs {
-    /// By axis, with one number for each body, and more so that there are whole blocks.
-    places: [Vec<f64>; 3],
     /// The distances from the central body.
-    radii: Vec<f64>,
-    /// For each planet j the parts ((m_i + m_j)/3m_0)^(1/3) of planets i < j, and 0 of others.
+    radii: Vec<Each>,
+    /// For each planet j the parts ((m_i + m_j)/3m_0)^(1/3) of planets 0 < i < j.
     parts: Vec<Vec<f64>>,
+    /// Whether the planet j may be closer to one before it than any two were, at each state.
+    near: Vec<[bool; STATES]>,
     closest: Option<Closest>,
 }
 
-/// Bodies whose distances are computed at once.
-const BLOCK: usize = 4;
-
 impl Pairs {
     fn new(masses: &[f64]) -> Self {
-        let (bodies, padded) = (masses.len(), masses.len().next_multiple_of(BLOCK));
+        let bodies = masses.len();
         let part = |i: usize, j: usize| ((masses[i] + masses[j]) / (3.0 * masses[0])).cbrt();
-        let parts = |j: usize| (0..padded).map(|i| if (1..j).contains(&i) { part(i, j) } else { 0.0 }).collect();
         Pairs {
-            places: std::array::from_fn(|_| vec![0.0; padded]),
-            radii: vec![0.0; padded],
-            parts: (0..bodies).map(parts).collect(),
+            radii: vec![Each::all(0.0); bodies],
+            parts: (0..bodies).map(|j| (1..j).map(|i| part(i, j)).collect()).collect(),
+            near: vec![[false; STATES]; bodies],
             closest: None,
         }
     }
 
-    fn bodies(&self) -> usize {
-        self.parts.len()
-    }
-
-    /// Takes the places at the state n; whether two planets are closer than before.
-    fn include(&mut self, n: i64, places: &[f64], dimensions: usize) -> bool {
-        for (axis, own) in self.places.iter_mut().enumerate().take(dimensions) {
-            own.iter_mut().zip(places[axis..].iter().step_by(dimensions)).for_each(|(own, x)| *own = *x);
-        }
-        self.measure_radii();
-        let near = |pairs: &Pairs| pairs.closest.map_or(f64::INFINITY, |own| own.hill_radii * own.hill_radii);
-        let mut is_closer = false;
-        for j in 2..self.bodies() {
-            if self.may_be_within(near(self), j) {
-                (1..j).for_each(|i| is_closer |= self.include_pair(n, [i, j]));
-            }
-        }
-        is_closer
-    }
-
-    /// In blocks, of which the compiler makes vectors.
-    fn measure_radii(&mut self) {
-        let centre = self.places.each_ref().map(|own| own[0]);
-        let [x, y, z] = self.places.each_ref().map(|own| own.as_chunks::<BLOCK>().0);
-        for (block, radii) in self.radii.as_chunks_mut::<BLOCK>().0.iter_mut().enumerate() {
-            for i in 0..BLOCK {
-                let [a, b, c] = [x[block][i] - centre[0], y[block][i] - centre[1], z[block][i] - centre[2]];
-                radii[i] = (a * a + b * b + c * c).sqrt();
-            }
-        }
-    }
-
-    /// Whether the planet j may be nearer to one before it than the root of `near` Hill radii: no root and no division.
-    fn may_be_within(&self, near: f64, j: usize) -> bool {
+    /// Finds planets that may be closer than any two were before these states: no root of a distance and no division.
+    fn find_near(&mut self, bodies: &[[Each; 3]]) {
         // squares are within some units in the last place of what they are compared with
         const ALMOST: f64 = 0.25 * (1.0 + 1e-14);
-        let ([x, y, z], radii, parts) =
-            (self.places.each_ref().map(|own| own.as_chunks::<BLOCK>().0), &self.radii, &self.parts[j]);
-        let [own_x, own_y, own_z] = self.places.each_ref().map(|own| own[j]);
-        let (near, own_radius) = (near * ALMOST, radii[j]);
-        let (radii, parts) = (radii.as_chunks::<BLOCK>().0, parts.as_chunks::<BLOCK>().0);
-        let mut is_near = false;
-        for block in 0..j.div_ceil(BLOCK) {
-            for i in 0..BLOCK {
-                let (a, b, c) = (x[block][i] - own_x, y[block][i] - own_y, z[block][i] - own_z);
-                let radius = parts[block][i] * (radii[block][i] + own_radius);
-                is_near |= a * a + b * b + c * c < near * radius * radius;
+        let Pairs { radii, parts, near, closest } = self;
+        let least = closest.map_or(f64::INFINITY, |closest| closest.hill_radii * closest.hill_radii) * ALMOST;
+        instructions::widest(
+            #[inline(always)]
+            || {
+                for (radius, body) in radii.iter_mut().zip(bodies) {
+                    *radius = roots(&squares(body, &bodies[0]));
+                }
+                for (j, (near, parts)) in near.iter_mut().zip(&*parts).enumerate() {
+                    let mut excess = [f64::INFINITY; STATES];
+                    for (i, part) in (1..).zip(parts) {
+                        let squares = squares(&bodies[i], &bodies[j]);
+                        for state in 0..STATES {
+                            let radius = part * (radii[i].0[state] + radii[j].0[state]);
+                            excess[state] = least_of(squares.0[state] - least * radius * radius, excess[state]);
+                        }
+                    }
+                    *near = excess.map(|excess| excess < 0.0);
+                }
+            },
+        );
+    }
+
+    /// Takes a state, whose number is n; whether two planets are closer than before.
+    fn include(&mut self, (state, n): (usize, i64), bodies: &[[Each; 3]]) -> bool {
+        let mut is_closer = false;
+        for j in (2..bodies.len()).filter(|j| self.near[*j][state]) {
+            for i in 1..j {
+                let hill_radius = self.parts[j][i - 1] * (self.radii[i].0[state] + self.radii[j].0[state]) / 2.0;
+                let way = difference(&at(&bodies[i], state), &at(&bodies[j], state));
+                let hill_radii = dot(&way, &way).sqrt() / hill_radius;
+                if self.closest.is_none_or(|closest| hill_radii < closest.hill_radii) {
+                    self.closest = Some(Closest { n, bodies: [i, j], hill_radii, hill_radius });
+                    is_closer = true;
+                }
             }
-        }
-        is_near
-    }
-
-    fn square(&self, [i, j]: [usize; 2]) -> f64 {
-        self.places.iter().map(|own| (own[i] - own[j]) * (own[i] - own[j])).sum()
-    }
-
-    fn include_pair(&mut self, n: i64, bodies @ [i, j]: [usize; 2]) -> bool {
-        let hill_radius = self.parts[j][i] * (self.radii[i] + self.radii[j]) / 2.0;
-        let hill_radii = self.square(bodies).sqrt() / hill_radius;
-        let is_closer = self.closest.is_none_or(|closest| hill_radii < closest.hill_radii);
-        if is_closer {
-            self.closest = Some(Closest { n, bodies, hill_radii, hill_radius });
         }
         is_closer
     }
@@ -209,19 +184,22 @@ impl Approaches {
         })
     }
 
-    /// Takes the state n.
-    pub(super) fn include(&mut self, n: i64, places: &Places) {
+    /// Takes the next states.
+    pub(super) fn include(&mut self, places: &Places) {
         if let Some(particles) = &mut self.particles {
-            particles.include(n, places);
+            particles.include(places);
         }
-        let is_closer = self.pairs.include(n, places.inertial(), places.dimensions);
-        if !(is_closer || n.unsigned_abs() < FIRST || n.unsigned_abs().is_multiple_of(self.every)) {
-            return;
-        }
-        for (planet, epsilon) in (self.epsilon)(places.of_steps()).into_iter().enumerate() {
-            // forces may overflow in double precision
-            if epsilon > self.largest.0 && epsilon.is_finite() {
-                self.largest = (epsilon, planet + 1);
+        self.pairs.find_near(&places.bodies);
+        for (state, n) in places.states() {
+            let is_closer = self.pairs.include((state, n), &places.bodies);
+            if !(is_closer || n.unsigned_abs() < FIRST || n.unsigned_abs().is_multiple_of(self.every)) {
+                continue;
+            }
+            for (planet, epsilon) in (self.epsilon)(&places.of_steps(state)).into_iter().enumerate() {
+                // forces may overflow in double precision
+                if epsilon > self.largest.0 && epsilon.is_finite() {
+                    self.largest = (epsilon, planet + 1);
+                }
             }
         }
     }
@@ -242,7 +220,7 @@ impl Approaches {
     }
 
     pub(super) fn fields<N>(&mut self, to: &mut dyn Fields<N>) {
-        let (bodies, (epsilon, of)) = (self.pairs.bodies(), &mut self.largest);
+        let (bodies, (epsilon, of)) = (self.pairs.parts.len(), &mut self.largest);
         to.double(epsilon);
         to.place(of, bodies);
         let none = Closest { n: 0, bodies: [0; 2], hill_radii: 0.0, hill_radius: 0.0 };

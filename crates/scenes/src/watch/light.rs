@@ -2,12 +2,13 @@
 //! show it.
 
 use serde::Serialize;
+use shadowstep::number::instructions;
 use shadowstep::number::saved::{Fields, list};
 use shadowstep::systems::wisdom_holman::Shells;
 use shadowstep::{Number, Rational};
 use shadowstep_schemes::symbolic::decimal::significant;
 
-use super::places::Places;
+use super::places::{Each, Place, Places, STATES, at, difference, dot, least_of, roots, squares};
 use crate::scene::{GRAVITY, Parts, PotentialEnergy, System};
 
 /// The closest approach of a light planet, or of a particle of mass 0, to a heavier planet.
@@ -37,8 +38,6 @@ const CLOSE: f64 = 1.0;
 /// themselves with more than 7 steps, 4e-3 with 2 to 4, 0.05 with 1 to 2, and by all of them with fewer.
 const LEAST_STEPS: f64 = 10.0;
 
-type Place = [f64; 3];
-
 /// Follows light bodies from state to state.
 pub(super) struct LightBodies {
     names: Vec<String>,
@@ -54,11 +53,17 @@ pub(super) struct LightBodies {
     light: Vec<usize>,
     /// The planets that are heavier than one of them.
     attracting: Vec<usize>,
-    /// All bodies after the last step, and before it.
-    now: Vec<Place>,
+    /// All bodies at the state before the next ones; none before the first state.
     before: Vec<Place>,
+    /// The distances of the attracting planets from the central body.
+    radii: Vec<Each>,
+    /// How far each body goes in the step to each of the states.
+    ways: Vec<Each>,
+    /// Distances of each light body count that are below this, in Hill radii.
+    limits: Vec<f64>,
+    /// Whether each of the attracting planets may have a light body so near that its distance counts, in that step.
+    near: Vec<[bool; STATES]>,
     found: Vec<Closest>,
-    near: Near,
 }
 
 /// The least square of a distance in Hill radii, its n and planet, and the least number of steps.
@@ -102,6 +107,9 @@ impl LightBodies {
         if light.is_empty() || heaviest >= LEAST_CENTRAL * masses[0] {
             return None;
         }
+        let attracts =
+            |planet: &usize| light.iter().any(|body| masses.get(*body).is_none_or(|mass| *mass < masses[*planet]));
+        let attracting: Vec<usize> = (1..masses.len()).filter(attracts).collect();
         let names = system.coordinates.iter().step_by(dimensions);
         let encounters = planets.as_ref().and_then(|planets| planets.encounters.as_ref());
         let shells = encounters.map(|near| (near.shells.clone(), near.substeps));
@@ -111,77 +119,103 @@ impl LightBodies {
             parts: masses.iter().map(|mass| (mass / (3.0 * masses[0])).cbrt()).collect(),
             h: h.abs(),
             shells,
-            attracting: (1..masses.len())
-                .filter(|planet| light.iter().any(|body| masses.get(*body).is_none_or(|mass| *mass < masses[*planet])))
-                .collect(),
+            before: Vec::new(),
+            ways: vec![Each::all(0.0); masses.len() + particles],
+            radii: vec![Each::all(0.0); attracting.len()],
+            limits: vec![CLOSE; light.len()],
+            near: vec![[false; STATES]; attracting.len()],
+            attracting,
             found: vec![Closest::NOTHING; light.len()],
-            near: Near::new(light.len()),
             light,
             masses,
-            now: Vec::new(),
-            before: Vec::new(),
         })
     }
 
-    /// Takes the state n after the last one.
-    pub(super) fn include(&mut self, n: i64, places: &Places) {
-        let LightBodies { now, before, .. } = self;
-        std::mem::swap(now, before);
-        now.clear();
-        for (bodies, origin) in [(places.inertial(), places.origin()), (places.particles(), [0.0; 3])] {
-            match places.dimensions {
-                3 => extend::<3>(now, bodies, origin),
-                2 => extend::<2>(now, bodies, origin),
-                _ => extend::<1>(now, bodies, origin),
+    /// Takes the next states: finds the least distances in the steps to them, in which bodies move straight.
+    pub(super) fn include(&mut self, places: &Places) {
+        let bodies = &places.relative;
+        self.find_near(bodies);
+        let is_first = self.before.len() != bodies.len();
+        for (state, n) in places.states().skip(usize::from(is_first)) {
+            for place in 0..self.attracting.len() {
+                if self.near[place][state] {
+                    self.approach(n, place, (bodies, state));
+                }
             }
         }
-        if self.before.len() == self.now.len() {
-            self.find_approaches(n);
+        if let Some((last, _)) = places.states().next_back() {
+            self.before.clear();
+            self.before.extend(bodies.iter().map(|body| at(body, last)));
         }
     }
 
-    /// The least distances in the last step, in which bodies move straight.
-    fn find_approaches(&mut self, n: i64) {
-        self.near.take(&self.light, [&self.before, &self.now], &self.found);
-        for place in 0..self.attracting.len() {
-            let planet = self.attracting[place];
-            let radius = length(difference(&self.now[planet], &self.now[0]));
-            let hill = self.parts[planet] * radius;
-            let way = length(difference(&self.now[planet], &self.before[planet]));
-            if self.near.find(&self.now[planet], way, hill) {
-                // √(R³/Gm) of the Hill radius R
-                let time = (radius.powi(3) * self.scale).sqrt();
-                self.approach(n, planet, (hill, time));
-            }
-        }
+    /// Finds planets that may have a light body so near that its distance counts, without a root of the distance or a
+    /// division: most have none. After a step the distance is at most the least one in it and the ways of both.
+    fn find_near(&mut self, bodies: &[[Each; 3]]) {
+        let LightBodies { parts, light, attracting, before, radii, ways, limits, near, found, .. } = self;
+        instructions::widest(
+            #[inline(always)]
+            || {
+                for (place, way) in ways.iter_mut().enumerate() {
+                    *way = roots(&squares_of_ways(before.get(place), &bodies[place]));
+                }
+                for (limit, found) in limits.iter_mut().zip(&*found) {
+                    *limit = found.square.sqrt().max(CLOSE);
+                }
+                for ((planet, radii), near) in attracting.iter().zip(radii).zip(near) {
+                    *radii = roots(&squares(&bodies[*planet], &bodies[0]));
+                    let mut excess = [f64::INFINITY; STATES];
+                    for (body, limit) in light.iter().zip(&*limits) {
+                        let squares = squares(&bodies[*body], &bodies[*planet]);
+                        for state in 0..STATES {
+                            let ways = ways[*body].0[state] + ways[*planet].0[state];
+                            let most = farthest(ways, limit * parts[*planet] * radii.0[state]);
+                            excess[state] = least_of(squares.0[state] - most * most, excess[state]);
+                        }
+                    }
+                    *near = excess.map(|excess| excess < 0.0);
+                }
+            },
+        );
     }
 
-    /// The least distances from a planet, of its Hill radius.
-    fn approach(&mut self, n: i64, planet: usize, (hill, time): (f64, f64)) {
-        let LightBodies { masses, h, shells, light, now, before, found, near, .. } = self;
-        for ((body, found), is_near) in light.iter().zip(found).zip(&near.found) {
-            if !is_near || *body < masses.len() && masses[*body] >= masses[planet] {
+    /// The least distances from the planet at a place of `attracting`, in the step to a state, whose number is n.
+    fn approach(&mut self, n: i64, place: usize, (bodies, state): (&[[Each; 3]], usize)) {
+        let LightBodies {
+            masses, parts, scale, h, shells, light, attracting, before, radii, ways, limits, found, ..
+        } = self;
+        let before = |body: usize| if state == 0 { before[body] } else { at(&bodies[body], state - 1) };
+        let planet = attracting[place];
+        let radius = radii[place].0[state];
+        let hill = parts[planet] * radius;
+        for ((body, limit), found) in light.iter().zip(limits).zip(found) {
+            let b = difference(&at(&bodies[*body], state), &at(&bodies[planet], state));
+            let most = farthest(ways[*body].0[state] + ways[planet].0[state], *limit * hill);
+            let is_heavier = *body < masses.len() && masses[*body] >= masses[planet];
+            if is_heavier || dot(&b, &b) >= most * most {
                 continue;
             }
-            let [a, b] = [&*before, &*now].map(|places| difference(&places[*body], &places[planet]));
+            let a = difference(&before(*body), &before(planet));
             let moved = difference(&b, &a);
             let square = dot(&moved, &moved);
             let part = if square > 0.0 { (-dot(&a, &moved) / square).clamp(0.0, 1.0) } else { 1.0 };
             let nearest: Place = std::array::from_fn(|axis| a[axis] + part * moved[axis]);
             let distance = dot(&nearest, &nearest);
-            let radii = distance / (hill * hill);
-            let is_close = radii < CLOSE * CLOSE;
-            let is_closest = radii < found.square;
+            let square_in_radii = distance / (hill * hill);
+            let is_close = square_in_radii < CLOSE * CLOSE;
+            let is_closest = square_in_radii < found.square;
             if !is_close && !is_closest {
                 continue;
             }
             let distance = distance.sqrt();
-            let free_fall = radii.powf(0.75) * time / *h;
+            // √(R³/Gm) of the Hill radius R
+            let time = (radius.powi(3) * *scale).sqrt();
+            let free_fall = square_in_radii.powf(0.75) * time / *h;
             let steps = (distance / square.sqrt()).min(free_fall) * substeps(shells.as_ref(), distance);
             let was_close = found.square < CLOSE * CLOSE;
             found.steps = if is_close && was_close { found.steps.min(steps) } else { steps };
             if is_closest {
-                *found = Closest { square: radii, n, planet, steps: found.steps };
+                *found = Closest { square: square_in_radii, n, planet, steps: found.steps };
             }
         }
     }
@@ -202,7 +236,7 @@ impl LightBodies {
 
     pub(super) fn fields<N>(&mut self, to: &mut dyn Fields<N>) {
         let bodies = self.masses.len();
-        list(to, &mut self.now, &[0.0; 3], |to, place| place.iter_mut().for_each(|x| to.double(x)));
+        list(to, &mut self.before, &[0.0; 3], |to, place| place.iter_mut().for_each(|x| to.double(x)));
         for Closest { square, n, planet, steps } in &mut self.found {
             to.double(square);
             to.whole(n);
@@ -212,68 +246,28 @@ impl LightBodies {
     }
 }
 
-/// Appends places relative to an origin.
-fn extend<const D: usize>(places: &mut Vec<Place>, bodies: &[f64], origin: Place) {
-    places.extend(bodies.as_chunks::<D>().0.iter().map(|body| {
-        let mut place = [0.0; 3];
-        (0..D).for_each(|axis| place[axis] = body[axis] - origin[axis]);
-        place
-    }));
+/// How far a light body is from a planet after a step, at most, if its distance in the step, in which both go these
+/// ways, counts, which it does up to `limit`.
+#[inline(always)]
+fn farthest(ways: f64, limit: f64) -> f64 {
+    // of round-off
+    const ALMOST: f64 = 1.0 + 1e-12;
+    ALMOST * (ways + limit)
 }
 
-/// Light bodies computed at once.
-const BLOCK: usize = 4;
-
-/// Finds planets that may have a light body so near that its distance counts, without a root or a division: most have
-/// none.
-struct Near {
-    /// Of light bodies by axis, with more so that there are whole blocks.
-    places: [Vec<f64>; 3],
-    /// Their ways in the last step.
-    ways: Vec<f64>,
-    /// Distances count that are below this, in Hill radii.
-    limits: Vec<f64>,
-    /// Whether they may be so near to a planet.
-    found: Vec<bool>,
-}
-
-impl Near {
-    fn new(light: usize) -> Self {
-        let zeros = || vec![0.0; light.next_multiple_of(BLOCK)];
-        Near {
-            places: std::array::from_fn(|_| zeros()),
-            ways: zeros(),
-            limits: zeros(),
-            found: vec![false; light.next_multiple_of(BLOCK)],
-        }
+/// The squares of the ways of a body in the steps to some states, of which `before` is the place before the first one.
+#[inline(always)]
+fn squares_of_ways(before: Option<&Place>, [x, y, z]: &[Each; 3]) -> Each {
+    let mut squares = Each::all(0.0);
+    if let Some(before) = before {
+        let [a, b, c] = [x.0[0] - before[0], y.0[0] - before[1], z.0[0] - before[2]];
+        squares.0[0] = a * a + b * b + c * c;
     }
-
-    fn take(&mut self, light: &[usize], [before, now]: [&[Place]; 2], found: &[Closest]) {
-        for (own, (body, found)) in light.iter().zip(found).enumerate() {
-            self.places.iter_mut().zip(now[*body]).for_each(|(axis, x)| axis[own] = x);
-            self.ways[own] = length(difference(&now[*body], &before[*body]));
-            self.limits[own] = found.square.sqrt().max(CLOSE);
-        }
+    for state in 1..STATES {
+        let [a, b, c] = [x, y, z].map(|x| x.0[state] - x.0[state - 1]);
+        squares.0[state] = a * a + b * b + c * c;
     }
-
-    /// Finds those that may be near a planet, if there is one: after a step the distance is at most the least one in it
-    /// and the ways of both.
-    fn find(&mut self, [own_x, own_y, own_z]: &Place, way: f64, hill_radius: f64) -> bool {
-        // of round-off
-        const ALMOST: f64 = 1.0 + 1e-12;
-        let [x, y, z] = self.places.each_ref().map(|axis| axis.as_chunks::<BLOCK>().0);
-        let (ways, limits) = (self.ways.as_chunks::<BLOCK>().0, self.limits.as_chunks::<BLOCK>().0);
-        let (found, mut any) = (self.found.as_chunks_mut::<BLOCK>().0, false);
-        for block in 0..x.len() {
-            for i in 0..BLOCK {
-                let (a, b, c) = (x[block][i] - own_x, y[block][i] - own_y, z[block][i] - own_z);
-                let most = ALMOST * (ways[block][i] + way + limits[block][i] * hill_radius);
-                found[block][i] = a * a + b * b + c * c < most * most;
-                any |= found[block][i];
-            }
-        }
-        any
-    }
+    squares
 }
 
 /// The central body has ten times the mass of others.
@@ -283,18 +277,6 @@ const LEAST_CENTRAL: f64 = 0.1;
 fn substeps(shells: Option<&(Shells, u32)>, distance: f64) -> f64 {
     let divided = |(shells, substeps): &(Shells, u32)| Some(f64::from(*substeps) * shells.division_at(distance)?);
     shells.and_then(divided).unwrap_or(1.0)
-}
-
-fn difference(a: &Place, b: &Place) -> Place {
-    std::array::from_fn(|axis| a[axis] - b[axis])
-}
-
-fn dot(a: &Place, b: &Place) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
-}
-
-fn length(a: Place) -> f64 {
-    dot(&a, &a).sqrt()
 }
 
 /// How many light bodies a text has.
@@ -347,6 +329,7 @@ mod tests {
     use crate::Scene;
     use crate::watch::observer::KeptSummary;
     use crate::watch::summary::Summary;
+    use shadowstep::number::Lanes;
     use shadowstep::tables::Source;
 
     /// A planet is left out only where no light body on straight ways comes below the limit in the step.
@@ -358,32 +341,52 @@ mod tests {
             (seed >> 11) as f64 / (1_u64 << 53) as f64 - 0.5
         };
         let (mut kept, mut left_out) = (0, 0);
-        for _ in 0..20_000 {
-            let mut place = || std::array::from_fn::<f64, 3, _>(|_| random());
-            let before: Vec<Place> = (0..6).map(|_| place()).collect();
-            let now: Vec<Place> = before
-                .iter()
-                .map(|own| {
-                    let way = place();
-                    std::array::from_fn(|axis| own[axis] + way[axis] / 4.0)
-                })
+        for _ in 0..3_000 {
+            let mut place = |size: f64| std::array::from_fn::<f64, 3, _>(|_| size * random());
+            // the central body, a planet, and light bodies
+            let before: Vec<Place> = (0..7).map(|_| place(1.0)).collect();
+            let mut ways = vec![before.clone()];
+            for _ in 0..STATES {
+                let next = |own: &Place| difference(own, &place(0.25));
+                ways.push(ways[ways.len() - 1].iter().map(next).collect());
+            }
+            let bodies: Vec<[Each; 3]> = (0..7)
+                .map(|body| std::array::from_fn(|axis| Lanes(std::array::from_fn(|state| ways[state + 1][body][axis]))))
                 .collect();
-            let hill = 0.05 + random().abs() / 10.0;
+            let part = 0.05 + random().abs() / 10.0;
             let found = Closest { square: 1.0 + 4.0 * random().abs(), ..Closest::NOTHING };
-            let mut near = Near::new(5);
-            near.take(&[1, 2, 3, 4, 5], [&before, &now], &[found; 5]);
-            let is_near = near.find(&now[0], length(difference(&now[0], &before[0])), hill);
-            let counts = (1..6).any(|body| {
-                let [a, b] = [&before, &now].map(|places| difference(&places[body], &places[0]));
-                let parts = (0..=100).map(|part| f64::from(part) / 100.0);
-                let least = parts
-                    .map(|part| length(std::array::from_fn(|axis| a[axis] + part * (b[axis] - a[axis]))))
-                    .fold(f64::INFINITY, f64::min);
-                least < hill * found.square.sqrt()
-            });
-            assert!(is_near || !counts);
-            kept += usize::from(counts);
-            left_out += usize::from(!is_near);
+            let mut light = LightBodies {
+                names: Vec::new(),
+                masses: vec![1.0; 2],
+                parts: vec![part; 2],
+                scale: 1.0,
+                h: 1.0,
+                shells: None,
+                light: (2..7).collect(),
+                attracting: vec![1],
+                before,
+                ways: vec![Each::all(0.0); 7],
+                radii: vec![Each::all(0.0)],
+                limits: vec![CLOSE; 5],
+                near: vec![[false; STATES]],
+                found: vec![found; 5],
+            };
+            light.find_near(&bodies);
+            let distance = |a: Place| dot(&a, &a).sqrt();
+            for state in 0..STATES {
+                let hill = part * distance(difference(&ways[state + 1][1], &ways[state + 1][0]));
+                let counts = (2..7).any(|body| {
+                    let [a, b] = [state, state + 1].map(|state| difference(&ways[state][body], &ways[state][1]));
+                    let parts = (0..=100).map(|part| f64::from(part) / 100.0);
+                    let least = parts
+                        .map(|part| distance(std::array::from_fn(|axis| a[axis] + part * (b[axis] - a[axis]))))
+                        .fold(f64::INFINITY, f64::min);
+                    least < hill * found.square.sqrt()
+                });
+                assert!(light.near[0][state] || !counts);
+                kept += usize::from(counts);
+                left_out += usize::from(!light.near[0][state]);
+            }
         }
         assert!(kept > 500 && left_out > 5000, "{kept} {left_out}");
     }

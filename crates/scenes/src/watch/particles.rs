@@ -1,9 +1,10 @@
 //! Particles of mass 0 that come close to planets.
 
 use serde::Serialize;
+use shadowstep::number::instructions;
 use shadowstep::number::saved::Fields;
 
-use super::places::Places;
+use super::places::{Each, Places, STATES, at, difference, dot, least_of, squares};
 
 /// The closest approach of a particle to a planet.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -22,8 +23,8 @@ pub struct ParticleApproach {
 pub(super) struct Particles {
     /// (m/3m_0)^(2/3) of each planet.
     parts: Vec<f64>,
-    /// Where each planet is, and 1/R² of its Hill radius R.
-    planets: Vec<([f64; 3], f64)>,
+    /// 1/R² of the Hill radius R of each planet.
+    inverse: Vec<Each>,
     /// The least square of a distance in Hill radii, its state, planet and particle.
     closest: (f64, i64, [usize; 2]),
     within: Vec<bool>,
@@ -31,36 +32,58 @@ pub(super) struct Particles {
 
 impl Particles {
     pub(super) fn new(masses: &[f64], particles: usize) -> Self {
-        let parts = masses[1..].iter().map(|mass| (mass / (3.0 * masses[0])).powf(2.0 / 3.0)).collect();
-        Particles { parts, planets: Vec::new(), closest: (f64::INFINITY, 0, [0; 2]), within: vec![false; particles] }
+        let parts: Vec<_> = masses[1..].iter().map(|mass| (mass / (3.0 * masses[0])).powf(2.0 / 3.0)).collect();
+        let inverse = vec![Each::all(0.0); parts.len()];
+        Particles { parts, inverse, closest: (f64::INFINITY, 0, [0; 2]), within: vec![false; particles] }
     }
 
-    /// Takes the state n.
-    pub(super) fn include(&mut self, n: i64, places: &Places) {
-        let Particles { parts, planets, closest, within } = self;
-        let (dimensions, origin) = (places.dimensions, places.origin());
-        let place = |body: &[f64], origin: [f64; 3]| -> [f64; 3] {
-            std::array::from_fn(|axis| body.get(axis).map_or(0.0, |x| x - origin[axis]))
-        };
-        let square = |a: [f64; 3], b: [f64; 3]| (0..3).map(|axis| (a[axis] - b[axis]).powi(2)).sum::<f64>();
-        let mut bodies = places.inertial().chunks_exact(dimensions).map(|body| place(body, origin));
-        let central = bodies.next().unwrap_or_default();
-        planets.clear();
-        planets.extend(bodies.zip(parts).map(|(planet, part)| (planet, 1.0 / (*part * square(planet, central)))));
-        for (k, (particle, within)) in places.particles().chunks_exact(dimensions).zip(within).enumerate() {
-            let x = place(particle, [0.0; 3]);
-            for (j, (planet, inverse)) in planets.iter().enumerate() {
-                let found = square(x, *planet) * inverse;
-                *within |= found < 1.0;
-                if found < closest.0 {
-                    *closest = (found, n, [j, k]);
+    /// Takes the next states.
+    pub(super) fn include(&mut self, places: &Places) {
+        let (bodies, particles) = places.relative.split_at(self.parts.len() + 1);
+        let has_news = self.find_news(bodies, particles);
+        let Particles { inverse, closest, within, .. } = self;
+        for (state, n) in places.states().filter(|(state, _)| has_news[*state]) {
+            for (k, (particle, within)) in particles.iter().zip(&mut *within).enumerate() {
+                for (j, (planet, inverse)) in bodies[1..].iter().zip(&*inverse).enumerate() {
+                    let way = difference(&at(particle, state), &at(planet, state));
+                    let square = dot(&way, &way) * inverse.0[state];
+                    *within |= square < 1.0;
+                    if square < closest.0 {
+                        *closest = (square, n, [j, k]);
+                    }
                 }
             }
         }
     }
 
+    /// Whether a particle is closer to a planet than any was before these states, or for the first time within its Hill
+    /// radius, at each state.
+    fn find_news(&mut self, bodies: &[[Each; 3]], particles: &[[Each; 3]]) -> [bool; STATES] {
+        let Particles { parts, inverse, closest: (closest, ..), within } = self;
+        let mut excess = [f64::INFINITY; STATES];
+        instructions::widest(
+            #[inline(always)]
+            || {
+                for ((inverse, part), planet) in inverse.iter_mut().zip(parts).zip(&bodies[1..]) {
+                    let squares = squares(planet, &bodies[0]);
+                    (0..STATES).for_each(|state| inverse.0[state] = 1.0 / (*part * squares.0[state]));
+                }
+                for (particle, within) in particles.iter().zip(within) {
+                    let least = if *within { *closest } else { closest.max(1.0) };
+                    for (planet, inverse) in bodies[1..].iter().zip(&*inverse) {
+                        let squares = squares(particle, planet);
+                        for state in 0..STATES {
+                            excess[state] = least_of(squares.0[state] * inverse.0[state] - least, excess[state]);
+                        }
+                    }
+                }
+            },
+        );
+        excess.map(|excess| excess < 0.0)
+    }
+
     pub(super) fn fields<N>(&mut self, to: &mut dyn Fields<N>) {
-        let Particles { parts, planets: _, closest: (square, n, [planet, particle]), within } = self;
+        let Particles { parts, inverse: _, closest: (square, n, [planet, particle]), within } = self;
         to.double(square);
         to.whole(n);
         to.place(planet, parts.len());

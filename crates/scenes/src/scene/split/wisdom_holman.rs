@@ -203,8 +203,8 @@ impl Planets {
     }
 
     /// Computes positions in an inertial frame from those of the steps.
-    pub(crate) fn inertial_positions(&self) -> Positions<f64> {
-        in_coordinates!(self, positions_by::<f64>())
+    pub(crate) fn inertial_positions<N: Number<Context = ()> + 'static>(&self) -> Positions<N> {
+        in_coordinates!(self, positions_by::<N>())
     }
 
     /// The bodies with mass alone.
