@@ -123,23 +123,27 @@ fn distances(windows: u64) -> impl Iterator<Item = u64> {
 }
 
 impl<N: SceneNumber> Observed<N> {
-    /// Takes the state n; whether no monitor takes anything of it.
-    #[inline]
-    fn include(&mut self, n: i64, (q, p): (&[N], &[N])) -> bool {
-        let Observed { monitors, pass, idle, encounters, bodies } = self;
-        encounters.include(n, p);
-        if let Some(bodies) = bodies {
+    /// Takes the state n, but for what monitors take of it.
+    #[inline(always)]
+    fn include(&mut self, n: i64, (q, p): (&[N], &[N])) {
+        self.encounters.include(n, p);
+        if let Some(bodies) = &mut self.bodies {
             bodies.include(n, q);
         }
-        if *idle == 0 {
-            return false;
-        }
-        (*idle, *pass) = (*idle - 1, *pass + 1);
-        if *idle == 0 {
+    }
+
+    /// This number of states passes the monitors, as far as these are idle; whether they are idle at one.
+    #[inline]
+    fn pass(&mut self, states: u64) -> bool {
+        let Observed { monitors, pass, idle, .. } = self;
+        let are_idle = *idle > 0;
+        let passing = states.min(*idle);
+        (*idle, *pass) = (*idle - passing, *pass + passing);
+        if are_idle && *idle == 0 {
             let passed = take(pass);
             monitors.iter_mut().for_each(|spaced| spaced.monitor.pass(passed));
         }
-        true
+        are_idle
     }
 
     /// Leaves out the monitors that have seen enough windows by the state n, of a run from `from`.
@@ -162,7 +166,19 @@ impl<N: SceneNumber> Visitor<N> for Watch<N> {
         self.n += 1;
         if let Some(observed) = &mut self.observed {
             observed.include(self.n, (q, p));
+            observed.pass(1);
         }
+    }
+
+    fn visit_each(&mut self, states: &[N], dimension: usize) {
+        let (first, states) = (self.n + 1, states.chunks_exact(2 * dimension));
+        let count = states.len();
+        self.n += i64::try_from(count).expect("there are few");
+        let Some(observed) = &mut self.observed else { return };
+        for (n, state) in (first..).zip(states) {
+            observed.include(n, state.split_at(dimension));
+        }
+        observed.pass(count as u64);
     }
 }
 
@@ -281,7 +297,8 @@ impl<N: SceneNumber> Watch<N> {
             self.energy.include(n, &at_output(integrator, |integrator| integrator.system().energy()));
         }
         let Some(observed) = &mut self.observed else { return };
-        if observed.include(n, (integrator.state().q(), integrator.state().p())) {
+        observed.include(n, (integrator.state().q(), integrator.state().p()));
+        if observed.pass(1) {
             return;
         }
         observed.leave_closer((self.from, n), self.windows);

@@ -138,6 +138,13 @@ pub trait System {
 pub trait Visitor<N> {
     /// Takes the next state: its positions and momenta.
     fn visit(&mut self, q: &[N], p: &[N]);
+
+    /// Takes the next states, of each q and p, of `dimension` numbers each.
+    fn visit_each(&mut self, states: &[N], dimension: usize) {
+        for (q, p) in states.chunks_exact(2 * dimension).map(|state| state.split_at(dimension)) {
+            self.visit(q, p);
+        }
+    }
 }
 
 /// Plain steps one by one, each of which the visitor sees.

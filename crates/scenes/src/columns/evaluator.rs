@@ -401,19 +401,19 @@ impl TestInLanes {
         Some(TestInLanes { test: Test::of_each(condition, &[system; LANES]).ok()?, places })
     }
 
-    /// Sets the state in a lane.
-    #[inline(always)]
-    pub(crate) fn set<N: Real>(&mut self, lane: usize, (q, p): (&[N], &[N])) {
-        for &place in &self.places {
-            let value = if place < q.len() { &q[place] } else { &p[place - q.len()] };
-            self.test.difference.point[place].0[lane] = value.to_f64();
-        }
-    }
-
-    /// The first lane, of this many, whose state meets the condition.
-    pub(crate) fn first_met(&mut self, count: usize) -> Option<usize> {
+    /// The first state, of as many as there are lanes or fewer, that meets the condition; each has q and p, which are
+    /// `size` numbers.
+    pub(crate) fn first_met<N: Real>(&mut self, states: &[N], size: usize) -> Option<usize> {
         let Test { difference, met, .. } = &mut self.test;
-        difference.evaluate().0[..count].iter().position(|difference| met.is_of(difference.partial_cmp(&0.0)))
+        for &place in &self.places {
+            let values = states.iter().skip(place).step_by(size);
+            difference.point[place].0.iter_mut().zip(values).for_each(|(own, value)| *own = value.to_f64());
+        }
+        let count = states.len() / size;
+        let are_met = difference.evaluate().0.map(|difference| met.is_of(difference.partial_cmp(&0.0)));
+        // most often none is
+        let is_any = are_met.iter().fold(false, |any, is_met| any | is_met);
+        is_any.then(|| are_met[..count].iter().position(|is_met| *is_met)).flatten()
     }
 }
 

@@ -1,6 +1,7 @@
 //! States of a run that are made at once: the end is looked for among them.
 
 use std::any::TypeId;
+use std::mem::take;
 
 use num_traits::Signed;
 use shadowstep::systems::system::Visitor;
@@ -64,10 +65,8 @@ impl<N: SceneNumber> Ends<N> {
 /// States whose condition is tested at once: evaluated in lanes, a formula costs little more than at one state.
 pub(crate) struct Block<N> {
     test: TestInLanes,
-    /// How many states there are.
-    count: usize,
-    /// q and p, one state after the other, where a watch sees those before the end.
-    numbers: Vec<N>,
+    /// q and p of the states that were seen one by one, one state after the other.
+    seen: Vec<N>,
 }
 
 impl<N: SceneNumber> Block<N> {
@@ -75,30 +74,37 @@ impl<N: SceneNumber> Block<N> {
     pub(crate) fn of(condition: &Condition, system: &System) -> Option<Self> {
         let is_double = TypeId::of::<N>() == TypeId::of::<f64>();
         let test = if is_double { TestInLanes::of(condition, system)? } else { return None };
-        Some(Block { test, count: 0, numbers: Vec::new() })
+        Some(Block { test, seen: Vec::new() })
     }
 }
 
 impl<N: SceneNumber> Passing<'_, '_, N> {
     /// Whether the run ends with one of the states, or before it.
     pub(crate) fn finish(&mut self) -> bool {
-        self.test_block();
+        self.test_seen();
         self.has_ended
     }
 
-    fn test_block(&mut self) {
-        let Some(Block { test, count, numbers }) = &mut self.ends.block else { return };
-        let size = 2 * self.view.system.dimension();
-        let first = test.first_met(*count);
-        self.has_ended |= first.is_some();
-        let before = first.unwrap_or(*count);
-        self.n += i64::try_from(before).expect("a block is short");
-        *count = 0;
+    /// Tests the states that were seen one by one.
+    fn test_seen(&mut self) {
+        let Some(block) = self.ends.block.as_mut().filter(|block| !block.seen.is_empty()) else { return };
+        let mut seen = take(&mut block.seen);
+        self.test(&seen);
+        seen.clear();
+        self.ends.block.iter_mut().for_each(|block| block.seen = take(&mut seen));
+    }
+
+    /// Tests as many states as there are lanes, at most; the watch sees those before the end.
+    fn test(&mut self, states: &[N]) {
+        let (Some(Block { test, .. }), false) = (&mut self.ends.block, self.has_ended) else { return };
+        let dimension = self.view.system.dimension();
+        let first = test.first_met(states, 2 * dimension);
+        self.has_ended = first.is_some();
+        let before = first.map_or(states, |first| &states[..first * 2 * dimension]);
+        self.n += i64::try_from(before.len() / (2 * dimension)).expect("there are few");
         if let Some(watch) = self.watch {
-            let states = numbers.chunks_exact(size).take(before).map(|state| state.split_at(size / 2));
-            states.for_each(|(q, p)| watch.visit(q, p));
+            watch.visit_each(before, dimension);
         }
-        numbers.clear();
     }
 }
 
@@ -107,15 +113,11 @@ impl<N: SceneNumber> Visitor<N> for Passing<'_, '_, N> {
         if self.has_ended {
             return;
         }
-        if let Some(block) = &mut self.ends.block {
-            block.test.set(block.count, (q, p));
-            block.count += 1;
-            if self.watch.is_some() {
-                block.numbers.extend_from_slice(q);
-                block.numbers.extend_from_slice(p);
-            }
-            if block.count == LANES {
-                self.test_block();
+        if let Some(Block { seen, .. }) = &mut self.ends.block {
+            seen.extend_from_slice(q);
+            seen.extend_from_slice(p);
+            if seen.len() == LANES * 2 * q.len() {
+                self.test_seen();
             }
             return;
         }
@@ -128,6 +130,17 @@ impl<N: SceneNumber> Visitor<N> for Passing<'_, '_, N> {
         self.n = n;
         if let Some(watch) = self.watch {
             watch.visit(q, p);
+        }
+    }
+
+    fn visit_each(&mut self, states: &[N], dimension: usize) {
+        if self.ends.block.is_some() {
+            self.test_seen();
+            states.chunks(LANES * 2 * dimension).for_each(|states| self.test(states));
+            return;
+        }
+        for (q, p) in states.chunks_exact(2 * dimension).map(|state| state.split_at(dimension)) {
+            self.visit(q, p);
         }
     }
 }

@@ -55,7 +55,7 @@ const MOST: usize = 3;
 
 /// States that are visited at once: the state of the steps leaves the registers only then, and the processor makes the
 /// next steps meanwhile.
-const AT_ONCE: usize = 4;
+const AT_ONCE: usize = 16;
 
 impl<N: Number> FewCoordinates<'_, N> {
     /// Whether registers hold such numbers: of others these steps are not even compiled.
@@ -144,14 +144,14 @@ impl<N: Number> FewCoordinates<'_, N> {
                     made[unvisited] = [q.clone(), p.clone()];
                     unvisited += 1;
                     if unvisited == AT_ONCE {
-                        made.iter().for_each(|[q, p]| visitor.visit(q, p));
+                        visitor.visit_each(made.as_flattened().as_flattened(), D);
                         unvisited = 0;
                     }
                 }
             }
         }
         if let Some(visitor) = visitor {
-            made[..unvisited].iter().for_each(|[q, p]| visitor.visit(q, p));
+            visitor.visit_each(made[..unvisited].as_flattened().as_flattened(), D);
         }
         **kept = if has_gradient { KeptForce::Gradient } else { KeptForce::Nothing };
         **evaluations += evaluated;
