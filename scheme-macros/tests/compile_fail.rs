@@ -1,5 +1,5 @@
-//! Protects the compiler's messages: each case of `compile_fail/` is one fault of a table or of the attribute and gives
-//! one error, at the place of the fault; all else that the case does with its struct compiles.
+//! Protects the compiler's messages: each struct, formula or function of `compile_fail/` has one fault and gives one
+//! error, at the place of the fault; all else that is done with it compiles.
 //!
 //! `TRYBUILD=overwrite cargo test -p shadowstep-macros --test compile_fail` writes the messages anew; read them.
 
