@@ -24,33 +24,15 @@ fn ten_to_minus(places: u32) -> Rational {
 
 // ---- values ----
 
-/// Computed by mpmath 1.3.0 with 160 digits, rounded to 60.
-const KNOWN: [(&str, &str); 27] = [
+/// Computed by mpmath 1.3.0 with 160 digits, rounded to 60. (Functions of a number are below, beside those of MPFR.)
+const KNOWN: [(&str, &str); 9] = [
     ("pi", "3.14159265358979323846264338327950288419716939937510582097494"),
-    ("exp(1)", "2.71828182845904523536028747135266249775724709369995957496697"),
-    ("exp(-10/3)", "0.0356739933472523976044384802397297862323141712277743955674803"),
-    ("log(2)", "0.693147180559945309417232121458176568075500134360255254120680"),
-    ("log(10)", "2.30258509299404568401799145468436420760110148862877297603333"),
     ("log(1e-300)", "-690.775527898213705205397436405309262280330446588631892809998"),
-    ("sin(1)", "0.841470984807896506652502321630298999622563060798371065672752"),
-    ("cos(1)", "0.540302305868139717400936607442976603732310420617922227670097"),
-    ("tan(1)", "1.55740772465490223050697480745836017308725077238152003838395"),
-    ("tan(-1.57)", "-1255.76559150069160466054300777387340939909076081540454494150"),
-    ("sinh(1)", "1.17520119364380145688238185059560081515571798133409587022957"),
-    ("cosh(1)", "1.54308063481524377847790562075706168260152911236586370473740"),
-    ("tanh(1)", "0.761594155955764888119458282604793590412768597257936551596811"),
-    ("tanh(-1/100)", "-0.00999966667999946033932891970883949751001103142423365164263187"),
-    ("atan(1/2)", "0.463647609000806116214256231461214402028537054286120263810933"),
-    ("atan(-20)", "-1.52083793107295385782131540460490656060730761926404573607662"),
-    ("asin(-3/10)", "-0.304692654015397507972002961227529166954560031706776387392978"),
-    ("acos(3/10)", "1.26610367277949911125931873041222227514402466798077652309449"),
-    ("acos(-99/100)", "3.00005318026536601971685402630447586920318646883535262766679"),
     ("pi^2/6", "1.64493406684822643647241516664602518921894990120679843773556"),
     ("exp(pi)", "23.1406926327792690057290863679485473802661062426002119934450"),
     ("exp(pi*sqrt(163)) - 262537412640768744", "-7.49927402801814311120646143662663009137292462589621789352090e-13"),
     ("log(2)/log(3)", "0.630929753571457437099527114342760854299585640131880427870655"),
     ("sin(355/113*1000)", "0.000266764185898459765269173093363951200075386778486714102607893"),
-    ("sin(1e6)", "-0.349993502171292952117652486780771469061406605328716273857059"),
     ("cos(1e22)", "0.523214785395138945497594473384709492140919972439387953527211"),
     ("sin(exp(100))", "0.142198123658238637772450306478685256334737609563878023658927"),
 ];
@@ -120,24 +102,14 @@ proptest! {
 
 #[test]
 fn rational_values_are_exact() {
-    let table = [
-        ("exp(0)", 1),
-        ("exp(1 - 1)", 1),
-        ("log(1)", 0),
-        ("log(exp(0))", 0),
-        ("sin(0)", 0),
-        ("cos(0)", 1),
-        ("tan(0)", 0),
-        ("sinh(0)", 0),
-        ("cosh(0)", 1),
-        ("tanh(0)", 0),
-        ("atan(0)", 0),
-        ("asin(0)", 0),
-        ("acos(1)", 0),
-    ];
-    for (text, expected) in table {
+    for (texts, expected) in [
+        ("log(1), log(exp(0)), sin(0), tan(0), sinh(0), tanh(0), atan(0), asin(0), acos(1)", 0),
+        ("exp(0), exp(1 - 1), cos(0), cosh(0)", 1),
+    ] {
         let expected = Exact { value: Rational::from_integer(expected.into()), rounded: false };
-        assert_eq!(evaluated(text, 5).unwrap(), expected, "{text}");
+        for text in texts.split(", ") {
+            assert_eq!(evaluated(text, 5).unwrap(), expected, "{text}");
+        }
     }
     // of a rounded number the value is one that was rounded
     let names = BTreeMap::from([("x".to_string(), Exact { value: Rational::from_integer(0.into()), rounded: true })]);
@@ -171,48 +143,12 @@ fn inverse_functions_give_back_the_argument() {
 }
 
 #[test]
-fn formulas_that_are_one_number() {
-    let table = [
-        ("sin(_)^2 + cos(_)^2", "1"),
-        ("cosh(_)^2 - sinh(_)^2", "1"),
-        ("tan(_)*cos(_)/sin(_)", "1"),
-        ("tanh(_)*cosh(_)/sinh(_)", "1"),
-        ("exp(_)*exp(-(_))", "1"),
-        ("exp(_)/(cosh(_) + sinh(_))", "1"),
-        ("2*sin(_)*cos(_)/sin(2*(_))", "1"),
-        ("(atan(_) + atan(1/(_)))^2", "pi^2/4"),
-        ("log((_)^2) - 2*log(abs)", "0"),
-    ];
-    for x in ["1/3", "-5/4", "1e-12", "-20", "31.4159", "100"] {
-        for (text, expected) in table {
-            let text = text.replace('_', x).replace("abs", &format!("sqrt(({x})^2)"));
-            for digits in [3, 40, 320] {
-                assert_eq!(value(&text, digits), value(expected, digits), "{text}");
-            }
-        }
+fn pi_is_that_of_mpfr() {
+    let pi = Float::with_val(4000, rug::float::Constant::Pi).to_rational().unwrap();
+    let pi: Rational = pi.to_string().parse().unwrap();
+    for digits in [1, 2, 30, 101, 1000] {
+        assert_eq!(value("pi", digits), round_significant(&pi, digits), "{digits} digits");
     }
-}
-
-#[test]
-fn values_of_pi_by_other_series() {
-    let table = [
-        "4*atan(1)",
-        "2*asin(1)",
-        "acos(-1)",
-        "6*asin(1/2)",
-        "48*atan(1/18) + 32*atan(1/57) - 20*atan(1/239)",
-        "2*acos(0)",
-        "atan(1) + atan(2) + atan(3)",
-    ];
-    for text in table {
-        for digits in [1, 2, 30, 320, 1000] {
-            assert_eq!(value(text, digits), value("pi", digits), "{text}");
-        }
-    }
-    // 100 decimals, as printed everywhere, the last one rounded
-    let expected = "3.14159265358979323846264338327950288419716939937510\
-                    58209749445923078164062862089986280348253421170680";
-    assert_eq!(value("pi", 101), from_text(expected).unwrap());
 }
 
 // ---- limits ----
@@ -440,17 +376,5 @@ fn faults_have_a_message_and_a_place() {
     for (text, range, message) in table {
         let error = evaluated(text, 5).expect_err(text);
         assert_eq!((error.to_string(), error.range), (message, range), "{text}");
-    }
-}
-
-proptest! {
-    #[test]
-    fn any_formula_gives_a_value_or_a_fault(
-        text in "((exp|log|sin|cos|tan|sinh|cosh|tanh|atan|asin|acos)\\(-?(pi|[0-4])[-+*/]){0,6}(pi|[0-4])",
-    ) {
-        let text = format!("{text}{}", ")".repeat(text.matches('(').count()));
-        if let Err(error) = evaluated(&text, 5) {
-            prop_assert!(text.get(error.range).is_some_and(|part| !part.is_empty()));
-        }
     }
 }

@@ -33,26 +33,17 @@ impl Random {
         }
     }
 
-    /// A formula in x, y, a, b of + − * / and integer powers.
-    pub(crate) fn rational_formula(&mut self, depth: u32) -> String {
-        self.formula_with(depth, 9)
-    }
-
-    /// A formula that may have roots and functions.
+    /// A formula in x, y, a, b of + − * /, powers, roots and functions.
     pub(crate) fn formula(&mut self, depth: u32) -> String {
-        self.formula_with(depth, 14)
-    }
-
-    fn formula_with(&mut self, depth: u32, kinds: u64) -> String {
         if depth == 0 || self.below(8) == 0 {
             return self.leaf();
         }
-        let kind = self.below(kinds);
-        let a = self.formula_with(depth - 1, kinds);
+        let kind = self.below(14);
+        let a = self.formula(depth - 1);
         match kind {
             0..=5 => {
                 let operation = self.choose(&["+", "+", "-", "-", "*", "*", "/"]);
-                let b = self.formula_with(depth - 1, kinds);
+                let b = self.formula(depth - 1);
                 format!("({a} {operation} {b})")
             }
             6 => format!("(-{a})"),

@@ -55,7 +55,6 @@ macro_rules! call_method {
         }
     };
 }
-pub(crate) use call_method;
 
 impl Real for f64 {
     fn rational(value: &Rational) -> Self {
