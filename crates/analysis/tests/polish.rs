@@ -102,25 +102,6 @@ fn published_digits_become_those_of_the_shipped_tables() {
 }
 
 #[test]
-fn a_small_residual_hides_wrong_digits_where_a_solution_is_ill_conditioned() {
-    let polished = polished(&published("yoshida8-d"), 100, &[]).unwrap();
-    // of 20 and 21 printed digits; as f64 the residual is its rounding
-    assert!(polished.residual_printed < -14.0);
-    assert!(polished.weights.iter().all(|w| w.printed_digits >= 20));
-    // g4 is -0.158240635368|50… as printed and -0.158240635368|05… : by less than half a unit of the 12th digit
-    assert_eq!(polished.weights.iter().map(|w| w.right).collect::<Vec<_>>(), [12, 12, 13, 12, 13, 13, 12, 12]);
-    assert!(
-        polished
-            .weights
-            .iter()
-            .any(|w| (&w.printed - &w.polished).abs() > power(13) * Rational::from_integer(6.into()))
-    );
-    // A of the same paper is as good as printed
-    let good = self::polished(&published("yoshida8-a"), 100, &[]).unwrap();
-    assert!(good.weights.iter().all(|w| w.right == w.printed_digits));
-}
-
-#[test]
 fn fourteen_digits_become_three_hundred() {
     let gammas = "0.78451361047756, 0.23557321335936, -1.1776799841789, 1.3151863206839";
     let lines = format!(

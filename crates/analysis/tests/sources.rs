@@ -1,10 +1,13 @@
-//! Protects the reader of source code: its languages, the meanings of lists, what it finds wrong; and that it
-//! recognises every shipped scheme.
+//! Protects the reader of source code: its languages, in the sources of `sources.toml`, the meanings of lists, what it
+//! finds wrong; and that it recognises every shipped scheme.
+
+use std::sync::LazyLock;
 
 use num_traits::ToPrimitive;
 use shadowstep_analysis::sources::{Checked, Language, Verdict, check};
 use shadowstep_schemes::table::Weights;
 use shadowstep_schemes::{First, Proved, Rational, shipped_names, shipped_proved, to_significant};
+use toml::{Table, Value};
 
 /// The only scheme of a source.
 #[track_caller]
@@ -35,160 +38,35 @@ fn assert_wrong(words: &[&str], text: &str, language: Language) -> Verdict {
 
 // ---- languages ----
 
-#[test]
-fn c_has_arrays_sizes_suffixes_macros_and_elements() {
-    assert_is(
-        "blanes-moan-s6",
-        "/* BM4 */ static const double alpha[6] = {0.0792036964311957L, 0.1303114101821663, 0.2228614958676077,\n\
-        -0.3667132690474257, 0.3246481886897062, 0.1096884778767498};",
-        Language::C,
-    );
-    assert_is("yoshida4", "#define W1 1.3512071919596578 // symplectic\ndouble w[] = {W1, 1 - 2*W1, W1};", Language::C);
-    assert_is(
-        "yoshida4",
-        "double w[3]; w[0] = 1.0/(2.0 - pow(2.0, 1.0/3.0)); w[1] = 1 - 2*w[0]; w[2] = w[0];",
-        Language::C,
-    );
-    assert_is(
-        "suzuki4",
-        "struct scheme s = { .order = 4, .gamma = {0.41449077179437573714, 0.41449077179437573714,\n\
-        -0.65796308717750294857, 0, 0, 0, 0} };",
-        Language::C,
-    );
-    assert_is(
-        "ruth3",
-        "constexpr std::array<double, 3> kick{7./24., 0.75, -1.0/24}; constexpr std::array<double, 3> drift{2./3, \
-            -2.0/3, 1.0};",
-        Language::C,
-    );
-    assert_is(
-        "mclachlan-sb3a4",
-        "const double b[] = {0.188'195'217'768'838'217'87, -0.021'528'551'102'171'551'201, \
-            0.666'666'666'666'666'666'67,\n\
-        -0.021'528'551'102'171'551'201, 0.188'195'217'768'838'217'87}; const double a[] = {1, -0.5, -0.5, 1};",
-        Language::C,
-    );
+/// A source of `sources.toml`.
+struct Known {
+    language: Language,
+    scheme: &'static str,
+    name: Option<&'static str>,
+    text: &'static str,
 }
 
-/// The elements of two arrays that types derive from.
-#[test]
-fn cpp_has_casts_and_elements_of_this() {
-    let text = "struct kicks : array<T, 4> { kicks() { (*this)[0] = static_cast<T>(1); (*this)[1] = \
-        static_cast<T>(-1) / static_cast<T>(2);\n\
-        (*this)[2] = (*this)[1]; (*this)[3] = (*this)[0]; } };\nstruct drifts : array<T, 5> { drifts() { T z = \
-        sqrt(static_cast<T>(7) / static_cast<T>(8)) / 3;\n\
-        (*this)[0] = static_cast<T>(1) / static_cast<T>(2) - z / static_cast<T>(1); (*this)[1] = z - \
-        static_cast<T>(1) / static_cast<T>(3);\n\
-        (*this)[2] = 2.0 / 3; (*this)[3] = (*this)[1]; (*this)[4] = (*this)[0]; } };";
-    let verdict = assert_is("mclachlan-sb3a4", text, Language::C);
-    assert_eq!(verdict.name, "kicks and drifts");
-}
+static KNOWN: LazyLock<Vec<Known>> = LazyLock::new(|| {
+    let document: &Table = Box::leak(Box::new(include_str!("sources.toml").parse().unwrap()));
+    let known = |source: &'static Value| {
+        let text = |key: &str| source.get(key).map(|value| value.as_str().expect("a text"));
+        let is_named = |language: &Language| format!("{language:?}") == text("language").unwrap();
+        let language = Language::ALL.into_iter().find(is_named).expect("a language");
+        Known { language, scheme: text("is").unwrap(), name: text("name"), text: text("text").unwrap() }
+    };
+    document["source"].as_array().unwrap().iter().map(known).collect()
+});
 
+/// Arrays with sizes, suffixes, macros and elements in C; the elements of two arrays that types derive from in C++;
+/// exponents, kinds and constructors in Fortran; tuples, powers, arrays and loops in Python; conversions, rationals and
+/// big numbers in Julia; conversions, loops and types in Rust; lists by keys in JSON. In C 1/3 is 0, so that its root
+/// is 1.
 #[test]
-fn fortran_has_exponents_kinds_and_constructors() {
-    assert_is(
-        "yoshida6-a",
-        "real(dp), parameter :: w1 = -0.117767998417887d1, w2 = 0.235573213359357_dp, &\n  w3 = 0.784513610477560D0\n\
-        real(dp), parameter :: w(7) = (/ w3, w2, w1, 1.0_dp - 2*(w1 + w2 + w3), w1, w2, w3 /)",
-        Language::Fortran,
-    );
-    assert_is(
-        "pefrl",
-        "      DOUBLE PRECISION A(5), B(4)\nC     the drifts\n      A(1) = 0.1786178958448091D0\n      A(2) = \
-            -0.6626458266981849D-1\n\
-      \x20     A(3) = 1D0 - 2D0*(A(1) + A(2))\n      A(4) = A(2)\n      A(5) = A(1)\n      B(1) = \
-      0.7123418310626054D0\n      B(2) = 0.5D0 - B(1)\n\
-      \x20     B(3) = B(2)\n      B(4) = B(1)\n",
-        Language::FixedFortran,
-    );
-    assert_is(
-        "yoshida4",
-        "x = [real(8) :: 1.3512071919596578_8, -1.7024143839193153_8, 1.3512071919596578_8] ! symplectic",
-        Language::Fortran,
-    );
-}
-
-#[test]
-fn python_has_tuples_powers_arrays_and_loops() {
-    assert_is(
-        "yoshida4",
-        "c1 = c4 = 1/(2*(2 - 2**(1/3)))\nc2 = c3 = (1 - 2**(1/3))*c1\nd1 = d3 = 2*c1\nd2 = -2**(1/3)*d1\n\
-        c = np.array([c1, c2, c3, c4])\nd = np.array([d1, d2, d3, 0.])\n",
-        Language::Python,
-    );
-    assert_is(
-        "efrl",
-        "xi, lam, chi = 0.1720865590295143, -0.09156203075515678, -0.1616217622107222\n\
-        half = [xi, 0.5 - lam, chi, lam, 1 - 2*(chi + xi)]\n",
-        Language::Python,
-    );
-    assert_is(
-        "yoshida6-a",
-        "half = [0.784513610477560, 0.235573213359357, -1.17767998417887, 1.31518632068391]\nw = []\nfor x in \
-        half:\n    w.append(x)\nfor i in range(2, -1, -1):\n    w.append(half[i])\n",
-        Language::Python,
-    );
-    assert_is(
-        "bcss3",
-        "class Three:\n    def __init__(self):\n        self.a_0 = 0.11888010966548\n        self.b_1 = \
-        0.29619504261126\n        run((self.a_0, self.b_1))\n",
-        Language::Python,
-    );
-}
-
-#[test]
-fn julia_has_conversions_rationals_and_big_numbers() {
-    assert_is(
-        "mclachlan-sb3a5",
-        "a1 = convert(T, -3//73); a2 = convert(T, 17//59); a3 = 1 - 2(a1 + a2)\n\
-        b1 = T(big\"0.40518861839525227722\"); b2 = T(\"-0.28714404081652408900\"); b3 = 1//2 - (b1 + b2)\n\
-        kick = [a1, a2, a3, a2, a1]; drift = T[b1, b2, b3, b3, b2, b1]\n",
-        Language::Julia,
-    );
-    assert_is("ruth3", "const third = Scheme([7/24, 3/4, -1/24], [2/3, -2/3, 1])", Language::Julia);
-}
-
-#[test]
-fn rust_has_conversions_loops_and_types() {
-    assert_is(
-        "suzuki-umeno8",
-        "let half: [f64; 8] = [0.741_670_364_350_612_95, -0.409_100_825_800_031_6, 0.190_754_710_296_238_38_f64,\n\
-        -0.573_862_471_116_082_3, 0.299_064_181_303_655_9, 0.334_624_918_245_298_2, 0.315_293_092_396_766_6, \
-        -0.796_887_939_352_916_4];\n\
-        let mut all = Vec::new();\nfor &w in &half { all.push(w); }\nfor i in (0..7).rev() { all.push(half[i]); }\n",
-        Language::Rust,
-    );
-    assert_is(
-        "yoshida4",
-        "let two = F::one() + F::one(); let root = two.powf(F::from_f64(1.0 / 3.0).unwrap());\n\
-        let w1 = F::one() / (two - root); let w0 = -root / (two - root); let w = vec![w1, w0, w1];",
-        Language::Rust,
-    );
-    assert_is(
-        "yoshida4",
-        "const W: [f64; 3] = [1.3512071919596578, -1.7024143839193153, 1.3512071919596578];",
-        Language::Rust,
-    );
-}
-
-#[test]
-fn json_has_lists_by_keys() {
-    let verdict = assert_is(
-        "yoshida4",
-        "{\"yoshida\": {\"order\": 4, \"kick\": [\"0.6756035959798288\", -0.1756035959798288, -0.1756035959798288, \
-            0.6756035959798288],\n\
-        \"drift\": [1.3512071919596578, -1.7024143839193153, 1.3512071919596578]}, \"masses\": [0.5, 1.5]}",
-        Language::Json,
-    );
-    assert_eq!(verdict.name, "yoshida.kick and yoshida.drift");
-}
-
-/// 1/3 is 0 in some languages, so that the root is 1.
-#[test]
-fn whole_numbers_are_divided_as_the_language_divides_them() {
-    let text = "w = pow(2.0, 1/3); yoshida[0] = 1/(2 - w) + 0.3512071919596578; yoshida[1] = 1 - 2*yoshida[0]; \
-        yoshida[2] = yoshida[0];";
-    assert_is("yoshida4", text, Language::C);
+fn languages_are_read() {
+    for Known { language, scheme, name, text } in KNOWN.iter() {
+        let verdict = assert_is(scheme, text, *language);
+        assert!(name.is_none_or(|name| verdict.name == name), "{text}\n{}", verdict.name);
+    }
 }
 
 // ---- wrong lists ----
@@ -341,23 +219,14 @@ fn the_first_map_matters_for_quadratic_kinetic_energies() {
 /// Whatever is cut out, doubled or changed: an answer, not a panic.
 #[test]
 fn any_text_has_an_answer() {
-    let texts = [
-        "double w[3]; w[0] = 1.0/(2.0 - pow(2.0, 1.0/3.0)); w[1] = 1 - 2*w[0]; w[2] = w[0]; /* a */ #define X 0.5",
-        "real(dp), parameter :: w(3) = (/ 1.3512071919596578_dp, &\n -1.7024143839193153d0, 1.351207191959658 /) ! order 4",
-        "a, b = 0.11888010966548, 0.29619504261126\nyoshida = [a, b, 0.5 - a, 1 - 2*b, 0.5 - a, b, a]\nfor x in \
-            range(3):\n  w.append(x)",
-        "let w = [0.784513610477560_f64, 0.235573213359357]; for &x in &w { v.push(x); } for i in (0..2).rev() { \
-            v.push(w[i]); }",
-        "x = convert(T, -3//73); y = 2x'; z = T[x, 17//59, 1 - 2(x + y)]; w = big\"0.1\"",
-    ];
     const SIGNS: &[u8] = b"()[]{}\"'=,;:.*/-+e09\n&!#";
     let mut random = 12345_u64;
     let mut next = |below: usize| {
         random = random.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         (random >> 33) as usize % below
     };
-    for text in texts {
-        for _ in 0..15 {
+    for Known { text, .. } in KNOWN.iter().step_by(4) {
+        for _ in 0..12 {
             let mut bytes = text.as_bytes().to_vec();
             for _ in 0..=next(3) {
                 let (from, length) = (next(bytes.len()), next(20));
