@@ -111,7 +111,7 @@ mod tests {
     use super::*;
     use crate::arithmetic::ExactArithmetic;
     use crate::part_words;
-    use crate::{Proved, Source, read, read_first, shipped, shipped_proved};
+    use crate::{Proved, Source, read, shipped, shipped_proved};
 
     /// A table with these lines in place of those of `r-respa-4`.
     fn table(changes: &[(&str, &str)]) -> Source {
@@ -210,58 +210,5 @@ mod tests {
         assert_eq!((digits(&proved), digits(&more)), (300, 400));
         assert_ne!(proved.plan.middle_weights, more.plan.middle_weights);
         assert_eq!(more.plan.middle, proved.plan.middle);
-    }
-
-    #[test]
-    fn faults_have_their_places() {
-        let inner = |line: &'static str| vec![(INNER, line)];
-        let long = "[inner]\nbase = \"kahan-li8\"\nsubsteps = 200";
-        let claims_4 = vec![("order = 2", "order = 4"), (OUTER, "base = \"blanes-moan-s6\"\ngamma = [1]")];
-        let near = vec![("kinetic = \"any\"", "kinetic = \"any\"\nnear_integrable = [4, 2]")];
-        let unfinished = vec![(INNER, "[inner]\nbase = \"stormer-verlet\"")];
-        let cases = [
-            claims_4,
-            inner("[inner]\nbase = \"stormer-verle\"\nsubsteps = 4"),
-            inner("[inner]\nbase = \"stormer-verlet\"\nsubsteps = 0"),
-            inner(long),
-            inner("[inner]\nbase = \"saba2\"\nsubsteps = 4"),
-            inner("[inner]\nbase = \"chin-4a\"\nsubsteps = 4"),
-            inner("[inner]\nbase = \"wisdom-corrector-5\"\nsubsteps = 4"),
-            inner("[inner]\nbase = \"r-respa-4\"\nsubsteps = 4"),
-            vec![(OUTER, "base = \"saba2\"\ngamma = [1]")],
-            vec![(OUTER, "base = \"r-respa-4\"\ngamma = [1]")],
-            near,
-            vec![("kinetic = \"any\"", "kinetic = \"quadratic\"")],
-            unfinished,
-        ];
-        let sentences = cases.map(|changes| {
-            let Err(faults) = read(&table(&changes), &|base, _| shipped(base)) else { panic!("{changes:?}") };
-            let sentence = |f: &Fault| format!("{}:{}: {}", f.line, f.column, f.message);
-            faults.0.iter().map(sentence).collect::<Vec<_>>().join("; ")
-        });
-        assert_eq!(
-            sentences,
-            [
-                "4:9: order 4 is claimed, order 2 holds for slow forces, fast forces and T: the condition of the word \
-                    BBC fails",
-                "15:8: there is no table `stormer-verle`",
-                "16:12: 0 is out of range",
-                "1:8: 3400 stages are too many",
-                "15:8: the inner scheme saba2 must begin and end with kicks, and have no gradient kicks",
-                "15:8: the inner scheme chin-4a must begin and end with kicks, and have no gradient kicks",
-                "15:8: wisdom-corrector-5 is a processed scheme, which an inner scheme cannot be",
-                "15:8: r-respa-4 has an inner scheme, which an inner scheme cannot have",
-                "11:8: the outer scheme must begin and end with kicks, and have no gradient kicks",
-                "11:8: r-respa-4 has an inner scheme, which a base cannot have",
-                "6:19: `near_integrable` is claimed of two parts, which there are not beside an inner scheme",
-                "5:11: `kinetic` must be \"any\" beside an inner scheme",
-                "14:1: the key `substeps` is missing",
-            ]
-        );
-        let first = read_first(&shipped("r-respa-4").unwrap(), &|base, _| shipped(base), Some(crate::First::Drift));
-        assert_eq!(
-            first.unwrap_err().0[0].message,
-            "the roles of kick and drift cannot be exchanged in a scheme with an inner scheme"
-        );
     }
 }

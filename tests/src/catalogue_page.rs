@@ -11,6 +11,7 @@ use shadowstep_schemes::scheme::Held;
 use shadowstep_schemes::table::{Cell, Table, Weights};
 use shadowstep_schemes::{Kinetic, MapKind, Proved, Rational, shipped_names, shipped_proved, to_significant, to_text};
 
+use crate::pages::project_file;
 use crate::rational;
 
 /// Digits of a constant that a person reads.
@@ -18,57 +19,6 @@ const SHOWN: usize = 25;
 
 const GENERATED: &str = "<!-- Generated from schemes/tables/*.toml; `UPDATE_DOCS=1 cargo test -p shadowstep-tests \
     documentation` writes it. -->\n\n";
-
-const HEAD: &str = "\
-# The shipped schemes
-
-A step makes, for each stage s in turn, the kick p −= h a_s U_q(q) and the drift q += h b_s T_p(p); weights that are 0 are
-left out. A composition makes steps γ_1 h, γ_2 h, … of another scheme. The names lead to the pages with the weights.
-
-Everything on this page is computed from the tables: the orders are proved, none is copied from a publication.
-`shadowstep schemes --order 4 --for quadratic --sort effective-error` lists a part of it in another order. In the book, a
-field above each long table chooses rows: a word, or conditions such as `order=4 forces<=5 symmetric=yes`.
-
-## The columns
-
-- *order*: for every T(p), and for quadratic T = ½pᵀM⁻¹p. A scheme whose table says `kinetic = \"quadratic\"` is meant for
-  quadratic T.
-- *A + εB*: of near-integrable schemes, the orders in the powers of ε for near-integrable systems: (8,6,4) has the \
-local error O(εh⁹ + ε²h⁷ + ε³h⁵).
-  They pay only if the drift solves A exactly and εB is small, as where drifts are Kepler motions and kicks the \
-  attractions of
-  planets ([parts with flows of their own](planets.md)). With H = T + U nothing is small, and such a scheme gains \
-  nothing over its order for T + U.
-  In these tables drifts are the flow of A, and kicks that of εB.
-- *effective*: of processed schemes, the orders of the trajectory, which is read through the post-map; all else is of \
-the kernel. They are listed by
-  this order: see [processed schemes](gradient-kicks-and-processing.md#processed-schemes).
-- *sampling*: `bcss2`, `bcss3`, `bcss4` and `predescu3` have order 2 and a small error of the energy in the mean over states in
-  equilibrium, as Hamiltonian Monte Carlo needs. The *expected energy error* below is the largest ρ(h) of the \
-  harmonic oscillator over
-  0 < hω < forces, where ρ(h) sin²(Lφ) is the mean of H − H(0) after L steps that turn by φ, in units of the \
-  temperature; the first three
-  were published to minimise it. [*Hamiltonian Monte Carlo*](sampling.md) has their steps, acceptance and cost.
-- *first*: each scheme is listed in the roles of its publication. `first = \"drift\"` or `\"kick\"` exchanges the \
-roles of kick and drift,
-  so that every table for every T(p) has its twin, as velocity and position Verlet are; it is proved anew.
-- *forces*: evaluations of U_q a step, the first kick taking over what the last one of the step before evaluated.
-- *gradient kicks*: a stage with a weight c_s has also p += 2h³ c_s U_qq M⁻¹U_q, the flow of h³ c_s [B,[A,B]] for T = \
-½pᵀM⁻¹p and
-  B = U(q). *forces* 2 + 1 means 2 evaluations of U_q and 1 Hessian–vector product U_qq M⁻¹U_q a step, which in the \
-  effective error
-  and the stability per force is counted as a force; [the formula of \
-  β](gradient-kicks-and-processing.md#gradient-kicks) is on a page of its own. There is no order for
-  every T(p).
-- *operations*: products and additions a step and dimension besides these, one for each kick and each drift.
-- *effective error*: forces · ‖E‖^{1/order}, where h^{order+1} E is the leading error of the step's logarithm in
-  right-nested brackets of kick and drift and ‖E‖ the Euclidean norm. At equal cost the smaller one is more accurate, if
-  the orders are the same; schemes of different orders are not compared by it.
-- *stable to hω*: up to there a step of the harmonic oscillator is stable; per force it is the second number. Beyond it
-  some schemes are stable again for a while: `shadowstep schemes show` lists the unstable gaps.
-- *phase error*: how much too fast the harmonic oscillator turns, to the leading power of hω.
-
-";
 
 /// Schemes that are for the same.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -152,7 +102,7 @@ const COLUMNS: [&str; 2] = [
     "| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |",
 ];
 
-/// The pages, each with its file in `docs/`, in Markdown.
+/// The pages, each with its file in `docs/`, in Markdown; what stands above the first family is as it was.
 pub fn catalogue_pages() -> Vec<(String, String)> {
     let mut schemes: Vec<_> = shipped_names()
         .into_iter()
@@ -168,7 +118,10 @@ pub fn catalogue_pages() -> Vec<(String, String)> {
         let order = proved.proof.effective.as_ref().map_or(order, |effective| effective.quadratic.order);
         (order, quadratic.order, proved.plan.degree())
     });
-    let mut all = format!("{GENERATED}{HEAD}");
+    let page = project_file("docs/schemes.md");
+    let first_title = format!("\n## {}\n", Family::ALL[0].title());
+    let (head, _) = page.split_once(&first_title).expect("a text that is written by hand, and the first family");
+    let mut all = head.to_owned();
     let mut pages = Vec::new();
     for family in Family::ALL {
         let own = || schemes.iter().filter(move |(_, proved, _)| Family::of(proved) == family);

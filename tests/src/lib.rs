@@ -2,9 +2,11 @@
 //! solution to compare with, what the compiler reports about a table.
 
 pub mod catalogue_page;
+pub mod exact_orbit;
 pub mod general;
 pub mod lennard_jones;
 pub mod matrix;
+pub mod orders;
 pub mod pages;
 pub mod readers;
 pub mod reference;
@@ -16,8 +18,9 @@ pub mod variations;
 
 use rug::Float;
 use shadowstep::number::{Number, Precision, Real};
+use shadowstep::shadow::{BuildEstimator, Report, ShadowEnergy};
 use shadowstep::tables::{self, TableScheme};
-use shadowstep::{Potential, Rational, StepSize, Stepper, System, exact};
+use shadowstep::{Potential, Rational, Scheme, StepSize, Stepper, System, ValidFor, exact};
 
 /// The precision of `digits` decimal digits.
 pub fn precision(digits: u32) -> Precision {
@@ -48,6 +51,28 @@ pub fn step_size(text: &str) -> StepSize {
 pub fn stepper<N: Number>(scheme: &str, h: &str, context: &N::Context) -> Stepper<TableScheme, N> {
     let scheme = tables::shipped(scheme).expect("tests use shipped schemes");
     Stepper::with_context(scheme, h, context).expect("tests use valid step sizes")
+}
+
+/// What a monitor with a window in `every` steps reports of a number of steps.
+///
+/// # Panics
+/// If a state is not finite.
+pub fn watched<S, M>(
+    stepper: Stepper<S, M::Number>,
+    system: &mut M,
+    settings: &impl BuildEstimator<M::Number>,
+    every: u64,
+    steps: u64,
+) -> Report<M::Number>
+where
+    S: Scheme + ValidFor<M::Class>,
+    M: System<Number: Real>,
+{
+    let mut monitor = ShadowEnergy::new(stepper, system, settings).expect("the start is finite").every(every);
+    for _ in 0..steps {
+        monitor.step(system).expect("it stays finite");
+    }
+    monitor.report()
 }
 
 /// log₁₀|a − b|, −∞ if they are equal.

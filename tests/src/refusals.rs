@@ -2,6 +2,8 @@
 
 use shadowstep_schemes::{Faults, Proved, Source, read, shipped};
 
+use crate::pages::project_file;
+
 /// Reads a custom table, whose base may be a shipped one.
 ///
 /// # Errors
@@ -19,22 +21,19 @@ pub fn judge_named(path: &str, text: &str) -> Result<Proved, Faults> {
     read(&source, &|base, _| shipped(base))
 }
 
-/// The table is refused with this whole message, as a user sees it.
-#[track_caller]
-pub fn assert_refused(text: &str, message: &str) {
-    let faults = judge(text).map(|proved| proved.proof).expect_err("this table must be refused");
-    assert_message(&faults.to_string(), message);
-}
-
-/// Compares messages, blank lines at the ends of the expected one apart.
-#[track_caller]
-pub fn assert_message(found: &str, expected: &str) {
-    assert_eq!(found, expected.trim_matches('\n'), "\n{found}\n");
-}
-
 /// The table is accepted, with these orders for every T(p) and for quadratic T.
 #[track_caller]
 pub fn assert_orders(text: &str, general: u32, quadratic: u32) {
     let proved = judge(text).unwrap_or_else(|faults| panic!("{faults}"));
     assert_eq!((proved.proof.general.order, proved.proof.quadratic.order), (general, quadratic));
+}
+
+/// A table with the decimals that its paper prints, of `crates/analysis/tests/published`.
+pub fn printed(name: &str) -> String {
+    project_file(&format!("crates/analysis/tests/published/{name}.toml"))
+}
+
+/// The same with a claim of this number of digits.
+pub fn printed_with_digits(name: &str, digits: u32) -> String {
+    printed(name).replacen("\nkinetic", &format!("\ndigits = {digits}\nkinetic"), 1)
 }

@@ -1,10 +1,13 @@
-//! The steps of a scheme as values: one check serves every scheme without being compiled for each.
+//! The steps of a scheme as values, and what all of them have in common: one check serves every scheme without being
+//! compiled for each.
 
 use std::marker::PhantomData;
 
 use shadowstep::steps::scheme::{Flows, PartOrder, WeightLists, Weights};
 use shadowstep::systems::kinetic::Quadratic;
 use shadowstep::{Carried, Number, Rational, Scheme, Stepper, System, ValidFor};
+
+use crate::{Bits, check_increments, coordinates, log10_distance, log10_largest_distance, same_bits};
 
 /// The maps of a step, of flows of any type.
 type Maps<N> = Box<dyn Fn(&mut dyn Flows<Number = N>)>;
@@ -56,6 +59,48 @@ impl<N: Number + 'static, C> Steps<N, C> {
     pub fn step_back_augmented<M: System<Number = N, Class = C>>(&self, system: &mut M) {
         system.clear_increments();
         (self.maps_back)(&mut Carrying { system, carried: Carried::Increments });
+    }
+}
+
+impl<N: Bits, C> Steps<N, C> {
+    /// Steps are steps: augmented ones have the bits of plain ones, their increments are what q and p change by, and
+    /// steps back undo all of it, to ε times 10^`digits_lost`.
+    ///
+    /// # Panics
+    /// If one of that is not so, with `what`.
+    pub fn check<M>(&self, what: &str, start: impl Fn() -> M, count: u32, digits_lost: f64)
+    where
+        M: System<Number = N, Class = C>,
+    {
+        let [mut plain, mut augmented] = [start(), start()];
+        let start = coordinates(&plain);
+        let tolerance = start[0].log10_epsilon() + digits_lost;
+        let mut betas = Vec::new();
+        let same = |plain: &M, augmented: &M| {
+            assert!(same_bits(&coordinates(plain), &coordinates(augmented)), "augmented steps move otherwise: {what}");
+        };
+        for _ in 0..count {
+            self.step(&mut plain);
+            let before = coordinates(&augmented);
+            self.step_augmented(&mut augmented);
+            same(&plain, &augmented);
+            check_increments(&augmented, &before, digits_lost);
+            betas.push(augmented.state().increments().beta.clone());
+        }
+        assert_eq!(plain.state().evaluations(), augmented.state().evaluations(), "{what}");
+        let moved = log10_largest_distance(&coordinates(&plain), &start);
+        assert!(moved > -4.0, "10^{moved}: the steps must move: {what}");
+        for beta in betas.iter().rev() {
+            self.step_back(&mut plain);
+            self.step_back_augmented(&mut augmented);
+            same(&plain, &augmented);
+            let mut back = augmented.state().increments().beta.clone();
+            back.negate();
+            let off = log10_distance(beta, &back);
+            assert!(beta.log10_abs() > -12.0 && off < tolerance, "β: {beta} there, −{back} back: {what}");
+        }
+        let off = log10_largest_distance(&coordinates(&plain), &start);
+        assert!(off < tolerance, "10^{off} after steps and steps back: {what}");
     }
 }
 

@@ -4,68 +4,30 @@
 use rug::Float;
 use shadowstep::Number;
 use shadowstep::number::CorrectlyRounded;
-use shadowstep::problems::problem;
-use shadowstep::shadow::exact_flow::ExactFlow;
-use shadowstep::shadow::run::ShadowRun;
-use shadowstep::shadow::{Bilinear, BuildEstimator};
-use shadowstep_tests::{precision, rational, step_size};
-
-/// An estimate with its true error.
-struct Found<N> {
-    value: N,
-    off: f64,
-    estimate: N,
-    k: u32,
-}
-
-/// The estimates of a number of steps of the exact flow from the pericentre on.
-fn on_the_exact_flow<N: CorrectlyRounded>(
-    (e, h): (&str, &str),
-    steps: u64,
-    settings: &impl BuildEstimator<N>,
-    context: &N::Context,
-) -> Vec<Found<N>> {
-    let set = [("eccentricity".to_owned(), e.to_owned())];
-    let setup = problem("kepler").unwrap().setup(&set, 200).unwrap();
-    let mut run = ShadowRun::<ExactFlow<N>, _>::of_exact_flow(&setup, &step_size(h), steps, settings, context).unwrap();
-    let (mut all, half) = (Vec::new(), N::from_rational(&rational("1/2"), context));
-    while let Some((_, found)) = run.advance().unwrap() {
-        let mut off = found.value.clone();
-        off.add(&half);
-        let (value, estimate) = (found.value.clone(), found.error.unwrap().clone());
-        all.push(Found { value, off: off.to_f64().abs(), estimate, k: found.order });
-    }
-    all
-}
-
-/// As many steps as an orbit has.
-fn an_orbit(h: &str) -> u64 {
-    (std::f64::consts::TAU / f64::from_rational(&rational(h), &())) as u64
-}
+use shadowstep::shadow::Bilinear;
+use shadowstep_tests::exact_orbit::{Found, over_an_orbit, steps_of_an_orbit};
+use shadowstep_tests::{precision, rational};
 
 /// The least k of the ladder with an error that is small enough, else the least with one at most twice the least.
 #[test]
 fn the_choice_is_its_rule_written_out() {
     let context = precision(50);
-    let steps = an_orbit("1/20");
     for (largest, ladder) in [(2, vec![2]), (8, vec![2, 4, 8]), (23, vec![2, 4, 8, 16, 22])] {
-        let of_each: Vec<Vec<Found<Float>>> = ladder
-            .iter()
-            .map(|k| on_the_exact_flow(("6/10", "1/20"), steps, &Bilinear::with_error(*k), &context))
-            .collect();
+        let of_each: Vec<Vec<Found<Float>>> =
+            ladder.iter().map(|k| over_an_orbit(("6/10", "1/20"), &Bilinear::with_error(*k), &context)).collect();
         for wanted in [None, Some("1e-6"), Some("1e-12")] {
             let settings = Bilinear::Best { largest, accuracy: wanted.map(rational) };
             let wanted = wanted.map(|wanted| Float::from_rational(&rational(wanted), &context));
-            let found = on_the_exact_flow(("6/10", "1/20"), steps, &settings, &context);
-            assert_eq!(found.len() as u64, steps + 1);
+            let found = over_an_orbit(("6/10", "1/20"), &settings, &context);
+            assert_eq!(found.len() as u64, steps_of_an_orbit("1/20") + 1);
             for (n, found) in found.iter().enumerate() {
                 let all = || of_each.iter().map(|of_k| &of_k[n]);
                 let least = all().map(|one| &one.estimate).reduce(|a, b| if b < a { b } else { a }).unwrap();
                 let met = all().find(|one| wanted.as_ref().is_some_and(|wanted| one.estimate <= *wanted));
                 let right = met.or_else(|| all().find(|one| one.estimate <= least.clone() * 2)).unwrap();
                 assert_eq!(
-                    (found.k, &found.value, &found.estimate),
-                    (right.k, &right.value, &right.estimate),
+                    (found.order, &found.value, &found.estimate),
+                    (right.order, &right.value, &right.estimate),
                     "n = {n}"
                 );
             }
@@ -77,11 +39,11 @@ fn the_choice_is_its_rule_written_out() {
 fn assert_met<N: CorrectlyRounded>(name: &str, context: &N::Context) {
     for (e, h) in [("3/10", "1/10"), ("6/10", "1/20"), ("6/10", "2/83"), ("9/10", "1/40")] {
         for text in ["1e-6", "1e-12", "1e-20", "1e-30"] {
-            let found = on_the_exact_flow::<N>((e, h), an_orbit(h), &Bilinear::best_to(64, rational(text)), context);
+            let found = over_an_orbit::<N>((e, h), &Bilinear::best_to(64, rational(text)), context);
             let wanted = N::from_rational(&rational(text), context);
             let (met, missed): (Vec<_>, Vec<_>) = found.iter().partition(|one| one.estimate <= wanted);
             let worst = met.iter().map(|one| one.off).fold(0.0, f64::max);
-            let ks = || met.iter().map(|one| one.k);
+            let ks = || met.iter().map(|one| one.order);
             println!(
                 "{name}, e = {e}, h = {h}, {text}: met at {} of {}, k = {:?} to {:?}, the largest error {worst:.1e}",
                 met.len(),
@@ -111,8 +73,8 @@ fn the_accuracy_wanted_is_met_where_it_is_said_to_be() {
 fn close_encounters_have_a_larger_k() {
     for (h, wanted, at_most) in [("1/20", "1e-6", 4), ("1/20", "1e-12", 4), ("1/40", "1e-20", 8)] {
         let settings = Bilinear::best_to(64, rational(wanted));
-        let found = on_the_exact_flow::<Float>(("6/10", h), an_orbit(h), &settings, &precision(60));
-        let (pericentre, apocentre) = (found[0].k, found[found.len() / 2].k);
+        let found = over_an_orbit::<Float>(("6/10", h), &settings, &precision(60));
+        let (pericentre, apocentre) = (found[0].order, found[found.len() / 2].order);
         println!("h = {h}, {wanted}: k = {pericentre} at the pericentre, {apocentre} at the apocentre");
         assert!(pericentre > apocentre && apocentre <= at_most, "{wanted}: {pericentre}, {apocentre}");
     }
@@ -122,10 +84,9 @@ fn close_encounters_have_a_larger_k() {
 #[test]
 fn round_off_ends_the_search() {
     fn of<N: CorrectlyRounded>(name: &str, context: &N::Context, floor: f64) -> u32 {
-        let steps = an_orbit("1/20");
-        let found = on_the_exact_flow::<N>(("3/10", "1/20"), steps, &Bilinear::best(64), context);
+        let found = over_an_orbit::<N>(("3/10", "1/20"), &Bilinear::best(64), context);
         let largest = found.iter().map(|one| one.off).fold(0.0, f64::max);
-        let mut orders: Vec<u32> = found.iter().map(|one| one.k).collect();
+        let mut orders: Vec<u32> = found.iter().map(|one| one.order).collect();
         orders.sort_unstable();
         let median = orders[orders.len() / 2];
         println!("{name}: the largest error {largest:.1e}, k = {}–{median}–{}", orders[0], orders[orders.len() - 1]);
@@ -146,7 +107,7 @@ fn round_off_ends_the_search() {
 fn a_longer_ladder_is_better() {
     for (e, h) in [("3/10", "1/20"), ("6/10", "1/10"), ("6/10", "1/20"), ("6/10", "1/40")] {
         let errors = [16, 32, 64].map(|largest| {
-            let found = on_the_exact_flow::<Float>((e, h), an_orbit(h), &Bilinear::best(largest), &precision(120));
+            let found = over_an_orbit::<Float>((e, h), &Bilinear::best(largest), &precision(120));
             found.iter().map(|one| one.off).fold(0.0, f64::max)
         });
         println!("e = {e}, h = {h}, k up to 16, 32, 64: {errors:?}");

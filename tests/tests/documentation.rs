@@ -5,5 +5,5 @@ use shadowstep_tests::pages::assert_page;
 
 #[test]
 fn the_pages_of_schemes_are_what_their_tables_say() {
-    catalogue_pages().iter().for_each(|(name, page)| assert_page(name, page));
+    catalogue_pages().iter().for_each(|(name, page)| assert_page(&format!("docs/{name}"), page));
 }

@@ -17,7 +17,6 @@ mod general_kinetic;
 mod generated;
 mod gradient_kicks;
 mod gradient_kicks_of_parts;
-mod grammar;
 mod hard_cases;
 mod kerr;
 mod language;

@@ -2,41 +2,11 @@
 //! error is known.
 
 use rug::Float;
-use shadowstep::Number;
+use shadowstep::Real;
 use shadowstep::number::CorrectlyRounded;
-use shadowstep::problems::problem;
-use shadowstep::shadow::exact_flow::ExactFlow;
-use shadowstep::shadow::run::ShadowRun;
-use shadowstep::shadow::{Bilinear, BuildEstimator, Central, Estimate, SelectionRule, StoppingRule};
-use shadowstep_tests::{precision, rational, step_size};
-
-/// A true error with the estimated one and the last term.
-struct Found {
-    error: f64,
-    estimate: f64,
-    last_term: f64,
-}
-
-/// What an estimator gives over an orbit and its close encounters, from a pericentre on.
-fn over_an_orbit<N: CorrectlyRounded, M: BuildEstimator<N>>(
-    (e, h): (&str, &str),
-    settings: &M,
-    context: &N::Context,
-) -> Vec<Found> {
-    let set = [("eccentricity".to_owned(), e.to_owned())];
-    let setup = problem("kepler").unwrap().setup(&set, 200).unwrap();
-    let h = step_size(h);
-    let steps = (std::f64::consts::TAU / f64::from_rational(h.exact(), &())) as u64;
-    let mut run = ShadowRun::<ExactFlow<N>, _>::of_exact_flow(&setup, &h, steps, settings, context).unwrap();
-    let (mut all, half) = (Vec::new(), N::from_rational(&rational("1/2"), context));
-    while let Some((_, Estimate { value, last_term, error, .. })) = run.advance().unwrap() {
-        let mut off = value.clone();
-        off.add(&half);
-        let [estimate, last_term] = [error, last_term].map(|number| number.unwrap().to_f64());
-        all.push(Found { error: off.to_f64().abs(), estimate, last_term });
-    }
-    all
-}
+use shadowstep::shadow::{Bilinear, BuildEstimator, Central, SelectionRule, StoppingRule};
+use shadowstep_tests::exact_orbit::{Found, over_an_orbit};
+use shadowstep_tests::precision;
 
 /// The median, the 95th hundredth and the largest of ratios.
 fn quantiles(ratios: impl Iterator<Item = f64>) -> [f64; 3] {
@@ -56,12 +26,12 @@ fn ratios<N: CorrectlyRounded, M: BuildEstimator<N>>(
     name: &str,
     settings: &M,
     context: &N::Context,
-    check: impl Fn(&Found),
+    check: impl Fn(&Found<N>),
 ) -> [f64; 3] {
-    let found: Vec<Found> = orbits().flat_map(|orbit| over_an_orbit(orbit, settings, context)).collect();
+    let found: Vec<Found<N>> = orbits().flat_map(|orbit| over_an_orbit(orbit, settings, context)).collect();
     found.iter().for_each(check);
-    let [median, most, worst] = quantiles(found.iter().map(|found| found.error / found.estimate));
-    let old = quantiles(found.iter().map(|found| found.error / found.last_term));
+    let [median, most, worst] = quantiles(found.iter().map(|found| found.off / found.estimate.to_f64()));
+    let old = quantiles(found.iter().map(|found| found.off / found.last_term.expect("it is known")));
     println!(
         "{name}: {median:.0e}, {most:.2}, {worst:.2}; of the last term {:.0e}, {:.0e}, {:.0e}",
         old[0], old[1], old[2]
@@ -71,11 +41,11 @@ fn ratios<N: CorrectlyRounded, M: BuildEstimator<N>>(
 
 /// Errors are at most a tenth more than estimated; where they are round-off, which may be alike at some states one
 /// after the other, four times as much.
-fn assert_reliable(name: &str, digits: u32, found: &Found) {
-    let is_round_off = found.error < 10_f64.powi(2 - digits as i32);
+fn assert_reliable<N: Real>(name: &str, digits: u32, found: &Found<N>) {
+    let is_round_off = found.off < 10_f64.powi(2 - digits as i32);
     let allowed = if is_round_off { 4.0 } else { 1.1 };
-    let Found { error, estimate, .. } = found;
-    assert!(error < &(allowed * estimate), "{name}: an error of {error:e} is estimated as {estimate:e}");
+    let (error, estimate) = (found.off, found.estimate.to_f64());
+    assert!(error < allowed * estimate, "{name}: an error of {error:e} is estimated as {estimate:e}");
 }
 
 #[test]
@@ -85,7 +55,7 @@ fn the_error_of_central_differences_is_hardly_more_than_estimated() {
     let best = [SelectionRule::Least, SelectionRule::Robust]
         .map(|rule| (format!("the best m <= 100, {rule:?}"), Central::best_with_error(100, StoppingRule::Full, rule)));
     for (name, settings) in fixed.iter().chain(&best) {
-        let check = |found: &Found| assert_reliable(name, DIGITS, found);
+        let check = |found: &Found<Float>| assert_reliable(name, DIGITS, found);
         let [.., worst] = ratios::<Float, _>(name, settings, &precision(DIGITS), check);
         // by the last term alone
         assert!(name == "m = 2" || worst > 1e3, "{name}: {worst:e}");
@@ -97,7 +67,7 @@ fn the_error_of_bilinear_estimates_is_hardly_more_than_estimated() {
     const DIGITS: u32 = 160;
     for k in [2, 3, 4, 8, 16, 32] {
         let name = format!("k = {k}");
-        let check = |found: &Found| assert_reliable(&name, DIGITS, found);
+        let check = |found: &Found<Float>| assert_reliable(&name, DIGITS, found);
         ratios::<Float, _>(&name, &Bilinear::with_error(k), &precision(DIGITS), check);
     }
 }
@@ -120,10 +90,8 @@ fn the_robust_rule_is_no_worse() {
     for orbit in orbits().filter(|(e, _)| *e != "0") {
         let [least, robust] = [SelectionRule::Least, SelectionRule::Robust].map(|rule| {
             let settings = Central::best_with_error(100, StoppingRule::Full, rule);
-            over_an_orbit::<Float, _>(orbit, &settings, &precision(100))
-                .iter()
-                .map(|found| found.error)
-                .fold(0.0, f64::max)
+            let found = over_an_orbit::<Float>(orbit, &settings, &precision(100));
+            found.iter().map(|found| found.off).fold(0.0, f64::max)
         });
         println!("{orbit:?}: {least:.1e} by the least term, {robust:.1e} by the robust rule");
         assert!(robust <= least, "{orbit:?}: {robust:e} > {least:e}");
