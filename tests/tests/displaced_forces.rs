@@ -13,8 +13,9 @@ use shadowstep::tables::{self, Source, TableScheme};
 use shadowstep::{
     Carried, DiagonalMasses, Motion, Stepper, System, UnitMasses, ValidFor, systems::linear_part::LinearPart,
 };
+use shadowstep_tests::steps::Steps;
 use shadowstep_tests::{
-    Bits, log10_distance, log10_largest_distance, numbers, precision, rational, same_bits, stepper,
+    Bits, coordinates, log10_distance, log10_largest_distance, numbers, precision, rational, same_bits, stepper,
 };
 
 const DIGITS: u32 = 60;
@@ -105,38 +106,20 @@ fn displaced_forces_differ_at_order_five() {
     assert!((order - 5.0).abs() < 0.01, "{order}");
 }
 
-/// Plain and augmented steps have the same bits, and steps back undo them.
-fn steps_are_steps<M: System + Clone>(
+/// One by one, and many in a loop.
+fn steps_are_steps<M: System<Number: Bits>>(
     system: impl Fn(&Stepper<TableScheme, M::Number>) -> M,
     context: &<M::Number as Number>::Context,
 ) where
-    M::Number: Bits,
     TableScheme: ValidFor<M::Class>,
 {
     for name in ["chin-4c", "omelyan-4mn5f2gv", "omelyan-6mn5f5gp"] {
         let stepper = stepper::<M::Number>(name, "1/3", context);
-        let mut plain = system(&stepper);
-        let mut augmented = plain.clone();
-        let start = [plain.state().q(), plain.state().p()].concat();
-        for _ in 0..10 {
-            stepper.step(&mut plain);
-            stepper.step_augmented(&mut augmented);
-        }
-        assert!(
-            same_bits(plain.state().q(), augmented.state().q()) && same_bits(plain.state().p(), augmented.state().p()),
-            "{name}"
-        );
-        let mut together = [system(&stepper)];
+        Steps::of(stepper.scheme().clone(), stepper.h(), context).check(name, || system(&stepper), 10, 3.0);
+        let (mut one_by_one, mut together) = (system(&stepper), [system(&stepper)]);
+        (0..10).for_each(|_| stepper.step(&mut one_by_one));
         stepper.steps(&mut together, 10);
-        assert!(
-            same_bits(plain.state().q(), together[0].state().q())
-                && same_bits(plain.state().p(), together[0].state().p()),
-            "{name}"
-        );
-        assert!(log10_largest_distance(&[plain.state().q(), plain.state().p()].concat(), &start) > -2.0);
-        (0..10).for_each(|_| stepper.step_back(&mut plain));
-        let off = log10_largest_distance(&[plain.state().q(), plain.state().p()].concat(), &start);
-        assert!(off < start[0].log10_epsilon() + 3.0, "{name}: 10^{off}");
+        assert!(same_bits(&coordinates(&one_by_one), &coordinates(&together[0])), "{name}");
     }
 }
 

@@ -6,6 +6,7 @@
 use std::array;
 
 use rug::Float;
+use shadowstep::number::Precision;
 use shadowstep::number::counting::{Counting, Operations, count};
 use shadowstep::shadow::Central;
 use shadowstep::shadow::run::{EnergyDrift, ShadowRun, energy_drift};
@@ -19,35 +20,33 @@ use shadowstep::{
 use shadowstep_analysis::best_for_every_kinetic;
 use shadowstep_schemes::First;
 use shadowstep_tests::general::{AnyMotion, Problem, Spring};
+use shadowstep_tests::orders::{Measured, Order};
 use shadowstep_tests::reference::Separable;
-use shadowstep_tests::shipped::{all, all_for_every_kinetic, twin};
+use shadowstep_tests::shipped::{Shipped, all, all_for_every_kinetic, twin};
 use shadowstep_tests::steps::Steps;
-use shadowstep_tests::{Bits, log10_distance, log10_largest_distance, number, numbers, precision, rational, same_bits};
+use shadowstep_tests::{
+    Bits, coordinates, log10_largest_distance, number, numbers, precision, rational, same_bits, variations,
+};
 
 const DIGITS: u32 = 80;
 
-/// log₂ of the error of one step of size 2^−k from the start of a problem. The solution is off by about h^25, far less.
-fn error(problem: Problem, k: u32, step: impl FnOnce(&mut AnyMotion<Float>)) -> f64 {
-    let context = precision(DIGITS);
-    let mut system = problem.system::<Float>(&context);
-    let start = [system.q(), system.p()].concat();
-    let exact = Separable { velocity: &|p| problem.velocity(p), gradient: &|q| problem.gradient(q) }.flow(
-        &start,
-        &(Float::with_val(context.in_bits(), 1) >> k),
-        12,
-    );
-    step(&mut system);
-    log10_largest_distance(&[system.q(), system.p()].concat(), &exact) / std::f64::consts::LOG10_2
+/// The orders measured of a system, beside the solution, which is off by about h^25, far less than steps.
+fn orders<C: 'static, M: System<Number = Float, Class = C>>(
+    problem: Problem,
+    start: &dyn Fn() -> M,
+    schemes: impl Fn(&Rational, &Precision) -> Vec<Shipped<Float, C>>,
+) -> Vec<Order> {
+    let separable = Separable { velocity: &|p| problem.velocity(p), gradient: &|q| problem.gradient(q) };
+    let flow = |h: &Float| separable.flow(&coordinates(&start()), h, 12);
+    let measured =
+        Measured { start, coordinates: |system| coordinates(system), flow: &flow, digits: DIGITS, halvings: 10 };
+    measured.orders(schemes, |scheme| scheme.summary.order)
 }
 
 /// Steps of 2^(1−k) and 2^−k show the order up to c 2^−k/ln 2, where c is the ratio of the errors' constants: some 14
 /// at most.
 fn tolerance(k: u32) -> f64 {
     20.0 / f64::from(1 << k)
-}
-
-fn halved(k: u32) -> Rational {
-    rational(&format!("1/{}", 1 << k))
 }
 
 /// McLachlan and Atela's scheme: order 4 for quadratic T, 3 for every T(p).
@@ -70,45 +69,47 @@ fn for_every_kinetic(name: &str) -> TableScheme<General> {
 
 #[test]
 fn the_order_measured_is_the_order_proved_for_every_kinetic_energy() {
-    let context = precision(DIGITS);
-    let schemes: [_; 11] = array::from_fn(|k| all_for_every_kinetic::<Float>(&halved(k as u32), &context));
-    assert!(!schemes[0].is_empty());
     for problem in Problem::ALL {
-        for (i, scheme) in schemes[0].iter().enumerate() {
-            let proved = scheme.summary.order;
-            let k = scheme.halvings(proved, DIGITS);
-            let [coarse, fine] =
-                [k - 1, k].map(|k| error(problem, k, |system| schemes[k as usize][i].generated.step(system)));
-            let order = coarse - fine - 1.0;
-            println!("{problem:?} {}: {order:.4} at h = 2^-{k}, error 2^{fine:.1}", scheme.name);
-            let off = (order - f64::from(proved)).abs();
-            assert!(off < tolerance(k), "{problem:?}, {}: {order} measured, {proved} proved", scheme.name);
+        let start = || problem.system::<Float>(&precision(DIGITS));
+        for order in orders(problem, &start, all_for_every_kinetic) {
+            assert!(order.off() < tolerance(order.k), "{problem:?}, {order:?}");
         }
     }
 }
 
-/// Takes the kinetic energy for a quadratic one, so that every scheme is valid for it.
-struct Pretended<K>(K);
+/// Takes the kinetic energy for a quadratic one, so that every scheme is valid for it; with the right or the wrong sign
+/// of what its drifts add to β.
+struct Pretended<K> {
+    kinetic: K,
+    wrong_sign: bool,
+}
 
 impl<N: Number, K: Kinetic<N>> Kinetic<N> for Pretended<K> {
     type Class = Quadratic;
     fn dimension(&self) -> Option<usize> {
-        self.0.dimension()
+        self.kinetic.dimension()
     }
     fn scratch(&self) -> usize {
-        self.0.scratch()
+        self.kinetic.scratch()
     }
     fn prepare(&self, scratch: &mut [N], context: &N::Context) {
-        self.0.prepare(scratch, context);
+        self.kinetic.prepare(scratch, context);
     }
     fn drift(&self, weight: &N, p: &[N], q: &mut [N], scratch: &mut [N]) {
-        self.0.drift(weight, p, q, scratch);
+        self.kinetic.drift(weight, p, q, scratch);
     }
     fn drift_augmented(&self, weight: &N, p: &[N], q: &mut [N], beta: &mut N, scratch: &mut [N]) {
-        self.0.drift_augmented(weight, p, q, beta, scratch);
+        let mut start = beta.clone();
+        self.kinetic.drift_augmented(weight, p, q, beta, scratch);
+        if self.wrong_sign {
+            // the sum of both is twice the start
+            start.multiply_integer(2);
+            beta.negate();
+            beta.add(&start);
+        }
     }
     fn energy(&self, p: &[N], energy: &mut N, scratch: &mut [N]) {
-        self.0.energy(p, energy, scratch);
+        self.kinetic.energy(p, energy, scratch);
     }
 }
 
@@ -116,27 +117,20 @@ impl<N: Number, K: Kinetic<N>> Kinetic<N> for Pretended<K> {
 #[test]
 fn schemes_for_quadratic_kinetic_energies_lose_their_order() {
     let context = precision(DIGITS);
-    let schemes = [9, 10].map(|k| all::<Float>(&halved(k), &context));
-    let losing: Vec<_> = (0..schemes[0].len())
-        // with gradient kicks they have none to lose
-        .filter(|&i| (1..schemes[0][i].summary.order_quadratic).contains(&schemes[0][i].summary.order))
-        .collect();
-    assert!(!losing.is_empty());
-    for (problem, i) in Problem::ALL.into_iter().flat_map(|problem| losing.iter().map(move |&i| (problem, i))) {
-        let [coarse, fine] = [9, 10].map(|k| {
-            error(problem, k, |system| {
-                let (q, p) = (system.q().to_vec(), system.p().to_vec());
-                let kinetic = Pretended(problem.kinetic::<Float>(&context));
-                let mut pretended = Motion::new(problem.potential::<Float>(), kinetic, q, p).unwrap();
-                schemes[(k - 9) as usize][i].generated.step(&mut pretended);
-                system.q_mut().clone_from_slice(pretended.q());
-                system.p_mut().clone_from_slice(pretended.p());
-            })
-        });
-        let (order, scheme) = (coarse - fine - 1.0, &schemes[0][i]);
-        println!("{problem:?} {}: {order:.4}, error 2^{fine:.1}", scheme.name);
-        let off = (order - f64::from(scheme.summary.order)).abs();
-        assert!(off < tolerance(10), "{problem:?}, {}: {order}", scheme.name);
+    // with gradient kicks they have none to lose
+    let losing = |h: &Rational, context: &Precision| {
+        let loses = |scheme: &Shipped<Float>| (1..scheme.summary.order_quadratic).contains(&scheme.summary.order);
+        all(h, context).into_iter().filter(loses).collect()
+    };
+    for problem in Problem::ALL {
+        let pretended = || {
+            let kinetic = Pretended { kinetic: problem.kinetic::<Float>(&context), wrong_sign: false };
+            let [q, p] = problem.start().map(|texts| numbers(texts, &context));
+            Motion::new(problem.potential::<Float>(), kinetic, q, p).unwrap()
+        };
+        for order in orders(problem, &pretended, losing) {
+            assert!(order.off() < tolerance(order.k), "{problem:?}, {order:?}");
+        }
     }
 }
 
@@ -152,36 +146,6 @@ fn a_table_with_an_order_for_quadratic_energies_only_is_refused() {
 
 // ---------------------------------------------------------------------------------------------------------------
 // The modified energy
-
-/// The kinetic energy with the wrong sign of what its drifts add to β.
-struct WrongSign<K>(K);
-
-impl<N: Number, K: Kinetic<N>> Kinetic<N> for WrongSign<K> {
-    type Class = K::Class;
-    fn dimension(&self) -> Option<usize> {
-        self.0.dimension()
-    }
-    fn scratch(&self) -> usize {
-        self.0.scratch()
-    }
-    fn prepare(&self, scratch: &mut [N], context: &N::Context) {
-        self.0.prepare(scratch, context);
-    }
-    fn drift(&self, weight: &N, p: &[N], q: &mut [N], scratch: &mut [N]) {
-        self.0.drift(weight, p, q, scratch);
-    }
-    fn drift_augmented(&self, weight: &N, p: &[N], q: &mut [N], beta: &mut N, scratch: &mut [N]) {
-        // the sum of both is twice the start
-        let mut start = beta.clone();
-        start.multiply_integer(2);
-        self.0.drift_augmented(weight, p, q, beta, scratch);
-        beta.negate();
-        beta.add(&start);
-    }
-    fn energy(&self, p: &[N], energy: &mut N, scratch: &mut [N]) {
-        self.0.energy(p, energy, scratch);
-    }
-}
 
 /// Over the time 20 with steps of 1/n; differences with this number of terms.
 fn drift_of<K: Kinetic<Float>>(problem: Problem, kinetic: K, name: &str, n: u64, m: u32) -> EnergyDrift<Float>
@@ -201,15 +165,8 @@ fn drift(problem: Problem, name: &str, n: u64, m: u32) -> f64 {
 
 /// max − min of H itself over the same run.
 fn energy_variation(problem: Problem, name: &str, n: u64) -> f64 {
-    let mut system = problem.system::<f64>(&());
     let stepper = Stepper::new(for_every_kinetic(name), &*format!("1/{n}")).unwrap();
-    let energies: Vec<f64> = (0..20 * n)
-        .map(|_| {
-            stepper.step(&mut system);
-            system.energy()
-        })
-        .collect();
-    energies.iter().copied().fold(f64::MIN, f64::max) - energies.iter().copied().fold(f64::MAX, f64::min)
+    variations::of_energy(&stepper, problem.system::<f64>(&()), 20 * n)
 }
 
 #[test]
@@ -240,7 +197,7 @@ fn the_error_of_the_modified_energy_shrinks_as_its_differences_do() {
 #[test]
 fn with_the_wrong_sign_it_is_not_conserved() {
     for problem in Problem::ALL {
-        let wrong = WrongSign(problem.kinetic::<Float>(&precision(40)));
+        let wrong = Pretended { kinetic: problem.kinetic::<Float>(&precision(40)), wrong_sign: true };
         let found = drift_of(problem, wrong, "yoshida4", 40, 12);
         let energy = energy_variation(problem, "yoshida4", 40);
         println!("{problem:?}: {:.2e}, and H itself {energy:.2e}", found.drift.to_f64());
@@ -362,31 +319,19 @@ fn unrolled_steps_have_the_bits_of_their_twins_in_both_kinds_of_numbers() {
     unrolled_steps_have_the_bits_of_their_twins::<Float>(&precision(120));
 }
 
-fn a_step_back_undoes_a_step<N: Bits>(context: &N::Context) {
+fn steps_are_steps<N: Bits>(context: &N::Context) {
     for scheme in all_for_every_kinetic::<N>(&rational(STEP), context) {
         for problem in Problem::ALL {
-            let start = problem.system::<N>(context);
-            let mut system = problem.system::<N>(context);
-            scheme.generated.step_augmented(&mut system);
-            let there = system.beta().clone();
-            assert!(log10_largest_distance(system.q(), start.q()) > -4.0, "the step must move");
-            scheme.generated.step_back_augmented(&mut system);
-            let mut back = system.beta().clone();
-            back.negate();
-            let off = log10_largest_distance(system.q(), start.q())
-                .max(log10_largest_distance(system.p(), start.p()))
-                .max(log10_distance(&there, &back));
             // some 60 numbers of size 1, rounded, and enlarged a few times (see `generated.rs`)
-            let tolerance = start.beta().log10_epsilon() + 2.5;
-            assert!(off < tolerance && there.log10_abs() > -4.0, "{problem:?}, {}: 10^{off}, β {there}", scheme.name);
+            scheme.generated.check(&format!("{problem:?}, {}", scheme.name), || problem.system::<N>(context), 1, 2.5);
         }
     }
 }
 
 #[test]
-fn a_step_back_undoes_a_step_in_both_kinds_of_numbers() {
-    a_step_back_undoes_a_step::<f64>(&());
-    a_step_back_undoes_a_step::<Float>(&precision(120));
+fn steps_are_steps_in_both_kinds_of_numbers() {
+    steps_are_steps::<f64>(&());
+    steps_are_steps::<Float>(&precision(120));
 }
 
 fn assert_twins<N: Bits>(

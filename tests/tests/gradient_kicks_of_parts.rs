@@ -9,9 +9,10 @@ use shadowstep::systems::linear_part::LinearPart;
 use shadowstep::systems::potential::Sum;
 use shadowstep::systems::wisdom_holman::{Bodies, Jacobi, PlanetaryCoordinates, WisdomHolman};
 use shadowstep::{Carried, Rational, Stepper, System};
+use shadowstep_tests::shipped::twin;
+use shadowstep_tests::steps::Steps;
 use shadowstep_tests::{
-    Bits, check_increments, coordinates, log10_distance, log10_largest_distance, numbers, precision, rational,
-    same_bits, stepper, variations,
+    Bits, log10_distance, log10_largest_distance, numbers, precision, rational, stepper, variations,
 };
 
 const DIGITS: u32 = 90;
@@ -114,56 +115,36 @@ fn gradient_kicks_are_the_derivatives_of_kicks() {
     is_the_derivative_of_kicks(oscillators::<Float>(&context), &numbers(&["1/3", "2"], &context));
 }
 
-/// Plain and augmented steps have the same bits, and steps back undo them.
-fn steps_are_steps<M: System + Clone>(system: &M, h: &str, growth: f64)
-where
-    M::Number: Bits,
-    shadowstep::tables::TableScheme: shadowstep::ValidFor<M::Class>,
-{
-    let stepper = stepper::<M::Number>("omelyan-4mn5f2gv", h, &system.state().context());
-    let [mut plain, mut augmented] = [system.clone(), system.clone()];
-    let start = [system.state().q(), system.state().p()].concat();
-    for _ in 0..20 {
-        stepper.step(&mut plain);
-        let before = coordinates(&augmented);
-        stepper.step_augmented(&mut augmented);
-        check_increments(&augmented, &before, growth - 1.0);
-    }
-    assert!(same_bits(plain.state().q(), augmented.state().q()) && same_bits(plain.state().p(), augmented.state().p()));
-    assert!(log10_largest_distance(&[plain.state().q(), plain.state().p()].concat(), &start) > -1.0);
-    (0..20).for_each(|_| stepper.step_back(&mut plain));
-    let off = log10_largest_distance(&[plain.state().q(), plain.state().p()].concat(), &start);
-    assert!(off < start[0].log10_epsilon() + growth, "10^{off}");
-}
-
 #[test]
 fn steps_are_steps_in_both_kinds_of_numbers() {
-    // positions of size 10, whose phases round-off changes; and numbers below 1
-    steps_are_steps(&planets::<f64>(&()), "1/3", 3.5);
-    steps_are_steps(&planets::<Float>(&precision(DIGITS)), "1/3", 3.5);
-    steps_are_steps(&with_more::<f64>(&()), "1/3", 3.5);
-    steps_are_steps(&with_more::<Float>(&precision(DIGITS)), "1/3", 3.5);
-    steps_are_steps(&oscillators::<f64>(&()), "1/3", 2.0);
-    steps_are_steps(&oscillators::<Float>(&precision(DIGITS)), "1/3", 2.0);
+    fn check<N: Bits + CorrectlyRounded>(context: &N::Context) {
+        let steps = Steps::of(twin("omelyan-4mn5f2gv", None), &rational("1/3"), context);
+        // positions of size 10, whose phases round-off changes; and numbers below 1
+        steps.check("planets", || planets::<N>(context), 20, 3.5);
+        steps.check("planets and more", || with_more::<N>(context), 20, 3.5);
+        steps.check("oscillators", || oscillators::<N>(context), 20, 2.0);
+    }
+    check::<f64>(&());
+    check::<Float>(&precision(DIGITS));
 }
 
 /// max − min of H, and of E_8 and E_16, over 100 steps of Chin's 4A.
-fn variations<M>(system: M, h: &str) -> [f64; 3]
+fn variations<M>(start: impl Fn() -> M, h: &str) -> [f64; 3]
 where
-    M: System<Number = Limbs<4>> + Clone,
+    M: System<Number = Limbs<4>>,
     shadowstep::tables::TableScheme: shadowstep::ValidFor<M::Class>,
 {
     let stepper: Stepper<_, Limbs<4>> = stepper("chin-4a", h, &());
-    variations::of_energies(&stepper, system, 100, [8, 16])
+    variations::of_energies(&stepper, start, 100, [8, 16])
 }
 
 /// With a wrong rate of β it would not converge.
 #[test]
 fn the_modified_energy_converges() {
     for [energy, k8, k16] in [
-        variations(planets::<Limbs<4>>(&()), "1/8"),
-        variations(with_more::<Limbs<4>>(&()), "1/8"),
-        variations(oscillators::<Limbs<4>>(&()), "1/4"),
+        variations(|| planets::<Limbs<4>>(&()), "1/8"),
+        variations(|| with_more::<Limbs<4>>(&()), "1/8"),
+        variations(|| oscillators::<Limbs<4>>(&()), "1/4"),
     ] {
         println!("H varies by {energy:e}, E_8 by {k8:e}, E_16 by {k16:e}");
         assert!(k8 < energy * 1e-3 && k16 < k8 * 1e-3, "{energy:e}, {k8:e}, {k16:e}");

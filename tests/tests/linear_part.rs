@@ -4,16 +4,17 @@
 //! Yardsticks: cos and sin of one oscillator; the same system with T(p) and U(q), extrapolated from leapfrog steps.
 
 use rug::Float;
-use shadowstep::number::{Limbs, Number};
+use shadowstep::number::{CorrectlyRounded, Limbs, Number};
 use shadowstep::problems::{HarmonicOscillator, HenonHeiles, StiffFput};
-use shadowstep::shadow::run::energy_drift;
 use shadowstep::shadow::{Bilinear, Criterion, ShadowEnergy, Verdict};
 use shadowstep::systems::kinetic::Quadratic;
 use shadowstep::systems::linear_part::LinearPart;
 use shadowstep::{Motion, Rational, System, UnitMasses};
+use shadowstep_tests::orders::Measured;
 use shadowstep_tests::reference::Separable;
-use shadowstep_tests::shipped::all;
-use shadowstep_tests::{Bits, log10_largest_distance, numbers, precision, rational, same_bits, stepper};
+use shadowstep_tests::shipped::{all, twin};
+use shadowstep_tests::steps::Steps;
+use shadowstep_tests::{Bits, coordinates, log10_largest_distance, numbers, precision, rational, stepper, variations};
 
 const DIGITS: u32 = 60;
 
@@ -28,7 +29,7 @@ fn ones(count: usize) -> Vec<Rational> {
 }
 
 /// Hénon–Heiles with both oscillators, ω = 1, as the linear part.
-fn henon_heiles<N: shadowstep::number::CorrectlyRounded>(context: &N::Context) -> LinearPart<N, HenonHeiles> {
+fn henon_heiles<N: CorrectlyRounded>(context: &N::Context) -> LinearPart<N, HenonHeiles> {
     let (q, p) = (numbers(&["0.1", "0.2"], context), numbers(&["0.3", "-0.1"], context));
     LinearPart::new(HenonHeiles, &ones(2), &diagonal(&["1", "1"]), &q, &p).expect("the dimensions agree")
 }
@@ -61,71 +62,35 @@ fn the_orders_are_those_proved() {
         let [x, y] = [q[0].clone(), q[1].clone()];
         vec![x.clone() + x.clone() * &y * 2, y.clone() + x.square() - y.square()]
     };
-    let start = [henon_heiles::<Float>(&context).state().q(), henon_heiles::<Float>(&context).state().p()].concat();
-    let flow = Separable { velocity: &|p| p.to_vec(), gradient: &gradient };
-    let exact: Vec<_> =
-        (0..=7_u32).map(|k| flow.flow(&start, &(Float::with_val(context.in_bits(), 1) >> k), 12)).collect();
-    let schemes: Vec<_> =
-        (0..=7_u32).map(|k| all::<Float>(&rational(&format!("1/{}", 1_u64 << k)), &context)).collect();
-    for (index, scheme) in schemes[0].iter().enumerate() {
-        let proved = scheme.summary.order_quadratic;
-        let k = scheme.halvings(proved, DIGITS).min(7);
-        let error = |k: u32| {
-            let mut system = henon_heiles::<Float>(&context);
-            schemes[k as usize][index].generated.step(&mut system);
-            log10_largest_distance(&[system.state().q(), system.state().p()].concat(), &exact[k as usize])
-                / std::f64::consts::LOG10_2
-        };
-        let order = error(k - 1) - error(k) - 1.0;
-        println!("{}: {order:.3}, proved {proved}", scheme.name);
+    let start = || henon_heiles::<Float>(&context);
+    let separable = Separable { velocity: &|p| p.to_vec(), gradient: &gradient };
+    let flow = |h: &Float| separable.flow(&coordinates(&start()), h, 12);
+    let measured =
+        Measured { start: &start, coordinates: |system| coordinates(system), flow: &flow, digits: DIGITS, halvings: 7 };
+    for order in measured.orders(all, |scheme| scheme.summary.order_quadratic) {
         // c h/ln 2 with c of size 1 to 10; near-integrable schemes may show a higher power of h with a small constant
         // first
-        let near = scheme.twin.proved().scheme.table.near_integrable.is_some();
-        let off = if near { f64::from(proved) - order } else { (order - f64::from(proved)).abs() };
-        assert!(off < 0.15, "{}: {order} measured, {proved} proved", scheme.name);
+        let off = if order.near_integrable { order.proved - order.measured } else { order.off() };
+        assert!(off < 0.15, "{order:?}");
     }
-}
-
-/// max − min of H and of E_12.
-fn variations<N: shadowstep::number::CorrectlyRounded>(system: LinearPart<N, HenonHeiles>, h: &str) -> [f64; 2] {
-    let stepper = stepper::<N>("stormer-verlet", h, &system.state().context());
-    let found = energy_drift(stepper.with(system.clone()), 400, &Bilinear::new(12)).expect("all states are finite");
-    let mut system = system;
-    let energies = (0..400).map(|_| {
-        stepper.step(&mut system);
-        System::energy(&mut system).to_f64()
-    });
-    let (least, largest) = energies.fold((f64::MAX, f64::MIN), |(least, largest), e| (least.min(e), largest.max(e)));
-    [largest - least, found.drift.to_f64()]
 }
 
 #[test]
 fn the_modified_energy_is_conserved() {
-    let [energy, modified] = variations(henon_heiles::<Limbs<4>>(&()), "1/10");
-    println!("H varies by {energy:e}, E_12 by {modified:e}");
-    assert!(energy > 1e-6 && modified < 1e-16, "{energy:e}, {modified:e}");
-}
-
-fn steps_are_steps<N: Bits + shadowstep::number::CorrectlyRounded>(context: &N::Context) {
-    let stepper = stepper::<N>("yoshida4", "1/3", context);
-    let [mut plain, mut augmented] = [(); 2].map(|()| henon_heiles::<N>(context));
-    let start = [plain.state().q(), plain.state().p()].concat();
-    for _ in 0..10 {
-        stepper.step(&mut plain);
-        stepper.step_augmented(&mut augmented);
-    }
-    assert!(same_bits(plain.state().q(), augmented.state().q()) && same_bits(plain.state().p(), augmented.state().p()));
-    assert!(log10_largest_distance(&[plain.state().q(), plain.state().p()].concat(), &start) > -2.0);
-    (0..10).for_each(|_| stepper.step_back(&mut plain));
-    let off = log10_largest_distance(&[plain.state().q(), plain.state().p()].concat(), &start);
-    // some hundred roundings of numbers below 1
-    assert!(off < start[0].log10_epsilon() + 1.5, "10^{off}");
+    let stepper = stepper::<Limbs<4>>("stormer-verlet", "1/10", &());
+    let [energy, modified, _] = variations::of_energies(&stepper, || henon_heiles::<Limbs<4>>(&()), 400, [12, 8]);
+    assert!(energy > 1e-6 && modified < 1e-16, "H varies by {energy:e}, E_12 by {modified:e}");
 }
 
 #[test]
 fn steps_are_steps_in_both_kinds_of_numbers() {
-    steps_are_steps::<f64>(&());
-    steps_are_steps::<Float>(&precision(DIGITS));
+    fn check<N: Bits + CorrectlyRounded>(context: &N::Context) {
+        // some hundred roundings of numbers below 1
+        let steps = Steps::of(twin("yoshida4", None), &rational("1/3"), context);
+        steps.check("yoshida4", || henon_heiles::<N>(context), 10, 1.5);
+    }
+    check::<f64>(&());
+    check::<Float>(&precision(DIGITS));
 }
 
 /// Three stiff springs, ω = 50, and the rest of the chain.

@@ -6,14 +6,15 @@
 
 use rug::Float;
 use shadowstep::number::{CorrectlyRounded, Number};
-use shadowstep::shadow::run::energy_drift;
-use shadowstep::shadow::{Bilinear, ShadowEnergy, Verdict};
+use shadowstep::shadow::{Bilinear, Verdict};
 use shadowstep::systems::formula::FormulaPotential;
 use shadowstep::systems::many_parts::{FlowState, FormulaPart, ManyParts, Part, SystemOfParts, parts};
 use shadowstep::tables::{TableScheme, shipped};
 use shadowstep::{Carried, Potential, Rational, Scheme, State, Stepper, System, splitting_scheme};
 use shadowstep_tests::steps::Steps;
-use shadowstep_tests::{Bits, log10_largest_distance, numbers, precision, rational, same_bits};
+use shadowstep_tests::{
+    Bits, coordinates, log10_largest_distance, numbers, precision, rational, same_bits, variations, watched,
+};
 
 const DIGITS: u32 = 60;
 
@@ -50,10 +51,6 @@ fn chain<N: CorrectlyRounded + 'static>(context: &N::Context) -> SystemOfParts<N
     let parts = parts(&CHAIN, NAMES, &parameters(), context).unwrap();
     let (q, p) = (numbers(&["0.4", "-0.7", "0.5"], context), numbers(&["0.3", "0.6", "-1.1"], context));
     SystemOfParts::new(parts, &q, &p).unwrap()
-}
-
-fn state<M: System>(system: &M) -> Vec<M::Number> {
-    [system.state().q(), system.state().p()].concat()
 }
 
 /// The sums of ẋ = J A_x and of β̇ = xᵀA_x − 2A of formulas.
@@ -202,7 +199,7 @@ fn formulas_without_a_known_flow_are_refused() {
 #[test]
 fn the_orders_are_those_proved() {
     let context = precision(DIGITS + 20);
-    let start = [state(&chain::<Float>(&context)), vec![Float::zero(&context)]].concat();
+    let start = [coordinates(&chain::<Float>(&context)), vec![Float::zero(&context)]].concat();
     let mut equations = Equations::of(&CHAIN, NAMES);
     for (name, k) in [
         ("symplectic-euler", 7),
@@ -224,7 +221,7 @@ fn the_orders_are_those_proved() {
             let exact = equations.flow(&start, &Float::from_rational(&h, &context), 14);
             let mut system = chain::<Float>(&context);
             Stepper::with_context(scheme.clone(), h, &context).unwrap().step(&mut system);
-            log10_largest_distance(&state(&system), &exact[..6]) / std::f64::consts::LOG10_2
+            log10_largest_distance(&coordinates(&system), &exact[..6]) / std::f64::consts::LOG10_2
         };
         let order = error(k - 1) - error(k) - 1.0;
         println!("{name}: {order:.3}, proved {proved}");
@@ -238,17 +235,7 @@ fn the_modified_energy_converges() {
     let mut found = Vec::new();
     for h in ["1/10", "1/20", "1/40"] {
         let stepper = Stepper::with_context(many("stormer-verlet"), h, &context).unwrap();
-        let drift =
-            energy_drift(stepper.with(chain::<Float>(&context)), 200, &Bilinear::new(8)).unwrap().drift.to_f64();
-        let mut system = chain::<Float>(&context);
-        let energies = (0..200).map(|_| {
-            stepper.step(&mut system);
-            System::energy(&mut system).to_f64()
-        });
-        let (least, largest) =
-            energies.fold((f64::MAX, f64::MIN), |(least, largest), e| (least.min(e), largest.max(e)));
-        println!("h = {h}: H varies by {:.2e}, E_8 by {drift:.2e}", largest - least);
-        found.push([largest - least, drift]);
+        found.push(variations::of_energies(&stepper, || chain::<Float>(&context), 200, [8, 4]));
     }
     let order = |j: usize| (found[1][j] / found[2][j]).log2();
     assert!((order(0) - 2.0).abs() < 0.3, "{found:?}");
@@ -285,15 +272,11 @@ fn the_energy_that_errors_are_compared_with_has_no_constants() {
 fn the_monitor_follows_a_run() {
     let stepper = Stepper::new(many("suzuki4"), "1/20").unwrap();
     let mut system = chain::<f64>(&());
-    let mut monitor = ShadowEnergy::new(stepper, &mut system, &Bilinear::with_error(8)).unwrap().every(50);
-    for _ in 0..2000 {
-        monitor.step(&mut system).unwrap();
-    }
-    let report = monitor.report();
+    let report = watched(stepper, &mut system, &Bilinear::with_error(8), 50, 2000);
     assert_eq!(report.verdict, Verdict::Bounded, "{report}");
     // Σ(q² + p²) is an integral of the chain
     let norm = |state: Vec<f64>| state.iter().map(|x| x * x).sum::<f64>();
-    assert!((norm(state(&system)) - norm(state(&chain::<f64>(&())))).abs() < 1e-5);
+    assert!((norm(coordinates(&system)) - norm(coordinates(&chain::<f64>(&())))).abs() < 1e-5);
 }
 
 fn steps_are_steps<N, S>(scheme: S, twin: TableScheme<ManyParts>, context: &N::Context)
@@ -305,26 +288,18 @@ where
     let h = rational("1/3");
     let (generated, twin) = (Steps::<N, ManyParts>::of(scheme, &h, context), Steps::of(twin, &h, context));
     let [mut plain, mut augmented, mut other] = [(); 3].map(|()| chain::<N>(context));
-    let start = state(&plain);
     for _ in 0..5 {
         generated.step(&mut plain);
         generated.step_augmented(&mut augmented);
         twin.step_augmented(&mut other);
-        assert!(same_bits(&state(&plain), &state(&augmented)) && same_bits(&state(&plain), &state(&other)));
+        assert!(same_bits(&coordinates(&augmented), &coordinates(&other)));
         assert!(augmented.state().increments().beta.same_bits(other.state().increments().beta));
     }
     // in one loop
     let mut loops = [chain::<N>(context)];
     Stepper::with_context(scheme, h, context).unwrap().steps(&mut loops, 5);
-    assert!(same_bits(&state(&loops[0]), &state(&plain)));
-    assert!(log10_largest_distance(&state(&plain), &start) > -2.0);
-    for _ in 0..5 {
-        generated.step_back(&mut plain);
-        twin.step_back_augmented(&mut other);
-        assert!(same_bits(&state(&plain), &state(&other)));
-    }
-    let off = log10_largest_distance(&state(&plain), &start);
-    assert!(off < start[0].log10_epsilon() + 3.0, "10^{off}");
+    assert!(same_bits(&coordinates(&loops[0]), &coordinates(&plain)));
+    generated.check("generated", || chain::<N>(context), 5, 3.0);
 }
 
 #[test]

@@ -1,16 +1,18 @@
 //! Protects the modified energy: closed forms, definitions written out naively, exact symmetries, and the signs and
 //! rules of the paper where they can be read in more than one way.
 
+use std::fmt::Debug;
+
 use rug::Float;
 use shadowstep::problems::{HarmonicOscillator, HenonHeiles, Kepler, Pendulum};
 use shadowstep::shadow::run::{EnergyDrift, ShadowRun, States, Trajectory, energy_drift};
 use shadowstep::shadow::weights::central;
-use shadowstep::shadow::{BuildEstimator, Central, Estimator, SelectionRule, StoppingRule};
+use shadowstep::shadow::{Bilinear, BuildEstimator, Central, Estimator, SelectionRule, StoppingRule};
 use shadowstep::systems::kinetic::{DiagonalMasses, FullMasses, Quadratic};
 use shadowstep::{
     Increments, Kinetic, Motion, Number, Potential, Rational, Real, Scheme, Stepper, System, UnitMasses, ValidFor,
 };
-use shadowstep_tests::{log10_distance, number, numbers, precision, rational, step_size, stepper};
+use shadowstep_tests::{log10_distance, number, numbers, precision, rational, step_size, stepper, variations};
 
 type Vector<P, K, N> = Motion<N, Vec<N>, P, K>;
 
@@ -47,23 +49,6 @@ fn estimates<S: Scheme + ValidFor<M::Class>, M: System<Number: Real>>(
     all
 }
 
-/// max − min of the energy itself over n = 0..=steps.
-fn energy_variation<S: Scheme + ValidFor<K::Class>, P: Potential<Float>, K: Kinetic<Float>>(
-    stepper: &Stepper<S, Float>,
-    mut motion: Vector<P, K, Float>,
-    steps: u64,
-) -> f64 {
-    let (mut least, mut most) = (f64::INFINITY, f64::NEG_INFINITY);
-    for n in 0..=steps {
-        if n > 0 {
-            stepper.step(&mut motion);
-        }
-        let energy = motion.energy().to_f64();
-        (least, most) = (least.min(energy), most.max(energy));
-    }
-    most - least
-}
-
 // ---------------------------------------------------------------------------------------------------------------
 // The harmonic oscillator, in closed form
 
@@ -79,26 +64,30 @@ fn closed_form(q: &Float, p: &Float, omega: &Float, h: &Float) -> Float {
 #[test]
 fn harmonic_oscillator_has_its_closed_form() {
     const DIGITS: u32 = 120;
-    for (omega, step, m) in [("1", "1/20", 40), ("3/2", "1/30", 40), ("1/7", "1/5", 40), ("1", "1/2", 100)] {
-        let (omega, h) = (rational(omega), rational(step));
+    /// The estimates of a number of steps are the closed form.
+    fn check(settings: &(impl BuildEstimator<Float> + Debug), omega: &str, step: &str, steps: u64, count: usize) {
         let context = precision(DIGITS);
-        let potential = HarmonicOscillator { omega: Float::from_rational(&omega, &context) };
-        let (q, p) = (number("0.8", DIGITS), number("-0.3", DIGITS));
+        let [omega, h, q, p] = [omega, step, "0.8", "-0.3"].map(|text| number(text, DIGITS));
+        let potential = HarmonicOscillator { omega: omega.clone() };
         let motion = Motion::new(potential, UnitMasses, vec![q.clone()], vec![p.clone()]).unwrap();
-        let verlet = stepper("stormer-verlet", step, &context);
-        let [omega, step] = [&omega, &h].map(|r| Float::from_rational(r, &context));
-        let expected = closed_form(&q, &p, &omega, &step);
-
-        let found = estimates(&verlet, motion, 100, &Central::fixed(m));
-        assert_eq!(found.len(), 101);
+        let found = estimates(&stepper("stormer-verlet", step, &context), motion, steps, settings);
+        let expected = closed_form(&q, &p, &omega, &h);
+        assert_eq!(found.len(), count, "{settings:?}");
         for (n, value, ..) in found {
-            // D_m is off by (hω̃/2)^{2m}, below 1e-120 here; round-off of a hundred steps leaves 118 digits
+            // off by (hω/2)^{2m} of D_m, by (hω/2)^{2k} of E_k, below 1e-120 here; round-off leaves 118 digits
             let off = log10_distance(&value, &expected);
-            assert!(off < -115.0, "ω = {omega:.3}, h = {step:.3}, n = {n}: off by 10^{off}");
+            assert!(off < -115.0, "{settings:?}, ω = {omega:.3}, h = {step}, n = {n}: off by 10^{off}");
         }
         // and it is not the energy: they differ by h²
-        let energy = (p.clone().square() + omega.clone().square() * q.clone().square()) / 2;
+        let energy = (p.square() + omega.square() * q.square()) / 2;
         assert!(log10_distance(&expected, &energy) > -6.0);
+    }
+    for (omega, step, m) in [("1", "1/20", 40), ("3/2", "1/30", 40), ("1/7", "1/5", 40), ("1", "1/2", 100)] {
+        check(&Central::fixed(m), omega, step, 100, 101);
+    }
+    // an odd k has its middles between the states 0, 1, …, 50
+    for (omega, step, k, count) in [("1", "1/20", 39, 50), ("3/2", "1/30", 40, 51), ("1", "1/2", 100, 51)] {
+        check(&Bilinear::new(k), omega, step, 50, count);
     }
 }
 
@@ -132,9 +121,11 @@ impl<N: Number, P: Potential<N>> Potential<N> for PrintedSign<P> {
     }
 }
 
-fn drift_over<P: Potential<Float>>(potential: P, q: &[&str], p: &[&str]) -> EnergyDrift<Float> {
+/// Of a start at the origin, with H = 0.045.
+fn drift_over<P: Potential<Float>>(potential: P) -> EnergyDrift<Float> {
     let context = precision(40);
-    let motion = Motion::new(potential, UnitMasses, numbers(q, &context), numbers(p, &context)).unwrap();
+    let [q, p] = [["0", "0"], ["0.3", "0"]].map(|texts| numbers(&texts, &context));
+    let motion = Motion::new(potential, UnitMasses, q, p).unwrap();
     let verlet = stepper("stormer-verlet", "1/20", &context);
     energy_drift(verlet.with(motion), 400, &Central::fixed(10)).unwrap()
 }
@@ -142,18 +133,8 @@ fn drift_over<P: Potential<Float>>(potential: P, q: &[&str], p: &[&str]) -> Ener
 /// The first value is near H under both signs; only the drift tells them apart.
 #[test]
 fn printed_sign_of_beta_drifts_and_the_right_one_does_not() {
-    // pendulum from its lowest point: H = −1/2
-    let (q, p, energy) = (["0"], ["1"], -0.5);
-    let right = drift_over(Pendulum, &q, &p);
-    let printed = drift_over(PrintedSign(Pendulum), &q, &p);
-    assert!((right.first.to_f64() - energy).abs() < 1e-3);
-    assert!(right.drift.to_f64() < 1e-12, "{}", right.drift);
-    assert!(printed.drift.to_f64() > energy.abs(), "{}", printed.drift);
-
-    // Hénon–Heiles from the origin: H = 0.045
-    let (q, p, energy) = (["0", "0"], ["0.3", "0"], 0.045);
-    let right = drift_over(HenonHeiles, &q, &p);
-    let printed = drift_over(PrintedSign(HenonHeiles), &q, &p);
+    let [right, printed] = [drift_over(HenonHeiles), drift_over(PrintedSign(HenonHeiles))];
+    let energy = 0.045;
     assert!((right.first.to_f64() - energy).abs() < 1e-3);
     assert!((printed.first.to_f64() - energy).abs() < 1e-3, "one value does not show it: {}", printed.first);
     assert!(right.drift.to_f64() < 1e-12, "{}", right.drift);
@@ -475,7 +456,7 @@ fn kepler_drift_is_exponentially_small() {
     let mut drifts = Vec::new();
     for inverse in [10_u64, 20, 40] {
         let verlet = stepper("stormer-verlet", &format!("1/{inverse}"), &context);
-        energies.push(energy_variation(&verlet, kepler::<Float>(&context), 20 * inverse).ln());
+        energies.push(variations::of_energy(&verlet, kepler::<Float>(&context), 20 * inverse).ln());
         let best = Central::best(120, StoppingRule::Full);
         let found = energy_drift(verlet.with(kepler::<Float>(&context)), 20 * inverse, &best).unwrap();
         println!("h = 1/{inverse}: drift {:e}, m = {:?}", found.drift.to_f64(), found.orders);
@@ -501,7 +482,7 @@ fn schemes_that_are_no_palindromes_conserve_their_modified_energy() {
     for (name, least_variation) in [("symplectic-euler", 1e-3), ("ruth3", 1e-8)] {
         let stepper = stepper(name, "1/40", &context);
         assert!(!stepper.scheme().summary().symmetric);
-        let energy = energy_variation(&stepper, pendulum(&context), 400);
+        let energy = variations::of_energy(&stepper, pendulum::<Float>(&context), 400);
         let found = energy_drift(stepper.with(pendulum::<Float>(&context)), 400, &Central::fixed(25)).unwrap();
         println!("{name}: H varies by {energy:e}, the modified energy by {:e}", found.drift.to_f64());
         assert!(energy > least_variation, "{name}: {energy:e}");

@@ -20,7 +20,7 @@ use shadowstep::shadow::{
 use shadowstep::systems::pairs::Pairs;
 use shadowstep::tables::{TableScheme, shipped};
 use shadowstep::{DiagonalMasses, Motion, Potential, Real, Stepper, UnitMasses, kinetic, potential};
-use shadowstep_tests::{Bits, log10_distance, number, numbers, precision, same_bits, stepper};
+use shadowstep_tests::{Bits, log10_distance, number, numbers, precision, same_bits, stepper, watched};
 
 type Start<N, P> = Motion<N, Vec<N>, P, UnitMasses>;
 
@@ -36,11 +36,7 @@ fn watch(name: &str, set: &[(&str, &str)], scheme: &str, h: &str, steps: u64) ->
 fn watch_by(settings: &Bilinear, name: &str, set: &[(&str, &str)], scheme: &str, h: &str, steps: u64) -> Report<f64> {
     let set: Vec<_> = set.iter().map(|(name, value)| ((*name).to_owned(), (*value).to_owned())).collect();
     let mut motion: ProblemMotion<f64> = problem(name).unwrap().setup(&set, 30).unwrap().motion(&()).unwrap();
-    let mut monitor = ShadowEnergy::new(stepper(scheme, h, &()), &mut motion, settings).unwrap().every(20);
-    for _ in 0..steps {
-        monitor.step(&mut motion).unwrap();
-    }
-    monitor.report()
+    watched(stepper(scheme, h, &()), &mut motion, settings, 20, steps)
 }
 
 const BOUNDED: Verdict = Verdict::Bounded;

@@ -10,8 +10,8 @@ use shadowstep::shadow::Bilinear;
 use shadowstep::shadow::run::energy_drift;
 use shadowstep::systems::many_parts::{FlowState, ManyParts, Part, SystemOfParts, parts};
 use shadowstep::tables::{TableScheme, shipped};
-use shadowstep::{Carried, Scheme as _, Stepper, System, splitting_scheme};
-use shadowstep_tests::{log10_largest_distance, numbers, precision, rational, same_bits};
+use shadowstep::{Carried, Scheme as _, Stepper, System as _, splitting_scheme};
+use shadowstep_tests::{coordinates, log10_largest_distance, numbers, precision, rational, same_bits};
 
 const DIGITS: u32 = 60;
 
@@ -30,10 +30,6 @@ fn molecule<N: CorrectlyRounded + 'static>(context: &N::Context) -> SystemOfPart
     let parts = parts(&MOLECULE, (&["x", "y"], &["px", "py"]), &[], context).unwrap();
     let (q, p) = (numbers(&["0.4", "-0.7"], context), numbers(&["0.3", "0.6"], context));
     SystemOfParts::new(parts, &q, &p).unwrap()
-}
-
-fn state<M: System>(system: &M) -> Vec<M::Number> {
-    [system.state().q(), system.state().p()].concat()
 }
 
 /// Tuckerman, Berne and Martyna's loops.
@@ -61,7 +57,7 @@ fn a_step_is_the_loops_of_its_table_bit_for_bit() {
         }
         flow(0, h / 2.0);
     }
-    assert!(same_bits(&state(&system), &state(&other)));
+    assert!(same_bits(&coordinates(&system), &coordinates(&other)));
 }
 
 #[test]
@@ -71,7 +67,7 @@ fn the_orders_are_those_proved() {
         let stepper = Stepper::with_context(scheme, rational(&format!("1/{steps}")), &context).unwrap();
         let mut system = molecule::<Float>(&context);
         (0..steps).for_each(|_| stepper.step(&mut system));
-        state(&system)
+        coordinates(&system)
     };
     let exact = ended(shipped("kahan-li8").unwrap().for_many_parts().unwrap(), 1 << 11);
     for (name, steps) in [("r-respa-4", 64), ("r-respa-8", 64), ("nested-s6", 32)] {
@@ -106,16 +102,16 @@ fn generated_steps_have_the_bits_of_their_twins_and_are_undone() {
     assert_eq!(NestedS6.summary(), twin.summary());
     let (generated, twin) = (Stepper::new(NestedS6, "1/10").unwrap(), Stepper::new(twin, "1/10").unwrap());
     let [mut one, mut other] = [(); 2].map(|()| molecule::<f64>(&()));
-    let start = state(&one);
+    let start = coordinates(&one);
     for back in [false, true] {
         for _ in 0..20 {
             match back {
                 false => (generated.step_augmented(&mut one), twin.step(&mut other)),
                 true => (generated.step_back(&mut one), twin.step_back_augmented(&mut other)),
             };
-            assert!(same_bits(&state(&one), &state(&other)));
+            assert!(same_bits(&coordinates(&one), &coordinates(&other)));
         }
-        let off = log10_largest_distance(&state(&one), &start);
+        let off = log10_largest_distance(&coordinates(&one), &start);
         assert!(if back { off < -13.0 } else { off > -1.0 }, "10^{off}");
     }
 }

@@ -6,12 +6,12 @@
 
 use rug::Float;
 use shadowstep::shadow::run::{ShadowRun, energy_drift};
-use shadowstep::shadow::{Bilinear, BuildEstimator, Central, Criterion, ShadowEnergy, Verdict};
+use shadowstep::shadow::{Bilinear, Central, Criterion, ShadowEnergy, Verdict};
 use shadowstep::systems::kinetic::General;
 use shadowstep::systems::summation::{Half, Plain};
 use shadowstep::{Carried, Integrator as _, Number, OwnedIncrements, Real, State, Stepper, System, splitting_scheme};
 use shadowstep_tests::shipped::all_for_every_kinetic;
-use shadowstep_tests::{Bits, log10_distance, log10_largest_distance, precision, rational, same_bits};
+use shadowstep_tests::{Bits, precision, rational, variations};
 
 #[derive(Clone, Copy)]
 #[splitting_scheme("yoshida4.toml")]
@@ -188,45 +188,15 @@ fn the_drift_is_the_flow_of_a() {
     assert_eq!([start[0] + q[0], start[1] + p[0]], rotor.point());
 }
 
-/// Every scheme for every T(p), generated and read at run time: back is the inverse of forth, augmented steps have the
-/// bits of plain ones, and increments are what the states change by.
-fn steps_are_steps<N: Bits>(context: &N::Context) {
-    for scheme in all_for_every_kinetic::<N>(&rational(STEP), context) {
-        let (steps, start) = (&scheme.generated, Rotor::<N>::new(START, context));
-        let (mut plain, mut augmented) = (start.clone(), start.clone());
-        for _ in 0..3 {
-            steps.step(&mut plain);
-            steps.step_augmented(&mut augmented);
-            assert!(same_bits(&plain.point(), &augmented.point()), "{}", scheme.name);
-        }
-        let there = augmented.state.increments().to_owned();
-        let reached = augmented.point();
-        steps.step_back_augmented(&mut augmented);
-        let tolerance = start.point()[0].log10_epsilon() + 2.5;
-        let added = there.q.iter().chain(&there.p).zip(reached.iter().zip(augmented.point()));
-        for (added, (later, earlier)) in added {
-            let mut difference = later.clone();
-            difference.subtract(&earlier);
-            let off = log10_distance(added, &difference);
-            assert!(off < tolerance, "{}: 10^{off}", scheme.name);
-        }
-        let mut back = augmented.state.increments().beta.clone();
-        back.negate();
-        let off = log10_distance(&there.beta, &back);
-        assert!(there.beta.log10_abs() > -3.0 && off < tolerance, "{}, β: {} and {back}", scheme.name, there.beta);
-        for _ in 0..3 {
-            steps.step_back(&mut plain);
-        }
-        let moved = log10_largest_distance(&reached, &start.point());
-        let off = log10_largest_distance(&plain.point(), &start.point());
-        assert!(moved > -2.0 && off < tolerance, "{}: 10^{off} after steps and steps back", scheme.name);
-    }
-}
-
 #[test]
 fn steps_are_steps_in_both_kinds_of_numbers() {
-    steps_are_steps::<f64>(&());
-    steps_are_steps::<Float>(&precision(60));
+    fn check<N: Bits>(context: &N::Context) {
+        for scheme in all_for_every_kinetic::<N>(&rational(STEP), context) {
+            scheme.generated.check(&scheme.name, || Rotor::<N>::new(START, context), 3, 2.5);
+        }
+    }
+    check::<f64>(&());
+    check::<Float>(&precision(60));
 }
 
 #[test]
@@ -248,45 +218,23 @@ fn yoshida_has_order_4() {
 // ---------------------------------------------------------------------------------------------------------------
 // The modified energy
 
-/// max − min of H over n = 0, …, steps.
-fn energy_variation<N: Real>(stepper: &Stepper<StormerVerlet, N>, steps: u64, context: &N::Context) -> f64 {
-    let mut rotor = Rotor::<N>::new(START, context);
-    let energies: Vec<f64> = (0..=steps)
-        .map(|n| {
-            if n > 0 {
-                stepper.step(&mut rotor);
-            }
-            rotor.energies()[0].to_f64()
-        })
-        .collect();
-    energies.iter().copied().fold(f64::MIN, f64::max) - energies.iter().copied().fold(f64::MAX, f64::min)
-}
-
+/// By Störmer–Verlet steps of 1/20: H varies, by some 1e-5 and more.
 fn the_modified_energy_is_conserved<N: Real>(context: &N::Context, most: f64) {
-    fn check<N: Real>(
-        stepper: &Stepper<StormerVerlet, N>,
-        settings: &(impl BuildEstimator<N> + std::fmt::Debug),
-        context: &N::Context,
-        most: f64,
-    ) {
-        let energy = energy_variation(stepper, 1000, context);
-        let found = energy_drift(stepper.with(Rotor::<N>::new(START, context)), 1000, settings).unwrap();
-        println!("{settings:?}: H varies by {energy:e}, the modified energy by {:e}", found.drift.to_f64());
-        assert!(energy > 1e-5 && found.drift.to_f64() < most, "{settings:?}: {energy:e}, {:e}", found.drift.to_f64());
+    let stepper = Stepper::<_, N>::with_context(StormerVerlet, "1/20", context).unwrap();
+    let rotor = || Rotor::<N>::new(START, context);
+    let energy = variations::of_energy(&stepper, rotor(), 1000);
+    for found in [
+        energy_drift(stepper.with(rotor()), 1000, &Bilinear::new(12)).unwrap(),
+        energy_drift(stepper.with(rotor()), 1000, &Central::fixed(20)).unwrap(),
+    ] {
+        assert!(energy > 1e-5 && found.drift.to_f64() < most, "{energy:e}, {:e}", found.drift.to_f64());
         assert!((found.first.to_f64() - Rotor::<f64>::new(START, &()).energies()[0]).abs() < energy);
     }
-    let stepper = Stepper::<_, N>::with_context(StormerVerlet, "1/20", context).unwrap();
-    check(&stepper, &Bilinear::new(12), context, most);
-    check(&stepper, &Central::fixed(20), context, most);
 }
 
 #[test]
-fn the_modified_energy_is_conserved_in_double() {
+fn the_modified_energy_is_conserved_in_both_kinds_of_numbers() {
     the_modified_energy_is_conserved::<f64>(&(), 1e-14);
-}
-
-#[test]
-fn the_modified_energy_is_conserved_at_60_digits() {
     the_modified_energy_is_conserved::<Float>(&precision(60), 1e-20);
 }
 
@@ -294,7 +242,7 @@ fn the_modified_energy_is_conserved_at_60_digits() {
 #[test]
 fn with_the_wrong_beta_it_is_not_conserved() {
     let stepper = Stepper::new(StormerVerlet, "1/20").unwrap();
-    let energy = energy_variation::<f64>(&stepper, 1000, &());
+    let energy = variations::of_energy(&stepper, Rotor::<f64>::new(START, &()), 1000);
     for degree in [2, 3, 5] {
         let wrong = Rotor { degree, ..Rotor::<f64>::new(START, &()) };
         let found = energy_drift(stepper.with(wrong), 1000, &Bilinear::new(12)).unwrap();

@@ -149,18 +149,9 @@ fn lanes_and_compensated_sums_have_the_same_derivatives() {
     }
     for k in 0..4 {
         let [plain, compensated] = [vector(plain.state(), k), vector(compensated.state(), k)];
-        assert_eq!(plain.map_lanes(), vector(lanes.state(), k));
+        let wide: Vec<_> = plain.iter().map(|x| Lanes::<4>::all(*x)).collect();
+        assert_eq!(wide, vector(lanes.state(), k));
         plain.iter().zip(&compensated).for_each(|(a, b)| assert!((a - b).abs() < 1e-12));
-    }
-}
-
-trait MapLanes {
-    fn map_lanes(&self) -> Vec<Lanes<4>>;
-}
-
-impl MapLanes for Vec<f64> {
-    fn map_lanes(&self) -> Vec<Lanes<4>> {
-        self.iter().map(|x| Lanes::all(*x)).collect()
     }
 }
 

@@ -7,18 +7,17 @@
 use rug::Float;
 use shadowstep::number::{Limbs, Number, Real};
 use shadowstep::problems::{Kepler, problem};
-use shadowstep::shadow::Bilinear;
-use shadowstep::shadow::run::energy_drift;
 use shadowstep::steps::step_to_time;
 use shadowstep::systems::kinetic::General;
 use shadowstep::systems::transformed_time::{TimeTransformation, TransformedKinetic, TransformedPotential};
 use shadowstep::tables::{Source, TableScheme};
-use shadowstep::{DiagonalMasses, Integrator as _, Motion, Potential, Rational, Stepper, System, UnitMasses};
+use shadowstep::{DiagonalMasses, Integrator as _, Motion, Potential, Rational, Stepper, UnitMasses};
 use shadowstep_scenes::Scene;
 use shadowstep_schemes::First;
 use shadowstep_tests::reference::Separable;
 use shadowstep_tests::shipped::twin;
-use shadowstep_tests::{log10_largest_distance, number, precision, rational};
+use shadowstep_tests::steps::Steps;
+use shadowstep_tests::{log10_largest_distance, number, precision, rational, variations};
 
 /// A system of masses in transformed time.
 type Transformed<N> =
@@ -182,20 +181,7 @@ fn the_modified_energy_is_conserved() {
         let drifts = ["1/50", "1/100"].map(|h| {
             let stepper =
                 Stepper::<_, Limbs<4>>::new(scheme("stormer-verlet", Some(First::Drift)), h).expect("it is nonzero");
-            let steps = 200;
-            let mut system = Pythagorean::system::<Limbs<4>>(time, &());
-            let [k8, k16] = [8, 16].map(|k| {
-                let found =
-                    energy_drift(stepper.with(Pythagorean::system::<Limbs<4>>(time, &())), steps, &Bilinear::new(k))
-                        .expect("it is finite");
-                found.drift.to_f64()
-            });
-            let energies = (0..steps).map(|_| {
-                stepper.step(&mut system);
-                System::energy(&mut system).to_f64()
-            });
-            let (least, largest) = energies.fold((0.0, 0.0), |(a, b): (f64, f64), e| (a.min(e), b.max(e)));
-            [largest - least, k8, k16]
+            variations::of_energies(&stepper, || Pythagorean::system::<Limbs<4>>(time, &()), 200, [8, 16])
         });
         println!("{time}: {drifts:?}");
         for [energy, k8, k16] in drifts {
@@ -205,14 +191,9 @@ fn the_modified_energy_is_conserved() {
 }
 
 #[test]
-fn steps_back_undo_steps() {
-    let stepper = Stepper::new(scheme("blanes-moan-s6", Some(First::Drift)), "1/10").expect("it is nonzero");
-    let mut system = kepler::<f64>(LOGARITHMIC, "0.99", &());
-    let start = [system.q(), system.p()].concat();
-    (0..50).for_each(|_| stepper.step(&mut system));
-    (0..50).for_each(|_| stepper.step_back(&mut system));
-    let off = log10_largest_distance(&[system.q(), system.p()].concat(), &start);
-    assert!(off < -11.0, "10^{off}");
+fn steps_are_steps() {
+    let steps = Steps::of(scheme("blanes-moan-s6", Some(First::Drift)), &rational("1/10"), &());
+    steps.check("blanes-moan-s6", || kepler::<f64>(LOGARITHMIC, "0.99", &()), 50, 5.0);
 }
 
 #[test]

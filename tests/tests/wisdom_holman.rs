@@ -6,17 +6,18 @@
 
 use rug::Float;
 use shadowstep::number::{Limbs, Number, Precision, Real};
-use shadowstep::shadow::{Bilinear, ShadowEnergy};
+use shadowstep::shadow::Bilinear;
 use shadowstep::systems::kinetic::General;
 use shadowstep::systems::wisdom_holman::{Bodies, DemocraticHeliocentric, Jacobi, PlanetaryCoordinates, WisdomHolman};
 use shadowstep::tables::{self, TableScheme};
 use shadowstep::{Rational, Scheme, Stepper, System, ValidFor};
 use shadowstep_schemes::{First, Proved, shipped_names, shipped_proved};
+use shadowstep_tests::orders::Measured;
 use shadowstep_tests::reference::Separable;
-use shadowstep_tests::shipped::{Shipped, all, all_for_every_kinetic};
+use shadowstep_tests::shipped::all_for_every_kinetic;
+use shadowstep_tests::steps::Steps;
 use shadowstep_tests::{
-    Bits, check_increments, coordinates, log10_distance, log10_largest_distance, numbers, precision, rational,
-    same_bits, variations,
+    Bits, log10_distance, log10_largest_distance, numbers, precision, rational, same_bits, variations, watched,
 };
 
 /// Digits of the computation.
@@ -129,46 +130,24 @@ fn the_energy_is_that_of_inertial_coordinates() {
     }
 }
 
-/// The orders that steps of 2^−k and 2^−(k − 1) show, with the names of the schemes and the orders that are proved.
-fn measured<C, K>(
-    schemes: &[Vec<Shipped<Float, K>>],
-    proved: impl Fn(&Shipped<Float, K>) -> u32,
-    exact: &[Vec<Float>],
-) -> Vec<(String, f64, f64)>
-where
-    TableScheme<K>: Scheme,
-    C: PlanetaryCoordinates<Float, 2, Class = K> + 'static,
-{
-    let error = |scheme: usize, k: u32| {
-        let mut system = plain::<Float, C>(&precision(DIGITS));
-        schemes[k as usize][scheme].generated.step(&mut system);
-        let (q, p) = system.inertial();
-        log10_largest_distance(&[q, p].concat(), &exact[k as usize]) / std::f64::consts::LOG10_2
-    };
-    let order = |(index, scheme): (usize, &Shipped<Float, K>)| {
-        let proved = proved(scheme);
-        let k = scheme.halvings(proved, DIGITS).min(exact.len() as u32 - 1);
-        (scheme.name.clone(), f64::from(proved), error(index, k - 1) - error(index, k) - 1.0)
-    };
-    schemes[0].iter().enumerate().map(order).collect()
+/// q and p in inertial coordinates.
+fn inertial<C: PlanetaryCoordinates<Float, 2>>(system: &mut WisdomHolman<Float, C, 2>) -> Vec<Float> {
+    let (q, p) = system.inertial();
+    [q, p].concat()
 }
 
 #[test]
 fn the_orders_are_those_proved() {
     let context = precision(DIGITS);
     let (q, p) = start::<Float>(&bodies(&rational("1")), &context);
-    let flow = Separable { velocity: &velocities, gradient: &|q| gravity(q).1 };
-    let exact: Vec<_> = (0..=7_u32)
-        .map(|k| flow.flow(&[q.clone(), p.clone()].concat(), &(Float::with_val(context.in_bits(), 1) >> k), 12))
-        .collect();
-    let halved = |k: usize| rational(&format!("1/{}", 1_u64 << k));
-    let quadratic: Vec<_> = (0..exact.len()).map(|k| all::<Float>(&halved(k), &context)).collect();
-    let general: Vec<_> = (0..exact.len()).map(|k| all_for_every_kinetic::<Float>(&halved(k), &context)).collect();
-    let quadratic = measured::<Jacobi<_, 2>, _>(&quadratic, |scheme| scheme.summary.order_quadratic, &exact);
-    let general = measured::<DemocraticHeliocentric<_, 2>, _>(&general, |scheme| scheme.summary.order, &exact);
-    for (name, proved, order) in quadratic.into_iter().chain(general) {
-        println!("{name}: {order:.3}, proved {proved}");
-        assert!((order - proved).abs() < 0.1, "{name}: {order} measured, {proved} proved");
+    let separable = Separable { velocity: &velocities, gradient: &|q| gravity(q).1 };
+    let flow = |h: &Float| separable.flow(&[q.clone(), p.clone()].concat(), h, 12);
+    let start = || plain::<Float, Jacobi<_, 2>>(&context);
+    Measured { start: &start, coordinates: inertial, flow: &flow, digits: DIGITS, halvings: 7 }.check_all(0.1);
+    let start = || plain::<Float, DemocraticHeliocentric<_, 2>>(&context);
+    let general = Measured { start: &start, coordinates: inertial, flow: &flow, digits: DIGITS, halvings: 7 };
+    for order in general.orders(all_for_every_kinetic, |scheme| scheme.summary.order) {
+        assert!(order.off() < 0.1, "{order:?}");
     }
 }
 
@@ -299,7 +278,7 @@ where
     let drift_first = shadowstep_tests::shipped::twin("stormer-verlet", Some(First::Drift));
     let stepper =
         Stepper::<_, Limbs<4>>::new(drift_first.for_every_kinetic().expect("it is"), h).expect("it is nonzero");
-    variations::of_energies(&stepper, giants::<Limbs<4>, C>(&()), steps, [8, 24])
+    variations::of_energies(&stepper, || giants::<Limbs<4>, C>(&()), steps, [8, 24])
 }
 
 #[test]
@@ -315,30 +294,14 @@ fn the_modified_energy_is_conserved() {
     }
 }
 
-/// Along a step and back, with the bits of plain steps.
 fn steps_are_steps<N: Bits, C>(context: &N::Context)
 where
     C: PlanetaryCoordinates<N, 2>,
     TableScheme<General>: ValidFor<C::Class>,
 {
-    let stepper = Stepper::with_context(scheme("abah864"), "1/3", context).expect("it is nonzero");
-    let mut systems = [(); 2].map(|()| giants::<N, C>(context));
-    let start = [systems[0].state().q(), systems[0].state().p()].concat();
-    let [plain, augmented] = &mut systems;
-    for _ in 0..20 {
-        stepper.step(plain);
-        let before = coordinates(augmented);
-        stepper.step_augmented(augmented);
-        // positions of size 10, and sums of some twenty terms
-        check_increments(augmented, &before, 2.5);
-    }
-    assert!(same_bits(plain.state().q(), augmented.state().q()) && same_bits(plain.state().p(), augmented.state().p()));
-    let there = [plain.state().q(), plain.state().p()].concat();
-    assert!(log10_largest_distance(&there, &start) > 0.0);
-    (0..20).for_each(|_| stepper.step_back(plain));
-    let off = log10_largest_distance(&[plain.state().q(), plain.state().p()].concat(), &start);
-    // twenty steps there and back of planets at 10 whose phases round-off changes
-    assert!(off < start[0].log10_epsilon() + 3.5, "10^{off}");
+    let steps = Steps::of(scheme("abah864"), &rational("1/3"), context);
+    // positions of size 10, and sums of some twenty terms in each of twenty steps there and back
+    steps.check("abah864", || giants::<N, C>(context), 20, 3.5);
 }
 
 #[test]
@@ -354,14 +317,7 @@ fn the_monitor_judges_a_step_size() {
     let verdict = |h: &str, steps: u64| {
         let stepper = Stepper::new(scheme("saba2"), h).expect("it is nonzero");
         let mut system = giants::<f64, Jacobi<_, 2>>(&());
-        let mut monitor =
-            ShadowEnergy::new(stepper.clone(), &mut system, &Bilinear::with_error(8)).expect("it is finite");
-        for _ in 0..steps {
-            stepper.step_augmented(&mut system);
-            monitor.observe(&mut system).expect("it is finite");
-        }
-        println!("h = {h}: {}", monitor.report().reason());
-        monitor.report().verdict
+        watched(stepper, &mut system, &Bilinear::with_error(8), 1, steps).verdict
     };
     assert!(verdict("1/4", 4000).is_bounded());
     assert!(!verdict("5", 2000).is_bounded());

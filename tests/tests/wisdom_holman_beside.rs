@@ -12,11 +12,13 @@ use shadowstep::systems::pairs::{Pairs, Separation};
 use shadowstep::systems::potential::Sum;
 use shadowstep::systems::wisdom_holman::{Bodies, BodiesError, DemocraticHeliocentric, Jacobi, WisdomHolman};
 use shadowstep::{Potential, Stepper, System};
+use shadowstep_tests::orders::Measured;
 use shadowstep_tests::reference::Separable;
-use shadowstep_tests::shipped::all;
+use shadowstep_tests::shipped::twin;
+use shadowstep_tests::steps::Steps;
 use shadowstep_tests::{
-    Bits, log10_distance, log10_largest_distance, number, numbers, potential_values, precision, rational, same_bits,
-    stepper, variations,
+    Bits, log10_distance, log10_largest_distance, number, numbers, potential_values, precision, rational, stepper,
+    variations,
 };
 
 const DIGITS: u32 = 60;
@@ -121,59 +123,32 @@ fn the_orders_are_those_proved() {
         potential.gradient(q, &mut gradient, &mut scratch);
         gradient
     };
-    let flow = Separable { velocity: &velocities, gradient: &gradient };
-    let exact: Vec<_> =
-        (0..=7_u32).map(|k| flow.flow(&start, &(Float::with_val(context.in_bits(), 1) >> k), 12)).collect();
-    let steps: Vec<_> =
-        (0..exact.len()).map(|k| all::<Float>(&rational(&format!("1/{}", 1_u64 << k)), &context)).collect();
-    let error = |scheme: usize, k: usize| {
-        let mut system = three::<Float>(&context);
-        steps[k][scheme].generated.step(&mut system);
+    let separable = Separable { velocity: &velocities, gradient: &gradient };
+    let inertial = |system: &mut WisdomHolman<Float, Jacobi<Float, 2>, 2, Beside<Float>>| {
         let (q, p) = system.inertial();
-        log10_largest_distance(&[q, p].concat(), &exact[k]) / std::f64::consts::LOG10_2
+        [q, p].concat()
     };
-    for (index, scheme) in steps[0].iter().enumerate() {
-        let proved = scheme.summary.order_quadratic;
-        let k = (scheme.halvings(proved, DIGITS) as usize).min(exact.len() - 1);
-        let order = error(index, k - 1) - error(index, k) - 1.0;
-        println!("{}: {order:.3}, proved {proved}", scheme.name);
-        assert!((order - f64::from(proved)).abs() < 0.1, "{}: {order} measured, {proved} proved", scheme.name);
-    }
-}
-
-/// Plain and augmented steps have the same bits, and steps back undo them.
-fn steps_are_steps<N: Bits>(context: &N::Context) {
-    let stepper = stepper::<N>("chin-4a", "1/16", context);
-    let mut systems = [(); 2].map(|()| three::<N>(context));
-    let start = [systems[0].state().q(), systems[0].state().p()].concat();
-    let [plain, augmented] = &mut systems;
-    for _ in 0..20 {
-        stepper.step(plain);
-        stepper.step_augmented(augmented);
-    }
-    assert!(same_bits(plain.state().q(), augmented.state().q()) && same_bits(plain.state().p(), augmented.state().p()));
-    (0..20).for_each(|_| stepper.step_back(plain));
-    let off = log10_largest_distance(&[plain.state().q(), plain.state().p()].concat(), &start);
-    assert!(off < start[0].log10_epsilon() + 3.0, "10^{off}");
+    let flow = |h: &Float| separable.flow(&start, h, 12);
+    let system = || three::<Float>(&context);
+    Measured { start: &system, coordinates: inertial, flow: &flow, digits: DIGITS, halvings: 7 }.check_all(0.1);
 }
 
 #[test]
 fn steps_are_steps_in_both_kinds_of_numbers() {
-    steps_are_steps::<f64>(&());
-    steps_are_steps::<Float>(&precision(DIGITS));
-}
-
-/// max − min of H and of E_8 and E_24 over 100 steps.
-fn variations(scheme: &str, h: &str) -> [f64; 3] {
-    let stepper: Stepper<_, Limbs<4>> = stepper(scheme, h, &());
-    variations::of_energies(&stepper, three::<Limbs<4>>(&()), 100, [8, 24])
+    fn check<N: Bits>(context: &N::Context) {
+        let steps = Steps::of(twin("chin-4a", None), &rational("1/16"), context);
+        steps.check("chin-4a", || three::<N>(context), 20, 3.0);
+    }
+    check::<f64>(&());
+    check::<Float>(&precision(DIGITS));
 }
 
 /// With a wrong rate of β it would not converge.
 #[test]
 fn the_modified_energy_is_conserved() {
     for scheme in ["stormer-verlet", "abah864", "chin-4a"] {
-        let [energy, k8, k24] = variations(scheme, "1/64");
+        let stepper: Stepper<_, Limbs<4>> = stepper(scheme, "1/64", &());
+        let [energy, k8, k24] = variations::of_energies(&stepper, || three::<Limbs<4>>(&()), 100, [8, 24]);
         println!("{scheme}: H varies by {energy:e}, E_8 by {k8:e}, E_24 by {k24:e}");
         assert!(k8 < energy * 1e-3 && k24 < k8 * 1e-3, "{energy:e}, {k8:e}, {k24:e}");
     }

@@ -21,11 +21,7 @@ where
     TableScheme: ValidFor<M::Class>,
 {
     let settings = Bilinear::with_error(windows.k);
-    let mut monitor = ShadowEnergy::new(stepper(scheme, h, &()), &mut motion, &settings).unwrap().every(windows.every);
-    for _ in 0..windows.steps {
-        monitor.step(&mut motion).unwrap();
-    }
-    let report = monitor.report();
+    let report = watched(stepper(scheme, h, &()), &mut motion, &settings, windows.every, windows.steps);
     assert_ne!(report.verdict, Verdict::Inconsistent, "{scheme}, h = {h}, {windows:?}: {report}");
     report
 }
@@ -152,11 +148,8 @@ fn short_arcs() {
             let mut motion: ProblemMotion<Float> =
                 problem(name).unwrap().setup(&[], 80).unwrap().motion(&context).unwrap();
             let verlet = stepper("stormer-verlet", h, &context);
-            let mut monitor = ShadowEnergy::new(verlet, &mut motion, &settings).unwrap().every(20);
-            for _ in 0..1000 {
-                monitor.step(&mut motion).unwrap();
-            }
-            assert!(monitor.report().verdict.is_bounded(), "{name}, h = {h}: {}", monitor.report());
+            let report = watched(verlet, &mut motion, &settings, 20, 1000);
+            assert!(report.verdict.is_bounded(), "{name}, h = {h}: {report}");
         }
     }
     // of a scheme of order 1 H − H̄ may be of one sign for more than half a turn

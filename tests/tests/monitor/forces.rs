@@ -10,12 +10,7 @@ fn watch_fluid(kind: Cutoff, scheme: &str, h: &str, k: u32) -> Report<f64> {
     let fluid = Fluid { particles: 27, side: 5.1, cutoff: 2.5, kind };
     let [q, p] = fluid.start();
     let mut motion = Motion::new(fluid, UnitMasses, q, p).unwrap();
-    let mut monitor =
-        ShadowEnergy::new(stepper(scheme, h, &()), &mut motion, &Bilinear::with_error(k)).unwrap().every(20);
-    for _ in 0..1200 {
-        monitor.step(&mut motion).unwrap();
-    }
-    monitor.report()
+    watched(stepper(scheme, h, &()), &mut motion, &Bilinear::with_error(k), 20, 1200)
 }
 
 /// A step that is small enough is never too large, whatever the order of the scheme: it is the forces that limit it.
@@ -85,11 +80,7 @@ fn a_virial_of_images_is_found() {
     let [q, p] = fluid.start();
     let mut motion = Motion::new(Virial(fluid), UnitMasses, q, p).unwrap();
     let verlet = stepper("stormer-verlet", "0.004", &());
-    let mut monitor = ShadowEnergy::new(verlet, &mut motion, &Bilinear::with_error(8)).unwrap().every(20);
-    for _ in 0..1200 {
-        monitor.step(&mut motion).unwrap();
-    }
-    let report = monitor.report();
+    let report = watched(verlet, &mut motion, &Bilinear::with_error(8), 20, 1200);
     assert_eq!(report.verdict, Verdict::Inconsistent, "{report}");
     assert!(report.reason().contains("check_potential"), "{report}");
 }

@@ -49,11 +49,7 @@ fn steps_of_another_size_are_seen() {
 fn a_circle_is_not_taken_for_another_loop() {
     let watch_circle = |scheme: &str, h: &str, settings: &Bilinear| {
         let mut motion = Motion::new(Kepler, UnitMasses, [1.0, 0.0], [0.0, 1.0]).unwrap();
-        let mut monitor = ShadowEnergy::new(stepper(scheme, h, &()), &mut motion, settings).unwrap().every(20);
-        for _ in 0..1000 {
-            monitor.step(&mut motion).unwrap();
-        }
-        let report = monitor.report();
+        let report = watched(stepper(scheme, h, &()), &mut motion, settings, 20, 1000);
         assert_ne!(report.verdict, Verdict::Inconsistent, "{scheme}, h = {h}, {settings:?}: {report}");
         report.verdict
     };

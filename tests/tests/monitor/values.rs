@@ -141,11 +141,7 @@ fn values_are_those_of_a_run() {
 fn the_parts_of_the_oscillator_are_in_closed_form() {
     let verlet = stepper("stormer-verlet", "3/10", &());
     let mut motion = Motion::new(HarmonicOscillator { omega: 1.0 }, UnitMasses, [1.0], [0.0]).unwrap();
-    let mut monitor = ShadowEnergy::new(verlet, &mut motion, &Bilinear::with_error(8)).unwrap().every(20);
-    for _ in 0..40_000 {
-        monitor.step(&mut motion).unwrap();
-    }
-    let report = monitor.report();
+    let report = watched(verlet, &mut motion, &Bilinear::with_error(8), 20, 40_000);
     let x: f64 = 0.15;
     let invariant = 1.0 - x * x;
     let modified = invariant * x.asin() / (x * invariant.sqrt()) / 2.0;
@@ -199,11 +195,7 @@ fn many_digits_are_kept() {
     let start = |text: &str| vec![number(text, DIGITS)];
     let potential = HarmonicOscillator { omega: number("1", DIGITS) };
     let mut motion = Motion::new(potential, UnitMasses, start("1"), start("0")).unwrap();
-    let mut monitor = ShadowEnergy::new(verlet, &mut motion, &Bilinear::with_error(40)).unwrap().every(100);
-    for _ in 0..2000 {
-        monitor.step(&mut motion).unwrap();
-    }
-    let report = monitor.report();
+    let report = watched(verlet, &mut motion, &Bilinear::with_error(40), 100, 2000);
     let x = number("1/200000", DIGITS);
     let invariant: Float = 1 - x.clone().square();
     let modified = invariant.clone() * x.clone().asin() / (x * invariant.sqrt()) / 2u32;
@@ -257,11 +249,7 @@ fn no_change_is_excluded_above_less_than_round_off() {
         let spring = HarmonicOscillator { omega: number("1", 60) };
         let mut motion = Motion::new(spring, UnitMasses, q, p).unwrap();
         let stepper = stepper("stormer-verlet", "1/10", &context);
-        let mut monitor = ShadowEnergy::new(stepper, &mut motion, &Bilinear::with_error(24)).unwrap();
-        for _ in 0..steps {
-            monitor.step(&mut motion).unwrap();
-        }
-        let report = monitor.report();
+        let report = watched(stepper, &mut motion, &Bilinear::with_error(24), 1, steps);
         let bound = report.permanent_bound.clone().unwrap();
         assert!(bound >= report.round_off && report.verdict == Verdict::Bounded, "{report}");
         assert!(bound.log10_abs() < -55.0, "{report}");

@@ -102,11 +102,7 @@ fn any_kinetic_energy() {
     potential! { struct Spring; U(q) = q^2/2 }
     let yoshida = Stepper::new(shipped("yoshida4").unwrap().for_every_kinetic().unwrap(), "1/10").unwrap();
     let mut motion = Motion::new(Spring, Relativistic, [1.0], [0.0]).unwrap();
-    let mut monitor = ShadowEnergy::new(yoshida, &mut motion, &Bilinear::with_error(8)).unwrap().every(40);
-    for _ in 0..8000 {
-        monitor.step(&mut motion).unwrap();
-    }
-    let report = monitor.report();
+    let report = watched(yoshida, &mut motion, &Bilinear::with_error(8), 40, 8000);
     assert!(report.verdict == Verdict::Bounded && report.moved < 1e-4 * report.energy_error, "{report}");
 }
 
@@ -134,16 +130,12 @@ fn planet(m: f64) -> Motion<f64, Vec<f64>, Pairs<Gravity<f64>, 2>, DiagonalMasse
 /// The energy does not show how a light planet is resolved; the report does.
 #[test]
 fn a_light_planet_is_reported() {
-    let watch_every = |every: u64, m: f64, h: &str, steps: u32| {
+    let watch_every = |every: u64, m: f64, h: &str, steps: u64| {
         let mut motion = planet(m);
         let verlet = stepper("stormer-verlet", h, &());
-        let mut monitor = ShadowEnergy::new(verlet, &mut motion, &Bilinear::with_error(8)).unwrap().every(every);
-        for _ in 0..steps {
-            monitor.step(&mut motion).unwrap();
-        }
-        monitor.report()
+        watched(verlet, &mut motion, &Bilinear::with_error(8), every, steps)
     };
-    let watch = |m: f64, h: &str, steps: u32| watch_every(100, m, h, steps);
+    let watch = |m: f64, h: &str, steps: u64| watch_every(100, m, h, steps);
     // hω = 0.1
     let light = watch(1e-12, "0.00316", 20_000);
     assert_eq!(light.verdict, Verdict::RoundOff, "{light}");
@@ -167,11 +159,8 @@ fn a_light_planet_is_reported() {
     let mut slow: ProblemMotion<Float> =
         problem("kepler").unwrap().setup(&[], 80).unwrap().motion(&precision(60)).unwrap();
     let verlet = stepper("stormer-verlet", "1e-9", &precision(60));
-    let mut monitor = ShadowEnergy::new(verlet, &mut slow, &Bilinear::with_error(8)).unwrap().every(20);
-    for _ in 0..1000 {
-        monitor.step(&mut slow).unwrap();
-    }
-    assert_eq!(monitor.report().lost_coordinate, None, "{}", monitor.report());
+    let report = watched(verlet, &mut slow, &Bilinear::with_error(8), 20, 1000);
+    assert_eq!(report.lost_coordinate, None, "{report}");
     let resolved = watch(1e-3, "0.00316", 4000);
     assert!(resolved.verdict == BOUNDED && !resolved.reason().contains("it may be lost"), "{resolved}");
 }

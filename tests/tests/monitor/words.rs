@@ -105,11 +105,7 @@ fn a_report_reads() {
 
     let verlet = stepper("stormer-verlet", "1/20", &());
     let mut motion = Motion::new(Kepler, UnitMasses, [0.4, 0.0], [0.0, 2.0]).unwrap();
-    let mut monitor = ShadowEnergy::new(verlet, &mut motion, &Bilinear::with_error(8)).unwrap().every(100);
-    for _ in 0..20_000 {
-        monitor.step(&mut motion).unwrap();
-    }
-    let printed = monitor.report().to_string();
+    let printed = watched(verlet, &mut motion, &Bilinear::with_error(8), 100, 20_000).to_string();
     let trimmed = |lines: &[&str]| lines.iter().map(|line| line.trim().to_owned()).collect::<Vec<_>>();
     assert_eq!(trimmed(&printed.lines().collect::<Vec<_>>()), trimmed(&shown), "{printed}");
 }

@@ -72,7 +72,7 @@ fn judged(seeds: std::ops::Range<u64>) -> (BTreeMap<String, BTreeMap<String, usi
     (matrix, wrong)
 }
 
-/// No verdict is wrong, and one in five may be undecided.
+/// No verdict is wrong, one in five may be undecided, and every fault is found in some cases.
 fn hold(seeds: std::ops::Range<u64>) {
     let (matrix, wrong) = judged(seeds);
     let all: usize = matrix.values().flat_map(BTreeMap::values).sum();
@@ -82,6 +82,12 @@ fn hold(seeds: std::ops::Range<u64>) {
     }
     println!("{all} verdicts, {undecided} undecided, {} wrong:\n{}", wrong.len(), wrong.join("\n\n"));
     assert!(wrong.is_empty() && 5 * undecided <= all, "see the output");
+    for (fault, causes) in &matrix {
+        let of_no_fault = |cause: &String| ["nothing", "time-step", "undecided"].contains(&cause.as_str());
+        let is_found = if fault == "None" { causes.contains_key("nothing") } else { !causes.keys().all(of_no_fault) };
+        assert!(is_found, "{fault}: {causes:?}");
+    }
+    assert_eq!(matrix.len(), 13, "{:?}", matrix.keys());
 }
 
 #[test]
