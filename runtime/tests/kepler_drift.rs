@@ -554,6 +554,22 @@ fn a_drift_of_a_planet_has_so_many_operations() {
     );
 }
 
+/// Changes of a relative size around 1 of all eight numbers.
+fn direction(input: &Input<f64>) -> Input<f64> {
+    std::array::from_fn(|i| input[i] * (1.0 + i as f64).sin())
+}
+
+/// The derivatives along that direction.
+fn derivatives<N: Number<Context = ()>>(input: &Input<f64>, number: fn(f64) -> N) -> Output<N> {
+    let along = direction(input);
+    let found: Output<Dual<N>> =
+        drift(&mut new(), std::array::from_fn(|i| Dual::new(number(input[i]), [number(along[i])])));
+    found.map(|x| {
+        let [derivative] = x.derivatives;
+        derivative
+    })
+}
+
 /// The largest error of the derivative of q and v along a direction, as a part of its size, in numbers N beside numbers
 /// with more digits.
 fn error_of_derivative<N: Number<Context = ()>>(
@@ -561,13 +577,7 @@ fn error_of_derivative<N: Number<Context = ()>>(
     number: fn(f64) -> N,
     exactly: fn(&N) -> Reference,
 ) -> f64 {
-    // changes of a relative size around 1 of all eight numbers
-    let direction: Input<f64> = std::array::from_fn(|i| input[i] * (1.0 + i as f64).sin());
-    let long: Output<Dual<Reference>> =
-        drift(&mut new(), std::array::from_fn(|i| Dual::new(input[i].into(), [direction[i].into()])));
-    let found: Output<Dual<N>> =
-        drift(&mut new(), std::array::from_fn(|i| Dual::new(number(input[i]), [number(direction[i])])));
-    let [long, found] = [long.map(|x| x.derivatives[0]), found.map(|x| exactly(&x.derivatives[0]))];
+    let (long, found) = (derivatives(input, Reference::from), derivatives(input, number).map(|x| exactly(&x)));
     let errors = [1..4, 4..7].map(|range| distance(&found[range.clone()], &long[range.clone()]) / size(&long[range]));
     errors.into_iter().fold(0.0, f64::max)
 }
@@ -602,15 +612,12 @@ fn derivatives_are_limits_of_differences() {
     let mut orbits = Orbits::new(37);
     let inputs = cases().into_iter().map(|(input, _)| input).chain((0..300).map(|_| orbits.input()));
     for input in inputs {
-        let direction: Input<f64> = std::array::from_fn(|i| input[i] * (1.0 + i as f64).sin());
-        let number = |x: f64| Reference::from(x);
-        let found: Output<Dual<Reference>> =
-            drift(&mut new(), std::array::from_fn(|i| Dual::new(number(input[i]), [number(direction[i])])));
+        let (along, found) = (direction(&input), derivatives(&input, Reference::from));
         let moved = |by: &str| -> Output<Reference> {
             let by = Reference::from_rational(&exact(by).unwrap(), &());
             let at = |i: usize| {
-                let mut moved = number(input[i]);
-                moved.add_product(&by, &number(direction[i]));
+                let mut moved = Reference::from(input[i]);
+                moved.add_product(&by, &Reference::from(along[i]));
                 moved
             };
             drift(&mut new(), std::array::from_fn(at))
@@ -626,8 +633,7 @@ fn derivatives_are_limits_of_differences() {
             })
             .collect();
         for range in [0..1, 1..4, 4..7] {
-            let own: Vec<Reference> = found[range.clone()].iter().map(|x| x.derivatives[0]).collect();
-            let error = distance(&own, &expected[range.clone()]) / size(&expected[range.clone()]);
+            let error = distance(&found[range.clone()], &expected[range.clone()]) / size(&expected[range.clone()]);
             assert!(error < 1e-25, "{range:?} of {input:?}: {error:e}");
         }
     }

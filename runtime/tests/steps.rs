@@ -14,45 +14,6 @@ use shadowstep::systems::system::Visitor;
 use shadowstep::tables::{TableScheme, shipped};
 use shadowstep::{Carried, DiagonalMasses, Motion, Potential, Rational, Stepper, System, UnitMasses, potential};
 
-fn stepper() -> Stepper<TableScheme, f64> {
-    Stepper::new(shipped("yoshida4").unwrap(), "1/20").unwrap()
-}
-
-fn check<M: System<Number = f64, Class = Quadratic> + Clone>(start: &M) {
-    let stepper = stepper();
-    for keeps_rate in [false, true] {
-        for count in [1, 2, 100] {
-            let [mut one_by_one, mut together] = [start.clone(), start.clone()];
-            (1..count).for_each(|_| stepper.step(&mut one_by_one));
-            match keeps_rate {
-                true => stepper.step_before_augmented(&mut one_by_one),
-                false => stepper.step(&mut one_by_one),
-            }
-            stepper.steps(std::slice::from_mut(&mut together), count);
-            stepper.step_augmented(&mut one_by_one);
-            stepper.step_augmented(&mut together);
-            assert_eq!((one_by_one.state().q(), one_by_one.state().p()), (together.state().q(), together.state().p()));
-            assert_eq!(one_by_one.state().increments().beta, together.state().increments().beta);
-            assert_eq!(one_by_one.state().remainders(), together.state().remainders());
-            // a rate that was kept saves the evaluation of the last gradient with its rate
-            let evaluations = one_by_one.state().evaluations() + u64::from(keeps_rate);
-            assert_eq!(evaluations, together.state().evaluations(), "{count} steps, {keeps_rate}");
-        }
-    }
-    let [mut none, mut start] = [start.clone(), start.clone()];
-    stepper.steps(std::slice::from_mut(&mut none), 0);
-    assert_eq!(
-        (none.state().q(), none.state().p(), none.state().evaluations()),
-        (start.state().q(), start.state().p(), 0)
-    );
-    stepper.step_augmented(&mut start);
-    stepper.step_augmented(&mut none);
-    assert_eq!(
-        (none.state().q(), none.state().increments().beta),
-        (start.state().q(), start.state().increments().beta)
-    );
-}
-
 /// Sees that the states are those of steps one by one.
 struct OneByOne<'a, M> {
     stepper: &'a Stepper<TableScheme, f64>,
@@ -97,22 +58,7 @@ fn a_visitor_sees_the_states_of_steps_one_by_one() {
     }
 }
 
-#[test]
-fn steps_of_arrays_are_those_one_by_one() {
-    let motion = Motion::new(HenonHeiles, UnitMasses, [0.1, 0.2], [0.1, 0.0]).unwrap();
-    check(&motion);
-    check(&motion.clone().compensated());
-    check(&motion.fixed_point(&[2.0; 2], &[2.0; 2]).unwrap());
-}
-
-#[test]
-fn steps_of_vectors_are_those_one_by_one() {
-    let motion = Motion::new(HenonHeiles, UnitMasses, vec![0.1, 0.2], vec![0.1, 0.0]).unwrap();
-    check(&motion);
-    check(&motion.compensated());
-}
-
-/// Steps of several systems, merged and not: the bits of each alone.
+/// Steps of one system and of several, merged and not: the bits of each alone.
 fn check_several<M: System<Number: Number<Context = ()> + PartialEq, Class = Quadratic>>(start: impl Fn(f64) -> M) {
     for scheme in ["stormer-verlet", "yoshida4", "blanes-moan-srkn6b", "saba4", "ruth3", "chin-4a"] {
         let stepper = Stepper::<_, M::Number>::new(shipped(scheme).unwrap(), "1/20").unwrap();
@@ -124,9 +70,12 @@ fn check_several<M: System<Number: Number<Context = ()> + PartialEq, Class = Qua
                 motions[2].kick(&stepper.weights().kicks[0], Carried::Rate);
                 motions
             });
-            match merged {
-                true => stepper.merged_steps(&mut together, count),
-                false => stepper.steps(&mut together, count),
+            let (first, others) = together.split_at_mut(1);
+            for systems in [first, others] {
+                match merged {
+                    true => stepper.merged_steps(systems, count),
+                    false => stepper.steps(systems, count),
+                }
             }
             for (alone, of_several) in alone.iter_mut().zip(&mut together) {
                 match merged {

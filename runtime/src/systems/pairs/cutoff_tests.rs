@@ -208,23 +208,6 @@ fn sums_have_the_same_bits_in_blocks_one_by_one_and_in_lanes() {
     }
 }
 
-/// Numbers of more digits give the same within the round-off of `f64`.
-#[test]
-fn more_digits_confirm_double_precision() {
-    let q = places(BODIES, 8, 3, 7);
-    let (found, _, [rate, energy]) = evaluated(&mut fluid(true), &q);
-    let exact: Vec<Limbs<3>> = q.iter().copied().map(limbs).collect();
-    let (expected, _, sums) = evaluated(&mut fluid::<Limbs<3>>(true), &exact);
-    let size = found.iter().fold(0.0_f64, |size, x| size.max(x.abs()));
-    for (a, b) in found.iter().zip(&expected) {
-        assert!((a - b.to_f64()).abs() < 1e-11 * size);
-    }
-    let [exact_rate, exact_energy] = sums.map(|x| x.to_f64());
-    assert!((energy - exact_energy).abs() < 1e-12 * exact_energy.abs());
-    // the sum of 1536 products of positions of 60 with forces of up to `size`
-    assert!((rate - exact_rate).abs() < 1e-13 * 1536.0 * 60.0 * size);
-}
-
 /// What is computed does not depend on the list that is there; and the list is made again when, and only when, a body
 /// has moved by half of the skin.
 #[test]

@@ -28,6 +28,19 @@ fn places(bodies: usize, dimensions: usize) -> Vec<f64> {
     (0..bodies * dimensions).map(place).collect()
 }
 
+/// Masses of bodies.
+fn masses(bodies: usize) -> Vec<f64> {
+    (0..bodies).map(|i| 1.0 + i as f64 / 8.0).collect()
+}
+
+fn all<P: Pair, const D: usize>(bodies: usize, pair: P) -> Pairs<P, D> {
+    Pairs::all(bodies, pair).unwrap()
+}
+
+fn lennard_jones<N>(number: impl Fn(f64) -> N) -> LennardJones<N> {
+    LennardJones { epsilon: number(1.5), sigma: number(0.4) }
+}
+
 /// The gradient, that which comes with the rate, and the rate with the energy.
 pub(super) fn evaluated<N: crate::Number>(pairs: &impl Potential<N>, q: &[N]) -> (Vec<N>, Vec<N>, [N; 2]) {
     let context = q[0].context();
@@ -53,11 +66,13 @@ where
     let expected = evaluated(one_by_one, &counting);
     let bits = |numbers: &[f64]| numbers.iter().map(|x| x.to_bits()).collect::<Vec<_>>();
     let gradient: Vec<f64> = expected.0.iter().map(|x| x.0).collect();
+    let with_the_processors_vectors = evaluated(pairs, &q);
     for instructions in Instructions::available() {
         let found = instructions.only(|| evaluated(pairs, &q));
         let what = format!("{} bodies, {instructions:?}, {:?}", pairs.bodies(), pairs.which);
         assert!(found.0.iter().all(|x| x.is_finite()) && (q.len() == 1 || found.0.iter().any(|x| *x != 0.0)), "{what}");
         assert_eq!(bits(&found.0), bits(&found.1), "{what}");
+        assert_eq!(found, with_the_processors_vectors, "{what}");
         if pairs.which == Which::All && pairs.is_in_blocks() {
             // these are added up in another order: up to 40 forces a body, each rounded to 1e-16
             let size = gradient.iter().fold(0.0, |size, x| x.abs().max(size));
@@ -77,26 +92,21 @@ where
 #[test]
 fn blocks_have_the_sums_of_pairs_one_by_one() {
     for bodies in [2, 3, 4, 5, 6, 7, 8, 15, 16, 17, 23, 24, 25, 40] {
-        let m: Vec<f64> = (0..bodies).map(|i| 1.0 + i as f64 / 8.0).collect();
-        let counting = m.iter().copied().map(Counting).collect();
+        let counting = |m: Vec<f64>| m.into_iter().map(Counting).collect();
+        let (m, waves, c) = (masses(bodies), places(bodies, 1), Counting);
         agree(
-            &Pairs::<_, 3>::all(bodies, Gravity { g: 0.7, m: m.clone() }).unwrap(),
-            &Pairs::<_, 3>::all(bodies, Gravity { g: Counting(0.7), m: counting }).unwrap(),
-        );
-        let counting = m.iter().copied().map(Counting).collect();
-        agree(
-            &Pairs::<_, 3>::all(bodies, Softened { s: 0.2, m }).unwrap(),
-            &Pairs::<_, 3>::all(bodies, Softened { s: Counting(0.2), m: counting }).unwrap(),
-        );
-        let (m, counting) = (places(bodies, 1), places(bodies, 1).into_iter().map(Counting).collect());
-        agree(
-            &Pairs::<_, 2>::all(bodies, Waves { k: 0.3, m }).unwrap(),
-            &Pairs::<_, 2>::all(bodies, Waves { k: Counting(0.3), m: counting }).unwrap(),
+            &all::<_, 3>(bodies, Gravity { g: 0.7, m: m.clone() }),
+            &all(bodies, Gravity { g: c(0.7), m: counting(m.clone()) }),
         );
         agree(
-            &Pairs::<_, 2>::all(bodies, LennardJones { epsilon: 1.5, sigma: 0.4 }).unwrap(),
-            &Pairs::<_, 2>::all(bodies, LennardJones { epsilon: Counting(1.5), sigma: Counting(0.4) }).unwrap(),
+            &all::<_, 3>(bodies, Softened { s: 0.2, m: m.clone() }),
+            &all(bodies, Softened { s: c(0.2), m: counting(m) }),
         );
+        agree(
+            &all::<_, 2>(bodies, Waves { k: 0.3, m: waves.clone() }),
+            &all(bodies, Waves { k: c(0.3), m: counting(waves) }),
+        );
+        agree(&all::<_, 2>(bodies, lennard_jones(f64::from)), &all(bodies, lennard_jones(c)));
     }
 }
 
@@ -114,7 +124,7 @@ fn formulas_have_the_bits_of_compiled_pairs() {
         assert_eq!(compiled, read, "{text}, {bodies} bodies in {D} dimensions");
     }
     for bodies in [2, 3, 4, 5, 6, 7, 8, 9, 12, 15, 16, 17, 24, 25, 40, 41, 49, 90] {
-        let m: Vec<f64> = (0..bodies).map(|i| 1.0 + i as f64 / 8.0).collect();
+        let m = masses(bodies);
         compare::<_, 3>(Softened { s: 0.2, m: m.clone() }, "-m_i * m_j / sqrt(r2 + s^2)", &m, ("s", 0.2));
         compare::<_, 2>(Gravity { g: 0.7, m: m.clone() }, "-g * m_i * m_j / sqrt(r2)", &m, ("g", 0.7));
         compare::<_, 2>(Waves { k: 0.3, m: m.clone() }, "m_i * m_j * (sin(k*r2) + exp(-r2))", &m, ("k", 0.3));
@@ -149,21 +159,11 @@ fn chains_in_blocks_have_the_bits_of_springs_one_by_one() {
     }
 }
 
-#[test]
-fn sums_do_not_depend_on_the_vectors() {
-    let pairs = Pairs::<_, 3>::all(37, LennardJones { epsilon: 1.5, sigma: 0.4 }).unwrap();
-    let bits =
-        |(gradient, _, sums): (Vec<f64>, _, [f64; 2])| gradient.into_iter().chain(sums).map(f64::to_bits).collect();
-    let sums: Vec<Vec<u64>> =
-        Instructions::available().map(|i| i.only(|| bits(evaluated(&pairs, &places(37, 3))))).collect();
-    assert!(sums.iter().all(|of_vectors| *of_vectors == sums[0]), "{sums:?}");
-}
-
 /// The rate that is computed from energies is that of the pairs one by one, 2r²u' − 2u.
 #[test]
 fn rates_are_those_of_pairs_one_by_one() {
     for bodies in [2, 5, 17, 40] {
-        let m: Vec<f64> = (0..bodies).map(|i| 1.0 + i as f64 / 8.0).collect();
+        let m = masses(bodies);
         let pairs = Pairs::<_, 3>::all(bodies, Softened { s: 0.2, m: m.clone() }).unwrap();
         assert_eq!(pairs.pair().summand(), Summand::Energy);
         let q = places(bodies, 3);
@@ -215,7 +215,7 @@ fn lanes_have_the_bits_of_f64() {
         let all = |sigma: f64| Pairs::<_, 3>::all(bodies, LennardJones { epsilon: 1.5, sigma }).unwrap();
         let sigma = Lanes::all(0.4);
         compare(&all(0.4), &Pairs::all(bodies, LennardJones { epsilon: Lanes::all(1.5), sigma }).unwrap());
-        let m: Vec<f64> = (0..bodies).map(|i| 1.0 + i as f64 / 8.0).collect();
+        let m = masses(bodies);
         let in_lanes = m.iter().copied().map(Lanes::all).collect();
         compare(
             &Pairs::<_, 2>::all(bodies, Gravity { g: 0.7, m: m.clone() }).unwrap(),
@@ -265,7 +265,7 @@ where
 #[test]
 fn blocks_of_dual_numbers_have_the_bits_of_numbers_one_by_one() {
     for bodies in [7, 8, 9, 12, 15, 16, 17, 23, 24, 25, 40] {
-        let m: Vec<f64> = (0..bodies).map(|i| 1.0 + i as f64 / 8.0).collect();
+        let m = masses(bodies);
         let dual_m = || (0..).zip(&m).map(|(i, m)| dual(f64::from, *m, i)).collect::<Vec<_>>();
         let [s, d] = [0.2, 1.5].map(|x| dual(f64::from, x, 3));
         dual_numbers_agree(
