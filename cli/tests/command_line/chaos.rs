@@ -108,25 +108,4 @@ fn a_problem_with_flags_is_followed_as_a_scene_is() {
     fs::write(&system, "problem.name = \"pendulum\"\ninitial = { q = [0], p = [1] }\n").unwrap();
     let flags = "--scheme stormer-verlet --step 1/2 --until 5000 --one --json";
     assert_eq!(objects(&quietly(&format!("chaos {} {flags}", system.display())))[0], half);
-    for (missing, words) in [("--scheme", "--step 1"), ("--step", "--scheme yoshida4")] {
-        let refused = shadowstep(&format!("chaos pendulum --until 10 {words}"));
-        assert!(refused.code == 2 && refused.err.contains(&format!("{missing} is missing")), "{}", refused.err);
-    }
-}
-
-#[test]
-fn what_has_no_vectors_is_refused() {
-    let (_folder, scene) = in_folder(PENDULUM);
-    let refused = shadowstep(&format!("chaos {scene} --vectors 3"));
-    assert!(refused.code == 2, "{}", refused.err);
-    assert!(
-        refused.err.contains("3 tangent vectors are linearly dependent, as a state has 2 components"),
-        "{}",
-        refused.err
-    );
-    let (_folder, scene) = in_folder(&PENDULUM.replace("\"double\"", "400"));
-    let refused = shadowstep(&format!("chaos {scene} --one"));
-    let expected =
-        if cfg!(feature = "mpfr") { "derivatives have at most 327 digits, and the run has 400" } else { "MPFR" };
-    assert!(refused.code == 2 && refused.err.contains(expected), "{}", refused.err);
 }

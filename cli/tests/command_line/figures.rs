@@ -6,7 +6,6 @@ use std::path::Path;
 use assert_cmd::Command;
 use tempfile::TempDir;
 
-use crate::output_files::wait_until;
 use crate::program::shadowstep;
 
 /// Two figures, of which one requests results that depend on others.
@@ -104,31 +103,6 @@ fn results_do_not_depend_on_threads_or_interruptions() {
     assert_eq!(lines[0], lines[1]);
 }
 
-/// Exit code 3, and the same command computes the rest.
-#[cfg(unix)]
-#[test]
-fn an_interrupted_call_ends_as_documented_and_keeps_what_is_done() {
-    let folder = TempDir::new().unwrap();
-    let store = folder.path().join("results.jsonl");
-    let mut child = std::process::Command::new(assert_cmd::cargo::cargo_bin("shadowstep"))
-        .args(["figures", "scattering", "--quick", "--out"])
-        .arg(folder.path())
-        .stderr(std::process::Stdio::piped())
-        .spawn()
-        .unwrap();
-    // its first line is the header
-    wait_until("an outcome", || fs::read_to_string(&store).map_or(0, |text| text.lines().count()) >= 2);
-    assert!(std::process::Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap().success());
-    assert_eq!(child.wait().unwrap().code(), Some(3));
-    let mut words = String::new();
-    std::io::Read::read_to_string(&mut child.stderr.take().unwrap(), &mut words).unwrap();
-    assert!(words.starts_with("error: interrupted: ") && words.contains("calculations are saved"), "{words}");
-    assert!(words.ends_with("hint: the same command computes the others\n"), "{words}");
-    let saved = fs::read_to_string(&store).unwrap();
-    figures(folder.path(), &["scattering"], "2");
-    assert!(fs::read_to_string(&store).unwrap().starts_with(&saved), "what was saved is computed again");
-}
-
 #[test]
 fn a_report_keeps_the_figures_whose_results_are_there() {
     let folder = TempDir::new().unwrap();
@@ -190,25 +164,4 @@ fn files_of_another_program_are_replaced_only_by_force() {
             assert_ne!(fs::read_to_string(&file).unwrap(), "mine");
         }
     }
-}
-
-#[test]
-fn an_unknown_figure_is_refused_with_the_nearest() {
-    let folder = TempDir::new().unwrap();
-    let output = shadowstep(&format!("figures kepler-step kepler-shcemes --out {}", folder.path().display()));
-    assert_eq!(output.code, 2);
-    assert_eq!(output.err, "error: there is no figure `kepler-shcemes`\n  hint: did you mean `kepler-schemes`?\n");
-    assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 0);
-    let output = shadowstep(&format!("figures fourier --out {}", folder.path().display()));
-    assert!(output.err.contains("known: pendulum-step, pendulum-momentum, kepler-step"), "{}", output.err);
-}
-
-#[test]
-fn a_folder_that_cannot_be_made_is_refused() {
-    let folder = TempDir::new().unwrap();
-    let file = folder.path().join("file");
-    fs::write(&file, "").unwrap();
-    let output = shadowstep(&format!("figures double-precision --quick --out {}", file.display()));
-    assert_eq!(output.code, 2, "{}", output.err);
-    assert!(output.err.contains(&file.display().to_string()), "{}", output.err);
 }

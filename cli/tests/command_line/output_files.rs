@@ -61,26 +61,47 @@ fn trace(until: &str, file: &Path) -> String {
 }
 
 #[test]
-fn two_scenes_without_checkpoints_do_not_write_one_file() {
-    let folder = folder(LONG);
-    fs::write(folder.path().join("other.toml"), short()).unwrap();
-    let child = begin(folder.path(), "scene.toml");
-    let result = shadowstep(&format!("run {} --force", folder.path().join("other.toml").display()));
-    kill(child);
-    assert_eq!(result.code, 2, "{}", result.err);
-    assert!(result.err.contains("another run is writing"), "{}", result.err);
-}
-
-#[test]
-fn two_traces_do_not_write_one_file() {
+fn two_commands_do_not_write_one_file() {
+    for checkpoint in ["", "checkpoint = 1000"] {
+        let folder = folder(&format!("{LONG}{checkpoint}"));
+        fs::write(folder.path().join("other.toml"), short()).unwrap();
+        let child = begin(folder.path(), "scene.toml");
+        let others = ["scene.toml", "scene.toml --restart", "other.toml --force"]
+            .map(|other| shadowstep(&format!("run {}/{other}", folder.path().display())));
+        kill(child);
+        for refused in others {
+            assert!(refused.code == 2 && refused.err.contains("another run is writing"), "{}", refused.err);
+        }
+    }
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("out.csv");
     let child = program().args(trace("1000000", &file).split(' ')).spawn().unwrap();
     wait_until("a file", || !names(folder.path()).is_empty());
     let result = shadowstep(&trace("1", &file));
     kill(child);
-    assert_eq!(result.code, 2, "{}", result.err);
-    assert!(result.err.contains("another process is writing --output"), "{}", result.err);
+    assert!(result.code == 2 && result.err.contains("another process is writing --output"), "{}", result.err);
+}
+
+/// Rows with a checkpoint beside them are kept, to be looked at.
+#[test]
+fn a_run_that_fails_leaves_the_old_file_and_none_of_its_own() {
+    let fails = "[problem]\nname = \"harmonic-oscillator\"\n[run]\nscheme = \"stormer-verlet\"\nstep = 10\nuntil = 10000\n\
+                 digits = \"double\"\n[output]\ntrajectory = true\nfile = \"out.csv\"\n";
+    for (more, left, sentence) in [
+        ("", "out.csv scene.toml", "the run stopped at n = "),
+        ("checkpoint = 10\n", "out.csv out.csv.partial scene.toml", "out.csv.partial"),
+    ] {
+        let folder = folder(&format!("{fails}{more}"));
+        fs::write(folder.path().join("out.csv"), "old").unwrap();
+        let result = run(folder.path(), "--force");
+        assert!(result.code == 3 && result.err.contains(sentence), "{}", result.err);
+        assert_eq!(names(folder.path()).join(" "), left);
+        assert_eq!(fs::read_to_string(folder.path().join("out.csv")).unwrap(), "old");
+    }
+    let folder = tempfile::tempdir().unwrap();
+    let words = "trace harmonic-oscillator --scheme stormer-verlet --step 10 --until 10000 --double --order 2";
+    let result = shadowstep(&format!("{words} --output {0}/out.csv --plot {0}/out.svg", folder.path().display()));
+    assert_eq!((result.code, names(folder.path()).len()), (3, 0), "{}", result.err);
 }
 
 #[test]

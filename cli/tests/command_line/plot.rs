@@ -80,11 +80,6 @@ fn curves_of_several_runs_have_their_names() {
     let [energies, orbit] = ["kepler.svg", "kepler-orbit-x-px.svg"].map(|name| read(folder.path(), name));
     assert_eq!((curves(&energies).len(), curves(&orbit).len()), (8, 4));
     assert!(energies.contains(">H̄, yoshida4, step 1/64</text>") && orbit.contains(">ruth3, step 1/32</text>"));
-
-    let many = words.replace("1/32,1/64", "1/8,1/16,1/32,1/64");
-    let result = shadowstep(&format!("{many} --plot {}", folder.path().join("many.svg").display()));
-    assert_eq!(result.code, 2);
-    assert!(result.err.contains("8 runs have 16 curves; a chart has at most 12"), "{}", result.err);
 }
 
 #[test]
@@ -95,39 +90,6 @@ fn all_bodies_are_in_one_chart() {
     let [orbit, distance] = ["kepler.svg", "kepler-distance-sun.svg"].map(|name| read(folder.path(), name));
     assert!(["sun", "jupiter", "pluto"].iter().all(|body| orbit.contains(&format!(">{body}</text>"))));
     assert!(curves(&distance).len() == 5 && distance.contains(">sun–neptune</text>"));
-}
-
-#[test]
-fn wrong_plots_are_refused_before_the_run() {
-    let folder = tempfile::tempdir().unwrap();
-    for (flags, message, hint) in [
-        ("--plot-of energy", "--plot-of: `energy` cannot be plotted", "write energies, orbit=x:y"),
-        (
-            "--plot-of orbit=x:z",
-            "--plot-of: there is no coordinate or momentum `z`",
-            "the coordinates and momenta are x, y, px, py",
-        ),
-        ("--plot-of distance=1:2", "--plot-of: this system has no bodies", "write `distance`"),
-        ("--plot-of distance,distance", "--plot-of distance is given twice", "keep one"),
-        ("--estimator bilinear --order 7 --plot-of distance", "between the states", "--plot-of energies"),
-    ] {
-        let result = plot(
-            folder.path(),
-            &format!("{} {flags}", RUN.replace(" --estimator central --order 5", "").replace("until 4", "until 4000")),
-        );
-        assert_eq!(result.code, 2, "{flags}");
-        assert!(result.err.contains(message) && result.err.contains(hint), "{flags}: {}", result.err);
-    }
-    for (file, message) in
-        [("x.png", "x.png is not the name of an SVG file"), ("none/x.svg", "none/x.svg cannot be written")]
-    {
-        let result = shadowstep(&format!("{RUN} --plot {}", folder.path().join(file).display()));
-        assert!(result.code == 2 && result.err.contains(message), "{}", result.err);
-    }
-    assert!(names(folder.path()).is_empty());
-    for words in [format!("{RUN} --plot-of distance"), format!("{RUN} --force")] {
-        assert!(shadowstep(&words).err.contains("--plot <FILE.svg>"), "{words}");
-    }
 }
 
 #[test]
@@ -142,44 +104,23 @@ fn other_files_are_not_replaced_without_force() {
     assert!(read(folder.path(), "kepler-distance.svg").starts_with("<svg "));
 }
 
-/// A run that fails leaves no chart.
-#[test]
-fn a_failed_run_has_no_plot() {
-    let folder = tempfile::tempdir().unwrap();
-    let words =
-        "trace harmonic-oscillator --scheme stormer-verlet --step 10 --until 10000 --double --order 2 --no-summary";
-    assert_eq!(plot(folder.path(), words).code, 3);
-    assert!(names(folder.path()).is_empty());
-}
-
 #[test]
 fn the_charts_of_a_scene_are_those_of_trace() {
-    let of_trace = tempfile::tempdir().unwrap();
-    assert_eq!(plot(of_trace.path(), &format!("{RUN} --plot-of energies,orbit=x:y,distance")).code, 0);
     let charts = ["kepler.svg", "kepler-orbit-x-y.svg", "kepler-distance.svg"];
-    for file in ["rows.csv", "rows.jsonl"] {
-        let folder = folder(&SCENE.replace("rows.csv", file));
+    for (file, digits, flag) in
+        [("rows.csv", "30", "--digits 30"), ("rows.jsonl", "30", "--digits 30"), ("rows.npy", "\"double\"", "--double")]
+    {
+        let of_trace = tempfile::tempdir().unwrap();
+        let words = format!("{} --plot-of energies,orbit=x:y,distance", RUN.replace("--digits 30", flag));
+        assert_eq!(plot(of_trace.path(), &words).code, 0);
+        let folder = folder(&SCENE.replace("rows.csv", file).replace("digits = 30", &format!("digits = {digits}")));
         let result = run(folder.path(), "");
         assert_eq!((result.code, result.err.as_str()), (0, ""));
         for chart in charts {
             let [of_scene, of_trace] = [folder.path(), of_trace.path()].map(|folder| read(folder, chart));
             assert!(of_scene.contains("scene.toml: stormer-verlet, step 1/32"), "{chart}");
-            assert!(!curves(&of_scene).is_empty() && curves(&of_scene) == curves(&of_trace), "{chart}");
+            assert!(!curves(&of_scene).is_empty() && curves(&of_scene) == curves(&of_trace), "{file}: {chart}");
         }
-    }
-}
-
-#[test]
-fn records_of_numpy_have_the_charts_of_csv() {
-    let charts = ["rows.csv", "rows.npy"].map(|file| {
-        let scene = SCENE.replace("rows.csv", file).replace("digits = 30", "digits = \"double\"");
-        let folder = folder(&scene.replace("trajectory = true", "trajectory = { every = 3 }"));
-        assert_eq!(run(folder.path(), "").code, 0);
-        ["kepler.svg", "kepler-orbit-x-y.svg", "kepler-distance.svg"].map(|chart| read(folder.path(), chart))
-    });
-    let [of_csv, of_records] = &charts;
-    for (one, other) in of_csv.iter().zip(of_records) {
-        assert!(!curves(one).is_empty() && curves(one) == curves(other));
     }
 }
 
@@ -220,63 +161,4 @@ fn a_chart_of_a_complete_run_is_drawn_from_its_rows() {
     assert_eq!(read(folder.path(), "kepler.svg"), "mine");
     assert_eq!(run(folder.path(), "--force --restart").code, 0);
     assert!(read(folder.path(), "kepler.svg").contains("<svg "));
-}
-
-/// The [output] of a scene; then place, message and hint of its fault.
-const WRONG: &[(&str, &str, &str)] = &[
-    ("energy = true\nplot = \"a.svg\"", "11:8: plot requires `file`", "add `file = "),
-    ("energy = true\nfile = \"a.csv\"\nplot = \"a.png\"", "12:8: `a.png` is not the name of an SVG file", "kepler.svg"),
-    (
-        "energy = true\nfile = \"a.csv\"\nplot = 3",
-        "12:8: this value is of the wrong kind",
-        "a path in quotes, or a table",
-    ),
-    (
-        "trajectory = true\nfile = \"a.csv\"\nplot = \"a.svg\"",
-        "12:8: the chart `energies` requires rows",
-        "energy = true",
-    ),
-    (
-        "energy = true\nfile = \"a.csv\"\nplot = { file = \"a.svg\", of = [\"energies\", \"distance\"] }",
-        "12:44: the chart `distance` requires rows with positions",
-        "add `trajectory = true`",
-    ),
-    (
-        "trajectory = true\nfile = \"a.csv\"\nplot = { file = \"a.svg\", of = [\"orbit=x:xy\"] }",
-        "12:32: there is no coordinate or momentum `xy`",
-        "did you mean",
-    ),
-    (
-        "trajectory = true\nfile = \"a.csv\"\nplot = { of = [\"distance\"] }",
-        "12:8: the key `file` is missing",
-        "kepler.svg",
-    ),
-    (
-        "trajectory = true\nfile = \"a.csv\"\nplot = { file = \"a.svg\", of = [\"distance\", \"distance\"] }",
-        "12:44: `distance` is given twice",
-        "keep one",
-    ),
-    (
-        "energy = true\nfile = \"a.csv\"\nplot = { file = \"a.svg\", of = [] }",
-        "12:31: this list is empty",
-        "write a list of charts in quotes",
-    ),
-    (
-        "energy = true\nfile = \"a.svg\"\nformat = \"csv\"\nplot = \"a.svg\"",
-        "13:8: the plot has the name of the file for the rows",
-        "another name",
-    ),
-    ("energy = true\nfile = \"a.csv\"\nplot = \"none/a.svg\"", "12:8: plot ", "a folder that exists"),
-];
-
-#[test]
-fn faults_of_a_plot_have_their_places() {
-    let head = SCENE.split("energy = true").next().unwrap().trim_start().replace("name = ", "name=");
-    for (output, message, hint) in WRONG {
-        let folder = folder(&format!("#\n{head}{output}\n"));
-        let result = run(folder.path(), "");
-        assert_eq!(result.code, 2, "{output}");
-        assert!(result.err.contains(&format!("scene.toml:{message}")) && result.err.contains(hint), "{}", result.err);
-        assert_eq!(names(folder.path()), ["scene.toml"], "{output}");
-    }
 }

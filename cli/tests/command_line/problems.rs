@@ -1,6 +1,6 @@
 //! `shadowstep problems`.
 
-use crate::program::{objects, quietly, shadowstep, text};
+use crate::program::{objects, quietly, text};
 use shadowstep::problems::PROBLEMS;
 
 #[test]
@@ -24,34 +24,4 @@ fn every_problem_is_listed_with_its_parameters_and_initial_values() {
             assert!(one.contains(parameter.meaning) && one.contains(parameter.range), "{one}");
         }
     }
-}
-
-#[test]
-fn json_has_parameters_and_state() {
-    let kepler = &objects(&quietly("problems kepler --json"))[0];
-    assert_eq!(text(&kepler["parameters"][0], "name"), "eccentricity");
-    assert_eq!(text(&kepler["parameters"][0], "default"), "0.6");
-    assert_eq!(kepler["positions"][1], serde_json::json!({"name": "y", "default": "0"}));
-    assert_eq!(text(&kepler["momenta"][0], "name"), "px");
-}
-
-#[test]
-fn every_problem_runs() {
-    for problem in PROBLEMS.iter().map(|problem| problem.description()) {
-        let words = format!(
-            "drift --problem {} --scheme stormer-verlet --step {} --until 10*{1} --double --order 2 --json",
-            problem.name, problem.step
-        );
-        let record = &objects(&quietly(&words))[0];
-        let initial = (problem.initial)();
-        let count = problem.parameters.len() + initial.positions.len() + initial.momenta.len();
-        assert_eq!(record["parameters"].as_object().unwrap().len(), count);
-    }
-}
-
-#[test]
-fn an_unknown_problem_gets_a_hint() {
-    let result = shadowstep("problems pendulun");
-    assert_eq!((result.code, result.out.as_str()), (2, ""));
-    assert_eq!(result.err, "error: there is no problem `pendulun`\n  hint: did you mean `pendulum`?\n");
 }

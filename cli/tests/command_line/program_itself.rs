@@ -81,3 +81,30 @@ fn every_command_has_a_page_of_man() {
     assert_eq!(taken.code, 3, "{}", taken.err);
     assert!(taken.err.contains("shadowstep.1"), "{}", taken.err);
 }
+
+#[test]
+fn help_shows_exit_codes_and_examples() {
+    let help = quietly("--help");
+    for code in ["0  success", "1  negative answer", "2  usage error", "3  a run failed"] {
+        assert!(help.contains(code), "{help}");
+    }
+    let example = quietly("drift --help");
+    assert!(example.contains("Examples:\n  shadowstep drift --problem kepler"), "{example}");
+}
+
+/// In pipes there are no colours, unless they are asked for.
+#[test]
+fn messages_have_colours_on_a_terminal() {
+    let run = |name: &str, value: &str| {
+        let output = std::process::Command::new(env!("CARGO_BIN_EXE_shadowstep"))
+            .args(["problems", "keppler"])
+            .env(name, value)
+            .output()
+            .unwrap();
+        String::from_utf8(output.stderr).unwrap()
+    };
+    let plain = "error: there is no problem `keppler`\n  hint: did you mean `kepler`?\n";
+    assert_eq!((run("TERM", "xterm").as_str(), run("NO_COLOR", "1").as_str()), (plain, plain));
+    let coloured = run("CLICOLOR_FORCE", "1");
+    assert!(coloured.contains("\u{1b}[31m") && coloured.contains("\u{1b}[36m"), "{coloured:?}");
+}

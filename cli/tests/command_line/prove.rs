@@ -64,24 +64,6 @@ fn every_certificate_is_verified() {
     assert!(kinds("exact") >= 10 && kinds("algebraic") >= 10 && kinds("decimal") >= 40, "{lines:#?}");
 }
 
-/// The kind of proof that `schemes show` names.
-#[test]
-fn show_names_the_kind_of_proof() {
-    for (name, kind) in [
-        ("ruth3", "exact: rational weights"),
-        ("yoshida4", "algebraic: exact in the weights as polynomials in a root"),
-        (
-            "pefrl",
-            "certified enclosure: one solution of the conditions for every T(p) within 1e-248 of the weights, 1 of 5 held",
-        ),
-        ("yoshida8-d", "certified enclosure: one solution of the conditions for every T(p) within 1e-2"),
-    ] {
-        let shown = quietly(&format!("schemes show {name}"));
-        let words = shown.split_whitespace().collect::<Vec<_>>().join(" ");
-        assert!(words.contains(&format!("proof: {kind}")), "{shown}");
-    }
-}
-
 /// The box is as wide as the digits need, not only of those with 250 digits.
 #[test]
 fn a_table_of_sixteen_digits_is_enclosed() {
@@ -219,13 +201,4 @@ fn decimals_that_stand_for_no_scheme_are_refused() {
     fs::write(&path, certificate.to_string()).unwrap();
     let output = Command::new("python3").args(["-B", "-O", CHECKER, &path]).output().expect("python3 runs");
     assert!(!output.status.success());
-}
-
-/// Version 0.2 had `--to`, with two forms.
-#[test]
-fn certificates_are_json_alone() {
-    assert_eq!(quietly("schemes prove ruth3 --to json"), quietly("schemes prove ruth3"));
-    let refused = shadowstep("schemes prove ruth3 --to lean");
-    assert!(refused.code == 2 && refused.err.contains("certificates are JSON; leave --to out"), "{}", refused.err);
-    assert!(!shadowstep("schemes prove --help").out.contains("--to"));
 }

@@ -3,7 +3,7 @@
 
 use std::fs;
 
-use crate::program::{objects, quietly, shadowstep, text};
+use crate::program::{objects, quietly, text};
 
 #[test]
 fn schemes_are_listed_by_their_cost() {
@@ -35,34 +35,4 @@ fn frequencies_are_a_list_or_a_file() {
     fs::write(&path, "0.5 1\n\n2,3e0\n").unwrap();
     let of = |words: &str| quietly(&format!("sampling bcss2 --time 3 --frequencies {words}"));
     assert_eq!(of(&path.display().to_string()), of("1/2,1,2,3"));
-    fs::write(&path, "0.5 1\n 2, x\n").unwrap();
-    let refused = shadowstep(&format!("sampling --frequencies {}", path.display()));
-    assert!(refused.code == 2 && refused.err.contains("frequencies.txt:2:5: `x` is not a number"), "{}", refused.err);
-}
-
-#[test]
-fn wrong_requests_are_refused_in_a_sentence() {
-    for (words, sentence) in [
-        (
-            "ruth3",
-            "ruth3 is not symmetric, so that its steps are not reversible in time, as Hamiltonian Monte Carlo needs them",
-        ),
-        (
-            "bcm6-11",
-            "bcm6-11 is a processed scheme, whose pre-map and post-map are not reversible in time, as Hamiltonian \
-                Monte Carlo needs them",
-        ),
-        ("r-respa-4", "r-respa-4 is made for H of three parts and more, not for T + U"),
-        ("bcss3 --frequencies 1,0", "--frequencies 1,0: frequency 2 is 0, and must be positive and finite"),
-        ("bcss3 --frequencies 1,x", "--frequencies 1,x: `x` is not a number, and there is no file `1,x`"),
-        ("bcss3 --acceptance 1", "the acceptance 1 is not between 0 and 1"),
-        ("bcss3 --time 0", "the time 0 is not positive and finite"),
-        ("bcss3 --steps 5", "5 steps of bcss3 are not stable over the time 157.07963267948966"),
-        ("bcss3 --frequencies 1e-12,1", "trajectories of bcss3 need more than 1000000000 steps"),
-    ] {
-        let refused = shadowstep(&format!("sampling {words}"));
-        let first = refused.err.lines().next().unwrap();
-        assert_eq!((refused.code, first), (2, format!("error: {sentence}").as_str()), "{words}");
-        assert_eq!(refused.err.lines().count(), 2, "{}", refused.err);
-    }
 }

@@ -5,7 +5,7 @@ use std::fs;
 use crate::scenes::{folder, printed, run, table};
 
 /// A relativistic oscillator.
-pub(crate) const RELATIVISTIC: &str = r#"
+const RELATIVISTIC: &str = r#"
 [problem]
 potential = "x^2/2"
 coordinates = ["x"]
@@ -36,27 +36,6 @@ kick  = ["0.13449619927743109", "-0.22481980307942081", "0.75632000051566829", "
 drift = ["0.51535283743112294", "-0.085782019412973646", "0.44158302361646652", "0.12884615836538419"]
 "#;
 
-/// maximum − minimum of a column.
-fn spread(rows: &[Vec<String>], column: usize) -> f64 {
-    let values = rows.iter().map(|row| row[column].parse().unwrap());
-    let (least, most) =
-        values.fold((f64::INFINITY, f64::NEG_INFINITY), |(least, most): (f64, f64), x| (least.min(x), most.max(x)));
-    most - least
-}
-
-#[test]
-fn the_modified_energy_of_a_relativistic_oscillator_is_conserved() {
-    let csv = printed(RELATIVISTIC);
-    let (_, rows) = table(&csv);
-    assert_eq!(rows.len(), 201);
-    assert_eq!(rows[0][2], "1.5");
-    // without what drifts add to β it would vary by 0.08; what is left is the double precision in which differences are
-    // taken here
-    assert!(spread(&rows, 2) > 1e-9, "{}", spread(&rows, 2));
-    assert!(spread(&rows, 3) < 1e-15, "{}", spread(&rows, 3));
-    assert!(csv.contains("# kinetic: sqrt(1 + px^2)\n# momenta: [\"px\"]\n"), "{csv}");
-}
-
 #[test]
 fn masses_and_their_formula_give_the_same_energies() {
     // a mass of 4 rounds nothing
@@ -70,7 +49,9 @@ fn masses_and_their_formula_give_the_same_energies() {
 fn momenta_can_be_named() {
     let own = RELATIVISTIC.replace("px", "p").replace("[initial]", "momenta = [\"p\"]\n[initial]");
     let asking = |scene: &str| scene.replace("[output]", "[output]\ntrajectory = true");
-    let (header, rows) = table(&printed(&asking(&own)));
+    let csv = printed(&asking(&own));
+    assert!(csv.contains("# kinetic: sqrt(1 + p^2)\n# momenta: [\"p\"]\n"), "{csv}");
+    let (header, rows) = table(&csv);
     assert_eq!(header[6..], ["x", "p"]);
     assert_eq!(rows, table(&printed(&asking(RELATIVISTIC))).1);
 }

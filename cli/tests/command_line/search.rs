@@ -74,21 +74,3 @@ fn processed_schemes_and_fronts_have_tables_too() {
         assert_eq!(shadowstep(&format!("schemes check {}", out.join("found-1.toml").display())).code, 0, "{table}");
     }
 }
-
-#[test]
-fn what_cannot_be_searched_for_is_refused() {
-    let folder = tempfile::tempdir().unwrap();
-    let out = folder.path().join("out");
-    let refused = |text: &str| shadowstep(&format!("search {} --out {}", request(folder.path(), text), out.display()));
-    let class = "order = 4\nkinetic = \"any\"\nminimise = \"effective-error\"\n";
-    let few = refused(&format!("{class}stages = 2\nstarts = 2\n"));
-    assert_eq!(few.code, 1);
-    assert!(few.err.contains("none of 2 starts met the conditions") && few.err.contains("more stages"), "{}", few.err);
-    let base = refused(&format!("{class}stages = 3\nbase = \"leapfrogg\"\n"));
-    assert!(base.code == 2 && base.err.contains("leapfrogg"), "{}", base.err);
-    assert!(base.err.contains("the table of found:"), "its lines are not those of the file: {}", base.err);
-    let key = refused(&format!("{class}stages = 3\nstage = 4\n"));
-    assert!(key.code == 2 && key.err.contains("found.toml:5:1"), "{}", key.err);
-    let missing = shadowstep(&format!("search missing.toml --out {}", out.display()));
-    assert!(missing.code == 2 && missing.err.contains("there is no file missing.toml"), "{}", missing.err);
-}

@@ -6,7 +6,6 @@ mod collected;
 #[cfg(unix)]
 mod disturbed;
 mod values;
-mod wrong;
 
 use std::collections::BTreeMap;
 use std::fs;

@@ -175,9 +175,9 @@ fn of_ensemble(table: &Table) -> Result<(), String> {
     expect(errors.len() == 2 && errors.iter().all(|error| *error < 0.1), || format!("{errors:?}"))
 }
 
-/// The first row has the state at the end of the scene's run, with its time and energy where it has these; but for the
+/// A row has the state at the end of the scene's run, with its time and energy where it has these; but for the
 /// last bits of functions in lanes and of H in other coordinates.
-fn has_end_of_run(scene: &Scene, table: &Table) -> Result<(), String> {
+fn has_end_of_run(scene: &Scene, table: &Table, row: usize) -> Result<(), String> {
     let folder = folder();
     let output = running(scene, folder.path(), "").arg("--no-summary").output().unwrap();
     expect(output.status.success(), || String::from_utf8_lossy(&output.stderr).into_owned())?;
@@ -187,7 +187,7 @@ fn has_end_of_run(scene: &Scene, table: &Table) -> Result<(), String> {
         .into_iter()
         .filter(|(_, name)| table.names.contains(&(*name).to_owned()));
     for (name, column) in state.map(|name| (name, name)).chain(ends) {
-        let (alone, here) = (run.column(name)?.last().copied(), table.column(column)?.first().copied());
+        let (alone, here) = (run.column(name)?.last().copied(), table.column(column)?.get(row).copied());
         let (Some(alone), Some(here)) = (alone, here) else { return Err(format!("{column}: {alone:?}, {here:?}")) };
         expect((alone - here).abs() <= 1e-12 * alone.abs().max(1.0), || format!("{column}: {here}, alone {alone}"))?;
     }
@@ -381,7 +381,7 @@ fn results_are_plausible(scene: &Scene, folder: &Path) -> Result<(), String> {
         let column = table.column(name)?;
         expect(column.len() == 4 && column.iter().all(|value| value.is_finite()), || format!("{name}: {column:?}"))?;
     }
-    has_end_of_run(scene, &table)
+    has_end_of_run(scene, &table, 0)
 }
 
 fn ensemble(scene: &Scene, folder: &Path) -> Outcome {
@@ -395,6 +395,7 @@ fn ensemble(scene: &Scene, folder: &Path) -> Outcome {
     ended(scene, shadowstep(folder, "run scene.toml"), |_| {
         let table = Table::read(&folder.join("out.csv"))?;
         of_ensemble(&table)?;
-        has_end_of_run(scene, &table)
+        has_end_of_run(scene, &table, 0)?;
+        has_end_of_run(&scene.with_other_value(), &table, 1)
     })
 }

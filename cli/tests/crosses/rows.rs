@@ -78,4 +78,11 @@ impl Scene {
         assert!(text != self.system.text, "{}: {a} is not in the text", self.system.name);
         (Scene { system: Row { text, ..self.system.clone() }, run: self.run.clone() }, [a, b])
     }
+
+    /// The same with the second value.
+    pub(crate) fn with_other_value(&self) -> Scene {
+        let (mut scene, [_, other]) = self.varied();
+        scene.system.text = scene.system.text.replace("\"x0\"", &format!("\"{other}\""));
+        scene
+    }
 }

@@ -351,62 +351,6 @@ mod tests {
         }
     }
 
-    /// What takes long has faults of its own here, which are not found before the others.
-    #[test]
-    fn faults_of_other_keys_come_before_what_takes_long() {
-        let scene = |problem: &str, scheme: &str, step: &str, output: &str| {
-            faults(&format!(
-                "[problem]\n{problem}\n[run]\nscheme = \"{scheme}\"\nstep = {step}\nsteps = 10\ndigits \
-                    = \"double\"\n[output]\n{output}"
-            ))
-        };
-        let solar = "name = \"outer-solar-system\"";
-        let long = scene(solar, "stormer-verlet", "1", "modified_hamiltonian = 8");
-        assert!(long[0].contains("more than 100000 parts"), "{long:?}");
-        for (step, output, fault) in [
-            ("1", "modified_hamiltonian = 8\nwindows = 1", "10:11: 1 is out of range"),
-            (
-                "1",
-                "modified_hamiltonian = 8\nvalues = { modified_hamiltonian_8 = \"kinetic\" }",
-                "9:24: there is another column `modified_hamiltonian_8`",
-            ),
-            ("0", "modified_hamiltonian = 8", "5:8: step must be nonzero, not 0"),
-            ("1", "modified_hamiltonian = 8\nenergi = true", "10:1: unknown key `energi`"),
-        ] {
-            assert_eq!(scene(solar, "stormer-verlet", step, output), [fault]);
-        }
-        let table = scene("name = \"kepler\"", "none.toml", "1", "energi = true\nenergy = true");
-        assert_eq!(table, ["9:1: unknown key `energi`"]);
-        let bodies = "particles = \"none.csv\"\nparameters = { g = 1 }\n[[body]]\nmass = 1\n[[body]]\nmass = 1\nq = \
-            [1, 0]\nv = [0, 1]";
-        let particles = scene(bodies, "saba4", "1", "energi = true\nenergy = true");
-        assert_eq!(particles, ["16:1: unknown key `energi`"]);
-    }
-
-    #[test]
-    fn a_physical_time_that_no_run_reaches_is_refused() {
-        let fault = |problem: &str, time: &str, until: &str| {
-            let text = format!(
-                "{problem}\ntime.transform = {time}\noutput.energy = true\n\
-                 run = {{ scheme = \"yoshida4\", step = \"1/20\", until = {until}, digits = \"double\" }}"
-            );
-            match Scene::read(Source { path: "test.toml".to_owned(), text }) {
-                Ok(_) => None,
-                Err(Faults(faults)) => Some(faults[0].message.clone()),
-            }
-        };
-        let kepler = "problem.name = \"kepler\"";
-        let count =
-            |n: &str| format!("steps of 1/20 until 1e300 are {n} steps at the rate of physical time at the start");
-        let power = "\"power\"\ntime.exponent = \"-1/2\"";
-        // -U = 1/r at the start, and r = 2/5: dt/ds = r, and r^(3/2) = 0.25298
-        assert_eq!(fault(kepler, "\"logarithmic\"", "1e300"), Some(count("5e301")));
-        assert_eq!(fault(kepler, power, "1e300"), Some(count("7.91e301")));
-        // a rate that is a million times that of the start suffices up to 10^10 · 10^6 · 2/5 · 1/20
-        assert_eq!(fault(kepler, "\"logarithmic\"", "1.9e14"), None);
-        assert!(fault(kepler, "\"logarithmic\"", "2.1e14").is_some());
-    }
-
     #[test]
     fn words_of_other_programs_are_translated() {
         for (section, word, key) in

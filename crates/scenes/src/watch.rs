@@ -458,15 +458,10 @@ fn part_of_kinetic<N: Real>(error: &N, report: &Report<N>) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::Scene;
-    use crate::watch::observer::KeptSummary;
-    use shadowstep::tables::Source;
+    use crate::watch::observer::testing;
 
     fn summary_of(text: String) -> Summary {
-        let mut keep = KeptSummary::default();
-        let scene = Scene::read(Source { path: "test.toml".to_owned(), text }).unwrap();
-        scene.run_into(&mut Vec::new(), &mut keep).unwrap();
-        keep.0.unwrap()
+        testing::summary(&testing::read(&text))
     }
 
     fn summary(end: &str, digits: &str) -> Summary {

@@ -22,18 +22,6 @@ fn task(folder: &Path, number: u32, count: u32, ends: (u32, u32)) -> crate::prog
 }
 
 #[test]
-fn chunks_in_any_order_are_collected_as_a_sweep_on_one_machine() {
-    let wanted = undisturbed(SWEEP);
-    let folder = folder(SWEEP);
-    for number in (1..=16).map(|k| k * 11 % 17) {
-        let result = succeeds(folder.path(), &chunk(number));
-        assert_eq!((result.out.as_str(), result.err.as_str()), ("", ""));
-    }
-    succeeds(folder.path(), "collect out");
-    assert_same(&folder.path().join("out"), &wanted, "chunks");
-}
-
-#[test]
 fn a_chunk_that_is_there_is_not_touched() {
     let folder = folder(SWEEP);
     succeeds(folder.path(), &chunk(2));
@@ -107,39 +95,47 @@ fn processes_may_compute_the_same_chunk_at_the_same_time() {
         assert!(out["chunks/00001-of-00016"] == wanted["chunks/00001-of-00016"]);
         fs::remove_dir_all(folder.path().join("out")).unwrap();
     }
-    // and the whole sweep
-    let children: Vec<_> =
-        (0..3).map(|_| program(folder.path(), "sweep sweep.toml --out out").spawn().unwrap()).collect();
-    for child in children {
-        let result = finished(&child.wait_with_output().unwrap());
-        let is_writing = result.code == 2 && result.err.contains("another process is writing");
-        assert!(result.code == 0 || is_writing, "{}", result.err);
-    }
-    succeeds(folder.path(), "sweep sweep.toml --out out");
-    assert_same(&folder.path().join("out"), &wanted, "three processes");
 }
 
-/// The script runs as a task does: in any folder, with the number of the task.
+/// Chunks in an order, by a flag each, by the tasks of an array, or by those of a job script, which runs in any folder.
 #[cfg(unix)]
 #[test]
-fn the_tasks_of_a_job_script_compute_the_sweep_and_then_what_is_missing() {
+fn chunks_in_any_order_are_collected_as_a_sweep_on_one_machine() {
     let wanted = undisturbed(SWEEP);
-    let (folder, elsewhere) = (folder(SWEEP), tempfile::tempdir().unwrap());
-    let script = succeeds(folder.path(), "sweep sweep.toml --out out --job-script 16");
-    assert_eq!(script.err, "");
-    let task = |number: u32| {
-        let mut shell = Command::new("sh");
-        shell.args(["-c", &script.out]).current_dir(elsewhere.path());
-        let result = finished(&shell.env("SLURM_ARRAY_TASK_ID", number.to_string()).output().unwrap());
-        assert_eq!((result.code, result.err.as_str()), (0, ""), "task {number}");
+    let elsewhere = tempfile::tempdir().unwrap();
+    let by_flag = |folder: &Path, number: u32, _| run(folder, &chunk(number));
+    // an array of all, and then one of those that are missing
+    let by_array = |folder: &Path, number, is_first| match is_first {
+        true => task(folder, number, 16, (1, 16)),
+        false => task(folder, number, 13, (2, 15)),
     };
-    [16, 3, 1].into_iter().for_each(task);
-    let missing = run(folder.path(), "collect out");
-    assert_eq!((missing.code, missing.out.as_str()), (1, "2,4-15\n"), "{}", missing.err);
-    [2].into_iter().chain(4..=15).for_each(task);
-    fs::remove_dir(folder.path().join("out/slurm-logs")).unwrap();
-    succeeds(folder.path(), "collect out");
-    assert_same(&folder.path().join("out"), &wanted, "tasks");
+    let by_script = |folder: &Path, number: u32, _| {
+        let script = succeeds(folder, "sweep sweep.toml --out out --job-script 16").out;
+        let mut shell = Command::new("sh");
+        shell.args(["-c", &script]).current_dir(elsewhere.path());
+        finished(&shell.env("SLURM_ARRAY_TASK_ID", number.to_string()).output().unwrap())
+    };
+    let ways: [&dyn Fn(&Path, u32, bool) -> crate::program::Finished; 3] = [&by_flag, &by_array, &by_script];
+    for way in ways {
+        let folder = folder(SWEEP);
+        let compute = |number: u32, is_first| {
+            let result = way(folder.path(), number, is_first);
+            assert_eq!((result.code, result.out.as_str(), result.err.as_str()), (0, "", ""), "{number}");
+        };
+        [16, 3, 1].into_iter().for_each(|number| compute(number, true));
+        let missing = run(folder.path(), "collect out");
+        assert_eq!((missing.code, missing.out.as_str()), (1, "2,4-15\n"), "{}", missing.err);
+        assert!(missing.err.contains("13 chunks are missing or cannot be used: 2,4-15\n  hint: "), "{}", missing.err);
+        assert!(!folder.path().join("out/results.csv").exists());
+        [2].into_iter().chain(4..=15).for_each(|number| compute(number, false));
+        let _ = fs::remove_dir(folder.path().join("out/slurm-logs"));
+        succeeds(folder.path(), "collect out");
+        assert_same(&folder.path().join("out"), &wanted, "chunks");
+        // again, and with a flag that is stronger than the array
+        assert!(succeeds(folder.path(), "collect out").out.starts_with("out/results.csv\nout/rows.csv\n"));
+        assert_same(&folder.path().join("out"), &wanted, "collected twice");
+        assert_eq!(run(folder.path(), &chunk(2)).code, 0);
+    }
 }
 
 #[test]
@@ -154,27 +150,6 @@ fn a_job_script_begins_the_folder_with_its_chunks() {
     let other = run(folder.path(), "sweep sweep.toml --out out --job-script 5");
     assert!(other.code == 2 && other.err.contains("is of another sweep"), "{}", other.err);
     assert!(succeeds(folder.path(), "sweep sweep.toml --out out --job-script 4 --force").out.contains("-4\n"));
-}
-
-#[test]
-fn tasks_of_an_array_compute_their_chunks() {
-    let wanted = undisturbed(SWEEP);
-    let folder = folder(SWEEP);
-    for number in [16, 3, 1] {
-        let result = task(folder.path(), number, 16, (1, 16));
-        assert_eq!((result.code, result.err.as_str()), (0, ""));
-    }
-    let missing = run(folder.path(), "collect out");
-    assert_eq!((missing.code, missing.out.as_str()), (1, "2,4-15\n"), "{}", missing.err);
-    // an array of those that are missing
-    for number in [2].into_iter().chain(4..=15) {
-        let result = task(folder.path(), number, 13, (2, 15));
-        assert_eq!((result.code, result.err.as_str()), (0, ""));
-    }
-    succeeds(folder.path(), "collect out");
-    assert_same(&folder.path().join("out"), &wanted, "tasks");
-    // a flag is stronger than the array
-    assert_eq!(run(folder.path(), &chunk(2)).code, 0);
 }
 
 #[test]

@@ -14,18 +14,6 @@ fn refused(folder: &std::path::Path, why: &str) {
     assert!(!folder.join("out/results.csv").exists());
 }
 
-#[test]
-fn missing_chunks_are_a_list() {
-    let folder = folder(SWEEP);
-    for number in [1, 2, 5, 16] {
-        succeeds(folder.path(), &format!("sweep sweep.toml --out out --chunk {number}/16"));
-    }
-    let result = run(folder.path(), "collect out");
-    assert_eq!((result.code, result.out.as_str()), (1, "3-4,6-15\n"));
-    assert!(result.err.contains("12 chunks are missing or cannot be used: 3-4,6-15\n  hint: "), "{}", result.err);
-    assert!(!folder.path().join("out/results.csv").exists());
-}
-
 /// The hint is a command to copy, whatever the name of the folder is.
 #[test]
 fn folders_in_hints_are_words_of_the_shell() {
@@ -309,18 +297,6 @@ fn a_mistake_in_the_scene_is_no_failure_of_every_run() {
         assert!(result.err.contains("sweep.toml:"), "{}", result.err);
         assert!(!folder.path().join("out").exists());
     }
-}
-
-#[test]
-fn collecting_twice_gives_the_same_files() {
-    let wanted = undisturbed(SWEEP);
-    let folder = folder(SWEEP);
-    succeeds(folder.path(), "sweep sweep.toml --out out");
-    let out = succeeds(folder.path(), "collect out").out;
-    assert!(out.starts_with("out/results.csv\nout/rows.csv\n"), "{out}");
-    assert_same(&folder.path().join("out"), &wanted, "collected twice");
-    succeeds(folder.path(), "collect out --format parquet");
-    assert!(fs::read(folder.path().join("out/results.parquet")).unwrap().starts_with(b"PAR1"));
 }
 
 #[test]

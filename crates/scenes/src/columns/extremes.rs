@@ -75,27 +75,15 @@ impl<N: SceneNumber> Column<N> for Extremes<'_, N> {
 #[cfg(test)]
 mod tests {
     use crate::Scene;
-    use crate::watch::observer::KeptSummary;
-    use crate::watch::summary::Summary;
-    use shadowstep::tables::{Faults, Source};
+    use crate::watch::observer::testing::{self, rows, summary};
 
-    fn read(more: &str, output: &str) -> Result<Scene, Faults> {
-        let text = format!(
-            "{more}\n[run]\nscheme = \"yoshida4\"\nstep = \"1/10\"\nsteps = 100\ndigits \
-                = \"double\"\n[output]\n{output}"
-        );
-        Scene::read(Source { path: "test.toml".to_owned(), text })
+    fn read(more: &str, output: &str) -> Scene {
+        testing::read(&format!(
+            "{more}\n[run]\nscheme = \"yoshida4\"\nstep = \"1/10\"\nsteps = 100\ndigits = \"double\"\n[output]\n{output}"
+        ))
     }
 
     const KEPLER: &str = "problem.name = \"kepler\"";
-
-    fn run(scene: &Scene) -> (Vec<Vec<String>>, Summary) {
-        let (mut rows, mut keep) = (Vec::new(), KeptSummary::default());
-        scene.run_into(&mut rows, &mut keep).unwrap();
-        let text = String::from_utf8(rows).unwrap();
-        let rows = text.lines().filter(|line| !line.starts_with('#'));
-        (rows.map(|line| line.split(',').map(str::to_owned).collect()).collect(), keep.0.unwrap())
-    }
 
     /// Values are those of the state in the same row, with estimates and without, and extremes those of all rows.
     #[test]
@@ -106,7 +94,8 @@ mod tests {
                     "{modified}energy = true\ntrajectory = true\nvalues = {{ x2 = \"2*x\", T = \"E + 0*t\", w \
                         = \"t/2\" }}\nextremes = {{ x = \"x\" }}"
                 );
-                let (rows, summary) = run(&read(problem, &output).unwrap());
+                let scene = read(problem, &output);
+                let (rows, summary) = (rows(&scene), summary(&scene));
                 let column = |name: &str| rows[0].iter().position(|found| found == name).unwrap();
                 let number = |row: &[String], name: &str| row[column(name)].parse::<f64>().unwrap();
                 for row in &rows[1..] {
@@ -126,8 +115,8 @@ mod tests {
 
     #[test]
     fn values_have_their_period() {
-        let (rows, summary) =
-            run(&read(KEPLER, "energy = { every = 50 }\nvalues = { r = \"log(x)\", every = 20 }").unwrap());
+        let scene = read(KEPLER, "energy = { every = 50 }\nvalues = { r = \"log(x)\", every = 20 }");
+        let rows = rows(&scene);
         let written = |column: usize| {
             rows[1..]
                 .iter()
@@ -138,23 +127,6 @@ mod tests {
         };
         // where x < 0 the logarithm has no value
         assert_eq!((&*written(2), &*written(3)), ("0 50 100", "0 60"));
-        assert!(summary.extremes.is_empty());
-    }
-
-    #[test]
-    fn faults_have_their_places() {
-        let fault = |output: &str| {
-            let Faults(faults) = read(KEPLER, output).map(drop).unwrap_err();
-            format!("{}:{}: {}", faults[0].line, faults[0].column, faults[0].message)
-        };
-        assert_eq!(fault("values = { x = \"y\" }"), "8:12: there is another column `x`");
-        assert_eq!(fault("values = { energy = \"y\" }"), "8:12: there is another column `energy`");
-        assert_eq!(fault("values = { \"r,s\" = \"y\" }"), "8:12: `r,s` is not a valid name");
-        assert!(fault("values = { r = \"y + z\" }").starts_with("8:21: unknown name `z`"));
-        assert_eq!(fault("values = { every = 3 }"), "8:10: there is no formula");
-        assert_eq!(
-            fault("extremes = { r = \"y\" }\nsummary = false"),
-            "8:12: extremes are in the summary, and `summary = false`"
-        );
+        assert!(summary(&scene).extremes().is_empty());
     }
 }

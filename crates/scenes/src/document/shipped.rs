@@ -73,12 +73,6 @@ pub const SHIPPED_SCENES: [(&str, &[ShippedScene]); 8] = shipped! {
     }
 };
 
-/// Those of one group.
-#[cfg(test)]
-pub(crate) fn of(what: &str) -> &'static [ShippedScene] {
-    SHIPPED_SCENES.iter().find(|(own, _)| *own == what).expect("there is such a group").1
-}
-
 fn all() -> impl Iterator<Item = &'static ShippedScene> {
     SHIPPED_SCENES.iter().flat_map(|(_, scenes)| *scenes)
 }

@@ -147,13 +147,8 @@ mod tests {
 
     const KEPLER: &str = "[problem]\nname = \"kepler\"";
 
-    /// What moves in 20 steps at 30 digits with a checkpoint at each `interrupt`, and what else the output is.
-    fn scene(folder: &Path, system: &str, output: &str) -> Scene {
-        scene_in("30", folder, system, output)
-    }
-
-    /// The same in a number type.
-    fn scene_in(digits: &str, folder: &Path, system: &str, output: &str) -> Scene {
+    /// What moves in 20 steps with a checkpoint at each `interrupt`, in a number type, and what else the output is.
+    fn scene_of(digits: &str, folder: &Path, system: &str, output: &str) -> Scene {
         let text = format!(
             "{system}\n[run]\nscheme = \"ruth3\"\nstep = \"1/20\"\nsteps = 20\ndigits = {digits}\n\
              [output]\nfile = \"out.csv\"\ncheckpoint = \"1 h\"\n{output}\n"
@@ -175,13 +170,9 @@ mod tests {
 
     /// Stops after `each` states, then after twice as many states of the resumed run, and so on; gives the
     /// bytes of the file and the n of the stops.
-    fn with_stops(system: &str, output: &str, each: usize) -> (String, Vec<i64>) {
-        with_stops_in("30", system, output, each)
-    }
-
-    fn with_stops_in(digits: &str, system: &str, output: &str, each: usize) -> (String, Vec<i64>) {
+    fn with_stops(digits: &str, system: &str, output: &str, each: usize) -> (String, Vec<i64>) {
         let folder = tempfile::tempdir().unwrap();
-        let scene = scene_in(digits, folder.path(), system, output);
+        let scene = scene_of(digits, folder.path(), system, output);
         let mut stops = Vec::new();
         loop {
             let after = each * (stops.len() + 1) + 1;
@@ -197,33 +188,26 @@ mod tests {
         (fs::read_to_string(folder.path().join("out.csv")).unwrap(), stops)
     }
 
+    const SECTION: &str = "energy = { every = 5 }\ntrajectory = { section = \"x\", direction = \"both\" }";
+
+    const OUTPUTS: &[&str] = &[
+        "trajectory = true",
+        "energy = { every = 3 }\ntrajectory = { every = 2 }",
+        "modified_energy = { estimator = \"central\", order = 1 }",
+        "modified_energy = { order = 4, every = 3 }\nenergy = true",
+        "modified_energy = { max_order = 6 }\ntrajectory = { every = 5 }",
+        "modified_energy = { max_order = 30 }",
+        "modified_energy = { estimator = \"central\", max_order = 6, rule = \"robust\" }\nenergy = { every = 4 }",
+        "modified_energy = { estimator = \"bilinear\", order = 6 }",
+        "modified_energy = { estimator = \"bilinear\", max_order = 8, accuracy = \"1e-9\", every = 2 }",
+        "chaos = true",
+        "modified_energy = { max_order = 6 }\nchaos = { every = 3 }",
+        SECTION,
+    ];
+
+    /// Checkpoints keep the remainders of compensated sums, too.
     #[test]
     fn wherever_a_run_is_stopped_its_file_has_the_same_bytes() {
-        for output in [
-            "trajectory = true",
-            "energy = { every = 3 }\ntrajectory = { every = 2 }",
-            "modified_energy = { estimator = \"central\", order = 1 }",
-            "modified_energy = { order = 4, every = 3 }\nenergy = true",
-            "modified_energy = { max_order = 6 }\ntrajectory = { every = 5 }",
-            "modified_energy = { max_order = 30 }",
-            "modified_energy = { estimator = \"central\", max_order = 6, rule = \"robust\" }\nenergy = { every = 4 }",
-            "modified_energy = { estimator = \"bilinear\", order = 6 }",
-            "modified_energy = { estimator = \"bilinear\", max_order = 8, accuracy = \"1e-9\", every = 2 }",
-            "chaos = true",
-            "modified_energy = { max_order = 6 }\nchaos = { every = 3 }",
-        ] {
-            let (whole, stops) = with_stops(KEPLER, output, 1000);
-            assert_eq!((stops.len(), whole.lines().last().unwrap().split(',').next()), (0, Some("20")), "{output}");
-            for each in [5, 7, 8, 12, 13, 19, 20] {
-                let (bytes, stops) = with_stops(KEPLER, output, each);
-                assert!(!stops.is_empty() && stops.is_sorted(), "{output}: {stops:?}");
-                assert_eq!(bytes, whole, "{output}: {stops:?}");
-            }
-        }
-    }
-
-    #[test]
-    fn so_has_a_file_of_other_systems() {
         let pairs = "[problem]\npair = \"-m_i*m_j/sqrt(r2)\"\ndimensions = 2\nbodies = { m = [1, 2, \"sqrt(3)\"] }\n\
                      masses = \"m\"\n[initial]\nq = [0, 0, 1, 0, 0, 2]\nv = [0, \"1/3\", 1, 0, 0, 0]";
         let kinetic = "[problem]\npotential = \"q^2/2\"\ncoordinates = [\"q\"]\nkinetic = \"sqrt(1 + pq^2)\"\n\
@@ -233,31 +217,25 @@ mod tests {
         let many_parts = "[problem]\nparts = [\"(q1^2 + p1^2)^2 + q2^2 + p2^2\", \"-p1*p2\", \"-q1*q2\"]\n\
                           coordinates = [\"q1\", \"q2\"]\nmomenta = [\"p1\", \"p2\"]\n[initial]\nq = [1, 0]\np = \
                           [0, \"1/3\"]";
-        for system in [pairs, kinetic, planets, many_parts] {
-            for output in
-                ["trajectory = true", "chaos = true", "modified_energy = { max_order = 6 }\nenergy = { every = 3 }"]
-            {
-                let (whole, _) = with_stops(system, output, 1000);
-                for each in [5, 8, 13] {
-                    let (bytes, stops) = with_stops(system, output, each);
-                    assert!(!stops.is_empty());
-                    assert_eq!(bytes, whole, "{output}: {stops:?}");
+        let transformed = format!("{KEPLER}\n[time]\ntransform = \"logarithmic\"");
+        let few = ["trajectory = true", "chaos = true", "modified_energy = { max_order = 6 }\nenergy = { every = 3 }"];
+        let of_others = [pairs, kinetic, planets, many_parts, &transformed].map(|system| ("30", system, &few[..]));
+        let of_kepler =
+            [("30", KEPLER, OUTPUTS), ("\"compensated\"", KEPLER, OUTPUTS), ("\"double\"", KEPLER, &[SECTION])];
+        for (digits, system, outputs) in of_kepler.into_iter().chain(of_others) {
+            for output in outputs {
+                let (whole, stops) = with_stops(digits, system, output, 1000);
+                let rows = || whole.lines().filter(|line| !line.starts_with('#'));
+                assert!(stops.is_empty() && rows().count() > 2, "{output}: {whole}");
+                assert!(
+                    *output != SECTION || rows().filter(|row| !row.ends_with(',')).count() > 1,
+                    "no crossings: {whole}"
+                );
+                for each in if outputs.len() > 3 { &[2, 5, 7, 8, 12, 13, 19, 20][..] } else { &[5, 8, 13] } {
+                    let (bytes, stops) = with_stops(digits, system, output, *each);
+                    assert!(!stops.is_empty() && stops.is_sorted(), "{output}: {stops:?}");
+                    assert_eq!(bytes, whole, "{digits}, {output}: {stops:?}");
                 }
-            }
-        }
-    }
-
-    #[test]
-    fn so_has_a_file_in_transformed_time() {
-        let system = format!("{KEPLER}\n[time]\ntransform = \"logarithmic\"");
-        for output in
-            ["trajectory = true", "chaos = true", "modified_energy = { max_order = 6 }\nenergy = { every = 3 }"]
-        {
-            let (whole, _) = with_stops(&system, output, 1000);
-            for each in [5, 8, 13] {
-                let (bytes, stops) = with_stops(&system, output, each);
-                assert!(!stops.is_empty());
-                assert_eq!(bytes, whole, "{output}: {stops:?}");
             }
         }
     }
@@ -293,11 +271,12 @@ mod tests {
         }
     }
 
-    /// Whatever is in a summary is that of a run without interruptions, wherever it was interrupted.
+    /// Whatever is in a summary is that of a run without interruptions, wherever it was interrupted, also where its end
+    /// is found on the way.
     #[test]
     fn wherever_a_run_is_stopped_its_summary_is_the_same() {
         let kepler = "problem = { name = \"kepler\", parameters = { eccentricity = \"7/10\" } }";
-        let transformed = format!("{kepler}\ntime.transform = \"logarithmic\"");
+        let transformed = &format!("{kepler}\ntime.transform = \"logarithmic\"");
         let planets = "problem = { parts = \"wisdom-holman-heliocentric\", parameters = { g = 1 }, encounters = { \
             within = 0.2 } }\n\
                        body = [{ mass = 1 }, { mass = 3e-4, a = 1, e = 0.1 }, { mass = 1e-4, a = 1.2, e = 0.1, M = 80 }]";
@@ -308,61 +287,47 @@ mod tests {
         let estimated = "modified_energy = { estimator = \"bilinear\", order = 8, every = 7 }\n";
         let extremes = "energy = { every = 9 }\nextremes = { r = \"x^2 + y^2\" }\n";
         let section = "trajectory = { section = \"y\", direction = \"up\" }\nchaos = { every = 20 }\n";
+        // windows that overlap, and windows apart, but for what is short, where H is computed at all states
+        let steps: &[&str] = &["steps = 60", "steps = 300", "steps = 900"];
+        // of q and p alone the second one, at n = 1374: tested at many states at once
+        let ends: &[&str] = &["steps = 5000, end = \"t > 31/2\"", "steps = 5000, end = \"x > 3/10\""];
+        let (end_by_time, last): (&[&str], &[&str]) = (&["until = 16"], &["until = 1000, end = \"t > 31/2\""]);
         let mut seed = 71_u64;
         let mut random = || {
             seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
             2 + (seed >> 33).rem_euclid(120) as i64
         };
-        for (system, scheme, h, digits, output) in [
-            (kepler, "yoshida4", "1/20", "\"double\"", extremes),
-            (kepler, "yoshida4", "1/20", "\"double\"", estimated),
-            (kepler, "bcm6-13", "1/20", "\"double\"", rows),
-            (kepler, "yoshida4", "1/20", "\"double\"", section),
-            (kepler, "stormer-verlet", "1/20", "\"compensated\"", rows),
-            (kepler, "stormer-verlet", "1/20", "\"double-double\"", rows),
-            (kepler, "stormer-verlet", "1/20", "30", extremes),
-            (kepler, "stormer-verlet", "1/20", "40", estimated),
-            (&transformed, "yoshida4", "1/20", "30", estimated),
-            (planets, "stormer-verlet", "1/40", "\"double\"", rows),
-            (particles, "saba4", "1/10", "\"double\"", rows),
-            (particles, "saba4", "1/10", "\"double\"", estimated),
-            (many, "stormer-verlet", "1/10", "\"double\"", rows),
+        for (system, scheme, h, digits, ends, outputs) in [
+            (kepler, "yoshida4", "1/20", "\"double\"", steps, &[extremes][..]),
+            (kepler, "yoshida4", "1/20", "\"double\"", steps, &[estimated]),
+            (kepler, "bcm6-13", "1/20", "\"double\"", steps, &[rows]),
+            (kepler, "yoshida4", "1/20", "\"double\"", steps, &[section]),
+            (kepler, "stormer-verlet", "1/20", "\"compensated\"", steps, &[rows]),
+            (kepler, "stormer-verlet", "1/20", "\"double-double\"", steps, &[rows]),
+            (kepler, "stormer-verlet", "1/20", "30", steps, &[extremes]),
+            (kepler, "stormer-verlet", "1/20", "40", steps, &[estimated]),
+            (transformed, "yoshida4", "1/20", "30", steps, &[estimated]),
+            (planets, "stormer-verlet", "1/40", "\"double\"", steps, &[rows]),
+            (particles, "saba4", "1/10", "\"double\"", steps, &[rows]),
+            (particles, "saba4", "1/10", "\"double\"", steps, &[estimated]),
+            (many, "stormer-verlet", "1/10", "\"double\"", steps, &[rows]),
+            (kepler, "yoshida4", "1/20", "\"double\"", ends, &[extremes, estimated]),
+            (kepler, "bcm6-13", "1/20", "\"compensated\"", &ends[..1], &[extremes, estimated]),
+            (transformed, "stormer-verlet", "1/20", "30", end_by_time, &[extremes, estimated]),
+            (transformed, "yoshida4", "1/20", "\"double\"", last, &[extremes, estimated]),
         ] {
-            // windows that overlap, and windows apart, but for what is short, where H is computed at all states
-            for steps in [60, 300, 900] {
+            for (end, output) in ends.iter().flat_map(|end| outputs.iter().map(move |output| (end, output))) {
                 let text = format!(
-                    "{system}\nrun = {{ scheme = \"{scheme}\", step = \"{h}\", steps = {steps}, digits = {digits} }}\n\
-                     [output]\nfile = \"out.csv\"\ncheckpoint = \"1 h\"\n{output}"
-                );
-                let whole = summary_with_stops(&text, &mut || 10_000);
-                assert_eq!(summary_with_stops(&text, &mut random), whole, "{text}");
-            }
-        }
-    }
-
-    /// Nor does it matter where the run ends on something else than a number of steps.
-    #[test]
-    fn so_is_that_of_a_run_whose_end_is_found_on_the_way() {
-        let kepler = "problem = { name = \"kepler\", parameters = { eccentricity = \"7/10\" } }";
-        let transformed = format!("{kepler}\ntime.transform = \"logarithmic\"");
-        let rows = "energy = { every = 7 }\nextremes = { r = \"x^2 + y^2\" }\n";
-        let estimated = "modified_energy = { estimator = \"bilinear\", order = 8, every = 7 }\n";
-        for (system, scheme, end, digits) in [
-            (kepler, "yoshida4", "steps = 5000, end = \"t > 31/2\"", "\"double\""),
-            // of q and p alone, at n = 1374: tested at many states at once
-            (kepler, "yoshida4", "steps = 5000, end = \"x > 3/10\"", "\"double\""),
-            (kepler, "bcm6-13", "steps = 5000, end = \"t > 31/2\"", "\"compensated\""),
-            (&transformed, "stormer-verlet", "until = 16", "30"),
-            (&transformed, "yoshida4", "until = 1000, end = \"t > 31/2\"", "\"double\""),
-        ] {
-            for output in [rows, estimated] {
-                let text = format!(
-                    "{system}\nrun = {{ scheme = \"{scheme}\", step = \"1/20\", {end}, digits = {digits} }}\n\
+                    "{system}\nrun = {{ scheme = \"{scheme}\", step = \"{h}\", {end}, digits = {digits} }}\n\
                      [output]\nfile = \"out.csv\"\ncheckpoint = \"1 h\"\n{output}"
                 );
                 let whole = summary_with_stops(&text, &mut || 10_000);
                 let mut stops = [3, 40, 97, 150].into_iter().cycle();
-                assert_eq!(summary_with_stops(&text, &mut || stops.next().unwrap()), whole, "{text}");
+                let found = match end.starts_with("steps = ") && !end.contains("end") {
+                    true => summary_with_stops(&text, &mut random),
+                    false => summary_with_stops(&text, &mut || stops.next().unwrap()),
+                };
+                assert_eq!(found, whole, "{text}");
             }
         }
     }
@@ -401,7 +366,7 @@ mod tests {
     #[test]
     fn a_summary_is_of_all_steps_that_were_followed() {
         let folder = tempfile::tempdir().unwrap();
-        let scene = scene(folder.path(), KEPLER, "energy = true");
+        let scene = scene_of("30", folder.path(), KEPLER, "energy = true");
         assert_eq!(scene.run_to_file(FileOptions::default(), &mut StopAfter(8)).unwrap(), Outcome::Stopped { n: 7 });
         let mut observer = StopAfterAndKeep(StopAfter(1000), None);
         scene.run_to_file(FileOptions::default(), &mut observer).unwrap();
@@ -425,7 +390,7 @@ mod tests {
     /// prolonged one.
     fn prolonged(digits: &str, system: &str, output: &str, (earlier, stop): (u64, i64)) -> String {
         let folder = tempfile::tempdir().unwrap();
-        let whole = scene_in(digits, folder.path(), system, output);
+        let whole = scene_of(digits, folder.path(), system, output);
         let text = |steps: u64| whole.source.text.replace("steps = 20", &format!("steps = {steps}"));
         let run = |steps: u64, observer: &mut dyn Observer| {
             fs::write(folder.path().join("scene.toml"), text(steps)).unwrap();
@@ -455,7 +420,7 @@ mod tests {
                 "trajectory = { section = \"x\", direction = \"both\" }",
                 "values = { r = \"x^2 + y^2\" }",
             ] {
-                let (whole, _) = with_stops_in(digits, system, output, 1000);
+                let (whole, _) = with_stops(digits, system, output, 1000);
                 for (earlier, stop) in [(12, 1000), (12, 1), (12, 3), (19, 1), (1, 8), (1, 1000)] {
                     let bytes = prolonged(digits, system, output, (earlier, stop));
                     assert_eq!(bytes, whole, "{digits}, {output}: {earlier} steps, a stop after {stop}");
@@ -472,7 +437,7 @@ mod tests {
             { every = 5 }\n\
                       values = { r = \"log(x)\" }";
         let text = |file: &str, steps: u64| {
-            let scene = scene_in("\"double\"", folder.path(), KEPLER, output).source.text;
+            let scene = scene_of("\"double\"", folder.path(), KEPLER, output).source.text;
             scene.replace("out.csv", file).replace("steps = 20", &format!("steps = {steps}"))
         };
         let run = |file: &str, steps: u64, stop: i64| {
@@ -524,7 +489,7 @@ mod tests {
     fn only_a_file_of_the_same_scene_is_prolonged() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("scene.toml");
-        let text = scene(folder.path(), KEPLER, "trajectory = true").source.text;
+        let text = scene_of("30", folder.path(), KEPLER, "trajectory = true").source.text;
         let run = |text: &str| {
             fs::write(&path, text).unwrap();
             Scene::open(&path).unwrap().run_to_file(FileOptions::default(), &mut ()).map_err(|error| error.to_string())
@@ -542,51 +507,12 @@ mod tests {
         );
     }
 
-    #[test]
-    fn crossings_of_a_section_are_the_same_after_a_stop() {
-        let output = "energy = { every = 5 }\ntrajectory = { section = \"x\", direction = \"both\" }";
-        for digits in ["30", "\"double\"", "\"compensated\""] {
-            let (whole, _) = with_stops_in(digits, KEPLER, output, 1000);
-            let crossings = whole.lines().filter(|line| !line.starts_with('#') && !line.ends_with(',')).count() - 1;
-            assert!(crossings > 0, "{whole}");
-            for each in [2, 3, 5, 8, 13] {
-                let (bytes, stops) = with_stops_in(digits, KEPLER, output, each);
-                assert!(!stops.is_empty());
-                assert_eq!(bytes, whole, "{stops:?}");
-            }
-        }
-    }
-
-    /// Checkpoints keep the remainders of compensated sums.
-    #[test]
-    fn so_has_a_file_of_compensated_sums() {
-        for output in [
-            "trajectory = true",
-            "modified_energy = { order = 4 }\ntrajectory = true",
-            "modified_energy = { max_order = 6 }\ntrajectory = { every = 2 }",
-            "modified_energy = { estimator = \"bilinear\", order = 6 }\nenergy = true",
-            "chaos = true\ntrajectory = true",
-        ] {
-            let (whole, _) = with_stops_in("\"compensated\"", KEPLER, output, 1000);
-            assert!(whole.contains("# digits: compensated\n"), "{whole}");
-            let (plain, _) = with_stops_in("\"double\"", KEPLER, output, 1000);
-            let rows =
-                |text: &str| text.lines().filter(|line| !line.starts_with('#')).map(str::to_owned).collect::<Vec<_>>();
-            assert_ne!(rows(&whole), rows(&plain), "{output}");
-            for each in [5, 7, 8, 12, 13, 19, 20] {
-                let (bytes, stops) = with_stops_in("\"compensated\"", KEPLER, output, each);
-                assert!(!stops.is_empty() && stops.is_sorted(), "{output}: {stops:?}");
-                assert_eq!(bytes, whole, "{output}: {stops:?}");
-            }
-        }
-    }
-
     /// At the last state they are what the command of that name has.
     #[test]
     fn rows_have_the_indicators_of_chaos() {
         let folder = tempfile::tempdir().unwrap();
         for digits in ["\"double\"", "\"double-double\"", "25"] {
-            let scene = scene_in(digits, folder.path(), KEPLER, "chaos = { every = 7 }");
+            let scene = scene_of(digits, folder.path(), KEPLER, "chaos = { every = 7 }");
             let mut rows = Vec::new();
             scene.run_into(&mut rows, &mut ()).unwrap();
             let rows = String::from_utf8(rows).unwrap();
@@ -594,7 +520,7 @@ mod tests {
             assert_eq!(rows[0], "n,t,lyapunov,megno,mean_megno,sali");
             assert_eq!(rows[1].split(',').skip(2).take(3).collect::<Vec<_>>(), ["", "0.0", ""]);
             assert_eq!(rows.len(), 4, "{rows:?}");
-            let shorter = scene_in(digits, folder.path(), KEPLER, "energy = true");
+            let shorter = scene_of(digits, folder.path(), KEPLER, "energy = true");
             let posed = Posed { run: Run { steps: 14, ..shorter.as_run() }, ..shorter.posed() };
             let request = ChaosRequest { posed, vectors: Vectors::Free(2), every: 1 };
             let expected = request.run(1, &mut ()).unwrap();
@@ -606,21 +532,9 @@ mod tests {
     }
 
     #[test]
-    fn a_checkpoint_without_its_remainders_is_refused() {
-        let folder = tempfile::tempdir().unwrap();
-        let scene = scene_in("\"compensated\"", folder.path(), KEPLER, "trajectory = true");
-        scene.run_to_file(FileOptions::default(), &mut StopAfter(13)).unwrap();
-        let path = folder.path().join("out.csv.checkpoint");
-        forge(&path, |c| drop(c["state"].as_object_mut().unwrap().remove("p_remainders").unwrap()));
-        let error = scene.run_to_file(FileOptions::default(), &mut ()).unwrap_err().to_string();
-        let message = "has 2 remainders of positions and 0 of momenta, where the scene has 2 of each";
-        assert!(error.contains(message), "{error}");
-    }
-
-    #[test]
     fn a_resumed_run_repeats_only_the_steps_that_an_estimate_needs() {
         let folder = tempfile::tempdir().unwrap();
-        let scene = scene(folder.path(), KEPLER, "modified_energy = { estimator = \"central\", order = 2 }");
+        let scene = scene_of("30", folder.path(), KEPLER, "modified_energy = { estimator = \"central\", order = 2 }");
         // each fifth state is kept, and the estimates after n need one at or before n - 5: D_2, and three states for
         // its error
         let mut first = 0;
@@ -635,19 +549,11 @@ mod tests {
         }
     }
 
-    /// A checkpoint with other values, whose hash fits.
-    fn forge(path: &Path, change: impl Fn(&mut serde_json::Value)) {
-        let mut file: serde_json::Value = serde_json::from_str(&fs::read_to_string(path).unwrap()).unwrap();
-        change(&mut file["checkpoint"]);
-        let checkpoint: Checkpoint = serde_json::from_value(file["checkpoint"].take()).unwrap();
-        fs::write(path, checkpoint.to_text()).unwrap();
-    }
-
     #[test]
     fn a_checkpoint_that_no_run_writes_is_refused() {
         use serde_json::json;
         type Change = fn(&mut serde_json::Value);
-        let changes: [(Change, &str); 8] = [
+        let changes: [(Change, &str); 9] = [
             (
                 |c| drop(c["state"]["q"].as_array_mut().unwrap().pop()),
                 "has 1 positions and 2 momenta, where the scene has 2 of each",
@@ -662,13 +568,23 @@ mod tests {
             (|c| c["state"]["n"] = json!(13), "is at n = 12 and has the state n = 13"),
             (|c| c["state"]["n"] = json!(i64::MIN), "is at n = 12 and has the state n = -9223372036854775808"),
             (|c| c["state"]["q"][0] = json!("sqrt(2)"), "the state n = 12 of the checkpoint cannot be read"),
+            (
+                |c| drop(c["state"].as_object_mut().unwrap().remove("p_remainders").unwrap()),
+                "has 2 remainders of positions and 0 of momenta, where the scene has 2 of each",
+            ),
         ];
         for (change, message) in changes {
             let folder = tempfile::tempdir().unwrap();
-            let scene = scene(folder.path(), KEPLER, "trajectory = true");
+            let digits = if message.contains("remainders") { "\"compensated\"" } else { "30" };
+            let scene = scene_of(digits, folder.path(), KEPLER, "trajectory = true");
             let stopped = scene.run_to_file(FileOptions::default(), &mut StopAfter(13)).unwrap();
             assert_eq!(stopped, Outcome::Stopped { n: 12 });
-            forge(&folder.path().join("out.csv.checkpoint"), change);
+            // a checkpoint with other values, whose hash fits
+            let path = folder.path().join("out.csv.checkpoint");
+            let mut file: serde_json::Value = serde_json::from_str(&fs::read_to_string(&path).unwrap()).unwrap();
+            change(&mut file["checkpoint"]);
+            let checkpoint: Checkpoint = serde_json::from_value(file["checkpoint"].take()).unwrap();
+            fs::write(&path, checkpoint.to_text()).unwrap();
             let error = scene.run_to_file(FileOptions::default(), &mut ()).unwrap_err().to_string();
             assert!(error.contains(message) && error.contains("`restart`"), "{message}: {error}");
         }
@@ -677,7 +593,7 @@ mod tests {
     #[test]
     fn a_plain_run_evaluates_the_gradient_once_a_step_and_once_to_begin() {
         let folder = tempfile::tempdir().unwrap();
-        let mut scene = scene(folder.path(), KEPLER, "energy = true");
+        let mut scene = scene_of("30", folder.path(), KEPLER, "energy = true");
         scene.scheme = crate::document::library::scheme("stormer-verlet").unwrap();
         let outcome = scene.run_to_file(FileOptions::default(), &mut ()).unwrap();
         assert_eq!(outcome, Outcome::Complete { steps: 20, force_evaluations: 21 });

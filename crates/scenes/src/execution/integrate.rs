@@ -226,8 +226,7 @@ impl<N> Samples<N> {
 mod tests {
     use super::*;
     use crate::Scene;
-    use crate::watch::observer::KeptSummary;
-    use shadowstep::tables::Source;
+    use crate::watch::observer::testing::{KeptSummary, read, summary};
 
     fn posed(scene: &Scene) -> Posed<'_> {
         let estimator = scene.output.modified_energy.as_ref().map(|(settings, _)| settings);
@@ -252,12 +251,10 @@ mod tests {
             } else {
                 "output.energy = { every = 100 }\n"
             };
-            let scene = Scene::read(Source { path: "test.toml".to_owned(), text: text + rows }).unwrap();
-            let mut of_scene = KeptSummary::default();
-            scene.run_into(&mut Vec::new(), &mut of_scene).unwrap();
+            let scene = read(&(text + rows));
             let mut own = KeptSummary::default();
             posed(&scene).samples::<f64>((KeptStates::Every(100), &[]), &(), &mut own).unwrap();
-            let [of_scene, own] = [of_scene, own].map(|kept| kept.0.unwrap());
+            let (of_scene, own) = (summary(&scene), own.0.unwrap());
             assert_eq!(own.verdict_with_reason(), of_scene.verdict_with_reason());
             assert_eq!((own.to, own.encounters), (of_scene.to, of_scene.encounters));
         }
@@ -272,7 +269,7 @@ mod tests {
         for (scheme, until) in [("yoshida4", "100"), ("yoshida4", "2"), ("bcm6-13", "100"), ("bcm6-13", "2")] {
             for rows in ["output.energy = true\n", estimates] {
                 let text = kepler.replace("SCHEME", scheme).replace("UNTIL", until) + rows;
-                let scene = Scene::read(Source { path: "test.toml".to_owned(), text }).unwrap();
+                let scene = read(&text);
                 let mut kept = KeptSummary::default();
                 let samples = posed(&scene).samples::<f64>((KeptStates::Every(1), &[]), &(), &mut kept).unwrap();
                 let found = kept.0.unwrap().energy;

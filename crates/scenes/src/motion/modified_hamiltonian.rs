@@ -379,16 +379,9 @@ impl SymbolicHamiltonian {
 
 #[cfg(test)]
 mod tests {
-    use crate::Scene;
-    use crate::watch::observer::KeptSummary;
+    use crate::watch::observer::testing::{read, rows};
     use num_traits::ToPrimitive;
-    use shadowstep::tables::{Faults, Source};
     use shadowstep_schemes::symbolic::exact;
-
-    fn read(problem: &str, run: &str, output: &str) -> Result<Scene, Faults> {
-        let text = format!("{problem}\n[run]\n{run}\n[output]\n{output}");
-        Scene::read(Source { path: "test.toml".to_owned(), text })
-    }
 
     /// The differences of the series up to the grades from the modified energy E_20 at the state in the middle of 1/h
     /// and 20 steps.
@@ -397,18 +390,13 @@ mod tests {
         let output = format!(
             "modified_energy = {{ estimator = \"bilinear\", order = 20 }}\nmodified_hamiltonian = {grades:?}\nsummary = false"
         );
-        let scene = read(problem, &run, &output).unwrap_or_else(|faults| panic!("{problem}: {faults}"));
-        let mut rows = Vec::new();
-        scene.run_into(&mut rows, &mut KeptSummary::default()).unwrap();
-        let text = String::from_utf8(rows).unwrap();
-        let lines: Vec<Vec<&str>> =
-            text.lines().filter(|line| !line.starts_with('#')).map(|line| line.split(',').collect()).collect();
+        let lines = rows(&read(&format!("{problem}\n[run]\n{run}\n[output]\n{output}")));
         let column = |name: &str| lines[0].iter().position(|found| *found == name).unwrap();
         let energy = column("modified_energy");
         let of = |grade: &u32| {
             let own = column(&format!("modified_hamiltonian_{grade}"));
             let row = &lines[1 + h as usize / 2];
-            let [a, b] = [row[energy], row[own]].map(|text| exact(text).unwrap());
+            let [a, b] = [&row[energy], &row[own]].map(|text| exact(text).unwrap());
             (a - b).to_f64().unwrap().abs()
         };
         grades.iter().map(of).collect()
@@ -482,33 +470,6 @@ mod tests {
                     "{scheme} up to h^{grade}: falls like h^{measured:.2}, not h^{power}, on {problem}"
                 );
             }
-        }
-    }
-
-    #[test]
-    fn what_has_no_formula_is_refused_with_the_reason() {
-        let fault = |problem: &str, run: &str| {
-            let run = format!("{run}\nstep = \"1/10\"\nsteps = 10\ndigits = \"double\"");
-            let Faults(faults) = read(problem, &run, "modified_hamiltonian = 4").map(drop).unwrap_err();
-            (faults[0].line, faults[0].column, faults[0].message.clone())
-        };
-        let verlet = "scheme = \"stormer-verlet\"";
-        let kepler = "problem.name = \"kepler\"";
-        for (problem, run, line, message) in [
-            (
-                "problem.name = \"fput-stiff\"",
-                verlet,
-                8,
-                "the modified Hamiltonian is derived from formulas, and fput-stiff has none in its coordinates",
-            ),
-            (
-                kepler,
-                "scheme = \"chin-4a\"\ngradient_kicks = \"displaced\"",
-                9,
-                "displaced forces have another modified Hamiltonian",
-            ),
-        ] {
-            assert_eq!(fault(problem, run), (line, 24, message.to_owned()), "{problem}");
         }
     }
 }

@@ -99,24 +99,4 @@ mod tests {
         let texts: Vec<_> = scene.system.q.iter().chain(&scene.system.p).map(|x| x.value.to_string()).collect();
         assert_eq!(texts, ["1", "1/2", "1", "1/2", "0", "1/3", "0", "1/3", "0", "0"]);
     }
-
-    #[test]
-    fn faults_have_their_places() {
-        let fault = |problem: &str| {
-            let Err(Faults(faults)) = read(problem) else { panic!("{problem} is read") };
-            format!("{}:{}: {}", faults[0].line, faults[0].column, faults[0].message)
-        };
-        assert_eq!(fault("hamiltonian = \"x*px^2\""), "2:15: hamiltonian requires `coupling`");
-        assert_eq!(
-            fault("hamiltonian = \"x*pz^2\"\ncoupling = 1"),
-            "2:18: unknown name `pz`; did you mean `px`? known names: x, y, px, py, t"
-        );
-        assert_eq!(
-            fault("hamiltonian = \"x*px\"\ncoupling = 1\nmasses = [1, 1]"),
-            "4:10: masses requires `potential` or `pair`"
-        );
-        assert_eq!(fault("hamiltonian = \"x*px\"\ncoupling = \"1/0\""), "3:15: division by zero");
-        assert_eq!(fault("hamiltonian = \"x*px\"\ncoupling = 0"), "3:12: coupling must be positive, not 0");
-        assert_eq!(fault("potential = \"x\"\ncoupling = 1"), "3:12: coupling requires `hamiltonian`");
-    }
 }

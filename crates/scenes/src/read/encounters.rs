@@ -37,29 +37,17 @@ pub(super) fn set(reader: &mut Reader<'_>, problem: &Table<'_, '_>, system: &mut
 
 #[cfg(test)]
 mod tests {
-    use shadowstep::tables::{Faults, Source};
-
-    use crate::Scene;
-    use crate::watch::observer::KeptSummary;
+    use crate::watch::observer::testing;
     use crate::watch::summary::Summary;
 
-    /// Two planets that come within 0.13 Hill radii.
-    fn scene(problem: &str) -> Result<Scene, Vec<String>> {
-        let text = format!(
+    /// Of two planets that come within 0.13 Hill radii.
+    fn summary(problem: &str) -> Summary {
+        testing::summary(&testing::read(&format!(
             "[problem]\nparameters = {{ g = 1 }}\n{problem}\n[[body]]\nmass = 1\n[[body]]\nmass = \"1/5000\"\nq = [1, \
                 0]\nv = [0, 1]\n\
              [[body]]\nmass = \"1/20000\"\nq = [\"1.127\", \"0.34\"]\nv = [\"-0.311\", \"0.852\"]\n\
              [run]\nscheme = \"stormer-verlet\"\nstep = \"1/80\"\nuntil = 10\ndigits = \"double\"\n[output]\nenergy = true"
-        );
-        Scene::read(Source { path: "test.toml".to_owned(), text }).map_err(|Faults(faults)| {
-            faults.iter().map(|fault| format!("{}:{}: {}", fault.line, fault.column, fault.message)).collect()
-        })
-    }
-
-    fn summary(problem: &str) -> Summary {
-        let mut keep = KeptSummary::default();
-        scene(problem).unwrap().run_into(&mut Vec::new(), &mut keep).unwrap();
-        keep.0.unwrap()
+        )))
     }
 
     const HELIOCENTRIC: &str = "parts = \"wisdom-holman-heliocentric\"";
@@ -76,19 +64,5 @@ mod tests {
         let narrow = summary(&format!("{HELIOCENTRIC}\nencounters = {{ within = \"0.01\" }}"));
         assert_eq!(narrow.verdict(), "the step size is too large");
         assert!(narrow.reason().contains("or a larger distance in encounters"), "{}", narrow.reason());
-    }
-
-    #[test]
-    fn faults_have_their_places() {
-        let faults = |problem: &str| scene(problem).map(drop).unwrap_err();
-        assert_eq!(
-            faults("parts = \"wisdom-holman\"\nencounters = { within = 1 }"),
-            ["4:14: close encounters are those of planets in heliocentric coordinates"]
-        );
-        let with = |table: &str| faults(&format!("{HELIOCENTRIC}\nencounters = {table}"));
-        assert_eq!(with("{ within = 0 }"), ["4:25: within must be positive, not 0"]);
-        assert_eq!(with("{ substeps = 3 }"), ["4:14: the key `within` is missing"]);
-        assert_eq!(with("3"), ["4:14: this value is of the wrong kind"]);
-        assert!(with("{ within = 1, substeps = 0 }")[0].starts_with("4:39: "));
     }
 }

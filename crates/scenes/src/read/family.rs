@@ -235,6 +235,7 @@ fn whole_name(text: &str) -> Option<&str> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::observer::testing::rows;
 
     fn family(text: &str) -> Family {
         Family::new(Source { path: "test.toml".to_owned(), text: text.to_owned() }, &["axes"])
@@ -281,12 +282,6 @@ mod tests {
                  run = {{ scheme = \"ruth3\", step = \"{h}\", steps = 30, digits = \"double\" }}\noutput.trajectory = true\n"
             )
         };
-        let rows = |scene: &Scene| {
-            let mut rows = Vec::new();
-            scene.run_into(&mut rows, &mut ()).unwrap();
-            let text = String::from_utf8(rows).unwrap();
-            text.lines().filter(|line| !line.starts_with('#')).map(str::to_owned).collect::<Vec<_>>()
-        };
         let named = family(&text("1 - b^2", "b/10")).scene(&[number("b", "4/5")]).unwrap();
         let plain = family(&text("9/25", "2/25")).scene(&[]).unwrap();
         assert_eq!(rows(&named), rows(&plain));
@@ -301,16 +296,6 @@ mod tests {
         // without its value, a name is an ordinary text
         let faults = family.scene(&[number("h", "1/40"), word("n", "12")]).unwrap_err();
         assert_eq!(faults.0[0].message, "`$digits` is not known here");
-    }
-
-    #[test]
-    fn a_name_may_not_be_that_of_a_coordinate() {
-        let family = family(&format!(
-            "problem = {{ potential = \"q^2/2\", coordinates = [\"q\"] }}\ninitial = {{ q = [1], p = [0] }}\n{RUN}"
-        ));
-        let names = [number("q", "2"), number("h", "1/40"), word("n", "12"), word("digits", "double")];
-        let faults = family.scene(&names).unwrap_err();
-        assert!(faults.to_string().contains("the coordinate `q` has the name of an axis or a column"), "{faults}");
     }
 
     #[test]

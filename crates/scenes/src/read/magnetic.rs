@@ -161,31 +161,4 @@ mod tests {
             "((px - (-b*y^3*cos(t)))^2/2) + ((py - (b*x/2))^2/2 + pt) + (0)"
         );
     }
-
-    #[test]
-    fn faults_have_their_places() {
-        let faults = |field: &str, more: &str| match read(field, more, "steps = 1") {
-            Err(Faults(faults)) => faults
-                .iter()
-                .map(|fault| format!("{}:{}: {}", fault.line, fault.column, fault.message))
-                .collect::<Vec<_>>()
-                .join("; "),
-            Ok(_) => String::new(),
-        };
-        let found = [
-            faults("[\"x^2\", \"0\"]", ""),
-            faults("[\"-b*y/2\"]", ""),
-            faults("[\"-b*y/2\", \"b*x/c\"]", ""),
-            faults("[\"-b*y/2\", \"b*x/2\"]", "kinetic = \"px^2/2\""),
-        ];
-        assert_eq!(
-            found,
-            [
-                "3:21: this component of A depends on x, its own coordinate",
-                "3:20: this list needs a component for each coordinate",
-                "3:36: unknown name `c`; known names: x, y, t, b",
-                "3:20: kinetic and vector_potential are both given",
-            ]
-        );
-    }
 }

@@ -63,16 +63,7 @@ fn refuse_names(
 
 #[cfg(test)]
 mod tests {
-    use shadowstep::tables::{Faults, Source};
-
-    use crate::Scene;
-
-    fn read(text: &str) -> Result<Scene, Vec<String>> {
-        let source = Source { path: "scene.toml".to_owned(), text: text.to_owned() };
-        Scene::read(source).map_err(|Faults(faults)| {
-            faults.iter().map(|fault| format!("{}:{}: {}", fault.line, fault.column, fault.message)).collect()
-        })
-    }
+    use crate::observer::testing::{read, rows};
 
     const RUN: &str = "[run]\nscheme = \"yoshida8-d\"\nstep = \"1/50\"\nsteps = 100\ndigits = 40\n[output]\nenergy = \
         true\ntrajectory = true";
@@ -87,10 +78,7 @@ mod tests {
 
     /// The numbers of the last row.
     fn end(text: &str) -> Vec<f64> {
-        let mut rows = Vec::new();
-        read(text).unwrap().run_into(&mut rows, &mut ()).unwrap();
-        let rows = String::from_utf8(rows).unwrap();
-        rows.lines().last().unwrap().split(',').map(|number| number.parse().unwrap()).collect()
+        rows(&read(text)).pop().unwrap().iter().map(|number| number.parse().unwrap()).collect()
     }
 
     #[test]
@@ -117,32 +105,5 @@ mod tests {
         println!("{plain:e} {of_parts:e}");
         // the same steps; and others, whose errors are not these
         assert!(plain < 1e-15 && of_parts < 1e-11, "{plain:e}, {of_parts:e}");
-    }
-
-    #[test]
-    fn wrong_energies_are_refused_with_their_places() {
-        let g = "parameters = { g = 1 }";
-        for (problem, fault) in [
-            (format!("central = \"m/w\"\n{g}"), "2:14: unknown name `w`"),
-            (format!("external = \"m*abs(x)\"\n{g}"), "2:15: `abs` is not smooth"),
-            (format!("central = \"m*z\"\n{g}"), "2:14: unknown name `z`"),
-            (
-                format!("central = \"m*x*t\"\n{g}"),
-                "2:11: the energy of a body beside the attraction does not depend on t",
-            ),
-            (
-                "central = \"m*x\"\nparameters = { g = 1, r = 2 }".to_owned(),
-                "3:23: `r` is a parameter, and a name of the bodies",
-            ),
-            (
-                format!("parts = \"wisdom-holman-heliocentric\"\ncentral = \"m/r\"\n{g}"),
-                "2:9: in heliocentric coordinates kicks move the planets",
-            ),
-        ] {
-            let faults = read(&scene(&problem)).map(drop).unwrap_err();
-            assert!(faults.len() == 1 && faults[0].starts_with(fault), "{problem}: {faults:?}");
-        }
-        let text = format!("[problem]\nname = \"kepler\"\ncentral = \"m/r\"\n{RUN}");
-        assert_eq!(read(&text).map(drop).unwrap_err(), ["3:11: central requires [[body]]"]);
     }
 }

@@ -84,43 +84,6 @@ mod tests {
         assert_near(&end(&field, start, "r-respa-8"), &end(&parts("q1^2 + cos(q3)"), start, "r-respa-8"));
     }
 
-    #[test]
-    fn faults_have_their_places() {
-        let fault = |problem: &str, scheme: &str| {
-            let initial =
-                if problem.contains("pair") { "q = [0, 1, 2]\np = [0, 0, 0]" } else { "q = [1, 0]\np = [0, 1]" };
-            let Err(Faults(faults)) = read(problem, initial, scheme) else { return String::new() };
-            let sentence = |f: &shadowstep::tables::Fault| format!("{}:{}: {}", f.line, f.column, f.message);
-            faults.iter().map(sentence).collect::<Vec<_>>().join("; ")
-        };
-        let with = |problem: &str, more: &str| format!("{problem}\n{more}");
-        let found = [
-            fault(POTENTIAL, "r-respa-4"),
-            fault("parts = [\"x^2\", \"x^4\", \"y^2\", \"px^2 + py^2\"]\ncoordinates = [\"x\", \"y\"]", "r-respa-4"),
-            fault(&with(POTENTIAL, "slow = \"x + z\""), "r-respa-4"),
-            fault(&with(POTENTIAL, "slow = \"x\"\nparts = \"linear\""), "r-respa-4"),
-            fault(&with(POTENTIAL, "slow = \"x\"\nvector_potential = [\"y\", \"0\"]"), "r-respa-4"),
-            fault("name = \"henon-heiles\"\nslow = \"x\"", "yoshida4"),
-            fault(&with(POTENTIAL, "slow = \"x\""), "chin-4a"),
-            fault(&with(PAIR, "slow = \"1/r2\"").replace("free", "periodic"), "r-respa-4"),
-            fault(&with(PAIR, "slow = \"x7\""), "r-respa-4"),
-        ];
-        assert_eq!(
-            found,
-            [
-                "8:10: r-respa-4 has multiple time steps, for slow forces, fast forces and T; here H has 2 parts",
-                "8:10: r-respa-4 has multiple time steps, for slow forces, fast forces and T; here H has 4 parts",
-                "4:13: unknown name `z`; known names: x, y",
-                "4:8: parts and slow are both given",
-                "4:8: vector_potential and slow are both given",
-                "3:8: slow requires `potential` or `pair`",
-                "9:10: chin-4a has gradient kicks, which are for T(p) and U(q) only",
-                "6:8: slow forces of pairs have no periodic images and no walls",
-                "6:9: unknown name `x7`; known names: q1, q2, q3",
-            ]
-        );
-    }
-
     /// 50 (x − y)² oscillates with ω² = 200: a step of 1/4 has hω = 3.54.
     #[test]
     fn a_step_in_resonance_has_a_note() {

@@ -48,20 +48,3 @@ fn transformation(reader: &mut Reader<'_>, section: &Table<'_, '_>) -> Option<Ti
         }
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::document::shipped::of;
-    use crate::scene::Scene;
-    use shadowstep::tables::Source;
-
-    #[test]
-    fn the_shipped_scenes_are_in_transformed_time() {
-        for shipped in of("close encounters") {
-            let source = Source { path: "test.toml".to_owned(), text: shipped.text.to_owned() };
-            let scene = Scene::read(source).unwrap_or_else(|faults| panic!("{}: {faults}", shipped.name));
-            assert_eq!(scene.system.transformed_time(), Some(TimeTransformation::Logarithmic), "{}", shipped.name);
-        }
-    }
-}

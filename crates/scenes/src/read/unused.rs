@@ -36,35 +36,3 @@ pub(super) fn refuse_unused_parameters(reader: &mut Reader<'_>, root: &DeTable<'
         reader.toml.fault(&name.at, message, format!("{near} it, or write it where it is meant"));
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use shadowstep::tables::Source;
-
-    use crate::run::arithmetic::Arithmetic;
-    use crate::scene::System;
-
-    #[test]
-    fn parameters_that_are_in_no_formula_are_refused() {
-        let read = |parameters: &str| {
-            let text = format!(
-                "[problem]\npotential = \"depth*x^2/width\"\ncoordinates = [\"x\"]\nparameters = {{ {parameters} \
-                    }}\n[initial]\nq = [\"a\"]\np = [0]"
-            );
-            System::read(&Source { path: "test.toml".to_owned(), text }, Arithmetic::DOUBLE).map(drop)
-        };
-        // also by a value of another parameter, and of the initial state
-        read("a = 1, depth = 2, width = \"3*a\"").unwrap();
-        let faults = read("a = 1, depth = 2, width = 3, widht = 4, masss = 2").unwrap_err();
-        let said: Vec<_> =
-            faults.0.iter().map(|fault| (fault.message.as_str(), fault.hint.as_deref().unwrap())).collect();
-        let remove = |near: &str| format!("did you mean `{near}`? Remove it, or write it where it is meant");
-        assert_eq!(
-            said,
-            [
-                ("the parameter `widht` is in no formula", remove("width").as_str()),
-                ("the parameter `masss` is in no formula", remove("masses").as_str())
-            ]
-        );
-    }
-}

@@ -326,11 +326,8 @@ pub fn not_resolved(bodies: &[LightBody], time: impl Fn(i64) -> String) -> Optio
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::Scene;
-    use crate::watch::observer::KeptSummary;
+    use crate::watch::observer::testing;
     use crate::watch::summary::Summary;
-    use shadowstep::number::Lanes;
-    use shadowstep::tables::Source;
 
     /// A planet is left out only where no light body on straight ways comes below the limit in the step.
     #[test]
@@ -400,11 +397,9 @@ mod tests {
              [[body]]\nname = \"comet\"\nmass = {mass}\nq = [3.4, -1]\nv = [1.88, 3.25]\n\
              [run]\n{run}\nuntil = 5\ndigits = \"double\"\n[output]\nvalues = {{ a = \"a(comet)\", every = 20 }}"
         );
-        let (mut rows, mut keep) = (Vec::new(), KeptSummary::default());
-        let scene = Scene::read(Source { path: "test.toml".to_owned(), text }).unwrap();
-        scene.run_into(&mut rows, &mut keep).unwrap();
-        let rows = String::from_utf8(rows).unwrap();
-        (keep.0.unwrap(), rows.trim_end().rsplit(',').next().unwrap().parse().unwrap())
+        let scene = testing::read(&text);
+        let last = testing::rows(&scene).pop().unwrap();
+        (testing::summary(&scene), last.last().unwrap().parse().unwrap())
     }
 
     /// By IAS15 of REBOUND 5.2.2 with the same bodies and G; by 10⁵ steps of `saba4` 26.49986.

@@ -52,18 +52,46 @@ pub(crate) fn interrupted(run: Run<'_>, n: u64) -> Error {
     Error::run(message, "run it again, over a shorter time for example")
 }
 
-/// Keeps the summary of a run.
+/// What tests do with scenes.
 #[cfg(test)]
-#[derive(Default)]
-pub(crate) struct KeptSummary(pub(crate) Option<Summary>);
+pub(crate) mod testing {
+    use shadowstep::tables::Source;
 
-#[cfg(test)]
-impl Observer for KeptSummary {
-    fn summarises(&self) -> bool {
-        true
+    use super::{Observer, Summary};
+    use crate::Scene;
+
+    /// Keeps the summary of a run.
+    #[derive(Default)]
+    pub(crate) struct KeptSummary(pub(crate) Option<Summary>);
+
+    impl Observer for KeptSummary {
+        fn summarises(&self) -> bool {
+            true
+        }
+
+        fn summary(&mut self, summary: &Summary) {
+            self.0 = Some(summary.clone());
+        }
     }
 
-    fn summary(&mut self, summary: &Summary) {
-        self.0 = Some(summary.clone());
+    /// The scene of a text without faults.
+    pub(crate) fn read(text: &str) -> Scene {
+        let source = Source { path: "test.toml".to_owned(), text: text.to_owned() };
+        Scene::read(source).unwrap_or_else(|faults| panic!("{text}: {faults}"))
+    }
+
+    /// The rows of a scene as their cells, of which the first one has the names.
+    pub(crate) fn rows(scene: &Scene) -> Vec<Vec<String>> {
+        let mut rows = Vec::new();
+        scene.run_into(&mut rows, &mut ()).unwrap();
+        let text = String::from_utf8(rows).unwrap();
+        let rows = text.lines().filter(|line| !line.starts_with('#'));
+        rows.map(|line| line.split(',').map(str::to_owned).collect()).collect()
+    }
+
+    pub(crate) fn summary(scene: &Scene) -> Summary {
+        let mut kept = KeptSummary::default();
+        scene.run_into(&mut Vec::new(), &mut kept).unwrap();
+        kept.0.unwrap()
     }
 }

@@ -55,23 +55,14 @@ fn component(system: &System, bodies: &Bodies, [a, b]: [usize; 2]) -> String {
 
 #[cfg(test)]
 mod tests {
-    use shadowstep::tables::Source;
-
-    use crate::Scene;
+    use crate::observer::testing::{read, rows};
 
     /// The values of a formula at each of ten steps.
     fn values(problem: &str, formula: &str) -> Vec<f64> {
-        let text = format!(
-            "{problem}\n[run]\nscheme = \"yoshida4\"\nstep = \"1/100\"\nsteps = 10\n[output]\nvalues = {{ v \
-                = \"{formula}\" }}\n"
-        );
-        let scene =
-            Scene::read(Source { path: "test.toml".to_owned(), text }).unwrap_or_else(|faults| panic!("{faults}"));
-        let mut rows = Vec::new();
-        scene.run_into(&mut rows, &mut ()).unwrap();
-        let text = String::from_utf8(rows).unwrap();
-        let rows = text.lines().filter(|line| !line.starts_with('#')).skip(1);
-        rows.map(|row| row.rsplit(',').next().unwrap().parse().unwrap()).collect()
+        let scene = read(&format!(
+            "{problem}\n[run]\nscheme = \"yoshida4\"\nstep = \"1/100\"\nsteps = 10\n[output]\nvalues = {{ v = \"{formula}\" }}\n"
+        ));
+        rows(&scene)[1..].iter().map(|row| row.last().unwrap().parse().unwrap()).collect()
     }
 
     const SPACE: &str = "[problem]\nparameters = { g = 1 }\n[[body]]\nname = \"sun\"\nmass = 2\nq = [0, 0, 0]\nv = \

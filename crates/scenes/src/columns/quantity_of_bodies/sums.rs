@@ -56,26 +56,16 @@ pub(super) fn virial<N: SceneNumber>(system: &System, context: &N::Context) -> C
 
 #[cfg(test)]
 mod tests {
-    use shadowstep::tables::{Faults, Source};
-
-    use crate::Scene;
-
-    fn read(problem: &str, run: &str, output: &str) -> Result<Scene, String> {
-        let text = format!("{problem}\n[run]\nstep = \"1/100\"\nsteps = 30\n{run}\n[output]\n{output}\n");
-        Scene::read(Source { path: "test.toml".to_owned(), text })
-            .map_err(|Faults(faults)| format!("{}:{}: {}", faults[0].line, faults[0].column, faults[0].message))
-    }
+    use crate::observer::testing::{read, rows};
 
     /// The greatest size of a formula over the rows of a run.
     fn greatest(problem: &str, run: &str, formula: &str) -> f64 {
-        let scene = read(problem, run, &format!("values = {{ zero = \"{formula}\" }}")).unwrap();
-        let mut rows = Vec::new();
-        scene.run_into(&mut rows, &mut ()).unwrap();
-        let text = String::from_utf8(rows).unwrap();
-        let rows: Vec<_> = text.lines().filter(|line| !line.starts_with('#')).skip(1).collect();
-        assert!(rows.len() > 1, "{text}");
-        let cell = |line: &&str| line.rsplit(',').next().unwrap().parse::<f64>().unwrap().abs();
-        rows.iter().map(cell).fold(0.0, f64::max)
+        let text = format!(
+            "{problem}\n[run]\nstep = \"1/100\"\nsteps = 30\n{run}\n[output]\nvalues = {{ zero = \"{formula}\" }}\n"
+        );
+        let rows = rows(&read(&text));
+        assert!(rows.len() > 2, "{text}");
+        rows[1..].iter().map(|row| row.last().unwrap().parse::<f64>().unwrap().abs()).fold(0.0, f64::max)
     }
 
     const YOSHIDA: &str = "scheme = \"yoshida4\"";
@@ -121,21 +111,5 @@ mod tests {
             // differences of numbers of the size of 1
             assert!(found < 3e-14, "{problem}, {run}: {found:e}");
         }
-    }
-
-    #[test]
-    fn what_has_none_is_refused() {
-        let fault = |problem: &str, output: &str| read(problem, YOSHIDA, output).map(drop).unwrap_err();
-        let of_parts = "[problem]\nparts = [\"x^2/2\", \"px^2/2\"]\ncoordinates = [\"x\"]\n[initial]\nq = [1]\np = [0]";
-        assert_eq!(
-            fault(of_parts, "values = { T = \"2*kinetic\" }").split_once(": ").unwrap().1,
-            "`kinetic` is of systems T(p) + U(q), and H is not given so"
-        );
-        let named = "[problem]\npotential = \"virial*x^2\"\nparameters = { virial = 1 }\ncoordinates = \
-            [\"x\"]\n[initial]\nq = [1]\np = [0]";
-        assert_eq!(
-            fault(named, "values = { T = \"2*virial\" }").split_once(": ").unwrap().1,
-            "`virial` could be the parameter or the virial here"
-        );
     }
 }

@@ -1,23 +1,18 @@
+use crate::watch::observer::testing;
 use crate::scene::Scene;
-use shadowstep::tables::{Faults, Source};
 use shadowstep_schemes::symbolic::decimal::{from_text, to_significant};
 
-fn read(step: &str, trajectory: &str, more: &str) -> Result<Scene, Faults> {
-    let text = format!(
+fn read(step: &str, trajectory: &str, more: &str) -> Scene {
+    testing::read(&format!(
         "problem.name = \"henon-heiles\"\n[run]\nscheme = \"blanes-moan-srkn11b\"\nstep = \"{step}\"\nuntil = \
             60\ndigits = 40\n[output]\n\
          trajectory = {trajectory}\n{more}"
-    );
-    Scene::read(Source { path: "test.toml".to_owned(), text })
+    ))
 }
 
-/// The rows, each as its cells.
+/// The rows without their names.
 fn rows(scene: &Scene) -> Vec<Vec<String>> {
-    let mut rows = Vec::new();
-    scene.run_into(&mut rows, &mut ()).unwrap();
-    let text = String::from_utf8(rows).unwrap();
-    let rows = text.lines().filter(|line| !line.starts_with('#')).skip(1);
-    rows.map(|line| line.split(',').map(str::to_owned).collect()).collect()
+    testing::rows(scene).split_off(1)
 }
 
 fn number(text: &str) -> f64 {
@@ -28,7 +23,7 @@ fn number(text: &str) -> f64 {
 /// error of a step.
 #[test]
 fn crossings_have_the_order_of_the_scheme() {
-    let of_step = |step: &str| rows(&read(step, "{ section = \"x\" }", "").unwrap());
+    let of_step = |step: &str| rows(&read(step, "{ section = \"x\" }", ""));
     let found = ["1/10", "1/20", "1/40"].map(of_step);
     assert_eq!(found.each_ref().map(Vec::len), [9, 9, 9]);
     let last = found.each_ref().map(|rows| &rows[8]);
@@ -52,7 +47,7 @@ fn of_formula(problem: &str, [scheme, step]: [&str; 2], trajectory: &str) -> Vec
         "{problem}\n[run]\nscheme = \"{scheme}\"\nstep = \"{step}\"\nuntil = 4\ndigits = 40\n[output]\ntrajectory = \
             {trajectory}"
     );
-    rows(&Scene::read(Source { path: "test.toml".to_owned(), text }).unwrap())
+    rows(&testing::read(&text))
 }
 
 /// x = cos(3t/2) grows through 0 at t = π: a crossing is as accurate as the states, also of a processed scheme, whose
@@ -103,7 +98,7 @@ fn times(scene: &str, digits: &str, section: &str) -> Vec<f64> {
             "[output]\ntrajectory = {{ section = \"{section}\", direction = \"both\" }}\n[run]\ndigits = {digits}"
         ),
     );
-    let rows = rows(&Scene::read(Source { path: "test.toml".to_owned(), text }).unwrap());
+    let rows = rows(&testing::read(&text));
     rows.iter().map(|row| number(&row[1])).collect()
 }
 
@@ -166,7 +161,7 @@ fn a_jump_is_no_crossing() {
     // an orbit on which x and y are not 0 in one step
     let start = "[initial]\nq = [\"1/10\", \"1/5\"]\np = [\"3/10\", \"-1/10\"]\n";
     let count = |section: &str| {
-        rows(&read("1/10", &format!("{{ section = \"{section}\", direction = \"both\" }}"), start).unwrap()).len()
+        rows(&read("1/10", &format!("{{ section = \"{section}\", direction = \"both\" }}"), start)).len()
     };
     assert!(count("x") > 10 && count("y") > 10);
     assert_eq!(count("y/x"), count("y"));
@@ -179,12 +174,11 @@ fn a_jump_is_no_crossing() {
 /// section.
 #[test]
 fn a_section_changes_nothing_else() {
-    let count = |direction: &str| {
-        rows(&read("1/10", &format!("{{ section = \"x\", direction = \"{direction}\" }}"), "").unwrap()).len()
-    };
+    let count =
+        |direction: &str| rows(&read("1/10", &format!("{{ section = \"x\", direction = \"{direction}\" }}"), "")).len();
     assert_eq!((count("up"), count("down"), count("both")), (9, 10, 19));
     let energies = |trajectory: &str| {
-        let rows = rows(&read("1/10", trajectory, "energy = { every = 100 }").unwrap());
+        let rows = rows(&read("1/10", trajectory, "energy = { every = 100 }"));
         let is_of_step = |row: &Vec<String>| (number(&row[1]) * 10.0 - number(&row[0])).abs() < 1e-9;
         assert!(
             rows.iter().all(|row| !row[2].is_empty()) && rows.is_sorted_by_key(|row| (number(&row[1]) * 1e9) as i64)
@@ -198,7 +192,7 @@ fn a_section_changes_nothing_else() {
 #[test]
 fn a_surface_that_is_not_crossed_costs_no_forces() {
     let evaluations = |trajectory: &str| {
-        let scene = read("1/10", trajectory, "summary = false").unwrap();
+        let scene = read("1/10", trajectory, "summary = false");
         scene.run_into(&mut Vec::new(), &mut ()).unwrap()
     };
     assert_eq!(evaluations("{ section = \"x - 100\" }"), evaluations("true"));
@@ -214,37 +208,11 @@ fn a_section_may_be_one_of_explicit_time() {
              scheme = \"blanes-moan-s6\"\nstep = \"1/10\"\nuntil = 20\ndigits = 30\n[output]\ntrajectory = {{ section \
              = \"cos(t)\" }}"
         );
-        let rows = rows(&Scene::read(Source { path: "test.toml".to_owned(), text }).unwrap());
+        let rows = rows(&testing::read(&text));
         // cos grows through 0 at 3π/2, 7π/2 and 11π/2
         for (row, quarters) in rows.iter().zip([3.0, 7.0, 11.0]) {
             assert!((number(&row[1]) - quarters * std::f64::consts::FRAC_PI_2).abs() < 1e-14, "{row:?}");
         }
         assert_eq!(rows.len(), 3);
     }
-}
-
-#[test]
-fn faults_have_their_places() {
-    let fault = |trajectory: &str, more: &str| {
-        let Err(Faults(faults)) = read("1/10", trajectory, more) else { panic!("{trajectory} is read") };
-        format!("{}:{}: {}", faults[0].line, faults[0].column, faults[0].message)
-    };
-    assert_eq!(fault("{ section = \"z\" }", ""), "8:27: unknown name `z`; known names: x, y, px, py, t, E");
-    // what stands for a quantity is not shown
-    let unknown = "8:27: unknown name `kinetik`; known names: x, y, px, py, t, E";
-    assert_eq!(fault("{ section = \"kinetik - virial\" }", ""), unknown);
-    assert_eq!(
-        fault("{ section = \"t\" }", ""),
-        "8:26: a section is a function of q and p, and t is no coordinate here"
-    );
-    assert_eq!(fault("{ section = \"x\", every = 2 }", ""), "8:26: every and section are both given");
-    assert_eq!(fault("{ direction = \"up\" }", ""), "8:28: direction requires `section`");
-    assert_eq!(
-        fault("{ section = \"x\" }", "modified_energy = true"),
-        "8:26: modified_energy in [output] and section are both given"
-    );
-    assert_eq!(
-        fault("{ section = \"x\" }", "file = \"x.csv\"\nplot = { file = \"x.svg\", of = [\"orbit=x:y\"] }"),
-        "10:32: the chart `orbit=x:y` is a curve, and the crossings of a section are points"
-    );
 }

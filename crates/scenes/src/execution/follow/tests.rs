@@ -57,18 +57,6 @@ fn a_condition_ends_a_run_in_transformed_time() {
     assert!(time(&rows[rows.len() - 2]) <= 3.0 && time(&rows[rows.len() - 1]) > 3.0);
 }
 
-#[test]
-fn faults_of_a_condition_have_their_places() {
-    let fault = |end: &str| {
-        let Err(Faults(faults)) = pendulum(end, "energy = true") else { panic!("{end} is read") };
-        format!("{}:{}: {}", faults[0].line, faults[0].column, faults[0].message)
-    };
-    assert_eq!(fault("\"p\""), "6:7: this text is not a condition");
-    assert_eq!(fault("\"p < z\""), "6:7: unknown name `z`; known names: q, p, t, E");
-    assert_eq!(fault("\"p < 2^^3\""), "6:14: unexpected `^`: a number, a name or `(` should follow `^`");
-    assert_eq!(fault("1"), "6:7: this value is of the wrong kind");
-}
-
 /// The step is from a state of the trajectory to another one: a part of a step of the kernel alone would have the
 /// kernel's error.
 #[test]

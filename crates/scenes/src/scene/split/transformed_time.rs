@@ -173,8 +173,7 @@ fn potential_at_start(problem: &InitialValueProblem) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use crate::Scene;
-    use shadowstep::tables::Source;
+    use crate::observer::testing;
 
     /// Where all bodies stay within the cutoff, rows are those without one; in one to three dimensions.
     #[test]
@@ -189,13 +188,8 @@ mod tests {
                 row("0"),
                 row("0")
             );
-            let mut rows = Vec::new();
-            let scene = Scene::read(Source { path: "test.toml".to_owned(), text }).unwrap();
-            scene.run_into(&mut rows, &mut ()).unwrap();
-            let text = String::from_utf8(rows).unwrap();
-            let rows = text.lines().filter(|line| !line.starts_with('#')).skip(1);
-            rows.flat_map(|row| row.split(',').map(|cell| cell.parse().unwrap()).collect::<Vec<f64>>())
-                .collect::<Vec<_>>()
+            let rows = testing::rows(&testing::read(&text));
+            rows[1..].iter().flatten().map(|cell| cell.parse().unwrap()).collect::<Vec<f64>>()
         };
         for dimensions in 1..=3 {
             let (with, without) = (rows(dimensions, "cutoff = 9"), rows(dimensions, ""));

@@ -366,9 +366,7 @@ impl Planets {
 
 #[cfg(test)]
 mod tests {
-    use crate::Scene;
-    use crate::watch::observer::KeptSummary;
-    use shadowstep::tables::Source;
+    use crate::watch::observer::testing;
 
     /// The rows of a planet and of a particle, if there is one, with the largest interaction.
     fn run(parts: &str, beside: &str, particle: bool) -> (Vec<Vec<f64>>, Option<f64>) {
@@ -379,13 +377,10 @@ mod tests {
              [run]\nscheme = \"yoshida6-a\"\nstep = \"1/20\"\nuntil = 5\ndigits = \"double\"\n[output]\nenergy = \
              true\ntrajectory = true"
         );
-        let scene = Scene::read(Source { path: "test.toml".to_owned(), text }).unwrap();
-        let (mut rows, mut keep) = (Vec::new(), KeptSummary::default());
-        scene.run_into(&mut rows, &mut keep).unwrap();
-        let text = String::from_utf8(rows).unwrap();
-        let rows = text.lines().filter(|line| !line.starts_with('#')).skip(1);
-        let rows = rows.map(|row| row.split(',').map(|cell| cell.parse().unwrap()).collect()).collect();
-        (rows, keep.0.unwrap().interactions().map(|found| found.epsilon))
+        let scene = testing::read(&text);
+        let rows = testing::rows(&scene).split_off(1);
+        let rows = rows.iter().map(|row| row.iter().map(|cell| cell.parse().unwrap()).collect()).collect();
+        (rows, testing::summary(&scene).interactions().map(|found| found.epsilon))
     }
 
     /// Bodies with mass have the bits and the interactions that they have without particles, and particles move as with
