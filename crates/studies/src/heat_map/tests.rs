@@ -100,59 +100,21 @@ fn signed(colour: Colour) -> HeatMap {
     HeatMap::new("Energy error after 10⁴ steps", x, y, colour, vec![Panel::new("", cells)])
 }
 
-/// Pictures of many kinds with their names.
+/// Pictures of many kinds with their names. Axes of any kind in any role are drawn by `sweeps`.
 fn samples() -> Vec<(&'static str, HeatMap)> {
-    let one_row = HeatMap::new(
-        "Largest error over the step size alone, with a title that needs more than a single line of the picture",
-        CellAxis::linear("step size h", even(0.01, 0.3, 30)),
-        CellAxis::words("", words(&["Yoshida 4"])),
-        Colour::automatic("max |ΔH|"),
-        vec![Panel::new("", even(1.0, 30.0, 30).into_iter().map(|n| Some(1e-9 * n.powi(4))).collect())],
-    );
-    let axis = |label: &str| CellAxis::linear(label, vec![0.1]);
-    let one = HeatMap::new(
-        "One run",
-        axis("h"),
-        axis("e"),
-        Colour::automatic("drift"),
-        vec![Panel::new("", vec![Some(3.25e-7)])],
-    );
-    let names = ["Störmer–Verlet", "Yoshida 4, the fourth-order triple jump", "Blanes–Moan SRKN 11"];
-    let all_words = HeatMap::new(
-        "Cost per digit",
-        CellAxis::words("problem", words(&["Kepler", "Hénon–Heiles", "outer Solar System", "pendulum"])),
-        CellAxis::words("scheme", words(&names)),
-        Colour::linear("evaluations of the force per time"),
-        vec![Panel::new("", even(3.0, 40.0, 12).into_iter().map(Some).collect())],
-    );
-    let uneven = HeatMap::new(
-        "Values of different distances",
-        CellAxis::linear("mass ratio μ", vec![0.0, 0.01, 0.05, 0.1, 0.3, 0.5]),
-        CellAxis::linear("phase φ", vec![0.0, 0.1, 0.5, 2.0, 3.0]),
-        Colour::automatic("Lyapunov exponent"),
-        vec![Panel::new("", even(-0.2, 1.0, 30).into_iter().map(Some).collect())],
-    );
     let many = HeatMap {
         panels: (1..=7).map(|n| Panel::new(format!("{n} planets"), schemes().panels[n % 3].cells.clone())).collect(),
         ..schemes()
     };
-    let tilted = HeatMap {
-        x: all_words.y.clone(),
-        y: all_words.x.clone(),
-        panels: vec![all_words.panels[0].clone(); 3],
-        ..all_words.clone()
-    };
+    let map = verdicts();
+    let tilted = HeatMap { x: map.y.clone(), y: map.x.clone(), panels: vec![map.panels[0].clone(); 3], ..map };
     vec![
         ("schemes", schemes()),
         ("escapes", escapes(300)),
         ("verdicts", verdicts()),
         ("signed", signed(Colour::linear("ΔH"))),
         ("symmetric", signed(Colour::automatic("ΔH"))),
-        ("one-row", one_row),
-        ("one-cell", one),
-        ("words", all_words),
         ("tilted-words", tilted),
-        ("uneven", uneven),
         ("many-panels", many),
     ]
 }

@@ -92,12 +92,6 @@ fn outcomes_do_not_depend_on_the_number_of_threads() {
     }
 }
 
-#[test]
-fn costliest_tasks_begin_first() {
-    let folder = TempDir::new().unwrap();
-    assert_eq!(sums(folder.path(), 1, &NUMBERS).1, [500, 2000, 400, 77, 30, 1], "hundreds are one group");
-}
-
 /// If the program ends after any byte, all complete lines are kept, and the rest is computed.
 #[test]
 fn interrupted_anywhere_it_can_be_resumed() {
