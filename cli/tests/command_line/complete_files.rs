@@ -28,52 +28,21 @@ const TABLE: &str = "name = \"mine\"\norder = 2\nkinetic = \"any\"\nsymmetric = 
 const BASE: &str = "name = \"base\"\norder = 2\nkinetic = \"any\"\nsymmetric = true\nreference = \"L. Verlet\"\n\
                     [stages]\nkick = [\"1/2\", \"1/2\"]\ndrift = [1, 0]\n";
 
-/// A scene with the files that it reads, to one of which some text is added.
-struct Input {
-    scene: &'static str,
-    files: &'static [(&'static str, &'static str)],
-    changed: &'static str,
-    added: &'static str,
-    /// What the message says.
-    wanted: &'static str,
-}
-
 const TABLES: &[(&str, &str)] = &[("mine.toml", TABLE), ("base.toml", BASE)];
 
+/// A scene with the files that it reads, the one to which some text is added, and what the message says.
+type Input = (&'static str, &'static [(&'static str, &'static str)], &'static str, &'static str, &'static str);
+
 const INPUTS: [Input; 4] = [
-    Input {
-        scene: KEPLER,
-        files: TABLES,
-        changed: "mine.toml",
-        added: "# changed\n",
-        wanted: "with a different table mine.toml",
-    },
-    Input {
-        scene: KEPLER,
-        files: TABLES,
-        changed: "base.toml",
-        added: "# changed\n",
-        wanted: "with a different table base.toml",
-    },
-    Input {
-        scene: PLANETS,
-        files: &[("p.csv", "a,e\n3,0.1\n")],
-        changed: "p.csv",
-        added: "4,0.1\n",
-        wanted: "with a different file p.csv",
-    },
-    Input {
-        scene: ENSEMBLE,
-        files: &[("c.csv", "e\n0.1\n")],
-        changed: "c.csv",
-        added: "0.2\n",
-        wanted: "with different columns",
-    },
+    (KEPLER, TABLES, "mine.toml", "# changed\n", "with a different table mine.toml"),
+    (KEPLER, TABLES, "base.toml", "# changed\n", "with a different table base.toml"),
+    (PLANETS, &[("p.csv", "a,e\n3,0.1\n")], "p.csv", "4,0.1\n", "with a different file p.csv"),
+    (ENSEMBLE, &[("c.csv", "e\n0.1\n")], "c.csv", "0.2\n", "with different columns"),
 ];
 
 #[test]
 fn a_file_made_with_other_inputs_is_kept_and_what_differs_is_named() {
-    for Input { scene, files, changed, added, wanted } in INPUTS {
+    for (scene, files, changed, added, wanted) in INPUTS {
         for checkpoint in ["", "checkpoint = 5\n"] {
             if !checkpoint.is_empty() && scene == ENSEMBLE {
                 continue;

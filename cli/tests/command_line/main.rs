@@ -34,7 +34,6 @@ mod scene_pairs;
 mod scenes;
 mod schemes;
 mod search;
-mod short_messages;
 #[cfg(unix)]
 mod signals;
 mod stability;

@@ -26,9 +26,15 @@ enum Mark {
     Shown,
 }
 
+/// 300 of them, which no message repeats.
+fn zeros() -> String {
+    "0".repeat(300)
+}
+
 /// The cases of a text. Below a heading `== …` is a file, or a case a line: a command, flags that replace or complete
-/// those of a command, or parts of a file with their replacements, where ⏎ ends a line and ∅ is nothing.
+/// those of a command, or parts of a file with their replacements, where ⏎ ends a line and ∅ is nothing; ⓪ is zeros.
 fn cases(text: &str) -> Vec<Case> {
+    let text = text.replace('⓪', &zeros());
     let (mut files, mut cases) = (Vec::<(String, String)>::new(), Vec::new());
     for section in format!("\n{text}").split("\n== ").skip(1) {
         let (heading, content) = section.split_once('\n').unwrap_or((section, ""));
@@ -115,8 +121,7 @@ fn large(sweep: &str) -> Vec<Case> {
     .into()
 }
 
-/// What the program writes to stderr, or in answer to a check to stdout, with its exit code and the files that it
-/// leaves.
+/// What the program writes, with its exit code and the files that it leaves; of what is right the notes, or all.
 fn answer(case: &Case) -> String {
     let folder = TempDir::new().unwrap();
     case.files.iter().for_each(|(name, text)| fs::write(folder.path().join(name), text).unwrap());
@@ -142,6 +147,12 @@ fn left(folder: &Path, files: &[(String, Vec<u8>)]) -> String {
     if new.is_empty() { String::new() } else { format!(", left: {}", new.join(", ")) }
 }
 
+/// The longest run of digits of an answer, without its title and the line of a file that it quotes.
+fn longest_number(answer: &str) -> usize {
+    let own = answer.lines().skip(1).filter(|line| !line.contains(" | "));
+    own.flat_map(|line| line.split(|c: char| !c.is_ascii_digit()).map(str::len)).max().unwrap_or(0)
+}
+
 #[test]
 #[cfg(feature = "mpfr")]
 fn messages_and_exit_codes() {
@@ -157,6 +168,8 @@ fn messages_and_exit_codes() {
             cases.iter().zip(&answers).filter(|(case, answer)| is_right(answer) == (case.mark == Mark::Wrong));
         let unexpected: Vec<_> = unexpected.map(|(_, answer)| answer).collect();
         assert!(unexpected.is_empty(), "{unexpected:#?}");
-        insta::assert_snapshot!(answers.join("\n"));
+        let wrong = cases.iter().zip(&answers).filter(|(case, _)| case.mark == Mark::Wrong);
+        wrong.for_each(|(_, answer)| assert!(longest_number(answer) <= 40, "{answer}"));
+        insta::assert_snapshot!(answers.join("\n").replace(&zeros(), "⓪"));
     });
 }

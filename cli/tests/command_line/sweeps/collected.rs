@@ -299,28 +299,6 @@ fn a_mistake_in_the_scene_is_no_failure_of_every_run() {
     }
 }
 
-#[test]
-fn exact_values_are_texts_with_doubles_beside_them() {
-    let folder = folder(SWEEP);
-    succeeds(folder.path(), "sweep sweep.toml --out out");
-    let rows = rows(folder.path());
-    assert_eq!(rows.len(), 60);
-    for (run, row) in rows.iter().enumerate() {
-        assert_eq!(row["run"], run.to_string());
-        for name in ["e", "h", "near"] {
-            let (text, double) = (&row[name], &row[&format!("{name}_double")]);
-            let nearest = match text.split_once('/') {
-                None => text.clone(),
-                Some((p, q)) => (p.parse::<f64>().unwrap() / q.parse::<f64>().unwrap()).to_string(),
-            };
-            // a quotient of small whole numbers is the double nearest to the fraction
-            assert_eq!(nearest.parse::<f64>().ok(), double.parse::<f64>().ok(), "{row:?}");
-        }
-        let h: f64 = row["h_double"].parse().unwrap();
-        assert_eq!(row["steps"], (3.0 / h).ceil().to_string(), "{row:?}");
-    }
-}
-
 /// A file of particles that was edited: what is there was made with another one.
 #[test]
 fn another_file_of_particles_is_another_sweep() {
