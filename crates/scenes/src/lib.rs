@@ -118,12 +118,11 @@ pub use scene::split::{
     CanonicalCoordinates, CloseEncounters, Formulas, Linear, Planets, ShownCoordinates, TransformedTime,
 };
 pub use scene::{
-    CheckpointInterval, Direction, EnergyAt, EnergyOfBodies, Format, Formula, InitialValueProblem, KineticEnergy,
-    NamedExpression, Outputs, OwnPotential, PairEnergy, Parts, PotentialEnergy, Scene, SceneNumber, Surface, System,
+    CheckpointInterval, Direction, EnergyAt, Format, Formula, InitialValueProblem, KineticEnergy, NamedExpression,
+    Outputs, OwnPotential, Parts, PotentialEnergy, Scene, SceneNumber, Surface, System,
 };
 pub use texts::error::{Error, NotWritten, not_written};
-pub use texts::refusal::{Refusal, Unsupported};
+pub use texts::refusal::Refusal;
 pub use texts::shell::shell_word;
 pub use watch::observer::Observer;
 pub use watch::summary::{EnergySummary, ModifiedEnergySummary, Summary};
-pub use watch::{Approach, Encounter, Interactions, LightBody, ParticleApproach};

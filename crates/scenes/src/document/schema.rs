@@ -10,8 +10,8 @@ use std::fmt;
 use shadowstep_schemes::document::{self, Keys};
 use toml::de::{DeTable, DeValue};
 
+pub use check::has_form;
 pub(crate) use check::refuse_unknown;
-pub use check::{Elsewhere, has_form};
 pub use json::json_schema;
 pub use table::{Table, texts};
 pub(crate) use table::{each_text, words_of};

@@ -235,7 +235,7 @@ fn whole_name(text: &str) -> Option<&str> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::observer::testing::rows;
+    use crate::watch::observer::testing::rows;
 
     fn family(text: &str) -> Family {
         Family::new(Source { path: "test.toml".to_owned(), text: text.to_owned() }, &["axes"])

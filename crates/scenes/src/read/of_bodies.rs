@@ -63,7 +63,7 @@ fn refuse_names(
 
 #[cfg(test)]
 mod tests {
-    use crate::observer::testing::{read, rows};
+    use crate::watch::observer::testing::{read, rows};
 
     const RUN: &str = "[run]\nscheme = \"yoshida8-d\"\nstep = \"1/50\"\nsteps = 100\ndigits = 40\n[output]\nenergy = \
         true\ntrajectory = true";

@@ -55,7 +55,7 @@ fn component(system: &System, bodies: &Bodies, [a, b]: [usize; 2]) -> String {
 
 #[cfg(test)]
 mod tests {
-    use crate::observer::testing::{read, rows};
+    use crate::watch::observer::testing::{read, rows};
 
     /// The values of a formula at each of ten steps.
     fn values(problem: &str, formula: &str) -> Vec<f64> {

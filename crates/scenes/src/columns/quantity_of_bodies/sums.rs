@@ -56,7 +56,7 @@ pub(super) fn virial<N: SceneNumber>(system: &System, context: &N::Context) -> C
 
 #[cfg(test)]
 mod tests {
-    use crate::observer::testing::{read, rows};
+    use crate::watch::observer::testing::{read, rows};
 
     /// The greatest size of a formula over the rows of a run.
     fn greatest(problem: &str, run: &str, formula: &str) -> f64 {

@@ -1,5 +1,5 @@
-use crate::watch::observer::testing;
 use crate::scene::Scene;
+use crate::watch::observer::testing;
 use shadowstep_schemes::symbolic::decimal::{from_text, to_significant};
 
 fn read(step: &str, trajectory: &str, more: &str) -> Scene {

@@ -173,7 +173,7 @@ fn potential_at_start(problem: &InitialValueProblem) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use crate::observer::testing;
+    use crate::watch::observer::testing;
 
     /// Where all bodies stay within the cutoff, rows are those without one; in one to three dimensions.
     #[test]
