@@ -242,7 +242,7 @@ impl Differentiation<'_> {
         Dual<N>: SceneNumber<Context = N::Context>,
     {
         let context = &state.0[0].context();
-        let state = system.start_at(state, context);
+        let state = SceneNumber::start_at(system, state, context);
         let integrator = system.integrator(self.steps(h), state, context)?;
         Ok(Begun { integrator, shown: system.shown(context), base: Base::Own })
     }

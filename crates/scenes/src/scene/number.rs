@@ -43,12 +43,7 @@ pub trait SceneNumber: CorrectlyRounded + 'static {
 impl System {
     /// Positions and momenta at t = 0, in the coordinates of the steps.
     pub fn start<N: SceneNumber>(&self, context: &N::Context) -> State<N> {
-        self.start_at(self.initial(context), context)
-    }
-
-    /// The same from positions and momenta in the coordinates of the scene.
-    pub(crate) fn start_at<N: SceneNumber>(&self, state: State<N>, context: &N::Context) -> State<N> {
-        N::start_at(self, state, context)
+        N::start_at(self, self.initial(context), context)
     }
 
     /// Converts states from the coordinates of the steps to those that are shown, where these differ.

@@ -6,8 +6,8 @@ use shadowstep::{Carried, Integrator as _, Number, Rational, StepSize};
 
 use super::{Base, Differentiation, Parameter, distance, output, precise};
 use crate::run::arithmetic::{Digits, Numbers};
-use crate::scene::System;
 use crate::scene::split::State;
+use crate::scene::{SceneNumber, System};
 use crate::texts::error::Error;
 
 /// Of the largest derivative. The difference is right to the distance, at most 10⁻²⁵ of the second derivative; a
@@ -25,7 +25,7 @@ impl Differentiation<'_> {
         let arithmetic = precise(self.arithmetic)?;
         let Numbers::Digits(_, Digits::Limbs(count)) = arithmetic.numbers() else { unreachable!("they have limbs") };
         let step = |system: &System, h: &StepSize| -> Result<Vec<AnyLimbs>, Error> {
-            let state = system.start_at(beside(system.initial::<AnyLimbs>(&count), &count), &count);
+            let state = AnyLimbs::start_at(system, beside(system.initial::<AnyLimbs>(&count), &count), &count);
             let mut integrator = system.integrator(self.steps(h), state, &count)?;
             integrator.step(Carried::Nothing);
             let mut shown = system.shown(&count);

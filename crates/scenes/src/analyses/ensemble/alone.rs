@@ -7,8 +7,8 @@ use shadowstep_schemes::symbolic::Exact;
 
 use super::settings::Observed;
 use crate::run::start::{Begin, SceneIntegrator, Steps};
-use crate::scene::System;
 use crate::scene::split::ShownCoordinates;
+use crate::scene::{SceneNumber, System};
 use crate::texts::error::Error;
 
 /// A system with its stepper, for one trajectory after the other.
@@ -35,7 +35,7 @@ impl Alone {
         continues: &dyn Fn() -> bool,
     ) -> Result<Outcome, Error> {
         let numbers = |exact: &[Exact]| exact.iter().map(|x| f64::from_rational(&x.value, &())).collect();
-        let (q, p) = system.start_at((numbers(q), numbers(p)), &());
+        let (q, p) = f64::start_at(system, (numbers(q), numbers(p)), &());
         let integrator = &mut self.integrator;
         integrator.system().state_mut().set(&q, &p);
         let dimension = integrator.system().massive_coordinates();
