@@ -3,7 +3,7 @@
 
 use std::marker::PhantomData;
 
-use shadowstep::steps::scheme::{Flows, PartOrder, WeightLists, Weights};
+use shadowstep::steps::scheme::{Flows, MapKind, PartOrder, WeightLists, Weights};
 use shadowstep::systems::kinetic::Quadratic;
 use shadowstep::{Carried, Number, Rational, Scheme, Stepper, System, ValidFor};
 

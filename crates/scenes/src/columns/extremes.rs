@@ -127,6 +127,6 @@ mod tests {
         };
         // where x < 0 the logarithm has no value
         assert_eq!((&*written(2), &*written(3)), ("0 50 100", "0 60"));
-        assert!(summary(&scene).extremes().is_empty());
+        assert!(summary(&scene).extremes.is_empty());
     }
 }

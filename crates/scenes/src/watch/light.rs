@@ -328,6 +328,7 @@ mod tests {
     use super::*;
     use crate::watch::observer::testing;
     use crate::watch::summary::Summary;
+    use shadowstep::number::Lanes;
 
     /// A planet is left out only where no light body on straight ways comes below the limit in the step.
     #[test]

@@ -20,7 +20,7 @@ use crate::sweeps::keep::{Column, Keep};
 use crate::sweeps::keys;
 use crate::sweeps::picture::Picture;
 use crate::sweeps::record::{Record, measured};
-pub use digests::Digests;
+pub(crate) use digests::Digests;
 pub(crate) use digests::hash;
 
 /// The sections and keys of a sweep that are not of its scene.
