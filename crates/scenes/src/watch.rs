@@ -460,8 +460,8 @@ mod tests {
     use super::*;
     use crate::watch::observer::testing;
 
-    fn summary_of(text: String) -> Summary {
-        testing::summary(&testing::read(&text))
+    fn summary_of(text: &str) -> Summary {
+        testing::summary(&testing::read(text))
     }
 
     fn summary(end: &str, digits: &str) -> Summary {
@@ -470,14 +470,14 @@ mod tests {
              run = {{ scheme = \"yoshida4\", step = \"1/10\", until = 1000, end = \"{end}\", digits = \"{digits}\" \
              }}\noutput.energy = true"
         );
-        summary_of(text)
+        summary_of(&text)
     }
 
     /// H and T of the pendulum are largest in a small part of a period, whose middles of windows miss it.
     #[test]
     fn the_energy_error_is_that_of_all_phases() {
         let percent = |every: u32| {
-            let found = summary_of(format!(
+            let found = summary_of(&format!(
                 "problem.name = \"pendulum\"\ninitial = {{ q = [3], p = [0] }}\n\
                  run = {{ scheme = \"stormer-verlet\", step = \"1/2\", until = 20000, digits = \"double\" \
                  }}\noutput.energy.every = {every}"
@@ -511,7 +511,7 @@ mod tests {
              body = [{{ mass = 1 }}, {bodies}]\nrun = {{ scheme = \"stormer-verlet\", {run}, digits = \"double\" \
              }}\noutput.energy = {rows}"
         );
-        summary_of(text)
+        summary_of(&text)
     }
 
     /// Planets with steps of many revolutions: one is thrown out after 34 of 5000 steps, before the third window of the
@@ -545,7 +545,7 @@ mod tests {
     #[test]
     fn a_centre_of_mass_at_rest_is_not_lost() {
         let text = crate::document::shipped::scene_text("relativity").unwrap().replace("365.25*10000", "365.25*100");
-        let found = summary_of(text);
+        let found = summary_of(&text);
         assert!(found.is_bounded() && !found.reason().contains("may be lost"), "{found}");
     }
 
@@ -567,8 +567,7 @@ mod tests {
         assert!(text.contains("method's part of H not resolved: H̄ is known to"), "{text}");
         let circle = summary_of(
             "problem = { name = \"kepler\", parameters = { eccentricity = 0 } }\n\
-             run = { scheme = \"stormer-verlet\", step = \"1/20\", until = 300, digits = \"double\" }\noutput.energy = true"
-                .to_owned(),
+             run = { scheme = \"stormer-verlet\", step = \"1/20\", until = 300, digits = \"double\" }\noutput.energy = true",
         );
         // where T, its Poisson bracket with U and r are 1/2, 0 and 1, H̄ − H is h²/24 |U_q|² or −h²/12 pᵀU_qq p but for
         // h⁴
@@ -587,7 +586,7 @@ mod tests {
                     {q}, p = {p} }}\n\
                  run = {{ {run}, digits = \"double\" }}\noutput.energy = true"
             );
-            summary_of(text)
+            summary_of(&text)
         };
         let run = "scheme = \"omelyan-8s11f11gp\", step = 0.00544636, steps = 3975";
         let found = kepler("[-1.9548, 0]", "[0, -0.152061]", run);
