@@ -97,6 +97,9 @@ fn processes_may_compute_the_same_chunk_at_the_same_time() {
     }
 }
 
+/// How a chunk of a folder is computed, among the first ones or later.
+type Way<'a> = &'a dyn Fn(&Path, u32, bool) -> crate::program::Finished;
+
 /// Chunks in an order, by a flag each, by the tasks of an array, or by those of a job script, which runs in any folder.
 #[cfg(unix)]
 #[test]
@@ -115,7 +118,7 @@ fn chunks_in_any_order_are_collected_as_a_sweep_on_one_machine() {
         shell.args(["-c", &script]).current_dir(elsewhere.path());
         finished(&shell.env("SLURM_ARRAY_TASK_ID", number.to_string()).output().unwrap())
     };
-    let ways: [&dyn Fn(&Path, u32, bool) -> crate::program::Finished; 3] = [&by_flag, &by_array, &by_script];
+    let ways: [Way<'_>; 3] = [&by_flag, &by_array, &by_script];
     for way in ways {
         let folder = folder(SWEEP);
         let compute = |number: u32, is_first| {
