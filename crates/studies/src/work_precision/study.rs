@@ -78,7 +78,7 @@ pub struct Studied<'a> {
 /// What an error costs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Cost {
-    /// Evaluations of the gradient, and what costs about as much: see [`Work`].
+    /// Evaluations of the gradient, and what costs about as much: Hessian–vector products, flows of a dominant part.
     Evaluations,
     /// Seconds.
     Seconds,
