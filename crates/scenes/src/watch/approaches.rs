@@ -138,9 +138,9 @@ impl Pairs {
                     let mut excess = [f64::INFINITY; STATES];
                     for (i, part) in (1..).zip(parts) {
                         let squares = squares(&bodies[i], &bodies[j]);
-                        for state in 0..STATES {
+                        for (state, excess) in excess.iter_mut().enumerate() {
                             let radius = part * (radii[i].0[state] + radii[j].0[state]);
-                            excess[state] = least_of(squares.0[state] - least * radius * radius, excess[state]);
+                            *excess = least_of(squares.0[state] - least * radius * radius, *excess);
                         }
                     }
                     *near = excess.map(|excess| excess < 0.0);

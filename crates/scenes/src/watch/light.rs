@@ -167,10 +167,10 @@ impl LightBodies {
                     let mut excess = [f64::INFINITY; STATES];
                     for (body, limit) in light.iter().zip(&*limits) {
                         let squares = squares(&bodies[*body], &bodies[*planet]);
-                        for state in 0..STATES {
+                        for (state, excess) in excess.iter_mut().enumerate() {
                             let ways = ways[*body].0[state] + ways[*planet].0[state];
                             let most = farthest(ways, limit * parts[*planet] * radii.0[state]);
-                            excess[state] = least_of(squares.0[state] - most * most, excess[state]);
+                            *excess = least_of(squares.0[state] - most * most, *excess);
                         }
                     }
                     *near = excess.map(|excess| excess < 0.0);
@@ -345,13 +345,13 @@ mod tests {
             let before: Vec<Place> = (0..7).map(|_| place(1.0)).collect();
             let mut ways = vec![before.clone()];
             for _ in 0..STATES {
-                let next = |own: &Place| difference(own, &place(0.25));
+                let next = |from: &Place| difference(from, &place(0.25));
                 ways.push(ways[ways.len() - 1].iter().map(next).collect());
             }
             let bodies: Vec<[Each; 3]> = (0..7)
                 .map(|body| std::array::from_fn(|axis| Lanes(std::array::from_fn(|state| ways[state + 1][body][axis]))))
                 .collect();
-            let part = 0.05 + random().abs() / 10.0;
+            let part = 0.1 + random().abs() / 5.0;
             let found = Closest { square: 1.0 + 4.0 * random().abs(), ..Closest::NOTHING };
             let mut light = LightBodies {
                 names: Vec::new(),

@@ -72,8 +72,8 @@ impl Particles {
                     let least = if *within { *closest } else { closest.max(1.0) };
                     for (planet, inverse) in bodies[1..].iter().zip(&*inverse) {
                         let squares = squares(particle, planet);
-                        for state in 0..STATES {
-                            excess[state] = least_of(squares.0[state] * inverse.0[state] - least, excess[state]);
+                        for (state, excess) in excess.iter_mut().enumerate() {
+                            *excess = least_of(squares.0[state] * inverse.0[state] - least, *excess);
                         }
                     }
                 }
