@@ -3,7 +3,7 @@
 # What is built once needs no incremental files. Without `make`, cargo has its own default.
 export CARGO_INCREMENTAL ?= 0
 
-.PHONY: run test wasm help-files wheel python-environment test-python book bench-python test-cluster test-emit deps format lint check docs bench stability rivals package fuzz valgrind
+.PHONY: run test additions wasm help-files wheel python-environment test-python book bench-python test-cluster test-emit deps format lint check docs bench stability rivals package fuzz valgrind
 
 # The paper's main job: the drift of the modified energy on Kepler's problem at 120 digits.
 run:
@@ -24,6 +24,10 @@ lint:
 check:
 	cargo fetch --locked
 	cargo test --workspace --features mpfr --locked
+
+# Something of each kind that CONTRIBUTING.md says how to add compiles, in a copy of the sources: a check of the whole workspace more.
+additions: deps
+	cargo test -p shadowstep-tests --locked additions -- --ignored
 
 # The library and scenes compile for WebAssembly; skipped without that target of rustc.
 wasm:

@@ -1,5 +1,6 @@
 //! The tests of the whole of shadowstep, as one program: each file protects one thing, and says which.
 
+mod additions;
 mod best_bilinear;
 mod bilinear;
 mod catalogue;
