@@ -289,6 +289,12 @@ impl<N: SceneNumber> Watch<N> {
         }
     }
 
+    /// The integrator is at the present state again, after evaluations elsewhere.
+    pub(crate) fn state_restored(&mut self) {
+        let monitors = self.observed.iter_mut().flat_map(|observed| &mut observed.monitors);
+        monitors.for_each(|spaced| spaced.monitor.state_restored());
+    }
+
     /// Takes the state n, which a step has made: the one after the last one that it took. Of a processed scheme, the
     /// monitor and encounters follow the kernel; H is that of the trajectory.
     pub(crate) fn include(&mut self, n: i64, integrator: &mut VectorIntegrator<'_, N>) {

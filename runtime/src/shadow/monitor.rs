@@ -215,6 +215,11 @@ impl<N: Real, E: Estimator<N>> Monitor<N, E> {
         self.n += states;
     }
 
+    /// The system is at its present state again, after evaluations elsewhere, which are not of the next step.
+    pub fn state_restored(&mut self) {
+        self.newest_states.restored();
+    }
+
     /// Whether the next step must be an augmented one, which gives increments.
     pub fn needs_increments(&self) -> bool {
         self.schedule.needs_increments(self.n + 1)

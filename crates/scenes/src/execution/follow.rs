@@ -378,8 +378,9 @@ impl<'a, 'c, N: SceneNumber> Following<'a, 'c, N> {
 
     /// Shows the crossing between the state n, at which the integrator is, and the state before.
     fn cross(&mut self, n: i64, integrator: &mut VectorIntegrator<'_, N>) -> Result<(), Error> {
-        let Following { view, columns, crossings: Some(crossings), written, .. } = self else { return Ok(()) };
-        let found = crossings.state(n, integrator, |integrator, part| {
+        let Following { view, columns, watch, crossings: Some(crossings), written, .. } = self else { return Ok(()) };
+        let evaluations = integrator.state().evaluations();
+        let shown = crossings.state(n, integrator, |integrator, part| {
             if n <= *written {
                 return Ok(());
             }
@@ -387,7 +388,10 @@ impl<'a, 'c, N: SceneNumber> Following<'a, 'c, N> {
             let at = At { place: Place::Crossing, time: Some(time), ..view.at(n - 1, integrator) };
             show(columns, &mut None, &mut { at })
         });
-        found.unwrap_or(Ok(()))
+        if let Some(watch) = watch.as_mut().filter(|_| integrator.state().evaluations() != evaluations) {
+            watch.state_restored();
+        }
+        shown.unwrap_or(Ok(()))
     }
 
     /// Keeps a moment where it is time for one, at the last state, from which the run can be prolonged, or where the

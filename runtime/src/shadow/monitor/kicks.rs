@@ -16,9 +16,9 @@ pub(super) struct Kicks<N> {
     /// Evaluations of the gradient up to the newest state, and in the step to it.
     evaluations: u64,
     stages: u64,
-    /// The newest state is one that was restored, up to which this run has made no evaluations: those of the next step
-    /// are taken for the same.
-    restored: bool,
+    /// The newest state is one that was restored: evaluations up to the next one are not those of its step alone, which
+    /// are taken for the same as those of the step before.
+    pub(super) restored: bool,
     /// The most of them that are counted as stages of a step.
     pub(super) most_stages: u64,
     /// Whether round-off comes from the increments only.

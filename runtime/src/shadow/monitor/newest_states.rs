@@ -69,6 +69,11 @@ impl<N: Real> NewestStates<N> {
         })
     }
 
+    /// The newest state was restored after evaluations elsewhere.
+    pub(super) fn restored(&mut self) {
+        self.kicks.restored = true;
+    }
+
     /// A step has at most this number of stages, whatever is evaluated between steps.
     pub(super) fn with_most_stages(mut self, most_stages: u64) -> Self {
         self.kicks.most_stages = most_stages;
