@@ -17,6 +17,7 @@ use crate::systems::displaced::Displacements;
 use crate::systems::evaluated::Evaluated;
 use crate::systems::gradient_kicks::{GradientKicks, PartOfKicks, Place};
 use crate::systems::increments::Carried;
+use crate::systems::kept::KeptForce;
 use crate::systems::kinetic::{DiagonalMasses, Quadratic};
 use crate::systems::matrix::precision;
 use crate::systems::motion::{Hamiltonian, MotionError, check};
@@ -103,6 +104,13 @@ impl<N: CorrectlyRounded, P: Potential<N>> LinearPart<N, P> {
         self.remainder.hamiltonian.displace_forces(displacements);
         self
     }
+
+    /// The gradient always comes with the rate, so that an augmented step after a plain one evaluates nothing again.
+    fn evaluate(&mut self) {
+        if !self.at.kept.suffices(true) {
+            self.at.evaluate(&mut self.remainder, true);
+        }
+    }
 }
 
 /// B = U(q) − ½qᵀKq, with T and U.
@@ -162,6 +170,7 @@ impl<N: CorrectlyRounded, P: Potential<N>> System for LinearPart<N, P> {
     }
 
     fn kick(&mut self, weight: &N, carried: Carried) {
+        self.evaluate();
         self.at.kick(&mut self.remainder, weight, carried);
     }
 
@@ -181,10 +190,15 @@ impl<N: CorrectlyRounded, P: Potential<N>> System for LinearPart<N, P> {
 
     /// The gradient kick p ← p + weight·B_qq M⁻¹B_q: ½qᵀKq as a part of A commutes with B.
     fn gradient_kick(&mut self, weight: &N, carried: Carried) {
+        self.evaluate();
         self.at.gradient_kick(&mut self.remainder, weight, carried);
     }
 
     fn assign_energy(&mut self, at: Option<(&[N], &[N])>, energy: &mut N) {
+        if at.is_some() {
+            // the potential is then that of another place
+            self.at.kept = KeptForce::Nothing;
+        }
         let at = at.unwrap_or((self.at.state.q(), self.at.state.p()));
         self.remainder.hamiltonian.assign_energy(at, energy);
     }
