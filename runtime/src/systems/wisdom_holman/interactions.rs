@@ -136,6 +136,7 @@ impl<N: Number, const D: usize> Interactions<N, D> {
 
     /// Adds u_x of the attraction between two masses at the distance |x| to a gradient and, if asked for, its −3u to a
     /// rate.
+    #[inline(always)]
     pub(super) fn add_single(
         &mut self,
         (i, j): (usize, usize),
