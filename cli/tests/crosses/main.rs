@@ -68,7 +68,7 @@ fn every_cell_works_or_says_why() {
     };
     assert!(faults.is_empty(), "{} cells:\n\n{}", faults.len(), faults.join("\n\n"));
     if cfg!(feature = "mpfr") {
-        pages::assert_page("what-works-with-what.md", &page.to_string());
+        pages::assert_page("docs/what-works-with-what.md", &page.to_string());
     }
     let (refused, cells) = (page.refused(), page.cells());
     // schemes for one kind of system are refused by most others

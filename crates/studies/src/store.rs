@@ -37,6 +37,13 @@ pub struct Store {
     outcomes: HashMap<String, String>,
 }
 
+impl Drop for Store {
+    /// A program that this process starts at this moment may have the open file, and with it the lock, for a while.
+    fn drop(&mut self) {
+        drop(self.file.unlock());
+    }
+}
+
 /// The first line: the version of the program.
 #[derive(Deserialize)]
 struct Header {

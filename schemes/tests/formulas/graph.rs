@@ -244,7 +244,7 @@ fn repeated_squares_of_sums_stay_small() {
         node = graph.power(sum, &ratio(2, 1));
     }
     let outputs = [graph.derivative(node, 0), graph.derivative(node, 1), graph.rate(node)];
-    assert!(graph.len() < 2000, "{}", graph.len());
+    assert!(graph.size() < 2000, "{}", graph.size());
     let program = graph.program(&outputs);
     assert!(program.instructions.len() < 1000, "{}", program.instructions.len());
 }
@@ -276,7 +276,7 @@ fn long_products_are_rejected_and_shorter_ones_stay_small() {
     let mut graph = Graph::new();
     let node = build(&mut graph, &product(64));
     let derivative = graph.derivative(node, 0);
-    assert!(graph.len() < 600, "{}", graph.len());
+    assert!(graph.size() < 600, "{}", graph.size());
     assert!(graph.program(&[derivative]).instructions.len() < 64 * 64);
 }
 
@@ -303,7 +303,7 @@ fn hostile_texts_end_soon() {
             let program = graph.program(&outputs);
             assert_eq!(program.outputs, 3);
         }
-        assert!(graph.len() < 20_000, "{}", graph.len());
+        assert!(graph.size() < 20_000, "{}", graph.size());
     }
 }
 

@@ -286,7 +286,7 @@ impl SymbolicHamiltonian {
         let node = self.graph.bracket(self.parts[first.number()], inner, self.coordinates.len() / 2);
         let node = self.shorter(node);
         known.insert(letters.to_vec(), node);
-        (self.graph.len() <= self.most_nodes).then_some(node)
+        (self.graph.size() <= self.most_nodes).then_some(node)
     }
 
     /// H + Σ hⁿ H_(n+1) up to h^grade as a formula in q, p, t, H, and p_t in transformed time, where it is that of H' =

@@ -58,7 +58,7 @@ impl Graph {
             for _ in 0..count {
                 let mut product = Vec::new();
                 for left in &terms {
-                    if self.len() > most {
+                    if self.size() > most {
                         return None;
                     }
                     for right in &parts {
